@@ -1,0 +1,154 @@
+#include "scenegraph/builder.h"
+
+#include <algorithm>
+
+namespace wrlkit {
+
+NodeId SceneBuilder::open(TypeId type, std::string_view def_name, Span where) {
+  NodeId n = scene_.add(type, where);
+  if (!def_name.empty()) {
+    scene_.set_name(n, def_name);
+    scopes_.back().defs[scene_.name(n)] = n;
+  }
+  open_.push_back({n, fields_.size(), {}, {}});
+  return n;
+}
+
+void SceneBuilder::close() {
+  auto& o = open_.back();
+  if (!o.more.empty()) append_all(o);
+  std::span<const Value> fields(fields_.data() + o.first_field, fields_.size() - o.first_field);
+  if (o.own.empty()) {
+    scene_.set_fields(o.node, fields);
+  } else {
+    NodeType t = scene_.type(o.node);
+    t.kind = NodeKind::script;
+    std::vector<FieldDef> all(t.fields.begin(), t.fields.end());
+    all.insert(all.end(), o.own.begin(), o.own.end());
+    scene_.become(o.node, scene_.add_type(t, std::move(all)), fields);
+  }
+  fields_.resize(o.first_field);
+  open_.pop_back();
+}
+
+void SceneBuilder::field(Value v, Span where) {
+  auto first = fields_.begin() + static_cast<std::ptrdiff_t>(open_.back().first_field);
+  if (v.slot != Value::extra_slot)
+    if (auto old = std::find_if(first, fields_.end(), [&](const Value& f) { return f.slot == v.slot; }); old != fields_.end()) {
+      auto& own = open_.back().own;
+      auto builtin = current_type().fields;
+      const bool lists = v.type == FieldType::MFNode && old->type == FieldType::MFNode && !v.is && !old->is;
+      diag_.report(Diag::duplicate_field, where, v.slot < builtin.size() ? builtin[v.slot].name : own[v.slot - builtin.size()].name,
+                   lists ? "all nodes count" : "the last one counts");
+      if (!lists) *old = v;
+      else for (NodeId n : v.node_span()) append_child(v.slot, n);
+      return;
+    }
+  fields_.push_back(v);
+}
+
+/// Puts the nodes that were appended behind those of the fields, each list once.
+void SceneBuilder::append_all(Open& o) {
+  std::ranges::stable_sort(o.more, {}, &std::pair<std::uint16_t, NodeId>::first);
+  for (auto i = o.more.begin(); i != o.more.end();) {
+    const auto slot = i->first;
+    auto old = std::find_if(fields_.begin() + static_cast<std::ptrdiff_t>(o.first_field), fields_.end(), [&](const Value& f) { return f.slot == slot; });
+    std::vector<NodeId> all;
+    if (old != fields_.end()) all.assign(old->node_span().begin(), old->node_span().end());
+    for (; i != o.more.end() && i->first == slot; ++i) all.push_back(i->second);
+    Value v = scene_.make(FieldType::MFNode, slot, all);
+    if (old != fields_.end()) *old = v;
+    else fields_.push_back(v);
+  }
+}
+
+std::optional<std::uint16_t> SceneBuilder::declare(FieldDef f, Span where) {
+  auto& own = open_.back().own;
+  if (own.size() >= most_fields) return diag_.report(Diag::expansion_limit, where, most_fields, "fields"), std::nullopt;
+  own.push_back(f);
+  return static_cast<std::uint16_t>(current_type().fields.size() + own.size() - 1);
+}
+
+NodeId SceneBuilder::defined(std::string_view name) const {
+  auto& defs = scopes_.back().defs;
+  auto i = defs.find(name);
+  return i == defs.end() ? NodeId{} : i->second;
+}
+
+NodeId SceneBuilder::use(std::string_view name, Span where) {
+  NodeId n = defined(name);
+  if (!n) return diag_.report(Diag::undefined_use, where, name), n;
+  bool inside = std::ranges::binary_search(open_, n.value, {}, [](const Open& o) { return o.node.value; });
+  // A Script may hold the node it is in (4.12.8), and what a prototype does with a node is known only when it is expanded.
+  if (inside && current_type().kind == NodeKind::builtin && current_type().name != "Script") return diag_.report(Diag::use_cycle, where, name), NodeId{};
+  return n;
+}
+
+Scope SceneBuilder::close_scope() {
+  auto forward = std::move(scopes_.back().forward);
+  for (auto& r : forward)
+    if (!try_route(r)) diag_.report(Diag::undefined_route, r.where, defined(r.from) ? r.to : r.from);
+  Scope s = std::move(scopes_.back().scope);
+  scopes_.pop_back();
+  return s;
+}
+
+void SceneBuilder::route(std::string_view from, std::string_view event_out, std::string_view to, std::string_view event_in, Span where) {
+  Pending r{scene_.keep(from), scene_.keep(event_out), scene_.keep(to), scene_.keep(event_in), where};
+  if (!try_route(r)) scopes_.back().forward.push_back(r);
+}
+
+bool SceneBuilder::try_route(const Pending& r) {
+  NodeId from = defined(r.from), to = defined(r.to);
+  if (!from || !to) return false;
+  check_event(from, r.event_out, true, r.where);
+  check_event(to, r.event_in, false, r.where);
+  scopes_.back().scope.routes.push_back({from, to, r.event_out, r.event_in});
+  return true;
+}
+
+// The fields of a Script that is still open are not in its type yet; such a ROUTE is taken as it is.
+void SceneBuilder::check_event(NodeId n, std::string_view event, bool out, Span where) {
+  const auto& t = scene_.type(n);
+  if (t.kind == NodeKind::unknown || std::ranges::any_of(open_, [&](const Open& o) { return o.node == n; })) return;
+  auto slot = t.find(event, scene_.dialect(), true);
+  if (slot) {
+    auto a = t.fields[*slot].access;
+    if (a == Access::inout || a == (out ? Access::out : Access::in)) return;
+  }
+  diag_.report(Diag::unknown_event, where, t.name, event);
+}
+
+ProtoId SceneBuilder::declare_proto(Proto p, Span where) {
+  auto name = scene_.type(p.type).name;
+  TypeId type = p.type;
+  p.roots_before = static_cast<std::uint32_t>(scopes_.back().scope.roots.size());
+  ProtoId id = scene_.add_proto(std::move(p));
+  scene_.set_type_proto(type, id);
+  if (!scopes_.back().protos.emplace(name, type).second) {
+    diag_.report(Diag::duplicate_proto, where, name);
+    scopes_.back().protos[name] = type;
+  }
+  scopes_.back().scope.protos.push_back(id);
+  return id;
+}
+
+TypeId SceneBuilder::known_type(std::string_view name) const {
+  for (auto s = scopes_.rbegin(); s != scopes_.rend(); ++s)
+    if (!s->protos.empty())
+      if (auto i = s->protos.find(name); i != s->protos.end()) return i->second;
+  return find_builtin(name, scene_.dialect());
+}
+
+TypeId SceneBuilder::type(std::string_view name, Span where) {
+  if (TypeId t = known_type(name)) return t;
+  if (auto i = unknown_.find(name); i != unknown_.end()) return i->second;
+  diag_.report(Diag::unknown_node, where, name);
+  NodeType t;
+  t.name = scene_.keep(name);
+  t.kind = NodeKind::unknown;
+  t.dialects = static_cast<DialectSet>(scene_.dialect());
+  return unknown_[t.name] = scene_.add_type(t, {});
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,24 @@
+// What the module with the picture codecs (writers/image_oiio.cpp) offers to scenegraph/image.cpp, which opens it.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "scenegraph/image.h"
+
+namespace wrlkit {
+
+struct DecodeRequest {
+  std::string_view bytes;
+  const char* codec;  // OpenImageIO's name
+  decltype(&image_size_fault) size_fault;
+};
+
+struct ImageModule {
+  /// Pixels of the first picture, with the channels that the codec gives.
+  bool (*decode)(const DecodeRequest&, Image&, std::string& error);
+  bool (*encode)(const Image&, const char* codec, int quality, std::string& bytes, std::string& error);
+};
+
+}  // namespace wrlkit
+
+extern "C" const wrlkit::ImageModule* wrlkit_images();

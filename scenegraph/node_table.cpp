@@ -1,0 +1,40 @@
+#include "scenegraph/node_table.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace wrlkit {
+
+bool NodeType::is_a(std::string_view base) const { return name == base || std::ranges::find(bases, base) != bases.end(); }
+
+std::optional<std::uint16_t> NodeType::find(std::string_view field, Dialect dialect, bool events) const {
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if ((fields[i].dialects & static_cast<DialectSet>(dialect)) && fields[i].name_in(dialect) == field)
+      return static_cast<std::uint16_t>(i);
+  if (!events) return std::nullopt;
+  auto exposed = [&](std::string_view stem) -> std::optional<std::uint16_t> {
+    auto i = find(stem, dialect, false);
+    return i && fields[*i].access == Access::inout ? i : std::nullopt;
+  };
+  if (field.starts_with("set_"))
+    if (auto i = exposed(field.substr(4))) return i;
+  if (field.ends_with("_changed"))
+    if (auto i = exposed(field.substr(0, field.size() - 8))) return i;
+  return std::nullopt;
+}
+
+TypeId find_builtin(std::string_view name, Dialect dialect) {
+  static const auto by_name = [] {
+    std::unordered_multimap<std::string_view, std::uint32_t> m;
+    auto rows = builtin_nodes();
+    m.reserve(rows.size());
+    for (std::uint32_t i = 0; i < rows.size(); ++i) m.emplace(rows[i].name, i);
+    return m;
+  }();
+  auto [b, e] = by_name.equal_range(name);
+  for (; b != e; ++b)
+    if (builtin_nodes()[b->second].dialects & static_cast<DialectSet>(dialect)) return TypeId{b->second};
+  return {};
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,81 @@
+// The table of node types: what the parser accepts, what the writers print, what `verify` checks and what `explain`
+// says all derive from it. The built-in rows are generated from scenegraph/nodes/*.nodes by tools/gen_nodes.cpp; a scene
+// adds rows of the same shape for its PROTOs, Scripts and unknown nodes.
+#pragma once
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scenegraph/value.h"
+
+namespace wrlkit {
+
+/// field, exposedField, eventIn, eventOut of VRML97; initializeOnly, inputOutput, inputOnly, outputOnly of X3D.
+enum class Access : std::uint8_t { init, inout, in, out };
+
+/// Dialects, as bits, so that one row can be valid in several.
+enum class Dialect : std::uint8_t { vrml1 = 1, vrml97 = 2, x3d = 4 };
+using DialectSet = std::uint8_t;
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  bool low_open = false, high_open = false;
+  bool contains(double v) const { return (low_open ? v > low : v >= low) && (high_open ? v < high : v <= high); }
+  bool bounded() const { return low != -std::numeric_limits<double>::infinity() || high != std::numeric_limits<double>::infinity(); }
+};
+
+struct FieldDef {
+  std::string_view name;         // of X3D, which is VRML97's unless `vrml97_name` says otherwise
+  std::string_view vrml97_name;  // "choice" for Switch.children; empty: the same
+  FieldType type;
+  Access access;
+  DialectSet dialects;
+  Value default_value;           // of `type`; out and in fields have none
+  Range range;
+  std::span<const std::string_view> kinds;  // node types or bases a node field may hold; words an SFString may be
+  std::string_view unit;         // "length", "angle", ...; empty: none
+  std::string_view doc;
+  std::string_view default_text; // as the table has it, for documentation
+
+  bool has_value() const { return access == Access::init || access == Access::inout; }
+  std::string_view name_in(Dialect d) const { return d == Dialect::vrml97 && !vrml97_name.empty() ? vrml97_name : name; }
+};
+
+/// What a node type is, where the passes must tell apart; everything else is in `bases`.
+enum class NodeKind : std::uint8_t { builtin, proto, script, unknown };
+
+struct NodeType {
+  std::string_view name;
+  NodeKind kind = NodeKind::builtin;
+  DialectSet dialects = 0;
+  std::span<const FieldDef> fields;
+  std::span<const std::string_view> bases;  // every direct and indirect base: "X3DGroupingNode", "X3DChildNode", ...
+  std::string_view clauses;                 // "vrml97 6.11; x3d 13.3.2"
+  std::string_view component;               // X3D component and level: "Geometry3D 1"
+  std::string_view container_field;         // X3D XML
+  std::string_view doc;
+  ProtoId proto;                            // of kind proto
+
+  bool is_a(std::string_view base) const;
+  /// Index of the field of that name in that dialect. Accepts `set_x` and `x_changed` for an inout field `x`, as ROUTE
+  /// and IS do, when `events` is set.
+  std::optional<std::uint16_t> find(std::string_view field, Dialect, bool events = false) const;
+};
+
+/// The built-in rows. TypeId t with t.value < size() is row t.
+std::span<const NodeType> builtin_nodes();
+/// Row of that name in that dialect; TypeId{} when there is none. O(1).
+TypeId find_builtin(std::string_view name, Dialect);
+/// Names of the abstract bases, for checks of the table.
+std::span<const std::string_view> builtin_bases();
+
+/// A field of a node type known when compiling: `scene.get(n, nodes::cone::height)`. The constants are generated.
+template <FieldType T>
+struct FieldKey {
+  TypeId node;
+  std::uint16_t slot;
+};
+
+}  // namespace wrlkit

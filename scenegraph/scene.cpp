@@ -1,0 +1,218 @@
+#include "scenegraph/scene.h"
+
+#include <algorithm>
+
+namespace wrlkit {
+
+Scene::Scene() : sources(std::make_shared<Sources>()), arena_(std::make_shared<Arena>()) {}
+
+NodeId Scene::add(TypeId type, Span where) {
+  nodes_.push_back({.type = type, .offset = where.begin});
+  return NodeId{static_cast<std::uint32_t>(nodes_.size() - 1)};
+}
+
+const NodeType& Scene::type(TypeId t) const {
+  auto rows = builtin_nodes();
+  return t.value < rows.size() ? rows[t.value] : types_[t.value - rows.size()];
+}
+
+void Scene::set_name(NodeId n, std::string_view name) {
+  if (name.empty()) { nodes_[n.value].name = 0; return; }
+  nodes_[n.value].name = static_cast<std::uint32_t>(names_.size());
+  names_.push_back(arena_->copy(name));
+}
+
+const Value* Scene::find(NodeId n, std::uint16_t slot) const {
+  for (auto& v : fields(n))
+    if (v.slot == slot) return &v;
+  return nullptr;
+}
+
+const Value& Scene::value(NodeId n, std::uint16_t slot) const {
+  auto* v = find(n, slot);
+  return v ? *v : type(n).fields[slot].default_value;
+}
+
+std::string_view Scene::field_name(NodeId n, const Value& v) const {
+  return v.slot == Value::extra_slot ? v.extra->name : type(n).fields[v.slot].name;
+}
+
+void Scene::set_fields(NodeId n, std::span<const Value> fields) {
+  auto& node = nodes_[n.value];
+  if (fields.size() <= node.n_fields) {
+    std::ranges::copy(fields, fields_.begin() + node.first_field);
+  } else {
+    std::vector<Value> copy;  // `fields` may lie in fields_, which is about to grow
+    if (!fields_.empty() && fields.data() >= fields_.data() && fields.data() < fields_.data() + fields_.size()) {
+      copy.assign(fields.begin(), fields.end());
+      fields = copy;
+    }
+    node.first_field = static_cast<std::uint32_t>(fields_.size());
+    fields_.insert(fields_.end(), fields.begin(), fields.end());
+  }
+  node.n_fields = static_cast<std::uint16_t>(std::min<std::size_t>(fields.size(), 0xffff));
+}
+
+void Scene::set(NodeId n, Value v) {
+  auto& node = nodes_[n.value];
+  if (v.slot != Value::extra_slot)
+    for (std::size_t i = 0; i < node.n_fields; ++i)
+      if (auto& old = fields_[node.first_field + i]; old.slot == v.slot) { old = v; return; }
+  auto now = fields(n);
+  std::vector<Value> next(now.begin(), now.end());
+  next.push_back(v);
+  set_fields(n, next);
+}
+
+void Scene::unset(NodeId n, std::uint16_t slot) {
+  std::vector<Value> next;
+  for (auto& v : fields(n))
+    if (v.slot != slot) next.push_back(v);
+  set_fields(n, next);
+}
+
+void Scene::become(NodeId n, TypeId type, std::span<const Value> fields) {
+  nodes_[n.value].type = type;
+  set_fields(n, fields);
+}
+
+namespace {
+
+Value head(FieldType type, std::uint16_t slot, std::size_t count) {
+  Value v;
+  v.type = type;
+  v.slot = slot;
+  v.count = static_cast<std::uint32_t>(count);
+  return v;
+}
+
+}  // namespace
+
+Value Scene::make(FieldType t, std::uint16_t slot, std::span<const double> a) {
+  const auto& i = info(t);
+  auto v = head(t, slot, a.size() / i.arity);
+  if (!i.multiple && i.arity == 1) v.number = a.empty() ? 0 : a[0];
+  else v.numbers = arena_->copy(a);
+  return v;
+}
+
+Value Scene::make(FieldType t, std::uint16_t slot, std::span<const std::int32_t> a) {
+  auto v = head(t, slot, a.size());
+  v.integers = arena_->copy(a);
+  return v;
+}
+
+Value Scene::make(FieldType t, std::uint16_t slot, std::span<const std::string_view> a) {
+  auto v = head(t, slot, a.size());
+  std::string_view* to = arena_->allocate<std::string_view>(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) to[i] = arena_->copy(a[i]);
+  v.texts = to;
+  return v;
+}
+
+Value Scene::make(FieldType t, std::uint16_t slot, std::span<const NodeId> a) {
+  auto v = head(t, slot, a.size());
+  v.nodes = arena_->copy(a);
+  return v;
+}
+
+Value Scene::make(FieldType t, std::uint16_t slot, std::string_view s) {
+  auto v = head(t, slot, s.size());
+  v.chars = arena_->copy(s).data();
+  return v;
+}
+
+Value Scene::make(FieldType t, std::uint16_t slot, double d) {
+  auto v = head(t, slot, 1);
+  v.number = d;
+  return v;
+}
+
+Value Scene::make(FieldType t, std::uint16_t slot, bool b) { return make(t, slot, std::int32_t{b}); }
+
+Value Scene::make(FieldType t, std::uint16_t slot, std::int32_t i) {
+  auto v = head(t, slot, 1);
+  v.integer = i;
+  return v;
+}
+
+Value Scene::make(FieldType t, std::uint16_t slot, NodeId n) {
+  if (info(t).multiple) return make(t, slot, std::span<const NodeId>(&n, n ? 1 : 0));
+  auto v = head(t, slot, 1);
+  v.node = n;
+  return v;
+}
+
+Value Scene::make_extra(std::string_view name, Value content) {
+  auto* e = arena_->allocate<ExtraField>(1);
+  content.slot = Value::extra_slot;
+  *e = {arena_->copy(name), content};
+  Value v = head(content.type, Value::extra_slot, 1);
+  v.extra = e;
+  return v;
+}
+
+TypeId Scene::add_type(NodeType t, std::vector<FieldDef> fields) {
+  type_fields_.push_back(std::move(fields));
+  t.fields = type_fields_.back();
+  types_.push_back(t);
+  return TypeId{static_cast<std::uint32_t>(builtin_nodes().size() + types_.size() - 1)};
+}
+
+ProtoId Scene::add_proto(Proto p) {
+  protos_.push_back(std::move(p));
+  return ProtoId{static_cast<std::uint32_t>(protos_.size() - 1)};
+}
+
+Scope Scene::import(const Scene& other) {
+  const auto n0 = static_cast<std::uint32_t>(nodes_.size());
+  const auto f0 = static_cast<std::uint32_t>(fields_.size());
+  const auto name0 = static_cast<std::uint32_t>(names_.size());
+  const auto t0 = static_cast<std::uint32_t>(types_.size()), p0 = static_cast<std::uint32_t>(protos_.size());
+  const auto n_builtin = static_cast<std::uint32_t>(builtin_nodes().size());
+  auto node = [&](NodeId n) { return n ? NodeId{n.value + n0} : n; };
+  auto type = [&](TypeId t) { return t.value < n_builtin ? t : TypeId{t.value + t0}; };
+  auto value = [&](auto& self, Value v) -> Value {
+    if (v.slot == Value::extra_slot && v.extra && info(v.extra->value.type).element == Element::node && !v.extra->value.is)
+      return make_extra(v.extra->name, self(self, [&] { Value c = v.extra->value; c.slot = 0; return c; }()));
+    if (v.slot == Value::extra_slot || v.is || info(v.type).element != Element::node) return v;
+    if (!info(v.type).multiple) { v.node = node(v.node); return v; }
+    NodeId* to = arena_->allocate<NodeId>(v.count);
+    for (std::size_t i = 0; i < v.count; ++i) to[i] = node(v.nodes[i]);
+    v.nodes = to;
+    return v;
+  };
+  auto scope = [&](const Scope& s) {
+    Scope o;
+    for (auto n : s.roots) o.roots.push_back(node(n));
+    for (auto r : s.routes) o.routes.push_back({node(r.from), node(r.to), r.event_out, r.event_in});
+    for (auto p : s.protos) o.protos.push_back(ProtoId{p.value + p0});
+    return o;
+  };
+
+  shared_.push_back(other.arena_);
+  shared_.insert(shared_.end(), other.shared_.begin(), other.shared_.end());
+  names_.insert(names_.end(), other.names_.begin() + 1, other.names_.end());
+  for (auto n : other.nodes_) {
+    n.type = type(n.type);
+    if (n.name) n.name += name0 - 1;
+    n.first_field += f0;
+    nodes_.push_back(n);
+  }
+  for (auto& v : other.fields_) fields_.push_back(value(value, v));
+  for (std::size_t i = 0; i < other.types_.size(); ++i) {
+    auto t = other.types_[i];
+    if (t.proto) t.proto.value += p0;
+    auto fields = other.type_fields_[i];
+    for (auto& f : fields) f.default_value = value(value, f.default_value);
+    add_type(t, std::move(fields));
+  }
+  for (auto p : other.protos_) {
+    p.type = type(p.type);
+    p.body = scope(p.body);
+    protos_.push_back(std::move(p));
+  }
+  return scope(other.main);
+}
+
+}  // namespace wrlkit

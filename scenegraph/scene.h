@@ -1,0 +1,164 @@
+// What a scene is: nodes in one pool, named by NodeId; each node stores its type, its DEF name, where it was read, and
+// only the fields that were written. Defaults live in the node table. DEF/USE makes it a directed graph: a node may be
+// held by several fields, and parents are computed when asked for (walk.h). Nothing moves when a node is added.
+//
+// Copying a scene copies the pools but shares the arrays (arena.h), which are immutable.
+#pragma once
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scenegraph/arena.h"
+#include "scenegraph/node_table.h"
+#include "scenegraph/source.h"
+
+namespace wrlkit {
+
+struct Route {
+  NodeId from, to;
+  std::string_view event_out, event_in;
+  bool operator==(const Route&) const = default;
+};
+
+/// A name scope of the standard (ISO/IEC 14772-1, 4.4.7): the file, or the body of a PROTO.
+struct Scope {
+  std::vector<NodeId> roots;
+  std::vector<Route> routes;
+  std::vector<ProtoId> protos;  // declared here, in order
+};
+
+struct Proto {
+  TypeId type;                  // the interface, as a node type of this scene
+  bool external = false;
+  std::vector<std::string_view> urls;  // of an EXTERNPROTO
+  Scope body;                   // of a PROTO
+  std::uint32_t roots_before = 0;  // root nodes of its scope that stand before it; a name may be declared again
+  Span where;
+};
+
+enum class Format : std::uint8_t { none, vrml1, vrml97, x3d_classic, x3d_xml, gltf };
+
+class Scene {
+ public:
+  Scene();
+
+  // What the file says beside nodes.
+  Format format = Format::vrml97;
+  std::string comment;          // the comment lines that follow the header, with their '#'
+  Scope main;
+  std::shared_ptr<Sources> sources;
+
+  // Nodes.
+  NodeId add(TypeId, Span where = {});
+  std::size_t node_count() const { return nodes_.size(); }
+  TypeId type_id(NodeId n) const { return nodes_[n.value].type; }
+  const NodeType& type(NodeId n) const { return type(nodes_[n.value].type); }
+  const NodeType& type(TypeId t) const;
+  bool is(NodeId n, TypeId t) const { return n && type_id(n) == t; }
+  /// DEF name, or empty. Names need not be unique: USE means the last one before it (4.4.3), here it is an id.
+  std::string_view name(NodeId n) const { return names_[nodes_[n.value].name]; }
+  void set_name(NodeId, std::string_view);
+  Span where(NodeId n) const { return {nodes_[n.value].offset, 1}; }
+  Dialect dialect() const { return format == Format::vrml97 ? Dialect::vrml97 : format == Format::vrml1 ? Dialect::vrml1 : Dialect::x3d; }
+
+  /// Fields that were written, in the order they were written.
+  std::span<const Value> fields(NodeId n) const { return {fields_.data() + nodes_[n.value].first_field, nodes_[n.value].n_fields}; }
+  /// The written value of a slot, or null.
+  const Value* find(NodeId, std::uint16_t slot) const;
+  /// The value of a slot: written or default. Never null for fields that have values.
+  const Value& value(NodeId, std::uint16_t slot) const;
+  /// Name of the field a Value of this node belongs to, and the Value itself, for known and unknown fields alike.
+  std::string_view field_name(NodeId, const Value&) const;
+  const Value& content(const Value& v) const { return v.slot == Value::extra_slot && v.extra ? v.extra->value : v; }
+  bool is_extra(const Value& v) const { return v.slot == Value::extra_slot; }
+
+  /// Typed access by the generated constants. Numbers of SF types with more than one come as Vec2/3/4, MF types as spans
+  /// over the flat array. An IS or a value of another type reads as the default.
+  template <FieldType T>
+  auto get(NodeId n, FieldKey<T> key) const;
+  /// Writes a field; arrays are copied into the arena.
+  void set(NodeId n, Value v);
+  template <FieldType T, class V>
+  void set(NodeId n, FieldKey<T> key, const V& v) { set(n, make(T, key.slot, v)); }
+  void unset(NodeId n, std::uint16_t slot);
+  /// All fields at once, replacing those that were there; what the builder and the passes that rewrite nodes use.
+  void set_fields(NodeId n, std::span<const Value> fields);
+  /// Turns a node into another one in place: type and fields change, its id, name and place stay. References hold.
+  void become(NodeId n, TypeId type, std::span<const Value> fields);
+
+  // Values with their arrays in this scene's arena.
+  Value make(FieldType, std::uint16_t slot, std::span<const double>);
+  Value make(FieldType, std::uint16_t slot, std::span<const std::int32_t>);
+  Value make(FieldType, std::uint16_t slot, std::span<const std::string_view>);
+  Value make(FieldType, std::uint16_t slot, std::span<const NodeId>);
+  Value make(FieldType t, std::uint16_t slot, const std::vector<double>& v) { return make(t, slot, std::span<const double>(v)); }
+  Value make(FieldType t, std::uint16_t slot, const std::vector<std::int32_t>& v) { return make(t, slot, std::span<const std::int32_t>(v)); }
+  Value make(FieldType t, std::uint16_t slot, const std::vector<NodeId>& v) { return make(t, slot, std::span<const NodeId>(v)); }
+  Value make(FieldType t, std::uint16_t slot, const std::vector<std::string_view>& v) { return make(t, slot, std::span<const std::string_view>(v)); }
+  template <std::size_t N>
+  Value make(FieldType t, std::uint16_t slot, const std::array<double, N>& v) { return make(t, slot, std::span<const double>(v)); }
+  Value make(FieldType, std::uint16_t slot, std::string_view);
+  Value make(FieldType t, std::uint16_t slot, const char* v) { return make(t, slot, std::string_view(v)); }
+  Value make(FieldType t, std::uint16_t slot, const std::string& v) { return make(t, slot, std::string_view(v)); }
+  Value make(FieldType, std::uint16_t slot, double);
+  Value make(FieldType, std::uint16_t slot, bool);
+  Value make(FieldType, std::uint16_t slot, std::int32_t);
+  Value make(FieldType, std::uint16_t slot, NodeId);
+  /// A field that the node type does not have.
+  Value make_extra(std::string_view name, Value);
+  std::string_view keep(std::string_view s) { return arena_->copy(s); }
+  Arena& arena() { return *arena_; }
+
+  // Types and prototypes of this scene.
+  /// Adds a type; names and arrays in it must live in the arena or in the table.
+  TypeId add_type(NodeType, std::vector<FieldDef> fields);
+  ProtoId add_proto(Proto);
+  void set_type_proto(TypeId t, ProtoId p) { types_[t.value - builtin_nodes().size()].proto = p; }
+  std::size_t proto_count() const { return protos_.size(); }
+  Proto& proto(ProtoId p) { return protos_[p.value]; }
+  const Proto& proto(ProtoId p) const { return protos_[p.value]; }
+
+  /// Takes over all nodes, types and prototypes of another scene; its arrays are shared, not copied. Returns the scope
+  /// that was `other.main`, in this scene's ids. O(nodes of other).
+  Scope import(const Scene& other);
+
+ private:
+  struct Node {
+    TypeId type;
+    std::uint32_t name = 0;         // into names_; 0: none
+    std::uint32_t offset = Span::nowhere;
+    std::uint32_t first_field = 0;
+    std::uint16_t n_fields = 0;
+  };
+  Value node_array(Value v, std::span<const NodeId> ids);
+
+  std::vector<Node> nodes_;
+  std::vector<Value> fields_;
+  std::vector<std::string_view> names_{std::string_view{}};
+  std::deque<NodeType> types_;             // of this scene; TypeId = builtin_nodes().size() + index
+  std::deque<std::vector<FieldDef>> type_fields_;
+  std::deque<Proto> protos_;
+  std::shared_ptr<Arena> arena_;
+  std::vector<std::shared_ptr<Arena>> shared_;  // of imported scenes
+};
+
+template <FieldType T>
+auto Scene::get(NodeId n, FieldKey<T> key) const {
+  const Value* v = &value(n, key.slot);
+  if (v->is || v->type != T) v = &type(key.node).fields[key.slot].default_value;
+  if constexpr (T == FieldType::SFBool) return v->integer != 0;
+  else if constexpr (T == FieldType::SFInt32) return v->integer;
+  else if constexpr (T == FieldType::SFFloat || T == FieldType::SFTime || T == FieldType::SFDouble) return v->number;
+  else if constexpr (T == FieldType::SFVec2f || T == FieldType::SFVec2d) return Vec2{v->numbers[0], v->numbers[1]};
+  else if constexpr (T == FieldType::SFVec3f || T == FieldType::SFVec3d || T == FieldType::SFColor) return Vec3{v->numbers[0], v->numbers[1], v->numbers[2]};
+  else if constexpr (T == FieldType::SFRotation || T == FieldType::SFColorRGBA || T == FieldType::SFVec4f) return Vec4{v->numbers[0], v->numbers[1], v->numbers[2], v->numbers[3]};
+  else if constexpr (T == FieldType::SFString || T == FieldType::SFEnum || T == FieldType::SFBitMask) return v->text();
+  else if constexpr (T == FieldType::MFString) return v->text_span();
+  else if constexpr (T == FieldType::SFNode) return v->node;
+  else if constexpr (T == FieldType::MFNode) return v->node_span();
+  else if constexpr (T == FieldType::MFInt32 || T == FieldType::SFImage || T == FieldType::MFBool) return v->integer_span();
+  else return v->number_span();
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,43 @@
+#include "scenegraph/value.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr FieldTypeInfo infos[] = {
+#define WRLKIT_X(name, element, arity) {#name, Element::element, arity, #name[0] == 'M'},
+    WRLKIT_FIELD_TYPES(WRLKIT_X)
+#undef WRLKIT_X
+};
+
+}  // namespace
+
+const FieldTypeInfo& info(FieldType t) { return infos[static_cast<std::size_t>(t)]; }
+
+bool find_field_type(std::string_view name, FieldType& out) {
+  for (std::size_t i = 0; i < std::size(infos); ++i)
+    if (infos[i].name == name) return out = static_cast<FieldType>(i), true;
+  return false;
+}
+
+std::span<const double> Value::number_span() const {
+  const auto& t = info(type);
+  if (t.element != Element::number || is) return {};
+  if (!t.multiple && t.arity == 1) return {&number, 1};
+  return {numbers, std::size_t{count} * t.arity};
+}
+
+std::span<const std::int32_t> Value::integer_span() const {
+  const auto& t = info(type);
+  if (is || (t.element != Element::integer && t.element != Element::image)) return {};
+  if (t.element == Element::integer && !t.multiple) return {&integer, 1};
+  return {integers, count};
+}
+
+std::span<const NodeId> Value::node_span() const {
+  const auto& t = info(type);
+  if (t.element != Element::node || is) return {};
+  if (t.multiple) return {nodes, count};
+  return {&node, node ? 1u : 0u};
+}
+
+}  // namespace wrlkit

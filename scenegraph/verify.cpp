@@ -1,0 +1,146 @@
+#include "scenegraph/verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+std::string range_text(const Range& r) {
+  auto number = [](double v) {
+    if (std::isinf(v)) return std::string(v < 0 ? "-inf" : "inf");
+    auto s = std::to_string(v);
+    while (s.find('.') != s.npos && (s.back() == '0' || s.back() == '.')) {
+      bool point = s.back() == '.';
+      s.pop_back();
+      if (point) break;
+    }
+    return s;
+  };
+  return (r.low_open ? "(" : "[") + number(r.low) + "," + number(r.high) + (r.high_open ? ")" : "]");
+}
+
+class ValueCheck {
+ public:
+  ValueCheck(const Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
+
+  void node(NodeId n) {
+    const auto& t = scene_.type(n);
+    for (auto& v : scene_.fields(n)) {
+      if (scene_.is_extra(v) || v.is) continue;
+      const auto& f = t.fields[v.slot];
+      if (f.range.bounded()) range(n, f, v);
+      if (f.kinds.empty()) continue;
+      if (info(f.type).element == Element::text) words(n, f, v);
+      else children(n, f, v);
+    }
+  }
+
+ private:
+  void range(NodeId n, const FieldDef& f, const Value& v) {
+    for (double d : v.number_span())
+      if (!f.range.contains(d)) return diag_.report(Diag::out_of_range, scene_.where(n), scene_.type(n).name, f.name, d, range_text(f.range));
+    if (info(f.type).element != Element::integer) return;
+    for (auto i : v.integer_span())
+      if (!f.range.contains(i)) return diag_.report(Diag::out_of_range, scene_.where(n), scene_.type(n).name, f.name, i, range_text(f.range));
+  }
+
+  void words(NodeId n, const FieldDef& f, const Value& v) {
+    auto check = [&](std::string_view w) {
+      if (std::ranges::find(f.kinds, w) == f.kinds.end()) diag_.report(Diag::unknown_word, scene_.where(n), w, scene_.type(n).name, f.name);
+    };
+    if (info(v.type).multiple) std::ranges::for_each(v.text_span(), check);
+    else check(v.text());
+  }
+
+  /// A prototype is what the first node of its body is; what an EXTERNPROTO or an unknown node is, nobody knows here.
+  const NodeType* kind_of(NodeId n) const {
+    const NodeType* t = &scene_.type(n);
+    for (int depth = 0; t->kind == NodeKind::proto && depth < 100; ++depth) {
+      const auto& p = scene_.proto(t->proto);
+      if (p.external || p.body.roots.empty()) return nullptr;
+      t = &scene_.type(p.body.roots[0]);
+    }
+    return t->kind == NodeKind::unknown || t->kind == NodeKind::proto ? nullptr : t;
+  }
+
+  void children(NodeId n, const FieldDef& f, const Value& v) {
+    for (NodeId c : v.node_span()) {
+      auto* t = c ? kind_of(c) : nullptr;
+      if (t && std::ranges::none_of(f.kinds, [&](std::string_view k) { return t->is_a(k); }))
+        diag_.report(Diag::wrong_child, scene_.where(c), t->name, scene_.type(n).name, f.name_in(scene_.dialect()));
+    }
+  }
+
+  const Scene& scene_;
+  Diagnostics& diag_;
+};
+
+FieldType event_type(const Scene& s, NodeId n, std::string_view event) {
+  auto slot = s.type(n).find(event, s.dialect(), true);
+  return slot ? s.type(n).fields[*slot].type : FieldType::verbatim;
+}
+
+class Invariants {
+ public:
+  Invariants(const Scene& s, Level level, Diagnostics& diag) : s_(s), level_(level), diag_(diag) {}
+
+  bool run() {
+    for (NodeId n : all_nodes(s_)) ids(n);
+    if (!good_) return false;
+    if (level_ != Level::authored)
+      for (NodeId n : reachable(s_, s_.main)) expanded(n);
+    return good_;
+  }
+
+ private:
+  void breach(NodeId n, const std::string& what) {
+    diag_.report(Diag::verify, s_.where(n), std::string(s_.type(n).name) + ": " + what);
+    good_ = false;
+  }
+
+  void ids(NodeId n) {
+    for (auto& v : s_.fields(n)) {
+      if (!s_.is_extra(v) && v.slot >= s_.type(n).fields.size()) breach(n, "a field that its type does not have");
+      else if (!s_.is_extra(v) && v.type != s_.type(n).fields[v.slot].type) breach(n, "field " + std::string(s_.field_name(n, v)) + " has another type");
+      for (NodeId c : s_.content(v).node_span())
+        if (c && c.value >= s_.node_count()) breach(n, "a child that is no node");
+    }
+  }
+
+  void expanded(NodeId n) {
+    for (auto& v : s_.fields(n))
+      if (s_.content(v).is) breach(n, "IS outside of a prototype");
+    if (s_.type(n).kind == NodeKind::proto && !s_.proto(s_.type(n).proto).external) breach(n, "a prototype instance");
+    if (level_ == Level::mesh && s_.type(n).is_a("X3DGeometryNode") && !s_.is(n, nodes::IndexedFaceSet) && !s_.is(n, nodes::IndexedLineSet) && !s_.is(n, nodes::PointSet))
+      breach(n, "geometry that is no mesh");
+  }
+
+  const Scene& s_;
+  Level level_;
+  Diagnostics& diag_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+void check_values(const Scene& scene, Diagnostics& diag) {
+  ValueCheck check(scene, diag);
+  for (NodeId n : all_nodes(scene)) check.node(n);
+  auto routes = [&](const Scope& s) {
+    for (auto& r : s.routes) {
+      auto a = event_type(scene, r.from, r.event_out), b = event_type(scene, r.to, r.event_in);
+      if (a != b && a != FieldType::verbatim && b != FieldType::verbatim) diag.report(Diag::route_types, scene.where(r.from), info(a).name, info(b).name);
+    }
+  };
+  routes(scene.main);
+  for (std::uint32_t i = 0; i < scene.proto_count(); ++i) routes(scene.proto(ProtoId{i}).body);
+}
+
+bool verify(const Scene& scene, Level level, Diagnostics& diag) { return Invariants(scene, level, diag).run(); }
+
+}  // namespace wrlkit

@@ -1,0 +1,67 @@
+#include "scenegraph/walk.h"
+
+#include "scenegraph/nodes.h"
+
+namespace wrlkit {
+namespace {
+
+void visit(const Scene& scene, std::span<const NodeId> roots, std::vector<char>& seen, std::vector<NodeId>& out) {
+  std::vector<NodeId> stack(roots.rbegin(), roots.rend());
+  while (!stack.empty()) {
+    NodeId n = stack.back();
+    stack.pop_back();
+    if (seen[n.value]) continue;
+    seen[n.value] = 1;
+    out.push_back(n);
+    auto mark = stack.size();
+    for_each_child(scene, n, [&](NodeId c) { if (!seen[c.value]) stack.push_back(c); });
+    std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(mark), stack.end());
+  }
+}
+
+}  // namespace
+
+std::vector<NodeId> reachable(const Scene& scene, const Scope& scope) {
+  std::vector<char> seen(scene.node_count());
+  std::vector<NodeId> out;
+  visit(scene, scope.roots, seen, out);
+  return out;
+}
+
+std::vector<NodeId> all_nodes(const Scene& scene) {
+  std::vector<char> seen(scene.node_count());
+  std::vector<NodeId> out;
+  visit(scene, scene.main.roots, seen, out);
+  for (std::uint32_t i = 0; i < scene.proto_count(); ++i) {
+    const auto& p = scene.proto(ProtoId{i});
+    for (const auto& f : scene.type(p.type).fields) visit(scene, f.default_value.node_span(), seen, out);
+    visit(scene, p.body.roots, seen, out);
+  }
+  return out;
+}
+
+std::vector<NodeId> hierarchy_children(const Scene& scene, NodeId n) {
+  std::vector<NodeId> out;
+  const auto& t = scene.type(n);
+  if (t.kind == NodeKind::script) return out;
+  for (const Value& v : scene.fields(n)) {
+    const Value& c = scene.content(v);
+    if (c.is || info(c.type).element != Element::node) continue;
+    bool holds = t.kind == NodeKind::unknown || (!scene.is_extra(v) && t.fields[v.slot].name == "children");
+    if (holds) out.insert(out.end(), c.node_span().begin(), c.node_span().end());
+  }
+  return out;
+}
+
+std::vector<NodeId> shown_children(const Scene& scene, NodeId n) {
+  auto all = hierarchy_children(scene, n);
+  if (scene.is(n, nodes::Switch)) {
+    auto which = scene.get(n, nodes::switch_::whichChoice);
+    if (which < 0 || static_cast<std::size_t>(which) >= all.size()) return {};
+    return {all[static_cast<std::size_t>(which)]};
+  }
+  if (scene.is(n, nodes::LOD) && all.size() > 1) all.resize(1);
+  return all;
+}
+
+}  // namespace wrlkit
