@@ -1,0 +1,42 @@
+// The folders that files may be read from, and finding files in them as the systems did for which the worlds were
+// written: there, upper and lower case were the same, and paths were those of the author's machine.
+#pragma once
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace wrlkit {
+
+class AllowedFiles {
+ public:
+  enum State { found, repaired, outside, missing };  // the better, the earlier
+  struct Result {
+    State state = missing;
+    std::string path;       // as the folder was given, so that messages do not depend on where a user keeps his files
+    std::string canonical;  // the file's identity
+  };
+
+  /// An empty name is the current folder.
+  explicit AllowedFiles(const std::vector<std::string>& folders);
+
+  /// Looks for `path`, which is relative to the folder of the file `referrer`: exactly; then without regard to case;
+  /// then its last name beside the referrer (`repaired`). Only regular files count. `outside`: it exists, but neither
+  /// it nor what a symbolic link leads to lies below one of the folders.
+  Result find(const std::string& path, const std::string& referrer);
+
+ private:
+  struct Root {
+    std::string given, canonical;
+  };
+  const Root* root_of(const std::string& canonical) const;
+  Result exact(const std::string& path) const;
+  Result any_case(const std::string& path);
+  std::string name_in(const std::string& folder, const std::string& name);
+
+  std::vector<Root> roots_;
+  std::unordered_map<std::string, std::map<std::string, std::string>> listings_;  // folder: lower-case name to name
+};
+
+}  // namespace wrlkit

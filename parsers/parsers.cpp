@@ -1,0 +1,139 @@
+#include "parsers/parsers.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "parsers/vrml/parser.h"
+#include "parsers/vrml/text_encoding.h"
+#include "scenegraph/image.h"
+
+namespace wrlkit {
+namespace {
+
+std::string_view trim(std::string_view s) {
+  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
+  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
+  return s;
+}
+
+std::string_view first_line(std::string_view s) { return s.substr(0, s.find_first_of("\r\n")); }
+
+std::string_view without_bom(std::string_view s) { return s.starts_with("\xef\xbb\xbf") ? s.substr(3) : s; }
+
+bool has_utf16_bom(std::string_view s) { return s.starts_with("\xff\xfe") || s.starts_with("\xfe\xff"); }
+
+bool contains_nocase(std::string_view text, std::string_view lower) {
+  auto equal = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  return std::search(text.begin(), text.end(), lower.begin(), lower.end(), equal) != text.end();
+}
+
+// Without a header: does the first thing that is no comment begin a VRML statement?
+bool looks_like_vrml97(std::string_view s) {
+  s = trim(s);
+  while (s.starts_with('#')) s = trim(s.substr(first_line(s).size()));
+  auto word_end = std::ranges::find_if(s, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '_'; });
+  auto word = s.substr(0, static_cast<std::size_t>(word_end - s.begin()));
+  auto rest = trim(s.substr(word.size()));
+  if (word == "DEF" || word == "PROTO" || word == "EXTERNPROTO" || word == "ROUTE") return true;
+  return find_builtin(word, Dialect::vrml97) && rest.starts_with('{');
+}
+
+/// The comment lines behind the header, each with its '#', without trailing blanks.
+std::string leading_comment(std::string_view s) {
+  std::string out;
+  for (s = trim(s); s.starts_with('#'); s = s.substr(std::min(s.size(), s.find_first_not_of("\r\n")))) {
+    auto line = first_line(s);
+    auto text = trim(line);
+    out += vrml::is_utf8(text) ? std::string(text) : vrml::latin1_to_utf8(text);
+    out += '\n';
+    s.remove_prefix(line.size());
+    if (s.empty()) break;
+  }
+  return out;
+}
+
+struct Header {
+  Format format = Format::none;
+  bool exact = false, missing = false;
+};
+
+Header read_header(std::string_view text) {
+  auto line = trim(first_line(trim(text)));
+  if (line.starts_with('#')) {
+    if (line.starts_with("#VRML V2.0 utf8")) return {Format::vrml97, true, false};
+    if (contains_nocase(line, "vrml") && line.find("1.0") != line.npos) return {Format::vrml1, true, false};
+    if (line.starts_with("#Inventor")) return {Format::vrml1, true, false};
+    if (line.starts_with("#X3D")) return {Format::x3d_classic, true, false};
+    if (contains_nocase(line.substr(0, 16), "vrml")) return {Format::vrml97, false, false};
+  }
+  if (line.starts_with('<') && (contains_nocase(text.substr(0, 4096), "<x3d"))) return {Format::x3d_xml, true, false};
+  if (looks_like_vrml97(text)) return {Format::vrml97, false, true};
+  return {};
+}
+
+}  // namespace
+
+Format sniff_format(std::string_view text) { return read_header(without_bom(text)).format; }
+
+std::string_view to_string(Format f) {
+  constexpr std::string_view names[] = {"none", "vrml1", "vrml97", "x3dv", "x3d", "gltf"};
+  return names[static_cast<std::size_t>(f)];
+}
+
+namespace {
+
+/// What the first bytes are, for the message that this is no world.
+std::string describe_bytes(std::string_view text) {
+  if (text.find_first_not_of(std::string_view("\0 \t\r\n", 5)) == text.npos) return "it holds nothing but blanks";
+  auto mime = sniff_mime(text);
+  if (!mime.empty()) return "it is a picture (" + std::string(mime) + ")";
+  return "the first line is '" + std::string(first_line(text).substr(0, 40)) + "'";
+}
+
+std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, const ReadOptions& options, Diagnostics& diag) {
+  std::string converted;
+  Span whole{base, 0}, first{base, static_cast<std::uint32_t>(std::min<std::size_t>(first_line(text).size(), 80))};
+  if (has_utf16_bom(text)) {
+    diag.report(Diag::encoding_repaired, whole, "UTF-16");
+    converted = vrml::utf16_to_utf8(text);
+    text = converted;
+  }
+  auto body = without_bom(text);
+  base += static_cast<std::uint32_t>(text.size() - body.size());
+  auto header = read_header(body);
+  if (header.format == Format::none) return diag.report(Diag::unknown_format, whole, describe_bytes(body)), nullptr;
+  if (header.format != Format::vrml97) {
+    constexpr std::string_view names[] = {"", "VRML 1.0 / Inventor", "", "X3D (classic)", "X3D (XML)", "glTF"};
+    return diag.report(Diag::unsupported_format, first, names[static_cast<std::size_t>(header.format)]), nullptr;
+  }
+  if (header.missing) diag.report(Diag::header_missing, whole);
+  else if (!header.exact) diag.report(Diag::header_repaired, first, trim(first_line(body)));
+  auto world = std::make_unique<World>();
+  world->format = world->scene.format = Format::vrml97;
+  world->scene.sources = diag.shared_sources();
+  auto after = header.missing ? body : trim(body).substr(first_line(trim(body)).size());
+  world->scene.comment = leading_comment(after);
+  vrml::parse(body, base, options.parse, world->scene, diag);
+  return world;
+}
+
+}  // namespace
+
+std::unique_ptr<World> read_world(const std::string& path, const ReadOptions& options, Diagnostics& diag) {
+  auto file = read_file(path, options.limits, diag);
+  if (!file) return nullptr;
+  auto world = parse_text(file->view(), file->base, options, diag);
+  if (world) world->gzip = file->gzip, world->bytes = file->bytes_on_disk;
+  return world;
+}
+
+std::unique_ptr<World> parse_world(std::string_view text, std::string name, const ReadOptions& options, Diagnostics& diag) {
+  auto kept = std::make_shared<std::string>(text);
+  auto base = diag.sources().add(std::move(name), text.size(), [kept] { return Sources::Loaded{*kept, kept}; });
+  if (base == Span::nowhere) return diag.report(Diag::too_large, {}, "the text", "4 GiB", text.size()), nullptr;
+  auto world = parse_text(*kept, base, options, diag);
+  if (world) world->bytes = text.size();
+  return world;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,34 @@
+// From a file to a scene: reading, telling the format by its header, dispatch.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "parsers/read_file.h"
+#include "scenegraph/builder.h"
+#include "scenegraph/diagnostics.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit {
+
+struct ReadOptions {
+  ReadLimits limits;
+  ParseLimits parse;
+};
+
+/// What a text is by its first bytes; the file's name does not matter. none: no world.
+Format sniff_format(std::string_view text);
+std::string_view to_string(Format);
+
+struct World {
+  Scene scene;
+  Format format = Format::none;
+  bool gzip = false;
+  std::uint64_t bytes = 0;  // on disk
+};
+
+/// Reads a world. Null when there is nothing of a scene to be had; why is in `diag`. The text is not kept.
+std::unique_ptr<World> read_world(const std::string& path, const ReadOptions&, Diagnostics& diag);
+/// The same from memory; `name` is for messages.
+std::unique_ptr<World> parse_world(std::string_view text, std::string name, const ReadOptions&, Diagnostics& diag);
+
+}  // namespace wrlkit

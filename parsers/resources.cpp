@@ -1,0 +1,186 @@
+#include "parsers/resources.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "parsers/url.h"
+#include "scenegraph/image.h"
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t size_of(const Blob& b) { return b.bytes.size(); }
+std::size_t size_of(const Image& i) { return i.pixels.size(); }
+
+bool is_blank(std::string_view s) {
+  return std::ranges::all_of(s, [](unsigned char c) { return c <= ' '; });
+}
+
+std::vector<std::string> folders(const ResourceOptions& options) {
+  std::vector<std::string> all{fs::path(options.input).parent_path().string()};
+  all.insert(all.end(), options.allowed.begin(), options.allowed.end());
+  return all;
+}
+
+}  // namespace
+
+/// What a url leads to: a file, or the data in it.
+struct FileResources::Target {
+  AllowedFiles::State state = AllowedFiles::missing;
+  std::string path;  // to read; empty: the key is a data url
+  std::string key;
+};
+
+struct FileResources::Failure {
+  Diag id;
+  std::string_view url;
+  std::string why;  // of image_unreadable; empty: has been reported
+};
+
+template <class T>
+struct FileResources::Slot {
+  std::mutex loading;
+  std::weak_ptr<const T> object;
+  std::string why_not;
+};
+
+FileResources::FileResources(ResourceOptions options, ParseWorld parse)
+    : options_(std::move(options)), parse_(std::move(parse)), files_(folders(options_)) {}
+
+std::shared_ptr<const Blob> FileResources::bytes(std::span<const std::string_view> urls, Span where,
+                                                 Diagnostics& diag) {
+  return first_of<Blob>(urls, where, diag, [&](const Target& t, Failure& f) { return blob(t, f.why); });
+}
+
+std::shared_ptr<const Image> FileResources::image(std::span<const std::string_view> urls, Span where,
+                                                  Diagnostics& diag) {
+  return first_of<Image>(urls, where, diag, [&](const Target& t, Failure& f) { return picture(t, f.why); });
+}
+
+std::shared_ptr<const Scene> FileResources::world(std::span<const std::string_view> urls, Span where,
+                                                  Diagnostics& diag) {
+  return first_of<Scene>(urls, where, diag, [&](const Target& t, Failure& f) { return parsed(t, f.url, where, diag); });
+}
+
+// Failures are told when no url works, and then only one: the first that is about a file, for the user can do something
+// about that one.
+template <class T, class Load>
+std::shared_ptr<const T> FileResources::first_of(std::span<const std::string_view> urls, Span where, Diagnostics& diag,
+                                                 Load load) {
+  std::optional<Failure> failure;
+  for (auto url : urls) {
+    auto kind = url_kind(url);
+    if (kind == UrlKind::script || is_blank(url)) continue;
+    Failure now{Diag::url_not_found, url, {}};
+    if (kind == UrlKind::remote)
+      now.id = Diag::url_network;
+    else if (auto target = locate(url, where, diag.sources()); target.state == AllowedFiles::outside)
+      now.id = Diag::url_outside;
+    else if (target.state != AllowedFiles::missing) {
+      if (auto got = load(target, now)) {
+        if (target.state == AllowedFiles::repaired) report_once(diag, Diag::url_repaired, where, url, target.path);
+        return got;
+      }
+      now.id = Diag::image_unreadable;
+    }
+    if (!failure || (failure->id == Diag::url_network && now.id != Diag::url_network)) failure = std::move(now);
+  }
+  if (failure && failure->id == Diag::image_unreadable && !failure->why.empty())
+    report_once(diag, failure->id, where, failure->url, failure->why);
+  else if (failure && failure->id != Diag::image_unreadable)
+    report_once(diag, failure->id, where, failure->url);
+  return nullptr;
+}
+
+template <class... A>
+void FileResources::report_once(Diagnostics& diag, Diag id, Span where, std::string_view url, const A&... more) {
+  std::lock_guard lock(mutex_);
+  if (reported_.emplace(where.begin, url).second) diag.report(id, where, url, more...);
+}
+
+FileResources::Target FileResources::locate(std::string_view url, Span where, const Sources& sources) {
+  if (url_kind(url) == UrlKind::data) return {AllowedFiles::found, {}, std::string(url)};
+  std::lock_guard lock(mutex_);
+  std::string referrer(sources.file(where.begin));
+  if (referrer.empty() || referrer == standard_input_name) referrer = options_.input;
+  auto [at, is_new] = looked_up_.try_emplace({referrer, std::string(url)});
+  auto& best = at->second;
+  if (is_new)
+    for (auto& path : url_paths(url))
+      if (auto result = files_.find(path, referrer); result.state < best.state) best = std::move(result);
+  return {best.state, best.path, best.canonical};
+}
+
+/// The object of a target: that which is still in use somewhere, or a new one.
+template <class T, class Load>
+std::shared_ptr<const T> FileResources::once(Slots<T>& slots, const Target& target, std::string& why, Load load) {
+  std::shared_ptr<Slot<T>> slot;
+  {
+    std::lock_guard lock(cache_mutex_);
+    auto& known = slots[target.key];
+    if (!known) known = std::make_shared<Slot<T>>();
+    slot = known;
+  }
+  std::lock_guard lock(slot->loading);
+  if (auto object = slot->object.lock()) return object;
+  std::shared_ptr<const T> made = slot->why_not.empty() ? load(slot->why_not) : nullptr;
+  why = slot->why_not;
+  slot->object = made;
+  if (made) keep(made);
+  return made;
+}
+
+template <class T>
+void FileResources::keep(const std::shared_ptr<const T>& object) {
+  std::lock_guard lock(cache_mutex_);
+  kept_.emplace_back(object, size_of(*object));
+  kept_bytes_ += kept_.back().second;
+  for (; kept_bytes_ > options_.cached_bytes; kept_.pop_front()) kept_bytes_ -= kept_.front().second;
+}
+
+std::shared_ptr<const Blob> FileResources::blob(const Target& target, std::string& why) {
+  return once(blobs_, target, why, [&](std::string& fault) -> std::shared_ptr<const Blob> {
+    bool is_data = target.path.empty();
+    auto bytes = is_data ? decode_data_url(target.key) : read_bytes(target.path, options_.max_bytes, fault);
+    if (!bytes && is_data) fault = "the data in the url are damaged";
+    if (!bytes) return nullptr;
+    auto name = is_data ? std::string("data") : fs::path(target.path).filename().string();
+    auto made = std::make_shared<Blob>(Blob{std::move(name), std::move(*bytes), {}});
+    made->mime = sniff_mime(made->bytes, made->name);
+    return made;
+  });
+}
+
+std::shared_ptr<const Image> FileResources::picture(const Target& target, std::string& why) {
+  return once(images_, target, why, [&](std::string& fault) -> std::shared_ptr<const Image> {
+    auto file = blob(target, fault);
+    auto image = file ? decode_image(file->bytes, file->name, fault) : std::nullopt;
+    return image ? std::make_shared<const Image>(std::move(*image)) : nullptr;
+  });
+}
+
+void FileResources::set_root(std::shared_ptr<const Scene> scene) {
+  std::error_code none;
+  auto key = fs::canonical(options_.input, none).string();
+  if (!none) worlds_[key] = {false, std::move(scene)};
+}
+
+std::shared_ptr<const Scene> FileResources::parsed(const Target& target, std::string_view url, Span where,
+                                                   Diagnostics& diag) {
+  if (target.path.empty())
+    return report_once(diag, Diag::url_not_found, where, url), nullptr;  // no worlds in data urls
+  std::lock_guard lock(mutex_);
+  auto [at, is_new] = worlds_.try_emplace(target.key);
+  auto& world = at->second;
+  if (world.parsing) return report_once(diag, Diag::url_cycle, where, url), nullptr;
+  if (!is_new) return world.scene;
+  world.parsing = true;
+  world.scene = parse_(target.path, diag);
+  world.parsing = false;
+  return world.scene;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,48 @@
+// Cuts VRML97 text into tokens (ISO/IEC 14772-1, annex A) without copying it and without counting lines. Commas are blanks,
+// '#' starts a comment. A word is anything between separators: which words are names and which are numbers is the
+// grammar's business, because real files put all kinds of characters into names.
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+namespace wrlkit::vrml {
+
+enum class Kind : std::uint8_t { end, word, string, open_brace, close_brace, open_bracket, close_bracket };
+
+struct Token {
+  Kind kind = Kind::end;
+  std::uint32_t begin = 0, end = 0;  // of a string: with its quotes
+};
+
+class Lexer {
+ public:
+  explicit Lexer(std::string_view text) : begin_(text.data()), p_(begin_), end_(begin_ + text.size()) {}
+
+  Token next();
+  Token peek() { const char* p = p_; Token t = next(); p_ = p; return t; }
+
+  std::uint32_t offset() const { return static_cast<std::uint32_t>(p_ - begin_); }
+  void seek(std::uint32_t offset) { p_ = begin_ + offset; }
+  std::string_view text(Token t) const { return {begin_ + t.begin, t.end - t.begin}; }
+  std::string_view text(std::uint32_t from, std::uint32_t to) const { return {begin_ + from, to - from}; }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(end_ - begin_); }
+  /// True when a string token was ended by its quote and not by the end of the text.
+  bool closed(Token string) const { return string.end - string.begin >= 2 && begin_[string.end - 1] == '"' && closed_; }
+
+  // For the loops over arrays, which read millions of numbers.
+  const char* position() const { return p_; }
+  const char* limit() const { return end_; }
+  void set_position(const char* p) { p_ = p; }
+  /// Past blanks, commas and comments.
+  void skip_blanks();
+
+  static bool separates(char c);
+
+ private:
+  const char* begin_;
+  const char* p_;
+  const char* end_;
+  bool closed_ = true;
+};
+
+}  // namespace wrlkit::vrml
