@@ -1,0 +1,81 @@
+// Makes a registry line out of a pass: pass<weld, WeldOptions>("weld", "join equal vertices", ...). The options describe
+// themselves through fields(); everything else is derived here.
+#pragma once
+#include <charconv>
+#include <type_traits>
+
+#include "passes/pipeline.h"
+
+namespace wrlkit {
+namespace option_text {
+
+inline std::string_view type_name(const bool&) { return "bool"; }
+inline std::string_view type_name(const int&) { return "integer"; }
+inline std::string_view type_name(const double&) { return "number"; }
+inline std::string_view type_name(const std::string&) { return "text"; }
+
+inline std::string print(bool v) { return v ? "true" : "false"; }
+inline std::string print(const std::string& v) { return v; }
+template <class N>
+  requires std::is_arithmetic_v<N>
+std::string print(N v) {
+  char b[40];
+  return {b, std::to_chars(b, b + sizeof b, v).ptr};
+}
+
+inline bool read(std::string_view s, bool& v) {
+  if (s == "true" || s == "false") return v = s == "true", true;
+  return false;
+}
+inline bool read(std::string_view s, std::string& v) { return v = s, true; }
+template <class N>
+  requires std::is_arithmetic_v<N>
+bool read(std::string_view s, N& v) {
+  auto r = std::from_chars(s.data(), s.data() + s.size(), v);
+  return r.ec == std::errc{} && r.ptr == s.data() + s.size();
+}
+
+}  // namespace option_text
+
+template <auto Function, class Options>
+class PassOf final : public PassInstance {
+  static constexpr bool mesh = std::is_invocable_v<decltype(Function), MeshJob&, const Options&>;
+
+ public:
+  bool is_mesh_pass() const override { return mesh; }
+  Outcome run([[maybe_unused]] Scene& scene, [[maybe_unused]] PassContext& ctx) const override {
+    if constexpr (mesh) return Outcome::failed;
+    else return Function(scene, options_, ctx);
+  }
+  Outcome run([[maybe_unused]] MeshJob& job) const override {
+    if constexpr (mesh) return Function(job, options_);
+    else return Outcome::failed;
+  }
+  bool set(std::string_view option, std::string_view value, std::string& why) override {
+    bool found = false, good = false;
+    options_.fields([&](std::string_view name, auto& field, std::string_view) {
+      if (name == option) found = true, good = option_text::read(value, field);
+    });
+    if (!found) why = "has no option '" + std::string(option) + "'";
+    else if (!good) why = "option '" + std::string(option) + "': '" + std::string(value) + "' is no value for it";
+    return good;
+  }
+  std::vector<OptionInfo> options() const override {
+    std::vector<OptionInfo> out;
+    Options copy = options_;
+    copy.fields([&](std::string_view name, auto& field, std::string_view help) {
+      out.push_back({std::string(name), std::string(option_text::type_name(field)), option_text::print(field), std::string(help)});
+    });
+    return out;
+  }
+
+ private:
+  Options options_;
+};
+
+template <auto Function, class Options>
+constexpr PassInfo pass(std::string_view name, std::string_view summary, Level needs, Level leaves) {
+  return {name, summary, needs, leaves, []() -> std::unique_ptr<PassInstance> { return std::make_unique<PassOf<Function, Options>>(); }};
+}
+
+}  // namespace wrlkit

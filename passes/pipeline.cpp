@@ -1,0 +1,173 @@
+#include "passes/pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <unordered_map>
+#include <utility>
+
+#include "passes/geometry.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/verify.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+std::string_view trim(std::string_view s) {
+  auto b = s.find_first_not_of(" \t\r\n"), e = s.find_last_not_of(" \t\r\n");
+  return b == s.npos ? std::string_view{} : s.substr(b, e - b + 1);
+}
+
+/// Up to the first of `stops` outside of braces, and what follows it.
+std::string_view cut(std::string_view& rest, char stop) {
+  int depth = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (rest[i] == '{') ++depth;
+    if (rest[i] == '}') --depth;
+    if (rest[i] == stop && depth == 0) {
+      auto head = rest.substr(0, i);
+      rest.remove_prefix(i + 1);
+      return trim(head);
+    }
+  }
+  return trim(std::exchange(rest, {}));
+}
+
+bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
+  while (!trim(list).empty()) {
+    auto option = cut(list, ',');
+    auto equals = option.find('=');
+    auto name = trim(option.substr(0, equals));
+    auto value = equals == option.npos ? std::string_view("true") : trim(option.substr(equals + 1));
+    if (!pass.set(name, value, why)) return false;
+  }
+  return true;
+}
+
+bool is_geometry(const Scene& scene, NodeId n) { return scene.type(n).kind == NodeKind::builtin && scene.type(n).is_a("X3DGeometryNode"); }
+
+/// Geometry that some Shape puts a texture on, by node.
+std::vector<char> textured_geometry(const Scene& scene) {
+  std::vector<char> textured(scene.node_count());
+  for (NodeId n : all_nodes(scene)) {
+    if (!scene.is(n, nodes::Shape)) continue;
+    NodeId geometry = scene.get(n, nodes::shape::geometry), appearance = scene.get(n, nodes::shape::appearance);
+    if (geometry && scene.is(appearance, nodes::Appearance) && scene.get(appearance, nodes::appearance::texture)) textured[geometry.value] = 1;
+  }
+  return textured;
+}
+
+class Timer {
+ public:
+  Timer(std::vector<PassTime>* to, std::string name) : to_(to), name_(std::move(name)), start_(std::chrono::steady_clock::now()) {}
+  ~Timer() {
+    if (to_) to_->push_back({name_, std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()});
+  }
+
+ private:
+  std::vector<PassTime>* to_;
+  std::string name_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace
+
+std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why) {
+  for (auto& n : named_pipelines())
+    if (n.name == trim(text)) text = n.text;
+  Pipeline p;
+  while (!trim(text).empty()) {
+    auto item = cut(text, ',');
+    auto brace = item.find('{');
+    auto name = trim(item.substr(0, brace));
+    auto* info = find_pass(name);
+    if (!info) return why = "there is no pass '" + std::string(name) + "'", std::nullopt;
+    Step s{info, info->make()};
+    if (brace != item.npos) {
+      if (item.back() != '}') return why = "'}' is missing behind '" + std::string(name) + "'", std::nullopt;
+      if (!set_options(*s.pass, item.substr(brace + 1, item.size() - brace - 2), why)) return why = "pass '" + std::string(name) + "' " + why, std::nullopt;
+    }
+    p.steps_.push_back(std::move(s));
+  }
+  return p;
+}
+
+std::string Pipeline::text() const {
+  std::string out;
+  for (auto& s : steps_) {
+    out += (out.empty() ? "" : ",") + std::string(s.info->name);
+    auto options = s.pass->options();
+    for (std::size_t i = 0; i < options.size(); ++i) out += (i ? "," : "{") + options[i].name + "=" + options[i].value;
+    if (!options.empty()) out += "}";
+  }
+  return out;
+}
+
+bool Pipeline::run(Scene& scene, PassContext& ctx, const PipelineOptions& options) { return run_steps(0, steps_.size(), scene, ctx, options); }
+
+bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassContext& ctx, const PipelineOptions& options) {
+  for (std::size_t i = begin; i < end;) {
+    std::size_t next = i + 1;
+    // Mesh passes run together unless somebody wants to look between them.
+    if (steps_[i].pass->is_mesh_pass() && !options.watched())
+      while (next < end && steps_[next].pass->is_mesh_pass()) ++next;
+    {
+      Timer timer(options.times, std::string(steps_[i].info->name));
+      bool good = steps_[i].pass->is_mesh_pass() ? run_mesh_steps(i, next, scene, ctx) : steps_[i].pass->run(scene, ctx) != Outcome::failed;
+      if (!good) return false;
+    }
+    const auto& done = *steps_[next - 1].info;
+    if (options.verify_each && !verify(scene, done.leaves, ctx.diag)) return false;
+    if (options.print && (options.print_after == done.name || options.print_after == "all")) options.print(std::string(done.name), scene);
+    i = next;
+  }
+  return true;
+}
+
+bool Pipeline::run_mesh_steps(std::size_t begin, std::size_t end, Scene& scene, PassContext& ctx) {
+  Mesh mesh;
+  MeshScratch scratch;
+  const auto textured = textured_geometry(scene);
+  for (NodeId n : all_nodes(scene)) {
+    if (!is_geometry(scene, n)) continue;
+    MeshJob job{scene, n, mesh, scratch, ctx, textured[n.value] != 0};
+    read_mesh(job);
+    bool changed = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      auto outcome = steps_[i].pass->run(job);
+      if (outcome == Outcome::failed) return false;
+      changed |= outcome == Outcome::changed;
+    }
+    if (changed) store_mesh(scene, n, mesh);
+  }
+  return true;
+}
+
+MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOptions& options) {
+  std::size_t tail = steps_.size();
+  while (tail > 0 && steps_[tail - 1].pass->is_mesh_pass()) --tail;
+  if (!run_steps(0, tail, scene, ctx, options)) return nullptr;
+  // Who wants to look between the mesh passes sees them on a copy: what is written does not depend on being watched.
+  if (options.watched()) {
+    Scene copy = scene;
+    Diagnostics quiet(ctx.diag.shared_sources());
+    Statistics uncounted;
+    PassContext watching{quiet, uncounted, ctx.resources};
+    if (!run_steps(tail, steps_.size(), copy, watching, options)) return nullptr;
+  }
+  struct State {
+    Mesh mesh;
+    MeshScratch scratch;
+    std::vector<char> textured;
+  };
+  auto state = std::make_shared<State>();
+  state->textured = textured_geometry(scene);
+  return [this, tail, &scene, &ctx, state](NodeId n) -> const Mesh& {
+    MeshJob job{scene, n, state->mesh, state->scratch, ctx, n.value < state->textured.size() && state->textured[n.value] != 0};
+    read_mesh(job);
+    for (std::size_t i = tail; i < steps_.size(); ++i) steps_[i].pass->run(job);
+    return state->mesh;
+  };
+}
+
+}  // namespace wrlkit

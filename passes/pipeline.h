@@ -1,0 +1,85 @@
+// Pipelines: passes by name, in text form, and how they are run.
+//
+//   inline,expand-protos,tessellate{tolerance=0.005},normals
+//
+// Neighbouring mesh passes are run together on one geometry after the other. When a writer follows, the last such group is
+// not run at all until the writer asks for a mesh, so that the meshes of a plant never lie in memory all together.
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passes/pass.h"
+
+namespace wrlkit {
+
+/// One option of a pass as text: what `passes`, --print-pipeline and the docs show.
+struct OptionInfo {
+  std::string name, type, value, help;
+};
+
+/// A pass with its options, type-erased.
+class PassInstance {
+ public:
+  virtual ~PassInstance() = default;
+  virtual bool is_mesh_pass() const = 0;
+  virtual Outcome run(Scene&, PassContext&) const = 0;      // of a scene pass
+  virtual Outcome run(MeshJob&) const = 0;                  // of a mesh pass
+  /// False when there is no such option or the text is no value for it; `why` says which.
+  virtual bool set(std::string_view option, std::string_view value, std::string& why) = 0;
+  virtual std::vector<OptionInfo> options() const = 0;
+};
+
+struct PassInfo {
+  std::string_view name, summary;
+  Level needs, leaves;
+  std::unique_ptr<PassInstance> (*make)();
+};
+
+/// Every pass, in the order of the documentation (registry.cpp).
+std::span<const PassInfo> passes();
+const PassInfo* find_pass(std::string_view name);
+/// Named pipelines: "gltf" is what convert uses for glTF.
+struct NamedPipeline { std::string_view name, text, summary; };
+std::span<const NamedPipeline> named_pipelines();
+
+struct PassTime { std::string name; double seconds; };
+
+struct PipelineOptions {
+  bool verify_each = false;
+  std::string print_after;                                    // a pass, or "all"
+  std::function<void(const std::string& pass, const Scene&)> print;
+  std::vector<PassTime>* times = nullptr;
+
+  /// Whether passes have to run one by one over the whole scene.
+  bool watched() const { return verify_each || !print_after.empty() || times; }
+};
+
+class Pipeline {
+ public:
+  /// Null when the text is no pipeline; `why` says what is wrong with it.
+  static std::optional<Pipeline> parse(std::string_view text, std::string& why);
+  /// The whole text, every option spelled out; parse(text()) is this pipeline again.
+  std::string text() const;
+
+  /// Runs every pass. False when one failed.
+  bool run(Scene&, PassContext&, const PipelineOptions& = {});
+  /// Runs every pass but the last group of mesh passes, which the returned source runs for each mesh that it is asked for.
+  /// The scene, the context and this pipeline must outlive it. Null when a pass failed.
+  MeshSource run_lazily(Scene&, PassContext&, const PipelineOptions& = {});
+
+  bool empty() const { return steps_.empty(); }
+
+ private:
+  struct Step {
+    const PassInfo* info;
+    std::unique_ptr<PassInstance> pass;
+  };
+  bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&);
+  bool run_mesh_steps(std::size_t begin, std::size_t end, Scene&, PassContext&);
+  std::vector<Step> steps_;
+};
+
+}  // namespace wrlkit

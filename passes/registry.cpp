@@ -1,0 +1,42 @@
+// The whole list of passes. Adding one is a header, a source, a line here and a test.
+#include <algorithm>
+
+#include "passes/expand_protos.h"
+#include "passes/inline.h"
+#include "passes/normals.h"
+#include "passes/pass_info.h"
+#include "passes/prune.h"
+#include "passes/tessellate.h"
+#include "passes/triangulate.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr PassInfo all_passes[] = {
+    pass<inline_worlds, InlineOptions>("inline", "put the worlds that Inline nodes name into this one", Level::authored, Level::authored),
+    pass<expand_protos, ExpandProtosOptions>("expand-protos", "turn prototype instances into the nodes they stand for", Level::authored, Level::expanded),
+    pass<prune, PruneOptions>("prune", "remove what has no effect", Level::authored, Level::authored),
+    pass<tessellate, TessellateOptions>("tessellate", "turn every geometry node into faces, and faces into triangles", Level::expanded, Level::mesh),
+    pass<normals, NormalsOptions>("normals", "compute normals by creaseAngle where the file gives none", Level::mesh, Level::mesh),
+    pass<triangulate, TriangulateOptions>("triangulate", "cut polygons into triangles", Level::mesh, Level::mesh),
+};
+
+// A prototype may hold Inlines, and an inlined world instances of prototypes: both are looked for twice.
+constexpr NamedPipeline named[] = {
+    {"gltf", "inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},prune,tessellate{triangles=false,texcoords=true},normals,triangulate", "what convert does for glTF"},
+    {"picture", "inline,expand-protos,inline,expand-protos,tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
+    {"expand", "inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
+    {"none", "", "nothing: the file as it is"},
+};
+
+}  // namespace
+
+std::span<const PassInfo> passes() { return all_passes; }
+std::span<const NamedPipeline> named_pipelines() { return named; }
+
+const PassInfo* find_pass(std::string_view name) {
+  auto i = std::ranges::find(all_passes, name, &PassInfo::name);
+  return i == std::end(all_passes) ? nullptr : i;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,46 @@
+// A picture of a world as a VRML browser shows it: the lighting model of ISO/IEC 14772-1, 4.14, in the colours of the
+// display, ray traced through Embree so that it needs no window, no driver and no graphics card.
+//
+// The scene is an expanded one (no prototypes, no Inlines). Of Switch and LOD it shows what shown_children() says, and
+// Billboards turn to the viewer. There are no shadows: VRML has none. The same scene gives the same bytes on any number of
+// threads.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "scenegraph/diagnostics.h"
+#include "scenegraph/mesh.h"
+#include "scenegraph/resources.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit {
+
+struct LookAt {
+  Vec3 eye{0, 0, 10}, target{0, 0, 0}, up{0, 1, 0};
+};
+
+struct RenderOptions {
+  /// preview: what a browser shows. wireframe: grey surfaces with the edges of their triangles, hidden lines removed.
+  enum class Mode : std::uint8_t { preview, wireframe };
+
+  int width = 1280, height = 960;
+  int samples = 4;                   // rays along each side of a pixel where the picture changes; at most 16
+  Mode mode = Mode::preview;
+
+  // From where: `look_at`, else `fit`, else the Viewpoint of that name or description, else the first Viewpoint of the
+  // world, else as with `fit`: all of the world, from the front, the right and above.
+  std::optional<LookAt> look_at;
+  bool fit = false;
+  std::string viewpoint;
+  double field_of_view = 0;          // radians, of the shorter side of the picture; 0: the Viewpoint's, or 0.785398
+
+  std::optional<Vec3> background;    // instead of the world's Background
+  std::optional<bool> headlight;     // instead of what NavigationInfo says
+};
+
+/// Draws the scene. `resources` gives the pictures of textures; without it, or where one cannot be had, the material shows.
+/// The picture is RGB and always there: an empty world gives its background.
+Image render(const Scene& scene, const MeshSource& meshes, const RenderOptions& options, Resources* resources,
+             Diagnostics& diag);
+
+}  // namespace wrlkit

@@ -1,0 +1,60 @@
+// The colour that a ray brings: what it meets, lit by the lights that reach it, through what is transparent, to the sky.
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "passes/render/background.h"
+#include "passes/render/camera.h"
+#include "passes/render/fog.h"
+#include "passes/render/light.h"
+#include "passes/render/mesh_pool.h"
+#include "passes/render/surface.h"
+#include "passes/render/tracer.h"
+
+namespace wrlkit::drawing {
+
+/// Everything that is drawn, side by side: stage.uses[i] is the mesh mesh_of[i] with the surface surface_of[i].
+struct Drawing {
+  const Stage& stage;
+  const MeshPool& meshes;
+  const Surfaces& surfaces;
+  std::span<const std::uint32_t> mesh_of, surface_of;
+};
+
+/// What lies where a ray meets a triangle.
+struct Spot {
+  V3 position;                       // world
+  V3 face;                           // normal of the triangle, world, as long as twice its area
+  V3 normal;                         // unit, interpolated, on the side of the viewer
+};
+
+class Shader {
+ public:
+  Shader(const Scene& scene, const Drawing& drawing, const Tracer& tracer, const Camera& camera, const Sky& sky,
+         bool headlight);
+
+  /// The colour of a place in the picture, each component in [0, 1].
+  V3 color(double px, double py) const;
+
+ private:
+  Texel shade(const Ray& ray, const Hit& hit) const;
+  Texel shade_face(const Ray& ray, const Hit& hit, const Surface& surface) const;
+  std::optional<Texel> vertex_color(const PooledMesh& mesh, const Hit& hit) const;
+  std::optional<Texel> texel(const Surface& surface, const Hit& hit, double world_area, double facing) const;
+  V3 light(const Surface& surface, const V3& base, const LitPoint& at, std::uint32_t scope) const;
+
+  const Drawing& drawing_;
+  const Tracer& tracer_;
+  const Camera& camera_;
+  const Sky& sky_;
+  Fog fog_;
+  std::optional<Light> headlight_;
+  std::vector<Light> everywhere_;                // PointLights and SpotLights
+  std::vector<std::optional<Light>> scoped_;     // by LightScope
+};
+
+/// Position and normals of a hit on a triangle.
+Spot spot_at(const Drawing& drawing, const Ray& ray, const Hit& hit);
+
+}  // namespace wrlkit::drawing

@@ -1,0 +1,63 @@
+// What is drawn where: the transformation hierarchy unrolled, one entry for each way to a Shape, a light or a Viewpoint.
+// The graph may share nodes so that it has far more ways than nodes (forty groups, each holding the next one twice), so the
+// walk has a budget.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "passes/render/linear.h"
+#include "scenegraph/diagnostics.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit::drawing {
+
+/// A Shape on its way to the picture.
+struct Use {
+  NodeId geometry, appearance;
+  std::uint32_t frame;   // into Stage::frames
+  std::uint32_t lights;  // into Stage::scopes
+};
+
+/// A node and the frame that it stands in.
+struct Placed {
+  NodeId node;
+  std::uint32_t frame = 0;
+};
+
+/// A DirectionalLight lights what is below its parent. The lights of a Shape are a chain: its scope, the scope's parent and
+/// so on to scope 0, which has no light.
+struct LightScope {
+  std::uint32_t parent = 0, depth = 0;
+  Placed light;
+};
+
+/// Where the viewer is: Billboards turn there.
+struct Pose {
+  V3 eye, up{0, 1, 0};
+};
+
+struct Stage {
+  std::vector<Affine> frames{Affine{}};
+  std::vector<Use> uses;
+  std::vector<LightScope> scopes{LightScope{}};
+  std::vector<Placed> lights;      // PointLights and SpotLights, which light all the world within their radius
+  std::vector<Placed> viewpoints;
+  std::optional<Placed> background, fog, navigation;  // the first of each kind is the one that is bound (4.6.10)
+  bool billboards = false;         // some frames depend on the viewer
+};
+
+/// Visits and Shapes are allowed so many beyond the nodes of the scene: a world without USE is always drawn whole.
+struct StageLimits {
+  std::size_t visits = 4'000'000;
+  std::size_t shapes = 1'000'000;
+  std::uint32_t uses = 100'000;    // of one node; a world that doubles itself forty times shows its other things, too
+  std::size_t lights = 1000;       // PointLights and SpotLights
+  std::uint32_t scope_depth = 64;  // DirectionalLights on one Shape
+};
+
+/// Walks the scene in the order of the file. Without a viewer Billboards are not turned; a second walk with one gives the
+/// same entries in other frames.
+Stage set_stage(const Scene& scene, const Pose* viewer, Diagnostics& diag, const StageLimits& limits = {});
+
+}  // namespace wrlkit::drawing

@@ -1,0 +1,89 @@
+#include "passes/render/surface.h"
+
+#include <algorithm>
+
+#include "scenegraph/nodes.h"
+
+namespace wrlkit::drawing {
+namespace {
+
+void read_material(Surface& s, const Scene& scene, NodeId n) {
+  namespace f = nodes::material;
+  s.lit = true;
+  s.material.diffuse = scene.get(n, f::diffuseColor);
+  s.material.specular = scene.get(n, f::specularColor);
+  s.material.ambient = scene.get(n, f::ambientIntensity);
+  s.material.shininess = std::clamp(scene.get(n, f::shininess), 0.0, 1.0);
+  s.emissive = scene.get(n, f::emissiveColor);
+  s.alpha = 1 - std::clamp(scene.get(n, f::transparency), 0.0, 1.0);
+}
+
+/// TextureTransform (6.49): Tc' = -C S R C T Tc.
+TexcoordMap texcoord_map(const Scene& scene, NodeId n) {
+  namespace f = nodes::texture_transform;
+  auto center = scene.get(n, f::center), scale = scene.get(n, f::scale), shift = scene.get(n, f::translation);
+  double c = std::cos(scene.get(n, f::rotation)), s = std::sin(scene.get(n, f::rotation));
+  double x = shift[0] + center[0], y = shift[1] + center[1];
+  TexcoordMap m{scale[0] * c, -scale[0] * s, 0, scale[1] * s, scale[1] * c, 0};
+  m.c = m.a * x + m.b * y - center[0];
+  m.f = m.d * x + m.e * y - center[1];
+  return m;
+}
+
+}  // namespace
+
+Texel Surface::base(const std::optional<Texel>& vertex, const std::optional<Texel>& texel) const {
+  Texel out{lit ? material.diffuse : V3(1), alpha};
+  if (vertex) out.color = vertex->color, out.alpha *= vertex->alpha;
+  if (!texel) return out;
+  out.color = texture->is_grey() ? texel->color * out.color : texel->color;
+  if (texture->has_alpha()) out.alpha = texel->alpha;
+  return out;
+}
+
+Surfaces::Surfaces(const Scene& scene, Resources* resources, Diagnostics& diag)
+    : scene_(scene), resources_(resources), diag_(diag), surfaces_(1), index_(scene.node_count()) {}
+
+std::uint32_t Surfaces::of(NodeId appearance) {
+  if (!scene_.is(appearance, nodes::Appearance)) return 0;
+  std::uint32_t& i = index_[appearance.value];
+  if (!i) {
+    surfaces_.push_back(make(appearance));
+    i = static_cast<std::uint32_t>(surfaces_.size() - 1);
+  }
+  return i;
+}
+
+Surface Surfaces::make(NodeId appearance) {
+  namespace f = nodes::appearance;
+  Surface s;
+  NodeId material = scene_.get(appearance, f::material), map = scene_.get(appearance, f::textureTransform);
+  if (scene_.is(material, nodes::Material)) read_material(s, scene_, material);
+  if (scene_.is(map, nodes::TextureTransform)) s.texcoords = texcoord_map(scene_, map);
+  add_texture(s, scene_.get(appearance, f::texture));
+  return s;
+}
+
+void Surfaces::add_texture(Surface& s, NodeId n) {
+  if (scene_.is(n, nodes::PixelTexture)) {
+    namespace f = nodes::pixel_texture;
+    s.texture = Texture::make(image_of(scene_.get(n, f::image)));
+    s.repeat_s = scene_.get(n, f::repeatS);
+    s.repeat_t = scene_.get(n, f::repeatT);
+  } else if (scene_.is(n, nodes::ImageTexture) && resources_) {
+    namespace f = nodes::image_texture;
+    auto urls = scene_.get(n, f::url);
+    if (!urls.empty()) s.texture = picture(resources_->image(urls, scene_.where(n), diag_));
+    s.repeat_s = scene_.get(n, f::repeatS);
+    s.repeat_t = scene_.get(n, f::repeatT);
+  }
+}
+
+std::shared_ptr<const Texture> Surfaces::picture(const std::shared_ptr<const Image>& image) {
+  if (!image) return nullptr;
+  auto [at, added] = textures_.try_emplace(image);
+  if (added) at->second = Texture::make(*image);
+  return at->second;
+}
+
+}  // namespace wrlkit::drawing

@@ -1,0 +1,60 @@
+// An Appearance, ready to be asked for colours: its Material, its texture and the rules how they mix (ISO/IEC 14772-1,
+// tables 4.5 and 4.6).
+#pragma once
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "passes/render/light.h"
+#include "passes/render/texture.h"
+#include "scenegraph/resources.h"
+
+namespace wrlkit::drawing {
+
+/// TextureTransform as a map of the plane: s' = a s + b t + c; t' = d s + e t + f.
+struct TexcoordMap {
+  double a = 1, b = 0, c = 0, d = 0, e = 1, f = 0;
+
+  std::array<double, 2> operator()(double s, double t) const { return {a * s + b * t + c, d * s + e * t + f}; }
+  double determinant() const { return a * e - b * d; }
+};
+
+struct Surface {
+  bool lit = false;                  // it has a Material
+  Lit material;
+  V3 emissive;
+  double alpha = 1;                  // 1 - transparency
+  std::shared_ptr<const Texture> texture;
+  bool repeat_s = true, repeat_t = true;
+  TexcoordMap texcoords;
+
+  /// The colour before lighting (ODrgb where there is light, ICrgb where not) and the alpha there. `vertex` is the colour
+  /// that the geometry gives, RGB or RGBA; none: the Material's.
+  Texel base(const std::optional<Texel>& vertex, const std::optional<Texel>& texel) const;
+};
+
+/// The surfaces of a scene, each made once.
+class Surfaces {
+ public:
+  Surfaces(const Scene& scene, Resources* resources, Diagnostics& diag);
+
+  /// Index of the surface of an Appearance; of no Appearance, too.
+  std::uint32_t of(NodeId appearance);
+  const Surface& operator[](std::uint32_t i) const { return surfaces_[i]; }
+
+ private:
+  Surface make(NodeId appearance);
+  void add_texture(Surface& s, NodeId texture);
+  std::shared_ptr<const Texture> picture(const std::shared_ptr<const Image>& image);
+
+  const Scene& scene_;
+  Resources* resources_;
+  Diagnostics& diag_;
+  std::vector<Surface> surfaces_;
+  std::vector<std::uint32_t> index_;  // by NodeId; 0: not made yet
+  std::map<std::shared_ptr<const Image>, std::shared_ptr<const Texture>> textures_;
+};
+
+}  // namespace wrlkit::drawing

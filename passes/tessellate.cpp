@@ -1,0 +1,77 @@
+#include "passes/tessellate.h"
+
+#include "passes/geometry.h"
+#include "passes/geometry_attributes.h"
+#include "passes/shapes/shapes.h"
+#include "passes/text.h"
+#include "passes/triangulate.h"
+#include "scenegraph/nodes.h"
+
+namespace wrlkit {
+namespace {
+
+using Maker = void (*)(MeshJob&, const TessellateOptions&);
+
+constexpr struct {
+  TypeId type;
+  Maker make;
+} makers[] = {
+    {nodes::Box, make_box},
+    {nodes::Cone, make_cone},
+    {nodes::Cylinder, make_cylinder},
+    {nodes::Sphere, make_sphere},
+    {nodes::Extrusion, make_extrusion},
+    {nodes::ElevationGrid, make_elevation_grid},
+    {nodes::Text, [](MeshJob& job, const TessellateOptions&) { text_mesh(job); }},
+};
+
+Maker find_maker(TypeId type) {
+  for (const auto& m : makers)
+    if (m.type == type) return m.make;
+  return nullptr;
+}
+
+// Faces of a node that is not made of faces. False when it is none of those.
+bool make_faces(MeshJob& job, const TessellateOptions& options) {
+  auto make = find_maker(job.scene.type_id(job.geometry));
+  if (!make) return false;
+  job.mesh.clear();
+  make(job, options);
+  return true;
+}
+
+bool make_texcoords(Mesh& mesh) {
+  const bool had = mesh.texcoord.present();
+  default_texcoords(mesh);
+  return mesh.texcoord.present() != had;
+}
+
+void count(Statistics& stats, std::string_view name, std::size_t n) {
+  auto i = stats.find(name);
+  if (i == stats.end()) i = stats.emplace(name, 0).first;
+  i->second += n;
+}
+
+}  // namespace
+
+Outcome tessellate(MeshJob& job, const TessellateOptions& options) {
+  Mesh& mesh = job.mesh;
+  bool changed = false;
+  if (mesh.kind == Mesh::Kind::none) read_mesh(job);
+  if (mesh.kind == Mesh::Kind::none && make_faces(job, options)) {
+    changed = true;
+    count(job.ctx.stats, "tessellate.shapes", 1);
+  }
+  if (options.texcoords && job.textured) changed |= make_texcoords(mesh);
+  if (options.triangles) changed |= triangulate(job, TriangulateOptions{}) == Outcome::changed;
+  if (changed && mesh.kind == Mesh::Kind::faces) count(job.ctx.stats, "tessellate.faces", mesh.n_faces());
+  return changed ? Outcome::changed : Outcome::unchanged;
+}
+
+void report_no_surface(MeshJob& job, std::string_view why) {
+  job.mesh.clear();
+  job.mesh.kind = Mesh::Kind::faces;
+  job.ctx.diag.report(Diag::degenerate_geometry, job.scene.where(job.geometry), title(job), why);
+}
+
+}  // namespace wrlkit
