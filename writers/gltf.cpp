@@ -1,0 +1,182 @@
+#include "writers/gltf.h"
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+
+#include "writers/gltf_json.h"
+#include "writers/output.h"
+
+namespace wrlkit {
+namespace gltf {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "vertex data is written as it lies in memory");
+
+constexpr std::uint64_t glb_limit = std::numeric_limits<std::uint32_t>::max();
+
+bool report_too_large(std::uint64_t bytes, Diagnostics& diag) {
+  diag.report(Diag::too_large, {}, "the glTF data", "4 GiB", bytes);
+  return false;
+}
+
+std::string four_bytes(std::uint64_t v) {
+  std::string s;
+  for (int i = 0; i < 4; ++i) s += static_cast<char>(v >> 8 * i & 0xff);
+  return s;
+}
+
+/// What a URI may hold as it is (RFC 3986, 2.3); everything else is written as %XX.
+std::string uri_of(std::string_view file_name) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~",
+                             hex = "0123456789ABCDEF";
+  std::string uri;
+  for (unsigned char c : file_name) {
+    if (plain.find(static_cast<char>(c)) != plain.npos)
+      uri += static_cast<char>(c);
+    else
+      ((uri += '%') += hex[c >> 4]) += hex[c & 15];
+  }
+  return uri;
+}
+
+/// As part of a file name. A DEF name may have a slash.
+std::string without_folders(std::string name) {
+  std::ranges::replace_if(
+      name, [](char c) { return c == '/' || c == '\\' || (c >= 0 && c < ' '); }, '_');
+  return name;
+}
+
+/// Files that take their places together, the first one last, because it refers to the others.
+class Files {
+ public:
+  explicit Files(Diagnostics& diag) : diag_(diag) {}
+
+  bool open(const std::filesystem::path& path) {
+    auto file = OutputFile::open(path.string(), {}, diag_);
+    if (file) files_.push_back(std::move(*file));
+    return file.has_value();
+  }
+  OutputFile& first() { return files_.front(); }
+  bool write(const std::filesystem::path& path, const std::vector<std::string_view>& pieces) {
+    if (!open(path)) return false;
+    files_.back().write(pieces);
+    return true;
+  }
+  bool commit() {
+    return std::all_of(files_.rbegin(), files_.rend(), [&](OutputFile& f) { return f.commit(diag_); });
+  }
+
+ private:
+  Diagnostics& diag_;
+  std::vector<OutputFile> files_;
+};
+
+class Writer {
+ public:
+  Writer(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,
+         const std::string& path, Diagnostics& diag)
+      : scene_(scene),
+        options_(options),
+        path_(path),
+        diag_(diag),
+        textures_(scene, resources, diag),
+        extras_(scene, diag),
+        materials_(scene, textures_, options.extras ? &extras_ : nullptr),
+        meshes_(scene, source, store_, diag),
+        hierarchy_(scene, options, meshes_, materials_, options.extras ? &extras_ : nullptr, diag) {}
+
+  bool write() {
+    Files files(diag_);
+    if (!files.open(path_)) return false;
+    hierarchy_.build();
+    if (store_.full()) return report_too_large(store_.bytes(), diag_);
+    bool inside = options_.images == GltfOptions::Images::embedded ||
+                  (options_.images == GltfOptions::Images::automatic && options_.binary);
+    static const std::vector<Picture> no_pictures;
+    Layout layout(store_, inside ? textures_.pictures() : no_pictures);
+    Parts parts{scene_,     hierarchy_, meshes_, store_,
+                materials_, textures_,  layout,  options_.extras ? &extras_ : nullptr,
+                {},         {}};
+    if (!inside && !pictures_beside(parts, files)) return false;
+    bool written = options_.binary ? glb(parts, files) : gltf(parts, files);
+    return written && files.commit();
+  }
+
+ private:
+  std::filesystem::path beside(const std::string& name) const {
+    return std::filesystem::path(path_).parent_path() / name;
+  }
+  std::string stem() const { return path_ == "-" ? "world" : std::filesystem::path(path_).stem().string(); }
+
+  bool pictures_beside(Parts& parts, Files& files) {
+    std::unordered_map<std::string, int> taken;
+    for (const auto& picture : textures_.pictures()) {
+      const std::string own = without_folders(picture.name);
+      std::string name = stem() + "_" + own;
+      while (taken[name]++ > 0) name = stem() + "_" + std::to_string(taken[name]) + "_" + own;
+      parts.picture_uris.push_back(uri_of(name));
+      if (!files.write(beside(name), {picture.bytes})) return false;
+    }
+    return true;
+  }
+
+  bool glb(const Parts& parts, Files& files) {
+    Blocks json = json_of(parts);
+    while (json.size() % 4 != 0) json.append(" ");
+    constexpr std::uint64_t header = 12, chunk = 8;
+    std::uint64_t bin = parts.layout.size(), size = header + chunk + json.size() + (bin > 0 ? chunk + bin : 0);
+    if (size > glb_limit) return report_too_large(size, diag_);
+    std::string start = "glTF" + four_bytes(2) + four_bytes(size) + four_bytes(json.size()) + "JSON";
+    std::string between = four_bytes(bin) + std::string("BIN\0", 4);
+    std::vector<std::string_view> pieces{start};
+    json.pieces(pieces);
+    if (bin > 0) pieces.push_back(between);
+    parts.layout.pieces(pieces);
+    files.first().write(pieces);
+    return true;
+  }
+
+  bool gltf(Parts& parts, Files& files) {
+    if (parts.layout.size() > 0) {
+      auto name = stem() + ".bin";
+      parts.buffer_uri = uri_of(name);
+      std::vector<std::string_view> pieces;
+      parts.layout.pieces(pieces);
+      if (!files.write(beside(name), pieces)) return false;
+    }
+    Blocks json = json_of(parts);
+    std::vector<std::string_view> pieces;
+    json.pieces(pieces);
+    pieces.push_back("\n");
+    files.first().write(pieces);
+    return true;
+  }
+
+  static Blocks json_of(const Parts& parts) {
+    Blocks json;
+    write_json(parts, [&](std::string_view s) { json.append(s); });
+    return json;
+  }
+
+  const Scene& scene_;
+  const GltfOptions& options_;
+  std::string path_;
+  Diagnostics& diag_;
+  Textures textures_;
+  Extras extras_;
+  Store store_;
+  Materials materials_;
+  Meshes meshes_;
+  Hierarchy hierarchy_;
+};
+
+}  // namespace
+}  // namespace gltf
+
+bool write_gltf(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,
+                const std::string& path, Diagnostics& diag) {
+  return gltf::Writer(scene, source, options, resources, path, diag).write();
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,34 @@
+// A scene as glTF 2.0. What becomes of each node type is written in the headers that this one names: gltf_hierarchy
+// (grouping nodes, LOD, Switch), gltf_transform, gltf_meshes, gltf_materials, gltf_textures, gltf_texture_transform,
+// gltf_lights, gltf_cameras, gltf_origin (large coordinates), gltf_extras (everything else).
+#pragma once
+#include <string>
+
+#include "scenegraph/mesh.h"
+#include "scenegraph/resources.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit {
+
+struct GltfOptions {
+  enum class Images : std::uint8_t { automatic, embedded, beside };
+
+  bool binary = true;                 // .glb; false: .gltf with a .bin beside it
+  Images images = Images::automatic;  // in the binary part, or files beside; automatic: as `binary`
+  bool lights = true, cameras = true;
+  bool extras = true;                  // what glTF cannot say is kept
+  std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
+};
+
+/// Writes a scene without instances of prototypes; Inlines that were loaded must have become groups. It is written
+/// whole or not at all; false, and a message, when it is not. Files beside are named after the output: room.gltf has
+/// room.bin and room_brick.png. Without resources there are no pictures but those of PixelTexture.
+///
+/// The mesh source must give what is to be drawn: triangles with normals, and with texture coordinates wherever a Shape
+/// shows a picture; segments or polylines; points. Other faces are cut into fans. Each geometry is asked for once, in
+/// the order of the file (again when a TextureTransform has to be applied to its texture coordinates).
+///
+/// The same scene gives the same bytes. Memory: about the size of the output, beside one mesh.
+bool write_gltf(const Scene&, const MeshSource&, const GltfOptions&, Resources*, const std::string& path, Diagnostics&);
+
+}  // namespace wrlkit

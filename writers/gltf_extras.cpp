@@ -1,0 +1,234 @@
+#include "writers/gltf_extras.h"
+
+#include <algorithm>
+#include <array>
+
+#include "scenegraph/equal.h"
+#include "scenegraph/nodes.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+std::string_view word(Access a) {
+  constexpr std::string_view words[] = {"field", "exposedField", "eventIn", "eventOut"};
+  return words[static_cast<std::size_t>(a)];
+}
+
+/// The fields that the type has in the node table; those behind them were declared by the node itself.
+std::size_t n_table_fields(const NodeType& t) {
+  TypeId built_in = t.kind == NodeKind::script ? find_builtin(t.name, Dialect::vrml97) : TypeId{};
+  if (t.kind == NodeKind::proto) return 0;
+  return built_in ? builtin_nodes()[built_in.value].fields.size() : t.fields.size();
+}
+
+bool equals_default(const Value& v, const FieldDef& f) {
+  if (info(f.type).element == Element::node) return v.node_span().empty();
+  return equal_plain(v, f.default_value);
+}
+
+bool is_long(const Value& v) {
+  constexpr std::size_t most = 128;  // characters, about
+  std::size_t n = 0;
+  switch (info(v.type).element) {
+    case Element::node:
+      return !v.node_span().empty();
+    case Element::text:
+      if (!info(v.type).multiple) return v.text().size() > most;
+      for (auto s : v.text_span()) n += s.size() + 3;
+      return n > most;
+    case Element::integer:
+    case Element::image:
+      return v.integer_span().size() * 4 > most;
+    case Element::number:
+      return v.number_span().size() * 4 > most;
+  }
+  return false;
+}
+
+template <class T>
+void array(JsonOut& json, std::span<const T> values) {
+  json.begin_array();
+  for (const auto& v : values) json.value(v);
+  json.end_array();
+}
+
+}  // namespace
+
+bool Extras::implied(NodeId n) const {
+  constexpr TypeId types[] = {nodes::Group,      nodes::Transform,        nodes::Shape,    nodes::Viewpoint,
+                              nodes::PointLight, nodes::DirectionalLight, nodes::SpotLight};
+  return std::ranges::find(types, scene_.type_id(n)) != std::end(types);
+}
+
+Extras::Said Extras::said_by_node(NodeId n, bool plain_transform) const {
+  using namespace nodes;
+  static constexpr std::uint16_t transform_slots[] = {transform::children.slot, transform::translation.slot,
+                                                      transform::rotation.slot, transform::scale.slot};
+  struct Row {
+    TypeId type;
+    std::array<std::uint16_t, 3> slots;
+    std::size_t n;
+  };
+  static constexpr Row rows[] = {
+      {Anchor, {anchor::children.slot}, 1},
+      {Billboard, {billboard::children.slot}, 1},
+      {Collision, {collision::children.slot}, 1},
+      {Group, {group::children.slot}, 1},
+      {LOD, {lod::children.slot}, 1},
+      {Shape, {shape::appearance.slot, shape::geometry.slot}, 2},
+      {Viewpoint, {viewpoint::position.slot, viewpoint::orientation.slot, viewpoint::fieldOfView.slot}, 3},
+      {DirectionalLight, {directional_light::direction.slot}, 1},
+      {PointLight, {point_light::location.slot}, 1},
+      {SpotLight, {spot_light::location.slot, spot_light::direction.slot}, 2},
+  };
+  if (scene_.is(n, Transform)) return Said(transform_slots, plain_transform ? 4 : 1);
+  for (const Row& r : rows)
+    if (scene_.is(n, r.type)) return Said(r.slots).first(r.n);
+  return {};
+}
+
+bool Extras::speaks(NodeId n, const Value& v, Said said) const {
+  if (scene_.is_extra(v)) return true;
+  if (std::ranges::find(said, v.slot) != said.end()) return false;
+  const auto& t = scene_.type(n);
+  return v.slot < n_table_fields(t) && (v.is || !equals_default(v, t.fields[v.slot]));
+}
+
+bool Extras::anything(NodeId n, Said said) const {
+  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return speaks(n, v, said); });
+}
+
+void Extras::member(JsonOut& json, NodeId n, Said said) {
+  json.key("extras");
+  json.begin_object();
+  vrml97(json, n, said);
+  json.end_object();
+}
+
+void Extras::vrml97(JsonOut& json, NodeId n, Said said) {
+  json.key("vrml97");
+  json.begin_object();
+  node(json, n, said);
+  json.end_object();
+}
+
+void Extras::node(JsonOut& json, NodeId n, Said said) {
+  bool again = marks_[n.value] & told;
+  marks_[n.value] |= told;
+  json.key(scene_.type(n).name);
+  json.begin_object();
+  fields(json, n, said, 0, again);
+  json.end_object();
+}
+
+void Extras::fields(JsonOut& json, NodeId n, Said said, std::size_t depth, bool only_short) {
+  const auto& t = scene_.type(n);
+  for (const Value& v : scene_.fields(n)) {
+    if (!speaks(n, v, said) || (only_short && is_long(scene_.content(v)))) continue;
+    json.key(scene_.is_extra(v) ? v.extra->name : t.fields[v.slot].name_in(Dialect::vrml97));
+    value(json, scene_.content(v), depth);
+  }
+  if (only_short || n_table_fields(t) == t.fields.size()) return;
+  json.key("interface");
+  interface(json, t, n, depth);
+}
+
+/// With the values of a node, or else with the defaults of a declaration.
+void Extras::interface(JsonOut& json, const NodeType& t, NodeId n, std::size_t depth) {
+  json.begin_array();
+  for (std::size_t i = n_table_fields(t); i < t.fields.size(); ++i) {
+    const auto& f = t.fields[i];
+    json.begin_array();
+    json.value(word(f.access));
+    json.value(info(f.type).name);
+    json.value(f.name_in(Dialect::vrml97));
+    if (f.has_value()) value(json, n ? scene_.value(n, static_cast<std::uint16_t>(i)) : f.default_value, depth);
+    json.end_array();
+  }
+  json.end_array();
+}
+
+void Extras::proto(JsonOut& json, ProtoId id, std::size_t depth) {
+  const Proto& p = scene_.proto(id);
+  const auto& type = scene_.type(p.type);
+  if (depth >= max_depth) return json.raw("null");
+  json.begin_object();
+  json.member(p.external ? "EXTERNPROTO" : "PROTO", type.name);
+  json.key("interface");
+  interface(json, type, {}, depth);
+  if (p.external) json.key("url"), array(json, std::span<const std::string_view>(p.urls));
+  auto list = [&](std::string_view name, const auto& items, auto write) {
+    if (items.empty()) return;
+    json.key(name);
+    json.begin_array();
+    for (const auto& i : items) write(i);
+    json.end_array();
+  };
+  list("protos", p.body.protos, [&](ProtoId inner) { proto(json, inner, depth + 1); });
+  list("body", p.body.roots, [&](NodeId n) { reference(json, n, depth); });
+  list("routes", p.body.routes, [&](const Route& r) { route(json, r); });
+  json.end_object();
+}
+
+void Extras::route(JsonOut& json, const Route& r) const {
+  std::string s;
+  (s += scene_.name(r.from)) += '.';
+  (s += r.event_out) += " TO ";
+  (s += scene_.name(r.to)) += '.';
+  json.value(s += r.event_in);
+}
+
+void Extras::value(JsonOut& json, const Value& v, std::size_t depth) {
+  const auto& t = info(v.type);
+  if (v.type == FieldType::verbatim || v.is) {
+    json.begin_object();
+    json.member(v.is ? "IS" : "verbatim", v.text());
+    return json.end_object();
+  }
+  switch (t.element) {
+    case Element::node:
+      if (!t.multiple) return reference(json, v.node, depth);
+      json.begin_array();
+      for (NodeId n : v.node_span()) reference(json, n, depth);
+      return json.end_array();
+    case Element::text:
+      return t.multiple ? array(json, v.text_span()) : json.value(v.text());
+    case Element::integer:
+      if (v.type == FieldType::SFBool) return json.value(v.integer != 0);
+      return t.multiple ? array(json, v.integer_span()) : json.value(v.integer);
+    case Element::image:
+      return array(json, v.integer_span());
+    case Element::number:
+      return t.multiple || t.arity > 1 ? array(json, v.number_span()) : json.value(v.number);
+  }
+}
+
+void Extras::reference(JsonOut& json, NodeId n, std::size_t depth) {
+  bool nameless_child = n && is_placed(n) && scene_.name(n).empty();
+  if (!n || nameless_child || too_much(n, depth)) return json.raw("null");
+  json.begin_object();
+  json.key(scene_.type(n).name);
+  json.begin_object();
+  content(json, n, depth);
+  json.end_object();
+  json.end_object();
+}
+
+void Extras::content(JsonOut& json, NodeId n, std::size_t depth) {
+  auto name = scene_.name(n);
+  if (!name.empty() && marks_[n.value] & (placed | written)) return json.member("USE", name);
+  if (!name.empty()) json.member("DEF", name);
+  marks_[n.value] |= written;
+  ++n_written_;
+  fields(json, n, {}, depth + 1);
+}
+
+// Nodes without a name can be shared, too, by instances of prototypes: those are written again and again.
+bool Extras::too_much(NodeId n, std::size_t depth) {
+  if (depth >= max_depth) return diag_.report(Diag::too_deep, scene_.where(n), max_depth), true;
+  if (n_written_ == max_nodes)
+    diag_.report(Diag::expansion_limit, scene_.where(n), max_nodes, "nodes in extras"), ++n_written_;
+  return n_written_ > max_nodes;
+}
+
+}  // namespace wrlkit::gltf

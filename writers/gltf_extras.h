@@ -1,0 +1,74 @@
+// What VRML says and glTF cannot, kept so that it can come back: as JSON below "extras", made from the node table.
+//
+//   Anchor { url "pump.html" children ... }   ->   "extras": {"vrml97": {"Anchor": {"url": ["pump.html"]}}}
+//
+// Fields stand under their VRML97 names, away from their default only, and without those that glTF itself expresses. SF
+// types of several numbers and all MF types are flat arrays. A node in a field has the same form, with "DEF" when it
+// has a name; {"Shape": {"USE": name}} has a place of its own in the file, or was written before. What a Script or a
+// prototype declares is listed under "interface" as [access, type, name, value], text that was kept as it is under
+// "verbatim". Long fields of a node that is there several times are written only with the first.
+#pragma once
+#include <vector>
+
+#include "scenegraph/diagnostics.h"
+#include "scenegraph/scene.h"
+#include "writers/json.h"
+
+namespace wrlkit::gltf {
+
+class Extras {
+ public:
+  /// Slots of a node's type whose values glTF itself has expressed.
+  using Said = std::span<const std::uint16_t>;
+  static constexpr std::size_t max_nodes = 5'000'000, max_depth = 500;
+
+  Extras(const Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag), marks_(scene.node_count(), 0) {}
+
+  /// A node that glTF has a place for: in fields of others it is only referred to.
+  void set_placed(NodeId n) { marks_[n.value] |= placed; }
+  bool is_placed(NodeId n) const { return marks_[n.value] & placed; }
+
+  /// Is there a field beside those?
+  bool anything(NodeId n, Said said) const;
+  /// Does the node say more than its node of glTF does? Groups, Transforms, Shapes, Viewpoints and lights do not by
+  /// being one.
+  bool says_more(NodeId n, bool plain_transform = true) const {
+    return !implied(n) || anything(n, said_by_node(n, plain_transform));
+  }
+  /// What a node of glTF says of one of VRML. `plain_transform`: its transform is that of the fields, see
+  /// NodeTransform.
+  Said said_by_node(NodeId n, bool plain_transform) const;
+  /// The member Type: {fields} of an object.
+  void node(JsonOut&, NodeId, Said);
+  /// The member vrml97: {Type: {fields}} of an object.
+  void vrml97(JsonOut&, NodeId, Said said);
+  /// The member extras: {vrml97: ...} of an object.
+  void member(JsonOut&, NodeId, Said said);
+  /// A declaration: {PROTO: name, interface, body, ...} or {EXTERNPROTO: name, interface, url}.
+  void proto(JsonOut& json, ProtoId p) { proto(json, p, 0); }
+  /// "Source.event TO Target.event".
+  void route(JsonOut&, const Route&) const;
+
+ private:
+  enum Mark : std::uint8_t {
+    placed = 1,   // it has a node of glTF
+    written = 2,  // it is in a field of another
+    told = 4      // its own extras are written
+  };
+  bool implied(NodeId) const;
+  bool speaks(NodeId, const Value&, Said) const;
+  void fields(JsonOut&, NodeId, Said, std::size_t depth, bool only_short = false);
+  void interface(JsonOut&, const NodeType&, NodeId, std::size_t depth);
+  void proto(JsonOut&, ProtoId, std::size_t depth);
+  void value(JsonOut&, const Value&, std::size_t depth);
+  void reference(JsonOut&, NodeId, std::size_t depth);
+  void content(JsonOut&, NodeId, std::size_t depth);
+  bool too_much(NodeId, std::size_t depth);
+
+  const Scene& scene_;
+  Diagnostics& diag_;
+  std::vector<std::uint8_t> marks_;
+  std::size_t n_written_ = 0;
+};
+
+}  // namespace wrlkit::gltf

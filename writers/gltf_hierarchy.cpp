@@ -1,0 +1,324 @@
+#include "writers/gltf_hierarchy.h"
+
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+#include "writers/gltf_number.h"
+#include "writers/gltf_origin.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+/// Nodes that have no counterpart and do not miss one: what they say is kept, and nothing changes for who looks.
+bool harmless(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline);
+}
+
+/// Groups that do something that glTF cannot do.
+bool does_something(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::Anchor) || scene.is(n, nodes::Billboard);
+}
+
+Vec3 position(const Matrix& m) { return {m.m[3], m.m[7], m.m[11]}; }
+
+/// MSFT_lod: the part of the window's height down to which each level is shown.
+std::vector<double> screen_coverage(std::span<const double> range, double radius, double scale, std::size_t n_levels) {
+  constexpr double half_field_of_view = 0.785398 / 2;
+  std::vector<double> out;
+  if (range.empty() || !(radius > 0) || !(scale > 0)) return out;
+  double last = 1;
+  for (std::size_t i = 0; i + 1 < n_levels; ++i) {
+    double d = i < range.size() ? range[i] * scale : 0;
+    double covered = d > 0 ? radius / (d * std::tan(half_field_of_view)) : 1;
+    out.push_back(last = std::min(last, covered));
+  }
+  out.push_back(0);
+  return out;
+}
+
+}  // namespace
+
+Hierarchy::Hierarchy(const Scene& scene, const GltfOptions& options, Meshes& meshes, Materials& materials,
+                     Extras* extras, Diagnostics& diag)
+    : scene_(scene),
+      options_(options),
+      meshes_(meshes),
+      materials_(materials),
+      extras_(extras),
+      diag_(diag),
+      visited_(scene.node_count(), 0) {}
+
+void Hierarchy::build() {
+  frames_.push_back({.node = {}, .children = scene_.main.roots});
+  while (!frames_.empty()) {
+    Frame& f = frames_.back();
+    if (f.next == f.children.size())
+      leave();
+    else if (NodeId n = f.children[f.next++])
+      visit(n);
+  }
+  add_headlight();
+  move_to_origin();
+  report_lost();
+}
+
+Hierarchy::Kind Hierarchy::kind(NodeId n) {
+  auto id = scene_.type_id(n).value;
+  if (id >= kinds_.size()) kinds_.resize(id + 1, Kind::not_known);
+  if (kinds_[id] != Kind::not_known) return kinds_[id];
+  const auto& t = scene_.type(n);
+  if (t.kind == NodeKind::unknown) return hierarchy_children(scene_, n).empty() ? Kind::other : Kind::group;
+  return kinds_[id] = t.kind != NodeKind::builtin      ? Kind::other
+                      : t.is_a("X3DGroupingNode")      ? Kind::group
+                      : scene_.is(n, nodes::Shape)     ? Kind::shape
+                      : scene_.is(n, nodes::Viewpoint) ? Kind::viewpoint
+                      : is_light(scene_, n)            ? Kind::light
+                                                       : Kind::other;
+}
+
+/// A few shared groups can stand for any number of nodes. Beyond the limit each node is shown once and no more.
+bool Hierarchy::one_too_many(NodeId n) {
+  if (!visited_[n.value] || nodes_.size() + frames_.size() < options_.max_nodes) return false;
+  if (!full_) diag_.report(Diag::expansion_limit, scene_.where(n), options_.max_nodes, "nodes");
+  return full_ = true;
+}
+
+void Hierarchy::visit(NodeId n) {
+  if (one_too_many(n)) return;
+  switch (kind(n)) {
+    case Kind::group:
+      return enter(n);
+    case Kind::shape:
+      return built_.push_back(shape(n));
+    case Kind::light:
+      return built_.push_back(light(n));
+    case Kind::viewpoint:
+      return built_.push_back(viewpoint(n));
+    case Kind::other:
+    case Kind::not_known:
+      return built_.push_back(other(n));
+  }
+}
+
+void Hierarchy::enter(NodeId n) {
+  if (first_visit(n)) report_group(n);
+  Frame f{.node = n, .first_built = built_.size(), .world = frames_.back().world};
+  f.children = scene_.is(n, nodes::LOD) ? hierarchy_children(scene_, n) : shown_children(scene_, n);
+  if (scene_.is(n, nodes::Transform)) {
+    f.local = node_transform(scene_, n);
+    f.world = f.world * matrix(f.local.outer);
+    if (f.local.inner) f.world = f.world * matrix(*f.local.inner);
+  }
+  frames_.push_back(std::move(f));
+}
+
+/// Of positions and the like: those of geometry are counted where they are stored.
+void Hierarchy::report_overflow(NodeId n) {
+  for (const Value& v : scene_.fields(n)) {
+    const Value& c = scene_.content(v);
+    if (c.is || info(c.type).element != Element::number || info(c.type).multiple || fits_float(c.number_span()))
+      continue;
+    diag_.report(Diag::float_overflow, scene_.where(n),
+                 std::string(scene_.type(n).name) + "." + std::string(scene_.field_name(n, v)));
+  }
+}
+
+void Hierarchy::report_group(NodeId n) {
+  if (does_something(scene_, n)) add_lost(n);
+  // Switches that no file has written only hold what prototypes leave behind.
+  bool hides = scene_.is(n, nodes::Switch) && hierarchy_children(scene_, n).size() > shown_children(scene_, n).size();
+  if (hides && scene_.where(n)) diag_.report(Diag::no_gltf_choice, scene_.where(n));
+}
+
+void Hierarchy::leave() {
+  Frame f = std::move(frames_.back());
+  frames_.pop_back();
+  if (frames_.empty()) {
+    roots_ = std::move(built_);
+    world_ = f.box;
+    return;
+  }
+  auto id = group(f);
+  built_.resize(f.first_built);
+  built_.push_back(id);
+  Frame& parent = frames_.back();
+  bool coarse_level = scene_.is(parent.node, nodes::LOD) && parent.next > 1;
+  if (!coarse_level) parent.box.add(f.box);
+}
+
+std::uint32_t Hierarchy::group(const Frame& f) {
+  if (auto folded = fold(f); folded != none) return folded;
+  std::span<const std::uint32_t> children(built_.begin() + static_cast<std::ptrdiff_t>(f.first_built), built_.end());
+  if (scene_.is(f.node, nodes::LOD) && children.size() > 1) {
+    make_lod(f);
+    children = children.first(1);
+  }
+  Node node{.source = f.node, .plain = f.local.plain};
+  if (!f.local.inner) {
+    node.transform = add_transform(f.local.outer);
+    return add(node, children);
+  }
+  auto inner = add({.transform = add_transform(*f.local.inner)}, children);
+  node.transform = add_transform(f.local.outer);
+  return add(node, {&inner, 1});
+}
+
+/// A lone Shape without a name and with nothing of its own to say becomes the mesh of its Transform or Group.
+std::uint32_t Hierarchy::fold(const Frame& f) {
+  bool only_groups = scene_.is(f.node, nodes::Transform) || scene_.is(f.node, nodes::Group);
+  if (!only_groups || f.local.inner || built_.size() != f.first_built + 1) return none;
+  Node& child = nodes_[built_.back()];
+  bool bare = child.attachment == Attachment::mesh && child.transform == none && scene_.name(child.source).empty();
+  if (!bare || (extras_ && extras_->says_more(child.source))) return none;
+  child.source = f.node;
+  child.plain = f.local.plain;
+  child.transform = add_transform(f.local.outer);
+  return built_.back();
+}
+
+void Hierarchy::make_lod(const Frame& f) {
+  Lod lod;
+  lod.levels.assign(built_.begin() + static_cast<std::ptrdiff_t>(f.first_built) + 1, built_.end());
+  double scale = mean_scale(f.world);
+  lod.coverage =
+      screen_coverage(scene_.get(f.node, nodes::lod::range), f.box.extent() / 2, scale, lod.levels.size() + 1);
+  nodes_[built_[f.first_built]].lod = true;
+  lods_.emplace(built_[f.first_built], std::move(lod));
+}
+
+std::uint32_t Hierarchy::shape(NodeId n) {
+  first_visit(n);
+  Node node{.source = n};
+  NodeId geometry_node = scene_.get(n, nodes::shape::geometry);
+  if (!geometry_node) return add(node);
+  first_visit(geometry_node);
+  NodeId appearance = scene_.get(n, nodes::shape::appearance);
+  auto geometry = meshes_.geometry(geometry_node, materials_.has_picture(appearance));
+  const Geometry& g = meshes_.geometries()[geometry];
+  if (g.empty()) return add(node);
+  Frame& f = frames_.back();
+  bool coarse_level = scene_.is(f.node, nodes::LOD) && f.next > 1;
+  if (!coarse_level) f.box.add(meshes_.bounds(g, f.world));
+  if (g.origin != none) node.transform = add_transform({.translation = meshes_.origins()[g.origin]});
+  auto material = materials_.get(appearance, g.surface());
+  node.attachment = Attachment::mesh;
+  node.attached = meshes_.mesh(geometry, material);
+  return add(node);
+}
+
+std::uint32_t Hierarchy::light(NodeId n) {
+  Node node{.source = n, .transform = add_transform(light_transform(scene_, n))};
+  bool on = options_.lights && shines(scene_, n);
+  if (first_visit(n) && on) report_lost_light(scene_, n, frames_.size() == 1, diag_);
+  if (on) {
+    const Matrix& frame = frames_.back().world;
+    node.attachment = Attachment::light;
+    node.attached = static_cast<std::uint32_t>(lights_.size());
+    double scale = mean_scale(frame);
+    lights_.push_back(
+        {n, position(frame * matrix(light_transform(scene_, n))), scale > 0 && std::isfinite(scale) ? scale : 1});
+  }
+  return add(node);
+}
+
+std::uint32_t Hierarchy::viewpoint(NodeId n) {
+  first_visit(n);
+  Node node{.source = n, .transform = add_transform(camera_transform(scene_, n))};
+  if (options_.cameras) {
+    node.attachment = Attachment::camera;
+    node.attached = static_cast<std::uint32_t>(cameras_.size());
+    cameras_.push_back({n, position(frames_.back().world * matrix(camera_transform(scene_, n)))});
+  }
+  return add(node);
+}
+
+std::uint32_t Hierarchy::other(NodeId n) {
+  if (first_visit(n) && !harmless(scene_, n)) add_lost(n);
+  if (!navigation_info_ && scene_.is(n, nodes::NavigationInfo)) navigation_info_ = n;
+  if (!world_info_ && scene_.is(n, nodes::WorldInfo)) world_info_ = n;
+  return add({.source = n});
+}
+
+std::uint32_t Hierarchy::add(Node n, std::span<const std::uint32_t> children) {
+  n.first_child = static_cast<std::uint32_t>(children_.size());
+  n.n_children = static_cast<std::uint32_t>(children.size());
+  children_.insert(children_.end(), children.begin(), children.end());
+  nodes_.push_back(n);
+  return static_cast<std::uint32_t>(nodes_.size() - 1);
+}
+
+std::uint32_t Hierarchy::add_transform(const Trs& t) {
+  if (t.identity()) return none;
+  transforms_.push_back(t);
+  return static_cast<std::uint32_t>(transforms_.size() - 1);
+}
+
+void Hierarchy::add_lost(NodeId n) {
+  if (lost_.empty()) first_lost_ = scene_.where(n);
+  ++lost_[scene_.type(n).name];
+}
+
+bool Hierarchy::first_visit(NodeId n) {
+  if (visited_[n.value]) return false;
+  visited_[n.value] = 1;
+  report_overflow(n);
+  if (extras_) extras_->set_placed(n);
+  return true;
+}
+
+// Viewers light what has no lights; where there are lights of the world's own they do not, and the headlight would be
+// missed. It goes with the first camera, where a browser would be in the beginning, or looks along -Z without one;
+// there is only one, because all lights of glTF shine at the same time.
+void Hierarchy::add_headlight() {
+  if (lights_.empty() || !visibility(scene_, navigation_info_).headlight) return;
+  auto id = add({.attached = static_cast<std::uint32_t>(lights_.size()), .attachment = Attachment::light});
+  lights_.push_back({});
+  if (cameras_.empty()) return roots_.push_back(id);
+  auto is_first = [](const Node& n) { return n.attachment == Attachment::camera && n.attached == 0; };
+  Node& camera = *std::ranges::find_if(nodes_, is_first);
+  camera.first_child = static_cast<std::uint32_t>(children_.size());
+  camera.n_children = 1;
+  children_.push_back(id);
+}
+
+/// Subtracts the origin of a world that is far away from the outermost translations: nodes that have none of their own
+/// pass it on to their children, so that no node stays far away.
+void Hierarchy::move_to_origin() {
+  origin_ = world_origin(world_);
+  if (!origin_) return;
+  std::vector<std::uint32_t> todo = roots_;
+  while (!todo.empty()) {
+    auto n = todo.back();
+    todo.pop_back();
+    move(n, {-(*origin_)[0], -(*origin_)[1], -(*origin_)[2]}, todo);
+  }
+}
+
+void Hierarchy::move(std::uint32_t id, const Vec3& by, std::vector<std::uint32_t>& further) {
+  Node& n = nodes_[id];
+  if (n.lod) further.insert(further.end(), lods_.at(id).levels.begin(), lods_.at(id).levels.end());
+  if (n.transform == none && n.attachment == Attachment::nothing) {
+    auto c = children(n);
+    further.insert(further.end(), c.begin(), c.end());
+    return;
+  }
+  if (n.transform == none) {
+    transforms_.push_back({});
+    n.transform = static_cast<std::uint32_t>(transforms_.size() - 1);
+  }
+  auto& t = transforms_[n.transform].translation;
+  for (std::size_t i = 0; i < 3; ++i) t[i] += by[i];
+}
+
+/// In one message: a world may have dozens of types that glTF does not know.
+void Hierarchy::report_lost() {
+  std::string types;
+  for (const auto& [type, n] : lost_) {
+    if (!types.empty()) types += ", ";
+    types += type;
+    if (n > 1) types += " (" + std::to_string(n) + ")";
+  }
+  if (!lost_.empty()) diag_.report(Diag::no_gltf_node, first_lost_, types);
+  if (!scene_.main.routes.empty()) diag_.report(Diag::no_gltf_route, {}, scene_.main.routes.size());
+}
+
+}  // namespace wrlkit::gltf

@@ -1,0 +1,119 @@
+// The nodes of glTF: the transformation hierarchy unrolled, because a node of glTF has one parent. Meshes stay shared.
+//
+// Every grouping node is a node, with its name; so is a Shape, except that one without a name that is alone in a
+// Transform or Group becomes the mesh of that node. Nodes of VRML that draw nothing (sensors, scripts, ...) are nodes
+// with extras, in their place. Of a Switch the chosen child is there, the others are in extras. Of a LOD the first
+// level is the child; the others hang on it by MSFT_lod, whose screen coverage is that of the level's bounding sphere
+// at the distances of `range`, seen with VRML's standard field of view.
+#pragma once
+#include <map>
+#include <unordered_map>
+
+#include "writers/gltf.h"
+#include "writers/gltf_cameras.h"
+#include "writers/gltf_lights.h"
+#include "writers/gltf_meshes.h"
+
+namespace wrlkit::gltf {
+
+enum class Attachment : std::uint8_t { nothing, mesh, camera, light };
+
+struct Node {
+  NodeId source{};                                // none: a helper, without a name
+  std::uint32_t first_child = 0, n_children = 0;  // into Hierarchy::children
+  std::uint32_t transform = none;                 // into Hierarchy::transforms
+  std::uint32_t attached = none;
+  Attachment attachment = Attachment::nothing;
+  bool plain = true;  // the transform is what the fields of `source` say
+  bool lod = false;   // has an entry in Hierarchy::lods
+};
+
+struct Lod {
+  std::vector<std::uint32_t> levels;  // behind the first
+  std::vector<double> coverage;       // empty: not known
+};
+
+class Hierarchy {
+ public:
+  Hierarchy(const Scene&, const GltfOptions&, Meshes&, Materials&, Extras*, Diagnostics&);
+
+  /// Everything below the roots of the scene.
+  void build();
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  std::span<const std::uint32_t> children(const Node& n) const {
+    return {children_.data() + n.first_child, n.n_children};
+  }
+  const std::vector<Trs>& transforms() const { return transforms_; }
+  const std::vector<std::uint32_t>& roots() const { return roots_; }
+  const std::vector<Camera>& cameras() const { return cameras_; }
+  const std::vector<Light>& lights() const { return lights_; }
+  const Lod& lod(std::uint32_t node) const { return lods_.at(node); }
+  bool uses_lod() const { return !lods_.empty(); }
+  const Box& world() const { return world_; }
+  /// What was subtracted from all coordinates.
+  const std::optional<Vec3>& origin() const { return origin_; }
+  NodeId navigation_info() const { return navigation_info_; }
+  NodeId world_info() const { return world_info_; }
+
+ private:
+  enum class Kind : std::uint8_t { not_known, group, shape, light, viewpoint, other };
+  struct Frame {
+    NodeId node{};
+    std::vector<NodeId> children{};
+    std::size_t next = 0;
+    std::size_t first_built = 0;  // into built_
+    NodeTransform local{};
+    Matrix world{};  // frame of the children
+    Box box{};       // of what they show
+  };
+  Kind kind(NodeId);
+  bool one_too_many(NodeId);
+  void visit(NodeId);
+  void enter(NodeId);
+  void report_overflow(NodeId);
+  void report_group(NodeId);
+  void leave();
+  std::uint32_t group(const Frame&);
+  std::uint32_t fold(const Frame&);
+  void make_lod(const Frame&);
+  std::uint32_t shape(NodeId);
+  std::uint32_t light(NodeId);
+  std::uint32_t viewpoint(NodeId);
+  std::uint32_t other(NodeId);
+  std::uint32_t add(Node, std::span<const std::uint32_t> children = {});
+  std::uint32_t add_transform(const Trs&);
+  void add_lost(NodeId);
+  bool first_visit(NodeId);
+  void add_headlight();
+  void move_to_origin();
+  void move(std::uint32_t node, const Vec3& by, std::vector<std::uint32_t>& further);
+  void report_lost();
+
+  const Scene& scene_;
+  const GltfOptions& options_;
+  Meshes& meshes_;
+  Materials& materials_;
+  Extras* extras_;
+  Diagnostics& diag_;
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> children_, roots_;
+  std::vector<Trs> transforms_;
+  std::vector<Camera> cameras_;
+  std::vector<Light> lights_;
+  std::unordered_map<std::uint32_t, Lod> lods_;
+  Box world_;
+  std::optional<Vec3> origin_;
+  NodeId navigation_info_, world_info_;
+
+  std::vector<Frame> frames_;
+  std::vector<std::uint32_t> built_;  // nodes that are not yet children of their parents
+  std::vector<Kind> kinds_;           // of types
+  std::vector<char> visited_;
+  std::map<std::string_view, std::size_t> lost_;  // by type: each Script has one of its own, but one name
+  Span first_lost_;
+  bool full_ = false;
+};
+
+}  // namespace wrlkit::gltf

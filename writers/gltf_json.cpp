@@ -1,0 +1,286 @@
+#include "writers/gltf_json.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+constexpr int array_buffer = 34962, element_array_buffer = 34963;
+constexpr int linear_filter = 9729, linear_mipmap_linear = 9987, repeat = 10497, clamp_to_edge = 33071;
+
+/// Forms whose numbers say more than their triangles do.
+bool is_parametric(const Scene& scene, NodeId n) {
+  constexpr TypeId types[] = {nodes::Box, nodes::Cone, nodes::Cylinder, nodes::Extrusion, nodes::Sphere, nodes::Text};
+  return std::ranges::find(types, scene.type_id(n)) != std::end(types);
+}
+
+class Writer {
+ public:
+  Writer(const Parts& parts, const Sink& sink) : p_(parts), h_(parts.hierarchy), sink_(sink) {}
+
+  void write() {
+    json_.begin_object();
+    asset();
+    extensions_used();
+    extensions();
+    json_.member("scene", 0);
+    list("scenes", 1, [&](std::size_t) { scene(); });
+    list("nodes", h_.nodes().size(), [&](std::size_t i) { node(static_cast<std::uint32_t>(i)); });
+    auto visible = visibility(p_.scene, h_.navigation_info());
+    list("cameras", h_.cameras().size(),
+         [&](std::size_t i) { write_camera(json_, p_.scene, h_.cameras()[i], h_.world(), visible); });
+    list("meshes", p_.meshes.meshes().size(), [&](std::size_t i) { mesh(p_.meshes.meshes()[i]); });
+    list("materials", p_.materials.materials().size(), [&](std::size_t i) { json_.raw(p_.materials.materials()[i]); });
+    list("textures", p_.textures.textures().size(), [&](std::size_t i) { texture(p_.textures.textures()[i]); });
+    list("images", p_.textures.pictures().size(), [&](std::size_t i) { image(i); });
+    list("samplers", p_.textures.samplers().size(), [&](std::size_t i) { sampler(p_.textures.samplers()[i]); });
+    list("accessors", p_.store.accessors().size(), [&](std::size_t i) { accessor(p_.store.accessors()[i]); });
+    list("bufferViews", p_.layout.views().size(), [&](std::size_t i) { buffer_view(p_.layout.views()[i]); });
+    list("buffers", p_.layout.size() > 0, [&](std::size_t) { buffer(); });
+    json_.end_object();
+    sink_(text_);
+  }
+
+ private:
+  /// An array of objects; glTF allows no empty ones.
+  template <class F>
+  void list(std::string_view name, std::size_t n, F element) {
+    constexpr std::size_t piece = 128 * 1024;
+    if (n == 0) return;
+    json_.key(name);
+    json_.begin_array();
+    for (std::size_t i = 0; i < n; ++i) {
+      element(i);
+      if (text_.size() < piece) continue;
+      sink_(text_);
+      text_.clear();
+    }
+    json_.end_array();
+  }
+
+  template <class T>
+  void numbers(std::string_view name, std::span<const T> values) {
+    json_.member(name, values);
+  }
+
+  void asset() {
+    json_.key("asset");
+    json_.begin_object();
+    json_.member("version", "2.0");
+    json_.member("generator", "wrlkit");
+    if (p_.extras && (h_.world_info() || !p_.scene.comment.empty())) {
+      json_.key("extras");
+      json_.begin_object();
+      json_.key("vrml97");
+      json_.begin_object();
+      if (!p_.scene.comment.empty()) json_.member("comment", p_.scene.comment);
+      if (h_.world_info()) p_.extras->node(json_, h_.world_info(), {});
+      json_.end_object();
+      json_.end_object();
+    }
+    json_.end_object();
+  }
+
+  void extensions_used() {
+    std::vector<std::string_view> used;
+    if (!h_.lights().empty()) used.push_back("KHR_lights_punctual");
+    if (p_.materials.uses_unlit()) used.push_back("KHR_materials_unlit");
+    if (p_.materials.uses_texture_transform()) used.push_back("KHR_texture_transform");
+    if (h_.uses_lod()) used.push_back("MSFT_lod");
+    list("extensionsUsed", used.size(), [&](std::size_t i) { json_.value(used[i]); });
+  }
+
+  void extensions() {
+    if (h_.lights().empty()) return;
+    json_.key("extensions");
+    json_.begin_object();
+    json_.key("KHR_lights_punctual");
+    json_.begin_object();
+    list("lights", h_.lights().size(),
+         [&](std::size_t i) { write_light(json_, p_.scene, h_.lights()[i], h_.world()); });
+    json_.end_object();
+    json_.end_object();
+  }
+
+  void scene() {
+    json_.begin_object();
+    if (h_.world_info()) {
+      auto title = p_.scene.get(h_.world_info(), nodes::world_info::title);
+      if (!title.empty()) json_.member("name", title);
+    }
+    if (!h_.roots().empty()) numbers("nodes", std::span(h_.roots()));
+    if (p_.extras) scene_extras();
+    json_.end_object();
+  }
+
+  void scene_extras() {
+    const auto& main = p_.scene.main;
+    if (!h_.navigation_info() && !h_.origin() && main.routes.empty() && main.protos.empty()) return;
+    json_.key("extras");
+    json_.begin_object();
+    json_.key("vrml97");
+    json_.begin_object();
+    if (h_.origin()) numbers("origin", std::span<const double>(*h_.origin()));
+    if (h_.navigation_info()) p_.extras->node(json_, h_.navigation_info(), {});
+    list("protos", main.protos.size(), [&](std::size_t i) { p_.extras->proto(json_, main.protos[i]); });
+    list("routes", main.routes.size(), [&](std::size_t i) { p_.extras->route(json_, main.routes[i]); });
+    json_.end_object();
+    json_.end_object();
+  }
+
+  void node(std::uint32_t id) {
+    const Node& n = h_.nodes()[id];
+    json_.begin_object();
+    if (auto name = node_name(n); !name.empty()) json_.member("name", name);
+    if (n.transform != none) transform(h_.transforms()[n.transform]);
+    if (n.attachment == Attachment::mesh) json_.member("mesh", n.attached);
+    if (n.attachment == Attachment::camera) json_.member("camera", n.attached);
+    if (n.n_children > 0) numbers("children", h_.children(n));
+    if (n.attachment == Attachment::light || n.lod) node_extensions(n, id);
+    node_extras(n, id);
+    json_.end_object();
+  }
+
+  std::string_view node_name(const Node& n) const {
+    if (!n.source) return n.attachment == Attachment::light ? "headlight" : "";
+    return n.attachment == Attachment::camera ? camera_name(p_.scene, n.source) : p_.scene.name(n.source);
+  }
+
+  void transform(const Trs& t) {
+    if (t.translation != Vec3{0, 0, 0}) numbers("translation", std::span<const double>(t.translation));
+    if (!t.rotation.identity()) {
+      const auto& q = t.rotation;
+      numbers("rotation", std::span<const double>(std::array{q.x, q.y, q.z, q.w}));
+    }
+    if (t.scale != Vec3{1, 1, 1}) numbers("scale", std::span<const double>(t.scale));
+  }
+
+  void node_extensions(const Node& n, std::uint32_t id) {
+    json_.key("extensions");
+    json_.begin_object();
+    if (n.attachment == Attachment::light) {
+      json_.key("KHR_lights_punctual");
+      json_.begin_object();
+      json_.member("light", n.attached);
+      json_.end_object();
+    }
+    if (n.lod) {
+      json_.key("MSFT_lod");
+      json_.begin_object();
+      numbers("ids", std::span(h_.lod(id).levels));
+      json_.end_object();
+    }
+    json_.end_object();
+  }
+
+  void node_extras(const Node& n, std::uint32_t id) {
+    bool vrml97 = p_.extras && n.source && p_.extras->says_more(n.source, n.plain);
+    bool coverage = n.lod && !h_.lod(id).coverage.empty();
+    if (!vrml97 && !coverage) return;
+    json_.key("extras");
+    json_.begin_object();
+    if (coverage) numbers("MSFT_screencoverage", std::span(h_.lod(id).coverage));
+    if (vrml97) p_.extras->vrml97(json_, n.source, p_.extras->said_by_node(n.source, n.plain));
+    json_.end_object();
+  }
+
+  void mesh(const MeshRecord& m) {
+    const Geometry& g = p_.meshes.geometries()[m.geometry];
+    json_.begin_object();
+    if (auto name = p_.scene.name(g.source); !name.empty()) json_.member("name", name);
+    json_.key("primitives");
+    json_.begin_array();
+    json_.begin_object();
+    json_.key("attributes");
+    json_.begin_object();
+    json_.member("POSITION", g.positions);
+    if (g.normals != none) json_.member("NORMAL", g.normals);
+    // Colours that a picture hides are kept under a name that viewers do not know.
+    if (g.colors != none) json_.member(m.shows_color ? "COLOR_0" : "_COLOR", g.colors);
+    if (m.texcoords != none) json_.member("TEXCOORD_0", m.texcoords);
+    json_.end_object();
+    if (g.indices != none) json_.member("indices", g.indices);
+    if (m.material != none) json_.member("material", m.material);
+    if (g.mode != Mode::triangles) json_.member("mode", static_cast<int>(g.mode));
+    json_.end_object();
+    json_.end_array();
+    if (p_.extras && is_parametric(p_.scene, g.source)) p_.extras->member(json_, g.source, {});
+    json_.end_object();
+  }
+
+  void texture(const Texture& t) {
+    json_.begin_object();
+    if (auto name = p_.scene.name(t.source); !name.empty()) json_.member("name", name);
+    json_.member("sampler", t.sampler);
+    json_.member("source", t.picture);
+    if (p_.extras) p_.extras->member(json_, t.source, said_by_texture(p_.scene, t.source));
+    json_.end_object();
+  }
+
+  void image(std::size_t i) {
+    const Picture& picture = p_.textures.pictures()[i];
+    json_.begin_object();
+    json_.member("name", picture.name);
+    if (p_.layout.pictures_inside()) {
+      json_.member("mimeType", picture.mime);
+      json_.member("bufferView", p_.layout.of_picture(i));
+    } else {
+      json_.member("uri", p_.picture_uris[i]);
+    }
+    json_.end_object();
+  }
+
+  void sampler(const Sampler& s) {
+    json_.begin_object();
+    json_.member("magFilter", linear_filter);
+    json_.member("minFilter", linear_mipmap_linear);
+    if (!s.repeat_s) json_.member("wrapS", clamp_to_edge);
+    if (!s.repeat_t) json_.member("wrapT", clamp_to_edge);
+    json_.end_object();
+  }
+
+  void accessor(const Accessor& a) {
+    const auto& type = info(a.view);
+    json_.begin_object();
+    json_.member("bufferView", p_.layout.of(a.view));
+    if (a.offset > 0) json_.member("byteOffset", a.offset);
+    json_.member("componentType", type.component_type);
+    json_.member("count", a.count);
+    json_.member("type", type.type);
+    if (a.bounds != none) {
+      numbers("max", std::span<const float>(p_.store.bounds()[a.bounds].high));
+      numbers("min", std::span<const float>(p_.store.bounds()[a.bounds].low));
+    }
+    json_.end_object();
+  }
+
+  void buffer_view(const Layout::BufferView& v) {
+    json_.begin_object();
+    json_.member("buffer", 0);
+    if (v.offset > 0) json_.member("byteOffset", v.offset);
+    json_.member("byteLength", v.length);
+    if (v.picture == none) {
+      const auto& type = info(v.view);
+      if (type.vertices) json_.member("byteStride", type.element);
+      json_.member("target", type.vertices ? array_buffer : element_array_buffer);
+    }
+    json_.end_object();
+  }
+
+  void buffer() {
+    json_.begin_object();
+    json_.member("byteLength", p_.layout.size());
+    if (!p_.buffer_uri.empty()) json_.member("uri", p_.buffer_uri);
+    json_.end_object();
+  }
+
+  const Parts& p_;
+  const Hierarchy& h_;
+  const Sink& sink_;
+  std::string text_;
+  JsonOut json_{text_};
+};
+
+}  // namespace
+
+void write_json(const Parts& parts, const Sink& sink) { Writer(parts, sink).write(); }
+
+}  // namespace wrlkit::gltf

@@ -1,0 +1,39 @@
+// How the binary part of a glTF file is laid out: the views of the Store one after another, then pictures, each at a
+// multiple of four bytes.
+#pragma once
+#include "writers/gltf_store.h"
+#include "writers/gltf_textures.h"
+
+namespace wrlkit::gltf {
+
+class Layout {
+ public:
+  struct BufferView {
+    std::uint64_t offset, length;
+    View view;  // unless it is a picture
+    std::uint32_t picture = none;
+  };
+
+  Layout(const Store&, const std::vector<Picture>& inside);
+
+  const std::vector<BufferView>& views() const { return views_; }
+  /// Index into views().
+  std::uint32_t of(View v) const { return of_view_[static_cast<std::size_t>(v)]; }
+  std::uint32_t of_picture(std::size_t i) const { return static_cast<std::uint32_t>(views_.size() - n_pictures_ + i); }
+  bool pictures_inside() const { return n_pictures_ > 0; }
+  std::uint64_t size() const { return size_; }
+  /// The bytes.
+  void pieces(std::vector<std::string_view>& out) const;
+
+ private:
+  void add(BufferView);
+
+  const Store& store_;
+  const std::vector<Picture>& pictures_;
+  std::size_t n_pictures_;
+  std::array<std::uint32_t, n_views> of_view_;
+  std::vector<BufferView> views_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace wrlkit::gltf

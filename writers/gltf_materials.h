@@ -1,0 +1,73 @@
+// Appearance to glTF material, by the lighting model of ISO/IEC 14772-1, 4.14. Equal appearances become one material.
+//
+// Colour. With a Material a face is lit: its diffuse colour is that of the Material, or the Color of the geometry in
+// its place; a picture of one or two channels is multiplied by it, one of three or four replaces it (table 4.6).
+// Without a Material it is unlit, white or of its Color (table 4.5). A picture with alpha replaces transparency. Lines
+// and points are unlit, of emissiveColor or Color, and have no picture.
+//
+// Highlights. metallicFactor is 0. The exponent of Blinn's highlight, n = 128 shininess, is that of a microfacet
+// surface of alpha^2 = 2 / (n + 2), and glTF's roughness is the root of alpha. How bright a highlight is, core glTF
+// cannot say: a surface reflects 4 %, so that the middle of the highlight shines with 0.01 / alpha^2. Where that is
+// more than s, the largest component of specularColor, a wider one makes up for it: roughness = max(2 / (n + 2), 0.01 /
+// s) ^ (1/4), but no more than 1. So black is as rough as can be. Where it is less, the highlight is too dim.
+// specularColor, shininess and ambientIntensity stay in extras.
+#pragma once
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "writers/gltf_color.h"
+#include "writers/gltf_extras.h"
+#include "writers/gltf_texture_transform.h"
+#include "writers/gltf_textures.h"
+
+namespace wrlkit::gltf {
+
+double roughness(double shininess, const Vec3& specular);
+
+/// What a geometry brings to its material.
+struct SurfaceKind {
+  bool faces = true;  // not lines or points
+  bool color = false, texcoord = false;
+  bool double_sided = false;
+};
+
+struct MaterialUse {
+  std::uint32_t material = none;
+  NodeId bake;              // a TextureTransform that must be applied to the texture coordinates
+  bool shows_color = true;  // false: a picture takes the place of the geometry's colours
+};
+
+class Materials {
+ public:
+  Materials(const Scene& scene, Textures& textures, Extras* extras)
+      : scene_(scene), textures_(textures), extras_(extras) {}
+
+  /// Has an Appearance a picture that can be shown?
+  bool has_picture(NodeId appearance);
+  /// Of an Appearance, or of none.
+  MaterialUse get(NodeId appearance, SurfaceKind);
+
+  /// The JSON of each material.
+  const std::vector<std::string>& materials() const { return materials_; }
+  bool uses_unlit() const { return unlit_; }
+  bool uses_texture_transform() const { return texture_transform_; }
+
+ private:
+  struct Look;
+  MaterialUse make(NodeId appearance, SurfaceKind);
+  Look look(NodeId appearance, SurfaceKind);
+  std::string json(const Look&);
+  void texture_info(JsonOut&, const Look&);
+  void extras(JsonOut&, const Look&);
+
+  const Scene& scene_;
+  Textures& textures_;
+  Extras* extras_;
+  std::unordered_map<std::uint64_t, MaterialUse> uses_;
+  std::unordered_map<std::string, std::uint32_t> by_json_;
+  std::vector<std::string> materials_;
+  bool unlit_ = false, texture_transform_ = false;
+};
+
+}  // namespace wrlkit::gltf

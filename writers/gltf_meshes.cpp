@@ -1,0 +1,120 @@
+#include "writers/gltf_meshes.h"
+
+#include "scenegraph/nodes.h"
+#include "writers/gltf_origin.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+Mode mode_of(Mesh::Kind k) {
+  return k == Mesh::Kind::points ? Mode::points : k == Mesh::Kind::lines ? Mode::lines : Mode::triangles;
+}
+
+bool counts_up(std::span<const std::uint32_t> index, std::size_t n_vertices) {
+  if (index.size() != n_vertices) return false;
+  for (std::size_t i = 0; i < index.size(); ++i)
+    if (index[i] != i) return false;
+  return true;
+}
+
+}  // namespace
+
+std::uint32_t Meshes::geometry(NodeId n, bool picture) {
+  auto add = [&](bool texcoords) {
+    geometries_.push_back(make(n, texcoords));
+    return static_cast<std::uint32_t>(geometries_.size() - 1);
+  };
+  std::uint32_t& known = by_node_[n.value];
+  if (known == none) return known = add(picture || gives_texcoords(n));
+  const Geometry& g = geometries_[known];
+  if (!picture || g.texcoords != none || g.mode != Mode::triangles || gives_texcoords(n)) return known;
+  if (g.textured == none) {
+    auto textured = add(true);
+    geometries_[known].textured = textured;
+  }
+  return geometries_[known].textured;
+}
+
+bool Meshes::gives_texcoords(NodeId n) const {
+  if (scene_.is(n, nodes::IndexedFaceSet)) return bool(scene_.get(n, nodes::indexed_face_set::texCoord));
+  return scene_.is(n, nodes::ElevationGrid) && scene_.get(n, nodes::elevation_grid::texCoord);
+}
+
+Geometry Meshes::make(NodeId n, bool texcoords) {
+  const Mesh& mesh = source_(n);
+  Geometry g{.source = n, .mode = mode_of(mesh.kind), .double_sided = mesh.kind == Mesh::Kind::faces && !mesh.solid};
+  split(mesh, texcoords);
+  const Vertices& v = vertices_;
+  if (v.n_not_finite > 0)
+    diag_.report(Diag::float_overflow, scene_.where(n),
+                 std::string(scene_.type(n).name) + " (" + std::to_string(v.n_not_finite) + " numbers)");
+  if (v.index.empty()) return g;
+  g.origin = move_near_origin(mesh, texcoords);
+  std::uint32_t positions = store_.positions(v.position, {v.min, v.max});
+  if (!v.normal.empty()) g.normals = store_.vertices(View::normal, v.normal);
+  if (!v.color.empty()) g.colors = store_.vertices(v.color_width == 4 ? View::rgba : View::rgb, v.color);
+  if (!v.texcoord.empty()) g.texcoords = store_.vertices(View::texcoord, v.texcoord);
+  if (!counts_up(v.index, v.count())) g.indices = store_.indices(v.index, v.count());
+  if (!store_.full()) g.positions = positions;
+  return g;
+}
+
+void Meshes::split(const Mesh& mesh, bool texcoords, const Vec3& origin) {
+  bool faces = mesh.kind == Mesh::Kind::faces;
+  split_vertices(
+      mesh,
+      {.origin = origin, .normals = faces, .texcoords = faces && texcoords, .linear_colors = true, .flip_v = true},
+      scratch_, vertices_);
+}
+
+std::uint32_t Meshes::move_near_origin(const Mesh& mesh, bool texcoords) {
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) box.low[i] = vertices_.min[i], box.high[i] = vertices_.max[i];
+  auto origin = mesh_origin(box);
+  if (!origin) return none;
+  split(mesh, texcoords, *origin);
+  origins_.push_back(*origin);
+  return static_cast<std::uint32_t>(origins_.size() - 1);
+}
+
+std::uint32_t Meshes::mesh(std::uint32_t geometry, const MaterialUse& use) {
+  Geometry& g = geometries_[geometry];
+  for (std::uint32_t m = g.first_mesh; m != none; m = meshes_[m].next)
+    if (meshes_[m].material == use.material && meshes_[m].bake == use.bake) return m;
+  std::uint32_t texcoords = use.bake ? baked_texcoords(g, use.bake) : g.texcoords;
+  auto id = static_cast<std::uint32_t>(meshes_.size());
+  meshes_.push_back({geometry, use.material, texcoords, g.first_mesh, use.bake, use.shows_color});
+  return g.first_mesh = id;
+}
+
+/// The texture transform is applied before V is turned round, so the coordinates are turned back and forth.
+std::uint32_t Meshes::baked_texcoords(const Geometry& g, NodeId texture_transform) {
+  auto affine = uv_affine(scene_, texture_transform);
+  split(source_(g.source), true);
+  auto& uv = vertices_.texcoord;
+  for (std::size_t i = 0; i + 1 < uv.size(); i += 2) {
+    auto [s, t] = affine(uv[i], 1.0 - uv[i + 1]);
+    uv[i] = static_cast<float>(s);
+    uv[i + 1] = static_cast<float>(1 - t);
+  }
+  return store_.vertices(View::texcoord, uv);
+}
+
+Box Meshes::bounds(const Geometry& g, const Matrix& frame) const {
+  const auto& b = store_.bounds_of(g.positions);
+  Vec3 middle, half;
+  for (std::size_t i = 0; i < 3; ++i) {
+    middle[i] = (double{b.low[i]} + b.high[i]) / 2 + (g.origin == none ? 0 : origins_[g.origin][i]);
+    half[i] = (double{b.high[i]} - b.low[i]) / 2;
+  }
+  Vec3 at = frame.point(middle);
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double reach = 0;
+    for (std::size_t k = 0; k < 3; ++k) reach += std::abs(frame.m[i * 4 + k]) * half[k];
+    box.low[i] = at[i] - reach, box.high[i] = at[i] + reach;
+  }
+  return box;
+}
+
+}  // namespace wrlkit::gltf

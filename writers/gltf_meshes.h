@@ -1,0 +1,73 @@
+// Meshes: one for each geometry and material that are used together. The vertex data of a geometry is made when it is
+// first met, and shared by all meshes with it.
+#pragma once
+#include "scenegraph/diagnostics.h"
+#include "scenegraph/transform.h"
+#include "scenegraph/vertices.h"
+#include "writers/gltf_box.h"
+#include "writers/gltf_materials.h"
+#include "writers/gltf_store.h"
+
+namespace wrlkit::gltf {
+
+enum class Mode : std::uint8_t { points = 0, lines = 1, triangles = 4 };
+
+/// The vertex data of a geometry: accessors. Nothing to draw: no positions.
+struct Geometry {
+  NodeId source;
+  std::uint32_t positions = none, normals = none, colors = none, texcoords = none, indices = none;
+  std::uint32_t origin = none;      // into Meshes::origins: where the positions are relative to
+  std::uint32_t first_mesh = none;  // of those with it
+  std::uint32_t textured = none;    // the same geometry, with texture coordinates
+  Mode mode = Mode::triangles;
+  bool double_sided = false;
+
+  bool empty() const { return positions == none; }
+  SurfaceKind surface() const { return {mode == Mode::triangles, colors != none, texcoords != none, double_sided}; }
+};
+
+struct MeshRecord {
+  std::uint32_t geometry, material;
+  std::uint32_t texcoords;    // those of the geometry, or baked ones
+  std::uint32_t next = none;  // with the same geometry
+  NodeId bake;
+  bool shows_color = true;
+};
+
+class Meshes {
+ public:
+  Meshes(const Scene& scene, const MeshSource& source, Store& store, Diagnostics& diag)
+      : scene_(scene), source_(source), store_(store), diag_(diag), by_node_(scene.node_count(), none) {}
+
+  /// Index into geometries() of the data of a geometry node. Texture coordinates that the file does not give are there
+  /// only for who has a picture.
+  std::uint32_t geometry(NodeId, bool picture);
+  /// Index into meshes().
+  std::uint32_t mesh(std::uint32_t geometry, const MaterialUse&);
+
+  const std::vector<Geometry>& geometries() const { return geometries_; }
+  const std::vector<MeshRecord>& meshes() const { return meshes_; }
+  const std::vector<Vec3>& origins() const { return origins_; }
+  /// Of a geometry that is not empty, in a frame.
+  Box bounds(const Geometry&, const Matrix&) const;
+
+ private:
+  Geometry make(NodeId, bool texcoords);
+  void split(const Mesh&, bool texcoords, const Vec3& origin = {});
+  bool gives_texcoords(NodeId) const;
+  std::uint32_t move_near_origin(const Mesh&, bool texcoords);
+  std::uint32_t baked_texcoords(const Geometry&, NodeId texture_transform);
+
+  const Scene& scene_;
+  const MeshSource& source_;
+  Store& store_;
+  Diagnostics& diag_;
+  std::vector<std::uint32_t> by_node_;
+  std::vector<Geometry> geometries_;
+  std::vector<MeshRecord> meshes_;
+  std::vector<Vec3> origins_;
+  SplitScratch scratch_;
+  Vertices vertices_;
+};
+
+}  // namespace wrlkit::gltf

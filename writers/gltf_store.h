@@ -1,0 +1,72 @@
+// The vertex and index data of a glTF file: a few buffer views, each with all values of one kind in a row, and
+// accessors into them. Equal data is stored once, whoever asks: the indices of a thousand cylinders are the same
+// numbers.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "writers/blocks.h"
+
+namespace wrlkit::gltf {
+
+inline constexpr std::uint32_t none = 0xffffffffu;
+
+enum class View : std::uint8_t { position, normal, rgb, rgba, texcoord, index16, index32 };
+inline constexpr std::size_t n_views = 7;
+
+struct ViewInfo {
+  std::uint8_t element;  // bytes
+  std::uint16_t component_type;
+  bool vertices;  // not indices
+  const char* type;
+};
+const ViewInfo& info(View);
+
+/// Of the positions of one accessor, as the floats that are stored.
+struct Bounds {
+  std::array<float, 3> low, high;
+};
+
+struct Accessor {
+  std::uint32_t offset, count;  // bytes, elements
+  std::uint32_t bounds;         // into Store::bounds; none unless of positions
+  View view;
+};
+
+class Store {
+ public:
+  /// Accessors with these values; `none` when they do not fit any more.
+  std::uint32_t positions(std::span<const float>, const Bounds&);
+  std::uint32_t vertices(View, std::span<const float>);
+  /// 16-bit indices when there are few enough vertices for them.
+  std::uint32_t indices(std::span<const std::uint32_t>, std::size_t n_vertices);
+
+  const std::vector<Accessor>& accessors() const { return accessors_; }
+  const std::vector<Bounds>& bounds() const { return bounds_; }
+  const Bounds& bounds_of(std::uint32_t accessor) const { return bounds_[accessors_[accessor].bounds]; }
+  const Blocks& view(View v) const { return views_[static_cast<std::size_t>(v)]; }
+  std::uint64_t bytes() const;
+  /// Data had to be refused: a GLB ends at 4 GiB.
+  bool full() const { return full_; }
+
+ private:
+  static constexpr std::uint64_t limit = std::numeric_limits<std::uint32_t>::max();
+  struct Slot {
+    std::uint32_t hash = 0, accessor = none;
+  };
+  std::uint32_t add(View, const void* data, std::size_t n_bytes);
+  Slot& find(View, const void* data, std::size_t n_bytes, std::uint32_t hash);
+  void grow();
+
+  std::array<Blocks, n_views> views_;
+  std::vector<Accessor> accessors_;
+  std::vector<Bounds> bounds_;
+  std::vector<Slot> slots_ = std::vector<Slot>(64);  // open addressing, a power of two
+  std::vector<std::uint16_t> narrow_;
+  bool full_ = false;
+};
+
+}  // namespace wrlkit::gltf

@@ -1,0 +1,146 @@
+#include "writers/gltf_textures.h"
+
+#include <algorithm>
+
+#include "scenegraph/nodes.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+/// An SFImage (ISO/IEC 14772-1, 5.5): width, height, channels, then a number for each pixel, from the bottom row up.
+std::optional<Image> image_of(std::span<const std::int32_t> v) {
+  if (v.size() < 3 || v[0] <= 0 || v[1] <= 0 || v[2] < 1 || v[2] > 4) return std::nullopt;
+  const auto width = static_cast<std::size_t>(v[0]), height = static_cast<std::size_t>(v[1]);
+  if ((v.size() - 3) / width < height) return std::nullopt;
+  Image image{v[0], v[1], v[2], {}};
+  image.pixels.reserve(width * height * static_cast<std::size_t>(v[2]));
+  for (std::size_t row = height; row-- > 0;)
+    for (std::size_t i = 0; i < width; ++i)
+      for (int c = v[2] - 1; c >= 0; --c)
+        image.pixels.push_back(
+            static_cast<std::uint8_t>(static_cast<std::uint32_t>(v[3 + row * width + i]) >> (8 * c)));
+  return image;
+}
+
+std::string with_extension(const std::string& name, std::string_view extension) {
+  return name.substr(0, name.find_last_of('.')) + std::string(extension);
+}
+
+/// The file name with the extension that belongs to its contents: readers go by it.
+std::string honest_name(const std::string& name, std::string_view mime) {
+  auto ends = [&](std::string_view e) {
+    return name.size() > e.size() && std::ranges::equal(name.substr(name.size() - e.size()), e,
+                                                        [](char a, char b) { return (a | 0x20) == b || a == b; });
+  };
+  if (mime == "image/png") return ends(".png") ? name : with_extension(name, ".png");
+  return ends(".jpg") || ends(".jpeg") ? name : with_extension(name, ".jpg");
+}
+
+}  // namespace
+
+std::span<const std::uint16_t> said_by_texture(const Scene& scene, NodeId n) {
+  namespace i = nodes::image_texture;
+  namespace p = nodes::pixel_texture;
+  static constexpr std::uint16_t image[] = {i::repeatS.slot, i::repeatT.slot},
+                                 pixels[] = {p::image.slot, p::repeatS.slot, p::repeatT.slot};
+  return scene.is(n, nodes::PixelTexture) ? std::span<const std::uint16_t>(pixels) : image;
+}
+
+TextureUse Textures::get(NodeId n) {
+  if (!n) return {};
+  auto [i, is_new] = by_node_.try_emplace(n.value);
+  if (is_new) i->second = make(n);
+  return i->second;
+}
+
+TextureUse Textures::make(NodeId n) {
+  if (scene_.is(n, nodes::ImageTexture)) {
+    namespace f = nodes::image_texture;
+    return make(n, load_file(n), {scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)});
+  }
+  if (scene_.is(n, nodes::PixelTexture)) {
+    namespace f = nodes::pixel_texture;
+    return make(n, load_pixels(n), {scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)});
+  }
+  if (scene_.is(n, nodes::MovieTexture)) {
+    auto urls = scene_.get(n, nodes::movie_texture::url);
+    diag_.report(Diag::no_gltf_movie, scene_.where(n), urls.empty() ? std::string_view{} : urls[0]);
+  }
+  return {};
+}
+
+TextureUse Textures::make(NodeId n, const Loaded& loaded, Sampler sampler) {
+  if (loaded.picture == none) return {};
+  auto s = static_cast<std::uint32_t>(std::ranges::find(samplers_, sampler) - samplers_.begin());
+  if (s == samplers_.size()) samplers_.push_back(sampler);
+  auto same = [&](const Texture& t) {
+    return t.picture == loaded.picture && t.sampler == s && scene_.name(t.source) == scene_.name(n);
+  };
+  // Few textures share a picture, and those that do were made close together.
+  auto recent = textures_.end() - std::min<std::ptrdiff_t>(std::ssize(textures_), 64);
+  auto known = std::find_if(recent, textures_.end(), same);
+  auto id = static_cast<std::uint32_t>(known - textures_.begin());
+  if (known == textures_.end()) textures_.push_back({loaded.picture, s, n});
+  return {id, loaded.channels, loaded.alpha};
+}
+
+Textures::Loaded Textures::load_file(NodeId n) {
+  auto urls = scene_.get(n, nodes::image_texture::url);
+  if (urls.empty() || !resources_) return {};
+  auto blob = resources_->bytes(urls, scene_.where(n), diag_);
+  if (!blob) return {};
+  auto [i, is_new] = by_file_.try_emplace(blob);
+  if (!is_new) return i->second;
+  auto header = read_image_header(blob->bytes, blob->name);
+  auto loaded = header ? as_it_is(n, blob, *header) : Loaded{};
+  if (loaded.picture == none)
+    if (auto image = resources_->image(urls, scene_.where(n), diag_)) loaded = encoded(n, blob->name, *image);
+  return by_file_[blob] = loaded;
+}
+
+/// The file untouched, where glTF takes it.
+Textures::Loaded Textures::as_it_is(NodeId n, const std::shared_ptr<const Blob>& blob, const ImageHeader& header) {
+  auto portable = portable_image(blob->bytes, header.mime);
+  if (!portable.usable) return {};
+  Loaded out{none, header.channels, Alpha::opaque};
+  if (header.alpha) {
+    auto image = resources_->image(scene_.get(n, nodes::image_texture::url), scene_.where(n), diag_);
+    if (!image) return {};
+    out.alpha = alpha_of(*image);
+  }
+  Picture p{honest_name(blob->name, header.mime), header.mime, blob->bytes, blob};
+  if (portable.cleaned) {
+    auto bytes = std::make_shared<const std::string>(std::move(*portable.cleaned));
+    p.bytes = *bytes, p.owner = bytes;
+  }
+  out.picture = add(std::move(p));
+  return out;
+}
+
+Textures::Loaded Textures::load_pixels(NodeId n) {
+  auto numbers = scene_.get(n, nodes::pixel_texture::image);
+  auto image = image_of(numbers);
+  if (!image) {
+    bool says_nothing = numbers.size() < 2 || numbers[0] == 0 || numbers[1] == 0;
+    if (!says_nothing)
+      diag_.report(Diag::image_unreadable, scene_.where(n), "PixelTexture", "its numbers are not those of a picture");
+    return {};
+  }
+  return encoded(n, scene_.name(n).empty() ? "pixels" : std::string(scene_.name(n)), *image);
+}
+
+Textures::Loaded Textures::encoded(NodeId n, const std::string& name, const Image& image) {
+  std::string error;
+  auto png = encode_png(image, error);
+  if (!png) return diag_.report(Diag::image_unreadable, scene_.where(n), name, error), Loaded{};
+  auto bytes = std::make_shared<const std::string>(std::move(*png));
+  return {add({honest_name(name, "image/png"), "image/png", *bytes, bytes}), image.channels, alpha_of(image)};
+}
+
+std::uint32_t Textures::add(Picture p) {
+  auto [i, is_new] = by_bytes_.try_emplace(p.bytes, static_cast<std::uint32_t>(pictures_.size()));
+  if (is_new) pictures_.push_back(std::move(p));
+  return i->second;
+}
+
+}  // namespace wrlkit::gltf

@@ -1,0 +1,81 @@
+// Textures: which picture, repeated or not. ImageTexture and PixelTexture become textures of glTF; each picture is
+// stored once, whoever uses it. MovieTexture has no counterpart.
+#pragma once
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "scenegraph/resources.h"
+#include "writers/gltf_images.h"
+#include "writers/gltf_store.h"
+
+namespace wrlkit::gltf {
+
+struct Picture {
+  std::string name;  // of the file, with the extension of what the bytes are
+  std::string_view mime;
+  std::string_view bytes;
+  std::shared_ptr<const void> owner;  // of the bytes
+};
+
+struct Texture {
+  std::uint32_t picture = none, sampler = none;
+  NodeId source;
+};
+
+struct Sampler {
+  bool repeat_s = true, repeat_t = true;
+  bool operator==(const Sampler&) const = default;
+};
+
+/// What a material must know of a texture.
+struct TextureUse {
+  std::uint32_t texture = none;  // none: there is nothing to show
+  int channels = 0;              // the number that the lighting model asks for (ISO/IEC 14772-1, 4.14)
+  Alpha alpha = Alpha::opaque;
+};
+
+/// Slots of a texture node that its texture, picture and sampler say.
+std::span<const std::uint16_t> said_by_texture(const Scene&, NodeId);
+
+class Textures {
+ public:
+  Textures(const Scene& scene, Resources* resources, Diagnostics& diag)
+      : scene_(scene), resources_(resources), diag_(diag) {}
+
+  /// Of an ImageTexture, PixelTexture or MovieTexture; equal ones are one texture. What cannot be had is reported,
+  /// once.
+  TextureUse get(NodeId texture);
+
+  const std::vector<Picture>& pictures() const { return pictures_; }
+  const std::vector<Texture>& textures() const { return textures_; }
+  const std::vector<Sampler>& samplers() const { return samplers_; }
+
+ private:
+  struct Loaded {
+    std::uint32_t picture = none;
+    int channels = 0;
+    Alpha alpha = Alpha::opaque;
+  };
+  TextureUse make(NodeId);
+  TextureUse make(NodeId, const Loaded&, Sampler);
+  Loaded load_file(NodeId);
+  Loaded load_pixels(NodeId);
+  Loaded as_it_is(NodeId, const std::shared_ptr<const Blob>&, const ImageHeader&);
+  Loaded encoded(NodeId, const std::string& name, const Image&);
+  std::uint32_t add(Picture);
+
+  const Scene& scene_;
+  Resources* resources_;
+  Diagnostics& diag_;
+  std::unordered_map<std::uint32_t, TextureUse> by_node_;
+  std::unordered_map<std::shared_ptr<const Blob>, Loaded>
+      by_file_;  // keeps them, so that none takes the place of another
+  std::unordered_map<std::string_view, std::uint32_t> by_bytes_;
+  std::vector<Picture> pictures_;
+  std::vector<Texture> textures_;
+  std::vector<Sampler> samplers_;
+};
+
+}  // namespace wrlkit::gltf

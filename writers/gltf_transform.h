@@ -1,0 +1,48 @@
+// The transforms of glTF nodes: translation, rotation, scale, and nothing else. A VRML Transform can say more, a scale
+// along turned axes; that becomes two nodes, one below the other. (A matrix would be no way out: glTF allows only
+// matrices that decompose into translation, rotation and scale again.)
+#pragma once
+#include <optional>
+
+#include "scenegraph/transform.h"
+
+namespace wrlkit::gltf {
+
+struct Quaternion {
+  double x = 0, y = 0, z = 0, w = 1;
+  bool identity() const { return x == 0 && y == 0 && z == 0; }
+};
+
+/// About an axis of any length; none when the axis is zero or a number is not finite.
+Quaternion quaternion(const Vec4& axis_angle);
+/// Turns -Z, where lights and cameras of glTF look, into a direction of any length; none when that is zero.
+Quaternion looking_along(const Vec3& direction);
+Quaternion operator*(const Quaternion&, const Quaternion&);
+Vec3 rotate(const Quaternion&, const Vec3&);
+inline Quaternion inverse(const Quaternion& q) { return {-q.x, -q.y, -q.z, q.w}; }
+
+struct Trs {
+  Vec3 translation{0, 0, 0};
+  Quaternion rotation{};
+  Vec3 scale{1, 1, 1};
+  bool identity() const { return translation == Vec3{0, 0, 0} && rotation.identity() && scale == Vec3{1, 1, 1}; }
+};
+
+/// At the origin when the position is too large for glTF, or no number.
+Trs placed_at(const Vec3& position, const Quaternion& rotation);
+Matrix matrix(const Trs&);
+/// How much lengths grow, on average: cube root of the volume of what was a unit cube.
+double mean_scale(const Matrix&);
+
+/// A node of type Transform as one or two glTF nodes.
+struct NodeTransform {
+  Trs outer;
+  std::optional<Trs> inner;  // of a child that takes the children
+  bool plain = true;         // `outer` is what the fields say; otherwise center or scaleOrientation are in it
+};
+
+/// The standard's T C R SR S -SR -C (ISO/IEC 14772-1, 6.52), in double. Vectors with a number that is too large for
+/// glTF, or none, read as the default.
+NodeTransform node_transform(const Scene&, NodeId transform);
+
+}  // namespace wrlkit::gltf

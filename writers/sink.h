@@ -1,0 +1,61 @@
+// Where writers put their bytes: a block at a time, so that no writer holds its whole output.
+#pragma once
+#include <charconv>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace wrlkit {
+
+using Sink = std::function<void(std::string_view)>;
+
+/// Collects small pieces into blocks for a Sink.
+class TextOut {
+ public:
+  explicit TextOut(Sink sink) : sink_(std::move(sink)) { buffer_.reserve(block + reserve); }
+  ~TextOut() { flush(); }
+  TextOut(const TextOut&) = delete;
+
+  TextOut& operator<<(std::string_view s) {
+    buffer_.append(s);
+    if (buffer_.size() >= block) flush();
+    return *this;
+  }
+  TextOut& operator<<(char c) {
+    buffer_.push_back(c);
+    return *this;
+  }
+  /// Shortest text that reads back as the same double; with `precision` > 0 that many significant digits.
+  void number(double v, int precision = 0) {
+    char b[40];
+    auto r = precision > 0 ? std::to_chars(b, b + sizeof b, v, std::chars_format::general, precision) : std::to_chars(b, b + sizeof b, v);
+    *this << std::string_view(b, static_cast<std::size_t>(r.ptr - b));
+  }
+  /// Shortest text that reads back as the same float.
+  void number(float v) {
+    char b[40];
+    auto r = std::to_chars(b, b + sizeof b, v);
+    *this << std::string_view(b, static_cast<std::size_t>(r.ptr - b));
+  }
+  void integer(std::int64_t v) {
+    char b[24];
+    auto r = std::to_chars(b, b + sizeof b, v);
+    *this << std::string_view(b, static_cast<std::size_t>(r.ptr - b));
+  }
+  void flush() {
+    if (!buffer_.empty()) sink_(buffer_);
+    written_ += buffer_.size();
+    buffer_.clear();
+  }
+  /// Bytes so far.
+  std::uint64_t size() const { return written_ + buffer_.size(); }
+
+ private:
+  static constexpr std::size_t block = 256 * 1024, reserve = 4096;
+  Sink sink_;
+  std::string buffer_;
+  std::uint64_t written_ = 0;
+};
+
+}  // namespace wrlkit

@@ -1,0 +1,361 @@
+#include "writers/vrml.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "scenegraph/equal.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+/// Calls proto(ProtoId) and node(NodeId) in the order in which a scope is printed: prototypes first, but those that declare
+/// a name again, or one of the standard, where they stood.
+template <class P, class N>
+void for_each_statement(const Scene& scene, const Scope& s, P&& proto, N&& node) {
+  std::unordered_set<std::string_view> declared;
+  std::vector<ProtoId> later;
+  for (ProtoId p : s.protos) {
+    auto name = scene.type(scene.proto(p).type).name;
+    if (declared.insert(name).second && later.empty() && !find_builtin(name, Dialect::vrml97)) proto(p);
+    else later.push_back(p);
+  }
+  auto next = later.begin();
+  for (std::size_t i = 0; i < s.roots.size(); ++i) {
+    for (; next != later.end() && scene.proto(*next).roots_before <= i; ++next) proto(*next);
+    node(s.roots[i]);
+  }
+  for (; next != later.end(); ++next) proto(*next);
+}
+
+/// Output names of a scope. A name may be defined several times: USE means the last one before it (4.4.3). Nodes are met in
+/// the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own.
+class Names {
+ public:
+  explicit Names(const Scene& scene) : scene_(scene), met_(scene.node_count(), 0) {}
+
+  void scope(const Scope& s) {
+    last_.clear();
+    auto defaults = [&](ProtoId p) { for (auto& f : scene_.type(scene_.proto(p).type).fields) meet(f.default_value.node_span()); };
+    for_each_statement(scene_, s, defaults, [&](NodeId n) { meet({&n, 1}); });
+    for (auto& r : s.routes) referred(r.from), referred(r.to);
+  }
+  bool met(NodeId n) const { return met_[n.value]; }
+  std::string_view operator[](NodeId n) const {
+    auto i = given_.find(n.value);
+    return i == given_.end() ? scene_.name(n) : std::string_view(i->second);
+  }
+
+ private:
+  void meet(std::span<const NodeId> roots) {
+    std::vector<NodeId> stack(roots.rbegin(), roots.rend());
+    while (!stack.empty()) {
+      NodeId n = stack.back();
+      stack.pop_back();
+      if (!n) continue;
+      if (met_[n.value]) { referred(n); continue; }
+      met_[n.value] = 1;
+      if (auto name = scene_.name(n); !name.empty()) last_[name] = n;
+      auto mark = stack.size();
+      for_each_printed_child(n, [&](NodeId c) { stack.push_back(c); });
+      std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(mark), stack.end());
+    }
+  }
+
+  template <class F>
+  void for_each_printed_child(NodeId n, F&& f) {
+    for (const Value* v : printed_order(scene_, n))
+      for (NodeId c : scene_.content(*v).node_span()) f(c);
+  }
+
+  void referred(NodeId n) {
+    auto name = scene_.name(n);
+    if (given_.count(n.value)) return;
+    if (!name.empty() && last_[name] == n) return;
+    given_[n.value] = fresh(name);
+  }
+
+  std::string fresh(std::string_view base) {
+    if (taken_.empty()) {
+      taken_.insert("");
+      for (std::uint32_t i = 0; i < scene_.node_count(); ++i) taken_.insert(std::string(scene_.name(NodeId{i})));
+    }
+    auto& k = counter_[std::string(base)];
+    for (;;) {
+      std::string s = (base.empty() ? std::string("_") : std::string(base) + "_") + std::to_string(++k);
+      if (taken_.insert(s).second) return s;
+    }
+  }
+
+ public:
+  /// Written fields in the order of the table, unknown ones behind.
+  static std::vector<const Value*> printed_order(const Scene& scene, NodeId n) {
+    std::vector<const Value*> v;
+    for (auto& f : scene.fields(n)) v.push_back(&f);
+    auto by_slot = [](const Value* a, const Value* b) { return a->slot < b->slot; };
+    if (!std::ranges::is_sorted(v, by_slot)) std::ranges::stable_sort(v, by_slot);
+    return v;
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<char> met_;
+  std::unordered_map<std::string_view, NodeId> last_;
+  std::unordered_map<std::uint32_t, std::string> given_;
+  std::unordered_set<std::string> taken_;
+  std::unordered_map<std::string, std::uint64_t> counter_;
+};
+
+class Writer {
+ public:
+  Writer(const Scene& scene, const VrmlOptions& options, const Sink& sink) : scene_(scene), options_(options), out_(sink), names_(scene), printed_(scene.node_count(), 0) {}
+
+  void file() {
+    out_ << "#VRML V2.0 utf8\n" << scene_.comment;
+    scope(scene_.main);
+  }
+
+  void single(NodeId n) {
+    names_.scope(Scope{{n}, {}, {}});
+    node(n);
+  }
+
+ private:
+  void line() {
+    out_ << '\n';
+    for (int i = 0; i < depth_; ++i) out_ << ' ';
+  }
+
+  void scope(const Scope& s) {
+    names_.scope(s);
+    for_each_statement(scene_, s, [&](ProtoId p) { line_start(); proto(scene_.proto(p)); }, [&](NodeId n) { line_start(); node(n); });
+    for (auto& r : s.routes) {
+      if (!names_.met(r.from) || !names_.met(r.to)) continue;
+      line_start();
+      out_ << "ROUTE " << names_[r.from] << '.' << r.event_out << " TO " << names_[r.to] << '.' << r.event_in;
+    }
+    if (depth_ == 0) out_ << '\n';
+  }
+
+  // The header line and the comments end with a line feed of their own.
+  void line_start() {
+    if (depth_ > 0 || !first_) line();
+    first_ = false;
+  }
+
+  void proto(const Proto& p) {
+    const auto& t = scene_.type(p.type);
+    out_ << (p.external ? "EXTERNPROTO " : "PROTO ") << t.name << " [";
+    ++depth_;
+    for (const auto& f : t.fields) {
+      line();
+      declaration(f);
+      if (!p.external && f.has_value()) { out_ << ' '; value(f.default_value); }
+    }
+    --depth_;
+    if (!t.fields.empty()) line();
+    out_ << "] ";
+    if (p.external) { strings(p.urls); return; }
+    out_ << '{';
+    ++depth_;
+    scope(p.body);
+    --depth_;
+    line();
+    out_ << '}';
+  }
+
+  void declaration(const FieldDef& f) {
+    constexpr std::string_view words[] = {"field ", "exposedField ", "eventIn ", "eventOut "};
+    out_ << words[static_cast<int>(f.access)] << info(f.type).name << ' ' << f.name;
+  }
+
+  void node(NodeId n) {
+    if (!n) { out_ << "NULL"; return; }
+    auto name = names_[n];
+    if (printed_[n.value]) { out_ << "USE " << name; return; }
+    printed_[n.value] = 1;
+    if (!name.empty()) out_ << "DEF " << name << ' ';
+    out_ << scene_.type(n).name << " {";
+    ++depth_;
+    bool empty = true;
+    const auto own = own_fields(scene_.type(n));
+    const auto written = Names::printed_order(scene_, n);
+    for (const Value* v : written)
+      if (v->slot < own) empty &= !field(n, *v);
+    for (std::size_t i = own; i < scene_.type(n).fields.size(); ++i) own_field(n, static_cast<std::uint16_t>(i)), empty = false;
+    for (const Value* v : written)
+      if (scene_.is_extra(*v)) empty &= !field(n, *v);
+    --depth_;
+    if (!empty) line();
+    out_ << '}';
+  }
+
+  /// False when it says what the default says.
+  bool field(NodeId n, const Value& v) {
+    const auto& t = scene_.type(n);
+    if (scene_.is_extra(v)) {
+      line();
+      out_ << v.extra->name;
+      if (const auto& c = v.extra->value; c.is || c.type != FieldType::verbatim || c.count) { out_ << ' '; unknown_content(c); }
+      return true;
+    }
+    const auto& f = t.fields[v.slot];
+    if (t.kind != NodeKind::proto && !v.is && equal_default(v, f)) return false;
+    line();
+    out_ << f.name_in(Dialect::vrml97) << ' ';
+    if (!v.is && v.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url"))) urls(n, v.text_span());
+    else content(v);
+    return true;
+  }
+
+  /// Urls are relative to the file that they stand in. Those of an inlined world are led to its folder.
+  void urls(NodeId n, std::span<const std::string_view> list) {
+    namespace fs = std::filesystem;
+    auto folder = [&](std::uint32_t offset) { return fs::path(scene_.sources->file(offset)).parent_path(); };
+    fs::path from = folder(scene_.where(n).begin), here = folder(0);
+    if (from.empty() || from == here) return strings(list);
+    fs::path prefix = from.lexically_relative(here.empty() ? fs::path(".") : here);
+    std::vector<std::string> led;
+    for (auto url : list) {
+      bool relative = !url.empty() && url[0] != '/' && url[0] != '#' && url.find(':') == url.npos;
+      led.push_back(relative && !prefix.empty() ? (prefix / url).lexically_normal().generic_string() : std::string(url));
+    }
+    const std::vector<std::string_view> views(led.begin(), led.end());
+    strings(views);
+  }
+
+  /// A field or event that a Script declares.
+  void own_field(NodeId n, std::uint16_t slot) {
+    const auto& f = scene_.type(n).fields[slot];
+    line();
+    declaration(f);
+    if (const Value* v = scene_.find(n, slot)) { out_ << ' '; content(*v); }
+    else if (f.has_value()) { out_ << ' '; value(f.default_value); }
+  }
+
+  /// Where the fields that a Script declares itself begin.
+  static std::size_t own_fields(const NodeType& t) {
+    if (t.kind != NodeKind::script) return t.fields.size();
+    return builtin_nodes()[find_builtin(t.name, Dialect::vrml97).value].fields.size();
+  }
+
+  static bool equal_default(const Value& v, const FieldDef& f) {
+    if (info(v.type).element == Element::node) return v.type == f.type && v.node_span().empty();
+    return equal_plain(v, f.default_value);
+  }
+
+  void content(const Value& v) {
+    if (v.is) out_ << "IS " << v.text();
+    else value(v);
+  }
+
+  /// Of an unknown field: nothing but the brackets tells a list of one node from a node.
+  void unknown_content(const Value& v) {
+    if (v.is || v.type != FieldType::MFNode || v.count != 1) return content(v);
+    out_ << "[ ";
+    node(v.nodes[0]);
+    out_ << " ]";
+  }
+
+  void value(const Value& v) {
+    const auto& t = info(v.type);
+    switch (t.element) {
+      case Element::node: return t.multiple ? node_list(v.node_span()) : node(v.node);
+      case Element::text:
+        if (v.type == FieldType::verbatim) out_ << v.text();
+        else if (t.multiple) strings(v.text_span());
+        else string(v.text());
+        return;
+      case Element::image: return bare(v.integer_span(), [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });
+      case Element::integer:
+        if (v.type == FieldType::SFBool) out_ << (v.integer ? "TRUE" : "FALSE");
+        else if (v.type == FieldType::MFBool) list(v.integer_span(), 1, [&](std::int32_t b) { out_ << (b ? "TRUE" : "FALSE"); });
+        else if (t.multiple) list(v.integer_span(), 1, [&](std::int32_t i) { out_.integer(i); });
+        else out_.integer(v.integer);
+        return;
+      case Element::number:
+        if (t.multiple) list(v.number_span(), t.arity, [&](double d) { out_.number(d, options_.precision); });
+        else bare(v.number_span(), [&](double d) { out_.number(d, options_.precision); });
+    }
+  }
+
+  template <class T, class Print>
+  void bare(std::span<const T> values, Print print) {
+    for (std::size_t i = 0; i < values.size(); ++i) { if (i) out_ << ' '; print(values[i]); }
+  }
+
+  /// [ ... ], wrapped between tuples at some hundred characters.
+  template <class T, class Print>
+  void list(std::span<const T> values, std::size_t arity, Print print) {
+    constexpr std::uint64_t width = 110;
+    out_ << '[';
+    auto start = out_.size();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i) {
+        if (i % arity == 0 && out_.size() - start > width) { out_ << '\n'; start = out_.size(); }
+        else out_ << ' ';
+      }
+      print(values[i]);
+    }
+    out_ << ']';
+  }
+
+  /// Four components do not fit into a decimal int32.
+  void pixel(std::uint32_t p) {
+    if (p <= 0x7fffffffu) return void(out_.integer(p));
+    char b[16] = "0x";
+    *std::to_chars(b + 2, b + sizeof b, p, 16).ptr = 0;
+    out_ << std::string_view(b);
+  }
+
+  void string(std::string_view s) {
+    out_ << '"';
+    for (std::size_t from = 0;;) {
+      auto at = s.find_first_of("\"\\", from);
+      out_ << s.substr(from, at - from);
+      if (at == s.npos) break;
+      out_ << '\\' << s[at];
+      from = at + 1;
+    }
+    out_ << '"';
+  }
+
+  void strings(std::span<const std::string_view> v) {
+    if (v.size() == 1) return string(v[0]);
+    out_ << '[';
+    for (std::size_t i = 0; i < v.size(); ++i) { if (i) out_ << ' '; string(v[i]); }
+    out_ << ']';
+  }
+
+  void node_list(std::span<const NodeId> v) {
+    if (v.size() == 1 && v[0]) return node(v[0]);
+    out_ << '[';
+    ++depth_;
+    for (NodeId n : v) { line(); node(n); }
+    --depth_;
+    if (!v.empty()) line();
+    out_ << ']';
+  }
+
+  const Scene& scene_;
+  VrmlOptions options_;
+  TextOut out_;
+  Names names_;
+  std::vector<char> printed_;
+  int depth_ = 0;
+  bool first_ = true;
+};
+
+}  // namespace
+
+void write_vrml(const Scene& scene, const VrmlOptions& options, const Sink& sink, Diagnostics&) { Writer(scene, options, sink).file(); }
+
+std::string node_text(const Scene& scene, NodeId n, Diagnostics&) {
+  std::string text;
+  Writer(scene, {}, [&](std::string_view s) { text += s; }).single(n);
+  return text;
+}
+
+}  // namespace wrlkit
