@@ -1,0 +1,169 @@
+// Every verb and flag with its help. The only file that knows CLI11.
+#include "tools/cli.h"
+
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#ifndef WRLKIT_VERSION
+#define WRLKIT_VERSION "unknown"
+#endif
+
+namespace wrlkit {
+namespace {
+
+// -Werror=NAME and -Wno-NAME look like bundled short flags to CLI11; they are taken out before.
+std::vector<std::string> take_warning_flags(std::vector<std::string>& words) {
+  std::vector<std::string> out;
+  std::erase_if(words, [&](const std::string& w) { return w.starts_with("-W") && w.size() > 2 && (out.push_back(w.substr(2)), true); });
+  return out;
+}
+
+void common(CLI::App& verb, Flags& f) {
+  auto* g = verb.add_option_group("every verb");
+  g->add_flag("-q,--quiet", f.quiet, "print no warnings and no progress, only errors");
+  g->add_flag("-v,--verbose", f.verbose, "print what is done");
+  g->add_flag("--json", f.json, "print for machines");
+  g->add_flag("--strict", f.strict, "every repair is an error");
+  g->add_option("--report", f.report, "write what happened to this file, as JSON")->type_name("FILE");
+  g->add_option("--allow-path", f.allow_paths, "files below this folder may be read, too (Inline, textures)")->type_name("DIR");
+  g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+  g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")->type_name("SIZE");
+}
+
+void input(CLI::App& verb, Flags& f) {
+  verb.add_option_function<std::string>("IN", [&f](const std::string& path) { f.inputs = {path}; }, "the world; - is standard input")->required();
+}
+
+void placing(CLI::App& verb, Flags& f) {
+  verb.add_option("--unit", f.unit, "what one unit of the input is: m, cm, mm, in, ft")->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
+  verb.add_option("--up", f.up, "which axis of the input points up: y, z, x")->check(CLI::IsMember({"y", "z", "x"}));
+}
+
+void pipeline(CLI::App& verb, Flags& f) {
+  verb.add_option("-p,--pipeline", f.pipeline, "passes to run, or the name of a pipeline; see wrlkit passes")->type_name("PASSES");
+  verb.add_flag("--print-pipeline", f.print_pipeline, "print the whole pipeline with all options, and end");
+  verb.add_flag("--verify-each", f.verify_each, "check the scene after each pass");
+  verb.add_option("--print-after", f.print_after, "print the scene as VRML after this pass, or after all")->type_name("PASS");
+  verb.add_flag("--time-passes", f.time_passes, "print how long each pass took");
+  verb.add_flag("--stats", f.stats, "print what the passes counted");
+}
+
+void vrml_output(CLI::App& verb, Flags& f) {
+  verb.add_flag("--gzip", f.gzip, "compress VRML output");
+  verb.add_option("--precision", f.precision, "significant digits of VRML output; 0: all that are needed")->check(CLI::Range(0, 17));
+}
+
+struct Verb {
+  const char *name, *help, *example;
+  void (*flags)(CLI::App&, Flags&);
+  int (*run)(const Flags&);
+};
+
+const Verb verbs[] = {
+    {"convert", "convert a world; the name of OUT decides the format",
+     "wrlkit convert plant.wrl plant.glb\n  wrlkit convert old.wrl.gz new.wrl -p inline,expand-protos --gzip",
+     [](CLI::App& v, Flags& f) {
+       input(v, f);
+       v.add_option("OUT", f.output, "file.glb, .gltf, .wrl, .wrz")->required();
+       pipeline(v, f);
+       placing(v, f);
+       vrml_output(v, f);
+     },
+     run_convert},
+    {"info", "what is inside: nodes, triangles, bounds, textures, lights", "wrlkit info plant.wrl --json",
+     [](CLI::App& v, Flags& f) { input(v, f); placing(v, f); }, run_info},
+    {"check", "faults and doubtful places of worlds", "wrlkit check *.wrl",
+     [](CLI::App& v, Flags& f) {
+       v.add_option("IN", f.inputs, "worlds")->required();
+       v.add_flag("--parse-only", f.parse_only, "only read them: no values checked, no Inlines followed");
+     },
+     run_check},
+    {"cat", "the world as canonical VRML text", "wrlkit cat plant.wrl.gz | less",
+     [](CLI::App& v, Flags& f) {
+       input(v, f);
+       v.add_option("-o,--output", f.output, "file instead of standard output");
+       pipeline(v, f);
+       vrml_output(v, f);
+     },
+     run_cat},
+    {"render", "a picture of the world, without a display", "wrlkit render plant.wrl plant.png --viewpoint Overview",
+     [](CLI::App& v, Flags& f) {
+       input(v, f);
+       v.add_option("OUT", f.output, "file.png or .jpg")->required();
+       v.add_option("--width", f.width, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
+       v.add_option("--height", f.height, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
+       v.add_option("--samples", f.samples, "samples a pixel, along each side")->check(CLI::Range(1, 16))->capture_default_str();
+       v.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint");
+       v.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
+       v.add_option("--look-at", f.look_at, "eye, target and up: nine numbers")->expected(9)->delimiter(',');
+       v.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")->expected(3)->delimiter(',');
+       v.add_option("--headlight", f.headlight, "on or off, whatever NavigationInfo says")->check(CLI::IsMember({"on", "off"}));
+       v.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")->check(CLI::Range(0.0, 179.0));
+       v.add_option("--mode", f.mode, "preview or wireframe")->check(CLI::IsMember({"preview", "wireframe"}))->capture_default_str();
+       pipeline(v, f);
+       placing(v, f);
+     },
+     run_render},
+    {"passes", "every pass, or one with its options", "wrlkit passes tessellate", [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "a pass"); }, run_passes},
+    {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
+    {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",
+     [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "node type, pass or message")->required(); }, run_explain},
+    {"docs", "a page of the documentation that is made from the tables: nodes, passes or diagnostics", "wrlkit docs nodes",
+     [](CLI::App& v, Flags& f) { v.add_option("PAGE", f.name, "nodes, passes or diagnostics")->required()->check(CLI::IsMember({"nodes", "passes", "diagnostics"})); }, run_docs},
+};
+
+/// "8G" to bytes; 0 when it is no size.
+std::uint64_t size_of(const std::string& s) {
+  char* end = nullptr;
+  double v = std::strtod(s.c_str(), &end);
+  std::string unit = end;
+  double factor = unit == "G" || unit == "g" ? 1 << 30 : unit == "M" || unit == "m" ? 1 << 20 : unit == "K" || unit == "k" ? 1 << 10 : unit.empty() ? 1 : 0;
+  return v > 0 ? static_cast<std::uint64_t>(v * factor) : 0;
+}
+
+bool limit_memory(const Flags& f) {
+  if (f.memory.empty()) return true;
+  rlim_t bytes = size_of(f.memory);
+  if (!bytes) return false;
+  rlimit limit{bytes, bytes};
+  return setrlimit(RLIMIT_AS, &limit) == 0;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  Flags flags;
+  flags.warnings = take_warning_flags(words);
+  if (!words.empty() && !words[0].starts_with('-') && std::ranges::none_of(verbs, [&](const Verb& v) { return words[0] == v.name; }))
+    return std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str()), usage;
+  std::ranges::reverse(words);
+
+  CLI::App app("wrlkit: legacy virtual worlds (VRML97) to glTF, and back to better VRML", "wrlkit");
+  app.set_version_flag("--version", std::string("wrlkit ") + WRLKIT_VERSION);
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::simple);
+  int code = done;
+  const Verb* chosen = nullptr;
+  for (const Verb& v : verbs) {
+    auto* sub = app.add_subcommand(v.name, v.help);
+    v.flags(*sub, flags);
+    common(*sub, flags);
+    sub->footer(std::string("-Werror=NAME and -Wno-NAME set the severity of one message (wrlkit explain NAME), -Werror that of all warnings.\n\nExample:\n  ") + v.example);
+    sub->callback([&] { chosen = &v; });
+  }
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& e) {
+    code = app.exit(e);
+    return code == 0 ? done : usage;
+  }
+  for (auto* sub : app.get_subcommands())
+    if (auto* p = sub->get_option_no_throw("--pipeline")) flags.pipeline_given = p->count() > 0;
+  if (!limit_memory(flags)) return std::fprintf(stderr, "wrlkit: --memory: '%s' is no size\n", flags.memory.c_str()), usage;
+  return chosen->run(flags);
+}
+
+}  // namespace wrlkit

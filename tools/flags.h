@@ -1,0 +1,57 @@
+// What the command line can say, as data. cli.cpp fills these from the words of the command; the verbs read them.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace wrlkit {
+
+struct Flags {
+  // every verb
+  bool quiet = false, verbose = false, json = false, strict = false;
+  std::string report;                      // file for a JSON report
+  std::vector<std::string> warnings;       // -Werror=NAME, -Wno-NAME, -Werror
+  std::vector<std::string> allow_paths;
+  int jobs = 0;
+  std::string memory;                      // "8G"
+  std::string unit, up;
+
+  // what the verb works on
+  std::vector<std::string> inputs;
+  std::string output;
+  std::string name;                        // explain, passes
+
+  // convert, cat, render
+  std::string pipeline;                    // -p; empty: what the format needs
+  bool pipeline_given = false;
+  bool print_pipeline = false, verify_each = false, time_passes = false, stats = false;
+  std::string print_after;
+  bool gzip = false;
+  int precision = 0;
+
+  bool parse_only = false;                 // check
+
+  // render
+  int width = 1280, height = 960, samples = 4;
+  std::string viewpoint, mode = "preview";
+  std::vector<double> look_at;             // eye, target, up
+  bool fit = false;
+  std::vector<double> background;          // r, g, b; empty: the world's
+  std::string headlight;                   // "on", "off"; empty: as NavigationInfo says
+  double field_of_view = 0;                // degrees; 0: the Viewpoint's
+};
+
+/// Exit codes of the product: 0 done, 1 done but something of the input could not be used, 2 wrong usage, 3 nothing made.
+enum ExitCode : int { done = 0, partly = 1, usage = 2, nothing = 3 };
+
+int run_convert(const Flags&);
+int run_info(const Flags&);
+int run_check(const Flags&);
+int run_cat(const Flags&);
+int run_render(const Flags&);
+int run_passes(const Flags&);
+int run_formats(const Flags&);
+int run_explain(const Flags&);
+int run_docs(const Flags&);
+
+}  // namespace wrlkit

@@ -1,0 +1,142 @@
+#include "tools/geometry_census.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "scenegraph/nodes.h"
+#include "scenegraph/transform.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr std::size_t most_places = 2'000'000;        // whose matrices are kept
+constexpr std::uint64_t most_points = 2'000'000'000;  // transformed for the bounds
+
+std::uint64_t add(std::uint64_t a, std::uint64_t b) { return a > ~b ? ~0ull : a + b; }
+std::uint64_t multiply(std::uint64_t a, std::uint64_t b) { return b && a > ~0ull / b ? ~0ull : a * b; }
+
+/// Nodes of the shown hierarchy, children before parents, each once.
+std::vector<NodeId> post_order(const Scene& scene) {
+  std::vector<NodeId> out;
+  std::vector<char> state(scene.node_count());
+  std::vector<std::pair<NodeId, bool>> stack;
+  for (auto r = scene.main.roots.rbegin(); r != scene.main.roots.rend(); ++r) stack.emplace_back(*r, false);
+  while (!stack.empty()) {
+    auto [n, done] = stack.back();
+    stack.pop_back();
+    if (done) { out.push_back(n); continue; }
+    if (!n || std::exchange(state[n.value], 1)) continue;
+    stack.emplace_back(n, true);
+    for (NodeId c : shown_children(scene, n)) stack.emplace_back(c, false);
+  }
+  return out;
+}
+
+NodeId geometry_of(const Scene& scene, NodeId n) { return scene.is(n, nodes::Shape) ? scene.get(n, nodes::shape::geometry) : NodeId{}; }
+
+/// How often each node is shown.
+std::vector<std::uint64_t> times_shown(const Scene& scene, const std::vector<NodeId>& order) {
+  std::vector<std::uint64_t> times(scene.node_count());
+  for (NodeId n : scene.main.roots)
+    if (n) times[n.value] = add(times[n.value], 1);
+  for (auto n = order.rbegin(); n != order.rend(); ++n)
+    for (NodeId c : shown_children(scene, *n)) if (c) times[c.value] = add(times[c.value], times[n->value]);
+  return times;
+}
+
+/// The matrices of each geometry; false when there are too many.
+bool places(const Scene& scene, std::unordered_map<std::uint32_t, std::vector<Matrix>>& out) {
+  std::vector<std::pair<NodeId, Matrix>> stack;
+  for (auto r = scene.main.roots.rbegin(); r != scene.main.roots.rend(); ++r) stack.emplace_back(*r, Matrix{});
+  std::size_t visits = 0, n_places = 0;
+  while (!stack.empty()) {
+    auto [n, m] = stack.back();
+    stack.pop_back();
+    if (!n) continue;
+    if (++visits > most_places * 4) return false;
+    if (NodeId g = geometry_of(scene, n)) {
+      if (++n_places > most_places) return false;
+      out[g.value].push_back(m);
+      continue;
+    }
+    Matrix here = scene.is(n, nodes::Transform) ? m * local_matrix(scene, n) : m;
+    for (NodeId c : shown_children(scene, n)) stack.emplace_back(c, here);
+  }
+  return true;
+}
+
+/// The corners that a mesh uses, or the corners of their box when there are too many places for that.
+void add_bounds(const Mesh& mesh, const std::vector<Matrix>& where, StampedMap& seen, std::uint64_t& budget, Bounds& bounds) {
+  std::vector<Vec3> points;
+  Bounds box;
+  seen.reset(mesh.n_positions());
+  for (auto c : mesh.corners) {
+    if (seen.contains(c)) continue;
+    seen.set(c, 0);
+    points.push_back({mesh.positions[c * 3], mesh.positions[c * 3 + 1], mesh.positions[c * 3 + 2]});
+    box.add(points.back());
+  }
+  if (multiply(points.size(), where.size()) > budget) {
+    points.clear();
+    for (int i = 0; i < 8; ++i) points.push_back({i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1], i & 4 ? box.max[2] : box.min[2]});
+  } else {
+    budget -= points.size() * where.size();
+  }
+  for (auto& m : where)
+    for (auto& p : points) bounds.add(m.point(p));
+}
+
+/// Boxes from below upwards: loose where there is rotation, but linear in the nodes however often they are shown.
+Bounds box_of_boxes(const Scene& scene, const std::vector<NodeId>& order, const std::unordered_map<std::uint32_t, Bounds>& geometry) {
+  std::vector<Bounds> box(scene.node_count());
+  Bounds all;
+  auto merge = [](Bounds& to, const Bounds& b, const Matrix& m) {
+    for (int i = 0; i < 8 && !b.empty(); ++i) to.add(m.point({i & 1 ? b.max[0] : b.min[0], i & 2 ? b.max[1] : b.min[1], i & 4 ? b.max[2] : b.min[2]}));
+  };
+  for (NodeId n : order) {
+    if (NodeId g = geometry_of(scene, n)) box[n.value] = geometry.at(g.value);
+    Matrix m = local_matrix(scene, n);
+    for (NodeId c : shown_children(scene, n)) if (c) merge(box[n.value], box[c.value], m);
+  }
+  for (NodeId n : scene.main.roots) if (n) merge(all, box[n.value], {});
+  return all;
+}
+
+}  // namespace
+
+GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, const MeshSource& triangles) {
+  GeometryCensus census;
+  const auto order = post_order(scene);
+  const auto times = times_shown(scene, order);
+  std::unordered_map<std::uint32_t, std::uint64_t> uses;  // of each geometry
+  std::vector<NodeId> geometries;
+  for (NodeId n : order)
+    if (NodeId g = geometry_of(scene, n)) {
+      if (!uses.count(g.value)) geometries.push_back(g);
+      uses[g.value] = add(uses[g.value], times[n.value]);
+      census.shapes = add(census.shapes, times[n.value]);
+    }
+  std::unordered_map<std::uint32_t, std::vector<Matrix>> where;
+  const bool exact = places(scene, where);
+  std::unordered_map<std::uint32_t, Bounds> boxes;
+  StampedMap seen;
+  std::uint64_t budget = most_points;
+  for (NodeId g : geometries) {
+    auto sum = [&](std::uint64_t& to, std::uint64_t n) { to = add(to, multiply(n, uses[g.value])); };
+    // Faces without area are no triangles, but their corners count for the bounds, as other readers have it.
+    const Mesh& p = polygons(g);
+    if (p.kind == Mesh::Kind::faces) sum(census.polygons, p.n_faces());
+    if (exact) add_bounds(p, where[g.value], seen, budget, census.bounds);
+    else add_bounds(p, {Matrix{}}, seen, budget, boxes[g.value]);
+    const Mesh& m = triangles(g);
+    if (m.kind == Mesh::Kind::faces) sum(census.triangles, m.n_faces());
+    if (m.kind == Mesh::Kind::points) sum(census.points, m.corners.size());
+    if (m.kind == Mesh::Kind::lines) sum(census.lines, m.corners.size() - m.n_faces());
+  }
+  if (!exact) census.bounds = box_of_boxes(scene, order, boxes);
+  return census;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,30 @@
+// How far long work is: a line that is overwritten on a terminal, a line every ten seconds in a log, nothing for work
+// that takes less than a second.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace wrlkit {
+
+class Progress {
+ public:
+  explicit Progress(bool on);
+  ~Progress() { clear(); }
+
+  /// A new stretch of work: `total` things of that unit ("shapes"); 0: how many is not known.
+  void begin(std::string what, std::uint64_t total, std::string unit);
+  void step() { if (on_ && (++done_ & 0xff) == 0) show(); }
+  /// Takes the line off the terminal.
+  void clear();
+
+ private:
+  void show();
+  using Clock = std::chrono::steady_clock;
+  bool on_, terminal_ = false, shown_ = false;
+  std::string what_, unit_;
+  std::uint64_t done_ = 0, total_ = 0;
+  Clock::time_point start_, last_;
+};
+
+}  // namespace wrlkit

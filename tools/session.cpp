@@ -1,0 +1,137 @@
+#include "tools/session.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "scenegraph/nodes.h"
+#include "tools/print_diagnostics.h"
+#include "writers/json.h"
+#include "writers/output.h"
+#include "writers/vrml.h"
+
+namespace wrlkit {
+namespace {
+
+ResourceOptions resource_options(const Flags& f) {
+  ResourceOptions o;
+  if (!f.inputs.empty()) o.input = f.inputs[0];
+  o.allowed = f.allow_paths;
+  return o;
+}
+
+}  // namespace
+
+Session::Session(const Flags& flags)
+    : flags_(flags), context_{diag_, stats_}, progress_(!flags.quiet) {
+  resources_ = std::make_unique<FileResources>(resource_options(flags), [](const std::string& path, Diagnostics& diag) -> std::shared_ptr<const Scene> {
+    auto world = read_world(path, {}, diag);
+    return world ? std::make_shared<const Scene>(std::move(world->scene)) : nullptr;
+  });
+  context_.resources = resources_.get();
+  good_ = apply_warning_flags();
+}
+
+bool Session::apply_warning_flags() {
+  if (flags_.strict) diag_.warnings_are_errors();
+  for (const auto& w : flags_.warnings) {
+    if (w == "error") { diag_.warnings_are_errors(); continue; }
+    bool error = w.starts_with("error="), off = w.starts_with("no-");
+    Diag id{};
+    if ((!error && !off) || !find_diag(w.substr(error ? 6 : 3), id)) {
+      fmt::print(stderr, "wrlkit: there is no message '{}' for -W{}\n", w.substr(w.find_first_of("=-") + 1), w);
+      return false;
+    }
+    diag_.set_severity(id, error ? Severity::error : Severity::ignored);
+  }
+  return true;
+}
+
+World* Session::read(const std::string& path) {
+  progress_.begin("reading " + path, 0, "");
+  world_ = read_world(path, {}, diag_);
+  if (world_) {
+    place(world_->scene);
+    resources_->set_root({std::shared_ptr<const Scene>{}, &world_->scene});
+  }
+  return world_.get();
+}
+
+void Session::place(Scene& scene) const { place_world(scene, flags_.unit, flags_.up); }
+
+bool Session::choose_pipeline(std::string_view standard) {
+  std::string why;
+  pipeline_ = Pipeline::parse(flags_.pipeline_given ? std::string_view(flags_.pipeline) : standard, why);
+  if (!pipeline_) return fmt::print(stderr, "wrlkit: -p: {}\n", why), false;
+  const auto& after = flags_.print_after;
+  if (!after.empty() && after != "all" && !find_pass(after)) return fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'\n", after), false;
+  return true;
+}
+
+PipelineOptions Session::pipeline_options() {
+  PipelineOptions o;
+  o.verify_each = flags_.verify_each;
+  o.print_after = flags_.print_after;
+  if (!o.print_after.empty())
+    o.print = [this](const std::string& pass, const Scene& scene) {
+      fmt::print(stderr, "# after {}\n", pass);
+      write_vrml(scene, {}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag_);
+    };
+  if (flags_.time_passes) o.times = &times_;
+  return o;
+}
+
+int Session::end(bool made) {
+  progress_.clear();
+  int code = !made ? nothing : diag_.has_errors() ? partly : done;
+  if (flags_.time_passes)
+    for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);
+  if (flags_.stats)
+    for (auto& [name, n] : stats_) fmt::print(stderr, "{:>12}  {}\n", n, name);
+  if (!flags_.json) std::fputs(messages_text(diag_, isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
+  if (!flags_.report.empty() && !write_report(code)) return usage;
+  return code;
+}
+
+bool Session::write_report(int code) {
+  std::string out;
+  JsonOut json(out);
+  json.begin_object();
+  json.member("inputs", std::span<const std::string>(flags_.inputs));
+  json.member("output", flags_.output);
+  json.member("exit_code", code);
+  for (auto& [name, fact] : facts_) json.key(name), json.raw(fact);
+  json.key("statistics");
+  json.begin_object();
+  for (auto& [name, n] : stats_) json.member(name, n);
+  json.end_object();
+  json.key("messages");
+  json.raw(messages_json(diag_));
+  json.end_object();
+  out += '\n';
+  return write_text_file(flags_.report, out);
+}
+
+bool write_text_file(const std::string& path, std::string_view text) {
+  Diagnostics trouble;
+  auto file = OutputFile::open(path, {}, trouble);
+  if (file) file->write(text);
+  if (file && file->commit(trouble)) return true;
+  std::fputs(messages_text(trouble, false, false).c_str(), stderr);
+  return false;
+}
+
+void place_world(Scene& scene, std::string_view unit, std::string_view up) {
+  double scale = unit == "cm" ? 0.01 : unit == "mm" ? 0.001 : unit == "in" ? 0.0254 : unit == "ft" ? 0.3048 : 1;
+  if (scale == 1 && (up.empty() || up == "y")) return;
+  constexpr double quarter = 1.5707963267948966;
+  NodeId root = scene.add(nodes::Transform);
+  if (scale != 1) scene.set(root, nodes::transform::scale, Vec3{scale, scale, scale});
+  if (up == "z") scene.set(root, nodes::transform::rotation, Vec4{1, 0, 0, -quarter});
+  if (up == "x") scene.set(root, nodes::transform::rotation, Vec4{0, 0, 1, quarter});
+  scene.set(root, nodes::transform::children, scene.main.roots);
+  scene.main.roots = {root};
+}
+
+}  // namespace wrlkit

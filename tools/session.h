@@ -1,0 +1,67 @@
+// One run of a verb over one world: messages, files it may read, progress, report and exit code.
+#pragma once
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "parsers/parsers.h"
+#include "parsers/resources.h"
+#include "passes/pipeline.h"
+#include "tools/flags.h"
+#include "tools/progress.h"
+
+namespace wrlkit {
+
+class Session {
+ public:
+  explicit Session(const Flags&);
+
+  /// False when a flag makes no sense; that was printed.
+  bool good() const { return good_; }
+  const Flags& flags() const { return flags_; }
+  Diagnostics& diag() { return diag_; }
+  Resources& resources() { return *resources_; }
+  PassContext& context() { return context_; }
+  Progress& progress() { return progress_; }
+
+  /// Reads a world and applies --unit and --up; null when nothing can be had.
+  World* read(const std::string& path);
+  /// What `read` gave.
+  World& world() { return *world_; }
+  /// -p, or else `standard`; false when it is no pipeline, which was printed.
+  bool choose_pipeline(std::string_view standard);
+  Pipeline& pipeline() { return *pipeline_; }
+  PipelineOptions pipeline_options();
+
+  /// For --report: facts beside the messages, as JSON.
+  void fact(std::string name, std::string json) { facts_.emplace_back(std::move(name), std::move(json)); }
+
+  /// Prints the messages, writes the report and gives the exit code. `made`: there is an output.
+  int end(bool made);
+
+ private:
+  bool apply_warning_flags();
+  void place(Scene&) const;
+  bool write_report(int code);
+
+  const Flags& flags_;
+  Diagnostics diag_;
+  Statistics stats_;
+  std::unique_ptr<World> world_;
+  std::unique_ptr<FileResources> resources_;
+  PassContext context_;
+  std::optional<Pipeline> pipeline_;
+  std::vector<PassTime> times_;
+  std::vector<std::pair<std::string, std::string>> facts_;
+  Progress progress_;
+  bool good_ = true;
+};
+
+/// Whole or not at all; false when not, which was printed.
+bool write_text_file(const std::string& path, std::string_view text);
+
+/// A scene whose root is scaled to metres and turned Y up; see --unit and --up.
+void place_world(Scene&, std::string_view unit, std::string_view up);
+
+}  // namespace wrlkit
