@@ -1,0 +1,86 @@
+// A glTF file drawn by three.js, as its users see it, or lit as a VRML browser does.
+//
+// Light. wrlkit writes lights for three.js's physical units: a white face that looks at a light of intensity 1 returns 1
+// (writers/gltf_lights.h). A file without lights gets what viewers give it, here VRML's headlight: white, along the view,
+// pi lux; none when the file keeps a NavigationInfo that says so.
+//
+// lighting 'three': GLTFLoader's materials as they are, what people get. 'vrml': see vrml_light.mjs; close enough to a VRML
+// browser that colours can be compared tightly.
+import * as THREE from 'three';
+import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
+import {light_as_vrml} from './vrml_light.mjs';
+
+let renderer;
+
+/// Draws job.glb and returns the canvas. job: {glb, width, height, camera, background, smooth, lighting}; camera is the
+/// number or name of one in the file, or {eye, target, up}, seen with VRML's standard field of view; without a background it
+/// is the colour of the sky at the horizon, if the file keeps one, or black.
+export async function show(job) {
+  const gltf = await new GLTFLoader().loadAsync(job.glb);
+  const scene = gltf.scene;
+  const camera = make_camera(gltf, job);
+  scene.add(camera);
+  place_headlight(gltf, camera);
+  start(job, job.background ?? sky(scene));
+  sharpen_pictures(scene);
+  if (job.lighting === 'vrml') light_as_vrml(scene);
+  renderer.render(scene, camera);
+  return renderer.domElement;
+}
+
+function sky(scene) {
+  const colors = [];
+  scene.traverse(o => colors.push(o.userData.vrml97?.Background?.skyColor ?? []));
+  return colors.find(c => c.length)?.slice(-3) ?? [0, 0, 0];
+}
+
+function start({width, height, smooth = false, lighting = 'three'}, background) {
+  renderer?.dispose();
+  renderer = new THREE.WebGLRenderer({antialias: smooth, alpha: false, preserveDrawingBuffer: true});
+  renderer.outputColorSpace = lighting === 'vrml' ? THREE.LinearSRGBColorSpace : THREE.SRGBColorSpace;
+  renderer.setSize(width, height, false);
+  renderer.setClearColor(new THREE.Color().setRGB(...background, renderer.outputColorSpace), 1);
+}
+
+function make_camera(gltf, {camera: wanted, width, height}) {
+  if (typeof wanted !== 'object') return take_camera(gltf, wanted, width / height);
+  const field_of_view = THREE.MathUtils.radToDeg(0.785398);
+  const distance = Math.hypot(...wanted.eye.map((v, i) => v - wanted.target[i]));
+  const camera = new THREE.PerspectiveCamera(field_of_view, width / height, distance / 100, distance * 100);
+  camera.up.fromArray(wanted.up);
+  camera.position.fromArray(wanted.eye);
+  camera.lookAt(...wanted.target);
+  return camera;
+}
+
+/// A camera of the file, at its place, freed from the hierarchy.
+function take_camera(gltf, wanted, aspect) {
+  const camera = gltf.cameras[wanted] ?? gltf.cameras.find(c => wanted === c.name || wanted === c.parent?.name);
+  if (!camera) throw new Error(`no camera '${wanted}' among ${gltf.cameras.map(c => c.name)}`);
+  gltf.scene.updateMatrixWorld(true);
+  camera.matrixWorld.decompose(camera.position, camera.quaternion, camera.scale);
+  camera.scale.set(1, 1, 1);
+  camera.aspect = aspect;
+  camera.updateProjectionMatrix();
+  return camera;
+}
+
+/// The headlight of the file stands where its first camera is; here it goes with the one that is used. A file without any
+/// light gets what viewers give it.
+function place_headlight(gltf, camera) {
+  const lights = [];
+  gltf.scene.traverse(o => { if (o.isLight) lights.push(o); });
+  const wanted = gltf.scene.userData.vrml97?.NavigationInfo?.headlight ?? true;
+  const mine = () => wanted && lights.length === 0 ? new THREE.DirectionalLight(0xffffff, Math.PI) : null;
+  const headlight = lights.find(light => light.name === 'headlight') ?? mine();
+  if (!headlight) return;
+  headlight.position.set(0, 0, 0);
+  headlight.target.position.set(0, 0, -1);
+  camera.add(headlight, headlight.target);
+}
+
+/// Pictures that are seen at a slant, as sharp as wrlkit draws them.
+function sharpen_pictures(scene) {
+  const most = renderer.capabilities.getMaxAnisotropy();
+  scene.traverse(o => { for (const m of [o.material ?? []].flat()) if (m.map) m.map.anisotropy = most; });
+}

@@ -1,0 +1,84 @@
+// Converts worlds to glTF, has three.js draw them in a browser, and compares with wrlkit's own picture of the source, from
+// the same place: what is covered must be the same, and the colours alike.
+//
+// Both pictures are taken with one ray in the middle of each pixel, so that edges do not blur the comparison, before a
+// background that no world shows. Each is judged twice (page/show.mjs): lit by three.js, where only a loose bound can hold
+// because physically based light is another than VRML's, and lit as VRML does, where colours are the same but for a few
+// levels. Where a bound cannot hold, expectations.mjs says why.
+//   node three_pictures.mjs WRLKIT FOLDER [PART-OF-A-NAME | --all]
+// Pictures of worlds that fail are left in FOLDER. --all: the whole found corpus, too; for people, no bounds are known there.
+import fs from 'node:fs';
+import path from 'node:path';
+import {has_chromium, take_pictures} from './browser.mjs';
+import {expected, found_worlds_to_compare} from './expectations.mjs';
+import {in_lanes, run} from './program.mjs';
+import {view_of} from './view.mjs';
+import {file_of, found_worlds, has_shared, own_worlds} from './worlds.mjs';
+
+const [wrlkit, folder, part = ''] = process.argv.slice(2);
+const size = {width: 320, height: 240};
+const key = [0.85, 0.25, 0.65];
+const skipped = 77;
+
+/// Converts a world, draws it, and says what the page has to do; null when nothing was made.
+async function prepare(world, number) {
+  const out = name => path.join(folder, `${number}${name}`);
+  const converted = await run(wrlkit, ['convert', '-q', world.file, out('.glb')]);
+  const view = view_of(wrlkit, world.file, out('.glb'), world.name.startsWith('corpus/'));
+  const drawn = await run(wrlkit, ['render', '-q', world.file, out('.png'), '--width', size.width, '--height', size.height,
+    '--samples', 1, '--background', key, ...view.flags]);
+  const bad = [converted, drawn].find(r => r.code !== 0 && r.code !== 1);
+  if (bad) return console.log(`${world.name}: exit code ${bad.code}: ${bad.text.trim()}`), null;
+  return {name: world.name, glb: `/out/${number}.glb`, camera: view.camera, ...size, background: key, key,
+    reach: expected(world.name).reach, reference: [{label: 'wrlkit render', url: `/out/${number}.png`}]};
+}
+
+/// What is wrong with a pair of pictures; empty when nothing is.
+function judge({name, lighting, overlap, difference, coverage, error}) {
+  if (error) return `failed: ${error}`;
+  const {least_overlap, most, least_coverage} = expected(name);
+  const faults = [];
+  if (overlap < least_overlap) faults.push(`overlap ${overlap.toFixed(4)} < ${least_overlap}`);
+  if (difference > most[lighting]) faults.push(`difference ${difference.toFixed(4)} > ${most[lighting]} (lit by ${lighting})`);
+  if (coverage < least_coverage) faults.push(`only ${coverage.toFixed(4)} of the picture is covered`);
+  return faults.join(', ');
+}
+
+const percent = x => (100 * (x ?? NaN)).toFixed(2).padStart(7);
+
+function report(result) {
+  const fault = judge(result);
+  console.log(`${percent(result.overlap)} ${percent(result.difference)} ${percent(result.worst)} ${percent(result.coverage)}  ${result.lighting.padEnd(5)} ${result.name}${fault && `: ${fault}`}`);
+  if (fault) keep_picture(result);
+  return !fault;
+}
+
+function keep_picture({name, lighting, sheet}) {
+  if (!sheet) return;
+  const file = path.join(folder, 'failed', `${name.replaceAll('/', '_')}.${lighting}.png`);
+  fs.mkdirSync(path.dirname(file), {recursive: true});
+  fs.writeFileSync(file, Buffer.from(sheet.split(',')[1], 'base64'));
+}
+
+function worlds() {
+  if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)];
+  const found = found_worlds_to_compare.map(name => ({name, file: file_of(name)})).filter(w => w.file);
+  return [...own_worlds(), ...found].filter(w => w.name.includes(part));
+}
+
+async function main() {
+  if (!has_chromium) return console.log('skipped: there is no Chromium (WRLKIT_CHROMIUM)'), skipped;
+  if (!has_shared) console.log('the found corpus is not there (WRLKIT_SHARED): only worlds of this project');
+  fs.rmSync(folder, {recursive: true, force: true});
+  fs.mkdirSync(folder, {recursive: true});
+  const jobs = [], list = worlds();
+  await in_lanes(list.entries(), 2, async ([i, world]) => { jobs[i] = await prepare(world, i); });
+  const twice = jobs.filter(Boolean).flatMap(job => ['vrml', 'three'].map(lighting => ({...job, lighting})));
+  let failed = list.length - twice.length / 2;
+  console.log('overlap, mean difference, that of the worst tenth, coverage in %; lit by');
+  await take_pictures(folder, twice, result => { failed += report(result) ? 0 : 1; });
+  console.log(`${list.length} worlds, ${failed} failures${failed ? `; see ${folder}/failed` : ''}`);
+  return failed ? 1 : 0;
+}
+
+process.exitCode = await main();

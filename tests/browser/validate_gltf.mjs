@@ -1,0 +1,71 @@
+// Converts every VRML97 world to glTF and has the official Khronos validator look at each result: it must find no error and
+// no warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
+// missing, a message.
+//   node validate_gltf.mjs WRLKIT FOLDER [PART-OF-A-NAME]
+import fs from 'node:fs';
+import path from 'node:path';
+import validator from 'gltf-validator';
+import {in_lanes, run} from './program.mjs';
+import {found_to_draw, found_worlds, has_shared, own_worlds} from './worlds.mjs';
+
+const [wrlkit, folder, part = ''] = process.argv.slice(2);
+const lanes = 2;
+const to_draw = found_to_draw();
+const faults = [];
+const counts = {worlds: 0, broken: 0, valid: 0, bytes: 0};
+
+const fault = (world, kind, detail = '') => faults.push({name: world.name, kind, detail});
+
+/// Errors and warnings that the validator finds in a .glb.
+async function findings(bytes) {
+  const report = await validator.validateBytes(new Uint8Array(bytes), {maxIssues: 1000});
+  return {meshes: report.info.totalTriangleCount + report.info.drawCallCount, issues: report.issues.messages.filter(m => m.severity <= 1)};
+}
+
+async function check_result(world, result, out) {
+  if (!fs.existsSync(out)) return fault(world, `exit code ${result.code} without output`, result.text.slice(0, 300));
+  const bytes = fs.readFileSync(out);
+  counts.bytes += bytes.length;
+  if (bytes.length === 0) return fault(world, 'empty output');
+  const {meshes, issues} = await findings(bytes);
+  for (const issue of issues) fault(world, issue.code, `${issue.pointer ?? `byte ${issue.offset}`}: ${issue.message}`);
+  if (issues.length === 0) ++counts.valid;
+  if (meshes === 0 && result.code === 0 && to_draw.has(world.name)) fault(world, 'nothing to see, exit code 0');
+}
+
+function check_end(world, result, out) {
+  const expected = world.broken ? [0, 1, 3] : [0, 1];
+  if (!expected.includes(result.code)) return fault(world, `exit code ${result.code}`, result.text.slice(0, 300)), false;
+  if (result.code !== 0 && !/ error: /.test(result.text)) fault(world, `exit code ${result.code} without a message`, result.text.slice(0, 300));
+  if (result.code === 3 && fs.existsSync(out)) fault(world, 'exit code 3 with output');
+  return result.code !== 3;
+}
+
+async function check(world) {
+  const out = path.join(folder, `${counts.worlds++}.glb`);
+  const result = await run(wrlkit, ['convert', world.file, out], 60);
+  if (world.broken) ++counts.broken;
+  if (check_end(world, result, out)) await check_result(world, result, out);
+  fs.rmSync(out, {force: true});
+}
+
+/// One line a kind of fault, with the first files that show it.
+function print_faults() {
+  const kinds = new Map();
+  for (const f of faults) kinds.set(f.kind, [...kinds.get(f.kind) ?? [], f]);
+  for (const [kind, all] of kinds) print_kind(kind, all);
+}
+
+function print_kind(kind, all) {
+  console.log(`\n${kind}: ${all.length} in ${new Set(all.map(f => f.name)).size} files`);
+  for (const f of all.slice(0, 40)) console.log(`  ${f.name}: ${f.detail.trim()}`);
+}
+
+fs.rmSync(folder, {recursive: true, force: true});
+fs.mkdirSync(folder, {recursive: true});
+if (!has_shared) console.log('skipped: the found corpus is not there (WRLKIT_SHARED)');
+const worlds = [...own_worlds(), ...found_worlds()].filter(w => w.name.includes(part));
+await in_lanes(worlds, lanes, check);
+print_faults();
+console.log(`${counts.worlds} worlds, ${counts.broken} of them damaged; ${counts.valid} results without error or warning, ${(counts.bytes / 1e6).toFixed(1)} MB`);
+process.exitCode = faults.length ? 1 : 0;

@@ -1,0 +1,91 @@
+// For every VRML97 world below some folders: what is written reads back as the same scene, and written again it is the same
+// text. Says of each world that breaks this what differs, and fails.
+//
+//   roundtrip FOLDER...    folders that are not there are skipped, and named
+//   roundtrip              corpus/ of the project, and that of the folder WRLKIT_SHARED or of ../shared
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "parsers/parsers.h"
+#include "scenegraph/equal.h"
+#include "writers/vrml.h"
+
+using namespace wrlkit;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> files_below(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  return files;
+}
+
+std::string text_of(const Scene& scene) {
+  Diagnostics diag;
+  std::string text;
+  write_vrml(scene, {}, [&](std::string_view s) { text += s; }, diag);
+  return text;
+}
+
+/// The first line in which two texts differ.
+std::string first_difference(std::string_view a, std::string_view b) {
+  auto at = static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin());
+  auto line = static_cast<std::size_t>(std::ranges::count(a.substr(0, at), '\n')) + 1;
+  return "line " + std::to_string(line) + " of the second text differs";
+}
+
+/// What the text of a scene does not keep of it; empty when nothing is lost.
+std::string lost(const Scene& scene) {
+  Diagnostics diag;
+  const auto text = text_of(scene);
+  auto again = parse_world(text, "again", {}, diag);
+  if (!again) return "what was written is not read";
+  if (diag.has_errors()) {
+    auto at = std::ranges::find(diag.messages(), Severity::error, &Message::severity);
+    auto place = diag.sources().locate(at->where);
+    return "line " + std::to_string(place.line) + " of what was written: " + at->text() + ": " + place.line_text;
+  }
+  if (auto other = difference(scene, again->scene); !other.empty()) return other;
+  const auto second = text_of(again->scene);
+  return second == text ? std::string() : first_difference(text, second);
+}
+
+struct Count {
+  int worlds = 0, faulty = 0;
+};
+
+void check_folder(const std::string& folder, Count& count) {
+  for (const auto& path : files_below(folder)) {
+    Diagnostics diag;
+    auto world = read_world(path, {}, diag);
+    if (!world || world->format != Format::vrml97) continue;
+    ++count.worlds;
+    if (auto fault = lost(world->scene); !fault.empty()) ++count.faulty, std::printf("%s: %s\n", path.c_str(), fault.c_str());
+  }
+}
+
+std::vector<std::string> standard_folders() {
+  const fs::path source = WRLKIT_SOURCE_DIR;
+  const char* shared = std::getenv("WRLKIT_SHARED");
+  return {(source / "corpus").string(), ((shared ? fs::path(shared) : source.parent_path() / "shared") / "corpus").string()};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Count count;
+  for (const auto& folder : argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : standard_folders()) {
+    if (fs::is_directory(folder)) check_folder(folder, count);
+    else std::printf("skipped: there is no %s\n", folder.c_str());
+  }
+  std::printf("%d worlds, %d of them come back otherwise\n", count.worlds, count.faulty);
+  return count.worlds == 0 || count.faulty ? 1 : 0;
+}

@@ -1,0 +1,296 @@
+#!/usr/bin/env python3
+"""Worlds that want all the memory, all the time or all the stack; none may get them.
+
+  tests/text/limits.py --wrlkit build/release/wrlkit              every case with every verb
+  tests/text/limits.py --wrlkit ... --verbs cat,info gzip         cases whose name contains 'gzip'
+  tests/text/limits.py --wrlkit ... --keep DIR                    leave the worlds in DIR
+
+Each world is made on the fly and goes through check, cat, info and convert in 2 GB of address space and 30 seconds. A run
+passes when it ends without a signal, with exit code 0, 1 or 3, says what was dropped, and keeps the rest of the scene: behind
+the bad part of a world stands a node with the name Rest.
+"""
+import argparse
+from dataclasses import dataclass
+import json
+import os
+from pathlib import Path
+import re
+import resource
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import zlib
+
+HEADER = '#VRML V2.0 utf8\n'
+REST = '\nDEF Rest Shape { geometry Box {} }\n'
+VERBS = ('check', 'cat', 'info', 'convert')
+MEMORY = 2 << 30
+SECONDS = 30
+MESSAGE = re.compile(r'(error|warning|lost): .* \[([a-z0-9-]+)\]$', re.M)
+
+
+@dataclass
+class Case:
+    name: str
+    make: callable          # (folder) -> the world to open
+    reports: str = ''       # one of these messages, separated by '|', must come; empty: none has to
+    rest: bool = True       # the rest of the scene can be told from the bad part
+    verbs: tuple = VERBS    # where the message must come; the writers see less than check
+
+
+def world(name, *parts, rest=REST):
+    """A case's make that writes one file; a part is a text or a pair of a text and how often it comes."""
+    def make(folder):
+        path = folder / f'{name}.wrl'
+        with path.open('w') as out:
+            out.write(HEADER)
+            for part in parts:
+                write_part(out, part)
+            out.write(rest)
+        return path
+    return make
+
+
+def write_part(out, part):
+    if isinstance(part, str):
+        return out.write(part)
+    text, times = part
+    batch = max(1, min(times, (1 << 20) // len(text)))
+    for _ in range(times // batch):
+        out.write(text * batch)
+    out.write(text * (times % batch))
+
+
+def files(texts):
+    """A case's make that writes several files; the first one is opened."""
+    def make(folder):
+        for name, text in texts.items():
+            (folder / name).write_text(HEADER + text)
+        return folder / next(iter(texts))
+    return make
+
+
+def gzip_bomb(folder):
+    """About 10 GB of blanks in 10 MB, with the rest of the scene in front and behind."""
+    path = folder / 'gzip_bomb.wrl'
+    blanks = b' ' * (1 << 24)
+    with path.open('wb') as out:
+        pack = zlib.compressobj(9, zlib.DEFLATED, 31)
+        out.write(pack.compress((HEADER + REST).encode()))
+        # A full flush makes every block the same bytes, so one is packed and the others are copies.
+        out.write(pack.flush(zlib.Z_FULL_FLUSH))
+        block = pack.compress(blanks) + pack.flush(zlib.Z_FULL_FLUSH)
+        for _ in range(600):
+            out.write(block)
+    return path
+
+
+def doubling_protos():
+    protos = 'PROTO P0 [] { Shape { geometry Box {} } }\n'
+    protos += ''.join(f'PROTO P{i} [] {{ Group {{ children [ P{i - 1} {{}} P{i - 1} {{}} ] }} }}\n' for i in range(1, 41))
+    return protos + 'P40 {}\n'
+
+
+def doubling_protos_with_is():
+    """The same with a field that goes down to the last node, so that no two of them can be shared."""
+    protos = 'PROTO P0 [ field SFFloat r 1 ] { Shape { geometry Sphere { radius IS r } } }\n'
+    protos += ''.join(f'PROTO P{i} [ field SFFloat r 1 ] {{ Group {{ children [ P{i - 1} {{ r IS r }} P{i - 1} {{ r IS r }} ] }} }}\n'
+                      for i in range(1, 41))
+    return protos + 'P40 { r 2 }\n'
+
+
+def doubling_uses():
+    text = 'DEF A0 Shape { geometry Box {} }'
+    for i in range(1, 41):
+        text = f'DEF A{i} Group {{ children [ {text} USE A{i - 1} ] }}'
+    return text + '\n'
+
+
+def wide_interface():
+    fields = ''.join(f'field SFFloat f{i} {i}\n' for i in range(100_000))
+    return 'PROTO Wide [\n' + fields + '] { Group {} }\nWide { f99999 1 }\n'
+
+
+def large_polygon():
+    """A comb: a concave polygon for which every naive ear search takes the longest."""
+    n = 100_000
+    points = ''.join(f'{i} 0 0,{i}.5 {1 + i % 7} 0,\n' for i in range(n - 1)) + f'{n} 0 0, {n // 2} -{n} 0'
+    index = ' '.join(map(str, range(2 * n)))
+    return (f'Shape {{ geometry IndexedFaceSet {{ convex FALSE coord Coordinate {{ point [ {points} ] }}\n'
+            f'coordIndex [ {index} -1 ] }} }}\n')
+
+
+HUGE = 2_000_000_000
+TOO_DEEP = 'too-deep|unclosed|syntax'
+CASES = [
+    Case('nested_groups', world('nested_groups', ('Group { children ', 1_000_000), ('}', 1_000_000)), 'too-deep'),
+    Case('proto_doubling', world('proto_doubling', doubling_protos()), 'expansion-limit', verbs=('convert',)),
+    Case('proto_doubling_with_is', world('proto_doubling_with_is', doubling_protos_with_is()), 'expansion-limit',
+         verbs=('check', 'info', 'convert')),
+    Case('use_doubling', world('use_doubling', doubling_uses()), 'expansion-limit', verbs=('convert',)),
+    Case('inline_itself', files({'self.wrl': 'Inline { url "self.wrl" }' + REST}), 'url-cycle', verbs=('info', 'convert')),
+    Case('inline_each_other', files({'a.wrl': 'Inline { url "b.wrl" }' + REST, 'b.wrl': 'Inline { url "a.wrl" }'}),
+         'url-cycle', verbs=('info', 'convert')),
+    Case('externproto_cycle',
+         files({'a.wrl': 'EXTERNPROTO B [] "b.wrl#B"\nPROTO A [] { B {} }\nA {}' + REST,
+                'b.wrl': 'EXTERNPROTO A [] "a.wrl#A"\nPROTO B [] { A {} }\n'}),
+         'url-cycle|proto-cycle', verbs=('info', 'convert')),
+    Case('gzip_bomb', gzip_bomb, 'gzip-bomb|too-large'),
+    Case('huge_index',
+         world('huge_index', 'Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0 1 0 0 0 1 0 ] }',
+               f' coordIndex [ 0 1 {HUGE} -1 0 1 2 -1 ] }} }}'), 'bad-index', verbs=('convert',)),
+    Case('huge_image',
+         world('huge_image', 'Shape { appearance Appearance { texture PixelTexture { image ', f'{HUGE} {HUGE} 3 0xff0000',
+               ' } } geometry Sphere {} }'), 'missing-values|short-value|bad-value'),
+    Case('huge_elevation_grid',
+         world('huge_elevation_grid', f'Shape {{ geometry ElevationGrid {{ xDimension {HUGE} zDimension {HUGE}',
+               ' height [ 0 1 2 3 ] } }'), 'short-height|degenerate-geometry', verbs=('info', 'convert')),
+    Case('unclosed_string', world('unclosed_string', 'WorldInfo { title "', ('x', 20_000_000)), 'unclosed-string', rest=False),
+    Case('brackets', world('brackets', ('[', 5_000_000)), 'stray-token|unclosed|syntax', rest=False),
+    Case('defs', world('defs', ('DEF a ', 5_000_000)), 'def-without-node|syntax|too-deep', rest=False),
+    Case('nested_protos', world('nested_protos', ('PROTO P [] { ', 1_000_000), 'Group {}', ('}', 1_000_000)), 'too-deep'),
+    Case('large_polygon', world('large_polygon', large_polygon())),
+    Case('long_text', world('long_text', 'Shape { geometry Text { string "', ('xyz ', 500_000), '" } }')),
+    Case('routes_to_nothing', world('routes_to_nothing', ('ROUTE a.b TO c.d\n', 1_000_000)), 'undefined-route'),
+    Case('unknown_fields', world('unknown_fields', 'Group {', *(f' no{i} 1\n' for i in range(300_000)), '}'), 'unknown-field'),
+    Case('script_fields', world('script_fields', 'Script {', *(f' field SFFloat f{i} 1\n' for i in range(100_000)), '}')),
+    Case('wide_interface', world('wide_interface', wide_interface())),
+    Case('nested_lists', world('nested_lists', 'Group { children ', ('[ ', 1_000_000), (']', 1_000_000), '}'), TOO_DEEP + '|stray-token'),
+    Case('unclosed_lists', world('unclosed_lists', 'Group { children ', ('[ ', 1_000_000)), TOO_DEEP + '|stray-token', rest=False),
+]
+
+
+def command(verb, path, out):
+    return {'check': ['check', path], 'cat': ['cat', path, '-o', out / 'out.wrl'], 'info': ['info', path],
+            'convert': ['convert', path, out / 'out.glb']}[verb]
+
+
+class Faulty(Exception):
+    pass
+
+
+@dataclass
+class Result:
+    code: int
+    seconds: float
+    megabytes: int
+    output: Path
+    errors: str
+
+
+def limit():
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def execute(wrlkit, verb, path, out):
+    """Runs one verb; code -9 is the end of its time."""
+    for old in out.glob('out.*'):
+        old.unlink()
+    stdout, stderr = out / 'stdout', out / 'stderr'
+    start = time.monotonic()
+    with stdout.open('wb') as o, stderr.open('wb') as e:
+        process = subprocess.Popen([wrlkit, *command(verb, path, out)], cwd=path.parent, stdin=subprocess.DEVNULL, stdout=o,
+                                   stderr=e, preexec_fn=limit)
+        alarm = threading.Timer(SECONDS, process.kill)
+        alarm.start()
+        _, status, usage = os.wait4(process.pid, 0)
+        alarm.cancel()
+    process.returncode = os.waitstatus_to_exitcode(status)
+    written = {'cat': out / 'out.wrl', 'convert': out / 'out.glb'}.get(verb, stdout)
+    errors = text_of(stderr) + (text_of(stdout) if verb == 'check' else '')
+    return Result(process.returncode, time.monotonic() - start, usage.ru_maxrss >> 10, written, errors)
+
+
+def text_of(path):
+    with path.open('rb') as f:
+        return f.read(4_000_000).decode('utf-8', 'replace')
+
+
+def glb_json(path):
+    with path.open('rb') as f:
+        magic, _, _, length, kind = struct.unpack('<4sII I4s', f.read(20))
+        assert magic == b'glTF' and kind == b'JSON'
+        return json.loads(f.read(length))
+
+
+def has_rest(verb, output):
+    """Whether the rest of the scene is there."""
+    if not output.is_file() or not output.stat().st_size:
+        return False
+    if verb == 'cat':
+        return b'DEF Rest Shape' in output.read_bytes()
+    if verb == 'convert':
+        try:
+            return any(n.get('name') == 'Rest' for n in glb_json(output).get('nodes', []))
+        except RecursionError:
+            raise Faulty('the JSON is nested deeper than a reader takes')
+    return True
+
+
+def complaint(case, verb, result):
+    """What is wrong with this run; nothing: empty."""
+    if result.code == -signal.SIGKILL and result.seconds >= SECONDS:
+        return f'takes longer than {SECONDS} s'
+    if result.code < 0:
+        return f'ends by {signal.Signals(-result.code).name}'
+    if result.code not in (0, 1, 3):
+        return f'exit code {result.code}'
+    names = {m[2] for m in MESSAGE.finditer(result.errors)}
+    if case.reports and verb in case.verbs and not names & set(case.reports.split('|')):
+        return f'no {case.reports.replace("|", " or ")} among the messages: {", ".join(sorted(names)) or "none"}'
+    if case.rest and verb in ('cat', 'convert') and not has_rest(verb, result.output):
+        return f'the rest of the scene is missing (exit code {result.code})'
+    if case.rest and verb == 'info' and not result.output.stat().st_size:
+        return f'no output (exit code {result.code})'
+    return ''
+
+
+def run_case(case, folder, options):
+    """Number of verbs that fail; prints a line for each."""
+    inputs, out = folder / case.name, folder / 'out'
+    inputs.mkdir()
+    out.mkdir(exist_ok=True)
+    path = case.make(inputs)
+    failed = 0
+    for verb in options.verbs:
+        result = execute(options.wrlkit, verb, path, out)
+        try:
+            fault = complaint(case, verb, result)
+        except Faulty as why:
+            fault = str(why)
+        failed += bool(fault)
+        if fault or options.verbose:
+            print(f'{"FAILED" if fault else "ok":7}{case.name:24}{verb:8}{result.seconds:6.1f} s{result.megabytes:6} MB  {fault}',
+                  flush=True)
+            if fault and (lines := result.errors.splitlines()):
+                print('\n'.join('       ' + line[:200] for line in lines[:4]), flush=True)
+    if not options.keep:
+        for file in inputs.iterdir():
+            file.unlink()
+    return failed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('cases', nargs='*', help='parts of the names of the cases to run')
+    parser.add_argument('--wrlkit', type=Path, default=Path('build/release/wrlkit'), help='the program')
+    parser.add_argument('--verbs', type=lambda text: text.split(','), default=list(VERBS), help='check,cat,info,convert')
+    parser.add_argument('--keep', type=Path, help='an empty folder for the worlds, which stay there')
+    parser.add_argument('--verbose', action='store_true', help='print the runs that pass, too')
+    options = parser.parse_args()
+    options.wrlkit = options.wrlkit.resolve()
+    chosen = [c for c in CASES if not options.cases or any(word in c.name for word in options.cases)]
+    with tempfile.TemporaryDirectory(prefix='limits_') as folder:
+        failed = sum(run_case(case, options.keep or Path(folder), options) for case in chosen)
+    runs = len(chosen) * len(options.verbs)
+    print(f'{runs - failed} of {runs} runs passed')
+    return 1 if failed or not runs else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

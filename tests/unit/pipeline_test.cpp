@@ -1,0 +1,73 @@
+// Pipelines: text, options, and that running lazily gives the same meshes as running at once.
+#include <catch2/catch.hpp>
+
+#include "parsers/parsers.h"
+#include "passes/pipeline.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+#include "writers/vrml.h"
+
+using namespace wrlkit;
+
+namespace {
+
+std::string canonical(std::string_view text) {
+  std::string why;
+  auto p = Pipeline::parse(text, why);
+  return p ? p->text() : "error: " + why;
+}
+
+std::unique_ptr<World> read(const std::string& text, Diagnostics& diag) { return parse_world("#VRML V2.0 utf8\n" + text, "test.wrl", {}, diag); }
+
+}  // namespace
+
+TEST_CASE("pipeline: text and back", "[pipeline]") {
+  for (auto& n : named_pipelines()) CHECK(canonical(canonical(n.name)) == canonical(n.name));
+  CHECK(canonical("prune , inline{depth=3}") == "prune,inline{depth=3}");
+  CHECK(canonical("") == "");
+}
+
+TEST_CASE("pipeline: what is wrong with a text", "[pipeline]") {
+  CHECK(canonical("polish") == "error: there is no pass 'polish'");
+  CHECK(canonical("inline{deepness=3}") == "error: pass 'inline' has no option 'deepness'");
+  CHECK(canonical("inline{depth=deep}") == "error: pass 'inline' option 'depth': 'deep' is no value for it");
+  CHECK(canonical("inline{depth=3") == "error: '}' is missing behind 'inline'");
+}
+
+TEST_CASE("pipeline: lazily and at once are the same", "[pipeline]") {
+  const std::string text = "Shape { geometry Sphere { } } Shape { geometry IndexedFaceSet { creaseAngle 1 coord Coordinate { point [ 0 0 0 1 0 0 1 1 0 0 1 0.1 ] } coordIndex [ 0 1 2 3 ] } }";
+  Diagnostics diag;
+  Statistics stats;
+  PassContext ctx{diag, stats};
+  std::string why;
+  auto pipeline = Pipeline::parse("tessellate,normals", why);
+  auto lazy = read(text, diag), at_once = read(text, diag);
+  auto source = pipeline->run_lazily(lazy->scene, ctx);
+  REQUIRE(pipeline->run(at_once->scene, ctx));
+  auto nothing = Pipeline::parse("", why);
+  auto stored = nothing->run_lazily(at_once->scene, ctx);
+  for (NodeId n : all_nodes(lazy->scene)) {
+    if (!lazy->scene.type(n).is_a("X3DGeometryNode")) continue;
+    auto count = source(n).corners.size();
+    CHECK(count > 0);
+    CHECK(stored(n).corners.size() == count);
+    CHECK(stored(n).normal.present());
+  }
+}
+
+TEST_CASE("pipeline: a pass that changes nothing says so and changes nothing", "[pipeline]") {
+  Diagnostics diag;
+  Statistics stats;
+  PassContext ctx{diag, stats};
+  for (auto& p : passes()) {
+    if (p.make()->is_mesh_pass()) continue;
+    auto world = read("DEF A Transform { children Shape { geometry Box { } } }", diag);
+    std::string before, after;
+    write_vrml(world->scene, {}, [&](std::string_view s) { before += s; }, diag);
+    auto outcome = p.make()->run(world->scene, ctx);
+    write_vrml(world->scene, {}, [&](std::string_view s) { after += s; }, diag);
+    INFO(p.name);
+    CHECK(outcome == Outcome::unchanged);
+    CHECK(before == after);
+  }
+}
