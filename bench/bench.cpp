@@ -1,0 +1,110 @@
+// The stages of the main road on one thread, in bytes of VRML text a CPU second, beside the floor: a bare fast_float loop
+// that finds the numbers of the same text and stores them.
+//   wrlkit_bench FILE.wrl [--benchmark_...]
+#include <benchmark/benchmark.h>
+#include <fast_float/fast_float.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "parsers/parsers.h"
+#include "passes/pipeline.h"
+#include "writers/gltf.h"
+#include "writers/vrml.h"
+
+namespace {
+
+using namespace wrlkit;
+
+std::string path, text;
+
+void count(benchmark::State& state) { state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * text.size())); }
+
+bool blank(char c) { return c == ' ' || c == ',' || c == '\n' || c == '\r' || c == '\t'; }
+
+void floor_floats(benchmark::State& state) {
+  for (auto _ : state) {
+    std::vector<float> numbers;
+    numbers.reserve(text.size() / 7);
+    for (const char *p = text.data(), *end = p + text.size(); p < end;) {
+      while (p < end && blank(*p)) ++p;
+      float f;
+      bool number = p < end && ((*p >= '0' && *p <= '9') || *p == '-' || *p == '.');
+      auto r = number ? fast_float::from_chars(p, end, f) : fast_float::from_chars_result{p, std::errc::invalid_argument};
+      if (r.ec == std::errc{}) numbers.push_back(f), p = r.ptr;
+      else while (p < end && !blank(*p)) ++p;
+    }
+    benchmark::DoNotOptimize(numbers.data());
+  }
+  count(state);
+}
+BENCHMARK(floor_floats)->Unit(benchmark::kMillisecond);
+
+std::unique_ptr<World> read() {
+  Diagnostics diag;
+  return parse_world(text, path, {}, diag);
+}
+
+void parse(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(read());
+  count(state);
+}
+BENCHMARK(parse)->Unit(benchmark::kMillisecond);
+
+void write_vrml_text(benchmark::State& state) {
+  auto world = read();
+  Diagnostics diag;
+  std::size_t bytes = 0;
+  for (auto _ : state) write_vrml(world->scene, {}, [&](std::string_view s) { bytes += s.size(); }, diag);
+  benchmark::DoNotOptimize(bytes);
+  count(state);
+}
+BENCHMARK(write_vrml_text)->Unit(benchmark::kMillisecond);
+
+/// Every mesh through tessellate, normals, triangulate; nothing is written.
+void meshes(benchmark::State& state) {
+  auto world = read();
+  std::string why;
+  auto pipeline = Pipeline::parse("tessellate{triangles=false},normals,triangulate", why);
+  for (auto _ : state) {
+    Diagnostics diag;
+    Statistics stats;
+    PassContext ctx{diag, stats};
+    auto source = pipeline->run_lazily(world->scene, ctx);
+    std::size_t corners = 0;
+    for (std::uint32_t i = 0; i < world->scene.node_count(); ++i)
+      if (world->scene.type(NodeId{i}).is_a("X3DGeometryNode")) corners += source(NodeId{i}).corners.size();
+    benchmark::DoNotOptimize(corners);
+  }
+  count(state);
+}
+BENCHMARK(meshes)->Unit(benchmark::kMillisecond);
+
+void to_glb(benchmark::State& state) {
+  std::string why;
+  auto pipeline = Pipeline::parse("gltf", why);
+  for (auto _ : state) {
+    auto world = read();
+    Diagnostics diag;
+    Statistics stats;
+    PassContext ctx{diag, stats};
+    auto source = pipeline->run_lazily(world->scene, ctx);
+    write_gltf(world->scene, source, {}, nullptr, "/dev/null", diag);
+  }
+  count(state);
+}
+BENCHMARK(to_glb)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) return std::fprintf(stderr, "usage: wrlkit_bench FILE.wrl [--benchmark_...]\n"), 2;
+  path = argv[1];
+  Diagnostics diag;
+  auto file = read_file(path, {}, diag);
+  if (!file) return std::fprintf(stderr, "%s cannot be read\n", argv[1]), 1;
+  text = file->view();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
