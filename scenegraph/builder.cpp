@@ -44,7 +44,12 @@ void SceneBuilder::field(Value v, Span where) {
       else for (NodeId n : v.node_span()) append_child(v.slot, n);
       return;
     }
-  fields_.push_back(v);
+  // Nodes that came before this list outside of any field stand before those in it.
+  auto& more = open_.back().more;
+  if (v.type == FieldType::MFNode && !v.is && std::ranges::any_of(more, [&](const auto& m) { return m.first == v.slot; }))
+    for (NodeId n : v.node_span()) append_child(v.slot, n);
+  else
+    fields_.push_back(v);
 }
 
 /// Puts the nodes that were appended behind those of the fields, each list once.

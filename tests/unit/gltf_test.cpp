@@ -186,16 +186,6 @@ std::string png(int channels, std::vector<std::uint8_t> pixels, int width = 1) {
 
 std::vector<double> numbers(const json& j) { return j.get<std::vector<double>>(); }
 
-Matrix matrix_of(const json& node) {
-  gltf::Trs t;
-  if (node.contains("translation")) t.translation = node["translation"].get<Vec3>();
-  if (node.contains("scale")) t.scale = node["scale"].get<Vec3>();
-  if (node.contains("rotation")) {
-    auto q = node["rotation"].get<Vec4>();
-    t.rotation = {q[0], q[1], q[2], q[3]};
-  }
-  return gltf::matrix(t);
-}
 
 double difference(const Matrix& a, const Matrix& b) {
   double d = 0;

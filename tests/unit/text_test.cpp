@@ -154,8 +154,8 @@ TEST_CASE("a hole may touch the outline around it", "[outline]") {
     Outline outline(0.1);
     square(outline, -5, 5, false);
     outline.move_to({x, 0});
-    outline.line_to({0.6 * x, x < 0 ? 1 : -1});
-    outline.line_to({0.6 * x, x < 0 ? -1 : 1});
+    outline.line_to({0.6 * x, x < 0 ? 1.0 : -1.0});
+    outline.line_to({0.6 * x, x < 0 ? -1.0 : 1.0});
     CHECK(area(cut(outline)) == Approx(100 - 2));
   }
 }
