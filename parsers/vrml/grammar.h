@@ -1,0 +1,91 @@
+// Recursive descent over the grammar of annex A; functions carry the names of its productions where they have one. A
+// function that meets a fault reports it once and returns; the caller that owns the brace skips to it. Statements, nodes
+// and their fields are in parser.cpp, prototypes, Scripts and ROUTEs in declarations.cpp.
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <unordered_set>
+
+#include "parsers/vrml/values.h"
+#include "scenegraph/builder.h"
+
+namespace wrlkit::vrml {
+
+class Parser : private Values {
+ public:
+  Parser(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag)
+      : Values(text, base, scene, diag), limits_(limits), build_(scene, diag) {}
+
+  void vrml_scene();
+
+ private:
+  // Statements.
+  /// Up to the end of the text, or of the body of a PROTO, which ends with a brace.
+  void statements(Kind until);
+  /// PROTO, EXTERNPROTO and ROUTE, which may stand between nodes and between fields. False: it is none.
+  bool statement(Token);
+  void skip_import_export(Token keyword);
+  /// Something that fits nowhere: skipped with everything it brackets, one message for a run of them.
+  void stray();
+  bool is_stray(Token t) const { return t.kind == Kind::string || t.kind == Kind::open_bracket || (t.kind == Kind::word && !name_like(t)); }
+
+  // Nodes.
+  bool node_follows(Token name);
+  bool node_list_follows();
+  /// nodeStatement, or NULL. None when there is no node; then nothing but a faulty token was consumed.
+  NodeId node_statement();
+  NodeId node(Token type_name, std::string_view def);
+  void node_body(Token opened);
+  void node_body_element(Token);
+  void implicit_child(Token);
+  /// Gives the nodes that were met in places for no node since `mark`: mostly the closing brace of the one before them
+  /// is missing, so that they belong into the list that it is in.
+  template <class F>
+  void take_misplaced(std::size_t mark, F&& take) {
+    std::for_each(misplaced_.begin() + static_cast<std::ptrdiff_t>(mark), misplaced_.end(), take);
+    misplaced_.resize(mark);
+  }
+
+  // Fields.
+  void known_field(std::uint16_t slot, const FieldDef&, Token name);
+  void unknown_field(Token name);
+  /// `IS name` behind a field name. True when it was one.
+  bool is_clause(FieldType, std::uint16_t slot);
+  Value is_value(Token is, FieldType, std::uint16_t slot);
+  /// A value of any type. False: there was none, which was reported; what stood in its place is skipped.
+  bool value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
+  bool single_node(std::uint16_t slot, std::string_view field, Value& out);
+  bool node_list(std::uint16_t slot, Value& out);
+  void list_elements(Token opened);
+  bool property_node(std::uint16_t slot, NodeId& out);
+  bool holds_children(std::uint16_t slot) const;
+  NodeId shape_around(NodeId);
+
+  // Declarations.
+  void proto(Token keyword);
+  void externproto(Token keyword);
+  TypeId proto_type(std::string_view name, std::vector<FieldDef> fields);
+  struct Interface {
+    std::vector<FieldDef> fields;
+    std::unordered_set<std::string_view> names;
+  };
+  Interface interface(bool with_values);
+  /// interfaceDeclaration behind its access word. The default value goes into the FieldDef.
+  bool declaration(Access, bool with_value, FieldDef&, Token& name);
+  bool declaration_follows(Token access);
+  void script_declaration(Access, Token keyword);
+  void undeclarable(Access, Token keyword);
+  void route_statement(Token keyword);
+  bool route_end(std::string_view& node, std::string_view& event);
+
+  ParseLimits limits_;
+  SceneBuilder build_;
+  std::vector<NodeId> nodes_, misplaced_;
+  std::vector<const Interface*> interfaces_;  // of the prototypes whose bodies are being read
+  std::size_t scope_depth_ = 0, open_lists_ = 0;
+};
+
+/// eventIn, eventOut, field and exposedField; also X3D's words, which occur in files that were converted half-way.
+std::optional<Access> find_access(std::string_view word);
+
+}  // namespace wrlkit::vrml

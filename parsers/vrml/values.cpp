@@ -1,0 +1,181 @@
+#include "parsers/vrml/values.h"
+
+#include <algorithm>
+
+#include "parsers/vrml/number.h"
+
+namespace wrlkit::vrml {
+
+bool Values::plain_value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out) {
+  const auto& t = info(type);
+  if (t.element == Element::image) return image(type, slot, out);
+  if (t.element != Element::text) return numbers_value(type, slot, field, fallback, out);
+  return t.multiple ? string_list(type, slot, out) : single_string(type, slot, field, out);
+}
+
+// ---- numbers -------------------------------------------------------------------------------------------------------
+
+bool Values::numbers_value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out) {
+  const auto& t = info(type);
+  const bool real = t.element == Element::number;
+  numbers_.clear();
+  integers_.clear();
+  Token first = lex_.peek();
+  if (first.kind == Kind::open_bracket) {
+    lex_.next();
+    read_numbers(type, 0);
+    close_list(first);
+    if (!t.multiple) diag_.report(Diag::extra_bracket, span(first), field);
+  } else {
+    // One value needs no brackets; more of them in an MF field are a habit of hand-written files.
+    read_numbers(type, t.multiple ? 0 : t.arity);
+  }
+  const std::size_t count = real ? numbers_.size() : integers_.size();
+  if (t.multiple && first.kind != Kind::open_bracket && count > t.arity) diag_.report(Diag::missing_bracket, span(first), field);
+  if (count == 0 && !(t.multiple && first.kind == Kind::open_bracket)) return diag_.report(Diag::bad_value, span(first), describe(first), t.name), false;
+  if (!t.multiple && count != t.arity) fix_arity(t.arity, fallback, field, span(first));
+  if (t.multiple && count % t.arity) {
+    diag_.report(Diag::missing_values, span(first), count, field, static_cast<int>(t.arity));
+    numbers_.resize(count - count % t.arity);
+  }
+  if (!t.multiple && t.arity == 1) out = real ? scene_.make(type, slot, numbers_[0]) : scene_.make(type, slot, integers_[0]);
+  else out = real ? scene_.make(type, slot, std::span<const double>(numbers_)) : scene_.make(type, slot, std::span<const std::int32_t>(integers_));
+  return true;
+}
+
+void Values::fix_arity(std::size_t arity, const Value& fallback, std::string_view field, Span where) {
+  diag_.report(Diag::short_value, where, field);
+  auto rest = fallback.number_span();
+  while (numbers_.size() < arity) numbers_.push_back(numbers_.size() < rest.size() ? rest[numbers_.size()] : 0);
+  numbers_.resize(arity);
+  integers_.resize(std::min<std::size_t>(integers_.size(), arity));
+}
+
+void Values::read_numbers(FieldType type, std::size_t most) {
+  if (type == FieldType::SFBool || type == FieldType::MFBool) booleans(most);
+  else if (info(type).element == Element::number) numbers(numbers_, read_double, most);
+  else numbers(integers_, read_int32, most);
+}
+
+template <class T, class Read>
+void Values::numbers(std::vector<T>& to, Read read, std::size_t most) {
+  for (;;) {
+    lex_.skip_blanks();
+    const char *p = lex_.position(), *start = p;
+    T v;
+    auto r = read(p, lex_.limit(), v);
+    if (r == NumberResult::none) return;
+    lex_.set_position(p);
+    if (r == NumberResult::repaired) number_repaired(start, p, static_cast<double>(v));
+    to.push_back(v);
+    if (most && to.size() == most) return;
+  }
+}
+
+void Values::number_repaired(const char* from, const char* to, double v) {
+  std::uint32_t end = lex_.offset(), length = static_cast<std::uint32_t>(to - from);
+  diag_.report(Diag::number_repaired, Span{base_ + end - length, length}, std::string_view(from, length), v);
+}
+
+void Values::booleans(std::size_t most) {
+  do {
+    Token t = lex_.peek();
+    auto w = text(t);
+    bool yes = w == "TRUE" || w == "true" || w == "True" || w == "1" || w == "\"TRUE\"" || w == "\"true\"";
+    bool no = w == "FALSE" || w == "false" || w == "False" || w == "0" || w == "\"FALSE\"" || w == "\"false\"";
+    if (!yes && !no) return;
+    lex_.next();
+    if (w != "TRUE" && w != "FALSE") diag_.report(Diag::bool_repaired, span(t), w, yes ? "TRUE" : "FALSE");
+    integers_.push_back(yes);
+  } while (integers_.size() != most);
+}
+
+void Values::close_list(Token opened) {
+  Token t = lex_.peek();
+  if (t.kind == Kind::close_bracket) { lex_.next(); return; }
+  if (t.kind == Kind::end) { unclosed(opened); return; }
+  expected("a number or ']'", t);
+  if (t.kind == Kind::close_brace) return;  // the ']' is missing; the brace belongs to the node
+  skip_list();
+}
+
+// width height components, then that many pixels. The numbers never decide how much is reserved.
+bool Values::image(FieldType type, std::uint16_t slot, Value& out) {
+  integers_.clear();
+  Token first = lex_.peek();
+  bool bracket = take(Kind::open_bracket);
+  numbers(integers_, read_int32, 3);
+  if (integers_.size() < 3 || integers_[0] < 0 || integers_[1] < 0) {
+    diag_.report(Diag::bad_value, span(first), describe(first), info(type).name);
+    if (bracket) skip_list();
+    return false;
+  }
+  auto side = [&](int i) { return static_cast<std::uint64_t>(std::max(0, integers_[i])); };
+  std::uint64_t pixels = side(0) * side(1);
+  if (pixels > lex_.size()) pixels = lex_.size();
+  if (pixels) numbers(integers_, read_int32, 3 + pixels);
+  if (integers_.size() != 3 + side(0) * side(1)) diag_.report(Diag::missing_values, span(first), integers_.size() - 3, "image", side(0) * side(1));
+  if (bracket) { diag_.report(Diag::extra_bracket, span(first), "image"); close_list(first); }
+  out = scene_.make(type, slot, std::span<const std::int32_t>(integers_));
+  return true;
+}
+
+// ---- strings -------------------------------------------------------------------------------------------------------
+
+bool Values::single_string(FieldType type, std::uint16_t slot, std::string_view field, Value& out) {
+  Token t = lex_.peek();
+  bool bracket = take(Kind::open_bracket);
+  std::string_view s;
+  if (!string_token(s)) {
+    diag_.report(Diag::bad_value, span(t), describe(t), "SFString");
+    if (bracket) skip_list();
+    return false;
+  }
+  if (bracket) { diag_.report(Diag::extra_bracket, span(t), field); skip_list(); }
+  out = scene_.make(type, slot, s);
+  return true;
+}
+
+bool Values::string_list(FieldType type, std::uint16_t slot, Value& out) {
+  std::vector<std::string_view> list;
+  Token first = lex_.peek();
+  std::string_view s;
+  if (first.kind != Kind::open_bracket) {
+    if (first.kind != Kind::string) return diag_.report(Diag::bad_value, span(first), describe(first), "MFString"), false;
+    while (lex_.peek().kind == Kind::string && string_token(s)) list.push_back(s);
+    if (list.size() > 1) diag_.report(Diag::missing_bracket, span(first), "of strings");
+  } else {
+    lex_.next();
+    while (string_token(s)) list.push_back(s);
+    close_list(first);
+  }
+  out = scene_.make(type, slot, list);
+  return true;
+}
+
+std::string Values::verbatim() {
+  Token first = lex_.peek();
+  const auto closing = skip_values();
+  const std::uint32_t end = std::max(first.begin, lex_.offset());
+  auto value = lex_.text(first.begin, end);
+  std::string out(utf8(value, span(first)));
+  if (end == lex_.size() && !value.empty() && open_string_) {
+    bool escapes = (value.size() - 1 - value.find_last_not_of('\\')) % 2;
+    out += escapes ? "\\\"" : "\"";
+  }
+  return out + closing;
+}
+
+Value Values::empty_value(FieldType type) {
+  const auto& t = info(type);
+  static constexpr double zeros[16] = {};
+  static constexpr std::int32_t no_pixels[3] = {};
+  if (t.element == Element::text && !t.multiple) return scene_.make(type, 0, std::string_view{});
+  if (t.element == Element::text) return scene_.make(type, 0, std::span<const std::string_view>{});
+  if (t.element == Element::node) return scene_.make(type, 0, NodeId{});
+  if (t.element == Element::image) return scene_.make(type, 0, std::span<const std::int32_t>(no_pixels));
+  if (t.element == Element::integer) return t.multiple ? scene_.make(type, 0, std::span<const std::int32_t>{}) : scene_.make(type, 0, std::int32_t{0});
+  return scene_.make(type, 0, std::span<const double>(zeros, t.multiple ? 0 : t.arity));
+}
+
+}  // namespace wrlkit::vrml

@@ -1,0 +1,42 @@
+// Field values without nodes (annex A, fieldValue): numbers, booleans, images, strings and lists of them, with the
+// repairs that real files need.
+#pragma once
+#include <vector>
+
+#include "parsers/vrml/tokens.h"
+
+namespace wrlkit::vrml {
+
+class Values : protected Tokens {
+ protected:
+  using Tokens::Tokens;
+
+  /// Reads a value of any type that holds no nodes. `fallback` gives what a value that is too short lacks. False: there
+  /// is none, which was reported.
+  bool plain_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
+  bool string_list(FieldType, std::uint16_t slot, Value& out);
+  /// The text of values up to the next name or bracket that ends them. What is left open in it is closed, so that it can
+  /// stand before other text.
+  std::string verbatim();
+  /// The value a field has when nobody gave one: zeroes and empty lists.
+  Value empty_value(FieldType);
+
+ private:
+  bool numbers_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
+  bool image(FieldType, std::uint16_t slot, Value& out);
+  bool single_string(FieldType, std::uint16_t slot, std::string_view field, Value& out);
+  /// Numbers or booleans into numbers_ or integers_, up to the first thing that is none; `most` at the most (0: all).
+  void read_numbers(FieldType, std::size_t most);
+  template <class T, class Read>
+  void numbers(std::vector<T>& to, Read read, std::size_t most);
+  void booleans(std::size_t most);
+  void number_repaired(const char* from, const char* to, double v);
+  void fix_arity(std::size_t arity, const Value& fallback, std::string_view field, Span where);
+  /// Behind the values of a list: its ']', or else what is wrong, up to it.
+  void close_list(Token opened);
+
+  std::vector<double> numbers_;
+  std::vector<std::int32_t> integers_;
+};
+
+}  // namespace wrlkit::vrml
