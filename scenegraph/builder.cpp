@@ -10,7 +10,7 @@ NodeId SceneBuilder::open(TypeId type, std::string_view def_name, Span where) {
     scene_.set_name(n, def_name);
     scopes_.back().defs[scene_.name(n)] = n;
   }
-  open_.push_back({n, fields_.size(), {}, {}});
+  open_.push_back({n, fields_.size(), {}, {}, {}});
   return n;
 }
 
@@ -25,16 +25,31 @@ void SceneBuilder::close() {
     t.kind = NodeKind::script;
     std::vector<FieldDef> all(t.fields.begin(), t.fields.end());
     all.insert(all.end(), o.own.begin(), o.own.end());
-    scene_.become(o.node, scene_.add_type(t, std::move(all)), fields);
+    scene_.become(o.node, scene_.add_type(t, all), fields);
   }
   fields_.resize(o.first_field);
   open_.pop_back();
 }
 
+/// The field of that slot, or null. Where there are many, an index grows with them.
+Value* SceneBuilder::find_field(Open& o, std::uint16_t slot) {
+  auto fields = std::span(fields_).subspan(o.first_field);
+  if (fields.size() < NodeType::many_fields) {
+    auto i = std::ranges::find(fields, slot, &Value::slot);
+    return i == fields.end() ? nullptr : &*i;
+  }
+  for (; o.n_indexed < fields.size(); ++o.n_indexed) {
+    const auto s = fields[o.n_indexed].slot;
+    if (s == Value::extra_slot) continue;
+    if (s >= o.by_slot.size()) o.by_slot.resize(s + std::size_t{1});
+    o.by_slot[s] = static_cast<std::uint32_t>(o.n_indexed + 1);
+  }
+  return slot < o.by_slot.size() && o.by_slot[slot] ? &fields[o.by_slot[slot] - 1] : nullptr;
+}
+
 void SceneBuilder::field(Value v, Span where) {
-  auto first = fields_.begin() + static_cast<std::ptrdiff_t>(open_.back().first_field);
   if (v.slot != Value::extra_slot)
-    if (auto old = std::find_if(first, fields_.end(), [&](const Value& f) { return f.slot == v.slot; }); old != fields_.end()) {
+    if (Value* old = find_field(open_.back(), v.slot)) {
       auto& own = open_.back().own;
       auto builtin = current_type().fields;
       const bool lists = v.type == FieldType::MFNode && old->type == FieldType::MFNode && !v.is && !old->is;
@@ -44,6 +59,7 @@ void SceneBuilder::field(Value v, Span where) {
       else for (NodeId n : v.node_span()) append_child(v.slot, n);
       return;
     }
+  if (fields_.size() - open_.back().first_field >= most_fields) return diag_.report(Diag::expansion_limit, where, most_fields, "fields");
   // Nodes that came before this list outside of any field stand before those in it.
   auto& more = open_.back().more;
   if (v.type == FieldType::MFNode && !v.is && std::ranges::any_of(more, [&](const auto& m) { return m.first == v.slot; }))
@@ -57,12 +73,12 @@ void SceneBuilder::append_all(Open& o) {
   std::ranges::stable_sort(o.more, {}, &std::pair<std::uint16_t, NodeId>::first);
   for (auto i = o.more.begin(); i != o.more.end();) {
     const auto slot = i->first;
-    auto old = std::find_if(fields_.begin() + static_cast<std::ptrdiff_t>(o.first_field), fields_.end(), [&](const Value& f) { return f.slot == slot; });
+    Value* old = find_field(o, slot);
     std::vector<NodeId> all;
-    if (old != fields_.end()) all.assign(old->node_span().begin(), old->node_span().end());
+    if (old) all.assign(old->node_span().begin(), old->node_span().end());
     for (; i != o.more.end() && i->first == slot; ++i) all.push_back(i->second);
     Value v = scene_.make(FieldType::MFNode, slot, all);
-    if (old != fields_.end()) *old = v;
+    if (old) *old = v;
     else fields_.push_back(v);
   }
 }

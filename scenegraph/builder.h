@@ -64,6 +64,8 @@ class SceneBuilder {
     std::size_t first_field;
     std::vector<FieldDef> own;  // declared by a Script
     std::vector<std::pair<std::uint16_t, NodeId>> more;  // slots and nodes that stand behind those of its fields
+    std::vector<std::uint32_t> by_slot;  // one more than where the field of a slot is, once there are many
+    std::size_t n_indexed = 0;           // fields that by_slot knows
   };
   struct Pending {
     std::string_view from, event_out, to, event_in;
@@ -76,6 +78,7 @@ class SceneBuilder {
     std::vector<Pending> forward;  // ROUTEs whose nodes are defined later, as some exporters write them
     std::size_t depth = 0;
   };
+  Value* find_field(Open&, std::uint16_t slot);
   void append_all(Open&);
   NodeId defined(std::string_view name) const;
   bool try_route(const Pending&);

@@ -57,9 +57,12 @@ struct NodeType {
   std::string_view container_field;         // X3D XML
   std::string_view doc;
   ProtoId proto;                            // of kind proto
+  std::span<const std::uint16_t> by_name;   // slots in the order of their names, of a type of a scene with many fields
+
+  static constexpr std::size_t many_fields = 32;
 
   bool is_a(std::string_view base) const;
-  /// Index of the field of that name in that dialect. Accepts `set_x` and `x_changed` for an inout field `x`, as ROUTE
+  /// Index of the field of that name in that dialect, in O(log of many fields). Accepts `set_x` and `x_changed` for an inout field `x`, as ROUTE
   /// and IS do, when `events` is set.
   std::optional<std::uint16_t> find(std::string_view field, Dialect, bool events = false) const;
 };

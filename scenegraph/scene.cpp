@@ -1,6 +1,7 @@
 #include "scenegraph/scene.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace wrlkit {
 
@@ -23,9 +24,9 @@ void Scene::set_name(NodeId n, std::string_view name) {
 }
 
 const Value* Scene::find(NodeId n, std::uint16_t slot) const {
-  for (auto& v : fields(n))
-    if (v.slot == slot) return &v;
-  return nullptr;
+  auto all = fields(n);
+  auto i = all.size() < NodeType::many_fields ? std::ranges::find(all, slot, &Value::slot) : std::ranges::lower_bound(all, slot, {}, &Value::slot);
+  return i != all.end() && i->slot == slot ? &*i : nullptr;
 }
 
 const Value& Scene::value(NodeId n, std::uint16_t slot) const {
@@ -51,13 +52,13 @@ void Scene::set_fields(NodeId n, std::span<const Value> fields) {
     fields_.insert(fields_.end(), fields.begin(), fields.end());
   }
   node.n_fields = static_cast<std::uint16_t>(std::min<std::size_t>(fields.size(), 0xffff));
+  if (node.n_fields >= NodeType::many_fields)
+    std::ranges::stable_sort(std::span(fields_).subspan(node.first_field, node.n_fields), {}, &Value::slot);
 }
 
 void Scene::set(NodeId n, Value v) {
-  auto& node = nodes_[n.value];
   if (v.slot != Value::extra_slot)
-    for (std::size_t i = 0; i < node.n_fields; ++i)
-      if (auto& old = fields_[node.first_field + i]; old.slot == v.slot) { old = v; return; }
+    if (auto* old = find(n, v.slot)) { fields_[static_cast<std::size_t>(old - fields_.data())] = v; return; }
   auto now = fields(n);
   std::vector<Value> next(now.begin(), now.end());
   next.push_back(v);
@@ -152,9 +153,15 @@ Value Scene::make_extra(std::string_view name, Value content) {
   return v;
 }
 
-TypeId Scene::add_type(NodeType t, std::vector<FieldDef> fields) {
-  type_fields_.push_back(std::move(fields));
-  t.fields = type_fields_.back();
+TypeId Scene::add_type(NodeType t, std::span<const FieldDef> fields) {
+  t.fields = {arena_->copy(fields), fields.size()};
+  t.by_name = {};
+  if (fields.size() >= NodeType::many_fields) {
+    auto* slots = arena_->allocate<std::uint16_t>(fields.size());
+    std::iota(slots, slots + fields.size(), std::uint16_t{0});
+    std::stable_sort(slots, slots + fields.size(), [&](auto a, auto b) { return fields[a].name < fields[b].name; });
+    t.by_name = {slots, fields.size()};
+  }
   types_.push_back(t);
   return TypeId{static_cast<std::uint32_t>(builtin_nodes().size() + types_.size() - 1)};
 }
@@ -200,12 +207,11 @@ Scope Scene::import(const Scene& other) {
     nodes_.push_back(n);
   }
   for (auto& v : other.fields_) fields_.push_back(value(value, v));
-  for (std::size_t i = 0; i < other.types_.size(); ++i) {
-    auto t = other.types_[i];
+  for (auto t : other.types_) {
     if (t.proto) t.proto.value += p0;
-    auto fields = other.type_fields_[i];
+    std::vector<FieldDef> fields(t.fields.begin(), t.fields.end());
     for (auto& f : fields) f.default_value = value(value, f.default_value);
-    add_type(t, std::move(fields));
+    add_type(t, fields);
   }
   for (auto p : other.protos_) {
     p.type = type(p.type);

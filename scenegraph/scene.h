@@ -62,7 +62,7 @@ class Scene {
   Span where(NodeId n) const { return {nodes_[n.value].offset, 1}; }
   Dialect dialect() const { return format == Format::vrml97 ? Dialect::vrml97 : format == Format::vrml1 ? Dialect::vrml1 : Dialect::x3d; }
 
-  /// Fields that were written, in the order they were written.
+  /// Fields that were written, in the order they were written; of nodes with very many of them in the order of their slots.
   std::span<const Value> fields(NodeId n) const { return {fields_.data() + nodes_[n.value].first_field, nodes_[n.value].n_fields}; }
   /// The written value of a slot, or null.
   const Value* find(NodeId, std::uint16_t slot) const;
@@ -112,7 +112,7 @@ class Scene {
 
   // Types and prototypes of this scene.
   /// Adds a type; names and arrays in it must live in the arena or in the table.
-  TypeId add_type(NodeType, std::vector<FieldDef> fields);
+  TypeId add_type(NodeType, std::span<const FieldDef> fields);
   ProtoId add_proto(Proto);
   void set_type_proto(TypeId t, ProtoId p) { types_[t.value - builtin_nodes().size()].proto = p; }
   std::size_t proto_count() const { return protos_.size(); }
@@ -137,7 +137,6 @@ class Scene {
   std::vector<Value> fields_;
   std::vector<std::string_view> names_{std::string_view{}};
   std::deque<NodeType> types_;             // of this scene; TypeId = builtin_nodes().size() + index
-  std::deque<std::vector<FieldDef>> type_fields_;
   std::deque<Proto> protos_;
   std::shared_ptr<Arena> arena_;
   std::vector<std::shared_ptr<Arena>> shared_;  // of imported scenes

@@ -64,7 +64,7 @@ class Parser : private Values {
   // Declarations.
   void proto(Token keyword);
   void externproto(Token keyword);
-  TypeId proto_type(std::string_view name, std::vector<FieldDef> fields);
+  TypeId proto_type(std::string_view name, std::span<const FieldDef> fields);
   struct Interface {
     std::vector<FieldDef> fields;
     std::unordered_set<std::string_view> names;

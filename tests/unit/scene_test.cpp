@@ -1,6 +1,8 @@
 // Scenes: typed access, copies that share arrays, import, equality.
 #include <catch2/catch.hpp>
 
+#include <memory>
+
 #include "parsers/parsers.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
@@ -42,6 +44,40 @@ TEST_CASE("scene: a copy shares its arrays and nothing else", "[scene]") {
   CHECK(s.get(coord, nodes::coordinate::point).size() == 6);
   CHECK(copy.get(coord, nodes::coordinate::point).size() == 3);
   CHECK_FALSE(difference(s, copy).empty());
+}
+
+TEST_CASE("scene: a copy outlives its original with the types that the file declared", "[scene]") {
+  auto original = std::make_unique<Scene>(scene_of("PROTO P [ field SFInt32 n 7 ] { Group { } } P { }"));
+  const Scene copy = *original;
+  original.reset();
+  CHECK(copy.value(copy.main.roots[0], 0).integer == 7);
+}
+
+TEST_CASE("scene: nodes with many fields find them like others", "[scene]") {
+  std::string declared, given;
+  for (int i = 0; i < 100; ++i) {
+    declared += "field SFInt32 f" + std::to_string(i) + " 0 ";
+    given += "f" + std::to_string((i * 37) % 100) + ' ' + std::to_string(i) + " other" + std::to_string(i) + " 1 ";
+  }
+  Diagnostics diag;
+  auto world = parse_world("#VRML V2.0 utf8\nPROTO P [ " + declared + "] { Group { } } P { " + given + "f37 1000 }", "test.wrl", {}, diag);
+  REQUIRE(world);
+  auto& s = world->scene;
+  NodeId p = s.main.roots[0];
+  CHECK(diag.count(Diag::duplicate_field) == 1);
+  CHECK(diag.count(Diag::unknown_field) == 100);
+  CHECK(s.fields(p).size() == 200);
+  for (int i = 0; i < 100; ++i) {
+    auto slot = s.type(p).find("f" + std::to_string((i * 37) % 100), s.dialect());
+    REQUIRE(slot);
+    CHECK(s.value(p, *slot).integer == (i == 1 ? 1000 : i));
+  }
+  s.set(p, s.make(FieldType::SFInt32, 40, std::int32_t{5}));
+  CHECK(s.value(p, 40).integer == 5);
+  s.unset(p, 40);
+  CHECK(s.find(p, 40) == nullptr);
+  CHECK(s.value(p, 41).integer == 93);
+  CHECK_FALSE(s.type(p).find("f100", s.dialect()));
 }
 
 TEST_CASE("scene: import keeps names, sharing, prototypes and routes", "[scene]") {
