@@ -148,10 +148,11 @@ void Parser::undeclarable(Access access, Token keyword) {
   find_field_type(text(type), t);
   std::string full = std::string(text(keyword)) + ' ' + std::string(text(type)) + ' ' + std::string(name_of(name));
   Value v;
-  if (text(lex_.peek()) == "IS") v = is_value(lex_.next(), t, Value::extra_slot);
+  const bool is = text(lex_.peek()) == "IS";
+  if (is) v = is_value(lex_.next(), t, Value::extra_slot);
   else if (access == Access::in || access == Access::out) v = scene_.make(FieldType::verbatim, Value::extra_slot, std::string_view{});
   else if (!value(t, Value::extra_slot, text(name), empty_value(t), v)) return;
-  build_.field(scene_.make_extra(full, v), span(keyword));
+  if (!is || v.is) build_.field(scene_.make_extra(full, v), span(keyword));
 }
 
 void Parser::route_statement(Token keyword) {

@@ -88,7 +88,7 @@ NodeId Parser::node_statement() {
     if (!def.empty()) diag_.report(Diag::def_without_node, span(t), def);
     Token name = lex_.next();
     if (name.kind != Kind::word) return expected("a name", name), lex_.seek(name.begin), NodeId{};
-    if (lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing
+    if (name_like(name) && lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing
       diag_.report(Diag::def_without_name, span(name));
       return lex_.next(), node(name, {});
     }
@@ -129,7 +129,7 @@ void Parser::node_body(Token opened) {
       skip_to_close(Kind::open_brace, Kind::close_brace);
       continue;
     }
-    if (!name_like(t)) { stray(); continue; }
+    if (!name_like(t) || value_like(t)) { stray(); continue; }
     if (!statement(t)) node_body_element(t);
   }
 }

@@ -89,8 +89,7 @@ std::string Tokens::skip_values() {
       else expected("']'", stop);
       return '\n' + std::string(missing, ']');  // a comment may come before
     }
-    bool value = t.kind == Kind::string || (t.kind == Kind::word && (!name_like(t) || text(t) == "TRUE" || text(t) == "FALSE"));
-    if (!value) return {};
+    if (!value_like(t)) return {};
     lex_.next();
     if (t.kind == Kind::string && !lex_.closed(t)) unclosed_string(t);
   }

@@ -26,6 +26,9 @@ class Tokens {
     return !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.';
   }
 
+  /// A number, a string or a boolean: nothing that a field could be called.
+  bool value_like(Token t) const { return t.kind == Kind::string || (t.kind == Kind::word && (!name_like(t) || text(t) == "TRUE" || text(t) == "FALSE")); }
+
   // Messages.
   void expected(std::string_view what, Token found);
   /// At the end of the text everything open is unclosed; one message is enough.
