@@ -27,7 +27,7 @@ class Parser : private Values {
   void skip_import_export(Token keyword);
   /// Something that fits nowhere: skipped with everything it brackets, one message for a run of them.
   void stray();
-  bool is_stray(Token t) const { return t.kind == Kind::open_bracket || value_like(t); }
+  bool is_stray(Token t) const { return t.kind == Kind::open_bracket || value_like(t) || text(t) == "IS"; }
 
   // Nodes.
   bool node_follows(Token name);

@@ -129,7 +129,7 @@ void Parser::node_body(Token opened) {
       skip_to_close(Kind::open_brace, Kind::close_brace);
       continue;
     }
-    if (!name_like(t) || value_like(t)) { stray(); continue; }
+    if (!name_like(t) || is_stray(t)) { stray(); continue; }
     if (!statement(t)) node_body_element(t);
   }
 }
