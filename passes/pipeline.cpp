@@ -92,6 +92,22 @@ std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why)
   return p;
 }
 
+void Pipeline::complete(std::string_view named) {
+  std::string why;
+  auto standard = parse(named, why);
+  auto split = std::ranges::find(standard->steps_, "tessellate", [](const Step& s) { return s.info->name; });
+  std::vector<Step> all;
+  auto add_missing = [&](auto from, auto to) {
+    for (; from != to; ++from)
+      if (std::ranges::find(steps_, from->info, &Step::info) == steps_.end()) all.push_back(std::move(*from));
+  };
+  add_missing(standard->steps_.begin(), split);
+  const auto in_front = all.size();
+  add_missing(split, standard->steps_.end());
+  all.insert(all.begin() + static_cast<std::ptrdiff_t>(in_front), std::make_move_iterator(steps_.begin()), std::make_move_iterator(steps_.end()));
+  steps_ = std::move(all);
+}
+
 std::string Pipeline::text() const {
   std::string out;
   for (auto& s : steps_) {

@@ -64,6 +64,7 @@ bool Session::choose_pipeline(std::string_view standard) {
   std::string why;
   pipeline_ = Pipeline::parse(flags_.pipeline_given ? std::string_view(flags_.pipeline) : standard, why);
   if (!pipeline_) return fmt::print(stderr, "wrlkit: -p: {}\n", why), false;
+  if (flags_.pipeline_given) pipeline_->complete(standard);
   const auto& after = flags_.print_after;
   if (!after.empty() && after != "all" && !find_pass(after)) return fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'\n", after), false;
   return true;

@@ -29,7 +29,7 @@ class Session {
   World* read(const std::string& path);
   /// What `read` gave.
   World& world() { return *world_; }
-  /// -p, or else `standard`; false when it is no pipeline, which was printed.
+  /// -p with what it lacks of `standard`, or else `standard`; false when it is no pipeline, which was printed.
   bool choose_pipeline(std::string_view standard);
   Pipeline& pipeline() { return *pipeline_; }
   PipelineOptions pipeline_options();
