@@ -6,16 +6,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "passes/weld/scratch.h"
 
 namespace wrlkit {
 namespace {
-
-/// Of double precision: how far from an edge a point computed to be on it may come to lie, by its largest coordinate.
-constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
 void count(MeshJob& job, std::string_view what, std::size_t n) {
   if (n == 0) return;
@@ -25,15 +21,15 @@ void count(MeshJob& job, std::string_view what, std::size_t n) {
   i->second += n;
 }
 
-/// Joins equal values; true when there were any.
+/// Joins equal values, and forgets those that no corner uses if there is anything to join or `tidy`; true when it did.
 template <int width>
-bool join_values(Attribute& a, ValueTable<float, width>& table, StampedMap& map) {
+bool join_values(Attribute& a, ValueTable<float, width>& table, StampedMap& map, bool tidy) {
   std::size_t n_used = 0;
   table.start(std::min(a.count(), a.index.size()));
   map.reset(a.count());
   for (std::uint32_t i : a.index)
     if (!map.contains(i)) map.set(i, table.number(a.at(i))), ++n_used;
-  if (n_used == table.count()) return false;
+  if (n_used == table.count() && !(tidy && a.count() > n_used)) return false;
   for (std::uint32_t& i : a.index) i = map[i];
   a.values.swap(table.values);
   return true;
@@ -49,11 +45,13 @@ class Welding {
         surface_{mesh_, scratch_.joiner.points, scratch_.face_of} {}
 
   Outcome run() {
-    bool joined = join();
+    bool joined = join_points();
     spell_out_faces();
+    const std::size_t n_values = count_values();
     bool repaired = repair();
     forget_triangles();
     give_back_points();
+    joined |= join_attributes(count_values() > n_values);
     return joined || repaired ? Outcome::changed : Outcome::unchanged;
   }
 
@@ -63,7 +61,9 @@ class Welding {
     return *s.weld;
   }
 
-  bool join();
+  bool join_points();
+  bool join_attributes(bool tidy);
+  std::size_t count_values() const { return mesh_.normal.count() + mesh_.color.count() + mesh_.texcoord.count(); }
   void spell_out_faces();
   void forget_triangles();
   bool repair();
@@ -82,18 +82,24 @@ class Welding {
   double tolerance_ = 0;
 };
 
-bool Welding::join() {
+bool Welding::join_points() {
   auto& joiner = scratch_.joiner;
   joiner.join_equal(mesh_.positions.span(), mesh_.corners, job_.scratch.map);
   tolerance_ = options_.tolerance.automatic ? tolerance_by_digits(joiner.points) : options_.tolerance.length;
   if (tolerance_ > 0) joiner.join_near(tolerance_, mesh_.corners);
   count(job_, "weld.joined-points", joiner.n_joined);
-  bool joined = joiner.n_joined > 0;
+  return joiner.n_joined > 0;
+}
+
+/// After the repairs, which make new values.
+bool Welding::join_attributes(bool tidy) {
+  StampedMap& map = job_.scratch.map;
+  bool joined = false;
   for (Attribute* a : {&mesh_.normal, &mesh_.color, &mesh_.texcoord}) {
     if (!a->present()) continue;
-    if (a->width == 2) joined |= join_values(*a, scratch_.pairs, job_.scratch.map);
-    if (a->width == 3) joined |= join_values(*a, scratch_.triples, job_.scratch.map);
-    if (a->width == 4) joined |= join_values(*a, scratch_.quadruples, job_.scratch.map);
+    if (a->width == 2) joined |= join_values(*a, scratch_.pairs, map, tidy);
+    if (a->width == 3) joined |= join_values(*a, scratch_.triples, map, tidy);
+    if (a->width == 4) joined |= join_values(*a, scratch_.quadruples, map, tidy);
   }
   return joined;
 }
@@ -139,9 +145,7 @@ void Welding::find_edges() {
 
 bool Welding::close_t_junctions() {
   if (!options_.t_junctions) return false;
-  double largest = 0;
-  for (double v : surface_.points) largest = std::max(largest, std::abs(v));
-  std::size_t n = scratch_.t_junctions.close(surface_, scratch_.edges.edges(), std::max(tolerance_, rounding * largest));
+  std::size_t n = scratch_.t_junctions.close(surface_, scratch_.edges.edges(), tolerance_);
   if (n > 0) find_edges();
   count(job_, "weld.t-junctions", n);
   return n > 0;
@@ -168,10 +172,11 @@ void Welding::give_back_points() {
   auto& joiner = scratch_.joiner;
   if (joiner.n_joined == 0) {
     for (auto& c : mesh_.corners) c = joiner.position[c];
-  } else {
-    mesh_.positions.clear();
-    mesh_.positions.edit().swap(joiner.points);
+    return;
   }
+  joiner.drop_unused(mesh_.corners);
+  mesh_.positions.clear();
+  mesh_.positions.edit().swap(joiner.points);
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ struct WeldOptions {
 ///
 /// The repairs, in their order; each is an option, and a count in the statistics:
 /// - weld.degenerate-faces: fewer than three different points, or no area (as `triangulate` sees it). A polygon only
-///   loses the corners that repeat the one before (weld.repeated-corners).
+///   loses the corners that repeat the one before (weld.repeated-corners). A mesh of nothing but such faces is kept: it
+///   is not seen, but has an extent.
 /// - weld.duplicate-faces: the same points in the same order as an earlier face; where `solid` is FALSE, in the opposite
 ///   order too. The earlier one stays, as a depth buffer would have it. weld.duplicate-triangles counts them as
 ///   triangles. A sheet given twice, once for each side, stays.

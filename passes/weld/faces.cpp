@@ -74,9 +74,10 @@ void FaceCleaner::drop_degenerate(const Surface& s) {
       face_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
     } else {
       corners_.resize(first);
-      ++counts.degenerate_faces;
     }
   }
+  if (corners_.empty()) return;
+  counts.degenerate_faces += s.n_faces() - (face_begin_.size() - 1);
   counts.repeated_corners += n_before - corners_.size();
   if (corners_.size() < points.size()) keep(s, corners_, face_begin_);
 }

@@ -12,7 +12,7 @@ struct FaceCleaner {
     std::size_t degenerate_faces = 0, repeated_corners = 0, duplicate_faces = 0, duplicate_triangles = 0;
   };
 
-  /// Drops faces without area, and corners at the point of the one before. Linear.
+  /// Drops faces without area, and corners at the point of the one before; nothing where no face has an area. Linear.
   void drop_degenerate(const Surface&);
   /// Drops faces that have the points of an earlier one in the same order, wherever they start; with `both_ways` those in
   /// the opposite order too. Linear.

@@ -55,6 +55,19 @@ void PointJoiner::join_near(double tolerance, std::vector<std::uint32_t>& index)
   for (std::uint32_t& i : index) i = number_[i];
 }
 
+void PointJoiner::drop_unused(std::vector<std::uint32_t>& index) {
+  number_.assign(points.size() / 3, CellGrid::none);
+  equal_.values.clear();
+  for (std::uint32_t& i : index) {
+    if (number_[i] == CellGrid::none) {
+      number_[i] = static_cast<std::uint32_t>(equal_.values.size() / 3);
+      equal_.values.insert(equal_.values.end(), &points[std::size_t{3} * i], &points[std::size_t{3} * i] + 3);
+    }
+    i = number_[i];
+  }
+  points.swap(equal_.values);
+}
+
 /// Of the points that are left so far.
 std::uint32_t PointJoiner::first_within(double tolerance, const double* p) const {
   std::uint32_t first = CellGrid::none;

@@ -17,6 +17,8 @@ class PointJoiner {
   void join_equal(std::span<const double> positions, std::vector<std::uint32_t>& index, StampedMap& map);
   /// Then joins the points within a tolerance, and numbers anew what is left.
   void join_near(double tolerance, std::vector<std::uint32_t>& index);
+  /// Forgets the points that are not indexed any more, and numbers the others by their first appearance.
+  void drop_unused(std::vector<std::uint32_t>& index);
 
   std::vector<double> points;           // xyz of each number
   std::vector<std::uint32_t> position;  // which of the positions a point comes from

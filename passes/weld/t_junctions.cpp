@@ -6,13 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wrlkit {
 namespace {
 
 constexpr double most_levels = 24;             // shorter edges are treated like those of the lowest level
 constexpr std::size_t tests_a_point = 256;     // on average; real surfaces need one or two
-constexpr float shortest_normal = 1e-12f;
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();  // by the largest coordinate
+constexpr double indistinct = std::numeric_limits<float>::epsilon();     // the same
+constexpr float shortest_normal = 1e-12f;                                // squared
 
 double cell_size(double level) { return std::ldexp(1, static_cast<int>(level)); }
 
@@ -21,16 +24,20 @@ double cell_size(double level) { return std::ldexp(1, static_cast<int>(level)); 
 std::size_t TJunctions::close(const Surface& s, const std::vector<SurfaceEdge>& edges, double tolerance) {
   collect(s, edges);
   if (edges_.size() < 3) return 0;
-  spread_edges(s, tolerance);
+  double largest = 0;
+  for (double v : s.points) largest = std::max(largest, std::abs(v));
+  near_ = std::max(tolerance, rounding * largest);
+  end_ = std::max(tolerance, indistinct * largest);
+  spread_edges(s);
   junctions_.clear();
   budget_ = tests_a_point * points_.size();
-  for (std::uint32_t p : points_) find_edges(s, p, tolerance);
+  for (std::uint32_t p : points_) find_edges(s, p);
   std::ranges::sort(junctions_, [](const Junction& a, const Junction& b) {
     return a.corner != b.corner ? a.corner < b.corner : a.at != b.at ? a.at < b.at : a.point < b.point;
   });
   auto again = std::ranges::unique(junctions_, [](const Junction& a, const Junction& b) { return a.corner == b.corner && a.point == b.point; });
   junctions_.erase(again.begin(), again.end());
-  if (!junctions_.empty()) insert(s.mesh, s);
+  if (!junctions_.empty()) insert(s);
   return junctions_.size();
 }
 
@@ -49,11 +56,11 @@ void TJunctions::collect(const Surface& s, const std::vector<SurfaceEdge>& edges
     }
 }
 
-void TJunctions::spread_edges(const Surface& s, double tolerance) {
+void TJunctions::spread_edges(const Surface& s) {
   double highest = -2000;
   for (OpenEdge& e : edges_) {
     double l = length(s.point(s.mesh.corners[e.corner]) - s.point(s.mesh.corners[s.after(e.corner)]));
-    e.level = std::clamp(std::ceil(std::log2(l + 2 * tolerance)), -1000., 1000.);
+    e.level = std::clamp(std::ceil(std::log2(l + 2 * near_)), -1000., 1000.);
     highest = std::max(highest, e.level);
   }
   levels_.clear();
@@ -62,36 +69,36 @@ void TJunctions::spread_edges(const Surface& s, double tolerance) {
     e.level = std::max(e.level, highest - most_levels);
     if (std::ranges::find(levels_, e.level) == levels_.end()) levels_.push_back(e.level);
     Vec3 a = s.point(s.mesh.corners[e.corner]), b = s.point(s.mesh.corners[s.after(e.corner)]), low, high;
-    for (int i = 0; i < 3; ++i) low[i] = std::min(a[i], b[i]) - tolerance, high[i] = std::max(a[i], b[i]) + tolerance;
+    for (int i = 0; i < 3; ++i) low[i] = std::min(a[i], b[i]) - near_, high[i] = std::max(a[i], b[i]) + near_;
     for_each_cell(low, high, cell_size(e.level), [&](const Vec3& cell) { grid_.add(cell, e.corner, e.level); });
   }
 }
 
-void TJunctions::find_edges(const Surface& s, std::uint32_t point, double tolerance) {
+void TJunctions::find_edges(const Surface& s, std::uint32_t point) {
   const Vec3 p = s.point(point);
   for (double level : levels_)
     for_each_cell(p, p, cell_size(level), [&](const Vec3& cell) {
-      grid_.visit(cell, [&](std::uint32_t corner) { test(s, corner, point, tolerance); }, level);
+      grid_.visit(cell, [&](std::uint32_t corner) { test(s, corner, point); }, level);
     });
 }
 
-void TJunctions::test(const Surface& s, std::uint32_t corner, std::uint32_t point, double tolerance) {
+void TJunctions::test(const Surface& s, std::uint32_t corner, std::uint32_t point) {
   if (budget_ == 0) return;
   --budget_;
   std::uint32_t from = s.mesh.corners[corner], to = s.mesh.corners[s.after(corner)];
   if (point == from || point == to) return;
   Vec3 a = s.point(from), along = s.point(to) - a, d = s.point(point) - a;
-  double square = dot(along, along), at = dot(d, along) / square, margin = tolerance / std::sqrt(square);
-  if (!(at > margin && at < 1 - margin)) return;
+  double square = dot(along, along), at = dot(d, along) / square, margin = end_ / std::sqrt(square);
   Vec3 off = d - at * along;
-  if (dot(off, off) > tolerance * tolerance) return;
+  if (!(at > margin && at < 1 - margin) || dot(off, off) > near_ * near_) return;
   auto face = s.face(s.face_of[corner]);
   budget_ -= std::min(budget_, face.size());
   if (std::ranges::find(face, point) == face.end()) junctions_.push_back({corner, point, at});
 }
 
 /// Attributes first, while the corners still tell where they are.
-void TJunctions::insert(Mesh& mesh, const Surface& s) {
+void TJunctions::insert(const Surface& s) {
+  Mesh& mesh = s.mesh;
   for (Attribute* a : {&mesh.normal, &mesh.color, &mesh.texcoord})
     if (a->present()) interpolate(*a, s);
   face_begin_.assign(1, 0);

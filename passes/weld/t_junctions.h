@@ -12,9 +12,10 @@ namespace wrlkit {
 
 class TJunctions {
  public:
-  /// Makes the points of open edges that lie on another open edge, to within the tolerance, corners of the face there,
-  /// and returns how many it made. The edges are out of date then. About linear; gives up finding more where very many
-  /// edges lie in one place.
+  /// Makes the points of open edges that lie on another open edge corners of the face there, and returns how many it
+  /// made; the edges are out of date then. A point is on an edge to within the tolerance, or the rounding error of double
+  /// precision. Not if single precision takes it for an end of the edge: such points want to be joined. About linear;
+  /// gives up finding more where very many edges lie in one place.
   std::size_t close(const Surface&, const std::vector<SurfaceEdge>&, double tolerance);
 
  private:
@@ -25,10 +26,10 @@ class TJunctions {
   };
 
   void collect(const Surface&, const std::vector<SurfaceEdge>&);
-  void spread_edges(const Surface&, double tolerance);
-  void find_edges(const Surface&, std::uint32_t point, double tolerance);
-  void test(const Surface&, std::uint32_t corner, std::uint32_t point, double tolerance);
-  void insert(Mesh&, const Surface&);
+  void spread_edges(const Surface&);
+  void find_edges(const Surface&, std::uint32_t point);
+  void test(const Surface&, std::uint32_t corner, std::uint32_t point);
+  void insert(const Surface&);
   void interpolate(Attribute&, const Surface&);
 
   std::vector<OpenEdge> edges_;
@@ -36,6 +37,7 @@ class TJunctions {
   std::vector<char> listed_;           // by point
   std::vector<double> levels_;         // those in use
   CellGrid grid_;
+  double near_ = 0, end_ = 0;  // distances: on the edge up to the first, and no end of it from the second
   std::size_t budget_ = 0;
   std::vector<Junction> junctions_;
   std::vector<std::uint32_t> room_, face_begin_;
