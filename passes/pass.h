@@ -7,6 +7,7 @@
 // geometry while it is in the cache, and in parallel over the geometries.
 #pragma once
 #include <map>
+#include <memory>
 #include <string>
 
 #include "passes/polygon.h"
@@ -42,12 +43,15 @@ struct NormalsScratch {
   std::vector<std::uint32_t> ids, first_edge, face_of, groups, recent;
 };
 
+struct WeldScratch;  // passes/weld/scratch.h
+
 /// Arrays that mesh passes use again and again, so that a million small shapes allocate nothing.
 struct MeshScratch {
   StampedMap map;
   std::vector<std::uint32_t> a, b, c, d;
   std::vector<double> x, y;
   NormalsScratch normals;
+  std::shared_ptr<WeldScratch> weld;  // made when first used
   PolygonCutter cutter;
 };
 

@@ -35,6 +35,16 @@ bool read(std::string_view s, N& v) {
   return r.ec == std::errc{} && r.ptr == s.data() + s.size();
 }
 
+/// A type made for options says these itself: weld.h has one.
+template <class T>
+std::string_view type_name(const T&) { return T::type; }
+template <class T>
+  requires requires(const T& v) { v.print(); }
+std::string print(const T& v) { return v.print(); }
+template <class T>
+  requires requires(T& v) { v.read(std::string_view{}); }
+bool read(std::string_view s, T& v) { return v.read(s); }
+
 }  // namespace option_text
 
 template <auto Function, class Options>

@@ -27,12 +27,6 @@ bool has_area_in_single(const double* a, const double* b, const double* c) {
   return dot(n, n) > 0;
 }
 
-bool has_area(const double* a, const double* b, const double* c) {
-  Vec3 ab = between(a, b), ac = between(a, c), bc = between(b, c), n = cross(ab, ac);
-  double longest = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
-  return dot(n, n) > no_area * no_area * longest * longest || has_area_in_single(a, b, c);
-}
-
 /// Whether two triangles with an edge in common are not in one plane, by their normals.
 bool folded(const Vec3& m, const Vec3& n) {
   double c = dot(m, n);
@@ -198,6 +192,12 @@ void Triangulation::report() {
 }
 
 }  // namespace
+
+bool has_area(const double* a, const double* b, const double* c) {
+  Vec3 ab = between(a, b), ac = between(a, c), bc = between(b, c), n = cross(ab, ac);
+  double longest = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+  return dot(n, n) > no_area * no_area * longest * longest || has_area_in_single(a, b, c);
+}
 
 Outcome triangulate(MeshJob& job, const TriangulateOptions&) {
   if (job.mesh.kind != Mesh::Kind::faces) return Outcome::unchanged;

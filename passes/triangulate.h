@@ -29,4 +29,7 @@ struct TriangulateOptions {
 /// are. Positions in use must exist.
 Outcome triangulate(MeshJob& job, const TriangulateOptions& options);
 
+/// Whether a triangle has an area, in the sense above; positions are xyz.
+bool has_area(const double* a, const double* b, const double* c);
+
 }  // namespace wrlkit
