@@ -148,32 +148,64 @@ class Way {
     return sums;
   }
 
+  /// A point of a triangle of `from_`, and how far it is from the other surface.
+  struct Sample {
+    std::uint32_t triangle = 0, nearest = ClosestPoint::no_guess;
+    double u = 0, v = 0, distance = -1;
+  };
+
+  static Vec3 point_at(const std::array<Vec3, 3>& t, double u, double v) { return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]); }
+
   /// Equal steps through the area, and in each triangle the additive sequence of the plastic number, which fills the
   /// square evenly; the square is folded to a triangle.
   Sums ask_samples(std::size_t begin, std::size_t end, std::size_t n) const {
     constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
     auto fraction = [](double x) { return x - std::floor(x); };
-    auto area_at = [&](std::size_t k) { return (static_cast<double>(k) + 0.5) / static_cast<double>(n) * changed_area_; };
+    const double spacing = changed_area_ / static_cast<double>(n);
+    auto slot = static_cast<std::size_t>(std::upper_bound(area_.begin(), area_.end(), (begin + 0.5) * spacing) - area_.begin());
     Sums sums;
-    auto guess = ClosestPoint::no_guess;
-    auto slot = static_cast<std::size_t>(std::upper_bound(area_.begin(), area_.end(), area_at(begin)) - area_.begin());
+    Sample sample, worst;
     for (std::size_t k = begin; k < end; ++k) {
-      while (slot + 1 < area_.size() && area_[slot] <= area_at(k)) ++slot;
-      auto t = from_[changed_[slot]];
-      double u = fraction(static_cast<double>(k) * step_u), v = fraction(static_cast<double>(k) * step_v);
-      if (u + v > 1) u = 1 - u, v = 1 - v;
-      ask(t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]), unit(area_normal(t)), guess, sums);
+      while (slot + 1 < area_.size() && area_[slot] <= (k + 0.5) * spacing) ++slot;
+      sample.triangle = changed_[slot];
+      sample.u = fraction(k * step_u), sample.v = fraction(k * step_v);
+      if (sample.u + sample.v > 1) sample.u = 1 - sample.u, sample.v = 1 - sample.v;
+      ask(sample, sums);
+      if (sample.distance > worst.distance) worst = sample;
     }
+    climb(worst, spacing, sums);
     return sums;
   }
 
-  void ask(const Vec3& p, const Vec3& normal, std::uint32_t& guess, Sums& sums) const {
-    auto found = nearest_->nearest(p, normal, guess);
-    sums.add_distance(found.distance, p);
-    guess = found.triangle;
-    if (guess == ClosestPoint::no_guess) return;
-    Vec3 there = area_normal(to_[guess]);
+  void ask(Sample& s, Sums& sums) const {
+    auto t = from_[s.triangle];
+    Vec3 normal = unit(area_normal(t)), p = point_at(t, s.u, s.v);
+    auto found = nearest_->nearest(p, normal, s.nearest);
+    s.distance = found.distance, s.nearest = found.triangle;
+    sums.add_distance(s.distance, p);
+    if (s.nearest == ClosestPoint::no_guess) return;
+    Vec3 there = area_normal(to_[s.nearest]);
     if (there != Vec3{0, 0, 0}) sums.add_angle(std::atan2(length(cross(normal, there)), dot(normal, there)));
+  }
+
+  /// The largest distance lies between samples as a rule: uphill from the worst one within its triangle, by steps that are
+  /// halved when none of the six ways leads up.
+  void climb(Sample at, double spacing, Sums& sums) const {
+    constexpr double ways[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
+    auto t = from_[at.triangle];
+    double step = std::min(0.5, std::sqrt(2 * spacing / length(area_normal(t))));
+    for (int halvings = 0, moves = 0; halvings < 8 && moves < 16;) {
+      bool up = false;
+      for (auto& w : ways) {
+        double u = at.u + step * w[0], v = at.v + step * w[1];
+        if (u < 0 || v < 0 || u + v > 1) continue;
+        double d = nearest_->nearest(point_at(t, u, v), {}, at.nearest).distance;
+        if (d > at.distance) at.u = u, at.v = v, at.distance = d, up = true;
+      }
+      if (up) ++moves;
+      else ++halvings, step /= 2;
+    }
+    if (at.distance > sums.max) sums.max = at.distance, sums.where = point_at(t, at.u, at.v);
   }
 
   const Triangles &from_, &to_;

@@ -13,7 +13,7 @@ struct OneSidedDeviation {
   double normal_mean = 0, normal_rms = 0, normal_max = 0;
 };
 
-/// Both ways together: means are over both ways alike, maxima the larger ones. `max` is the Hausdorff distance, from below.
+/// Both ways together: means are over both ways alike, maxima the larger ones. `max` is the Hausdorff distance, or a little less.
 struct Deviation : OneSidedDeviation {
   OneSidedDeviation forward, backward;  // from the first surface to the second; back
 };
@@ -24,15 +24,15 @@ struct DeviationOptions {
 
 /// Two-sided distance (Cignoni, Rocchini, Scopigno: Metro, 1998), sampled.
 ///
-/// - Samples are spread evenly over the area, the same ones at each run; the corners are asked, too, for the maximum.
-///   Between the samples the distance may be larger.
+/// - Samples are spread evenly over the area, the same ones at each run; the corners are asked, too, for the maximum,
+///   which is followed uphill from the worst samples. A peak may be missed that is smaller than the samples are apart.
 /// - A triangle that both surfaces have deviates by exactly nothing. Samples are spent on the others only, so that one
 ///   changed part is measured as well in a plant as alone.
 /// - Triangles without area count for `max` and as something to be near to; when a surface has no others, `rms` is that
 ///   of its corners. Triangles that are not finite, or beyond 1e18, are left out.
 /// - When one surface is empty and the other is not, both distances are infinite, and `where` is a corner.
 ///
-/// O(n log n) in the triangles, some 250 bytes for each of them; runs on all threads, with the same result on any number.
+/// O(n log n) in the triangles, some 100 bytes for each of them; runs on all threads, with the same result on any number.
 Deviation measure_deviation(const Triangles& a, const Triangles& b, const DeviationOptions& options = {});
 
 }  // namespace wrlkit
