@@ -88,6 +88,14 @@ const Verb verbs[] = {
        vrml_output(v, f);
      },
      run_cat},
+    {"diff", "how two worlds differ: structure, names, materials, and the distance of their surfaces; exit code 0 when they do, too",
+     "wrlkit diff plant.wrl simpler.wrl\n  wrlkit diff plant.wrl simpler.wrl --json",
+     [](CLI::App& v, Flags& f) {
+       for (const char* name : {"A", "B"})
+         v.add_option_function<std::string>(name, [&f](const std::string& path) { f.inputs.push_back(path); }, "a world; - is standard input")->required();
+       placing(v, f);
+     },
+     run_diff},
     {"render", "a picture of the world, without a display", "wrlkit render plant.wrl plant.png --viewpoint Overview",
      [](CLI::App& v, Flags& f) {
        input(v, f);

@@ -48,6 +48,7 @@ int run_convert(const Flags&);
 int run_info(const Flags&);
 int run_check(const Flags&);
 int run_cat(const Flags&);
+int run_diff(const Flags&);
 int run_render(const Flags&);
 int run_passes(const Flags&);
 int run_formats(const Flags&);

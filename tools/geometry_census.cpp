@@ -5,13 +5,11 @@
 #include <utility>
 
 #include "scenegraph/nodes.h"
-#include "scenegraph/transform.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
 
-constexpr std::size_t most_places = 2'000'000;        // whose matrices are kept
 constexpr std::uint64_t most_points = 2'000'000'000;  // transformed for the bounds
 
 std::uint64_t add(std::uint64_t a, std::uint64_t b) { return a > ~b ? ~0ull : a + b; }
@@ -44,27 +42,6 @@ std::vector<std::uint64_t> times_shown(const Scene& scene, const std::vector<Nod
   for (auto n = order.rbegin(); n != order.rend(); ++n)
     for (NodeId c : shown_children(scene, *n)) if (c) times[c.value] = add(times[c.value], times[n->value]);
   return times;
-}
-
-/// The matrices of each geometry; false when there are too many.
-bool places(const Scene& scene, std::unordered_map<std::uint32_t, std::vector<Matrix>>& out) {
-  std::vector<std::pair<NodeId, Matrix>> stack;
-  for (auto r = scene.main.roots.rbegin(); r != scene.main.roots.rend(); ++r) stack.emplace_back(*r, Matrix{});
-  std::size_t visits = 0, n_places = 0;
-  while (!stack.empty()) {
-    auto [n, m] = stack.back();
-    stack.pop_back();
-    if (!n) continue;
-    if (++visits > most_places * 4) return false;
-    if (NodeId g = geometry_of(scene, n)) {
-      if (++n_places > most_places) return false;
-      out[g.value].push_back(m);
-      continue;
-    }
-    Matrix here = scene.is(n, nodes::Transform) ? m * local_matrix(scene, n) : m;
-    for (NodeId c : shown_children(scene, n)) stack.emplace_back(c, here);
-  }
-  return true;
 }
 
 /// The corners that a mesh uses, or the corners of their box when there are too many places for that.
@@ -106,6 +83,26 @@ Bounds box_of_boxes(const Scene& scene, const std::vector<NodeId>& order, const 
 
 }  // namespace
 
+bool find_places(const Scene& scene, Places& out) {
+  std::vector<std::pair<NodeId, Matrix>> stack;
+  for (auto r = scene.main.roots.rbegin(); r != scene.main.roots.rend(); ++r) stack.emplace_back(*r, Matrix{});
+  std::size_t visits = 0, n_places = 0;
+  while (!stack.empty()) {
+    auto [n, m] = stack.back();
+    stack.pop_back();
+    if (!n) continue;
+    if (++visits > most_places * 4) return false;
+    if (NodeId g = geometry_of(scene, n)) {
+      if (++n_places > most_places) return false;
+      out[g.value].push_back(m);
+      continue;
+    }
+    Matrix here = scene.is(n, nodes::Transform) ? m * local_matrix(scene, n) : m;
+    for (NodeId c : shown_children(scene, n)) stack.emplace_back(c, here);
+  }
+  return true;
+}
+
 GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, const MeshSource& triangles) {
   GeometryCensus census;
   const auto order = post_order(scene);
@@ -118,8 +115,8 @@ GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, co
       uses[g.value] = add(uses[g.value], times[n.value]);
       census.shapes = add(census.shapes, times[n.value]);
     }
-  std::unordered_map<std::uint32_t, std::vector<Matrix>> where;
-  const bool exact = places(scene, where);
+  Places where;
+  const bool exact = find_places(scene, where);
   std::unordered_map<std::uint32_t, Bounds> boxes;
   StampedMap seen;
   std::uint64_t budget = most_points;

@@ -2,9 +2,12 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <unordered_map>
+#include <vector>
 
 #include "scenegraph/mesh.h"
 #include "scenegraph/scene.h"
+#include "scenegraph/transform.h"
 
 namespace wrlkit {
 
@@ -26,5 +29,10 @@ struct GeometryCensus {
 /// node: one gives its faces as authored, the other its triangles. O(nodes + points x places); when a world has millions
 /// of places the bounds are those of boxes in boxes.
 GeometryCensus count_geometry(const Scene&, const MeshSource& polygons, const MeshSource& triangles);
+
+/// The matrices of all places where a geometry is shown, by its NodeId; false when there are more than can be kept.
+using Places = std::unordered_map<std::uint32_t, std::vector<Matrix>>;
+constexpr std::size_t most_places = 2'000'000;
+bool find_places(const Scene&, Places&);
 
 }  // namespace wrlkit

@@ -9,7 +9,7 @@
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "tools/geometry_census.h"
-#include "tools/session.h"
+#include "tools/world_meshes.h"
 #include "writers/json.h"
 
 namespace wrlkit {
@@ -77,7 +77,7 @@ void count_expanded(Session& s, Info& info) {
 }
 
 /// Triangles with each LOD at level k, for k up to the largest number of levels.
-void count_levels(Session& s, const MeshSource& polygons, const MeshSource& triangles, Info& info) {
+void count_levels(Session& s, const WorldMeshes& meshes, Info& info) {
   if (!info.lods) return;
   Scene level = s.world().scene;
   std::vector<NodeId> lods;
@@ -90,7 +90,7 @@ void count_levels(Session& s, const MeshSource& polygons, const MeshSource& tria
       auto children = s.world().scene.get(n, nodes::lod::children);
       if (!children.empty()) level.set(n, nodes::lod::children, std::vector<NodeId>{children[std::min(k, children.size() - 1)]});
     }
-    info.levels.push_back(count_geometry(level, polygons, triangles).triangles);
+    info.levels.push_back(count_geometry(level, meshes.polygons, meshes.triangles).triangles);
   }
 }
 
@@ -185,17 +185,11 @@ int run_info(const Flags& flags) {
   if (!s.read(flags.inputs[0])) return s.end(false);
   Info info;
   count_authored(s.world().scene, info);
-  std::string why;
-  auto expand = Pipeline::parse("expand", why);
-  auto as_faces = Pipeline::parse("tessellate{triangles=false}", why), as_triangles = Pipeline::parse("tessellate", why);
-  if (!expand->run(s.world().scene, s.context())) return s.end(false);
-  // The faces are asked for first; messages about them would come a second time with the triangles.
-  Diagnostics again(s.diag().shared_sources());
-  PassContext silent{again, s.context().stats, s.context().resources};
-  auto polygons = as_faces->run_lazily(s.world().scene, silent), triangles = as_triangles->run_lazily(s.world().scene, s.context());
+  WorldMeshes meshes(s);
+  if (!meshes.good()) return s.end(false);
   count_expanded(s, info);
-  info.geometry = count_geometry(s.world().scene, polygons, triangles);
-  count_levels(s, polygons, triangles, info);
+  info.geometry = count_geometry(s.world().scene, meshes.polygons, meshes.triangles);
+  count_levels(s, meshes, info);
   if (flags.json) fmt::print("{}\n", info_json(s, info));
   else fmt::print("{}", info_text(s, info));
   return s.end(true);

@@ -14,22 +14,15 @@
 namespace wrlkit {
 namespace {
 
-ResourceOptions resource_options(const Flags& f) {
-  ResourceOptions o;
-  if (!f.inputs.empty()) o.input = f.inputs[0];
-  o.allowed = f.allow_paths;
-  return o;
+std::shared_ptr<const Scene> parse_inlined(const std::string& path, Diagnostics& diag) {
+  auto world = read_world(path, {}, diag);
+  return world ? std::make_shared<const Scene>(std::move(world->scene)) : nullptr;
 }
 
 }  // namespace
 
 Session::Session(const Flags& flags)
     : flags_(flags), context_{diag_, stats_}, progress_(!flags.quiet) {
-  resources_ = std::make_unique<FileResources>(resource_options(flags), [](const std::string& path, Diagnostics& diag) -> std::shared_ptr<const Scene> {
-    auto world = read_world(path, {}, diag);
-    return world ? std::make_shared<const Scene>(std::move(world->scene)) : nullptr;
-  });
-  context_.resources = resources_.get();
   good_ = apply_warning_flags();
 }
 
@@ -50,6 +43,9 @@ bool Session::apply_warning_flags() {
 
 World* Session::read(const std::string& path) {
   progress_.begin("reading " + path, 0, "");
+  world_.reset();
+  resources_ = std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = flags_.allow_paths}, parse_inlined);
+  context_.resources = resources_.get();
   world_ = read_world(path, {}, diag_);
   if (world_) {
     place(world_->scene);

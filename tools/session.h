@@ -1,4 +1,4 @@
-// One run of a verb over one world: messages, files it may read, progress, report and exit code.
+// One run of a verb over one world, or one after the other: messages, files it may read, progress, report and exit code.
 #pragma once
 #include <memory>
 #include <string>
@@ -25,7 +25,7 @@ class Session {
   PassContext& context() { return context_; }
   Progress& progress() { return progress_; }
 
-  /// Reads a world and applies --unit and --up; null when nothing can be had.
+  /// Reads a world, in place of the one before, and applies --unit and --up; null when nothing can be had.
   World* read(const std::string& path);
   /// What `read` gave.
   World& world() { return *world_; }

@@ -1,0 +1,38 @@
+#include "tools/shown_surface.h"
+
+namespace wrlkit {
+
+ShownSurface::ShownSurface(const Scene& scene, Diagnostics& diag) : diag_(diag) {
+  if (!find_places(scene, places_)) give_up(most_places, "places of geometry");
+}
+
+void ShownSurface::add(NodeId geometry, const Mesh& mesh) {
+  auto places = places_.extract(geometry.value);
+  if (!mesh.is_triangles() || places.empty()) return;
+  for (const Matrix& m : places.mapped()) {
+    if (complete_ && corners_.size() / 3 + mesh.n_faces() > most_triangles) give_up(most_triangles, "triangles");
+    if (!complete_) return;
+    put(mesh, m);
+  }
+}
+
+void ShownSurface::give_up(std::size_t limit, std::string_view what) {
+  complete_ = false;
+  diag_.report(Diag::expansion_limit, {}, limit, what);
+}
+
+void ShownSurface::put(const Mesh& mesh, const Matrix& place) {
+  const bool turned = mesh.ccw == (place.determinant() < 0);
+  slot_.reset(mesh.n_positions());
+  for (auto c : mesh.corners) {
+    if (!slot_.contains(c)) {
+      slot_.set(c, static_cast<std::uint32_t>(positions_.size() / 3));
+      const double* p = mesh.positions.data() + std::size_t{c} * 3;
+      for (double v : place.point({p[0], p[1], p[2]})) positions_.push_back(v);
+    }
+    corners_.push_back(slot_[c]);
+  }
+  for (auto end = corners_.size(), i = end - mesh.corners.size(); turned && i < end; i += 3) std::swap(corners_[i + 1], corners_[i + 2]);
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,37 @@
+// All triangles that a world shows, in world coordinates: what can be measured.
+#pragma once
+#include "passes/closest_point.h"
+#include "scenegraph/diagnostics.h"
+#include "tools/geometry_census.h"
+
+namespace wrlkit {
+
+class ShownSurface {
+ public:
+  /// More triangles than this are not gathered: they take some 30 bytes each here, and 100 more while they are compared.
+  static constexpr std::size_t most_triangles = 40'000'000;
+
+  /// Of a scene whose prototypes and Inlines are expanded.
+  ShownSurface(const Scene& scene, Diagnostics& diag);
+
+  /// Puts the mesh of a geometry, fronts counter-clockwise, wherever that is shown. Once for each geometry; meshes that
+  /// are no triangles are passed over.
+  void add(NodeId geometry, const Mesh& mesh);
+
+  Triangles triangles() const { return {positions_, corners_}; }
+  /// False when there was more than can be gathered, which was reported.
+  bool complete() const { return complete_; }
+
+ private:
+  void put(const Mesh& mesh, const Matrix& place);
+  void give_up(std::size_t limit, std::string_view what);
+
+  Diagnostics& diag_;
+  Places places_;
+  bool complete_ = true;
+  std::vector<double> positions_;
+  std::vector<std::uint32_t> corners_;
+  StampedMap slot_;  // of a position of the mesh, in positions_
+};
+
+}  // namespace wrlkit

@@ -1,0 +1,26 @@
+// The meshes of a world as people see it: prototypes and Inlines expanded, every geometry as faces and as triangles.
+#pragma once
+#include <optional>
+
+#include "tools/session.h"
+
+namespace wrlkit {
+
+class WorldMeshes {
+ public:
+  /// Expands the world of the session, which must stay until the sources have been asked for the last time.
+  explicit WorldMeshes(Session&);
+
+  /// False when the world could not be expanded.
+  bool good() const { return triangles != nullptr; }
+
+  MeshSource polygons;   // faces as authored; says nothing about them: the messages come with the triangles
+  MeshSource triangles;
+
+ private:
+  Diagnostics unheard_;
+  PassContext silent_;
+  std::optional<Pipeline> as_faces_, as_triangles_;
+};
+
+}  // namespace wrlkit
