@@ -26,15 +26,17 @@ class TextOut {
     buffer_.push_back(c);
     return *this;
   }
-  /// Shortest text that reads back as the same double; with `precision` > 0 that many significant digits.
+  /// Shortest text that reads back as an equal double (-0 as 0); with `precision` > 0 that many significant digits.
   void number(double v, int precision = 0) {
     char b[40];
+    v += 0.0;
     auto r = precision > 0 ? std::to_chars(b, b + sizeof b, v, std::chars_format::general, precision) : std::to_chars(b, b + sizeof b, v);
     *this << std::string_view(b, static_cast<std::size_t>(r.ptr - b));
   }
-  /// Shortest text that reads back as the same float.
+  /// Shortest text that reads back as an equal float.
   void number(float v) {
     char b[40];
+    v += 0.0f;
     auto r = std::to_chars(b, b + sizeof b, v);
     *this << std::string_view(b, static_cast<std::size_t>(r.ptr - b));
   }

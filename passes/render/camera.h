@@ -11,6 +11,7 @@ struct Camera {
   V3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1};   // unit, at right angles
   int width = 1, height = 1;
   double half_x = 1, half_y = 1;                   // tangents of half the horizontal and vertical field of view
+  double sample_span = 0.5;                        // pixels between neighbouring samples, for textures
 
   /// Unit direction of the ray through a place.
   V3 direction(double px, double py) const {
@@ -24,6 +25,8 @@ struct Camera {
   }
   /// What a pixel in the middle of the picture spans at distance 1.
   double pixel() const { return 2 * half_y / height; }
+  /// The same of a sample.
+  double sample() const { return pixel() * sample_span; }
   Pose pose() const { return {eye, up}; }
 };
 

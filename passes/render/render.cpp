@@ -69,6 +69,7 @@ Image render(const Scene& scene, const MeshSource& source, const RenderOptions& 
   Camera camera = choose_camera(scene, stage, options, diag, [&] { return bounds(stage, pool, mesh_of); });
   turn_billboards(scene, camera, stage);
   Raster raster{camera.width, camera.height, std::clamp(options.samples, 1, 16)};
+  camera.sample_span = raster.span();
 
   Surfaces surfaces(scene, resources, diag);
   std::vector<std::uint32_t> surface_of;

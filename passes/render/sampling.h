@@ -10,6 +10,9 @@ namespace wrlkit::drawing {
 struct Raster {
   int width = 1280, height = 960;
   int samples = 4;  // along each side of a pixel with detail; 1: the middle of each pixel, and nothing else
+
+  /// Pixels between neighbouring samples.
+  double span() const { return samples < 2 ? 1 : 0.5; }
 };
 
 /// The RGB picture of `color(x, y)`, each component in [0, 1], x and y in pixels from the upper left corner. Four samples a

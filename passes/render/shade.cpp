@@ -9,7 +9,6 @@ namespace {
 
 constexpr int most_layers = 32;      // of transparent things, one behind the other
 constexpr double hidden = 1.0 / 512; // what shows through by less is not looked for
-constexpr double sample_span = 0.5;  // pixels between neighbouring samples, for textures
 
 /// Into [0, 1]; what is no number is black.
 double displayed(double v) { return v > 0 ? std::min(v, 1.0) : 0; }
@@ -74,7 +73,7 @@ V3 Shader::color(double px, double py) const {
     if (through < hidden) return sum;
     after = hit.distance;
   }
-  return sum + through * displayed(sky_.color(ray.direction, camera_.pixel() * sample_span));
+  return sum + through * displayed(sky_.color(ray.direction, camera_.sample()));
 }
 
 Texel Shader::shade(const Ray& ray, const Hit& hit) const {
@@ -116,7 +115,7 @@ std::optional<Texel> Shader::texel(const Surface& s, const Hit& hit, double worl
   for (int k = 0; k < 3; ++k) c[k] = pool.value(pool.texcoords, m, m.texcoords, hit.element, k);
   double picture = std::fabs(double{c[1][0] - c[0][0]} * (c[2][1] - c[0][1]) - double{c[2][0] - c[0][0]} * (c[1][1] - c[0][1]));
   double pixels = picture * std::fabs(s.texcoords.determinant()) * s.texture->width() * s.texture->height();
-  double span = hit.distance * camera_.pixel() * sample_span;
+  double span = hit.distance * camera_.sample();
   double detail = world_area > 0 ? span * std::sqrt(pixels / world_area / std::max(facing, 0.05)) : 1;
   return s.texture->sample(u, v, detail, s.repeat_s, s.repeat_t);
 }

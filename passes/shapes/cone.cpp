@@ -44,16 +44,18 @@ void make_cone(MeshJob& job, const TessellateOptions& options) {
   FaceWriter out(job.mesh);
   if (!(p.radius > 0) || !std::isfinite(p.radius + p.height))
     return report_no_surface(job, "its size is zero or not finite");
+  const bool side = job.scene.get(job.geometry, fields::side), bottom = job.scene.get(job.geometry, fields::bottom);
+  if (!side && !bottom) return report_no_surface(job, "none of its parts is drawn");
 
   auto &x = job.scratch.x, &z = job.scratch.y;
   const int n = circle_segments(p.radius, options);
   unit_circle(2 * n, x, z);
   for (int k = 0; k < n; ++k) out.position(p.radius * x[2 * k], -p.height / 2, p.radius * z[2 * k]);
   out.position(0, p.height / 2, 0);
-  if (job.scene.get(job.geometry, fields::side)) write_side(out, p, x, z);
+  if (side) write_side(out, p, x, z);
   keep_ring(x);
   keep_ring(z);
-  if (job.scene.get(job.geometry, fields::bottom)) write_cap(out, {x, z, 0, false});
+  if (bottom) write_cap(out, {x, z, 0, false});
   out.finish();
 }
 

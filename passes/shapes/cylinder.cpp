@@ -32,15 +32,18 @@ void make_cylinder(MeshJob& job, const TessellateOptions& options) {
   const double height = std::abs(job.scene.get(job.geometry, fields::height));
   FaceWriter out(job.mesh);
   if (!(radius > 0) || !std::isfinite(radius + height)) return report_no_surface(job, "its size is zero or not finite");
+  const bool side = job.scene.get(job.geometry, fields::side) && height > 0;
+  const bool top = job.scene.get(job.geometry, fields::top), bottom = job.scene.get(job.geometry, fields::bottom);
+  if (!side && !top && !bottom) return report_no_surface(job, "none of its parts is drawn");
 
   auto &x = job.scratch.x, &z = job.scratch.y;
   const int n = circle_segments(radius, options);
   unit_circle(n, x, z);
   for (double y : {-height / 2, height / 2})
     for (int k = 0; k < n; ++k) out.position(radius * x[k], y, radius * z[k]);
-  if (job.scene.get(job.geometry, fields::side) && height > 0) write_side(out, x, z);
-  if (job.scene.get(job.geometry, fields::top)) write_cap(out, {x, z, static_cast<std::uint32_t>(n), true});
-  if (job.scene.get(job.geometry, fields::bottom)) write_cap(out, {x, z, 0, false});
+  if (side) write_side(out, x, z);
+  if (top) write_cap(out, {x, z, static_cast<std::uint32_t>(n), true});
+  if (bottom) write_cap(out, {x, z, 0, false});
   out.finish();
 }
 

@@ -19,7 +19,8 @@ const exceptions = [
   {why: 'no fog in glTF', most: {vrml: 0.13}, worlds: /fog_/},
   {why: 'light falls off in glTF as it does in nature, in VRML it does not', most: {vrml: 0.12}, worlds: /light_(point|spot)|paper\/(pipes|stairs_room)|pump_room/},
   {why: 'a light shines on the whole world in glTF, in VRML on its group', most: {vrml: 0.25, three: 0.33}, worlds: /light_scope/},
-  {why: '1.1 % apart, a little above the usual bound; the cause is not known', most: {vrml: 0.02}, worlds: /features\/inline\.wrl/},
+  {why: 'a picture on a stretched box is shrunk more across than along: wrlkit reads it at the mean size, three.js several times at the larger one',
+    most: {vrml: 0.012}, worlds: /features\/inline\.wrl/},
   {why: 'light that is emitted and light that is reflected add up in linear colours', most: {three: 0.22}, worlds: /nodes\/ImageTexture/},
 ];
 

@@ -738,7 +738,7 @@ TEST_CASE("Cylinder and Cone: parts", "[geometry]") {
   Fixture f(c.text);
   INFO(c.text);
   CHECK(f.faces({.segments = 12}).n_faces() == c.n_faces);
-  CHECK(f.diag.count(Diag::degenerate_geometry) == 0);
+  CHECK(f.diag.count(Diag::degenerate_geometry) == (c.n_faces == 0 ? 1 : 0));
   CHECK(sound(f.mesh));
   CHECK(normals_fit(f.mesh));
 }

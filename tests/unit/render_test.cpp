@@ -158,6 +158,16 @@ TEST_CASE("render: grey textures modulate the colour, coloured ones replace it")
   CHECK(seen("diffuseColor 1 1 1 transparency 0.4", "1 1 3 0xffffff") == Rgb{153, 153, 153});
 }
 
+TEST_CASE("render: with one sample a pixel, a texture is averaged over the pixel") {
+  // Two stripes a pixel, black and white; the middle of each pixel is the middle of one of them.
+  Studio s;
+  s.options.width = s.options.height = 100;
+  s.options.samples = 1;
+  const std::string stripes = "texture PixelTexture { image 4 1 1 0 255 0 255 } textureTransform TextureTransform { translation 0.003125 0 scale 40 160 }";
+  auto image = s.render(view + shape(quad(-4, -4, 4, 4), "", stripes));
+  for (int x = 12; x < 88; ++x) CHECK(std::abs(pixel(image, x, 50)[0] - 127) <= 2);
+}
+
 TEST_CASE("render: an ImageTexture that cannot be had leaves the material") {
   Studio s;
   s.pictures.images["a.png"] = std::make_shared<Image>(Image{1, 1, 3, {10, 20, 30}});

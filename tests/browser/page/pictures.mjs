@@ -78,7 +78,7 @@ export function sheet(pictures, labels) {
   ink.font = '14px sans-serif';
   let x = 0;
   pictures.forEach((p, i) => {
-    ink.fillText(labels[i], x + 4, 15);
+    ink.fillText(labels[i], x + 4, 15, p.width - 8);
     ink.drawImage(p, x, head);
     x += p.width + gap;
   });
