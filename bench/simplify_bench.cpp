@@ -1,0 +1,112 @@
+// Edge collapse: levels as PLY for measuring their quality elsewhere (simplify_quality.py), and triangles a CPU second.
+//   simplify_bench levels IN.wrl OUT CRITERION 0.5,0.25,...   writes OUT_0.5.ply, ...
+//   simplify_bench speed IN.wrl [CRITERION,...]               each criterion to 10 %, one line each
+#include <sys/resource.h>
+#include <time.h>
+
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "parsers/parsers.h"
+#include "passes/pipeline.h"
+#include "passes/simplify/collapse.h"
+
+namespace {
+
+using namespace wrlkit;
+
+const char* const names[] = {"length-normal", "melax", "lindstrom-turk", "quadric", "meshopt"};
+
+double cpu_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double peak_bytes() {
+  rusage u;
+  getrusage(RUSAGE_SELF, &u);
+  return 1024. * static_cast<double>(u.ru_maxrss);
+}
+
+Criterion criterion(const std::string& name) {
+  for (int i = 0; i < 5; ++i)
+    if (name == names[i]) return static_cast<Criterion>(i);
+  std::fprintf(stderr, "no criterion '%s'\n", name.c_str()), std::exit(2);
+}
+
+std::vector<std::string> split(const std::string& s) {
+  std::vector<std::string> parts;
+  std::istringstream in(s);
+  for (std::string p; std::getline(in, p, ',');) parts.push_back(p);
+  return parts;
+}
+
+/// The largest mesh of the file.
+Mesh read(const char* path) {
+  std::string why;
+  Diagnostics diag;
+  Statistics stats;
+  auto world = read_world(path, {}, diag);
+  if (!world) std::fprintf(stderr, "cannot read %s\n", path), std::exit(1);
+  PassContext ctx{diag, stats};
+  auto pipeline = Pipeline::parse("triangulate", why);
+  MeshSource source = pipeline->run_lazily(world->scene, ctx);
+  Mesh largest;
+  for (std::uint32_t i = 0; i < world->scene.node_count(); ++i)
+    if (world->scene.type(NodeId{i}).is_a("X3DGeometryNode"))
+      if (const Mesh& m = source(NodeId{i}); m.corners.size() > largest.corners.size()) {
+        largest = m;
+        largest.positions.edit();
+      }
+  return largest;
+}
+
+void write_ply(const Mesh& m, const std::string& path) {
+  std::FILE* out = std::fopen(path.c_str(), "wb");
+  if (!out) std::perror(path.c_str()), std::exit(1);
+  std::fprintf(out, "ply\nformat binary_little_endian 1.0\nelement vertex %zu\nproperty float x\nproperty float y\n"
+               "property float z\nelement face %zu\nproperty list uchar int vertex_indices\nend_header\n",
+               m.n_positions(), m.n_faces());
+  for (std::size_t i = 0; i < m.positions.size(); ++i) {
+    float f = static_cast<float>(m.positions[i]);
+    std::fwrite(&f, 4, 1, out);
+  }
+  for (std::size_t f = 0; f < m.n_faces(); ++f) std::fputc(3, out), std::fwrite(&m.corners[3 * f], 4, 3, out);
+  std::fclose(out);
+}
+
+void levels(const Mesh& mesh, const std::string& out, Criterion by, const std::string& ratios) {
+  double begin = cpu_seconds();
+  CollapseOptions o{.criterion = by}; if (const char* e = std::getenv("CA")) o.crease_angle = std::atof(e), o.keep_creases = o.crease_angle < 3; Collapser c(mesh, o);
+  for (const std::string& r : split(ratios)) {
+    c.run_to(static_cast<std::size_t>(static_cast<double>(mesh.n_faces()) * std::stod(r)));
+    std::printf("ratio=%s faces=%zu error=%.4e cpu=%.3f\n", r.c_str(), c.n_faces(), c.error(), cpu_seconds() - begin);
+    write_ply(c.mesh(), out + "_" + r + ".ply");
+  }
+}
+
+void speed(const Mesh& mesh, Criterion by) {
+  double before = peak_bytes(), begin = cpu_seconds(), n = static_cast<double>(mesh.n_faces());
+  CollapseOptions o{.criterion = by}; if (const char* e = std::getenv("CA")) o.crease_angle = std::atof(e), o.keep_creases = o.crease_angle < 3; Collapser c(mesh, o);
+  double built = cpu_seconds() - begin;
+  c.run_to(mesh.n_faces() / 10);
+  double seconds = cpu_seconds() - begin;
+  std::printf("%-15s faces=%zu to=%zu built=%.3f cpu=%.3f ktriangles/s=%.0f bytes/triangle=%.0f\n", names[static_cast<int>(by)],
+              mesh.n_faces(), c.n_faces(), built, seconds, n / seconds / 1e3, (peak_bytes() - before) / n);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) return std::fprintf(stderr, "see the head of simplify_bench.cpp\n"), 2;
+  Mesh mesh = read(argv[2]);
+  if (!std::strcmp(argv[1], "levels") && argc == 6) levels(mesh, argv[3], criterion(argv[4]), argv[5]);
+  else
+    for (const std::string& name : split(argc > 3 ? argv[3] : "lindstrom-turk,melax,length-normal,quadric,meshopt"))
+      speed(mesh, criterion(name));
+}

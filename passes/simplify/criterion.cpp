@@ -1,0 +1,27 @@
+#include "passes/simplify/criterion.h"
+
+namespace wrlkit::simplify {
+
+Placement placement(Kind center, Kind spoke, bool feature) {
+  if (center == Kind::fixed && spoke == Kind::fixed) return Placement::nowhere;
+  if (feature) {
+    if (center == spoke) return Placement::anywhere;
+    return center > spoke ? Placement::center : Placement::spoke;  // line < corner < fixed
+  }
+  if (center == Kind::free && spoke == Kind::free) return Placement::anywhere;
+  if (center == Kind::free) return Placement::spoke;
+  return spoke == Kind::free ? Placement::center : Placement::nowhere;
+}
+
+std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface) {
+  switch (criterion) {
+    case Criterion::length_normal: return length_normal(surface);
+    case Criterion::melax: return melax(surface);
+    case Criterion::lindstrom_turk: return lindstrom_turk(surface);
+    case Criterion::quadric: return lindstrom_turk(surface);
+    case Criterion::meshopt: break;
+  }
+  return nullptr;
+}
+
+}  // namespace wrlkit::simplify

@@ -1,0 +1,41 @@
+// A criterion prices the edges of one vertex. Each is a class in a source of its own; criterion.cpp lists them.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "passes/simplify/collapse.h"
+#include "passes/simplify/surface.h"
+
+namespace wrlkit::simplify {
+
+/// The edge from the centre of a ring to one of its spokes, what its collapse costs and where its vertex goes.
+struct Option {
+  int spoke;
+  double cost;  // not negative; infinite: only when nothing else is left
+  Vec3 position;
+};
+
+/// Where the vertex of an edge may go.
+enum class Placement { nowhere, center, spoke, anywhere };
+Placement placement(Kind center, Kind spoke, bool feature);
+
+class Pricer {
+ public:
+  virtual ~Pricer() = default;
+
+  /// Adds the options of the ring's centre. Each edge must be an option of one of its ends at least.
+  virtual void price(const Ring& ring, std::vector<Option>& options) = 0;
+  /// Whether an edge has a cost of its own in each direction, and is an option of both ends.
+  virtual bool one_way() const { return false; }
+  /// Before the faces of the two rings change.
+  virtual void before_merge(const Ring&, const Ring&) {}
+  /// After it: the ring of the vertex that is left; `from` has gone.
+  virtual void after_merge(const Ring&, std::uint32_t /*from*/) {}
+};
+
+std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface);
+std::unique_ptr<Pricer> length_normal(const Surface& surface);
+std::unique_ptr<Pricer> melax(const Surface& surface);
+std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface);
+
+}  // namespace wrlkit::simplify

@@ -1,0 +1,180 @@
+#include "passes/simplify/engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/simplify/features.h"
+#include "passes/simplify/legality.h"
+
+namespace wrlkit::simplify {
+namespace {
+
+/// Where x is along the edge from a (0) to b (1).
+double along(const Vec3& a, const Vec3& b, const Vec3& x) {
+  Vec3 e = b - a;
+  double l = dot(e, e);
+  return l > 0 ? std::clamp(dot(x - a, e) / l, 0., 1.) : 0;
+}
+
+}  // namespace
+
+Engine::Engine(const Mesh& mesh, const CollapseOptions& options)
+    : Simplifier(mesh),
+      queue_(surface_.n_vertices()),
+      deviation_(surface_.n_vertices()),
+      recording_(options.record) {
+  find_features(surface_, wedges_, {options.keep_borders, options.keep_creases, options.crease_angle});
+  pricer_ = make_pricer(options.criterion, surface_);
+  if (recording_) recorder_.begin(surface_, wedges_);
+  for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) refresh(v);
+}
+
+void Engine::refresh(std::uint32_t v) {
+  if (!surface_.gather(v, ring_)) return queue_.remove(v);
+  options_.clear();
+  pricer_->price(ring_, options_);
+  double least = -1;
+  for (const Option& o : options_)
+    if (o.cost >= 0 && (least < 0 || o.cost < least)) least = o.cost;
+  if (least >= 0) queue_.set(v, least);
+  else queue_.remove(v);
+}
+
+bool Engine::settle(Move& move) {
+  while (!queue_.empty())
+    if (settle_vertex(queue_.top(), move)) return true;
+  return false;
+}
+
+/// For the vertex at the top of the queue. False when it is not the cheapest after all.
+bool Engine::settle_vertex(std::uint32_t v, Move& move) {
+  if (!surface_.gather(v, from_)) return queue_.remove(v), false;
+  options_.clear();
+  pricer_->price(from_, options_);
+  CostQueue::Key key = queue_.top_key();
+  while (true) {
+    Option* best = nullptr;
+    for (Option& o : options_)
+      if (o.cost >= 0 && (!best || o.cost < best->cost)) best = &o;
+    if (!best) return queue_.remove(v), false;
+    if (CostQueue::key(best->cost) > key) return queue_.set(v, best->cost), false;
+    if (may_go(*best)) {
+      move = {best->cost, best->position};
+      if (move.position == surface_.position[from_.center]) std::swap(from_, to_);
+      return true;
+    }
+    best->cost = -1;
+  }
+}
+
+bool Engine::may_go(const Option& option) {
+  return surface_.gather(from_.spokes[option.spoke].vertex, to_) && keeps_topology(from_, to_) &&
+         keeps_shape(surface_, from_, to_, option.position);
+}
+
+void Engine::run_to(std::size_t n_faces, double max_error) {
+  Move move;
+  std::vector<std::pair<std::uint32_t, double>> too_far;  // for a later call
+  while (surface_.n_faces() > n_faces && settle(move)) {
+    std::uint32_t u = from_.center, v = to_.center;
+    double d = std::max(deviation_[u], deviation_[v]) + deviation(surface_, from_, to_, move.position);
+    if (d > max_error) {
+      too_far.push_back({queue_.top(), move.cost});
+      queue_.remove(queue_.top());
+      continue;
+    }
+    deviation_[v] = static_cast<float>(d);
+    error_ = std::max(error_, d);
+    collapse(move);
+  }
+  for (auto [v, cost] : too_far)
+    if (surface_.degree(v)) queue_.set(v, cost);
+}
+
+void Engine::collapse(const Move& move) {
+  const std::uint32_t u = from_.center, v = to_.center;
+  const Vec3 old = surface_.position[v];
+  if (wedges_.present()) merge_wedges(move.position);
+  if (recording_) record_corners();
+  bool features = false;
+  dirty_.clear();
+  for (const Ring::Face& f : from_.face_span()) {
+    if (!from_.has(f, v)) continue;
+    features |= surface_.features[f.face] != 0;
+    dirty_.push_back(from_.next_vertex(f) == v ? from_.prev_vertex(f) : from_.next_vertex(f));
+  }
+  pricer_->before_merge(from_, to_);
+  surface_.merge(from_, to_);
+  surface_.position[v] = move.position;
+  if (surface_.kind[u] == Kind::fixed) surface_.kind[v] = Kind::fixed;
+  queue_.remove(u);
+  surface_.gather(v, to_);
+  pricer_->after_merge(to_, u);
+  if (features) {
+    surface_.classify(to_);
+    for (std::uint32_t w : dirty_)
+      if (surface_.gather(w, ring_)) surface_.classify(ring_);
+  }
+  if (recording_)
+    recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position[u], old,
+                       error_);
+  refresh(v);
+  for (const Ring::Spoke& s : to_.spoke_span()) refresh(s.vertex);
+}
+
+/// The wedges at both ends of the edge become one in each of its faces; the others of `from_` go along as they are.
+void Engine::merge_wedges(const Vec3& position) {
+  const std::uint32_t v = to_.center;
+  const double t = along(surface_.position[from_.center], surface_.position[v], position);
+  struct Pair { std::uint32_t from, to; };
+  Pair pairs[Ring::max_faces];
+  int n = 0;
+  for (const Ring::Face& f : from_.face_span()) {
+    if (!from_.has(f, v)) continue;
+    const auto& wedge = wedges_.of_face[f.face];
+    pairs[n++] = {wedge[f.corner], wedge[(f.corner + (from_.next_vertex(f) == v ? 1 : 2)) % 3]};
+  }
+  for (int i = 0; i < n; ++i)
+    if (t < 1 && std::none_of(pairs, pairs + i, [&](const Pair& p) { return p.to == pairs[i].to; })) {
+      wedges_.interpolate(pairs[i].from, pairs[i].to, t, wedges_.at(pairs[i].to));
+      if (recording_) recorder_.change_wedge(pairs[i].to, wedges_.at(pairs[i].to));
+    }
+  for (const Ring::Face& f : from_.face_span()) {
+    if (from_.has(f, v)) continue;
+    std::uint32_t& wedge = wedges_.of_face[f.face][f.corner];
+    auto pair = std::find_if(pairs, pairs + n, [&](const Pair& p) { return p.from == wedge; });
+    if (pair == pairs + n) continue;
+    if (recording_) recorder_.change_corner(3 * f.face + f.corner, wedge, pair->to);
+    wedge = pair->to;
+  }
+}
+
+/// The faces that go, and without attributes, where a wedge is a vertex, the corners that change theirs.
+void Engine::record_corners() {
+  for (const Ring::Face& f : from_.face_span())
+    if (from_.has(f, to_.center)) recorder_.remove_face(f.face);
+    else if (!wedges_.present()) recorder_.change_corner(3 * f.face + f.corner, from_.center, to_.center);
+}
+
+std::optional<EdgeCollapse> Engine::next() {
+  Move move;
+  if (!settle(move)) return {};
+  EdgeCollapse c{surface_.original(from_.center), surface_.original(to_.center), move.position, move.cost};
+  return c;
+}
+
+std::optional<double> Engine::cost(std::uint32_t from, std::uint32_t to) {
+  std::uint32_t u = surface_.vertex_of(from), v = surface_.vertex_of(to);
+  if (u == none || v == none) return {};
+  for (auto [a, b] : {std::pair{u, v}, std::pair{v, u}}) {
+    if (a == v && pricer_->one_way()) break;
+    if (!surface_.gather(a, ring_)) continue;
+    options_.clear();
+    pricer_->price(ring_, options_);
+    for (const Option& o : options_)
+      if (ring_.spokes[o.spoke].vertex == b) return o.cost;
+  }
+  return {};
+}
+
+}  // namespace wrlkit::simplify

@@ -1,0 +1,48 @@
+// The engine behind Collapser: takes the cheapest edge that may go, collapses it, prices again what has changed.
+//
+// Every vertex is in the queue with the cost of the cheapest edge that it has to offer, whether or not that edge may go. Only
+// at the top of the queue this is looked at: the vertex is priced once more, and goes back into the queue when it has
+// become dearer, or when it is the next best edge that may go.
+#pragma once
+#include "passes/simplify/criterion.h"
+#include "passes/simplify/queue.h"
+#include "passes/simplify/simplifier.h"
+
+namespace wrlkit::simplify {
+
+class Engine final : public Simplifier {
+ public:
+  Engine(const Mesh& mesh, const CollapseOptions& options);
+
+  void run_to(std::size_t n_faces, double max_error) override;
+  std::size_t n_faces() const override { return surface_.n_faces(); }
+  std::optional<EdgeCollapse> next() override;
+  std::optional<double> cost(std::uint32_t from, std::uint32_t to) override;
+
+ private:
+  /// What is going to be done to the vertices of from_ and to_.
+  struct Move {
+    double cost;
+    Vec3 position;
+  };
+
+  /// Brings the cheapest collapse that may be done into from_ and to_. False when there is none.
+  bool settle(Move& move);
+  bool settle_vertex(std::uint32_t v, Move& move);
+  bool may_go(const Option& option);
+  void collapse(const Move& move);
+  void refresh(std::uint32_t v);
+  void merge_wedges(const Vec3& position);
+  void record_corners();
+
+  std::unique_ptr<Pricer> pricer_;
+  CostQueue queue_;
+  std::vector<float> deviation_;  // of each vertex, from the surface that came in
+  bool recording_;
+
+  Ring from_, to_, ring_;
+  std::vector<Option> options_;
+  std::vector<std::uint32_t> dirty_;
+};
+
+}  // namespace wrlkit::simplify

@@ -1,0 +1,92 @@
+#include "passes/simplify/features.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace wrlkit::simplify {
+namespace {
+
+class Finder {
+ public:
+  Finder(Surface& surface, const Wedges& wedges, const FeatureOptions& options)
+      : surface_(surface), wedges_(wedges), options_(options), cosine_(std::cos(options.crease_angle)) {}
+
+  /// An edge is looked at from the lower of its vertices that have not too many faces.
+  void mark_edges() {
+    for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) {
+      if (!surface_.gather(v, ring_)) continue;
+      for (int s = 0; s < ring_.n_spokes; ++s) {
+        std::uint32_t w = ring_.spokes[s].vertex;
+        if ((w > v || surface_.degree(w) > Ring::max_faces) && is_feature(s)) mark(s);
+      }
+    }
+  }
+
+  void classify_vertices() {
+    for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) {
+      bool ring = surface_.gather(v, ring_);
+      if (ring) surface_.classify(ring_);
+      if (!ring || !one_fan()) surface_.kind[v] = Kind::fixed;
+    }
+  }
+
+ private:
+  bool is_feature(int spoke) const {
+    const Ring::Face* at[2] = {};
+    int n = 0;
+    for (const Ring::Face& f : ring_.face_span())
+      if (f.next == spoke || f.prev == spoke) at[n++ % 2] = &f;
+    if (n == 1) return options_.borders;
+    if (n > 2 || (at[0]->next == spoke) == (at[1]->next == spoke)) return true;  // or wound against each other
+    return is_seam(*at[0], *at[1], spoke) || (options_.creases && is_crease(at[0]->face, at[1]->face));
+  }
+
+  bool is_crease(std::uint32_t f, std::uint32_t g) const {
+    Vec3 a = surface_.normal(f), b = surface_.normal(g);
+    return dot(a, b) < cosine_ * std::sqrt(dot(a, a) * dot(b, b));
+  }
+
+  bool is_seam(const Ring::Face& f, const Ring::Face& g, int spoke) const {
+    if (!wedges_.present()) return false;
+    return wedges_.differ(wedge(f, f.corner), wedge(g, g.corner), cosine_) ||
+           wedges_.differ(wedge(f, other(f, spoke)), wedge(g, other(g, spoke)), cosine_);
+  }
+  static int other(const Ring::Face& f, int spoke) { return (f.corner + (f.next == spoke ? 1 : 2)) % 3; }
+  std::uint32_t wedge(const Ring::Face& f, int corner) const { return wedges_.of_face[f.face][corner]; }
+
+  void mark(int spoke) {
+    for (const Ring::Face& f : ring_.face_span()) {
+      if (f.next == spoke) surface_.features[f.face] |= 1 << f.corner;
+      if (f.prev == spoke) surface_.features[f.face] |= 1 << (f.corner + 2) % 3;
+    }
+  }
+
+  /// Whether the faces around the vertex hang together by their edges there.
+  bool one_fan() const {
+    std::uint8_t group[2 * Ring::max_faces];
+    std::iota(group, group + ring_.n_spokes, std::uint8_t{0});
+    auto root = [&](std::uint8_t s) { while (group[s] != s) s = group[s] = group[group[s]]; return s; };
+    int n_groups = ring_.n_spokes;
+    for (const Ring::Face& f : ring_.face_span()) {
+      std::uint8_t a = root(f.next), b = root(f.prev);
+      if (a != b) group[a] = b, --n_groups;
+    }
+    return n_groups == 1;
+  }
+
+  Surface& surface_;
+  const Wedges& wedges_;
+  const FeatureOptions& options_;
+  double cosine_;
+  Ring ring_;
+};
+
+}  // namespace
+
+void find_features(Surface& surface, const Wedges& wedges, const FeatureOptions& options) {
+  Finder finder(surface, wedges, options);
+  finder.mark_edges();
+  finder.classify_vertices();
+}
+
+}  // namespace wrlkit::simplify

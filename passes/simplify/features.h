@@ -1,0 +1,16 @@
+// Which edges of a surface are features: borders, creases, seams, and edges that are no inner edges of a manifold.
+#pragma once
+#include "passes/simplify/surface.h"
+#include "passes/simplify/wedges.h"
+
+namespace wrlkit::simplify {
+
+struct FeatureOptions {
+  bool borders, creases;
+  double crease_angle;  // radians
+};
+
+/// Sets the features of the faces and the kinds of the vertices.
+void find_features(Surface& surface, const Wedges& wedges, const FeatureOptions& options);
+
+}  // namespace wrlkit::simplify

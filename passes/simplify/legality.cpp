@@ -1,0 +1,94 @@
+#include "passes/simplify/legality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wrlkit::simplify {
+namespace {
+
+constexpr double least_cosine = 0.2;  // between the normals of a face before and after
+double sliver = 0.02;                 // twice the area by the sum of the squared sides; 0.29 when equilateral  // EXPERIMENT
+double sliver_ratio = 0.5;
+
+bool same_pair(const Ring& u, const Ring::Face& f, const Ring& v, const Ring::Face& g) {
+  return v.has(g, u.next_vertex(f)) && v.has(g, u.prev_vertex(f));
+}
+
+struct Shape {
+  Vec3 normal;
+  double sides;  // sum of their squares
+};
+
+Shape shape(const Vec3& a, const Vec3& b, const Vec3& c) {
+  Vec3 ab = b - a, ac = c - a, bc = c - b;
+  return {cross(ab, ac), dot(ab, ab) + dot(ac, ac) + dot(bc, bc)};
+}
+
+bool face_keeps_shape(const Surface& s, const Ring& ring, const Ring::Face& f, const Vec3& x) {
+  const Vec3 &p = s.position[ring.center], &a = s.position[ring.next_vertex(f)], &b = s.position[ring.prev_vertex(f)];
+  Shape before = shape(p, a, b), after = shape(x, a, b);
+  double turn = dot(before.normal, after.normal), nb = dot(before.normal, before.normal), na = dot(after.normal, after.normal);
+  if (!(turn > 0) || turn * turn < least_cosine * least_cosine * na * nb) return nb == 0 && na > 0;
+  double qa = na * before.sides * before.sides, qb = nb * after.sides * after.sides;
+  return na > sliver * sliver * after.sides * after.sides || qa > sliver_ratio * qb;
+}
+
+}  // namespace
+
+bool keeps_topology(const Ring& u, const Ring& v) {
+  std::uint32_t pu = u.center, pv = v.center;
+  int n_after = 0;
+  bool common[2 * Ring::max_faces] = {}, any_pair = false;  // of the spokes of u: whether v has it too
+  int n_common = 0, n_opposite = 0;
+  for (int i = 0; i < u.n_spokes; ++i)
+    if (u.spokes[i].vertex != pv && v.find(u.spokes[i].vertex) >= 0) common[i] = true, ++n_common;
+  bool seen[2 * Ring::max_faces] = {};
+  for (const Ring::Face& f : u.face_span()) {
+    if (!u.has(f, pv)) {
+      any_pair |= common[f.next] && common[f.prev];
+      ++n_after;
+      continue;
+    }
+    std::uint8_t w = u.next_vertex(f) == pv ? f.prev : f.next;
+    if (!seen[w]) seen[w] = true, ++n_opposite;
+    if (u.spokes[w].feature && v.spokes[v.find(u.spokes[w].vertex)].feature) return false;
+  }
+  if (n_common != n_opposite || n_opposite == 0) return false;
+  for (const Ring::Face& g : v.face_span()) n_after += !v.has(g, pu);
+  if (n_after > Ring::max_faces || n_after == 0) return false;
+  if (any_pair)
+    for (const Ring::Face& f : u.face_span())
+      for (const Ring::Face& g : v.face_span())
+        if (!u.has(f, pv) && !v.has(g, pu) && same_pair(u, f, v, g)) return false;
+  return true;
+}
+
+bool keeps_shape(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x) {
+  for (const Ring::Face& f : u.face_span())
+    if (!u.has(f, v.center) && !face_keeps_shape(surface, u, f, x)) return false;
+  for (const Ring::Face& f : v.face_span())
+    if (!v.has(f, u.center) && !face_keeps_shape(surface, v, f, x)) return false;
+  return true;
+}
+
+double deviation(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x) {
+  double largest = 0;  // squared
+  for (const Ring* ring : {&u, &v}) {
+    Vec3 d = x - surface.position[ring->center];
+    if (d == Vec3{}) continue;
+    for (const Ring::Face& f : ring->face_span()) {
+      Vec3 n = surface.normal(f.face);
+      double h = dot(n, d), l = dot(n, n);
+      if (l > 0) largest = std::max(largest, h * h / l);
+    }
+    for (const Ring::Spoke& s : ring->spoke_span()) {
+      if (!s.feature) continue;
+      Vec3 e = surface.position[s.vertex] - surface.position[ring->center], c = cross(e, d);
+      double l = dot(e, e);
+      if (l > 0) largest = std::max(largest, dot(c, c) / l);
+    }
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace wrlkit::simplify

@@ -1,0 +1,18 @@
+// Whether an edge may be collapsed whatever it costs: the topology must stay, and no face may turn over.
+#pragma once
+#include "passes/simplify/surface.h"
+
+namespace wrlkit::simplify {
+
+/// The edge from u to v may be collapsed to one vertex, by the faces around: every neighbour that both have is the third
+/// corner of a face at the edge (link condition), no two faces become the same, and no face vanishes whose two other edges
+/// are both features.
+bool keeps_topology(const Ring& u, const Ring& v);
+
+/// With that vertex at x, no face turns by about 80 degrees or more, and none becomes a sliver that was none.
+bool keeps_shape(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x);
+
+/// The largest distance of x from the planes of the faces and, for x on a feature, from its lines.
+double deviation(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x);
+
+}  // namespace wrlkit::simplify

@@ -1,0 +1,81 @@
+// The two local criteria of Lazanyi's paper. They look at the faces of one vertex and move it into a neighbour, so vertices
+// stay where they were measured.
+#include <algorithm>
+#include <cmath>
+
+#include "passes/simplify/criterion.h"
+
+namespace wrlkit::simplify {
+namespace {
+
+/// A ring with the unit normals of its faces; a face without area has none (0, 0, 0).
+class HalfEdges : public Pricer {
+ public:
+  explicit HalfEdges(const Surface& surface) : surface_(surface) {}
+
+  void price(const Ring& ring, std::vector<Option>& options) override {
+    for (int i = 0; i < ring.n_faces; ++i) {
+      Vec3 n = surface_.normal(ring.faces[i].face);
+      double l = dot(n, n);
+      normals_[i] = l > 0 ? 1 / std::sqrt(l) * n : Vec3{};
+    }
+    for (int s = 0; s < ring.n_spokes; ++s) {
+      const Ring::Spoke& spoke = ring.spokes[s];
+      Placement p = placement(surface_.kind[ring.center], surface_.kind[spoke.vertex], spoke.feature);
+      if (p != Placement::spoke && p != Placement::anywhere) continue;
+      const Vec3& to = surface_.position[spoke.vertex];
+      Vec3 e = to - surface_.position[ring.center];
+      options.push_back({s, cost(ring, s, std::sqrt(dot(e, e))), to});
+    }
+  }
+
+  bool one_way() const override { return true; }
+
+ protected:
+  virtual double cost(const Ring& ring, int spoke, double length) const = 0;
+
+  const Surface& surface_;
+  Vec3 normals_[Ring::max_faces];
+};
+
+/// Formula 1: |e| / |n1 . n2|. Edges of other than two faces have no such angle; they cost their length.
+class LengthNormal final : public HalfEdges {
+  using HalfEdges::HalfEdges;
+
+  double cost(const Ring& ring, int spoke, double length) const override {
+    if (ring.spokes[spoke].n_faces != 2) return length;
+    const Vec3* n[2] = {};
+    for (int i = 0; i < ring.n_faces; ++i)
+      if (ring.faces[i].next == spoke || ring.faces[i].prev == spoke) n[n[0] != nullptr] = &normals_[i];
+    return length / std::abs(dot(*n[0], *n[1]));
+  }
+};
+
+/// Formula 2: |e| times the maximum, over the faces f of the centre that the edge has not, of the minimum, over the faces g of
+/// the edge, of (1 - nf . ng) / 2.
+class Melax final : public HalfEdges {
+  using HalfEdges::HalfEdges;
+
+  double cost(const Ring& ring, int spoke, double length) const override {
+    const Vec3* sides[Ring::max_faces];
+    int n = 0;
+    auto beside = [&](const Ring::Face& f) { return f.next == spoke || f.prev == spoke; };
+    for (int i = 0; i < ring.n_faces; ++i)
+      if (beside(ring.faces[i])) sides[n++] = &normals_[i];
+    double bend = 0;
+    for (int i = 0; i < ring.n_faces; ++i) {
+      if (beside(ring.faces[i])) continue;
+      double least = 1;
+      for (int j = 0; j < n; ++j) least = std::min(least, (1 - dot(normals_[i], *sides[j])) / 2);
+      bend = std::max(bend, least);
+    }
+    return length * bend;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Pricer> length_normal(const Surface& surface) { return std::make_unique<LengthNormal>(surface); }
+std::unique_ptr<Pricer> melax(const Surface& surface) { return std::make_unique<Melax>(surface); }
+
+}  // namespace wrlkit::simplify

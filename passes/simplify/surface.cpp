@@ -1,0 +1,157 @@
+#include "passes/simplify/surface.h"
+
+#include <algorithm>
+
+namespace wrlkit::simplify {
+namespace {
+
+/// Numbers the positions that the corners use in the order of their first use. When the positions are very many more than
+/// the corners (a face of a Shape that re-uses a long list), the order is theirs, and they are not all touched.
+std::vector<std::uint32_t> number(const Mesh& mesh, std::vector<std::uint32_t>& vertex_of_corner) {
+  std::vector<std::uint32_t> used;
+  vertex_of_corner.resize(mesh.corners.size());
+  if (mesh.n_positions() / 8 <= mesh.corners.size()) {
+    std::vector<std::uint32_t> id(mesh.n_positions(), none);
+    for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+      std::uint32_t p = mesh.corners[c];
+      if (id[p] == none) id[p] = static_cast<std::uint32_t>(used.size()), used.push_back(p);
+      vertex_of_corner[c] = id[p];
+    }
+    return used;
+  }
+  used = mesh.corners;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (std::size_t c = 0; c < mesh.corners.size(); ++c)
+    vertex_of_corner[c] =
+        static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), mesh.corners[c]) - used.begin());
+  return used;
+}
+
+}  // namespace
+
+Surface::Surface(const Mesh& mesh) {
+  std::vector<std::uint32_t> corners;
+  original_ = number(mesh, corners);
+  original_.shrink_to_fit();
+  position.resize(original_.size());
+  for (std::size_t v = 0; v < original_.size(); ++v)
+    for (int i = 0; i < 3; ++i) position[v][i] = mesh.positions[3 * std::size_t{original_[v]} + i];
+  face.resize(corners.size() / 3);
+  features.resize(face.size());
+  kind.resize(position.size());
+  open.resize(position.size());
+  for (std::size_t f = 0; f < face.size(); ++f) {
+    face[f] = {corners[3 * f], corners[3 * f + 1], corners[3 * f + 2]};
+    auto& v = face[f].v;
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) v[0] = none;
+    else ++n_live_;
+  }
+  make_lists();
+}
+
+std::uint32_t Surface::vertex_of(std::uint32_t original) const {
+  auto at = std::find(original_.begin(), original_.end(), original);
+  return at == original_.end() ? none : static_cast<std::uint32_t>(at - original_.begin());
+}
+
+/// Afresh from the faces that are alive. There is room for half as many entries more, so that this is done a few times
+/// only in the life of a surface.
+void Surface::make_lists() {
+  lists_.assign(position.size(), {});
+  for (const Triangle& t : face)
+    if (t.v[0] != none)
+      for (std::uint32_t v : t.v) ++lists_[v].capacity;
+  pool_used_ = 0;
+  for (List& l : lists_) {
+    l.begin = static_cast<std::uint32_t>(pool_used_);
+    pool_used_ += l.capacity;
+  }
+  if (pool_.empty()) pool_.resize(pool_used_ + pool_used_ / 2 + 2 * Ring::max_faces);
+  for (std::uint32_t f = 0; f < face.size(); ++f)
+    if (alive(f))
+      for (std::uint32_t v : face[f].v) pool_[lists_[v].begin + lists_[v].size++] = f;
+  for (List& l : lists_) l.degree = l.size;
+}
+
+bool Surface::gather(std::uint32_t v, Ring& ring) {
+  List& list = lists_[v];
+  ring.center = v;
+  ring.n_faces = ring.n_spokes = 0;
+  if (list.degree == 0 || list.degree > Ring::max_faces) return false;
+  auto spoke = [&](std::uint32_t w) {
+    int i = 0;
+    while (i < ring.n_spokes && ring.spokes[i].vertex != w) ++i;
+    if (i == ring.n_spokes) ring.spokes[ring.n_spokes++] = {w, 0, false};
+    ++ring.spokes[i].n_faces;
+    return static_cast<std::uint8_t>(i);
+  };
+  std::uint32_t* entries = pool_.data() + list.begin;
+  std::uint32_t n = 0;
+  for (std::uint32_t i = 0; i < list.size; ++i) {
+    std::uint32_t f = entries[i];
+    const Triangle& t = face[f];
+    if (t.v[0] == none) continue;
+    entries[n++] = f;
+    std::uint8_t k = t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2;
+    std::uint8_t next = spoke(t.v[(k + 1) % 3]), prev = spoke(t.v[(k + 2) % 3]);
+    ring.faces[ring.n_faces++] = {f, k, next, prev};
+    ring.spokes[next].feature |= features[f] >> k & 1;
+    ring.spokes[prev].feature |= features[f] >> (k + 2) % 3 & 1;
+  }
+  list.size = n;
+  return true;
+}
+
+void Surface::classify(const Ring& ring) {
+  int n = 0;
+  bool is_open = false;
+  for (const Ring::Spoke& s : ring.spoke_span()) n += s.feature, is_open |= s.n_faces != 2;
+  open[ring.center] = is_open;
+  if (kind[ring.center] != Kind::fixed)
+    kind[ring.center] = n == 0 ? Kind::free : n == 2 ? Kind::line : Kind::corner;
+}
+
+void Surface::remove(std::uint32_t f) {
+  for (std::uint32_t v : face[f].v) --lists_[v].degree;
+  face[f].v[0] = none;
+  --n_live_;
+}
+
+void Surface::merge(const Ring& from, const Ring& to) {
+  std::uint32_t u = from.center, v = to.center;
+  std::uint32_t joined[2 * Ring::max_faces], n = 0;
+  // The edges of a removed face become one; a feature that either of them was is kept in the faces beyond.
+  for (const Ring::Face& f : from.face_span()) {
+    if (!from.has(f, v)) continue;
+    std::uint32_t w = from.next_vertex(f) == v ? from.prev_vertex(f) : from.next_vertex(f);
+    if (!from.spokes[from.find(w)].feature && !to.spokes[to.find(w)].feature) continue;
+    for (const Ring* ring : {&from, &to})
+      for (const Ring::Face& g : ring->face_span()) {
+        if (ring->next_vertex(g) == w) features[g.face] |= 1 << g.corner;
+        if (ring->prev_vertex(g) == w) features[g.face] |= 1 << (g.corner + 2) % 3;
+      }
+  }
+  for (const Ring::Face& f : to.face_span())
+    if (to.has(f, u)) remove(f.face);
+    else joined[n++] = f.face;
+  for (const Ring::Face& f : from.face_span())
+    if (alive(f.face)) face[f.face].v[f.corner] = v, joined[n++] = f.face;
+  if (lists_[u].capacity > lists_[v].capacity) std::swap(lists_[u], lists_[v]);
+  lists_[u].size = lists_[u].degree = 0;
+  store(v, joined, n);
+}
+
+void Surface::store(std::uint32_t v, const std::uint32_t* faces, std::uint32_t n) {
+  List& list = lists_[v];
+  if (n > list.capacity) {
+    if (pool_used_ + n > pool_.size()) return make_lists();
+    list.begin = static_cast<std::uint32_t>(pool_used_);
+    list.capacity = n;
+    pool_used_ += n;
+  }
+  std::copy(faces, faces + n, pool_.begin() + list.begin);
+  list.size = list.degree = n;
+}
+
+}  // namespace wrlkit::simplify
