@@ -61,14 +61,6 @@ struct Range {
 
 }  // namespace
 
-std::array<Vec3, 3> Triangles::operator[](std::size_t triangle) const {
-  auto corner = [&](std::size_t i) {
-    const double* p = positions.data() + std::size_t{corners[triangle * 3 + i]} * 3;
-    return Vec3{p[0], p[1], p[2]};
-  };
-  return {corner(0), corner(1), corner(2)};
-}
-
 Triangles triangles_of(const Mesh& mesh) {
   if (!mesh.is_triangles()) return {};
   return {mesh.positions.span(), mesh.corners};
@@ -125,8 +117,8 @@ struct ClosestPoint::Builder {
     Range r;
     for (std::size_t i = 0; i < 3; ++i) {
       auto v = static_cast<float>(p[i]);
-      r.low[i] = std::nextafter(v, -Range::inf);
-      r.high[i] = std::nextafter(v, Range::inf);
+      float rounding = std::fabs(v) * 2e-7f + 1e-37f;
+      r.low[i] = v - rounding, r.high[i] = v + rounding;
     }
     return r;
   }

@@ -20,7 +20,13 @@ struct Triangles {
   std::span<const std::uint32_t> corners;
 
   std::size_t size() const { return corners.size() / 3; }
-  std::array<Vec3, 3> operator[](std::size_t triangle) const;
+  std::array<Vec3, 3> operator[](std::size_t triangle) const {
+    return {position(corners[triangle * 3]), position(corners[triangle * 3 + 1]), position(corners[triangle * 3 + 2])};
+  }
+  Vec3 position(std::uint32_t i) const {
+    const double* p = positions.data() + std::size_t{i} * 3;
+    return {p[0], p[1], p[2]};
+  }
 };
 
 /// Of a mesh of triangles (Mesh::is_triangles), which must outlive the view; no triangles otherwise.

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 
@@ -36,7 +37,7 @@ std::vector<Key> sorted_keys(const Triangles& surface) {
   for (std::uint32_t t = 0; t < surface.size(); ++t) {
     std::uint64_t h = 0;
     for (const Vec3& p : turned(surface[t]))
-      for (double v : p) h = (h ^ (h >> 29)) * 0x9e3779b97f4a7c15u + std::hash<double>()(v);
+      for (double v : p) h = (h ^ (h >> 29)) * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint64_t>(v + 0.0);  // -0 is 0
     keys.push_back({h, t});
   }
   std::ranges::sort(keys, {}, &Key::hash);
@@ -44,15 +45,19 @@ std::vector<Key> sorted_keys(const Triangles& surface) {
 }
 
 /// Which triangles of `a` are in `b`, too: with the same corners, in the same sense. Of those with equal hashes one is
-/// looked at; should it be another one by chance, a triangle counts as changed that is not.
+/// looked at; should it be another one by chance, a triangle counts as changed that is not. They are looked at in the order
+/// of the surface and not of the hashes, where each would be far from the one before.
 Marks also_in(const Triangles& a, const std::vector<Key>& keys_a, const Triangles& b, const std::vector<Key>& keys_b) {
-  Marks marks(a.size());
+  constexpr std::uint32_t none = 0xffffffffu;
+  std::vector<std::uint32_t> twin(a.size(), none);
   auto other = keys_b.begin();
   for (const Key& k : keys_a) {
     while (other != keys_b.end() && other->hash < k.hash) ++other;
     if (other == keys_b.end()) break;
-    marks[k.triangle] = other->hash == k.hash && turned(a[k.triangle]) == turned(b[other->triangle]);
+    if (other->hash == k.hash) twin[k.triangle] = other->triangle;
   }
+  Marks marks(a.size());
+  for (std::size_t t = 0; t < marks.size(); ++t) marks[t] = twin[t] != none && turned(a[t]) == turned(b[twin[t]]);
   return marks;
 }
 
@@ -139,8 +144,7 @@ class Way {
     Sums sums;
     auto guess = ClosestPoint::no_guess;
     for (auto i : points) {
-      const double* p = from_.positions.data() + std::size_t{i} * 3;
-      Vec3 point{p[0], p[1], p[2]};
+      Vec3 point = from_.position(i);
       auto found = nearest_->nearest(point, {}, guess);
       sums.add_distance(found.distance, point);
       guess = found.triangle;
