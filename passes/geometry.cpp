@@ -6,6 +6,7 @@
 #include "passes/geometry_attributes.h"
 #include "passes/geometry_lists.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
@@ -154,6 +155,16 @@ void read_mesh(MeshJob& job) {
     read_line_set(job);
   else if (type == nodes::PointSet)
     read_point_set(job);
+}
+
+std::vector<char> textured_geometry(const Scene& scene) {
+  std::vector<char> textured(scene.node_count());
+  for (NodeId n : all_nodes(scene)) {
+    if (!scene.is(n, nodes::Shape)) continue;
+    NodeId geometry = scene.get(n, nodes::shape::geometry), appearance = scene.get(n, nodes::shape::appearance);
+    if (geometry && scene.is(appearance, nodes::Appearance) && scene.get(appearance, nodes::appearance::texture)) textured[geometry.value] = 1;
+  }
+  return textured;
 }
 
 }  // namespace wrlkit

@@ -35,4 +35,7 @@ void read_mesh(MeshJob& job);
 /// values that no corner uses, and points that were not in order.
 void store_mesh(Scene& scene, NodeId geometry, const Mesh& mesh);
 
+/// By node: geometry that some Shape puts a texture on. O(nodes).
+std::vector<char> textured_geometry(const Scene& scene);
+
 }  // namespace wrlkit

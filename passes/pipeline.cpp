@@ -46,17 +46,6 @@ bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
 
 bool is_geometry(const Scene& scene, NodeId n) { return scene.type(n).kind == NodeKind::builtin && scene.type(n).is_a("X3DGeometryNode"); }
 
-/// Geometry that some Shape puts a texture on, by node.
-std::vector<char> textured_geometry(const Scene& scene) {
-  std::vector<char> textured(scene.node_count());
-  for (NodeId n : all_nodes(scene)) {
-    if (!scene.is(n, nodes::Shape)) continue;
-    NodeId geometry = scene.get(n, nodes::shape::geometry), appearance = scene.get(n, nodes::shape::appearance);
-    if (geometry && scene.is(appearance, nodes::Appearance) && scene.get(appearance, nodes::appearance::texture)) textured[geometry.value] = 1;
-  }
-  return textured;
-}
-
 class Timer {
  public:
   Timer(std::vector<PassTime>* to, std::string name) : to_(to), name_(std::move(name)), start_(std::chrono::steady_clock::now()) {}

@@ -3,6 +3,7 @@
 
 #include "passes/expand_protos.h"
 #include "passes/inline.h"
+#include "passes/lod.h"
 #include "passes/normals.h"
 #include "passes/pass_info.h"
 #include "passes/prune.h"
@@ -18,7 +19,8 @@ constexpr PassInfo all_passes[] = {
     pass<expand_protos, ExpandProtosOptions>("expand-protos", "turn prototype instances into the nodes they stand for", Level::authored, Level::expanded),
     pass<prune, PruneOptions>("prune", "remove what has no effect", Level::authored, Level::authored),
     pass<tessellate, TessellateOptions>("tessellate", "turn every geometry node into faces, and faces into triangles", Level::expanded, Level::mesh),
-    pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", Level::mesh, Level::mesh),
+    pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", Level::authored, Level::authored),
+    pass<lod, LodOptions>("lod", "make levels of detail of each Shape", Level::authored, Level::authored),
     pass<normals, NormalsOptions>("normals", "compute normals by creaseAngle where the file gives none", Level::mesh, Level::mesh),
     pass<triangulate, TriangulateOptions>("triangulate", "cut polygons into triangles", Level::mesh, Level::mesh),
 };

@@ -1,0 +1,116 @@
+#include "passes/simplify/levels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/deviation.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr struct {
+  std::string_view name;
+  Criterion value;
+} criteria[] = {
+    {"length-normal", Criterion::length_normal}, {"melax", Criterion::melax},     {"lindstrom-turk", Criterion::lindstrom_turk},
+    {"quadric", Criterion::quadric},             {"meshopt", Criterion::meshopt},
+};
+
+constexpr std::size_t faces_of_a_box = 12;
+
+/// To six decimals of the extent, which no eye can tell and a text file is a third shorter for. Positions that were
+/// printed with fewer digits stay as they are.
+void round_positions(Mesh& mesh) {
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double low = 0, high = 0;
+    for (std::size_t i = k; i < mesh.positions.size(); i += 3) {
+      const double x = mesh.positions[i];
+      low = i == k ? x : std::min(low, x);
+      high = i == k ? x : std::max(high, x);
+    }
+    extent = std::max(extent, high - low);
+  }
+  if (!(extent > 0)) return;
+  const int exponent = static_cast<int>(std::floor(std::log10(extent))) - 6;
+  const double step = std::pow(10.0, std::abs(exponent));
+  // Powers of ten below one are not exact: dividing by their reciprocal gives the double that the digits mean.
+  for (double& x : mesh.positions.edit()) x = exponent < 0 ? std::round(x * step) / step : std::round(x / step) * step;
+}
+
+class Levels {
+ public:
+  Levels(const Mesh& first, const LevelOptions& options) : first_(first), options_(options), n_last_(first.n_faces()) {}
+
+  std::vector<MeshLevel> run() {
+    if (!options_.errors.empty()) {
+      for (double e : options_.errors) add_within(e);
+      return std::move(levels_);
+    }
+    Collapser c(first_, {.criterion = options_.criterion});
+    for (double r : options_.ratios) {
+      c.run_to(std::max(faces_of_a_box, static_cast<std::size_t>(r * static_cast<double>(first_.n_faces()))));
+      if (saves_enough(c.n_faces())) add(measured(c.mesh()));
+    }
+    return std::move(levels_);
+  }
+
+ private:
+  bool saves_enough(std::size_t n) const {
+    return n > 0 && static_cast<double>(n) <= (1 - options_.min_saving) * static_cast<double>(n_last_) && n < n_last_;
+  }
+
+  MeshLevel measured(Mesh mesh) const {
+    round_positions(mesh);
+    auto d = measure_deviation(triangles_of(first_), triangles_of(mesh));
+    return {std::move(mesh), d.rms, d.max};
+  }
+
+  void add(MeshLevel level) {
+    while (!levels_.empty() && levels_.back().error >= level.error) levels_.pop_back();
+    n_last_ = level.mesh.n_faces();
+    levels_.push_back(std::move(level));
+  }
+
+  /// The collapser's own error is an estimate; what it leads to is measured, and tried again with less when it is too much.
+  void add_within(double error) {
+    constexpr int tries = 5;
+    double estimate = error;
+    for (int i = 0; i < tries; ++i) {
+      Collapser c(first_, {.criterion = options_.criterion});
+      c.run_to(faces_of_a_box, estimate);
+      if (!saves_enough(c.n_faces())) return;
+      auto level = measured(c.mesh());
+      if (level.error <= error) return add(std::move(level));
+      estimate *= 0.8 * error / level.error;
+    }
+  }
+
+  const Mesh& first_;
+  const LevelOptions& options_;
+  std::size_t n_last_;
+  std::vector<MeshLevel> levels_;
+};
+
+}  // namespace
+
+bool CriterionName::read(std::string_view text) {
+  auto i = std::ranges::find(criteria, text, [](const auto& c) { return c.name; });
+  if (i == std::end(criteria)) return false;
+  value = i->value;
+  return true;
+}
+
+std::string CriterionName::print() const {
+  return std::string(std::ranges::find(criteria, value, [](const auto& c) { return c.value; })->name);
+}
+
+std::vector<std::string_view> criterion_names() {
+  std::vector<std::string_view> names;
+  for (const auto& c : criteria) names.push_back(c.name);
+  return names;
+}
+
+std::vector<MeshLevel> make_levels(const Mesh& first, const LevelOptions& options) { return Levels(first, options).run(); }
+
+}  // namespace wrlkit
