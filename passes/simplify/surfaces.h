@@ -1,0 +1,37 @@
+// The surfaces of a scene that may be simplified: which geometry nodes, in which Shapes, and their meshes.
+#pragma once
+#include <vector>
+
+#include "passes/pass.h"
+
+namespace wrlkit {
+
+/// A geometry node with a surface, and the Shapes that hold it.
+struct ShapeSurface {
+  NodeId geometry;
+  std::vector<NodeId> shapes;
+};
+
+/// In the order of the scene, the bodies of prototypes too. Left out: text, lines and points; geometry that is the end of a
+/// ROUTE or an IS or has such nodes; Shapes that are the end of a ROUTE or lie below a LOD, which have their levels
+/// already. O(nodes).
+std::vector<ShapeSurface> surfaces_of(const Scene& scene);
+
+/// Makes triangles of them. One object for many surfaces, one after the other.
+class SurfaceReader {
+ public:
+  /// `scene` must outlive it; nodes may be added.
+  SurfaceReader(const Scene& scene, PassContext& ctx);
+
+  /// A mesh of triangles, or an empty one. What nobody sees and would hold a simplification back is left out: texture
+  /// coordinates without a texture, and the exact normals of Box, Cone, Cylinder and Sphere, whose edges tell the same.
+  void read(const ShapeSurface& surface, Mesh& mesh);
+
+ private:
+  const Scene& scene_;
+  PassContext& ctx_;
+  std::vector<char> textured_;
+  MeshScratch scratch_;
+};
+
+}  // namespace wrlkit
