@@ -16,8 +16,6 @@ constexpr struct {
     {"quadric", Criterion::quadric},             {"meshopt", Criterion::meshopt},
 };
 
-constexpr std::size_t faces_of_a_box = 12;
-
 /// To six decimals of the extent, which no eye can tell and a text file is a third shorter for. Positions that were
 /// printed with fewer digits stay as they are.
 void round_positions(Mesh& mesh) {
@@ -38,6 +36,12 @@ void round_positions(Mesh& mesh) {
   for (double& x : mesh.positions.edit()) x = exponent < 0 ? std::round(x * step) / step : std::round(x / step) * step;
 }
 
+MeshLevel measured(const Mesh& first, Mesh mesh) {
+  round_positions(mesh);
+  auto d = measure_deviation(triangles_of(first), triangles_of(mesh));
+  return {std::move(mesh), d.rms, d.max};
+}
+
 class Levels {
  public:
   Levels(const Mesh& first, const LevelOptions& options) : first_(first), options_(options), n_last_(first.n_faces()) {}
@@ -50,7 +54,7 @@ class Levels {
     Collapser c(first_, {.criterion = options_.criterion});
     for (double r : options_.ratios) {
       c.run_to(std::max(faces_of_a_box, static_cast<std::size_t>(r * static_cast<double>(first_.n_faces()))));
-      if (saves_enough(c.n_faces())) add(measured(c.mesh()));
+      if (saves_enough(c.n_faces())) add(measured(first_, c.mesh()));
     }
     return std::move(levels_);
   }
@@ -58,12 +62,6 @@ class Levels {
  private:
   bool saves_enough(std::size_t n) const {
     return n > 0 && static_cast<double>(n) <= (1 - options_.min_saving) * static_cast<double>(n_last_) && n < n_last_;
-  }
-
-  MeshLevel measured(Mesh mesh) const {
-    round_positions(mesh);
-    auto d = measure_deviation(triangles_of(first_), triangles_of(mesh));
-    return {std::move(mesh), d.rms, d.max};
   }
 
   void add(MeshLevel level) {
@@ -80,7 +78,7 @@ class Levels {
       Collapser c(first_, {.criterion = options_.criterion});
       c.run_to(faces_of_a_box, estimate);
       if (!saves_enough(c.n_faces())) return;
-      auto level = measured(c.mesh());
+      auto level = measured(first_, c.mesh());
       if (level.error <= error) return add(std::move(level));
       estimate *= 0.8 * error / level.error;
     }
@@ -105,10 +103,17 @@ std::string CriterionName::print() const {
   return std::string(std::ranges::find(criteria, value, [](const auto& c) { return c.value; })->name);
 }
 
-std::vector<std::string_view> criterion_names() {
-  std::vector<std::string_view> names;
-  for (const auto& c : criteria) names.push_back(c.name);
+std::vector<std::string> criterion_names() {
+  std::vector<std::string> names;
+  for (const auto& c : criteria) names.emplace_back(c.name);
   return names;
+}
+
+std::optional<MeshLevel> LevelMaker::next(std::size_t n_faces) {
+  const auto before = collapser_.n_faces();
+  collapser_.run_to(n_faces);
+  if (collapser_.n_faces() >= before) return std::nullopt;
+  return measured(first_, collapser_.mesh());
 }
 
 std::vector<MeshLevel> make_levels(const Mesh& first, const LevelOptions& options) { return Levels(first, options).run(); }

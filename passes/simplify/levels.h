@@ -17,7 +17,10 @@ struct CriterionName {
   bool read(std::string_view text);
   std::string print() const;
 };
-std::vector<std::string_view> criterion_names();
+std::vector<std::string> criterion_names();
+
+/// A part of a world is not simplified further than to what a box has, which could stand for it.
+constexpr std::size_t faces_of_a_box = 12;
 
 struct LevelOptions {
   Criterion criterion = Criterion::lindstrom_turk;
@@ -29,6 +32,20 @@ struct LevelOptions {
 struct MeshLevel {
   Mesh mesh;
   double rms = 0, error = 0;  // two-sided distance from the first mesh: root of the mean square, and largest
+};
+
+/// Levels of one mesh by their numbers of triangles, each made from the one before.
+class LevelMaker {
+ public:
+  /// `first` is a mesh of triangles (Mesh::is_triangles) and must outlive this.
+  LevelMaker(const Mesh& first, Criterion criterion) : first_(first), collapser_(first, {.criterion = criterion}) {}
+
+  /// At most `n_faces` triangles, or as few as there can be; nothing when that are no fewer than there were.
+  std::optional<MeshLevel> next(std::size_t n_faces);
+
+ private:
+  const Mesh& first_;
+  Collapser collapser_;
 };
 
 /// The levels behind `first`, which is a mesh of triangles (Mesh::is_triangles). Each is made from the one before, and is

@@ -1,0 +1,172 @@
+#include "passes/simplify/world.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "passes/closest_point.h"
+#include "passes/deviation.h"
+#include "passes/geometry.h"
+
+namespace wrlkit {
+namespace {
+
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  const auto triangles = triangles_of(mesh);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Vec3 n = area_normal(triangles[i]);
+    area += std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+  }
+  return area;
+}
+
+/// How many triangles a surface has left when its error has grown to a bound.
+class FacesByError {
+ public:
+  FacesByError(const Mesh& mesh, Criterion criterion) {
+    constexpr double share = 0.97;  // from sample to sample
+    Collapser c(mesh, {.criterion = criterion});
+    samples_.push_back({0, static_cast<double>(mesh.n_faces())});
+    for (std::size_t n = mesh.n_faces(); n > faces_of_a_box;) {
+      n = std::max(faces_of_a_box, std::min(n - 1, static_cast<std::size_t>(static_cast<double>(n) * share)));
+      c.run_to(n);
+      if (c.n_faces() > n) break;  // no edge may go any more
+      n = c.n_faces();
+      samples_.push_back({std::max(samples_.back().error, c.error()), static_cast<double>(n)});
+    }
+  }
+
+  double largest_error() const { return samples_.back().error; }
+  double operator()(double error) const {
+    auto after = std::ranges::upper_bound(samples_, error, {}, &Sample::error);
+    if (after == samples_.end()) return samples_.back().faces;
+    if (after == samples_.begin()) return after->faces;
+    const auto& before = *std::prev(after);
+    const double t = (error - before.error) / (after->error - before.error);
+    return before.faces + t * (after->faces - before.faces);
+  }
+
+ private:
+  struct Sample {
+    double error, faces;
+  };
+  std::vector<Sample> samples_;
+};
+
+/// Triangles of each surface at each count: where the same error bounds all of them.
+std::vector<std::vector<std::size_t>> share_out(const std::vector<FacesByError>& curves, const std::vector<std::size_t>& counts) {
+  double largest = 0;
+  for (const auto& c : curves) largest = std::max(largest, c.largest_error());
+  std::vector<std::vector<std::size_t>> out;
+  for (std::size_t count : counts) {
+    double low = 0, high = largest;
+    for (int i = 0; i < 100 && low < high; ++i) {
+      const double middle = (low + high) / 2;
+      double sum = 0;
+      for (const auto& c : curves) sum += std::floor(c(middle));
+      (sum > static_cast<double>(count) ? low : high) = middle;
+    }
+    auto& faces = out.emplace_back();
+    for (const auto& c : curves) faces.push_back(static_cast<std::size_t>(c(high)));
+  }
+  return out;
+}
+
+/// The numbers of triangles to stop at, falling.
+std::vector<std::size_t> counts_of(const WorldSimplifyOptions& options, std::size_t n_faces) {
+  std::vector<std::size_t> out;
+  if (options.every > 0 && n_faces > 0)
+    for (std::size_t n = (n_faces - 1) / options.every * options.every; n > 0; n -= options.every) out.push_back(n);
+  for (double r : options.ratios) out.push_back(static_cast<std::size_t>(r * static_cast<double>(n_faces)));
+  std::ranges::sort(out, std::greater{});
+  return out;
+}
+
+}  // namespace
+
+SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions& options, PassContext& ctx)
+    : scene_(scene), budget_(options.budget) {
+  SurfaceReader reader(scene, ctx);
+  for (auto& s : surfaces_of(scene)) {
+    Part p{std::move(s), {}, 0, {}, {}};
+    reader.read(p.surface, p.mesh);
+    if (p.mesh.n_faces() == 0) continue;
+    n_faces_ += p.mesh.n_faces();
+    p.area = area_of(p.mesh);
+    parts_.push_back(std::move(p));
+  }
+
+  auto errors = options.errors;
+  std::ranges::sort(errors);
+  const auto counts = counts_of(options, n_faces_);
+  std::vector<std::vector<std::size_t>> faces;
+  if (errors.empty() && parts_.size() > 1) {
+    std::vector<std::optional<FacesByError>> curves(parts_.size());
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, options.criterion); });
+    std::vector<FacesByError> all;
+    for (auto& c : curves) all.push_back(std::move(*c));
+    faces = share_out(all, counts);
+  } else {
+    for (std::size_t count : counts) faces.push_back({count});
+  }
+  const auto n_points = errors.empty() ? counts.size() : errors.size();
+  tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
+    auto& p = parts_[i];
+    if (!errors.empty()) {
+      p.levels = make_levels(p.mesh, {.criterion = options.criterion, .errors = errors});
+      for (double e : errors)
+        p.at.push_back(static_cast<std::size_t>(std::ranges::count_if(p.levels, [&](const MeshLevel& l) { return l.error <= e; })));
+      return;
+    }
+    LevelMaker maker(p.mesh, options.criterion);
+    for (std::size_t k = 0; k < n_points; ++k) {
+      if (auto level = maker.next(faces[k][i])) p.levels.push_back(std::move(*level));
+      p.at.push_back(p.levels.size());
+    }
+  });
+  measure_points(n_points);
+}
+
+void SimplifiedWorld::measure_points(std::size_t n) {
+  std::size_t before = n_faces_;
+  for (std::size_t k = 0; k < n; ++k) {
+    InteractionPoint point;
+    double area = 0;
+    for (const auto& p : parts_) {
+      area += p.area;
+      const MeshLevel* level = p.at[k] ? &p.levels[p.at[k] - 1] : nullptr;
+      point.n_faces += (level ? level->mesh : p.mesh).n_faces();
+      if (!level) continue;
+      point.rms += p.area * level->rms * level->rms;
+      point.error = std::max(point.error, level->error);
+    }
+    if (point.n_faces == before) {  // it cannot be simplified further
+      for (auto& p : parts_) p.at.resize(k);
+      return;
+    }
+    before = point.n_faces;
+    point.rms = area > 0 ? std::sqrt(point.rms / area) : 0;
+    points_.push_back(point);
+  }
+}
+
+Scene SimplifiedWorld::scene_at(std::size_t i) const {
+  Scene out = scene_;
+  for (const auto& p : parts_)
+    if (p.at[i]) store_mesh(out, p.surface.geometry, p.levels[p.at[i] - 1].mesh);
+  return out;
+}
+
+Scene SimplifiedWorld::scene_with_levels() const {
+  Scene out = scene_;
+  LodNodes nodes(out);
+  for (const auto& p : parts_) nodes.add(p.surface, p.mesh, p.levels, budget_);
+  nodes.replace_shapes();
+  return out;
+}
+
+}  // namespace wrlkit

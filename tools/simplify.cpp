@@ -1,0 +1,121 @@
+// wrlkit simplify: the world at falling numbers of triangles, one file each, and one file with all of them as levels of
+// detail: the interaction points of Lazanyi, 2.3.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+
+#include "passes/simplify/world.h"
+#include "tools/session.h"
+#include "writers/json.h"
+#include "writers/output.h"
+#include "writers/vrml.h"
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "2mm", "0.5in", "0.002": a length in metres. 0 when it is none.
+double length_of(const std::string& text) {
+  constexpr struct { std::string_view name; double metres; } units[] = {{"", 1}, {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+  double v = 0;
+  auto r = std::from_chars(text.data(), text.data() + text.size(), v);
+  const std::string_view unit(r.ptr, static_cast<std::size_t>(text.data() + text.size() - r.ptr));
+  auto u = std::ranges::find(units, unit, [](const auto& x) { return x.name; });
+  return r.ec == std::errc{} && u != std::end(units) ? v * u->metres : 0;
+}
+
+/// The name of the input without folder and endings: "plant" of "old/plant.wrl.gz".
+std::string stem_of(const std::string& path) {
+  auto name = fs::path(path).filename().string();
+  for (std::string_view end : {".gz", ".wrl", ".wrz", ".vrml"})
+    if (name.size() > end.size() && name.ends_with(end)) name.resize(name.size() - end.size());
+  return name == "-" ? "world" : name;
+}
+
+/// What the flags ask for; nothing when they make no sense, which was printed.
+std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
+  WorldSimplifyOptions o;
+  CriterionName criterion;
+  if (!f.criterion.empty()) criterion.read(f.criterion);
+  o.criterion = criterion.value;
+  o.budget.pixels = f.pixels;
+  if ((f.every > 0) + !f.ratios.empty() + !f.errors.empty() != 1) return fmt::print(stderr, "wrlkit simplify: one of --every, --ratios and --error is needed\n"), std::nullopt;
+  for (const auto& text : f.errors) {
+    const double e = length_of(text);
+    if (!(e > 0)) return fmt::print(stderr, "wrlkit simplify: --error: '{}' is no length\n", text), std::nullopt;
+    o.errors.push_back(e);
+  }
+  o.every = static_cast<std::size_t>(f.every);
+  o.ratios = f.ratios;
+  return o;
+}
+
+bool write_world(Session& s, const std::string& path, const Scene& scene) {
+  auto file = OutputFile::open(path, {.gzip = s.flags().gzip}, s.diag());
+  if (!file) return false;
+  write_vrml(scene, {.precision = s.flags().precision}, file->sink(), s.diag());
+  return file->commit(s.diag());
+}
+
+struct Written {
+  std::string file;
+  InteractionPoint point;
+};
+
+void print(const Session& s, std::size_t n_faces, const std::vector<Written>& files, const std::string& lod_file) {
+  if (s.flags().json) {
+    std::string text;
+    JsonOut json(text);
+    json.begin_object();
+    json.member("triangles", n_faces);
+    json.key("points");
+    json.begin_array();
+    for (const auto& [file, p] : files) {
+      json.begin_object();
+      json.member("file", file);
+      json.member("triangles", p.n_faces);
+      json.member("rms", p.rms);
+      json.member("max", p.error);
+      json.end_object();
+    }
+    json.end_array();
+    json.member("lod", lod_file);
+    json.end_object();
+    fmt::print("{}\n", text);
+  } else {
+    fmt::print("{:>10}  {:>10}  {:>10}  file\n{:>10}  {:>10}  {:>10}\n", "triangles", "rms", "max", n_faces, 0, 0);
+    for (const auto& [file, p] : files) fmt::print("{:>10}  {:>10.3g}  {:>10.3g}  {}\n", p.n_faces, p.rms, p.error, file);
+    fmt::print("{:>46}\n", lod_file);
+  }
+}
+
+}  // namespace
+
+int run_simplify(const Flags& flags) {
+  Session s(flags);
+  auto options = options_of(flags);
+  if (!options || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "none" : "weld")) return usage;
+  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
+  if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
+
+  const SimplifiedWorld world(s.world().scene, *options, s.context());
+
+  std::error_code failed;
+  fs::create_directories(flags.output, failed);
+  const std::string base = (fs::path(flags.output) / stem_of(flags.inputs[0])).string(), ending = flags.gzip ? ".wrl.gz" : ".wrl";
+  std::vector<Written> files;
+  for (std::size_t i = 0; i < world.n_points(); ++i) {
+    files.push_back({base + '_' + std::to_string(world.point(i).n_faces) + ending, world.point(i)});
+    if (!write_world(s, files.back().file, world.scene_at(i))) return s.end(false);
+  }
+  const auto lod_file = base + "_lod" + ending;
+  if (!write_world(s, lod_file, world.scene_with_levels())) return s.end(false);
+  print(s, world.n_faces(), files, lod_file);
+  return s.end(true);
+}
+
+}  // namespace wrlkit
