@@ -24,6 +24,7 @@ function wrapper({eye, target, up}, file) {
 }
 
 async function by_view3dscene(file, camera, out) {
+  fs.rmSync(out, {force: true});  // of an earlier run
   let source = file;
   if (typeof camera === 'object') fs.writeFileSync(source = `${out}.wrl`, wrapper(camera, file));
   await run('xvfb-run', ['-a', '-s', '-screen 0 1280x1024x24', 'view3dscene', '--hide-extras', '--hide-menu', '--no-sound',
