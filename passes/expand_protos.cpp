@@ -22,6 +22,11 @@ struct End {
   std::string_view event;
 };
 
+/// The inner events that an event of the interface stands for. An exposedField receives and sends.
+struct Ends {
+  std::vector<End> in, out;
+};
+
 /// A value that an instance gives a field, under the body's own definition of that field.
 struct Given {
   const FieldDef* field;
@@ -36,7 +41,7 @@ struct Instance {
   std::vector<Given> given;  // sorted by field
   Copies copies;
   bool routed;  // ROUTEs touch it
-  std::unordered_map<std::string, std::vector<End>> events;  // the inner ends of an event of the interface, if routed
+  std::unordered_map<const FieldDef*, Ends> events;  // of the interface, if routed
 };
 
 /// Equal for instances of a body that have equal values. Long arrays count as equal only when they are the same array.
@@ -181,9 +186,9 @@ class Expansion {
     for (const Value& v : source) {
       const Value& content = scene_.content(v);
       if (!content.is) { fields.push_back(i.copies.of(v)); urls_here |= content.type == FieldType::MFString; continue; }
-      if (i.routed) connect(i, from, to, v);
       const FieldDef* outer = prototypes_.field(i.body, content.text());
       if (!outer) continue;
+      if (i.routed) connect(i.events[outer], from, to, v);
       const Given* given = find(i.given, *outer);
       if (!given && !outer->has_value()) continue;
       if (!add_value(from, v, given ? given->value : default_of(i, *outer), fields)) continue;
@@ -222,13 +227,19 @@ class Expansion {
   }
 
   // ---- events ------------------------------------------------------------------------------------------------------
-  void connect(Instance& i, NodeId from, NodeId to, const Value& v) {
-    auto outer = std::string(scene_.content(v).text());
-    auto inner = scene_.is_extra(v) ? v.extra->name : scene_.type(from).fields[v.slot].name_in(scene_.dialect());
-    i.events[outer].push_back({to, inner});
-    if (scene_.is_extra(v) || scene_.type(from).fields[v.slot].access != Access::inout) return;
-    i.events["set_" + outer].push_back({to, scene_.keep("set_" + std::string(inner))});
-    i.events[outer + "_changed"].push_back({to, scene_.keep(std::string(inner) + "_changed")});
+  void connect(Ends& outer, NodeId from, NodeId to, const Value& v) {
+    const auto& type = scene_.type(from);
+    if (scene_.is_extra(v)) {  // set_x IS y of an exposedField x, or anything of an unknown node
+      auto name = v.extra->name;
+      if (!name.ends_with("_changed")) outer.in.push_back({to, name});
+      if (!name.starts_with("set_")) outer.out.push_back({to, name});
+      return;
+    }
+    const FieldDef& f = type.fields[v.slot];
+    const auto name = f.name_in(scene_.dialect());
+    const bool both = f.access == Access::inout;
+    if (both || f.access == Access::in) outer.in.push_back({to, both ? scene_.keep("set_" + std::string(name)) : name});
+    if (both || f.access == Access::out) outer.out.push_back({to, both ? scene_.keep(std::string(name) + "_changed") : name});
   }
 
   /// ROUTEs from and to the instance, all of them written outside of its body, go to the inner nodes.
@@ -236,30 +247,33 @@ class Expansion {
     auto routes = routes_.take(i.node);
     pass_on(i, routes);
     for (const Route& r : routes) {
-      const auto from = ends(i, {r.from, r.event_out}), to = ends(i, {r.to, r.event_in});
+      const auto from = r.from == i.node ? ends(i, r.event_out).out : std::vector<End>{{r.from, r.event_out}};
+      const auto to = r.to == i.node ? ends(i, r.event_in).in : std::vector<End>{{r.to, r.event_in}};
       for (const End& f : from)
         for (const End& t : to)
           if (!add_route({f.node, t.node, f.event, t.event}, i.where)) return;
     }
   }
 
-  static std::vector<End> ends(const Instance& i, End e) {
-    if (e.node != i.node) return {e};
-    auto found = i.events.find(std::string(e.event));
-    return found == i.events.end() ? std::vector<End>{} : found->second;
+  const Ends& ends(const Instance& i, std::string_view event) {
+    static const Ends none;
+    const FieldDef* f = prototypes_.field(i.body, event);
+    if (!f) f = prototypes_.exposed_field(i.body, event);
+    auto found = i.events.find(f);
+    return found == i.events.end() ? none : found->second;
   }
 
   /// An exposedField that no IS connects sends on what it receives.
   void pass_on(const Instance& i, std::vector<Route>& routes) {
     std::unordered_map<const FieldDef*, std::vector<Route>> received;
     const std::size_t n = routes.size();
-    auto unconnected = [&](End e) { return ends(i, e).empty() ? prototypes_.exposed_field(i.body, e.event) : nullptr; };
+    auto unconnected = [&](std::string_view event, std::vector<End> Ends::*way) { return (ends(i, event).*way).empty() ? prototypes_.exposed_field(i.body, event) : nullptr; };
     for (std::size_t k = 0; k < n; ++k)
       if (const Route& r = routes[k]; r.to == i.node && r.from != i.node)
-        if (auto* f = unconnected({r.to, r.event_in})) received[f].push_back(r);
+        if (auto* f = unconnected(r.event_in, &Ends::in)) received[f].push_back(r);
     for (std::size_t k = 0; k < n; ++k) {
       const Route sent = routes[k];
-      auto* f = sent.from == i.node && sent.to != i.node ? unconnected({sent.from, sent.event_out}) : nullptr;
+      auto* f = sent.from == i.node && sent.to != i.node ? unconnected(sent.event_out, &Ends::out) : nullptr;
       if (!f) continue;
       for (const Route& r : received[f]) {
         if (!spend(1, i.where)) return;

@@ -34,7 +34,7 @@ bool OwnNodes::mark(const Scene& scene, const Scope& scope, std::span<const Node
   std::vector<Edge> edges;
   for (NodeId n : nodes) {
     const auto& type = scene.type(n);
-    if (type.name == "Script" || (type.kind == NodeKind::proto && has_state(n))) acting.push_back(n);
+    if (type.name == "Script" || type.name == "Inline" || (type.kind == NodeKind::proto && has_state(n))) acting.push_back(n);
     if (std::ranges::any_of(scene.fields(n), [&](const Value& v) { return scene.content(v).is; })) varying.push_back(n);
     for_each_child(scene, n, [&](NodeId c) { edges.push_back({c, n}); });
   }
