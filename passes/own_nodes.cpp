@@ -47,7 +47,7 @@ bool OwnNodes::mark(const Scene& scene, const Scope& scope, std::span<const Node
     if (own_[e.child.value]) varying.push_back(e.child);
   std::ranges::sort(edges, {}, &Edge::child);
   spread(varying, own_, [&](NodeId n, auto visit) {
-    for (const Edge& e : std::ranges::equal_range(edges, n, {}, &Edge::child)) visit(e.parent);
+    for (auto e = std::ranges::lower_bound(edges, n, {}, &Edge::child); e != edges.end() && e->child == n; ++e) visit(e->parent);
   });
   return state;
 }
