@@ -119,9 +119,9 @@ class Expansion {
 
   bool expand(NodeId n) {
     const Prototype& p = prototypes_.of(n);
-    if (p.state != Prototype::ready) return false;
+    if (p.state != Prototype::ready && p.state != Prototype::empty) return false;
     expanded_ = true;
-    if (!spend(1, scene_.where(n))) return scene_.become(n, nodes::Group, {}), false;
+    if (p.state == Prototype::empty || !spend(1, scene_.where(n))) return scene_.become(n, nodes::Group, {}), false;
     Instance i{n, scene_.where(n), p.body, given_by(n, p.body), {scene_, prototypes_.own()}, routes_.touches(n), {}};
     if (p.has_state || i.routed) return expand_alone(i, true), true;
     Key key(i.body);
@@ -263,19 +263,18 @@ class Expansion {
     return found == i.events.end() ? none : found->second;
   }
 
-  /// An exposedField that no IS connects sends on what it receives.
+  /// An exposedField sends on what it receives, unless something in the body receives it and answers.
   void pass_on(const Instance& i, std::vector<Route>& routes) {
     std::unordered_map<const FieldDef*, std::vector<Route>> received;
-    const std::size_t n = routes.size();
-    auto unconnected = [&](std::string_view event, std::vector<End> Ends::*way) { return (ends(i, event).*way).empty() ? prototypes_.exposed_field(i.body, event) : nullptr; };
-    for (std::size_t k = 0; k < n; ++k)
-      if (const Route& r = routes[k]; r.to == i.node && r.from != i.node)
-        if (auto* f = unconnected(r.event_in, &Ends::in)) received[f].push_back(r);
-    for (std::size_t k = 0; k < n; ++k) {
+    for (const Route& r : routes)
+      if (r.to == i.node && r.from != i.node && ends(i, r.event_in).in.empty())
+        if (auto* f = prototypes_.exposed_field(i.body, r.event_in)) received[f].push_back(r);
+    if (received.empty()) return;
+    for (std::size_t k = 0, n = routes.size(); k < n; ++k) {
       const Route sent = routes[k];
-      auto* f = sent.from == i.node && sent.to != i.node ? unconnected(sent.event_out, &Ends::out) : nullptr;
-      if (!f) continue;
-      for (const Route& r : received[f]) {
+      auto found = received.find(prototypes_.exposed_field(i.body, sent.event_out));
+      if (sent.from != i.node || sent.to == i.node || found == received.end()) continue;
+      for (const Route& r : found->second) {
         if (!spend(1, i.where)) return;
         routes.push_back({r.from, sent.to, r.event_out, sent.event_in});
       }

@@ -21,7 +21,7 @@ const Prototype& Prototypes::prepare(ProtoId p) {
   busy_.push_back(name(proto));
   Prototype result;
   if (proto.external) result = find_body(proto);
-  else if (proto.body.roots.empty()) result.state = Prototype::missing;
+  else if (proto.body.roots.empty()) result.state = Prototype::empty;
   else {
     look_into(proto);
     auto has_state = [&](NodeId n) { auto& t = known_[scene_.type(n).proto.value]; return t.has_state || t.state == Prototype::missing; };

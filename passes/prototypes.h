@@ -13,7 +13,7 @@
 namespace wrlkit {
 
 struct Prototype {
-  enum State : std::uint8_t { fresh, busy, ready, missing } state = fresh;
+  enum State : std::uint8_t { fresh, busy, ready, empty, missing } state = fresh;
   ProtoId body;            // the one with a body: itself, or what an EXTERNPROTO names
   bool has_state = false;  // events can reach nodes of the body: no two instances can share them
 };
