@@ -4,239 +4,211 @@
 #include <unordered_map>
 #include <utility>
 
+#include "passes/nesting.h"
+#include "passes/own_nodes.h"
+#include "passes/prototypes.h"
+#include "passes/route_table.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
 
-constexpr std::size_t deepest = 500;  // prototypes inside each other
-
 bool is_instance(const Scene& s, NodeId n) { return s.type(n).kind == NodeKind::proto; }
 
-/// What is known of a prototype before its first instance is expanded.
-struct Prepared {
-  enum State : std::uint8_t { fresh, busy, ready, missing } state = fresh;
-  ProtoId body;                      // the one with a body: itself, or what an EXTERNPROTO names
-  std::vector<NodeId> extra_roots;   // roots behind the first that events can reach
+/// One end of a ROUTE.
+struct End {
+  NodeId node;
+  std::string_view event;
+};
+
+/// The inner events that an event of the interface stands for. An exposedField receives and sends.
+struct Ends {
+  std::vector<End> in, out;
+};
+
+/// A value that an instance gives a field, under the body's own definition of that field.
+struct Given {
+  const FieldDef* field;
+  Value value;
+};
+
+/// One instance while it is being expanded.
+struct Instance {
+  NodeId node;
+  Span where;   // of the instance; its node can get another place
+  ProtoId body;
+  std::vector<Given> given;  // sorted by field
+  Copies copies;
+  bool routed;  // ROUTEs touch it
+  std::unordered_map<const FieldDef*, Ends> events;  // of the interface, if routed
+};
+
+/// Equal for instances of a body that have equal values. Long arrays count as equal only when they are the same array.
+class Key {
+ public:
+  explicit Key(ProtoId body) { number(body.value); }
+  void add(const Given& g, std::string_view file) {
+    constexpr std::size_t most = 64;
+    const Value& v = g.value;
+    pointer(g.field), number(v.type), number(v.count);
+    const auto numbers = v.number_span();
+    const auto integers = v.integer_span();
+    switch (const auto& t = info(v.type); t.element) {
+      case Element::node:
+        return t.multiple ? pointer(v.nodes) : number(v.node.value);
+      case Element::text:
+        if (t.multiple) pointer(v.texts), key_ += file;  // these may be urls, which are relative to a file
+        else if (v.count <= most) key_ += v.text();
+        else pointer(v.chars);
+        return;
+      case Element::number:
+        return numbers.size() <= most ? bytes(numbers.data(), numbers.size_bytes()) : pointer(v.numbers);
+      case Element::integer:
+      case Element::image:
+        return integers.size() <= most ? bytes(integers.data(), integers.size_bytes()) : pointer(v.integers);
+    }
+  }
+  std::string text() && { return std::move(key_); }
+
+ private:
+  void bytes(const void* p, std::size_t n) { key_.append(static_cast<const char*>(p), n); }
+  void pointer(const void* p) { bytes(&p, sizeof p); }
+  void number(auto n) { bytes(&n, sizeof n); }
+  std::string key_;
 };
 
 class Expansion {
  public:
-  Expansion(Scene& scene, const ExpandProtosOptions& options, PassContext& ctx) : scene_(scene), options_(options), ctx_(ctx) {}
+  Expansion(Scene& scene, const ExpandProtosOptions& options, PassContext& ctx)
+      : scene_(scene),
+        options_(options),
+        ctx_(ctx),
+        prototypes_(scene, ctx),
+        routes_(scene.main.routes),
+        budget_(static_cast<std::size_t>(options.limit) + 16 * scene.node_count()) {}
 
   Outcome run() {
-    routes_ = scene_.main.routes;
-    for (std::size_t i = 0; i < routes_.size(); ++i) index_route(i);
-    todo_.assign(scene_.main.roots.rbegin(), scene_.main.roots.rend());
-    while (!todo_.empty()) {
-      NodeId n = todo_.back();
-      todo_.pop_back();
-      visit(n);
-    }
+    visit_all({scene_.main.roots.begin(), scene_.main.roots.end()});
+    for (std::size_t i = 0; i < hidden_.size(); ++i) visit_all({hidden_[i]});
+    if (!expanded_) return Outcome::unchanged;
     finish();
-    return expanded_ ? Outcome::changed : Outcome::unchanged;
+    return Outcome::changed;
   }
 
  private:
-  struct Target {
-    NodeId node;
-    std::string_view event;
-  };
-  /// Inside one instance: which inner events an event of the interface stands for.
-  using Events = std::unordered_multimap<std::string, Target>;
-
-  void visit(NodeId n) {
-    if (n.value >= seen_.size()) seen_.resize(scene_.node_count() + 1024, 0);
-    if (seen_[n.value]) return;
-    seen_[n.value] = 1;
-    // The first node of a body may be an instance itself.
-    for (std::size_t depth = 0; is_instance(scene_, n) && depth < deepest; ++depth)
-      if (!expand(n)) break;
-    auto mark = todo_.size();
-    for_each_child(scene_, n, [&](NodeId c) { todo_.push_back(c); });
-    std::reverse(todo_.begin() + static_cast<std::ptrdiff_t>(mark), todo_.end());
-  }
-
-  // ---- prototypes --------------------------------------------------------------------------------------------------
-  Prepared& prepare(ProtoId p, std::size_t depth) {
-    auto& info = prepared_[p.value];
-    if (info.state != Prepared::fresh) return info;
-    info.state = Prepared::busy;
-    ProtoId body = scene_.proto(p).external ? find_external(p, depth) : p;
-    bool found = body && depth < deepest && !scene_.proto(body).body.roots.empty();
-    if (found) {
-      mark_varying(body);
-      prepare_inner(body, depth);
-    }
-    auto& done = prepared_[p.value];
-    done.body = body;
-    done.state = found ? Prepared::ready : Prepared::missing;
-    if (found) {
-      auto& roots = scene_.proto(body).body.roots;
-      std::copy_if(roots.begin() + 1, roots.end(), std::back_inserter(done.extra_roots), [&](NodeId n) { return varying(n); });
-    }
-    return done;
-  }
-
-  /// Instances in a body of a prototype that is being prepared would contain themselves (possible through EXTERNPROTO).
-  void prepare_inner(ProtoId body, std::size_t depth) {
-    for (NodeId n : reachable(scene_, scene_.proto(body).body)) {
-      if (!is_instance(scene_, n)) continue;
-      if (prepare(scene_.type(n).proto, depth + 1).state != Prepared::busy) continue;
-      ctx_.diag.report(Diag::proto_cycle, scene_.where(n), scene_.type(n).name);
-      scene_.become(n, nodes::Group, {});
-    }
-  }
-
-  ProtoId find_external(ProtoId p, std::size_t depth) {
-    auto urls = scene_.proto(p).urls;
-    auto where = scene_.proto(p).where;
-    if (!ctx_.resources || urls.empty() || depth >= deepest) return {};
-    auto world = ctx_.resources->world(urls, where, ctx_.diag);
-    if (!world) return {};
-    for (auto url : urls) {
-      auto hash = url.find('#');
-      auto name = hash == url.npos ? std::string_view{} : url.substr(hash + 1);
-      for (ProtoId candidate : protos_of(world)) {
-        if (!name.empty() && scene_.type(scene_.proto(candidate).type).name != name) continue;
-        if (!scene_.proto(candidate).external) return candidate;
-        auto& far = prepare(candidate, depth + 1);
-        return far.state == Prepared::ready ? far.body : ProtoId{};
-      }
-    }
-    ctx_.diag.report(Diag::proto_not_found, where, scene_.type(scene_.proto(p).type).name, urls[0]);
-    return {};
-  }
-
-  std::vector<ProtoId> protos_of(const std::shared_ptr<const Scene>& world) {
-    if (world.get() == &scene_) return scene_.main.protos;
-    auto known = libraries_.find(world.get());
-    if (known == libraries_.end()) {
-      kept_.push_back(world);
-      known = libraries_.emplace(world.get(), scene_.import(*world).protos).first;
-    }
-    return known->second;
-  }
-
-  // ---- what varies between instances -------------------------------------------------------------------------------
-  bool varying(NodeId n) const { return n.value < varying_.size() && varying_[n.value]; }
-
-  /// A node varies when it has an IS, is an end of a ROUTE, or holds one that varies.
-  void mark_varying(ProtoId body) {
-    auto order = reachable(scene_, scene_.proto(body).body);
-    varying_.resize(std::max(varying_.size(), scene_.node_count()));
-    for (auto& r : scene_.proto(body).body.routes) varying_[r.from.value] = varying_[r.to.value] = 1;
-    for (NodeId n : order)
-      for (auto& v : scene_.fields(n))
-        if (scene_.content(v).is) varying_[n.value] = 1;
-    // Parents come before children in a depth-first order, but sharing can put a parent behind; repeat until it holds.
-    for (bool again = true; again;) {
-      again = false;
-      for (auto n = order.rbegin(); n != order.rend(); ++n) {
-        if (varying_[n->value]) continue;
-        bool holds = false;
-        for_each_child(scene_, *n, [&](NodeId c) { holds |= varying_[c.value] != 0; });
-        if (holds) varying_[n->value] = 1, again = true;
-      }
+  void visit_all(std::vector<NodeId> todo) {
+    std::ranges::reverse(todo);
+    while (!todo.empty()) {
+      NodeId n = todo.back();
+      todo.pop_back();
+      if (n.value >= seen_.size()) seen_.resize(scene_.node_count() + scene_.node_count() / 2);
+      if (std::exchange(seen_[n.value], 1)) continue;
+      while (is_instance(scene_, n) && expand(n)) {}  // the first node of a body may be an instance itself
+      auto mark = todo.size();
+      for_each_child(scene_, n, [&](NodeId c) { todo.push_back(c); });
+      std::reverse(todo.begin() + static_cast<std::ptrdiff_t>(mark), todo.end());
     }
   }
 
   // ---- instances ---------------------------------------------------------------------------------------------------
-  struct Instance {
+  struct Known {
     NodeId node;
-    TypeId interface;
-    TypeId declared;  // of the body: has the defaults
-    std::vector<Value> values;
-    std::unordered_map<std::uint32_t, NodeId> copies;
-    Events events;
+    Span where;  // where the instance stood that it was made for
   };
 
   bool expand(NodeId n) {
-    auto& info = prepare(scene_.type(n).proto, 0);
-    if (info.state != Prepared::ready) return false;
-    if (copied_ > static_cast<std::size_t>(options_.limit)) {
-      ctx_.diag.report(Diag::expansion_limit, scene_.where(n), options_.limit, "nodes of prototypes");
-      return false;
-    }
+    const Prototype& p = prototypes_.of(n);
+    if (p.state != Prototype::ready && p.state != Prototype::empty) return false;
     expanded_ = true;
-    const ProtoId body = info.body;
-    const auto extra = info.extra_roots;
-    auto written = scene_.fields(n);
-    Instance i{n, scene_.type_id(n), scene_.proto(body).type, {written.begin(), written.end()}, {}, {}};
-    NodeId first = scene_.proto(body).body.roots[0];
-    i.copies[first.value] = n;
-    fill(i, first, n);
-    for (NodeId e : extra) detached_.push_back(copy(i, e));
-    while (!i_todo_.empty()) {
-      auto [from, to] = i_todo_.back();
-      i_todo_.pop_back();
-      fill(i, from, to);
-    }
-    redirect(i);
-    for (auto r : scene_.proto(body).body.routes) add_route({copy(i, r.from), copy(i, r.to), r.event_out, r.event_in});
-    while (!i_todo_.empty()) {  // ends of ROUTEs that are in no tree
-      auto [from, to] = i_todo_.back();
-      i_todo_.pop_back();
-      fill(i, from, to);
-    }
+    if (p.state == Prototype::empty || !spend(1, scene_.where(n))) return scene_.become(n, nodes::Group, {}), false;
+    Instance i{n, scene_.where(n), p.body, given_by(n, p.body), {scene_, prototypes_.own()}, routes_.touches(n), {}};
+    if (p.has_state || i.routed) return expand_alone(i, true), true;
+    Key key(i.body);
+    for (const Given& g : i.given) key.add(g, scene_.sources->file(i.where.begin));
+    auto [known, is_new] = known_.try_emplace(std::move(key).text(), Known{n, i.where});
+    if (is_new) expand_alone(i, false);
+    else expand_like(n, known->second);
     return true;
   }
 
-  /// The node that stands for `n` of the body in this instance.
-  NodeId copy(Instance& i, NodeId n) {
-    if (!n || !varying(n)) return i.copies.count(n.value) ? i.copies[n.value] : n;
-    auto [entry, fresh] = i.copies.emplace(n.value, NodeId{});
-    if (!fresh) return entry->second;
-    NodeId to = scene_.add(scene_.type_id(n), scene_.where(n));
-    scene_.set_name(to, scene_.name(n));
-    ++copied_;
-    entry->second = to;
-    i_todo_.push_back({n, to});
-    return to;
+  /// The instance has the same nodes as another one.
+  void expand_like(NodeId n, const Known& other) {
+    spent_ += cost_of_copy(scene_, other.node);
+    scene_.become(n, scene_.type_id(other.node), scene_.fields(other.node));
+    bool moved = scene_.where(other.node).begin != other.where.begin;
+    if (moved) scene_.set_where(n, scene_.where(other.node));
   }
 
+  void expand_alone(Instance& i, bool with_events) {
+    const Scope& body = scene_.proto(i.body).body;
+    i.copies.put(body.roots[0], i.node);
+    fill(i, body.roots[0], i.node);
+    if (with_events)
+      for (std::size_t k = 1; k < body.roots.size(); ++k)
+        if (prototypes_.own()[body.roots[k]]) hidden_.push_back(i.copies.of(body.roots[k]));
+    for (const Route& r : body.routes) i.copies.of(r.from), i.copies.of(r.to);
+    for (NodeId from, to; i.copies.next(from, to);) fill(i, from, to);
+    if (i.routed) redirect(i);
+    for (const Route& r : body.routes) add_route({i.copies.of(r.from), i.copies.of(r.to), r.event_out, r.event_in}, i.where);
+  }
+
+  /// Values that the instance writes. An EXTERNPROTO may declare the fields in another order than the file it names.
+  std::vector<Given> given_by(NodeId n, ProtoId body) {
+    std::vector<Given> out;
+    const auto& interface = scene_.type(n).fields;
+    for (const Value& v : scene_.fields(n)) {
+      if (scene_.is_extra(v) || v.is) continue;
+      if (auto* f = prototypes_.field(body, interface[v.slot].name)) out.push_back({f, v});
+    }
+    std::ranges::sort(out, {}, &Given::field);
+    return out;
+  }
+
+  static const Given* find(const std::vector<Given>& given, const FieldDef& f) {
+    auto g = std::ranges::lower_bound(given, &f, {}, &Given::field);
+    return g != given.end() && g->field == &f ? &*g : nullptr;
+  }
+
+  static Value default_of(Instance& i, const FieldDef& f) {
+    Value v = f.default_value;
+    v.slot = 0;
+    return i.copies.of(v);
+  }
+
+  // ---- nodes -------------------------------------------------------------------------------------------------------
   /// Gives `to` the type and fields of `from`, with the values of the instance where the body says IS.
   void fill(Instance& i, NodeId from, NodeId to) {
+    spent_ += cost_of_copy(scene_, from);
     std::vector<Value> fields;
-    std::vector<Value> source(scene_.fields(from).begin(), scene_.fields(from).end());
+    const std::vector<Value> source(scene_.fields(from).begin(), scene_.fields(from).end());
+    bool urls_given = false, urls_here = false;
     for (const Value& v : source) {
       const Value& content = scene_.content(v);
-      if (!content.is) { fields.push_back(copy_value(i, v)); continue; }
-      connect(i, from, to, v);
-      if (scene_.is_extra(v)) continue;
-      const auto& def = scene_.type(from).fields[v.slot];
-      if (!def.has_value()) continue;
-      if (const Value* given = value_of(i, content.text()); given && fits(*given, def.type)) {
-        fields.push_back(adapt(*given, def.type, v.slot));
-      }
+      if (!content.is) { fields.push_back(i.copies.of(v)); urls_here |= content.type == FieldType::MFString; continue; }
+      const FieldDef* outer = prototypes_.field(i.body, content.text());
+      if (!outer) continue;
+      if (i.routed) connect(i.events[outer], from, to, v);
+      const Given* given = find(i.given, *outer);
+      if (!given && !outer->has_value()) continue;
+      if (!add_value(from, v, given ? given->value : default_of(i, *outer), fields)) continue;
+      if (outer->type == FieldType::MFString) (given ? urls_given : urls_here) = true;
     }
     scene_.become(to, scene_.type_id(from), fields);
-    if (to != i.node) seen_.resize(std::max(seen_.size(), scene_.node_count()), 0);
+    if (urls_given) scene_.set_where(to, i.where);
+    else if (urls_here) scene_.set_where(to, scene_.where(from));
   }
 
-  Value copy_value(Instance& i, const Value& v) {
-    if (scene_.is_extra(v)) {
-      if (info(v.extra->value.type).element != Element::node) return v;
-      return scene_.make_extra(v.extra->name, copy_value(i, [&] { Value c = v.extra->value; c.slot = 0; return c; }()));
+  /// False when the field of `from` cannot have that value: an event, or another type.
+  bool add_value(NodeId from, const Value& field, const Value& value, std::vector<Value>& out) {
+    const auto& type = scene_.type(from);
+    if (scene_.is_extra(field)) {  // set_x IS y of a known node, or a field of an unknown one
+      if (type.kind != NodeKind::unknown) return false;
+      return out.push_back(scene_.make_extra(field.extra->name, value)), true;
     }
-    if (info(v.type).element != Element::node) return v;
-    std::vector<NodeId> to;
-    bool same = true;
-    for (NodeId c : v.node_span()) { to.push_back(copy(i, c)); same &= to.back() == c; }
-    if (same) return v;
-    return info(v.type).multiple ? scene_.make(v.type, v.slot, to) : scene_.make(v.type, v.slot, to[0]);
-  }
-
-  /// The value that the instance gives a field of the interface, or the default of the prototype. An EXTERNPROTO may
-  /// declare the fields in another order than the file it names.
-  const Value* value_of(const Instance& i, std::string_view name) const {
-    const auto& interface = scene_.type(i.interface);
-    for (const Value& v : i.values)
-      if (!scene_.is_extra(v) && !v.is && interface.fields[v.slot].name == name) return &v;
-    for (const auto& f : scene_.type(i.declared).fields)
-      if (f.name == name && f.has_value()) return &f.default_value;
-    return nullptr;
+    const FieldDef& def = type.fields[field.slot];
+    if (!def.has_value() || !fits(value, def.type)) return false;
+    return out.push_back(adapt(value, def.type, field.slot)), true;
   }
 
   static bool fits(const Value& v, FieldType t) {
@@ -255,81 +227,108 @@ class Expansion {
   }
 
   // ---- events ------------------------------------------------------------------------------------------------------
-  void connect(Instance& i, NodeId from, NodeId to, const Value& v) {
-    auto outer = std::string(scene_.content(v).text());
-    auto inner = scene_.is_extra(v) ? v.extra->name : scene_.type(from).fields[v.slot].name_in(scene_.dialect());
-    i.events.emplace(outer, Target{to, inner});
-    if (scene_.is_extra(v) || scene_.type(from).fields[v.slot].access != Access::inout) return;
-    i.events.emplace("set_" + outer, Target{to, scene_.keep("set_" + std::string(inner))});
-    i.events.emplace(outer + "_changed", Target{to, scene_.keep(std::string(inner) + "_changed")});
-  }
-
-  void index_route(std::size_t i) {
-    by_node_[routes_[i].from.value].push_back(i);
-    if (routes_[i].to != routes_[i].from) by_node_[routes_[i].to.value].push_back(i);
-  }
-  void add_route(const Route& r) {
-    routes_.push_back(r);
-    index_route(routes_.size() - 1);
+  void connect(Ends& outer, NodeId from, NodeId to, const Value& v) {
+    const auto& type = scene_.type(from);
+    if (scene_.is_extra(v)) {  // set_x IS y of an exposedField x, or anything of an unknown node
+      auto name = v.extra->name;
+      if (!name.ends_with("_changed")) outer.in.push_back({to, name});
+      if (!name.starts_with("set_")) outer.out.push_back({to, name});
+      return;
+    }
+    const FieldDef& f = type.fields[v.slot];
+    const auto name = f.name_in(scene_.dialect());
+    const bool both = f.access == Access::inout;
+    if (both || f.access == Access::in) outer.in.push_back({to, both ? scene_.keep("set_" + std::string(name)) : name});
+    if (both || f.access == Access::out) outer.out.push_back({to, both ? scene_.keep(std::string(name) + "_changed") : name});
   }
 
   /// ROUTEs from and to the instance, all of them written outside of its body, go to the inner nodes.
   void redirect(Instance& i) {
-    auto found = by_node_.find(i.node.value);
-    if (found == by_node_.end()) return;
-    auto old = std::move(found->second);
-    by_node_.erase(found);
-    for (std::size_t r : old) {
-      Route route = std::exchange(routes_[r], Route{});
-      if (!route.from) continue;
-      std::vector<Target> from{{route.from, route.event_out}}, to{{route.to, route.event_in}};
-      if (route.from == i.node) from = targets(i, route.event_out);
-      if (route.to == i.node) to = targets(i, route.event_in);
-      for (auto& f : from)
-        for (auto& t : to) add_route({f.node, t.node, f.event, t.event});
+    auto routes = routes_.take(i.node);
+    pass_on(i, routes);
+    for (const Route& r : routes) {
+      const auto from = r.from == i.node ? ends(i, r.event_out).out : std::vector<End>{{r.from, r.event_out}};
+      const auto to = r.to == i.node ? ends(i, r.event_in).in : std::vector<End>{{r.to, r.event_in}};
+      for (const End& f : from)
+        for (const End& t : to)
+          if (!add_route({f.node, t.node, f.event, t.event}, i.where)) return;
     }
   }
 
-  static std::vector<Target> targets(const Instance& i, std::string_view event) {
-    std::vector<Target> out;
-    auto [b, e] = i.events.equal_range(std::string(event));
-    for (; b != e; ++b) out.push_back(b->second);
-    return out;
+  const Ends& ends(const Instance& i, std::string_view event) {
+    static const Ends none;
+    const FieldDef* f = prototypes_.field(i.body, event);
+    if (!f) f = prototypes_.exposed_field(i.body, event);
+    auto found = i.events.find(f);
+    return found == i.events.end() ? none : found->second;
   }
 
-  // ---- the end -----------------------------------------------------------------------------------------------------
-  void finish() {
-    for (std::size_t k = 0; k < detached_.size(); ++k) {  // they may hold instances, too
-      todo_.push_back(detached_[k]);
-      while (!todo_.empty()) {
-        NodeId n = todo_.back();
-        todo_.pop_back();
-        visit(n);
+  /// An exposedField sends on what it receives, unless something in the body receives it and answers.
+  void pass_on(const Instance& i, std::vector<Route>& routes) {
+    std::unordered_map<const FieldDef*, std::vector<Route>> received;
+    for (const Route& r : routes)
+      if (r.to == i.node && r.from != i.node && ends(i, r.event_in).in.empty())
+        if (auto* f = prototypes_.exposed_field(i.body, r.event_in)) received[f].push_back(r);
+    if (received.empty()) return;
+    for (std::size_t k = 0, n = routes.size(); k < n; ++k) {
+      const Route sent = routes[k];
+      auto found = received.find(prototypes_.exposed_field(i.body, sent.event_out));
+      if (sent.from != i.node || sent.to == i.node || found == received.end()) continue;
+      for (const Route& r : found->second) {
+        if (!spend(1, i.where)) return;
+        routes.push_back({r.from, sent.to, r.event_out, sent.event_in});
       }
     }
-    std::erase_if(routes_, [](const Route& r) { return !r.from; });
-    scene_.main.routes = std::move(routes_);
-    if (!detached_.empty()) {
-      NodeId hidden = scene_.add(nodes::Switch);
-      scene_.set(hidden, nodes::switch_::children, detached_);
-      scene_.main.roots.push_back(hidden);
+  }
+
+  bool add_route(const Route& r, Span where) {
+    if (!spend(1, where)) return false;
+    routes_.add(r);
+    return true;
+  }
+
+  // ---- limits and the end ------------------------------------------------------------------------------------------
+  /// False, which is reported once, when the limit has been reached.
+  bool spend(std::size_t cost, Span where) {
+    if (spent_ + cost > budget_) {
+      if (!std::exchange(full_, true)) ctx_.diag.report(Diag::expansion_limit, where, budget_, "nodes and ROUTEs of prototypes");
+      return false;
     }
-    if (!options_.keep_declarations) std::erase_if(scene_.main.protos, [&](ProtoId p) { auto i = prepared_.find(p.value); return i == prepared_.end() || i->second.state != Prepared::missing; });
+    spent_ += cost;
+    return true;
+  }
+
+  void finish() {
+    scene_.main.routes = std::move(routes_).all();
+    if (!hidden_.empty()) {
+      NodeId choice = scene_.add(nodes::Switch);
+      scene_.set(choice, nodes::switch_::children, hidden_);
+      scene_.main.roots.push_back(choice);
+    }
+    limit_nesting(scene_, ctx_.diag);
+    if (!options_.keep_declarations) std::erase_if(scene_.main.protos, [&](ProtoId p) { return !prototypes_.is_missing(p); });
+    declare_missing();
+  }
+
+  /// Instances that stay may come from bodies and files whose declarations they leave behind.
+  void declare_missing() {
+    auto& protos = scene_.main.protos;
+    std::vector<char> declared(scene_.proto_count());
+    for (ProtoId p : protos) declared[p.value] = 1;
+    for (NodeId n : reachable(scene_, scene_.main))
+      if (is_instance(scene_, n) && !std::exchange(declared[scene_.type(n).proto.value], 1)) protos.push_back(scene_.type(n).proto);
   }
 
   Scene& scene_;
   const ExpandProtosOptions& options_;
   PassContext& ctx_;
-  std::unordered_map<std::uint32_t, Prepared> prepared_;
-  std::unordered_map<const Scene*, std::vector<ProtoId>> libraries_;
-  std::vector<std::shared_ptr<const Scene>> kept_;
-  std::vector<char> seen_, varying_;
-  std::vector<NodeId> todo_, detached_;
-  std::vector<std::pair<NodeId, NodeId>> i_todo_;
-  std::vector<Route> routes_;
-  std::unordered_map<std::uint32_t, std::vector<std::size_t>> by_node_;
-  std::size_t copied_ = 0;
-  bool expanded_ = false;
+  Prototypes prototypes_;
+  RouteTable routes_;
+  std::unordered_map<std::string, Known> known_;  // by Key
+  std::vector<char> seen_;
+  std::vector<NodeId> hidden_;
+  std::size_t budget_, spent_ = 0;
+  bool full_ = false, expanded_ = false;
 };
 
 }  // namespace

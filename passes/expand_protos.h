@@ -4,23 +4,25 @@
 //   Bolt { r 2 }   ->   Shape { geometry Cylinder { radius 2 } }
 //
 // The first node of the body takes the place of the instance and keeps its DEF name (ISO/IEC 14772-1, 4.8.3); the others
-// are not drawn but can be reached by ROUTEs: those that are part of one are kept, in a Switch that shows none of them.
-// ROUTEs of the body come along, ROUTEs to the instance go to what IS connects them to. EXTERNPROTOs are looked up in the
-// files they name; an instance whose prototype is not found stays.
+// are not drawn but can be reached by events: those that are part of a ROUTE and Scripts are kept, in a Switch that shows
+// none of them. ROUTEs of the body come along, ROUTEs to the instance go to what IS connects them to; an exposedField
+// without IS passes events on. EXTERNPROTOs are looked up in the files they name; an instance whose prototype is not found
+// stays.
 //
-// Only nodes that can differ between instances (an IS or a ROUTE in or below them) are copied; everything else of a body is
-// shared by all instances, so a prototype that doubles itself forty times costs forty nodes and not 2^40.
-// Cost: linear in what comes out, which is limited.
+// Nodes are shared wherever instances cannot differ (own_nodes.h): what no IS and no event reaches is in the scene once, and
+// instances with equal values hold the same nodes, unless events can reach them. So a prototype that doubles itself forty
+// times costs forty nodes and not 2^40. Cost: n log n in what comes out, which is limited; instances beyond the limit become
+// empty Groups.
 #pragma once
 #include "passes/pass.h"
 
 namespace wrlkit {
 
 struct ExpandProtosOptions {
-  int limit = 2'000'000;
+  int limit = 500'000;
   bool keep_declarations = false;
   void fields(auto&& f) {
-    f("limit", limit, "how many nodes the instances may become");
+    f("limit", limit, "how many nodes and ROUTEs the instances may become, beyond sixteen for each node of the world");
     f("keep-declarations", keep_declarations, "keep the declarations although nothing uses them any more");
   }
 };

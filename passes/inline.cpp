@@ -1,17 +1,23 @@
 #include "passes/inline.h"
 
 #include <algorithm>
+#include <string>
 #include <unordered_map>
+#include <unordered_set>
 
+#include "passes/nesting.h"
+#include "passes/own_nodes.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
 
+/// The file as it stands in the scene for the first Inline that names it.
 struct Imported {
-  std::vector<NodeId> roots;
-  std::vector<const Scene*> chain;  // of the files that lead here, this one included
+  Scope scope;
+  bool marked = false;    // what is its own is known
+  bool has_state = false;
 };
 
 class Inliner {
@@ -19,60 +25,147 @@ class Inliner {
   Inliner(Scene& scene, const InlineOptions& options, PassContext& ctx) : scene_(scene), options_(options), ctx_(ctx) {}
 
   Outcome run() {
-    auto before = scene_.node_count();
-    load_all(all_nodes(scene_), {});
-    return scene_.node_count() == before && !changed_ ? Outcome::unchanged : Outcome::changed;
+    const auto n_protos = static_cast<std::uint32_t>(scene_.proto_count());
+    note_names();
+    load_all(scene_.main.roots, scene_.main.routes);
+    for (std::uint32_t i = 0; i < n_protos; ++i) {
+      Proto& p = scene_.proto(ProtoId{i});
+      for (const auto& f : scene_.type(p.type).fields) load_all(f.default_value.node_span(), p.body.routes);
+      load_all(p.body.roots, p.body.routes);
+    }
+    if (changed_) limit_nesting(scene_, ctx_.diag);
+    return changed_ ? Outcome::changed : Outcome::unchanged;
   }
 
  private:
-  // Files already being loaded on the way from the root are cycles; a file met again elsewhere is shared.
-  void load_all(const std::vector<NodeId>& nodes, const std::vector<const Scene*>& chain) {
+  /// `routes` are those of the scope that the nodes are in.
+  void load_all(std::span<const NodeId> roots, std::vector<Route>& routes) {
+    std::vector<NodeId> nodes;
+    reach(scene_, roots, met_, nodes);
     for (NodeId n : nodes)
-      if (scene_.is(n, nodes::Inline)) load(n, chain);
+      if (scene_.is(n, nodes::Inline)) load(n, routes);
   }
 
-  void load(NodeId n, const std::vector<const Scene*>& chain) {
+  void load(NodeId n, std::vector<Route>& routes) {
     auto urls = scene_.get(n, nodes::inline_::url);
     if (urls.empty() || !ctx_.resources) return;
     auto world = ctx_.resources->world(urls, scene_.where(n), ctx_.diag);
     if (!world) return;
-    if (world.get() == &scene_ || std::ranges::find(chain, world.get()) != chain.end() || chain.size() >= static_cast<std::size_t>(options_.depth)) {
-      ctx_.diag.report(Diag::url_cycle, scene_.where(n), urls[0]);
-      return;
-    }
+    if (world.get() == &scene_ || std::ranges::find(chain_, world.get()) != chain_.end()) return ctx_.diag.report(Diag::url_cycle, scene_.where(n), urls[0]);
+    if (chain_.size() >= static_cast<std::size_t>(options_.depth)) return ctx_.diag.report(Diag::expansion_limit, scene_.where(n), options_.depth, "Inlines inside each other");
     auto known = imported_.find(world.get());
-    if (known == imported_.end()) {
-      Scope scope = scene_.import(*world);
-      scene_.main.protos.insert(scene_.main.protos.end(), scope.protos.begin(), scope.protos.end());
-      scene_.main.routes.insert(scene_.main.routes.end(), scope.routes.begin(), scope.routes.end());
-      known = imported_.emplace(world.get(), scope.roots).first;
-      kept_.push_back(world);
-      auto deeper = chain;
-      deeper.push_back(world.get());
-      load_all(reachable(scene_, scope), deeper);
-      known = imported_.find(world.get());
-    }
-    become_group(n, known->second);
+    if (known == imported_.end()) become_group(n, first_use(world), routes);
+    else become_group(n, further_use(known->second, scene_.where(n)), routes);
   }
 
-  void become_group(NodeId n, const std::vector<NodeId>& roots) {
+  const Scope& first_use(const std::shared_ptr<const Scene>& world) {
+    kept_.push_back(world);
+    Scope& scope = imported_[world.get()].scope;
+    const auto n_nodes = static_cast<std::uint32_t>(scene_.node_count());
+    scope = scene_.import(*world);
+    rename_protos(scope, n_nodes);
+    scene_.main.protos.insert(scene_.main.protos.begin(), scope.protos.begin(), scope.protos.end());
+    chain_.push_back(world.get());
+    load_all(scope.roots, scope.routes);
+    chain_.pop_back();
+    return scope;
+  }
+
+  /// Prototypes of the file are declared before all others, so that they are known wherever it is inlined, under names that
+  /// nothing else has.
+  void rename_protos(const Scope& scope, std::uint32_t first_node) {
+    std::unordered_map<std::uint32_t, TypeId> renamed;
+    for (ProtoId p : scope.protos) {
+      const TypeId old = scene_.proto(p).type;
+      NodeType type = scene_.type(old);
+      if (!find_builtin(type.name, Dialect::vrml97) && !is_taken(type.name)) continue;
+      type.name = scene_.keep(free_name(type.name));
+      renamed[old.value] = scene_.proto(p).type = scene_.add_type(type, {type.fields.begin(), type.fields.end()});
+    }
+    note_names();
+    if (renamed.empty()) return;
+    for (NodeId n{first_node}; n.value < scene_.node_count(); ++n.value)
+      if (auto r = renamed.find(scene_.type_id(n).value); r != renamed.end()) {
+        const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+        scene_.become(n, r->second, fields);
+      }
+  }
+
+  bool is_taken(std::string_view name) const { return taken_.count(name); }
+
+  std::string free_name(std::string_view base) {
+    for (auto& k = counter_[base];;)
+      if (auto name = std::string(base) + "_" + std::to_string(++k); !is_taken(name)) return name;
+  }
+
+  /// Of the prototypes that have come since.
+  void note_names() {
+    for (; n_noted_ < scene_.proto_count(); ++n_noted_) taken_.insert(scene_.type(scene_.proto(ProtoId{n_noted_}).type).name);
+  }
+
+  Scope further_use(Imported& file, Span where) {
+    if (!std::exchange(file.marked, true)) file.has_state = mark(file.scope);
+    if (!file.has_state) return {file.scope.roots, {}, {}};
+    if (n_copied_ >= static_cast<std::size_t>(options_.limit)) {
+      if (!std::exchange(full_, true)) ctx_.diag.report(Diag::expansion_limit, where, options_.limit, "copies of nodes and ROUTEs of inlined worlds");
+      return {file.scope.roots, {}, {}};
+    }
+    return copy(file.scope);
+  }
+
+  Scope copy(const Scope& scope) {
+    Copies copies(scene_, own_);
+    Scope out;
+    for (NodeId n : scope.roots) out.roots.push_back(copies.of(n));
+    for (const Route& r : scope.routes) out.routes.push_back({copies.of(r.from), copies.of(r.to), r.event_out, r.event_in});
+    for (NodeId from, to; copies.next(from, to);) {
+      std::vector<Value> fields;
+      const std::vector<Value> source(scene_.fields(from).begin(), scene_.fields(from).end());
+      for (const Value& v : source) fields.push_back(copies.of(v));
+      scene_.set_fields(to, fields);
+      n_copied_ += cost_of_copy(scene_, from);
+    }
+    n_copied_ += out.routes.size();
+    return out;
+  }
+
+  bool mark(const Scope& scope) {
+    // A body holds only instances of prototypes that are declared before its own. What an EXTERNPROTO is is not known here.
+    auto has_state = [&](NodeId n) { return proto_has_state_[scene_.type(n).proto.value] != 0; };
+    for (auto i = static_cast<std::uint32_t>(proto_has_state_.size()); i < scene_.proto_count(); ++i) {
+      const Proto& p = scene_.proto(ProtoId{i});
+      proto_has_state_.push_back(0);
+      proto_has_state_[i] = p.external || own_.mark(scene_, p.body, {}, has_state);
+    }
+    return own_.mark(scene_, scope, {}, has_state);
+  }
+
+  void become_group(NodeId n, const Scope& use, std::vector<Route>& routes) {
     std::vector<Value> fields;
-    if (!roots.empty()) fields.push_back(scene_.make(FieldType::MFNode, nodes::group::children.slot, roots));
+    if (!use.roots.empty()) fields.push_back(scene_.make(FieldType::MFNode, nodes::group::children.slot, use.roots));
     for (auto [from, to] : {std::pair{nodes::inline_::bboxCenter.slot, nodes::group::bboxCenter.slot}, {nodes::inline_::bboxSize.slot, nodes::group::bboxSize.slot}})
       if (auto* v = scene_.find(n, from); v && !v->is) {
         fields.push_back(*v);
         fields.back().slot = to;
       }
     scene_.become(n, nodes::Group, fields);
+    routes.insert(routes.end(), use.routes.begin(), use.routes.end());
     changed_ = true;
   }
 
   Scene& scene_;
   const InlineOptions& options_;
   PassContext& ctx_;
-  std::unordered_map<const Scene*, std::vector<NodeId>> imported_;
+  std::unordered_map<const Scene*, Imported> imported_;
   std::vector<std::shared_ptr<const Scene>> kept_;
-  bool changed_ = false;
+  std::vector<const Scene*> chain_;  // files that are being loaded, each inlined by the one before
+  std::unordered_set<std::string_view> taken_;  // names of prototypes
+  std::unordered_map<std::string_view, std::size_t> counter_;
+  std::uint32_t n_noted_ = 0;
+  std::vector<char> met_, proto_has_state_;
+  OwnNodes own_;
+  std::size_t n_copied_ = 0;
+  bool full_ = false, changed_ = false;
 };
 
 }  // namespace

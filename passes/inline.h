@@ -2,9 +2,10 @@
 //
 //   Inline { url "pump.wrl" }   ->   Group { children [ ...nodes of pump.wrl... ] }
 //
-// Each file is read once and its nodes are shared by all Inlines that name it. An Inline that cannot be loaded stays. The
-// names, prototypes and ROUTEs of the file come along; they cannot be reached by name from outside (ISO/IEC 14772-1, 6.25).
-// Cost: linear in the nodes of the files.
+// Each file is read once and its nodes are shared by all Inlines that name it, but for those that events can reach: each
+// Inline has its own. An Inline that cannot be loaded stays. The names, prototypes and ROUTEs of the file come along; they
+// cannot be reached by name from outside (ISO/IEC 14772-1, 6.25). Cost: n log n in the nodes of the files and in the copies,
+// which are limited; beyond the limit they are shared.
 #pragma once
 #include "passes/pass.h"
 
@@ -12,7 +13,11 @@ namespace wrlkit {
 
 struct InlineOptions {
   int depth = 16;
-  void fields(auto&& f) { f("depth", depth, "how deep Inlines may be nested"); }
+  int limit = 500'000;
+  void fields(auto&& f) {
+    f("depth", depth, "how deep Inlines may be nested");
+    f("limit", limit, "how many nodes and ROUTEs may be copied for files that are inlined several times");
+  }
 };
 Outcome inline_worlds(Scene&, const InlineOptions&, PassContext&);
 

@@ -32,9 +32,13 @@ class Pruning {
     if (!n || kept_[n.value] || !scene_.name(n).empty()) return false;
     for (auto& v : scene_.fields(n)) if (scene_.content(v).is || scene_.is_extra(v)) return false;
     if (scene_.is(n, nodes::Shape)) return !scene_.get(n, nodes::shape::geometry);
-    if (scene_.is(n, nodes::Group)) return scene_.get(n, nodes::group::children).empty();
-    if (scene_.is(n, nodes::Transform)) return scene_.get(n, nodes::transform::children).empty();
-    return false;
+    if (scene_.is(n, nodes::Collision) && scene_.get(n, nodes::collision::proxy)) return false;  // not seen, but in the way
+    return is_group(n) && hierarchy_children(scene_, n).empty();
+  }
+
+  bool is_group(NodeId n) const {
+    constexpr TypeId groups[] = {nodes::Anchor, nodes::Billboard, nodes::Collision, nodes::Group, nodes::LOD, nodes::Switch, nodes::Transform};
+    return std::ranges::find(groups, scene_.type_id(n)) != std::end(groups);
   }
 
   void prune_children(NodeId n) {

@@ -60,6 +60,8 @@ class Scene {
   std::string_view name(NodeId n) const { return names_[nodes_[n.value].name]; }
   void set_name(NodeId, std::string_view);
   Span where(NodeId n) const { return {nodes_[n.value].offset, 1}; }
+  /// Relative urls of a node are relative to the file that its place lies in.
+  void set_where(NodeId n, Span where) { nodes_[n.value].offset = where.begin; }
   Dialect dialect() const { return format == Format::vrml97 ? Dialect::vrml97 : format == Format::vrml1 ? Dialect::vrml1 : Dialect::x3d; }
 
   /// Fields that were written, in the order they were written; of nodes with very many of them in the order of their slots.

@@ -3,9 +3,9 @@
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
-namespace {
 
-void visit(const Scene& scene, std::span<const NodeId> roots, std::vector<char>& seen, std::vector<NodeId>& out) {
+void reach(const Scene& scene, std::span<const NodeId> roots, std::vector<char>& seen, std::vector<NodeId>& out) {
+  if (seen.size() < scene.node_count()) seen.resize(scene.node_count() + scene.node_count() / 2);
   std::vector<NodeId> stack(roots.rbegin(), roots.rend());
   while (!stack.empty()) {
     NodeId n = stack.back();
@@ -19,23 +19,21 @@ void visit(const Scene& scene, std::span<const NodeId> roots, std::vector<char>&
   }
 }
 
-}  // namespace
-
 std::vector<NodeId> reachable(const Scene& scene, const Scope& scope) {
-  std::vector<char> seen(scene.node_count());
+  std::vector<char> seen;
   std::vector<NodeId> out;
-  visit(scene, scope.roots, seen, out);
+  reach(scene, scope.roots, seen, out);
   return out;
 }
 
 std::vector<NodeId> all_nodes(const Scene& scene) {
-  std::vector<char> seen(scene.node_count());
+  std::vector<char> seen;
   std::vector<NodeId> out;
-  visit(scene, scene.main.roots, seen, out);
+  reach(scene, scene.main.roots, seen, out);
   for (std::uint32_t i = 0; i < scene.proto_count(); ++i) {
     const auto& p = scene.proto(ProtoId{i});
-    for (const auto& f : scene.type(p.type).fields) visit(scene, f.default_value.node_span(), seen, out);
-    visit(scene, p.body.roots, seen, out);
+    for (const auto& f : scene.type(p.type).fields) reach(scene, f.default_value.node_span(), seen, out);
+    reach(scene, p.body.roots, seen, out);
   }
   return out;
 }

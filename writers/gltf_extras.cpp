@@ -148,14 +148,30 @@ void Extras::interface(JsonOut& json, const NodeType& t, NodeId n, std::size_t d
   json.end_array();
 }
 
-void Extras::proto(JsonOut& json, ProtoId id, std::size_t depth) {
-  const Proto& p = scene_.proto(id);
+void Extras::protos(JsonOut& json, std::span<const ProtoId> declared) {
+  struct Item {
+    ProtoId proto;
+    std::optional<std::size_t> in;
+  };
+  std::vector<Item> list;
+  for (ProtoId p : declared) list.push_back({p, {}});
+  json.key("protos");
+  json.begin_array();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Proto& p = scene_.proto(list[i].proto);
+    proto(json, p, list[i].in);
+    for (ProtoId inner : p.body.protos) list.push_back({inner, i});
+  }
+  json.end_array();
+}
+
+void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in) {
   const auto& type = scene_.type(p.type);
-  if (depth >= max_depth) return json.raw("null");
   json.begin_object();
   json.member(p.external ? "EXTERNPROTO" : "PROTO", type.name);
+  if (in) json.member("in", *in);
   json.key("interface");
-  interface(json, type, {}, depth);
+  interface(json, type, {}, 0);
   if (p.external) json.key("url"), array(json, std::span<const std::string_view>(p.urls));
   auto list = [&](std::string_view name, const auto& items, auto write) {
     if (items.empty()) return;
@@ -164,8 +180,7 @@ void Extras::proto(JsonOut& json, ProtoId id, std::size_t depth) {
     for (const auto& i : items) write(i);
     json.end_array();
   };
-  list("protos", p.body.protos, [&](ProtoId inner) { proto(json, inner, depth + 1); });
-  list("body", p.body.roots, [&](NodeId n) { reference(json, n, depth); });
+  list("body", p.body.roots, [&](NodeId n) { reference(json, n, 0); });
   list("routes", p.body.routes, [&](const Route& r) { route(json, r); });
   json.end_object();
 }
@@ -225,7 +240,7 @@ void Extras::content(JsonOut& json, NodeId n, std::size_t depth) {
 
 // Nodes without a name can be shared, too, by instances of prototypes: those are written again and again.
 bool Extras::too_much(NodeId n, std::size_t depth) {
-  if (depth >= max_depth) return diag_.report(Diag::too_deep, scene_.where(n), max_depth), true;
+  if (depth >= max_depth) return diag_.report(Diag::no_gltf_depth, scene_.where(n), max_depth), true;
   if (n_written_ == max_nodes)
     diag_.report(Diag::expansion_limit, scene_.where(n), max_nodes, "nodes in extras"), ++n_written_;
   return n_written_ > max_nodes;

@@ -6,8 +6,10 @@
 // types of several numbers and all MF types are flat arrays. A node in a field has the same form, with "DEF" when it
 // has a name; {"Shape": {"USE": name}} has a place of its own in the file, or was written before. What a Script or a
 // prototype declares is listed under "interface" as [access, type, name, value], text that was kept as it is under
-// "verbatim". Long fields of a node that is there several times are written only with the first.
+// "verbatim". Long fields of a node that is there several times are written only with the first. All prototypes are in one
+// list; "in" is the index of the one that a prototype is declared in.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "scenegraph/diagnostics.h"
@@ -20,7 +22,9 @@ class Extras {
  public:
   /// Slots of a node's type whose values glTF itself has expressed.
   using Said = std::span<const std::uint16_t>;
-  static constexpr std::size_t max_nodes = 5'000'000, max_depth = 500;
+  static constexpr std::size_t max_nodes = 5'000'000;
+  /// Of nodes inside each other. Each is three levels of JSON, and some readers refuse more than 128 of these (serde_json).
+  static constexpr std::size_t max_depth = 32;
 
   Extras(const Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag), marks_(scene.node_count(), 0) {}
 
@@ -44,8 +48,9 @@ class Extras {
   void vrml97(JsonOut&, NodeId, Said said);
   /// The member extras: {vrml97: ...} of an object.
   void member(JsonOut&, NodeId, Said said);
-  /// A declaration: {PROTO: name, interface, body, ...} or {EXTERNPROTO: name, interface, url}.
-  void proto(JsonOut& json, ProtoId p) { proto(json, p, 0); }
+  /// The member protos of an object: declarations, and those in their bodies behind them. Each is {PROTO: name, in,
+  /// interface, body, routes} or {EXTERNPROTO: name, in, interface, url}.
+  void protos(JsonOut&, std::span<const ProtoId>);
   /// "Source.event TO Target.event".
   void route(JsonOut&, const Route&) const;
 
@@ -59,7 +64,7 @@ class Extras {
   bool speaks(NodeId, const Value&, Said) const;
   void fields(JsonOut&, NodeId, Said, std::size_t depth, bool only_short = false);
   void interface(JsonOut&, const NodeType&, NodeId, std::size_t depth);
-  void proto(JsonOut&, ProtoId, std::size_t depth);
+  void proto(JsonOut&, const Proto&, std::optional<std::size_t> in);
   void value(JsonOut&, const Value&, std::size_t depth);
   void reference(JsonOut&, NodeId, std::size_t depth);
   void content(JsonOut&, NodeId, std::size_t depth);

@@ -120,7 +120,7 @@ class Writer {
     json_.begin_object();
     if (h_.origin()) numbers("origin", std::span<const double>(*h_.origin()));
     if (h_.navigation_info()) p_.extras->node(json_, h_.navigation_info(), {});
-    list("protos", main.protos.size(), [&](std::size_t i) { p_.extras->proto(json_, main.protos[i]); });
+    if (!main.protos.empty()) p_.extras->protos(json_, main.protos);
     list("routes", main.routes.size(), [&](std::size_t i) { p_.extras->route(json_, main.routes[i]); });
     json_.end_object();
     json_.end_object();

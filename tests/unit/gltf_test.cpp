@@ -1127,6 +1127,15 @@ TEST_CASE("Declarations of prototypes are kept", "[gltf]") {
   CHECK(g.j["scenes"][0]["extras"]["vrml97"]["protos"][1]["url"] == json({"nut.wrl"}));
 }
 
+TEST_CASE("Prototypes in the bodies of others are in the same list", "[gltf]") {
+  auto g = convert("PROTO A [] { PROTO B [] { PROTO C [] { Group {} } Group {} } Group {} } PROTO D [] { Group {} }");
+  const auto& protos = g.j["scenes"][0]["extras"]["vrml97"]["protos"];
+  REQUIRE(protos.size() == 4);
+  std::vector<std::string> lines;
+  for (const auto& p : protos) lines.push_back(p["PROTO"].get<std::string>() + " in " + p.value("in", json("none")).dump());
+  CHECK(lines == std::vector<std::string>{"A in \"none\"", "D in \"none\"", "B in 0", "C in 2"});
+}
+
 TEST_CASE("Long fields are written with the first instance only", "[gltf]") {
   std::string keys;
   for (int i = 0; i < 100; ++i) keys += std::to_string(i) + " ";

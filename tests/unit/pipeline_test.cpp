@@ -23,7 +23,7 @@ std::unique_ptr<World> read(const std::string& text, Diagnostics& diag) { return
 
 TEST_CASE("pipeline: text and back", "[pipeline]") {
   for (auto& n : named_pipelines()) CHECK(canonical(canonical(n.name)) == canonical(n.name));
-  CHECK(canonical("prune , inline{depth=3}") == "prune,inline{depth=3}");
+  CHECK(canonical("prune , inline{depth=3}") == "prune,inline{depth=3,limit=500000}");
   CHECK(canonical("") == "");
 }
 
