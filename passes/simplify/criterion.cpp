@@ -1,6 +1,11 @@
 #include "passes/simplify/criterion.h"
+#include <cstdlib>
 
 namespace wrlkit::simplify {
+
+namespace {
+
+double crease_factor = std::getenv("CF") ? std::atof(std::getenv("CF")) : 4;
 
 Placement placement(Kind center, Kind spoke, bool feature) {
   if (center == Kind::fixed && spoke == Kind::fixed) return Placement::nowhere;
@@ -11,6 +16,16 @@ Placement placement(Kind center, Kind spoke, bool feature) {
   if (center == Kind::free && spoke == Kind::free) return Placement::anywhere;
   if (center == Kind::free) return Placement::spoke;
   return spoke == Kind::free ? Placement::center : Placement::nowhere;
+}
+
+}  // namespace
+
+Terms terms(const Surface& surface, const Ring& ring, int spoke) {
+  const Ring::Spoke& s = ring.spokes[spoke];
+  std::uint32_t u = ring.center, v = s.vertex;
+  Placement where = placement(surface.kind[u], surface.kind[v], s.feature);
+  Placement along = placement(surface.crease_kind[u], surface.crease_kind[v], s.feature || s.crease);
+  return {where, where == along ? 1 : crease_factor};
 }
 
 std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface) {

@@ -17,7 +17,11 @@ struct Option {
 
 /// Where the vertex of an edge may go.
 enum class Placement { nowhere, center, spoke, anywhere };
-Placement placement(Kind center, Kind spoke, bool feature);
+struct Terms {
+  Placement where;
+  double factor;  // of the cost; more than 1 for a collapse across a crease
+};
+Terms terms(const Surface& surface, const Ring& ring, int spoke);
 
 class Pricer {
  public:
@@ -28,7 +32,7 @@ class Pricer {
   /// Whether an edge has a cost of its own in each direction, and is an option of both ends.
   virtual bool one_way() const { return false; }
   /// Before the faces of the two rings change.
-  virtual void before_merge(const Ring&, const Ring&) {}
+  virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/, double /*cost*/) {}
   /// After it: the ring of the vertex that is left; `from` has gone.
   virtual void after_merge(const Ring&, std::uint32_t /*from*/) {}
 };

@@ -103,10 +103,10 @@ void Engine::collapse(const Move& move) {
     features |= surface_.features[f.face] != 0;
     dirty_.push_back(from_.next_vertex(f) == v ? from_.prev_vertex(f) : from_.next_vertex(f));
   }
-  pricer_->before_merge(from_, to_);
+  pricer_->before_merge(from_, to_, move.cost);
   surface_.merge(from_, to_);
   surface_.position[v] = move.position;
-  if (surface_.kind[u] == Kind::fixed) surface_.kind[v] = Kind::fixed;
+  if (surface_.kind[u] == Kind::fixed) surface_.kind[v] = surface_.crease_kind[v] = Kind::fixed;
   queue_.remove(u);
   surface_.gather(v, to_);
   pricer_->after_merge(to_, u);

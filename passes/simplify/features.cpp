@@ -6,6 +6,8 @@
 namespace wrlkit::simplify {
 namespace {
 
+constexpr int line = 1, crease = 8;  // of the first corner
+
 class Finder {
  public:
   Finder(Surface& surface, const Wedges& wedges, const FeatureOptions& options)
@@ -17,7 +19,7 @@ class Finder {
       if (!surface_.gather(v, ring_)) continue;
       for (int s = 0; s < ring_.n_spokes; ++s) {
         std::uint32_t w = ring_.spokes[s].vertex;
-        if ((w > v || surface_.degree(w) > Ring::max_faces) && is_feature(s)) mark(s);
+        if (w > v || surface_.degree(w) > Ring::max_faces) mark(s, bits(s));
       }
     }
   }
@@ -26,19 +28,20 @@ class Finder {
     for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) {
       bool ring = surface_.gather(v, ring_);
       if (ring) surface_.classify(ring_);
-      if (!ring || !one_fan()) surface_.kind[v] = Kind::fixed;
+      if (!ring || !one_fan()) surface_.kind[v] = surface_.crease_kind[v] = Kind::fixed;
     }
   }
 
  private:
-  bool is_feature(int spoke) const {
+  int bits(int spoke) const {
     const Ring::Face* at[2] = {};
     int n = 0;
     for (const Ring::Face& f : ring_.face_span())
       if (f.next == spoke || f.prev == spoke) at[n++ % 2] = &f;
-    if (n == 1) return options_.borders;
-    if (n > 2 || (at[0]->next == spoke) == (at[1]->next == spoke)) return true;  // or wound against each other
-    return is_seam(*at[0], *at[1], spoke) || (options_.creases && is_crease(at[0]->face, at[1]->face));
+    if (n == 1) return options_.borders ? line : 0;
+    if (n > 2 || (at[0]->next == spoke) == (at[1]->next == spoke)) return line;  // or wound against each other
+    return (is_seam(*at[0], *at[1], spoke) ? line : 0) |
+           (options_.creases && is_crease(at[0]->face, at[1]->face) ? crease : 0);
   }
 
   bool is_crease(std::uint32_t f, std::uint32_t g) const {
@@ -54,10 +57,10 @@ class Finder {
   static int other(const Ring::Face& f, int spoke) { return (f.corner + (f.next == spoke ? 1 : 2)) % 3; }
   std::uint32_t wedge(const Ring::Face& f, int corner) const { return wedges_.of_face[f.face][corner]; }
 
-  void mark(int spoke) {
+  void mark(int spoke, int bits) {
     for (const Ring::Face& f : ring_.face_span()) {
-      if (f.next == spoke) surface_.features[f.face] |= 1 << f.corner;
-      if (f.prev == spoke) surface_.features[f.face] |= 1 << (f.corner + 2) % 3;
+      if (f.next == spoke) surface_.features[f.face] |= bits << f.corner;
+      if (f.prev == spoke) surface_.features[f.face] |= bits << (f.corner + 2) % 3;
     }
   }
 

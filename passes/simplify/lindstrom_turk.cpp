@@ -13,7 +13,7 @@
 namespace wrlkit::simplify {
 namespace {
 
-double line_weight = 9, flat_pull = 1e-5, length_cost = 1e-12, power = 0;  // EXPERIMENT
+double line_weight = 9, flat_pull = 1e-7, length_cost = 1e-12, power = 1, mem_k = 0, mem_d = 1;  // EXPERIMENT
 
 /// Symmetric, in the order xx xy xz yy yz zz.
 struct Matrix {
@@ -52,7 +52,7 @@ struct Metric {
 
 class LindstromTurk final : public Pricer {
  public:
-  explicit LindstromTurk(const Surface& surface) : surface_(surface), metric_(surface.n_vertices()) {
+  explicit LindstromTurk(const Surface& surface) : surface_(surface), metric_(surface.n_vertices()), memory_(surface.n_vertices()) {
     for (std::uint32_t f = 0; f < surface.n_slots(); ++f)
       if (surface.alive(f)) add_face(f, 1, none, none);
   }
@@ -62,13 +62,17 @@ class LindstromTurk final : public Pricer {
     for (int s = 0; s < ring.n_spokes; ++s) {
       const Ring::Spoke& spoke = ring.spokes[s];
       if (spoke.vertex < ring.center && surface_.degree(spoke.vertex) <= Ring::max_faces) continue;  // its option
-      Placement p = placement(surface_.kind[ring.center], surface_.kind[spoke.vertex], spoke.feature);
-      if (p != Placement::nowhere) options.push_back(price(ring, s, p));
+      Terms t = terms(surface_, ring, s);
+      if (t.where == Placement::nowhere) continue;
+      options.push_back(price(ring, s, t.where));
+      options.back().cost *= t.factor;
     }
   }
 
-  void before_merge(const Ring& from, const Ring& to) override {
+  void before_merge(const Ring& from, const Ring& to, double cost) override {
     std::uint32_t u = from.center, v = to.center;
+    double step = cost - mem_k * (memory_[u] + memory_[v]);
+    memory_[v] = step + mem_d * (memory_[u] + memory_[v]);
     for (const Ring::Face& f : from.face_span()) add_face(f.face, -1, u, v);
     for (const Ring::Face& f : to.face_span())
       if (!to.has(f, u)) add_face(f.face, -1, u, v);
@@ -106,7 +110,7 @@ class LindstromTurk final : public Pricer {
     Metric m = face_metric(surface_.normal(f));
     for (std::uint32_t w : surface_.face[f].v)
       if (w != u && w != v) metric_[w].add(m, sign);
-    if (!surface_.features[f]) return;
+    if (!(surface_.features[f] & 7)) return;
     for (int k = 0; k < 3; ++k) {
       if (!(surface_.features[f] >> k & 1)) continue;
       Matrix l = line(edge(f, k));
@@ -132,6 +136,7 @@ class LindstromTurk final : public Pricer {
 
   const Surface& surface_;
   std::vector<Metric> metric_;
+  std::vector<double> memory_;
   Metric common_[2 * Ring::max_faces];
 };
 
@@ -152,7 +157,7 @@ Option LindstromTurk::price(const Ring& ring, int s, Placement where) const {
     x = best(planes, linear, n, dot(mv.normal, e), e, !surface_.open[u] && !surface_.open[v]);
   }
   double cost = dot(x, planes * x) - 2 * dot(linear, x) + constant;
-  return {s, std::max(cost, 0.) + length_cost * planes.trace() * dot(e, e), surface_.position[u] + x};
+  return {s, std::max(cost, 0.) + length_cost * planes.trace() * dot(e, e) + mem_k * (memory_[u] + memory_[v]), surface_.position[u] + x};
 }
 
 /// Where the metric has its minimum, drawn a little to the middle of the edge, which decides where the surface is flat; then
@@ -183,7 +188,7 @@ Vec3 LindstromTurk::best(const Matrix& planes, const Vec3& linear, const Vec3& n
 
 std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface) {
   auto env = [](const char* n, double& v) { if (const char* s = std::getenv(n)) v = std::atof(s); };
-  env("LW", line_weight), env("FP", flat_pull), env("LC", length_cost), env("PW", power);
+  env("LW", line_weight), env("FP", flat_pull), env("LC", length_cost), env("PW", power), env("MK", mem_k), env("MD", mem_d);
   return std::make_unique<LindstromTurk>(surface);
 }
 

@@ -21,11 +21,11 @@ class HalfEdges : public Pricer {
     }
     for (int s = 0; s < ring.n_spokes; ++s) {
       const Ring::Spoke& spoke = ring.spokes[s];
-      Placement p = placement(surface_.kind[ring.center], surface_.kind[spoke.vertex], spoke.feature);
-      if (p != Placement::spoke && p != Placement::anywhere) continue;
+      Terms t = terms(surface_, ring, s);
+      if (t.where != Placement::spoke && t.where != Placement::anywhere) continue;
       const Vec3& to = surface_.position[spoke.vertex];
       Vec3 e = to - surface_.position[ring.center];
-      options.push_back({s, cost(ring, s, std::sqrt(dot(e, e))), to});
+      options.push_back({s, t.factor * cost(ring, s, std::sqrt(dot(e, e))), to});
     }
   }
 

@@ -40,6 +40,7 @@ Surface::Surface(const Mesh& mesh) {
   face.resize(corners.size() / 3);
   features.resize(face.size());
   kind.resize(position.size());
+  crease_kind.resize(position.size());
   open.resize(position.size());
   for (std::size_t f = 0; f < face.size(); ++f) {
     face[f] = {corners[3 * f], corners[3 * f + 1], corners[3 * f + 2]};
@@ -82,7 +83,7 @@ bool Surface::gather(std::uint32_t v, Ring& ring) {
   auto spoke = [&](std::uint32_t w) {
     int i = 0;
     while (i < ring.n_spokes && ring.spokes[i].vertex != w) ++i;
-    if (i == ring.n_spokes) ring.spokes[ring.n_spokes++] = {w, 0, false};
+    if (i == ring.n_spokes) ring.spokes[ring.n_spokes++] = {w, 0, false, false};
     ++ring.spokes[i].n_faces;
     return static_cast<std::uint8_t>(i);
   };
@@ -96,20 +97,24 @@ bool Surface::gather(std::uint32_t v, Ring& ring) {
     std::uint8_t k = t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2;
     std::uint8_t next = spoke(t.v[(k + 1) % 3]), prev = spoke(t.v[(k + 2) % 3]);
     ring.faces[ring.n_faces++] = {f, k, next, prev};
-    ring.spokes[next].feature |= features[f] >> k & 1;
-    ring.spokes[prev].feature |= features[f] >> (k + 2) % 3 & 1;
+    if (features[f] == 0) continue;
+    int at = k, before = (k + 2) % 3;
+    ring.spokes[next].feature |= features[f] >> at & 1, ring.spokes[next].crease |= features[f] >> (at + 3) & 1;
+    ring.spokes[prev].feature |= features[f] >> before & 1, ring.spokes[prev].crease |= features[f] >> (before + 3) & 1;
   }
   list.size = n;
   return true;
 }
 
 void Surface::classify(const Ring& ring) {
-  int n = 0;
+  int n = 0, n_creases = 0;
   bool is_open = false;
-  for (const Ring::Spoke& s : ring.spoke_span()) n += s.feature, is_open |= s.n_faces != 2;
+  for (const Ring::Spoke& s : ring.spoke_span())
+    n += s.feature, n_creases += s.crease && !s.feature, is_open |= s.n_faces != 2;
+  auto by_lines = [](int lines) { return lines == 0 ? Kind::free : lines == 2 ? Kind::line : Kind::corner; };
   open[ring.center] = is_open;
-  if (kind[ring.center] != Kind::fixed)
-    kind[ring.center] = n == 0 ? Kind::free : n == 2 ? Kind::line : Kind::corner;
+  if (kind[ring.center] != Kind::fixed) kind[ring.center] = by_lines(n);
+  crease_kind[ring.center] = std::max(kind[ring.center], by_lines(n + n_creases));
 }
 
 void Surface::remove(std::uint32_t f) {
@@ -125,11 +130,13 @@ void Surface::merge(const Ring& from, const Ring& to) {
   for (const Ring::Face& f : from.face_span()) {
     if (!from.has(f, v)) continue;
     std::uint32_t w = from.next_vertex(f) == v ? from.prev_vertex(f) : from.next_vertex(f);
-    if (!from.spokes[from.find(w)].feature && !to.spokes[to.find(w)].feature) continue;
+    const Ring::Spoke &a = from.spokes[from.find(w)], &b = to.spokes[to.find(w)];
+    const int bits = (a.feature || b.feature) | (a.crease || b.crease) << 3;
+    if (bits == 0) continue;
     for (const Ring* ring : {&from, &to})
       for (const Ring::Face& g : ring->face_span()) {
-        if (ring->next_vertex(g) == w) features[g.face] |= 1 << g.corner;
-        if (ring->prev_vertex(g) == w) features[g.face] |= 1 << (g.corner + 2) % 3;
+        if (ring->next_vertex(g) == w) features[g.face] |= bits << g.corner;
+        if (ring->prev_vertex(g) == w) features[g.face] |= bits << (g.corner + 2) % 3;
       }
   }
   for (const Ring::Face& f : to.face_span())

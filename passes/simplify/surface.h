@@ -30,7 +30,7 @@ struct Ring {
   struct Spoke {
     std::uint32_t vertex;
     std::uint8_t n_faces;
-    bool feature;
+    bool feature, crease;
   };
 
   std::uint32_t center = none;
@@ -87,8 +87,8 @@ class Surface {
 
   std::vector<Vec3> position;
   std::vector<Triangle> face;          // dead: vertex 0 is none
-  std::vector<std::uint8_t> features;  // per face: bit k, the edge from corner k to the next
-  std::vector<Kind> kind;
+  std::vector<std::uint8_t> features;  // per face: bit k, the edge from corner k to the next; bit k + 3: that is a crease
+  std::vector<Kind> kind, crease_kind;  // the latter if creases were features too
   std::vector<bool> open;              // a vertex at an edge of other than two faces
 
  private:
