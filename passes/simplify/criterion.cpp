@@ -23,8 +23,8 @@ Placement placement(Kind center, Kind spoke, bool feature) {
 Terms terms(const Surface& surface, const Ring& ring, int spoke) {
   const Ring::Spoke& s = ring.spokes[spoke];
   std::uint32_t u = ring.center, v = s.vertex;
-  Placement where = placement(surface.kind[u], surface.kind[v], s.feature);
-  Placement along = placement(surface.crease_kind[u], surface.crease_kind[v], s.feature || s.crease);
+  Placement where = placement(surface.vertex[u].kind, surface.vertex[v].kind, s.feature);
+  Placement along = placement(surface.vertex[u].crease_kind, surface.vertex[v].crease_kind, s.feature || s.crease);
   return {where, where == along ? 1 : crease_factor};
 }
 

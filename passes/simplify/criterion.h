@@ -27,12 +27,13 @@ class Pricer {
  public:
   virtual ~Pricer() = default;
 
-  /// Adds the options of the ring's centre. Each edge must be an option of one of its ends at least.
-  virtual void price(const Ring& ring, std::vector<Option>& options) = 0;
+  /// Adds the options of the ring's centre: of every edge, of every edge whose other end will not offer it, or of one.
+  virtual void price(const Ring& ring, int spokes, std::vector<Option>& options) = 0;
+  static constexpr int every = -1, own = -2;
   /// Whether an edge has a cost of its own in each direction, and is an option of both ends.
   virtual bool one_way() const { return false; }
   /// Before the faces of the two rings change.
-  virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/, double /*cost*/) {}
+  virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/) {}
   /// After it: the ring of the vertex that is left; `from` has gone.
   virtual void after_merge(const Ring&, std::uint32_t /*from*/) {}
 };

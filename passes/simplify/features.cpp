@@ -13,22 +13,17 @@ class Finder {
   Finder(Surface& surface, const Wedges& wedges, const FeatureOptions& options)
       : surface_(surface), wedges_(wedges), options_(options), cosine_(std::cos(options.crease_angle)) {}
 
-  /// An edge is looked at from the lower of its vertices that have not too many faces.
-  void mark_edges() {
+  /// An edge is looked at from the lower of its vertices that have not too many faces; so when it is the turn of a vertex,
+  /// its edges to lower ones are known.
+  void run() {
     for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) {
-      if (!surface_.gather(v, ring_)) continue;
-      for (int s = 0; s < ring_.n_spokes; ++s) {
+      bool ring = surface_.gather(v, ring_);
+      for (int s = 0; ring && s < ring_.n_spokes; ++s) {
         std::uint32_t w = ring_.spokes[s].vertex;
         if (w > v || surface_.degree(w) > Ring::max_faces) mark(s, bits(s));
       }
-    }
-  }
-
-  void classify_vertices() {
-    for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) {
-      bool ring = surface_.gather(v, ring_);
       if (ring) surface_.classify(ring_);
-      if (!ring || !one_fan()) surface_.kind[v] = surface_.crease_kind[v] = Kind::fixed;
+      if (!ring || !one_fan()) surface_.vertex[v].kind = surface_.vertex[v].crease_kind = Kind::fixed;
     }
   }
 
@@ -58,9 +53,12 @@ class Finder {
   std::uint32_t wedge(const Ring::Face& f, int corner) const { return wedges_.of_face[f.face][corner]; }
 
   void mark(int spoke, int bits) {
+    if (bits == 0) return;
+    ring_.spokes[spoke].feature |= (bits & line) != 0;
+    ring_.spokes[spoke].crease |= (bits & crease) != 0;
     for (const Ring::Face& f : ring_.face_span()) {
-      if (f.next == spoke) surface_.features[f.face] |= bits << f.corner;
-      if (f.prev == spoke) surface_.features[f.face] |= bits << (f.corner + 2) % 3;
+      if (f.next == spoke) surface_.face[f.face].features |= bits << f.corner;
+      if (f.prev == spoke) surface_.face[f.face].features |= bits << (f.corner + 2) % 3;
     }
   }
 
@@ -87,9 +85,7 @@ class Finder {
 }  // namespace
 
 void find_features(Surface& surface, const Wedges& wedges, const FeatureOptions& options) {
-  Finder finder(surface, wedges, options);
-  finder.mark_edges();
-  finder.classify_vertices();
+  Finder(surface, wedges, options).run();
 }
 
 }  // namespace wrlkit::simplify
