@@ -1,11 +1,10 @@
 #include "passes/simplify/criterion.h"
-#include <cstdlib>
 
 namespace wrlkit::simplify {
 
 namespace {
 
-double crease_factor = std::getenv("CF") ? std::atof(std::getenv("CF")) : 4;
+constexpr double crease_factor = 4;
 
 Placement placement(Kind center, Kind spoke, bool feature) {
   if (center == Kind::fixed && spoke == Kind::fixed) return Placement::nowhere;
@@ -28,12 +27,12 @@ Terms terms(const Surface& surface, const Ring& ring, int spoke) {
   return {where, where == along ? 1 : crease_factor};
 }
 
-std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface) {
+std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface, const Wedges& wedges) {
   switch (criterion) {
     case Criterion::length_normal: return length_normal(surface);
     case Criterion::melax: return melax(surface);
     case Criterion::lindstrom_turk: return lindstrom_turk(surface);
-    case Criterion::quadric: return lindstrom_turk(surface);
+    case Criterion::quadric: return quadric(surface, wedges);
     case Criterion::meshopt: break;
   }
   return nullptr;

@@ -5,6 +5,7 @@
 
 #include "passes/simplify/collapse.h"
 #include "passes/simplify/surface.h"
+#include "passes/simplify/wedges.h"
 
 namespace wrlkit::simplify {
 
@@ -32,15 +33,16 @@ class Pricer {
   static constexpr int every = -1, own = -2;
   /// Whether an edge has a cost of its own in each direction, and is an option of both ends.
   virtual bool one_way() const { return false; }
-  /// Before the faces of the two rings change.
+  /// Before the faces and wedges of the two rings change.
   virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/) {}
-  /// After it: the ring of the vertex that is left; `from` has gone.
-  virtual void after_merge(const Ring&, std::uint32_t /*from*/) {}
+  /// After it: the ring of the vertex that is left.
+  virtual void after_merge(const Ring&) {}
 };
 
-std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface);
+std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface, const Wedges& wedges);
 std::unique_ptr<Pricer> length_normal(const Surface& surface);
 std::unique_ptr<Pricer> melax(const Surface& surface);
 std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface);
+std::unique_ptr<Pricer> quadric(const Surface& surface, const Wedges& wedges);
 
 }  // namespace wrlkit::simplify

@@ -25,7 +25,7 @@ Engine::Engine(const Mesh& mesh, const CollapseOptions& options)
       deviation_(surface_.n_vertices()),
       recording_(options.record) {
   find_features(surface_, wedges_, {options.keep_borders, options.keep_creases, options.crease_angle});
-  pricer_ = make_pricer(options.criterion, surface_);
+  pricer_ = make_pricer(options.criterion, surface_, wedges_);
   exact_ = pricer_->one_way() && surface_.n_vertices() < CostQueue::small;
   if (recording_) recorder_.begin(surface_, wedges_);
   for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) refresh(v, Pricer::own);
@@ -113,6 +113,7 @@ void Engine::run_to(std::size_t n_faces, double max_error) {
 void Engine::collapse(const Move& move) {
   const std::uint32_t u = from_.center, v = to_.center;
   const Vec3 old = surface_.position(v);
+  pricer_->before_merge(from_, to_);
   if (wedges_.present()) merge_wedges(move.position);
   if (recording_) record_corners();
   bool features = false;
@@ -122,13 +123,12 @@ void Engine::collapse(const Move& move) {
     features |= surface_.face[f.face].features != 0;
     dirty_.push_back(from_.next_vertex(f) == v ? from_.prev_vertex(f) : from_.next_vertex(f));
   }
-  pricer_->before_merge(from_, to_);
   surface_.merge(from_, to_);
   surface_.vertex[v].position = move.position;
   if (surface_.vertex[u].kind == Kind::fixed) surface_.vertex[v].kind = surface_.vertex[v].crease_kind = Kind::fixed;
   queue_.remove(u);
   surface_.gather(v, to_);
-  pricer_->after_merge(to_, u);
+  pricer_->after_merge(to_);
   if (features) {
     surface_.classify(to_);
     for (std::uint32_t w : dirty_)

@@ -6,9 +6,9 @@
 namespace wrlkit::simplify {
 namespace {
 
-double least_cosine = std::getenv("COS") ? std::atof(std::getenv("COS")) : 0.2;  // between the normals of a face before and after
-double sliver = std::getenv("SL") ? std::atof(std::getenv("SL")) : 0.002;                 // twice the area by the sum of the squared sides; 0.29 when equilateral  // EXPERIMENT
-double sliver_ratio = std::getenv("SR") ? std::atof(std::getenv("SR")) : 0.5;
+constexpr double least_cosine = 0.2;  // between the normals of a face before and after
+constexpr double sliver = 0.002;     // twice the area by the sum of the squared sides; 0.29 when equilateral
+constexpr double sliver_ratio = 0.5;  // of its square, before and after: what is allowed for slivers that are there
 
 bool same_pair(const Ring& u, const Ring::Face& f, const Ring& v, const Ring::Face& g) {
   return v.has(g, u.next_vertex(f)) && v.has(g, u.prev_vertex(f));

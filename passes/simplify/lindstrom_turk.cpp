@@ -9,36 +9,13 @@
 #include <cmath>
 
 #include "passes/simplify/criterion.h"
+#include "passes/simplify/matrix.h"
 
 namespace wrlkit::simplify {
 namespace {
 
-double line_weight = 9, flat_pull = 1e-7, length_cost = 1e-12;  // EXPERIMENT
-
-/// Symmetric, in the order xx xy xz yy yz zz.
-struct Matrix {
-  double a[6] = {};
-
-  Vec3 operator*(const Vec3& v) const {
-    return {a[0] * v[0] + a[1] * v[1] + a[2] * v[2], a[1] * v[0] + a[3] * v[1] + a[4] * v[2],
-            a[2] * v[0] + a[4] * v[1] + a[5] * v[2]};
-  }
-  double trace() const { return a[0] + a[3] + a[5]; }
-  void add(const Matrix& m, double s) {
-    for (int i = 0; i < 6; ++i) a[i] += s * m.a[i];
-  }
-  /// s times the projection on the line along v, times |v| squared.
-  void add_outer(const Vec3& v, double s) {
-    a[0] += s * v[0] * v[0], a[1] += s * v[0] * v[1], a[2] += s * v[0] * v[2];
-    a[3] += s * v[1] * v[1], a[4] += s * v[1] * v[2], a[5] += s * v[2] * v[2];
-  }
-  void add_identity(double s) { a[0] += s, a[3] += s, a[5] += s; }
-  /// Times the determinant.
-  Matrix adjugate() const {
-    return {{a[3] * a[5] - a[4] * a[4], a[2] * a[4] - a[1] * a[5], a[1] * a[4] - a[2] * a[3], a[0] * a[5] - a[2] * a[2],
-             a[1] * a[2] - a[0] * a[4], a[0] * a[3] - a[1] * a[1]}};
-  }
-};
+constexpr double line_weight = 9;     // of the squared distance from a line by its length, against that from a plane by its area
+constexpr double length_cost = 1e-12; // of the squared length, which decides where the surface is flat
 
 struct Metric {
   Matrix planes;
@@ -84,7 +61,7 @@ class LindstromTurk final : public Pricer {
       if (!to.has(f, u)) add_face(f.face, -1, u, v);
   }
 
-  void after_merge(const Ring& ring, std::uint32_t) override {
+  void after_merge(const Ring& ring) override {
     metric_[ring.center] = {};
     for (const Ring::Face& f : ring.face_span()) add_face(f.face, 1, none, none);
   }
@@ -96,13 +73,6 @@ class LindstromTurk final : public Pricer {
     double l = dot(normal, normal);
     if (l > 0) m.planes.add_outer(normal, 1 / std::sqrt(l));
     m.normal = normal;
-    return m;
-  }
-  /// Squared area that swinging the edge e about one of its ends sweeps.
-  Matrix line(const Vec3& e) const {
-    Matrix m;
-    m.add_identity(line_weight * dot(e, e));
-    m.add_outer(e, -line_weight);
     return m;
   }
   Vec3 edge(std::uint32_t f, int k) const {
@@ -118,7 +88,7 @@ class LindstromTurk final : public Pricer {
     if (!(surface_.face[f].features & 7)) return;
     for (int k = 0; k < 3; ++k) {
       if (!(surface_.face[f].features >> k & 1)) continue;
-      Matrix l = line(edge(f, k));
+      Matrix l = line_matrix(edge(f, k), line_weight);
       for (std::uint32_t w : {surface_.face[f].v[k], surface_.face[f].v[(k + 1) % 3]})
         if (w != u && w != v) metric_[w].planes.add(l, sign);
     }
@@ -132,7 +102,7 @@ class LindstromTurk final : public Pricer {
       if (f.next == spoke || f.prev == spoke) m.add(faces_[i], 1);
     }
     const Ring::Spoke& s = ring.spokes[spoke];
-    if (s.feature) m.planes.add(line(surface_.position(s.vertex) - surface_.position(ring.center)), s.n_faces);
+    if (s.feature) m.planes.add(line_matrix(surface_.position(s.vertex) - surface_.position(ring.center), line_weight), s.n_faces);
     return m;
   }
 
@@ -169,16 +139,12 @@ Option LindstromTurk::price(const Ring& ring, int s, Placement where) const {
 Vec3 LindstromTurk::best(const Matrix& planes, const Vec3& linear, const Vec3& normal, double volume, const Vec3& e,
                          bool closed) const {
   const Vec3 middle = 0.5 * e;
-  const double pull = flat_pull * planes.trace();
-  Matrix m = planes;
-  m.add_identity(pull);
-  const Matrix inverse = m.adjugate();
-  const double determinant = m.a[0] * inverse.a[0] + m.a[1] * inverse.a[1] + m.a[2] * inverse.a[2];
-  if (!(determinant > 0)) return middle;
-  Vec3 x = 1 / determinant * (inverse * (linear + pull * middle));
+  const Minimum at(planes, linear, middle);
+  if (!at.exists) return middle;
+  Vec3 x = at.x;
   auto far = [&](const Vec3& p, double limit) { return !(dot(p - middle, p - middle) <= limit * dot(e, e)); };
   if (closed) {
-    Vec3 step = inverse * normal;
+    Vec3 step = at.inverse * normal;
     double slope = dot(normal, step);
     if (slope > 0) {
       Vec3 y = x + (volume - dot(normal, x)) / slope * step;
@@ -191,8 +157,6 @@ Vec3 LindstromTurk::best(const Matrix& planes, const Vec3& linear, const Vec3& n
 }  // namespace
 
 std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface) {
-  auto env = [](const char* n, double& v) { if (const char* s = std::getenv(n)) v = std::atof(s); };
-  env("LW", line_weight), env("FP", flat_pull), env("LC", length_cost);
   return std::make_unique<LindstromTurk>(surface);
 }
 
