@@ -1,10 +1,13 @@
 // Edge collapse: levels as PLY for measuring their quality elsewhere (simplify_quality.py), and triangles a CPU second.
 //   simplify_bench levels IN.wrl OUT CRITERION 0.5,0.25,...   writes OUT_0.5.ply, ...
-//   simplify_bench speed IN.wrl [CRITERION,...]               each criterion to 10 %, one line each
+//   simplify_bench speed IN.wrl|TRIANGLES [CRITERION,...]     each criterion to 10 %, one line each; a number makes a torus
+//                                                             with bumps of so many triangles
 #include <sys/resource.h>
 #include <time.h>
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <string>
@@ -65,6 +68,23 @@ Mesh read(const char* path) {
   return largest;
 }
 
+Mesh bumpy_torus(double n_faces) {
+  Mesh m;
+  m.kind = Mesh::Kind::faces;
+  const auto rings = static_cast<std::uint32_t>(std::sqrt(n_faces)), sides = rings / 2;
+  auto& p = m.positions.edit();
+  for (std::uint32_t i = 0; i < rings; ++i)
+    for (std::uint32_t j = 0; j < sides; ++j) {
+      double a = 6.283185307179586 * i / rings, b = 6.283185307179586 * j / sides, r = 0.4;
+      for (double f = 5, h = 0.03; f < 200; f *= 2.3, h /= 2) r += h * std::sin(f * a + f) * std::sin(std::floor(f) * b);
+      p.insert(p.end(), {(1 + r * std::cos(b)) * std::cos(a), (1 + r * std::cos(b)) * std::sin(a), r * std::sin(b)});
+      std::uint32_t i1 = (i + 1) % rings, j1 = (j + 1) % sides;
+      std::uint32_t q[] = {i * sides + j, i1 * sides + j, i1 * sides + j1, i * sides + j1};
+      m.corners.insert(m.corners.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
+    }
+  return m;
+}
+
 void write_ply(const Mesh& m, const std::string& path) {
   std::FILE* out = std::fopen(path.c_str(), "wb");
   if (!out) std::perror(path.c_str()), std::exit(1);
@@ -104,7 +124,7 @@ void speed(const Mesh& mesh, Criterion by) {
 
 int main(int argc, char** argv) {
   if (argc < 3) return std::fprintf(stderr, "see the head of simplify_bench.cpp\n"), 2;
-  Mesh mesh = read(argv[2]);
+  Mesh mesh = std::atof(argv[2]) > 0 ? bumpy_torus(std::atof(argv[2])) : read(argv[2]);
   if (!std::strcmp(argv[1], "levels") && argc == 6) levels(mesh, argv[3], criterion(argv[4]), argv[5]);
   else
     for (const std::string& name : split(argc > 3 ? argv[3] : "lindstrom-turk,melax,length-normal,quadric,meshopt"))

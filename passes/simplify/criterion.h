@@ -5,6 +5,7 @@
 
 #include "passes/simplify/collapse.h"
 #include "passes/simplify/surface.h"
+#include "passes/simplify/wedges.h"
 
 namespace wrlkit::simplify {
 
@@ -17,25 +18,31 @@ struct Option {
 
 /// Where the vertex of an edge may go.
 enum class Placement { nowhere, center, spoke, anywhere };
-Placement placement(Kind center, Kind spoke, bool feature);
+struct Terms {
+  Placement where;
+  double factor;  // of the cost; more than 1 for a collapse across a crease
+};
+Terms terms(const Surface& surface, const Ring& ring, int spoke);
 
 class Pricer {
  public:
   virtual ~Pricer() = default;
 
-  /// Adds the options of the ring's centre. Each edge must be an option of one of its ends at least.
-  virtual void price(const Ring& ring, std::vector<Option>& options) = 0;
+  /// Adds the options of the ring's centre: of every edge, of every edge whose other end will not offer it, or of one.
+  virtual void price(const Ring& ring, int spokes, std::vector<Option>& options) = 0;
+  static constexpr int every = -1, own = -2;
   /// Whether an edge has a cost of its own in each direction, and is an option of both ends.
   virtual bool one_way() const { return false; }
-  /// Before the faces of the two rings change.
-  virtual void before_merge(const Ring&, const Ring&) {}
-  /// After it: the ring of the vertex that is left; `from` has gone.
-  virtual void after_merge(const Ring&, std::uint32_t /*from*/) {}
+  /// Before the faces and wedges of the two rings change.
+  virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/) {}
+  /// After it: the ring of the vertex that is left.
+  virtual void after_merge(const Ring&) {}
 };
 
-std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface);
+std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface, const Wedges& wedges);
 std::unique_ptr<Pricer> length_normal(const Surface& surface);
 std::unique_ptr<Pricer> melax(const Surface& surface);
 std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface);
+std::unique_ptr<Pricer> quadric(const Surface& surface, const Wedges& wedges);
 
 }  // namespace wrlkit::simplify

@@ -21,23 +21,34 @@ double along(const Vec3& a, const Vec3& b, const Vec3& x) {
 Engine::Engine(const Mesh& mesh, const CollapseOptions& options)
     : Simplifier(mesh),
       queue_(surface_.n_vertices()),
+      best_(surface_.n_vertices(), none),
       deviation_(surface_.n_vertices()),
       recording_(options.record) {
   find_features(surface_, wedges_, {options.keep_borders, options.keep_creases, options.crease_angle});
-  pricer_ = make_pricer(options.criterion, surface_);
+  pricer_ = make_pricer(options.criterion, surface_, wedges_);
+  exact_ = pricer_->one_way() && surface_.n_vertices() < CostQueue::small;
   if (recording_) recorder_.begin(surface_, wedges_);
-  for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) refresh(v);
+  for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) refresh(v, Pricer::own);
 }
 
-void Engine::refresh(std::uint32_t v) {
-  if (!surface_.gather(v, ring_)) return queue_.remove(v);
-  options_.clear();
-  pricer_->price(ring_, options_);
-  double least = -1;
-  for (const Option& o : options_)
-    if (o.cost >= 0 && (least < 0 || o.cost < least)) least = o.cost;
-  if (least >= 0) queue_.set(v, least);
+void Engine::refresh(std::uint32_t v, int spokes) {
+  if (surface_.gather(v, ring_)) offer(ring_, spokes);
   else queue_.remove(v);
+}
+
+/// Prices the centre and puts it into the queue.
+void Engine::offer(const Ring& ring, int spokes) {
+  options_.clear();
+  pricer_->price(ring, spokes, options_);
+  if (const Option* best = cheapest()) queue_.set(ring.center, best->cost), best_[ring.center] = ring.spokes[best->spoke].vertex;
+  else queue_.remove(ring.center);
+}
+
+Option* Engine::cheapest() {
+  Option* best = nullptr;
+  for (Option& o : options_)
+    if (o.cost >= 0 && (!best || o.cost < best->cost)) best = &o;
+  return best;
 }
 
 bool Engine::settle(Move& move) {
@@ -49,22 +60,30 @@ bool Engine::settle(Move& move) {
 /// For the vertex at the top of the queue. False when it is not the cheapest after all.
 bool Engine::settle_vertex(std::uint32_t v, Move& move) {
   if (!surface_.gather(v, from_)) return queue_.remove(v), false;
+  const CostQueue::Key key = queue_.top_key();
   options_.clear();
-  pricer_->price(from_, options_);
-  CostQueue::Key key = queue_.top_key();
+  if (int s = from_.find(best_[v]); s >= 0) pricer_->price(from_, s, options_);
+  Option* best = cheapest();
+  bool all = false;
   while (true) {
-    Option* best = nullptr;
-    for (Option& o : options_)
-      if (o.cost >= 0 && (!best || o.cost < best->cost)) best = &o;
-    if (!best) return queue_.remove(v), false;
-    if (CostQueue::key(best->cost) > key) return queue_.set(v, best->cost), false;
-    if (may_go(*best)) {
+    if (!best || queue_.key(best->cost) > key) {
+      if (all) break;
+      options_.clear();
+      pricer_->price(from_, Pricer::every, options_);
+      all = true;
+    } else if (may_go(*best)) {
       move = {best->cost, best->position};
-      if (move.position == surface_.position[from_.center]) std::swap(from_, to_);
+      if (move.position == surface_.position(from_.center)) std::swap(from_, to_);
       return true;
+    } else {
+      if (!all) best_[v] = none;
+      best->cost = -1;
     }
-    best->cost = -1;
+    best = cheapest();
   }
+  if (best) queue_.set(v, best->cost), best_[v] = from_.spokes[best->spoke].vertex;
+  else queue_.remove(v);
+  return false;
 }
 
 bool Engine::may_go(const Option& option) {
@@ -93,39 +112,40 @@ void Engine::run_to(std::size_t n_faces, double max_error) {
 
 void Engine::collapse(const Move& move) {
   const std::uint32_t u = from_.center, v = to_.center;
-  const Vec3 old = surface_.position[v];
+  const Vec3 old = surface_.position(v);
+  pricer_->before_merge(from_, to_);
   if (wedges_.present()) merge_wedges(move.position);
   if (recording_) record_corners();
   bool features = false;
   dirty_.clear();
   for (const Ring::Face& f : from_.face_span()) {
     if (!from_.has(f, v)) continue;
-    features |= surface_.features[f.face] != 0;
+    features |= surface_.face[f.face].features != 0;
     dirty_.push_back(from_.next_vertex(f) == v ? from_.prev_vertex(f) : from_.next_vertex(f));
   }
-  pricer_->before_merge(from_, to_);
   surface_.merge(from_, to_);
-  surface_.position[v] = move.position;
-  if (surface_.kind[u] == Kind::fixed) surface_.kind[v] = Kind::fixed;
+  surface_.vertex[v].position = move.position;
+  if (surface_.vertex[u].kind == Kind::fixed) surface_.vertex[v].kind = surface_.vertex[v].crease_kind = Kind::fixed;
   queue_.remove(u);
   surface_.gather(v, to_);
-  pricer_->after_merge(to_, u);
+  pricer_->after_merge(to_);
   if (features) {
     surface_.classify(to_);
     for (std::uint32_t w : dirty_)
       if (surface_.gather(w, ring_)) surface_.classify(ring_);
   }
   if (recording_)
-    recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position[u], old,
+    recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position(u), old,
                        error_);
-  refresh(v);
-  for (const Ring::Spoke& s : to_.spoke_span()) refresh(s.vertex);
+  offer(to_, Pricer::every);
+  for (const Ring::Spoke& s : to_.spoke_span())
+    if (exact_ || !queue_.contains(s.vertex)) refresh(s.vertex, Pricer::every);
 }
 
 /// The wedges at both ends of the edge become one in each of its faces; the others of `from_` go along as they are.
 void Engine::merge_wedges(const Vec3& position) {
   const std::uint32_t v = to_.center;
-  const double t = along(surface_.position[from_.center], surface_.position[v], position);
+  const double t = along(surface_.position(from_.center), surface_.position(v), position);
   struct Pair { std::uint32_t from, to; };
   Pair pairs[Ring::max_faces];
   int n = 0;
@@ -170,7 +190,7 @@ std::optional<double> Engine::cost(std::uint32_t from, std::uint32_t to) {
     if (a == v && pricer_->one_way()) break;
     if (!surface_.gather(a, ring_)) continue;
     options_.clear();
-    pricer_->price(ring_, options_);
+    pricer_->price(ring_, Pricer::every, options_);
     for (const Option& o : options_)
       if (ring_.spokes[o.spoke].vertex == b) return o.cost;
   }

@@ -31,14 +31,18 @@ class Engine final : public Simplifier {
   bool settle_vertex(std::uint32_t v, Move& move);
   bool may_go(const Option& option);
   void collapse(const Move& move);
-  void refresh(std::uint32_t v);
+  void refresh(std::uint32_t v, int spokes);
+  void offer(const Ring& ring, int spokes);
+  Option* cheapest();
   void merge_wedges(const Vec3& position);
   void record_corners();
 
   std::unique_ptr<Pricer> pricer_;
   CostQueue queue_;
+  std::vector<std::uint32_t> best_;  // the other end of the edge that a vertex is in the queue for
   std::vector<float> deviation_;  // of each vertex, from the surface that came in
   bool recording_;
+  bool exact_;  // the neighbours of a collapse are priced at once, not when they come to the top of the queue
 
   Ring from_, to_, ring_;
   std::vector<Option> options_;

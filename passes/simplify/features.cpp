@@ -6,39 +6,37 @@
 namespace wrlkit::simplify {
 namespace {
 
+constexpr int line = 1, crease = 8;  // of the first corner
+
 class Finder {
  public:
   Finder(Surface& surface, const Wedges& wedges, const FeatureOptions& options)
       : surface_(surface), wedges_(wedges), options_(options), cosine_(std::cos(options.crease_angle)) {}
 
-  /// An edge is looked at from the lower of its vertices that have not too many faces.
-  void mark_edges() {
-    for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) {
-      if (!surface_.gather(v, ring_)) continue;
-      for (int s = 0; s < ring_.n_spokes; ++s) {
-        std::uint32_t w = ring_.spokes[s].vertex;
-        if ((w > v || surface_.degree(w) > Ring::max_faces) && is_feature(s)) mark(s);
-      }
-    }
-  }
-
-  void classify_vertices() {
+  /// An edge is looked at from the lower of its vertices that have not too many faces; so when it is the turn of a vertex,
+  /// its edges to lower ones are known.
+  void run() {
     for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) {
       bool ring = surface_.gather(v, ring_);
+      for (int s = 0; ring && s < ring_.n_spokes; ++s) {
+        std::uint32_t w = ring_.spokes[s].vertex;
+        if (w > v || surface_.degree(w) > Ring::max_faces) mark(s, bits(s));
+      }
       if (ring) surface_.classify(ring_);
-      if (!ring || !one_fan()) surface_.kind[v] = Kind::fixed;
+      if (!ring || !one_fan()) surface_.vertex[v].kind = surface_.vertex[v].crease_kind = Kind::fixed;
     }
   }
 
  private:
-  bool is_feature(int spoke) const {
+  int bits(int spoke) const {
     const Ring::Face* at[2] = {};
     int n = 0;
     for (const Ring::Face& f : ring_.face_span())
       if (f.next == spoke || f.prev == spoke) at[n++ % 2] = &f;
-    if (n == 1) return options_.borders;
-    if (n > 2 || (at[0]->next == spoke) == (at[1]->next == spoke)) return true;  // or wound against each other
-    return is_seam(*at[0], *at[1], spoke) || (options_.creases && is_crease(at[0]->face, at[1]->face));
+    if (n == 1) return options_.borders ? line : 0;
+    if (n > 2 || (at[0]->next == spoke) == (at[1]->next == spoke)) return line;  // or wound against each other
+    return (is_seam(*at[0], *at[1], spoke) ? line : 0) |
+           (options_.creases && is_crease(at[0]->face, at[1]->face) ? crease : 0);
   }
 
   bool is_crease(std::uint32_t f, std::uint32_t g) const {
@@ -54,10 +52,13 @@ class Finder {
   static int other(const Ring::Face& f, int spoke) { return (f.corner + (f.next == spoke ? 1 : 2)) % 3; }
   std::uint32_t wedge(const Ring::Face& f, int corner) const { return wedges_.of_face[f.face][corner]; }
 
-  void mark(int spoke) {
+  void mark(int spoke, int bits) {
+    if (bits == 0) return;
+    ring_.spokes[spoke].feature |= (bits & line) != 0;
+    ring_.spokes[spoke].crease |= (bits & crease) != 0;
     for (const Ring::Face& f : ring_.face_span()) {
-      if (f.next == spoke) surface_.features[f.face] |= 1 << f.corner;
-      if (f.prev == spoke) surface_.features[f.face] |= 1 << (f.corner + 2) % 3;
+      if (f.next == spoke) surface_.face[f.face].features |= bits << f.corner;
+      if (f.prev == spoke) surface_.face[f.face].features |= bits << (f.corner + 2) % 3;
     }
   }
 
@@ -84,9 +85,7 @@ class Finder {
 }  // namespace
 
 void find_features(Surface& surface, const Wedges& wedges, const FeatureOptions& options) {
-  Finder finder(surface, wedges, options);
-  finder.mark_edges();
-  finder.classify_vertices();
+  Finder(surface, wedges, options).run();
 }
 
 }  // namespace wrlkit::simplify

@@ -7,8 +7,8 @@ namespace wrlkit::simplify {
 namespace {
 
 constexpr double least_cosine = 0.2;  // between the normals of a face before and after
-double sliver = 0.02;                 // twice the area by the sum of the squared sides; 0.29 when equilateral  // EXPERIMENT
-double sliver_ratio = 0.5;
+constexpr double sliver = 0.002;     // twice the area by the sum of the squared sides; 0.29 when equilateral
+constexpr double sliver_ratio = 0.5;  // of its square, before and after: what is allowed for slivers that are there
 
 bool same_pair(const Ring& u, const Ring::Face& f, const Ring& v, const Ring::Face& g) {
   return v.has(g, u.next_vertex(f)) && v.has(g, u.prev_vertex(f));
@@ -25,7 +25,7 @@ Shape shape(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 bool face_keeps_shape(const Surface& s, const Ring& ring, const Ring::Face& f, const Vec3& x) {
-  const Vec3 &p = s.position[ring.center], &a = s.position[ring.next_vertex(f)], &b = s.position[ring.prev_vertex(f)];
+  const Vec3 &p = s.position(ring.center), &a = s.position(ring.next_vertex(f)), &b = s.position(ring.prev_vertex(f));
   Shape before = shape(p, a, b), after = shape(x, a, b);
   double turn = dot(before.normal, after.normal), nb = dot(before.normal, before.normal), na = dot(after.normal, after.normal);
   if (!(turn > 0) || turn * turn < least_cosine * least_cosine * na * nb) return nb == 0 && na > 0;
@@ -74,7 +74,7 @@ bool keeps_shape(const Surface& surface, const Ring& u, const Ring& v, const Vec
 double deviation(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x) {
   double largest = 0;  // squared
   for (const Ring* ring : {&u, &v}) {
-    Vec3 d = x - surface.position[ring->center];
+    Vec3 d = x - surface.position(ring->center);
     if (d == Vec3{}) continue;
     for (const Ring::Face& f : ring->face_span()) {
       Vec3 n = surface.normal(f.face);
@@ -83,7 +83,7 @@ double deviation(const Surface& surface, const Ring& u, const Ring& v, const Vec
     }
     for (const Ring::Spoke& s : ring->spoke_span()) {
       if (!s.feature) continue;
-      Vec3 e = surface.position[s.vertex] - surface.position[ring->center], c = cross(e, d);
+      Vec3 e = surface.position(s.vertex) - surface.position(ring->center), c = cross(e, d);
       double l = dot(e, e);
       if (l > 0) largest = std::max(largest, dot(c, c) / l);
     }

@@ -9,36 +9,13 @@
 #include <cmath>
 
 #include "passes/simplify/criterion.h"
+#include "passes/simplify/matrix.h"
 
 namespace wrlkit::simplify {
 namespace {
 
-double line_weight = 9, flat_pull = 1e-5, length_cost = 1e-12, power = 0;  // EXPERIMENT
-
-/// Symmetric, in the order xx xy xz yy yz zz.
-struct Matrix {
-  double a[6] = {};
-
-  Vec3 operator*(const Vec3& v) const {
-    return {a[0] * v[0] + a[1] * v[1] + a[2] * v[2], a[1] * v[0] + a[3] * v[1] + a[4] * v[2],
-            a[2] * v[0] + a[4] * v[1] + a[5] * v[2]};
-  }
-  double trace() const { return a[0] + a[3] + a[5]; }
-  void add(const Matrix& m, double s) {
-    for (int i = 0; i < 6; ++i) a[i] += s * m.a[i];
-  }
-  /// s times the projection on the line along v, times |v| squared.
-  void add_outer(const Vec3& v, double s) {
-    a[0] += s * v[0] * v[0], a[1] += s * v[0] * v[1], a[2] += s * v[0] * v[2];
-    a[3] += s * v[1] * v[1], a[4] += s * v[1] * v[2], a[5] += s * v[2] * v[2];
-  }
-  void add_identity(double s) { a[0] += s, a[3] += s, a[5] += s; }
-  /// Times the determinant.
-  Matrix adjugate() const {
-    return {{a[3] * a[5] - a[4] * a[4], a[2] * a[4] - a[1] * a[5], a[1] * a[4] - a[2] * a[3], a[0] * a[5] - a[2] * a[2],
-             a[1] * a[2] - a[0] * a[4], a[0] * a[3] - a[1] * a[1]}};
-  }
-};
+constexpr double line_weight = 9;     // of the squared distance from a line by its length, against that from a plane by its area
+constexpr double length_cost = 1e-12; // of the squared length, which decides where the surface is flat
 
 struct Metric {
   Matrix planes;
@@ -57,13 +34,23 @@ class LindstromTurk final : public Pricer {
       if (surface.alive(f)) add_face(f, 1, none, none);
   }
 
-  void price(const Ring& ring, std::vector<Option>& options) override {
-    gather_common(ring);
+  void price(const Ring& ring, int spokes, std::vector<Option>& options) override {
+    for (const Ring::Spoke& s : ring.spoke_span()) {
+      const char* m = reinterpret_cast<const char*>(&metric_[s.vertex]);
+      __builtin_prefetch(m), __builtin_prefetch(m + sizeof(Metric) - 1);
+    }
+    for (int i = 0; i < ring.n_faces; ++i) {
+      const Ring::Face& f = ring.faces[i];
+      if (spokes < 0 || f.next == spokes || f.prev == spokes) faces_[i] = face_metric(surface_.normal(f.face));
+    }
     for (int s = 0; s < ring.n_spokes; ++s) {
-      const Ring::Spoke& spoke = ring.spokes[s];
-      if (spoke.vertex < ring.center && surface_.degree(spoke.vertex) <= Ring::max_faces) continue;  // its option
-      Placement p = placement(surface_.kind[ring.center], surface_.kind[spoke.vertex], spoke.feature);
-      if (p != Placement::nowhere) options.push_back(price(ring, s, p));
+      const std::uint32_t v = ring.spokes[s].vertex;
+      if (spokes >= 0 && s != spokes) continue;
+      if (spokes == own && v < ring.center && surface_.degree(v) <= Ring::max_faces) continue;
+      Terms t = terms(surface_, ring, s);
+      if (t.where == Placement::nowhere) continue;
+      options.push_back(price(ring, s, t.where));
+      options.back().cost *= t.factor;
     }
   }
 
@@ -74,7 +61,7 @@ class LindstromTurk final : public Pricer {
       if (!to.has(f, u)) add_face(f.face, -1, u, v);
   }
 
-  void after_merge(const Ring& ring, std::uint32_t) override {
+  void after_merge(const Ring& ring) override {
     metric_[ring.center] = {};
     for (const Ring::Face& f : ring.face_span()) add_face(f.face, 1, none, none);
   }
@@ -83,22 +70,14 @@ class LindstromTurk final : public Pricer {
   /// Plane and normal, which every corner of a face has.
   Metric face_metric(const Vec3& normal) const {
     Metric m;
-    double s = power == 0 ? 1 : std::pow(dot(normal, normal) + 1e-300, -power / 2);
-    m.planes.add_outer(normal, s);
+    double l = dot(normal, normal);
+    if (l > 0) m.planes.add_outer(normal, 1 / std::sqrt(l));
     m.normal = normal;
-    return m;
-  }
-  /// Squared area that swinging the edge e about one of its ends sweeps.
-  Matrix line(const Vec3& e) const {
-    Matrix m;
-    double l = dot(e, e), w = line_weight * (power == 0 ? l : std::pow(l + 1e-300, 1 - power));
-    m.add_identity(w * l);
-    m.add_outer(e, -w);
     return m;
   }
   Vec3 edge(std::uint32_t f, int k) const {
     const auto& v = surface_.face[f].v;
-    return surface_.position[v[(k + 1) % 3]] - surface_.position[v[k]];
+    return surface_.position(v[(k + 1) % 3]) - surface_.position(v[k]);
   }
 
   /// Adds what a face is to its vertices, except the two.
@@ -106,25 +85,25 @@ class LindstromTurk final : public Pricer {
     Metric m = face_metric(surface_.normal(f));
     for (std::uint32_t w : surface_.face[f].v)
       if (w != u && w != v) metric_[w].add(m, sign);
-    if (!surface_.features[f]) return;
+    if (!(surface_.face[f].features & 7)) return;
     for (int k = 0; k < 3; ++k) {
-      if (!(surface_.features[f] >> k & 1)) continue;
-      Matrix l = line(edge(f, k));
+      if (!(surface_.face[f].features >> k & 1)) continue;
+      Matrix l = line_matrix(edge(f, k), line_weight);
       for (std::uint32_t w : {surface_.face[f].v[k], surface_.face[f].v[(k + 1) % 3]})
         if (w != u && w != v) metric_[w].planes.add(l, sign);
     }
   }
 
-  /// For each spoke, what the faces at that edge give to both ends.
-  void gather_common(const Ring& ring) {
-    for (int s = 0; s < ring.n_spokes; ++s) common_[s] = {};
-    for (const Ring::Face& f : ring.face_span()) {
-      Metric m = face_metric(surface_.normal(f.face));
-      for (int s : {f.next, f.prev}) {
-        common_[s].add(m, 1);
-        if (surface_.feature(f, s == f.next)) common_[s].planes.add(line(edge(f.face, s == f.next ? f.corner : (f.corner + 2) % 3)), 1);
-      }
+  /// What the faces at that edge give to both its ends.
+  Metric common(const Ring& ring, int spoke) const {
+    Metric m;
+    for (int i = 0; i < ring.n_faces; ++i) {
+      const Ring::Face& f = ring.faces[i];
+      if (f.next == spoke || f.prev == spoke) m.add(faces_[i], 1);
     }
+    const Ring::Spoke& s = ring.spokes[spoke];
+    if (s.feature) m.planes.add(line_matrix(surface_.position(s.vertex) - surface_.position(ring.center), line_weight), s.n_faces);
+    return m;
   }
 
   Option price(const Ring& ring, int s, Placement where) const;
@@ -132,27 +111,27 @@ class LindstromTurk final : public Pricer {
 
   const Surface& surface_;
   std::vector<Metric> metric_;
-  Metric common_[2 * Ring::max_faces];
+  Metric faces_[Ring::max_faces];
 };
 
 /// All is relative to the centre of the ring.
 Option LindstromTurk::price(const Ring& ring, int s, Placement where) const {
   std::uint32_t u = ring.center, v = ring.spokes[s].vertex;
-  const Vec3 e = surface_.position[v] - surface_.position[u];
-  const Metric &mu = metric_[u], &mv = metric_[v];
+  const Vec3 e = surface_.position(v) - surface_.position(u);
+  const Metric &mu = metric_[u], &mv = metric_[v], both = common(ring, s);
   Matrix planes = mu.planes;
   planes.add(mv.planes, 1);
-  planes.add(common_[s].planes, -1);
+  planes.add(both.planes, -1);
   const Vec3 linear = mv.planes * e;  // the gradient at the centre, negated and halved
   const double constant = dot(e, linear);
   Vec3 x{};
   if (where == Placement::spoke) x = e;
   if (where == Placement::anywhere) {
-    Vec3 n = mu.normal + mv.normal - common_[s].normal;
-    x = best(planes, linear, n, dot(mv.normal, e), e, !surface_.open[u] && !surface_.open[v]);
+    Vec3 n = mu.normal + mv.normal - both.normal;
+    x = best(planes, linear, n, dot(mv.normal, e), e, !surface_.vertex[u].open && !surface_.vertex[v].open);
   }
   double cost = dot(x, planes * x) - 2 * dot(linear, x) + constant;
-  return {s, std::max(cost, 0.) + length_cost * planes.trace() * dot(e, e), surface_.position[u] + x};
+  return {s, std::max(cost, 0.) + length_cost * planes.trace() * dot(e, e), surface_.position(u) + x};
 }
 
 /// Where the metric has its minimum, drawn a little to the middle of the edge, which decides where the surface is flat; then
@@ -160,16 +139,12 @@ Option LindstromTurk::price(const Ring& ring, int s, Placement where) const {
 Vec3 LindstromTurk::best(const Matrix& planes, const Vec3& linear, const Vec3& normal, double volume, const Vec3& e,
                          bool closed) const {
   const Vec3 middle = 0.5 * e;
-  const double pull = flat_pull * planes.trace();
-  Matrix m = planes;
-  m.add_identity(pull);
-  const Matrix inverse = m.adjugate();
-  const double determinant = m.a[0] * inverse.a[0] + m.a[1] * inverse.a[1] + m.a[2] * inverse.a[2];
-  if (!(determinant > 0)) return middle;
-  Vec3 x = 1 / determinant * (inverse * (linear + pull * middle));
+  const Minimum at(planes, linear, middle);
+  if (!at.exists) return middle;
+  Vec3 x = at.x;
   auto far = [&](const Vec3& p, double limit) { return !(dot(p - middle, p - middle) <= limit * dot(e, e)); };
   if (closed) {
-    Vec3 step = inverse * normal;
+    Vec3 step = at.inverse * normal;
     double slope = dot(normal, step);
     if (slope > 0) {
       Vec3 y = x + (volume - dot(normal, x)) / slope * step;
@@ -182,8 +157,6 @@ Vec3 LindstromTurk::best(const Matrix& planes, const Vec3& linear, const Vec3& n
 }  // namespace
 
 std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface) {
-  auto env = [](const char* n, double& v) { if (const char* s = std::getenv(n)) v = std::atof(s); };
-  env("LW", line_weight), env("FP", flat_pull), env("LC", length_cost), env("PW", power);
   return std::make_unique<LindstromTurk>(surface);
 }
 

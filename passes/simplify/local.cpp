@@ -13,19 +13,20 @@ class HalfEdges : public Pricer {
  public:
   explicit HalfEdges(const Surface& surface) : surface_(surface) {}
 
-  void price(const Ring& ring, std::vector<Option>& options) override {
+  void price(const Ring& ring, int spokes, std::vector<Option>& options) override {
     for (int i = 0; i < ring.n_faces; ++i) {
       Vec3 n = surface_.normal(ring.faces[i].face);
       double l = dot(n, n);
       normals_[i] = l > 0 ? 1 / std::sqrt(l) * n : Vec3{};
     }
     for (int s = 0; s < ring.n_spokes; ++s) {
+      if (spokes >= 0 && s != spokes) continue;
       const Ring::Spoke& spoke = ring.spokes[s];
-      Placement p = placement(surface_.kind[ring.center], surface_.kind[spoke.vertex], spoke.feature);
-      if (p != Placement::spoke && p != Placement::anywhere) continue;
-      const Vec3& to = surface_.position[spoke.vertex];
-      Vec3 e = to - surface_.position[ring.center];
-      options.push_back({s, cost(ring, s, std::sqrt(dot(e, e))), to});
+      Terms t = terms(surface_, ring, s);
+      if (t.where != Placement::spoke && t.where != Placement::anywhere) continue;
+      const Vec3& to = surface_.position(spoke.vertex);
+      Vec3 e = to - surface_.position(ring.center);
+      options.push_back({s, t.factor * cost(ring, s, std::sqrt(dot(e, e))), to});
     }
   }
 

@@ -22,7 +22,7 @@ class Meshopt final : public Simplifier {
       }
     for (std::uint32_t v : vertex_of_)
       for (int i = 0; i < 3; ++i)
-        points_.push_back(static_cast<float>(surface_.position[v][i] - surface_.position[0][i]));
+        points_.push_back(static_cast<float>(surface_.position(v)[i] - surface_.position(0)[i]));
   }
 
   void run_to(std::size_t n_faces, double max_error) override {

@@ -12,7 +12,8 @@ void Simplifier::write(Mesh& mesh) const {
     for (std::uint32_t v : surface_.face[f].v) {
       if (id[v] == none) {
         id[v] = static_cast<std::uint32_t>(positions.size() / 3);
-        positions.insert(positions.end(), surface_.position[v].begin(), surface_.position[v].end());
+        const Vec3& p = surface_.position(v);
+        positions.insert(positions.end(), p.begin(), p.end());
       }
       mesh.corners.push_back(id[v]);
     }

@@ -34,18 +34,15 @@ Surface::Surface(const Mesh& mesh) {
   std::vector<std::uint32_t> corners;
   original_ = number(mesh, corners);
   original_.shrink_to_fit();
-  position.resize(original_.size());
+  vertex.resize(original_.size());
   for (std::size_t v = 0; v < original_.size(); ++v)
-    for (int i = 0; i < 3; ++i) position[v][i] = mesh.positions[3 * std::size_t{original_[v]} + i];
+    for (int i = 0; i < 3; ++i) vertex[v].position[i] = mesh.positions[3 * std::size_t{original_[v]} + i];
   face.resize(corners.size() / 3);
-  features.resize(face.size());
-  kind.resize(position.size());
-  open.resize(position.size());
   for (std::size_t f = 0; f < face.size(); ++f) {
-    face[f] = {corners[3 * f], corners[3 * f + 1], corners[3 * f + 2]};
-    auto& v = face[f].v;
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) v[0] = none;
-    else ++n_live_;
+    std::uint32_t a = corners[3 * f], b = corners[3 * f + 1], c = corners[3 * f + 2];
+    bool triangle = a != b && b != c && c != a;
+    face[f] = {{triangle ? a : none, b, c}, 0};
+    n_live_ += triangle;
   }
   make_lists();
 }
@@ -58,62 +55,74 @@ std::uint32_t Surface::vertex_of(std::uint32_t original) const {
 /// Afresh from the faces that are alive. There is room for half as many entries more, so that this is done a few times
 /// only in the life of a surface.
 void Surface::make_lists() {
-  lists_.assign(position.size(), {});
+  for (Vertex& v : vertex) v.size = v.capacity = v.degree = 0;
   for (const Triangle& t : face)
     if (t.v[0] != none)
-      for (std::uint32_t v : t.v) ++lists_[v].capacity;
+      for (std::uint32_t v : t.v) ++vertex[v].capacity;
   pool_used_ = 0;
-  for (List& l : lists_) {
-    l.begin = static_cast<std::uint32_t>(pool_used_);
-    pool_used_ += l.capacity;
+  for (Vertex& v : vertex) {
+    v.begin = static_cast<std::uint32_t>(pool_used_);
+    v.degree = v.capacity;
+    pool_used_ += v.capacity;
   }
   if (pool_.empty()) pool_.resize(pool_used_ + pool_used_ / 2 + 2 * Ring::max_faces);
   for (std::uint32_t f = 0; f < face.size(); ++f)
     if (alive(f))
-      for (std::uint32_t v : face[f].v) pool_[lists_[v].begin + lists_[v].size++] = f;
-  for (List& l : lists_) l.degree = l.size;
+      for (std::uint32_t v : face[f].v) pool_[vertex[v].begin + vertex[v].size++] = f;
 }
 
 bool Surface::gather(std::uint32_t v, Ring& ring) {
-  List& list = lists_[v];
+  Vertex& center = vertex[v];
   ring.center = v;
   ring.n_faces = ring.n_spokes = 0;
-  if (list.degree == 0 || list.degree > Ring::max_faces) return false;
+  if (center.degree == 0 || center.degree > Ring::max_faces) return false;
+  // First all triangles, so that the cache fetches them side by side.
+  Triangle triangles[Ring::max_faces];
+  std::uint32_t* entries = pool_.data() + center.begin;
+  int n = 0;
+  for (std::uint32_t i = 0; i < center.size; ++i) {
+    std::uint32_t f = entries[i];
+    triangles[n] = face[f];
+    if (triangles[n].v[0] != none) entries[n++] = f;
+    if (n == Ring::max_faces) break;
+  }
+  for (int i = 0; i < n; ++i)
+    for (std::uint32_t w : triangles[i].v) __builtin_prefetch(&vertex[w]);
+  center.size = static_cast<std::uint32_t>(n);
   auto spoke = [&](std::uint32_t w) {
     int i = 0;
     while (i < ring.n_spokes && ring.spokes[i].vertex != w) ++i;
-    if (i == ring.n_spokes) ring.spokes[ring.n_spokes++] = {w, 0, false};
+    if (i == ring.n_spokes) ring.spokes[ring.n_spokes++] = {w, 0, false, false};
     ++ring.spokes[i].n_faces;
     return static_cast<std::uint8_t>(i);
   };
-  std::uint32_t* entries = pool_.data() + list.begin;
-  std::uint32_t n = 0;
-  for (std::uint32_t i = 0; i < list.size; ++i) {
-    std::uint32_t f = entries[i];
-    const Triangle& t = face[f];
-    if (t.v[0] == none) continue;
-    entries[n++] = f;
+  for (int i = 0; i < n; ++i) {
+    const Triangle& t = triangles[i];
     std::uint8_t k = t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2;
     std::uint8_t next = spoke(t.v[(k + 1) % 3]), prev = spoke(t.v[(k + 2) % 3]);
-    ring.faces[ring.n_faces++] = {f, k, next, prev};
-    ring.spokes[next].feature |= features[f] >> k & 1;
-    ring.spokes[prev].feature |= features[f] >> (k + 2) % 3 & 1;
+    ring.faces[ring.n_faces++] = {entries[i], k, next, prev};
+    if (t.features == 0) continue;
+    int at = k, before = (k + 2) % 3;
+    ring.spokes[next].feature |= t.features >> at & 1, ring.spokes[next].crease |= t.features >> (at + 3) & 1;
+    ring.spokes[prev].feature |= t.features >> before & 1, ring.spokes[prev].crease |= t.features >> (before + 3) & 1;
   }
-  list.size = n;
   return true;
 }
 
 void Surface::classify(const Ring& ring) {
-  int n = 0;
+  int n = 0, n_creases = 0;
   bool is_open = false;
-  for (const Ring::Spoke& s : ring.spoke_span()) n += s.feature, is_open |= s.n_faces != 2;
-  open[ring.center] = is_open;
-  if (kind[ring.center] != Kind::fixed)
-    kind[ring.center] = n == 0 ? Kind::free : n == 2 ? Kind::line : Kind::corner;
+  for (const Ring::Spoke& s : ring.spoke_span())
+    n += s.feature, n_creases += s.crease && !s.feature, is_open |= s.n_faces != 2;
+  auto by_lines = [](int lines) { return lines == 0 ? Kind::free : lines == 2 ? Kind::line : Kind::corner; };
+  Vertex& v = vertex[ring.center];
+  v.open = is_open;
+  if (v.kind != Kind::fixed) v.kind = by_lines(n);
+  v.crease_kind = std::max(v.kind, by_lines(n + n_creases));
 }
 
 void Surface::remove(std::uint32_t f) {
-  for (std::uint32_t v : face[f].v) --lists_[v].degree;
+  for (std::uint32_t v : face[f].v) --vertex[v].degree;
   face[f].v[0] = none;
   --n_live_;
 }
@@ -125,11 +134,13 @@ void Surface::merge(const Ring& from, const Ring& to) {
   for (const Ring::Face& f : from.face_span()) {
     if (!from.has(f, v)) continue;
     std::uint32_t w = from.next_vertex(f) == v ? from.prev_vertex(f) : from.next_vertex(f);
-    if (!from.spokes[from.find(w)].feature && !to.spokes[to.find(w)].feature) continue;
+    const Ring::Spoke &a = from.spokes[from.find(w)], &b = to.spokes[to.find(w)];
+    const int bits = (a.feature || b.feature) | (a.crease || b.crease) << 3;
+    if (bits == 0) continue;
     for (const Ring* ring : {&from, &to})
       for (const Ring::Face& g : ring->face_span()) {
-        if (ring->next_vertex(g) == w) features[g.face] |= 1 << g.corner;
-        if (ring->prev_vertex(g) == w) features[g.face] |= 1 << (g.corner + 2) % 3;
+        if (ring->next_vertex(g) == w) face[g.face].features |= bits << g.corner;
+        if (ring->prev_vertex(g) == w) face[g.face].features |= bits << (g.corner + 2) % 3;
       }
   }
   for (const Ring::Face& f : to.face_span())
@@ -137,21 +148,24 @@ void Surface::merge(const Ring& from, const Ring& to) {
     else joined[n++] = f.face;
   for (const Ring::Face& f : from.face_span())
     if (alive(f.face)) face[f.face].v[f.corner] = v, joined[n++] = f.face;
-  if (lists_[u].capacity > lists_[v].capacity) std::swap(lists_[u], lists_[v]);
-  lists_[u].size = lists_[u].degree = 0;
+  if (vertex[u].capacity > vertex[v].capacity) {
+    std::swap(vertex[u].begin, vertex[v].begin);
+    std::swap(vertex[u].capacity, vertex[v].capacity);
+  }
+  vertex[u].size = vertex[u].degree = 0;
   store(v, joined, n);
 }
 
 void Surface::store(std::uint32_t v, const std::uint32_t* faces, std::uint32_t n) {
-  List& list = lists_[v];
-  if (n > list.capacity) {
+  Vertex& at = vertex[v];
+  if (n > at.capacity) {
     if (pool_used_ + n > pool_.size()) return make_lists();
-    list.begin = static_cast<std::uint32_t>(pool_used_);
-    list.capacity = n;
+    at.begin = static_cast<std::uint32_t>(pool_used_);
+    at.capacity = n;
     pool_used_ += n;
   }
-  std::copy(faces, faces + n, pool_.begin() + list.begin);
-  list.size = list.degree = n;
+  std::copy(faces, faces + n, pool_.begin() + at.begin);
+  at.size = at.degree = n;
 }
 
 }  // namespace wrlkit::simplify

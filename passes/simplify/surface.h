@@ -30,7 +30,7 @@ struct Ring {
   struct Spoke {
     std::uint32_t vertex;
     std::uint8_t n_faces;
-    bool feature;
+    bool feature, crease;
   };
 
   std::uint32_t center = none;
@@ -54,16 +54,27 @@ struct Ring {
 
 class Surface {
  public:
-  struct Triangle { std::uint32_t v[3]; };
+  struct Triangle {
+    std::uint32_t v[3];
+    std::uint8_t features;  // bit k: the edge from corner k to the next is a line; bit k + 3: it is a crease
+  };
+  /// What is needed of a vertex together lies together: a miss of the cache costs more than to price an edge.
+  struct Vertex {
+    Vec3 position;
+    std::uint32_t begin, size, capacity;  // its list in the pool
+    std::uint32_t degree;                 // the faces of the list that are alive
+    Kind kind, crease_kind;               // the latter if creases were lines too
+    bool open;                            // at an edge of other than two faces
+  };
 
   /// Takes the triangles of a mesh; vertices are numbered as the corners first use them.
   explicit Surface(const Mesh& mesh);
 
-  std::uint32_t n_vertices() const { return static_cast<std::uint32_t>(position.size()); }
+  std::uint32_t n_vertices() const { return static_cast<std::uint32_t>(vertex.size()); }
   std::uint32_t n_slots() const { return static_cast<std::uint32_t>(face.size()); }
   std::size_t n_faces() const { return n_live_; }
   bool alive(std::uint32_t f) const { return face[f].v[0] != none; }
-  std::uint32_t degree(std::uint32_t v) const { return lists_[v].degree; }
+  std::uint32_t degree(std::uint32_t v) const { return vertex[v].degree; }
   std::uint32_t original(std::uint32_t v) const { return original_[v]; }
   /// `none` when no corner uses that position.
   std::uint32_t vertex_of(std::uint32_t original) const;
@@ -71,12 +82,13 @@ class Surface {
   /// False when the vertex has too many faces, or none.
   bool gather(std::uint32_t v, Ring& ring);
   bool feature(const Ring::Face& f, bool towards_next) const {
-    return features[f.face] >> (towards_next ? f.corner : (f.corner + 2) % 3) & 1;
+    return face[f.face].features >> (towards_next ? f.corner : (f.corner + 2) % 3) & 1;
   }
   /// Twice the area, along the normal.
   Vec3 normal(std::uint32_t f) const {
     const Triangle& t = face[f];
-    return cross(position[t.v[1]] - position[t.v[0]], position[t.v[2]] - position[t.v[0]]);
+    const Vec3& a = vertex[t.v[0]].position;
+    return cross(vertex[t.v[1]].position - a, vertex[t.v[2]].position - a);
   }
 
   /// Sets the kind by the features of its spokes.
@@ -85,20 +97,16 @@ class Surface {
   /// Removes the faces at the edge between the two and hands the others of `from` to `to`.
   void merge(const Ring& from, const Ring& to);
 
-  std::vector<Vec3> position;
-  std::vector<Triangle> face;          // dead: vertex 0 is none
-  std::vector<std::uint8_t> features;  // per face: bit k, the edge from corner k to the next
-  std::vector<Kind> kind;
-  std::vector<bool> open;              // a vertex at an edge of other than two faces
+  const Vec3& position(std::uint32_t v) const { return vertex[v].position; }
+
+  std::vector<Vertex> vertex;
+  std::vector<Triangle> face;  // dead: vertex 0 is none
 
  private:
-  struct List { std::uint32_t begin, size, capacity, degree; };  // degree: the faces of it that are alive
-
   void make_lists();
   void store(std::uint32_t v, const std::uint32_t* faces, std::uint32_t n);
   void remove(std::uint32_t f);
 
-  std::vector<List> lists_;
   std::vector<std::uint32_t> pool_;
   std::vector<std::uint32_t> original_;
   std::size_t n_live_ = 0;
