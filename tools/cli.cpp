@@ -122,6 +122,7 @@ const Verb verbs[] = {
        input(v, f);
        v.add_option("-o,--output", f.output, "folder for the files; made when it is not there")->required()->type_name("DIR");
        v.add_option("--every", f.every, "a file each time that so many triangles have gone: at the multiples of N")->check(CLI::Range(1, 1'000'000'000))->type_name("N");
+       v.add_option("--counts", f.counts, "a file at each of these numbers of triangles")->delimiter(',');
        v.add_option("--ratios", f.ratios, "a file at each of these shares of the triangles")->delimiter(',')->check(CLI::Range(0.0, 1.0));
        v.add_option("--error", f.errors, "a file with each surface as simple as it can be within this distance: 2mm, 0.5in; a number is in metres")->delimiter(',')->type_name("LENGTH");
        v.add_option("--criterion", f.criterion, "which edges collapse first")->check(CLI::IsMember(criterion_names()));
@@ -130,6 +131,22 @@ const Verb verbs[] = {
        vrml_output(v, f);
      },
      run_simplify},
+    {"compare-lod", "what each criterion makes of a world: a page of errors, times and pictures, or one picture of all",
+     "wrlkit compare-lod valve.wrl -o report.html\n  wrlkit compare-lod valve.wrl -o valve.png --counts 2000,500 --criteria melax,quadric --mode wireframe",
+     [](CLI::App& v, Flags& f) {
+       input(v, f);
+       v.add_option("-o,--output", f.output, "file.html; or file.png: the pictures alone, four in a row, a row for each criterion")->required()->type_name("FILE");
+       v.add_option("--counts", f.counts, "numbers of triangles to compare at")->delimiter(',');
+       v.add_option("--ratios", f.ratios, "instead of that, shares of the triangles; as a rule 0.5,0.25,0.1,0.05,0.02,0.01")->delimiter(',')->check(CLI::Range(0.0, 1.0));
+       v.add_option("--criteria", f.criteria, "which; as a rule all")->delimiter(',')->check(CLI::IsMember(criterion_names()));
+       v.add_flag("--bare", f.bare, "the criterion alone decides: creases and borders are edges like others");
+       v.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint for the pictures");
+       v.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
+       v.add_option("--width", f.picture_width, "pixels of a picture; it is three quarters as high")->check(CLI::Range(16, 2048))->capture_default_str();
+       v.add_option("--mode", f.mode, "preview or wireframe")->check(CLI::IsMember({"preview", "wireframe"}))->capture_default_str();
+       pipeline(v, f);
+     },
+     run_compare_lod},
     {"passes", "every pass, or one with its options", "wrlkit passes tessellate", [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "a pass"); }, run_passes},
     {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",

@@ -41,15 +41,16 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   WorldSimplifyOptions o;
   CriterionName criterion;
   if (!f.criterion.empty()) criterion.read(f.criterion);
-  o.criterion = criterion.value;
+  o.collapse.criterion = criterion.value;
   o.budget.pixels = f.pixels;
-  if ((f.every > 0) + !f.ratios.empty() + !f.errors.empty() != 1) return fmt::print(stderr, "wrlkit simplify: one of --every, --ratios and --error is needed\n"), std::nullopt;
+  if ((f.every > 0) + !f.counts.empty() + !f.ratios.empty() + !f.errors.empty() != 1) return fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios and --error is needed\n"), std::nullopt;
   for (const auto& text : f.errors) {
     const double e = length_of(text);
     if (!(e > 0)) return fmt::print(stderr, "wrlkit simplify: --error: '{}' is no length\n", text), std::nullopt;
     o.errors.push_back(e);
   }
   o.every = static_cast<std::size_t>(f.every);
+  o.counts = f.counts;
   o.ratios = f.ratios;
   return o;
 }
