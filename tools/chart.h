@@ -19,8 +19,8 @@ struct ChartSeries {
   std::vector<ChartPoint> points;
 };
 
-/// The chart as an <svg> element. x must be positive. Values of y that are not, or are a hundred thousand times smaller than
-/// the largest, lie on the lower edge.
+/// The chart as an <svg> element. Coordinates are finite, x is positive. Values of y that are not, or are a hundred thousand
+/// times smaller than the largest, lie on the lower edge.
 std::string log_chart(std::string_view title, std::string_view unit, const std::vector<ChartSeries>& series);
 
 /// The mark of series k as a small <svg> element: for a legend.

@@ -1,6 +1,7 @@
 // The page of compare-lod.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 #include <numbers>
 
@@ -86,7 +87,7 @@ class Page {
     for (const auto& criterion : c_.criteria) {
       auto& s = series.emplace_back(ChartSeries{criterion.name, {}});
       for (const auto& p : criterion.points)
-        if (p.n_faces > 0 && p.n_faces < c_.n_faces) s.points.push_back({static_cast<double>(p.n_faces), value(p)});
+        if (p.n_faces > 0 && p.n_faces < c_.n_faces && std::isfinite(value(p))) s.points.push_back({static_cast<double>(p.n_faces), value(p)});
     }
     put("<figure><figcaption><b>{}</b></figcaption>\n{}</figure>\n", title, log_chart(title, unit, series));
   }

@@ -127,7 +127,7 @@ std::optional<MeshLevel> LevelMaker::next(std::size_t n_faces) {
   seconds_ -= thread_seconds();
   collapser_.run_to(n_faces);
   seconds_ += thread_seconds();
-  if (collapser_.n_faces() >= before) return std::nullopt;
+  if (collapser_.n_faces() >= before || collapser_.n_faces() == 0) return std::nullopt;
   auto level = measured(first_, collapser_.mesh());
   level.seconds = seconds_;
   return level;

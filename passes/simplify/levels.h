@@ -42,7 +42,7 @@ class LevelMaker {
   /// `first` is a mesh of triangles (Mesh::is_triangles) and must outlive this.
   LevelMaker(const Mesh& first, const CollapseOptions& options);
 
-  /// At most `n_faces` triangles, or as few as there can be; nothing when that are no fewer than there were.
+  /// At most `n_faces` triangles, or as few as there can be; nothing when that are no fewer than there were, or none.
   std::optional<MeshLevel> next(std::size_t n_faces);
 
  private:

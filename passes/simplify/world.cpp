@@ -34,7 +34,7 @@ class FacesByError {
     for (std::size_t n = mesh.n_faces(); n > faces_of_a_box;) {
       n = std::max(faces_of_a_box, std::min(n - 1, static_cast<std::size_t>(static_cast<double>(n) * share)));
       c.run_to(n);
-      if (c.n_faces() > n) break;  // no edge may go any more
+      if (c.n_faces() > n || c.n_faces() == 0) break;  // no edge may go any more, or the surface would
       n = c.n_faces();
       samples_.push_back({std::max(samples_.back().error, c.error()), static_cast<double>(n)});
     }
