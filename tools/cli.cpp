@@ -142,7 +142,7 @@ const Verb verbs[] = {
        v.add_flag("--bare", f.bare, "the criterion alone decides: creases and borders are edges like others");
        v.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint for the pictures");
        v.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
-       v.add_option("--width", f.picture_width, "pixels of a picture; it is three quarters as high")->check(CLI::Range(16, 2048))->capture_default_str();
+       v.add_option("--size", f.picture_size, "pixels along each side of a picture")->check(CLI::Range(16, 2048))->capture_default_str();
        v.add_option("--mode", f.mode, "preview or wireframe")->check(CLI::IsMember({"preview", "wireframe"}))->capture_default_str();
        pipeline(v, f);
      },

@@ -19,8 +19,7 @@ class Painter {
  public:
   explicit Painter(Session& s) : s_(s) {
     const auto& f = s.flags();
-    options_.width = f.picture_width;
-    options_.height = f.picture_width * 3 / 4;
+    options_.width = options_.height = f.picture_size;
     options_.mode = f.mode == "wireframe" ? RenderOptions::Mode::wireframe : RenderOptions::Mode::preview;
     options_.viewpoint = f.viewpoint;
     options_.fit = f.fit;

@@ -49,7 +49,7 @@ struct Flags {
   double pixels = 1;
   std::vector<std::string> criteria;
   bool bare = false;
-  int picture_width = 320;
+  int picture_size = 300;
 };
 
 /// Exit codes of the product: 0 done, 1 done but something of the input could not be used, 2 wrong usage, 3 nothing made.
