@@ -12,7 +12,7 @@ namespace wrlkit {
 namespace {
 
 constexpr double most_levels = 24;             // shorter edges are treated like those of the lowest level
-constexpr std::size_t tests_a_point = 256;     // on average; real surfaces need one or two
+constexpr std::size_t tests_a_point = 64;      // on average; real surfaces need one or two
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();  // by the largest coordinate
 constexpr double indistinct = std::numeric_limits<float>::epsilon();     // the same
 constexpr float shortest_normal = 1e-12f;                                // squared
@@ -76,10 +76,12 @@ void TJunctions::spread_edges(const Surface& s) {
 
 void TJunctions::find_edges(const Surface& s, std::uint32_t point) {
   const Vec3 p = s.point(point);
-  for (double level : levels_)
+  for (double level : levels_) {
+    if (budget_ == 0) return;
     for_each_cell(p, p, cell_size(level), [&](const Vec3& cell) {
       grid_.visit(cell, [&](std::uint32_t corner) { test(s, corner, point); }, level);
     });
+  }
 }
 
 void TJunctions::test(const Surface& s, std::uint32_t corner, std::uint32_t point) {

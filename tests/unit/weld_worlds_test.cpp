@@ -9,6 +9,7 @@
 #include "parsers/parsers.h"
 #include "passes/geometry.h"
 #include "passes/pipeline.h"
+#include "passes/shapes/vector.h"
 #include "passes/triangulate.h"
 #include "passes/weld.h"
 #include "scenegraph/nodes.h"
@@ -87,6 +88,18 @@ void check_valid(const Mesh& mesh) {
   }
 }
 
+double area(Meshes& m, Mesh mesh) {
+  m.apply(triangulate, mesh, TriangulateOptions{});
+  double sum = 0;
+  for (std::size_t c = 0; c < mesh.corners.size(); c += 3) {
+    Vec3 p[3];
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) p[i][k] = mesh.positions[3 * std::size_t{mesh.corners[c + i]} + k];
+    sum += length(cross(p[1] - p[0], p[2] - p[0])) / 2;
+  }
+  return sum;
+}
+
 std::size_t triangles(Meshes& m, Mesh mesh) {
   m.apply(triangulate, mesh, TriangulateOptions{});
   return mesh.n_faces();
@@ -128,6 +141,11 @@ TEST_CASE("weld keeps triangles and bounds of every world") {
       REQUIRE(n_after >= n);
       REQUIRE(n_after <= n + m.stats["weld.t-junctions"]);
       REQUIRE(m.apply(weld, after, WeldOptions{}) == Outcome::unchanged);
+      WeldOptions merging;
+      merging.merge_coplanar = true;
+      m.apply(weld, after, merging);
+      check_valid(after);
+      REQUIRE(area(m, after) == Approx(area(m, before) - 0).epsilon(1e-4));
     }
   }
   REQUIRE(n_worlds > 150);
