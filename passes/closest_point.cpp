@@ -200,6 +200,7 @@ struct ClosestPoint::Search {
   int n_equal = 0;
 
   void try_triangle(std::uint32_t triangle) {
+    ++best.n_tried;
     auto t = tree.surface_[triangle];
     for (auto& corner : t) corner = corner - p;
     Vec3 n = area_normal(t);

@@ -45,6 +45,7 @@ class ClosestPoint {
   struct Nearest {
     double distance;  // infinite when the surface has no usable triangle
     std::uint32_t triangle;
+    std::uint32_t n_tried = 0;  // triangles: what the question cost
   };
 
   /// O(n log n), 24 bytes a triangle. The arrays that `surface` looks at must outlive this.

@@ -16,6 +16,7 @@ namespace wrlkit {
 namespace {
 
 constexpr std::size_t run_length = 2048;
+constexpr std::size_t tries_per_question = 200;  // triangles, in the mean of a run
 constexpr std::size_t fewest_samples = 500, most_samples = 400'000, samples_per_triangle = 4;
 
 using Marks = std::vector<char>;  // of triangles
@@ -65,13 +66,19 @@ Marks also_in(const Triangles& a, const std::vector<Key>& keys_a, const Triangle
 /// What was found at some points.
 struct Sums {
   std::size_t n = 0, n_normals = 0;
+  std::size_t n_tried = 0;
   double squares = 0, max = 0, angles = 0, squared_angles = 0, max_angle = 0;
   Vec3 where{};
 
-  void add_distance(double d, const Vec3& p) {
+  void add_distance(const ClosestPoint::Nearest& found, const Vec3& p) {
+    double d = found.distance;
     if (!n++ || d > max) max = d, where = p;
     squares += d * d;
+    n_tried += found.n_tried;
   }
+  /// Large triangles through one another, thousands of them, are no tree: each question looks at all. Then a run ends
+  /// before all its points were asked.
+  bool too_costly() const { return n_tried > run_length * tries_per_question; }
   void add_angle(double a) {
     ++n_normals;
     angles += a, squared_angles += a * a;
@@ -152,8 +159,9 @@ class Way {
     for (auto i : points) {
       Vec3 point = from_.position(i);
       auto found = nearest_->nearest(point, {}, guess);
-      sums.add_distance(found.distance, point);
+      sums.add_distance(found, point);
       guess = found.triangle;
+      if (sums.too_costly()) break;
     }
     return sums;
   }
@@ -185,6 +193,7 @@ class Way {
       if (sample.u + sample.v > 1) sample.u = 1 - sample.u, sample.v = 1 - sample.v;
       ask(sample, sums);
       if (sample.distance > worst.distance) worst = sample;
+      if (sums.too_costly()) return sums;
     }
     climb(worst, spacing, sums);
     return sums;
@@ -195,7 +204,7 @@ class Way {
     Vec3 normal = unit(area_normal(t)), p = point_at(t, s.u, s.v);
     auto found = nearest_->nearest(p, normal, s.nearest);
     s.distance = found.distance, s.nearest = found.triangle;
-    sums.add_distance(s.distance, p);
+    sums.add_distance(found, p);
     if (s.nearest == ClosestPoint::no_guess) return;
     Vec3 there = area_normal(to_[s.nearest]);
     if (there != Vec3{0, 0, 0}) sums.add_angle(std::atan2(length(cross(normal, there)), dot(normal, there)));

@@ -32,6 +32,7 @@ struct DeviationOptions {
 ///   changed part is measured as well in a plant as alone.
 /// - Triangles without area count for `max` and as something to be near to; when a surface has no others, `rms` is that
 ///   of its corners. Triangles that are not finite, or beyond 1e18, are left out.
+/// - Where thousands of large triangles pass through one another, fewer points are asked.
 /// - When one surface is empty and the other is not, both distances are infinite, and `where` is a corner.
 ///
 /// O(n log n) in the triangles, some 100 bytes for each of them; runs on all threads, with the same result on any

@@ -247,6 +247,17 @@ TEST_CASE("deviation: a hundred thousand triangles in one place cost what one do
   CHECK(d.rms == Approx(0.5));
 }
 
+TEST_CASE("deviation: triangles that all pass through one another come to an end") {
+  Surface a, b;
+  double x = 0.5;
+  auto random = [&x] { return x = std::fmod(x * 997 + 0.123, 1); };
+  for (Surface* s : {&a, &b})
+    for (int i = 0; i < 9'000; ++i) s->corners.push_back(s->add(random(), random(), random()));
+  auto d = between(a, b, 2'000);
+  CHECK(d.max < 0.2);
+  CHECK(d.rms > 0);
+}
+
 TEST_CASE("deviation: triangles of sizes that halve make no deep tree") {
   Surface halves;
   for (int i = 0; i < 1000; ++i) {
