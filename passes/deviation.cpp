@@ -2,14 +2,13 @@
 // the number of threads. Within a run each answer is the guess for the next question.
 #include "passes/deviation.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
 #include <optional>
 
+#include "passes/parallel.h"
 #include "passes/shapes/vector.h"
 
 namespace wrlkit {
@@ -96,7 +95,7 @@ struct Sums {
 Sums in_runs(std::size_t n, const std::function<Sums(std::size_t, std::size_t)>& sums_of) {
   if (n <= run_length) return sums_of(0, n);
   std::vector<Sums> parts((n + run_length - 1) / run_length);
-  tbb::parallel_for(std::size_t{0}, parts.size(),
+  parallel_for(parts.size(),
                     [&](std::size_t i) { parts[i] = sums_of(i * run_length, std::min(n, (i + 1) * run_length)); });
   Sums all;
   for (const Sums& s : parts) all.add(s);
