@@ -86,9 +86,12 @@ void CoplanarMerger::grow(const Surface& s, std::uint32_t seed) {
       std::uint32_t f = s.face_of[queue_[i]];
       if (region_[f] == none && simple_[f] && keeps_disk(s, seed, f) && fits(s, frame, f)) add(s, seed, f);
     }
-  if (members_.size() > 1) return outline(s, seed, frame.normal);
-  for (std::uint32_t c = s.begin(seed); c < s.end(seed); ++c) corners_.push_back(c);
-  face_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
+  if (members_.size() > 1 && outline(s, seed)) return note_concave(s, frame.normal);
+  std::ranges::sort(members_);
+  for (std::uint32_t f : members_) {
+    for (std::uint32_t c = s.begin(f); c < s.end(f); ++c) corners_.push_back(c);
+    face_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
+  }
 }
 
 /// Its neighbours are to be looked at, once more those that did not fit the smaller region.
@@ -137,25 +140,34 @@ bool CoplanarMerger::keeps_disk(const Surface& s, std::uint32_t seed, std::uint3
   return n_runs == 1 && n_points == n_edges + 1;
 }
 
-/// Along the edges whose other side is not in the region, from the first one on.
-void CoplanarMerger::outline(const Surface& s, std::uint32_t seed, const Vec3& normal) {
+/// Along the edges whose other side is not in the region, from the first one on. False, and nothing done, where the
+/// outline crosses itself because the faces lie on each other.
+bool CoplanarMerger::outline(const Surface& s, std::uint32_t seed) {
   std::uint32_t first = none;
   for (std::uint32_t f : members_)
     for (std::uint32_t c = s.begin(f); c < s.end(f); ++c)
       if (!inside(s, seed, c)) first = std::min(first, c);
   const std::size_t begin = corners_.size();
+  room_.clear();
   std::uint32_t c = first;
   do {
     corners_.push_back(c);
+    room_.push_back(s.mesh.corners[c]);
     c = s.after(c);
     while (inside(s, seed, c)) c = s.after(mate_[c]);
   } while (c != first);
+  if (cutter_.cut(s.points.data(), room_).crossing) return corners_.resize(begin), false;
   face_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
-  auto at = [&](std::size_t i) { return s.point(s.mesh.corners[corners_[i == corners_.size() ? begin : i]]); };
-  Vec3 in = at(begin) - at(corners_.size() - 1);
-  for (std::size_t i = begin; i < corners_.size(); ++i) {
-    Vec3 out = at(i + 1) - at(i);
-    concave_ |= dot(cross(in, out), normal) < -reflex * std::sqrt(dot(in, in) * dot(out, out));
+  return true;
+}
+
+/// Whether the last polygon, whose points are in room_, is concave.
+void CoplanarMerger::note_concave(const Surface& s, const Vec3& normal) {
+  const std::size_t n = room_.size();
+  Vec3 in = s.point(room_[0]) - s.point(room_[n - 1]);
+  for (std::size_t i = 0; i < n && !concave_; ++i) {
+    Vec3 out = s.point(room_[i + 1 == n ? 0 : i + 1]) - s.point(room_[i]);
+    concave_ = dot(cross(in, out), normal) < -reflex * std::sqrt(dot(in, in) * dot(out, out));
     in = out;
   }
 }
