@@ -1,6 +1,6 @@
 // A region grows face by face and stays a disk: a face is added only if what it shares with the region is one run of
-// edges, and no other point. So the outline of a region is one simple polygon at any time, and a face that would close a
-// ring around a hole stays outside.
+// edges, and no other point. So the outline of a region is one simple polygon at any time, and a face that would close
+// a ring around a hole stays outside.
 #include "passes/weld/coplanar.h"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ constexpr double reflex = 1e-6;                                       // sine of
 
 }  // namespace
 
-std::size_t CoplanarMerger::merge(const Surface& s, const std::vector<SurfaceEdge>& edges, double tolerance, StampedMap& map) {
+std::size_t CoplanarMerger::merge(const Surface& s, const std::vector<SurfaceEdge>& edges, double tolerance,
+                                  StampedMap& map) {
   double largest = 0;
   for (double v : s.points) largest = std::max(largest, std::abs(v));
   near_ = std::max(tolerance, indistinct * largest);
@@ -118,7 +119,8 @@ bool CoplanarMerger::fits(const Surface& s, const Frame& frame, std::uint32_t f)
 }
 
 bool CoplanarMerger::linear(const Attribute& a, const Frame& frame, double x, double y, std::uint32_t corner) const {
-  const float *v0 = a.at(a.index[frame.corners[0]]), *v1 = a.at(a.index[frame.corners[1]]), *v2 = a.at(a.index[frame.corners[2]]);
+  const float *v0 = a.at(a.index[frame.corners[0]]), *v1 = a.at(a.index[frame.corners[1]]),
+              *v2 = a.at(a.index[frame.corners[2]]);
   const float* v = a.at(a.index[corner]);
   for (int i = 0; i < a.width; ++i) {
     double want = v0[i] + x * (double{v1[i]} - v0[i]) + y * (double{v2[i]} - v0[i]);
