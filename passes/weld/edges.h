@@ -38,8 +38,8 @@ class EdgeTable {
   std::vector<SurfaceEdge> edges_;
 };
 
-/// How many points there are at which faces meet that hang together by no manifold edge there. `parents` is working
-/// memory.
+/// How many points there are at which faces meet that hang together by no manifold edge there. `parents` and `fans` are
+/// working memory.
 std::size_t count_non_manifold_points(const Surface&, const std::vector<SurfaceEdge>&,
                                       std::vector<std::uint32_t>& parents, std::vector<std::uint32_t>& fans);
 

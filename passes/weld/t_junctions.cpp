@@ -35,9 +35,8 @@ std::size_t TJunctions::close(const Surface& s, const std::vector<SurfaceEdge>& 
   std::ranges::sort(junctions_, [](const Junction& a, const Junction& b) {
     return a.corner != b.corner ? a.corner < b.corner : a.at != b.at ? a.at < b.at : a.point < b.point;
   });
-  auto again = std::ranges::unique(
-      junctions_, [](const Junction& a, const Junction& b) { return a.corner == b.corner && a.point == b.point; });
-  junctions_.erase(again.begin(), again.end());
+  auto same = [](const Junction& a, const Junction& b) { return a.corner == b.corner && a.point == b.point; };
+  junctions_.erase(std::unique(junctions_.begin(), junctions_.end(), same), junctions_.end());
   if (!junctions_.empty()) insert(s);
   return junctions_.size();
 }
