@@ -22,9 +22,13 @@ constexpr std::size_t most_indices = std::numeric_limits<std::int32_t>::max() / 
 class Key {
  public:
   template <class T>
-  void add(const T& v) { add(std::span<const T>(&v, 1)); }
+  void add(const T& v) {
+    add(std::span<const T>(&v, 1));
+  }
   template <class T>
-  void add(std::span<const T> values) { text_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes()); }
+  void add(std::span<const T> values) {
+    text_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  }
   void add(std::string_view s) {
     add(s.size());
     text_ += s;
@@ -108,9 +112,11 @@ class Contents {
     key.add(v.count);
     const auto& type = info(v.type);
     switch (type.element) {
-      case Element::number: return key.add(v.number_span());
+      case Element::number:
+        return key.add(v.number_span());
       case Element::integer:
-      case Element::image: return key.add(v.integer_span());
+      case Element::image:
+        return key.add(v.integer_span());
       case Element::node:
         for (NodeId c : v.node_span()) key.add((*this)(c));
         return;
@@ -167,7 +173,8 @@ class Joining {
   NodeId geometry_of(NodeId shape) const { return scene_.get(shape, nodes::shape::geometry); }
   Parts parts_of(NodeId geometry) const;
   bool may_be_textured(NodeId appearance) const {
-    return appearance && (!scene_.is(appearance, nodes::Appearance) || scene_.get(appearance, nodes::appearance::texture));
+    return appearance &&
+           (!scene_.is(appearance, nodes::Appearance) || scene_.get(appearance, nodes::appearance::texture));
   }
 
   Scene& scene_;
@@ -185,7 +192,7 @@ void Joining::join_children(NodeId parent) {
   const auto& type = scene_.type(parent);
   bool list = type.kind == NodeKind::builtin && type.is_a("X3DGroupingNode");
   if (!list || scene_.is(parent, nodes::Switch) || scene_.is(parent, nodes::LOD)) return;
-  for (const Value& v : scene_.fields(parent)) {
+  for (const Value v : scene_.fields(parent)) {  // a copy, as joining adds nodes
     if (scene_.is_extra(v) || v.is || v.type != FieldType::MFNode || type.fields[v.slot].name != "children") continue;
     std::vector<NodeId> children(v.node_span().begin(), v.node_span().end());
     if (join_list(children)) scene_.set(parent, scene_.make(FieldType::MFNode, v.slot, children));
@@ -217,7 +224,8 @@ Parts Joining::parts_of(NodeId g) const {
   namespace ils = nodes::indexed_line_set;
   auto coord = [&](NodeId n) { return if_filled(scene_, n, nodes::coordinate::point); };
   auto color = [&](NodeId n) { return if_filled(scene_, n, nodes::color::color); };
-  if (scene_.is(g, nodes::IndexedLineSet)) return {coord(scene_.get(g, ils::coord)), color(scene_.get(g, ils::color)), {}, {}};
+  if (scene_.is(g, nodes::IndexedLineSet))
+    return {coord(scene_.get(g, ils::coord)), color(scene_.get(g, ils::color)), {}, {}};
   return {coord(scene_.get(g, ifs::coord)), color(scene_.get(g, ifs::color)),
           if_filled(scene_, scene_.get(g, ifs::normal), nodes::normal::vector),
           if_filled(scene_, scene_.get(g, ifs::texCoord), nodes::texture_coordinate::point)};

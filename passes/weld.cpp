@@ -1,6 +1,6 @@
-// First every corner gets the number of its point, then all repairs work on these numbers. Only at the end is it decided
-// whether the mesh takes the joined points or, as nothing was joined, keeps the list that it had, which may be shared with
-// other geometry.
+// First every corner gets the number of its point, then all repairs work on these numbers. Only at the end is it
+// decided whether the mesh takes the joined points or, as nothing was joined, keeps the list that it had, which may be
+// shared with other geometry.
 #include "passes/weld.h"
 
 #include <algorithm>

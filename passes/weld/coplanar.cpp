@@ -1,6 +1,6 @@
 // A region grows face by face and stays a disk: a face is added only if what it shares with the region is one run of
-// edges, and no other point. So the outline of a region is one simple polygon at any time, and a face that would close a
-// ring around a hole stays outside.
+// edges, and no other point. So the outline of a region is one simple polygon at any time, and a face that would close
+// a ring around a hole stays outside.
 #include "passes/weld/coplanar.h"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ constexpr double reflex = 1e-6;                                       // sine of
 
 }  // namespace
 
-std::size_t CoplanarMerger::merge(const Surface& s, const std::vector<SurfaceEdge>& edges, double tolerance, StampedMap& map) {
+std::size_t CoplanarMerger::merge(const Surface& s, const std::vector<SurfaceEdge>& edges, double tolerance,
+                                  StampedMap& map) {
   double largest = 0;
   for (double v : s.points) largest = std::max(largest, std::abs(v));
   near_ = std::max(tolerance, indistinct * largest);
@@ -86,9 +87,12 @@ void CoplanarMerger::grow(const Surface& s, std::uint32_t seed) {
       std::uint32_t f = s.face_of[queue_[i]];
       if (region_[f] == none && simple_[f] && keeps_disk(s, seed, f) && fits(s, frame, f)) add(s, seed, f);
     }
-  if (members_.size() > 1) return outline(s, seed, frame.normal);
-  for (std::uint32_t c = s.begin(seed); c < s.end(seed); ++c) corners_.push_back(c);
-  face_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
+  if (members_.size() > 1 && outline(s, seed)) return note_concave(s, frame.normal);
+  std::ranges::sort(members_);
+  for (std::uint32_t f : members_) {
+    for (std::uint32_t c = s.begin(f); c < s.end(f); ++c) corners_.push_back(c);
+    face_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
+  }
 }
 
 /// Its neighbours are to be looked at, once more those that did not fit the smaller region.
@@ -115,7 +119,8 @@ bool CoplanarMerger::fits(const Surface& s, const Frame& frame, std::uint32_t f)
 }
 
 bool CoplanarMerger::linear(const Attribute& a, const Frame& frame, double x, double y, std::uint32_t corner) const {
-  const float *v0 = a.at(a.index[frame.corners[0]]), *v1 = a.at(a.index[frame.corners[1]]), *v2 = a.at(a.index[frame.corners[2]]);
+  const float *v0 = a.at(a.index[frame.corners[0]]), *v1 = a.at(a.index[frame.corners[1]]),
+              *v2 = a.at(a.index[frame.corners[2]]);
   const float* v = a.at(a.index[corner]);
   for (int i = 0; i < a.width; ++i) {
     double want = v0[i] + x * (double{v1[i]} - v0[i]) + y * (double{v2[i]} - v0[i]);
@@ -137,25 +142,34 @@ bool CoplanarMerger::keeps_disk(const Surface& s, std::uint32_t seed, std::uint3
   return n_runs == 1 && n_points == n_edges + 1;
 }
 
-/// Along the edges whose other side is not in the region, from the first one on.
-void CoplanarMerger::outline(const Surface& s, std::uint32_t seed, const Vec3& normal) {
+/// Along the edges whose other side is not in the region, from the first one on. False, and nothing done, where the
+/// outline crosses itself because the faces lie on each other.
+bool CoplanarMerger::outline(const Surface& s, std::uint32_t seed) {
   std::uint32_t first = none;
   for (std::uint32_t f : members_)
     for (std::uint32_t c = s.begin(f); c < s.end(f); ++c)
       if (!inside(s, seed, c)) first = std::min(first, c);
   const std::size_t begin = corners_.size();
+  room_.clear();
   std::uint32_t c = first;
   do {
     corners_.push_back(c);
+    room_.push_back(s.mesh.corners[c]);
     c = s.after(c);
     while (inside(s, seed, c)) c = s.after(mate_[c]);
   } while (c != first);
+  if (cutter_.cut(s.points.data(), room_).crossing) return corners_.resize(begin), false;
   face_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
-  auto at = [&](std::size_t i) { return s.point(s.mesh.corners[corners_[i == corners_.size() ? begin : i]]); };
-  Vec3 in = at(begin) - at(corners_.size() - 1);
-  for (std::size_t i = begin; i < corners_.size(); ++i) {
-    Vec3 out = at(i + 1) - at(i);
-    concave_ |= dot(cross(in, out), normal) < -reflex * std::sqrt(dot(in, in) * dot(out, out));
+  return true;
+}
+
+/// Whether the last polygon, whose points are in room_, is concave.
+void CoplanarMerger::note_concave(const Surface& s, const Vec3& normal) {
+  const std::size_t n = room_.size();
+  Vec3 in = s.point(room_[0]) - s.point(room_[n - 1]);
+  for (std::size_t i = 0; i < n && !concave_; ++i) {
+    Vec3 out = s.point(room_[i + 1 == n ? 0 : i + 1]) - s.point(room_[i]);
+    concave_ = dot(cross(in, out), normal) < -reflex * std::sqrt(dot(in, in) * dot(out, out));
     in = out;
   }
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "passes/polygon.h"
 #include "passes/weld/edges.h"
 #include "passes/weld/surface.h"
 
@@ -13,8 +14,8 @@ class CoplanarMerger {
  public:
   /// Unites faces across manifold edges where the points lie in the plane of the first, to within the tolerance or the
   /// precision of single numbers, and all attributes are linear. The polygons are simple and without holes; the mesh
-  /// becomes `convex FALSE` when one of them is not convex. Returns how many faces fewer there are; edges are out of date
-  /// then. Linear.
+  /// becomes `convex FALSE` when one of them is not convex. Returns how many faces fewer there are; edges are out of
+  /// date then. Linear but for large concave polygons.
   std::size_t merge(const Surface&, const std::vector<SurfaceEdge>&, double tolerance, StampedMap&);
 
  private:
@@ -36,7 +37,8 @@ class CoplanarMerger {
   bool inside(const Surface& s, std::uint32_t seed, std::uint32_t corner) const {
     return mate_[corner] != none && region_[s.face_of[mate_[corner]]] == seed;
   }
-  void outline(const Surface&, std::uint32_t seed, const Vec3& normal);
+  bool outline(const Surface&, std::uint32_t seed);
+  void note_concave(const Surface&, const Vec3& normal);
 
   static constexpr std::uint32_t none = 0xffffffffu;
 
@@ -48,6 +50,7 @@ class CoplanarMerger {
   std::vector<std::uint32_t> members_, queue_;
   std::vector<std::uint32_t> corners_, face_begin_, room_;  // of the result
   bool concave_ = false;
+  PolygonCutter cutter_;
 };
 
 }  // namespace wrlkit

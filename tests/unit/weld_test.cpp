@@ -1,8 +1,8 @@
 #include "passes/weld.h"
 
-#include <catch2/catch.hpp>
 #include <algorithm>
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <set>
@@ -88,7 +88,8 @@ std::pair<std::vector<Point>, std::vector<Face>> sheet(std::uint32_t n) {
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-const std::vector<Point> cube_points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+const std::vector<Point> cube_points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                     {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 const std::vector<Face> cube{{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
 }  // namespace
@@ -130,7 +131,8 @@ TEST_CASE("weld with a tolerance does what comparing with every point does") {
     for (Point& p : points) p = {where(random), where(random), where(random) * 0.1};
     std::vector<std::uint32_t> index(points.size());
     std::vector<double> flat;
-    for (std::uint32_t i = 0; i < points.size(); ++i) index[i] = i, flat.insert(flat.end(), points[i].begin(), points[i].end());
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+      index[i] = i, flat.insert(flat.end(), points[i].begin(), points[i].end());
     PointJoiner joiner;
     StampedMap map;
     joiner.join_equal(flat, index, map);
@@ -151,7 +153,8 @@ TEST_CASE("weld with a tolerance makes no chains") {
   for (int i = 0; i < 100; ++i) points.push_back({i * 0.6, 0, 0});
   std::vector<double> flat;
   std::vector<std::uint32_t> index;
-  for (const Point& p : points) index.push_back(static_cast<std::uint32_t>(index.size())), flat.insert(flat.end(), p.begin(), p.end());
+  for (const Point& p : points)
+    index.push_back(static_cast<std::uint32_t>(index.size())), flat.insert(flat.end(), p.begin(), p.end());
   PointJoiner joiner;
   StampedMap map;
   joiner.join_equal(flat, index, map);
@@ -164,7 +167,8 @@ TEST_CASE("weld finds the sheet again behind the noise of its digits") {
   auto [points, faces] = sheet(30);
   b.set_loose(points, faces);
   std::mt19937 random(3);
-  for (double& v : b.mesh.positions.edit()) v = std::round((v + 0.0001 * (static_cast<int>(random() % 2))) * 10000) / 10000;
+  for (double& v : b.mesh.positions.edit())
+    v = std::round((v + 0.0001 * (static_cast<int>(random() % 2))) * 10000) / 10000;
   auto noisy = b.mesh;
   b.run();
   REQUIRE(b.mesh.n_positions() > 31 * 31);
@@ -227,7 +231,8 @@ TEST_CASE("weld leaves a Moebius strip as it is") {
   const std::uint32_t n = 12;
   for (std::uint32_t i = 0; i < n; ++i) {
     double a = i * 2 * 3.14159265358979 / n, h = a / 2;
-    for (double r : {-0.3, 0.3}) points.push_back({(1 + r * std::cos(h)) * std::cos(a), (1 + r * std::cos(h)) * std::sin(a), r * std::sin(h)});
+    for (double r : {-0.3, 0.3})
+      points.push_back({(1 + r * std::cos(h)) * std::cos(a), (1 + r * std::cos(h)) * std::sin(a), r * std::sin(h)});
     faces.push_back({2 * i, 2 * i + 1, (2 * i + 3) % (2 * n), (2 * i + 2) % (2 * n)});
   }
   faces.back() = {2 * n - 2, 2 * n - 1, 0, 1};
