@@ -96,7 +96,7 @@ NodeId Parser::node_statement() {
     if (!def.empty()) diag_.report(Diag::def_without_node, span(t), def);
     Token name = lex_.next();
     if (name.kind != Kind::word) return expected("a name", name), lex_.seek(name.begin), NodeId{};
-    if (name_like(name) && lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing
+    if (name_like(name) && !begins_statement(text(name)) && lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing
       diag_.report(Diag::def_without_name, span(name));
       return lex_.next(), node(name, {});
     }
