@@ -28,7 +28,8 @@ bool face_keeps_shape(const Surface& s, const Ring& ring, const Ring::Face& f, c
   const Vec3 &p = s.position(ring.center), &a = s.position(ring.next_vertex(f)), &b = s.position(ring.prev_vertex(f));
   Shape before = shape(p, a, b), after = shape(x, a, b);
   double turn = dot(before.normal, after.normal), nb = dot(before.normal, before.normal), na = dot(after.normal, after.normal);
-  if (!(turn > 0) || turn * turn < least_cosine * least_cosine * na * nb) return nb == 0 && na > 0;
+  if (nb == 0) return true;
+  if (!(turn > 0) || turn * turn < least_cosine * least_cosine * na * nb) return false;
   double qa = na * before.sides * before.sides, qb = nb * after.sides * after.sides;
   return na > sliver * sliver * after.sides * after.sides || qa > sliver_ratio * qb;
 }

@@ -53,7 +53,8 @@ class LengthNormal final : public HalfEdges {
 };
 
 /// Formula 2: |e| times the maximum, over the faces f of the centre that the edge has not, of the minimum, over the faces g of
-/// the edge, of (1 - nf . ng) / 2.
+/// the edge, of (1 - nf . ng) / 2. It says nothing of borders, and would cut off the corners of a flat sheet; so along a
+/// feature the bend of that line counts in the same way.
 class Melax final : public HalfEdges {
   using HalfEdges::HalfEdges;
 
@@ -70,7 +71,18 @@ class Melax final : public HalfEdges {
       for (int j = 0; j < n; ++j) least = std::min(least, (1 - dot(normals_[i], *sides[j])) / 2);
       bend = std::max(bend, least);
     }
-    return length * bend;
+    return length * std::max(bend, bend_of_line(ring, spoke));
+  }
+
+  /// How the features that end in the centre go on in that edge: 0 straight, 1 back.
+  double bend_of_line(const Ring& ring, int spoke) const {
+    if (!ring.spokes[spoke].feature) return 0;
+    auto direction = [&](int s) { return unit(surface_.position(ring.spokes[s].vertex) - surface_.position(ring.center)); };
+    const Vec3 e = direction(spoke);
+    double bend = 0;
+    for (int s = 0; s < ring.n_spokes; ++s)
+      if (s != spoke && ring.spokes[s].feature) bend = std::max(bend, (1 + dot(e, direction(s))) / 2);
+    return bend;
   }
 };
 
