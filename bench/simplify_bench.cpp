@@ -101,7 +101,7 @@ void write_ply(const Mesh& m, const std::string& path) {
 
 void levels(const Mesh& mesh, const std::string& out, Criterion by, const std::string& ratios) {
   double begin = cpu_seconds();
-  CollapseOptions o{.criterion = by}; if (const char* e = std::getenv("CA")) o.crease_angle = std::atof(e), o.keep_creases = o.crease_angle < 3; Collapser c(mesh, o);
+  Collapser c(mesh, {.criterion = by});
   for (const std::string& r : split(ratios)) {
     c.run_to(static_cast<std::size_t>(static_cast<double>(mesh.n_faces()) * std::stod(r)));
     std::printf("ratio=%s faces=%zu error=%.4e cpu=%.3f\n", r.c_str(), c.n_faces(), c.error(), cpu_seconds() - begin);
@@ -111,7 +111,7 @@ void levels(const Mesh& mesh, const std::string& out, Criterion by, const std::s
 
 void speed(const Mesh& mesh, Criterion by) {
   double before = peak_bytes(), begin = cpu_seconds(), n = static_cast<double>(mesh.n_faces());
-  CollapseOptions o{.criterion = by}; if (const char* e = std::getenv("CA")) o.crease_angle = std::atof(e), o.keep_creases = o.crease_angle < 3; Collapser c(mesh, o);
+  Collapser c(mesh, {.criterion = by});
   double built = cpu_seconds() - begin;
   c.run_to(mesh.n_faces() / 10);
   double seconds = cpu_seconds() - begin;

@@ -40,8 +40,13 @@ void Engine::refresh(std::uint32_t v, int spokes) {
 void Engine::offer(const Ring& ring, int spokes) {
   options_.clear();
   pricer_->price(ring, spokes, options_);
-  if (const Option* best = cheapest()) queue_.set(ring.center, best->cost), best_[ring.center] = ring.spokes[best->spoke].vertex;
-  else queue_.remove(ring.center);
+  enqueue(ring, cheapest());
+}
+
+void Engine::enqueue(const Ring& ring, const Option* best) {
+  if (!best) return queue_.remove(ring.center);
+  queue_.set(ring.center, best->cost);
+  best_[ring.center] = ring.spokes[best->spoke].vertex;
 }
 
 Option* Engine::cheapest() {
@@ -81,8 +86,7 @@ bool Engine::settle_vertex(std::uint32_t v, Move& move) {
     }
     best = cheapest();
   }
-  if (best) queue_.set(v, best->cost), best_[v] = from_.spokes[best->spoke].vertex;
-  else queue_.remove(v);
+  enqueue(from_, best);
   return false;
 }
 
@@ -93,12 +97,12 @@ bool Engine::may_go(const Option& option) {
 
 void Engine::run_to(std::size_t n_faces, double max_error) {
   Move move;
-  std::vector<std::pair<std::uint32_t, double>> too_far;  // for a later call
+  std::vector<std::uint32_t> too_far;  // for a later call
   while (surface_.n_faces() > n_faces && settle(move)) {
     std::uint32_t u = from_.center, v = to_.center;
     double d = std::max(deviation_[u], deviation_[v]) + deviation(surface_, from_, to_, move.position);
     if (d > max_error) {
-      too_far.push_back({queue_.top(), move.cost});
+      too_far.push_back(queue_.top());
       queue_.remove(queue_.top());
       continue;
     }
@@ -106,8 +110,7 @@ void Engine::run_to(std::size_t n_faces, double max_error) {
     error_ = std::max(error_, d);
     collapse(move);
   }
-  for (auto [v, cost] : too_far)
-    if (surface_.degree(v)) queue_.set(v, cost);
+  for (std::uint32_t v : too_far) refresh(v, Pricer::every);
 }
 
 void Engine::collapse(const Move& move) {

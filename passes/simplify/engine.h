@@ -33,6 +33,7 @@ class Engine final : public Simplifier {
   void collapse(const Move& move);
   void refresh(std::uint32_t v, int spokes);
   void offer(const Ring& ring, int spokes);
+  void enqueue(const Ring& ring, const Option* best);
   Option* cheapest();
   void merge_wedges(const Vec3& position);
   void record_corners();

@@ -29,29 +29,9 @@ struct Metric {
 
 class LindstromTurk final : public Pricer {
  public:
-  explicit LindstromTurk(const Surface& surface) : surface_(surface), metric_(surface.n_vertices()) {
+  explicit LindstromTurk(const Surface& surface) : Pricer(surface), metric_(surface.n_vertices()) {
     for (std::uint32_t f = 0; f < surface.n_slots(); ++f)
       if (surface.alive(f)) add_face(f, 1, none, none);
-  }
-
-  void price(const Ring& ring, int spokes, std::vector<Option>& options) override {
-    for (const Ring::Spoke& s : ring.spoke_span()) {
-      const char* m = reinterpret_cast<const char*>(&metric_[s.vertex]);
-      __builtin_prefetch(m), __builtin_prefetch(m + sizeof(Metric) - 1);
-    }
-    for (int i = 0; i < ring.n_faces; ++i) {
-      const Ring::Face& f = ring.faces[i];
-      if (spokes < 0 || f.next == spokes || f.prev == spokes) faces_[i] = face_metric(surface_.normal(f.face));
-    }
-    for (int s = 0; s < ring.n_spokes; ++s) {
-      const std::uint32_t v = ring.spokes[s].vertex;
-      if (spokes >= 0 && s != spokes) continue;
-      if (spokes == own && v < ring.center && surface_.degree(v) <= Ring::max_faces) continue;
-      Terms t = terms(surface_, ring, s);
-      if (t.where == Placement::nowhere) continue;
-      options.push_back(price(ring, s, t.where));
-      options.back().cost *= t.factor;
-    }
   }
 
   void before_merge(const Ring& from, const Ring& to) override {
@@ -65,6 +45,19 @@ class LindstromTurk final : public Pricer {
     metric_[ring.center] = {};
     for (const Ring::Face& f : ring.face_span()) add_face(f.face, 1, none, none);
   }
+
+ protected:
+  void prepare(const Ring& ring, int spokes) override {
+    for (const Ring::Spoke& s : ring.spoke_span()) {
+      const char* m = reinterpret_cast<const char*>(&metric_[s.vertex]);
+      __builtin_prefetch(m), __builtin_prefetch(m + sizeof(Metric) - 1);
+    }
+    for (int i = 0; i < ring.n_faces; ++i) {
+      const Ring::Face& f = ring.faces[i];
+      if (spokes < 0 || f.next == spokes || f.prev == spokes) faces_[i] = face_metric(surface_.normal(f.face));
+    }
+  }
+  Option option(const Ring& ring, int spoke, Placement where) const override;
 
  private:
   /// Plane and normal, which every corner of a face has.
@@ -106,16 +99,14 @@ class LindstromTurk final : public Pricer {
     return m;
   }
 
-  Option price(const Ring& ring, int s, Placement where) const;
   Vec3 best(const Matrix& planes, const Vec3& linear, const Vec3& normal, double volume, const Vec3& e, bool closed) const;
 
-  const Surface& surface_;
   std::vector<Metric> metric_;
   Metric faces_[Ring::max_faces];
 };
 
 /// All is relative to the centre of the ring.
-Option LindstromTurk::price(const Ring& ring, int s, Placement where) const {
+Option LindstromTurk::option(const Ring& ring, int s, Placement where) const {
   std::uint32_t u = ring.center, v = ring.spokes[s].vertex;
   const Vec3 e = surface_.position(v) - surface_.position(u);
   const Metric &mu = metric_[u], &mv = metric_[v], both = common(ring, s);

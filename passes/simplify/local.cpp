@@ -11,31 +11,25 @@ namespace {
 /// A ring with the unit normals of its faces; a face without area has none (0, 0, 0).
 class HalfEdges : public Pricer {
  public:
-  explicit HalfEdges(const Surface& surface) : surface_(surface) {}
+  using Pricer::Pricer;
 
-  void price(const Ring& ring, int spokes, std::vector<Option>& options) override {
+  bool one_way() const override { return true; }
+
+ protected:
+  void prepare(const Ring& ring, int) override {
     for (int i = 0; i < ring.n_faces; ++i) {
       Vec3 n = surface_.normal(ring.faces[i].face);
       double l = dot(n, n);
       normals_[i] = l > 0 ? 1 / std::sqrt(l) * n : Vec3{};
     }
-    for (int s = 0; s < ring.n_spokes; ++s) {
-      if (spokes >= 0 && s != spokes) continue;
-      const Ring::Spoke& spoke = ring.spokes[s];
-      Terms t = terms(surface_, ring, s);
-      if (t.where != Placement::spoke && t.where != Placement::anywhere) continue;
-      const Vec3& to = surface_.position(spoke.vertex);
-      Vec3 e = to - surface_.position(ring.center);
-      options.push_back({s, t.factor * cost(ring, s, std::sqrt(dot(e, e))), to});
-    }
   }
-
-  bool one_way() const override { return true; }
-
- protected:
+  Option option(const Ring& ring, int spoke, Placement) const override {
+    const Vec3& to = surface_.position(ring.spokes[spoke].vertex);
+    Vec3 e = to - surface_.position(ring.center);
+    return {spoke, cost(ring, spoke, std::sqrt(dot(e, e))), to};
+  }
   virtual double cost(const Ring& ring, int spoke, double length) const = 0;
 
-  const Surface& surface_;
   Vec3 normals_[Ring::max_faces];
 };
 
