@@ -119,30 +119,36 @@ void Engine::collapse(const Move& move) {
   pricer_->before_merge(from_, to_);
   if (wedges_.present()) merge_wedges(move.position);
   if (recording_) record_corners();
-  bool features = false;
-  dirty_.clear();
-  for (const Ring::Face& f : from_.face_span()) {
-    if (!from_.has(f, v)) continue;
-    features |= surface_.face[f.face].features != 0;
-    dirty_.push_back(from_.next_vertex(f) == v ? from_.prev_vertex(f) : from_.next_vertex(f));
-  }
-  surface_.merge(from_, to_);
-  surface_.vertex[v].position = move.position;
-  if (surface_.vertex[u].kind == Kind::fixed) surface_.vertex[v].kind = surface_.vertex[v].crease_kind = Kind::fixed;
-  queue_.remove(u);
-  surface_.gather(v, to_);
+  merge_vertices(move.position);
   pricer_->after_merge(to_);
-  if (features) {
-    surface_.classify(to_);
-    for (std::uint32_t w : dirty_)
-      if (surface_.gather(w, ring_)) surface_.classify(ring_);
-  }
   if (recording_)
     recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position(u), old,
                        error_);
+  queue_.remove(u);
   offer(to_, Pricer::every);
   for (const Ring::Spoke& s : to_.spoke_span())
     if (exact_ || !queue_.contains(s.vertex)) refresh(s.vertex, Pricer::every);
+}
+
+/// Leaves the new ring in to_. Kinds of vertices change only where features end in the third corner of a face that goes.
+void Engine::merge_vertices(const Vec3& position) {
+  const std::uint32_t u = from_.center, v = to_.center;
+  std::uint32_t third[Ring::max_faces];
+  int n = 0;
+  bool features = false;
+  for (const Ring::Face& f : from_.face_span()) {
+    if (!from_.has(f, v)) continue;
+    features |= surface_.face[f.face].features != 0;
+    third[n++] = from_.next_vertex(f) == v ? from_.prev_vertex(f) : from_.next_vertex(f);
+  }
+  surface_.merge(from_, to_);
+  surface_.vertex[v].position = position;
+  if (surface_.vertex[u].kind == Kind::fixed) surface_.vertex[v].kind = surface_.vertex[v].crease_kind = Kind::fixed;
+  surface_.gather(v, to_);
+  if (!features) return;
+  surface_.classify(to_);
+  for (int i = 0; i < n; ++i)
+    if (surface_.gather(third[i], ring_)) surface_.classify(ring_);
 }
 
 /// The wedges at both ends of the edge become one in each of its faces; the others of `from_` go along as they are.
@@ -182,8 +188,7 @@ void Engine::record_corners() {
 std::optional<EdgeCollapse> Engine::next() {
   Move move;
   if (!settle(move)) return {};
-  EdgeCollapse c{surface_.original(from_.center), surface_.original(to_.center), move.position, move.cost};
-  return c;
+  return EdgeCollapse{surface_.original(from_.center), surface_.original(to_.center), move.position, move.cost};
 }
 
 std::optional<double> Engine::cost(std::uint32_t from, std::uint32_t to) {
