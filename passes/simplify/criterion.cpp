@@ -36,11 +36,16 @@ void Pricer::price(const Ring& ring, int spokes, std::vector<Option>& options) {
 
 std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface, const Wedges& wedges) {
   switch (criterion) {
-    case Criterion::length_normal: return length_normal(surface);
-    case Criterion::melax: return melax(surface);
-    case Criterion::lindstrom_turk: return lindstrom_turk(surface);
-    case Criterion::quadric: return quadric(surface, wedges);
-    case Criterion::meshopt: break;
+    case Criterion::length_normal:
+      return length_normal(surface);
+    case Criterion::melax:
+      return melax(surface);
+    case Criterion::lindstrom_turk:
+      return lindstrom_turk(surface);
+    case Criterion::quadric:
+      return quadric(surface, wedges);
+    case Criterion::meshopt:
+      break;
   }
   return nullptr;
 }

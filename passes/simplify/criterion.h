@@ -26,12 +26,12 @@ class Pricer {
   explicit Pricer(const Surface& surface) : surface_(surface) {}
   virtual ~Pricer() = default;
 
-  /// Adds the options of the ring's centre: of every spoke, of those whose other end will not offer the edge (own), or of
-  /// one. Collapses across a crease are made dearer.
+  /// Adds the options of the ring's centre: of every spoke, of those whose other end will not offer the edge (own), or
+  /// of one. Collapses across a crease are made dearer.
   void price(const Ring& ring, int spokes, std::vector<Option>& options);
 
-  /// Whether an edge has a cost of its own in each direction, goes from the centre to the spoke only, and is an option of
-  /// both ends.
+  /// Whether an edge has a cost of its own in each direction, goes from the centre to the spoke only, and is an option
+  /// of both ends.
   virtual bool one_way() const { return false; }
   /// Before the faces and wedges of the two rings change.
   virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/) {}

@@ -32,8 +32,10 @@ Engine::Engine(const Mesh& mesh, const CollapseOptions& options)
 }
 
 void Engine::refresh(std::uint32_t v, int spokes) {
-  if (surface_.gather(v, ring_)) offer(ring_, spokes);
-  else queue_.remove(v);
+  if (surface_.gather(v, ring_))
+    offer(ring_, spokes);
+  else
+    queue_.remove(v);
 }
 
 /// Prices the centre and puts it into the queue.
@@ -122,15 +124,16 @@ void Engine::collapse(const Move& move) {
   merge_vertices(move.position);
   pricer_->after_merge(to_);
   if (recording_)
-    recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position(u), old,
-                       error_);
+    recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position(u),
+                       old, error_);
   queue_.remove(u);
   offer(to_, Pricer::every);
   for (const Ring::Spoke& s : to_.spoke_span())
     if (exact_ || !queue_.contains(s.vertex)) refresh(s.vertex, Pricer::every);
 }
 
-/// Leaves the new ring in to_. Kinds of vertices change only where features end in the third corner of a face that goes.
+/// Leaves the new ring in to_. Kinds of vertices change only where features end in the third corner of a face that
+/// goes.
 void Engine::merge_vertices(const Vec3& position) {
   const std::uint32_t u = from_.center, v = to_.center;
   std::uint32_t third[Ring::max_faces];
@@ -155,7 +158,9 @@ void Engine::merge_vertices(const Vec3& position) {
 void Engine::merge_wedges(const Vec3& position) {
   const std::uint32_t v = to_.center;
   const double t = along(surface_.position(from_.center), surface_.position(v), position);
-  struct Pair { std::uint32_t from, to; };
+  struct Pair {
+    std::uint32_t from, to;
+  };
   Pair pairs[Ring::max_faces];
   int n = 0;
   for (const Ring::Face& f : from_.face_span()) {
@@ -181,8 +186,10 @@ void Engine::merge_wedges(const Vec3& position) {
 /// The faces that go, and without attributes, where a wedge is a vertex, the corners that change theirs.
 void Engine::record_corners() {
   for (const Ring::Face& f : from_.face_span())
-    if (from_.has(f, to_.center)) recorder_.remove_face(f.face);
-    else if (!wedges_.present()) recorder_.change_corner(3 * f.face + f.corner, from_.center, to_.center);
+    if (from_.has(f, to_.center))
+      recorder_.remove_face(f.face);
+    else if (!wedges_.present())
+      recorder_.change_corner(3 * f.face + f.corner, from_.center, to_.center);
 }
 
 std::optional<EdgeCollapse> Engine::next() {

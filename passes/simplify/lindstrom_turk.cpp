@@ -1,11 +1,13 @@
-// The memoryless criterion after Lindstrom and Turk (Fast and Memory Efficient Polygonal Simplification, 1998; Evaluation of
-// Memoryless Simplification, 1999): the new vertex is where the squared distances from the planes of the faces around the
-// edge, and from the lines of the features, are least, among the places that keep the volume. Theirs weigh a distance by the
-// squared area of its face, ours by the area: that is what an RMS distance counts, and measures 2 to 3 % better.
+// The memoryless criterion after Lindstrom and Turk (Fast and Memory Efficient Polygonal Simplification, 1998;
+// Evaluation of Memoryless Simplification, 1999): the new vertex is where the squared distances from the planes of the
+// faces around the edge, and from the lines of the features, are least, among the places that keep the volume. Theirs
+// weigh a distance by the squared area of its face, ours by the area: that is what an RMS distance counts, and measures
+// 2 to 3 % better.
 //
-// The sum over the faces of a vertex is kept for each vertex, relative to the vertex itself. All its faces and feature lines
-// pass through it, so the sum is a matrix A and the normals' sum n, and nothing else. Moving it to the other end of an edge
-// e gives linear and constant terms -A e and e A e; what the two ends of an edge have in common is taken away once.
+// The sum over the faces of a vertex is kept for each vertex, relative to the vertex itself. All its faces and feature
+// lines pass through it, so the sum is a matrix A and the normals' sum n, and nothing else. Moving it to the other end
+// of an edge e gives linear and constant terms -A e and e A e; what the two ends of an edge have in common is taken
+// away once.
 #include <algorithm>
 #include <cmath>
 
@@ -15,8 +17,9 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr double line_weight = 9;     // of the squared distance from a line by its length, against that from a plane by its area
-constexpr double length_cost = 1e-12; // of the squared length, which decides where the surface is flat
+constexpr double line_weight =
+    9;  // of the squared distance from a line by its length, against that from a plane by its area
+constexpr double length_cost = 1e-12;  // of the squared length, which decides where the surface is flat
 
 struct Metric {
   Matrix planes;
@@ -96,11 +99,13 @@ class LindstromTurk final : public Pricer {
       if (f.next == spoke || f.prev == spoke) m.add(faces_[i], 1);
     }
     const Ring::Spoke& s = ring.spokes[spoke];
-    if (s.feature) m.planes.add(line_matrix(surface_.position(s.vertex) - surface_.position(ring.center), line_weight), s.n_faces);
+    if (s.feature)
+      m.planes.add(line_matrix(surface_.position(s.vertex) - surface_.position(ring.center), line_weight), s.n_faces);
     return m;
   }
 
-  Vec3 best(const Matrix& planes, const Vec3& linear, const Vec3& normal, double volume, const Vec3& e, bool closed) const;
+  Vec3 best(const Matrix& planes, const Vec3& linear, const Vec3& normal, double volume, const Vec3& e,
+            bool closed) const;
 
   std::vector<Metric> metric_;
   Metric faces_[Ring::max_faces];
@@ -126,8 +131,8 @@ Option LindstromTurk::option(const Ring& ring, int s, Placement where) const {
   return {s, std::max(cost, 0.) + length_cost * planes.trace() * dot(e, e), surface_.position(u) + x};
 }
 
-/// Where the metric has its minimum, drawn a little to the middle of the edge, which decides where the surface is flat; then
-/// along the normal to where the volume is what it was.
+/// Where the metric has its minimum, drawn a little to the middle of the edge, which decides where the surface is flat;
+/// then along the normal to where the volume is what it was.
 Vec3 LindstromTurk::best(const Matrix& planes, const Vec3& linear, const Vec3& normal, double volume, const Vec3& e,
                          bool closed) const {
   const Vec3 middle = 0.5 * e;
@@ -148,8 +153,6 @@ Vec3 LindstromTurk::best(const Matrix& planes, const Vec3& linear, const Vec3& n
 
 }  // namespace
 
-std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface) {
-  return std::make_unique<LindstromTurk>(surface);
-}
+std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface) { return std::make_unique<LindstromTurk>(surface); }
 
 }  // namespace wrlkit::simplify

@@ -1,5 +1,5 @@
-// The two local criteria of Lazanyi's paper. They look at the faces of one vertex and move it into a neighbour, so vertices
-// stay where they were measured.
+// The two local criteria of Lazanyi's paper. They look at the faces of one vertex and move it into a neighbour, so
+// vertices stay where they were measured.
 #include <algorithm>
 #include <cmath>
 
@@ -46,9 +46,9 @@ class LengthNormal final : public HalfEdges {
   }
 };
 
-/// Formula 2: |e| times the maximum, over the faces f of the centre that the edge has not, of the minimum, over the faces g of
-/// the edge, of (1 - nf . ng) / 2. It says nothing of borders, and would cut off the corners of a flat sheet; so along a
-/// feature the bend of that line counts in the same way.
+/// Formula 2: |e| times the maximum, over the faces f of the centre that the edge has not, of the minimum, over the
+/// faces g of the edge, of (1 - nf . ng) / 2. It says nothing of borders, and would cut off the corners of a flat
+/// sheet; so along a feature the bend of that line counts in the same way.
 class Melax final : public HalfEdges {
   using HalfEdges::HalfEdges;
 
@@ -71,7 +71,9 @@ class Melax final : public HalfEdges {
   /// How the features that end in the centre go on in that edge: 0 straight, 1 back.
   double bend_of_line(const Ring& ring, int spoke) const {
     if (!ring.spokes[spoke].feature) return 0;
-    auto direction = [&](int s) { return unit(surface_.position(ring.spokes[s].vertex) - surface_.position(ring.center)); };
+    auto direction = [&](int s) {
+      return unit(surface_.position(ring.spokes[s].vertex) - surface_.position(ring.center));
+    };
     const Vec3 e = direction(spoke);
     double bend = 0;
     for (int s = 0; s < ring.n_spokes; ++s)

@@ -1,10 +1,10 @@
-// The global criterion: quadrics that remember the original (Garland and Heckbert, Surface Simplification Using Quadric Error
-// Metrics, 1997). A vertex carries the squared distances from the planes of all faces that went into it, by area, and from
-// the feature lines.
+// The global criterion: quadrics that remember the original (Garland and Heckbert, Surface Simplification Using Quadric
+// Error Metrics, 1997). A vertex carries the squared distances from the planes of all faces that went into it, by area,
+// and from the feature lines.
 //
-// Attributes are in the metric as in Hoppe's (New Quadric Metric for Simplifying Meshes with Appearance Attributes, 1999):
-// each is a linear function g x + d over a face of the original. A wedge carries the sums of these by area; what its best
-// value at x leaves is the deviation.
+// Attributes are in the metric as in Hoppe's (New Quadric Metric for Simplifying Meshes with Appearance Attributes,
+// 1999): each is a linear function g x + d over a face of the original. A wedge carries the sums of these by area; what
+// its best value at x leaves is the deviation.
 #include <algorithm>
 #include <cmath>
 
@@ -56,7 +56,8 @@ class GlobalQuadric final : public Pricer {
   GlobalQuadric(const Surface& surface, const Wedges& wedges)
       : Pricer(surface), wedges_(wedges), quadric_(surface.n_vertices()), width_(wedges.width()) {
     origin_ = surface.n_vertices() ? surface.position(0) : Vec3{};
-    if (width_) wedge_quadric_.resize(wedges.count()), area_.resize(wedges.count()), linear_.resize(wedges.count() * width_);
+    if (width_)
+      wedge_quadric_.resize(wedges.count()), area_.resize(wedges.count()), linear_.resize(wedges.count() * width_);
     scale_ = width_ ? attribute_size * size() : 0;
     for (std::uint32_t f = 0; f < surface.n_slots(); ++f)
       if (surface.alive(f)) add_face(f);

@@ -14,7 +14,8 @@ namespace {
 using Point = std::array<double, 3>;
 using Triangle = std::array<std::uint32_t, 3>;
 constexpr double pi = std::numbers::pi;
-constexpr Criterion engines[] = {Criterion::length_normal, Criterion::melax, Criterion::lindstrom_turk, Criterion::quadric};
+constexpr Criterion engines[] = {Criterion::length_normal, Criterion::melax, Criterion::lindstrom_turk,
+                                 Criterion::quadric};
 
 Mesh make(const std::vector<Point>& points, const std::vector<Triangle>& faces) {
   Mesh m;
@@ -24,13 +25,23 @@ Mesh make(const std::vector<Point>& points, const std::vector<Triangle>& faces) 
   return m;
 }
 
-/// Vertex i has bit 0, 1, 2 of i as x, y, z. Each side is cut along the diagonal that goes through vertex 0 or 7, so the
-/// sides that meet in 0 have their diagonals there.
+/// Vertex i has bit 0, 1, 2 of i as x, y, z. Each side is cut along the diagonal that goes through vertex 0 or 7, so
+/// the sides that meet in 0 have their diagonals there.
 Mesh cube() {
   std::vector<Point> points;
   for (int i = 0; i < 8; ++i) points.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2)});
-  return make(points, {{0, 3, 1}, {0, 2, 3}, {0, 5, 4}, {0, 1, 5}, {0, 6, 2}, {0, 4, 6},
-                       {7, 4, 5}, {7, 6, 4}, {7, 2, 6}, {7, 3, 2}, {7, 1, 3}, {7, 5, 1}});
+  return make(points, {{0, 3, 1},
+                       {0, 2, 3},
+                       {0, 5, 4},
+                       {0, 1, 5},
+                       {0, 6, 2},
+                       {0, 4, 6},
+                       {7, 4, 5},
+                       {7, 6, 4},
+                       {7, 2, 6},
+                       {7, 3, 2},
+                       {7, 1, 3},
+                       {7, 5, 1}});
 }
 
 /// n by m squares over the unit square, each of two triangles, lifted to z(x, y).
@@ -39,7 +50,8 @@ Mesh sheet(std::uint32_t n, std::uint32_t m, F z) {
   std::vector<Point> points;
   std::vector<Triangle> faces;
   for (std::uint32_t j = 0; j <= m; ++j)
-    for (std::uint32_t i = 0; i <= n; ++i) points.push_back({double(i) / n, double(j) / m, z(double(i) / n, double(j) / m)});
+    for (std::uint32_t i = 0; i <= n; ++i)
+      points.push_back({double(i) / n, double(j) / m, z(double(i) / n, double(j) / m)});
   for (std::uint32_t j = 0; j < m; ++j)
     for (std::uint32_t i = 0; i < n; ++i) {
       std::uint32_t a = j * (n + 1) + i, c = a + n + 1;
@@ -63,7 +75,6 @@ Mesh torus(std::uint32_t n, std::uint32_t m) {
     }
   return make(points, faces);
 }
-
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 std::map<Edge, int> edges(const Mesh& m) {
@@ -140,8 +151,10 @@ TEST_CASE("collapse: topology of a closed surface is kept") {
       Mesh s = simplified(m, n, {.criterion = criterion});
       CHECK(euler(s) == 0);
       CHECK(count_edges(s, 2) == static_cast<long>(edges(s).size()));
-      if (n >= 60) CHECK((s.n_faces() <= n && s.n_faces() + 2 > n));
-      else CHECK(s.n_faces() >= 14);  // no torus has fewer
+      if (n >= 60)
+        CHECK((s.n_faces() <= n && s.n_faces() + 2 > n));
+      else
+        CHECK(s.n_faces() >= 14);  // no torus has fewer
     }
 }
 
@@ -172,7 +185,8 @@ TEST_CASE("collapse: borders keep their shape and their number") {
   std::vector<std::uint32_t> corners;
   for (std::size_t f = 0; f < m.n_faces(); ++f) {
     std::size_t i = f / 2 % 12, j = f / 24;
-    if (i < 4 || i > 7 || j < 4 || j > 7) corners.insert(corners.end(), {m.corners[3 * f], m.corners[3 * f + 1], m.corners[3 * f + 2]});
+    if (i < 4 || i > 7 || j < 4 || j > 7)
+      corners.insert(corners.end(), {m.corners[3 * f], m.corners[3 * f + 1], m.corners[3 * f + 2]});
   }
   m.corners = corners;
   REQUIRE(euler(simplified(m, m.n_faces())) == 0);
@@ -212,14 +226,16 @@ TEST_CASE("collapse: a crease stays while there is anything else to take") {
 
 namespace {
 
-/// A seam at x = 1/2: the texture coordinates of the left half are x, y, those of the right 3 + x, y. A color for each half.
+/// A seam at x = 1/2: the texture coordinates of the left half are x, y, those of the right 3 + x, y. A color for each
+/// half.
 Mesh with_seam(Mesh m) {
   for (std::size_t c = 0; c < m.corners.size(); ++c) {
     std::size_t f = c / 3;
     double middle = 0;
     for (int k = 0; k < 3; ++k) middle += m.positions[3 * m.corners[3 * f + k]] / 3;
     bool right = middle > 0.5;
-    float x = static_cast<float>(m.positions[3 * m.corners[c]]), y = static_cast<float>(m.positions[3 * m.corners[c] + 1]);
+    float x = static_cast<float>(m.positions[3 * m.corners[c]]),
+          y = static_cast<float>(m.positions[3 * m.corners[c] + 1]);
     m.texcoord.values.insert(m.texcoord.values.end(), {right ? 3 + x : x, y});
     m.texcoord.index.push_back(static_cast<std::uint32_t>(c));
     m.color.index.push_back(right);
@@ -263,7 +279,8 @@ TEST_CASE("collapse: normals are interpolated and of unit length; faceted ones a
   for (std::size_t c = 0; c < m.corners.size(); ++c) {
     std::uint32_t p = m.corners[c], i = p / 20, j = p % 20;
     double a = 2 * pi * i / 40, b = 2 * pi * j / 20;
-    for (double x : {std::cos(a) * std::cos(b), std::sin(a) * std::cos(b), std::sin(b)}) m.normal.values.push_back(float(x));
+    for (double x : {std::cos(a) * std::cos(b), std::sin(a) * std::cos(b), std::sin(b)})
+      m.normal.values.push_back(float(x));
     m.normal.index.push_back(static_cast<std::uint32_t>(c));
   }
   Mesh s = simplified(m, 200);
@@ -285,7 +302,8 @@ TEST_CASE("collapse: surfaces that are no manifold") {
     double a = 2 * pi * fin / 3;
     auto at = [&](std::uint32_t i, std::uint32_t j) { return j == 0 ? i : (n + 1) * (1 + fin * 4 + j - 1) + i; };
     for (std::uint32_t j = 1; j <= 4; ++j)
-      for (std::uint32_t i = 0; i <= n; ++i) points.push_back({double(i) / n, j * std::cos(a) / 8, j * std::sin(a) / 8});
+      for (std::uint32_t i = 0; i <= n; ++i)
+        points.push_back({double(i) / n, j * std::cos(a) / 8, j * std::sin(a) / 8});
     for (std::uint32_t j = 0; j < 4; ++j)
       for (std::uint32_t i = 0; i < n; ++i) {
         faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
@@ -344,8 +362,8 @@ TEST_CASE("collapse: surfaces that are no manifold") {
 }
 
 TEST_CASE("collapse: no face turns over") {
-  // A bumpy sheet over the unit square: seen from above no face may show its back. Formula 1 piles up turns of less than
-  // 90 degrees, step by step; that is its nature.
+  // A bumpy sheet over the unit square: seen from above no face may show its back. Formula 1 piles up turns of less
+  // than 90 degrees, step by step; that is its nature.
   Mesh m = sheet(40, 40, [](double x, double y) { return 0.02 * std::sin(20 * x) * std::sin(17 * y); });
   for (Criterion criterion : {Criterion::melax, Criterion::lindstrom_turk, Criterion::quadric})
     for (std::size_t n : {1000, 300, 100}) {
@@ -387,7 +405,8 @@ TEST_CASE("collapse: the next step is what is done") {
 
 namespace {
 
-/// The faces of a record after so many steps, forwards or undone from the end, as position and attribute values of corners.
+/// The faces of a record after so many steps, forwards or undone from the end, as position and attribute values of
+/// corners.
 struct Player {
   const CollapseRecord& r;
   std::vector<std::uint32_t> wedge_of_corner = r.wedge_of_corner, wedge_vertex = r.wedge_vertex;
@@ -403,7 +422,8 @@ struct Player {
     for (const auto& s : r.steps) {
       for (; faces < s.end_of_faces; ++faces) removed[r.removed_faces[faces]] = true;
       for (; wedges < s.end_of_wedges; ++wedges) row[r.wedges[wedges].wedge] = r.wedges[wedges].after;
-      for (; corners < s.end_of_corners; ++corners) wedge_of_corner[r.corners[corners].corner] = r.corners[corners].after;
+      for (; corners < s.end_of_corners; ++corners)
+        wedge_of_corner[r.corners[corners].corner] = r.corners[corners].after;
       for (std::uint32_t& v : wedge_vertex)
         if (v == s.from) v = s.to;
       moved[s.to] = s.position;
