@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "parsers/parsers.h"
+#include "passes/geometry.h"
 #include "passes/pipeline.h"
+#include "passes/weld.h"
 #include "writers/gltf.h"
 #include "writers/vrml.h"
 
@@ -80,6 +82,38 @@ void meshes(benchmark::State& state) {
   count(state);
 }
 BENCHMARK(meshes)->Unit(benchmark::kMillisecond);
+
+/// The pass alone, in corners: the meshes are read before.
+void weld_points(benchmark::State& state, const char* tolerance) {
+  auto world = read();
+  const Scene& scene = world->scene;
+  Diagnostics diag;
+  Statistics stats;
+  PassContext ctx{diag, stats};
+  MeshScratch scratch;
+  std::vector<Mesh> meshes;
+  std::size_t corners = 0;
+  for (std::uint32_t i = 0; i < scene.node_count(); ++i) {
+    MeshJob job{scene, NodeId{i}, meshes.emplace_back(), scratch, ctx};
+    read_mesh(job);
+    corners += meshes.back().corners.size();
+  }
+  WeldOptions options;
+  options.tolerance.read(tolerance);
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto welded = meshes;
+    state.ResumeTiming();
+    for (std::uint32_t i = 0; i < welded.size(); ++i) {
+      MeshJob job{scene, NodeId{i}, welded[i], scratch, ctx};
+      weld(job, options);
+    }
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * corners));
+}
+BENCHMARK_CAPTURE(weld_points, exact, "0")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(weld_points, auto, "auto")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(weld_points, tolerance, "0.001")->Unit(benchmark::kMillisecond);
 
 void to_glb(benchmark::State& state) {
   std::string why;

@@ -1,6 +1,7 @@
 // Edge collapse: levels as PLY for measuring their quality elsewhere (simplify_quality.py), and triangles a CPU second.
 //   simplify_bench levels IN.wrl OUT CRITERION 0.5,0.25,...   writes OUT_0.5.ply, ...
-//   simplify_bench speed IN.wrl|TRIANGLES [CRITERION,...]     each criterion to 10 %, one line each; a number makes a torus
+//   simplify_bench speed IN.wrl|TRIANGLES [CRITERION,...]     each criterion to 10 %, one line each; a number makes a
+//   torus
 //                                                             with bumps of so many triangles
 #include <sys/resource.h>
 #include <time.h>
@@ -76,7 +77,8 @@ Mesh bumpy_torus(double n_faces) {
   for (std::uint32_t i = 0; i < rings; ++i)
     for (std::uint32_t j = 0; j < sides; ++j) {
       double a = 6.283185307179586 * i / rings, b = 6.283185307179586 * j / sides, r = 0.4;
-      for (double f = 5, h = 0.03; f < 200; f *= 2.3, h /= 2) r += h * std::sin(f * a + f) * std::sin(std::floor(f) * b);
+      for (double f = 5, h = 0.03; f < 200; f *= 2.3, h /= 2)
+        r += h * std::sin(f * a + f) * std::sin(std::floor(f) * b);
       p.insert(p.end(), {(1 + r * std::cos(b)) * std::cos(a), (1 + r * std::cos(b)) * std::sin(a), r * std::sin(b)});
       std::uint32_t i1 = (i + 1) % rings, j1 = (j + 1) % sides;
       std::uint32_t q[] = {i * sides + j, i1 * sides + j, i1 * sides + j1, i * sides + j1};
@@ -88,7 +90,8 @@ Mesh bumpy_torus(double n_faces) {
 void write_ply(const Mesh& m, const std::string& path) {
   std::FILE* out = std::fopen(path.c_str(), "wb");
   if (!out) std::perror(path.c_str()), std::exit(1);
-  std::fprintf(out, "ply\nformat binary_little_endian 1.0\nelement vertex %zu\nproperty float x\nproperty float y\n"
+  std::fprintf(out,
+               "ply\nformat binary_little_endian 1.0\nelement vertex %zu\nproperty float x\nproperty float y\n"
                "property float z\nelement face %zu\nproperty list uchar int vertex_indices\nend_header\n",
                m.n_positions(), m.n_faces());
   for (std::size_t i = 0; i < m.positions.size(); ++i) {
@@ -101,7 +104,7 @@ void write_ply(const Mesh& m, const std::string& path) {
 
 void levels(const Mesh& mesh, const std::string& out, Criterion by, const std::string& ratios) {
   double begin = cpu_seconds();
-  CollapseOptions o{.criterion = by}; if (const char* e = std::getenv("CA")) o.crease_angle = std::atof(e), o.keep_creases = o.crease_angle < 3; Collapser c(mesh, o);
+  Collapser c(mesh, {.criterion = by});
   for (const std::string& r : split(ratios)) {
     c.run_to(static_cast<std::size_t>(static_cast<double>(mesh.n_faces()) * std::stod(r)));
     std::printf("ratio=%s faces=%zu error=%.4e cpu=%.3f\n", r.c_str(), c.n_faces(), c.error(), cpu_seconds() - begin);
@@ -111,12 +114,13 @@ void levels(const Mesh& mesh, const std::string& out, Criterion by, const std::s
 
 void speed(const Mesh& mesh, Criterion by) {
   double before = peak_bytes(), begin = cpu_seconds(), n = static_cast<double>(mesh.n_faces());
-  CollapseOptions o{.criterion = by}; if (const char* e = std::getenv("CA")) o.crease_angle = std::atof(e), o.keep_creases = o.crease_angle < 3; Collapser c(mesh, o);
+  Collapser c(mesh, {.criterion = by});
   double built = cpu_seconds() - begin;
   c.run_to(mesh.n_faces() / 10);
   double seconds = cpu_seconds() - begin;
-  std::printf("%-15s faces=%zu to=%zu built=%.3f cpu=%.3f ktriangles/s=%.0f bytes/triangle=%.0f\n", names[static_cast<int>(by)],
-              mesh.n_faces(), c.n_faces(), built, seconds, n / seconds / 1e3, (peak_bytes() - before) / n);
+  std::printf("%-15s faces=%zu to=%zu built=%.3f cpu=%.3f ktriangles/s=%.0f bytes/triangle=%.0f\n",
+              names[static_cast<int>(by)], mesh.n_faces(), c.n_faces(), built, seconds, n / seconds / 1e3,
+              (peak_bytes() - before) / n);
   std::fflush(stdout);
 }
 
@@ -125,7 +129,8 @@ void speed(const Mesh& mesh, Criterion by) {
 int main(int argc, char** argv) {
   if (argc < 3) return std::fprintf(stderr, "see the head of simplify_bench.cpp\n"), 2;
   Mesh mesh = std::atof(argv[2]) > 0 ? bumpy_torus(std::atof(argv[2])) : read(argv[2]);
-  if (!std::strcmp(argv[1], "levels") && argc == 6) levels(mesh, argv[3], criterion(argv[4]), argv[5]);
+  if (!std::strcmp(argv[1], "levels") && argc == 6)
+    levels(mesh, argv[3], criterion(argv[4]), argv[5]);
   else
     for (const std::string& name : split(argc > 3 ? argv[3] : "lindstrom-turk,melax,length-normal,quadric,meshopt"))
       speed(mesh, criterion(name));

@@ -1,5 +1,5 @@
-// The tree is split by the surface area heuristic over a few bins along the longest side of the centres. Boxes are single
-// precision, rounded outwards and relative to the middle of the surface; all distances are double.
+// The tree is split by the surface area heuristic over a few bins along the longest side of the centres. Boxes are
+// single precision, rounded outwards and relative to the middle of the surface; all distances are double.
 #include "passes/closest_point.h"
 
 #include <algorithm>
@@ -15,9 +15,10 @@ constexpr std::uint32_t leaf_size = 4;
 constexpr int n_bins = 12;
 constexpr int balanced_below = 40;  // depth from which triangles are halved by number, so that the tree ends
 constexpr int most_depth = balanced_below + 32;
+constexpr int most_equal = 32;  // triangles compared for where they face; there may be thousands in one place
 constexpr double largest = 1e18;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double flat = 1e-24;      // squared sine below which a triangle is its edges
+constexpr double flat = 1e-24;  // squared sine below which a triangle is its edges
 
 double squared(const Vec3& v) { return dot(v, v); }
 
@@ -29,8 +30,8 @@ double to_segment(const Vec3& a, const Vec3& b) {
   return along < all ? squared(a + (along / all) * ab) : squared(b);
 }
 
-/// Squared distance of the origin to a triangle with this area normal. Whoever is beyond an edge is nearest to one of the
-/// edges that he is beyond. The foot is a mean of the corners, so it is on the triangle however thin that is.
+/// Squared distance of the origin to a triangle with this area normal. Whoever is beyond an edge is nearest to one of
+/// the edges that he is beyond. The foot is a mean of the corners, so it is on the triangle however thin that is.
 double to_triangle(const std::array<Vec3, 3>& t, const Vec3& n) {
   Vec3 ab = t[1] - t[0], ac = t[2] - t[0];
   double nn = squared(n), least = infinity;
@@ -153,10 +154,13 @@ struct ClosestPoint::Builder {
     auto first = items.begin() + begin, last = items.begin() + end;
     if (!(extent > 0)) return halfway;
     if (depth >= balanced_below) {
-      std::nth_element(first, items.begin() + halfway, last, [&](auto& a, auto& b) { return a.middle(axis) < b.middle(axis); });
+      std::nth_element(first, items.begin() + halfway, last,
+                       [&](auto& a, auto& b) { return a.middle(axis) < b.middle(axis); });
       return halfway;
     }
-    auto bin_of = [&](const Item& i) { return std::min(n_bins - 1, static_cast<int>((i.middle(axis) - low) / extent * n_bins)); };
+    auto bin_of = [&](const Item& i) {
+      return std::min(n_bins - 1, static_cast<int>((i.middle(axis) - low) / extent * n_bins));
+    };
     Bin bins[n_bins];
     for (auto i = first; i != last; ++i) {
       Bin& b = bins[bin_of(*i)];
@@ -164,7 +168,8 @@ struct ClosestPoint::Builder {
       ++b.n;
     }
     int cut = cheapest_cut(bins);
-    return static_cast<std::uint32_t>(std::partition(first, last, [&](auto& i) { return bin_of(i) < cut; }) - items.begin());
+    return static_cast<std::uint32_t>(std::partition(first, last, [&](auto& i) { return bin_of(i) < cut; }) -
+                                      items.begin());
   }
 
   /// The first bin of the second half: the least sum of area times number. The first bin and the last are never empty.
@@ -190,19 +195,23 @@ struct ClosestPoint::Search {
   const Vec3& p;
   const Vec3& facing;
   Nearest best{infinity, no_guess};
-  double reach = infinity;      // squared distance up to which a triangle may be the answer
+  double reach = infinity;  // squared distance up to which a triangle may be the answer
   double best_facing = -infinity;
+  int n_equal = 0;
 
   void try_triangle(std::uint32_t triangle) {
+    ++best.n_tried;
     auto t = tree.surface_[triangle];
     for (auto& corner : t) corner = corner - p;
     Vec3 n = area_normal(t);
     double d2 = to_triangle(t, n);
     if (!(d2 <= reach)) return;
     double d = std::sqrt(d2), size = length(n), front = size > 0 ? dot(n, facing) / size : -infinity;
-    if (d < best.distance - tree.same_ || front > best_facing) best.triangle = triangle, best_facing = front;
+    n_equal = d < best.distance - tree.same_ ? 0 : n_equal + 1;
+    if (!n_equal || front > best_facing) best.triangle = triangle, best_facing = front;
     best.distance = std::min(best.distance, d);
-    reach = (best.distance + tree.same_) * (best.distance + tree.same_);
+    double limit = best.distance + (n_equal < most_equal ? tree.same_ : -tree.same_);
+    reach = limit < 0 ? -1 : limit * limit;
   }
 
   /// Squared distance to a box.
@@ -216,7 +225,10 @@ struct ClosestPoint::Search {
   }
 
   void run() {
-    struct Open { std::uint32_t box; double distance; } open[most_depth];
+    struct Open {
+      std::uint32_t box;
+      double distance;
+    } open[most_depth];
     int n_open = 0;
     const Vec3 q = p - tree.centre_;
     std::uint32_t at = 0;

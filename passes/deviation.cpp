@@ -1,20 +1,21 @@
-// Samples and corners are asked in runs of fixed length, whose sums are added in order: the figures do not depend on the
-// number of threads. Within a run each answer is the guess for the next question.
+// Samples and corners are asked in runs of fixed length, whose sums are added in order: the figures do not depend on
+// the number of threads. Within a run each answer is the guess for the next question.
 #include "passes/deviation.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <optional>
 
+#include "passes/parallel.h"
 #include "passes/shapes/vector.h"
 
 namespace wrlkit {
 namespace {
 
 constexpr std::size_t run_length = 2048;
+constexpr std::size_t tries_per_question = 200;  // triangles, in the mean of a run
 constexpr std::size_t fewest_samples = 500, most_samples = 400'000, samples_per_triangle = 4;
 
 using Marks = std::vector<char>;  // of triangles
@@ -45,8 +46,8 @@ std::vector<Key> sorted_keys(const Triangles& surface) {
 }
 
 /// Which triangles of `a` are in `b`, too: with the same corners, in the same sense. Of those with equal hashes one is
-/// looked at; should it be another one by chance, a triangle counts as changed that is not. They are looked at in the order
-/// of the surface and not of the hashes, where each would be far from the one before.
+/// looked at; should it be another one by chance, a triangle counts as changed that is not. They are looked at in the
+/// order of the surface and not of the hashes, where each would be far from the one before.
 Marks also_in(const Triangles& a, const std::vector<Key>& keys_a, const Triangles& b, const std::vector<Key>& keys_b) {
   constexpr std::uint32_t none = 0xffffffffu;
   std::vector<std::uint32_t> twin(a.size(), none);
@@ -64,13 +65,19 @@ Marks also_in(const Triangles& a, const std::vector<Key>& keys_a, const Triangle
 /// What was found at some points.
 struct Sums {
   std::size_t n = 0, n_normals = 0;
+  std::size_t n_tried = 0;
   double squares = 0, max = 0, angles = 0, squared_angles = 0, max_angle = 0;
   Vec3 where{};
 
-  void add_distance(double d, const Vec3& p) {
+  void add_distance(const ClosestPoint::Nearest& found, const Vec3& p) {
+    double d = found.distance;
     if (!n++ || d > max) max = d, where = p;
     squares += d * d;
+    n_tried += found.n_tried;
   }
+  /// Large triangles through one another, thousands of them, are no tree: each question looks at all. Then a run ends
+  /// before all its points were asked.
+  bool too_costly() const { return n_tried > run_length * tries_per_question; }
   void add_angle(double a) {
     ++n_normals;
     angles += a, squared_angles += a * a;
@@ -88,9 +95,8 @@ struct Sums {
 Sums in_runs(std::size_t n, const std::function<Sums(std::size_t, std::size_t)>& sums_of) {
   if (n <= run_length) return sums_of(0, n);
   std::vector<Sums> parts((n + run_length - 1) / run_length);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    parts[i] = sums_of(i * run_length, std::min(n, (i + 1) * run_length));
-  });
+  parallel_for(parts.size(),
+                    [&](std::size_t i) { parts[i] = sums_of(i * run_length, std::min(n, (i + 1) * run_length)); });
   Sums all;
   for (const Sums& s : parts) all.add(s);
   return all;
@@ -113,10 +119,11 @@ class Way {
 
   OneSidedDeviation measure(std::size_t n_samples) {
     if (changed_.empty()) return {};
-    ClosestPoint to(to_);
-    nearest_ = &to;
+    nearest_.emplace(to_);
     auto points = corners();
-    Sums at_corners = in_runs(points.size(), [&](auto begin, auto end) { return ask_corners({points.data() + begin, end - begin}); });
+    Sums at_corners = in_runs(points.size(), [&](auto begin, auto end) {
+      return ask_corners({points.data() + begin, end - begin});
+    });
     Sums means = at_corners, all = at_corners;
     double part = 1;
     if (changed_area_ > 0) {
@@ -125,8 +132,12 @@ class Way {
       part = changed_area_ / all_area_;
     }
     auto mean = [part](double sum, std::size_t n) { return n ? part * sum / static_cast<double>(n) : 0; };
-    return {std::sqrt(mean(means.squares, means.n)), all.max, all.where, mean(means.angles, means.n_normals),
-            std::sqrt(mean(means.squared_angles, means.n_normals)), means.max_angle};
+    return {std::sqrt(mean(means.squares, means.n)),
+            all.max,
+            all.where,
+            mean(means.angles, means.n_normals),
+            std::sqrt(mean(means.squared_angles, means.n_normals)),
+            means.max_angle};
   }
 
  private:
@@ -134,7 +145,8 @@ class Way {
   std::vector<std::uint32_t> corners() const {
     std::vector<std::uint32_t> out;
     out.reserve(changed_.size() * 3);
-    for (auto t : changed_) out.insert(out.end(), &from_.corners[t * std::size_t{3}], &from_.corners[t * std::size_t{3}] + 3);
+    for (auto t : changed_)
+      out.insert(out.end(), &from_.corners[t * std::size_t{3}], &from_.corners[t * std::size_t{3}] + 3);
     std::ranges::sort(out);
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
@@ -146,8 +158,9 @@ class Way {
     for (auto i : points) {
       Vec3 point = from_.position(i);
       auto found = nearest_->nearest(point, {}, guess);
-      sums.add_distance(found.distance, point);
+      sums.add_distance(found, point);
       guess = found.triangle;
+      if (sums.too_costly()) break;
     }
     return sums;
   }
@@ -158,7 +171,9 @@ class Way {
     double u = 0, v = 0, distance = -1;
   };
 
-  static Vec3 point_at(const std::array<Vec3, 3>& t, double u, double v) { return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]); }
+  static Vec3 point_at(const std::array<Vec3, 3>& t, double u, double v) {
+    return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+  }
 
   /// Equal steps through the area, and in each triangle the additive sequence of the plastic number, which fills the
   /// square evenly; the square is folded to a triangle.
@@ -166,7 +181,8 @@ class Way {
     constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
     auto fraction = [](double x) { return x - std::floor(x); };
     const double spacing = changed_area_ / static_cast<double>(n);
-    auto slot = static_cast<std::size_t>(std::upper_bound(area_.begin(), area_.end(), (begin + 0.5) * spacing) - area_.begin());
+    auto slot =
+        static_cast<std::size_t>(std::upper_bound(area_.begin(), area_.end(), (begin + 0.5) * spacing) - area_.begin());
     Sums sums;
     Sample sample, worst;
     for (std::size_t k = begin; k < end; ++k) {
@@ -176,6 +192,7 @@ class Way {
       if (sample.u + sample.v > 1) sample.u = 1 - sample.u, sample.v = 1 - sample.v;
       ask(sample, sums);
       if (sample.distance > worst.distance) worst = sample;
+      if (sums.too_costly()) return sums;
     }
     climb(worst, spacing, sums);
     return sums;
@@ -186,14 +203,14 @@ class Way {
     Vec3 normal = unit(area_normal(t)), p = point_at(t, s.u, s.v);
     auto found = nearest_->nearest(p, normal, s.nearest);
     s.distance = found.distance, s.nearest = found.triangle;
-    sums.add_distance(s.distance, p);
+    sums.add_distance(found, p);
     if (s.nearest == ClosestPoint::no_guess) return;
     Vec3 there = area_normal(to_[s.nearest]);
     if (there != Vec3{0, 0, 0}) sums.add_angle(std::atan2(length(cross(normal, there)), dot(normal, there)));
   }
 
-  /// The largest distance lies between samples as a rule: uphill from the worst one within its triangle, by steps that are
-  /// halved when none of the six ways leads up.
+  /// The largest distance lies between samples as a rule: uphill from the worst one within its triangle, by steps that
+  /// are halved when none of the six ways leads up.
   void climb(Sample at, double spacing, Sums& sums) const {
     constexpr double ways[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
     auto t = from_[at.triangle];
@@ -206,14 +223,16 @@ class Way {
         double d = nearest_->nearest(point_at(t, u, v), {}, at.nearest).distance;
         if (d > at.distance) at.u = u, at.v = v, at.distance = d, up = true;
       }
-      if (up) ++moves;
-      else ++halvings, step /= 2;
+      if (up)
+        ++moves;
+      else
+        ++halvings, step /= 2;
     }
     if (at.distance > sums.max) sums.max = at.distance, sums.where = point_at(t, at.u, at.v);
   }
 
   const Triangles &from_, &to_;
-  const ClosestPoint* nearest_ = nullptr;
+  std::optional<ClosestPoint> nearest_;
   std::vector<std::uint32_t> changed_;
   std::vector<double> area_;  // of the changed triangles up to each, and with it
   double changed_area_ = 0, all_area_ = 0;
@@ -228,8 +247,12 @@ Deviation both(const OneSidedDeviation& a, const OneSidedDeviation& b) {
   auto root_mean = [](double x, double y) { return std::sqrt((x * x + y * y) / 2); };
   const OneSidedDeviation& worse = b.max > a.max ? b : a;
   Deviation out;
-  static_cast<OneSidedDeviation&>(out) = {root_mean(a.rms, b.rms), worse.max, worse.where, (a.normal_mean + b.normal_mean) / 2,
-                                          root_mean(a.normal_rms, b.normal_rms), std::max(a.normal_max, b.normal_max)};
+  static_cast<OneSidedDeviation&>(out) = {root_mean(a.rms, b.rms),
+                                          worse.max,
+                                          worse.where,
+                                          (a.normal_mean + b.normal_mean) / 2,
+                                          root_mean(a.normal_rms, b.normal_rms),
+                                          std::max(a.normal_max, b.normal_max)};
   out.forward = a, out.backward = b;
   return out;
 }

@@ -51,8 +51,10 @@ class Inliner {
     if (urls.empty() || !ctx_.resources) return;
     auto world = ctx_.resources->world(urls, scene_.where(n), ctx_.diag);
     if (!world) return;
-    if (world.get() == &scene_ || std::ranges::find(chain_, world.get()) != chain_.end()) return ctx_.diag.report(Diag::url_cycle, scene_.where(n), urls[0]);
-    if (chain_.size() >= static_cast<std::size_t>(options_.depth)) return ctx_.diag.report(Diag::expansion_limit, scene_.where(n), options_.depth, "Inlines inside each other");
+    if (world.get() == &scene_ || std::ranges::find(chain_, world.get()) != chain_.end())
+      return ctx_.diag.report(Diag::url_cycle, scene_.where(n), urls[0]);
+    if (chain_.size() >= static_cast<std::size_t>(options_.depth))
+      return ctx_.diag.report(Diag::expansion_limit, scene_.where(n), options_.depth, "Inlines inside each other");
     auto known = imported_.find(world.get());
     if (known == imported_.end()) become_group(n, first_use(world), routes);
     else become_group(n, further_use(known->second, scene_.where(n)), routes);
@@ -107,7 +109,8 @@ class Inliner {
     if (!std::exchange(file.marked, true)) file.has_state = mark(file.scope);
     if (!file.has_state) return {file.scope.roots, {}, {}};
     if (n_copied_ >= static_cast<std::size_t>(options_.limit)) {
-      if (!std::exchange(full_, true)) ctx_.diag.report(Diag::expansion_limit, where, options_.limit, "copies of nodes and ROUTEs of inlined worlds");
+      if (!std::exchange(full_, true))
+        ctx_.diag.report(Diag::expansion_limit, where, options_.limit, "copies of nodes and ROUTEs of inlined worlds");
       return {file.scope.roots, {}, {}};
     }
     return copy(file.scope);

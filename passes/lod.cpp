@@ -1,10 +1,9 @@
 #include "passes/lod.h"
 
-#include <tbb/parallel_for.h>
-
 #include <charconv>
 #include <cmath>
 
+#include "passes/parallel.h"
 #include "passes/simplify/lod_nodes.h"
 
 namespace wrlkit {
@@ -49,7 +48,7 @@ class Lod {
 
   void simplify(std::vector<Part>& parts) const {
     const LevelOptions levels{{options_.criterion.value}, options_.ratios.values, options_.errors.values, options_.min_saving};
-    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    parallel_for(parts.size(), [&](std::size_t i) {
       auto& p = parts[i];
       if (static_cast<int>(p.mesh.n_faces()) >= options_.min_faces) p.levels = make_levels(p.mesh, levels);
     });

@@ -3,6 +3,7 @@
 
 #include "passes/expand_protos.h"
 #include "passes/inline.h"
+#include "passes/join.h"
 #include "passes/lod.h"
 #include "passes/normals.h"
 #include "passes/pass_info.h"
@@ -18,6 +19,7 @@ constexpr PassInfo all_passes[] = {
     pass<inline_worlds, InlineOptions>("inline", "put the worlds that Inline nodes name into this one", Level::authored, Level::authored),
     pass<expand_protos, ExpandProtosOptions>("expand-protos", "turn prototype instances into the nodes they stand for", Level::authored, Level::expanded),
     pass<prune, PruneOptions>("prune", "remove what has no effect", Level::authored, Level::authored),
+    pass<join, JoinOptions>("join", "make one Shape of many that look the same", Level::authored, Level::authored),
     pass<tessellate, TessellateOptions>("tessellate", "turn every geometry node into faces, and faces into triangles", Level::expanded, Level::mesh),
     pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", Level::authored, Level::authored),
     pass<lod, LodOptions>("lod", "make levels of detail of each Shape", Level::authored, Level::authored),

@@ -1,6 +1,6 @@
-// First every corner gets the number of its point, then all repairs work on these numbers. Only at the end is it decided
-// whether the mesh takes the joined points or, as nothing was joined, keeps the list that it had, which may be shared with
-// other geometry.
+// First every corner gets the number of its point, then all repairs work on these numbers. Only at the end is it
+// decided whether the mesh takes the joined points or, as nothing was joined, keeps the list that it had, which may be
+// shared with other geometry.
 #include "passes/weld.h"
 
 #include <algorithm>
@@ -71,6 +71,7 @@ class Welding {
   void find_edges();
   bool close_t_junctions();
   bool unify_winding();
+  bool merge_coplanar();
   void count_what_is_left();
   void give_back_points();
 
@@ -122,6 +123,7 @@ bool Welding::repair() {
   find_edges();
   changed |= close_t_junctions();
   changed |= unify_winding();
+  changed |= merge_coplanar();
   count_what_is_left();
   return changed;
 }
@@ -160,6 +162,14 @@ bool Welding::unify_winding() {
   count(job_, "weld.one-sided-parts", winding.counts.one_sided_parts);
   if (winding.counts.flipped_faces > 0) find_edges();
   return winding.counts.flipped_faces > 0;
+}
+
+bool Welding::merge_coplanar() {
+  if (!options_.merge_coplanar) return false;
+  std::size_t n = scratch_.merger.merge(surface_, scratch_.edges.edges(), tolerance_, job_.scratch.map);
+  count(job_, "weld.merged-faces", n);
+  if (n > 0) find_edges();
+  return n > 0;
 }
 
 void Welding::count_what_is_left() {

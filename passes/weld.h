@@ -30,7 +30,8 @@ struct WeldOptions {
   bool outward = false, merge_coplanar = false;
 
   void fields(auto&& f) {
-    f("tolerance", tolerance, "points up to this far apart are joined, in units of the geometry; auto: by the digits of the file");
+    f("tolerance", tolerance,
+      "points up to this far apart are joined, in units of the geometry; auto: by the digits of the file");
     f("degenerate", degenerate, "drop faces without area, and corners that repeat the one before");
     f("duplicates", duplicates, "drop faces that are there already");
     f("t-junctions", t_junctions, "give a point that lies on the open edge of a face to that face");
@@ -57,8 +58,8 @@ struct WeldOptions {
 /// - weld.degenerate-faces: fewer than three different points, or no area (as `triangulate` sees it). A polygon only
 ///   loses the corners that repeat the one before (weld.repeated-corners). A mesh of nothing but such faces is kept: it
 ///   is not seen, but has an extent.
-/// - weld.duplicate-faces: the same points in the same order as an earlier face; where `solid` is FALSE, in the opposite
-///   order too. The earlier one stays, as a depth buffer would have it. weld.duplicate-triangles counts them as
+/// - weld.duplicate-faces: the same points in the same order as an earlier face; in the opposite order too where `solid`
+///   is FALSE. The earlier one stays, as a depth buffer would have it. weld.duplicate-triangles counts them as
 ///   triangles. A sheet given twice, once for each side, stays.
 /// - weld.t-junctions: corners added. A point of an open edge that lies on another open edge, within the tolerance (or
 ///   the rounding error of double precision), becomes a corner of the face there; its normal, colour and texture
@@ -71,12 +72,12 @@ struct WeldOptions {
 ///   where all points lie in one plane and each normal, colour and texture coordinate is linear over the whole.
 ///   Polygons that would touch themselves or go round a hole are not made.
 ///
-/// Kept and counted: weld.non-manifold-edges, of more than two faces, and weld.non-manifold-points, where faces meet that
-/// hang together by no edge there. weld.joined-points counts what joining saved.
+/// Kept and counted: weld.non-manifold-edges, of more than two faces, and weld.non-manifold-points, where faces meet
+/// that hang together by no edge there. weld.joined-points counts what joining saved.
 ///
-/// Meshes of lines and points stay as they are. Needs no other pass; `join` before it brings faces into one geometry, as
-/// a mesh pass sees one at a time. Linear in the corners. Same input, same result; a second run changes nothing, without
-/// a tolerance.
+/// Meshes of lines and points stay as they are. Needs no other pass; `join` before it brings faces into one geometry,
+/// as a mesh pass sees one at a time. Linear in the corners. Same input, same result; a second run changes nothing,
+/// without a tolerance.
 Outcome weld(MeshJob& job, const WeldOptions& options);
 
 }  // namespace wrlkit

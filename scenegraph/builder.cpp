@@ -101,7 +101,7 @@ NodeId SceneBuilder::use(std::string_view name, Span where) {
   if (!n) return diag_.report(Diag::undefined_use, where, name), n;
   bool inside = std::ranges::binary_search(open_, n.value, {}, [](const Open& o) { return o.node.value; });
   // A Script may hold the node it is in (4.12.8), and what a prototype does with a node is known only when it is expanded.
-  if (inside && current_type().kind == NodeKind::builtin && current_type().name != "Script") return diag_.report(Diag::use_cycle, where, name), NodeId{};
+  if (inside && current_type().kind != NodeKind::proto && current_type().name != "Script") return diag_.report(Diag::use_cycle, where, name), NodeId{};
   return n;
 }
 

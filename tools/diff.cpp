@@ -1,5 +1,5 @@
-// wrlkit diff: how two worlds differ in what they show, and in their names and nodes. The keys of --json are stable. The
-// worlds are read one after the other; of the first one only what is compared is kept.
+// wrlkit diff: how two worlds differ in what they show, and in their names and nodes. The keys of --json are stable.
+// The worlds are read one after the other; of the first one only what is compared is kept.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -63,11 +63,14 @@ double apart(const Bounds& a, const Bounds& b) {
   if (a.empty() && b.empty()) return 0;
   if (a.empty() || b.empty()) return Bounds::inf;
   double most = 0;
-  for (std::size_t i = 0; i < 3; ++i) most = std::max({most, std::fabs(a.min[i] - b.min[i]), std::fabs(a.max[i] - b.max[i])});
+  for (std::size_t i = 0; i < 3; ++i)
+    most = std::max({most, std::fabs(a.min[i] - b.min[i]), std::fabs(a.max[i] - b.max[i])});
   return most;
 }
 
-double diagonal(const Bounds& b) { return b.empty() ? 0 : std::hypot(b.max[0] - b.min[0], b.max[1] - b.min[1], b.max[2] - b.min[2]); }
+double diagonal(const Bounds& b) {
+  return b.empty() ? 0 : std::hypot(b.max[0] - b.min[0], b.max[1] - b.min[1], b.max[2] - b.min[2]);
+}
 
 Difference difference(Facts a, Facts b) {
   Difference d{.a = std::move(a), .b = std::move(b)};
@@ -84,7 +87,8 @@ std::string difference_json(const Difference& d) {
   std::string out;
   JsonOut json(out);
   json.begin_object();
-  const std::uint64_t triangles[] = {d.a.geometry.triangles, d.b.geometry.triangles}, materials[] = {d.a.materials, d.b.materials};
+  const std::uint64_t triangles[] = {d.a.geometry.triangles, d.b.geometry.triangles},
+                      materials[] = {d.a.materials, d.b.materials};
   json.member("triangles", std::span(triangles));
   json.key("bounds");
   json.begin_object();
@@ -107,7 +111,9 @@ std::string difference_json(const Difference& d) {
 }
 
 /// "12" when both are, else "12 -> 7".
-std::string change(std::uint64_t a, std::uint64_t b) { return a == b ? fmt::format("{}", a) : fmt::format("{} -> {}", a, b); }
+std::string change(std::uint64_t a, std::uint64_t b) {
+  return a == b ? fmt::format("{}", a) : fmt::format("{} -> {}", a, b);
+}
 
 std::string node_changes(const Difference& d) {
   std::set<std::string_view> types;
@@ -115,8 +121,12 @@ std::string node_changes(const Difference& d) {
     for (auto& [type, n] : facts->nodes) types.insert(type);
   std::string out;
   for (auto type : types) {
-    auto count = [type](const Facts& f) { auto n = f.nodes.find(type); return n == f.nodes.end() ? 0 : n->second; };
-    if (count(d.a) != count(d.b)) out += fmt::format("{} {} {}", out.empty() ? "" : ",", type, change(count(d.a), count(d.b)));
+    auto count = [type](const Facts& f) {
+      auto n = f.nodes.find(type);
+      return n == f.nodes.end() ? 0 : n->second;
+    };
+    if (count(d.a) != count(d.b))
+      out += fmt::format("{} {} {}", out.empty() ? "" : ",", type, change(count(d.a), count(d.b)));
   }
   return out.empty() ? " the same number of each type" : out;
 }
@@ -130,7 +140,9 @@ std::string name_list(std::string_view what, const std::vector<std::string_view>
 }
 
 std::string bounds_text(double apart) {
-  return std::isinf(apart) ? "one of them has none" : apart > 0 ? fmt::format("up to {:.4g} m apart", apart) : "the same";
+  return std::isinf(apart) ? "one of them has none"
+         : apart > 0       ? fmt::format("up to {:.4g} m apart", apart)
+                           : "the same";
 }
 
 std::string surface_text(const Difference& d) {
@@ -139,18 +151,23 @@ std::string surface_text(const Difference& d) {
   if (std::isinf(s.max)) return "one of them has none";
   if (s.max == 0 && s.normal_max == 0) return "the same";
   auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
-  return fmt::format("{:.4g} m rms ({:.2g} of the diagonal), {:.4g} m at most, at {:.6g} {:.6g} {:.6g}; normals {:.2g} degrees in the mean",
-                     s.rms, d.of_diagonal, s.max, s.where[0], s.where[1], s.where[2], degrees(s.normal_mean));
+  return fmt::format(
+      "{:.4g} m rms ({:.2g} of the diagonal), {:.4g} m at most, at {:.6g} {:.6g} {:.6g}; normals {:.2g} degrees in the "
+      "mean",
+      s.rms, d.of_diagonal, s.max, s.where[0], s.where[1], s.where[2], degrees(s.normal_mean));
 }
 
 std::string difference_text(const Difference& d, const Flags& flags) {
   const GeometryCensus &a = d.a.geometry, &b = d.b.geometry;
   std::string out = fmt::format("{} -> {}\n", flags.inputs[0], flags.inputs[1]);
-  out += fmt::format("  shapes {}, polygons {}, triangles {}, lines {}, points {}\n", change(a.shapes, b.shapes), change(a.polygons, b.polygons),
-                     change(a.triangles, b.triangles), change(a.lines, b.lines), change(a.points, b.points));
-  out += fmt::format("  materials {}, names {}\n", change(d.a.materials, d.b.materials), change(d.a.names.size(), d.b.names.size()));
+  out += fmt::format("  shapes {}, polygons {}, triangles {}, lines {}, points {}\n", change(a.shapes, b.shapes),
+                     change(a.polygons, b.polygons), change(a.triangles, b.triangles), change(a.lines, b.lines),
+                     change(a.points, b.points));
+  out += fmt::format("  materials {}, names {}\n", change(d.a.materials, d.b.materials),
+                     change(d.a.names.size(), d.b.names.size()));
   out += name_list("missing", d.missing) + name_list("added", d.added);
-  return out + fmt::format("  nodes:{}\n  bounds: {}\n  surface: {}\n", node_changes(d), bounds_text(d.bounds), surface_text(d));
+  return out + fmt::format("  nodes:{}\n  bounds: {}\n  surface: {}\n", node_changes(d), bounds_text(d.bounds),
+                           surface_text(d));
 }
 
 }  // namespace

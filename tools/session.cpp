@@ -22,7 +22,7 @@ std::shared_ptr<const Scene> parse_inlined(const std::string& path, Diagnostics&
 }  // namespace
 
 Session::Session(const Flags& flags)
-    : flags_(flags), context_{diag_, stats_}, progress_(!flags.quiet) {
+    : flags_(flags), threads_(flags.jobs), context_{diag_, stats_}, progress_(!flags.quiet) {
   good_ = apply_warning_flags();
 }
 

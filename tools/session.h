@@ -7,6 +7,7 @@
 
 #include "parsers/parsers.h"
 #include "parsers/resources.h"
+#include "passes/parallel.h"
 #include "passes/pipeline.h"
 #include "tools/flags.h"
 #include "tools/progress.h"
@@ -46,6 +47,7 @@ class Session {
   bool write_report(int code);
 
   const Flags& flags_;
+  ThreadLimit threads_;
   Diagnostics diag_;
   Statistics stats_;
   std::unique_ptr<World> world_;

@@ -32,7 +32,8 @@ void ShownSurface::put(const Mesh& mesh, const Matrix& place) {
     }
     corners_.push_back(slot_[c]);
   }
-  for (auto end = corners_.size(), i = end - mesh.corners.size(); turned && i < end; i += 3) std::swap(corners_[i + 1], corners_[i + 2]);
+  for (auto end = corners_.size(), i = end - mesh.corners.size(); turned && i < end; i += 3)
+    std::swap(corners_[i + 1], corners_[i + 2]);
 }
 
 }  // namespace wrlkit

@@ -8,7 +8,8 @@ namespace wrlkit {
 
 class ShownSurface {
  public:
-  /// More triangles than this are not gathered: they take some 30 bytes each here, and 100 more while they are compared.
+  /// More triangles than this are not gathered: they take some 30 bytes each here, and 100 more while they are
+  /// compared.
   static constexpr std::size_t most_triangles = 40'000'000;
 
   /// Of a scene whose prototypes and Inlines are expanded.

@@ -2,7 +2,8 @@
 
 namespace wrlkit {
 
-WorldMeshes::WorldMeshes(Session& s) : unheard_(s.diag().shared_sources()), silent_{unheard_, s.context().stats, s.context().resources} {
+WorldMeshes::WorldMeshes(Session& s)
+    : unheard_(s.diag().shared_sources()), silent_{unheard_, s.context().stats, s.context().resources} {
   std::string why;
   Scene& scene = s.world().scene;
   if (!Pipeline::parse("expand", why)->run(scene, s.context())) return;

@@ -157,7 +157,7 @@ class Writer {
     --depth_;
     if (!t.fields.empty()) line();
     out_ << "] ";
-    if (p.external) { strings(p.urls); return; }
+    if (p.external) { urls(p.where, p.urls); return; }
     out_ << '{';
     ++depth_;
     scope(p.body);
@@ -205,16 +205,16 @@ class Writer {
     if (t.kind != NodeKind::proto && !v.is && equal_default(v, f)) return false;
     line();
     out_ << f.name_in(Dialect::vrml97) << ' ';
-    if (!v.is && v.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url"))) urls(n, v.text_span());
+    if (!v.is && v.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url"))) urls(scene_.where(n), v.text_span());
     else content(v);
     return true;
   }
 
   /// Urls are relative to the file that they stand in. Those of an inlined world are led to its folder.
-  void urls(NodeId n, std::span<const std::string_view> list) {
+  void urls(Span where, std::span<const std::string_view> list) {
     namespace fs = std::filesystem;
     auto folder = [&](std::uint32_t offset) { return fs::path(scene_.sources->file(offset)).parent_path(); };
-    fs::path from = folder(scene_.where(n).begin), here = folder(0);
+    fs::path from = folder(where.begin), here = folder(0);
     if (from.empty() || from == here) return strings(list);
     fs::path prefix = from.lexically_relative(here.empty() ? fs::path(".") : here);
     std::vector<std::string> led;

@@ -6,6 +6,13 @@
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::vrml {
+namespace {
+
+bool begins_statement(std::string_view word) {
+  return word == "PROTO" || word == "EXTERNPROTO" || word == "ROUTE" || word == "IMPORT" || word == "EXPORT";
+}
+
+}  // namespace
 
 // ---- statements ----------------------------------------------------------------------------------------------------
 
@@ -18,6 +25,7 @@ bool Parser::node_follows(Token name) {
   if (!name_like(name)) return false;
   auto w = text(name);
   if (w == "DEF" || w == "USE" || w == "NULL") return true;
+  if (begins_statement(w)) return false;
   auto at = lex_.offset();
   lex_.seek(name.end);
   bool brace = lex_.peek().kind == Kind::open_brace;
@@ -46,7 +54,7 @@ void Parser::statements(Kind until) {
 bool Parser::statement(Token t) {
   if (t.kind != Kind::word) return false;
   auto w = text(t);
-  if (w != "PROTO" && w != "EXTERNPROTO" && w != "ROUTE" && w != "IMPORT" && w != "EXPORT") return false;
+  if (!begins_statement(w)) return false;
   lex_.next();
   if (w == "PROTO") proto(t);
   else if (w == "EXTERNPROTO") externproto(t);
@@ -88,7 +96,7 @@ NodeId Parser::node_statement() {
     if (!def.empty()) diag_.report(Diag::def_without_node, span(t), def);
     Token name = lex_.next();
     if (name.kind != Kind::word) return expected("a name", name), lex_.seek(name.begin), NodeId{};
-    if (name_like(name) && lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing
+    if (name_like(name) && !begins_statement(text(name)) && lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing
       diag_.report(Diag::def_without_name, span(name));
       return lex_.next(), node(name, {});
     }

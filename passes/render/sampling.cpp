@@ -1,9 +1,8 @@
 #include "passes/render/sampling.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "passes/parallel.h"
 
 namespace wrlkit::drawing {
 namespace {
@@ -31,9 +30,7 @@ class Sampler {
 
   template <class F>
   void each_row(F&& row) {
-    tbb::parallel_for(tbb::blocked_range<int>(0, raster_.height, 4), [&](const tbb::blocked_range<int>& rows) {
-      for (int y = rows.begin(); y < rows.end(); ++y) row(y);
-    });
+    parallel_for(static_cast<std::size_t>(raster_.height), [&](std::size_t y) { row(static_cast<int>(y)); });
   }
 
   /// Four samples that share neither a row nor a column of a 4 by 4 grid, so that thin things are met in any direction.

@@ -24,7 +24,9 @@ void Collapser::run_to(std::size_t n_faces, double max_error) { impl_->simplifie
 std::size_t Collapser::n_faces() const { return impl_->simplifier->n_faces(); }
 double Collapser::error() const { return impl_->simplifier->error(); }
 std::optional<EdgeCollapse> Collapser::next() { return impl_->simplifier->next(); }
-std::optional<double> Collapser::cost(std::uint32_t from, std::uint32_t to) { return impl_->simplifier->cost(from, to); }
+std::optional<double> Collapser::cost(std::uint32_t from, std::uint32_t to) {
+  return impl_->simplifier->cost(from, to);
+}
 const CollapseRecord& Collapser::record() const { return impl_->simplifier->record(); }
 
 Mesh Collapser::mesh() const {

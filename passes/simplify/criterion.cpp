@@ -4,7 +4,7 @@ namespace wrlkit::simplify {
 
 namespace {
 
-constexpr double crease_factor = 4;
+constexpr double crease_factor = 4;  // what a collapse across a crease costs more
 
 Placement placement(Kind center, Kind spoke, bool feature) {
   if (center == Kind::fixed && spoke == Kind::fixed) return Placement::nowhere;
@@ -19,21 +19,33 @@ Placement placement(Kind center, Kind spoke, bool feature) {
 
 }  // namespace
 
-Terms terms(const Surface& surface, const Ring& ring, int spoke) {
-  const Ring::Spoke& s = ring.spokes[spoke];
-  std::uint32_t u = ring.center, v = s.vertex;
-  Placement where = placement(surface.vertex[u].kind, surface.vertex[v].kind, s.feature);
-  Placement along = placement(surface.vertex[u].crease_kind, surface.vertex[v].crease_kind, s.feature || s.crease);
-  return {where, where == along ? 1 : crease_factor};
+void Pricer::price(const Ring& ring, int spokes, std::vector<Option>& options) {
+  prepare(ring, spokes);
+  const Surface::Vertex& u = surface_.vertex[ring.center];
+  for (int i = 0; i < ring.n_spokes; ++i) {
+    const Ring::Spoke& s = ring.spokes[i];
+    const Surface::Vertex& v = surface_.vertex[s.vertex];
+    if (spokes >= 0 && i != spokes) continue;
+    if (spokes == own && !one_way() && s.vertex < ring.center && v.degree <= Ring::max_faces) continue;
+    const Placement where = placement(u.kind, v.kind, s.feature);
+    if (where == Placement::nowhere || (one_way() && where == Placement::center)) continue;
+    options.push_back(option(ring, i, where));
+    if (placement(u.crease_kind, v.crease_kind, s.feature || s.crease) != where) options.back().cost *= crease_factor;
+  }
 }
 
 std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface, const Wedges& wedges) {
   switch (criterion) {
-    case Criterion::length_normal: return length_normal(surface);
-    case Criterion::melax: return melax(surface);
-    case Criterion::lindstrom_turk: return lindstrom_turk(surface);
-    case Criterion::quadric: return quadric(surface, wedges);
-    case Criterion::meshopt: break;
+    case Criterion::length_normal:
+      return length_normal(surface);
+    case Criterion::melax:
+      return melax(surface);
+    case Criterion::lindstrom_turk:
+      return lindstrom_turk(surface);
+    case Criterion::quadric:
+      return quadric(surface, wedges);
+    case Criterion::meshopt:
+      break;
   }
   return nullptr;
 }

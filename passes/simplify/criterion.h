@@ -18,25 +18,32 @@ struct Option {
 
 /// Where the vertex of an edge may go.
 enum class Placement { nowhere, center, spoke, anywhere };
-struct Terms {
-  Placement where;
-  double factor;  // of the cost; more than 1 for a collapse across a crease
-};
-Terms terms(const Surface& surface, const Ring& ring, int spoke);
 
 class Pricer {
  public:
+  static constexpr int every = -1, own = -2;
+
+  explicit Pricer(const Surface& surface) : surface_(surface) {}
   virtual ~Pricer() = default;
 
-  /// Adds the options of the ring's centre: of every edge, of every edge whose other end will not offer it, or of one.
-  virtual void price(const Ring& ring, int spokes, std::vector<Option>& options) = 0;
-  static constexpr int every = -1, own = -2;
-  /// Whether an edge has a cost of its own in each direction, and is an option of both ends.
+  /// Adds the options of the ring's centre: of every spoke, of those whose other end will not offer the edge (own), or
+  /// of one. Collapses across a crease are made dearer.
+  void price(const Ring& ring, int spokes, std::vector<Option>& options);
+
+  /// Whether an edge has a cost of its own in each direction, goes from the centre to the spoke only, and is an option
+  /// of both ends.
   virtual bool one_way() const { return false; }
   /// Before the faces and wedges of the two rings change.
   virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/) {}
   /// After it: the ring of the vertex that is left.
   virtual void after_merge(const Ring&) {}
+
+ protected:
+  /// Called for a ring before option is, for every spoke or for one.
+  virtual void prepare(const Ring&, int /*spokes*/) {}
+  virtual Option option(const Ring& ring, int spoke, Placement where) const = 0;
+
+  const Surface& surface_;
 };
 
 std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface, const Wedges& wedges);

@@ -32,16 +32,23 @@ Engine::Engine(const Mesh& mesh, const CollapseOptions& options)
 }
 
 void Engine::refresh(std::uint32_t v, int spokes) {
-  if (surface_.gather(v, ring_)) offer(ring_, spokes);
-  else queue_.remove(v);
+  if (surface_.gather(v, ring_))
+    offer(ring_, spokes);
+  else
+    queue_.remove(v);
 }
 
 /// Prices the centre and puts it into the queue.
 void Engine::offer(const Ring& ring, int spokes) {
   options_.clear();
   pricer_->price(ring, spokes, options_);
-  if (const Option* best = cheapest()) queue_.set(ring.center, best->cost), best_[ring.center] = ring.spokes[best->spoke].vertex;
-  else queue_.remove(ring.center);
+  enqueue(ring, cheapest());
+}
+
+void Engine::enqueue(const Ring& ring, const Option* best) {
+  if (!best) return queue_.remove(ring.center);
+  queue_.set(ring.center, best->cost);
+  best_[ring.center] = ring.spokes[best->spoke].vertex;
 }
 
 Option* Engine::cheapest() {
@@ -81,8 +88,7 @@ bool Engine::settle_vertex(std::uint32_t v, Move& move) {
     }
     best = cheapest();
   }
-  if (best) queue_.set(v, best->cost), best_[v] = from_.spokes[best->spoke].vertex;
-  else queue_.remove(v);
+  enqueue(from_, best);
   return false;
 }
 
@@ -93,12 +99,12 @@ bool Engine::may_go(const Option& option) {
 
 void Engine::run_to(std::size_t n_faces, double max_error) {
   Move move;
-  std::vector<std::pair<std::uint32_t, double>> too_far;  // for a later call
+  std::vector<std::uint32_t> too_far;  // for a later call
   while (surface_.n_faces() > n_faces && settle(move)) {
     std::uint32_t u = from_.center, v = to_.center;
     double d = std::max(deviation_[u], deviation_[v]) + deviation(surface_, from_, to_, move.position);
     if (d > max_error) {
-      too_far.push_back({queue_.top(), move.cost});
+      too_far.push_back(queue_.top());
       queue_.remove(queue_.top());
       continue;
     }
@@ -106,8 +112,7 @@ void Engine::run_to(std::size_t n_faces, double max_error) {
     error_ = std::max(error_, d);
     collapse(move);
   }
-  for (auto [v, cost] : too_far)
-    if (surface_.degree(v)) queue_.set(v, cost);
+  for (std::uint32_t v : too_far) refresh(v, Pricer::every);
 }
 
 void Engine::collapse(const Move& move) {
@@ -116,37 +121,46 @@ void Engine::collapse(const Move& move) {
   pricer_->before_merge(from_, to_);
   if (wedges_.present()) merge_wedges(move.position);
   if (recording_) record_corners();
-  bool features = false;
-  dirty_.clear();
-  for (const Ring::Face& f : from_.face_span()) {
-    if (!from_.has(f, v)) continue;
-    features |= surface_.face[f.face].features != 0;
-    dirty_.push_back(from_.next_vertex(f) == v ? from_.prev_vertex(f) : from_.next_vertex(f));
-  }
-  surface_.merge(from_, to_);
-  surface_.vertex[v].position = move.position;
-  if (surface_.vertex[u].kind == Kind::fixed) surface_.vertex[v].kind = surface_.vertex[v].crease_kind = Kind::fixed;
-  queue_.remove(u);
-  surface_.gather(v, to_);
+  merge_vertices(move.position);
   pricer_->after_merge(to_);
-  if (features) {
-    surface_.classify(to_);
-    for (std::uint32_t w : dirty_)
-      if (surface_.gather(w, ring_)) surface_.classify(ring_);
-  }
   if (recording_)
-    recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position(u), old,
-                       error_);
+    recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position(u),
+                       old, error_);
+  queue_.remove(u);
   offer(to_, Pricer::every);
   for (const Ring::Spoke& s : to_.spoke_span())
     if (exact_ || !queue_.contains(s.vertex)) refresh(s.vertex, Pricer::every);
+}
+
+/// Leaves the new ring in to_. Kinds of vertices change only where features end in the third corner of a face that
+/// goes.
+void Engine::merge_vertices(const Vec3& position) {
+  const std::uint32_t u = from_.center, v = to_.center;
+  std::uint32_t third[Ring::max_faces];
+  int n = 0;
+  bool features = false;
+  for (const Ring::Face& f : from_.face_span()) {
+    if (!from_.has(f, v)) continue;
+    features |= surface_.face[f.face].features != 0;
+    third[n++] = from_.next_vertex(f) == v ? from_.prev_vertex(f) : from_.next_vertex(f);
+  }
+  surface_.merge(from_, to_);
+  surface_.vertex[v].position = position;
+  if (surface_.vertex[u].kind == Kind::fixed) surface_.vertex[v].kind = surface_.vertex[v].crease_kind = Kind::fixed;
+  surface_.gather(v, to_);
+  if (!features) return;
+  surface_.classify(to_);
+  for (int i = 0; i < n; ++i)
+    if (surface_.gather(third[i], ring_)) surface_.classify(ring_);
 }
 
 /// The wedges at both ends of the edge become one in each of its faces; the others of `from_` go along as they are.
 void Engine::merge_wedges(const Vec3& position) {
   const std::uint32_t v = to_.center;
   const double t = along(surface_.position(from_.center), surface_.position(v), position);
-  struct Pair { std::uint32_t from, to; };
+  struct Pair {
+    std::uint32_t from, to;
+  };
   Pair pairs[Ring::max_faces];
   int n = 0;
   for (const Ring::Face& f : from_.face_span()) {
@@ -172,15 +186,16 @@ void Engine::merge_wedges(const Vec3& position) {
 /// The faces that go, and without attributes, where a wedge is a vertex, the corners that change theirs.
 void Engine::record_corners() {
   for (const Ring::Face& f : from_.face_span())
-    if (from_.has(f, to_.center)) recorder_.remove_face(f.face);
-    else if (!wedges_.present()) recorder_.change_corner(3 * f.face + f.corner, from_.center, to_.center);
+    if (from_.has(f, to_.center))
+      recorder_.remove_face(f.face);
+    else if (!wedges_.present())
+      recorder_.change_corner(3 * f.face + f.corner, from_.center, to_.center);
 }
 
 std::optional<EdgeCollapse> Engine::next() {
   Move move;
   if (!settle(move)) return {};
-  EdgeCollapse c{surface_.original(from_.center), surface_.original(to_.center), move.position, move.cost};
-  return c;
+  return EdgeCollapse{surface_.original(from_.center), surface_.original(to_.center), move.position, move.cost};
 }
 
 std::optional<double> Engine::cost(std::uint32_t from, std::uint32_t to) {

@@ -1,8 +1,12 @@
 // The engine behind Collapser: takes the cheapest edge that may go, collapses it, prices again what has changed.
 //
-// Every vertex is in the queue with the cost of the cheapest edge that it has to offer, whether or not that edge may go. Only
-// at the top of the queue this is looked at: the vertex is priced once more, and goes back into the queue when it has
-// become dearer, or when it is the next best edge that may go.
+// Every vertex is in the queue with the cost of the cheapest edge that it has to offer, whether or not that edge may
+// go. Only at the top of the queue this is looked at: the vertex is priced once more, and goes back into the queue when
+// it has become dearer, or when it is the next best edge that may go.
+//
+// After a collapse only the vertex that is left is priced, with all its edges. What became dearer around it is found at
+// the top of the queue; what became cheaper there, a little late. That saves time and costs no quality (rationale.md).
+// Small meshes under the paper's formulas are exact (exact_): the order is then the paper's.
 #pragma once
 #include "passes/simplify/criterion.h"
 #include "passes/simplify/queue.h"
@@ -31,8 +35,10 @@ class Engine final : public Simplifier {
   bool settle_vertex(std::uint32_t v, Move& move);
   bool may_go(const Option& option);
   void collapse(const Move& move);
+  void merge_vertices(const Vec3& position);
   void refresh(std::uint32_t v, int spokes);
   void offer(const Ring& ring, int spokes);
+  void enqueue(const Ring& ring, const Option* best);
   Option* cheapest();
   void merge_wedges(const Vec3& position);
   void record_corners();
@@ -40,13 +46,12 @@ class Engine final : public Simplifier {
   std::unique_ptr<Pricer> pricer_;
   CostQueue queue_;
   std::vector<std::uint32_t> best_;  // the other end of the edge that a vertex is in the queue for
-  std::vector<float> deviation_;  // of each vertex, from the surface that came in
+  std::vector<float> deviation_;     // of each vertex, from the surface that came in
   bool recording_;
   bool exact_;  // the neighbours of a collapse are priced at once, not when they come to the top of the queue
 
   Ring from_, to_, ring_;
   std::vector<Option> options_;
-  std::vector<std::uint32_t> dirty_;
 };
 
 }  // namespace wrlkit::simplify

@@ -13,8 +13,8 @@ class Finder {
   Finder(Surface& surface, const Wedges& wedges, const FeatureOptions& options)
       : surface_(surface), wedges_(wedges), options_(options), cosine_(std::cos(options.crease_angle)) {}
 
-  /// An edge is looked at from the lower of its vertices that have not too many faces; so when it is the turn of a vertex,
-  /// its edges to lower ones are known.
+  /// An edge is looked at from the lower of its vertices that have not too many faces; so when it is the turn of a
+  /// vertex, its edges to lower ones are known.
   void run() {
     for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) {
       bool ring = surface_.gather(v, ring_);
@@ -66,7 +66,10 @@ class Finder {
   bool one_fan() const {
     std::uint8_t group[2 * Ring::max_faces];
     std::iota(group, group + ring_.n_spokes, std::uint8_t{0});
-    auto root = [&](std::uint8_t s) { while (group[s] != s) s = group[s] = group[group[s]]; return s; };
+    auto root = [&](std::uint8_t s) {
+      while (group[s] != s) s = group[s] = group[group[s]];
+      return s;
+    };
     int n_groups = ring_.n_spokes;
     for (const Ring::Face& f : ring_.face_span()) {
       std::uint8_t a = root(f.next), b = root(f.prev);

@@ -7,7 +7,7 @@ namespace wrlkit::simplify {
 namespace {
 
 constexpr double least_cosine = 0.2;  // between the normals of a face before and after
-constexpr double sliver = 0.002;     // twice the area by the sum of the squared sides; 0.29 when equilateral
+constexpr double sliver = 0.002;      // twice the area by the sum of the squared sides; 0.29 when equilateral
 constexpr double sliver_ratio = 0.5;  // of its square, before and after: what is allowed for slivers that are there
 
 bool same_pair(const Ring& u, const Ring::Face& f, const Ring& v, const Ring::Face& g) {
@@ -27,8 +27,10 @@ Shape shape(const Vec3& a, const Vec3& b, const Vec3& c) {
 bool face_keeps_shape(const Surface& s, const Ring& ring, const Ring::Face& f, const Vec3& x) {
   const Vec3 &p = s.position(ring.center), &a = s.position(ring.next_vertex(f)), &b = s.position(ring.prev_vertex(f));
   Shape before = shape(p, a, b), after = shape(x, a, b);
-  double turn = dot(before.normal, after.normal), nb = dot(before.normal, before.normal), na = dot(after.normal, after.normal);
-  if (!(turn > 0) || turn * turn < least_cosine * least_cosine * na * nb) return nb == 0 && na > 0;
+  double turn = dot(before.normal, after.normal), nb = dot(before.normal, before.normal),
+         na = dot(after.normal, after.normal);
+  if (nb == 0) return true;
+  if (!(turn > 0) || turn * turn < least_cosine * least_cosine * na * nb) return false;
   double qa = na * before.sides * before.sides, qb = nb * after.sides * after.sides;
   return na > sliver * sliver * after.sides * after.sides || qa > sliver_ratio * qb;
 }

@@ -4,9 +4,9 @@
 
 namespace wrlkit::simplify {
 
-/// The edge from u to v may be collapsed to one vertex, by the faces around: every neighbour that both have is the third
-/// corner of a face at the edge (link condition), no two faces become the same, and no face vanishes whose two other edges
-/// are both features.
+/// The edge from u to v may be collapsed to one vertex, by the faces around: every neighbour that both have is the
+/// third corner of a face at the edge (link condition), no two faces become the same, and no face vanishes whose two
+/// other edges are both features.
 bool keeps_topology(const Ring& u, const Ring& v);
 
 /// With that vertex at x, no face turns by about 80 degrees or more, and none becomes a sliver that was none.

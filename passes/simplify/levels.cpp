@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 
 #include "passes/deviation.h"
 
@@ -78,18 +79,22 @@ class Levels {
     levels_.push_back(std::move(level));
   }
 
-  /// The collapser's own error is an estimate; what it leads to is measured, and tried again with less when it is too much.
+  /// The collapser's own error is an estimate; what it leads to is measured, and the estimate moved until it fits.
   void add_within(double error) {
-    constexpr int tries = 5;
-    double estimate = error;
+    constexpr int tries = 6;
+    std::optional<MeshLevel> best;
+    double estimate = error, low = 0, high = std::numeric_limits<double>::infinity();
     for (int i = 0; i < tries; ++i) {
       Collapser c(first_, options_.collapse);
       c.run_to(faces_of_a_box, estimate);
-      if (!saves_enough(c.n_faces())) return;
       auto level = measured(first_, c.mesh());
-      if (level.error <= error) return add(std::move(level));
-      estimate *= 0.8 * error / level.error;
+      const bool fits = level.error <= error;
+      (fits ? low : high) = estimate;
+      if (fits && (!best || level.mesh.n_faces() < best->mesh.n_faces())) best = std::move(level);
+      if (c.n_faces() <= faces_of_a_box && fits) break;
+      estimate = std::isfinite(high) ? (low + high) / 2 : 2 * estimate;
     }
+    if (best && saves_enough(best->mesh.n_faces())) add(std::move(*best));
   }
 
   const Mesh& first_;

@@ -1,5 +1,5 @@
-// The two local criteria of Lazanyi's paper. They look at the faces of one vertex and move it into a neighbour, so vertices
-// stay where they were measured.
+// The two local criteria of Lazanyi's paper. They look at the faces of one vertex and move it into a neighbour, so
+// vertices stay where they were measured.
 #include <algorithm>
 #include <cmath>
 
@@ -11,31 +11,25 @@ namespace {
 /// A ring with the unit normals of its faces; a face without area has none (0, 0, 0).
 class HalfEdges : public Pricer {
  public:
-  explicit HalfEdges(const Surface& surface) : surface_(surface) {}
+  using Pricer::Pricer;
 
-  void price(const Ring& ring, int spokes, std::vector<Option>& options) override {
+  bool one_way() const override { return true; }
+
+ protected:
+  void prepare(const Ring& ring, int) override {
     for (int i = 0; i < ring.n_faces; ++i) {
       Vec3 n = surface_.normal(ring.faces[i].face);
       double l = dot(n, n);
       normals_[i] = l > 0 ? 1 / std::sqrt(l) * n : Vec3{};
     }
-    for (int s = 0; s < ring.n_spokes; ++s) {
-      if (spokes >= 0 && s != spokes) continue;
-      const Ring::Spoke& spoke = ring.spokes[s];
-      Terms t = terms(surface_, ring, s);
-      if (t.where != Placement::spoke && t.where != Placement::anywhere) continue;
-      const Vec3& to = surface_.position(spoke.vertex);
-      Vec3 e = to - surface_.position(ring.center);
-      options.push_back({s, t.factor * cost(ring, s, std::sqrt(dot(e, e))), to});
-    }
   }
-
-  bool one_way() const override { return true; }
-
- protected:
+  Option option(const Ring& ring, int spoke, Placement) const override {
+    const Vec3& to = surface_.position(ring.spokes[spoke].vertex);
+    Vec3 e = to - surface_.position(ring.center);
+    return {spoke, cost(ring, spoke, std::sqrt(dot(e, e))), to};
+  }
   virtual double cost(const Ring& ring, int spoke, double length) const = 0;
 
-  const Surface& surface_;
   Vec3 normals_[Ring::max_faces];
 };
 
@@ -52,8 +46,9 @@ class LengthNormal final : public HalfEdges {
   }
 };
 
-/// Formula 2: |e| times the maximum, over the faces f of the centre that the edge has not, of the minimum, over the faces g of
-/// the edge, of (1 - nf . ng) / 2.
+/// Formula 2: |e| times the maximum, over the faces f of the centre that the edge has not, of the minimum, over the
+/// faces g of the edge, of (1 - nf . ng) / 2. It says nothing of borders, and would cut off the corners of a flat
+/// sheet; so along a feature the bend of that line counts in the same way.
 class Melax final : public HalfEdges {
   using HalfEdges::HalfEdges;
 
@@ -70,7 +65,20 @@ class Melax final : public HalfEdges {
       for (int j = 0; j < n; ++j) least = std::min(least, (1 - dot(normals_[i], *sides[j])) / 2);
       bend = std::max(bend, least);
     }
-    return length * bend;
+    return length * std::max(bend, bend_of_line(ring, spoke));
+  }
+
+  /// How the features that end in the centre go on in that edge: 0 straight, 1 back.
+  double bend_of_line(const Ring& ring, int spoke) const {
+    if (!ring.spokes[spoke].feature) return 0;
+    auto direction = [&](int s) {
+      return unit(surface_.position(ring.spokes[s].vertex) - surface_.position(ring.center));
+    };
+    const Vec3 e = direction(spoke);
+    double bend = 0;
+    for (int s = 0; s < ring.n_spokes; ++s)
+      if (s != spoke && ring.spokes[s].feature) bend = std::max(bend, (1 + dot(e, direction(s))) / 2);
+    return bend;
   }
 };
 

@@ -1,5 +1,5 @@
-// meshoptimizer's meshopt_simplify behind the interface of the collapser. It knows no steps: every run begins with the mesh
-// that came in.
+// meshoptimizer's meshopt_simplify behind the interface of the collapser. It knows no steps: every run begins with the
+// mesh that came in.
 #include <meshoptimizer.h>
 
 #include <algorithm>

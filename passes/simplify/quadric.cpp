@@ -1,10 +1,10 @@
-// The global criterion: quadrics that remember the original (Garland and Heckbert, Surface Simplification Using Quadric Error
-// Metrics, 1997). A vertex carries the squared distances from the planes of all faces that went into it, by area, and from
-// the feature lines.
+// The global criterion: quadrics that remember the original (Garland and Heckbert, Surface Simplification Using Quadric
+// Error Metrics, 1997). A vertex carries the squared distances from the planes of all faces that went into it, by area,
+// and from the feature lines.
 //
-// Attributes are in the metric as in Hoppe's (New Quadric Metric for Simplifying Meshes with Appearance Attributes, 1999):
-// each is a linear function g x + d over a face of the original. A wedge carries the sums of these by area; what its best
-// value at x leaves is the deviation.
+// Attributes are in the metric as in Hoppe's (New Quadric Metric for Simplifying Meshes with Appearance Attributes,
+// 1999): each is a linear function g x + d over a face of the original. A wedge carries the sums of these by area; what
+// its best value at x leaves is the deviation.
 #include <algorithm>
 #include <cmath>
 
@@ -54,24 +54,13 @@ struct Linear {
 class GlobalQuadric final : public Pricer {
  public:
   GlobalQuadric(const Surface& surface, const Wedges& wedges)
-      : surface_(surface), wedges_(wedges), quadric_(surface.n_vertices()), width_(wedges.width()) {
+      : Pricer(surface), wedges_(wedges), quadric_(surface.n_vertices()), width_(wedges.width()) {
     origin_ = surface.n_vertices() ? surface.position(0) : Vec3{};
-    if (width_) wedge_quadric_.resize(wedges.count()), area_.resize(wedges.count()), linear_.resize(wedges.count() * width_);
+    if (width_)
+      wedge_quadric_.resize(wedges.count()), area_.resize(wedges.count()), linear_.resize(wedges.count() * width_);
     scale_ = width_ ? attribute_size * size() : 0;
     for (std::uint32_t f = 0; f < surface.n_slots(); ++f)
       if (surface.alive(f)) add_face(f);
-  }
-
-  void price(const Ring& ring, int spokes, std::vector<Option>& options) override {
-    for (int s = 0; s < ring.n_spokes; ++s) {
-      const std::uint32_t v = ring.spokes[s].vertex;
-      if (spokes >= 0 && s != spokes) continue;
-      if (spokes == own && v < ring.center && surface_.degree(v) <= Ring::max_faces) continue;
-      Terms t = terms(surface_, ring, s);
-      if (t.where == Placement::nowhere) continue;
-      options.push_back(price(ring, s, t.where));
-      options.back().cost *= t.factor;
-    }
   }
 
   void before_merge(const Ring& from, const Ring& to) override {
@@ -86,6 +75,23 @@ class GlobalQuadric final : public Pricer {
         to_sum.d += from_sum.d;
       }
     });
+  }
+
+ protected:
+  Option option(const Ring& ring, int s, Placement where) const override {
+    const std::uint32_t u = ring.center, v = ring.spokes[s].vertex;
+    const Vec3 a = point(u), b = point(v), middle = 0.5 * (a + b), e = b - a;
+    Quadric q = quadric_[u];
+    q.add(quadric_[v]);
+    if (width_) for_pairs(ring, s, [&](std::uint32_t i, std::uint32_t j) { q.add(attributes(i, j)); });
+    Vec3 x = where == Placement::spoke ? b : where == Placement::center ? a : middle;
+    if (where == Placement::anywhere) {
+      Minimum least(q.planes, q.linear + -1. * (q.planes * middle), Vec3{});  // about the middle
+      if (least.exists && dot(least.x, least.x) <= 4 * dot(e, e)) x = middle + least.x;
+    }
+    const double cost = std::max(q(x), 0.) + length_cost * q.planes.trace() * dot(e, e);
+    const Vec3 exact = x == a ? surface_.position(u) : x == b ? surface_.position(v) : x + origin_;
+    return {s, cost, exact};
   }
 
  private:
@@ -158,23 +164,6 @@ class GlobalQuadric final : public Pricer {
     return q;
   }
 
-  Option price(const Ring& ring, int s, Placement where) const {
-    const std::uint32_t u = ring.center, v = ring.spokes[s].vertex;
-    const Vec3 a = point(u), b = point(v), middle = 0.5 * (a + b), e = b - a;
-    Quadric q = quadric_[u];
-    q.add(quadric_[v]);
-    if (width_) for_pairs(ring, s, [&](std::uint32_t i, std::uint32_t j) { q.add(attributes(i, j)); });
-    Vec3 x = where == Placement::spoke ? b : where == Placement::center ? a : middle;
-    if (where == Placement::anywhere) {
-      Minimum least(q.planes, q.linear + -1. * (q.planes * middle), Vec3{});  // about the middle
-      if (least.exists && dot(least.x, least.x) <= 4 * dot(e, e)) x = middle + least.x;
-    }
-    const double cost = std::max(q(x), 0.) + length_cost * q.planes.trace() * dot(e, e);
-    const Vec3 exact = x == a ? surface_.position(u) : x == b ? surface_.position(v) : x + origin_;
-    return {s, cost, exact};
-  }
-
-  const Surface& surface_;
   const Wedges& wedges_;
   std::vector<Quadric> quadric_;  // about origin_
   Vec3 origin_;

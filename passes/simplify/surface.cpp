@@ -5,8 +5,8 @@
 namespace wrlkit::simplify {
 namespace {
 
-/// Numbers the positions that the corners use in the order of their first use. When the positions are very many more than
-/// the corners (a face of a Shape that re-uses a long list), the order is theirs, and they are not all touched.
+/// Numbers the positions that the corners use in the order of their first use. When the positions are very many more
+/// than the corners (a face of a Shape that re-uses a long list), the order is theirs, and they are not all touched.
 std::vector<std::uint32_t> number(const Mesh& mesh, std::vector<std::uint32_t>& vertex_of_corner) {
   std::vector<std::uint32_t> used;
   vertex_of_corner.resize(mesh.corners.size());
@@ -144,8 +144,10 @@ void Surface::merge(const Ring& from, const Ring& to) {
       }
   }
   for (const Ring::Face& f : to.face_span())
-    if (to.has(f, u)) remove(f.face);
-    else joined[n++] = f.face;
+    if (to.has(f, u))
+      remove(f.face);
+    else
+      joined[n++] = f.face;
   for (const Ring::Face& f : from.face_span())
     if (alive(f.face)) face[f.face].v[f.corner] = v, joined[n++] = f.face;
   if (vertex[u].capacity > vertex[v].capacity) {

@@ -1,6 +1,6 @@
-// The surface that edges are collapsed on: flat arrays of 32-bit indices. A face knows its three vertices, a vertex the list
-// of its faces; there are no half-edges, and any number of faces may share an edge or a vertex. Edges that must be kept as
-// lines (features) are three bits in each of their faces.
+// The surface that edges are collapsed on: flat arrays of 32-bit indices. A face knows its three vertices, a vertex the
+// list of its faces; there are no half-edges, and any number of faces may share an edge or a vertex. Edges that must be
+// kept as lines (features) are three bits in each of their faces.
 //
 // Lists of faces lie in one pool. Removing a face marks it dead; lists are purged when they are walked next.
 #pragma once
@@ -15,7 +15,8 @@ namespace wrlkit::simplify {
 
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// What a vertex is by the feature edges that meet there. Where the surface touches itself in a vertex, that is `fixed`.
+/// What a vertex is by the feature edges that meet there. Where the surface touches itself in a vertex, that is
+/// `fixed`.
 enum class Kind : std::uint8_t { free, line, corner, fixed };
 
 /// The faces around one vertex, and the edges that lead away from it.
@@ -24,8 +25,8 @@ struct Ring {
 
   struct Face {
     std::uint32_t face;
-    std::uint8_t corner;               // which of its corners is the centre
-    std::uint8_t next, prev;           // spokes of the two others, in the face's order
+    std::uint8_t corner;      // which of its corners is the centre
+    std::uint8_t next, prev;  // spokes of the two others, in the face's order
   };
   struct Spoke {
     std::uint32_t vertex;

@@ -70,13 +70,15 @@ bool Wedges::differ(std::uint32_t a, std::uint32_t b, double cosine) const {
 
 void Wedges::interpolate(std::uint32_t a, std::uint32_t b, double t, float* out) const {
   const float *p = at(a), *q = at(b);
-  for (int i = 0; i < width_; ++i) out[i] = t <= 0 ? p[i] : t >= 1 ? q[i] : static_cast<float>(p[i] + t * (q[i] - p[i]));
+  for (int i = 0; i < width_; ++i)
+    out[i] = t <= 0 ? p[i] : t >= 1 ? q[i] : static_cast<float>(p[i] + t * (q[i] - p[i]));
   if (t <= 0 || t >= 1 || !n_normal_) return;
   double length = 0;
   for (int i = 0; i < n_normal_; ++i) length += double{out[i]} * out[i];
   if (length > 0)
     for (int i = 0; i < n_normal_; ++i) out[i] = static_cast<float>(out[i] / std::sqrt(length));
-  else std::copy_n(p, n_normal_, out);
+  else
+    std::copy_n(p, n_normal_, out);
 }
 
 void Wedges::write(Mesh& mesh, const Surface& surface) const {

@@ -20,7 +20,8 @@ class Wedges {
   float* at(std::uint32_t wedge) { return values.data() + std::size_t{wedge} * width_; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(width_ ? values.size() / width_ : 0); }
 
-  /// Whether a seam runs between the two: another color or texture coordinate, or normals with less than `cosine` between.
+  /// Whether a seam runs between the two: another color or texture coordinate, or normals with less than `cosine`
+  /// between.
   bool differ(std::uint32_t a, std::uint32_t b, double cosine) const;
   /// What lies at t from a (0) to b (1), into `out`. Normals stay of unit length.
   void interpolate(std::uint32_t a, std::uint32_t b, double t, float* out) const;

@@ -1,7 +1,5 @@
 #include "passes/simplify/world.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +8,7 @@
 #include "passes/closest_point.h"
 #include "passes/deviation.h"
 #include "passes/geometry.h"
+#include "passes/parallel.h"
 
 namespace wrlkit {
 namespace {
@@ -108,7 +107,7 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
   std::vector<std::vector<std::size_t>> faces;
   if (errors.empty() && parts_.size() > 1) {
     std::vector<std::optional<FacesByError>> curves(parts_.size());
-    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, options.collapse); });
+    parallel_for(parts_.size(), [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, options.collapse); });
     std::vector<FacesByError> all;
     for (auto& c : curves) all.push_back(std::move(*c));
     faces = share_out(all, counts);
@@ -116,7 +115,7 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
     for (std::size_t count : counts) faces.push_back({count});
   }
   const auto n_points = errors.empty() ? counts.size() : errors.size();
-  tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
+  parallel_for(parts_.size(), [&](std::size_t i) {
     auto& p = parts_[i];
     if (!errors.empty()) {
       p.levels = make_levels(p.mesh, {.collapse = options.collapse, .errors = errors});

@@ -45,8 +45,8 @@ void EdgeTable::build(const Surface& s) {
     }
 }
 
-/// Across a manifold edge the corners of both its faces are united, at either end. What is left apart at a point are fans
-/// of their own.
+/// Across a manifold edge the corners of both its faces are united, at either end. What is left apart at a point are
+/// fans of their own.
 std::size_t count_non_manifold_points(const Surface& s, const std::vector<SurfaceEdge>& edges,
                                       std::vector<std::uint32_t>& parents, std::vector<std::uint32_t>& fans) {
   const auto& corners = s.mesh.corners;

@@ -7,8 +7,8 @@
 
 namespace wrlkit {
 
-/// An edge of the surface and the corners from which faces run along it, to the next of their corners. An edge with both
-/// ends at one point is none.
+/// An edge of the surface and the corners from which faces run along it, to the next of their corners. An edge with
+/// both ends at one point is none.
 struct SurfaceEdge {
   std::uint32_t first, second;  // the first two such corners; `second` is meaningless when there is one
   std::uint32_t n_faces;
@@ -19,14 +19,18 @@ struct SurfaceEdge {
 
 class EdgeTable {
  public:
-  /// Finds the edges of a surface, whose face_of is filled. Linear in the corners, without hashing or sorting, also where
-  /// one point has very many edges.
+  /// Finds the edges of a surface, whose face_of is filled. Linear in the corners, without hashing or sorting, also
+  /// where one point has very many edges.
   void build(const Surface&);
   const std::vector<SurfaceEdge>& edges() const { return edges_; }
 
  private:
-  struct Link { std::uint32_t high, next; };
-  struct Seen { std::uint32_t low, edge; };
+  struct Link {
+    std::uint32_t high, next;
+  };
+  struct Seen {
+    std::uint32_t low, edge;
+  };
 
   std::vector<std::uint32_t> first_;  // corner, by the lower point of its edge
   std::vector<Link> links_;           // by corner: the higher point of its edge, and the next corner in the chain
@@ -34,9 +38,9 @@ class EdgeTable {
   std::vector<SurfaceEdge> edges_;
 };
 
-/// How many points there are at which faces meet that hang together by no manifold edge there. `parents` is working
-/// memory.
-std::size_t count_non_manifold_points(const Surface&, const std::vector<SurfaceEdge>&, std::vector<std::uint32_t>& parents,
-                                      std::vector<std::uint32_t>& fans);
+/// How many points there are at which faces meet that hang together by no manifold edge there. `parents` and `fans` are
+/// working memory.
+std::size_t count_non_manifold_points(const Surface&, const std::vector<SurfaceEdge>&,
+                                      std::vector<std::uint32_t>& parents, std::vector<std::uint32_t>& fans);
 
 }  // namespace wrlkit

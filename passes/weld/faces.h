@@ -14,8 +14,8 @@ struct FaceCleaner {
 
   /// Drops faces without area, and corners at the point of the one before; nothing where no face has an area. Linear.
   void drop_degenerate(const Surface&);
-  /// Drops faces that have the points of an earlier one in the same order, wherever they start; with `both_ways` those in
-  /// the opposite order too. Linear.
+  /// Drops faces that have the points of an earlier one in the same order, wherever they start; with `both_ways` those
+  /// in the opposite order too. Linear.
   void drop_duplicates(const Surface&, bool both_ways);
 
   Counts counts;

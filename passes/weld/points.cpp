@@ -1,7 +1,7 @@
-// A point joins the first one within the tolerance, which must not itself have joined another: otherwise a chain of points
-// would drift together from end to end. Those that stand for others lie in a grid whose cells are four tolerances wide, so
-// that a cell holds few of them and the ball around a point meets three cells on average. Equal points, which are most of
-// a soup, are found before that by their hash.
+// A point joins the first one within the tolerance, which must not itself have joined another: otherwise a chain of
+// points would drift together from end to end. Those that stand for others lie in a grid whose cells are four
+// tolerances wide, so that a cell holds few of them and the ball around a point meets three cells on average. Equal
+// points, which are most of a soup, are found before that by their hash.
 #include "passes/weld/points.h"
 
 #include <algorithm>
@@ -93,15 +93,16 @@ constexpr double farthest_in_steps = 1.8;  // of two points that each coordinate
 
 /// How many decimals a number was printed with, at least `n`: the fewest that give the same double again.
 int decimals(double v, int n) {
-  static constexpr double power[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  static constexpr double power[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                     1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
   while (n < most_decimals && std::nearbyint(v * power[n]) / power[n] != v) ++n;
   return n;
 }
 
 }  // namespace
 
-/// Numbers are printed with as many decimals, or as many digits, each. Either way the largest have the coarsest step, and
-/// they alone are looked at: those within a factor of ten.
+/// Numbers are printed with as many decimals, or as many digits, each. Either way the largest have the coarsest step,
+/// and they alone are looked at: those within a factor of ten.
 double tolerance_by_digits(std::span<const double> points) {
   constexpr double huge = std::numeric_limits<double>::max();
   double low[3] = {huge, huge, huge}, high[3] = {-huge, -huge, -huge}, largest = 0;

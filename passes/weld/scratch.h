@@ -1,5 +1,6 @@
 // Working memory of `weld`, used again for each geometry.
 #pragma once
+#include "passes/weld/coplanar.h"
 #include "passes/weld/edges.h"
 #include "passes/weld/faces.h"
 #include "passes/weld/points.h"
@@ -17,6 +18,7 @@ struct WeldScratch {
   EdgeTable edges;
   TJunctions t_junctions;
   Winding winding;
+  CoplanarMerger merger;
   std::vector<std::uint32_t> face_of, parents, fans;
 };
 

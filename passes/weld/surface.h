@@ -1,5 +1,5 @@
-// The mesh while it is repaired: its corners index points that are numbered without gaps, and face_begin is there even if
-// all faces are triangles. What several repairs do with faces is here.
+// The mesh while it is repaired: its corners index points that are numbered without gaps, and face_begin is there even
+// if all faces are triangles. What several repairs do with faces is here.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -12,18 +12,22 @@ namespace wrlkit {
 
 struct Surface {
   Mesh& mesh;
-  const std::vector<double>& points;  // xyz
+  const std::vector<double>& points;    // xyz
   std::vector<std::uint32_t>& face_of;  // of each corner; see number_faces
 
   std::size_t n_points() const { return points.size() / 3; }
   std::uint32_t n_faces() const { return static_cast<std::uint32_t>(mesh.face_begin.size() - 1); }
   std::uint32_t begin(std::uint32_t face) const { return mesh.face_begin[face]; }
   std::uint32_t end(std::uint32_t face) const { return mesh.face_begin[face + 1]; }
-  std::span<const std::uint32_t> face(std::uint32_t f) const { return {mesh.corners.data() + begin(f), end(f) - begin(f)}; }
+  std::span<const std::uint32_t> face(std::uint32_t f) const {
+    return {mesh.corners.data() + begin(f), end(f) - begin(f)};
+  }
   std::uint32_t after(std::uint32_t corner) const {
     return corner + 1 == end(face_of[corner]) ? begin(face_of[corner]) : corner + 1;
   }
-  Vec3 point(std::uint32_t p) const { return {points[3 * std::size_t{p}], points[3 * std::size_t{p} + 1], points[3 * std::size_t{p} + 2]}; }
+  Vec3 point(std::uint32_t p) const {
+    return {points[3 * std::size_t{p}], points[3 * std::size_t{p} + 1], points[3 * std::size_t{p} + 2]};
+  }
 
   /// Fills face_of.
   void number_faces() const;

@@ -1,7 +1,7 @@
 // An edge lies in a grid of cells that are at least as long as itself, so that it meets eight of them at most; there is
 // such a grid for each power of two, and a point looks into one cell of each. A plane of a hundred metres and the bolts
-// on it do not get into each other's way like this. Only open edges can have a point on them, and only the points of open
-// edges can be on one, so that a closed surface costs nothing.
+// on it do not get into each other's way like this. Only open edges can have a point on them, and only the points of
+// open edges can be on one, so that a closed surface costs nothing.
 #include "passes/weld/t_junctions.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace wrlkit {
 namespace {
 
-constexpr double most_levels = 24;             // shorter edges are treated like those of the lowest level
-constexpr std::size_t tests_a_point = 256;     // on average; real surfaces need one or two
+constexpr double most_levels = 24;         // shorter edges are treated like those of the lowest level
+constexpr std::size_t tests_a_point = 64;  // on average; real surfaces need one or two
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();  // by the largest coordinate
 constexpr double indistinct = std::numeric_limits<float>::epsilon();     // the same
 constexpr float shortest_normal = 1e-12f;                                // squared
@@ -35,8 +35,8 @@ std::size_t TJunctions::close(const Surface& s, const std::vector<SurfaceEdge>& 
   std::ranges::sort(junctions_, [](const Junction& a, const Junction& b) {
     return a.corner != b.corner ? a.corner < b.corner : a.at != b.at ? a.at < b.at : a.point < b.point;
   });
-  auto again = std::ranges::unique(junctions_, [](const Junction& a, const Junction& b) { return a.corner == b.corner && a.point == b.point; });
-  junctions_.erase(again.begin(), again.end());
+  auto same = [](const Junction& a, const Junction& b) { return a.corner == b.corner && a.point == b.point; };
+  junctions_.erase(std::unique(junctions_.begin(), junctions_.end(), same), junctions_.end());
   if (!junctions_.empty()) insert(s);
   return junctions_.size();
 }
@@ -76,10 +76,13 @@ void TJunctions::spread_edges(const Surface& s) {
 
 void TJunctions::find_edges(const Surface& s, std::uint32_t point) {
   const Vec3 p = s.point(point);
-  for (double level : levels_)
+  for (double level : levels_) {
+    if (budget_ == 0) return;
     for_each_cell(p, p, cell_size(level), [&](const Vec3& cell) {
-      grid_.visit(cell, [&](std::uint32_t corner) { test(s, corner, point); }, level);
+      grid_.visit(
+          cell, [&](std::uint32_t corner) { test(s, corner, point); }, level);
     });
+  }
 }
 
 void TJunctions::test(const Surface& s, std::uint32_t corner, std::uint32_t point) {

@@ -13,13 +13,16 @@ namespace wrlkit {
 class TJunctions {
  public:
   /// Makes the points of open edges that lie on another open edge corners of the face there, and returns how many it
-  /// made; the edges are out of date then. A point is on an edge to within the tolerance, or the rounding error of double
-  /// precision. Not if single precision takes it for an end of the edge: such points want to be joined. About linear;
-  /// gives up finding more where very many edges lie in one place.
+  /// made; the edges are out of date then. A point is on an edge to within the tolerance, or the rounding error of
+  /// double precision. Not if single precision takes it for an end of the edge: such points want to be joined. About
+  /// linear; gives up finding more where very many edges lie in one place.
   std::size_t close(const Surface&, const std::vector<SurfaceEdge>&, double tolerance);
 
  private:
-  struct OpenEdge { std::uint32_t corner; double level; };
+  struct OpenEdge {
+    std::uint32_t corner;
+    double level;
+  };
   struct Junction {
     std::uint32_t corner, point;  // of the edge from this corner on
     double at;                    // 0 to 1

@@ -28,7 +28,9 @@ class Winding {
     double volume;  // as if all were wound like the first; six times
     bool one_sided, flip[2];
   };
-  struct Place { std::uint32_t root, against; };
+  struct Place {
+    std::uint32_t root, against;
+  };
 
   void unite(const Surface&, const std::vector<SurfaceEdge>&);
   void sum_up(const Surface&, const std::vector<SurfaceEdge>&);

@@ -182,6 +182,13 @@ def large_polygon():
             f'coordIndex [ {index} -1 ] }} }}\n')
 
 
+def deep_inlines():
+    """Files of nine hundred nodes inside each other, which show each other."""
+    texts = {f'{i}.wrl': 'Group { children ' * 900 + f'Inline {{ url "{i + 1}.wrl" }}' + '}' * 900 for i in range(15)}
+    texts['0.wrl'] += REST
+    return texts | {'15.wrl': 'Shape { geometry Box {} }'}
+
+
 HUGE = 2_000_000_000
 TOO_DEEP = 'too-deep|unclosed|syntax'
 CASES = [
@@ -203,6 +210,7 @@ CASES = [
     Case('inline_each_other', files({'a.wrl': 'Inline { url "b.wrl" }' + REST, 'b.wrl': 'Inline { url "a.wrl" }'}),
          'url-cycle', verbs=('info', 'convert')),
     Case('inline_doubling', files(doubling_inlines()), 'expansion-limit', verbs=EXPANDING),
+    Case('inline_deep', files(deep_inlines()), 'too-deep', verbs=EXPANDING),
     Case('externproto_cycle',
          files({'a.wrl': 'EXTERNPROTO B [] "b.wrl#B"\nPROTO A [] { B {} }\nA {}' + REST,
                 'b.wrl': 'EXTERNPROTO A [] "a.wrl#A"\nPROTO B [] { A {} }\n'}),

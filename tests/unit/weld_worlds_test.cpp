@@ -1,6 +1,7 @@
-// `weld` over whole worlds: what it must keep, and that loose faces get the topology of the same world with shared points.
-#include <catch2/catch.hpp>
+// `weld` over whole worlds: what it must keep, and that loose faces get the topology of the same world with shared
+// points.
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
@@ -9,6 +10,7 @@
 #include "parsers/parsers.h"
 #include "passes/geometry.h"
 #include "passes/pipeline.h"
+#include "passes/shapes/vector.h"
 #include "passes/triangulate.h"
 #include "passes/weld.h"
 #include "scenegraph/nodes.h"
@@ -31,7 +33,8 @@ struct Meshes {
   PassContext ctx{diag, stats};
   MeshScratch scratch;
 
-  explicit Meshes(const fs::path& path, const std::string& passes = "inline,expand-protos,inline,expand-protos,tessellate{triangles=false}") {
+  explicit Meshes(const fs::path& path,
+                  const std::string& passes = "inline,expand-protos,inline,expand-protos,tessellate{triangles=false}") {
     world = read_world(path.string(), {}, diag);
     if (world) run(passes);
   }
@@ -78,13 +81,27 @@ void check_valid(const Mesh& mesh) {
     REQUIRE(std::ranges::is_sorted(mesh.face_begin));
     REQUIRE(mesh.face_begin.back() == mesh.corners.size());
   }
-  auto below = [](const std::vector<std::uint32_t>& index, std::size_t n) { return std::ranges::all_of(index, [n](auto i) { return i < n; }); };
+  auto below = [](const std::vector<std::uint32_t>& index, std::size_t n) {
+    return std::ranges::all_of(index, [n](auto i) { return i < n; });
+  };
   REQUIRE(below(mesh.corners, mesh.n_positions()));
   for (const Attribute* a : {&mesh.normal, &mesh.color, &mesh.texcoord}) {
     if (!a->present()) continue;
     REQUIRE(a->index.size() == mesh.corners.size());
     REQUIRE(below(a->index, a->count()));
   }
+}
+
+double area(Meshes& m, Mesh mesh) {
+  m.apply(triangulate, mesh, TriangulateOptions{});
+  double sum = 0;
+  for (std::size_t c = 0; c < mesh.corners.size(); c += 3) {
+    Vec3 p[3];
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) p[i][k] = mesh.positions[3 * std::size_t{mesh.corners[c + i]} + k];
+    sum += length(cross(p[1] - p[0], p[2] - p[0])) / 2;
+  }
+  return sum;
 }
 
 std::size_t triangles(Meshes& m, Mesh mesh) {
@@ -97,9 +114,9 @@ fs::path shared_folder() {
   return shared ? fs::path(shared) : source.parent_path() / "shared";
 }
 
-std::vector<fs::path> worlds() {
+std::vector<fs::path> worlds(const std::vector<fs::path>& folders) {
   std::vector<fs::path> out;
-  for (const fs::path& folder : {source / "corpus", shared_folder() / "corpus"}) {
+  for (const fs::path& folder : folders) {
     if (!fs::is_directory(folder)) continue;
     for (auto& entry : fs::recursive_directory_iterator(folder))
       if (entry.is_regular_file()) out.push_back(entry.path());
@@ -112,7 +129,7 @@ std::vector<fs::path> worlds() {
 
 TEST_CASE("weld keeps triangles and bounds of every world") {
   std::size_t n_worlds = 0;
-  for (const auto& path : worlds()) {
+  for (const auto& path : worlds({source / "corpus", shared_folder() / "corpus"})) {
     INFO(path.string());
     Meshes m(path);
     if (!m.world || m.world->format != Format::vrml97) continue;
@@ -128,6 +145,12 @@ TEST_CASE("weld keeps triangles and bounds of every world") {
       REQUIRE(n_after >= n);
       REQUIRE(n_after <= n + m.stats["weld.t-junctions"]);
       REQUIRE(m.apply(weld, after, WeldOptions{}) == Outcome::unchanged);
+      const double area_before = area(m, after);
+      WeldOptions merging;
+      merging.merge_coplanar = true;
+      m.apply(weld, after, merging);
+      check_valid(after);
+      REQUIRE(area(m, after) == Approx(area_before).epsilon(1e-4));
     }
   }
   REQUIRE(n_worlds > 150);
@@ -196,4 +219,26 @@ TEST_CASE("a generated plant as a soup of faces gets the topology of the indexed
   have.resize(want.size());
   REQUIRE(want.size() > 300);
   REQUIRE(have == want);
+}
+
+TEST_CASE("join keeps the triangles of every world, and finds nothing more when run again") {
+  auto total = [](Meshes& m) {
+    std::size_t n = 0;
+    for (NodeId g : m.geometries()) n += triangles(m, m.read(g));
+    return n;
+  };
+  std::size_t n_joined = 0;
+  for (const auto& path : worlds({source / "corpus"})) {
+    INFO(path.string());
+    Meshes m(path);
+    if (!m.world || m.world->format != Format::vrml97) continue;
+    auto before = total(m);
+    m.run("join");
+    REQUIRE(total(m) == before);
+    auto n = m.stats["join.shapes"];
+    m.run("join");
+    REQUIRE(m.stats["join.shapes"] == n);
+    n_joined += n;
+  }
+  REQUIRE(n_joined > 0);
 }
