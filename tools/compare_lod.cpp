@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "passes/render/render.h"
 #include "tools/comparison.h"
+#include "tools/render_options.h"
 #include "tools/session.h"
 #include "writers/json.h"
 
@@ -17,31 +17,29 @@ namespace {
 /// Draws worlds that are the same but for their meshes, from where the first is seen.
 class Painter {
  public:
-  explicit Painter(Session& s) : s_(s) {
-    const auto& f = s.flags();
-    options_.width = options_.height = f.picture_size;
-    options_.mode = f.mode == "wireframe" ? RenderOptions::Mode::wireframe : RenderOptions::Mode::preview;
-    options_.viewpoint = f.viewpoint;
-    options_.fit = f.fit;
-    options_.background = Vec3{1, 1, 1};
+  explicit Painter(Session& s) : s_(s), options_(render_options(s.flags())) {
+    options_.width = options_.height = s.flags().picture_size;
+    if (!options_.background) options_.background = Vec3{1, 1, 1};
   }
 
   /// Null when the passes failed. What is to be said about a world is said with the first picture.
   std::optional<Image> draw(Scene scene) {
     Diagnostics unheard(s_.diag().shared_sources());
-    auto& diag = options_.look_at ? unheard : s_.diag();
+    auto& diag = drawn_ ? unheard : s_.diag();
     PassContext ctx{diag, s_.context().stats, &s_.resources()};
     std::string why;
     auto pipeline = Pipeline::parse("picture", why);
     auto meshes = pipeline->run_lazily(scene, ctx);
     if (!meshes) return std::nullopt;
-    if (!options_.look_at) options_ = with_camera(scene, meshes, options_, diag);
+    if (!drawn_) options_ = with_camera(scene, meshes, options_, diag);
+    drawn_ = true;
     return render(scene, meshes, options_, &s_.resources(), diag);
   }
 
  private:
   Session& s_;
   RenderOptions options_;
+  bool drawn_ = false;
 };
 
 /// What to stop at: falling, each once. What is no less than the model is the model.
