@@ -55,7 +55,7 @@ class Reader {
     out_.n_color = !(flags & mesh_bits::color) ? 0 : flags & mesh_bits::alpha ? 4 : 3;
     out_.n_texcoord = flags & mesh_bits::texcoord ? 2 : 0;
     const std::uint8_t kind = in_.byte();
-    require(kind <= PositionCode::real, "unknown kind of positions");
+    require(kind <= PositionCode::shortest, "unknown kind of positions");
     code_ = PositionCode(kind);
     m.crease_angle = in_.fixed<double>();
     require(std::isfinite(m.crease_angle), "the crease angle is no angle");

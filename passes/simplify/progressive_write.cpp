@@ -267,12 +267,13 @@ ProgressiveStream write_progressive(const ProgressiveRecord& record) {
     auto stream = Writer(record, PositionCode(kind)).run();
     if (!best || stream.bytes.size() < best->bytes.size()) best = std::move(stream);
   };
-  for (std::uint8_t digits = 0; digits <= PositionCode::max_digits; ++digits)
-    if (holds(PositionCode(digits), points)) {
-      attempt(digits);
-      break;
-    }
-  if (holds(PositionCode(PositionCode::single), points)) attempt(PositionCode::single);
+  auto attempt_first = [&](std::uint8_t first, std::uint8_t last) {
+    for (std::uint8_t kind = first; kind <= last; ++kind)
+      if (holds(PositionCode(kind), points)) return attempt(kind);
+  };
+  attempt_first(0, PositionCode::max_digits);
+  attempt_first(PositionCode::single, PositionCode::single);
+  attempt_first(PositionCode::printed, PositionCode::shortest);
   if (!best) attempt(PositionCode::real);
   return std::move(*best);
 }
