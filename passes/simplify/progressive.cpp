@@ -55,7 +55,7 @@ class Reversal {
     for (std::uint32_t w : in_.wedge_of_corner)
       if (w != none) used_.push_back(in_.wedge_vertex[w]);
     std::ranges::sort(used_);
-    used_.erase(std::ranges::unique(used_).begin(), used_.end());
+    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
     corner_.resize(n), next_.resize(n, none);
     first_.resize(used_.size(), none), last_.resize(used_.size(), none);
     for (std::uint32_t c = 0; c < n; ++c) {
