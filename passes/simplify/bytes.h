@@ -1,5 +1,5 @@
-// Bytes of a compact file, little endian: fixed numbers, and whole numbers of seven bits a byte (varints), the lowest first,
-// the top bit set in all bytes but the last. Signed ones are folded: 0, -1, 1, -2, ... are 0, 1, 2, 3, ...
+// Bytes of a compact file, little endian: fixed numbers, and whole numbers of seven bits a byte (varints), the lowest
+// first, the top bit set in all bytes but the last. Signed ones are folded: 0, -1, 1, -2, ... are 0, 1, 2, 3, ...
 #pragma once
 #include <bit>
 #include <concepts>
@@ -68,8 +68,10 @@ class ByteReader {
   T fixed() {
     std::uint64_t n = 0;
     for (std::size_t i = 0; i < sizeof(T); ++i) n |= std::uint64_t{byte()} << 8 * i;
-    if constexpr (sizeof(T) == 4) return std::bit_cast<T>(static_cast<std::uint32_t>(n));
-    else return std::bit_cast<T>(n);
+    if constexpr (sizeof(T) == 4)
+      return std::bit_cast<T>(static_cast<std::uint32_t>(n));
+    else
+      return std::bit_cast<T>(n);
   }
 
  private:

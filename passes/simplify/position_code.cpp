@@ -9,7 +9,8 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::array<double, 16> powers{1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+constexpr std::array<double, 16> powers{1,   1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                        1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
 /// The nearest finite float; NaN is 0.
 float to_float(double x) {
@@ -65,7 +66,7 @@ double PositionCode::nearest(double x) const {
   return kind_ > max_digits ? value_of(to_float(x)) : whole_of(x) / scale_;
 }
 
-double PositionCode::value_of(float f) const { 
+double PositionCode::value_of(float f) const {
   if (kind_ == shortest) return shortest_and_read(f);
   return kind_ >= printed ? printed_and_read(f, 6 + kind_ - printed) : f;
 }
@@ -75,9 +76,12 @@ bool PositionCode::holds(double x) const {
 }
 
 void PositionCode::write(ByteWriter& out, double x, double predicted) const {
-  if (kind_ == real) out.fixed(x);
-  else if (kind_ > max_digits) out.whole(ordered(to_float(x)) - ordered(to_float(predicted)));
-  else out.whole(static_cast<std::int64_t>(whole_of(x) - whole_of(predicted)));
+  if (kind_ == real)
+    out.fixed(x);
+  else if (kind_ > max_digits)
+    out.whole(ordered(to_float(x)) - ordered(to_float(predicted)));
+  else
+    out.whole(static_cast<std::int64_t>(whole_of(x) - whole_of(predicted)));
 }
 
 std::optional<double> PositionCode::read(ByteReader& in, double predicted) const {

@@ -1,6 +1,6 @@
-// Coordinates in a stream: whole numbers of a decimal step, single precision (exactly, or as it was printed with so many
-// digits and read again as double), or double precision. Each is written as the difference from a prediction that the reader can
-// make as well, and reads back as the same bits.
+// Coordinates in a stream: whole numbers of a decimal step, single precision (exactly, or as it was printed with so
+// many digits and read again as double), or double precision. Each is written as the difference from a prediction that
+// the reader can make as well, and reads back as the same bits.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -15,7 +15,8 @@ class PositionCode {
   static constexpr double max_whole = 1ll << 44;  // so that differences are exact where all numbers are doubles
 
   /// 0 to max_digits: whole numbers of that many decimal digits behind the point; single; real (double); from
-  /// `printed` on the double that is read when a single is printed with 6, 7, 8 or 9 digits, or with as few as tell it apart.
+  /// `printed` on the double that is read when a single is printed with 6, 7, 8 or 9 digits, or with as few as tell it
+  /// apart.
   explicit PositionCode(std::uint8_t kind);
 
   std::uint8_t kind() const { return kind_; }

@@ -22,13 +22,14 @@ float rounded_up(double x) {
 
 /// The entries of one step of a record, whose ends are given one step after the other.
 template <class T, class Step>
-std::span<const T> part_of(const std::vector<T>& all, const std::vector<Step>& steps, std::size_t i, std::size_t Step::*end) {
+std::span<const T> part_of(const std::vector<T>& all, const std::vector<Step>& steps, std::size_t i,
+                           std::size_t Step::*end) {
   const std::size_t begin = i ? steps[i - 1].*end : 0;
   return std::span(all).subspan(begin, steps[i].*end - begin);
 }
 
-/// Goes through the collapses once in their order, to see what corners each of them moves and what its faces were when they
-/// went; then once backwards, to number and write what appears.
+/// Goes through the collapses once in their order, to see what corners each of them moves and what its faces were when
+/// they went; then once backwards, to number and write what appears.
 class Reversal {
  public:
   Reversal(const Mesh& mesh, const CollapseRecord& record) : mesh_(mesh), in_(record) {}
@@ -44,7 +45,9 @@ class Reversal {
 
  private:
   using Corner = Record::Corner;
-  struct Moved { std::uint32_t corner, fine, coarse; };
+  struct Moved {
+    std::uint32_t corner, fine, coarse;
+  };
 
   std::uint32_t rank(std::uint32_t original) const {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(used_, original) - used_.begin());
@@ -82,7 +85,8 @@ class Reversal {
   void collapse(std::size_t i) {
     const auto& step = in_.steps[i];
     const std::uint32_t u = rank(step.from), v = rank(step.to);
-    for (std::uint32_t f : part_of(in_.removed_faces, in_.steps, i, &CollapseRecord::Step::end_of_faces)) gone_[f] = true;
+    for (std::uint32_t f : part_of(in_.removed_faces, in_.steps, i, &CollapseRecord::Step::end_of_faces))
+      gone_[f] = true;
     const std::size_t begin = moved_.size();
     for (std::uint32_t c = first_[u], after; c != none; c = after) {
       after = next_[c];
@@ -97,7 +101,8 @@ class Reversal {
       corner_[moved_[k].corner].vertex = v;
     }
     end_of_moved_.push_back(moved_.size());
-    for (const auto& change : part_of(in_.wedges, in_.steps, i, &CollapseRecord::Step::end_of_wedges)) row_[change.wedge] = change.after;
+    for (const auto& change : part_of(in_.wedges, in_.steps, i, &CollapseRecord::Step::end_of_wedges))
+      row_[change.wedge] = change.after;
     gone_vertex_[u] = true;
     position_[v] = step.position;
   }
@@ -127,7 +132,8 @@ class Reversal {
       original_face_[f] = number++;
       if (!gone_[f]) write_face(f);
     }
-    out_.n_base_vertices = out_.vertices.size(), out_.n_base_wedges = out_.wedges.size(), out_.n_base_faces = out_.faces.size();
+    out_.n_base_vertices = out_.vertices.size(), out_.n_base_wedges = out_.wedges.size(),
+    out_.n_base_faces = out_.faces.size();
   }
 
   void write_vertex(std::uint32_t v) {
@@ -165,7 +171,8 @@ class Reversal {
     write_moved(i);
     for (std::uint32_t f : part_of(in_.removed_faces, in_.steps, i, &CollapseRecord::Step::end_of_faces)) write_face(f);
     for (const auto& change : changes)  // one that appears here has its values already
-      if (wedge(change.wedge) < old_wedges) out_.wedge_changes.push_back({wedge(change.wedge), change.after, change.before});
+      if (wedge(change.wedge) < old_wedges)
+        out_.wedge_changes.push_back({wedge(change.wedge), change.after, change.before});
     out_.splits.push_back({vertex_number_[v], step.position, step.old_to, i ? rounded_up(in_.steps[i - 1].error) : 0,
                            out_.faces.size(), out_.corners.size(), out_.wedge_changes.size()});
   }
@@ -220,7 +227,8 @@ class ValueWriter {
     for (std::uint32_t w : wedges) {
       if (id[w] == none) {
         id[w] = static_cast<std::uint32_t>(to.count());
-        const float* v = record_.values.data() + std::size_t{row_[w]} * static_cast<std::size_t>(record_.width()) + offset;
+        const float* v =
+            record_.values.data() + std::size_t{row_[w]} * static_cast<std::size_t>(record_.width()) + offset;
         to.values.insert(to.values.end(), v, v + width);
       }
       to.index.push_back(id[w]);
@@ -234,7 +242,9 @@ class ValueWriter {
 
 }  // namespace
 
-ProgressiveRecord make_progressive(const Mesh& mesh, const CollapseRecord& record) { return Reversal(mesh, record).run(); }
+ProgressiveRecord make_progressive(const Mesh& mesh, const CollapseRecord& record) {
+  return Reversal(mesh, record).run();
+}
 
 std::optional<ProgressiveRecord> make_progressive(const Mesh& mesh, Criterion criterion, std::size_t base_faces) {
   if (criterion == Criterion::meshopt) return {};
@@ -243,7 +253,8 @@ std::optional<ProgressiveRecord> make_progressive(const Mesh& mesh, Criterion cr
   return make_progressive(mesh, c.record());
 }
 
-ProgressiveMesh::ProgressiveMesh(ProgressiveRecord record) : record_(std::move(record)), n_faces_(record_.n_base_faces), row_(record_.wedges) {
+ProgressiveMesh::ProgressiveMesh(ProgressiveRecord record)
+    : record_(std::move(record)), n_faces_(record_.n_base_faces), row_(record_.wedges) {
   for (const auto& v : record_.vertices) position_.push_back(v.position);
   for (const auto& f : record_.faces) corner_.insert(corner_.end(), f.corners.begin(), f.corners.end());
 }
@@ -261,8 +272,10 @@ void ProgressiveMesh::split() {
   const Split& s = record_.splits[done_];
   const auto born = static_cast<std::uint32_t>(record_.n_base_vertices + done_);
   position_[s.vertex] = s.fine;
-  for (const auto& c : part_of(record_.corners, record_.splits, done_, &Split::end_of_corners)) corner_[c.corner] = {born, c.fine};
-  for (const auto& w : part_of(record_.wedge_changes, record_.splits, done_, &Split::end_of_wedges)) row_[w.wedge] = w.fine;
+  for (const auto& c : part_of(record_.corners, record_.splits, done_, &Split::end_of_corners))
+    corner_[c.corner] = {born, c.fine};
+  for (const auto& w : part_of(record_.wedge_changes, record_.splits, done_, &Split::end_of_wedges))
+    row_[w.wedge] = w.fine;
   n_faces_ = s.end_of_faces;
   ++done_;
 }
@@ -272,18 +285,22 @@ void ProgressiveMesh::collapse() {
   --done_;
   const Split& s = record_.splits[done_];
   position_[s.vertex] = s.coarse;
-  for (const auto& c : part_of(record_.corners, record_.splits, done_, &Split::end_of_corners)) corner_[c.corner] = {s.vertex, c.coarse};
-  for (const auto& w : part_of(record_.wedge_changes, record_.splits, done_, &Split::end_of_wedges)) row_[w.wedge] = w.coarse;
+  for (const auto& c : part_of(record_.corners, record_.splits, done_, &Split::end_of_corners))
+    corner_[c.corner] = {s.vertex, c.coarse};
+  for (const auto& w : part_of(record_.wedge_changes, record_.splits, done_, &Split::end_of_wedges))
+    row_[w.wedge] = w.coarse;
   n_faces_ = done_ ? record_.splits[done_ - 1].end_of_faces : record_.n_base_faces;
 }
 
 Mesh ProgressiveMesh::mesh() const {
   Mesh m = record_.flags;
   std::vector<std::uint32_t> faces, vertices;
-  order_of(std::vector<bool>(n_faces_, true), [&](std::uint32_t f) { return record_.faces[f].number; }, faces);
+  order_of(
+      std::vector<bool>(n_faces_, true), [&](std::uint32_t f) { return record_.faces[f].number; }, faces);
   std::vector<bool> used(record_.n_base_vertices + done_);
   for (std::size_t c = 0; c < 3 * n_faces_; ++c) used[corner_[c].vertex] = true;
-  const auto number = order_of(used, [&](std::uint32_t v) { return record_.vertices[v].number; }, vertices);
+  const auto number = order_of(
+      used, [&](std::uint32_t v) { return record_.vertices[v].number; }, vertices);
   auto& positions = m.positions.edit();
   for (std::uint32_t v : vertices) positions.insert(positions.end(), position_[v].begin(), position_[v].end());
   std::vector<std::uint32_t> wedges;

@@ -29,7 +29,8 @@ class Reader {
       header();
       base();
       require(!in_.ended(), "the bytes end before the base mesh does");
-      while (out_.splits.size() < n_splits_ && split()) {}
+      while (out_.splits.size() < n_splits_ && split()) {
+      }
       out.complete = out_.splits.size() == n_splits_;
       require(!out.complete || out_.faces.size() == n_faces_, "there are fewer faces than the header says");
       require(!out.complete || in_.left() == 0, "there are bytes behind the last split");
@@ -62,7 +63,8 @@ class Reader {
     in_.bytes(6 * sizeof(float));  // bounds
     error_ = out_.base_error = in_.fixed<float>();
     require(std::isfinite(error_) && !std::signbit(error_), "the error of the base is no length");
-    n_base_vertices_ = count(), n_base_wedges_ = count(), n_base_faces_ = count(), n_splits_ = count(), n_faces_ = count();
+    n_base_vertices_ = count(), n_base_wedges_ = count(), n_base_faces_ = count(), n_splits_ = count(),
+    n_faces_ = count();
     require(n_base_vertices_ + n_splits_ <= most && n_base_faces_ <= n_faces_, "counts that contradict one another");
     require(out_.width() > 0 || n_base_wedges_ == 0, "wedges without attributes");
   }
@@ -81,7 +83,8 @@ class Reader {
       before = point(before);
       add_vertex(before, number++);
     }
-    for (std::uint64_t w = 0; w < n_base_wedges_; ++w) new_wedge(w ? &out_.values[out_.values.size() - width()] : nullptr);
+    for (std::uint64_t w = 0; w < n_base_wedges_; ++w)
+      new_wedge(w ? &out_.values[out_.values.size() - width()] : nullptr);
     number = 0;
     Corner last;
     for (std::uint64_t f = 0; f < n_base_faces_; ++f) {
@@ -94,10 +97,12 @@ class Reader {
         last = c;
       }
       const auto& c = face.corners;
-      require(c[0].vertex != c[1].vertex && c[1].vertex != c[2].vertex && c[2].vertex != c[0].vertex, "a face has a vertex twice");
+      require(c[0].vertex != c[1].vertex && c[1].vertex != c[2].vertex && c[2].vertex != c[0].vertex,
+              "a face has a vertex twice");
       add_face(face);
     }
-    out_.n_base_vertices = out_.vertices.size(), out_.n_base_wedges = out_.wedges.size(), out_.n_base_faces = out_.faces.size();
+    out_.n_base_vertices = out_.vertices.size(), out_.n_base_wedges = out_.wedges.size(),
+    out_.n_base_faces = out_.faces.size();
     based_ = !in_.ended();
   }
 
@@ -168,7 +173,8 @@ class Reader {
   /// False, and nothing done, when the bytes end within it.
   bool split() {
     const auto old_vertices = out_.vertices.size(), old_wedges = out_.wedges.size(), old_faces = out_.faces.size();
-    const auto old_corners = out_.corners.size(), old_changes = out_.wedge_changes.size(), old_values = out_.values.size();
+    const auto old_corners = out_.corners.size(), old_changes = out_.wedge_changes.size(),
+               old_values = out_.values.size();
     try {
       read_split();
     } catch (const Fault&) {
@@ -199,7 +205,8 @@ class Reader {
     for (std::uint64_t i = 0; i < n_faces; ++i) face(v, born);
     if (head & split_bits::values) wedge_values();
     if (in_.ended()) return;
-    out_.splits.push_back({v, coarse, replay_.position[v], error_, out_.faces.size(), out_.corners.size(), out_.wedge_changes.size()});
+    out_.splits.push_back(
+        {v, coarse, replay_.position[v], error_, out_.faces.size(), out_.corners.size(), out_.wedge_changes.size()});
   }
 
   void positions(std::uint32_t v, bool moves, std::uint32_t number) {
@@ -226,7 +233,8 @@ class Reader {
     }
     const auto first_new = static_cast<std::uint32_t>(out_.wedges.size());
     for (std::uint32_t c : go_) {
-      const std::uint32_t coarse = replay_.corner[c].wedge, fine = width() ? fine_wedge(coarse, first_new, one_by_one) : 0;
+      const std::uint32_t coarse = replay_.corner[c].wedge,
+                          fine = width() ? fine_wedge(coarse, first_new, one_by_one) : 0;
       out_.corners.push_back({c, coarse, fine});
       replay_.corner[c] = {born, fine};
     }
@@ -260,8 +268,10 @@ class Reader {
     require(out_.faces.size() < n_faces_, "there are more faces than the header says");
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (k != turn) face.corners[k].vertex = k == born_at ? born : v;
-      if (width() && k != turn) face.corners[k].wedge = near_wedge(k == born_at ? go_ : stay_);
-      else if (width() && far) face.corners[k].wedge = far_wedge();
+      if (width() && k != turn)
+        face.corners[k].wedge = near_wedge(k == born_at ? go_ : stay_);
+      else if (width() && far)
+        face.corners[k].wedge = far_wedge();
     }
     const auto first = static_cast<std::uint32_t>(3 * out_.faces.size());
     add_face(face);

@@ -1,5 +1,6 @@
-// What writer and reader of a progressive stream both know of the mesh as far as it has come: where its vertices are, and
-// the corners of each vertex by ascending number. A split names corners by their place among those (the fan), which are few.
+// What writer and reader of a progressive stream both know of the mesh as far as it has come: where its vertices are,
+// and the corners of each vertex by ascending number. A split names corners by their place among those (the fan), which
+// are few.
 #pragma once
 #include <array>
 #include <cstdint>

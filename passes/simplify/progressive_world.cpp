@@ -25,11 +25,14 @@ struct Placed {
 
 std::array<std::uint8_t, 4> color_of(const Scene& scene, NodeId shape) {
   const NodeId appearance = scene.get(shape, nodes::shape::appearance);
-  const NodeId material = scene.is(appearance, nodes::Appearance) ? scene.get(appearance, nodes::appearance::material) : NodeId{};
+  const NodeId material =
+      scene.is(appearance, nodes::Appearance) ? scene.get(appearance, nodes::appearance::material) : NodeId{};
   if (!scene.is(material, nodes::Material)) return {255, 255, 255, 255};
   auto byte = [](double x) { return static_cast<std::uint8_t>(x > 0 ? std::lround(255 * std::min(x, 1.)) : 0); };
-  const Vec3 d = scene.get(material, nodes::material::diffuseColor), e = scene.get(material, nodes::material::emissiveColor);
-  return {byte(d[0] + e[0]), byte(d[1] + e[1]), byte(d[2] + e[2]), byte(1 - scene.get(material, nodes::material::transparency))};
+  const Vec3 d = scene.get(material, nodes::material::diffuseColor),
+             e = scene.get(material, nodes::material::emissiveColor);
+  return {byte(d[0] + e[0]), byte(d[1] + e[1]), byte(d[2] + e[2]),
+          byte(1 - scene.get(material, nodes::material::transparency))};
 }
 
 /// The geometries of the Shapes that are shown, in the order in which they are met first.

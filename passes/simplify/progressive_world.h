@@ -1,5 +1,6 @@
-// A world for a viewer that shows it while it comes in (docs/progressive.md): for each surface where it stands and in what
-// color, then the progressive meshes of all surfaces, cut in pieces that take turns, so that the whole world gets better at once.
+// A world for a viewer that shows it while it comes in (docs/progressive.md): for each surface where it stands and in
+// what color, then the progressive meshes of all surfaces, cut in pieces that take turns, so that the whole world gets
+// better at once.
 #pragma once
 #include <optional>
 #include <span>
@@ -15,9 +16,10 @@ namespace wrlkit {
 
 /// One of the places of a surface.
 struct ProgressivePlace {
-  std::string name;                   // of the Shape; empty when it has none
-  Matrix matrix;                      // from the surface to the world
-  std::array<std::uint8_t, 4> color;  // red, green, blue as in VRML, and opacity: the Material's diffuse and emissive color
+  std::string name;  // of the Shape; empty when it has none
+  Matrix matrix;     // from the surface to the world
+  std::array<std::uint8_t, 4>
+      color;  // red, green, blue as in VRML, and opacity: the Material's diffuse and emissive color
 };
 
 struct ProgressiveSurface {
@@ -25,8 +27,8 @@ struct ProgressiveSurface {
   ProgressiveStream stream;
 };
 
-/// Of what is shown of a scene without prototypes and Inlines: the chosen children of Switch, the first levels of LOD. Left out
-/// are lines and points. The meshes are in memory all together. `criterion` is one that keeps a record.
+/// Of what is shown of a scene without prototypes and Inlines: the chosen children of Switch, the first levels of LOD.
+/// Left out are lines and points. The meshes are in memory all together. `criterion` is one that keeps a record.
 std::vector<ProgressiveSurface> progressive_surfaces(const Scene& scene, Criterion criterion, PassContext& ctx);
 
 /// Pieces of larger error, as it is in the world, come first; each surface's in their order.

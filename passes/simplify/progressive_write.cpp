@@ -51,14 +51,17 @@ class Writer {
     std::uint8_t flags = 0;
     auto flag = [&](bool on, std::uint8_t bit) { flags |= on ? bit : 0; };
     flag(m.ccw, mesh_bits::ccw), flag(m.solid, mesh_bits::solid), flag(m.convex, mesh_bits::convex);
-    flag(in_.n_normal, mesh_bits::normal), flag(in_.n_color, mesh_bits::color), flag(in_.n_color == 4, mesh_bits::alpha);
+    flag(in_.n_normal, mesh_bits::normal), flag(in_.n_color, mesh_bits::color),
+        flag(in_.n_color == 4, mesh_bits::alpha);
     flag(in_.n_texcoord, mesh_bits::texcoord);
     out_.byte(flags);
     out_.byte(code_.kind());
     out_.fixed(m.crease_angle);
     bounds();
     out_.fixed(error_ = in_.base_error);
-    for (std::size_t n : {in_.n_base_vertices, in_.n_base_wedges, in_.n_base_faces, in_.splits.size(), in_.faces.size()}) out_.number(n);
+    for (std::size_t n :
+         {in_.n_base_vertices, in_.n_base_wedges, in_.n_base_faces, in_.splits.size(), in_.faces.size()})
+      out_.number(n);
   }
 
   /// Of the original: smallest x, y, z and largest, rounded outwards.
@@ -115,7 +118,8 @@ class Writer {
   void values(std::uint32_t to, std::uint32_t from) {
     const auto width = static_cast<std::size_t>(in_.width());
     for (std::size_t i = 0; i < width; ++i)
-      out_.whole(ordered(in_.values[to * width + i]) - (from == Replay::none ? 0 : ordered(in_.values[from * width + i])));
+      out_.whole(ordered(in_.values[to * width + i]) -
+                 (from == Replay::none ? 0 : ordered(in_.values[from * width + i])));
   }
 
   void new_wedge(std::uint32_t like) {
@@ -135,7 +139,8 @@ class Writer {
     const std::size_t n_faces = s.end_of_faces - begin_.faces;
     const bool one_by_one = in_.width() && !wedges_are_plain(s);
     out_.byte(static_cast<std::uint8_t>(std::min<std::size_t>(n_faces, 3) | (moves ? split_bits::moves : 0) |
-                                        (s.error < error_ ? split_bits::better : 0) | (one_by_one ? split_bits::wedges : 0) |
+                                        (s.error < error_ ? split_bits::better : 0) |
+                                        (one_by_one ? split_bits::wedges : 0) |
                                         (s.end_of_wedges > begin_.wedges ? split_bits::values : 0)));
     if (n_faces >= 3) out_.number(n_faces - 3);
     out_.number(s.vertex);
@@ -195,8 +200,8 @@ class Writer {
     }
   }
 
-  /// The corner opposite to the edge of the two vertices is one that a face of the fan has as well; which, and how the face
-  /// is turned, is one number.
+  /// The corner opposite to the edge of the two vertices is one that a face of the fan has as well; which, and how the
+  /// face is turned, is one number.
   void face(std::size_t f, std::uint32_t v, std::uint32_t born) {
     const auto& face = in_.faces[f];
     std::uint32_t turn = 0;
@@ -208,16 +213,21 @@ class Writer {
     out_.number(place * 6 + turn * 2 + born_is_next);
     std::uint32_t like = f ? in_.faces[f - 1].number : 0;
     const bool far = place == 2 * fan_.size();
-    if (far) out_.number(x.vertex);
-    else like = in_.faces[fan_[place / 2] / 3].number;
+    if (far)
+      out_.number(x.vertex);
+    else
+      like = in_.faces[fan_[place / 2] / 3].number;
     out_.whole(std::int64_t{face.number} - like);
     const std::uint32_t born_at = (turn + (born_is_next ? 1 : 2)) % 3;
     for (std::uint32_t k = 0; in_.width() && k < 3; ++k) {
-      if (k != turn) near_wedge(face.corners[k].wedge, k == born_at ? go_ : stay_);
-      else if (far) far_wedge(x.wedge);
+      if (k != turn)
+        near_wedge(face.corners[k].wedge, k == born_at ? go_ : stay_);
+      else if (far)
+        far_wedge(x.wedge);
     }
     replay_.add_face(face.corners);
-    go_.push_back(static_cast<std::uint32_t>(3 * f + born_at)), stay_.push_back(static_cast<std::uint32_t>(3 * f + 3 - turn - born_at));
+    go_.push_back(static_cast<std::uint32_t>(3 * f + born_at)),
+        stay_.push_back(static_cast<std::uint32_t>(3 * f + 3 - turn - born_at));
   }
 
   void far_wedge(std::uint32_t w) {
@@ -250,12 +260,15 @@ class Writer {
   ByteWriter out_;
   Replay replay_;
   float error_ = 0;
-  struct { std::size_t faces, corners, wedges; } begin_{};  // of the entries of the split at work
-  std::vector<std::uint32_t> fan_, stay_, go_;              // corners of its vertex, before, and of both behind
+  struct {
+    std::size_t faces, corners, wedges;
+  } begin_{};                                   // of the entries of the split at work
+  std::vector<std::uint32_t> fan_, stay_, go_;  // corners of its vertex, before, and of both behind
 };
 
 bool holds(PositionCode code, const std::vector<Record::Point>& points) {
-  return std::ranges::all_of(points, [&](const auto& p) { return std::ranges::all_of(p, [&](double x) { return code.holds(x); }); });
+  return std::ranges::all_of(
+      points, [&](const auto& p) { return std::ranges::all_of(p, [&](double x) { return code.holds(x); }); });
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// What must hold of any bytes at all, read as a progressive world or mesh: an error, or meshes whose indices are good at any
-// number of faces, of a size that the bytes account for. What was read whole is written, and read back as the same mesh.
+// What must hold of any bytes at all, read as a progressive world or mesh: an error, or meshes whose indices are good
+// at any number of faces, of a size that the bytes account for. What was read whole is written, and read back as the
+// same mesh.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -22,14 +23,17 @@ Mesh mesh_at(ProgressiveMesh& mesh, std::size_t n_faces) {
   mesh.coarsen_to(n_faces), mesh.refine_to(n_faces);
   Mesh m = mesh.mesh();
   require(m.corners.size() == 3 * mesh.n_faces(), "faces are missing");
-  require(std::ranges::all_of(m.corners, [&](std::uint32_t v) { return v < m.n_positions(); }), "an index is out of range");
+  require(std::ranges::all_of(m.corners, [&](std::uint32_t v) { return v < m.n_positions(); }),
+          "an index is out of range");
   for (const Attribute* a : {&m.normal, &m.color, &m.texcoord})
-    require(std::ranges::all_of(a->index, [&](std::uint32_t i) { return i < a->count(); }), "an index of an attribute is out of range");
+    require(std::ranges::all_of(a->index, [&](std::uint32_t i) { return i < a->count(); }),
+            "an index of an attribute is out of range");
   return m;
 }
 
 void check_size(const ProgressiveRecord& r, std::size_t size) {
-  require(r.vertices.size() + r.wedges.size() + r.faces.size() + r.splits.size() + r.wedge_changes.size() <= size, "more than there are bytes");
+  require(r.vertices.size() + r.wedges.size() + r.faces.size() + r.splits.size() + r.wedge_changes.size() <= size,
+          "more than there are bytes");
   require(r.values.size() <= size && r.corners.size() <= 8 * size, "more than the bytes can say");
 }
 
@@ -47,7 +51,8 @@ void check_mesh(std::string_view bytes) {
   require(again.complete, "what was written is not read");
   ProgressiveMesh copy(std::move(*again.record));
   const Mesh other = mesh_at(copy, std::numeric_limits<std::size_t>::max());
-  require(finest.corners == other.corners && std::ranges::equal(finest.positions.span(), other.positions.span()), "what was written is another mesh");
+  require(finest.corners == other.corners && std::ranges::equal(finest.positions.span(), other.positions.span()),
+          "what was written is another mesh");
 }
 
 }  // namespace

@@ -10,13 +10,15 @@
 #include <numbers>
 #include <set>
 
-#include "passes/simplify/progressive_stream.h"
+#include "parsers/parsers.h"
+#include "passes/simplify/progressive_world.h"
 
 using namespace wrlkit;
 
 namespace {
 
-constexpr Criterion engines[] = {Criterion::length_normal, Criterion::melax, Criterion::lindstrom_turk, Criterion::quadric};
+constexpr Criterion engines[] = {Criterion::length_normal, Criterion::melax, Criterion::lindstrom_turk,
+                                 Criterion::quadric};
 
 /// n by m squares over the unit square, each of two triangles, lifted to z(x, y).
 template <class F>
@@ -25,7 +27,8 @@ Mesh sheet(std::uint32_t n, std::uint32_t m, F z) {
   mesh.kind = Mesh::Kind::faces;
   for (std::uint32_t j = 0; j <= m; ++j)
     for (std::uint32_t i = 0; i <= n; ++i)
-      for (double x : {double(i) / n, double(j) / m, z(double(i) / n, double(j) / m)}) mesh.positions.edit().push_back(x);
+      for (double x : {double(i) / n, double(j) / m, z(double(i) / n, double(j) / m)})
+        mesh.positions.edit().push_back(x);
   for (std::uint32_t j = 0; j < m; ++j)
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t a = j * (n + 1) + i, c = a + n + 1;
@@ -104,7 +107,8 @@ std::map<std::string, Mesh> meshes() {
   soup.crease_angle = 0.3;
   Mesh nothing;
   nothing.kind = Mesh::Kind::faces;
-  return {{"sheet", open_sheet()}, {"ball", ball()}, {"non-manifold", non_manifold()}, {"seams", with_seams()}, {"soup", soup}, {"nothing", nothing}};
+  return {{"sheet", open_sheet()}, {"ball", ball()}, {"non-manifold", non_manifold()},
+          {"seams", with_seams()}, {"soup", soup},   {"nothing", nothing}};
 }
 
 using Bits = std::vector<std::uint64_t>;
@@ -114,9 +118,11 @@ Bits corners_of(const Mesh& m, bool numbers) {
   Bits out;
   for (std::size_t c = 0; c < m.corners.size(); ++c) {
     if (numbers) out.push_back(m.corners[c]);
-    for (std::size_t i = 0; i < 3; ++i) out.push_back(std::bit_cast<std::uint64_t>(m.positions[3 * std::size_t{m.corners[c]} + i]));
+    for (std::size_t i = 0; i < 3; ++i)
+      out.push_back(std::bit_cast<std::uint64_t>(m.positions[3 * std::size_t{m.corners[c]} + i]));
     for (const Attribute* a : {&m.normal, &m.color, &m.texcoord})
-      for (int i = 0; a->present() && i < a->width; ++i) out.push_back(std::bit_cast<std::uint32_t>(a->at(a->index[c])[i]));
+      for (int i = 0; a->present() && i < a->width; ++i)
+        out.push_back(std::bit_cast<std::uint32_t>(a->at(a->index[c])[i]));
   }
   return out;
 }
@@ -128,7 +134,7 @@ Mesh cleaned(const Mesh& m) {
   for (Attribute* a : {&out.normal, &out.color, &out.texcoord}) a->index.clear();
   std::set<std::uint32_t> used;
   for (std::size_t c = 0; c < m.corners.size(); c += 3) {
-    const auto *v = &m.corners[c];
+    const auto* v = &m.corners[c];
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
     for (std::size_t k = c; k < c + 3; ++k) {
       out.corners.push_back(m.corners[k]);
@@ -150,8 +156,8 @@ Mesh cleaned(const Mesh& m) {
 }
 
 bool same(const Mesh& a, const Mesh& b) {
-  return a.n_positions() == b.n_positions() && corners_of(a, true) == corners_of(b, true) && a.ccw == b.ccw && a.solid == b.solid &&
-         a.convex == b.convex && a.crease_angle == b.crease_angle && a.kind == b.kind;
+  return a.n_positions() == b.n_positions() && corners_of(a, true) == corners_of(b, true) && a.ccw == b.ccw &&
+         a.solid == b.solid && a.convex == b.convex && a.crease_angle == b.crease_angle && a.kind == b.kind;
 }
 
 constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
@@ -216,7 +222,8 @@ TEST_CASE("progressive: the error falls, and cuts tell it") {
     CHECK(stream.cuts.back().error == 0);
     CHECK(stream.cuts.back().end == stream.bytes.size());
     const auto back = read_progressive(stream.bytes);
-    CHECK(std::ranges::equal(record->splits, back.record->splits, {}, &ProgressiveRecord::Split::error, &ProgressiveRecord::Split::error));
+    CHECK(std::ranges::equal(record->splits, back.record->splits, {}, &ProgressiveRecord::Split::error,
+                             &ProgressiveRecord::Split::error));
   }
 }
 
@@ -292,7 +299,57 @@ TEST_CASE("progressive: changed bytes are read as something or as an error") {
   }
   CHECK(read_progressive("").error == "the bytes end before the base mesh does");
   CHECK(read_progressive("glTF of another kind").error == "not a progressive mesh, or of another version");
-  const std::string head("WPM1\x07\x10" "\0\0\0\0\0\0\0\0" "\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0" "\0\0\0\0", 42);
+  const std::string head(
+      "WPM1\x07\x10"
+      "\0\0\0\0\0\0\0\0"
+      "\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0"
+      "\0\0\0\0",
+      42);
   CHECK(read_progressive(head + "\xff\xff\xff\xff\x7f").error == "a count is too large");
-  CHECK(read_progressive(head + std::string("\x80\x80\x80\x80\x04\0\0\0\0", 9)).error == "the bytes end before the base mesh does");
+  CHECK(read_progressive(head + std::string("\x80\x80\x80\x80\x04\0\0\0\0", 9)).error ==
+        "the bytes end before the base mesh does");
+}
+
+TEST_CASE("progressive: a world is its surfaces with their places, and gets better in all of them at once") {
+  Diagnostics diag;
+  Statistics stats;
+  PassContext ctx{diag, stats};
+  const auto world = parse_world(R"(#VRML V2.0 utf8
+Transform { translation 1 2 3 scale 2 2 2 children [
+  DEF Ball Shape { geometry DEF B Sphere { radius 0.5 }
+    appearance Appearance { material Material { diffuseColor 1 0 0.2 transparency 0.6 } } }
+  Shape { geometry USE B } ] }
+Shape { geometry Cylinder { } }
+Shape { geometry IndexedLineSet { coord Coordinate { point [ 0 0 0, 1 1 1 ] } coordIndex [ 0 1 ] } }
+Switch { choice [ Shape { geometry Box { } } ] }
+)", "world", {}, diag);
+  REQUIRE(world);
+  const auto surfaces = progressive_surfaces(world->scene, Criterion::lindstrom_turk, ctx);
+  REQUIRE(surfaces.size() == 2);
+  REQUIRE(surfaces[0].places.size() == 2);
+  const auto& ball = surfaces[0].places[0];
+  CHECK(ball.name == "Ball");
+  CHECK(ball.color == std::array<std::uint8_t, 4>{255, 0, 51, 102});
+  CHECK(ball.matrix.point({0.5, 0, 0}) == Vec3{2, 2, 3});
+  CHECK(surfaces[0].places[1].color == std::array<std::uint8_t, 4>{255, 255, 255, 255});
+
+  const auto bytes = write_progressive_world(surfaces);
+  const auto whole = read_progressive_world(bytes);
+  CHECK(whole.error.empty());
+  REQUIRE(whole.surfaces.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(whole.surfaces[i].stream.bytes == surfaces[i].stream.bytes);
+    CHECK(whole.surfaces[i].places[0].matrix == surfaces[i].places[0].matrix);
+  }
+  for (std::size_t n = 0; n < bytes.size(); n += 7) {
+    const auto part = read_progressive_world(std::string_view(bytes).substr(0, n));
+    if (!part.error.empty()) continue;  // before the places are there
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& stream = part.surfaces[i].stream.bytes;
+      CHECK(surfaces[i].stream.bytes.starts_with(stream));
+      if (i == 0 && stream.size() > surfaces[0].stream.cuts[0].end) CHECK(!part.surfaces[1].stream.bytes.empty());
+    }
+  }
+  CHECK(read_progressive_world("WPM1").error == "not a progressive world, or of another version");
+  CHECK(read_progressive_world("WPW1\xff\xff\xff\x7f").error == "the places of the surfaces cannot be read");
 }
