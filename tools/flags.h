@@ -46,6 +46,7 @@ struct Flags {
   std::vector<std::string> errors;         // lengths: 2mm
   std::string criterion;
   double pixels = 1;
+  bool progressive = false;
 };
 
 /// Exit codes of the product: 0 done, 1 done but something of the input could not be used, 2 wrong usage, 3 nothing made.
