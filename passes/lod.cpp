@@ -18,7 +18,8 @@ struct Part {
 class Lod {
  public:
   Lod(Scene& scene, const LodOptions& options, PassContext& ctx)
-      : options_(options), ctx_(ctx), surfaces_(surfaces_of(scene)), reader_(scene, ctx), nodes_(scene) {}
+      : options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, surfaces_(surfaces_of(scene)),
+        reader_(scene, reading_), nodes_(scene) {}
 
   Outcome run() {
     std::size_t n_lods = 0;
@@ -65,6 +66,10 @@ class Lod {
 
   const LodOptions& options_;
   PassContext& ctx_;
+  // The first level stays as it is: whoever draws it will say what is wrong with it.
+  Diagnostics unheard_;
+  Statistics unheard_counts_;
+  PassContext reading_;
   std::vector<ShapeSurface> surfaces_;
   SurfaceReader reader_;
   LodNodes nodes_;

@@ -121,7 +121,7 @@ const Verb verbs[] = {
      },
      run_render},
     {"simplify", "the world at falling numbers of triangles, a file each, and all of them as levels of detail in one file",
-     "wrlkit simplify valve.wrl --every 1000 -o out/\n  wrlkit simplify valve.wrl --ratios 0.5,0.25 -o out/\n  wrlkit simplify valve.wrl --error 1mm,5mm -o out/",
+     "wrlkit simplify valve.wrl --every 1000 -o out/\n  wrlkit simplify valve.wrl --ratios 0.5,0.25 -o out/\n  wrlkit simplify valve.wrl --error 1mm,5mm -o out/\n  wrlkit simplify valve.wrl --progressive -o out/",
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.add_option("-o,--output", f.output, "folder for the files; made when it is not there")->required()->type_name("DIR");
@@ -129,6 +129,7 @@ const Verb verbs[] = {
        v.add_option("--counts", f.counts, "a file at each of these numbers of triangles")->delimiter(',');
        v.add_option("--ratios", f.ratios, "a file at each of these shares of the triangles")->delimiter(',')->check(CLI::Range(0.0, 1.0));
        v.add_option("--error", f.errors, "a file with each surface as simple as it can be within this distance: 2mm, 0.5in; a number is in metres")->delimiter(',')->type_name("LENGTH");
+       v.add_flag("--progressive", f.progressive, "instead of worlds, one .wpm file: from coarse to exactly the original, for viewers that show what has come in");
        v.add_option("--criterion", f.criterion, "which edges collapse first")->check(CLI::IsMember(criterion_names()));
        v.add_option("--pixels", f.pixels, "error that may be seen on a screen of 1080 pixels, for the ranges of the LOD nodes")->check(CLI::PositiveNumber)->capture_default_str();
        pipeline(v, f);

@@ -47,6 +47,7 @@ struct Flags {
   std::vector<std::string> errors;         // lengths: 2mm
   std::string criterion;
   double pixels = 1;
+  bool progressive = false;
   std::vector<std::string> criteria;
   bool bare = false;
   int picture_size = 300;

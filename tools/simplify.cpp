@@ -1,5 +1,5 @@
 // wrlkit simplify: the world at falling numbers of triangles, one file each, and one file with all of them as levels of
-// detail: the interaction points of Lazanyi, 2.3.
+// detail: the interaction points of Lazanyi, 2.3. Or one progressive file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "passes/simplify/progressive_world.h"
 #include "passes/simplify/world.h"
 #include "tools/session.h"
 #include "writers/json.h"
@@ -43,7 +44,10 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   if (!f.criterion.empty()) criterion.read(f.criterion);
   o.collapse.criterion = criterion.value;
   o.budget.pixels = f.pixels;
-  if ((f.every > 0) + !f.counts.empty() + !f.ratios.empty() + !f.errors.empty() != 1) return fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios and --error is needed\n"), std::nullopt;
+  if ((f.every > 0) + !f.counts.empty() + !f.ratios.empty() + !f.errors.empty() + f.progressive != 1)
+    return fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios, --error and --progressive is needed\n"), std::nullopt;
+  if (f.progressive && o.collapse.criterion == Criterion::meshopt)
+    return fmt::print(stderr, "wrlkit simplify: --progressive: meshopt keeps no record of its steps\n"), std::nullopt;
   for (const auto& text : f.errors) {
     const double e = length_of(text);
     if (!(e > 0)) return fmt::print(stderr, "wrlkit simplify: --error: '{}' is no length\n", text), std::nullopt;
@@ -60,6 +64,29 @@ bool write_world(Session& s, const std::string& path, const Scene& scene) {
   if (!file) return false;
   write_vrml(scene, {.precision = s.flags().precision}, file->sink(), s.diag());
   return file->commit(s.diag());
+}
+
+/// The world as one progressive file in place of many.
+int write_progressive_file(Session& s, Criterion criterion, const std::string& path) {
+  const auto surfaces = progressive_surfaces(s.world().scene, criterion, s.context());
+  auto file = OutputFile::open(path, {.gzip = s.flags().gzip}, s.diag());
+  if (!file) return s.end(false);
+  const auto bytes = write_progressive_world(surfaces);
+  file->write(bytes);
+  if (!file->commit(s.diag())) return s.end(false);
+  if (s.flags().json) {
+    std::string text;
+    JsonOut json(text);
+    json.begin_object();
+    json.member("file", path);
+    json.member("surfaces", surfaces.size());
+    json.member("bytes", bytes.size());
+    json.end_object();
+    fmt::print("{}\n", text);
+  } else {
+    fmt::print("{}: {} surfaces, {} bytes\n", path, surfaces.size(), bytes.size());
+  }
+  return s.end(true);
 }
 
 struct Written {
@@ -99,15 +126,16 @@ void print(const Session& s, std::size_t n_faces, const std::vector<Written>& fi
 int run_simplify(const Flags& flags) {
   Session s(flags);
   auto options = options_of(flags);
-  if (!options || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "none" : "weld")) return usage;
+  if (!options || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "none" : flags.progressive ? "inline,expand-protos,inline,expand-protos,weld" : "weld")) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
-
-  const SimplifiedWorld world(s.world().scene, *options, s.context());
 
   std::error_code failed;
   fs::create_directories(flags.output, failed);
   const std::string base = (fs::path(flags.output) / stem_of(flags.inputs[0])).string(), ending = flags.gzip ? ".wrl.gz" : ".wrl";
+  if (flags.progressive) return write_progressive_file(s, options->collapse.criterion, base + (flags.gzip ? ".wpm.gz" : ".wpm"));
+
+  const SimplifiedWorld world(s.world().scene, *options, s.context());
   std::vector<Written> files;
   for (std::size_t i = 0; i < world.n_points(); ++i) {
     files.push_back({base + '_' + std::to_string(world.point(i).n_faces) + ending, world.point(i)});
