@@ -48,7 +48,7 @@ class Lod {
   }
 
   void simplify(std::vector<Part>& parts) const {
-    const LevelOptions levels{options_.criterion.value, options_.ratios.values, options_.errors.values, options_.min_saving};
+    const LevelOptions levels{{options_.criterion.value}, options_.ratios.values, options_.errors.values, options_.min_saving};
     parallel_for(parts.size(), [&](std::size_t i) {
       auto& p = parts[i];
       if (static_cast<int>(p.mesh.n_faces()) >= options_.min_faces) p.levels = make_levels(p.mesh, levels);

@@ -57,6 +57,16 @@ void vrml_output(CLI::App& verb, Flags& f) {
   verb.add_option("--precision", f.precision, "significant digits of VRML output; 0: all that are needed")->check(CLI::Range(0, 17));
 }
 
+void pictures(CLI::App& verb, Flags& f) {
+  verb.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint");
+  verb.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
+  verb.add_option("--look-at", f.look_at, "eye, target and up: nine numbers")->expected(9)->delimiter(',');
+  verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")->expected(3)->delimiter(',');
+  verb.add_option("--headlight", f.headlight, "on or off, whatever NavigationInfo says")->check(CLI::IsMember({"on", "off"}));
+  verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")->check(CLI::Range(0.0, 179.0));
+  verb.add_option("--mode", f.mode, "preview or wireframe")->check(CLI::IsMember({"preview", "wireframe"}))->capture_default_str();
+}
+
 struct Verb {
   const char *name, *help, *example;
   void (*flags)(CLI::App&, Flags&);
@@ -105,13 +115,7 @@ const Verb verbs[] = {
        v.add_option("--width", f.width, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
        v.add_option("--height", f.height, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
        v.add_option("--samples", f.samples, "samples a pixel, along each side")->check(CLI::Range(1, 16))->capture_default_str();
-       v.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint");
-       v.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
-       v.add_option("--look-at", f.look_at, "eye, target and up: nine numbers")->expected(9)->delimiter(',');
-       v.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")->expected(3)->delimiter(',');
-       v.add_option("--headlight", f.headlight, "on or off, whatever NavigationInfo says")->check(CLI::IsMember({"on", "off"}));
-       v.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")->check(CLI::Range(0.0, 179.0));
-       v.add_option("--mode", f.mode, "preview or wireframe")->check(CLI::IsMember({"preview", "wireframe"}))->capture_default_str();
+       pictures(v, f);
        pipeline(v, f);
        placing(v, f);
      },
@@ -122,6 +126,7 @@ const Verb verbs[] = {
        input(v, f);
        v.add_option("-o,--output", f.output, "folder for the files; made when it is not there")->required()->type_name("DIR");
        v.add_option("--every", f.every, "a file each time that so many triangles have gone: at the multiples of N")->check(CLI::Range(1, 1'000'000'000))->type_name("N");
+       v.add_option("--counts", f.counts, "a file at each of these numbers of triangles")->delimiter(',');
        v.add_option("--ratios", f.ratios, "a file at each of these shares of the triangles")->delimiter(',')->check(CLI::Range(0.0, 1.0));
        v.add_option("--error", f.errors, "a file with each surface as simple as it can be within this distance: 2mm, 0.5in; a number is in metres")->delimiter(',')->type_name("LENGTH");
        v.add_flag("--progressive", f.progressive, "instead of worlds, one .wpm file: from coarse to exactly the original, for viewers that show what has come in");
@@ -131,6 +136,20 @@ const Verb verbs[] = {
        vrml_output(v, f);
      },
      run_simplify},
+    {"compare-lod", "what each criterion makes of a world: a page of errors, times and pictures, or one picture of all",
+     "wrlkit compare-lod valve.wrl -o report.html\n  wrlkit compare-lod valve.wrl -o valve.png --counts 2000,500 --criteria melax,quadric --mode wireframe",
+     [](CLI::App& v, Flags& f) {
+       input(v, f);
+       v.add_option("-o,--output", f.output, "file.html; or file.png: the pictures alone, four in a row, a row for each criterion")->required()->type_name("FILE");
+       v.add_option("--counts", f.counts, "numbers of triangles to compare at")->delimiter(',');
+       v.add_option("--ratios", f.ratios, "instead of that, shares of the triangles; as a rule 0.5,0.25,0.1,0.05,0.02,0.01")->delimiter(',')->check(CLI::Range(0.0, 1.0));
+       v.add_option("--criteria", f.criteria, "which; as a rule all")->delimiter(',')->check(CLI::IsMember(criterion_names()));
+       v.add_flag("--bare", f.bare, "the criterion alone decides: creases and borders are edges like others");
+       v.add_option("--size", f.picture_size, "pixels along each side of a picture")->check(CLI::Range(16, 2048))->capture_default_str();
+       pictures(v, f);
+       pipeline(v, f);
+     },
+     run_compare_lod},
     {"passes", "every pass, or one with its options", "wrlkit passes tessellate", [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "a pass"); }, run_passes},
     {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",

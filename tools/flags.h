@@ -40,13 +40,18 @@ struct Flags {
   std::string headlight;                   // "on", "off"; empty: as NavigationInfo says
   double field_of_view = 0;                // degrees; 0: the Viewpoint's
 
-  // simplify
+  // simplify, compare-lod
   int every = 0;
+  std::vector<std::size_t> counts;
   std::vector<double> ratios;
   std::vector<std::string> errors;         // lengths: 2mm
   std::string criterion;
   double pixels = 1;
   bool progressive = false;
+
+  std::vector<std::string> criteria;
+  bool bare = false;
+  int picture_size = 300;
 };
 
 /// Exit codes of the product: 0 done, 1 done but something of the input could not be used, 2 wrong usage, 3 nothing made.
@@ -59,6 +64,7 @@ int run_cat(const Flags&);
 int run_diff(const Flags&);
 int run_render(const Flags&);
 int run_simplify(const Flags&);
+int run_compare_lod(const Flags&);
 int run_passes(const Flags&);
 int run_formats(const Flags&);
 int run_explain(const Flags&);

@@ -42,11 +42,11 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   WorldSimplifyOptions o;
   CriterionName criterion;
   if (!f.criterion.empty()) criterion.read(f.criterion);
-  o.criterion = criterion.value;
+  o.collapse.criterion = criterion.value;
   o.budget.pixels = f.pixels;
-  if ((f.every > 0) + !f.ratios.empty() + !f.errors.empty() + f.progressive != 1)
-    return fmt::print(stderr, "wrlkit simplify: one of --every, --ratios, --error and --progressive is needed\n"), std::nullopt;
-  if (f.progressive && o.criterion == Criterion::meshopt)
+  if ((f.every > 0) + !f.counts.empty() + !f.ratios.empty() + !f.errors.empty() + f.progressive != 1)
+    return fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios, --error and --progressive is needed\n"), std::nullopt;
+  if (f.progressive && criterion.value == Criterion::meshopt)
     return fmt::print(stderr, "wrlkit simplify: --progressive: meshopt keeps no record of its steps\n"), std::nullopt;
   for (const auto& text : f.errors) {
     const double e = length_of(text);
@@ -54,6 +54,7 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
     o.errors.push_back(e);
   }
   o.every = static_cast<std::size_t>(f.every);
+  o.counts = f.counts;
   o.ratios = f.ratios;
   return o;
 }
@@ -132,7 +133,7 @@ int run_simplify(const Flags& flags) {
   std::error_code failed;
   fs::create_directories(flags.output, failed);
   const std::string base = (fs::path(flags.output) / stem_of(flags.inputs[0])).string(), ending = flags.gzip ? ".wrl.gz" : ".wrl";
-  if (flags.progressive) return write_progressive_file(s, options->criterion, base + (flags.gzip ? ".wpm.gz" : ".wpm"));
+  if (flags.progressive) return write_progressive_file(s, options->collapse.criterion, base + (flags.gzip ? ".wpm.gz" : ".wpm"));
 
   const SimplifiedWorld world(s.world().scene, *options, s.context());
   std::vector<Written> files;

@@ -1,6 +1,7 @@
 #include "passes/render/render.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "passes/render/gather.h"
 #include "passes/render/sampling.h"
@@ -61,6 +62,19 @@ void turn_billboards(const Scene& scene, const Camera& camera, Stage& stage) {
 }
 
 }  // namespace
+
+RenderOptions with_camera(const Scene& scene, const MeshSource& source, RenderOptions options, Diagnostics& diag) {
+  const Stage stage = set_stage(scene, nullptr, diag);
+  const Camera c = choose_camera(scene, stage, options, diag, [&] {
+    MeshPool pool;
+    const auto mesh_of = Gatherer(scene, source, pool).meshes_of(stage, diag);
+    return bounds(stage, pool, mesh_of);
+  });
+  const V3 target = c.eye - c.back;
+  options.look_at = LookAt{{c.eye.x, c.eye.y, c.eye.z}, {target.x, target.y, target.z}, {c.up.x, c.up.y, c.up.z}};
+  options.field_of_view = 2 * std::atan(std::min(c.half_x, c.half_y));
+  return options;
+}
 
 Image render(const Scene& scene, const MeshSource& source, const RenderOptions& options, Resources* resources, Diagnostics& diag) {
   Stage stage = set_stage(scene, nullptr, diag);

@@ -43,4 +43,8 @@ struct RenderOptions {
 Image render(const Scene& scene, const MeshSource& meshes, const RenderOptions& options, Resources* resources,
              Diagnostics& diag);
 
+/// The options with the camera that render() would take for this scene spelled out: for pictures of other worlds from the
+/// same place.
+RenderOptions with_camera(const Scene& scene, const MeshSource& meshes, RenderOptions options, Diagnostics& diag);
+
 }  // namespace wrlkit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 #include "passes/deviation.h"
@@ -40,7 +41,14 @@ void round_positions(Mesh& mesh) {
 MeshLevel measured(const Mesh& first, Mesh mesh) {
   round_positions(mesh);
   auto d = measure_deviation(triangles_of(first), triangles_of(mesh));
-  return {std::move(mesh), d.rms, d.max};
+  return {std::move(mesh), d.rms, d.max, d.normal_mean};
+}
+
+/// Processor time of this thread: a collapser has one.
+double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 class Levels {
@@ -52,7 +60,7 @@ class Levels {
       for (double e : options_.errors) add_within(e);
       return std::move(levels_);
     }
-    Collapser c(first_, {.criterion = options_.criterion});
+    Collapser c(first_, options_.collapse);
     for (double r : options_.ratios) {
       c.run_to(std::max(faces_of_a_box, static_cast<std::size_t>(r * static_cast<double>(first_.n_faces()))));
       if (saves_enough(c.n_faces())) add(measured(first_, c.mesh()));
@@ -77,7 +85,7 @@ class Levels {
     std::optional<MeshLevel> best;
     double estimate = error, low = 0, high = std::numeric_limits<double>::infinity();
     for (int i = 0; i < tries; ++i) {
-      Collapser c(first_, {.criterion = options_.criterion});
+      Collapser c(first_, options_.collapse);
       c.run_to(faces_of_a_box, estimate);
       auto level = measured(first_, c.mesh());
       const bool fits = level.error <= error;
@@ -114,11 +122,20 @@ std::vector<std::string> criterion_names() {
   return names;
 }
 
+LevelMaker::LevelMaker(const Mesh& first, const CollapseOptions& options)
+    : first_(first), seconds_(-thread_seconds()), collapser_(first, options) {
+  seconds_ += thread_seconds();
+}
+
 std::optional<MeshLevel> LevelMaker::next(std::size_t n_faces) {
   const auto before = collapser_.n_faces();
+  seconds_ -= thread_seconds();
   collapser_.run_to(n_faces);
-  if (collapser_.n_faces() >= before) return std::nullopt;
-  return measured(first_, collapser_.mesh());
+  seconds_ += thread_seconds();
+  if (collapser_.n_faces() >= before || collapser_.n_faces() == 0) return std::nullopt;
+  auto level = measured(first_, collapser_.mesh());
+  level.seconds = seconds_;
+  return level;
 }
 
 std::vector<MeshLevel> make_levels(const Mesh& first, const LevelOptions& options) { return Levels(first, options).run(); }

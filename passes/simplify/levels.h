@@ -23,7 +23,7 @@ std::vector<std::string> criterion_names();
 constexpr std::size_t faces_of_a_box = 12;
 
 struct LevelOptions {
-  Criterion criterion = Criterion::lindstrom_turk;
+  CollapseOptions collapse;
   std::vector<double> ratios;  // of the triangles of the first mesh, falling; used when `errors` is empty
   std::vector<double> errors;  // largest distances from the first mesh, ascending, in its units
   double min_saving = 0;       // share of the triangles of the level before that a level has to save
@@ -32,19 +32,22 @@ struct LevelOptions {
 struct MeshLevel {
   Mesh mesh;
   double rms = 0, error = 0;  // two-sided distance from the first mesh: root of the mean square, and largest
+  double normals = 0;         // angle between the normals of both, in radians, in the mean
+  double seconds = 0;         // of LevelMaker: processor time of the collapses from the first mesh to this one
 };
 
 /// Levels of one mesh by their numbers of triangles, each made from the one before.
 class LevelMaker {
  public:
   /// `first` is a mesh of triangles (Mesh::is_triangles) and must outlive this.
-  LevelMaker(const Mesh& first, Criterion criterion) : first_(first), collapser_(first, {.criterion = criterion}) {}
+  LevelMaker(const Mesh& first, const CollapseOptions& options);
 
-  /// At most `n_faces` triangles, or as few as there can be; nothing when that are no fewer than there were.
+  /// At most `n_faces` triangles, or as few as there can be; nothing when that are no fewer than there were, or none.
   std::optional<MeshLevel> next(std::size_t n_faces);
 
  private:
   const Mesh& first_;
+  double seconds_;  // first: it has the time from when the collapser is made
   Collapser collapser_;
 };
 

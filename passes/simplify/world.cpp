@@ -26,14 +26,14 @@ double area_of(const Mesh& mesh) {
 /// How many triangles a surface has left when its error has grown to a bound.
 class FacesByError {
  public:
-  FacesByError(const Mesh& mesh, Criterion criterion) {
+  FacesByError(const Mesh& mesh, const CollapseOptions& options) {
     constexpr double share = 0.97;  // from sample to sample
-    Collapser c(mesh, {.criterion = criterion});
+    Collapser c(mesh, options);
     samples_.push_back({0, static_cast<double>(mesh.n_faces())});
     for (std::size_t n = mesh.n_faces(); n > faces_of_a_box;) {
       n = std::max(faces_of_a_box, std::min(n - 1, static_cast<std::size_t>(static_cast<double>(n) * share)));
       c.run_to(n);
-      if (c.n_faces() > n) break;  // no edge may go any more
+      if (c.n_faces() > n || c.n_faces() == 0) break;  // no edge may go any more, or the surface would
       n = c.n_faces();
       samples_.push_back({std::max(samples_.back().error, c.error()), static_cast<double>(n)});
     }
@@ -75,13 +75,15 @@ std::vector<std::vector<std::size_t>> share_out(const std::vector<FacesByError>&
   return out;
 }
 
-/// The numbers of triangles to stop at, falling.
+/// The numbers of triangles to stop at, falling, below that of the world.
 std::vector<std::size_t> counts_of(const WorldSimplifyOptions& options, std::size_t n_faces) {
-  std::vector<std::size_t> out;
+  std::vector<std::size_t> out = options.counts;
   if (options.every > 0 && n_faces > 0)
     for (std::size_t n = (n_faces - 1) / options.every * options.every; n > 0; n -= options.every) out.push_back(n);
   for (double r : options.ratios) out.push_back(static_cast<std::size_t>(r * static_cast<double>(n_faces)));
+  std::erase_if(out, [&](std::size_t n) { return n >= n_faces; });
   std::ranges::sort(out, std::greater{});
+  out.erase(std::ranges::unique(out).begin(), out.end());
   return out;
 }
 
@@ -105,7 +107,7 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
   std::vector<std::vector<std::size_t>> faces;
   if (errors.empty() && parts_.size() > 1) {
     std::vector<std::optional<FacesByError>> curves(parts_.size());
-    parallel_for(parts_.size(), [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, options.criterion); });
+    parallel_for(parts_.size(), [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, options.collapse); });
     std::vector<FacesByError> all;
     for (auto& c : curves) all.push_back(std::move(*c));
     faces = share_out(all, counts);
@@ -116,12 +118,12 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
   parallel_for(parts_.size(), [&](std::size_t i) {
     auto& p = parts_[i];
     if (!errors.empty()) {
-      p.levels = make_levels(p.mesh, {.criterion = options.criterion, .errors = errors});
+      p.levels = make_levels(p.mesh, {.collapse = options.collapse, .errors = errors});
       for (double e : errors)
         p.at.push_back(static_cast<std::size_t>(std::ranges::count_if(p.levels, [&](const MeshLevel& l) { return l.error <= e; })));
       return;
     }
-    LevelMaker maker(p.mesh, options.criterion);
+    LevelMaker maker(p.mesh, options.collapse);
     for (std::size_t k = 0; k < n_points; ++k) {
       if (auto level = maker.next(faces[k][i])) p.levels.push_back(std::move(*level));
       p.at.push_back(p.levels.size());
@@ -142,6 +144,8 @@ void SimplifiedWorld::measure_points(std::size_t n) {
       if (!level) continue;
       point.rms += p.area * level->rms * level->rms;
       point.error = std::max(point.error, level->error);
+      point.normals += p.area * level->normals;
+      point.seconds += level->seconds;
     }
     if (point.n_faces == before) {  // it cannot be simplified further
       for (auto& p : parts_) p.at.resize(k);
@@ -149,6 +153,7 @@ void SimplifiedWorld::measure_points(std::size_t n) {
     }
     before = point.n_faces;
     point.rms = area > 0 ? std::sqrt(point.rms / area) : 0;
+    point.normals = area > 0 ? point.normals / area : 0;
     points_.push_back(point);
   }
 }
