@@ -6,17 +6,13 @@
 #include <utility>
 
 #include "passes/geometry.h"
+#include "scenegraph/blanks.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
-
-std::string_view trim(std::string_view s) {
-  auto b = s.find_first_not_of(" \t\r\n"), e = s.find_last_not_of(" \t\r\n");
-  return b == s.npos ? std::string_view{} : s.substr(b, e - b + 1);
-}
 
 /// Up to the first of `stops` outside of braces, and what follows it.
 std::string_view cut(std::string_view& rest, char stop) {
