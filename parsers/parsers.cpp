@@ -5,16 +5,11 @@
 
 #include "parsers/vrml/parser.h"
 #include "parsers/vrml/text_encoding.h"
+#include "scenegraph/blanks.h"
 #include "scenegraph/image.h"
 
 namespace wrlkit {
 namespace {
-
-std::string_view trim(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
-  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
-  return s;
-}
 
 std::string_view first_line(std::string_view s) { return s.substr(0, s.find_first_of("\r\n")); }
 

@@ -5,14 +5,10 @@
 #include <cctype>
 #include <cstdint>
 
+#include "scenegraph/blanks.h"
+
 namespace wrlkit {
 namespace {
-
-std::string_view trim(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
-  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
-  return s;
-}
 
 /// The scheme in lower case; empty when there is none. One letter is a drive.
 std::string scheme(std::string_view url) {

@@ -6,17 +6,13 @@
 #include <utility>
 
 #include "passes/geometry.h"
+#include "scenegraph/blanks.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
-
-std::string_view trim(std::string_view s) {
-  auto b = s.find_first_not_of(" \t\r\n"), e = s.find_last_not_of(" \t\r\n");
-  return b == s.npos ? std::string_view{} : s.substr(b, e - b + 1);
-}
 
 /// Up to the first of `stops` outside of braces, and what follows it.
 std::string_view cut(std::string_view& rest, char stop) {
@@ -108,9 +104,17 @@ std::string Pipeline::text() const {
   return out;
 }
 
-bool Pipeline::run(Scene& scene, PassContext& ctx, const PipelineOptions& options) { return run_steps(0, steps_.size(), scene, ctx, options); }
+bool Pipeline::run(Scene& scene, PassContext& ctx, const PipelineOptions& options) { return run_steps(0, steps_.size(), scene, ctx, options, ctx.diag); }
 
-bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassContext& ctx, const PipelineOptions& options) {
+/// A pass that does not find the level it needs leaves what it finds: normals in front of tessellate make no mesh of a Box.
+Level Pipeline::level_behind(std::size_t step) const {
+  Level level = Level::authored;
+  for (std::size_t i = 0; i <= step; ++i)
+    if (level >= steps_[i].info->needs) level = steps_[i].info->leaves;
+  return level;
+}
+
+bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassContext& ctx, const PipelineOptions& options, Diagnostics& breaches) {
   for (std::size_t i = begin; i < end;) {
     std::size_t next = i + 1;
     // Mesh passes run together unless somebody wants to look between them.
@@ -122,7 +126,7 @@ bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassC
       if (!good) return false;
     }
     const auto& done = *steps_[next - 1].info;
-    if (options.verify_each && !verify(scene, done.leaves, ctx.diag)) return false;
+    if (options.verify_each && !verify(scene, level_behind(next - 1), breaches)) return false;
     if (options.print && (options.print_after == done.name || options.print_after == "all")) options.print(std::string(done.name), scene);
     i = next;
   }
@@ -151,14 +155,14 @@ bool Pipeline::run_mesh_steps(std::size_t begin, std::size_t end, Scene& scene, 
 MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOptions& options) {
   std::size_t tail = steps_.size();
   while (tail > 0 && steps_[tail - 1].pass->is_mesh_pass()) --tail;
-  if (!run_steps(0, tail, scene, ctx, options)) return nullptr;
+  if (!run_steps(0, tail, scene, ctx, options, ctx.diag)) return nullptr;
   // Who wants to look between the mesh passes sees them on a copy: what is written does not depend on being watched.
   if (options.watched()) {
     Scene copy = scene;
     Diagnostics quiet(ctx.diag.shared_sources());
     Statistics uncounted;
     PassContext watching{quiet, uncounted, ctx.resources};
-    if (!run_steps(tail, steps_.size(), copy, watching, options)) return nullptr;
+    if (!run_steps(tail, steps_.size(), copy, watching, options, ctx.diag)) return nullptr;
   }
   struct State {
     Mesh mesh;

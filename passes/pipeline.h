@@ -80,8 +80,10 @@ class Pipeline {
     const PassInfo* info;
     std::unique_ptr<PassInstance> pass;
   };
-  bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&);
+  /// `breaches` is told what --verify-each finds.
+  bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&, Diagnostics& breaches);
   bool run_mesh_steps(std::size_t begin, std::size_t end, Scene&, PassContext&);
+  Level level_behind(std::size_t step) const;
   std::vector<Step> steps_;
 };
 

@@ -5,6 +5,9 @@
 namespace wrlkit {
 namespace {
 
+// In the middle of a character of UTF-8.
+bool inside_character(std::string_view t, std::size_t i) { return i < t.size() && (static_cast<unsigned char>(t[i]) & 0xc0) == 0x80; }
+
 // Lines end with LF, CR or CR LF.
 bool ends_line(std::string_view t, std::size_t i) { return t[i] == '\n' || (t[i] == '\r' && (i + 1 >= t.size() || t[i + 1] != '\n')); }
 
@@ -50,6 +53,8 @@ Place Sources::locate(Span span) const {
   while (end < text.size() && text[end] != '\n' && text[end] != '\r' && end < at + std::max<std::size_t>(shown_after, span.length)) ++end;
   std::size_t from = at - start > shown_before ? at - shown_before : start;
   end = std::min(end, at + shown_after * 2);
+  while (from < at && inside_character(text, from)) ++from;
+  while (end > at && inside_character(text, end)) --end;
   p.line_text = std::string(text.substr(from, end - from));
   for (char& c : p.line_text)
     if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';

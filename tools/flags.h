@@ -48,6 +48,7 @@ struct Flags {
   std::string criterion;
   double pixels = 1;
   bool progressive = false;
+
   std::vector<std::string> criteria;
   bool bare = false;
   int picture_size = 300;

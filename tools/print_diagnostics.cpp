@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "writers/json.h"
@@ -25,6 +26,11 @@ std::string place_text(const Place& p) {
   return p.line ? fmt::format("{}:{}:{}: ", p.file, p.line, p.column) : fmt::format("{}: ", p.file);
 }
 
+/// Characters of UTF-8: what a terminal shows of some bytes.
+std::size_t characters(std::string_view bytes) {
+  return static_cast<std::size_t>(std::ranges::count_if(bytes, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
 }  // namespace
 
 std::string message_text(const Message& m, const Sources& sources, bool colours) {
@@ -34,7 +40,9 @@ std::string message_text(const Message& m, const Sources& sources, bool colours)
   std::string out = fmt::format("{}{}{}:{} {} [{}]\n", place_text(p), on, to_string(m.severity), off, m.text(), info(m.id).name);
   if (!p.line || p.line_text.empty()) return out;
   out += fmt::format("{:>6} | {}\n", p.line, p.line_text);
-  out += fmt::format("       | {}{}^{}{}\n", std::string(p.caret, ' '), on, std::string(p.caret_length - 1, '~'), off);
+  const std::string_view line = p.line_text;
+  const auto in_front = characters(line.substr(0, p.caret)), marked = characters(line.substr(p.caret, p.caret_length));
+  out += fmt::format("       | {}{}^{}{}\n", std::string(in_front, ' '), on, std::string(std::max<std::size_t>(marked, 1) - 1, '~'), off);
   return out;
 }
 

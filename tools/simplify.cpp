@@ -46,7 +46,7 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   o.budget.pixels = f.pixels;
   if ((f.every > 0) + !f.counts.empty() + !f.ratios.empty() + !f.errors.empty() + f.progressive != 1)
     return fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios, --error and --progressive is needed\n"), std::nullopt;
-  if (f.progressive && o.collapse.criterion == Criterion::meshopt)
+  if (f.progressive && criterion.value == Criterion::meshopt)
     return fmt::print(stderr, "wrlkit simplify: --progressive: meshopt keeps no record of its steps\n"), std::nullopt;
   for (const auto& text : f.errors) {
     const double e = length_of(text);

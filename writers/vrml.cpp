@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "scenegraph/equal.h"
 #include "scenegraph/walk.h"
@@ -30,19 +31,21 @@ void for_each_statement(const Scene& scene, const Scope& s, P&& proto, N&& node)
   for (; next != later.end(); ++next) proto(*next);
 }
 
-/// Output names of a scope. A name may be defined several times: USE means the last one before it (4.4.3). Nodes are met in
+/// Output names of a scope and of the bodies of its prototypes, which are scopes of their own: what stands in one and
+/// outside is printed in both. A name may be defined several times: USE means the last one before it (4.4.3). Nodes are met in
 /// the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own.
 class Names {
  public:
   explicit Names(const Scene& scene) : scene_(scene), met_(scene.node_count(), 0) {}
 
   void scope(const Scope& s) {
+    ++scope_;
     last_.clear();
     auto defaults = [&](ProtoId p) { for (auto& f : scene_.type(scene_.proto(p).type).fields) meet(f.default_value.node_span()); };
     for_each_statement(scene_, s, defaults, [&](NodeId n) { meet({&n, 1}); });
     for (auto& r : s.routes) referred(r.from), referred(r.to);
+    for_each_statement(scene_, s, [&](ProtoId p) { scope(scene_.proto(p).body); }, [](NodeId) {});
   }
-  bool met(NodeId n) const { return met_[n.value]; }
   std::string_view operator[](NodeId n) const {
     auto i = given_.find(n.value);
     return i == given_.end() ? scene_.name(n) : std::string_view(i->second);
@@ -55,8 +58,7 @@ class Names {
       NodeId n = stack.back();
       stack.pop_back();
       if (!n) continue;
-      if (met_[n.value]) { referred(n); continue; }
-      met_[n.value] = 1;
+      if (std::exchange(met_[n.value], scope_) == scope_) { referred(n); continue; }
       if (auto name = scene_.name(n); !name.empty()) last_[name] = n;
       auto mark = stack.size();
       for_each_printed_child(n, [&](NodeId c) { stack.push_back(c); });
@@ -101,7 +103,8 @@ class Names {
 
  private:
   const Scene& scene_;
-  std::vector<char> met_;
+  std::vector<std::uint32_t> met_;  // the last scope that held the node
+  std::uint32_t scope_ = 0;
   std::unordered_map<std::string_view, NodeId> last_;
   std::unordered_map<std::uint32_t, std::string> given_;
   std::unordered_set<std::string> taken_;
@@ -114,6 +117,7 @@ class Writer {
 
   void file() {
     out_ << "#VRML V2.0 utf8\n" << scene_.comment;
+    names_.scope(scene_.main);
     scope(scene_.main);
   }
 
@@ -129,10 +133,9 @@ class Writer {
   }
 
   void scope(const Scope& s) {
-    names_.scope(s);
     for_each_statement(scene_, s, [&](ProtoId p) { line_start(); proto(scene_.proto(p)); }, [&](NodeId n) { line_start(); node(n); });
     for (auto& r : s.routes) {
-      if (!names_.met(r.from) || !names_.met(r.to)) continue;
+      if (printed_[r.from.value] != scope_ || printed_[r.to.value] != scope_) continue;
       line_start();
       out_ << "ROUTE " << names_[r.from] << '.' << r.event_out << " TO " << names_[r.to] << '.' << r.event_in;
     }
@@ -160,10 +163,19 @@ class Writer {
     if (p.external) { urls(p.where, p.urls); return; }
     out_ << '{';
     ++depth_;
-    scope(p.body);
+    body(p.body);
     --depth_;
     line();
     out_ << '}';
+  }
+
+  /// Knows nothing of what is printed around it, and leaves that known behind it.
+  void body(const Scope& s) {
+    const auto around = std::exchange(scope_, ++scopes_);
+    const auto mark = again_.size();
+    scope(s);
+    for (; again_.size() > mark; again_.pop_back()) printed_[again_.back().first] = again_.back().second;
+    scope_ = around;
   }
 
   void declaration(const FieldDef& f) {
@@ -174,8 +186,10 @@ class Writer {
   void node(NodeId n) {
     if (!n) { out_ << "NULL"; return; }
     auto name = names_[n];
-    if (printed_[n.value]) { out_ << "USE " << name; return; }
-    printed_[n.value] = 1;
+    auto& printed = printed_[n.value];
+    if (printed == scope_) { out_ << "USE " << name; return; }
+    if (printed) again_.emplace_back(n.value, printed);
+    printed = scope_;
     if (!name.empty()) out_ << "DEF " << name << ' ';
     out_ << scene_.type(n).name << " {";
     ++depth_;
@@ -343,7 +357,9 @@ class Writer {
   VrmlOptions options_;
   TextOut out_;
   Names names_;
-  std::vector<char> printed_;
+  std::vector<std::uint32_t> printed_;                            // the scope that printed the node last, from 1
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> again_;    // nodes printed once more in a body, and where before
+  std::uint32_t scope_ = 1, scopes_ = 1;
   int depth_ = 0;
   bool first_ = true;
 };

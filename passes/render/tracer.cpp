@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <new>
 #include <tuple>
 #include <unordered_set>
 
@@ -100,6 +101,7 @@ struct Tracer::State {
   void instance(std::uint32_t use);
   RTCScene scene_of(std::uint32_t mesh);
   void attach(Batch& batch, bool culled);
+  unsigned attach_to_top(RTCGeometry g);
   RTCScene new_scene(std::size_t elements) const;
   std::pair<std::uint32_t, std::uint32_t> resolve(const Found& f) const;
 };
@@ -269,6 +271,14 @@ RTCScene Tracer::State::scene_of(std::uint32_t mesh) {
   return s;
 }
 
+/// Embree says by the number that it had no memory.
+unsigned Tracer::State::attach_to_top(RTCGeometry g) {
+  unsigned id = rtcAttachGeometry(top, g);
+  rtcReleaseGeometry(g);
+  if (id == RTC_INVALID_GEOMETRY_ID) throw std::bad_alloc();
+  return id;
+}
+
 void Tracer::State::instance(std::uint32_t use) {
   const PooledMesh& m = meshes[mesh_of[use]];
   const Affine& f = stage.frames[stage.uses[use].frame];
@@ -279,8 +289,7 @@ void Tracer::State::instance(std::uint32_t use) {
   rtcSetGeometryInstancedScene(g, scene_of(mesh_of[use]));
   rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
   rtcCommitGeometry(g);
-  unsigned id = rtcAttachGeometry(top, g);
-  rtcReleaseGeometry(g);
+  unsigned id = attach_to_top(g);
   use_of.resize(std::max<std::size_t>(use_of.size(), id + 1));
   use_of[id] = use;
 }
@@ -298,8 +307,7 @@ void Tracer::State::attach(Batch& b, bool culled) {
                                0, triangles ? 12 : 4, b.n_elements);
   rtcSetGeometryIntersectFilterFunction(g, culled ? Filter<State>::keep_front : Filter<State>::keep);
   rtcCommitGeometry(g);
-  unsigned id = rtcAttachGeometry(top, g);
-  rtcReleaseGeometry(g);
+  unsigned id = attach_to_top(g);
   batch_of.resize(std::max<std::size_t>(batch_of.size(), id + 1));
   batch_of[id] = &b;
 }
@@ -309,6 +317,7 @@ Tracer::Tracer(const Stage& stage, const MeshPool& meshes, std::span<const std::
     : state_(new State{.stage = stage, .meshes = meshes, .mesh_of = mesh_of, .camera = camera, .options = options}) {
   State& s = *state_;
   s.device = rtcNewDevice(nullptr);
+  if (!s.device) throw std::bad_alloc();
   std::size_t elements = 0;
   for (auto m : mesh_of) elements += meshes[m].n_elements;
   s.top = s.new_scene(elements);
@@ -317,6 +326,7 @@ Tracer::Tracer(const Stage& stage, const MeshPool& meshes, std::span<const std::
   s.attach(s.batches[State::solid], options.cull);
   for (auto kind : {State::two_sided, State::lines, State::points}) s.attach(s.batches[kind], false);
   rtcCommitScene(s.top);
+  if (rtcGetDeviceError(s.device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
 }
 
 Tracer::~Tracer() = default;

@@ -33,7 +33,7 @@ double printed_and_read(float f, int digits) {
 /// The first of printed_and_read for 1, 2, ... digits that is nearest to f of all singles.
 double shortest_and_read(float f) {
   char text[40];
-  double x = parsed(text, std::to_chars(text, std::end(text), f).ptr);
+  double x = parsed(text, std::to_chars(text, std::end(text), f, std::chars_format::scientific).ptr);
   // Where the singles below f are denser than those above, and where they have few digits, the library takes others.
   const auto bits = std::bit_cast<std::uint32_t>(f);
   if ((bits & 0x7fffff) && (bits & 0x7f800000) && static_cast<float>(x) == f) return x;

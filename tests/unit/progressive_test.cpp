@@ -11,6 +11,7 @@
 #include <set>
 
 #include "parsers/parsers.h"
+#include "passes/simplify/position_code.h"
 #include "passes/simplify/progressive_world.h"
 
 using namespace wrlkit;
@@ -274,6 +275,19 @@ TEST_CASE("progressive: positions take the smallest form that is exact") {
   CHECK(kind(open_sheet(), [](double x) { return x / 3; }) == 17);
 }
 
+TEST_CASE("progressive: singles as they are printed") {
+  const simplify::PositionCode shortest(simplify::PositionCode::shortest);
+  CHECK(shortest.nearest(0.1f) == 0.1);
+  CHECK(shortest.nearest(1.00390625) == 1.0039062);                // halfway: the even one
+  CHECK(shortest.nearest(127337144320.) == 127337144000.);         // not the digits of the whole number
+  CHECK(shortest.nearest(0x1p-149) == 1e-45);                      // the least there is
+  CHECK(shortest.nearest(0x1p-24) == 5.9604645e-08);               // singles are denser below it
+  CHECK(simplify::PositionCode(18).nearest(0.1f) == 0.1);          // six digits
+  CHECK(simplify::PositionCode(21).nearest(0.1f) == 0.100000001);  // nine
+  CHECK(shortest.holds(0.1));
+  CHECK_FALSE(shortest.holds(double(0.1f)));
+}
+
 TEST_CASE("progressive: meshoptimizer keeps no record") {
   CHECK_FALSE(make_progressive(open_sheet(), Criterion::meshopt));
 }
@@ -322,7 +336,8 @@ Transform { translation 1 2 3 scale 2 2 2 children [
 Shape { geometry Cylinder { } }
 Shape { geometry IndexedLineSet { coord Coordinate { point [ 0 0 0, 1 1 1 ] } coordIndex [ 0 1 ] } }
 Switch { choice [ Shape { geometry Box { } } ] }
-)", "world", {}, diag);
+)",
+                                 "world", {}, diag);
   REQUIRE(world);
   const auto surfaces = progressive_surfaces(world->scene, Criterion::lindstrom_turk, ctx);
   REQUIRE(surfaces.size() == 2);
