@@ -44,7 +44,7 @@ class Engine final : public Simplifier {
   void record_corners();
 
   std::unique_ptr<Pricer> pricer_;
-  CostQueue queue_;
+  std::unique_ptr<VertexQueue> queue_;
   std::vector<std::uint32_t> best_;  // the other end of the edge that a vertex is in the queue for
   std::vector<float> deviation_;     // of each vertex, from the surface that came in
   bool recording_;
