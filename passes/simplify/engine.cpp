@@ -10,6 +10,9 @@
 namespace wrlkit::simplify {
 namespace {
 
+constexpr std::uint32_t many_vertices = 1 << 15;  // from which on a mesh is simplified in sweeps
+constexpr std::size_t few_faces = 1 << 14;        // until so many are left
+
 /// Where x is along the edge from a (0) to b (1).
 double along(const Vec3& a, const Vec3& b, const Vec3& x) {
   Vec3 e = b - a;
@@ -26,12 +29,21 @@ Engine::Engine(const Mesh& mesh, const CollapseOptions& options)
       recording_(options.record) {
   find_features(surface_, wedges_, {options.keep_borders, options.keep_creases, options.crease_angle});
   pricer_ = make_pricer(options.criterion, surface_, wedges_);
-  if (surface_.n_vertices() < VertexQueue::small)
-    queue_ = std::make_unique<HeapQueue>(surface_.n_vertices());
-  else
-    queue_ = std::make_unique<SweepQueue>(surface_.n_vertices());
-  exact_ = pricer_->one_way() && surface_.n_vertices() < VertexQueue::small;
   if (recording_) recorder_.begin(surface_, wedges_);
+  if (surface_.n_vertices() < many_vertices)
+    sort_exactly();
+  else
+    queue_ = std::make_unique<SweepQueue>(surface_.n_vertices()), sweeping_ = true, refresh_all();
+}
+
+void Engine::sort_exactly() {
+  queue_ = std::make_unique<HeapQueue>(surface_.n_vertices());
+  sweeping_ = false;
+  exact_ = pricer_->one_way();
+  refresh_all();
+}
+
+void Engine::refresh_all() {
   for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) refresh(v, Pricer::own);
 }
 
@@ -63,6 +75,7 @@ Option* Engine::cheapest() {
 }
 
 bool Engine::settle(Move& move) {
+  if (sweeping_ && surface_.n_faces() < few_faces) sort_exactly();
   while (!queue_->empty())
     if (settle_vertex(queue_->top(), move)) return true;
   return false;

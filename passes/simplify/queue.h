@@ -11,7 +11,6 @@ class VertexQueue {
  public:
   /// The upper half of the bits of a cost, or fewer; costs with equal keys are not told apart.
   using Key = std::uint32_t;
-  static constexpr std::size_t small = 1 << 15;  // vertices; what is still sorted exactly
 
   virtual ~VertexQueue() = default;
   Key key(double cost) const { return static_cast<Key>(std::bit_cast<std::uint64_t>(cost + 0.0) >> shift_); }
