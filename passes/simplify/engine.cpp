@@ -5,9 +5,13 @@
 
 #include "passes/simplify/features.h"
 #include "passes/simplify/legality.h"
+#include "passes/simplify/sweep.h"
 
 namespace wrlkit::simplify {
 namespace {
+
+constexpr std::uint32_t many_vertices = 1 << 15;  // from which on a mesh is simplified in sweeps
+constexpr std::size_t few_faces = 1 << 14;        // until so many are left
 
 /// Where x is along the edge from a (0) to b (1).
 double along(const Vec3& a, const Vec3& b, const Vec3& x) {
@@ -20,14 +24,26 @@ double along(const Vec3& a, const Vec3& b, const Vec3& x) {
 
 Engine::Engine(const Mesh& mesh, const CollapseOptions& options)
     : Simplifier(mesh),
-      queue_(surface_.n_vertices()),
       best_(surface_.n_vertices(), none),
       deviation_(surface_.n_vertices()),
       recording_(options.record) {
   find_features(surface_, wedges_, {options.keep_borders, options.keep_creases, options.crease_angle});
   pricer_ = make_pricer(options.criterion, surface_, wedges_);
-  exact_ = pricer_->one_way() && surface_.n_vertices() < CostQueue::small;
   if (recording_) recorder_.begin(surface_, wedges_);
+  if (surface_.n_vertices() < many_vertices)
+    sort_exactly();
+  else
+    queue_ = std::make_unique<SweepQueue>(surface_.n_vertices()), sweeping_ = true, refresh_all();
+}
+
+void Engine::sort_exactly() {
+  queue_ = std::make_unique<HeapQueue>(surface_.n_vertices());
+  sweeping_ = false;
+  exact_ = pricer_->one_way();
+  refresh_all();
+}
+
+void Engine::refresh_all() {
   for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) refresh(v, Pricer::own);
 }
 
@@ -35,7 +51,7 @@ void Engine::refresh(std::uint32_t v, int spokes) {
   if (surface_.gather(v, ring_))
     offer(ring_, spokes);
   else
-    queue_.remove(v);
+    queue_->remove(v);
 }
 
 /// Prices the centre and puts it into the queue.
@@ -46,8 +62,8 @@ void Engine::offer(const Ring& ring, int spokes) {
 }
 
 void Engine::enqueue(const Ring& ring, const Option* best) {
-  if (!best) return queue_.remove(ring.center);
-  queue_.set(ring.center, best->cost);
+  if (!best) return queue_->remove(ring.center);
+  queue_->set(ring.center, queue_->key(best->cost));
   best_[ring.center] = ring.spokes[best->spoke].vertex;
 }
 
@@ -59,21 +75,22 @@ Option* Engine::cheapest() {
 }
 
 bool Engine::settle(Move& move) {
-  while (!queue_.empty())
-    if (settle_vertex(queue_.top(), move)) return true;
+  if (sweeping_ && surface_.n_faces() < few_faces) sort_exactly();
+  while (!queue_->empty())
+    if (settle_vertex(queue_->top(), move)) return true;
   return false;
 }
 
 /// For the vertex at the top of the queue. False when it is not the cheapest after all.
 bool Engine::settle_vertex(std::uint32_t v, Move& move) {
-  if (!surface_.gather(v, from_)) return queue_.remove(v), false;
-  const CostQueue::Key key = queue_.top_key();
+  if (!surface_.gather(v, from_)) return queue_->remove(v), false;
+  const VertexQueue::Key key = queue_->top_key();
   options_.clear();
   if (int s = from_.find(best_[v]); s >= 0) pricer_->price(from_, s, options_);
   Option* best = cheapest();
   bool all = false;
   while (true) {
-    if (!best || queue_.key(best->cost) > key) {
+    if (!best || queue_->key(best->cost) > key) {
       if (all) break;
       options_.clear();
       pricer_->price(from_, Pricer::every, options_);
@@ -104,8 +121,8 @@ void Engine::run_to(std::size_t n_faces, double max_error) {
     std::uint32_t u = from_.center, v = to_.center;
     double d = std::max(deviation_[u], deviation_[v]) + deviation(surface_, from_, to_, move.position);
     if (d > max_error) {
-      too_far.push_back(queue_.top());
-      queue_.remove(queue_.top());
+      too_far.push_back(queue_->top());
+      queue_->remove(queue_->top());
       continue;
     }
     deviation_[v] = static_cast<float>(d);
@@ -126,10 +143,11 @@ void Engine::collapse(const Move& move) {
   if (recording_)
     recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position(u),
                        old, error_);
-  queue_.remove(u);
-  offer(to_, Pricer::every);
+  queue_->remove(u);
+  best_[v] = none;
+  if (!queue_->put_off(v)) offer(to_, Pricer::every);
   for (const Ring::Spoke& s : to_.spoke_span())
-    if (exact_ || !queue_.contains(s.vertex)) refresh(s.vertex, Pricer::every);
+    if (exact_ || !queue_->contains(s.vertex)) refresh(s.vertex, Pricer::every);
 }
 
 /// Leaves the new ring in to_. Kinds of vertices change only where features end in the third corner of a face that

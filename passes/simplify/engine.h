@@ -36,6 +36,8 @@ class Engine final : public Simplifier {
   bool may_go(const Option& option);
   void collapse(const Move& move);
   void merge_vertices(const Vec3& position);
+  void sort_exactly();
+  void refresh_all();
   void refresh(std::uint32_t v, int spokes);
   void offer(const Ring& ring, int spokes);
   void enqueue(const Ring& ring, const Option* best);
@@ -44,11 +46,12 @@ class Engine final : public Simplifier {
   void record_corners();
 
   std::unique_ptr<Pricer> pricer_;
-  CostQueue queue_;
+  std::unique_ptr<VertexQueue> queue_;
   std::vector<std::uint32_t> best_;  // the other end of the edge that a vertex is in the queue for
   std::vector<float> deviation_;     // of each vertex, from the surface that came in
   bool recording_;
-  bool exact_;  // the neighbours of a collapse are priced at once, not when they come to the top of the queue
+  bool sweeping_ = false;
+  bool exact_ = false;  // the neighbours of a collapse are priced at once, not when they come to the top of the queue
 
   Ring from_, to_, ring_;
   std::vector<Option> options_;

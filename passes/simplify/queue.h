@@ -1,9 +1,5 @@
-// The order in which edges go: a heap of vertices, each keyed by the cost of its cheapest edge. Costs are compared by
-// the upper half of their bits (20 of the mantissa, the whole range of a double), then by the number of the vertex; so
-// an entry is eight bytes and the order does not depend on how it came about.
-//
-// For a large mesh only one bit of the mantissa is left: edges whose costs are within a half are taken in the order of
-// their vertices, which mostly are neighbours in memory. That halves the time and changes the distances by 1 %.
+// The order in which edges go: vertices, each with the cost of its cheapest edge. For a small mesh that order is exact
+// (HeapQueue), for a large one it is near (sweep.h).
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -11,28 +7,50 @@
 
 namespace wrlkit::simplify {
 
-class CostQueue {
+class VertexQueue {
  public:
+  /// The upper half of the bits of a cost, or fewer; costs with equal keys are not told apart.
   using Key = std::uint32_t;
-  static constexpr std::size_t small = 1 << 15;  // vertices; what is still sorted exactly
+
+  virtual ~VertexQueue() = default;
   Key key(double cost) const { return static_cast<Key>(std::bit_cast<std::uint64_t>(cost + 0.0) >> shift_); }
 
-  explicit CostQueue(std::size_t n_vertices) : at_(n_vertices, absent), shift_(n_vertices < small ? 32 : 51) {}
+  virtual bool empty() = 0;
+  /// The vertex whose turn it is, until it is removed or gets a key above top_key().
+  virtual std::uint32_t top() = 0;
+  virtual Key top_key() = 0;
+  virtual bool contains(std::uint32_t v) const = 0;
+  /// Adds the vertex or changes its key.
+  virtual void set(std::uint32_t v, Key key) = 0;
+  virtual void remove(std::uint32_t v) = 0;
+  /// Adds a vertex that was not priced to come up when costs have risen much, if the queue does such things.
+  virtual bool put_off(std::uint32_t) { return false; }
 
-  bool empty() const { return heap_.empty(); }
-  std::uint32_t top() const { return vertex(heap_[0]); }
-  Key top_key() const { return static_cast<Key>(heap_[0] >> 32); }
-  bool contains(std::uint32_t v) const { return at_[v] != absent; }
-  Key key_of(std::uint32_t v) const { return static_cast<Key>(heap_[at_[v]] >> 32); }
+ protected:
+  explicit VertexQueue(int shift) : shift_(shift) {}
 
-  /// Adds the vertex or changes its cost. Costs are not negative.
-  void set(std::uint32_t v, double cost) {
-    std::uint64_t entry = std::uint64_t{key(cost)} << 32 | v;
+ private:
+  int shift_;
+};
+
+/// A heap. Keys have 20 bits of the mantissa and the whole range of a double; equal ones go by the number of the vertex.
+/// So an entry is eight bytes and the order does not depend on how it came about.
+class HeapQueue final : public VertexQueue {
+ public:
+  explicit HeapQueue(std::size_t n_vertices) : VertexQueue(32), at_(n_vertices, absent) {}
+
+  bool empty() override { return heap_.empty(); }
+  std::uint32_t top() override { return vertex(heap_[0]); }
+  Key top_key() override { return static_cast<Key>(heap_[0] >> 32); }
+  bool contains(std::uint32_t v) const override { return at_[v] != absent; }
+
+  void set(std::uint32_t v, Key key) override {
+    std::uint64_t entry = std::uint64_t{key} << 32 | v;
     std::uint32_t i = at_[v];
     if (i == absent) i = static_cast<std::uint32_t>(heap_.size()), heap_.push_back(entry);
     place(i, entry);
   }
-  void remove(std::uint32_t v) {
+  void remove(std::uint32_t v) override {
     std::uint32_t i = at_[v];
     if (i == absent) return;
     at_[v] = absent;
@@ -63,7 +81,6 @@ class CostQueue {
 
   std::vector<std::uint64_t> heap_;  // 4-ary
   std::vector<std::uint32_t> at_;
-  int shift_;  // what is left of a cost
 };
 
 }  // namespace wrlkit::simplify
