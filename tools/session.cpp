@@ -86,7 +86,7 @@ int Session::end(bool made) {
     for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);
   if (flags_.stats)
     for (auto& [name, n] : stats_) fmt::print(stderr, "{:>12}  {}\n", n, name);
-  if (!flags_.json) std::fputs(messages_text(diag_, isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
+  std::fputs(messages_text(diag_, isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
   if (!flags_.report.empty() && !write_report(code)) return usage;
   return code;
 }
