@@ -14,7 +14,7 @@ int run_cat(const Flags& flags) {
   if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
   auto file = OutputFile::open(flags.output.empty() ? "-" : flags.output, {.gzip = flags.gzip}, s.diag());
   if (!file) return s.end(false);
-  write_vrml(s.world().scene, {.precision = flags.precision}, file->sink(), s.diag());
+  write_vrml(s.world().scene, {.precision = flags.precision, .file = flags.output == "-" ? "" : flags.output}, file->sink(), s.diag());
   return s.end(file->commit(s.diag()));
 }
 

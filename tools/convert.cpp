@@ -34,7 +34,7 @@ bool write_as_vrml(Session& s, bool gzip) {
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return false;
   auto file = OutputFile::open(s.flags().output, {.gzip = gzip}, s.diag());
   if (!file) return false;
-  write_vrml(s.world().scene, {.precision = s.flags().precision}, file->sink(), s.diag());
+  write_vrml(s.world().scene, {.precision = s.flags().precision, .file = s.flags().output}, file->sink(), s.diag());
   return file->commit(s.diag());
 }
 

@@ -62,7 +62,7 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
 bool write_world(Session& s, const std::string& path, const Scene& scene) {
   auto file = OutputFile::open(path, {.gzip = s.flags().gzip}, s.diag());
   if (!file) return false;
-  write_vrml(scene, {.precision = s.flags().precision}, file->sink(), s.diag());
+  write_vrml(scene, {.precision = s.flags().precision, .file = path}, file->sink(), s.diag());
   return file->commit(s.diag());
 }
 

@@ -224,13 +224,16 @@ class Writer {
     return true;
   }
 
-  /// Urls are relative to the file that they stand in. Those of an inlined world are led to its folder.
+  /// Urls are relative to the file that they stand in. Those of an inlined world, and those of a world that is written
+  /// elsewhere, are led to the folder they mean.
   void urls(Span where, std::span<const std::string_view> list) {
     namespace fs = std::filesystem;
-    auto folder = [&](std::uint32_t offset) { return fs::path(scene_.sources->file(offset)).parent_path(); };
-    fs::path from = folder(where.begin), here = folder(0);
-    if (from.empty() || from == here) return strings(list);
-    fs::path prefix = from.lexically_relative(here.empty() ? fs::path(".") : here);
+    auto folder = [](std::string_view file) { return (fs::absolute("." / fs::path(file).parent_path()) / "").lexically_normal(); };
+    const auto read = scene_.sources->file(where.begin), main = scene_.sources->file(0);
+    if (read.empty() || read == "-") return strings(list);
+    const fs::path from = folder(read), here = folder(options_.file.empty() ? main : std::string_view(options_.file));
+    if (from == here) return strings(list);
+    const fs::path prefix = from.lexically_relative(here);
     std::vector<std::string> led;
     for (auto url : list) {
       bool relative = !url.empty() && url[0] != '/' && url[0] != '#' && url.find(':') == url.npos;

@@ -1,5 +1,7 @@
 // A scene as VRML97 text.
 #pragma once
+#include <string>
+
 #include "scenegraph/diagnostics.h"
 #include "scenegraph/scene.h"
 #include "writers/sink.h"
@@ -8,6 +10,7 @@ namespace wrlkit {
 
 struct VrmlOptions {
   int precision = 0;  // significant digits of real numbers; 0: as many as it takes to read the same number back
+  std::string file;   // that is written: relative urls are led from its folder. Empty: they stay as they are for the input's
 };
 
 /// Canonical VRML97 (ISO/IEC 14772-1): fields in the order of the node table, values that equal their default left out,
