@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 #include "tools/session.h"
 #include "writers/gltf.h"
@@ -59,6 +60,7 @@ int run_convert(const Flags& flags) {
   if (!s.good() || !s.choose_pipeline(*target == Target::vrml ? "none" : "gltf")) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0])) return s.end(false);
+  check_values(s.world().scene, s.diag());
   const auto& main = s.world().scene.main;
   if (main.roots.empty() && main.protos.empty() && s.diag().has_errors()) return s.diag().report(Diag::nothing_to_write, {}), s.end(false);
   bool made = *target == Target::vrml ? write_as_vrml(s, gzip) : write_as_gltf(s, *target == Target::glb);

@@ -7,6 +7,7 @@
 
 #include "scenegraph/image.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 #include "tools/geometry_census.h"
 #include "tools/world_meshes.h"
@@ -183,6 +184,7 @@ int run_info(const Flags& flags) {
   Session s(flags);
   if (!s.good()) return usage;
   if (!s.read(flags.inputs[0])) return s.end(false);
+  check_values(s.world().scene, s.diag());
   Info info;
   count_authored(s.world().scene, info);
   WorldMeshes meshes(s);
