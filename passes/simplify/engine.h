@@ -4,9 +4,10 @@
 // go. Only at the top of the queue this is looked at: the vertex is priced once more, and goes back into the queue when
 // it has become dearer, or when it is the next best edge that may go.
 //
-// After a collapse only the vertex that is left is priced, with all its edges. What became dearer around it is found at
-// the top of the queue; what became cheaper there, a little late. That saves time and costs no quality (rationale.md).
-// Small meshes under the paper's formulas are exact (exact_): the order is then the paper's.
+// After a collapse only the vertex that is left is priced, with all its edges; in a large mesh (sweeping_), later. What
+// became dearer around it is found at the top of the queue; what became cheaper there, a little late. That saves time
+// and costs no quality (rationale.md). Small meshes under the paper's formulas are exact (exact_): the order is then
+// the paper's. A large mesh becomes a small one when few faces are left.
 #pragma once
 #include "passes/simplify/criterion.h"
 #include "passes/simplify/queue.h"

@@ -40,6 +40,7 @@ class LindstromTurk final : public Pricer {
 
   void before_merge(const Ring& from, const Ring& to) override {
     std::uint32_t u = from.center, v = to.center;
+    fetch(to);
     for (const Ring::Face& f : from.face_span()) add_face(f.face, -1, u, v);
     for (const Ring::Face& f : to.face_span())
       if (!to.has(f, u)) add_face(f.face, -1, u, v);
@@ -52,10 +53,7 @@ class LindstromTurk final : public Pricer {
 
  protected:
   void prepare(const Ring& ring, int spokes) override {
-    for (const Ring::Spoke& s : ring.spoke_span()) {
-      const char* m = reinterpret_cast<const char*>(&metric_[s.vertex]);
-      __builtin_prefetch(m), __builtin_prefetch(m + sizeof(Metric) - 1);
-    }
+    fetch(ring);
     for (int i = 0; i < ring.n_faces; ++i) {
       const Ring::Face& f = ring.faces[i];
       if (spokes < 0 || f.next == spokes || f.prev == spokes) faces_[i] = face_metric(surface_.normal(f.face));
@@ -64,6 +62,12 @@ class LindstromTurk final : public Pricer {
   Option option(const Ring& ring, int spoke, Placement where) const override;
 
  private:
+  void fetch(const Ring& ring) const {
+    for (const Ring::Spoke& s : ring.spoke_span()) {
+      const char* m = reinterpret_cast<const char*>(&metric_[s.vertex]);
+      __builtin_prefetch(m), __builtin_prefetch(m + sizeof(Metric) - 1);
+    }
+  }
   /// Plane and normal, which every corner of a face has.
   Metric face_metric(const Vec3& normal) const {
     Metric m;

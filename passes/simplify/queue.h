@@ -23,7 +23,7 @@ class VertexQueue {
   /// Adds the vertex or changes its key.
   virtual void set(std::uint32_t v, Key key) = 0;
   virtual void remove(std::uint32_t v) = 0;
-  /// Adds a vertex that was not priced to come up when costs have risen much, if the queue does such things.
+  /// Adds a vertex that was not priced, to come up when costs have risen much. False: this queue does no such thing.
   virtual bool put_off(std::uint32_t) { return false; }
 
  protected:
@@ -33,8 +33,8 @@ class VertexQueue {
   int shift_;
 };
 
-/// A heap. Keys have 20 bits of the mantissa and the whole range of a double; equal ones go by the number of the vertex.
-/// So an entry is eight bytes and the order does not depend on how it came about.
+/// A heap. Keys have 20 bits of the mantissa and the whole range of a double; equal ones go by the number of the
+/// vertex. So an entry is eight bytes and the order does not depend on how it came about.
 class HeapQueue final : public VertexQueue {
  public:
   explicit HeapQueue(std::size_t n_vertices) : VertexQueue(32), at_(n_vertices, absent) {}

@@ -1,10 +1,14 @@
-// The order in which edges of a large mesh go. Costs have one bit of the mantissa: edges within a half of each other
-// count as equal. Those up to a limit are taken in one sweep over the vertices as they lie in memory; then the limit
-// rises to the lowest cost that was seen above it. There is nothing to keep sorted, and the next vertices are known.
+// The order in which edges of a large mesh go. Of a cost only the exponent counts: edges between two powers of two are
+// equal. Those up to a limit are taken in one sweep over the vertices as they lie in memory; then the limit rises to
+// the lowest cost that was seen above it. So there is nothing to keep sorted, and a sweep does much on its way through
+// the memory.
 //
-// A sweep costs a fraction of a nanosecond a vertex, and there are at most 4,096: as many as there are keys.
+// To pass a vertex costs about a nanosecond, and there are no more sweeps than exponents that occur, 2,048 at the most;
+// among edges of infinite cost, some more.
 #pragma once
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "passes/simplify/queue.h"
 
@@ -12,13 +16,15 @@ namespace wrlkit::simplify {
 
 class SweepQueue final : public VertexQueue {
  public:
-  explicit SweepQueue(std::size_t n_vertices) : VertexQueue(51), key_(n_vertices, absent) {}
+  explicit SweepQueue(std::size_t n_vertices) : VertexQueue(52), key_(n_vertices, absent) {}
 
   bool empty() override { return size_ == 0; }
+  /// Whatever has become cheaper behind the sweep waits for the next.
   std::uint32_t top() override {
     while (key_[at_] > limit_) {
       for (; at_ < key_.size() && key_[at_] > limit_; ++at_) next_ = std::min(next_, key_[at_]);
-      if (at_ == key_.size()) at_ = 0, limit_ = std::max<Short>(next_, limit_ + 1), next_ = absent;
+      if (at_ == key_.size())
+        at_ = 0, limit_ = std::min<Short>(std::max<Short>(next_, limit_ + 1), last), next_ = absent;
     }
     return at_;
   }
@@ -34,12 +40,13 @@ class SweepQueue final : public VertexQueue {
     size_ -= key_[v] != absent;
     key_[v] = absent;
   }
-  bool put_off(std::uint32_t v) override { return set(v, limit_ + far), true; }
+  bool put_off(std::uint32_t v) override { return set(v, std::min(limit_ + far, infinite)), true; }
 
  private:
   using Short = std::uint16_t;
   static constexpr Short absent = 0xffff;
-  static constexpr Key far = 4;  // four times the cost
+  static constexpr Short last = absent - 1;
+  static constexpr Key far = 2, infinite = 0x7ff;  // four times the cost; the key of an infinite one
 
   std::vector<Short> key_;
   std::size_t size_ = 0;

@@ -179,6 +179,29 @@ TEST_CASE("collapse: a series of levels is one run, and runs are equal") {
   }
 }
 
+TEST_CASE("collapse: large meshes, in sweeps and then in the exact order") {
+  Mesh m = torus(300, 120);  // 36,000 vertices
+  for (Criterion criterion : engines) {
+    CAPTURE(int(criterion));
+    CollapseOptions o{.criterion = criterion, .record = true};
+    Collapser c(m, o);
+    for (std::size_t n : {60'000, 20'000, 16'384, 16'000, 2'000}) {
+      for (int i = 0; i < 3; ++i) {
+        auto next = c.next();
+        REQUIRE(next);
+        c.run_to(c.n_faces() - 1);
+        const auto& step = c.record().steps.back();
+        CHECK((step.from == next->from && step.to == next->to && step.position == next->position));
+      }
+      c.run_to(n);
+      CHECK((c.n_faces() <= n && c.n_faces() + 2 > n));
+      CHECK(euler(c.mesh()) == 0);
+    }
+    CHECK(same(c.mesh(), simplified(m, 2'000, o)));
+    CHECK(c.error() < 0.2);
+  }
+}
+
 TEST_CASE("collapse: borders keep their shape and their number") {
   // A sheet with a square hole; the border of the hole and the outline are two loops.
   Mesh m = sheet(12, 12, [](double x, double y) { return 0.1 * std::sin(7 * x) * std::cos(5 * y); });
