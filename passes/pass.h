@@ -4,7 +4,7 @@
 //   Outcome prune(Scene&, const PruneOptions&, PassContext&);
 //
 // A mesh pass sees one geometry at a time and nothing of its neighbours, so the pipeline runs several of them on a
-// geometry while it is in the cache, and in parallel over the geometries.
+// geometry while it is in the cache.
 #pragma once
 #include <map>
 #include <memory>
