@@ -150,9 +150,11 @@ void Parser::node_body_element(Token t) {
     known_field(*slot, type.fields[*slot], t);
     return;
   }
-  if (auto access = find_access(w); access && declaration_follows(t)) {
+  if (auto access = find_access(w)) {
+    const bool declares = declaration_follows(t);
     lex_.next();
-    script_declaration(*access, t);
+    if (declares) script_declaration(*access, t);
+    else expected("a field type and a name", lex_.peek());
     return;
   }
   if (node_follows(t)) { implicit_child(t); return; }
