@@ -115,6 +115,8 @@ class Scene {
   // Types and prototypes of this scene.
   /// Adds a type; names and arrays in it must live in the arena or in the table.
   TypeId add_type(NodeType, std::span<const FieldDef> fields);
+  /// Those that were added, in order; TypeId = builtin_nodes().size() + index.
+  const std::deque<NodeType>& own_types() const { return types_; }
   ProtoId add_proto(Proto);
   void set_type_proto(TypeId t, ProtoId p) { types_[t.value - builtin_nodes().size()].proto = p; }
   std::size_t proto_count() const { return protos_.size(); }

@@ -12,15 +12,15 @@
 namespace wrlkit {
 namespace {
 
-/// Calls proto(ProtoId) and node(NodeId) in the order in which a scope is printed: prototypes first, but those that declare
-/// a name again, or one of the standard, where they stood.
+/// Calls proto(ProtoId) and node(NodeId) in the order in which a scope is printed: prototypes first, but those whose name
+/// means something else as well, where they stood: one that is declared again, of the standard, or of nodes that nobody knew.
 template <class P, class N>
-void for_each_statement(const Scene& scene, const Scope& s, P&& proto, N&& node) {
+void for_each_statement(const Scene& scene, const std::unordered_set<std::string_view>& unknown, const Scope& s, P&& proto, N&& node) {
   std::unordered_set<std::string_view> declared;
   std::vector<ProtoId> later;
   for (ProtoId p : s.protos) {
     auto name = scene.type(scene.proto(p).type).name;
-    if (declared.insert(name).second && later.empty() && !find_builtin(name, Dialect::vrml97)) proto(p);
+    if (declared.insert(name).second && later.empty() && !unknown.contains(name) && !find_builtin(name, Dialect::vrml97)) proto(p);
     else later.push_back(p);
   }
   auto next = later.begin();
@@ -36,15 +36,21 @@ void for_each_statement(const Scene& scene, const Scope& s, P&& proto, N&& node)
 /// the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own.
 class Names {
  public:
-  explicit Names(const Scene& scene) : scene_(scene), met_(scene.node_count(), 0) {}
+  explicit Names(const Scene& scene) : scene_(scene), met_(scene.node_count(), 0) {
+    for (const auto& t : scene.own_types())
+      if (t.kind == NodeKind::unknown) unknown_.insert(t.name);
+  }
+
+  /// Types of nodes that nobody knew.
+  const std::unordered_set<std::string_view>& unknown() const { return unknown_; }
 
   void scope(const Scope& s) {
     ++scope_;
     last_.clear();
     auto defaults = [&](ProtoId p) { for (auto& f : scene_.type(scene_.proto(p).type).fields) meet(f.default_value.node_span()); };
-    for_each_statement(scene_, s, defaults, [&](NodeId n) { meet({&n, 1}); });
+    for_each_statement(scene_, unknown_, s, defaults, [&](NodeId n) { meet({&n, 1}); });
     for (auto& r : s.routes) referred(r.from), referred(r.to);
-    for_each_statement(scene_, s, [&](ProtoId p) { scope(scene_.proto(p).body); }, [](NodeId) {});
+    for_each_statement(scene_, unknown_, s, [&](ProtoId p) { scope(scene_.proto(p).body); }, [](NodeId) {});
   }
   std::string_view operator[](NodeId n) const {
     auto i = given_.find(n.value);
@@ -102,6 +108,7 @@ class Names {
   }
 
  private:
+  std::unordered_set<std::string_view> unknown_;
   const Scene& scene_;
   std::vector<std::uint32_t> met_;  // the last scope that held the node
   std::uint32_t scope_ = 0;
@@ -133,7 +140,7 @@ class Writer {
   }
 
   void scope(const Scope& s) {
-    for_each_statement(scene_, s, [&](ProtoId p) { line_start(); proto(scene_.proto(p)); }, [&](NodeId n) { line_start(); node(n); });
+    for_each_statement(scene_, names_.unknown(), s, [&](ProtoId p) { line_start(); proto(scene_.proto(p)); }, [&](NodeId n) { line_start(); node(n); });
     for (auto& r : s.routes) {
       if (printed_[r.from.value] != scope_ || printed_[r.to.value] != scope_) continue;
       line_start();
