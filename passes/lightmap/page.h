@@ -1,0 +1,39 @@
+// A page of the atlas while light is baked onto it: for each texel the light that was found there and where in the world
+// it lies. Texels are counted from the lower left corner, as texture coordinates are; row 0 is the lowest.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "passes/lightmap/rgb.h"
+
+namespace wrlkit::bake {
+
+struct Vec {
+  float x = 0, y = 0, z = 0;
+};
+inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline float dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// Where a texel lies: what the denoiser compares.
+struct Place {
+  static constexpr std::uint32_t nowhere = 0xffffffff;
+
+  std::uint32_t chart = nowhere;  // texels of several charts are never mixed
+  Vec position, normal;           // world, relative to the centre of the world; the normal is unit
+};
+
+/// `side` squared texels would be too many for a plant of long pipes: width and height are free.
+struct Page {
+  int width = 0, height = 0;
+  std::vector<Rgb> direct, indirect;     // irradiance over pi
+  std::vector<float> variance;           // of the luminance of `indirect`
+  std::vector<Place> places;
+
+  Page(int w, int h) : width(w), height(h), direct(size()), indirect(size()), variance(size()), places(size()) {}
+
+  std::size_t size() const { return std::size_t(width) * height; }
+  std::size_t at(int x, int y) const { return std::size_t(y) * width + x; }
+  bool covered(std::size_t i) const { return places[i].chart != Place::nowhere; }
+};
+
+}  // namespace wrlkit::bake

@@ -1,0 +1,18 @@
+// Light in three colours, linear.
+#pragma once
+
+namespace wrlkit::bake {
+
+struct Rgb {
+  float r = 0, g = 0, b = 0;
+
+  Rgb& operator+=(const Rgb& o) { return r += o.r, g += o.g, b += o.b, *this; }
+};
+
+inline Rgb operator+(Rgb a, const Rgb& b) { return a += b; }
+inline Rgb operator-(const Rgb& a, const Rgb& b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
+inline Rgb operator*(float s, const Rgb& a) { return {s * a.r, s * a.g, s * a.b}; }
+/// Luminance by Rec. 709, whose primaries sRGB has.
+inline float luminance(const Rgb& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+}  // namespace wrlkit::bake
