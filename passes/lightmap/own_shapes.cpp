@@ -1,0 +1,120 @@
+#include "passes/lightmap/own_shapes.h"
+
+#include <algorithm>
+#include <string>
+#include <unordered_set>
+
+#include "passes/own_nodes.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit::bake {
+namespace {
+
+/// By node: a Shape or something that holds one.
+std::vector<char> holders_of_shapes(const Scene& scene) {
+  std::vector<char> state(scene.node_count()), holds(scene.node_count());  // state 1: its children are being seen to
+  std::vector<NodeId> stack(scene.main.roots.begin(), scene.main.roots.end());
+  while (!stack.empty()) {
+    NodeId n = stack.back();
+    if (!n || state[n.value] == 2) { stack.pop_back(); continue; }
+    const auto children = shown_children(scene, n);
+    if (state[n.value] == 0) {
+      state[n.value] = 1;
+      for (NodeId c : children)
+        if (c && !state[c.value]) stack.push_back(c);
+      continue;
+    }
+    holds[n.value] = scene.is(n, nodes::Shape) || std::ranges::any_of(children, [&](NodeId c) { return c && holds[c.value]; });
+    state[n.value] = 2;
+    stack.pop_back();
+  }
+  return holds;
+}
+
+class Unsharer {
+ public:
+  Unsharer(Scene& scene, Diagnostics& diag, std::size_t most) : scene_(scene), diag_(diag), most_(most), holds_(holders_of_shapes(scene)), met_(scene.node_count()) {
+    moving_.mark(scene, scene.main, {}, [](NodeId) { return false; });
+    for (NodeId n : all_nodes(scene))
+      if (auto name = scene.name(n); !name.empty()) names_.emplace(name);
+  }
+
+  std::size_t run() {
+    std::vector<NodeId> roots = scene_.main.roots;
+    own(roots);
+    scene_.main.roots = roots;
+    while (!open_.empty() && n_copies_ < most_) {
+      NodeId n = open_.back();
+      open_.pop_back();
+      own_children(n);
+    }
+    if (n_copies_ >= most_) diag_.report(Diag::expansion_limit, {}, most_, "copies of shared Shapes");
+    return n_copies_;
+  }
+
+ private:
+  /// Puts a copy for each node that was met before. False when nothing changed.
+  bool own(std::vector<NodeId>& ids) {
+    bool changed = false;
+    for (NodeId& n : ids) {
+      if (!n || !is_holder(n)) continue;
+      if (!met_[n.value]) met_[n.value] = 1, open_.push_back(n);
+      else if (!moving_[n]) n = copy(n), changed = true;
+    }
+    return changed;
+  }
+
+  void own_children(NodeId n) {
+    const auto shown = shown_children(scene_, n);
+    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    for (const Value& v : fields) {
+      if (scene_.is_extra(v) || v.is || info(v.type).element != Element::node) continue;
+      std::vector<NodeId> ids(v.node_span().begin(), v.node_span().end());
+      bool is_hierarchy = std::ranges::any_of(ids, [&](NodeId c) { return std::ranges::find(shown, c) != shown.end(); });
+      if (is_hierarchy && own(ids)) scene_.set(n, scene_.make(v.type, v.slot, ids));
+    }
+  }
+
+  /// Copies, which have larger numbers than the nodes that were there, hold Shapes as their originals do.
+  bool is_holder(NodeId n) const { return n.value >= holds_.size() || holds_[n.value]; }
+
+  NodeId copy(NodeId n) {
+    const NodeId to = scene_.add(scene_.type_id(n), scene_.where(n));
+    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    scene_.set_fields(to, fields);
+    if (auto name = scene_.name(n); !name.empty()) scene_.set_name(to, unique(name));
+    ++n_copies_;
+    open_.push_back(to);
+    return to;
+  }
+
+  std::string_view unique(std::string_view name) {
+    for (std::size_t i = last_number_[name] ? last_number_[name] : 1;;) {
+      auto [at, added] = names_.insert(std::string(name) + "_" + std::to_string(++i));
+      if (!added) continue;
+      last_number_[name] = i;
+      return *at;
+    }
+  }
+
+  struct Hash {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view s) const { return std::hash<std::string_view>()(s); }
+  };
+
+  Scene& scene_;
+  Diagnostics& diag_;
+  std::size_t most_, n_copies_ = 0;
+  std::vector<char> holds_, met_;
+  OwnNodes moving_;
+  std::vector<NodeId> open_;
+  std::unordered_set<std::string, Hash, std::equal_to<>> names_;
+  std::unordered_map<std::string_view, std::size_t> last_number_;
+};
+
+}  // namespace
+
+std::size_t own_shapes(Scene& scene, Diagnostics& diag, std::size_t most) { return Unsharer(scene, diag, most).run(); }
+
+}  // namespace wrlkit::bake
