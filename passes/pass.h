@@ -25,10 +25,21 @@ enum class Outcome : std::uint8_t { unchanged, changed, failed };
 /// Counts a pass wants to tell: "tessellate.triangles" and so on. Sums, so that their order does not matter.
 using Statistics = std::map<std::string, std::uint64_t, std::less<>>;
 
+/// Who is told how far a pass is that takes long.
+class Monitor {
+ public:
+  virtual ~Monitor() = default;
+  /// A new stretch of work: `total` things of that unit ("shapes"); 0: how many is not known.
+  virtual void begin(std::string what, std::uint64_t total, std::string unit) = 0;
+  /// So many more are done. One thread at a time.
+  virtual void step(std::uint64_t n = 1) = 0;
+};
+
 struct PassContext {
   Diagnostics& diag;
   Statistics& stats;
   Resources* resources = nullptr;  // none: nothing outside the scene can be had
+  Monitor* monitor = nullptr;      // none: nobody wants to know
 };
 
 /// Arrays of passes/normals.cpp, which explains them.

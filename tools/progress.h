@@ -5,16 +5,19 @@
 #include <cstdint>
 #include <string>
 
+#include "passes/pass.h"
+
 namespace wrlkit {
 
-class Progress {
+class Progress : public Monitor {
  public:
   explicit Progress(bool on);
-  ~Progress() { clear(); }
+  ~Progress() override { clear(); }
 
-  /// A new stretch of work: `total` things of that unit ("shapes"); 0: how many is not known.
-  void begin(std::string what, std::uint64_t total, std::string unit);
-  void step() { if (on_ && (++done_ & 0xff) == 0) show(); }
+  void begin(std::string what, std::uint64_t total, std::string unit) override;
+  void step(std::uint64_t n = 1) override {
+    if (on_ && ((done_ += n) & 0xff) < n) show();
+  }
   /// Takes the line off the terminal.
   void clear();
 

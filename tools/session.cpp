@@ -23,6 +23,7 @@ std::shared_ptr<const Scene> parse_inlined(const std::string& path, Diagnostics&
 
 Session::Session(const Flags& flags)
     : flags_(flags), threads_(flags.jobs), context_{diag_, stats_}, progress_(!flags.quiet) {
+  context_.monitor = &progress_;
   good_ = apply_warning_flags();
 }
 
