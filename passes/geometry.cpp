@@ -115,6 +115,10 @@ void read_face_set(MeshJob& job) {
                  {"texCoord", values_of(scene, scene.get(n, ifs::texCoord), nodes::texture_coordinate::point),
                   scene.get(n, ifs::texCoordIndex), true},
                  runs);
+  bind_attribute(job, mesh.lightcoord,
+                 {"lightCoord", values_of(scene, scene.get(n, ifs::lightCoord), nodes::texture_coordinate::point),
+                  scene.get(n, ifs::lightCoordIndex), true},
+                 runs);
   repair_positions(job);
 }
 

@@ -45,6 +45,10 @@ class Store {
       add(ifs::texCoord, attribute("texCoord", nodes::texture_coordinate::point, mesh_.texcoord));
       bind(mesh_.texcoord, ifs::texCoordIndex, nullptr);
     }
+    if (mesh_.lightcoord.present()) {
+      add(ifs::lightCoord, attribute("lightCoord", nodes::texture_coordinate::point, mesh_.lightcoord));
+      bind(mesh_.lightcoord, ifs::lightCoordIndex, nullptr);
+    }
     add_unless_default(ifs::ccw, mesh_.ccw, true);
     add_unless_default(ifs::convex, mesh_.convex, true);
     add_unless_default(ifs::solid, mesh_.solid, true);
@@ -93,7 +97,7 @@ class Store {
     for (auto i : index) out.insert(out.end(), values + std::size_t{i} * width, values + (std::size_t{i} + 1) * width);
   }
 
-  // The node that a field of the geometry held before: color, coord, normal, texCoord are called the same everywhere.
+  // The node that a field of the geometry held before: fields of one name mean the same everywhere.
   NodeId authored(std::string_view field, TypeId type) const {
     const auto& rows = scene_.type(geometry_).fields;
     for (std::uint16_t slot = 0; slot < rows.size(); ++slot)

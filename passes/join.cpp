@@ -135,7 +135,7 @@ class Contents {
 
 /// What a geometry holds; none of what is empty or of another type.
 struct Parts {
-  NodeId coord, color, normal, texcoord;
+  NodeId coord, color, normal, texcoord, lightcoord;
 };
 
 template <FieldType T>
@@ -225,10 +225,11 @@ Parts Joining::parts_of(NodeId g) const {
   auto coord = [&](NodeId n) { return if_filled(scene_, n, nodes::coordinate::point); };
   auto color = [&](NodeId n) { return if_filled(scene_, n, nodes::color::color); };
   if (scene_.is(g, nodes::IndexedLineSet))
-    return {coord(scene_.get(g, ils::coord)), color(scene_.get(g, ils::color)), {}, {}};
+    return {coord(scene_.get(g, ils::coord)), color(scene_.get(g, ils::color)), {}, {}, {}};
   return {coord(scene_.get(g, ifs::coord)), color(scene_.get(g, ifs::color)),
           if_filled(scene_, scene_.get(g, ifs::normal), nodes::normal::vector),
-          if_filled(scene_, scene_.get(g, ifs::texCoord), nodes::texture_coordinate::point)};
+          if_filled(scene_, scene_.get(g, ifs::texCoord), nodes::texture_coordinate::point),
+          if_filled(scene_, scene_.get(g, ifs::lightCoord), nodes::texture_coordinate::point)};
 }
 
 bool Joining::plain(NodeId n) const {
@@ -242,7 +243,7 @@ bool Joining::may_join(NodeId shape) const {
   bool faces = scene_.is(g, nodes::IndexedFaceSet);
   if (!(faces || scene_.is(g, nodes::IndexedLineSet)) || !own(g) || !plain(g)) return false;
   const Parts parts = parts_of(g);
-  for (NodeId n : {parts.color, parts.normal, parts.texcoord})
+  for (NodeId n : {parts.color, parts.normal, parts.texcoord, parts.lightcoord})
     if (n && !plain(n)) return false;
   if (!parts.coord || !plain(parts.coord)) return false;
   return !faces || parts.texcoord || !may_be_textured(scene_.get(shape, nodes::shape::appearance));
@@ -257,7 +258,7 @@ std::string Joining::key(NodeId shape) {
   key.add(contents_(scene_.get(shape, nodes::shape::appearance)));
   key.add(scene_.type_id(g).value);
   key.add((own(parts.coord) ? NodeId{} : parts.coord).value);
-  for (NodeId n : {parts.color, parts.normal, parts.texcoord}) key.add(static_cast<bool>(n));
+  for (NodeId n : {parts.color, parts.normal, parts.texcoord, parts.lightcoord}) key.add(static_cast<bool>(n));
   if (!scene_.is(g, nodes::IndexedFaceSet)) return key.text();
   for (bool flag : {scene_.get(g, ifs::ccw), scene_.get(g, ifs::solid), scene_.get(g, ifs::convex)}) key.add(flag);
   key.add(scene_.get(g, ifs::creaseAngle));
@@ -298,7 +299,7 @@ bool Joining::append(NodeId geometry, bool own_points) {
     append_used(mesh_.positions.span(), 3, mesh_.corners, joined_.positions.edit(), joined_.corners);
   else
     joined_.corners.insert(joined_.corners.end(), mesh_.corners.begin(), mesh_.corners.end());
-  for (auto a : {&Mesh::normal, &Mesh::color, &Mesh::texcoord}) {
+  for (auto a : {&Mesh::normal, &Mesh::color, &Mesh::texcoord, &Mesh::lightcoord}) {
     const Attribute& from = mesh_.*a;
     append_used(std::span<const float>(from.values), from.width, from.index, (joined_.*a).values, (joined_.*a).index);
   }

@@ -174,7 +174,7 @@ void Triangulation::gather() {
     stream.swap(next);
   };
   reorder(mesh_.corners);
-  for (Attribute* a : {&mesh_.normal, &mesh_.color, &mesh_.texcoord})
+  for (Attribute* a : mesh_.attributes())
     if (a->present()) reorder(a->index);
 }
 

@@ -63,7 +63,7 @@ class Welding {
 
   bool join_points();
   bool join_attributes(bool tidy);
-  std::size_t count_values() const { return mesh_.normal.count() + mesh_.color.count() + mesh_.texcoord.count(); }
+  std::size_t count_values() const { return mesh_.normal.count() + mesh_.color.count() + mesh_.texcoord.count() + mesh_.lightcoord.count(); }
   void spell_out_faces();
   void forget_triangles();
   bool repair();
@@ -96,7 +96,7 @@ bool Welding::join_points() {
 bool Welding::join_attributes(bool tidy) {
   StampedMap& map = job_.scratch.map;
   bool joined = false;
-  for (Attribute* a : {&mesh_.normal, &mesh_.color, &mesh_.texcoord}) {
+  for (Attribute* a : mesh_.attributes()) {
     if (!a->present()) continue;
     if (a->width == 2) joined |= join_values(*a, scratch_.pairs, map, tidy);
     if (a->width == 3) joined |= join_values(*a, scratch_.triples, map, tidy);

@@ -4,6 +4,7 @@
 // IndexedFaceSet or split into single-index vertices for glTF.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -71,11 +72,16 @@ struct Mesh {
   std::vector<std::uint32_t> face_begin; // first corner of each face or polyline, and the end; n + 1. Empty: triangles
                                          // (kind faces), segments (kind lines) or single corners (kind points)
   Attribute normal{3}, color{3}, texcoord{2};
+  Attribute lightcoord{2};               // places in a lightmap
 
   // What IndexedFaceSet says of its faces (ISO/IEC 14772-1, 6.23).
   bool ccw = true, solid = true, convex = true;
   double crease_angle = 0;               // radians
   bool primitive = false;                // made from Box, Cone, ...: normals and texture coordinates are exact already
+
+  /// For what is done to all of them alike.
+  std::array<Attribute*, 4> attributes() { return {&normal, &color, &texcoord, &lightcoord}; }
+  std::array<const Attribute*, 4> attributes() const { return {&normal, &color, &texcoord, &lightcoord}; }
 
   std::size_t n_positions() const { return positions.size() / 3; }
   std::size_t corners_per_face() const { return kind == Kind::faces ? 3 : kind == Kind::lines ? 2 : 1; }
@@ -88,7 +94,7 @@ struct Mesh {
   void clear() {
     kind = Kind::none;
     positions.clear(); corners.clear(); face_begin.clear();
-    normal.clear(); color.clear(); texcoord.clear();
+    for (Attribute* a : attributes()) a->clear();
     color.width = 3;
     ccw = solid = convex = true;
     crease_angle = 0;

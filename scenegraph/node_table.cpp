@@ -12,7 +12,7 @@ std::optional<std::uint16_t> NodeType::find(std::string_view field, Dialect dial
     auto i = std::ranges::lower_bound(by_name, field, {}, [&](std::uint16_t slot) { return fields[slot].name; });
     if (i != by_name.end() && fields[*i].name == field) return *i;
   } else for (std::size_t i = 0; i < fields.size(); ++i)
-    if ((fields[i].dialects & static_cast<DialectSet>(dialect)) && fields[i].name_in(dialect) == field)
+    if (((fields[i].dialects & static_cast<DialectSet>(dialect)) || fields[i].is_own()) && fields[i].name_in(dialect) == field)
       return static_cast<std::uint16_t>(i);
   if (!events) return std::nullopt;
   auto exposed = [&](std::string_view stem) -> std::optional<std::uint16_t> {

@@ -15,8 +15,9 @@ namespace wrlkit {
 /// field, exposedField, eventIn, eventOut of VRML97; initializeOnly, inputOutput, inputOnly, outputOnly of X3D.
 enum class Access : std::uint8_t { init, inout, in, out };
 
-/// Dialects, as bits, so that one row can be valid in several.
-enum class Dialect : std::uint8_t { vrml1 = 1, vrml97 = 2, x3d = 4 };
+/// Dialects, as bits, so that one row can be valid in several. `wrlkit`: fields that no standard has, in which passes and
+/// writers tell each other of baked light. They are read in every dialect, and written on request only.
+enum class Dialect : std::uint8_t { vrml1 = 1, vrml97 = 2, x3d = 4, wrlkit = 8 };
 using DialectSet = std::uint8_t;
 
 struct Range {
@@ -39,6 +40,7 @@ struct FieldDef {
   std::string_view doc;
   std::string_view default_text; // as the table has it, for documentation
 
+  bool is_own() const { return dialects == static_cast<DialectSet>(Dialect::wrlkit); }
   bool has_value() const { return access == Access::init || access == Access::inout; }
   std::string_view name_in(Dialect d) const { return d == Dialect::vrml97 && !vrml97_name.empty() ? vrml97_name : name; }
 };

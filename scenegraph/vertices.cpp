@@ -18,12 +18,13 @@ constexpr std::size_t n_shades = 1024;      // a power of two
 using Vertex = SplitScratch::Vertex;
 
 bool same(const Vertex& a, const Vertex& b) {
-  return a.position == b.position && a.normal == b.normal && a.color == b.color && a.texcoord == b.texcoord;
+  return a.position == b.position && a.normal == b.normal && a.color == b.color && a.texcoord == b.texcoord &&
+         a.lightcoord == b.lightcoord;
 }
 
 std::uint64_t hash(const Vertex& v) {
   std::uint64_t h = v.position * 0x9e3779b97f4a7c15u;
-  for (std::uint32_t i : {v.normal, v.color, v.texcoord}) h = (h ^ h >> 29 ^ i) * 0xbf58476d1ce4e5b9u;
+  for (std::uint32_t i : {v.normal, v.color, v.texcoord, v.lightcoord}) h = (h ^ h >> 29 ^ i) * 0xbf58476d1ce4e5b9u;
   return h ^ h >> 32;
 }
 
@@ -35,6 +36,7 @@ class Splitter {
     if (options.normals && mesh.normal.present()) normal_ = mesh.normal.index.data();
     if (options.colors && mesh.color.present()) color_ = mesh.color.index.data();
     if (options.texcoords && mesh.texcoord.present()) texcoord_ = mesh.texcoord.index.data();
+    if (options.lightcoords && mesh.lightcoord.present()) lightcoord_ = mesh.lightcoord.index.data();
   }
 
   void split() {
@@ -54,11 +56,12 @@ class Splitter {
 
   const Mesh& mesh_;
   SplitScratch& scratch_;
-  const std::uint32_t *normal_ = nullptr, *color_ = nullptr, *texcoord_ = nullptr;
+  const std::uint32_t *normal_ = nullptr, *color_ = nullptr, *texcoord_ = nullptr, *lightcoord_ = nullptr;
 };
 
 std::uint32_t Splitter::vertex(std::uint32_t c) {
-  Vertex v{mesh_.corners[c], normal_ ? normal_[c] : 0, color_ ? color_[c] : 0, texcoord_ ? texcoord_[c] : 0, none};
+  auto index = [c](const std::uint32_t* stream) { return stream ? stream[c] : 0; };
+  Vertex v{mesh_.corners[c], index(normal_), index(color_), index(texcoord_), index(lightcoord_), none};
   if (!scratch_.first.contains(v.position)) {
     scratch_.first.set(v.position, add(v));
     return scratch_.first[v.position];
@@ -211,13 +214,15 @@ void fill_colors(const Mesh& mesh, const SplitOptions& options, SplitScratch& sc
   }
 }
 
-void fill_texcoords(const Mesh& mesh, const SplitOptions& options, const std::vector<Vertex>& vertices, Vertices& out) {
-  out.texcoord.resize(2 * vertices.size());
-  float* to = out.texcoord.data();
+/// Places in a picture: texcoord or lightcoord.
+void fill_places(const Attribute& values, const SplitOptions& options, const std::vector<Vertex>& vertices,
+                 std::uint32_t Vertex::*index, std::vector<float>& out, std::size_t& n_not_finite) {
+  out.resize(2 * vertices.size());
+  float* to = out.data();
   for (const Vertex& v : vertices) {
-    const float* from = mesh.texcoord.at(v.texcoord);
-    *to++ = finite(from[0], out.n_not_finite);
-    *to++ = finite(options.flip_v ? 1 - double{from[1]} : from[1], out.n_not_finite);
+    const float* from = values.at(v.*index);
+    *to++ = finite(from[0], n_not_finite);
+    *to++ = finite(options.flip_v ? 1 - double{from[1]} : from[1], n_not_finite);
   }
 }
 
@@ -282,7 +287,7 @@ class Indices {
 }  // namespace
 
 void Vertices::clear() {
-  position.clear(), normal.clear(), color.clear(), texcoord.clear(), index.clear();
+  position.clear(), normal.clear(), color.clear(), texcoord.clear(), lightcoord.clear(), index.clear();
   color_width = 3;
   origin = {};
   min = max = {};
@@ -297,7 +302,11 @@ void split_vertices(const Mesh& mesh, const SplitOptions& options, SplitScratch&
   fill_positions(mesh, scratch.vertices, out);
   if (options.normals && mesh.normal.present()) fill_normals(mesh, scratch, out);
   if (options.colors && mesh.color.present()) fill_colors(mesh, options, scratch, out);
-  if (options.texcoords && mesh.texcoord.present()) fill_texcoords(mesh, options, scratch.vertices, out);
+  auto places = [&](const Attribute& a, std::uint32_t Vertex::*index, std::vector<float>& to) {
+    fill_places(a, options, scratch.vertices, index, to, out.n_not_finite);
+  };
+  if (options.texcoords && mesh.texcoord.present()) places(mesh.texcoord, &Vertex::texcoord, out.texcoord);
+  if (options.lightcoords && mesh.lightcoord.present()) places(mesh.lightcoord, &Vertex::lightcoord, out.lightcoord);
   Indices(mesh, mesh.ccw == options.mirror, scratch.of_corner.data(), out).fill();
 }
 

@@ -1,5 +1,5 @@
 // A mesh as graphics hardware and glTF want it: vertices that carry all their attributes, in single precision, with one
-// index. Corners that agree in position, normal, color and texture coordinate are one vertex. This is the last thing
+// index. Corners that agree in position, normal, color and places in pictures are one vertex. This is the last thing
 // that happens to a mesh: what is split here is found together by no later pass.
 #pragma once
 #include <array>
@@ -15,6 +15,7 @@ struct SplitOptions {
   bool normals = true;             // false: do without, even if the mesh has them; corners are split by them no more
   bool colors = true;
   bool texcoords = true;
+  bool lightcoords = true;
   bool mirror = false;         // reverse the corners of each face once more, for use below a mirroring transform
   bool linear_colors = false;  // colors are display-referred (IEC 61966-2-1) and wanted linear; alpha is left alone
   bool flip_v = false;         // texture origin at the top, as in glTF: v becomes 1 - v
@@ -23,9 +24,10 @@ struct SplitOptions {
 /// All numbers are finite. Made to be used again and again: a million shapes allocate as little as the largest of them.
 struct Vertices {
   std::vector<float> position;       // xyz, relative to `origin`
-  std::vector<float> normal;         // xyz of unit length; empty: none. So are the next two
+  std::vector<float> normal;         // xyz of unit length; empty: none. So are the next three
   std::vector<float> color;          // rgb or rgba as `color_width` says, in [0, 1]
   std::vector<float> texcoord;       // uv
+  std::vector<float> lightcoord;     // uv
   std::vector<std::uint32_t> index;  // three for each triangle, two for each segment, one for each point
   int color_width = 3;
   std::array<double, 3> origin{};
@@ -40,7 +42,7 @@ struct Vertices {
 /// Arrays of split_vertices.
 struct SplitScratch {
   struct Vertex {
-    std::uint32_t position, normal, color, texcoord, next;
+    std::uint32_t position, normal, color, texcoord, lightcoord, next;
   };
   struct Shade {
     std::uint32_t from;

@@ -28,10 +28,10 @@ std::string kinds_text(const FieldDef& f) {
   return out;
 }
 
-/// Range, unit, kinds: what limits a value.
+/// Range, unit, kinds: what limits a value; and whether it is a field of wrlkit's own.
 std::string limits_text(const FieldDef& f) {
   std::string out = range_text(f.range);
-  for (const auto& part : {std::string(f.unit), kinds_text(f)})
+  for (const auto& part : {std::string(f.unit), kinds_text(f), std::string(f.is_own() ? "(wrlkit's own)" : "")})
     if (!part.empty()) out += (out.empty() ? "" : " ") + part;
   return out;
 }

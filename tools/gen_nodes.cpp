@@ -158,7 +158,7 @@ Node read_head(const std::string& text, bool abstract) {
 
 int dialects(const std::string& clauses) {
   int d = 0;
-  for (auto& w : split(clauses, " ;,")) d |= w == "vrml1" ? 1 : w == "vrml97" ? 2 : w == "x3d" ? 4 : 0;
+  for (auto& w : split(clauses, " ;,")) d |= w == "vrml1" ? 1 : w == "vrml97" ? 2 : w == "x3d" ? 4 : w == "wrlkit" ? 8 : 0;
   return d;
 }
 

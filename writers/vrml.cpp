@@ -36,7 +36,7 @@ void for_each_statement(const Scene& scene, const std::unordered_set<std::string
 /// the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own.
 class Names {
  public:
-  explicit Names(const Scene& scene) : scene_(scene), met_(scene.node_count(), 0) {
+  Names(const Scene& scene, bool own_fields) : scene_(scene), own_fields_(own_fields), met_(scene.node_count(), 0) {
     for (const auto& t : scene.own_types())
       if (t.kind == NodeKind::unknown) unknown_.insert(t.name);
   }
@@ -74,7 +74,7 @@ class Names {
 
   template <class F>
   void for_each_printed_child(NodeId n, F&& f) {
-    for (const Value* v : printed_order(scene_, n))
+    for (const Value* v : printed_order(n))
       for (NodeId c : scene_.content(*v).node_span()) f(c);
   }
 
@@ -99,9 +99,12 @@ class Names {
 
  public:
   /// Written fields in the order of the table, unknown ones behind.
-  static std::vector<const Value*> printed_order(const Scene& scene, NodeId n) {
+  std::vector<const Value*> printed_order(NodeId n) const {
+    const auto& t = scene_.type(n);
+    auto hidden = [&](const Value& f) { return !own_fields_ && !scene_.is_extra(f) && t.fields[f.slot].is_own(); };
     std::vector<const Value*> v;
-    for (auto& f : scene.fields(n)) v.push_back(&f);
+    for (auto& f : scene_.fields(n))
+      if (!hidden(f)) v.push_back(&f);
     auto by_slot = [](const Value* a, const Value* b) { return a->slot < b->slot; };
     if (!std::ranges::is_sorted(v, by_slot)) std::ranges::stable_sort(v, by_slot);
     return v;
@@ -110,6 +113,7 @@ class Names {
  private:
   std::unordered_set<std::string_view> unknown_;
   const Scene& scene_;
+  bool own_fields_;
   std::vector<std::uint32_t> met_;  // the last scope that held the node
   std::uint32_t scope_ = 0;
   std::unordered_map<std::string_view, NodeId> last_;
@@ -120,7 +124,7 @@ class Names {
 
 class Writer {
  public:
-  Writer(const Scene& scene, const VrmlOptions& options, const Sink& sink) : scene_(scene), options_(options), out_(sink), names_(scene), printed_(scene.node_count(), 0) {}
+  Writer(const Scene& scene, const VrmlOptions& options, const Sink& sink) : scene_(scene), options_(options), out_(sink), names_(scene, options.own_fields), printed_(scene.node_count(), 0) {}
 
   void file() {
     out_ << "#VRML V2.0 utf8\n" << scene_.comment;
@@ -202,7 +206,7 @@ class Writer {
     ++depth_;
     bool empty = true;
     const auto own = own_fields(scene_.type(n));
-    const auto written = Names::printed_order(scene_, n);
+    const auto written = names_.printed_order(n);
     for (const Value* v : written)
       if (v->slot < own) empty &= !field(n, *v);
     for (std::size_t i = own; i < scene_.type(n).fields.size(); ++i) own_field(n, static_cast<std::uint16_t>(i)), empty = false;

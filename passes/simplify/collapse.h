@@ -79,7 +79,7 @@ struct CollapseRecord {
   std::vector<CornerChange> corners;
   std::vector<WedgeChange> wedges;
 
-  int width = 0;              // floats of a wedge: normal, then color, then texcoord, where present
+  int width = 0;              // floats of a wedge: normal, color, texcoord, lightcoord, where present
   std::vector<float> values;  // of all wedges in the beginning, then what they became
   // In the beginning: the vertex of each wedge, and the wedge of each corner (0xffffffff: of a face that was dropped).
   std::vector<std::uint32_t> wedge_vertex, wedge_of_corner;

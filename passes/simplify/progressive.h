@@ -72,7 +72,7 @@ struct ProgressiveRecord {
   int width() const { return n_normal + n_color + n_texcoord; }
 };
 
-/// Turns a record of collapses of `mesh` round. O(n log n).
+/// Turns a record of collapses of `mesh` round, which has no lightcoord. O(n log n).
 ProgressiveRecord make_progressive(const Mesh& mesh, const CollapseRecord& record);
 /// Collapses a mesh of triangles (Mesh::is_triangles) until at most `base_faces` are left, or none may go any more, and
 /// turns the record round. Nothing for Criterion::meshopt, which keeps no record.

@@ -106,13 +106,17 @@ std::vector<ProgressiveSurface> progressive_surfaces(const Scene& scene, Criteri
   std::vector<ProgressiveSurface> out;
   std::vector<Mesh> meshes;
   SurfaceReader reader(scene, ctx);
+  std::size_t n_lit = 0;
   for (auto& placed : places_of(scene, ctx.diag)) {
     Mesh mesh;
     reader.read({placed.geometry, {}}, mesh);
     if (mesh.n_faces() == 0) continue;
+    n_lit += mesh.lightcoord.present();
+    mesh.lightcoord.clear();
     meshes.push_back(std::move(mesh));
     out.push_back({std::move(placed.places), {}});
   }
+  if (n_lit) ctx.diag.report(Diag::no_progressive_light, {}, n_lit);
   tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
     if (const auto record = make_progressive(meshes[i], criterion)) out[i].stream = write_progressive(*record);
   });

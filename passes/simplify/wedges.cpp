@@ -31,7 +31,8 @@ Wedges::Wedges(const Mesh& mesh, const Surface& surface) {
   n_normal_ = mesh.normal.present() ? mesh.normal.width : 0;
   n_color_ = mesh.color.present() ? mesh.color.width : 0;
   n_texcoord_ = mesh.texcoord.present() ? mesh.texcoord.width : 0;
-  width_ = n_normal_ + n_color_ + n_texcoord_;
+  n_lightcoord_ = mesh.lightcoord.present() ? mesh.lightcoord.width : 0;
+  width_ = n_normal_ + n_color_ + n_texcoord_ + n_lightcoord_;
   if (!present()) return;
   of_face.resize(surface.n_slots());
   std::vector<std::uint32_t> last(surface.n_vertices(), none), before;  // chains of the wedges of a vertex
@@ -41,7 +42,7 @@ Wedges::Wedges(const Mesh& mesh, const Surface& surface) {
     for (int k = 0; k < 3; ++k) {
       std::size_t corner = std::size_t{3} * f + k;
       float* to = v.data();
-      for (const Attribute* a : {&mesh.normal, &mesh.color, &mesh.texcoord})
+      for (const Attribute* a : mesh.attributes())
         if (a->present()) to = std::copy_n(a->at(a->index[corner]), a->width, to);
       std::uint32_t& head = last[surface.face[f].v[k]];
       std::uint32_t w = head;
@@ -83,9 +84,11 @@ void Wedges::interpolate(std::uint32_t a, std::uint32_t b, double t, float* out)
 
 void Wedges::write(Mesh& mesh, const Surface& surface) const {
   mesh.normal = Attribute(3), mesh.color = Attribute(n_color_ ? n_color_ : 3), mesh.texcoord = Attribute(2);
+  mesh.lightcoord = Attribute(2);
   if (n_normal_) write_stream(mesh.normal, *this, surface, 0);
   if (n_color_) write_stream(mesh.color, *this, surface, n_normal_);
   if (n_texcoord_) write_stream(mesh.texcoord, *this, surface, n_normal_ + n_color_);
+  if (n_lightcoord_) write_stream(mesh.lightcoord, *this, surface, n_normal_ + n_color_ + n_texcoord_);
 }
 
 }  // namespace wrlkit::simplify

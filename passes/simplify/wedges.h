@@ -15,7 +15,7 @@ class Wedges {
 
   bool present() const { return width_ > 0; }
   int width() const { return width_; }
-  /// Floats of a wedge, in the order normal, color, texcoord.
+  /// Floats of a wedge, in the order normal, color, texcoord, lightcoord.
   const float* at(std::uint32_t wedge) const { return values.data() + std::size_t{wedge} * width_; }
   float* at(std::uint32_t wedge) { return values.data() + std::size_t{wedge} * width_; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(width_ ? values.size() / width_ : 0); }
@@ -33,7 +33,7 @@ class Wedges {
   std::vector<float> values;
 
  private:
-  int n_normal_ = 0, n_color_ = 0, n_texcoord_ = 0, width_ = 0;
+  int n_normal_ = 0, n_color_ = 0, n_texcoord_ = 0, n_lightcoord_ = 0, width_ = 0;
 };
 
 }  // namespace wrlkit::simplify

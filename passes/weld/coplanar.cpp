@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace wrlkit {
 namespace {
@@ -112,7 +113,7 @@ bool CoplanarMerger::fits(const Surface& s, const Frame& frame, std::uint32_t f)
     if (!(std::abs(dot(d, frame.normal)) <= near_)) return false;
     double du = dot(d, frame.u), dv = dot(d, frame.v);
     double x = (du * frame.vv - dv * frame.uv) / det, y = (dv * frame.uu - du * frame.uv) / det;
-    for (const Attribute* a : {&s.mesh.normal, &s.mesh.color, &s.mesh.texcoord})
+    for (const Attribute* a : std::as_const(s.mesh).attributes())
       if (a->present() && !linear(*a, frame, x, y, c)) return false;
   }
   return true;

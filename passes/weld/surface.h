@@ -39,7 +39,7 @@ struct Surface {
 template <class F>
 void for_each_stream(Mesh& mesh, F f) {
   f(mesh.corners);
-  for (Attribute* a : {&mesh.normal, &mesh.color, &mesh.texcoord})
+  for (Attribute* a : mesh.attributes())
     if (a->present()) f(a->index);
 }
 

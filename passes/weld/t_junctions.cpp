@@ -102,7 +102,7 @@ void TJunctions::test(const Surface& s, std::uint32_t corner, std::uint32_t poin
 /// Attributes first, while the corners still tell where they are.
 void TJunctions::insert(const Surface& s) {
   Mesh& mesh = s.mesh;
-  for (Attribute* a : {&mesh.normal, &mesh.color, &mesh.texcoord})
+  for (Attribute* a : mesh.attributes())
     if (a->present()) interpolate(*a, s);
   face_begin_.assign(1, 0);
   room_.clear();

@@ -85,7 +85,7 @@ void check_valid(const Mesh& mesh) {
     return std::ranges::all_of(index, [n](auto i) { return i < n; });
   };
   REQUIRE(below(mesh.corners, mesh.n_positions()));
-  for (const Attribute* a : {&mesh.normal, &mesh.color, &mesh.texcoord}) {
+  for (const Attribute* a : mesh.attributes()) {
     if (!a->present()) continue;
     REQUIRE(a->index.size() == mesh.corners.size());
     REQUIRE(below(a->index, a->count()));
