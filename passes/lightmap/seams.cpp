@@ -22,10 +22,10 @@ struct Agreement {
 
 class System {
  public:
-  System(std::vector<Rgb>& texels, int width, int height) : texels_(texels), width_(width), height_(height) {}
+  explicit System(std::span<Canvas> pages) : pages_(pages) {}
 
   void add(const Seam& s) {
-    auto length = [](const Spot2 e[2]) { return std::hypot(e[1].x - e[0].x, e[1].y - e[0].y); };
+    auto length = [](const SeamSide& e) { return std::hypot(e.end[1].x - e.end[0].x, e.end[1].y - e.end[0].y); };
     const int n = std::clamp(static_cast<int>(std::ceil(2 * std::max(length(s.a), length(s.b)))), 1, 1 << 16);
     for (int i = 0; i < n; ++i) {
       const float t = (i + 0.5f) / n;
@@ -36,7 +36,7 @@ class System {
   /// Conjugate gradients on (A^T A + stay I) x = stay x0, from x0.
   void solve(int iterations) {
     std::vector<Rgb> x(texel_of_.size()), r(x.size()), p(x.size()), q(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = texels_[texel_of_[i]];
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = texel(i);
     apply(x, q);
     for (std::size_t i = 0; i < x.size(); ++i) p[i] = r[i] = stay * x[i] - q[i];
     double rr = dot(r, r);
@@ -50,23 +50,27 @@ class System {
       for (std::size_t i = 0; i < p.size(); ++i) p[i] = r[i] + turn * p[i];
       rr = next;
     }
-    for (std::size_t i = 0; i < x.size(); ++i) texels_[texel_of_[i]] = {std::max(0.0f, x[i].r), std::max(0.0f, x[i].g), std::max(0.0f, x[i].b)};
+    for (std::size_t i = 0; i < x.size(); ++i) texel(i) = {std::max(0.0f, x[i].r), std::max(0.0f, x[i].g), std::max(0.0f, x[i].b)};
   }
 
  private:
-  Tap tap(const Spot2 e[2], float t) {
-    const float x = e[0].x + t * (e[1].x - e[0].x) - 0.5f, y = e[0].y + t * (e[1].y - e[0].y) - 0.5f;
+  Tap tap(const SeamSide& e, float t) {
+    const Canvas& page = pages_[e.page];
+    const float x = e.end[0].x + t * (e.end[1].x - e.end[0].x) - 0.5f, y = e.end[0].y + t * (e.end[1].y - e.end[0].y) - 0.5f;
     const float fx = x - std::floor(x), fy = y - std::floor(y);
     Tap out;
     for (int k = 0; k < 4; ++k) {
-      const int u = std::clamp(static_cast<int>(std::floor(x)) + (k & 1), 0, width_ - 1), v = std::clamp(static_cast<int>(std::floor(y)) + (k >> 1), 0, height_ - 1);
-      out.unknown[k] = number_of(std::size_t(v) * width_ + u);
+      const int u = std::clamp(static_cast<int>(std::floor(x)) + (k & 1), 0, page.width - 1);
+      const int v = std::clamp(static_cast<int>(std::floor(y)) + (k >> 1), 0, page.height - 1);
+      out.unknown[k] = number_of(std::uint64_t{e.page} << 32 | (std::uint64_t(v) * page.width + u));
       out.weight[k] = (k & 1 ? fx : 1 - fx) * (k >> 1 ? fy : 1 - fy);
     }
     return out;
   }
 
-  std::uint32_t number_of(std::size_t texel) {
+  Rgb& texel(std::size_t unknown) { return pages_[texel_of_[unknown] >> 32].texels[texel_of_[unknown] & 0xffffffff]; }
+
+  std::uint32_t number_of(std::uint64_t texel) {
     auto [at, added] = numbers_.try_emplace(texel, static_cast<std::uint32_t>(texel_of_.size()));
     if (added) texel_of_.push_back(texel);
     return at->second;
@@ -95,17 +99,16 @@ class System {
     return sum;
   }
 
-  std::vector<Rgb>& texels_;
-  int width_, height_;
+  std::span<Canvas> pages_;
   std::vector<Agreement> agreements_;
-  std::unordered_map<std::size_t, std::uint32_t> numbers_;
-  std::vector<std::size_t> texel_of_;
+  std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
+  std::vector<std::uint64_t> texel_of_;  // by unknown: page, and place in it
 };
 
 }  // namespace
 
-void close_seams(std::vector<Rgb>& texels, int width, int height, std::span<const Seam> seams, int iterations) {
-  System system(texels, width, height);
+void close_seams(std::span<Canvas> pages, std::span<const Seam> seams, int iterations) {
+  System system(pages);
   for (const Seam& s : seams) system.add(s);
   system.solve(iterations);
 }

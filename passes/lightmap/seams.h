@@ -9,14 +9,26 @@
 
 namespace wrlkit::bake {
 
-/// An edge that lies on a page twice: a[0] and b[0] are one point of the surface, a[1] and b[1] the other.
+/// One side of a cut: a line on a page.
+struct SeamSide {
+  std::uint32_t page;
+  Spot2 end[2];
+};
+
+/// An edge of the surface that lies in two places: a.end[0] and b.end[0] are one point, a.end[1] and b.end[1] the other.
 struct Seam {
-  Spot2 a[2], b[2];
+  SeamSide a, b;
+};
+
+/// The texels of a page, row 0 the lowest.
+struct Canvas {
+  int width = 0, height = 0;
+  std::vector<Rgb> texels;
 };
 
 /// Changes the texels along the seams by as little as makes what a bilinear filter shows on both sides the same: least
 /// squares over the texels that the filter reaches, solved by conjugate gradients. Texels elsewhere stay as they are.
 /// O(texels along the seams * iterations).
-void close_seams(std::vector<Rgb>& texels, int width, int height, std::span<const Seam> seams, int iterations = 30);
+void close_seams(std::span<Canvas> pages, std::span<const Seam> seams, int iterations = 30);
 
 }  // namespace wrlkit::bake

@@ -182,8 +182,10 @@ TEST_CASE("seams: both sides show the same, by small changes, and nothing else m
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) texels[y * n + x] = x < 16 ? Rgb{1, 1, 1} : Rgb{1.2f, 1.2f, 1.2f};
   // The right border of one chart and a slanted line in the other.
-  std::vector<Seam> seams{{{{10.3f, 4}, {10.3f, 20}}, {{22.2f, 5}, {24.7f, 20.6f}}}};
-  close_seams(texels, n, n, seams);
+  std::vector<Seam> seams{{{0, {{10.3f, 4}, {10.3f, 20}}}, {0, {{22.2f, 5}, {24.7f, 20.6f}}}}};
+  Canvas page{n, n, texels};
+  close_seams({&page, 1}, seams);
+  texels = page.texels;
   for (float t = 0.05f; t < 1; t += 0.1f) {
     float a = shown(texels, n, 10.3f, 4 + 16 * t), b = shown(texels, n, 22.2f + 2.5f * t, 5 + 15.6f * t);
     CHECK(a == Approx(b).margin(0.02));

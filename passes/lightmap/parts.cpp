@@ -1,0 +1,201 @@
+#include "passes/lightmap/parts.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "passes/normals.h"
+#include "passes/parallel.h"
+#include "passes/simplify/surfaces.h"
+#include "passes/unwrap/unfold.h"
+#include "passes/weld/points.h"
+#include "scenegraph/nodes.h"
+
+namespace wrlkit::bake {
+namespace {
+
+using drawing::Affine;
+using drawing::Stage;
+using drawing::V3;
+
+/// The number of the point of each corner: equal positions are one point.
+std::vector<std::uint32_t> points_of(const Mesh& mesh, PointJoiner& joiner) {
+  std::vector<std::uint32_t> index = mesh.corners;
+  StampedMap map;
+  joiner.join_equal(mesh.positions.span(), index, map);
+  return index;
+}
+
+/// Whether each edge of the surface is gone along once in each direction.
+bool is_closed(const std::vector<std::uint32_t>& corners) {
+  std::vector<std::uint64_t> edges;
+  edges.reserve(corners.size());
+  for (std::size_t t = 0; t < corners.size(); t += 3)
+    for (int k = 0; k < 3; ++k) edges.push_back(std::uint64_t{corners[t + k]} << 32 | corners[t + (k + 1) % 3]);
+  std::ranges::sort(edges);
+  if (std::ranges::adjacent_find(edges) != edges.end()) return false;
+  return std::ranges::all_of(edges, [&](std::uint64_t e) { return std::ranges::binary_search(edges, e << 32 | e >> 32); });
+}
+
+double signed_volume(const Part& p) {
+  const V3 from = p.position(0);
+  double six = 0;
+  for (std::size_t c = 0; c < p.mesh.corners.size(); c += 3)
+    six += dot(p.position(c) - from, cross(p.position(c + 1) - from, p.position(c + 2) - from));
+  return six / 6;
+}
+
+/// Appends a triangle's corners in the other order, with all that they have.
+class Backs {
+ public:
+  explicit Backs(Part& part) : part_(part), n_(part.mesh.corners.size()) {}
+
+  void append() {
+    Mesh& m = part_.mesh;
+    append_turned(m.corners, m.corners);
+    for (Attribute* a : m.attributes())
+      if (a->present() && a != &m.normal) append_turned(a->index, a->index);
+    if (m.normal.present()) append_normals(m.normal);
+    part_.normals.resize(2 * 3 * n_);
+    for (std::size_t c = 0; c < n_; ++c)
+      for (int k = 0; k < 3; ++k) part_.normals[3 * (n_ + c) + k] = -part_.normals[3 * turned(c) + k];
+  }
+
+  /// Fronts become backs.
+  void turn() {
+    Mesh& m = part_.mesh;
+    for (Attribute* a : m.attributes())
+      if (a->present()) swap(a->index);
+    for (float& v : m.normal.values) v = -v;
+    swap(m.corners);
+    for (std::size_t c = 0; c < n_; c += 3)
+      for (int k = 0; k < 3; ++k) std::swap(part_.normals[3 * (c + 1) + k], part_.normals[3 * (c + 2) + k]);
+    for (float& v : part_.normals) v = -v;
+  }
+
+ private:
+  static std::size_t turned(std::size_t corner) { return corner % 3 == 1 ? corner + 1 : corner % 3 == 2 ? corner - 1 : corner; }
+
+  void append_turned(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>&) const {
+    to.resize(2 * n_);
+    for (std::size_t c = 0; c < n_; ++c) to[n_ + c] = to[turned(c)];
+  }
+  void append_normals(Attribute& a) const {
+    const auto n_values = static_cast<std::uint32_t>(a.count());
+    for (std::uint32_t i = 0; i < 3 * n_values; ++i) a.values.push_back(-a.values[i]);
+    a.index.resize(2 * n_);
+    for (std::size_t c = 0; c < n_; ++c) a.index[n_ + c] = a.index[turned(c)] + n_values;
+  }
+  void swap(std::vector<std::uint32_t>& index) const {
+    for (std::size_t c = 0; c < n_; c += 3) std::swap(index[c + 1], index[c + 2]);
+  }
+
+  Part& part_;
+  std::size_t n_;
+};
+
+class Finder {
+ public:
+  Finder(const Scene& scene, const Stage& stage, PassContext& ctx) : scene_(scene), stage_(stage), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
+    for (const auto& s : surfaces_of(scene)) lit_.emplace(s.geometry.value, s);
+  }
+
+  std::vector<Part> run() {
+    std::unordered_map<std::uint32_t, std::size_t> number;
+    std::vector<Part> parts;
+    for (std::uint32_t u = 0; u < stage_.uses.size(); ++u) {
+      const auto& use = stage_.uses[u];
+      if (!lit_.contains(use.geometry.value) || !has_material(use.appearance)) continue;
+      auto [at, added] = number.try_emplace(use.geometry.value, parts.size());
+      if (added) parts.push_back({.geometry = use.geometry});
+      if (finite(stage_.frames[use.frame])) parts[at->second].uses.push_back(u);
+    }
+    for (Part& p : parts) read(p);
+    std::erase_if(parts, [](const Part& p) { return p.uses.empty() || p.mesh.corners.empty(); });
+    return parts;
+  }
+
+ private:
+  bool has_material(NodeId appearance) const {
+    return scene_.is(appearance, nodes::Appearance) && scene_.is(scene_.get(appearance, nodes::appearance::material), nodes::Material);
+  }
+
+  void read(Part& p) {
+    reader_.read(lit_.at(p.geometry.value), p.mesh);
+    if (p.mesh.corners.empty()) return;
+    resolve_order(p.mesh);
+    add_normals(p);
+    p.n_fronts = p.n_triangles();
+    if (p.mesh.solid) return;
+    PointJoiner joiner;
+    p.mesh.solid = true;
+    if (!is_closed(points_of(p.mesh, joiner))) Backs(p).append();
+    else if (signed_volume(p) < 0) Backs(p).turn();
+  }
+
+  /// `ccw` FALSE: corners and all that they have turn round, so that the front is where they run counter-clockwise.
+  static void resolve_order(Mesh& m) {
+    if (m.ccw) return;
+    m.ccw = true;
+    auto turn = [](std::vector<std::uint32_t>& index) {
+      for (std::size_t c = 0; c + 2 < index.size(); c += 3) std::swap(index[c + 1], index[c + 2]);
+    };
+    turn(m.corners);
+    for (Attribute* a : m.attributes())
+      if (a->present()) turn(a->index);
+  }
+
+  void add_normals(Part& p) {
+    shaded_ = p.mesh;
+    MeshJob job{scene_, p.geometry, shaded_, scratch_, reading_};
+    normals(job, {});
+    p.normals.resize(3 * p.mesh.corners.size());
+    for (std::size_t c = 0; c < p.mesh.corners.size(); ++c) {
+      const float* n = shaded_.normal.present() ? shaded_.normal.at(shaded_.normal.index[c]) : nullptr;
+      const V3 u = n ? unit(V3(n[0], n[1], n[2])) : V3();
+      p.normals[3 * c] = static_cast<float>(u.x), p.normals[3 * c + 1] = static_cast<float>(u.y), p.normals[3 * c + 2] = static_cast<float>(u.z);
+    }
+  }
+
+  const Scene& scene_;
+  const Stage& stage_;
+  Diagnostics unheard_;  // whoever draws the geometry says what is wrong with it
+  Statistics unheard_counts_;
+  PassContext reading_;
+  SurfaceReader reader_;
+  std::unordered_map<std::uint32_t, ShapeSurface> lit_;
+  Mesh shaded_;
+  MeshScratch scratch_;
+};
+
+void unfold(Part& p, const Stage& stage) {
+  const Affine& frame = stage.frames[stage.uses[p.uses[0]].frame];
+  PointJoiner joiner;
+  auto corners = points_of(p.mesh, joiner);
+  std::vector<double> world(joiner.points.size());
+  for (std::size_t i = 0; i + 2 < world.size(); i += 3) {
+    const V3 v = frame.vector({joiner.points[i], joiner.points[i + 1], joiner.points[i + 2]});
+    world[i] = v.x, world[i + 1] = v.y, world[i + 2] = v.z;
+  }
+  // A frame that mirrors shows the front of a face where its corners run clockwise.
+  if (frame.determinant() < 0)
+    for (std::size_t c = 0; c < corners.size(); c += 3) std::swap(corners[c + 1], corners[c + 2]);
+  // Backs lie on the points of their fronts and would be taken for neighbours: they get points of their own.
+  if (p.n_fronts < p.n_triangles()) {
+    const auto n_points = static_cast<std::uint32_t>(world.size() / 3);
+    world.insert(world.end(), world.begin(), world.begin() + 3 * std::ptrdiff_t{n_points});
+    for (std::size_t c = 3 * p.n_fronts; c < corners.size(); ++c) corners[c] += n_points;
+  }
+  p.charts = unwrap::unfold({world, corners, {}});
+  if (frame.determinant() < 0)
+    for (std::size_t c = 0; c < corners.size(); c += 3) std::swap(p.charts.places[c + 1], p.charts.places[c + 2]);
+}
+
+}  // namespace
+
+std::vector<Part> find_parts(const Scene& scene, const Stage& stage, PassContext& ctx) { return Finder(scene, stage, ctx).run(); }
+
+void unfold_parts(std::vector<Part>& parts, const Stage& stage) {
+  parallel_for(parts.size(), [&](std::size_t i) { unfold(parts[i], stage); });
+}
+
+}  // namespace wrlkit::bake

@@ -1,0 +1,41 @@
+// The surfaces that get light: their triangles, the normals by which they are shaded, and their charts.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "passes/pass.h"
+#include "passes/render/stage.h"
+#include "passes/unwrap/charts.h"
+
+namespace wrlkit::bake {
+
+/// A geometry node, and the Shapes that show it.
+struct Part {
+  NodeId geometry;
+  std::vector<std::uint32_t> uses;   // into Stage::uses; one for each Shape
+  Mesh mesh;                         // triangles; the backs, where they need light of their own, behind the fronts
+  std::vector<float> normals;        // unit, of each corner, in the frame of the geometry
+  std::size_t n_fronts = 0;          // triangles that are not backs
+  unwrap::Charts charts;             // in metres of the world, as the first use has it
+
+  std::size_t n_triangles() const { return mesh.corners.size() / 3; }
+  drawing::V3 position(std::size_t corner) const {
+    const double* p = mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3;
+    return {p[0], p[1], p[2]};
+  }
+  drawing::V3 normal(std::size_t corner) const { return {normals[3 * corner], normals[3 * corner + 1], normals[3 * corner + 2]}; }
+};
+
+/// The parts of a stage, in its order. Left out: what has no Material, as it is not lit; text, lines and points; geometry
+/// that events can change. O(triangles).
+///
+/// A face of `solid` FALSE is seen from both sides, which have light of their own; where the surface is closed nobody sees
+/// the inner side, and only the outer one is lit. So an open surface of `solid` FALSE gets a back for each face, and
+/// `solid` TRUE. A closed one that is wound inside out is turned.
+std::vector<Part> find_parts(const Scene& scene, const drawing::Stage& stage, PassContext& ctx);
+
+/// Unfolds each part into charts; in parallel.
+void unfold_parts(std::vector<Part>& parts, const drawing::Stage& stage);
+
+}  // namespace wrlkit::bake
