@@ -92,6 +92,7 @@ struct RayScene::State {
   std::vector<const Batch*> batch_of{};     // by Embree's geometry number; null: an instance
   std::vector<std::uint32_t> use_of{};      // the same, of instances
   std::vector<RTCScene> instanced{};        // by mesh
+  std::vector<char> held{};                 // by use
 
   ~State();
   bool is_clear(std::uint32_t use) const { return use < options.clear.size() && options.clear[use]; }
@@ -212,15 +213,17 @@ void RayScene::State::place_uses(Diagnostics& diag) {
   std::size_t all = 0, flat = 0;
   for (auto m : mesh_of) ++n_uses[m], all += meshes[m].n_elements;
   std::unordered_set<Placement, PlacementHash> placed;
+  held.resize(mesh_of.size());
   for (std::uint32_t u = 0; u < mesh_of.size(); ++u) {
     const PooledMesh& m = meshes[mesh_of[u]];
     const Affine& frame = stage.frames[stage.uses[u].frame];
     if (!m.n_elements || !finite(frame) || (m.kind != Mesh::Kind::faces && !options.pen)) continue;
     if (n_uses[mesh_of[u]] > 1 && !placed.insert({mesh_of[u], frame}).second) continue;
-    if (all > options.all_flat && is_instanced(u, n_uses)) { instance(u); continue; }
-    flat += m.n_elements;
+    bool instanced = all > options.all_flat && is_instanced(u, n_uses);
+    flat += instanced ? 0 : m.n_elements;
     if (flat > MeshPool::most_elements) return diag.report(Diag::expansion_limit, {}, MeshPool::most_elements, "triangles");
-    flatten(u);
+    held[u] = true;
+    instanced ? instance(u) : flatten(u);
   }
 }
 
@@ -375,6 +378,7 @@ RayScene::~RayScene() = default;
 
 const V3& RayScene::centre() const { return state_->centre; }
 double RayScene::radius() const { return state_->radius; }
+bool RayScene::holds(std::uint32_t use) const { return state_->held[use]; }
 
 bool RayScene::nearest(const Ray& ray, double after, Hit& hit) const {
   const State& s = *state_;

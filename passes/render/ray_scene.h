@@ -63,6 +63,8 @@ class RayScene {
   /// and faster than nearest().
   bool occluded(const Ray& ray, double after, double before) const;
 
+  /// Whether a use is there. Of several that are one mesh in one place only the first is, and none that has no triangles.
+  bool holds(std::uint32_t use) const;
   /// Of the world; single-precision coordinates are relative to it.
   const V3& centre() const;
   /// No coordinate of the world is further from the centre than this.
