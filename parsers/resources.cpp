@@ -30,7 +30,7 @@ std::vector<std::string> folders(const ResourceOptions& options) {
 /// What a url leads to: a file, or the data in it.
 struct FileResources::Target {
   AllowedFiles::State state = AllowedFiles::missing;
-  std::string path;  // to read; empty: the key is a data url
+  std::string path;  // to read; empty: the key is a data url, or that of a file that was made
   std::string key;
 };
 
@@ -75,7 +75,7 @@ std::shared_ptr<const T> FileResources::first_of(std::span<const std::string_vie
     auto kind = url_kind(url);
     if (kind == UrlKind::script || is_blank(url)) continue;
     Failure now{Diag::url_not_found, url, {}};
-    if (kind == UrlKind::remote)
+    if (kind == UrlKind::remote && !find_made(url))
       now.id = Diag::url_network;
     else if (auto target = locate(url, where, diag.sources()); target.state == AllowedFiles::outside)
       now.id = Diag::url_outside;
@@ -102,7 +102,7 @@ void FileResources::report_once(Diagnostics& diag, Diag id, Span where, std::str
 }
 
 FileResources::Target FileResources::locate(std::string_view url, Span where, const Sources& sources) {
-  if (url_kind(url) == UrlKind::data) return {AllowedFiles::found, {}, std::string(url)};
+  if (url_kind(url) == UrlKind::data || find_made(url)) return {AllowedFiles::found, {}, std::string(url)};
   std::lock_guard lock(mutex_);
   std::string referrer(sources.file(where.begin));
   if (referrer.empty() || referrer == standard_input_name) referrer = options_.input;
@@ -143,11 +143,12 @@ void FileResources::keep(const std::shared_ptr<const T>& object) {
 
 std::shared_ptr<const Blob> FileResources::blob(const Target& target, std::string& why) {
   return once(blobs_, target, why, [&](std::string& fault) -> std::shared_ptr<const Blob> {
-    bool is_data = target.path.empty();
-    auto bytes = is_data ? decode_data_url(target.key) : read_bytes(target.path, options_.max_bytes, fault);
+    const MadeFile* made_here = find_made(target.key);
+    bool is_data = target.path.empty() && !made_here;
+    auto bytes = made_here ? *made_here->bytes : is_data ? decode_data_url(target.key) : read_bytes(target.path, options_.max_bytes, fault);
     if (!bytes && is_data) fault = "the data in the url are damaged";
     if (!bytes) return nullptr;
-    auto name = is_data ? std::string("data") : fs::path(target.path).filename().string();
+    auto name = made_here ? made_here->name : is_data ? std::string("data") : fs::path(target.path).filename().string();
     auto made = std::make_shared<Blob>(Blob{std::move(name), std::move(*bytes), {}});
     made->mime = sniff_mime(made->bytes, made->name);
     return made;

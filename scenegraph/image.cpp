@@ -90,7 +90,9 @@ bool decode(std::string_view bytes, std::string_view mime, Image& image, std::st
   return opened.module->decode({bytes, codec->name, &image_size_fault}, image, error);
 }
 
-std::optional<std::string> encode(const Image& image, const char* codec, int quality, std::string& error) {
+/// The bytes that `write(module, bytes)` makes of a picture that has all its pixels.
+template <class Picture, class Write>
+std::optional<std::string> encode_with(const Picture& image, std::string& error, Write write) {
   auto pixels = std::uint64_t(image.width) * std::uint64_t(image.height) * std::uint64_t(image.channels);
   if (image.width <= 0 || image.height <= 0 || image.channels < 1 || image.channels > 4 ||
       image.pixels.size() != pixels)
@@ -98,8 +100,31 @@ std::optional<std::string> encode(const Image& image, const char* codec, int qua
   auto& opened = image_module();
   if (!opened.module) return error = opened.error, std::nullopt;
   std::string bytes;
-  if (!opened.module->encode(image, codec, quality, bytes, error)) return std::nullopt;
+  if (!write(*opened.module, bytes)) return std::nullopt;
   return bytes;
+}
+
+std::optional<std::string> encode(const Image& image, const char* codec, int quality, std::string& error) {
+  return encode_with(image, error, [&](const ImageModule& module, std::string& bytes) {
+    return module.encode(image, codec, quality, bytes, error);
+  });
+}
+
+constexpr int unseen_losses = 92;  // quality
+
+std::optional<std::string> png_of(const Image& image, std::string& error) { return encode_png(image, error); }
+std::optional<std::string> jpeg_of(const Image& image, std::string& error) { return encode_jpeg(image, unseen_losses, error); }
+std::optional<std::string> webp_of(const Image& image, std::string& error) { return encode_webp(image, unseen_losses, error); }
+
+struct Extension {
+  std::string_view end;
+  std::optional<std::string> (*encode)(const Image&, std::string& error);
+};
+constexpr Extension extensions[] = {{".png", png_of}, {".jpg", jpeg_of}, {".jpeg", jpeg_of}, {".webp", webp_of}};
+
+const Extension* extension_of(std::string_view name) {
+  auto i = std::ranges::find_if(extensions, [&](const Extension& e) { return name.ends_with(e.end); });
+  return i == std::end(extensions) ? nullptr : i;
 }
 
 }  // namespace
@@ -129,6 +154,22 @@ std::optional<std::string> encode_jpeg(const Image& image, int quality, std::str
   bool alpha = image.channels % 2 == 0;
   return encode(alpha ? with_channels(image, image.channels - 1) : image, "jpeg", std::clamp(quality, 1, 100), error);
 }
+
+std::optional<std::string> encode_webp(const Image& image, int quality, std::string& error) {
+  int channels = image.channels % 2 == 0 ? 4 : 3;
+  return encode(image.channels == channels ? image : with_channels(image, channels), "webp", std::clamp(quality, 1, 100), error);
+}
+
+std::optional<std::string> encode_exr(const FloatImage& image, std::string& error) {
+  return encode_with(image, error, [&](const ImageModule& module, std::string& bytes) { return module.encode_exr(image, bytes, error); });
+}
+
+std::optional<std::string> encode_as(std::string_view name, const Image& image, std::string& error) {
+  auto* e = extension_of(name);
+  return e ? e->encode(image, error) : std::nullopt;
+}
+
+bool can_encode_as(std::string_view name) { return extension_of(name) != nullptr; }
 
 Image with_channels(Image from, int channels) {
   if (from.channels == channels) return from;

@@ -17,6 +17,12 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
+/// The same in linear light, as numbers of any size.
+struct FloatImage {
+  int width = 0, height = 0, channels = 0;
+  std::vector<float> pixels;
+};
+
 struct ImageHeader {
   int width = 0, height = 0, channels = 0;  // as decode_image gives them
   bool alpha = false;
@@ -46,6 +52,15 @@ std::optional<Image> decode_image(std::string_view bytes, std::string_view name,
 std::optional<std::string> encode_png(const Image&, std::string& error);
 /// `quality` from 1 to 100. JPEG has no alpha; it is dropped.
 std::optional<std::string> encode_jpeg(const Image&, int quality, std::string& error);
+/// `quality` from 1 to 100; 100 keeps every pixel. Grey becomes RGB, for WebP has no grey.
+std::optional<std::string> encode_webp(const Image&, int quality, std::string& error);
+/// OpenEXR in half precision, which is 11 bits from 0.00006 to 65504, compressed without loss.
+std::optional<std::string> encode_exr(const FloatImage&, std::string& error);
+/// PNG, JPEG or WebP by the name's extension, the latter two at a quality at which no artefacts are seen. Null and no error
+/// when the extension is none of them.
+std::optional<std::string> encode_as(std::string_view name, const Image&, std::string& error);
+/// Whether encode_as knows the extension.
+bool can_encode_as(std::string_view name);
 
 /// The picture with 1 to 4 channels: alpha is dropped or opaque, grey is spread or the red channel.
 Image with_channels(Image, int channels);

@@ -17,6 +17,7 @@ struct ImageModule {
   /// Pixels of the first picture, with the channels that the codec gives.
   bool (*decode)(const DecodeRequest&, Image&, std::string& error);
   bool (*encode)(const Image&, const char* codec, int quality, std::string& bytes, std::string& error);
+  bool (*encode_exr)(const FloatImage&, std::string& bytes, std::string& error);
 };
 
 }  // namespace wrlkit

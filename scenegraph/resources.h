@@ -1,6 +1,7 @@
 // What a world refers to: pictures, other worlds, bytes. The interface through which passes and writers reach them; the
 // implementation (parsers/resources.h) reads files below the allowed folders and nothing else.
 #pragma once
+#include <deque>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,6 +21,15 @@ struct Blob {
   std::string_view mime;  // "image/png", "image/jpeg", ... by magic bytes; empty: unknown
 };
 
+/// Urls of files that exist in memory only, until a writer gives them a place.
+inline constexpr std::string_view made_scheme = "wrlkit:";
+
+struct MadeFile {
+  std::string name;  // "lightmap_0.png"
+  std::shared_ptr<const std::string> bytes;
+  bool always = false;  // written even if the world that is written does not refer to it
+};
+
 class Resources {
  public:
   virtual ~Resources() = default;
@@ -29,6 +39,17 @@ class Resources {
   virtual std::shared_ptr<const Blob> bytes(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
   virtual std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
   virtual std::shared_ptr<const Scene> world(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
+
+  /// Hands in a file that a pass has made and returns its url, made_scheme + name: whoever asks for that gets these bytes.
+  /// A name that is taken gets a number. Writers put what is made inside their file, or beside it.
+  std::string add_made(MadeFile);
+  /// In the order in which they were handed in.
+  const std::deque<MadeFile>& made() const { return made_; }
+  /// Null when there is none of that url.
+  const MadeFile* find_made(std::string_view url) const;
+
+ private:
+  std::deque<MadeFile> made_;
 };
 
 }  // namespace wrlkit

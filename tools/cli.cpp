@@ -54,6 +54,7 @@ void pipeline(CLI::App& verb, Flags& f) {
 
 void vrml_output(CLI::App& verb, Flags& f) {
   verb.add_flag("--gzip", f.gzip, "compress VRML output");
+  verb.add_flag("--dump", f.dump, "VRML output with wrlkit's own fields, which no browser knows: the scene as passes leave it");
   verb.add_option("--precision", f.precision, "significant digits of VRML output; 0: all that are needed")->check(CLI::Range(0, 17));
 }
 
@@ -64,7 +65,7 @@ void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")->expected(3)->delimiter(',');
   verb.add_option("--headlight", f.headlight, "on or off, whatever NavigationInfo says")->check(CLI::IsMember({"on", "off"}));
   verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")->check(CLI::Range(0.0, 179.0));
-  verb.add_option("--mode", f.mode, "preview or wireframe")->check(CLI::IsMember({"preview", "wireframe"}))->capture_default_str();
+  verb.add_option("--mode", f.mode, "preview; wireframe; albedo: no light; and of lightmaps: the light alone, its texels as a checker, their density (texels a metre)")->check(CLI::IsMember({"preview", "wireframe", "albedo", "lightmap", "checker", "density"}))->capture_default_str();
 }
 
 struct Verb {
@@ -111,7 +112,7 @@ const Verb verbs[] = {
     {"render", "a picture of the world, without a display", "wrlkit render plant.wrl plant.png --viewpoint Overview",
      [](CLI::App& v, Flags& f) {
        input(v, f);
-       v.add_option("OUT", f.output, "file.png or .jpg")->required();
+       v.add_option("OUT", f.output, "file.png, .jpg or .webp")->required();
        v.add_option("--width", f.width, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
        v.add_option("--height", f.height, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
        v.add_option("--samples", f.samples, "samples a pixel, along each side")->check(CLI::Range(1, 16))->capture_default_str();

@@ -26,7 +26,7 @@ struct Flags {
   bool pipeline_given = false;
   bool print_pipeline = false, verify_each = false, time_passes = false, stats = false;
   std::string print_after;
-  bool gzip = false;
+  bool gzip = false, dump = false;
   int precision = 0;
 
   bool parse_only = false;                 // check

@@ -1,6 +1,8 @@
 #include "tools/render_options.h"
 
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 namespace wrlkit {
 
@@ -9,7 +11,11 @@ RenderOptions render_options(const Flags& f) {
   o.width = f.width;
   o.height = f.height;
   o.samples = f.samples;
-  o.mode = f.mode == "wireframe" ? RenderOptions::Mode::wireframe : RenderOptions::Mode::preview;
+  using Mode = RenderOptions::Mode;
+  constexpr std::pair<std::string_view, Mode> modes[] = {{"preview", Mode::preview}, {"wireframe", Mode::wireframe}, {"lightmap", Mode::lightmap},
+                                                         {"checker", Mode::checker}, {"density", Mode::density},     {"albedo", Mode::albedo}};
+  for (auto [name, mode] : modes)
+    if (f.mode == name) o.mode = mode;
   o.viewpoint = f.viewpoint;
   o.fit = f.fit;
   o.field_of_view = f.field_of_view * std::numbers::pi / 180;

@@ -74,7 +74,7 @@ PipelineOptions Session::pipeline_options() {
   if (!o.print_after.empty())
     o.print = [this](const std::string& pass, const Scene& scene) {
       fmt::print(stderr, "# after {}\n", pass);
-      write_vrml(scene, {}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag_);
+      write_vrml(scene, {.own_fields = true}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag_);
     };
   if (flags_.time_passes) o.times = &times_;
   return o;

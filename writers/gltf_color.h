@@ -1,8 +1,8 @@
 // VRML's colours are meant for the display (IEC 61966-2-1), glTF's are linear.
 #pragma once
 #include <array>
-#include <cmath>
 
+#include "scenegraph/srgb.h"
 #include "scenegraph/value.h"
 
 namespace wrlkit::gltf {
@@ -10,10 +10,7 @@ namespace wrlkit::gltf {
 /// Cut to [0, 1]; 0 when it is no number.
 inline double unit_range(double v) { return v >= 0 ? std::min(v, 1.0) : 0.0; }
 
-inline double linear(double v) {
-  v = unit_range(v);
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
+inline double linear(double v) { return srgb_to_linear(unit_range(v)); }
 
 inline std::array<float, 3> linear_color(const Vec3& c) {
   return {static_cast<float>(linear(c[0])), static_cast<float>(linear(c[1])), static_cast<float>(linear(c[2]))};

@@ -91,6 +91,7 @@ bool Extras::speaks(NodeId n, const Value& v, Said said) const {
   if (scene_.is_extra(v)) return true;
   if (std::ranges::find(said, v.slot) != said.end()) return false;
   const auto& t = scene_.type(n);
+  if (t.fields[v.slot].is_own()) return false;
   return v.slot < n_table_fields(t) && (v.is || !equals_default(v, t.fields[v.slot]));
 }
 

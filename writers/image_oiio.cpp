@@ -73,22 +73,33 @@ bool decode(const DecodeRequest& from, Image& image, std::string& error) try {
   return error = e.what(), false;
 }
 
-bool encode(const Image& image, const char* codec, int quality, std::string& bytes, std::string& error) try {
+bool write(const char* codec, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void* pixels, std::string& bytes, std::string& error) try {
   auto out = OIIO::ImageOutput::create(codec);
   if (!out) return error = "OpenImageIO cannot write this type", false;
   OIIO::Filesystem::IOVecOutput memory;
   OIIO::Filesystem::IOProxy* proxy = &memory;
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeUInt8);
   spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (image.channels == 2) spec.alpha_channel = 1;
-  if (quality > 0) spec.attribute("CompressionQuality", quality);
-  bool done = out->open(codec, spec) && out->write_image(OIIO::TypeUInt8, image.pixels.data()) && out->close();
+  if (spec.nchannels == 2) spec.alpha_channel = 1;
+  bool done = out->open(codec, spec) && out->write_image(type, pixels) && out->close();
   if (!done) error = out->geterror();
   bytes.assign(memory.buffer().begin(), memory.buffer().end());
   return done;
 } catch (const std::exception& e) {
   return error = e.what(), false;
+}
+
+bool encode(const Image& image, const char* codec, int quality, std::string& bytes, std::string& error) {
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeUInt8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (quality > 0) spec.attribute("CompressionQuality", quality);
+  if (quality == 100 && codec == std::string_view("webp")) spec.attribute("Compression", "lossless");
+  return write(codec, spec, OIIO::TypeUInt8, image.pixels.data(), bytes, error);
+}
+
+bool encode_exr(const wrlkit::FloatImage& image, std::string& bytes, std::string& error) {
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeHalf);
+  spec.attribute("compression", "zip");
+  return write("openexr", spec, OIIO::TypeFloat, image.pixels.data(), bytes, error);
 }
 
 }  // namespace
@@ -97,7 +108,7 @@ extern "C" const wrlkit::ImageModule* wrlkit_images() {
   static const wrlkit::ImageModule module = [] {
     OIIO::attribute("threads", 1);  // pictures are decoded in parallel by the caller, if at all
     OIIO::attribute("exr_threads", -1);
-    return wrlkit::ImageModule{decode, encode};
+    return wrlkit::ImageModule{decode, encode, encode_exr};
   }();
   return &module;
 }

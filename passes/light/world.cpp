@@ -26,7 +26,7 @@ std::optional<Lamp> lamp_of(const std::optional<Light>& light) {
 }
 
 bool may_be_clear(const Surface& s, const PooledMesh& m) {
-  return s.alpha < 1 || (s.texture && s.texture->has_alpha()) || (m.colors != PooledMesh::absent && m.color_width == 4);
+  return s.alpha < 1 || (s.picture.texture && s.picture.texture->has_alpha()) || (m.colors != PooledMesh::absent && m.color_width == 4);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void LightWorld::make_facts(const Scene& scene, Resources* resources, Diagnostic
     if (m.kind == Mesh::Kind::faces) {
       f.clear = may_be_clear(s, m);
       has_clear_ |= f.clear;
-      f.plain = m.colors == PooledMesh::absent && (!s.texture || m.texcoords == PooledMesh::absent);
+      f.plain = m.colors == PooledMesh::absent && (!s.picture.texture || m.texcoords == PooledMesh::absent);
       V3 color = s.base({}, {}).color;
       bool emits = !s.lit && options_.unlit_emits;
       f.emission = options_.emission * linear(emits ? color : s.emissive);

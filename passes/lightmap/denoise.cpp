@@ -19,12 +19,12 @@ class Filter {
  public:
   Filter(const Page& page, int step, float contrast) : page_(page), step_(step), contrast_(contrast) {}
 
-  /// Weighted mean around a texel, and the variance that is left of it.
-  void at(int x, int y, Rgb& light, float& variance) const {
+  /// Weighted means around a texel, and the variance that is left of the light.
+  void at(int x, int y, std::vector<std::vector<Rgb>>& layers, float& variance) const {
     const std::size_t i = page_.at(x, y);
     const float noise = contrast_ * std::sqrt(smooth_variance(x, y)) + 1e-6f;
-    const float own = luminance(page_.indirect[i]);
-    Rgb sum;
+    const float own = luminance(page_.light()[i]);
+    for (auto& l : layers) l[i] = {};
     float weights = 0, noise_left = 0;
     for (int dy = -2; dy <= 2; ++dy)
       for (int dx = -2; dx <= 2; ++dx) {
@@ -33,12 +33,12 @@ class Filter {
         const std::size_t j = page_.at(u, v);
         float w = spline[std::abs(dx)] * spline[std::abs(dy)] * likeness(page_.places[i], page_.places[j]);
         if (!(w > 0)) continue;
-        w *= std::exp(-std::fabs(luminance(page_.indirect[j]) - own) / noise);
-        sum += w * page_.indirect[j];
+        w *= std::exp(-std::fabs(luminance(page_.light()[j]) - own) / noise);
+        for (std::size_t l = 0; l < layers.size(); ++l) layers[l][i] += w * page_.layers[l][j];
         weights += w;
         noise_left += w * w * page_.variance[j];
       }
-    light = (1 / weights) * sum;
+    for (auto& l : layers) l[i] = (1 / weights) * l[i];
     variance = noise_left / (weights * weights);
   }
 
@@ -77,17 +77,17 @@ class Filter {
 }  // namespace
 
 void denoise(Page& page, const DenoiseOptions& options) {
-  std::vector<Rgb> light(page.size());
+  auto layers = page.layers;
   std::vector<float> variance(page.size());
   for (int pass = 0; pass < options.passes; ++pass) {
     const Filter filter(page, 1 << pass, options.contrast);
     parallel_for(static_cast<std::size_t>(page.height), [&](std::size_t y) {
       for (int x = 0; x < page.width; ++x) {
         const std::size_t i = page.at(x, static_cast<int>(y));
-        if (page.covered(i)) filter.at(x, static_cast<int>(y), light[i], variance[i]);
+        if (page.covered(i)) filter.at(x, static_cast<int>(y), layers, variance[i]);
       }
     });
-    page.indirect.swap(light);
+    page.layers.swap(layers);
     page.variance.swap(variance);
   }
 }

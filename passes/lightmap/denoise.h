@@ -1,4 +1,4 @@
-// Takes the noise out of the indirect light of a page: an edge-avoiding a-trous wavelet filter (Dammertz et al. 2010), led
+// Takes the noise out of the light of a page: an edge-avoiding a-trous wavelet filter (Dammertz et al. 2010), led
 // by where texels lie and by the noise that was measured in them (Schied et al. 2017).
 #pragma once
 #include "passes/lightmap/page.h"
@@ -10,7 +10,7 @@ struct DenoiseOptions {
   float contrast = 2;         // standard deviations of luminance that count as noise
 };
 
-/// Changes page.indirect and page.variance of covered texels. Light is mixed within a chart, between texels that face the
+/// Changes the layers and the variance of covered texels. Light is mixed within a chart, between texels that face the
 /// same way and lie in one plane, and as far as it differs by no more than its noise explains: what is exact stays as it
 /// is. O(texels * passes), the same for any number of threads.
 void denoise(Page& page, const DenoiseOptions& options = {});

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <tuple>
 
 #include "passes/weld/points.h"
 
@@ -15,7 +14,7 @@ using unwrap::Point2;
 /// An edge of a triangle: its points in order of their numbers, and where it is.
 struct HalfEdge {
   std::uint32_t a, b, triangle, corner;
-  bool operator<(const HalfEdge& o) const { return std::tie(a, b, triangle) < std::tie(o.a, o.b, o.triangle); }
+  auto operator<=>(const HalfEdge&) const = default;
 };
 
 std::vector<HalfEdge> edges_of(const Part& p) {

@@ -22,18 +22,21 @@ struct Place {
   Vec position, normal;           // world, relative to the centre of the world; the normal is unit
 };
 
-/// `side` squared texels would be too many for a plant of long pipes: width and height are free.
 struct Page {
   int width = 0, height = 0;
-  std::vector<Rgb> direct, indirect;     // irradiance over pi
-  std::vector<float> variance;           // of the luminance of `indirect`
+  /// The first is light: irradiance over pi. Others may follow, which are denoised as it is.
+  std::vector<std::vector<Rgb>> layers;
+  std::vector<float> variance;           // of the luminance of the light
   std::vector<Place> places;
 
-  Page(int w, int h) : width(w), height(h), direct(size()), indirect(size()), variance(size()), places(size()) {}
+  Page(int w, int h, std::size_t n_layers = 1)
+      : width(w), height(h), layers(n_layers, std::vector<Rgb>(size())), variance(size()), places(size()) {}
 
   std::size_t size() const { return std::size_t(width) * height; }
   std::size_t at(int x, int y) const { return std::size_t(y) * width + x; }
   bool covered(std::size_t i) const { return places[i].chart != Place::nowhere; }
+  std::vector<Rgb>& light() { return layers[0]; }
+  const std::vector<Rgb>& light() const { return layers[0]; }
 };
 
 }  // namespace wrlkit::bake

@@ -11,10 +11,9 @@ std::optional<Texel> vertex_color(const MeshPool& pool, const PooledMesh& m, con
 }
 
 std::optional<Texel> texture_at(const MeshPool& pool, const PooledMesh& m, const Surface& s, const Hit& hit, double detail) {
-  if (!s.texture || m.texcoords == PooledMesh::absent) return {};
+  if (!s.picture.texture || m.texcoords == PooledMesh::absent) return {};
   auto at = interpolate<2>(pool, pool.texcoords, m, m.texcoords, hit);
-  auto [u, v] = s.texcoords(at[0], at[1]);
-  return s.texture->sample(u, v, detail, s.repeat_s, s.repeat_t);
+  return s.picture.sample(s.texcoords(at[0], at[1]), detail);
 }
 
 }  // namespace wrlkit::drawing

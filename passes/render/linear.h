@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenegraph/srgb.h"
 #include "scenegraph/value.h"
 
 namespace wrlkit::drawing {
@@ -37,6 +38,9 @@ inline bool finite(const V3& a) { return std::isfinite(a.x) && std::isfinite(a.y
 inline V3 mix(const V3& a, const V3& b, double t) { return (1 - t) * a + t * b; }
 inline V3 min(const V3& a, const V3& b) { return {std::fmin(a.x, b.x), std::fmin(a.y, b.y), std::fmin(a.z, b.z)}; }
 inline V3 max(const V3& a, const V3& b) { return {std::fmax(a.x, b.x), std::fmax(a.y, b.y), std::fmax(a.z, b.z)}; }
+
+inline V3 to_linear(const V3& c) { return {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)}; }
+inline V3 to_srgb(const V3& c) { return {linear_to_srgb(c.x), linear_to_srgb(c.y), linear_to_srgb(c.z)}; }
 
 /// Axis-parallel box; empty when nothing was added.
 struct Box {

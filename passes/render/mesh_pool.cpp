@@ -27,6 +27,7 @@ std::uint32_t MeshPool::add(const Mesh& mesh) {
   m.normals = add_attribute(mesh.normal, normals);
   m.colors = add_attribute(mesh.color, colors);
   m.texcoords = add_attribute(mesh.texcoord, texcoords);
+  m.lightcoords = add_attribute(mesh.lightcoord, lightcoords);
   meshes_.push_back(m);
   return static_cast<std::uint32_t>(meshes_.size() - 1);
 }

@@ -25,7 +25,7 @@ struct PooledMesh {
   std::uint32_t n_elements = 0;      // triangles, segments or points
   std::size_t first_corner = 0;      // into MeshPool::corners
   std::size_t first_point = 0, n_points = 0;
-  std::size_t normals = absent, colors = absent, texcoords = absent;  // into the index of each stream
+  std::size_t normals = absent, colors = absent, texcoords = absent, lightcoords = absent;  // into the index of each stream
   V3 origin;                         // positions are relative to this
   Box box;                           // with the origin
 
@@ -58,7 +58,7 @@ class MeshPool {
 
   std::vector<float> points;           // xyz
   std::vector<std::uint32_t> corners;  // into the points of the mesh
-  Stream normals, colors, texcoords;
+  Stream normals, colors, texcoords, lightcoords;
 
  private:
   void list_elements(const Mesh& mesh);

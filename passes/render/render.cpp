@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "passes/render/gather.h"
+#include "passes/render/inspect.h"
 #include "passes/render/sampling.h"
 #include "passes/render/shade.h"
 #include "passes/render/wireframe.h"
@@ -94,6 +95,10 @@ Image render(const Scene& scene, const MeshSource& source, const RenderOptions& 
   if (wireframe) {
     Wireframe w(drawing, tracer, camera, options.background ? V3(*options.background) : V3(1));
     return sample_picture(raster, [&](double x, double y) { return w.color(x, y); });
+  }
+  if (options.mode != RenderOptions::Mode::preview) {
+    Inspector i(drawing, tracer, camera, options.mode, options.background ? V3(*options.background) : V3(0));
+    return sample_picture(raster, [&](double x, double y) { return i.color(x, y); });
   }
   Sky sky = choose_sky(scene, stage, options, resources, diag);
   Shader shader(scene, drawing, tracer, camera, sky, choose_headlight(scene, stage, options));

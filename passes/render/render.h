@@ -15,13 +15,18 @@
 
 namespace wrlkit {
 
+/// The red end of Mode::density; the colours before it, evenly in the logarithm: yellow, green, cyan, and blue for 1.
+inline constexpr double most_texels_per_metre = 1024;
+
 struct LookAt {
   Vec3 eye{0, 0, 10}, target{0, 0, 0}, up{0, 1, 0};
 };
 
 struct RenderOptions {
-  /// preview: what a browser shows. wireframe: grey surfaces with the edges of their triangles, hidden lines removed.
-  enum class Mode : std::uint8_t { preview, wireframe };
+  /// preview: what a browser shows, and baked light where there is some. wireframe: grey surfaces with the edges of their
+  /// triangles, hidden lines removed. lightmap: the baked light alone. checker: its texels, alternately dark and light.
+  /// density: texels a metre, from blue (1) by green (32) to red (1024). albedo: surfaces without any light.
+  enum class Mode : std::uint8_t { preview, wireframe, lightmap, checker, density, albedo };
 
   int width = 1280, height = 960;
   int samples = 4;                   // rays along each side of a pixel where the picture changes; at most 16

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "passes/render/attributes.h"
+#include "passes/render/baked.h"
+#include "passes/render/places.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::drawing {
@@ -38,6 +39,14 @@ Spot spot_at(const Drawing& d, const Ray& ray, const Hit& hit) {
   // Seen from behind, a surface is lit as if it were turned round.
   if (dot(s.face, ray.direction) > 0) s.normal = -s.normal;
   return s;
+}
+
+std::optional<Texel> texel_of(const Drawing& d, const Surface& s, const Hit& hit, const Camera& camera, const Seen& seen) {
+  const PooledMesh& m = d.meshes[d.mesh_of[hit.use]];
+  if (!s.picture.texture) return {};
+  auto place = place_of(d.meshes, m, hit, d.meshes.texcoords, m.texcoords, s.texcoords, seen.area);
+  if (!place) return {};
+  return s.picture.sample(place->at, place->detail(*s.picture.texture, hit, camera, seen.facing));
 }
 
 Shader::Shader(const Scene& scene, const Drawing& drawing, const Tracer& tracer, const Camera& camera, const Sky& sky,
@@ -80,24 +89,18 @@ Texel Shader::shade_face(const Ray& ray, const Hit& hit, const Surface& s) const
   Spot at = spot_at(drawing_, ray, hit);
   double area = length(at.face);
   double facing = area > 0 ? std::fabs(dot(at.face, ray.direction)) / area : 1;
-  Texel base = s.base(vertex_color(drawing_.meshes, drawing_.meshes[drawing_.mesh_of[hit.use]], hit), texel(s, hit, area, facing));
+  const MeshPool& pool = drawing_.meshes;
+  const PooledMesh& m = pool[drawing_.mesh_of[hit.use]];
+  Texel base = s.base(vertex_color(pool, m, hit), texel_of(drawing_, s, hit, camera_, {area, facing}));
+  auto place = s.baked ? place_of(pool, m, hit, pool.lightcoords, m.lightcoords, s.baked.places, area) : std::nullopt;
+  if (place) {
+    auto sample = sample_light(s.baked, place->at, place->detail(*s.baked.light.texture, hit, camera_, facing));
+    V3 face = dot(at.face, ray.direction) > 0 ? -unit(at.face) : unit(at.face);
+    return {baked_color(s, base.color, sample, {at.position, at.normal, -ray.direction}, face), base.alpha};
+  }
   if (!s.lit) return base;
   LitPoint lit{at.position, at.normal, -ray.direction};
   return {light(s, base.color, lit, drawing_.stage.uses[hit.use].lights), base.alpha};
-}
-
-/// `world_area` is twice the area of the triangle; `facing` the cosine between it and the ray.
-std::optional<Texel> Shader::texel(const Surface& s, const Hit& hit, double world_area, double facing) const {
-  const MeshPool& pool = drawing_.meshes;
-  const PooledMesh& m = pool[drawing_.mesh_of[hit.use]];
-  if (!s.texture || m.texcoords == PooledMesh::absent) return {};
-  const float* c[3];
-  for (int k = 0; k < 3; ++k) c[k] = pool.value(pool.texcoords, m, m.texcoords, hit.element, k);
-  double picture = std::fabs(double{c[1][0] - c[0][0]} * (c[2][1] - c[0][1]) - double{c[2][0] - c[0][0]} * (c[1][1] - c[0][1]));
-  double pixels = picture * std::fabs(s.texcoords.determinant()) * s.texture->width() * s.texture->height();
-  double span = hit.distance * camera_.sample();
-  double detail = world_area > 0 ? span * std::sqrt(pixels / world_area / std::max(facing, 0.05)) : 1;
-  return texture_at(pool, m, s, hit, detail);
 }
 
 /// The sum of 4.14.4, without fog.

@@ -29,6 +29,12 @@ struct Spot {
   V3 normal;                         // unit, interpolated, on the side of the viewer
 };
 
+/// How a triangle is seen.
+struct Seen {
+  double area;    // twice that of the triangle, in the world
+  double facing;  // cosine between it and the ray
+};
+
 class Shader {
  public:
   Shader(const Scene& scene, const Drawing& drawing, const Tracer& tracer, const Camera& camera, const Sky& sky,
@@ -40,7 +46,6 @@ class Shader {
  private:
   Texel shade(const Ray& ray, const Hit& hit) const;
   Texel shade_face(const Ray& ray, const Hit& hit, const Surface& surface) const;
-  std::optional<Texel> texel(const Surface& surface, const Hit& hit, double world_area, double facing) const;
   V3 light(const Surface& surface, const V3& base, const LitPoint& at, std::uint32_t scope) const;
 
   const Drawing& drawing_;
@@ -55,5 +60,7 @@ class Shader {
 
 /// Position and normals of a hit on a triangle.
 Spot spot_at(const Drawing& drawing, const Ray& ray, const Hit& hit);
+/// What the surface's picture shows there; none without one.
+std::optional<Texel> texel_of(const Drawing& drawing, const Surface& surface, const Hit& hit, const Camera& camera, const Seen& seen);
 
 }  // namespace wrlkit::drawing

@@ -87,7 +87,7 @@ class Walk {
     NodeId geometry = scene_.get(i.node, nodes::shape::geometry);
     if (!geometry) return true;
     if (stage_.uses.size() == limits_.shapes) return report("Shapes when every USE is followed", limits_.shapes), false;
-    stage_.uses.push_back({geometry, scene_.get(i.node, nodes::shape::appearance), i.frame, i.lights});
+    stage_.uses.push_back({geometry, scene_.get(i.node, nodes::shape::appearance), i.node, i.frame, i.lights});
     return true;
   }
 

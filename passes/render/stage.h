@@ -14,7 +14,7 @@ namespace wrlkit::drawing {
 
 /// A Shape on its way to the picture.
 struct Use {
-  NodeId geometry, appearance;
+  NodeId geometry, appearance, shape;
   std::uint32_t frame;   // into Stage::frames
   std::uint32_t lights;  // into Stage::scopes
 };

@@ -32,12 +32,16 @@ TexcoordMap texcoord_map(const Scene& scene, NodeId n) {
 
 }  // namespace
 
+V3 BakedLight::at(const std::array<double, 2>& place, double detail) const {
+  return scale * to_linear(light.sample(place, detail).color);
+}
+
 Texel Surface::base(const std::optional<Texel>& vertex, const std::optional<Texel>& texel) const {
   Texel out{lit ? material.diffuse : V3(1), alpha};
   if (vertex) out.color = vertex->color, out.alpha *= vertex->alpha;
   if (!texel) return out;
-  out.color = texture->is_grey() ? texel->color * out.color : texel->color;
-  if (texture->has_alpha()) out.alpha = texel->alpha;
+  out.color = picture.texture->is_grey() ? texel->color * out.color : texel->color;
+  if (picture.texture->has_alpha()) out.alpha = texel->alpha;
   return out;
 }
 
@@ -60,23 +64,35 @@ Surface Surfaces::make(NodeId appearance) {
   NodeId material = scene_.get(appearance, f::material), map = scene_.get(appearance, f::textureTransform);
   if (scene_.is(material, nodes::Material)) read_material(s, scene_, material);
   if (scene_.is(map, nodes::TextureTransform)) s.texcoords = texcoord_map(scene_, map);
-  add_texture(s, scene_.get(appearance, f::texture));
+  s.picture = layer(scene_.get(appearance, f::texture));
+  s.baked = baked_light(appearance);
   return s;
 }
 
-void Surfaces::add_texture(Surface& s, NodeId n) {
+BakedLight Surfaces::baked_light(NodeId appearance) {
+  namespace f = nodes::appearance;
+  BakedLight b;
+  b.light = layer(scene_.get(appearance, f::lightmap));
+  if (!b) return b;
+  b.scale = scene_.get(appearance, f::lightmapScale);
+  if (NodeId map = scene_.get(appearance, f::lightmapTransform); scene_.is(map, nodes::TextureTransform)) b.places = texcoord_map(scene_, map);
+  auto direction = scene_.get(appearance, f::lightmapDirection);
+  if (direction.size() != b.direction.size()) return b;
+  std::ranges::transform(direction, b.direction.begin(), [&](NodeId n) { return layer(n); });
+  if (!std::ranges::all_of(b.direction, [](const Layer& l) { return l.texture != nullptr; })) b.direction = {};
+  return b;
+}
+
+Layer Surfaces::layer(NodeId n) {
   if (scene_.is(n, nodes::PixelTexture)) {
     namespace f = nodes::pixel_texture;
-    s.texture = Texture::make(image_of(scene_.get(n, f::image)));
-    s.repeat_s = scene_.get(n, f::repeatS);
-    s.repeat_t = scene_.get(n, f::repeatT);
-  } else if (scene_.is(n, nodes::ImageTexture) && resources_) {
-    namespace f = nodes::image_texture;
-    auto urls = scene_.get(n, f::url);
-    if (!urls.empty()) s.texture = picture(resources_->image(urls, scene_.where(n), diag_));
-    s.repeat_s = scene_.get(n, f::repeatS);
-    s.repeat_t = scene_.get(n, f::repeatT);
+    return {Texture::make(image_of(scene_.get(n, f::image))), scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)};
   }
+  if (!scene_.is(n, nodes::ImageTexture) || !resources_) return {};
+  namespace f = nodes::image_texture;
+  auto urls = scene_.get(n, f::url);
+  if (urls.empty()) return {};
+  return {picture(resources_->image(urls, scene_.where(n), diag_)), scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)};
 }
 
 std::shared_ptr<const Texture> Surfaces::picture(const std::shared_ptr<const Image>& image) {

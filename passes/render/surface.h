@@ -21,14 +21,34 @@ struct TexcoordMap {
   double determinant() const { return a * e - b * d; }
 };
 
+/// A picture that is laid over a surface.
+struct Layer {
+  std::shared_ptr<const Texture> texture;  // null: none
+  bool repeat_s = true, repeat_t = true;
+
+  Texel sample(const std::array<double, 2>& at, double detail) const { return texture->sample(at[0], at[1], detail, repeat_s, repeat_t); }
+};
+
+/// Light that was computed before (docs/lighting.md), by place in a lightmap.
+struct BakedLight {
+  Layer light;                     // texel: irradiance / pi on the face, display-referred; null: none
+  std::array<Layer, 3> direction;  // its mean direction, X, Y and Z; all or none
+  TexcoordMap places;
+  double scale = 1;
+
+  explicit operator bool() const { return light.texture != nullptr; }
+  /// What a white surface reflects there, linear.
+  V3 at(const std::array<double, 2>& place, double detail) const;
+};
+
 struct Surface {
   bool lit = false;                  // it has a Material
   Lit material;
   V3 emissive;
   double alpha = 1;                  // 1 - transparency
-  std::shared_ptr<const Texture> texture;
-  bool repeat_s = true, repeat_t = true;
+  Layer picture;
   TexcoordMap texcoords;
+  BakedLight baked;
 
   /// The colour before lighting (ODrgb where there is light, ICrgb where not) and the alpha there. `vertex` is the colour
   /// that the geometry gives, RGB or RGBA; none: the Material's.
@@ -46,7 +66,8 @@ class Surfaces {
 
  private:
   Surface make(NodeId appearance);
-  void add_texture(Surface& s, NodeId texture);
+  Layer layer(NodeId texture);
+  BakedLight baked_light(NodeId appearance);
   std::shared_ptr<const Texture> picture(const std::shared_ptr<const Image>& image);
 
   const Scene& scene_;

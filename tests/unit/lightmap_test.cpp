@@ -40,7 +40,7 @@ Page noisy_page(int side, float deviation) {
       auto i = page.at(x, y);
       page.places[i] = {0, {x * 0.1f, y * 0.1f, 0}, {0, 0, 1}};
       float v = 1 + noise(random);
-      page.indirect[i] = {v, v, v};
+      page.light()[i] = {v, v, v};
       page.variance[i] = deviation * deviation;
     }
   return page;
@@ -50,7 +50,7 @@ double deviation_from(const Page& page, int x0, int x1, float mean) {
   double sum = 0;
   int n = 0;
   for (int y = 4; y < page.height - 4; ++y)
-    for (int x = x0; x < x1; ++x, ++n) sum += std::pow(page.indirect[page.at(x, y)].g - mean, 2);
+    for (int x = x0; x < x1; ++x, ++n) sum += std::pow(page.light()[page.at(x, y)].g - mean, 2);
   return std::sqrt(sum / n);
 }
 
@@ -123,14 +123,14 @@ TEST_CASE("denoise: noise on a plane falls to a quarter, and the mean stays") {
   denoise(page);
   CHECK(deviation_from(page, 4, 60, 1) < 0.025);
   double mean = 0;
-  for (auto& c : page.indirect) mean += c.g;
+  for (auto& c : page.light()) mean += c.g;
   CHECK(mean / page.size() == Approx(1).epsilon(0.005));
 }
 
 TEST_CASE("denoise: a step that is larger than the noise stays sharp") {
   auto page = noisy_page(64, 0.02f);
   for (int y = 0; y < 64; ++y)
-    for (int x = 32; x < 64; ++x) page.indirect[page.at(x, y)] = page.indirect[page.at(x, y)] + Rgb{2, 2, 2};
+    for (int x = 32; x < 64; ++x) page.light()[page.at(x, y)] = page.light()[page.at(x, y)] + Rgb{2, 2, 2};
   denoise(page);
   CHECK(deviation_from(page, 24, 32, 1) < 0.01);
   CHECK(deviation_from(page, 32, 40, 3) < 0.01);
@@ -140,23 +140,23 @@ TEST_CASE("denoise: light is not mixed between charts, around a crease or withou
   SECTION("charts") {
     auto page = noisy_page(32, 0.5f);
     for (std::size_t i = 0; i < page.size(); ++i)
-      if (i % 32 >= 16) page.places[i].chart = 1, page.indirect[i] = {0, 0, 0};
+      if (i % 32 >= 16) page.places[i].chart = 1, page.light()[i] = {0, 0, 0};
     denoise(page);
     CHECK(deviation_from(page, 16, 32, 0) == 0);
   }
   SECTION("a crease") {
     auto page = noisy_page(32, 0.5f);
     for (std::size_t i = 0; i < page.size(); ++i)
-      if (i % 32 >= 16) page.places[i].normal = {1, 0, 0}, page.indirect[i] = {0, 0, 0};
+      if (i % 32 >= 16) page.places[i].normal = {1, 0, 0}, page.light()[i] = {0, 0, 0};
     denoise(page);
     CHECK(deviation_from(page, 16, 32, 0) == 0);
   }
   SECTION("no noise") {
     auto page = noisy_page(32, 0.1f);
-    auto before = page.indirect;
+    auto before = page.light();
     std::ranges::fill(page.variance, 0.0f);
     denoise(page);
-    for (std::size_t i = 0; i < page.size(); ++i) CHECK(page.indirect[i].r == Approx(before[i].r).epsilon(1e-3));
+    for (std::size_t i = 0; i < page.size(); ++i) CHECK(page.light()[i].r == Approx(before[i].r).epsilon(1e-3));
   }
 }
 

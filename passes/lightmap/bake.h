@@ -1,0 +1,30 @@
+// Light for every texel of every page: points of the surface are lit, noise is taken out, cuts are closed, gaps are filled.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "passes/light/integrator.h"
+#include "passes/lightmap/layout.h"
+
+namespace wrlkit::bake {
+
+struct BakeOptions {
+  int samples = 4;                       // points a texel
+  light::IntegratorOptions integrator;   // of each point
+  bool directional = false;
+  bool denoise = true;
+  std::string checkpoint;                // file in which finished tiles are kept; empty: none
+};
+
+/// Pictures of a page, linear, row 0 the lowest.
+struct BakedPage {
+  Canvas light;                          // irradiance / pi
+  std::vector<Canvas> direction;         // mean direction of the light: X, Y and Z, each from -1 to 1 for red, green and blue
+};
+
+/// One for each page of the layout. `world` must have been made of the stage that the layout's uses refer to. Statistics:
+/// lightmap.texels (covered), .samples, .rays, .inside (texels whose points lie within something, filled from their
+/// neighbours). The same for any number of threads, and after an interruption.
+std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world, const BakeOptions& options, PassContext& ctx);
+
+}  // namespace wrlkit::bake
