@@ -1,0 +1,128 @@
+#include "passes/lightmap.h"
+
+#include <cmath>
+#include <cstdio>
+#include <unordered_map>
+
+#include "passes/light/world.h"
+#include "passes/lightmap/bake.h"
+#include "passes/lightmap/layout.h"
+#include "passes/lightmap/own_shapes.h"
+#include "passes/lightmap/parts.h"
+#include "passes/lightmap/store.h"
+#include "passes/normals.h"
+#include "passes/render/stage.h"
+#include "passes/tessellate.h"
+#include "scenegraph/image.h"
+
+namespace wrlkit {
+namespace {
+
+using namespace bake;
+
+/// What a quality stands for.
+struct Work {
+  int side, samples, rays;  // of a page; points a texel; rays a point
+};
+constexpr Work work_of[] = {{512, 1, 16}, {1024, 4, 16}, {4096, 4, 64}};
+constexpr int side_for_density = 4096;
+
+LayoutOptions layout_options(const LightmapOptions& o) {
+  const int usual = o.density > 0 ? side_for_density : work_of[o.quality.value].side;
+  return {.density = o.density, .side = o.max_size > 0 ? o.max_size : usual};
+}
+
+light::LightOptions light_options(const LightmapOptions& o) {
+  using Sky = light::LightOptions::Sky;
+  light::LightOptions out;
+  out.emission = o.emission;
+  out.sky = o.sky.background ? Sky::background : Sky::constant;
+  out.sky_color = {o.sky.color[0], o.sky.color[1], o.sky.color[2]};
+  if (!o.sky.background && !(o.sky.color[0] + o.sky.color[1] + o.sky.color[2] > 0)) out.sky = Sky::none;
+  return out;
+}
+
+BakeOptions bake_options(const LightmapOptions& o) {
+  const Work& work = work_of[o.quality.value];
+  BakeOptions out;
+  out.samples = work.samples;
+  out.integrator.rays = work.rays;
+  out.integrator.seed = static_cast<std::uint64_t>(o.seed);
+  // A texel is the mean of its points.
+  if (o.error > 0) out.integrator.error = o.error * std::sqrt(double(work.samples));
+  out.directional = o.directional;
+  out.denoise = o.denoise;
+  out.checkpoint = o.checkpoint;
+  return out;
+}
+
+/// Geometry as light meets it: with normals, for shading.
+class Meshes {
+ public:
+  Meshes(const Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
+
+  const Mesh& operator()(NodeId geometry) {
+    MeshJob job{scene_, geometry, mesh_, scratch_, ctx_, textured_[geometry.value] != 0};
+    mesh_.clear();
+    tessellate(job, {.texcoords = true});
+    normals(job, {});
+    return mesh_;
+  }
+
+ private:
+  const Scene& scene_;
+  PassContext& ctx_;
+  std::vector<char> textured_;
+  Mesh mesh_;
+  MeshScratch scratch_;
+};
+
+Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
+  own_shapes(scene, ctx.diag);
+  Meshes meshes(scene, ctx);
+  const light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options), ctx.diag);
+  auto parts = find_parts(scene, world.stage(), ctx);
+  if (parts.empty()) return Outcome::unchanged;
+  if (!world.has_sky_of_its_own()) ctx.diag.report(Diag::no_light, {});
+  unfold_parts(parts, world.stage());
+  const Layout layout(parts, layout_options(options));
+  auto pages = bake::bake(parts, layout, world, bake_options(options), ctx);
+  store(scene, parts, layout, world.stage(), pages, {options.format, options.exr}, ctx);
+  for (const Part& p : parts) ctx.stats["lightmap.shapes"] += p.uses.size(), ctx.stats["lightmap.charts"] += p.charts.size() * p.uses.size();
+  ctx.stats["lightmap.pages"] += pages.size();
+  return Outcome::changed;
+}
+
+}  // namespace
+
+bool BakeQuality::read(std::string_view text) {
+  for (auto v : {draft, normal, high})
+    if (BakeQuality q{v}; q.print() == text) return *this = q, true;
+  return false;
+}
+
+std::string BakeQuality::print() const { return value == draft ? "draft" : value == normal ? "normal" : "high"; }
+
+bool SkyLight::read(std::string_view text) {
+  background = text == "background";
+  for (double& c : color) c = 0;
+  if (background || text == "none") return true;
+  char rest;
+  const std::string all(text);
+  return std::sscanf(all.c_str(), "%lf:%lf:%lf%c", &color[0], &color[1], &color[2], &rest) == 3 && color[0] >= 0 && color[1] >= 0 && color[2] >= 0;
+}
+
+std::string SkyLight::print() const {
+  if (background) return "background";
+  if (!(color[0] + color[1] + color[2] > 0)) return "none";
+  char text[100];
+  std::snprintf(text, sizeof text, "%.9g:%.9g:%.9g", color[0], color[1], color[2]);
+  return text;
+}
+
+Outcome lightmap(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
+  if (!ctx.resources) return Outcome::unchanged;
+  return bake_into(scene, options, ctx);
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,74 @@
+// Pass `lightmap`: computes the light in the world and puts it onto its surfaces, as textures (Lazanyi, section 3).
+//
+//   before   PointLight { ... }  DEF Wall Shape { appearance Appearance { material Material { ... } } geometry Box { ... } }
+//   after    PointLight { ... }  DEF Wall Shape { appearance Appearance { material Material { ... }
+//                                                                         lightmap ImageTexture { url "lightmap_0.png" } }
+//                                                 geometry IndexedFaceSet { ... lightCoord TextureCoordinate { ... } } }
+//
+// The surface keeps its own colour and texture; what VRML97 can say, one texture, is made of both by `combine-lightmap`.
+#pragma once
+#include <string>
+
+#include "passes/pass.h"
+
+namespace wrlkit {
+
+/// How much work is done.
+struct BakeQuality {
+  static constexpr std::string_view type = "draft, normal or high";
+  enum Value : std::uint8_t { draft, normal, high };
+
+  Value value = normal;
+  bool read(std::string_view text);
+  std::string print() const;
+};
+
+/// What shines from beyond the world.
+struct SkyLight {
+  static constexpr std::string_view type = "background, none or r:g:b";
+  bool background = true;
+  double color[3] = {0, 0, 0};  // radiance, linear
+  bool read(std::string_view text);
+  std::string print() const;
+};
+
+struct LightmapOptions {
+  BakeQuality quality;
+  double error = 0, density = 0;
+  int max_size = 0;
+  SkyLight sky;
+  double emission = 1;
+  bool directional = false, exr = false, denoise = true;
+  std::string format = "png", checkpoint;
+  int seed = 1;
+
+  void fields(auto&& f) {
+    f("quality", quality, "how many rays, and how many texels unless a density is given");
+    f("error", error, "relative standard error that is wanted of a texel, such as 0.01; 0: as the quality has it");
+    f("density", density, "texels per metre; 0: as many as fit on one page");
+    f("max-size", max_size, "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given");
+    f("sky", sky, "what shines from beyond the world: its Background, nothing, or one radiance");
+    f("emission", emission, "emissiveColor shines so many times as bright as it looks");
+    f("directional", directional, "keep from where the light comes, too");
+    f("exr", exr, "write the light as OpenEXR, too");
+    f("denoise", denoise, "take the noise out");
+    f("format", format, "of the pictures: png, jpg or webp");
+    f("checkpoint", checkpoint, "file in which finished work is kept, so that the same call goes on after an interruption");
+    f("seed", seed, "of the random numbers");
+  }
+};
+
+/// Lights every surface with a Material that a browser would show, as it stands at the start.
+///
+/// - The world as light sees it, in which units, is in docs/lighting.md.
+/// - Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays shared
+///   (lightmap/own_shapes.h). What events can reach is not copied: it has the light of its first place.
+/// - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get faces.
+/// - Left alone: Shapes without a Material, text, lines, points, levels of a LOD behind the first, other choices of a Switch.
+/// - A world without any light is lit by a white sky, which is reported (no-light).
+///
+/// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays, .inside.
+/// O(texels * rays * log triangles). The same result for any number of threads.
+Outcome lightmap(Scene& scene, const LightmapOptions& options, PassContext& ctx);
+
+}  // namespace wrlkit
