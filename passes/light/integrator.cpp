@@ -13,7 +13,8 @@ constexpr double dark = 0.1;         // an error of what is darker than so much 
 constexpr int lamp_rays = 16;
 
 Receiver receiver(const LightWorld& world, const Point& p) {
-  return {world.off_surface(p.position, p.face), p.face, p.normal, world.stage().uses[p.use].lights};
+  std::uint32_t scope = p.use == Point::nowhere ? 0 : world.stage().uses[p.use].lights;
+  return {world.off_surface(p.position, p.face), p.face, p.normal, scope};
 }
 
 Rgb rgb(const V3& c) { return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)}; }
@@ -44,7 +45,7 @@ class Estimate {
   }
 
   void trace(std::uint32_t n) {
-    direct_.emitters(at_, places_, n_, n, true, emitters_);
+    direct_.emitters(at_, places_, n_, n, emitters_);
     for (std::uint32_t i = n_; i < n_ + n; ++i) gather(i);
     n_ += n;
   }

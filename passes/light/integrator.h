@@ -26,7 +26,8 @@ struct IntegratorOptions {
 struct Point {
   V3 position;                       // world
   V3 face, normal;                   // of the triangle and for shading; unit
-  std::uint32_t use = 0;             // into LightWorld::stage().uses: which DirectionalLights light it
+  static constexpr std::uint32_t nowhere = 0xffffffff;
+  std::uint32_t use = nowhere;       // into LightWorld::stage().uses: for the DirectionalLights on it; nowhere: none
 };
 
 using Rgb = std::array<float, 3>;

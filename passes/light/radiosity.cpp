@@ -56,7 +56,7 @@ class Solver {
   void start();
   void iterate(int iteration);
   Gathered gather(std::size_t c, int iteration);
-  Gathered look(const Ray& ray, Stream& random) const;
+  Gathered look(const Receiver& at, const Ray& ray, Stream& random) const;
   void judge(std::size_t c);
 
   IrradianceCache& cache_;
@@ -111,7 +111,7 @@ void Solver::light_directly(std::size_t c) {
     Stream random(key_of(seed_, 3, c * IrradianceCache::most_places + p));
     Flux lamps, emitters;
     direct_.lamps(cell.places[p], lamp_rays, random, lamps);
-    direct_.emitters(cell.places[p], Lattice<3>(random.bits()), 0, emitter_rays, false, emitters);
+    direct_.emitters(cell.places[p], Lattice<3>(random.bits()), 0, emitter_rays, emitters);
     V3 e = lamps.sum + (1.0 / emitter_rays) * emitters.sum;
     of_place_[c * IrradianceCache::most_places + p] = mean(e) * iterations * rays_a_cell / cell.n_places();
     cell.direct += (1.0 / cell.n_places()) * e;
@@ -128,10 +128,10 @@ void Solver::start() {
   sum_.assign(cache_.cells().size(), {});
 }
 
-Solver::Gathered Solver::look(const Ray& ray, Stream& random) const {
+Solver::Gathered Solver::look(const Receiver& from, const Ray& ray, Stream& random) const {
   Gathered out;
   double open = transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
-    if (!world_.emitter_of(hit.use, hit.element)) out.first += (part * pi) * s.emission;
+    if (mean(s.emission) > 0) out.first += (part * pi * direct_.gather_weight(from, ray, hit)) * s.emission;
     if (!(mean(s.albedo) > 0)) return;
     auto key = cache_.key(s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance);
     const Cell* cell = key ? cache_.find(*key) : nullptr;
@@ -142,7 +142,7 @@ Solver::Gathered Solver::look(const Ray& ray, Stream& random) const {
       Flux f;
       Receiver at = transport_.receiver_at(hit, s);
       direct_.lamps(at, 1, random, f);
-      direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, false, f);
+      direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, f);
       direct = f.sum;
     }
     out.first += part * (s.albedo * direct);
@@ -163,7 +163,7 @@ Solver::Gathered Solver::gather(std::size_t c, int iteration) {
     auto [u, v] = directions[static_cast<std::uint32_t>(iteration * rays_a_cell + i)];
     Ray ray{at.start, cosine_direction(at.normal, u, v)};
     if (!(dot(ray.direction, at.face) > 0)) continue;
-    Gathered g = look(ray, random);
+    Gathered g = look(at, ray, random);
     sum.first += g.first;
     sum.further += g.further;
     of_place_[c * IrradianceCache::most_places + place] += mean(g.first + g.further);
