@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <unordered_map>
 
+#include "passes/geometry.h"
 #include "passes/light/world.h"
 #include "passes/lightmap/bake.h"
 #include "passes/lightmap/layout.h"

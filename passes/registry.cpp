@@ -4,6 +4,7 @@
 #include "passes/expand_protos.h"
 #include "passes/inline.h"
 #include "passes/join.h"
+#include "passes/lightmap.h"
 #include "passes/lod.h"
 #include "passes/normals.h"
 #include "passes/pass_info.h"
@@ -23,6 +24,7 @@ constexpr PassInfo all_passes[] = {
     pass<tessellate, TessellateOptions>("tessellate", "turn every geometry node into faces, and faces into triangles", Level::expanded, Level::mesh),
     pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", Level::authored, Level::authored),
     pass<lod, LodOptions>("lod", "make levels of detail of each Shape", Level::authored, Level::authored),
+    pass<lightmap, LightmapOptions>("lightmap", "compute light and put it onto the surfaces as textures", Level::expanded, Level::expanded),
     pass<normals, NormalsOptions>("normals", "compute normals by creaseAngle where the file gives none", Level::mesh, Level::mesh),
     pass<triangulate, TriangulateOptions>("triangulate", "cut polygons into triangles", Level::mesh, Level::mesh),
 };

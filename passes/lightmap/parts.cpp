@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "passes/normals.h"
 #include "passes/parallel.h"
@@ -102,12 +103,13 @@ class Finder {
   std::vector<Part> run() {
     std::unordered_map<std::uint32_t, std::size_t> number;
     std::vector<Part> parts;
+    std::unordered_set<std::uint32_t> shapes;
     for (std::uint32_t u = 0; u < stage_.uses.size(); ++u) {
       const auto& use = stage_.uses[u];
       if (!lit_.contains(use.geometry.value) || !has_material(use.appearance)) continue;
       auto [at, added] = number.try_emplace(use.geometry.value, parts.size());
       if (added) parts.push_back({.geometry = use.geometry});
-      if (finite(stage_.frames[use.frame])) parts[at->second].uses.push_back(u);
+      if (finite(stage_.frames[use.frame]) && shapes.insert(use.shape.value).second) parts[at->second].uses.push_back(u);
     }
     for (Part& p : parts) read(p);
     std::erase_if(parts, [](const Part& p) { return p.uses.empty() || p.mesh.corners.empty(); });

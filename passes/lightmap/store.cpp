@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -74,7 +75,7 @@ class Storing {
     NodeId appearance = scene_.get(shape, nodes::shape::appearance);
     auto [mine, added] = place.own_coords ? of_.try_emplace({appearance.value, place.page}) : std::pair(of_.end(), true);
     if (!added) return scene_.set(shape, nodes::shape::appearance, mine->second);
-    if (!taken_.insert({appearance.value, true}).second) {
+    if (!taken_.insert(appearance.value).second) {
       const NodeId copy = scene_.add(nodes::Appearance, scene_.where(appearance));
       const std::vector<Value> fields(scene_.fields(appearance).begin(), scene_.fields(appearance).end());
       scene_.set_fields(copy, fields);
@@ -140,7 +141,7 @@ class Storing {
   std::vector<NodeId> lightmaps_;                // of each page
   std::vector<std::vector<NodeId>> directions_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, NodeId> of_;  // Appearances by the one that was, and page
-  std::map<std::uint32_t, bool> taken_;          // Appearances that have a lightmap
+  std::set<std::uint32_t> taken_;                // Appearances that have a lightmap
 };
 
 }  // namespace

@@ -1,0 +1,236 @@
+// Light against closed formulas: form factors, furnaces, lamps, skies with walls; by the cached integrator and by path
+// tracing. Seeds are fixed. Each value is checked twice: within 0.5 % where many rays make it converge, and within three
+// standard errors where few do (99.7 % of fixed seeds would pass if errors were normal and the estimate of the variance
+// exact; it is an upper bound, so more do).
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include "parsers/parsers.h"
+#include "passes/light/integrator.h"
+#include "passes/light/random.h"
+#include "passes/pipeline.h"
+
+using namespace wrlkit;
+using namespace wrlkit::light;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+using Mode = IntegratorOptions::Mode;
+
+struct Room {
+  Diagnostics diag;
+  Statistics stats;
+  std::unique_ptr<World> parsed;
+  std::unique_ptr<LightWorld> world;
+
+  explicit Room(const std::string& body, const LightOptions& options = {}) {
+    parsed = parse_world("#VRML V2.0 utf8\n" + body, "test.wrl", {}, diag);
+    REQUIRE(parsed);
+    std::string why;
+    auto pipeline = Pipeline::parse("picture", why);
+    PassContext ctx{diag, stats, nullptr};
+    auto meshes = pipeline->run_lazily(parsed->scene, ctx);
+    world = std::make_unique<LightWorld>(parsed->scene, meshes, nullptr, options, diag);
+  }
+  std::vector<Irradiance> irradiance(const std::vector<Point>& points, const IntegratorOptions& options) const {
+    return Integrator(*world, points, options).irradiance(points);
+  }
+  Irradiance irradiance(const Point& point, const IntegratorOptions& options) const { return irradiance(std::vector<Point>{point}, options)[0]; }
+  /// Mean over places spread evenly over a parallelogram.
+  double mean_irradiance(const V3& corner, const V3& a, const V3& b, const V3& normal, const IntegratorOptions& options) const;
+};
+
+double total(const Irradiance& e) { return (e.direct[0] + e.direct[1] + e.direct[2] + e.indirect[0] + e.indirect[1] + e.indirect[2]) / 3; }
+double deviation(const Irradiance& e) { return std::sqrt((e.variance[0] + e.variance[1] + e.variance[2]) / 3); }
+
+double Room::mean_irradiance(const V3& corner, const V3& a, const V3& b, const V3& normal, const IntegratorOptions& options) const {
+  std::vector<Point> points;
+  Lattice<2> places(7);
+  for (std::uint32_t i = 0; i < 4096; ++i) {
+    auto [u, v] = places[i];
+    points.push_back({corner + u * a + v * b, normal, normal});
+  }
+  double sum = 0;
+  for (const Irradiance& e : irradiance(points, options)) sum += total(e) / static_cast<double>(points.size());
+  return sum;
+}
+
+// ---- worlds --------------------------------------------------------------------------------------------------------
+
+double display(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
+std::string grey(double linear) { return fmt::format("{0} {0} {0}", display(linear)); }
+std::string material(double albedo, double radiance = 0) {
+  return fmt::format("appearance Appearance {{ material Material {{ diffuseColor {} emissiveColor {} }} }} ", grey(albedo), grey(radiance));
+}
+const std::string emitting = material(0, 1);
+
+std::string at(const V3& p) { return fmt::format("{} {} {} ", p.x, p.y, p.z); }
+/// Seen from where the corners run counter-clockwise.
+std::string quad(const V3& o, const V3& a, const V3& b, const std::string& surface, const std::string& more = "") {
+  return "Shape { " + surface + "geometry IndexedFaceSet { " + more + " coordIndex [ 0 1 2 3 -1 ] coord Coordinate { point [ " + at(o) + at(o + a) +
+         at(o + a + b) + at(o + b) + "] } } }\n";
+}
+std::string polygon(const std::vector<V3>& corners, const std::string& surface) {
+  std::string points, index;
+  for (std::size_t i = 0; i < corners.size(); ++i) points += at(corners[i]), index += std::to_string(i) + " ";
+  return "Shape { " + surface + "geometry IndexedFaceSet { coordIndex [ " + index + "-1 ] coord Coordinate { point [ " + points + "] } } }\n";
+}
+/// The part of a unit sphere with polar angles between those whose cosines are given, seen from without or within.
+std::string sphere(const V3& centre, double radius, double from, double to, bool within, const std::string& surface) {
+  constexpr int around = 128, rows = 48;
+  std::string points, index;
+  for (int r = 0; r <= rows; ++r)
+    for (int k = 0; k < around; ++k) {
+      double z = from + (to - from) * r / rows, s = std::sqrt(std::max(0.0, 1 - z * z)), angle = 2 * pi * k / around;
+      points += at(centre + radius * V3(s * std::cos(angle), s * std::sin(angle), z));
+    }
+  for (int r = 0; r < rows; ++r)
+    for (int k = 0; k < around; ++k) {
+      int a = r * around + k, b = r * around + (k + 1) % around;
+      index += fmt::format("{} {} {} {} -1 ", a, b, b + around, a + around);
+    }
+  bool ccw = (to > from) != within;
+  return fmt::format("Shape {{ {} geometry IndexedFaceSet {{ ccw {} creaseAngle 0 coordIndex [ {} ] coord Coordinate {{ point [ {} ] }} }} }}\n", surface,
+                     ccw ? "TRUE" : "FALSE", index, points);
+}
+/// The inside of the unit cube; the ceiling (z = 1) has a surface of its own.
+std::string cube(const std::string& walls, const std::string& ceiling) {
+  V3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  return quad({}, x, y, walls) + quad(z, y, x, ceiling) + quad({}, z, x, walls) + quad(y, x, z, walls) + quad({}, y, z, walls) + quad(x, z, y, walls);
+}
+
+const Point up{{0, 0, 0}, {0, 0, 1}, {0, 0, 1}};
+
+void check(const std::string& name, const Room& room, const Point& p, double expected) {
+  for (Mode mode : {Mode::cached, Mode::path}) {
+    INFO(name << (mode == Mode::path ? ", path" : ", cached"));
+    CHECK(total(room.irradiance(p, {.mode = mode, .rays = 1 << 14})) == Approx(expected).epsilon(0.005));
+    Irradiance few = room.irradiance(p, {.mode = mode, .rays = 64});
+    CHECK(std::fabs(total(few) - expected) <= 3 * deviation(few) + 1e-3 * expected);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("light: a square emitter over a point") {
+  // 4 pi times the form factor of a quarter; off the axis Lambert's sum over the polygon's edges.
+  struct { double height, x, y, expected; } cases[] = {{0.5, 0, 0, 1.74083950}, {1, 0, 0, 0.75227469}, {2, 0, 0, 0.23083680}, {5, 0, 0, 0.03947403},
+                                                       {1, 1, 0, 0.26500485}, {1, 2, 1, 0.03023652}, {1, 0.5, 0.5, 0.43520988}};
+  for (auto& c : cases) {
+    Room room(quad({-0.5, -0.5, c.height}, {0, 1, 0}, {1, 0, 0}, emitting));
+    check(fmt::format("height {} at {} {}", c.height, c.x, c.y), room, {{c.x, c.y, 0}, {0, 0, 1}, {0, 0, 1}}, c.expected);
+  }
+}
+
+TEST_CASE("light: an emitter at right angles") {
+  Room high(quad({1, 0, 0}, {0, 0, 1}, {0, 1, 0}, emitting)), near(quad({0.5, 0, 0}, {0, 0, 2}, {0, 1, 0}, emitting));
+  check("height 1, distance 1", high, up, 0.17509414);
+  check("height 2, distance 0.5", near, up, 0.49880576);
+}
+
+TEST_CASE("light: a sphere that emits") {
+  struct { double radius, distance, angle, expected; } cases[] = {
+      {1, 2, 0, 0.78539816}, {0.5, 3, 0, 0.08726646}, {1, 3, 30, 0.30229989}, {1, 3, 60, 0.17453293}, {1, 3, 70, 0.11938755}};
+  for (auto& c : cases) {
+    double a = c.angle * pi / 180;
+    Room room(sphere({c.distance * std::sin(a), 0, c.distance * std::cos(a)}, c.radius, -1, 1, false, emitting));
+    check(fmt::format("radius {} distance {} angle {}", c.radius, c.distance, c.angle), room, up, c.expected);
+  }
+}
+
+TEST_CASE("light: a disk that emits") {
+  for (auto [radius, height, expected] : {std::array{1.0, 1.0, 1.57079633}, std::array{0.5, 2.0, 0.18479957}}) {
+    std::vector<V3> rim;
+    for (int i = 0; i < 256; ++i) rim.push_back({radius * std::sin(2 * pi * i / 256), radius * std::cos(2 * pi * i / 256), height});
+    check(fmt::format("radius {}", radius), Room(polygon(rim, emitting)), up, expected);
+  }
+}
+
+TEST_CASE("light: a PointLight over a plane") {
+  // I h / (h^2 + r^2)^1.5 with I = pi: intensity 1, attenuation by the square of the distance.
+  for (auto [height, offset, per_intensity] : {std::array{2.0, 0.0, 0.25}, std::array{2.0, 1.5, 0.128}, std::array{3.0, 4.0, 0.024}}) {
+    Room room(fmt::format("PointLight {{ location {} 0 {} attenuation 0 0 1 }}", offset, height));
+    Irradiance e = room.irradiance(up, {.rays = 1});
+    CHECK(total(e) == Approx(pi * per_intensity));
+    CHECK(deviation(e) == 0);
+  }
+}
+
+TEST_CASE("light: a sky with walls") {
+  LightOptions white{.sky = LightOptions::Sky::constant};
+  check("open plane", Room("", white), up, pi);
+  for (auto [degrees, expected] : {std::array{30.0, 2.93114585}, std::array{45.0, 2.68151706}, std::array{60.0, 2.35619449}}) {
+    // A wall that is large and far enough to count as infinite.
+    Room room(quad({1, -5e3, 0}, {0, 0, std::tan(degrees * pi / 180)}, {0, 1e4, 0}, material(0)), white);
+    check(fmt::format("wall of {} degrees", degrees), room, up, expected);
+  }
+  std::string tall = quad({1e-3, -5e3, 0}, {0, 0, 1e4}, {0, 1e4, 0}, material(0)), other = quad({5e3, 1e-3, 0}, {0, 0, 1e4}, {-1e4, 0, 0}, material(0));
+  check("foot of a tall wall", Room(tall, white), up, pi / 2);
+  check("corner of two", Room(tall + other, white), up, pi / 4);
+}
+
+TEST_CASE("light: white furnace") {
+  // Closed, all surfaces emit 1: irradiance pi / (1 - albedo) everywhere.
+  for (double albedo : {0.2, 0.5, 0.8, 0.9, 0.95}) {
+    Room room(cube(material(albedo, 1), material(albedo, 1)));
+    check(fmt::format("albedo {}", albedo), room, {{0.3, 0.4, 0}, {0, 0, 1}, {0, 0, 1}}, pi / (1 - albedo));
+  }
+}
+
+TEST_CASE("light: the inside of a sphere") {
+  // A part f of it emits: every point gets f M / (1 - sum of f_i albedo_i), M = pi.
+  struct { double f, albedo, other, expected; } cases[] = {{0.1, 0.5, 0.5, 0.2}, {0.05, 0.8, 0.8, 0.25}, {0.5, 0.8, 0.8, 2.5},
+                                                           {0.25, 0.5, 0.8, 0.90909091}, {0.25, 0.3, 0.9, 1}};
+  for (auto& c : cases) {
+    double edge = 1 - 2 * c.f;
+    Room room(sphere({}, 1, 1, edge, true, material(c.albedo, 1)) + sphere({}, 1, edge, -1, true, material(c.other)));
+    check(fmt::format("f {} albedo {} and {}", c.f, c.albedo, c.other), room, {{0, 0, -0.999}, {0, 0, 1}, {0, 0, 1}}, pi * c.expected);
+  }
+}
+
+TEST_CASE("light: a cube with a ceiling that emits") {
+  // Continuous radiosity, means over faces; by collocation on 24 x 24 patches a face, in units of the exitance.
+  struct { double albedo, floor, wall, ceiling; } cases[] = {{0, 0.19982, 0.20004, 0}, {0.5, 0.34256, 0.36226, 0.20840}, {0.8, 0.82649, 0.85994, 0.73376}};
+  for (auto& c : cases) {
+    Room room(cube(material(c.albedo), material(c.albedo, 1)));
+    for (Mode mode : {Mode::cached, Mode::path}) {
+      INFO("albedo " << c.albedo << (mode == Mode::path ? ", path" : ", cached"));
+      IntegratorOptions o{.mode = mode, .rays = 64};
+      CHECK(room.mean_irradiance({}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, o) / pi == Approx(c.floor).epsilon(0.005));
+      CHECK(room.mean_irradiance({}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, o) / pi == Approx(c.wall).epsilon(0.005));
+      CHECK(room.mean_irradiance({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}, o) / pi == Approx(c.ceiling).epsilon(0.005).margin(1e-9));
+    }
+  }
+}
+
+TEST_CASE("light: rectangles that face each other, or share an edge") {
+  struct { double distance, factor; } parallel[] = {{1, 0.19982490}, {0.5, 0.41525328}, {2, 0.06858959}};
+  for (auto& c : parallel) {
+    Room room(quad({0, 0, c.distance}, {0, 1, 0}, {1, 0, 0}, emitting));
+    for (Mode mode : {Mode::cached, Mode::path})
+      CHECK(room.mean_irradiance({}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.mode = mode, .rays = 16}) / pi == Approx(c.factor).epsilon(0.005));
+  }
+  // From an upright emitter of height h to a floor of depth w: F(floor, wall).
+  struct { double w, h, factor; } edge[] = {{1, 1, 0.20004378}, {2, 1, 0.11642630}, {1, 2, 0.23285260}, {1, 0.5, 0.14618668}};
+  for (auto& c : edge) {
+    Room room(quad({}, {0, 1, 0}, {0, 0, c.h}, emitting));
+    for (Mode mode : {Mode::cached, Mode::path})
+      CHECK(room.mean_irradiance({}, {c.w, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.mode = mode, .rays = 64}) / pi == Approx(c.factor).epsilon(0.005));
+  }
+}
+
+TEST_CASE("light: two squares between which light goes to and fro") {
+  // Distance 1, lower one emits; in units of its exitance, continuous.
+  struct { double albedo, lower, upper; } cases[] = {{0.5, 0.020436, 0.201894}, {0.8, 0.033235, 0.205210}};
+  for (auto& c : cases) {
+    Room room(quad({}, {1, 0, 0}, {0, 1, 0}, material(c.albedo, 1)) + quad({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, material(c.albedo)));
+    for (Mode mode : {Mode::cached, Mode::path}) {
+      IntegratorOptions o{.mode = mode, .rays = 256};
+      CHECK(room.mean_irradiance({}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, o) / pi == Approx(c.lower).epsilon(0.005));
+      CHECK(room.mean_irradiance({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, o) / pi == Approx(c.upper).epsilon(0.005));
+    }
+  }
+}
