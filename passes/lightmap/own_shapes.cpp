@@ -59,7 +59,7 @@ class Unsharer {
     bool changed = false;
     for (NodeId& n : ids) {
       if (!n || !is_holder(n)) continue;
-      if (!met_[n.value]) met_[n.value] = 1, open_.push_back(n);
+      if (!is_met(n)) met_[n.value] = 1, open_.push_back(n);
       else if (!moving_[n]) n = copy(n), changed = true;
     }
     return changed;
@@ -77,6 +77,7 @@ class Unsharer {
   }
 
   /// Copies, which have larger numbers than the nodes that were there, hold Shapes as their originals do.
+  bool is_met(NodeId n) const { return n.value >= met_.size() || met_[n.value]; }
   bool is_holder(NodeId n) const { return n.value >= holds_.size() || holds_[n.value]; }
 
   NodeId copy(NodeId n) {

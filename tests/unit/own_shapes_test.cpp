@@ -45,6 +45,14 @@ TEST_CASE("own shapes: each place has its own, and the geometry is shared") {
   CHECK(bake::own_shapes(w.scene, w.diag) == 0);
 }
 
+TEST_CASE("own shapes: a copy of what has copies has copies of its own") {
+  TestWorld w(R"(DEF A Transform { children [ DEF S Shape { geometry Box {} } USE S USE S ] }
+                 Transform { children [ USE A USE A ] } Group { children USE A })");
+  auto places = drawing::set_stage(w.scene, nullptr, w.diag).uses.size();
+  bake::own_shapes(w.scene, w.diag);
+  CHECK(w.count(nodes::Shape) == places);
+}
+
 TEST_CASE("own shapes: a name that is taken is not given") {
   TestWorld w("DEF S Shape { geometry Box {} } DEF S_2 Group {} USE S");
   bake::own_shapes(w.scene, w.diag);
