@@ -10,9 +10,9 @@
 #include "passes/simplify/progressive_world.h"
 #include "passes/simplify/world.h"
 #include "tools/session.h"
+#include "tools/vrml_file.h"
 #include "writers/json.h"
 #include "writers/output.h"
-#include "writers/vrml.h"
 
 namespace wrlkit {
 namespace {
@@ -59,12 +59,7 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   return o;
 }
 
-bool write_world(Session& s, const std::string& path, const Scene& scene) {
-  auto file = OutputFile::open(path, {.gzip = s.flags().gzip}, s.diag());
-  if (!file) return false;
-  write_vrml(scene, {.precision = s.flags().precision, .file = path}, file->sink(), s.diag());
-  return file->commit(s.diag());
-}
+bool write_world(Session& s, const std::string& path, const Scene& scene) { return write_vrml_file(s, scene, path, s.flags().gzip); }
 
 /// The world as one progressive file in place of many.
 int write_progressive_file(Session& s, Criterion criterion, const std::string& path) {
