@@ -165,10 +165,7 @@ int Combining::factor(const Group& group) {
   for (std::size_t i = 0; i < meshes_.size(); ++i) wanted = std::max(wanted, detail_of(surfaces_[group.shapes[i].surface], meshes_[i]));
   const double chosen = std::min(options_.scale.value ? options_.scale.value : std::ceil(wanted), most);
   constexpr double unseen = 1.5;
-  if (wanted > unseen * chosen) {
-    auto rounded = std::round(10 * wanted / chosen) / 10;
-    ctx_.diag.report(Diag::texture_coarser, scene_.where(group.shapes[0].shape), rounded);
-  }
+  if (wanted > unseen * chosen) ctx_.diag.report(Diag::texture_coarser, scene_.where(group.shapes[0].shape), std::lround(wanted / chosen));
   return static_cast<int>(chosen);
 }
 
