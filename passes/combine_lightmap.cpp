@@ -58,6 +58,13 @@ double picture_area(const Attribute& a, std::uint32_t corner, const drawing::Tex
   return std::abs((double{q[0]} - p[0]) * (double{r[1]} - p[1]) - (double{r[0]} - p[0]) * (double{q[1]} - p[1])) * std::abs(map.determinant());
 }
 
+/// Its numbers can be reckoned with. What is further away shows nothing of the page.
+bool is_near(const PageTriangle& t) {
+  constexpr double far = 1e9;
+  auto near = [](double v) { return std::abs(v) < far; };
+  return std::ranges::all_of(t.x, near) && std::ranges::all_of(t.y, near);
+}
+
 class Combining {
  public:
   Combining(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx)
@@ -162,7 +169,7 @@ double Combining::detail_of(const drawing::Surface& s, const Mesh& mesh) const {
 int Combining::factor(const Group& group) {
   const double most = std::max(1, options_.max_size / std::max(group.light->width(), group.light->height()));
   double wanted = 1;
-  for (std::size_t i = 0; i < meshes_.size(); ++i) wanted = std::max(wanted, detail_of(surfaces_[group.shapes[i].surface], meshes_[i]));
+  for (std::size_t i = 0; i < meshes_.size(); ++i) wanted = std::max(wanted, std::min(detail_of(surfaces_[group.shapes[i].surface], meshes_[i]), 1e9));
   const double chosen = std::min(options_.scale.value ? options_.scale.value : std::ceil(wanted), most);
   constexpr double unseen = 1.5;
   if (wanted > unseen * chosen) ctx_.diag.report(Diag::texture_coarser, scene_.where(group.shapes[0].shape), std::lround(wanted / chosen));
@@ -181,7 +188,7 @@ void Combining::list_triangles(const Group& group, std::uint32_t shape, int widt
       t.x[corner] = u * width, t.y[corner] = (1 - v) * height;
     }
     const double texels = std::abs(t.area());
-    if (!(texels > 0) || !std::isfinite(texels)) continue;
+    if (!(texels > 0) || !is_near(t)) continue;
     triangles_.push_back(t);
     painted_.push_back({&s, shape, c, pixels > 0 ? std::sqrt(pixels * picture_area(mesh.texcoord, c, s.texcoords) / texels) : 1});
   }

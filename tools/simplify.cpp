@@ -116,12 +116,19 @@ void print(const Session& s, std::size_t n_faces, const std::vector<Written>& fi
   }
 }
 
+/// Surfaces without loose faces; and baked light in the textures, where VRML is written for browsers.
+std::string_view standard_pipeline(const Flags& flags) {
+  if (flags.progressive) return flags.pipeline_given ? "none" : "inline,expand-protos,inline,expand-protos,weld";
+  if (flags.pipeline_given) return flags.dump ? "none" : "vrml";
+  return flags.dump ? "weld" : "combine-lightmap,weld";
+}
+
 }  // namespace
 
 int run_simplify(const Flags& flags) {
   Session s(flags);
   auto options = options_of(flags);
-  if (!options || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "none" : flags.progressive ? "inline,expand-protos,inline,expand-protos,weld" : "weld")) return usage;
+  if (!options || !s.good() || !s.choose_pipeline(standard_pipeline(flags))) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
 
