@@ -80,7 +80,16 @@ std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why)
 void Pipeline::complete(std::string_view named) {
   std::string why;
   auto standard = parse(named, why);
-  auto split = std::ranges::find(standard->steps_, "tessellate", [](const Step& s) { return s.info->name; });
+  auto name = [](const Step& s) { return s.info->name; };
+  auto combine = std::ranges::find(standard->steps_, "combine-lightmap", name);
+  if (combine != standard->steps_.end()) {
+    if (std::ranges::find(steps_, combine->info, &Step::info) == steps_.end()) {
+      auto last = std::find_if(steps_.rbegin(), steps_.rend(), [](const Step& s) { return !s.pass->is_mesh_pass(); });
+      steps_.insert(last.base(), std::move(*combine));
+    }
+    standard->steps_.erase(combine);
+  }
+  auto split = std::ranges::find(standard->steps_, "tessellate", name);
   std::vector<Step> all;
   auto add_missing = [&](auto from, auto to) {
     for (; from != to; ++from)

@@ -63,6 +63,7 @@ class Pipeline {
   static std::optional<Pipeline> parse(std::string_view text, std::string& why);
   /// Adds the passes of a named pipeline that this one lacks, by name: those before `tessellate` in front, the others at
   /// the end. So a writer has what it needs whatever was chosen: `weld` for glTF is `inline,...,weld,tessellate,...`.
+  /// `combine-lightmap` comes behind the last pass over the scene, which may be the one that makes the light.
   void complete(std::string_view named);
   /// The whole text, every option spelled out; parse(text()) is this pipeline again.
   std::string text() const;

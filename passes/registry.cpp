@@ -1,6 +1,7 @@
 // The whole list of passes. Adding one is a header, a source, a line here and a test.
 #include <algorithm>
 
+#include "passes/combine_lightmap.h"
 #include "passes/expand_protos.h"
 #include "passes/inline.h"
 #include "passes/join.h"
@@ -25,13 +26,19 @@ constexpr PassInfo all_passes[] = {
     pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", Level::authored, Level::authored),
     pass<lod, LodOptions>("lod", "make levels of detail of each Shape", Level::authored, Level::authored),
     pass<lightmap, LightmapOptions>("lightmap", "compute light and put it onto the surfaces as textures", Level::expanded, Level::expanded),
+    pass<combine_lightmap, CombineLightmapOptions>("combine-lightmap", "make one texture of a surface's own colour and its baked light", Level::authored, Level::authored),
     pass<normals, NormalsOptions>("normals", "compute normals by creaseAngle where the file gives none", Level::mesh, Level::mesh),
     pass<triangulate, TriangulateOptions>("triangulate", "cut polygons into triangles", Level::mesh, Level::mesh),
 };
 
 // A prototype may hold Inlines, and an inlined world instances of prototypes: both are looked for twice.
+#define WRLKIT_GLTF_FRONT "inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},prune,"
+#define WRLKIT_GLTF_END "tessellate{triangles=false,texcoords=true},normals,triangulate"
 constexpr NamedPipeline named[] = {
-    {"gltf", "inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},prune,tessellate{triangles=false,texcoords=true},normals,triangulate", "what convert does for glTF"},
+    {"gltf", WRLKIT_GLTF_FRONT "combine-lightmap," WRLKIT_GLTF_END, "what convert does for glTF"},
+    {"gltf-emissive", WRLKIT_GLTF_FRONT "combine-lightmap{into=lightmap}," WRLKIT_GLTF_END, "the same for --lightmap-as emissive"},
+    {"gltf-light", WRLKIT_GLTF_FRONT WRLKIT_GLTF_END, "the same for --lightmap-as occlusion, moz and extras"},
+    {"vrml", "combine-lightmap", "what convert and cat do for VRML97"},
     {"picture", "inline,expand-protos,inline,expand-protos,tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
     {"expand", "inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
     {"none", "", "nothing: the file as it is"},

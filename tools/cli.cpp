@@ -81,6 +81,8 @@ const Verb verbs[] = {
        input(v, f);
        v.add_option("OUT", f.output, "file.glb, .gltf, .wrl, .wrz")->required();
        pipeline(v, f);
+       v.add_option("--lightmap-as", f.lightmap_as, "baked light in glTF: base-color, in the texture of unlit materials; emissive; occlusion, its brightness alone; moz, as MOZ_lightmap; extras, for programs that look there")
+           ->check(CLI::IsMember({"base-color", "emissive", "occlusion", "moz", "extras"}))->capture_default_str();
        placing(v, f);
        vrml_output(v, f);
      },

@@ -7,9 +7,9 @@
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 #include "tools/session.h"
+#include "tools/vrml_file.h"
 #include "writers/gltf.h"
-#include "writers/output.h"
-#include "writers/vrml.h"
+#include "writers/made_files.h"
 
 namespace wrlkit {
 namespace {
@@ -27,16 +27,30 @@ std::optional<Target> target_of(std::string name, bool& gzip) {
   return std::nullopt;
 }
 
+struct LightRow {
+  std::string_view name;
+  GltfOptions::Lightmaps as;
+  std::string_view pipeline;
+};
+
+/// What --lightmap-as says.
+const LightRow* light_of(std::string_view name) {
+  using As = GltfOptions::Lightmaps;
+  static constexpr LightRow rows[] = {{"base-color", As::base_color, "gltf"},
+                                      {"emissive", As::emissive, "gltf-emissive"},
+                                      {"occlusion", As::occlusion, "gltf-light"},
+                                      {"moz", As::moz, "gltf-light"},
+                                      {"extras", As::extras, "gltf-light"}};
+  return std::ranges::find(rows, name, &LightRow::name);
+}
+
 std::size_t count_geometries(const Scene& scene) {
   return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return scene.type(n).is_a("X3DGeometryNode"); }));
 }
 
 bool write_as_vrml(Session& s, bool gzip) {
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return false;
-  auto file = OutputFile::open(s.flags().output, {.gzip = gzip}, s.diag());
-  if (!file) return false;
-  write_vrml(s.world().scene, {.precision = s.flags().precision, .file = s.flags().output}, file->sink(), s.diag());
-  return file->commit(s.diag());
+  return write_vrml_file(s, s.world().scene, s.flags().output, gzip);
 }
 
 bool write_as_gltf(Session& s, bool binary) {
@@ -47,7 +61,15 @@ bool write_as_gltf(Session& s, bool binary) {
   if (n_geometries == 0 && s.diag().count(Diag::unknown_node) > 0) s.diag().report(Diag::nothing_drawn, scene.main.roots.empty() ? Span{} : scene.where(scene.main.roots[0]));
   s.progress().begin("writing " + s.flags().output, n_geometries, "shapes");
   auto counted = [&](NodeId n) -> const Mesh& { return s.progress().step(), meshes(n); };
-  return write_gltf(scene, counted, {.binary = binary}, &s.resources(), s.flags().output, s.diag());
+  MadeFiles beside(scene, s.resources(), s.flags().output, s.diag());  // pictures are glTF's own matter; the rest is here
+  const GltfOptions options{.binary = binary, .lightmaps = light_of(s.flags().lightmap_as)->as};
+  return beside.write() && write_gltf(scene, counted, options, &s.resources(), s.flags().output, s.diag()) && beside.commit();
+}
+
+/// The pipeline that prepares a scene for its writer.
+std::string_view pipeline_for(Target target, const Flags& flags) {
+  if (target != Target::vrml) return light_of(flags.lightmap_as)->pipeline;
+  return flags.dump ? "none" : "vrml";
 }
 
 }  // namespace
@@ -57,7 +79,7 @@ int run_convert(const Flags& flags) {
   bool gzip = flags.gzip;
   auto target = target_of(flags.output, gzip);
   if (!target) return fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output), usage;
-  if (!s.good() || !s.choose_pipeline(*target == Target::vrml ? "none" : "gltf")) return usage;
+  if (!s.good() || !s.choose_pipeline(pipeline_for(*target, flags))) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0])) return s.end(false);
   check_values(s.world().scene, s.diag());

@@ -28,6 +28,7 @@ struct Flags {
   std::string print_after;
   bool gzip = false, dump = false;
   int precision = 0;
+  std::string lightmap_as = "base-color";  // what becomes of baked light in glTF
 
   bool parse_only = false;                 // check
 

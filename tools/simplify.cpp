@@ -10,9 +10,9 @@
 #include "passes/simplify/progressive_world.h"
 #include "passes/simplify/world.h"
 #include "tools/session.h"
+#include "tools/vrml_file.h"
 #include "writers/json.h"
 #include "writers/output.h"
-#include "writers/vrml.h"
 
 namespace wrlkit {
 namespace {
@@ -59,12 +59,7 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   return o;
 }
 
-bool write_world(Session& s, const std::string& path, const Scene& scene) {
-  auto file = OutputFile::open(path, {.gzip = s.flags().gzip}, s.diag());
-  if (!file) return false;
-  write_vrml(scene, {.precision = s.flags().precision, .file = path}, file->sink(), s.diag());
-  return file->commit(s.diag());
-}
+bool write_world(Session& s, const std::string& path, const Scene& scene) { return write_vrml_file(s, scene, path, s.flags().gzip); }
 
 /// The world as one progressive file in place of many.
 int write_progressive_file(Session& s, Criterion criterion, const std::string& path) {
@@ -121,12 +116,19 @@ void print(const Session& s, std::size_t n_faces, const std::vector<Written>& fi
   }
 }
 
+/// Surfaces without loose faces; and baked light in the textures, where VRML is written for browsers.
+std::string_view standard_pipeline(const Flags& flags) {
+  if (flags.progressive) return flags.pipeline_given ? "none" : "inline,expand-protos,inline,expand-protos,weld";
+  if (flags.pipeline_given) return flags.dump ? "none" : "vrml";
+  return flags.dump ? "weld" : "combine-lightmap,weld";
+}
+
 }  // namespace
 
 int run_simplify(const Flags& flags) {
   Session s(flags);
   auto options = options_of(flags);
-  if (!options || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "none" : flags.progressive ? "inline,expand-protos,inline,expand-protos,weld" : "weld")) return usage;
+  if (!options || !s.good() || !s.choose_pipeline(standard_pipeline(flags))) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
 

@@ -82,8 +82,8 @@ class Writer {
         diag_(diag),
         textures_(scene, resources, diag),
         extras_(scene, diag),
-        materials_(scene, textures_, options.extras ? &extras_ : nullptr),
-        meshes_(scene, source, store_, diag),
+        materials_(scene, textures_, options.extras ? &extras_ : nullptr, options.lightmaps),
+        meshes_(scene, source, store_, options.lightmaps != GltfOptions::Lightmaps::base_color, diag),
         hierarchy_(scene, options, meshes_, materials_, options.extras ? &extras_ : nullptr, diag) {}
 
   bool write() {

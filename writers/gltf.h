@@ -12,9 +12,15 @@ namespace wrlkit {
 
 struct GltfOptions {
   enum class Images : std::uint8_t { automatic, embedded, beside };
+  /// What becomes of lightmaps. base_color: the pass combine-lightmap has made textures of them, nothing is left to do. The
+  /// others leave surfaces as they are and write the light at texture coordinates of its own: emissive (the pass has put the
+  /// surfaces' colours into it, and nothing else is seen but highlights), occlusion (its brightness dims ambient light),
+  /// moz (extension MOZ_lightmap), extras (of the material, with the directions of the light).
+  enum class Lightmaps : std::uint8_t { base_color, emissive, occlusion, moz, extras };
 
   bool binary = true;                 // .glb; false: .gltf with a .bin beside it
   Images images = Images::automatic;  // in the binary part, or files beside; automatic: as `binary`
+  Lightmaps lightmaps = Lightmaps::base_color;
   bool lights = true, cameras = true;
   bool extras = true;                  // what glTF cannot say is kept
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own

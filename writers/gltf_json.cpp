@@ -84,6 +84,7 @@ class Writer {
     if (!h_.lights().empty()) used.push_back("KHR_lights_punctual");
     if (p_.materials.uses_unlit()) used.push_back("KHR_materials_unlit");
     if (p_.materials.uses_texture_transform()) used.push_back("KHR_texture_transform");
+    if (p_.materials.uses_moz_lightmap()) used.push_back("MOZ_lightmap");
     if (h_.uses_lod()) used.push_back("MSFT_lod");
     list("extensionsUsed", used.size(), [&](std::size_t i) { json_.value(used[i]); });
   }
@@ -196,6 +197,7 @@ class Writer {
     // Colours that a picture hides are kept under a name that viewers do not know.
     if (g.colors != none) json_.member(m.shows_color ? "COLOR_0" : "_COLOR", g.colors);
     if (m.texcoords != none) json_.member("TEXCOORD_0", m.texcoords);
+    if (m.lightcoords != none) json_.member(m.texcoords != none ? "TEXCOORD_1" : "TEXCOORD_0", m.lightcoords);
     json_.end_object();
     if (g.indices != none) json_.member("indices", g.indices);
     if (m.material != none) json_.member("material", m.material);

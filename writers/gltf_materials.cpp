@@ -27,6 +27,9 @@ struct Materials::Look {
   TextureUse texture;
   UvAffine uv;
   SurfaceKind surface;
+  TextureUse light;
+  NodeId light_transform;
+  UvAffine light_uv;
   bool lit = false, shows_color = false;
   Vec3 base = white, emissive = black;  // display-referred
   double alpha = 1;
@@ -40,7 +43,7 @@ bool Materials::has_picture(NodeId appearance) {
 
 MaterialUse Materials::get(NodeId appearance, SurfaceKind s) {
   std::uint64_t key = appearance.value;
-  for (bool b : {s.faces, s.color, s.texcoord, s.double_sided}) key = key << 1 | b;
+  for (bool b : {s.faces, s.color, s.texcoord, s.light, s.double_sided}) key = key << 1 | b;
   auto [i, is_new] = uses_.try_emplace(key);
   if (is_new) i->second = make(appearance, s);
   return i->second;
@@ -51,7 +54,8 @@ MaterialUse Materials::make(NodeId appearance, SurfaceKind s) {
   bool bake = l.texture.texture != none && !uv_transform(l.uv);
   auto [i, is_new] = by_json_.try_emplace(json(l), static_cast<std::uint32_t>(materials_.size()));
   if (is_new) materials_.push_back(i->first);
-  return {i->second, bake ? l.transform_node : NodeId{}, l.shows_color};
+  bool light = l.light.texture != none, bake_light = light && !uv_transform(l.light_uv);
+  return {i->second, bake ? l.transform_node : NodeId{}, light, bake_light ? l.light_transform : NodeId{}, l.shows_color};
 }
 
 Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
@@ -80,7 +84,26 @@ Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
   }
   if (l.alpha < 1) l.mode = Alpha::blend;
   if (l.texture.channels % 2 == 0 && l.texture.channels > 0) l.alpha = 1, l.mode = l.texture.alpha;
+  if (l.appearance && s.faces && s.light) look_at_light(l);
   return l;
+}
+
+void Materials::look_at_light(Look& l) {
+  using As = GltfOptions::Lightmaps;
+  namespace a = nodes::appearance;
+  NodeId lightmap = scene_.get(l.appearance, a::lightmap);
+  l.light = lightmaps_ == As::occlusion ? textures_.brightness(lightmap, scene_.get(l.appearance, a::lightmapScale)) : textures_.get(lightmap);
+  if (l.light.texture == none) return;
+  l.light_transform = scene_.get(l.appearance, a::lightmapTransform);
+  if (!scene_.is(l.light_transform, nodes::TextureTransform)) l.light_transform = {};
+  l.light_uv = uv_affine(scene_, l.light_transform);
+  if (lightmaps_ != As::emissive) return;
+  l.base = black, l.emissive = white, l.shows_color = false;
+  if (l.texture.channels % 2 == 1) l.texture = {};
+}
+
+bool Materials::replaced_by_light(const Look& l) const {
+  return l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::emissive;
 }
 
 std::string Materials::json(const Look& l) {
@@ -103,54 +126,100 @@ std::string Materials::json(const Look& l) {
   double rough = l.lit ? roughness(scene_.get(l.material, m::shininess), scene_.get(l.material, m::specularColor)) : 1;
   if (rough < 1) json.member("roughnessFactor", static_cast<float>(rough));
   json.end_object();
+  using As = GltfOptions::Lightmaps;
+  if (replaced_by_light(l)) json.key("emissiveTexture"), light_info(json, l);
+  if (l.light.texture != none && lightmaps_ == As::occlusion) json.key("occlusionTexture"), light_info(json, l);
   if (l.emissive != black) json.member("emissiveFactor", std::span<const float>(linear_color(l.emissive)));
   if (l.mode != Alpha::opaque) json.member("alphaMode", l.mode == Alpha::mask ? "MASK" : "BLEND");
   if (l.surface.double_sided) json.member("doubleSided", true);
-  if (!l.lit) json.key("extensions"), json.raw(R"({"KHR_materials_unlit":{}})"), unlit_ = true;
-  if (extras_) extras(json, l);
+  extensions(json, l);
+  extras(json, l);
   json.end_object();
   return text;
+}
+
+void Materials::extensions(JsonOut& json, const Look& l) {
+  const bool moz = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::moz;
+  const bool unlit = !l.lit && !replaced_by_light(l);
+  if (!unlit && !moz) return;
+  json.key("extensions");
+  json.begin_object();
+  if (unlit) json.key("KHR_materials_unlit"), json.raw("{}"), unlit_ = true;
+  if (moz) json.key("MOZ_lightmap"), light_info(json, l), moz_lightmap_ = true;
+  json.end_object();
+}
+
+/// The lightmap as a textureInfo; MOZ_lightmap has a factor in it, too.
+void Materials::light_info(JsonOut& json, const Look& l) {
+  json.begin_object();
+  const double scale = scene_.get(l.appearance, nodes::appearance::lightmapScale);
+  if (lightmaps_ == GltfOptions::Lightmaps::moz && scale != 1) json.member("intensity", scale);
+  texture_info_members(json, l.light, l.surface.texcoord, l.light_uv);
+  json.end_object();
 }
 
 void Materials::texture_info(JsonOut& json, const Look& l) {
   json.key("baseColorTexture");
   json.begin_object();
-  json.member("index", l.texture.texture);
-  if (auto t = uv_transform(l.uv); t && l.uv != UvAffine{}) {
-    texture_transform_ = true;
-    json.key("extensions");
-    json.begin_object();
-    json.key("KHR_texture_transform");
-    json.begin_object();
-    if (t->offset != Vec2{0, 0}) json.member("offset", std::span<const double>(t->offset));
-    if (t->rotation != 0) json.member("rotation", t->rotation);
-    if (t->scale != Vec2{1, 1}) json.member("scale", std::span<const double>(t->scale));
-    json.end_object();
-    json.end_object();
-  }
+  texture_info_members(json, l.texture, 0, l.uv);
   if (extras_ && l.transform_node && extras_->anything(l.transform_node, {}))
     extras_->member(json, l.transform_node, {});
   json.end_object();
 }
 
-/// The fields of Material that the look does not show, and a picture that is not shown at all.
+void Materials::texture_info_members(JsonOut& json, const TextureUse& use, std::uint32_t set, const UvAffine& uv) {
+  json.member("index", use.texture);
+  if (set > 0) json.member("texCoord", set);
+  auto t = uv_transform(uv);
+  if (!t || uv == UvAffine{}) return;
+  texture_transform_ = true;
+  json.key("extensions");
+  json.begin_object();
+  json.key("KHR_texture_transform");
+  json.begin_object();
+  if (t->offset != Vec2{0, 0}) json.member("offset", std::span<const double>(t->offset));
+  if (t->rotation != 0) json.member("rotation", t->rotation);
+  if (t->scale != Vec2{1, 1}) json.member("scale", std::span<const double>(t->scale));
+  json.end_object();
+  json.end_object();
+}
+
+/// {index, texCoord, ..., scale, directions: [{index}, {index}, {index}]}.
+void Materials::light_extras(JsonOut& json, const Look& l) {
+  namespace a = nodes::appearance;
+  json.key("lightmap");
+  json.begin_object();
+  texture_info_members(json, l.light, l.surface.texcoord, l.light_uv);
+  json.member("scale", scene_.get(l.appearance, a::lightmapScale));
+  std::vector<std::uint32_t> directions;
+  for (NodeId n : scene_.get(l.appearance, a::lightmapDirection))
+    if (auto use = textures_.get(n); use.texture != none) directions.push_back(use.texture);
+  if (directions.size() == 3) json.member("directions", std::span<const std::uint32_t>(directions));
+  json.end_object();
+}
+
+/// The fields of Material that the look does not show, a picture that is not shown at all, and the light.
 void Materials::extras(JsonOut& json, const Look& l) {
   std::vector<std::uint16_t> said;
   bool from_material = l.material && !l.surface.color && l.texture.channels < 3;
-  if (from_material && l.surface.faces) said.push_back(m::diffuseColor.slot);
-  if (l.material && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
+  if (from_material && l.surface.faces && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
+  if (l.material && !replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
   if (l.texture.channels % 2 == 1 || l.texture.channels == 0) said.push_back(m::transparency.slot);
-  bool material = l.material && extras_->anything(l.material, said);
-  bool picture = l.texture_node && l.texture.texture == none;
-  if (!material && !picture) return;
+  bool material = extras_ && l.material && extras_->anything(l.material, said);
+  bool picture = extras_ && l.texture_node && l.texture.texture == none;
+  bool light = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::extras;
+  if (!material && !picture && !light) return;
   json.key("extras");
   json.begin_object();
-  json.key("vrml97");
-  json.begin_object();
-  if (material) extras_->node(json, l.material, said);
-  if (picture) extras_->node(json, l.texture_node, {});
-  if (picture && l.transform_node) extras_->node(json, l.transform_node, {});
-  json.end_object();
+  if (light) light_extras(json, l);
+  if (material || picture) {
+    json.key("vrml97");
+    json.begin_object();
+    if (material) extras_->node(json, l.material, said);
+    if (picture) extras_->node(json, l.texture_node, {});
+    if (picture && l.transform_node) extras_->node(json, l.transform_node, {});
+    json.end_object();
+  }
   json.end_object();
 }
 

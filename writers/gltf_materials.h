@@ -11,11 +11,16 @@
 // more than s, the largest component of specularColor, a wider one makes up for it: roughness = max(2 / (n + 2), 0.01 /
 // s) ^ (1/4), but no more than 1. So black is as rough as can be. Where it is less, the highlight is too dim.
 // specularColor, shininess and ambientIntensity stay in extras.
+//
+// Baked light. Where the geometry has places in a lightmap they are the set of texture coordinates behind that of the
+// picture: 1, or 0 when there is none. See GltfOptions::Lightmaps. The texture coordinates of MOZ_lightmap and extras are
+// said as in any textureInfo, with KHR_texture_transform for lightmapTransform; a texel is what a white surface reflects.
 #pragma once
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "writers/gltf.h"
 #include "writers/gltf_color.h"
 #include "writers/gltf_extras.h"
 #include "writers/gltf_texture_transform.h"
@@ -29,19 +34,22 @@ double roughness(double shininess, const Vec3& specular);
 struct SurfaceKind {
   bool faces = true;  // not lines or points
   bool color = false, texcoord = false;
+  bool light = false;  // places in a lightmap
   bool double_sided = false;
 };
 
 struct MaterialUse {
   std::uint32_t material = none;
   NodeId bake;              // a TextureTransform that must be applied to the texture coordinates
+  bool shows_light = false;
+  NodeId bake_light;        // as bake, for the places in the lightmap
   bool shows_color = true;  // false: a picture takes the place of the geometry's colours
 };
 
 class Materials {
  public:
-  Materials(const Scene& scene, Textures& textures, Extras* extras)
-      : scene_(scene), textures_(textures), extras_(extras) {}
+  Materials(const Scene& scene, Textures& textures, Extras* extras, GltfOptions::Lightmaps lightmaps)
+      : scene_(scene), textures_(textures), extras_(extras), lightmaps_(lightmaps) {}
 
   /// Has an Appearance a picture that can be shown?
   bool has_picture(NodeId appearance);
@@ -51,23 +59,31 @@ class Materials {
   /// The JSON of each material.
   const std::vector<std::string>& materials() const { return materials_; }
   bool uses_unlit() const { return unlit_; }
+  bool uses_moz_lightmap() const { return moz_lightmap_; }
   bool uses_texture_transform() const { return texture_transform_; }
 
  private:
   struct Look;
   MaterialUse make(NodeId appearance, SurfaceKind);
   Look look(NodeId appearance, SurfaceKind);
+  void look_at_light(Look&);
+  bool replaced_by_light(const Look&) const;
   std::string json(const Look&);
   void texture_info(JsonOut&, const Look&);
+  void texture_info_members(JsonOut&, const TextureUse&, std::uint32_t set, const UvAffine&);
+  void light_info(JsonOut&, const Look&);
+  void extensions(JsonOut&, const Look&);
+  void light_extras(JsonOut&, const Look&);
   void extras(JsonOut&, const Look&);
 
   const Scene& scene_;
   Textures& textures_;
   Extras* extras_;
+  GltfOptions::Lightmaps lightmaps_;
   std::unordered_map<std::uint64_t, MaterialUse> uses_;
   std::unordered_map<std::string, std::uint32_t> by_json_;
   std::vector<std::string> materials_;
-  bool unlit_ = false, texture_transform_ = false;
+  bool unlit_ = false, texture_transform_ = false, moz_lightmap_ = false;
 };
 
 }  // namespace wrlkit::gltf

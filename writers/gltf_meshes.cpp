@@ -54,6 +54,7 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   if (!v.normal.empty()) g.normals = store_.vertices(View::normal, v.normal);
   if (!v.color.empty()) g.colors = store_.vertices(v.color_width == 4 ? View::rgba : View::rgb, v.color);
   if (!v.texcoord.empty()) g.texcoords = store_.vertices(View::texcoord, v.texcoord);
+  if (!v.lightcoord.empty()) g.lightcoords = store_.vertices(View::texcoord, v.lightcoord);
   if (!counts_up(v.index, v.count())) g.indices = store_.indices(v.index, v.count());
   if (!store_.full()) g.positions = positions;
   return g;
@@ -63,7 +64,7 @@ void Meshes::split(const Mesh& mesh, bool texcoords, const Vec3& origin) {
   bool faces = mesh.kind == Mesh::Kind::faces;
   split_vertices(
       mesh,
-      {.origin = origin, .normals = faces, .texcoords = faces && texcoords, .linear_colors = true, .flip_v = true},
+      {.origin = origin, .normals = faces, .texcoords = faces && texcoords, .lightcoords = faces && light_, .linear_colors = true, .flip_v = true},
       scratch_, vertices_);
 }
 
@@ -80,18 +81,19 @@ std::uint32_t Meshes::move_near_origin(const Mesh& mesh, bool texcoords) {
 std::uint32_t Meshes::mesh(std::uint32_t geometry, const MaterialUse& use) {
   Geometry& g = geometries_[geometry];
   for (std::uint32_t m = g.first_mesh; m != none; m = meshes_[m].next)
-    if (meshes_[m].material == use.material && meshes_[m].bake == use.bake) return m;
-  std::uint32_t texcoords = use.bake ? baked_texcoords(g, use.bake) : g.texcoords;
+    if (meshes_[m].material == use.material && meshes_[m].bake == use.bake && meshes_[m].bake_light == use.bake_light) return m;
+  std::uint32_t texcoords = use.bake ? baked(g, use.bake, &Vertices::texcoord) : g.texcoords;
+  std::uint32_t lightcoords = !use.shows_light ? none : use.bake_light ? baked(g, use.bake_light, &Vertices::lightcoord) : g.lightcoords;
   auto id = static_cast<std::uint32_t>(meshes_.size());
-  meshes_.push_back({geometry, use.material, texcoords, g.first_mesh, use.bake, use.shows_color});
+  meshes_.push_back({geometry, use.material, texcoords, lightcoords, g.first_mesh, use.bake, use.bake_light, use.shows_color});
   return g.first_mesh = id;
 }
 
 /// The texture transform is applied before V is turned round, so the coordinates are turned back and forth.
-std::uint32_t Meshes::baked_texcoords(const Geometry& g, NodeId texture_transform) {
+std::uint32_t Meshes::baked(const Geometry& g, NodeId texture_transform, std::vector<float> Vertices::*places) {
   auto affine = uv_affine(scene_, texture_transform);
-  split(source_(g.source), true);
-  auto& uv = vertices_.texcoord;
+  split(source_(g.source), g.texcoords != none);
+  auto& uv = vertices_.*places;
   for (std::size_t i = 0; i + 1 < uv.size(); i += 2) {
     auto [s, t] = affine(uv[i], 1.0 - uv[i + 1]);
     uv[i] = static_cast<float>(s);

@@ -15,7 +15,7 @@ enum class Mode : std::uint8_t { points = 0, lines = 1, triangles = 4 };
 /// The vertex data of a geometry: accessors. Nothing to draw: no positions.
 struct Geometry {
   NodeId source;
-  std::uint32_t positions = none, normals = none, colors = none, texcoords = none, indices = none;
+  std::uint32_t positions = none, normals = none, colors = none, texcoords = none, lightcoords = none, indices = none;
   std::uint32_t origin = none;      // into Meshes::origins: where the positions are relative to
   std::uint32_t first_mesh = none;  // of those with it
   std::uint32_t textured = none;    // the same geometry, with texture coordinates
@@ -23,21 +23,23 @@ struct Geometry {
   bool double_sided = false;
 
   bool empty() const { return positions == none; }
-  SurfaceKind surface() const { return {mode == Mode::triangles, colors != none, texcoords != none, double_sided}; }
+  SurfaceKind surface() const { return {mode == Mode::triangles, colors != none, texcoords != none, lightcoords != none, double_sided}; }
 };
 
 struct MeshRecord {
   std::uint32_t geometry, material;
   std::uint32_t texcoords;    // those of the geometry, or baked ones
+  std::uint32_t lightcoords;  // the same; none: the material shows no light
   std::uint32_t next = none;  // with the same geometry
-  NodeId bake;
+  NodeId bake, bake_light;
   bool shows_color = true;
 };
 
 class Meshes {
  public:
-  Meshes(const Scene& scene, const MeshSource& source, Store& store, Diagnostics& diag)
-      : scene_(scene), source_(source), store_(store), diag_(diag), by_node_(scene.node_count(), none) {}
+  /// `light`: places in lightmaps are kept.
+  Meshes(const Scene& scene, const MeshSource& source, Store& store, bool light, Diagnostics& diag)
+      : scene_(scene), source_(source), store_(store), light_(light), diag_(diag), by_node_(scene.node_count(), none) {}
 
   /// Index into geometries() of the data of a geometry node. Texture coordinates that the file does not give are there
   /// only for who has a picture.
@@ -56,11 +58,12 @@ class Meshes {
   void split(const Mesh&, bool texcoords, const Vec3& origin = {});
   bool gives_texcoords(NodeId) const;
   std::uint32_t move_near_origin(const Mesh&, bool texcoords);
-  std::uint32_t baked_texcoords(const Geometry&, NodeId texture_transform);
+  std::uint32_t baked(const Geometry&, NodeId texture_transform, std::vector<float> Vertices::*places);
 
   const Scene& scene_;
   const MeshSource& source_;
   Store& store_;
+  bool light_;
   Diagnostics& diag_;
   std::vector<std::uint32_t> by_node_;
   std::vector<Geometry> geometries_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenegraph/nodes.h"
+#include "writers/gltf_color.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -67,6 +68,26 @@ TextureUse Textures::make(NodeId n) {
     diag_.report(Diag::no_gltf_movie, scene_.where(n), urls.empty() ? std::string_view{} : urls[0]);
   }
   return {};
+}
+
+std::shared_ptr<const Image> Textures::image(NodeId n) {
+  if (scene_.is(n, nodes::ImageTexture) && resources_) return resources_->image(scene_.get(n, nodes::image_texture::url), scene_.where(n), diag_);
+  auto pixels = scene_.is(n, nodes::PixelTexture) ? image_of(scene_.get(n, nodes::pixel_texture::image)) : std::nullopt;
+  return pixels ? std::make_shared<const Image>(std::move(*pixels)) : nullptr;
+}
+
+TextureUse Textures::brightness(NodeId n, double scale) {
+  auto [at, is_new] = brightness_.try_emplace({n.value, scale});
+  auto light = is_new && n ? image(n) : nullptr;
+  if (!light) return at->second;
+  Image grey{light->width, light->height, 1, {}};
+  const Image rgb = with_channels(*light, 3);
+  for (std::size_t i = 0; i < rgb.pixels.size(); i += 3) {
+    auto part = [&](std::size_t c) { return srgb_to_linear(rgb.pixels[i + c] / 255.0); };
+    double y = scale * (0.2126 * part(0) + 0.7152 * part(1) + 0.0722 * part(2));  // ITU-R BT.709
+    grey.pixels.push_back(static_cast<std::uint8_t>(unit_range(y) * 255 + 0.5));
+  }
+  return at->second = make(n, encoded(n, scene_.name(n).empty() ? "light" : std::string(scene_.name(n)) + "_light", grey), {false, false});
 }
 
 TextureUse Textures::make(NodeId n, const Loaded& loaded, Sampler sampler) {

@@ -1,6 +1,7 @@
 // Textures: which picture, repeated or not. ImageTexture and PixelTexture become textures of glTF; each picture is
 // stored once, whoever uses it. MovieTexture has no counterpart.
 #pragma once
+#include <map>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -47,6 +48,8 @@ class Textures {
   /// Of an ImageTexture, PixelTexture or MovieTexture; equal ones are one texture. What cannot be had is reported,
   /// once.
   TextureUse get(NodeId texture);
+  /// A grey picture of how bright the light of a lightmap is: linear, times `scale`, cut at 1.
+  TextureUse brightness(NodeId lightmap, double scale);
 
   const std::vector<Picture>& pictures() const { return pictures_; }
   const std::vector<Texture>& textures() const { return textures_; }
@@ -61,6 +64,7 @@ class Textures {
   TextureUse make(NodeId);
   TextureUse make(NodeId, const Loaded&, Sampler);
   Loaded load_file(NodeId);
+  std::shared_ptr<const Image> image(NodeId);
   Loaded load_pixels(NodeId);
   Loaded as_it_is(NodeId, const std::shared_ptr<const Blob>&, const ImageHeader&);
   Loaded encoded(NodeId, const std::string& name, const Image&);
@@ -70,6 +74,7 @@ class Textures {
   Resources* resources_;
   Diagnostics& diag_;
   std::unordered_map<std::uint32_t, TextureUse> by_node_;
+  std::map<std::pair<std::uint32_t, double>, TextureUse> brightness_;
   std::unordered_map<std::shared_ptr<const Blob>, Loaded>
       by_file_;  // keeps them, so that none takes the place of another
   std::unordered_map<std::string_view, std::uint32_t> by_bytes_;

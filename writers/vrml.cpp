@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scenegraph/equal.h"
+#include "scenegraph/resources.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -239,6 +240,7 @@ class Writer {
   /// elsewhere, are led to the folder they mean.
   void urls(Span where, std::span<const std::string_view> list) {
     namespace fs = std::filesystem;
+    if (options_.place && std::ranges::any_of(list, is_made)) return made_urls(list);
     auto folder = [](std::string_view file) { return (fs::absolute("." / fs::path(file).parent_path()) / "").lexically_normal(); };
     const auto read = scene_.sources->file(where.begin), main = scene_.sources->file(0);
     if (read.empty() || read == "-") return strings(list);
@@ -252,6 +254,15 @@ class Writer {
     }
     const std::vector<std::string_view> views(led.begin(), led.end());
     strings(views);
+  }
+
+  static bool is_made(std::string_view url) { return url.starts_with(made_scheme); }
+
+  /// A list that a pass has written.
+  void made_urls(std::span<const std::string_view> list) {
+    std::vector<std::string> placed;
+    for (auto url : list) placed.push_back(is_made(url) ? options_.place(url) : std::string(url));
+    strings(std::vector<std::string_view>(placed.begin(), placed.end()));
   }
 
   /// A field or event that a Script declares.

@@ -84,6 +84,13 @@ BakedLight Surfaces::baked_light(NodeId appearance) {
 }
 
 Layer Surfaces::layer(NodeId n) {
+  if (!n) return {};
+  auto [at, is_new] = layers_.try_emplace(n.value);
+  if (is_new) at->second = make_layer(n);
+  return at->second;
+}
+
+Layer Surfaces::make_layer(NodeId n) {
   if (scene_.is(n, nodes::PixelTexture)) {
     namespace f = nodes::pixel_texture;
     return {Texture::make(image_of(scene_.get(n, f::image))), scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)};

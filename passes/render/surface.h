@@ -67,6 +67,7 @@ class Surfaces {
  private:
   Surface make(NodeId appearance);
   Layer layer(NodeId texture);
+  Layer make_layer(NodeId texture);
   BakedLight baked_light(NodeId appearance);
   std::shared_ptr<const Texture> picture(const std::shared_ptr<const Image>& image);
 
@@ -75,6 +76,7 @@ class Surfaces {
   Diagnostics& diag_;
   std::vector<Surface> surfaces_;
   std::vector<std::uint32_t> index_;  // by NodeId; 0: not made yet
+  std::map<std::uint32_t, Layer> layers_;  // by NodeId
   std::map<std::shared_ptr<const Image>, std::shared_ptr<const Texture>> textures_;
 };
 

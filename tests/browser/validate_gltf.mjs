@@ -1,14 +1,14 @@
 // Converts every VRML97 world to glTF and has the official Khronos validator look at each result: it must find no error and
 // no warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
 // missing, a message.
-//   node validate_gltf.mjs WRLKIT FOLDER [PART-OF-A-NAME] [PIPELINE]
+//   node validate_gltf.mjs WRLKIT FOLDER [PART-OF-A-NAME] [PIPELINE] [FLAGS-OF-CONVERT...]
 import fs from 'node:fs';
 import path from 'node:path';
 import validator from 'gltf-validator';
 import {in_lanes, run} from './program.mjs';
 import {found_to_draw, found_worlds, has_shared, own_worlds} from './worlds.mjs';
 
-const [wrlkit, folder, part = '', pipeline = ''] = process.argv.slice(2);
+const [wrlkit, folder, part = '', pipeline = '', ...flags] = process.argv.slice(2);
 const lanes = 2;
 const to_draw = found_to_draw();
 const faults = [];
@@ -43,7 +43,7 @@ function check_end(world, result, out) {
 
 async function check(world) {
   const out = path.join(folder, `${counts.worlds++}.glb`);
-  const result = await run(wrlkit, ['convert', world.file, out, ...(pipeline ? ['-p', pipeline] : [])], 60);
+  const result = await run(wrlkit, ['convert', world.file, out, ...(pipeline ? ['-p', pipeline] : []), ...flags], 60);
   if (world.broken) ++counts.broken;
   if (check_end(world, result, out)) await check_result(world, result, out);
   fs.rmSync(out, {force: true});

@@ -31,7 +31,7 @@ std::vector<std::string> files_below(const fs::path& folder) {
 std::string text_of(const Scene& scene) {
   Diagnostics diag;
   std::string text;
-  write_vrml(scene, {}, [&](std::string_view s) { text += s; }, diag);
+  write_vrml(scene, {.own_fields = true}, [&](std::string_view s) { text += s; }, diag);
   return text;
 }
 

@@ -1,197 +1,366 @@
-// What happens to the texels of a lightmap, on pages made by hand.
-#include <algorithm>
+// Baked light on its way: in meshes, in pictures that passes make, in one texture with the surface's colour, in renderings.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
-#include "passes/lightmap/denoise.h"
-#include "passes/lightmap/fill.h"
-#include "passes/lightmap/seams.h"
-#include "passes/lightmap/texels.h"
+#include "parsers/parsers.h"
+#include "parsers/resources.h"
+#include "passes/combine/page.h"
+#include "passes/combine_lightmap.h"
+#include "passes/geometry.h"
+#include "passes/pipeline.h"
+#include "passes/render/baked.h"
+#include "passes/render/render.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/srgb.h"
+#include "scenegraph/vertices.h"
+#include "scenegraph/walk.h"
+#include "tests/unit/temp_folder.h"
+#include "writers/made_files.h"
 
-using namespace wrlkit::bake;
+using namespace wrlkit;
 
 namespace {
 
-/// All texels of all tiles.
-std::vector<std::pair<TexelSamples, std::vector<SurfaceSample>>> all_texels(const std::vector<PlacedTriangle>& triangles, int width, int height, int side, int most = 1000) {
-  TexelGrid grid(triangles, width, height);
-  std::vector<std::pair<TexelSamples, std::vector<SurfaceSample>>> out;
-  TileTexels tile;
-  for (std::size_t i = 0; i < grid.n_tiles(); ++i) {
-    grid.texels_of(i, side, most, tile);
-    for (auto& t : tile.texels) out.push_back({t, {tile.samples.begin() + t.first, tile.samples.begin() + t.first + t.count}});
+/// A world in memory, with the pictures that passes hand in.
+struct Lit {
+  Diagnostics diag;
+  Statistics stats;
+  FileResources resources{{.input = "test.wrl"}, [](const std::string&, Diagnostics&) { return nullptr; }};
+  PassContext ctx{diag, stats, &resources};
+  std::unique_ptr<World> world;
+
+  explicit Lit(const std::string& body) : world(parse_world("#VRML V2.0 utf8\n" + body, "test.wrl", {}, diag)) { REQUIRE(world); }
+  Scene& scene() { return world->scene; }
+  void run(const std::string& pipeline) {
+    std::string why;
+    auto p = Pipeline::parse(pipeline, why);
+    INFO(why);
+    REQUIRE(p);
+    REQUIRE(p->run(scene(), ctx));
   }
-  return out;
+  std::vector<NodeId> of(TypeId type) {
+    std::vector<NodeId> out;
+    for (NodeId n : all_nodes(scene()))
+      if (scene().is(n, type)) out.push_back(n);
+    return out;
+  }
+  Mesh mesh(NodeId geometry) {
+    Mesh m;
+    MeshScratch scratch;
+    MeshJob job{scene(), geometry, m, scratch, ctx};
+    read_mesh(job);
+    return m;
+  }
+  std::shared_ptr<const Image> picture(NodeId texture) {
+    return resources.image(scene().get(texture, nodes::image_texture::url), scene().where(texture), diag);
+  }
+};
+
+using Rgb = std::array<int, 3>;
+Rgb pixel(const Image& i, int x, int y) {
+  const auto* p = i.pixels.data() + (std::size_t(y) * i.width + x) * i.channels;
+  return {p[0], p[1], p[2]};
 }
 
-/// A square of two triangles.
-std::vector<PlacedTriangle> square(float x0, float y0, float x1, float y1, std::uint32_t chart = 0) {
-  return {{{{x0, y0}, {x1, y0}, {x1, y1}}, chart}, {{{x0, y0}, {x1, y1}, {x0, y1}}, chart}};
-}
+/// sRGB of a linear number, in 255ths.
+int shown(double linear) { return static_cast<int>(linear_to_srgb(linear) * 255 + 0.5); }
 
-/// A flat page of light 1 with noise of a known size on it.
-Page noisy_page(int side, float deviation) {
-  Page page(side, side);
-  std::mt19937 random(7);
-  std::normal_distribution<float> noise(0, deviation);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      auto i = page.at(x, y);
-      page.places[i] = {0, {x * 0.1f, y * 0.1f, 0}, {0, 0, 1}};
-      float v = 1 + noise(random);
-      page.light()[i] = {v, v, v};
-      page.variance[i] = deviation * deviation;
-    }
-  return page;
-}
+/// A square of 2 m whose light is the middle half of its page, four texels of a page of four by four.
+const std::string square =
+    "IndexedFaceSet { coord Coordinate { point [ -1 -1 0, 1 -1 0, 1 1 0, -1 1 0 ] } coordIndex [ 0 1 2 3 -1 ]"
+    " lightCoord TextureCoordinate { point [ 0.25 0.25, 0.75 0.25, 0.75 0.75, 0.25 0.75 ] } }";
+const std::string half_lit = "PixelTexture { image 4 4 1 128 128 128 128 128 128 128 128 128 128 128 128 128 128 128 128 }";
+const std::string light = " lightmap DEF Light " + half_lit;
 
-double deviation_from(const Page& page, int x0, int x1, float mean) {
-  double sum = 0;
-  int n = 0;
-  for (int y = 4; y < page.height - 4; ++y)
-    for (int x = x0; x < x1; ++x, ++n) sum += std::pow(page.light()[page.at(x, y)].g - mean, 2);
-  return std::sqrt(sum / n);
-}
-
-float shown(const std::vector<Rgb>& texels, int width, float x, float y) {
-  x -= 0.5f, y -= 0.5f;
-  int u = static_cast<int>(std::floor(x)), v = static_cast<int>(std::floor(y));
-  float fx = x - u, fy = y - v;
-  auto at = [&](int i, int j) { return texels[std::size_t(j) * width + i].r; };
-  return (1 - fy) * ((1 - fx) * at(u, v) + fx * at(u + 1, v)) + fy * ((1 - fx) * at(u, v + 1) + fx * at(u + 1, v + 1));
+std::string shape(const std::string& appearance, const std::string& geometry = square) {
+  return "Shape { appearance Appearance { " + appearance + " } geometry " + geometry + " } ";
 }
 
 }  // namespace
 
-TEST_CASE("texels: a square on whole texels covers them with all samples, and its rim by the nearest point") {
-  auto texels = all_texels(square(2, 3, 6, 5), 16, 16, 4);
-  std::size_t whole = 0, rim = 0;
-  for (auto& [t, samples] : texels) {
-    bool inside = t.x >= 2 && t.x < 6 && t.y >= 3 && t.y < 5;
-    if (inside) {
-      ++whole;
-      CHECK(samples.size() == 16);
-    } else {
-      ++rim;
-      CHECK(samples.size() == 1);
-      CHECK((t.x >= 1 && t.x < 7 && t.y >= 2 && t.y < 6));
+TEST_CASE("lightmap: meshes carry places in it as they carry texture coordinates", "[lightmap]") {
+  Lit w(shape("", "IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] } coordIndex [ 0 1 2 3 -1 ]"
+                  " lightCoord TextureCoordinate { point [ 0 0, 0.5 0, 0.5 0.5 ] } lightCoordIndex [ 0 1 2 2 -1 ] }"));
+  NodeId g = w.of(nodes::IndexedFaceSet)[0];
+  CHECK(w.mesh(g).lightcoord.index == std::vector<std::uint32_t>{0, 1, 2, 2});
+  w.run("weld,triangulate");
+  Mesh m = w.mesh(g);
+  REQUIRE(m.is_triangles());
+  REQUIRE(m.lightcoord.index.size() == 6);
+  for (std::size_t c = 0; c < 6; ++c) {
+    const double* p = m.positions.data() + std::size_t{3} * m.corners[c];
+    const float* at = m.lightcoord.at(m.lightcoord.index[c]);
+    CHECK(at[0] == (p[0] > 0 || p[1] > 0 ? 0.5f : 0));
+    CHECK(at[1] == (p[1] > 0 ? 0.5f : 0));
+  }
+  // Two corners of one point in two places of the light are two vertices.
+  m.lightcoord.values.insert(m.lightcoord.values.end(), {1, 1});
+  m.lightcoord.index[3] = 3;
+  Vertices v;
+  SplitScratch scratch;
+  split_vertices(m, {}, scratch, v);
+  CHECK(v.count() == 5);
+  CHECK(v.lightcoord.size() == 10);
+  split_vertices(m, {.lightcoords = false}, scratch, v);
+  CHECK(v.count() == 4);
+  CHECK(v.lightcoord.empty());
+}
+
+TEST_CASE("lightmap: levels of detail keep the light, and join does not mix what has light with what has none", "[lightmap]") {
+  std::string points, places, index;
+  for (int y = 0; y <= 20; ++y)
+    for (int x = 0; x <= 20; ++x) {
+      points += std::to_string(x) + " " + std::to_string(y) + " 0, ";
+      places += std::to_string(x / 20.0) + " " + std::to_string(y / 20.0) + ", ";
+      if (x < 20 && y < 20)
+        for (int k : {0, 1, 22, 21, -1}) index += std::to_string(k < 0 ? k : y * 21 + x + k) + " ";
     }
-  }
-  CHECK(whole == 8);
-  CHECK(rim == 16);  // what a bilinear filter mixes at the border: one texel around, corners too
+  const std::string set = "IndexedFaceSet { coord Coordinate { point [ " + points + " ] } coordIndex [ " + index + " ] ";
+  Lit w(shape(light, set + "lightCoord TextureCoordinate { point [ " + places + " ] } }"));
+  w.run("lod{ratios=0.1,min-faces=10}");
+  auto levels = w.of(nodes::IndexedFaceSet);
+  REQUIRE(levels.size() > 1);
+  Mesh coarse = w.mesh(levels.back());
+  CHECK(coarse.n_faces() < 100);
+  REQUIRE(coarse.lightcoord.present());
+  for (std::size_t c = 0; c < coarse.corners.size(); ++c)
+    CHECK(coarse.lightcoord.at(coarse.lightcoord.index[c])[0] == Approx(coarse.positions[3 * std::size_t{coarse.corners[c]}] / 20).margin(0.05));
+  Lit two("Group { children [ " + shape("material DEF M Material {}") + shape("material USE M", set + "}") + " ] }");
+  two.run("join");
+  CHECK(two.of(nodes::Shape).size() == 2);
 }
 
-TEST_CASE("texels: the samples of a texel are the share of it that is covered") {
-  auto texels = all_texels(square(2.25f, 3, 3, 4), 8, 8, 4);
-  for (auto& [t, samples] : texels)
-    if (t.x == 2 && t.y == 3) CHECK(samples.size() == 12);
+TEST_CASE("made files: they are had by their urls, and names are not given twice", "[lightmap]") {
+  Lit w("");
+  auto bytes = std::make_shared<const std::string>("one");
+  CHECK(w.resources.add_made({"a.txt", bytes}) == "wrlkit:a.txt");
+  CHECK(w.resources.add_made({"a.txt", std::make_shared<const std::string>("two")}) == "wrlkit:a_2.txt");
+  std::vector<std::string_view> urls{"wrlkit:none", "wrlkit:a_2.txt"};
+  auto blob = w.resources.bytes(urls, {}, w.diag);
+  REQUIRE(blob);
+  CHECK(blob->bytes == "two");
+  CHECK(blob->name == "a_2.txt");
+  CHECK(w.diag.messages().empty());
+  urls.pop_back();
+  CHECK_FALSE(w.resources.bytes(urls, {}, w.diag));
+  CHECK(w.diag.count(Diag::url_network) == 1);
 }
 
-TEST_CASE("texels: samples lie where their weights say, whatever the tile") {
-  auto triangles = square(40.3f, 50.7f, 90.1f, 70.2f);
-  for (auto& [t, samples] : all_texels(triangles, 128, 128, 3)) {
-    for (auto& s : samples) {
-      float x = 0, y = 0;
-      for (int k = 0; k < 3; ++k) x += s.weight[k] * triangles[s.triangle].corner[k].x, y += s.weight[k] * triangles[s.triangle].corner[k].y;
-      float slack = samples.size() == 1 ? 1.0f : 1e-3f;
-      CHECK(x >= t.x - slack);
-      CHECK(x <= t.x + 1 + slack);
-      CHECK(y >= t.y - slack);
-      CHECK(y <= t.y + 1 + slack);
+TEST_CASE("made files: they are written beside the world, under names that it has for nothing else", "[lightmap]") {
+  TempFolder folder;
+  Lit w("Shape { appearance Appearance { texture ImageTexture { url \"room.a.png\" } } }");
+  auto bytes = [](const char* s) { return std::make_shared<const std::string>(s); };
+  const auto a = w.resources.add_made({"a.png", bytes("A")}), b = w.resources.add_made({"b.png", bytes("B")});
+  w.resources.add_made({"unused.png", bytes("U")});
+  w.resources.add_made({"kept.exr", bytes("E"), true});
+  folder.write("room.b.png", "another");
+  MadeFiles files(w.scene(), w.resources, folder / "room.wrl.gz", w.diag);
+  CHECK(files.place(a) == "room.a_2.png");
+  CHECK(files.place(a) == "room.a_2.png");
+  CHECK(files.place(b) == "room.b.png");
+  CHECK(files.place("c.png") == "c.png");
+  REQUIRE(files.write());
+  CHECK(folder.read("room.b.png") == "another");
+  REQUIRE(files.commit());
+  CHECK(folder.read("room.a_2.png") == "A");
+  CHECK(folder.read("room.b.png") == "B");
+  CHECK(folder.read("room.kept.exr") == "E");
+  CHECK_FALSE(std::filesystem::exists(folder / "room.unused.png"));
+  CHECK(w.diag.count(Diag::file_replaced) == 1);
+}
+
+TEST_CASE("pictures: EXR keeps light beyond 1, WebP its pixels, and both the same bytes twice", "[lightmap]") {
+  std::string error;
+  FloatImage hdr{2, 1, 3, {0.25f, 0.5f, 1, 4, 0, 1000}};
+  auto exr = encode_exr(hdr, error);
+  INFO(error);
+  REQUIRE(exr);
+  CHECK(sniff_mime(*exr) == "image/x-exr");
+  CHECK(*exr == *encode_exr(hdr, error));
+  auto seen = decode_image(*exr, "", error);
+  REQUIRE(seen);
+  CHECK(pixel(*seen, 0, 0) == Rgb{shown(0.25), shown(0.5), 255});
+  CHECK(pixel(*seen, 1, 0) == Rgb{255, 0, 255});
+  Image image{2, 2, 3, {10, 20, 30, 200, 100, 0, 0, 0, 0, 255, 255, 255}};
+  auto webp = encode_webp(image, 100, error);
+  INFO(error);
+  REQUIRE(webp);
+  CHECK(sniff_mime(*webp) == "image/webp");
+  CHECK(decode_image(*webp, "", error)->pixels == image.pixels);
+  CHECK(*encode_as("x.webp", image, error) == *encode_as("y.webp", image, error));
+  CHECK_FALSE(can_encode_as("x.tiff"));
+}
+
+TEST_CASE("page: texels belong to the triangle they lie in, then to the nearest", "[lightmap]") {
+  using namespace combine;
+  Page page(16, 8, 2);
+  const std::vector<PageTriangle> triangles{{{4, 8, 4}, {2, 2, 6}}, {{8, 8, 4}, {2, 6, 6}}};
+  auto number = [](std::size_t i, const std::array<double, 3>& w, double x, double) {
+    CHECK(w[0] + w[1] + w[2] == Approx(1));
+    return Texel4{{static_cast<std::uint8_t>(100 * (i + 1)), static_cast<std::uint8_t>(10 * x), 0, 255}};
+  };
+  REQUIRE(page.paint(triangles, number));
+  Image image = page.image(3);
+  CHECK(pixel(image, 4, 2) == Rgb{100, 45, 0});
+  CHECK(pixel(image, 7, 5) == Rgb{200, 75, 0});
+  CHECK(pixel(image, 3, 3) == Rgb{100, 35, 0});  // beside the first one
+  CHECK(pixel(image, 9, 4) == Rgb{200, 95, 0});
+  CHECK(pixel(image, 15, 0)[1] == pixel(image, 14, 7)[1]);  // nobody's: the mean
+  std::vector<PageTriangle> too_many(10'000, {{0, 16, 0}, {0, 0, 8}});
+  for (auto& t : too_many) t.x[1] = 1e6, t.y[2] = 1e6;
+  int painted = 0;
+  Page crowded(4, 4, 1);
+  crowded.paint(too_many, [&](std::size_t, const std::array<double, 3>&, double, double) { return ++painted, Texel4{{1, 1, 1, 255}}; });
+  CHECK(painted == 16);
+}
+
+TEST_CASE("combine-lightmap: the texture is colour times light, and nothing is lit again", "[lightmap]") {
+  Lit w(shape("material DEF Red Material { diffuseColor 1 0.5 0 }" + light));
+  w.run("combine-lightmap");
+  NodeId a = w.of(nodes::Appearance)[0], g = w.of(nodes::IndexedFaceSet)[0];
+  CHECK_FALSE(w.scene().get(a, nodes::appearance::material));
+  CHECK_FALSE(w.scene().get(a, nodes::appearance::lightmap));
+  CHECK_FALSE(w.scene().get(g, nodes::indexed_face_set::lightCoord));
+  CHECK(w.mesh(g).texcoord.values[0] == 0.25f);
+  auto image = w.picture(w.scene().get(a, nodes::appearance::texture));
+  REQUIRE(image);
+  CHECK(image->channels == 3);
+  CHECK(image->width == 4);
+  const double grey = srgb_to_linear(128 / 255.0);
+  CHECK(pixel(*image, 1, 1) == Rgb{shown(grey), shown(srgb_to_linear(0.5) * grey), 0});
+  CHECK(w.diag.messages().empty());
+}
+
+TEST_CASE("combine-lightmap: emission, scale, vertex colours, and a grey texture count as in 4.14", "[lightmap]") {
+  const double grey = srgb_to_linear(128 / 255.0);
+  auto first = [](const std::string& appearance, const std::string& geometry = square) {
+    Lit w(shape(appearance, geometry));
+    w.run("combine-lightmap{scale=1}");
+    return pixel(*w.picture(w.of(nodes::ImageTexture)[0]), 1, 1);
+  };
+  CHECK(first("material Material { diffuseColor 0 0 0 emissiveColor 0 0 0.8 }" + light) == Rgb{0, 0, 204});
+  CHECK(first("material Material { diffuseColor 1 1 1 } lightmapScale 2" + light)[0] == shown(2 * grey));
+  CHECK(first("material Material { }" + light, square.substr(0, square.size() - 1) + "color Color { color 0 1 0 } colorPerVertex FALSE }") ==
+        Rgb{0, shown(grey), 0});
+  CHECK(first("material Material { diffuseColor 1 0 0 } texture PixelTexture { image 1 1 1 0x80 }" + light) ==
+        Rgb{shown(grey * grey), 0, 0});
+}
+
+TEST_CASE("combine-lightmap: transparent Shapes have a picture of their own, with alpha", "[lightmap]") {
+  Lit w(shape("material Material { transparency 0.25 }" + light) + shape("material Material { } lightmap USE Light") +
+        shape("material Material { diffuseColor 1 0 0 } lightmap USE Light"));
+  w.run("combine-lightmap");
+  CHECK(w.stats["combine-lightmap.pages"] == 2);
+  CHECK(w.stats["combine-lightmap.shapes"] == 3);
+  auto appearances = w.of(nodes::Appearance);
+  auto see_through = w.picture(w.scene().get(appearances[0], nodes::appearance::texture));
+  REQUIRE(see_through->channels == 4);
+  CHECK(see_through->pixels[4 * 5 + 3] == 191);
+  CHECK(w.scene().get(appearances[1], nodes::appearance::texture) == w.scene().get(appearances[2], nodes::appearance::texture));
+}
+
+TEST_CASE("combine-lightmap: shared geometry keeps its places for each Shape, and for those without light", "[lightmap]") {
+  const std::string quarter = " lightmapTransform TextureTransform { scale 0.5 0.5 }";
+  Lit w(shape("material DEF M Material { }" + light + quarter, "DEF Square " + square) + shape("material USE M lightmap USE Light", "USE Square") +
+        shape("material USE M", "USE Square"));
+  w.run("combine-lightmap");
+  auto shapes = w.of(nodes::Shape);
+  auto geometry = [&](std::size_t i) { return w.scene().get(shapes[i], nodes::shape::geometry); };
+  CHECK(geometry(0) == geometry(1));
+  CHECK(geometry(2) != geometry(0));
+  CHECK(w.scene().name(geometry(2)) == "Square");
+  CHECK(w.scene().get(geometry(2), nodes::indexed_face_set::lightCoord));
+  auto appearance = [&](std::size_t i) { return w.scene().get(shapes[i], nodes::shape::appearance); };
+  CHECK(w.scene().get(appearance(0), nodes::appearance::textureTransform));
+  CHECK_FALSE(w.scene().get(appearance(1), nodes::appearance::textureTransform));
+  CHECK(w.scene().get(appearance(2), nodes::appearance::material));
+}
+
+TEST_CASE("combine-lightmap: a detailed texture makes a larger picture, within the limit", "[lightmap]") {
+  const std::string fine = "texture PixelTexture { image 2 2 3 0xff0000 0x00ff00 0x0000ff 0xffffff } textureTransform TextureTransform { scale 8 8 }";
+  Lit w(shape("material Material { } " + fine + light));
+  w.run("combine-lightmap");
+  CHECK(w.picture(w.of(nodes::ImageTexture)[0])->width == 32);  // 16 pixels over two texels: eight times
+  CHECK(w.diag.messages().empty());
+  Lit small(shape("material Material { } " + fine + light));
+  small.run("combine-lightmap{max-size=8}");
+  CHECK(small.picture(small.of(nodes::ImageTexture)[0])->width == 8);
+  CHECK(small.diag.count(Diag::texture_coarser) == 1);
+}
+
+TEST_CASE("combine-lightmap: into the lightmap, all else stays", "[lightmap]") {
+  Lit w(shape("material Material { diffuseColor 0 1 0 } lightmapScale 2" + light));
+  w.run("combine-lightmap{into=lightmap}");
+  NodeId a = w.of(nodes::Appearance)[0];
+  CHECK(w.scene().get(a, nodes::appearance::material));
+  CHECK(w.scene().get(a, nodes::appearance::lightmapScale) == 1);
+  CHECK(pixel(*w.picture(w.scene().get(a, nodes::appearance::lightmap)), 1, 1) == Rgb{0, shown(2 * srgb_to_linear(128 / 255.0)), 0});
+}
+
+TEST_CASE("combine-lightmap: a pipeline has it behind the last pass over the scene", "[lightmap]") {
+  auto completed = [](const char* text, const char* standard) {
+    std::string why;
+    auto p = Pipeline::parse(text, why);
+    p->complete(standard);
+    std::string names, all = p->text();
+    for (std::size_t at = 0, depth = 0; at < all.size(); ++at) {
+      if (all[at] == '{') ++depth;
+      if (!depth) names += all[at];
+      if (all[at] == '}') --depth;
     }
-  }
+    return names;
+  };
+  const std::string front = "inline,expand-protos,inline,expand-protos,prune,", end = ",tessellate,normals,triangulate";
+  CHECK(completed("weld", "gltf") == front + "combine-lightmap,weld" + end);
+  CHECK(completed("weld,lod", "gltf") == front + "weld,lod,combine-lightmap" + end);
+  CHECK(completed("lod,weld", "gltf") == front + "lod,combine-lightmap,weld" + end);
+  CHECK(completed("lod", "gltf-light") == front + "lod" + end);
+  CHECK(completed("prune", "vrml") == "prune,combine-lightmap");
+  CHECK(completed("combine-lightmap,prune", "vrml") == "combine-lightmap,prune");
 }
 
-TEST_CASE("texels: a triangle smaller than a texel has one") {
-  auto texels = all_texels({{{{5.6f, 5.6f}, {5.7f, 5.6f}, {5.6f, 5.7f}}, 3}}, 16, 16, 4);
-  REQUIRE(!texels.empty());
-  CHECK(std::ranges::any_of(texels, [](auto& t) { return t.first.x == 5 && t.first.y == 5; }));
+TEST_CASE("render: baked light is shown, and not lit again", "[lightmap]") {
+  auto middle = [](const std::string& body, RenderOptions::Mode mode) {
+    Lit w("Viewpoint { position 0 0 5 } " + body);
+    std::string why;
+    auto pipeline = Pipeline::parse("picture", why);
+    auto meshes = pipeline->run_lazily(w.scene(), w.ctx);
+    RenderOptions o;
+    o.width = o.height = 21;
+    o.mode = mode;
+    return pixel(render(w.scene(), meshes, o, &w.resources, w.diag), 10, 10);
+  };
+  using Mode = RenderOptions::Mode;
+  const double grey = srgb_to_linear(128 / 255.0);
+  const std::string orange = shape("material Material { diffuseColor 1 0.5 0 specularColor 1 1 1 }" + light);
+  CHECK(middle(orange, Mode::preview) == Rgb{shown(grey), shown(srgb_to_linear(0.5) * grey), 0});
+  CHECK(middle(orange, Mode::lightmap) == Rgb{128, 128, 128});
+  CHECK(middle(orange, Mode::albedo) == Rgb{255, 128, 0});
+  const auto checker = middle(shape(light, square), Mode::checker);
+  CHECK(checker[0] == checker[2]);
+  CHECK(middle(orange, Mode::density)[2] > middle(orange, Mode::density)[0]);  // one texel a metre: blue
+  CHECK(middle(shape("material Material { }"), Mode::lightmap) == Rgb{140, 140, 140});
 }
 
-TEST_CASE("texels: no more samples than are asked for, spread over the texel") {
-  for (auto& [t, samples] : all_texels(square(0, 0, 8, 8), 8, 8, 4, 4)) {
-    CHECK(samples.size() == 4);
-    float low = 8, high = 0;
-    for (auto& s : samples) low = std::min(low, s.weight[0]), high = std::max(high, s.weight[0]);
-    CHECK(high > low);
-  }
-}
-
-TEST_CASE("denoise: noise on a plane falls to a quarter, and the mean stays") {
-  auto page = noisy_page(64, 0.1f);
-  denoise(page);
-  CHECK(deviation_from(page, 4, 60, 1) < 0.025);
-  double mean = 0;
-  for (auto& c : page.light()) mean += c.g;
-  CHECK(mean / page.size() == Approx(1).epsilon(0.005));
-}
-
-TEST_CASE("denoise: a step that is larger than the noise stays sharp") {
-  auto page = noisy_page(64, 0.02f);
-  for (int y = 0; y < 64; ++y)
-    for (int x = 32; x < 64; ++x) page.light()[page.at(x, y)] = page.light()[page.at(x, y)] + Rgb{2, 2, 2};
-  denoise(page);
-  CHECK(deviation_from(page, 24, 32, 1) < 0.01);
-  CHECK(deviation_from(page, 32, 40, 3) < 0.01);
-}
-
-TEST_CASE("denoise: light is not mixed between charts, around a crease or without noise") {
-  SECTION("charts") {
-    auto page = noisy_page(32, 0.5f);
-    for (std::size_t i = 0; i < page.size(); ++i)
-      if (i % 32 >= 16) page.places[i].chart = 1, page.light()[i] = {0, 0, 0};
-    denoise(page);
-    CHECK(deviation_from(page, 16, 32, 0) == 0);
-  }
-  SECTION("a crease") {
-    auto page = noisy_page(32, 0.5f);
-    for (std::size_t i = 0; i < page.size(); ++i)
-      if (i % 32 >= 16) page.places[i].normal = {1, 0, 0}, page.light()[i] = {0, 0, 0};
-    denoise(page);
-    CHECK(deviation_from(page, 16, 32, 0) == 0);
-  }
-  SECTION("no noise") {
-    auto page = noisy_page(32, 0.1f);
-    auto before = page.light();
-    std::ranges::fill(page.variance, 0.0f);
-    denoise(page);
-    for (std::size_t i = 0; i < page.size(); ++i) CHECK(page.light()[i].r == Approx(before[i].r).epsilon(1e-3));
-  }
-}
-
-TEST_CASE("fill: unknown texels take the light around them, known ones stay") {
-  std::vector<Rgb> texels(13 * 9);
-  std::vector<char> known(texels.size());
-  for (int y = 0; y < 9; ++y)
-    for (int x = 0; x < 13; ++x)
-      if (x < 3) texels[y * 13 + x] = {0.5f, 1, 2}, known[y * 13 + x] = 1;
-  fill(texels, known, 13, 9);
-  for (auto& t : texels) {
-    CHECK(t.r == Approx(0.5f));
-    CHECK(t.b == Approx(2));
-  }
-  std::vector<Rgb> none(4, Rgb{1, 1, 1});
-  fill(none, {0, 0, 0, 0}, 2, 2);
-  CHECK(none[0].r == 0);
-}
-
-TEST_CASE("seams: both sides show the same, by small changes, and nothing else moves") {
-  const int n = 32;
-  std::vector<Rgb> texels(n * n);
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) texels[y * n + x] = x < 16 ? Rgb{1, 1, 1} : Rgb{1.2f, 1.2f, 1.2f};
-  // The right border of one chart and a slanted line in the other.
-  std::vector<Seam> seams{{{0, {{10.3f, 4}, {10.3f, 20}}}, {0, {{22.2f, 5}, {24.7f, 20.6f}}}}};
-  Canvas page{n, n, texels};
-  close_seams({&page, 1}, seams);
-  texels = page.texels;
-  for (float t = 0.05f; t < 1; t += 0.1f) {
-    float a = shown(texels, n, 10.3f, 4 + 16 * t), b = shown(texels, n, 22.2f + 2.5f * t, 5 + 15.6f * t);
-    CHECK(a == Approx(b).margin(0.02));
-    CHECK(a > 1.05f);
-    CHECK(a < 1.15f);
-  }
-  CHECK(texels[2 * n + 2].r == 1);
-  CHECK(texels[30 * n + 30].r == 1.2f);
+TEST_CASE("baked light with a direction: what faces it gets more, and it shines where it is mirrored", "[lightmap]") {
+  using namespace drawing;
+  Surface s;
+  s.lit = true;
+  s.material.specular = V3(1);
+  s.material.shininess = 0.5;
+  const V3 face{0, 0, 1}, slant = unit({1, 0, 1});
+  auto from = [](const V3& v) { return LightSample{V3(0.2), std::array<V3, 3>{V3(v.x), V3(v.y), V3(v.z)}}; };
+  auto red = [&](const LightSample& light, const V3& normal, const V3& to_viewer) {
+    return srgb_to_linear(baked_color(s, V3(1), light, {{}, normal, to_viewer}, face).x);
+  };
+  const V3 aside = unit({0, 1, 0.01});
+  // From all sides alike: normals make no difference.
+  CHECK(red(from({0, 0, 0}), slant, aside) == Approx(0.2));
+  CHECK(red({V3(0.2), {}}, slant, aside) == Approx(0.2));
+  // Half of it from the front: (1 + 2 v.n) relative to the face's.
+  CHECK(red(from({0, 0, 0.5}), face, aside) == Approx(0.2).margin(1e-3));
+  s.material.specular = V3(0);
+  CHECK(red(from({0, 0, 0.5}), slant, aside) == Approx(0.2 * (1 + std::sqrt(0.5)) / 2));
+  s.material.specular = V3(1);
+  CHECK(red(from({0, 0, 0.5}), face, face) == Approx(0.2 + 0.5 * 0.2).margin(1e-3));
 }

@@ -1,0 +1,197 @@
+// What happens to the texels of a lightmap, on pages made by hand.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "passes/lightmap/denoise.h"
+#include "passes/lightmap/fill.h"
+#include "passes/lightmap/seams.h"
+#include "passes/lightmap/texels.h"
+
+using namespace wrlkit::bake;
+
+namespace {
+
+/// All texels of all tiles.
+std::vector<std::pair<TexelSamples, std::vector<SurfaceSample>>> all_texels(const std::vector<PlacedTriangle>& triangles, int width, int height, int side, int most = 1000) {
+  TexelGrid grid(triangles, width, height);
+  std::vector<std::pair<TexelSamples, std::vector<SurfaceSample>>> out;
+  TileTexels tile;
+  for (std::size_t i = 0; i < grid.n_tiles(); ++i) {
+    grid.texels_of(i, side, most, tile);
+    for (auto& t : tile.texels) out.push_back({t, {tile.samples.begin() + t.first, tile.samples.begin() + t.first + t.count}});
+  }
+  return out;
+}
+
+/// A square of two triangles.
+std::vector<PlacedTriangle> square(float x0, float y0, float x1, float y1, std::uint32_t chart = 0) {
+  return {{{{x0, y0}, {x1, y0}, {x1, y1}}, chart}, {{{x0, y0}, {x1, y1}, {x0, y1}}, chart}};
+}
+
+/// A flat page of light 1 with noise of a known size on it.
+Page noisy_page(int side, float deviation) {
+  Page page(side, side);
+  std::mt19937 random(7);
+  std::normal_distribution<float> noise(0, deviation);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      auto i = page.at(x, y);
+      page.places[i] = {0, {x * 0.1f, y * 0.1f, 0}, {0, 0, 1}};
+      float v = 1 + noise(random);
+      page.light()[i] = {v, v, v};
+      page.variance[i] = deviation * deviation;
+    }
+  return page;
+}
+
+double deviation_from(const Page& page, int x0, int x1, float mean) {
+  double sum = 0;
+  int n = 0;
+  for (int y = 4; y < page.height - 4; ++y)
+    for (int x = x0; x < x1; ++x, ++n) sum += std::pow(page.light()[page.at(x, y)].g - mean, 2);
+  return std::sqrt(sum / n);
+}
+
+float shown(const std::vector<Rgb>& texels, int width, float x, float y) {
+  x -= 0.5f, y -= 0.5f;
+  int u = static_cast<int>(std::floor(x)), v = static_cast<int>(std::floor(y));
+  float fx = x - u, fy = y - v;
+  auto at = [&](int i, int j) { return texels[std::size_t(j) * width + i].r; };
+  return (1 - fy) * ((1 - fx) * at(u, v) + fx * at(u + 1, v)) + fy * ((1 - fx) * at(u, v + 1) + fx * at(u + 1, v + 1));
+}
+
+}  // namespace
+
+TEST_CASE("texels: a square on whole texels covers them with all samples, and its rim by the nearest point") {
+  auto texels = all_texels(square(2, 3, 6, 5), 16, 16, 4);
+  std::size_t whole = 0, rim = 0;
+  for (auto& [t, samples] : texels) {
+    bool inside = t.x >= 2 && t.x < 6 && t.y >= 3 && t.y < 5;
+    if (inside) {
+      ++whole;
+      CHECK(samples.size() == 16);
+    } else {
+      ++rim;
+      CHECK(samples.size() == 1);
+      CHECK((t.x >= 1 && t.x < 7 && t.y >= 2 && t.y < 6));
+    }
+  }
+  CHECK(whole == 8);
+  CHECK(rim == 16);  // what a bilinear filter mixes at the border: one texel around, corners too
+}
+
+TEST_CASE("texels: the samples of a texel are the share of it that is covered") {
+  auto texels = all_texels(square(2.25f, 3, 3, 4), 8, 8, 4);
+  for (auto& [t, samples] : texels)
+    if (t.x == 2 && t.y == 3) CHECK(samples.size() == 12);
+}
+
+TEST_CASE("texels: samples lie where their weights say, whatever the tile") {
+  auto triangles = square(40.3f, 50.7f, 90.1f, 70.2f);
+  for (auto& [t, samples] : all_texels(triangles, 128, 128, 3)) {
+    for (auto& s : samples) {
+      float x = 0, y = 0;
+      for (int k = 0; k < 3; ++k) x += s.weight[k] * triangles[s.triangle].corner[k].x, y += s.weight[k] * triangles[s.triangle].corner[k].y;
+      float slack = samples.size() == 1 ? 1.0f : 1e-3f;
+      CHECK(x >= t.x - slack);
+      CHECK(x <= t.x + 1 + slack);
+      CHECK(y >= t.y - slack);
+      CHECK(y <= t.y + 1 + slack);
+    }
+  }
+}
+
+TEST_CASE("texels: a triangle smaller than a texel has one") {
+  auto texels = all_texels({{{{5.6f, 5.6f}, {5.7f, 5.6f}, {5.6f, 5.7f}}, 3}}, 16, 16, 4);
+  REQUIRE(!texels.empty());
+  CHECK(std::ranges::any_of(texels, [](auto& t) { return t.first.x == 5 && t.first.y == 5; }));
+}
+
+TEST_CASE("texels: no more samples than are asked for, spread over the texel") {
+  for (auto& [t, samples] : all_texels(square(0, 0, 8, 8), 8, 8, 4, 4)) {
+    CHECK(samples.size() == 4);
+    float low = 8, high = 0;
+    for (auto& s : samples) low = std::min(low, s.weight[0]), high = std::max(high, s.weight[0]);
+    CHECK(high > low);
+  }
+}
+
+TEST_CASE("denoise: noise on a plane falls to a quarter, and the mean stays") {
+  auto page = noisy_page(64, 0.1f);
+  denoise(page);
+  CHECK(deviation_from(page, 4, 60, 1) < 0.025);
+  double mean = 0;
+  for (auto& c : page.light()) mean += c.g;
+  CHECK(mean / page.size() == Approx(1).epsilon(0.005));
+}
+
+TEST_CASE("denoise: a step that is larger than the noise stays sharp") {
+  auto page = noisy_page(64, 0.02f);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 32; x < 64; ++x) page.light()[page.at(x, y)] = page.light()[page.at(x, y)] + Rgb{2, 2, 2};
+  denoise(page);
+  CHECK(deviation_from(page, 24, 32, 1) < 0.01);
+  CHECK(deviation_from(page, 32, 40, 3) < 0.01);
+}
+
+TEST_CASE("denoise: light is not mixed between charts, around a crease or without noise") {
+  SECTION("charts") {
+    auto page = noisy_page(32, 0.5f);
+    for (std::size_t i = 0; i < page.size(); ++i)
+      if (i % 32 >= 16) page.places[i].chart = 1, page.light()[i] = {0, 0, 0};
+    denoise(page);
+    CHECK(deviation_from(page, 16, 32, 0) == 0);
+  }
+  SECTION("a crease") {
+    auto page = noisy_page(32, 0.5f);
+    for (std::size_t i = 0; i < page.size(); ++i)
+      if (i % 32 >= 16) page.places[i].normal = {1, 0, 0}, page.light()[i] = {0, 0, 0};
+    denoise(page);
+    CHECK(deviation_from(page, 16, 32, 0) == 0);
+  }
+  SECTION("no noise") {
+    auto page = noisy_page(32, 0.1f);
+    auto before = page.light();
+    std::ranges::fill(page.variance, 0.0f);
+    denoise(page);
+    for (std::size_t i = 0; i < page.size(); ++i) CHECK(page.light()[i].r == Approx(before[i].r).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("fill: unknown texels take the light around them, known ones stay") {
+  std::vector<Rgb> texels(13 * 9);
+  std::vector<char> known(texels.size());
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 13; ++x)
+      if (x < 3) texels[y * 13 + x] = {0.5f, 1, 2}, known[y * 13 + x] = 1;
+  fill(texels, known, 13, 9);
+  for (auto& t : texels) {
+    CHECK(t.r == Approx(0.5f));
+    CHECK(t.b == Approx(2));
+  }
+  std::vector<Rgb> none(4, Rgb{1, 1, 1});
+  fill(none, {0, 0, 0, 0}, 2, 2);
+  CHECK(none[0].r == 0);
+}
+
+TEST_CASE("seams: both sides show the same, by small changes, and nothing else moves") {
+  const int n = 32;
+  std::vector<Rgb> texels(n * n);
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) texels[y * n + x] = x < 16 ? Rgb{1, 1, 1} : Rgb{1.2f, 1.2f, 1.2f};
+  // The right border of one chart and a slanted line in the other.
+  std::vector<Seam> seams{{{0, {{10.3f, 4}, {10.3f, 20}}}, {0, {{22.2f, 5}, {24.7f, 20.6f}}}}};
+  Canvas page{n, n, texels};
+  close_seams({&page, 1}, seams);
+  texels = page.texels;
+  for (float t = 0.05f; t < 1; t += 0.1f) {
+    float a = shown(texels, n, 10.3f, 4 + 16 * t), b = shown(texels, n, 22.2f + 2.5f * t, 5 + 15.6f * t);
+    CHECK(a == Approx(b).margin(0.02));
+    CHECK(a > 1.05f);
+    CHECK(a < 1.15f);
+  }
+  CHECK(texels[2 * n + 2].r == 1);
+  CHECK(texels[30 * n + 30].r == 1.2f);
+}

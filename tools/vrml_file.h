@@ -1,0 +1,12 @@
+// A world as a VRML file, with the pictures that passes have made beside it.
+#pragma once
+#include <string>
+
+#include "tools/session.h"
+
+namespace wrlkit {
+
+/// As the flags want it, all files or none but for faults of the system in between; false, and a message, when not.
+bool write_vrml_file(Session&, const Scene&, const std::string& path, bool gzip);
+
+}  // namespace wrlkit

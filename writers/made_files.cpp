@@ -1,0 +1,74 @@
+#include "writers/made_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "out/room" of out/room.wrl and of out/room.wrl.gz.
+fs::path stem_of(const std::string& output) {
+  fs::path p(output);
+  if (p.extension() == ".gz") p.replace_extension();
+  return p.replace_extension();
+}
+
+bool has_other_contents(const std::string& path, std::string_view bytes) {
+  std::error_code none;
+  if (!fs::is_regular_file(path, none)) return false;
+  if (fs::file_size(path, none) != bytes.size()) return true;
+  std::ifstream in(path, std::ios::binary);
+  return !std::equal(std::istreambuf_iterator<char>(in), {}, bytes.begin(), bytes.end());
+}
+
+}  // namespace
+
+MadeFiles::MadeFiles(const Scene& scene, const Resources& resources, std::string output, Diagnostics& diag)
+    : resources_(resources), output_(std::move(output)), diag_(diag) {
+  if (resources_.made().empty()) return;
+  for (std::uint32_t i = 0; i < scene.node_count(); ++i)
+    for (const Value& v : scene.fields(NodeId{i}))
+      if (const Value& c = scene.content(v); !c.is && c.type == FieldType::MFString)
+        for (auto url : c.text_span()) taken_.emplace(url);
+}
+
+const std::string& MadeFiles::name_of(const MadeFile& file) {
+  auto known = std::ranges::find(placed_, &file, &Placed::file);
+  if (known != placed_.end()) return known->name;
+  const std::string stem = stem_of(output_).filename().string() + ".";
+  const fs::path own(file.name);
+  std::string name = stem + file.name;
+  for (int k = 2; !taken_.insert(name).second; ++k) name = stem + own.stem().string() + "_" + std::to_string(k) + own.extension().string();
+  return placed_.emplace_back(Placed{name, &file, {}}).name;
+}
+
+std::string MadeFiles::place(std::string_view url) {
+  const MadeFile* file = resources_.find_made(url);
+  if (!file) return std::string(url);
+  if (output_ != "-") return name_of(*file);
+  diag_.report(Diag::picture_not_written, {}, file->name);
+  return std::string(url);
+}
+
+bool MadeFiles::write() {
+  for (const MadeFile& file : resources_.made())
+    if (file.always && output_ != "-") name_of(file);
+  for (Placed& p : placed_) {
+    const auto path = (stem_of(output_).parent_path() / p.name).string();
+    if (has_other_contents(path, *p.file->bytes)) diag_.report(Diag::file_replaced, {}, path);
+    p.output = OutputFile::open(path, {}, diag_);
+    if (!p.output) return false;
+    p.output->write(*p.file->bytes);
+  }
+  return true;
+}
+
+bool MadeFiles::commit() {
+  return std::ranges::all_of(placed_, [&](Placed& p) { return p.output->commit(diag_); });
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,43 @@
+// Files that passes have made (Resources::made), beside the world that refers to them: room.wrl has room.baked_0.png.
+#pragma once
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenegraph/resources.h"
+#include "scenegraph/scene.h"
+#include "writers/output.h"
+
+namespace wrlkit {
+
+class MadeFiles {
+ public:
+  /// Of the world that is written to `output`; "-": it has nothing beside it.
+  MadeFiles(const Scene& scene, const Resources& resources, std::string output, Diagnostics& diag);
+
+  /// The url under which the world that is written finds a file that was made; it will be written. Other urls stay as they
+  /// are. A name that the world has for another file gets a number.
+  std::string place(std::string_view url);
+  /// Writes those that were placed, and those that are always wanted, into temporary files. False, and a message, when one
+  /// cannot be written.
+  bool write();
+  /// Puts them into their places; best before the world itself. A file with other contents that is replaced is reported.
+  bool commit();
+
+ private:
+  struct Placed {
+    std::string name;
+    const MadeFile* file;
+    std::optional<OutputFile> output;
+  };
+  const std::string& name_of(const MadeFile& file);
+
+  const Resources& resources_;
+  std::string output_;
+  Diagnostics& diag_;
+  std::set<std::string, std::less<>> taken_;  // urls of the world
+  std::vector<Placed> placed_;
+};
+
+}  // namespace wrlkit
