@@ -94,6 +94,7 @@ void for_each_texel(const Triangle2& t, int side, F&& f) {
     for (int k = 0; k < 3; ++k) {
       Point2 a = t[k], b = t[(k + 1) % 3];
       if ((a.y <= at) == (b.y <= at)) continue;
+      if (a.y > b.y) std::swap(a, b);  // both triangles at an edge find the same texels
       double x = a.x + (b.x - a.x) * (at - a.y) / (b.y - a.y);
       low = std::min(low, x), high = std::max(high, x);
     }

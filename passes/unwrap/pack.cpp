@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "passes/unwrap/strip.h"
@@ -242,17 +243,20 @@ double first_factor(const Packer& p, int side, int padding, double share) {
 
 /// Raises and lowers the factor until the strip is filled to the page's height.
 Atlas fit(Packer& p, const PackOptions& options) {
-  constexpr int tries = 7;
+  constexpr int tries = 5;
+  constexpr double full = 0.985, near = 1.004;
   double side = options.side, low = 0, high = 0, f = first_factor(p, options.side, options.padding, 1);
   Atlas best;
   for (int k = 0; k < tries; ++k) {
     double top = p.run(f, options.side, 0);
+    if (getenv("UWD")) fprintf(stderr, "try %d f=%g top=%g\n", k, f, top);
     if (top <= side) {
       low = f, best = p.atlas();
-      if (top > 0.995 * side) break;
+      if (top > full * side) break;
     } else {
       high = f;
     }
+    if (low > 0 && high > 0 && high < low * near) break;
     double next = f * std::sqrt(0.999 * side / top);
     if (low > 0 && next <= low) next = high > 0 ? (low + high) / 2 : low * 1.005;
     if (high > 0 && next >= high) next = low > 0 ? (low + high) / 2 : high * 0.98;

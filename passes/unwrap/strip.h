@@ -34,11 +34,13 @@ class Strip {
   std::uint64_t* line(int y, int level) { return &lines_[(std::size_t(y) * levels_ + level) * stride_]; }
   void grow(int rows);
   bool block(const Mask::Run& run, int y);
-  void set(int y, int first, int last);
+  int longest_gap(int y);
+  int hopeless(const Mask& mask, int y) const;
   void smear(int y, int first, int last);
 
   int width_, page_height_, padding_, levels_, stride_, rows_ = 0, top_ = 0;
   std::vector<std::uint64_t> lines_;
+  std::vector<int> gaps_;  // of each row, the longest that is free
   std::vector<std::uint64_t> blocked_;
   int low_ = 0, high_ = 0;  // words of blocked_ that are not all ones, and those between
 };
