@@ -6,11 +6,12 @@ namespace wrlkit::unwrap {
 namespace {
 
 constexpr double exact = 1e-4;           // a stretch of less is rounding
-constexpr double most_stretched = 1.35;  // a triangle, when it is attached
-constexpr double worst_stretched = 1.8;  // a triangle, after that
+#define PARAM(n,d) (getenv(n)?atof(getenv(n)):d)
+const double most_stretched = PARAM("UM",1.35);  // a triangle, when it is attached
+const double worst_stretched = PARAM("UW",1.8);  // a triangle, after that
 constexpr double joins_within = 0.3;     // of the triangle's size
 constexpr std::size_t few = 24;          // triangles among which no grid is needed
-constexpr int steps = 30;
+const int steps = PARAM("US",30);
 
 }  // namespace
 
@@ -50,7 +51,7 @@ void Grower::advance() {
       if (taken(links_.mate(corner) / 3)) continue;
       if (!attach(corner)) refused_.push_back(corner);
       if (chart_.triangles.size() >= next_spread_ && flat_.empty()) {
-        next_spread_ = chart_.triangles.size() * 3 / 2;
+        next_spread_ = chart_.triangles.size() * PARAM("UG",1.5);
         if (!distorted_) {
           index();
           continue;
@@ -67,10 +68,20 @@ void Grower::advance() {
   }
 }
 
+/// Whether the neighbour fills a notch: another of its edges is the chart's, and hangs together with this one.
+bool Grower::closes(std::uint32_t corner) const {
+  std::uint32_t mate = links_.mate(corner);
+  auto in_chart = [&](std::uint32_t c) { return c != none && of_chart_[c / 3] == n_charts_; };
+  std::uint32_t after = links_.mate(next_corner(mate)), before = links_.mate(previous_corner(mate));
+  return (in_chart(after) && point_at(next_corner(after)) == point_at(corner)) ||
+         (in_chart(before) && point_at(before) == point_at(next_corner(corner)));
+}
+
 void Grower::offer(std::uint32_t corner) {
   std::uint32_t mate = links_.mate(corner);
   if (mate == none || taken(mate / 3)) return;
   if (links_.flat(corner)) return flat_.push_back(corner);
+  if (closes(corner)) return queue_.push({-1, corner});
   Point2 middle = 0.5 * (chart_.points[point_at(corner)] + chart_.points[point_at(next_corner(corner))]) - center_;
   queue_.push({static_cast<float>(dot(middle, middle)), corner});
 }

@@ -36,6 +36,7 @@ class Grower {
   bool fits(std::uint32_t triangle, const Triangle2& t);
   bool clear_of_others(const Triangle2& t);
   void place(std::uint32_t triangle, const std::array<std::uint32_t, 3>& points);
+  bool closes(std::uint32_t corner) const;
   void offer(std::uint32_t corner);
   std::uint32_t point_at(std::uint32_t corner) const {
     return chart_.corner_point[3 * std::size_t{slot_[corner / 3]} + corner % 3];

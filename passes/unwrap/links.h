@@ -45,6 +45,9 @@ class Links {
   void lay_flat(std::uint32_t t);
   void connect(double crease_angle);
   void join(std::uint32_t a, std::uint32_t b, double crease_cosine);
+  void cut_joints();
+  std::vector<char> bent_positions() const;
+  bool ends_at(std::uint32_t corner) const;
   double cosine(std::uint32_t t, std::uint32_t u) const;
 
   UnfoldInput in_;

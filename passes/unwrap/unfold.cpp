@@ -52,7 +52,8 @@ void list_triangles(Charts& charts) {
 
 }  // namespace
 
-Charts unfold(const UnfoldInput& in, const UnfoldOptions& options) {
+Charts unfold(const UnfoldInput& in, const UnfoldOptions& o) {
+  UnfoldOptions options=o; if(getenv("UL")) options.max_stretch=atof(getenv("UL"));
   Links links(in, options.crease_angle);
   Grower grower(links, options);
   Turner turner;
