@@ -22,7 +22,7 @@ Grower::Grower(const Links& links, const UnfoldOptions& options)
 const Flattened& Grower::grow(std::uint32_t seed) {
   chart_.clear(), point_position_.clear(), previous_.clear();
   flat_.clear(), refused_.clear(), queue_ = {};
-  area_ = 0, distorted_ = searching_ = false, next_spread_ = 64;
+  n_kept_ = 0, area_ = 0, cell_ = 0, distorted_ = searching_ = false, next_spread_ = 32;
   Triangle2 t = links_.shape(seed);
   center_ = (1. / 3) * (t[0] + t[1] + t[2]);
   std::array<std::uint32_t, 3> points;
@@ -141,7 +141,7 @@ bool Grower::fits(std::uint32_t triangle, const Triangle2& t) {
   Stretch s = stretch_of(links_.shape(triangle), t);
   if (!(s.most < most_stretched && s.least > 1 / most_stretched)) return false;
   if (!clear_of_others(t)) return false;
-  distorted_ |= s.most > 1 + exact || s.least < 1 - exact;
+  if (!distorted_ && (s.most > 1 + exact || s.least < 1 - exact)) distorted_ = true, keep();
   return true;
 }
 
@@ -195,13 +195,28 @@ void Grower::index() {
     if (at_rim(i)) grid_.insert(chart_.at(i), i);
 }
 
-/// False: the chart shall not grow any more.
+void Grower::keep() {
+  kept_ = chart_.points;
+  n_kept_ = chart_.triangles.size();
+}
+
+/// Lets go what came after.
+void Grower::take_back() {
+  for (std::size_t i = n_kept_; i < chart_.triangles.size(); ++i)
+    slot_[chart_.triangles[i]] = of_chart_[chart_.triangles[i]] = none;
+  chart_.triangles.resize(n_kept_);
+  chart_.corner_point.resize(3 * n_kept_);
+  chart_.points = kept_;
+}
+
+/// False: that was too much, and the chart is again as it was after the last time.
 bool Grower::spread() {
-  saved_ = chart_.points;
   relaxer_.run(links_, chart_, steps);
-  if (sound()) return !too_stretched();
-  chart_.points = saved_;
-  index();
+  if (sound() && !too_stretched()) {
+    keep();
+    return true;
+  }
+  take_back();
   return false;
 }
 

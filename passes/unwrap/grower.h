@@ -43,6 +43,8 @@ class Grower {
   }
   bool at_rim(std::uint32_t slot) const;
 
+  void keep();
+  void take_back();
   void index();
   bool spread();
   bool too_stretched() const;
@@ -65,7 +67,8 @@ class Grower {
   std::vector<std::uint32_t> flat_, refused_;
   FrontGrid grid_;
   Relaxer relaxer_;
-  std::vector<Point2> saved_;
+  std::vector<Point2> kept_;  // places at the time when all was well, and the triangles at that time
+  std::size_t n_kept_ = 0;
 };
 
 }  // namespace wrlkit::unwrap

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "passes/shapes/vector.h"
 
@@ -13,10 +12,6 @@ namespace {
 using wrlkit::cross, wrlkit::dot;
 
 constexpr double thin = 1e-6;              // height by longest side, below which single precision knows no front
-constexpr double same_plane = 0.99995;     // cosine: 0.01 rad
-constexpr double full_turn = 6.283185307179586, flat_angle = 0.002;  // radians
-constexpr double slender = 3;              // length by width
-constexpr double joint_cosine = 0.94;      // 0.35 rad
 constexpr double too_large = 1e18;
 
 Vec3 position_at(const UnfoldInput& in, std::uint32_t i) {
@@ -34,7 +29,6 @@ Links::Links(const UnfoldInput& in, double crease_angle)
   flat_.resize(n), normal_.resize(n), solid_.resize(n), finite_.resize(n), mate_.assign(3 * n, none);
   for (std::uint32_t t = 0; t < n; ++t) lay_flat(t);
   connect(crease_angle);
-  cut_joints();
 }
 
 void Links::lay_flat(std::uint32_t t) {
@@ -55,14 +49,11 @@ void Links::lay_flat(std::uint32_t t) {
   normal_[t] = {static_cast<float>(n[0] / area), static_cast<float>(n[1] / area), static_cast<float>(n[2] / area)};
 }
 
-/// A triangle without a front agrees with any.
 double Links::cosine(std::uint32_t t, std::uint32_t u) const {
   if (!solid_[t] || !solid_[u]) return 1;
   const Normal &a = normal_[t], &b = normal_[u];
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-
-bool Links::flat(std::uint32_t corner) const { return cosine(corner / 3, mate_[corner] / 3) > same_plane; }
 
 void Links::connect(double crease_angle) {
   struct Edge {
@@ -98,58 +89,6 @@ void Links::join(std::uint32_t a, std::uint32_t b, double crease_cosine) {
   if (!in_.groups.empty() && in_.groups[t] != in_.groups[u]) return;
   if (cosine(t, u) < crease_cosine) return;
   mate_[a] = b, mate_[b] = a;
-}
-
-/// Positions around which the triangles cannot be laid flat together.
-std::vector<char> Links::bent_positions() const {
-  std::vector<float> angles(n_positions_, 0);
-  std::vector<char> open(n_positions_, 0), bent(n_positions_);
-  for (std::uint32_t t = 0; t < n_triangles(); ++t) {
-    if (!finite_[t]) continue;
-    Triangle2 s = shape(t);
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      std::uint32_t c = 3 * t + k;
-      Point2 u = s[(k + 1) % 3] - s[k], v = s[(k + 2) % 3] - s[k];
-      angles[position(c)] += static_cast<float>(std::atan2(cross(u, v), dot(u, v)));
-      if (mate_[c] == none) open[position(c)] = open[position(next_corner(c))] = 1;
-    }
-  }
-  for (std::uint32_t p = 0; p < n_positions_; ++p) bent[p] = !open[p] && std::abs(angles[p] - full_turn) > flat_angle;
-  return bent;
-}
-
-/// Whether a long flat piece has its short end at that edge: as the sides of a pipe do where the elbow begins.
-bool Links::ends_at(std::uint32_t corner) const {
-  std::uint32_t t = corner / 3, u = mate_[corner] / 3;
-  Triangle2 s = shape(t);
-  auto side = [&](std::uint32_t c) { return s[next_corner(c) % 3] - s[c % 3]; };
-  Point2 e = side(corner), f = side(next_corner(corner)), g = side(previous_corner(corner));
-  double width2 = dot(e, e);
-  if (area(t) < slender * width2) return false;
-  std::uint32_t longest = dot(f, f) > dot(g, g) ? next_corner(corner) : previous_corner(corner);
-  if (mate_[longest] == none || !flat(longest)) return false;
-  return area(t) > slender * area(u) || cosine(t, u) < joint_cosine;
-}
-
-/// A pipe is unrolled by itself, without the elbow's distortion, though the two meet smoothly. A line of such short ends
-/// is cut if it bends anywhere: around an elbow there are two places where it does not.
-void Links::cut_joints() {
-  std::vector<char> bent = bent_positions();
-  std::vector<std::uint32_t> ends, line(n_positions_);
-  std::iota(line.begin(), line.end(), 0u);
-  auto root = [&](std::uint32_t p) {
-    while (line[p] != p) p = line[p] = line[line[p]];
-    return p;
-  };
-  for (std::uint32_t c = 0; c < mate_.size(); ++c)
-    if (mate_[c] != none && ends_at(c)) {
-      ends.push_back(c);
-      std::uint32_t a = root(position(c)), b = root(position(next_corner(c)));
-      if (a == b) continue;
-      line[b] = a, bent[a] |= bent[b];
-    }
-  for (std::uint32_t c : ends)
-    if (mate_[c] != none && bent[root(position(c))]) mate_[mate_[c]] = none, mate_[c] = none;
 }
 
 }  // namespace wrlkit::unwrap

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "passes/unwrap/strip.h"
@@ -243,13 +242,13 @@ double first_factor(const Packer& p, int side, int padding, double share) {
 
 /// Raises and lowers the factor until the strip is filled to the page's height.
 Atlas fit(Packer& p, const PackOptions& options) {
-  constexpr int tries = 5;
-  constexpr double full = 0.985, near = 1.004;
+  const int tries = p.pieces() < 500 ? 10 : 5;  // few pieces take little time, and fill a page less evenly
+  constexpr double full = 0.99, near = 1.004;
   double side = options.side, low = 0, high = 0, f = first_factor(p, options.side, options.padding, 1);
   Atlas best;
-  for (int k = 0; k < tries; ++k) {
+  for (int k = 0; k < tries || (low == 0 && k < 4 * tries); ++k) {
     double top = p.run(f, options.side, 0);
-    if (getenv("UWD")) fprintf(stderr, "try %d f=%g top=%g\n", k, f, top);
+    
     if (top <= side) {
       low = f, best = p.atlas();
       if (top > full * side) break;
