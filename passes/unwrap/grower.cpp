@@ -6,12 +6,17 @@ namespace wrlkit::unwrap {
 namespace {
 
 constexpr double exact = 1e-4;           // a stretch of less is rounding
-#define PARAM(n,d) (getenv(n)?atof(getenv(n)):d)
-const double most_stretched = PARAM("UM",1.35);  // a triangle, when it is attached
-const double worst_stretched = PARAM("UW",1.8);  // a triangle, after that
+constexpr double most_stretched = 1.35;  // a triangle, when it is attached
+constexpr double worst_stretched = 1.8;  // a triangle, after that
 constexpr double joins_within = 0.3;     // of the triangle's size
-constexpr std::size_t few = 24;          // triangles among which no grid is needed
-const int steps = PARAM("US",30);
+constexpr int relaxing_steps = 30;
+constexpr std::size_t few = 24;  // triangles among which no grid is needed
+constexpr double most_cells = 512;       // that a triangle is wide
+
+double extent_of(const Triangle2& t) {
+  return std::max({std::abs(t[0].x - t[1].x), std::abs(t[1].x - t[2].x), std::abs(t[2].x - t[0].x),
+                   std::abs(t[0].y - t[1].y), std::abs(t[1].y - t[2].y), std::abs(t[2].y - t[0].y)});
+}
 
 }  // namespace
 
@@ -20,17 +25,17 @@ Grower::Grower(const Links& links, const UnfoldOptions& options)
       newest_(links.n_positions(), none), newest_chart_(links.n_positions(), none) {}
 
 const Flattened& Grower::grow(std::uint32_t seed) {
-  chart_.clear(), point_position_.clear(), previous_.clear();
+  chart_.clear(), previous_.clear();
   flat_.clear(), refused_.clear(), queue_ = {};
-  n_kept_ = 0, area_ = 0, cell_ = 0, distorted_ = searching_ = false, next_spread_ = 32;
+  n_kept_ = 0, area_ = 0, extent_ = 0, distorted_ = searching_ = false, next_spread_ = 32;
   Triangle2 t = links_.shape(seed);
   center_ = (1. / 3) * (t[0] + t[1] + t[2]);
   std::array<std::uint32_t, 3> points;
   for (std::uint32_t k = 0; k < 3; ++k) {
     points[k] = k;
     chart_.points.push_back(t[k]);
+    previous_.push_back(none);
     std::uint32_t p = links_.position(3 * seed + k);
-    point_position_.push_back(p), previous_.push_back(none);
     newest_[p] = k, newest_chart_[p] = n_charts_;
   }
   place(seed, points);
@@ -40,32 +45,39 @@ const Flattened& Grower::grow(std::uint32_t seed) {
 }
 
 void Grower::advance() {
-  for (int round = 0; round < 6; ++round) {
+  constexpr int rounds = 6;
+  for (int round = 0; round < rounds; ++round) {
     std::size_t before = chart_.triangles.size();
-    while (!flat_.empty() || !queue_.empty()) {
-      std::uint32_t corner;
-      if (!flat_.empty())
-        corner = flat_.back(), flat_.pop_back();
-      else
-        corner = queue_.top().corner, queue_.pop();
-      if (taken(links_.mate(corner) / 3)) continue;
-      if (!attach(corner)) refused_.push_back(corner);
-      if (chart_.triangles.size() >= next_spread_ && flat_.empty()) {
-        next_spread_ = chart_.triangles.size() * PARAM("UG",1.5);
-        if (!distorted_) {
-          index();
-          continue;
-        }
-        if (!spread()) return;
-        for (std::uint32_t c : refused_) offer(c);
-        refused_.clear();
-      }
-    }
+    if (!empty_queue()) return;
     if (!distorted_ || !spread()) return;
     if (round > 0 && chart_.triangles.size() < before + before / 50) return;
-    for (std::uint32_t c : refused_) offer(c);
-    refused_.clear();
+    offer_again();
   }
+}
+
+/// False: the chart is finished.
+bool Grower::empty_queue() {
+  while (!flat_.empty() || !queue_.empty()) {
+    std::uint32_t corner = flat_.empty() ? queue_.top().corner : flat_.back();
+    flat_.empty() ? queue_.pop() : flat_.pop_back();
+    if (taken(links_.mate(corner) / 3)) continue;
+    if (!attach(corner)) refused_.push_back(corner);
+    if (chart_.triangles.size() < next_spread_ || !flat_.empty()) continue;
+    next_spread_ = chart_.triangles.size() * 3 / 2;
+    if (!distorted_)
+      index();
+    else if (spread())
+      offer_again();
+    else
+      return false;
+  }
+  return true;
+}
+
+void Grower::offer_again() {
+  std::vector<std::uint32_t> corners;
+  corners.swap(refused_);
+  for (std::uint32_t c : corners) offer(c);
 }
 
 /// Whether the neighbour fills a notch: another of its edges is the chart's, and hangs together with this one.
@@ -124,7 +136,6 @@ bool Grower::attach(std::uint32_t corner) {
   if (point == none) {
     point = static_cast<std::uint32_t>(chart_.points.size());
     chart_.points.push_back(where);
-    point_position_.push_back(position);
     previous_.push_back(newest_chart_[position] == n_charts_ ? newest_[position] : none);
     newest_[position] = point, newest_chart_[position] = n_charts_;
   }
@@ -161,10 +172,7 @@ bool Grower::clear_of_others(const Triangle2& t) {
       if (overlap(t, chart_.at(i))) return false;
     return true;
   }
-  double extent = 0;
-  for (int k = 0; k < 3; ++k)
-    extent = std::max({extent, std::abs(t[k].x - t[(k + 1) % 3].x), std::abs(t[k].y - t[(k + 1) % 3].y)});
-  if (extent > 512 * cell_) cell_ = extent / 64, index();
+  keep_cells_large(extent_of(t));
   return !grid_.overlaps(t, [&](std::uint32_t slot, Triangle2& other) {
     if (!at_rim(slot)) return false;
     other = chart_.at(slot);
@@ -178,6 +186,7 @@ void Grower::place(std::uint32_t triangle, const std::array<std::uint32_t, 3>& p
   chart_.triangles.push_back(triangle);
   chart_.corner_point.insert(chart_.corner_point.end(), points.begin(), points.end());
   area_ += links_.area(triangle) / 2;
+  keep_cells_large(extent_of(chart_.at(slot)));
   for (std::uint32_t c = 3 * triangle; c < 3 * triangle + 3; ++c) offer(c);
   if (searching_)
     grid_.insert(chart_.at(slot), slot);
@@ -185,11 +194,17 @@ void Grower::place(std::uint32_t triangle, const std::array<std::uint32_t, 3>& p
     index();
 }
 
+/// So that no needle lies in very many.
+void Grower::keep_cells_large(double extent) {
+  extent_ = std::max(extent_, extent);
+  if (searching_ && extent_ > 2 * most_cells * cell_) index();
+}
+
 void Grower::index() {
   if (!(chart_.triangles.size() > few)) return;
   searching_ = true;
   double n = static_cast<double>(chart_.triangles.size());
-  cell_ = std::max(1.5 * std::sqrt(area_ / n), cell_ / 64);
+  cell_ = std::max(1.5 * std::sqrt(area_ / n), extent_ / most_cells);
   grid_.reset(cell_, 2 * chart_.triangles.size());
   for (std::uint32_t i = 0; i < chart_.triangles.size(); ++i)
     if (at_rim(i)) grid_.insert(chart_.at(i), i);
@@ -211,7 +226,7 @@ void Grower::take_back() {
 
 /// False: that was too much, and the chart is again as it was after the last time.
 bool Grower::spread() {
-  relaxer_.run(links_, chart_, steps);
+  relaxer_.run(links_, chart_, relaxing_steps);
   if (sound() && !too_stretched()) {
     keep();
     return true;

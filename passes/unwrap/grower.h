@@ -30,6 +30,8 @@ class Grower {
   };
 
   void advance();
+  bool empty_queue();
+  void offer_again();
   bool attach(std::uint32_t corner);
   Point2 unfold_corner(std::uint32_t corner, std::uint32_t opposite) const;
   std::uint32_t known_point(std::uint32_t position, Point2 near, double within) const;
@@ -45,6 +47,7 @@ class Grower {
 
   void keep();
   void take_back();
+  void keep_cells_large(double extent);
   void index();
   bool spread();
   bool too_stretched() const;
@@ -57,10 +60,10 @@ class Grower {
   std::uint32_t n_charts_ = 0;
 
   Flattened chart_;
-  std::vector<std::uint32_t> point_position_, previous_;  // of a point: its position, and the one before at the same
-  std::vector<std::uint32_t> newest_, newest_chart_;      // of a position: its last point, and in which chart
+  std::vector<std::uint32_t> newest_, newest_chart_;  // of a position: its last point, and in which chart
+  std::vector<std::uint32_t> previous_;               // of a point: the one before at the same position
   Point2 center_;
-  double area_ = 0, cell_ = 0;
+  double area_ = 0, extent_ = 0, cell_ = 0;
   bool distorted_ = false, searching_ = false;
   std::size_t next_spread_ = 0;
   std::priority_queue<Candidate> queue_;

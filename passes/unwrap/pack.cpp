@@ -106,9 +106,16 @@ class Packer {
   int run(double factor, int width, int height);
   Atlas atlas() const { return atlas_; }
   int max_side() const { return options_.max_side; }
-  bool too_wide() const { return too_wide_; }
+  /// Whether something had to be scaled down to fit into a page at all.
+  bool shrunk() const { return shrunk_; }
 
   double area() const { return sum([](double w, double h) { return w * h; }); }
+  double longest() const {
+    double l = 0;
+    for (const PackItem& item : items_)
+      for (const Place& size : item.charts->sizes) l = std::max(l, std::max(size.x, size.y) * item.density);
+    return l;
+  }
   double perimeter() const { return sum([](double w, double h) { return w + h; }); }
   double pieces() const { return sum([](double, double) { return 1.0; }); }
 
@@ -132,7 +139,7 @@ class Packer {
   std::vector<Bitmap> units_;
   Bitmap bitmap_;
   Atlas atlas_;
-  bool too_wide_ = false;
+  bool shrunk_ = false;
 };
 
 void Packer::sort(std::vector<Piece>& pieces) {
@@ -168,7 +175,7 @@ void Packer::draw(const Piece& p, Bitmap& to) const {
 /// The charts of an item that has copies, packed by themselves.
 void Packer::make_unit(std::uint32_t item, double factor, int side) {
   const Charts& charts = *items_[item].charts;
-  for (;; factor *= 0.9) {
+  for (;; factor *= 0.9, shrunk_ = true) {
     std::vector<Piece> pieces;
     double area = 0;
     int widest = 1;
@@ -203,6 +210,7 @@ void Packer::make_unit(std::uint32_t item, double factor, int side) {
 int Packer::run(double factor, int width, int height) {
   int side = height > 0 ? std::min(width, height) : width;
   atlas_.factor = factor;
+  shrunk_ = false;
   atlas_.items.resize(items_.size());
   std::vector<Piece> pieces;
   for (std::uint32_t i = 0; i < items_.size(); ++i) {
@@ -242,16 +250,19 @@ double first_factor(const Packer& p, int side, int padding, double share) {
 
 /// Raises and lowers the factor until the strip is filled to the page's height.
 Atlas fit(Packer& p, const PackOptions& options) {
-  const int tries = p.pieces() < 500 ? 10 : 5;  // few pieces take little time, and fill a page less evenly
+  const int tries = !(p.area() > 0) ? 1 : p.pieces() < 500 ? 10 : 5;  // few pieces take little time, and fill a page less evenly
   constexpr double full = 0.99, near = 1.004;
-  double side = options.side, low = 0, high = 0, f = first_factor(p, options.side, options.padding, 1);
+  double side = options.side, low = 0, high = 0, most = p.longest() > 0 ? side / p.longest() : HUGE_VAL;
+  double least_area = p.pieces() * (options.padding + 1) * (options.padding + 1), pages = least_area / (side * side);
+  double f = std::min(most, first_factor(p, options.side, options.padding, pages < 1 ? 1 : std::ceil(2 * pages)));
   Atlas best;
-  for (int k = 0; k < tries || (low == 0 && k < 4 * tries); ++k) {
+  for (int k = 0; pages < 1 && (k < tries || (low == 0 && k < 4 * tries)); ++k) {
     double top = p.run(f, options.side, 0);
+    if (p.shrunk()) top = std::max(top, 1.2 * side);
     
     if (top <= side) {
       low = f, best = p.atlas();
-      if (top > full * side) break;
+      if (top > full * side || f >= most) break;
     } else {
       high = f;
     }
@@ -259,9 +270,9 @@ Atlas fit(Packer& p, const PackOptions& options) {
     double next = f * std::sqrt(0.999 * side / top);
     if (low > 0 && next <= low) next = high > 0 ? (low + high) / 2 : low * 1.005;
     if (high > 0 && next >= high) next = low > 0 ? (low + high) / 2 : high * 0.98;
-    f = next;
+    f = std::min(next, most);
   }
-  if (best.pages.empty()) p.run(low > 0 ? low : f, options.side, options.side), best = p.atlas();
+  if (best.pages.empty()) p.run(f, options.side, options.side), best = p.atlas();
   for (Page& page : best.pages) page.height = options.side;
   return best;
 }

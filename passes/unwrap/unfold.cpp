@@ -53,8 +53,7 @@ void list_triangles(Charts& charts) {
 
 }  // namespace
 
-Charts unfold(const UnfoldInput& in, const UnfoldOptions& o) {
-  UnfoldOptions options=o; if(getenv("UL")) options.max_stretch=atof(getenv("UL"));
+Charts unfold(const UnfoldInput& in, const UnfoldOptions& options) {
   Links links(in, options.crease_angle);
   cut_joints(links);
   Grower grower(links, options);
