@@ -65,11 +65,14 @@ void JointFinder::classify() {
   keep_large_flats();
 }
 
+/// Those that are together by whole triangles; an elbow has lines of flat points.
 void JointFinder::keep_large_flats() {
   Sets sets(kind_.size());
-  for (std::uint32_t c = 0; c < n_corners_; ++c)
-    if (links_.mate(c) != none && kind(c) == flat && kind(next_corner(c)) == flat)
-      sets.unite(links_.position(c), links_.position(next_corner(c)));
+  for (std::uint32_t c = 0; c < n_corners_; c += 3)
+    if (links_.finite(c / 3) && kind(c) == flat && kind(c + 1) == flat && kind(c + 2) == flat) {
+      sets.unite(links_.position(c), links_.position(c + 1));
+      sets.unite(links_.position(c), links_.position(c + 2));
+    }
   std::vector<std::uint32_t> count(kind_.size(), 0);
   for (std::uint32_t p = 0; p < kind_.size(); ++p)
     if (kind_[p] == flat) ++count[sets.find(p)];

@@ -113,7 +113,7 @@ class Packer {
   double longest() const {
     double l = 0;
     for (const PackItem& item : items_)
-      for (const Place& size : item.charts->sizes) l = std::max(l, std::max(size.x, size.y) * item.density);
+      for (const Point2f& size : item.charts->sizes) l = std::max(l, std::max(size.x, size.y) * item.density);
     return l;
   }
   double perimeter() const { return sum([](double w, double h) { return w + h; }); }
@@ -124,7 +124,7 @@ class Packer {
   double sum(F&& f) const {
     double s = 0;
     for (const PackItem& item : items_)
-      for (const Place& size : item.charts->sizes) s += item.copies * f(size.x * item.density, size.y * item.density);
+      for (const Point2f& size : item.charts->sizes) s += item.copies * f(size.x * item.density, size.y * item.density);
     return s;
   }
 
@@ -148,7 +148,7 @@ void Packer::sort(std::vector<Piece>& pieces) {
 }
 
 Piece Packer::chart_piece(std::uint32_t item, std::uint32_t chart, double factor, int side) const {
-  Place size = items_[item].charts->sizes[chart];
+  Point2f size = items_[item].charts->sizes[chart];
   double scale = items_[item].density * factor, longest = std::max(size.x, size.y);
   if (longest * scale > side) scale = side / longest;
   return {item, chart, false, texels(size.x * scale), texels(size.y * scale), scale};
@@ -157,7 +157,7 @@ Piece Packer::chart_piece(std::uint32_t item, std::uint32_t chart, double factor
 /// Charts lie in the middle of their texels: so a chart of less than one covers the middle of it.
 Point2 Packer::offset(const Piece& p) const {
   if (p.whole) return {};
-  Place size = items_[p.item].charts->sizes[p.part];
+  Point2f size = items_[p.item].charts->sizes[p.part];
   return {(p.width - size.x * p.scale) / 2, (p.height - size.y * p.scale) / 2};
 }
 
@@ -166,7 +166,7 @@ void Packer::draw(const Piece& p, Bitmap& to) const {
   const Charts& c = *items_[p.item].charts;
   Point2 o = offset(p);
   for (std::uint32_t i = c.begin[p.part]; i < c.begin[p.part + 1]; ++i) {
-    const Place* t = &c.places[3 * std::size_t{c.triangles[i]}];
+    const Point2f* t = &c.places[3 * std::size_t{c.triangles[i]}];
     to.add(Triangle2{o + p.scale * Point2{t[0].x, t[0].y}, o + p.scale * Point2{t[1].x, t[1].y},
                      o + p.scale * Point2{t[2].x, t[2].y}});
   }
