@@ -22,11 +22,11 @@ struct Point2f {
 /// In metres. A chart's box begins at (0, 0); it is turned so that the box is small. A triangle's corners run
 /// counter-clockwise, as they do when one looks at its front.
 struct Charts {
-  std::vector<Point2f> places;             // of each corner, three a triangle
+  std::vector<Point2f> places;           // of each corner, three a triangle
   std::vector<std::uint32_t> chart_of;   // of each triangle
   std::vector<std::uint32_t> triangles;  // those of chart 0, those of chart 1, ...
   std::vector<std::uint32_t> begin;      // where those of each chart begin, and the end
-  std::vector<Point2f> sizes;              // of each chart's box
+  std::vector<Point2f> sizes;            // of each chart's box
 
   std::size_t size() const { return sizes.size(); }
 };

@@ -9,9 +9,11 @@ constexpr double exact = 1e-4;           // a stretch of less is rounding
 constexpr double most_stretched = 1.35;  // a triangle, when it is attached
 constexpr double worst_stretched = 1.8;  // a triangle, after that
 constexpr double joins_within = 0.3;     // of the triangle's size
+constexpr float beyond_refused = 1.3f;   // squared distance: how much farther a distorted chart grows than where a
+                                         // triangle was refused. Without that it grows fingers
 constexpr int relaxing_steps = 30;
-constexpr std::size_t few = 24;  // triangles among which no grid is needed
-constexpr double most_cells = 512;       // that a triangle is wide
+constexpr std::size_t few = 24;     // triangles among which no grid is needed
+constexpr double most_cells = 512;  // that a triangle is wide
 
 double extent_of(const Triangle2& t) {
   return std::max({std::abs(t[0].x - t[1].x), std::abs(t[1].x - t[2].x), std::abs(t[2].x - t[0].x),
@@ -21,13 +23,17 @@ double extent_of(const Triangle2& t) {
 }  // namespace
 
 Grower::Grower(const Links& links, const UnfoldOptions& options)
-    : links_(links), options_(options), slot_(links.n_triangles(), none), of_chart_(links.n_triangles(), none),
-      newest_(links.n_positions(), none), newest_chart_(links.n_positions(), none) {}
+    : links_(links),
+      options_(options),
+      slot_(links.n_triangles(), none),
+      of_chart_(links.n_triangles(), none),
+      newest_(links.n_positions(), none),
+      newest_chart_(links.n_positions(), none) {}
 
 const Flattened& Grower::grow(std::uint32_t seed) {
   chart_.clear(), previous_.clear();
   flat_.clear(), refused_.clear(), queue_ = {};
-  n_kept_ = 0, area_ = 0, extent_ = 0, distorted_ = searching_ = false, next_spread_ = 32;
+  n_kept_ = 0, reach_ = HUGE_VALF, area_ = 0, extent_ = 0, distorted_ = searching_ = false, next_spread_ = 32;
   Triangle2 t = links_.shape(seed);
   center_ = (1. / 3) * (t[0] + t[1] + t[2]);
   std::array<std::uint32_t, 3> points;
@@ -58,10 +64,13 @@ void Grower::advance() {
 /// False: the chart is finished.
 bool Grower::empty_queue() {
   while (!flat_.empty() || !queue_.empty()) {
-    std::uint32_t corner = flat_.empty() ? queue_.top().corner : flat_.back();
+    Candidate c = flat_.empty() ? queue_.top() : Candidate{-1, flat_.back()};
     flat_.empty() ? queue_.pop() : flat_.pop_back();
-    if (taken(links_.mate(corner) / 3)) continue;
-    if (!attach(corner)) refused_.push_back(corner);
+    if (taken(links_.mate(c.corner) / 3)) continue;
+    if (c.distance > reach_ || !attach(c.corner)) {
+      refused_.push_back(c.corner);
+      if (distorted_ && c.distance > 0) reach_ = std::min(reach_, beyond_refused * c.distance);
+    }
     if (chart_.triangles.size() < next_spread_ || !flat_.empty()) continue;
     next_spread_ = chart_.triangles.size() * 3 / 2;
     if (!distorted_)
@@ -75,6 +84,7 @@ bool Grower::empty_queue() {
 }
 
 void Grower::offer_again() {
+  reach_ = HUGE_VALF;
   std::vector<std::uint32_t> corners;
   corners.swap(refused_);
   for (std::uint32_t c : corners) offer(c);

@@ -3,7 +3,8 @@
 //
 // Where the surface is developable, triangles fit exactly, and nothing moves any more. Where it is not, a new corner is
 // joined to the place that its point has already if that is near; the error is spread over the chart whenever it has
-// doubled. A triangle is refused when it would be stretched too much or overlap; it is asked again after the next spread.
+// doubled. A triangle is refused when it would be stretched too much or overlap; it is asked again after the next
+// spread.
 #pragma once
 #include <queue>
 
@@ -55,7 +56,7 @@ class Grower {
 
   const Links& links_;
   UnfoldOptions options_;
-  std::vector<std::uint32_t> slot_;   // of a triangle in its chart
+  std::vector<std::uint32_t> slot_;  // of a triangle in its chart
   std::vector<std::uint32_t> of_chart_;
   std::uint32_t n_charts_ = 0;
 
@@ -66,6 +67,7 @@ class Grower {
   double area_ = 0, extent_ = 0, cell_ = 0;
   bool distorted_ = false, searching_ = false;
   std::size_t next_spread_ = 0;
+  float reach_ = 0;  // distance beyond which the chart does not grow before the next spread
   std::priority_queue<Candidate> queue_;
   std::vector<std::uint32_t> flat_, refused_;
   FrontGrid grid_;

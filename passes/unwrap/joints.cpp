@@ -1,6 +1,6 @@
-// A joint is a line of edges along which the surface bends. On one side are either long flat pieces that have their short
-// ends there, or points around which the surface is flat, many of them together: a scan has such points, too, here and
-// there.
+// A joint is a line of edges along which the surface bends. On one side are either long flat pieces that have their
+// short ends there, or points around which the surface is flat, many of them together: a scan has such points, too,
+// here and there.
 #include "passes/unwrap/joints.h"
 
 #include <cmath>

@@ -23,8 +23,8 @@ class Links {
   std::uint32_t n_positions() const { return n_positions_; }
   std::uint32_t position(std::uint32_t corner) const { return in_.corners[corner]; }
 
-  /// The corner from which the neighbour runs back along the edge from this corner to the next; none where charts are cut:
-  /// at borders, creases, other groups, where more than two triangles meet, and where the winding changes.
+  /// The corner from which the neighbour runs back along the edge from this corner to the next; none where charts are
+  /// cut: at borders, creases, other groups, where more than two triangles meet, and where the winding changes.
   std::uint32_t mate(std::uint32_t corner) const { return mate_[corner]; }
   /// Whether the neighbour there lies in the same plane.
   bool flat(std::uint32_t corner) const { return cosine(corner / 3, mate_[corner] / 3) > same_plane; }

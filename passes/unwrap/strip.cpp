@@ -27,8 +27,12 @@ int find_bit(const std::uint64_t* l, int x, int end, bool set) {
 }  // namespace
 
 Strip::Strip(int width, int page_height, int padding)
-    : width_(width), page_height_(page_height), padding_(padding), levels_(std::bit_width(unsigned(width))),
-      stride_(width / 64 + 2), blocked_(stride_) {}
+    : width_(width),
+      page_height_(page_height),
+      padding_(padding),
+      levels_(std::bit_width(unsigned(width))),
+      stride_(width / 64 + 2),
+      blocked_(stride_) {}
 
 /// Beyond the right border everything is taken.
 void Strip::grow(int rows) {

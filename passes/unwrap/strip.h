@@ -1,8 +1,9 @@
-// A strip of texels, as wide as a page and as long as it takes, in which masks find room. Pages are pieces of the strip.
+// A strip of texels, as wide as a page and as long as it takes, in which masks find room. Pages are pieces of the
+// strip.
 //
 // For each row and each k there is a line of bits that says at which x one of the 2^k texels from there on is taken. So
-// a run of any length is asked with two shifted words for 64 places at a time, and a whole line of places is given up as
-// soon as all its bits are set.
+// a run of any length is asked with two shifted words for 64 places at a time, and a whole line of places is given up
+// as soon as all its bits are set.
 #pragma once
 #include <cstdint>
 #include <optional>

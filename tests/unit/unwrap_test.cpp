@@ -63,7 +63,8 @@ using P3 = std::array<double, 3>;
 Solid cube() {
   Solid s;
   for (int i = 0; i < 8; ++i) s.point(i & 1, i >> 1 & 1, i >> 2 & 1);
-  s.quad(0, 2, 3, 1), s.quad(4, 5, 7, 6), s.quad(0, 1, 5, 4), s.quad(2, 6, 7, 3), s.quad(0, 4, 6, 2), s.quad(1, 3, 7, 5);
+  s.quad(0, 2, 3, 1), s.quad(4, 5, 7, 6), s.quad(0, 1, 5, 4), s.quad(2, 6, 7, 3), s.quad(0, 4, 6, 2),
+      s.quad(1, 3, 7, 5);
   return s;
 }
 
@@ -488,7 +489,35 @@ TEST_CASE("unwrap: a chart larger than a page is scaled down") {
   PackItem item{&c};
   Atlas atlas = pack({&item, 1}, {.max_side = 128});
   check({&item, 1}, atlas, 2);
-  for (const Page& p : atlas.pages) CHECK((p.width == 128 && p.height == 128));
+  for (const Page& p : atlas.pages) CHECK((p.width == 128 && p.height <= 128));
+}
+
+TEST_CASE("unwrap: one page as small as it can be") {
+  Charts c = random_charts(40, 20, 9);
+  PackItem item{&c};
+  Atlas atlas = pack({&item, 1}, {});
+  check({&item, 1}, atlas, 2);
+  REQUIRE(atlas.pages.size() == 1);
+  double covered = 0;
+  for (std::size_t t = 0; t < c.chart_of.size(); ++t) covered += area(places(c, t));
+  CHECK(covered > 0.2 * atlas.pages[0].width * atlas.pages[0].height);
+  // A strip that is longer than the square of its area is wide.
+  Solid bar = sheet(1, 1, false, [](double u, double v) { return P3{300 * u, 2 * v, 0}; });
+  c = bar.charts();
+  atlas = pack({&item, 1}, {});
+  REQUIRE(atlas.pages.size() == 1);
+  CHECK((atlas.pages[0].width == 512 && atlas.pages[0].height == 2));
+  CHECK(atlas.items[0].charts[0].scale == 1);
+}
+
+TEST_CASE("unwrap: more charts in a copy than a page has texels") {
+  Charts c = random_charts(200, 3, 10);
+  PackItem item{&c, 1, 3};
+  for (const PackOptions& options : {PackOptions{.max_side = 16}, PackOptions{.side = 16}}) {
+    Atlas atlas = pack({&item, 1}, options);
+    CHECK(texels({&item, 1}, atlas, 0).outside == 0);
+    CHECK(atlas.pages.size() == 3);
+  }
 }
 
 TEST_CASE("unwrap: nothing to pack") {
