@@ -94,6 +94,7 @@ void for_each_texel(const Triangle2& t, int side, F&& f) {
     for (int k = 0; k < 3; ++k) {
       Point2 a = t[k], b = t[(k + 1) % 3];
       if ((a.y <= at) == (b.y <= at)) continue;
+      if (a.y > b.y) std::swap(a, b);  // both triangles at an edge find the same texels
       double x = a.x + (b.x - a.x) * (at - a.y) / (b.y - a.y);
       low = std::min(low, x), high = std::max(high, x);
     }
@@ -159,10 +160,11 @@ int main(int argc, char** argv) {
       near += bad;
     }
   double k = sum.area2 / sum.area;
-  std::printf("faces=%zu unfold=%.3f pack=%.3f cpu=%.3f charts=%zu pages=%zu coverage=%.4f L2=%.4f Linf=%.3f overlap=%zu "
-              "near=%zu mirrored=%zu unplaced=%zu factor=%.5g\n",
-              n, t1 - t0, t2 - t1, t2 - t0, charts.size(), atlas.pages.size(),
-              double(covered) / side / side, std::sqrt(sum.squares / sum.area * k), std::sqrt(sum.most * k), twice, near,
-              sum.mirrored, sum.unplaced, atlas.factor);
+  std::printf(
+      "faces=%zu unfold=%.3f pack=%.3f cpu=%.3f charts=%zu pages=%zu coverage=%.4f L2=%.4f Linf=%.3f overlap=%zu "
+      "near=%zu mirrored=%zu unplaced=%zu factor=%.5g\n",
+      n, t1 - t0, t2 - t1, t2 - t0, charts.size(), atlas.pages.size(), double(covered) / side / side,
+      std::sqrt(sum.squares / sum.area * k), std::sqrt(sum.most * k), twice, near, sum.mirrored, sum.unplaced,
+      atlas.factor);
   if (argc > 3) write_png(owner, side, argv[3]);
 }

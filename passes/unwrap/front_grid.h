@@ -18,8 +18,8 @@ class FrontGrid {
   /// Adds a triangle under a name.
   void insert(const Triangle2& t, std::uint32_t name);
 
-  /// Whether `t` overlaps one of the triangles. `get(name, triangle)` gives what lies under that name, false: it is not at
-  /// the rim any more and is forgotten.
+  /// Whether `t` overlaps one of the triangles. `get(name, triangle)` gives what lies under that name, false: it is not
+  /// at the rim any more and is forgotten.
   template <class Get>
   bool overlaps(const Triangle2& t, Get&& get) {
     bool found = false;

@@ -9,27 +9,39 @@ constexpr double exact = 1e-4;           // a stretch of less is rounding
 constexpr double most_stretched = 1.35;  // a triangle, when it is attached
 constexpr double worst_stretched = 1.8;  // a triangle, after that
 constexpr double joins_within = 0.3;     // of the triangle's size
-constexpr std::size_t few = 24;          // triangles among which no grid is needed
-constexpr int steps = 30;
+constexpr float beyond_refused = 1.3f;   // squared distance: how much farther a distorted chart grows than where a
+                                         // triangle was refused. Without that it grows fingers
+constexpr int relaxing_steps = 30;
+constexpr std::size_t few = 24;     // triangles among which no grid is needed
+constexpr double most_cells = 512;  // that a triangle is wide
+
+double extent_of(const Triangle2& t) {
+  return std::max({std::abs(t[0].x - t[1].x), std::abs(t[1].x - t[2].x), std::abs(t[2].x - t[0].x),
+                   std::abs(t[0].y - t[1].y), std::abs(t[1].y - t[2].y), std::abs(t[2].y - t[0].y)});
+}
 
 }  // namespace
 
 Grower::Grower(const Links& links, const UnfoldOptions& options)
-    : links_(links), options_(options), slot_(links.n_triangles(), none), of_chart_(links.n_triangles(), none),
-      newest_(links.n_positions(), none), newest_chart_(links.n_positions(), none) {}
+    : links_(links),
+      options_(options),
+      slot_(links.n_triangles(), none),
+      of_chart_(links.n_triangles(), none),
+      newest_(links.n_positions(), none),
+      newest_chart_(links.n_positions(), none) {}
 
 const Flattened& Grower::grow(std::uint32_t seed) {
-  chart_.clear(), point_position_.clear(), previous_.clear();
+  chart_.clear(), previous_.clear();
   flat_.clear(), refused_.clear(), queue_ = {};
-  area_ = 0, distorted_ = searching_ = false, next_spread_ = 64;
+  n_kept_ = 0, reach_ = HUGE_VALF, area_ = 0, extent_ = 0, distorted_ = searching_ = false, next_spread_ = 32;
   Triangle2 t = links_.shape(seed);
   center_ = (1. / 3) * (t[0] + t[1] + t[2]);
   std::array<std::uint32_t, 3> points;
   for (std::uint32_t k = 0; k < 3; ++k) {
     points[k] = k;
     chart_.points.push_back(t[k]);
+    previous_.push_back(none);
     std::uint32_t p = links_.position(3 * seed + k);
-    point_position_.push_back(p), previous_.push_back(none);
     newest_[p] = k, newest_chart_[p] = n_charts_;
   }
   place(seed, points);
@@ -39,38 +51,59 @@ const Flattened& Grower::grow(std::uint32_t seed) {
 }
 
 void Grower::advance() {
-  for (int round = 0; round < 6; ++round) {
+  constexpr int rounds = 6;
+  for (int round = 0; round < rounds; ++round) {
     std::size_t before = chart_.triangles.size();
-    while (!flat_.empty() || !queue_.empty()) {
-      std::uint32_t corner;
-      if (!flat_.empty())
-        corner = flat_.back(), flat_.pop_back();
-      else
-        corner = queue_.top().corner, queue_.pop();
-      if (taken(links_.mate(corner) / 3)) continue;
-      if (!attach(corner)) refused_.push_back(corner);
-      if (chart_.triangles.size() >= next_spread_ && flat_.empty()) {
-        next_spread_ = chart_.triangles.size() * 3 / 2;
-        if (!distorted_) {
-          index();
-          continue;
-        }
-        if (!spread()) return;
-        for (std::uint32_t c : refused_) offer(c);
-        refused_.clear();
-      }
-    }
+    if (!empty_queue()) return;
     if (!distorted_ || !spread()) return;
     if (round > 0 && chart_.triangles.size() < before + before / 50) return;
-    for (std::uint32_t c : refused_) offer(c);
-    refused_.clear();
+    offer_again();
   }
+}
+
+/// False: the chart is finished.
+bool Grower::empty_queue() {
+  while (!flat_.empty() || !queue_.empty()) {
+    Candidate c = flat_.empty() ? queue_.top() : Candidate{-1, flat_.back()};
+    flat_.empty() ? queue_.pop() : flat_.pop_back();
+    if (taken(links_.mate(c.corner) / 3)) continue;
+    if (c.distance > reach_ || !attach(c.corner)) {
+      refused_.push_back(c.corner);
+      if (distorted_ && c.distance > 0) reach_ = std::min(reach_, beyond_refused * c.distance);
+    }
+    if (chart_.triangles.size() < next_spread_ || !flat_.empty()) continue;
+    next_spread_ = chart_.triangles.size() * 3 / 2;
+    if (!distorted_)
+      index();
+    else if (spread())
+      offer_again();
+    else
+      return false;
+  }
+  return true;
+}
+
+void Grower::offer_again() {
+  reach_ = HUGE_VALF;
+  std::vector<std::uint32_t> corners;
+  corners.swap(refused_);
+  for (std::uint32_t c : corners) offer(c);
+}
+
+/// Whether the neighbour fills a notch: another of its edges is the chart's, and hangs together with this one.
+bool Grower::closes(std::uint32_t corner) const {
+  std::uint32_t mate = links_.mate(corner);
+  auto in_chart = [&](std::uint32_t c) { return c != none && of_chart_[c / 3] == n_charts_; };
+  std::uint32_t after = links_.mate(next_corner(mate)), before = links_.mate(previous_corner(mate));
+  return (in_chart(after) && point_at(next_corner(after)) == point_at(corner)) ||
+         (in_chart(before) && point_at(before) == point_at(next_corner(corner)));
 }
 
 void Grower::offer(std::uint32_t corner) {
   std::uint32_t mate = links_.mate(corner);
   if (mate == none || taken(mate / 3)) return;
   if (links_.flat(corner)) return flat_.push_back(corner);
+  if (closes(corner)) return queue_.push({-1, corner});
   Point2 middle = 0.5 * (chart_.points[point_at(corner)] + chart_.points[point_at(next_corner(corner))]) - center_;
   queue_.push({static_cast<float>(dot(middle, middle)), corner});
 }
@@ -113,7 +146,6 @@ bool Grower::attach(std::uint32_t corner) {
   if (point == none) {
     point = static_cast<std::uint32_t>(chart_.points.size());
     chart_.points.push_back(where);
-    point_position_.push_back(position);
     previous_.push_back(newest_chart_[position] == n_charts_ ? newest_[position] : none);
     newest_[position] = point, newest_chart_[position] = n_charts_;
   }
@@ -130,7 +162,7 @@ bool Grower::fits(std::uint32_t triangle, const Triangle2& t) {
   Stretch s = stretch_of(links_.shape(triangle), t);
   if (!(s.most < most_stretched && s.least > 1 / most_stretched)) return false;
   if (!clear_of_others(t)) return false;
-  distorted_ |= s.most > 1 + exact || s.least < 1 - exact;
+  if (!distorted_ && (s.most > 1 + exact || s.least < 1 - exact)) distorted_ = true, keep();
   return true;
 }
 
@@ -150,10 +182,7 @@ bool Grower::clear_of_others(const Triangle2& t) {
       if (overlap(t, chart_.at(i))) return false;
     return true;
   }
-  double extent = 0;
-  for (int k = 0; k < 3; ++k)
-    extent = std::max({extent, std::abs(t[k].x - t[(k + 1) % 3].x), std::abs(t[k].y - t[(k + 1) % 3].y)});
-  if (extent > 512 * cell_) cell_ = extent / 64, index();
+  keep_cells_large(extent_of(t));
   return !grid_.overlaps(t, [&](std::uint32_t slot, Triangle2& other) {
     if (!at_rim(slot)) return false;
     other = chart_.at(slot);
@@ -167,6 +196,7 @@ void Grower::place(std::uint32_t triangle, const std::array<std::uint32_t, 3>& p
   chart_.triangles.push_back(triangle);
   chart_.corner_point.insert(chart_.corner_point.end(), points.begin(), points.end());
   area_ += links_.area(triangle) / 2;
+  keep_cells_large(extent_of(chart_.at(slot)));
   for (std::uint32_t c = 3 * triangle; c < 3 * triangle + 3; ++c) offer(c);
   if (searching_)
     grid_.insert(chart_.at(slot), slot);
@@ -174,23 +204,44 @@ void Grower::place(std::uint32_t triangle, const std::array<std::uint32_t, 3>& p
     index();
 }
 
+/// So that no needle lies in very many.
+void Grower::keep_cells_large(double extent) {
+  extent_ = std::max(extent_, extent);
+  if (searching_ && extent_ > 2 * most_cells * cell_) index();
+}
+
 void Grower::index() {
   if (!(chart_.triangles.size() > few)) return;
   searching_ = true;
   double n = static_cast<double>(chart_.triangles.size());
-  cell_ = std::max(1.5 * std::sqrt(area_ / n), cell_ / 64);
+  cell_ = std::max(1.5 * std::sqrt(area_ / n), extent_ / most_cells);
   grid_.reset(cell_, 2 * chart_.triangles.size());
   for (std::uint32_t i = 0; i < chart_.triangles.size(); ++i)
     if (at_rim(i)) grid_.insert(chart_.at(i), i);
 }
 
-/// False: the chart shall not grow any more.
+void Grower::keep() {
+  kept_ = chart_.points;
+  n_kept_ = chart_.triangles.size();
+}
+
+/// Lets go what came after.
+void Grower::take_back() {
+  for (std::size_t i = n_kept_; i < chart_.triangles.size(); ++i)
+    slot_[chart_.triangles[i]] = of_chart_[chart_.triangles[i]] = none;
+  chart_.triangles.resize(n_kept_);
+  chart_.corner_point.resize(3 * n_kept_);
+  chart_.points = kept_;
+}
+
+/// False: that was too much, and the chart is again as it was after the last time.
 bool Grower::spread() {
-  saved_ = chart_.points;
-  relaxer_.run(links_, chart_, steps);
-  if (sound()) return !too_stretched();
-  chart_.points = saved_;
-  index();
+  relaxer_.run(links_, chart_, relaxing_steps);
+  if (sound() && !too_stretched()) {
+    keep();
+    return true;
+  }
+  take_back();
   return false;
 }
 

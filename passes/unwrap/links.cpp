@@ -11,8 +11,7 @@ namespace {
 
 using wrlkit::cross, wrlkit::dot;
 
-constexpr double thin = 1e-6;              // height by longest side, below which single precision knows no front
-constexpr double same_plane = 0.99995;     // cosine: 0.01 rad
+constexpr double thin = 1e-5;  // height by longest side, below which single precision knows no front
 constexpr double too_large = 1e18;
 
 Vec3 position_at(const UnfoldInput& in, std::uint32_t i) {
@@ -50,14 +49,11 @@ void Links::lay_flat(std::uint32_t t) {
   normal_[t] = {static_cast<float>(n[0] / area), static_cast<float>(n[1] / area), static_cast<float>(n[2] / area)};
 }
 
-/// A triangle without a front agrees with any.
 double Links::cosine(std::uint32_t t, std::uint32_t u) const {
   if (!solid_[t] || !solid_[u]) return 1;
   const Normal &a = normal_[t], &b = normal_[u];
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-
-bool Links::flat(std::uint32_t corner) const { return cosine(corner / 3, mate_[corner] / 3) > same_plane; }
 
 void Links::connect(double crease_angle) {
   struct Edge {
@@ -65,7 +61,10 @@ void Links::connect(double crease_angle) {
     bool operator<(const Edge& o) const { return high != o.high ? high < o.high : corner < o.corner; }
   };
   auto low_of = [&](std::uint32_t c) { return std::min(position(c), position(next_corner(c))); };
-  auto counts = [&](std::uint32_t c) { return finite_[c / 3] && position(c) != position(next_corner(c)); };
+  auto counts = [&](std::uint32_t c) {
+    std::uint32_t a = position(c), b = position(next_corner(c)), d = position(previous_corner(c));
+    return finite_[c / 3] && a != b && b != d && d != a;
+  };
   std::vector<std::uint32_t> begin(std::size_t{n_positions_} + 2, 0);
   std::uint32_t n = 3 * n_triangles();
   for (std::uint32_t c = 0; c < n; ++c)
@@ -89,7 +88,7 @@ void Links::connect(double crease_angle) {
 
 void Links::join(std::uint32_t a, std::uint32_t b, double crease_cosine) {
   std::uint32_t t = a / 3, u = b / 3;
-  if (t == u || position(a) == position(b)) return;
+  if (position(a) == position(b)) return;
   if (!in_.groups.empty() && in_.groups[t] != in_.groups[u]) return;
   if (cosine(t, u) < crease_cosine) return;
   mate_[a] = b, mate_[b] = a;

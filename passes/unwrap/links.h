@@ -23,11 +23,14 @@ class Links {
   std::uint32_t n_positions() const { return n_positions_; }
   std::uint32_t position(std::uint32_t corner) const { return in_.corners[corner]; }
 
-  /// The corner from which the neighbour runs back along the edge from this corner to the next; none where charts are cut:
-  /// at borders, creases, other groups, where more than two triangles meet, and where the winding changes.
+  /// The corner from which the neighbour runs back along the edge from this corner to the next; none where charts are
+  /// cut: at borders, creases, other groups, where more than two triangles meet, and where the winding changes.
   std::uint32_t mate(std::uint32_t corner) const { return mate_[corner]; }
   /// Whether the neighbour there lies in the same plane.
-  bool flat(std::uint32_t corner) const;
+  bool flat(std::uint32_t corner) const { return cosine(corner / 3, mate_[corner] / 3) > same_plane; }
+  /// Of the angle between the fronts of two triangles; one without a front agrees with any.
+  double cosine(std::uint32_t t, std::uint32_t u) const;
+  void cut(std::uint32_t corner) { mate_[mate_[corner]] = none, mate_[corner] = none; }
 
   /// The triangle in its plane: corner 0 at the origin, corner 1 on the x axis, corner 2 above it.
   Triangle2 shape(std::uint32_t t) const { return {Point2{}, {flat_[t].length, 0}, {flat_[t].x, flat_[t].y}}; }
@@ -36,6 +39,7 @@ class Links {
   bool finite(std::uint32_t t) const { return finite_[t]; }
 
  private:
+  static constexpr double same_plane = 0.99995;  // cosine: 0.01 rad
   struct Flat {
     double length, x, y;
   };
@@ -45,7 +49,6 @@ class Links {
   void lay_flat(std::uint32_t t);
   void connect(double crease_angle);
   void join(std::uint32_t a, std::uint32_t b, double crease_cosine);
-  double cosine(std::uint32_t t, std::uint32_t u) const;
 
   UnfoldInput in_;
   std::uint32_t n_positions_;

@@ -51,19 +51,19 @@ void turn_quarter(const Bitmap& from, Bitmap& to) {
   });
 }
 
-/// The longest runs first, taken from all over the height: neighbouring rows are blocked by the same things.
+/// Rows from all over the height come first: neighbouring ones are blocked by the same things.
 void Mask::make(const Bitmap& bitmap) {
   width = bitmap.width(), height = bitmap.height();
   runs.clear();
-  bitmap.for_each_run([&](int y, int first, int last) { runs.push_back({y, first, last}); });
+  longest.assign(height, 0);
+  bitmap.for_each_run([&](int y, int first, int last) {
+    runs.push_back({y, first, last});
+    longest[y] = std::max(longest[y], last - first + 1);
+  });
   std::size_t ahead = 0;
-  for (int parts = 4; ahead < 5 && ahead < runs.size(); --parts) {
-    std::size_t best = ahead;
-    for (std::size_t i = ahead; i < runs.size(); ++i)
-      if (runs[i].last - runs[i].first > runs[best].last - runs[best].first) best = i;
-    std::swap(runs[ahead++], runs[best]);
-    if (parts == 0) break;
-  }
+  for (std::size_t parts = 2; parts <= 8; parts *= 2)
+    for (std::size_t k = 1; k < parts && ahead < runs.size(); k += 2)
+      std::swap(runs[ahead++], runs[runs.size() * k / parts]);
 }
 
 }  // namespace wrlkit::unwrap

@@ -49,6 +49,7 @@ struct Mask {
   };
   int width = 0, height = 0;
   std::vector<Run> runs;
+  std::vector<int> longest;  // of each row, the texels of its longest run
 
   void make(const Bitmap& bitmap);
 };

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <map>
 
 #include "passes/unwrap/strip.h"
 
@@ -14,10 +13,14 @@ namespace {
 
 Point2 turned(Point2 p, int quarters) {
   switch (quarters & 3) {
-    case 0: return p;
-    case 1: return {-p.y, p.x};
-    case 2: return {-p.x, -p.y};
-    default: return {p.y, -p.x};
+    case 0:
+      return p;
+    case 1:
+      return {-p.y, p.x};
+    case 2:
+      return {-p.x, -p.y};
+    default:
+      return {p.y, -p.x};
   }
 }
 
@@ -105,19 +108,31 @@ class Packer {
   /// Packs all at densities times the factor into pages of that size; height 0: one endless page.
   int run(double factor, int width, int height);
   Atlas atlas() const { return atlas_; }
-  int max_side() const { return options_.max_side; }
-  bool too_wide() const { return too_wide_; }
+  /// Whether something had to be scaled down to fit into a page at all.
+  bool shrunk() const { return shrunk_; }
 
-  double area() const { return sum([](double w, double h) { return w * h; }); }
-  double perimeter() const { return sum([](double w, double h) { return w + h; }); }
-  double pieces() const { return sum([](double, double) { return 1.0; }); }
+  double area() const {
+    return sum([](double w, double h) { return w * h; });
+  }
+  double perimeter() const {
+    return sum([](double w, double h) { return w + h; });
+  }
+  double pieces() const {
+    return sum([](double, double) { return 1.0; });
+  }
+  double longest() const {
+    double l = 0;
+    for (const PackItem& item : items_)
+      for (const Point2f& size : item.charts->sizes) l = std::max(l, std::max(size.x, size.y) * item.density);
+    return l;
+  }
 
  private:
   template <class F>
   double sum(F&& f) const {
     double s = 0;
     for (const PackItem& item : items_)
-      for (const Place& size : item.charts->sizes) s += item.copies * f(size.x * item.density, size.y * item.density);
+      for (const Point2f& size : item.charts->sizes) s += item.copies * f(size.x * item.density, size.y * item.density);
     return s;
   }
 
@@ -125,6 +140,8 @@ class Packer {
   void draw(const Piece& piece, Bitmap& to) const;
   Point2 offset(const Piece& piece) const;
   void make_unit(std::uint32_t item, double factor, int side);
+  void add_to_unit(const Piece& piece, Spotted spot, Bitmap& unit);
+  std::vector<Piece> make_pieces(double factor, int side);
   static void sort(std::vector<Piece>& pieces);
 
   std::span<const PackItem> items_;
@@ -132,7 +149,7 @@ class Packer {
   std::vector<Bitmap> units_;
   Bitmap bitmap_;
   Atlas atlas_;
-  bool too_wide_ = false;
+  bool shrunk_ = false;
 };
 
 void Packer::sort(std::vector<Piece>& pieces) {
@@ -141,7 +158,7 @@ void Packer::sort(std::vector<Piece>& pieces) {
 }
 
 Piece Packer::chart_piece(std::uint32_t item, std::uint32_t chart, double factor, int side) const {
-  Place size = items_[item].charts->sizes[chart];
+  Point2f size = items_[item].charts->sizes[chart];
   double scale = items_[item].density * factor, longest = std::max(size.x, size.y);
   if (longest * scale > side) scale = side / longest;
   return {item, chart, false, texels(size.x * scale), texels(size.y * scale), scale};
@@ -150,7 +167,7 @@ Piece Packer::chart_piece(std::uint32_t item, std::uint32_t chart, double factor
 /// Charts lie in the middle of their texels: so a chart of less than one covers the middle of it.
 Point2 Packer::offset(const Piece& p) const {
   if (p.whole) return {};
-  Place size = items_[p.item].charts->sizes[p.part];
+  Point2f size = items_[p.item].charts->sizes[p.part];
   return {(p.width - size.x * p.scale) / 2, (p.height - size.y * p.scale) / 2};
 }
 
@@ -159,64 +176,72 @@ void Packer::draw(const Piece& p, Bitmap& to) const {
   const Charts& c = *items_[p.item].charts;
   Point2 o = offset(p);
   for (std::uint32_t i = c.begin[p.part]; i < c.begin[p.part + 1]; ++i) {
-    const Place* t = &c.places[3 * std::size_t{c.triangles[i]}];
+    const Point2f* t = &c.places[3 * std::size_t{c.triangles[i]}];
     to.add(Triangle2{o + p.scale * Point2{t[0].x, t[0].y}, o + p.scale * Point2{t[1].x, t[1].y},
                      o + p.scale * Point2{t[2].x, t[2].y}});
   }
 }
 
-/// The charts of an item that has copies, packed by themselves.
+/// The charts of an item that has copies, packed by themselves. When not even a texel for each fits into a page, those
+/// beyond share the first.
 void Packer::make_unit(std::uint32_t item, double factor, int side) {
-  const Charts& charts = *items_[item].charts;
-  for (;; factor *= 0.9) {
+  for (;; factor *= 0.9, shrunk_ = true) {
     std::vector<Piece> pieces;
     double area = 0;
     int widest = 1;
-    for (std::uint32_t c = 0; c < charts.size(); ++c) {
+    for (std::uint32_t c = 0; c < items_[item].charts->size(); ++c) {
       Piece p = chart_piece(item, c, factor, side);
       area += double(p.width + options_.padding) * (p.height + options_.padding);
-      widest = std::max(widest, std::max(p.width, p.height));
+      widest = std::max({widest, p.width, p.height});
       pieces.push_back(p);
     }
     sort(pieces);
-    int width = std::clamp(static_cast<int>(std::sqrt(area)), widest, side);
-    Strip strip(width, 0, options_.padding);
+    Strip strip(std::clamp(static_cast<int>(std::sqrt(area)), widest, side), 0, options_.padding);
+    std::vector<Spotted> spots;
     Filler filler(strip);
-    auto& placed = atlas_.items[item].charts;
-    units_[item].reset(width, 0);
-    std::vector<std::pair<Bitmap, Spot>> parts;
     for (const Piece& p : pieces) {
       draw(p, bitmap_);
-      Spotted s = filler.place(bitmap_);
-      placed[p.part] = placement(p, s, offset(p));
-      Bitmap a = bitmap_, b;
-      for (int q = 0; q < s.quarters; ++q) turn_quarter(a, b), std::swap(a, b);
-      parts.push_back({std::move(a), s.at});
+      spots.push_back(filler.place(bitmap_));
     }
-    if (strip.top() > side) continue;
-    units_[item].reset(width, strip.top());
-    for (auto& [bitmap, at] : parts) units_[item].add(bitmap, at.x, at.y);
+    if (strip.top() > side && widest > 1) continue;
+    units_[item].reset(strip.width(), std::min(strip.top(), side));
+    for (std::size_t i = 0; i < pieces.size(); ++i) add_to_unit(pieces[i], spots[i], units_[item]);
     return;
   }
 }
 
-int Packer::run(double factor, int width, int height) {
-  int side = height > 0 ? std::min(width, height) : width;
-  atlas_.factor = factor;
-  atlas_.items.resize(items_.size());
+void Packer::add_to_unit(const Piece& p, Spotted s, Bitmap& unit) {
+  if (s.at.y >= unit.height()) s.at = {};
+  draw(p, bitmap_);
+  Bitmap turned;
+  for (int q = 0; q < s.quarters; ++q) turn_quarter(bitmap_, turned), std::swap(bitmap_, turned);
+  unit.add(bitmap_, s.at.x, s.at.y);
+  atlas_.items[p.item].charts[p.part] = placement(p, s, offset(p));
+}
+
+std::vector<Piece> Packer::make_pieces(double factor, int side) {
   std::vector<Piece> pieces;
   for (std::uint32_t i = 0; i < items_.size(); ++i) {
-    atlas_.items[i].charts.resize(items_[i].charts->size());
+    auto n = static_cast<std::uint32_t>(items_[i].charts->size());
+    atlas_.items[i].charts.resize(n);
     if (items_[i].copies > 1) {
       make_unit(i, factor, side);
       atlas_.items[i].copies.resize(items_[i].copies);
-      for (std::uint32_t k = 0; k < items_[i].copies; ++k)
+      for (std::uint32_t k = 0; k < items_[i].copies && n > 0; ++k)
         pieces.push_back({i, k, true, units_[i].width(), units_[i].height(), 1});
     } else {
-      for (std::uint32_t c = 0; c < items_[i].charts->size(); ++c) pieces.push_back(chart_piece(i, c, factor, side));
+      for (std::uint32_t c = 0; c < n; ++c) pieces.push_back(chart_piece(i, c, factor, side));
     }
   }
   sort(pieces);
+  return pieces;
+}
+
+int Packer::run(double factor, int width, int height) {
+  atlas_.factor = factor;
+  atlas_.items.resize(items_.size());
+  shrunk_ = false;
+  std::vector<Piece> pieces = make_pieces(factor, width);
   Strip strip(width, height, options_.padding);
   Filler filler(strip);
   for (const Piece& p : pieces) {
@@ -242,25 +267,49 @@ double first_factor(const Packer& p, int side, int padding, double share) {
 
 /// Raises and lowers the factor until the strip is filled to the page's height.
 Atlas fit(Packer& p, const PackOptions& options) {
-  constexpr int tries = 7;
-  double side = options.side, low = 0, high = 0, f = first_factor(p, options.side, options.padding, 1);
+  constexpr double full = 0.99, near = 1.004, few = 500;
+  int tries = !(p.area() > 0) ? 1 : p.pieces() < few ? 10 : 5;  // few fill a page less evenly, but take no time
+  double side = options.side, low = 0, high = 0, most = p.longest() > 0 ? side / p.longest() : HUGE_VAL;
+  double pages = p.pieces() * (options.padding + 1) * (options.padding + 1) / (side * side);  // with a texel for each
+  double f = std::min(most, first_factor(p, options.side, options.padding, pages < 1 ? 1 : std::ceil(2 * pages)));
   Atlas best;
-  for (int k = 0; k < tries; ++k) {
+  for (int k = 0; pages < 1 && (k < tries || (low == 0 && k < 4 * tries)); ++k) {
     double top = p.run(f, options.side, 0);
-    if (top <= side) {
+    if (p.shrunk()) top = std::max(top, 1.2 * side);
+    if (top <= side)
       low = f, best = p.atlas();
-      if (top > 0.995 * side) break;
-    } else {
+    else
       high = f;
-    }
+    if (low == f && (top > full * side || f >= most)) break;
+    if (low > 0 && high > 0 && high < low * near) break;
     double next = f * std::sqrt(0.999 * side / top);
     if (low > 0 && next <= low) next = high > 0 ? (low + high) / 2 : low * 1.005;
     if (high > 0 && next >= high) next = low > 0 ? (low + high) / 2 : high * 0.98;
-    f = next;
+    f = std::min(next, most);
   }
-  if (best.pages.empty()) p.run(low > 0 ? low : f, options.side, options.side), best = p.atlas();
+  if (best.pages.empty()) p.run(f, options.side, options.side), best = p.atlas();
   for (Page& page : best.pages) page.height = options.side;
   return best;
+}
+
+int power_of_two(double n) {
+  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(1., std::ceil(n)))));
+}
+
+/// One page if it can be, as small as can be; else pages of the largest side.
+Atlas fill(Packer& p, const PackOptions& options) {
+  double texels = p.area() + p.perimeter() * (options.padding + 0.5) + p.pieces() * options.padding * options.padding;
+  double wanted = std::max(std::sqrt(texels), p.longest()), most = options.max_side;
+  int side = wanted < most ? std::min(options.max_side, power_of_two(wanted)) : options.max_side;
+  int top = p.run(1, side, side);
+  while (top > side && side < options.max_side) {
+    side = std::min(2 * side, options.max_side);
+    top = p.run(1, side, side);
+  }
+  Atlas atlas = p.atlas();
+  int rest = top - side * static_cast<int>(atlas.pages.size() - 1);
+  atlas.pages.back().height = std::min(side, power_of_two(rest));
+  return atlas;
 }
 
 }  // namespace
@@ -269,13 +318,7 @@ Point2 Placement::apply(Point2 p) const { return turned(scale * p, quarter_turns
 
 Atlas pack(std::span<const PackItem> items, const PackOptions& options) {
   Packer p(items, options);
-  if (options.side > 0) return fit(p, options);
-  double texels = p.area() + p.perimeter() * (options.padding + 0.5) + p.pieces() * options.padding * options.padding;
-  double most = options.max_side;
-  int side = texels > most * most ? options.max_side : std::bit_ceil(static_cast<unsigned>(std::sqrt(texels)) + 1u);
-  side = std::min(side, options.max_side);
-  p.run(1, side, side);
-  return p.atlas();
+  return options.side > 0 ? fit(p, options) : fill(p, options);
 }
 
 }  // namespace wrlkit::unwrap

@@ -50,10 +50,12 @@ struct Atlas {
 /// Places charts so that no two of them touch texels nearer than the padding. Charts are packed by the texels that they
 /// touch, so that one may lie in a hole or bay of another; they are turned by quarters, never mirrored.
 ///
-/// - Each chart, however small, touches at least one texel that no other touches, and covers the middle of one.
-/// - Without `side`, pages are squares or halves of squares, with sides that are powers of two. A chart that is too large
+/// - Each chart, however small, touches at least one texel that no other touches, and the middle of its box is the
+///   middle of a texel if it is less than one. (But when an item that has copies has so many charts that a page has not a
+///   texel for each, those beyond share one.)
+/// - Without `side`, pages are squares; sides are powers of two up to `max_side`. The last may be lower. What is too large
 ///   for a page is scaled down.
-/// - With `side`, more pages of that side are opened only if the charts do not fit at a texel each.
+/// - With `side`, more pages of that side are opened only if there is not a texel for each chart.
 ///
 /// The same places at each run. About linear in triangles, charts and texels.
 Atlas pack(std::span<const PackItem> items, const PackOptions& options = {});

@@ -18,8 +18,8 @@ Stretch stretch_of(const Triangle2& shape, const Triangle2& t);
 /// A chart as it grows: points, and for each triangle its three.
 struct Flattened {
   std::vector<Point2> points;
-  std::vector<std::uint32_t> triangles;        // numbers of the surface
-  std::vector<std::uint32_t> corner_point;     // three a triangle
+  std::vector<std::uint32_t> triangles;     // numbers of the surface
+  std::vector<std::uint32_t> corner_point;  // three a triangle
 
   Triangle2 at(std::size_t i) const {
     return {points[corner_point[3 * i]], points[corner_point[3 * i + 1]], points[corner_point[3 * i + 2]]};

@@ -10,8 +10,8 @@ namespace wrlkit::unwrap {
 
 using Triangle2 = std::array<Point2, 3>;
 
-/// Calls f(y, first, last) for each row; the cells are first to last. What a triangle has beyond a cell's border by less
-/// than a thousandth does not count: that is rounding, and would cost a row of texels.
+/// Calls f(y, first, last) for each row; the cells are first to last. What a triangle has beyond a cell's border by
+/// less than a thousandth does not count: that is rounding, and would cost a row of texels.
 template <class F>
 void for_each_touched_row(const Triangle2& t, F&& f) {
   constexpr double slack = 1e-3;

@@ -8,22 +8,40 @@ namespace {
 
 constexpr std::uint64_t all = ~std::uint64_t{0};
 
+void set_bits(std::uint64_t* l, int first, int last) {
+  int a = first >> 6, b = last >> 6;
+  for (int i = a; i <= b; ++i)
+    l[i] |= (i == a ? all << (first & 63) : all) & (i == b ? all >> (63 - (last & 63)) : all);
+}
+
+/// The first bit from x on that is so; `end` if there is none before.
+int find_bit(const std::uint64_t* l, int x, int end, bool set) {
+  while (x < end) {
+    std::uint64_t w = (set ? l[x >> 6] : ~l[x >> 6]) >> (x & 63);
+    if (w) return std::min(end, x + std::countr_zero(w));
+    x = (x | 63) + 1;
+  }
+  return end;
+}
+
 }  // namespace
 
 Strip::Strip(int width, int page_height, int padding)
-    : width_(width), page_height_(page_height), padding_(padding), levels_(std::bit_width(unsigned(width))),
-      stride_(width / 64 + 2), blocked_(stride_) {}
+    : width_(width),
+      page_height_(page_height),
+      padding_(padding),
+      levels_(std::bit_width(unsigned(width))),
+      stride_(width / 64 + 2),
+      blocked_(stride_) {}
 
 /// Beyond the right border everything is taken.
 void Strip::grow(int rows) {
   if (rows <= rows_) return;
-  rows = std::max(rows, rows_ + rows_ / 2);
+  rows = std::max(rows, rows_ + rows_ / 4);
   lines_.resize(std::size_t(rows) * levels_ * stride_, 0);
   for (; rows_ < rows; ++rows_)
-    for (int k = 0; k < levels_; ++k) {
-      std::uint64_t* l = line(rows_, k);
-      for (int x = std::max(0, width_ - (1 << k) + 1); x < stride_ * 64; ++x) l[x >> 6] |= std::uint64_t{1} << (x & 63);
-    }
+    for (int k = 0; k < levels_; ++k) set_bits(line(rows_, k), std::max(0, width_ - (1 << k) + 1), stride_ * 64 - 1);
+  gaps_.resize(rows_, width_);
 }
 
 /// Marks where the run, in that row, is in the way. False: it is everywhere.
@@ -54,6 +72,10 @@ std::optional<Spot> Strip::find(const Mask& mask, int y, int last_y) {
       continue;
     }
     grow(y + mask.height);
+    if (int n = hopeless(mask, y)) {
+      y += n - 1;
+      continue;
+    }
     low_ = 0, high_ = (width_ - mask.width) / 64;
     std::fill(blocked_.begin(), blocked_.begin() + high_ + 1, 0);
     bool open = true;
@@ -71,17 +93,34 @@ void Strip::put(const Mask& mask, Spot at) {
   for (const Mask::Run& r : mask.runs)
     for (int d = -padding_; d <= padding_; ++d)
       if (int y = at.y + r.y + d; y >= first_row && y <= last_row && y < rows_)
-        set(y, std::max(0, at.x + r.first - padding_), std::min(width_ - 1, at.x + r.last + padding_));
-  for (int y = std::max(first_row, at.y - padding_); y < std::min(last_row + 1, at.y + mask.height + padding_); ++y)
+        set_bits(line(y, 0), std::max(0, at.x + r.first - padding_), std::min(width_ - 1, at.x + r.last + padding_));
+  for (int y = std::max(first_row, at.y - padding_); y < std::min(last_row + 1, at.y + mask.height + padding_); ++y) {
     smear(y, std::max(0, at.x - padding_), std::min(width_ - 1, at.x + mask.width + padding_));
+    gaps_[y] = longest_gap(y);
+  }
   top_ = std::max(top_, at.y + mask.height);
 }
 
-void Strip::set(int y, int first, int last) {
-  std::uint64_t* l = line(y, 0);
-  int a = first >> 6, b = last >> 6;
-  for (int i = a; i <= b; ++i)
-    l[i] |= (i == a ? all << (first & 63) : all) & (i == b ? all >> (63 - (last & 63)) : all);
+/// The longest row of texels that are free.
+int Strip::longest_gap(int y) {
+  const std::uint64_t* l = line(y, 0);
+  int longest = 0;
+  for (int x = find_bit(l, 0, width_, false); x < width_;) {
+    int end = find_bit(l, x, width_, true);
+    longest = std::max(longest, end - x);
+    x = find_bit(l, end, width_, false);
+  }
+  return longest;
+}
+
+/// How many lines of places from y on are taken because the mask has a longer run than there is room for.
+int Strip::hopeless(const Mask& mask, int y) const {
+  for (int r = mask.height - 1; r >= 0; --r) {
+    int gap = gaps_[y + r], n = 0;
+    while (r - n >= 0 && mask.longest[r - n] > gap) ++n;
+    if (n > 0) return n;
+  }
+  return 0;
 }
 
 /// Brings the higher levels of a row up to date.

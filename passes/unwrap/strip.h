@@ -1,8 +1,9 @@
-// A strip of texels, as wide as a page and as long as it takes, in which masks find room. Pages are pieces of the strip.
+// A strip of texels, as wide as a page and as long as it takes, in which masks find room. Pages are pieces of the
+// strip.
 //
 // For each row and each k there is a line of bits that says at which x one of the 2^k texels from there on is taken. So
-// a run of any length is asked with two shifted words for 64 places at a time, and a whole line of places is given up as
-// soon as all its bits are set.
+// a run of any length is asked with two shifted words for 64 places at a time, and a whole line of places is given up
+// as soon as all its bits are set.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -34,11 +35,13 @@ class Strip {
   std::uint64_t* line(int y, int level) { return &lines_[(std::size_t(y) * levels_ + level) * stride_]; }
   void grow(int rows);
   bool block(const Mask::Run& run, int y);
-  void set(int y, int first, int last);
+  int longest_gap(int y);
+  int hopeless(const Mask& mask, int y) const;
   void smear(int y, int first, int last);
 
   int width_, page_height_, padding_, levels_, stride_, rows_ = 0, top_ = 0;
   std::vector<std::uint64_t> lines_;
+  std::vector<int> gaps_;  // of each row, the longest that is free
   std::vector<std::uint64_t> blocked_;
   int low_ = 0, high_ = 0;  // words of blocked_ that are not all ones, and those between
 };

@@ -6,8 +6,8 @@
 
 namespace wrlkit::unwrap {
 
-/// The rectangle begins at (0, 0) and is at least as wide as high; gives its size. Rotated, never mirrored. The smallest
-/// rectangle has a side along one of the convex hull (Freeman and Shapira 1975). O(n log n).
+/// The rectangle begins at (0, 0) and is at least as wide as high; gives its size. Rotated, never mirrored. The
+/// smallest rectangle has a side along one of the convex hull (Freeman and Shapira 1975). O(n log n).
 class Turner {
  public:
   Point2 turn(std::vector<Point2>& points);

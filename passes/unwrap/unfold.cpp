@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "passes/unwrap/grower.h"
+#include "passes/unwrap/joints.h"
 #include "passes/unwrap/turn.h"
 
 namespace wrlkit::unwrap {
@@ -54,6 +55,7 @@ void list_triangles(Charts& charts) {
 
 Charts unfold(const UnfoldInput& in, const UnfoldOptions& options) {
   Links links(in, options.crease_angle);
+  cut_joints(links);
   Grower grower(links, options);
   Turner turner;
   Charts charts;
