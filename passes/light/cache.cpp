@@ -5,11 +5,10 @@
 namespace wrlkit::light {
 namespace {
 
-constexpr double angle = 0.25;       // that a cell spans at most, seen from where the ray comes
+constexpr double angle = 0.5;       // that a cell spans at most, seen from where the ray comes
 constexpr int levels = 7;            // each half as large as the one before
 
-/// One of 19 steps of direction along each axis would split flat faces by rounding where a step ends at a usual direction;
-/// these end at 14, 49 degrees and so on.
+/// One of five steps along each axis. They end at 0.25 and 0.75, where the normals of few faces lie.
 std::int64_t direction_step(double v) { return std::llround(2 * v); }
 
 }  // namespace
@@ -39,13 +38,25 @@ const IrradianceCache::Cell* IrradianceCache::find(Key key) const {
   return cell ? &cells_[cell - 1] : nullptr;
 }
 
-void IrradianceCache::grow() {
-  table_.assign(std::max<std::size_t>(1024, table_.size() * 2), 0);
+void IrradianceCache::rebuild(std::size_t size) {
+  table_.assign(size, 0);
   for (std::uint32_t c = 0; c < cells_.size(); ++c) table_[slot(keys_[c])] = c + 1;
 }
 
+void IrradianceCache::drop_rare(std::uint32_t often) {
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (cells_[c].n_met < often) continue;
+    cells_[kept] = cells_[c];
+    keys_[kept++] = keys_[c];
+  }
+  cells_.resize(kept);
+  keys_.resize(kept);
+  rebuild(table_.size());
+}
+
 void IrradianceCache::meet(Key key, const Receiver& place, std::uint64_t rank) {
-  if (cells_.size() * 2 >= table_.size()) grow();
+  if (cells_.size() * 2 >= table_.size()) rebuild(std::max<std::size_t>(1024, table_.size() * 2));
   std::size_t at = slot(key);
   if (!table_[at]) {
     cells_.emplace_back();

@@ -20,7 +20,7 @@ class IrradianceCache {
     Receiver places[most_places];    // a fair choice of where rays ended in it
     std::uint32_t n_met = 0;         // rays that ended in it
     V3 direct, gathered;             // mean irradiance from lamps and emitters, and from all else
-    bool trusted = false;            // it has been met often, and its places agree
+    bool trusted = false;            // its places agree
 
     int n_places() const { return n_met < most_places ? static_cast<int>(n_met) : most_places; }
     V3 irradiance() const { return direct + gathered; }
@@ -36,12 +36,15 @@ class IrradianceCache {
   /// Makes the cell when it is new. `rank` is a random number for this meeting.
   void meet(Key key, const Receiver& place, std::uint64_t rank);
 
+  /// Forgets the cells that were met less often.
+  void drop_rare(std::uint32_t often);
+
   std::vector<Cell>& cells() { return cells_; }
   const std::vector<Cell>& cells() const { return cells_; }
 
  private:
   std::size_t slot(Key key) const;
-  void grow();
+  void rebuild(std::size_t size);
 
   V3 centre_;
   double largest_;

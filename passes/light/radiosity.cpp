@@ -82,6 +82,7 @@ void Solver::discover(std::span<const Receiver> from) {
   Stream rank(key_of(seed_, 2));
   for (const auto& list : met)
     for (const Meeting& m : list) cache_.meet(m.key, m.place, rank.bits());
+  cache_.drop_rare(often);
 }
 
 void Solver::walk(Receiver at, Stream& random, std::vector<Meeting>& out) const {
@@ -203,7 +204,7 @@ void Solver::judge(std::size_t c) {
   auto first = of_place_.begin() + static_cast<std::ptrdiff_t>(c * IrradianceCache::most_places), last = first + cell.n_places();
   double sum = 0;
   for (auto p = first; p != last; ++p) sum += *p;
-  cell.trusted = cell.n_met >= often && *std::min_element(first, last) >= least_agreement * sum / cell.n_places();
+  cell.trusted = *std::min_element(first, last) >= least_agreement * sum / cell.n_places();
 }
 
 }  // namespace
