@@ -22,9 +22,8 @@ Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, in
 
 V3 Transport::irradiance(const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const {
   if (cache_) {
-    auto key = cache_->key(s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance);
-    const IrradianceCache::Cell* cell = key ? cache_->find(*key) : nullptr;
-    if (cell && cell->trusted) return cell->irradiance();
+    const IrradianceCache::Cell* cell = cache_->find({s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance});
+    if (cell) return cell->irradiance();
   }
   return followed(receiver_at(hit, s), s.albedo, random, depth);
 }

@@ -1,5 +1,5 @@
-// What a ray brings back: light that is made where it ends, and light that is reflected there, by the cache where that can
-// be relied on and by following the light further where not.
+// What a ray brings back: light that is made where it ends, and light that is reflected there, by the cache where it has
+// a cell and by following the light further where not.
 #pragma once
 #include "passes/light/cache.h"
 #include "passes/light/direct.h"
