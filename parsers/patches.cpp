@@ -53,9 +53,9 @@ class PatchParser {
   Element innermost() const { return depth_ > 0 ? levels_[depth_ - 1].element : other; }
 
   void open(const XmlTag& tag) {
-    const bool closed = tag.kind == XmlTag::Kind::empty;
-    if (skipping_ > 0) return void(skipping_ += !closed);
     const auto e = element_of(tag.name);
+    const bool closed = tag.kind == XmlTag::Kind::empty || e == patch;  // nothing stands in a patch
+    if (skipping_ > 0) return void(skipping_ += tag.kind == XmlTag::Kind::open);
     if (e == other || (e == patches && depth_ > 0)) {
       diag_.report(Diag::unknown_element, tag.where, tag.name);
       skipping_ += !closed;
@@ -63,7 +63,9 @@ class PatchParser {
     }
     // What has not been closed and cannot hold this one is over.
     while (depth_ > 0 && levels_[depth_ - 1].element >= e) leave();
+    quiet_ = !tag.sound;
     begin(e, tag);
+    quiet_ = false;
     if (!closed) levels_[depth_++] = {e, tag.where};
     else ended(e);
   }
@@ -76,6 +78,7 @@ class PatchParser {
   void close(const XmlTag& tag) {
     if (skipping_ > 0) return void(--skipping_);
     const auto e = element_of(tag.name);
+    if (e == patch) return;
     if (e == other || std::none_of(levels_, levels_ + depth_, [&](const Level& l) { return l.element == e; }))
       return diag_.report(Diag::xml_syntax, tag.where, "'" + std::string(tag.name) + "' is not open");
     while (innermost() != e) leave();
@@ -100,13 +103,13 @@ class PatchParser {
     using Words = std::initializer_list<std::string_view>;
     static const Words known[] = {{word::version, word::source, word::unit, word::method, word::samples}, {word::name, word::index}, {word::index, word::v}, {word::v, word::rgb, word::side}};
     for (auto& a : tag.attributes) {
-      if (std::ranges::find(known[e], a.name) == known[e].end()) diag_.report(Diag::unknown_attribute, a.where, name_of(e), a.name);
-      else if (tag.find(a.name) != &a) diag_.report(Diag::duplicate_field, a.where, a.name, "the first one is taken");
+      if (std::ranges::find(known[e], a.name) == known[e].end()) say(Diag::unknown_attribute, a.where, name_of(e), a.name);
+      else if (tag.find(a.name) != &a) say(Diag::duplicate_field, a.where, a.name, "the first one is taken");
     }
   }
 
   void begin_patches(const XmlTag& tag) {
-    if (auto* a = tag.find(word::version); a && a->value != "1") diag_.report(Diag::patch_version, a->where, a->value);
+    if (auto* a = tag.find(word::version); a && a->value != "1") say(Diag::patch_version, a->where, a->value);
     if (auto* a = tag.find(word::source)) set_.source = a->value;
     if (auto* a = tag.find(word::method)) set_.method = a->value;
     if (auto* a = tag.find(word::unit)) unit_ = metres_of(*a);
@@ -136,12 +139,12 @@ class PatchParser {
     if (!corners(tag, p.corners)) return;
     const auto* light = tag.find(word::rgb);
     const auto n = light ? numbers(*light, rgb) : 0;
-    if (n == 0) return diag_.report(Diag::bad_patch, light ? light->where : tag.where, word::rgb);
-    if (n != 3) diag_.report(Diag::short_value, light->where, word::rgb);
+    if (n == 0) return say(Diag::bad_patch, light ? light->where : tag.where, word::rgb);
+    if (n != 3) say(Diag::short_value, light->where, word::rgb);
     for (std::size_t i = 0; i < 3; ++i) p.rgb[i] = radiance(i < n ? rgb[i] : 0, light->where);
     if (auto* side = tag.find(word::side)) {
       p.back = side->value == word::back;
-      if (!p.back && side->value != word::front) diag_.report(Diag::unknown_word, side->where, side->value, word::patch, word::side);
+      if (!p.back && side->value != word::front) say(Diag::unknown_word, side->where, side->value, word::patch, word::side);
     }
     need_shape();
     if (!in_triangle_) set_.add_loose_triangle(), in_triangle_ = true;
@@ -155,14 +158,14 @@ class PatchParser {
 
   float radiance(double v, Span where) {
     constexpr double most = std::numeric_limits<float>::max();
-    if (!(v >= 0 && v <= most)) diag_.report(Diag::out_of_range, where, word::patch, word::rgb, v, "[0, inf)");
+    if (!(v >= 0 && v <= most)) say(Diag::out_of_range, where, word::patch, word::rgb, v, "[0, inf)");
     return static_cast<float>(std::clamp(v, 0.0, most));
   }
 
   bool corners(const XmlTag& tag, Corners& out) {
     double v[9];
     const auto* a = tag.find(word::v);
-    if (!a || numbers(*a, v) < 9) return diag_.report(Diag::bad_patch, a ? a->where : tag.where, word::v), false;
+    if (!a || numbers(*a, v) < 9) return say(Diag::bad_patch, a ? a->where : tag.where, word::v), false;
     for (std::size_t i = 0; i < 9; ++i) out[i / 3][i % 3] = v[i] * unit_;
     return true;
   }
@@ -175,11 +178,11 @@ class PatchParser {
       while (p < end && (static_cast<unsigned char>(*p) <= ' ' || *p == ',')) ++p;
       if (p == end) return n;
       const Span rest{a.where.begin + static_cast<std::uint32_t>(p - a.value.data()), static_cast<std::uint32_t>(end - p)};
-      if (n == N) return diag_.report(Diag::extra_values, rest, a.name, N), n;
+      if (n == N) return say(Diag::extra_values, rest, a.name, N), n;
       const char* from = p;
       const auto result = vrml::read_double(p, end, out[n]);
-      if (result == vrml::NumberResult::none) return diag_.report(Diag::bad_value, rest, "'" + std::string(from, end) + "'", "number"), n;
-      if (result == vrml::NumberResult::repaired) diag_.report(Diag::number_repaired, rest, std::string(from, p), out[n]);
+      if (result == vrml::NumberResult::none) return say(Diag::bad_value, rest, "'" + std::string(from, end) + "'", "number"), n;
+      if (result == vrml::NumberResult::repaired) say(Diag::number_repaired, rest, std::string(from, p), out[n]);
     }
   }
 
@@ -191,7 +194,7 @@ class PatchParser {
     std::int32_t v = -1;
     const auto result = vrml::read_int32(p, p + a->value.size(), v);
     if (result == vrml::NumberResult::exact && v >= 0 && p == a->value.data() + a->value.size()) return static_cast<std::uint32_t>(v);
-    diag_.report(Diag::bad_value, a->where, "'" + std::string(a->value) + "'", "number from 0");
+    say(Diag::bad_value, a->where, "'" + std::string(a->value) + "'", "number from 0");
     return PatchSet::unknown;
   }
 
@@ -199,17 +202,23 @@ class PatchParser {
     constexpr struct { std::string_view name; double metres; } units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
     for (auto& u : units)
       if (a.value == u.name) return u.metres;
-    diag_.report(Diag::unknown_unit, a.where, a.value);
+    say(Diag::unknown_unit, a.where, a.value);
     return 1;
+  }
+
+  template <class... A>
+  void say(Diag id, Span where, const A&... args) {
+    if (!quiet_) diag_.report(id, where, args...);
   }
 
   XmlReader xml_;
   Diagnostics& diag_;
   PatchSet set_;
   double unit_ = 1;
-  Level levels_[4];
+  Level levels_[3];
   std::size_t depth_ = 0, skipping_ = 0;
   bool in_shape_ = false, in_triangle_ = false;
+  bool quiet_ = false;     // the tag has a fault that was told
 };
 
 std::optional<PatchSet> parse_text(std::string_view text, std::uint32_t base, Diagnostics& diag) {

@@ -98,12 +98,13 @@ struct XmlReader::State {
   void read_tag() {
     const auto [piece, complete] = cut_tag(rest());
     at += piece.size();
-    if (!complete) diag.report(Diag::xml_syntax, span(trim(piece)), "'>' expected");
+    tag.where = span(trim(piece));
+    tag.sound = complete;
+    if (!complete) diag.report(Diag::xml_syntax, tag.where, "'>' expected");
     auto inner = piece.substr(1, piece.size() - 1 - complete);
     tag.kind = inner.starts_with('/') ? XmlTag::Kind::close : inner.ends_with('/') ? XmlTag::Kind::empty : XmlTag::Kind::open;
     if (tag.kind == XmlTag::Kind::close) inner.remove_prefix(1);
     if (tag.kind == XmlTag::Kind::empty) inner.remove_suffix(1);
-    tag.where = span(trim(piece));
     parse(inner);
   }
 
@@ -115,7 +116,8 @@ struct XmlReader::State {
       const auto offset = static_cast<std::size_t>(in_buffer - buffer.data()) - 1;  // '<'
       return span(inner.substr(std::min(offset, inner.size()), length));
     };
-    if (!result) {
+    if (!result && tag.sound) {
+      tag.sound = false;
       const auto offset = std::clamp<std::size_t>(static_cast<std::size_t>(result.offset), 1, buffer.size());
       diag.report(Diag::xml_syntax, place(buffer.data() + offset, 1), result.description());
     }

@@ -20,6 +20,7 @@ struct XmlTag {
   enum class Kind : std::uint8_t { end, open, close, empty };  // end: of the text
 
   Kind kind = Kind::end;
+  bool sound = true;  // false: a fault in it was reported; what could be read of it is here
   std::string_view name;
   std::span<const XmlAttribute> attributes;
   Span where;
