@@ -77,17 +77,18 @@ std::optional<Light> make_light(const Scene& scene, const Placed& placed, const 
   return l;
 }
 
+Arrival arrival(const Light& light, const V3& position) {
+  if (light.kind == Light::Kind::directional) return {-light.direction, std::numeric_limits<double>::infinity(), 1};
+  V3 way = light.location - position;
+  double local = length(light.to_local.vector(way));
+  if (local > light.radius) return {};
+  Arrival a{unit(way), length(way), attenuation(light, local)};
+  if (light.kind == Light::Kind::spot) a.strength *= spot(light, a.to_light);
+  return a;
+}
+
 V3 contribution(const Light& light, const LitPoint& at, const Lit& material) {
-  V3 to_light = -light.direction;
-  double strength = 1;
-  if (light.kind != Light::Kind::directional) {
-    V3 way = light.location - at.position;
-    double distance = length(light.to_local.vector(way));
-    if (distance > light.radius) return {};
-    to_light = unit(way);
-    strength = attenuation(light, distance);
-    if (light.kind == Light::Kind::spot) strength *= spot(light, to_light);
-  }
+  auto [to_light, distance, strength] = arrival(light, at.position);
   if (!(strength > 0)) return {};
   V3 sum = (light.ambient_intensity * material.ambient) * material.diffuse;
   double facing = dot(at.normal, to_light);

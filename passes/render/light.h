@@ -32,6 +32,14 @@ struct LitPoint {
 /// A light node in its frame; none when it is off, adds nothing or stands in a frame that has no inverse.
 std::optional<Light> make_light(const Scene& scene, const Placed& placed, const Stage& stage);
 
+/// How a light comes to a place.
+struct Arrival {
+  V3 to_light;                       // unit; zero where the light itself stands
+  double distance = 0;               // world; infinite for a DirectionalLight
+  double strength = 0;               // attenuation * spot; 0 beyond the radius
+};
+Arrival arrival(const Light& light, const V3& position);
+
 /// The term of one light in the sum of 4.14.4: on * attenuation * spot * colour * (ambient + diffuse + specular).
 V3 contribution(const Light& light, const LitPoint& at, const Lit& material);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/render/attributes.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::drawing {
@@ -13,17 +14,6 @@ constexpr double hidden = 1.0 / 512; // what shows through by less is not looked
 /// Into [0, 1]; what is no number is black.
 double displayed(double v) { return v > 0 ? std::min(v, 1.0) : 0; }
 V3 displayed(const V3& c) { return {displayed(c.x), displayed(c.y), displayed(c.z)}; }
-
-/// The mean of an attribute of a triangle, segment or point at the place that was hit.
-template <int N>
-std::array<double, N> interpolate(const MeshPool& pool, const Stream& s, const PooledMesh& m, std::size_t first, const Hit& hit) {
-  std::array<double, N> out{};
-  for (int k = 0; k < m.corners_per_element(); ++k) {
-    const float* v = pool.value(s, m, first, hit.element, k);
-    for (int i = 0; i < N; ++i) out[i] += hit.weights[k] * v[i];
-  }
-  return out;
-}
 
 /// NavigationInfo (6.29): a light of full strength that travels with the view.
 Light headlight_of(const Camera& camera) {
@@ -81,7 +71,7 @@ Texel Shader::shade(const Ray& ray, const Hit& hit) const {
   const PooledMesh& m = drawing_.meshes[drawing_.mesh_of[hit.use]];
   Texel out;
   if (m.kind == Mesh::Kind::faces) out = shade_face(ray, hit, s);
-  else if (auto own = vertex_color(m, hit)) out = {own->color, own->alpha * s.alpha};
+  else if (auto own = vertex_color(drawing_.meshes, m, hit)) out = {own->color, own->alpha * s.alpha};
   else out = {s.lit ? s.emissive : V3(1), s.alpha};  // IndexedLineSet and PointSet (6.24, 6.36)
   return {displayed(fog_.dim(displayed(out.color), hit.distance * ray.direction)), displayed(out.alpha)};
 }
@@ -90,18 +80,10 @@ Texel Shader::shade_face(const Ray& ray, const Hit& hit, const Surface& s) const
   Spot at = spot_at(drawing_, ray, hit);
   double area = length(at.face);
   double facing = area > 0 ? std::fabs(dot(at.face, ray.direction)) / area : 1;
-  Texel base = s.base(vertex_color(drawing_.meshes[drawing_.mesh_of[hit.use]], hit), texel(s, hit, area, facing));
+  Texel base = s.base(vertex_color(drawing_.meshes, drawing_.meshes[drawing_.mesh_of[hit.use]], hit), texel(s, hit, area, facing));
   if (!s.lit) return base;
   LitPoint lit{at.position, at.normal, -ray.direction};
   return {light(s, base.color, lit, drawing_.stage.uses[hit.use].lights), base.alpha};
-}
-
-std::optional<Texel> Shader::vertex_color(const PooledMesh& m, const Hit& hit) const {
-  if (m.colors == PooledMesh::absent) return {};
-  auto c = interpolate<3>(drawing_.meshes, drawing_.meshes.colors, m, m.colors, hit);
-  Texel out{{c[0], c[1], c[2]}, 1};
-  if (m.color_width == 4) out.alpha = interpolate<4>(drawing_.meshes, drawing_.meshes.colors, m, m.colors, hit)[3];
-  return out;
 }
 
 /// `world_area` is twice the area of the triangle; `facing` the cosine between it and the ray.
@@ -109,15 +91,13 @@ std::optional<Texel> Shader::texel(const Surface& s, const Hit& hit, double worl
   const MeshPool& pool = drawing_.meshes;
   const PooledMesh& m = pool[drawing_.mesh_of[hit.use]];
   if (!s.texture || m.texcoords == PooledMesh::absent) return {};
-  auto at = interpolate<2>(pool, pool.texcoords, m, m.texcoords, hit);
-  auto [u, v] = s.texcoords(at[0], at[1]);
   const float* c[3];
   for (int k = 0; k < 3; ++k) c[k] = pool.value(pool.texcoords, m, m.texcoords, hit.element, k);
   double picture = std::fabs(double{c[1][0] - c[0][0]} * (c[2][1] - c[0][1]) - double{c[2][0] - c[0][0]} * (c[1][1] - c[0][1]));
   double pixels = picture * std::fabs(s.texcoords.determinant()) * s.texture->width() * s.texture->height();
   double span = hit.distance * camera_.sample();
   double detail = world_area > 0 ? span * std::sqrt(pixels / world_area / std::max(facing, 0.05)) : 1;
-  return s.texture->sample(u, v, detail, s.repeat_s, s.repeat_t);
+  return texture_at(pool, m, s, hit, detail);
 }
 
 /// The sum of 4.14.4, without fog.

@@ -40,7 +40,6 @@ class Shader {
  private:
   Texel shade(const Ray& ray, const Hit& hit) const;
   Texel shade_face(const Ray& ray, const Hit& hit, const Surface& surface) const;
-  std::optional<Texel> vertex_color(const PooledMesh& mesh, const Hit& hit) const;
   std::optional<Texel> texel(const Surface& surface, const Hit& hit, double world_area, double facing) const;
   V3 light(const Surface& surface, const V3& base, const LitPoint& at, std::uint32_t scope) const;
 

@@ -1,363 +1,45 @@
 #include "passes/render/tracer.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
-#include <array>
-#include <limits>
-#include <new>
-#include <tuple>
-#include <unordered_set>
 
 namespace wrlkit::drawing {
 namespace {
 
-constexpr std::uint32_t small_mesh = 16;         // elements; an instance costs more than those
-constexpr std::size_t fast_build = 2'000'000;    // above, the build counts for more than the rays
-constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();  // Embree leaves such elements out
+/// Strokes as wide as some pixels of the screen. They lie a pixel nearer to the eye than they are, so that a line on a
+/// surface is in front of it.
+class ScreenPen : public Pen {
+ public:
+  ScreenPen(const Camera& camera, const TracerOptions& options) : camera_(camera), options_(options) {}
 
-/// What Embree takes as a ray; others may end the program.
-bool acceptable(const RTCRay& r) {
-  constexpr float largest = 1e18f;
-  auto small = [](float v) { return std::fabs(v) < largest; };
-  return small(r.org_x) && small(r.org_y) && small(r.org_z) && small(r.dir_x) && small(r.dir_y) && small(r.dir_z) && r.tnear < r.tfar;
-}
-
-/// The elements of one use, within a batch.
-struct Part {
-  std::uint32_t first_element, use;
-  bool flipped;  // mirrored: corners 1 and 2 are exchanged, so that the front stays counter-clockwise
-};
-
-/// Elements in world coordinates that one Embree geometry holds.
-struct Batch {
-  RTCGeometryType type;
-  int width;  // floats of a vertex
-  std::vector<float> vertices;
-  std::vector<std::uint32_t> indices;
-  std::vector<Part> parts;
-  std::uint32_t n_elements = 0;
-
-  const Part& part_of(std::uint32_t element) const {
-    auto after = std::upper_bound(parts.begin(), parts.end(), element, [](auto e, const Part& p) { return e < p.first_element; });
-    return after[-1];
-  }
-};
-
-/// A mesh in a frame. What stands twice in one place is put there once: forty doublings of a Group in place would be a
-/// million shapes that every ray has to try.
-struct Placement {
-  std::uint32_t mesh;
-  Affine frame;
-
-  std::array<double, 13> key() const {
-    const Affine& f = frame;
-    return {f.x.x, f.x.y, f.x.z, f.y.x, f.y.y, f.y.z, f.z.x, f.z.y, f.z.z, f.t.x, f.t.y, f.t.z, static_cast<double>(mesh)};
-  }
-  bool operator==(const Placement& o) const { return key() == o.key(); }
-};
-struct PlacementHash {
-  std::size_t operator()(const Placement& p) const {
-    std::size_t h = 0;
-    for (double v : p.key()) h = h * 0x9e3779b97f4a7c15u + std::hash<double>()(v);
-    return h;
-  }
-};
-
-struct Found {
-  std::uint32_t geometry, element, instance;
-};
-
-}  // namespace
-
-struct Tracer::State {
-  enum BatchKind { solid, two_sided, lines, points };
-
-  const Stage& stage;
-  const MeshPool& meshes;
-  std::span<const std::uint32_t> mesh_of;
-  Camera camera;
-  TracerOptions options;
-  V3 centre{};                              // world; all single-precision coordinates are relative to it
-  RTCDevice device = nullptr;
-  RTCScene top = nullptr;
-  Batch batches[4] = {{RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}},
-                      {RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}},
-                      {RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE, 4, {}, {}, {}},
-                      {RTC_GEOMETRY_TYPE_DISC_POINT, 4, {}, {}, {}}};
-  std::vector<const Batch*> batch_of{};     // by Embree's geometry number; null: an instance
-  std::vector<std::uint32_t> use_of{};      // the same, of instances
-  std::vector<RTCScene> instanced{};        // by mesh
-
-  ~State();
-  bool is_instanced(std::uint32_t use, std::span<const std::uint32_t> n_uses) const;
-  void place_centre();
-  void place_uses(Diagnostics& diag);
-  void flatten(std::uint32_t use);
-  void add_vertices(Batch& to, const Affine& frame, const PooledMesh& mesh);
-  void add_ribbons(Batch& to, const Affine& frame, const PooledMesh& mesh);
-  void add_discs(Batch& to, const Affine& frame, const PooledMesh& mesh);
-  void add_vertex_at(Batch& to, V3 p, double pixels) const;
-  void instance(std::uint32_t use);
-  RTCScene scene_of(std::uint32_t mesh);
-  void attach(Batch& batch, bool culled);
-  unsigned attach_to_top(RTCGeometry g);
-  RTCScene new_scene(std::size_t elements) const;
-  std::pair<std::uint32_t, std::uint32_t> resolve(const Found& f) const;
-};
-
-namespace {
-
-/// What the filter remembers of the nearest thing so far.
-struct Context {
-  RTCIntersectContext base;
-  const void* state;
-  float distance;
-  Found found;
-};
-
-template <class State>
-struct Filter {
-  /// Of things at the same distance the one that stands first in the file stays, whatever order Embree meets them in:
-  /// that order depends on the number of threads that built its tree.
-  static void keep(const RTCFilterFunctionNArguments* a) {
-    auto& context = *reinterpret_cast<Context*>(a->context);
-    float distance = RTCRayN_tfar(a->ray, a->N, 0);
-    Found f{RTCHitN_geomID(a->hit, a->N, 0), RTCHitN_primID(a->hit, a->N, 0), RTCHitN_instID(a->hit, a->N, 0, 0)};
-    if (distance == context.distance) {
-      auto& state = *static_cast<const State*>(context.state);
-      if (state.resolve(context.found) < state.resolve(f)) { a->valid[0] = 0; return; }
-    }
-    context.distance = distance;
-    context.found = f;
-  }
-
-  /// The same for solid surfaces, which cannot be seen from behind.
-  static void keep_front(const RTCFilterFunctionNArguments* a) {
-    double across = double{RTCHitN_Ng_x(a->hit, a->N, 0)} * RTCRayN_dir_x(a->ray, a->N, 0) +
-                    double{RTCHitN_Ng_y(a->hit, a->N, 0)} * RTCRayN_dir_y(a->ray, a->N, 0) +
-                    double{RTCHitN_Ng_z(a->hit, a->N, 0)} * RTCRayN_dir_z(a->ray, a->N, 0);
-    if (across > 0) a->valid[0] = 0;
-    else keep(a);
-  }
-};
-
-}  // namespace
-
-Tracer::State::~State() {
-  for (auto s : instanced)
-    if (s) rtcReleaseScene(s);
-  if (top) rtcReleaseScene(top);
-  if (device) rtcReleaseDevice(device);
-}
-
-std::pair<std::uint32_t, std::uint32_t> Tracer::State::resolve(const Found& f) const {
-  if (f.instance != RTC_INVALID_GEOMETRY_ID) return {use_of[f.instance], f.element};
-  const Part& p = batch_of[f.geometry]->part_of(f.element);
-  return {p.use, f.element - p.first_element};
-}
-
-/// The middle of all boxes, so that single precision is spent on the world and not on its distance from the origin.
-void Tracer::State::place_centre() {
-  Box all;
-  for (std::size_t u = 0; u < mesh_of.size(); ++u) {
-    const PooledMesh& m = meshes[mesh_of[u]];
-    V3 p = stage.frames[stage.uses[u].frame].point(m.origin);
-    if (m.n_elements && finite(p)) all.add(p);
-  }
-  if (!all.empty() && finite(all.centre())) centre = all.centre();
-}
-
-bool Tracer::State::is_instanced(std::uint32_t use, std::span<const std::uint32_t> n_uses) const {
-  const PooledMesh& m = meshes[mesh_of[use]];
-  if (m.kind != Mesh::Kind::faces || m.n_elements <= small_mesh || n_uses[mesh_of[use]] < 2) return false;
-  return finite(stage.frames[stage.uses[use].frame].inverse());
-}
-
-void Tracer::State::place_uses(Diagnostics& diag) {
-  std::vector<std::uint32_t> n_uses(meshes.size());
-  std::size_t all = 0, flat = 0;
-  for (auto m : mesh_of) ++n_uses[m], all += meshes[m].n_elements;
-  std::unordered_set<Placement, PlacementHash> placed;
-  for (std::uint32_t u = 0; u < mesh_of.size(); ++u) {
-    const PooledMesh& m = meshes[mesh_of[u]];
-    const Affine& frame = stage.frames[stage.uses[u].frame];
-    if (!m.n_elements || !finite(frame)) continue;
-    if (n_uses[mesh_of[u]] > 1 && !placed.insert({mesh_of[u], frame}).second) continue;
-    if (all > options.all_flat && is_instanced(u, n_uses)) { instance(u); continue; }
-    flat += m.n_elements;
-    if (flat > MeshPool::most_elements) return diag.report(Diag::expansion_limit, {}, MeshPool::most_elements, "triangles");
-    flatten(u);
-  }
-}
-
-void Tracer::State::flatten(std::uint32_t use) {
-  const PooledMesh& m = meshes[mesh_of[use]];
-  const Affine& frame = stage.frames[stage.uses[use].frame];
-  bool lines_or_points = m.kind != Mesh::Kind::faces;
-  Batch& to = batches[m.kind == Mesh::Kind::lines ? lines : m.kind == Mesh::Kind::points ? points : m.solid ? solid : two_sided];
-  bool flipped = !lines_or_points && frame.determinant() < 0;
-  to.parts.push_back({to.n_elements, use, flipped});
-  to.n_elements += m.n_elements;
-  if (m.kind == Mesh::Kind::lines) return add_ribbons(to, frame, m);
-  if (m.kind == Mesh::Kind::points) return add_discs(to, frame, m);
-  auto base = static_cast<std::uint32_t>(to.vertices.size() / 3);
-  add_vertices(to, frame, m);
-  const std::uint32_t* c = meshes.corners.data() + m.first_corner;
-  for (std::size_t e = 0; e < m.n_elements; ++e, c += 3)
-    to.indices.insert(to.indices.end(), {base + c[0], base + c[flipped ? 2 : 1], base + c[flipped ? 1 : 2]});
-}
-
-void Tracer::State::add_vertices(Batch& to, const Affine& frame, const PooledMesh& mesh) {
-  V3 origin = frame.point(mesh.origin) - centre;
-  for (std::uint32_t i = 0; i < mesh.n_points; ++i) {
-    const float* p = meshes.point(mesh, i);
-    V3 v = frame.vector({p[0], p[1], p[2]}) + origin;
-    to.vertices.insert(to.vertices.end(), {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
-  }
-}
-
-/// A point of a line, a pixel nearer to the eye than it is, so that a line on a surface is in front of it.
-void Tracer::State::add_vertex_at(Batch& to, V3 p, double pixels) const {
-  V3 moved = mix(p, camera.eye, camera.pixel()) - centre;
-  double radius = 0.5 * pixels * camera.pixel() * camera.project(p).z;
-  bool visible = radius > 0 && finite(moved);
-  to.vertices.insert(to.vertices.end(), {visible ? static_cast<float>(moved.x) : nowhere, static_cast<float>(moved.y),
-                                         static_cast<float>(moved.z), static_cast<float>(radius)});
-}
-
-void Tracer::State::add_ribbons(Batch& to, const Affine& frame, const PooledMesh& mesh) {
-  for (std::size_t e = 0; e < mesh.n_elements; ++e) {
-    V3 a = frame.point(meshes.position(mesh, e, 0) + mesh.origin), b = frame.point(meshes.position(mesh, e, 1) + mesh.origin);
-    double da = camera.project(a).z, db = camera.project(b).z, nearest = 1e-4 * std::max(da, db);
+  std::array<Dot, 2> line(const V3& from, const V3& to) const override {
+    V3 a = from, b = to;
+    double da = camera_.project(a).z, db = camera_.project(b).z, nearest = 1e-4 * std::max(da, db);
     // A line that passes the eye is cut there: its width would be negative behind.
     if (da < nearest && db > 0) a = mix(b, a, (db - nearest) / (db - da));
     if (db < nearest && da > 0) b = mix(a, b, (da - nearest) / (da - db));
-    to.indices.push_back(static_cast<std::uint32_t>(to.vertices.size() / 4));
-    add_vertex_at(to, a, options.line_width);
-    add_vertex_at(to, b, options.line_width);
+    return {dot_at(a, options_.line_width), dot_at(b, options_.line_width)};
   }
-}
+  Dot point(const V3& p) const override { return dot_at(p, options_.point_size); }
 
-void Tracer::State::add_discs(Batch& to, const Affine& frame, const PooledMesh& mesh) {
-  for (std::size_t e = 0; e < mesh.n_elements; ++e)
-    add_vertex_at(to, frame.point(meshes.position(mesh, e, 0) + mesh.origin), options.point_size);
-}
-
-RTCScene Tracer::State::new_scene(std::size_t elements) const {
-  RTCScene s = rtcNewScene(device);
-  rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);  // no cracks between triangles, and things at one distance are all met
-  rtcSetSceneBuildQuality(s, elements > fast_build ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
-  return s;
-}
-
-RTCScene Tracer::State::scene_of(std::uint32_t mesh) {
-  if (instanced.empty()) instanced.resize(meshes.size());
-  if (instanced[mesh]) return instanced[mesh];
-  const PooledMesh& m = meshes[mesh];
-  RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* v = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, m.n_points);
-  void* i = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, m.n_elements);
-  if (v && i) {
-    std::copy_n(meshes.point(m, 0), m.n_points * 3, static_cast<float*>(v));
-    std::copy_n(meshes.corners.data() + m.first_corner, std::size_t{m.n_elements} * 3, static_cast<std::uint32_t*>(i));
+ private:
+  Dot dot_at(const V3& p, double pixels) const {
+    return {mix(p, camera_.eye, camera_.pixel()), 0.5 * pixels * camera_.pixel() * camera_.project(p).z};
   }
-  rtcSetGeometryIntersectFilterFunction(g, m.solid && options.cull ? Filter<State>::keep_front : Filter<State>::keep);
-  rtcCommitGeometry(g);
-  RTCScene s = instanced[mesh] = new_scene(m.n_elements);
-  rtcAttachGeometry(s, g);
-  rtcReleaseGeometry(g);
-  rtcCommitScene(s);
-  return s;
+
+  const Camera& camera_;
+  const TracerOptions& options_;
+};
+
+RayScene make_scene(const Stage& stage, const MeshPool& meshes, std::span<const std::uint32_t> mesh_of, const Camera& camera,
+                    const TracerOptions& options, Diagnostics& diag) {
+  ScreenPen pen(camera, options);
+  return {stage, meshes, mesh_of, {.cull = options.cull, .all_flat = options.all_flat, .pen = &pen}, diag};
 }
 
-/// Embree says by the number that it had no memory.
-unsigned Tracer::State::attach_to_top(RTCGeometry g) {
-  unsigned id = rtcAttachGeometry(top, g);
-  rtcReleaseGeometry(g);
-  if (id == RTC_INVALID_GEOMETRY_ID) throw std::bad_alloc();
-  return id;
-}
-
-void Tracer::State::instance(std::uint32_t use) {
-  const PooledMesh& m = meshes[mesh_of[use]];
-  const Affine& f = stage.frames[stage.uses[use].frame];
-  V3 t = f.point(m.origin) - centre;
-  auto n = [](double v) { return static_cast<float>(v); };
-  float columns[12] = {n(f.x.x), n(f.x.y), n(f.x.z), n(f.y.x), n(f.y.y), n(f.y.z), n(f.z.x), n(f.z.y), n(f.z.z), n(t.x), n(t.y), n(t.z)};
-  RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(g, scene_of(mesh_of[use]));
-  rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-  rtcCommitGeometry(g);
-  unsigned id = attach_to_top(g);
-  use_of.resize(std::max<std::size_t>(use_of.size(), id + 1));
-  use_of[id] = use;
-}
-
-void Tracer::State::attach(Batch& b, bool culled) {
-  if (!b.n_elements) return;
-  b.vertices.resize(b.vertices.size() + 4);  // Embree reads 16 bytes a vertex, beyond the last one too
-  RTCGeometry g = rtcNewGeometry(device, b.type);
-  std::size_t stride = sizeof(float) * b.width;
-  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, b.width == 3 ? RTC_FORMAT_FLOAT3 : RTC_FORMAT_FLOAT4,
-                             b.vertices.data(), 0, stride, (b.vertices.size() - 4) / b.width);
-  bool triangles = b.type == RTC_GEOMETRY_TYPE_TRIANGLE;
-  if (b.type != RTC_GEOMETRY_TYPE_DISC_POINT)
-    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, triangles ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT, b.indices.data(),
-                               0, triangles ? 12 : 4, b.n_elements);
-  rtcSetGeometryIntersectFilterFunction(g, culled ? Filter<State>::keep_front : Filter<State>::keep);
-  rtcCommitGeometry(g);
-  unsigned id = attach_to_top(g);
-  batch_of.resize(std::max<std::size_t>(batch_of.size(), id + 1));
-  batch_of[id] = &b;
-}
+}  // namespace
 
 Tracer::Tracer(const Stage& stage, const MeshPool& meshes, std::span<const std::uint32_t> mesh_of, const Camera& camera,
                const TracerOptions& options, Diagnostics& diag)
-    : state_(new State{.stage = stage, .meshes = meshes, .mesh_of = mesh_of, .camera = camera, .options = options}) {
-  State& s = *state_;
-  s.device = rtcNewDevice(nullptr);
-  if (!s.device) throw std::bad_alloc();
-  std::size_t elements = 0;
-  for (auto m : mesh_of) elements += meshes[m].n_elements;
-  s.top = s.new_scene(elements);
-  s.place_centre();
-  s.place_uses(diag);
-  s.attach(s.batches[State::solid], options.cull);
-  for (auto kind : {State::two_sided, State::lines, State::points}) s.attach(s.batches[kind], false);
-  rtcCommitScene(s.top);
-  if (rtcGetDeviceError(s.device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-}
-
-Tracer::~Tracer() = default;
-
-bool Tracer::nearest(const Ray& ray, double after, Hit& hit) const {
-  const State& s = *state_;
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  Context context{{}, &s, -1, {}};
-  rtcInitIntersectContext(&context.base);
-  V3 origin = ray.origin - s.centre;
-  RTCRayHit r{};
-  r.ray.org_x = static_cast<float>(origin.x), r.ray.org_y = static_cast<float>(origin.y), r.ray.org_z = static_cast<float>(origin.z);
-  r.ray.dir_x = static_cast<float>(ray.direction.x), r.ray.dir_y = static_cast<float>(ray.direction.y);
-  r.ray.dir_z = static_cast<float>(ray.direction.z);
-  r.ray.tnear = after > 0 ? std::nextafter(static_cast<float>(after), infinity) : 0;
-  r.ray.tfar = infinity;
-  r.ray.mask = ~0u;
-  r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  if (!acceptable(r.ray)) return false;
-  rtcIntersect1(s.top, &context.base, &r);
-  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  bool in_batch = r.hit.instID[0] == RTC_INVALID_GEOMETRY_ID;
-  std::tie(hit.use, hit.element) = s.resolve({r.hit.geomID, r.hit.primID, r.hit.instID[0]});
-  hit.distance = r.ray.tfar;
-  bool flipped = in_batch && s.batch_of[r.hit.geomID]->part_of(r.hit.primID).flipped;
-  double u = flipped ? r.hit.v : r.hit.u, v = flipped ? r.hit.u : r.hit.v;
-  auto kind = s.meshes[s.mesh_of[hit.use]].kind;
-  if (kind == Mesh::Kind::points) u = v = 0;
-  if (kind == Mesh::Kind::lines) v = 0;
-  hit.weights[0] = 1 - u - v, hit.weights[1] = u, hit.weights[2] = v;
-  return true;
-}
+    : scene_(make_scene(stage, meshes, mesh_of, camera, options, diag)) {}
 
 }  // namespace wrlkit::drawing

@@ -1,0 +1,146 @@
+// The world as light sees it: what surfaces reflect, let through and emit, the lights, the sky, and what a ray meets. All
+// in linear RGB; docs/lighting.md says how VRML's colours become radiance.
+//
+// Geometry that is used again is there once, so memory grows with the uses and the triangles of the file, not with their
+// product.
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "passes/light/color.h"
+#include "passes/render/background.h"
+#include "passes/render/light.h"
+#include "passes/render/mesh_pool.h"
+#include "passes/render/ray_scene.h"
+#include "passes/render/stage.h"
+#include "passes/render/surface.h"
+#include "scenegraph/diagnostics.h"
+#include "scenegraph/mesh.h"
+#include "scenegraph/resources.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit::light {
+
+using drawing::Hit;
+using drawing::Ray;
+
+struct LightOptions {
+  enum class Sky : std::uint8_t { background, constant, none };
+
+  double emission = 1;               // emissiveColor shines so many times as bright as it looks
+  bool unlit_emits = false;          // a Shape without Material emits its colour; else it reflects by it
+  Sky sky = Sky::background;
+  V3 sky_color{1};                   // constant: radiance, linear
+  std::size_t all_flat = drawing::RayOptions{}.all_flat;
+};
+
+/// A place on a surface, seen from one side.
+struct SurfacePoint {
+  V3 position;                       // world
+  V3 face, normal;                   // of the triangle and for shading; world, unit, on the side that is seen
+  V3 albedo, emission;               // reflectance and radiance there
+  double alpha = 1;                  // how much of what comes is met; the rest passes
+};
+
+/// A PointLight, SpotLight or DirectionalLight that shines.
+struct Lamp {
+  drawing::Light light;
+  V3 irradiance;                     // where it falls perpendicularly with strength 1
+};
+
+/// A triangle that emits and is chosen as a target of rays.
+struct Emitter {
+  V3 corner, edge1, edge2;           // world
+  V3 radiance;                       // at its middle
+  std::uint32_t use, element;
+  bool both_sides;
+
+  V3 at(double u, double v) const { return corner + u * edge1 + v * edge2; }
+  double area() const { return 0.5 * length(cross(edge1, edge2)); }
+};
+
+class LightWorld {
+ public:
+  /// The scene is an expanded one; of Switch and LOD the shown children count. `resources` may be null. Costs O(its
+  /// triangles), n log n for the hierarchy over them.
+  LightWorld(const Scene& scene, const MeshSource& source, Resources* resources, const LightOptions& options, Diagnostics& diag);
+  LightWorld(const LightWorld&) = delete;
+
+  /// The entries stand as passes/render/stage.h and mesh_pool.h have them: stage().uses[i] shows meshes()[mesh_of()[i]].
+  const drawing::Stage& stage() const { return stage_; }
+  const drawing::MeshPool& meshes() const { return pool_; }
+  std::span<const std::uint32_t> mesh_of() const { return mesh_of_; }
+
+  /// The nearest surface beyond `after`, strictly. Where triangles coincide it is the one that faces the ray.
+  bool nearest(const Ray& ray, double after, Hit& hit) const { return rays_->nearest(ray, after, hit); }
+  /// The surface at a hit on the side that was hit. The back of a `solid` face is black.
+  SurfacePoint surface(const Hit& hit) const;
+  /// What of the light passes along so much of a ray: 0 when something opaque stands there.
+  double transmittance(const Ray& ray, double distance) const;
+  /// Radiance of the sky in a direction of the world.
+  V3 sky(const V3& direction) const;
+  bool has_sky() const { return has_sky_; }
+  /// The world has no light, no emissive surface and no Background: a white sky of radiance 1 stands in for them.
+  bool has_sky_of_its_own() const { return !sky_stands_in_; }
+
+  /// Where a ray that leaves a surface starts: off the face by more than the rounding of coordinates there.
+  V3 off_surface(const V3& position, const V3& face) const;
+
+  /// PointLights and SpotLights.
+  std::span<const Lamp> lamps() const { return lamps_; }
+  /// DirectionalLights: calls f(lamp) for each that lights a scope (Use::lights).
+  template <class F>
+  void each_directional(std::uint32_t scope, F&& f) const {
+    for (; scope; scope = stage_.scopes[scope].parent)
+      if (scoped_[scope]) f(*scoped_[scope]);
+  }
+  /// Triangles that emit, in the order of the file, up to a million. Of further uses the emission is there, too, but rays
+  /// find it by chance only.
+  std::span<const Emitter> emitters() const { return emitters_; }
+  /// The number of the emitter of a triangle; none when it is no emitter.
+  std::optional<std::uint32_t> emitter_of(std::uint32_t use, std::uint32_t element) const {
+    std::uint32_t first = facts_[use].first_emitter;
+    if (first == no_emitter) return {};
+    return first + element;
+  }
+  V3 radiance(const Emitter& e, double u, double v) const;
+
+  /// The middle of the world, and how far any of its coordinates is from there.
+  const V3& centre() const { return rays_->centre(); }
+  double radius() const { return rays_->radius(); }
+
+ private:
+  static constexpr std::uint32_t no_emitter = 0xffffffff;
+  struct UseFacts {
+    std::uint32_t surface = 0;
+    std::uint32_t first_emitter = no_emitter;
+    bool clear = false;              // some of it may be transparent
+    bool plain = false;              // one colour everywhere
+    V3 albedo, emission;             // when it is plain
+  };
+
+  void make_facts(const Scene& scene, Resources* resources, Diagnostics& diag);
+  void make_lamps(const Scene& scene);
+  void make_sky(const Scene& scene, Resources* resources, Diagnostics& diag);
+  void make_emitters();
+  drawing::Texel base(const UseFacts& use, const Hit& hit) const;
+  void paint(const UseFacts& use, const Hit& hit, SurfacePoint& to) const;
+
+  LightOptions options_;
+  drawing::Stage stage_;
+  drawing::MeshPool pool_;
+  std::vector<std::uint32_t> mesh_of_;
+  std::optional<drawing::Surfaces> surfaces_;
+  std::vector<UseFacts> facts_;
+  std::vector<Lamp> lamps_;
+  std::vector<std::optional<Lamp>> scoped_;   // by LightScope
+  std::vector<Emitter> emitters_;
+  std::optional<drawing::Sky> background_;
+  V3 constant_sky_;
+  bool has_sky_ = false, sky_stands_in_ = false, emits_ = false, has_clear_ = false;
+  std::optional<drawing::RayScene> rays_;
+};
+
+}  // namespace wrlkit::light
