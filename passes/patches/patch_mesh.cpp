@@ -34,8 +34,10 @@ PatchMesh::PatchMesh(std::span<const std::array<V3, 3>> triangles) {
       if (added) points_.push_back(t[i]);
       f.corners[i] = at->second;
     }
+    first_child_.push_back(f.triangle);
     faces_.push_back(f);
   }
+  child_at_.assign(faces_.size(), none);
   link();
 }
 
@@ -132,6 +134,7 @@ std::uint32_t PatchMesh::halve(std::uint32_t face, int side, std::uint32_t middl
   faces_.push_back(faces_[face]);
   Face &first = faces_[face], &last = faces_.back();
   const int to_c = next(side), to_a = next(to_c);
+  record_cut(face, second, {first.corners[side], middle, first.corners[to_a], {face, second}});
   first.corners[to_c] = middle;
   last.corners[side] = middle;
   first.neighbours[side] = last.neighbours[side] = none;
@@ -139,6 +142,28 @@ std::uint32_t PatchMesh::halve(std::uint32_t face, int side, std::uint32_t middl
   last.neighbours[to_a] = face;     // c-m
   if (const auto n = last.neighbours[to_c]; n != none) faces_[n].neighbours[side_of(n, edge(second, to_c))] = second;
   return second;
+}
+
+void PatchMesh::record_cut(std::uint32_t face, std::uint32_t second, const Cut& made) {
+  const auto number = static_cast<std::uint32_t>(cuts_.size());
+  const auto at = child_at_[face];
+  (at == none ? first_child_[faces_[face].triangle] : cuts_[at / 2].children[at % 2]) = cut | number;
+  cuts_.push_back(made);
+  child_at_[face] = 2 * number;
+  child_at_.resize(second + 1);
+  child_at_[second] = 2 * number + 1;
+}
+
+std::uint32_t PatchMesh::locate(std::uint32_t triangle, const V3& point) const {
+  auto at = first_child_[triangle];
+  while (at & cut) {
+    const Cut& c = cuts_[at & ~cut];
+    // The line from the middle to the apex, and which side of it the beginning is on.
+    const V3 m = points_[c.middle], along = points_[c.apex] - m, to_begin = points_[c.begin] - m;
+    const V3 across = dot(along, along) * to_begin - dot(to_begin, along) * along;
+    at = c.children[dot(across, point - m) < 0];
+  }
+  return at;
 }
 
 bool PatchMesh::split_to(double max_edge, double max_area, std::size_t limit) {

@@ -36,10 +36,19 @@ class PatchMesh {
   /// Halves a face at its longest edge, after those neighbours that have a longer one there. The face keeps its number as one
   /// of the halves; new faces come behind the last. The same calls give the same mesh.
   void split(std::size_t face);
+  /// The face of a triangle that a point of it lies in. O(log of its faces), as longest edges are halved in turn.
+  std::uint32_t locate(std::uint32_t triangle, const V3& point) const;
+
   /// Splits until no face is larger; 0: any size will do. False when that takes more than `limit` faces; it ends there.
   bool split_to(double max_edge, double max_area, std::size_t limit);
 
  private:
+  /// How a face was halved, on the way down from a triangle to its faces. A child is a face, or `cut` + another Cut.
+  struct Cut {
+    std::uint32_t begin, middle, apex;        // corners: the first half lies on the side of `begin`
+    std::array<std::uint32_t, 2> children;
+  };
+  static constexpr std::uint32_t cut = 0x80000000u;
   struct Edge {
     double square;
     std::uint32_t low, high;  // corners; they decide between edges of one length, so that both sides choose the same
@@ -51,10 +60,14 @@ class PatchMesh {
   void link();
   void bisect(std::uint32_t face, int side);
   std::uint32_t halve(std::uint32_t face, int side, std::uint32_t middle);
+  void record_cut(std::uint32_t face, std::uint32_t second, const Cut& made);
 
   std::vector<V3> points_;
   std::vector<Face> faces_;
-  std::vector<std::uint32_t> path_;  // scratch
+  std::vector<Cut> cuts_;
+  std::vector<std::uint32_t> first_child_;  // by triangle
+  std::vector<std::uint32_t> child_at_;     // by face: where it is a child, 2 * Cut + 0 or 1; of a whole triangle `none`
+  std::vector<std::uint32_t> path_;         // scratch
 };
 
 }  // namespace wrlkit::light
