@@ -135,7 +135,8 @@ SurfacePoint LightWorld::surface(const Hit& hit) const {
     if (dot(smooth, s.face) > 0) s.normal = smooth;
   }
   if (hit.back) s.face = -s.face, s.normal = -s.normal;
-  if (!hit.back || !m.solid) paint(use, hit, s);
+  s.inside = hit.back && m.solid;
+  if (!s.inside) paint(use, hit, s);
   else if (use.clear) s.alpha = std::clamp(base(use, hit).alpha, 0.0, 1.0);
   return s;
 }

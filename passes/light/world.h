@@ -42,6 +42,7 @@ struct SurfacePoint {
   V3 face, normal;                   // of the triangle and for shading; world, unit, on the side that is seen
   V3 albedo, emission;               // reflectance and radiance there
   double alpha = 1;                  // how much of what comes is met; the rest passes
+  bool inside = false;               // it is the back of a `solid` face: who sees it is within something
 };
 
 /// A PointLight, SpotLight or DirectionalLight that shines.

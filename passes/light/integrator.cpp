@@ -1,0 +1,121 @@
+#include "passes/light/integrator.h"
+
+#include <algorithm>
+
+#include "passes/light/radiosity.h"
+#include "passes/parallel.h"
+
+namespace wrlkit::light {
+namespace {
+
+constexpr std::size_t block = 64;    // points that are done in one piece
+constexpr double dark = 0.1;         // an error of what is darker than so much of the mean is not worth many rays
+constexpr int lamp_rays = 16;
+
+Receiver receiver(const LightWorld& world, const Point& p) {
+  return {world.off_surface(p.position, p.face), p.face, p.normal, world.stage().uses[p.use].lights};
+}
+
+Rgb rgb(const V3& c) { return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)}; }
+
+}  // namespace
+
+struct Integrator::State {
+  const LightWorld& world;
+  IntegratorOptions options;
+  DirectLight direct;
+  IrradianceCache cache;
+  Transport transport;
+  double floor = 0;                  // mean irradiance by which the error of dark points is measured
+
+  State(const LightWorld& w, const IntegratorOptions& o)
+      : world(w), options(o), direct(w), cache(w.centre(), o.cell > 0 ? o.cell : w.radius() / 24),
+        transport(w, direct, o.mode == IntegratorOptions::Mode::cached ? &cache : nullptr) {}
+};
+
+namespace {
+
+/// The rays of one point, in rounds.
+class Estimate {
+ public:
+  Estimate(const LightWorld& world, const DirectLight& direct, const Transport& transport, const Receiver& at, std::uint64_t key)
+      : world_(world), direct_(direct), transport_(transport), at_(at), random_(key), directions_(key_of(key, 1)), places_(key_of(key, 2)) {
+    direct_.lamps(at_, lamp_rays, random_, lamps_);
+  }
+
+  void trace(std::uint32_t n) {
+    direct_.emitters(at_, places_, n_, n, true, emitters_);
+    for (std::uint32_t i = n_; i < n_ + n; ++i) gather(i);
+    n_ += n;
+  }
+
+  std::uint32_t n() const { return n_; }
+  V3 total() const { return lamps_.sum + (1.0 / n_) * (emitters_.sum + gathered_.sum); }
+  V3 variance() const { return emitters_.variance(n_) + gathered_.variance(n_); }
+
+  Irradiance result() const {
+    Irradiance out;
+    double each = 1.0 / n_;
+    V3 indirect = each * reflected_;
+    out.direct = rgb(total() - indirect);
+    out.indirect = rgb(indirect);
+    out.variance = rgb(variance());
+    for (int k = 0; k < 3; ++k) out.along[k] = rgb(lamps_.along[k] + each * (emitters_.along[k] + gathered_.along[k]));
+    out.inside = static_cast<float>(n_inside_ * each);
+    out.rays = n_;
+    return out;
+  }
+
+ private:
+  void gather(std::uint32_t i) {
+    auto [u, v] = directions_[i];
+    V3 direction = cosine_direction(at_.normal, u, v);
+    if (!(dot(direction, at_.face) > 0)) return;
+    Arriving a = transport_.gather(at_, {at_.start, direction}, random_);
+    gathered_.add(pi * (a.direct + a.reflected), direction);
+    reflected_ += pi * a.reflected;
+    n_inside_ += a.from_inside;
+  }
+
+  const LightWorld& world_;
+  const DirectLight& direct_;
+  const Transport& transport_;
+  Receiver at_;
+  Stream random_;
+  Lattice<2> directions_;
+  Lattice<3> places_;
+  Flux lamps_, emitters_, gathered_;
+  V3 reflected_;
+  std::uint32_t n_ = 0, n_inside_ = 0;
+};
+
+}  // namespace
+
+Integrator::Integrator(const LightWorld& world, std::span<const Point> points, const IntegratorOptions& options)
+    : state_(new State(world, options)) {
+  State& s = *state_;
+  std::vector<Receiver> from;
+  for (const Point& p : points) from.push_back(receiver(world, p));
+  if (options.mode == IntegratorOptions::Mode::cached) fill(s.cache, world, s.direct, from, options.seed);
+}
+
+Integrator::~Integrator() = default;
+
+std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, std::size_t first) const {
+  const State& s = *state_;
+  const auto rays = static_cast<std::uint32_t>(std::max(1, s.options.rays));
+  const auto most = static_cast<std::uint32_t>(std::max(s.options.rays, s.options.most_rays));
+  std::vector<Irradiance> out(points.size());
+  parallel_for((points.size() + block - 1) / block, [&](std::size_t b) {
+    for (std::size_t i = b * block; i < std::min(points.size(), (b + 1) * block); ++i) {
+      Estimate e(s.world, s.direct, s.transport, receiver(s.world, points[i]), key_of(s.options.seed, 6, first + i));
+      e.trace(rays);
+      auto precise = [&] { return std::sqrt(mean(e.variance())) <= s.options.error * std::max(mean(e.total()), dark * s.floor); };
+      while (s.options.error > 0 && e.n() < most && !precise()) e.trace(std::min(e.n(), most - e.n()));
+      out[i] = e.result();
+    }
+  });
+  return out;
+}
+
+}  // namespace wrlkit::light

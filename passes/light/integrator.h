@@ -1,0 +1,61 @@
+// Irradiance at points of surfaces: direct light by rays to lamps, emitters and the sky, reflected light by a final gather
+// over a coarse radiosity solution. Or, slower and without any bias, by following paths to their end.
+#pragma once
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "passes/light/world.h"
+
+namespace wrlkit::light {
+
+struct IntegratorOptions {
+  /// cached: reflected light is looked up where it can be. path: it is followed; the reference.
+  enum class Mode : std::uint8_t { cached, path };
+
+  Mode mode = Mode::cached;
+  int rays = 64;                     // a point, and as many to emitters where there are any
+  double error = 0;                  // relative standard error that is wanted; points that have it not yet get more rays
+  int most_rays = 1024;              // a point; only with error
+  double cell = 0;                   // largest cell of the cache, world units; 0: a 24th of the half of the world
+  std::uint64_t seed = 1;
+};
+
+/// A point of a surface, on the side of its normals.
+struct Point {
+  V3 position;                       // world
+  V3 face, normal;                   // of the triangle and for shading; unit
+  std::uint32_t use = 0;             // into LightWorld::stage().uses: which DirectionalLights light it
+};
+
+using Rgb = std::array<float, 3>;
+
+/// Linear RGB. The radiance that a white surface reflects is irradiance / pi.
+struct Irradiance {
+  Rgb direct{}, indirect{};          // from lamps, emitters and sky; reflected
+  Rgb variance{};                    // of the estimate of direct + indirect; an upper bound
+  /// Integrals of radiance * cosine * direction, world axes: along[0] goes with x. Together with direct + indirect the
+  /// irradiance-weighted spherical harmonics of degree 0 and 1: c00 = 0.282095 E, c1(axis) = 0.488603 along[axis].
+  Rgb along[3]{};
+  float inside = 0;                  // share of the rays that met the back of a solid face: the point lies within something
+  std::uint32_t rays = 0;
+};
+
+class Integrator {
+ public:
+  /// `points` are those that will be asked for, or a fair choice of them: the cache is made for these. The world must outlive
+  /// the integrator.
+  Integrator(const LightWorld& world, std::span<const Point> points, const IntegratorOptions& options = {});
+  ~Integrator();
+
+  /// out[i] belongs to points[i]; the same bits for any number of threads. `first` is the number of the first point: asking in
+  /// pieces gives what asking for all at once gives. Neighbouring points should follow one another.
+  std::vector<Irradiance> irradiance(std::span<const Point> points, std::size_t first = 0) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wrlkit::light

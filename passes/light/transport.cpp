@@ -1,0 +1,46 @@
+#include "passes/light/transport.h"
+
+namespace wrlkit::light {
+namespace {
+
+constexpr int deepest = 64;          // reflections; what then is left out is 0.99^64 at most
+constexpr int certain = 3;           // reflections that are followed whatever they bring
+constexpr int lamp_rays = 2;
+
+}  // namespace
+
+Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, int depth) const {
+  Arriving out;
+  double open = each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
+    out.from_inside |= s.inside;
+    if (mean(s.emission) > 0) out.direct += part * direct_.gather_weight(at, ray, hit) * s.emission;
+    if (mean(s.albedo) > 0) out.reflected += (part / pi) * (s.albedo * irradiance(hit, s, random, depth + 1));
+  });
+  if (open > 0 && world_.has_sky()) out.direct += open * world_.sky(ray.direction);
+  return out;
+}
+
+V3 Transport::irradiance(const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const {
+  if (cache_) {
+    auto key = cache_->key(s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance);
+    const IrradianceCache::Cell* cell = key ? cache_->find(*key) : nullptr;
+    if (cell && cell->trusted) return cell->irradiance();
+  }
+  return followed(receiver_at(hit, s), s.albedo, random, depth);
+}
+
+/// An estimate from one more ray in a cosine direction and one to the emitters.
+V3 Transport::followed(const Receiver& at, const V3& albedo, Stream& random, int depth) const {
+  Flux f;
+  direct_.lamps(at, lamp_rays, random, f);
+  direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, true, f);
+  double survival = depth <= certain ? 1 : std::max({albedo.x, albedo.y, albedo.z});
+  if (depth == deepest || random.next() >= survival) return f.sum;
+  double u = random.next(), v = random.next();
+  V3 direction = cosine_direction(at.normal, u, v);
+  if (!(dot(direction, at.face) > 0)) return f.sum;
+  Arriving more = along(at, {at.start, direction}, random, depth);
+  return f.sum + (pi / survival) * (more.direct + more.reflected);
+}
+
+}  // namespace wrlkit::light

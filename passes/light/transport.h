@@ -1,0 +1,59 @@
+// What a ray brings back: light that is made where it ends, and light that is reflected there, by the cache where that can
+// be relied on and by following the light further where not.
+#pragma once
+#include "passes/light/cache.h"
+#include "passes/light/direct.h"
+
+namespace wrlkit::light {
+
+/// Radiance that comes along a ray.
+struct Arriving {
+  V3 direct;                         // from emitters and the sky
+  V3 reflected;
+  bool from_inside = false;          // the ray met the back of a solid face: its start is within something
+};
+
+class Transport {
+ public:
+  /// Without a cache all light is followed (path tracing).
+  Transport(const LightWorld& world, const DirectLight& direct, const IrradianceCache* cache)
+      : world_(world), direct_(direct), cache_(cache) {}
+
+  /// What comes to a receiver along a ray of its own that was drawn in a cosine direction. Light of emitters is weighted for
+  /// as many rays to emitters beside it (DirectLight::emitters with gather).
+  Arriving gather(const Receiver& at, const Ray& ray, Stream& random) const { return along(at, ray, random, 0); }
+
+  /// Calls f(hit, surface, part) for what a ray meets, through what is transparent; `part` is how much of the ray's light
+  /// comes from there. Returns the part that comes from the sky.
+  template <class F>
+  double each_layer(const Ray& ray, F&& f) const {
+    constexpr int most_layers = 32;
+    constexpr double hidden = 1.0 / 512;
+    double through = 1, after = 0;
+    Hit hit;
+    for (int layer = 0; layer < most_layers; ++layer, after = hit.distance) {
+      if (!world_.nearest(ray, after, hit)) return through;
+      SurfacePoint s = world_.surface(hit);
+      f(hit, s, through * s.alpha);
+      through *= 1 - s.alpha;
+      if (through < hidden) return 0;
+    }
+    return 0;
+  }
+
+  /// The receiver of the light at a place that a ray met.
+  Receiver receiver_at(const Hit& hit, const SurfacePoint& s) const {
+    return {world_.off_surface(s.position, s.face), s.face, s.normal, world_.stage().uses[hit.use].lights};
+  }
+
+ private:
+  Arriving along(const Receiver& at, const Ray& ray, Stream& random, int depth) const;
+  V3 irradiance(const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const;
+  V3 followed(const Receiver& at, const V3& albedo, Stream& random, int depth) const;
+
+  const LightWorld& world_;
+  const DirectLight& direct_;
+  const IrradianceCache* cache_;
+};
+
+}  // namespace wrlkit::light
