@@ -15,6 +15,11 @@ class Progress {
   /// A new stretch of work: `total` things of that unit ("shapes"); 0: how many is not known.
   void begin(std::string what, std::uint64_t total, std::string unit);
   void step() { if (on_ && (++done_ & 0xff) == 0) show(); }
+  /// So many of them are done.
+  void set(std::uint64_t done) {
+    done_ = done;
+    if (on_) show();
+  }
   /// Takes the line off the terminal.
   void clear();
 

@@ -10,6 +10,9 @@ namespace {
 
 constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 
+/// The normal of a triangle, twice its area long.
+V3 across(const std::array<V3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
 struct PointHash {
   std::size_t operator()(const std::array<std::uint64_t, 3>& p) const {
     std::uint64_t h = 0;
@@ -35,6 +38,7 @@ PatchMesh::PatchMesh(std::span<const std::array<V3, 3>> triangles) {
       f.corners[i] = at->second;
     }
     first_child_.push_back(f.triangle);
+    triangles_.push_back(f.corners);
     faces_.push_back(f);
   }
   child_at_.assign(faces_.size(), none);
@@ -64,14 +68,23 @@ void PatchMesh::link() {
   }
 }
 
+std::array<V3, 3> PatchMesh::triangle(std::uint32_t t) const {
+  const auto& c = triangles_[t];
+  return {points_[c[0]], points_[c[1]], points_[c[2]]};
+}
+
+double PatchMesh::triangle_area(std::uint32_t t) const { return 0.5 * length(across(triangle(t))); }
+
 std::array<V3, 3> PatchMesh::corners(std::size_t face) const {
   const auto& c = faces_[face].corners;
   return {points_[c[0]], points_[c[1]], points_[c[2]]};
 }
 
-double PatchMesh::area(std::size_t face) const {
-  const auto c = corners(face);
-  return 0.5 * length(cross(c[1] - c[0], c[2] - c[0]));
+double PatchMesh::area(std::size_t face) const { return 0.5 * length(across(corners(face))); }
+
+bool PatchMesh::flat(std::size_t a, std::size_t b) const {
+  constexpr double least_cosine = 0.99;
+  return dot(unit(across(corners(a))), unit(across(corners(b)))) > least_cosine;
 }
 
 PatchMesh::Edge PatchMesh::edge(std::uint32_t face, int i) const {

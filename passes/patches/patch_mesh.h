@@ -26,10 +26,16 @@ class PatchMesh {
   /// Corners that are equal to the last bit are one. Edges of more than two triangles are borders. O(triangles).
   explicit PatchMesh(std::span<const std::array<V3, 3>> triangles);
 
+  std::size_t n_triangles() const { return first_child_.size(); }
+  /// As they were given.
+  std::array<V3, 3> triangle(std::uint32_t t) const;
+  double triangle_area(std::uint32_t t) const;
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<V3>& points() const { return points_; }
   std::array<V3, 3> corners(std::size_t face) const;
   double area(std::size_t face) const;
+  /// Do two faces lie in planes that hardly differ, the same side up?
+  bool flat(std::size_t a, std::size_t b) const;
   /// Length of its longest edge.
   double longest(std::size_t face) const { return std::sqrt(edge(static_cast<std::uint32_t>(face), longest_edge(static_cast<std::uint32_t>(face))).square); }
 
@@ -64,6 +70,7 @@ class PatchMesh {
 
   std::vector<V3> points_;
   std::vector<Face> faces_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  // corners
   std::vector<Cut> cuts_;
   std::vector<std::uint32_t> first_child_;  // by triangle
   std::vector<std::uint32_t> child_at_;     // by face: where it is a child, 2 * Cut + 0 or 1; of a whole triangle `none`
