@@ -3,24 +3,15 @@
 #include <algorithm>
 
 #include "passes/parallel.h"
+#include "passes/patches/patch_match.h"
 
 namespace wrlkit::light {
 namespace {
 
-using drawing::Affine;
 using drawing::PooledMesh;
 
 constexpr double patches_as_a_rule = 20'000;
 constexpr std::size_t side_block = 1024;  // of work in parallel
-
-/// Corner weights of a place in a triangle.
-std::array<double, 3> weights_at(const std::array<V3, 3>& t, const V3& p) {
-  const V3 e1 = t[1] - t[0], e2 = t[2] - t[0], d = p - t[0];
-  const double a = dot(e1, e1), b = dot(e1, e2), c = dot(e2, e2), x = dot(d, e1), y = dot(d, e2), det = a * c - b * b;
-  if (!(det > 0)) return {1, 0, 0};
-  const double v = (c * x - b * y) / det, w = (a * y - b * x) / det;
-  return {1 - v - w, v, w};
-}
 
 }  // namespace
 
@@ -32,13 +23,11 @@ PatchedWorld::PatchedWorld(const LightWorld& world, const PatchSizes& sizes, Dia
 
 /// In the order of the front, as SurfacePoint has it.
 std::vector<std::array<V3, 3>> PatchedWorld::triangles_of(std::uint32_t use) const {
-  const auto& pool = world_.meshes();
-  const PooledMesh& m = pool[world_.mesh_of()[use]];
-  const Affine& frame = world_.stage().frames[world_.stage().uses[use].frame];
-  const bool mirrored = frame.determinant() < 0;
+  const PooledMesh& m = world_.meshes()[world_.mesh_of()[use]];
+  const bool mirrored = world_.stage().frames[world_.stage().uses[use].frame].determinant() < 0;
   std::vector<std::array<V3, 3>> out(m.n_elements);
   for (std::uint32_t e = 0; e < m.n_elements; ++e) {
-    for (int k = 0; k < 3; ++k) out[e][static_cast<std::size_t>(k)] = frame.point(pool.position(m, e, k) + m.origin);
+    out[e] = triangle_of(world_, use, e);
     if (mirrored) std::swap(out[e][1], out[e][2]);
   }
   return out;
@@ -102,17 +91,13 @@ void PatchedWorld::paint(std::uint32_t s) {
   const Side& side = sides_[s];
   const PatchMesh& m = mesh(side.use);
   areas_[s] = m.area(side.face);
-  const auto& pool = world_.meshes();
-  const PooledMesh& pooled = pool[world_.mesh_of()[side.use]];
-  const Affine& frame = world_.stage().frames[world_.stage().uses[side.use].frame];
-  std::array<V3, 3> t;
   const auto element = m.faces()[side.face].triangle;
-  for (int k = 0; k < 3; ++k) t[static_cast<std::size_t>(k)] = frame.point(pool.position(pooled, element, k) + pooled.origin);
+  const auto t = triangle_of(world_, side.use, element);
   const Lattice<2> places(key_of(0, s));
   V3 albedo, emission;
   for (std::uint32_t i = 0; i < n_places; ++i) {
     const auto [u, v] = places[i];
-    const auto w = weights_at(t, receiver(s, u, v).start);
+    const auto w = weights_in(t, receiver(s, u, v).start);
     const auto p = world_.surface({.use = side.use, .element = element, .back = side.back, .weights = {w[0], w[1], w[2]}});
     albedo += p.alpha * p.albedo;
     emission += p.alpha * p.emission;
