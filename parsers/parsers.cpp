@@ -116,9 +116,12 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
 
 std::unique_ptr<World> read_world(const std::string& path, const ReadOptions& options, Diagnostics& diag) {
   auto file = read_file(path, options.limits, diag);
-  if (!file) return nullptr;
-  auto world = parse_text(file->view(), file->base, options, diag);
-  if (world) world->gzip = file->gzip, world->bytes = file->bytes_on_disk;
+  return file ? parse_world(*file, options, diag) : nullptr;
+}
+
+std::unique_ptr<World> parse_world(const FileText& file, const ReadOptions& options, Diagnostics& diag) {
+  auto world = parse_text(file.view(), file.base, options, diag);
+  if (world) world->gzip = file.gzip, world->bytes = file.bytes_on_disk;
   return world;
 }
 

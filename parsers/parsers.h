@@ -28,6 +28,8 @@ struct World {
 
 /// Reads a world. Null when there is nothing of a scene to be had; why is in `diag`. The text is not kept.
 std::unique_ptr<World> read_world(const std::string& path, const ReadOptions&, Diagnostics& diag);
+/// The same from a file that was read already.
+std::unique_ptr<World> parse_world(const FileText& file, const ReadOptions&, Diagnostics& diag);
 /// The same from memory; `name` is for messages.
 std::unique_ptr<World> parse_world(std::string_view text, std::string name, const ReadOptions&, Diagnostics& diag);
 

@@ -17,6 +17,7 @@ TESTS = ROOT / 'tests/text/diag'
 BY_UNIT_TESTS = {
     'verify': 'tells of a fault of a pass, not of a world',
     'not-finite': 'the parser has made numbers finite already; only other users of the library can meet it',
+    'no-patches': 'the verbs ask first what a file is',
     'no-font': 'where fonts are installed, they are found',
 }
 

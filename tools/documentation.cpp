@@ -43,6 +43,7 @@ constexpr FormatRow formats[] = {
     {"VRML97", ".wrl .wrz .wrl.gz .vrml", "yes, gzip by its first bytes", "yes, --gzip"},
     {"glTF 2.0", ".gltf", "no", "yes"},
     {"GLB", ".glb", "no", "yes"},
+    {"patches", ".xml", "yes", "illuminate"},
     {"pictures", "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR", "as textures", "PNG, JPEG, WebP, EXR"},
 };
 

@@ -50,6 +50,14 @@ struct Flags {
   double pixels = 1;
   bool progressive = false;
 
+  // illuminate
+  std::string method = "path";
+  std::string max_edge;                    // a length: 5cm
+  double max_area = 0;                     // square metres
+  double gradient = 0;
+  int light_samples = 256, seed = 1;
+  double emission = 1;
+
   std::vector<std::string> criteria;
   bool bare = false;
   int picture_size = 300;
@@ -66,6 +74,7 @@ int run_diff(const Flags&);
 int run_render(const Flags&);
 int run_simplify(const Flags&);
 int run_compare_lod(const Flags&);
+int run_illuminate(const Flags&);
 int run_passes(const Flags&);
 int run_formats(const Flags&);
 int run_explain(const Flags&);

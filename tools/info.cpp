@@ -5,11 +5,13 @@
 #include <map>
 #include <set>
 
+#include "parsers/patches.h"
 #include "scenegraph/image.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 #include "tools/geometry_census.h"
+#include "tools/patches_info.h"
 #include "tools/world_meshes.h"
 #include "writers/json.h"
 
@@ -183,7 +185,9 @@ std::string info_text(Session& s, const Info& i) {
 int run_info(const Flags& flags) {
   Session s(flags);
   if (!s.good()) return usage;
-  if (!s.read(flags.inputs[0])) return s.end(false);
+  const auto file = read_file(flags.inputs[0], {}, s.diag());
+  if (file && is_patch_file(file->view())) return print_patches_info(s, *file);
+  if (!file || !s.read(flags.inputs[0], *file)) return s.end(false);
   check_values(s.world().scene, s.diag());
   Info info;
   count_authored(s.world().scene, info);

@@ -18,6 +18,11 @@ class Progress : public Monitor {
   void step(std::uint64_t n = 1) override {
     if (on_ && ((done_ += n) & 0xff) < n) show();
   }
+  /// So many of them are done.
+  void set(std::uint64_t done) {
+    done_ = done;
+    if (on_) show();
+  }
   /// Takes the line off the terminal.
   void clear();
 

@@ -45,9 +45,15 @@ bool Session::apply_warning_flags() {
 World* Session::read(const std::string& path) {
   progress_.begin("reading " + path, 0, "");
   world_.reset();
+  auto file = read_file(path, {}, diag_);
+  return file ? read(path, *file) : nullptr;
+}
+
+World* Session::read(const std::string& path, const FileText& file) {
+  world_.reset();
   resources_ = std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = flags_.allow_paths}, parse_inlined);
   context_.resources = resources_.get();
-  world_ = read_world(path, {}, diag_);
+  world_ = parse_world(file, {}, diag_);
   if (world_) {
     place(world_->scene);
     resources_->set_root({std::shared_ptr<const Scene>{}, &world_->scene});

@@ -28,6 +28,8 @@ class Session {
 
   /// Reads a world, in place of the one before, and applies --unit and --up; null when nothing can be had.
   World* read(const std::string& path);
+  /// The same of a file that was read already.
+  World* read(const std::string& path, const FileText& file);
   /// What `read` gave.
   World& world() { return *world_; }
   /// -p with what it lacks of `standard`, or else `standard`; false when it is no pipeline, which was printed.

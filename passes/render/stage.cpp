@@ -41,7 +41,7 @@ class Walk {
   }
 
   Stage run() {
-    push_children(scene_.main.roots, 0, 0);
+    push_children(scene_.main.roots, 0, 0, 0);
     for (std::size_t visits = 0; !stack_.empty(); ++visits) {
       if (visits == limits_.visits) { report("nodes when every USE is followed", limits_.visits); break; }
       Item i = stack_.back();
@@ -54,7 +54,7 @@ class Walk {
  private:
   struct Item {
     NodeId node;
-    std::uint32_t frame, lights;
+    std::uint32_t frame, lights, name;
   };
 
   void report(std::string_view what, std::size_t limit) { diag_.report(Diag::expansion_limit, {}, limit, what); }
@@ -68,14 +68,15 @@ class Walk {
   /// False when there is no room for more.
   bool visit(const Item& i) {
     TypeId t = scene_.type_id(i.node);
-    if (t == nodes::Shape) return add_shape(i);
+    std::uint32_t name = name_below(i);
+    if (t == nodes::Shape) return add_shape(i, name);
     Placed here{i.node, i.frame};
     if (t == nodes::PointLight || t == nodes::SpotLight) add_light(here);
     else if (t == nodes::Viewpoint) stage_.viewpoints.push_back(here);
     else if (t == nodes::Background) bind(stage_.background, here);
     else if (t == nodes::Fog) bind(stage_.fog, here);
     else if (t == nodes::NavigationInfo) bind(stage_.navigation, here);
-    else push_children(shown_children(scene_, i.node), frame_below(i), i.lights);
+    else push_children(shown_children(scene_, i.node), frame_below(i), i.lights, name);
     return true;
   }
 
@@ -83,17 +84,24 @@ class Walk {
     if (!slot) slot = p;
   }
 
-  bool add_shape(const Item& i) {
+  bool add_shape(const Item& i, std::uint32_t name) {
     NodeId geometry = scene_.get(i.node, nodes::shape::geometry);
     if (!geometry) return true;
     if (stage_.uses.size() == limits_.shapes) return report("Shapes when every USE is followed", limits_.shapes), false;
-    stage_.uses.push_back({geometry, scene_.get(i.node, nodes::shape::appearance), i.node, i.frame, i.lights});
+    stage_.uses.push_back({geometry, scene_.get(i.node, nodes::shape::appearance), i.node, i.frame, i.lights, name});
     return true;
   }
 
   void add_light(const Placed& p) {
     if (stage_.lights.size() < limits_.lights) stage_.lights.push_back(p);
     else if (!lights_reported_) lights_reported_ = true, report("lights", limits_.lights);
+  }
+
+  /// The name of what stands at or below a node.
+  std::uint32_t name_below(const Item& i) {
+    if (scene_.name(i.node).empty()) return i.name;
+    stage_.names.push_back({i.node, i.name});
+    return static_cast<std::uint32_t>(stage_.names.size() - 1);
   }
 
   /// The frame of the children of a node.
@@ -111,10 +119,10 @@ class Walk {
   }
 
   /// Children in the order of the file, under the DirectionalLights that are among them.
-  void push_children(std::span<const NodeId> children, std::uint32_t frame, std::uint32_t lights) {
+  void push_children(std::span<const NodeId> children, std::uint32_t frame, std::uint32_t lights, std::uint32_t name) {
     for (NodeId c : children)
       if (scene_.is(c, nodes::DirectionalLight)) lights = scope_with({c, frame}, lights);
-    for (auto c = children.rbegin(); c != children.rend(); ++c) stack_.push_back({*c, frame, lights});
+    for (auto c = children.rbegin(); c != children.rend(); ++c) stack_.push_back({*c, frame, lights, name});
   }
 
   std::uint32_t scope_with(const Placed& light, std::uint32_t parent) {
@@ -141,6 +149,12 @@ class Walk {
 
 Stage set_stage(const Scene& scene, const Pose* viewer, Diagnostics& diag, const StageLimits& limits) {
   return Walk(scene, viewer, diag, limits).run();
+}
+
+std::string full_name(const Scene& scene, const Stage& stage, const Use& use) {
+  std::string out;
+  for (std::uint32_t n = use.name; n; n = stage.names[n].parent) out = std::string(scene.name(stage.names[n].node)) + (out.empty() ? "" : "/") + out;
+  return out;
 }
 
 }  // namespace wrlkit::drawing

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "passes/render/linear.h"
@@ -17,6 +18,13 @@ struct Use {
   NodeId geometry, appearance, shape;
   std::uint32_t frame;   // into Stage::frames
   std::uint32_t lights;  // into Stage::scopes
+  std::uint32_t name;    // into Stage::names
+};
+
+/// The named nodes on the way to a Shape, and its own name, are a chain up to names[0], which is no node.
+struct NameStep {
+  NodeId node;
+  std::uint32_t parent = 0;
 };
 
 /// A node and the frame that it stands in.
@@ -41,6 +49,7 @@ struct Stage {
   std::vector<Affine> frames{Affine{}};
   std::vector<Use> uses;
   std::vector<LightScope> scopes{LightScope{}};
+  std::vector<NameStep> names{NameStep{}};
   std::vector<Placed> lights;      // PointLights and SpotLights, which light all the world within their radius
   std::vector<Placed> viewpoints;
   std::optional<Placed> background, fog, navigation;  // the first of each kind is the one that is bound (4.6.10)
@@ -59,5 +68,8 @@ struct StageLimits {
 /// Walks the scene in the order of the file. Without a viewer Billboards are not turned; a second walk with one gives the
 /// same entries in other frames.
 Stage set_stage(const Scene& scene, const Pose* viewer, Diagnostics& diag, const StageLimits& limits = {});
+
+/// The DEF names from the root to a Shape, with '/' between them.
+std::string full_name(const Scene& scene, const Stage& stage, const Use& use);
 
 }  // namespace wrlkit::drawing

@@ -1,0 +1,51 @@
+// A flat polygon and the patches on it, turned to face the camera and drawn: Lazanyi's "snapshot" (3.2). In smooth pictures
+// a patch has three colours, one a corner: those of the patches that meet there, weighted by their angles.
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "passes/render/linear.h"
+
+namespace wrlkit::light {
+
+using drawing::V3;
+using Place = std::array<double, 2>;
+
+/// The plane of a polygon as a picture has it: x to the right, y up. Walls stand upright; floors have -Z up, as seen from
+/// above.
+struct PictureFrame {
+  V3 origin, right, up;
+
+  static PictureFrame facing(const V3& normal, const V3& origin);
+  Place place(const V3& p) const { return {dot(p - origin, right), dot(p - origin, up)}; }
+};
+
+struct FlatPatch {
+  std::array<Place, 3> corners;      // in a PictureFrame, metres
+  V3 color;
+};
+
+struct PictureOptions {
+  double texel = 0.01;               // metres
+  int samples = 4;                   // places a texel along each side
+  int border = 2;                    // texels around the polygon that go on with its colours
+  bool smooth = false;
+};
+
+/// Linear colours, the top row first.
+struct FloatPicture {
+  int width = 0, height = 0;
+  std::vector<V3> pixels;
+  Place low{};                       // where the lower left corner of the picture lies, metres
+
+  V3& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+};
+
+/// Texels that no patch covers have the mean colour, but for the border. O(patches + texels * samples^2).
+FloatPicture draw(std::span<const FlatPatch> patches, const PictureOptions& options);
+
+/// The size of that picture.
+std::array<int, 2> picture_size(std::span<const FlatPatch> patches, const PictureOptions& options);
+
+}  // namespace wrlkit::light

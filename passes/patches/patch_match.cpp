@@ -1,0 +1,80 @@
+#include "passes/patches/patch_match.h"
+
+#include <algorithm>
+
+namespace wrlkit::light {
+namespace {
+
+std::array<V3, 3> points(const Corners& c) { return {V3(c[0]), V3(c[1]), V3(c[2])}; }
+V3 across(const std::array<V3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+V3 centre(const std::array<V3, 3>& t) { return (1.0 / 3) * (t[0] + t[1] + t[2]); }
+
+class Matcher {
+ public:
+  Matcher(const PatchSet& set, const LightWorld& world) : set_(set), world_(world) {}
+
+  PatchMatch run() {
+    for (std::size_t s = 0; s < set_.shapes.size(); ++s)
+      for (std::size_t t = set_.shapes[s].first_triangle; t < set_.end_of_shape(s); ++t) {
+        const bool right = is_right(set_.shapes[s], set_.triangles[t]);
+        for (auto p = set_.triangles[t].first_patch; p < set_.end_of_triangle(t); ++p) {
+          const auto& patch = set_.patches[p];
+          if (right) out_.placed.push_back({static_cast<std::uint32_t>(p), set_.shapes[s].index, set_.triangles[t].index, patch.back});
+          else look_for(static_cast<std::uint32_t>(p));
+        }
+      }
+    std::ranges::stable_sort(out_.placed, {}, &PlacedPatch::use);
+    return std::move(out_);
+  }
+
+ private:
+  double tolerance(const std::array<V3, 3>& t) const { return 1e-3 * std::sqrt(length(across(t))) + 2e-6 * world_.radius(); }
+
+  /// Is the triangle of the file that one of the world?
+  bool is_right(const PatchSet::Shape& shape, const PatchSet::Triangle& triangle) const {
+    if (!triangle.given || shape.index >= world_.stage().uses.size()) return false;
+    const auto& mesh = world_.meshes()[world_.mesh_of()[shape.index]];
+    if (mesh.kind != Mesh::Kind::faces || triangle.index >= mesh.n_elements) return false;
+    auto ours = triangle_of(world_, shape.index, triangle.index), theirs = points(triangle.corners);
+    const double most = tolerance(ours);
+    // The corners of a mirrored Shape run the other way.
+    if (dot(across(ours), across(theirs)) < 0) std::swap(ours[1], ours[2]);
+    return std::ranges::all_of(std::array{0, 1, 2}, [&](int i) { return length(ours[i] - theirs[i]) <= most; });
+  }
+
+  /// Looks at the patch's middle from just above it.
+  void look_for(std::uint32_t p) {
+    const auto t = points(set_.patches[p].corners);
+    const V3 normal = unit(across(t));
+    const double above = 2 * tolerance(t);
+    Hit hit;
+    if (!(dot(normal, normal) > 0) || !world_.nearest({centre(t) + above * normal, -normal}, 0, hit) || hit.distance > 2 * above) return void(++out_.n_orphans);
+    out_.placed.push_back({p, hit.use, hit.element, hit.back != set_.patches[p].back});
+  }
+
+  const PatchSet& set_;
+  const LightWorld& world_;
+  PatchMatch out_;
+};
+
+}  // namespace
+
+PatchMatch match_patches(const PatchSet& set, const LightWorld& world) { return Matcher(set, world).run(); }
+
+std::array<V3, 3> triangle_of(const LightWorld& world, std::uint32_t use, std::uint32_t element) {
+  const auto& m = world.meshes()[world.mesh_of()[use]];
+  const auto& frame = world.stage().frames[world.stage().uses[use].frame];
+  std::array<V3, 3> out;
+  for (int k = 0; k < 3; ++k) out[static_cast<std::size_t>(k)] = frame.point(world.meshes().position(m, element, k) + m.origin);
+  return out;
+}
+
+std::array<double, 3> weights_in(const std::array<V3, 3>& t, const V3& p) {
+  const V3 e1 = t[1] - t[0], e2 = t[2] - t[0], d = p - t[0];
+  const double a = dot(e1, e1), b = dot(e1, e2), c = dot(e2, e2), x = dot(d, e1), y = dot(d, e2), det = a * c - b * b;
+  if (!(det > 0)) return {1, 0, 0};
+  const double v = (c * x - b * y) / det, w = (a * y - b * x) / det;
+  return {1 - v - w, v, w};
+}
+
+}  // namespace wrlkit::light
