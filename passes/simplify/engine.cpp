@@ -27,7 +27,7 @@ Engine::Engine(const Mesh& mesh, const CollapseOptions& options)
       best_(surface_.n_vertices(), none),
       deviation_(surface_.n_vertices()),
       recording_(options.record) {
-  find_features(surface_, wedges_, {options.keep_borders, options.keep_creases, options.crease_angle});
+  find_features(surface_, wedges_, {options.keep_borders, options.keep_creases, options.crease_angle, options.fixed});
   pricer_ = make_pricer(options.criterion, surface_, wedges_);
   if (recording_) recorder_.begin(surface_, wedges_);
   if (surface_.n_vertices() < many_vertices)
