@@ -99,7 +99,7 @@ class Collapser {
   /// Collapses the cheapest edge until at most `n_faces` are left (an edge takes two faces with it, so one less is
   /// possible), or until there is no edge that may go, or none that would leave error() at most `max_error`. Calling it
   /// for a series of targets gives the same as one run to the last. In meshes of more than 32,768 vertices, costs
-  /// between two powers of two count as equal until 16,384 faces are left. O(n log n) all in all.
+  /// between two powers of four (of two: length_normal and melax) count as equal until 16,384 faces are left. O(n log n) all in all.
   void run_to(std::size_t n_faces, double max_error = std::numeric_limits<double>::infinity());
 
   std::size_t n_faces() const;

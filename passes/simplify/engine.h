@@ -37,6 +37,7 @@ class Engine final : public Simplifier {
   bool may_go(const Option& option);
   void collapse(const Move& move);
   void merge_vertices(const Vec3& position);
+  void sweep();
   void sort_exactly();
   void refresh_all();
   void refresh(std::uint32_t v, int spokes);

@@ -63,7 +63,7 @@ class GlobalQuadric final : public Pricer {
       if (surface.alive(f)) add_face(f);
   }
 
-  void before_merge(const Ring& from, const Ring& to) override {
+  void before_merge(const Ring& from, const Ring& to, const Vec3&) override {
     quadric_[to.center].add(quadric_[from.center]);
     if (!width_) return;
     for_pairs(from, from.find(to.center), [&](std::uint32_t a, std::uint32_t b) {
