@@ -101,13 +101,13 @@ bool Engine::settle_vertex(std::uint32_t v, Move& move) {
       options_.clear();
       pricer_->price(from_, Pricer::every, options_);
       all = true;
-    } else if (may_go(*best)) {
+    } else if (!may_go(*best)) {
+      if (!all) best_[v] = none;
+      best->cost = -1;
+    } else if (best->cost = std::max(best->cost, cost_of_fold(*best)); queue_->key(best->cost) <= key) {
       move = {best->cost, best->position};
       if (move.position == surface_.position(from_.center)) std::swap(from_, to_);
       return true;
-    } else {
-      if (!all) best_[v] = none;
-      best->cost = -1;
     }
     best = cheapest();
   }
@@ -118,6 +118,16 @@ bool Engine::settle_vertex(std::uint32_t v, Move& move) {
 bool Engine::may_go(const Option& option) {
   return surface_.gather(from_.spokes[option.spoke].vertex, to_) && keeps_topology(from_, to_) &&
          keeps_shape(surface_, from_, to_, option.position);
+}
+
+/// What an end that is drawn in costs as if all faces around moved so far. The formulas of the paper are let alone.
+double Engine::cost_of_fold(const Option& option) const {
+  const double loss = pricer_->one_way() ? 0 : squared_loss_at_fold(surface_, from_, to_, option.position);
+  if (loss == 0) return 0;
+  double area = 0;
+  for (const Ring::Face& f : from_.face_span()) area += length(surface_.normal(f.face));
+  for (const Ring::Face& f : to_.face_span()) area += length(surface_.normal(f.face));
+  return loss * area;
 }
 
 void Engine::run_to(std::size_t n_faces, double max_error) {
