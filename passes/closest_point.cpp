@@ -69,6 +69,11 @@ Triangles triangles_of(const Mesh& mesh) {
 
 Vec3 area_normal(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
+double squared_distance(const Vec3& p, const std::array<Vec3, 3>& corners) {
+  const std::array<Vec3, 3> t{corners[0] - p, corners[1] - p, corners[2] - p};
+  return to_triangle(t, area_normal(t));
+}
+
 bool is_usable(const std::array<Vec3, 3>& corners) {
   for (const Vec3& p : corners)
     for (double v : p)

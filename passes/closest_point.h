@@ -36,6 +36,9 @@ Triangles triangles_of(const Mesh& mesh);
 /// Perpendicular to a triangle on its front, as long as twice its area.
 Vec3 area_normal(const std::array<Vec3, 3>& corners);
 
+/// Squared distance of a point from a triangle.
+double squared_distance(const Vec3& p, const std::array<Vec3, 3>& corners);
+
 /// Where single precision and sums of squares are safe. A triangle with a corner beyond, or not finite, is no part of a
 /// surface.
 bool is_usable(const std::array<Vec3, 3>& corners);

@@ -5,6 +5,7 @@
 
 #include "passes/parallel.h"
 #include "passes/simplify/lod_nodes.h"
+#include "passes/simplify/shared_borders.h"
 
 namespace wrlkit {
 namespace {
@@ -18,14 +19,15 @@ struct Part {
 class Lod {
  public:
   Lod(Scene& scene, const LodOptions& options, PassContext& ctx)
-      : options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, surfaces_(surfaces_of(scene)),
+      : scene_(scene), options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, surfaces_(surfaces_of(scene)),
         reader_(scene, reading_), nodes_(scene) {}
 
   Outcome run() {
     std::size_t n_lods = 0;
+    look_around();
     for (std::size_t i = 0; i < surfaces_.size();) {
       auto& parts = read_batch(i);
-      simplify(parts);
+      simplify(i, parts);
       for (std::size_t k = 0; k < parts.size(); ++k) n_lods += store(surfaces_[i + k], parts[k]);
       i += parts.size();
     }
@@ -35,6 +37,23 @@ class Lod {
   }
 
  private:
+  /// What neighbours share, and how large they stand in the world, is known before the first is simplified.
+  void look_around() {
+    SharedBorders borders;
+    Mesh mesh;
+    bool any = false;
+    for (const auto& surface : surfaces_) {
+      reader_.read(surface, mesh);
+      borders.add(mesh);
+      any |= is_large(mesh);
+    }
+    fixed_.resize(surfaces_.size()), scale_.resize(surfaces_.size(), 1);
+    if (any) fixed_ = borders.find(scene_, surfaces_);
+    if (any && !options_.errors.values.empty()) scale_ = largest_scales(scene_, surfaces_);
+  }
+
+  bool is_large(const Mesh& mesh) const { return static_cast<int>(mesh.n_faces()) >= options_.min_faces; }
+
   /// The meshes of some surfaces from `first` on: as many as may lie in memory together.
   std::vector<Part>& read_batch(std::size_t first) {
     constexpr std::size_t most_corners = 3'000'000;
@@ -47,12 +66,18 @@ class Lod {
     return batch_;
   }
 
-  void simplify(std::vector<Part>& parts) const {
-    const LevelOptions levels{{options_.criterion.value}, options_.ratios.values, options_.errors.values, options_.min_saving};
+  void simplify(std::size_t first, std::vector<Part>& parts) const {
     parallel_for(parts.size(), [&](std::size_t i) {
       auto& p = parts[i];
-      if (static_cast<int>(p.mesh.n_faces()) >= options_.min_faces) p.levels = make_levels(p.mesh, levels);
+      if (is_large(p.mesh)) p.levels = make_levels(p.mesh, levels_of(first + i));
     });
+  }
+
+  LevelOptions levels_of(std::size_t surface) const {
+    LevelOptions levels{{.criterion = options_.criterion.value, .fixed = fixed_[surface]}, options_.ratios.values,
+                        options_.errors.values, options_.min_saving};
+    for (double& e : levels.errors) e /= scale_[surface];
+    return levels;
   }
 
   std::size_t store(const ShapeSurface& surface, const Part& part) {
@@ -64,6 +89,7 @@ class Lod {
     return n;
   }
 
+  const Scene& scene_;
   const LodOptions& options_;
   PassContext& ctx_;
   // The first level stays as it is: whoever draws it will say what is wrong with it.
@@ -73,6 +99,9 @@ class Lod {
   std::vector<ShapeSurface> surfaces_;
   SurfaceReader reader_;
   LodNodes nodes_;
+  // Of each surface: what is held fast, and metres of the world for its unit.
+  std::vector<std::vector<std::uint32_t>> fixed_;
+  std::vector<double> scale_;
   std::vector<Part> batch_;
 };
 

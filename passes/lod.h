@@ -35,7 +35,7 @@ struct LodOptions {
 
   void fields(auto&& f) {
     f("ratios", ratios, "triangles of each further level, as shares of the first");
-    f("errors", errors, "instead of ratios: how far each further level may be from the first, in units of the geometry");
+    f("errors", errors, "instead of ratios: how far each further level may be from the first, in metres of the world");
     f("criterion", criterion, "length-normal, melax, lindstrom-turk, quadric or meshopt");
     f("pixels", pixels, "error of a level on the screen, in pixels, from which on it may be shown");
     f("screen-height", screen_height, "pixels");
@@ -54,6 +54,11 @@ struct LodOptions {
 /// - `center` is the middle of the bounds. A `range` is the distance from which on the error of the next level, seen at
 ///   the near side of the bounding sphere, is below `pixels`: radius + error * screen-height / (2 tan(field-of-view / 2)
 ///   pixels). Ranges ascend.
+/// - Distances of VRML are in the coordinates of the LOD (6.26), so `range` and `center` are in those of the geometry,
+///   however large the Transforms above show it. `errors` are metres of the world: where a geometry stands several times, in
+///   the largest of its places.
+/// - What open borders of several parts have in common stays where it is (simplify/shared_borders.h), so that parts meet at
+///   any of their levels.
 /// - A Shape that is shared is simplified once, and so is a geometry that several Shapes share. The levels share the
 ///   Appearance.
 /// - Left alone: Shapes below an authored LOD; those whose geometry is text, lines, points, the end of a ROUTE or an IS;

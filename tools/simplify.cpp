@@ -128,6 +128,7 @@ int run_simplify(const Flags& flags) {
   if (flags.progressive) return write_progressive_file(s, options->collapse.criterion, base + (flags.gzip ? ".wpm.gz" : ".wpm"));
 
   const SimplifiedWorld world(s.world().scene, *options, s.context());
+  if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
   std::vector<Written> files;
   for (std::size_t i = 0; i < world.n_points(); ++i) {
     files.push_back({base + '_' + std::to_string(world.point(i).n_faces) + ending, world.point(i)});

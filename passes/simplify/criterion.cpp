@@ -30,6 +30,8 @@ void Pricer::price(const Ring& ring, int spokes, std::vector<Option>& options) {
     const Placement where = placement(u.kind, v.kind, s.feature);
     if (where == Placement::nowhere || (one_way() && where == Placement::center)) continue;
     options.push_back(option(ring, i, where));
+    if (where == Placement::center) options.back().position = u.position;  // exactly
+    if (where == Placement::spoke) options.back().position = v.position;
     if (placement(u.crease_kind, v.crease_kind, s.feature || s.crease) != where) options.back().cost *= crease_factor;
   }
 }

@@ -33,10 +33,10 @@ class Pricer {
   /// Whether an edge has a cost of its own in each direction, goes from the centre to the spoke only, and is an option
   /// of both ends.
   virtual bool one_way() const { return false; }
-  /// Before the faces and wedges of the two rings change.
-  virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/) {}
-  /// After it: the ring of the vertex that is left.
-  virtual void after_merge(const Ring&) {}
+  /// Before the faces and wedges of the two rings change; the vertex that is left will be at `x`.
+  virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/, const Vec3& /*x*/) {}
+  /// After it, with the same rings: those of their faces that are alive belong to the centre of `to`.
+  virtual void after_merge(const Ring& /*from*/, const Ring& /*to*/) {}
 
  protected:
   /// Called for a ring before option is, for every spoke or for one.

@@ -27,13 +27,19 @@ Engine::Engine(const Mesh& mesh, const CollapseOptions& options)
       best_(surface_.n_vertices(), none),
       deviation_(surface_.n_vertices()),
       recording_(options.record) {
-  find_features(surface_, wedges_, {options.keep_borders, options.keep_creases, options.crease_angle});
+  find_features(surface_, wedges_, {options.keep_borders, options.keep_creases, options.crease_angle, options.fixed});
   pricer_ = make_pricer(options.criterion, surface_, wedges_);
   if (recording_) recorder_.begin(surface_, wedges_);
   if (surface_.n_vertices() < many_vertices)
     sort_exactly();
   else
-    queue_ = std::make_unique<SweepQueue>(surface_.n_vertices()), sweeping_ = true, refresh_all();
+    sweep();
+}
+
+void Engine::sweep() {
+  queue_ = std::make_unique<SweepQueue>(surface_.n_vertices(), pricer_->one_way() ? 1 : 2);
+  sweeping_ = true;
+  refresh_all();
 }
 
 void Engine::sort_exactly() {
@@ -95,13 +101,13 @@ bool Engine::settle_vertex(std::uint32_t v, Move& move) {
       options_.clear();
       pricer_->price(from_, Pricer::every, options_);
       all = true;
-    } else if (may_go(*best)) {
+    } else if (!may_go(*best)) {
+      if (!all) best_[v] = none;
+      best->cost = -1;
+    } else if (best->cost = std::max(best->cost, cost_of_fold(*best)); queue_->key(best->cost) <= key) {
       move = {best->cost, best->position};
       if (move.position == surface_.position(from_.center)) std::swap(from_, to_);
       return true;
-    } else {
-      if (!all) best_[v] = none;
-      best->cost = -1;
     }
     best = cheapest();
   }
@@ -112,6 +118,16 @@ bool Engine::settle_vertex(std::uint32_t v, Move& move) {
 bool Engine::may_go(const Option& option) {
   return surface_.gather(from_.spokes[option.spoke].vertex, to_) && keeps_topology(from_, to_) &&
          keeps_shape(surface_, from_, to_, option.position);
+}
+
+/// What an end that is drawn in costs as if all faces around moved so far. The formulas of the paper are let alone.
+double Engine::cost_of_fold(const Option& option) const {
+  const double loss = pricer_->one_way() ? 0 : squared_loss_at_fold(surface_, from_, to_, option.position);
+  if (loss == 0) return 0;
+  double area = 0;
+  for (const Ring::Face& f : from_.face_span()) area += length(surface_.normal(f.face));
+  for (const Ring::Face& f : to_.face_span()) area += length(surface_.normal(f.face));
+  return loss * area;
 }
 
 void Engine::run_to(std::size_t n_faces, double max_error) {
@@ -135,26 +151,30 @@ void Engine::run_to(std::size_t n_faces, double max_error) {
 void Engine::collapse(const Move& move) {
   const std::uint32_t u = from_.center, v = to_.center;
   const Vec3 old = surface_.position(v);
-  pricer_->before_merge(from_, to_);
+  pricer_->before_merge(from_, to_, move.position);
   if (wedges_.present()) merge_wedges(move.position);
   if (recording_) record_corners();
   merge_vertices(move.position);
-  pricer_->after_merge(to_);
+  pricer_->after_merge(from_, to_);
   if (recording_)
     recorder_.end_step({surface_.original(u), surface_.original(v), move.position, move.cost}, surface_.position(u),
                        old, error_);
   queue_->remove(u);
   best_[v] = none;
-  if (!queue_->put_off(v)) offer(to_, Pricer::every);
+  if (!queue_->put_off(v)) refresh(v, Pricer::every);
+  auto refresh_if_needed = [&](std::uint32_t w) {
+    if (exact_ || !queue_->contains(w)) refresh(w, Pricer::every);
+  };
   for (const Ring::Spoke& s : to_.spoke_span())
-    if (exact_ || !queue_->contains(s.vertex)) refresh(s.vertex, Pricer::every);
+    if (s.vertex != u) refresh_if_needed(s.vertex);
+  for (const Ring::Spoke& s : from_.spoke_span())
+    if (s.vertex != v && to_.find(s.vertex) < 0) refresh_if_needed(s.vertex);
 }
 
-/// Leaves the new ring in to_. Kinds of vertices change only where features end in the third corner of a face that
-/// goes.
+/// Kinds of vertices change only where features end in the third corner of a face that goes.
 void Engine::merge_vertices(const Vec3& position) {
   const std::uint32_t u = from_.center, v = to_.center;
-  std::uint32_t third[Ring::max_faces];
+  std::uint32_t third[Ring::max_faces + 1];
   int n = 0;
   bool features = false;
   for (const Ring::Face& f : from_.face_span()) {
@@ -165,9 +185,8 @@ void Engine::merge_vertices(const Vec3& position) {
   surface_.merge(from_, to_);
   surface_.vertex[v].position = position;
   if (surface_.vertex[u].kind == Kind::fixed) surface_.vertex[v].kind = surface_.vertex[v].crease_kind = Kind::fixed;
-  surface_.gather(v, to_);
   if (!features) return;
-  surface_.classify(to_);
+  third[n++] = v;
   for (int i = 0; i < n; ++i)
     if (surface_.gather(third[i], ring_)) surface_.classify(ring_);
 }

@@ -35,8 +35,10 @@ class Engine final : public Simplifier {
   bool settle(Move& move);
   bool settle_vertex(std::uint32_t v, Move& move);
   bool may_go(const Option& option);
+  double cost_of_fold(const Option& option) const;
   void collapse(const Move& move);
   void merge_vertices(const Vec3& position);
+  void sweep();
   void sort_exactly();
   void refresh_all();
   void refresh(std::uint32_t v, int spokes);

@@ -1,5 +1,6 @@
 #include "passes/simplify/features.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -89,6 +90,9 @@ class Finder {
 
 void find_features(Surface& surface, const Wedges& wedges, const FeatureOptions& options) {
   Finder(surface, wedges, options).run();
+  for (std::uint32_t v = 0; !options.fixed.empty() && v < surface.n_vertices(); ++v)
+    if (std::ranges::binary_search(options.fixed, surface.original(v)))
+      surface.vertex[v].kind = surface.vertex[v].crease_kind = Kind::fixed;
 }
 
 }  // namespace wrlkit::simplify

@@ -8,6 +8,7 @@ namespace wrlkit::simplify {
 struct FeatureOptions {
   bool borders, creases;
   double crease_angle;  // radians
+  std::span<const std::uint32_t> fixed;  // positions of the mesh that came in, ascending
 };
 
 /// Sets the features of the faces and the kinds of the vertices.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "passes/closest_point.h"
 
 namespace wrlkit::simplify {
 namespace {
@@ -73,6 +76,23 @@ bool keeps_shape(const Surface& surface, const Ring& u, const Ring& v, const Vec
   return true;
 }
 
+double squared_loss_at_fold(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x) {
+  const Vec3 first = surface.normal(u.faces[0].face);
+  auto turned = [&](const Ring::Face& f) { return dot(surface.normal(f.face), first) < 0; };
+  if (std::ranges::none_of(u.face_span(), turned) && std::ranges::none_of(v.face_span(), turned)) return 0;
+  double loss = 0;
+  for (const Ring* from : {&u, &v}) {
+    const Vec3& p = surface.position(from->center);
+    double nearest = p == x ? 0 : std::numeric_limits<double>::infinity();
+    for (const Ring* ring : {&u, &v})
+      for (const Ring::Face& f : ring->face_span())
+        if (!ring->has(f, ring == &u ? v.center : u.center))
+          nearest = std::min(nearest, squared_distance(p, {x, surface.position(ring->next_vertex(f)), surface.position(ring->prev_vertex(f))}));
+    loss = std::max(loss, nearest);
+  }
+  return loss;
+}
+
 double deviation(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x) {
   double largest = 0;  // squared
   for (const Ring* ring : {&u, &v}) {
@@ -90,7 +110,7 @@ double deviation(const Surface& surface, const Ring& u, const Ring& v, const Vec
       if (l > 0) largest = std::max(largest, dot(c, c) / l);
     }
   }
-  return std::sqrt(largest);
+  return std::sqrt(std::max(largest, squared_loss_at_fold(surface, u, v, x)));
 }
 
 }  // namespace wrlkit::simplify

@@ -12,6 +12,11 @@ bool keeps_topology(const Ring& u, const Ring& v);
 /// With that vertex at x, no face turns by about 80 degrees or more, and none becomes a sliver that was none.
 bool keeps_shape(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x);
 
+/// Where faces around the edge look in opposite directions, as at the end of a wire or on the rim of a sheet: how far the
+/// two vertices are from the faces that are left of both rings, squared; 0 elsewhere. The planes of the faces do not tell
+/// that an end is drawn in.
+double squared_loss_at_fold(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x);
+
 /// The largest distance of x from the planes of the faces and, for x on a feature, from its lines.
 double deviation(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x);
 

@@ -19,8 +19,8 @@ constexpr struct {
 };
 
 /// To six decimals of the extent, which no eye can tell and a text file is a third shorter for. Positions that were
-/// printed with fewer digits stay as they are.
-void round_positions(Mesh& mesh) {
+/// printed with fewer digits stay as they are, and so do those that neighbours have too.
+void round_positions(Mesh& mesh, const std::vector<Vec3>& fixed) {
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     double low = 0, high = 0;
@@ -35,11 +35,18 @@ void round_positions(Mesh& mesh) {
   const int exponent = static_cast<int>(std::floor(std::log10(extent))) - 6;
   const double step = std::pow(10.0, std::abs(exponent));
   // Powers of ten below one are not exact: dividing by their reciprocal gives the double that the digits mean.
-  for (double& x : mesh.positions.edit()) x = exponent < 0 ? std::round(x * step) / step : std::round(x / step) * step;
+  auto rounded = [&](double x) { return exponent < 0 ? std::round(x * step) / step : std::round(x / step) * step; };
+  auto& p = mesh.positions.edit();
+  for (std::size_t i = 0; i < p.size(); i += 3)
+    if (fixed.empty() || !std::ranges::binary_search(fixed, Vec3{p[i], p[i + 1], p[i + 2]}))
+      for (std::size_t k = i; k < i + 3; ++k) p[k] = rounded(p[k]);
 }
 
-MeshLevel measured(const Mesh& first, Mesh mesh) {
-  round_positions(mesh);
+MeshLevel measured(const Mesh& first, Mesh mesh, const CollapseOptions& options) {
+  std::vector<Vec3> fixed;
+  for (auto i : options.fixed) fixed.push_back(triangles_of(first).position(i));
+  std::ranges::sort(fixed);
+  round_positions(mesh, fixed);
   auto d = measure_deviation(triangles_of(first), triangles_of(mesh));
   return {std::move(mesh), d.rms, d.max, d.normal_mean};
 }
@@ -63,7 +70,7 @@ class Levels {
     Collapser c(first_, options_.collapse);
     for (double r : options_.ratios) {
       c.run_to(std::max(faces_of_a_box, static_cast<std::size_t>(r * static_cast<double>(first_.n_faces()))));
-      if (saves_enough(c.n_faces())) add(measured(first_, c.mesh()));
+      if (saves_enough(c.n_faces())) add(measured(first_, c.mesh(), options_.collapse));
     }
     return std::move(levels_);
   }
@@ -87,7 +94,7 @@ class Levels {
     for (int i = 0; i < tries; ++i) {
       Collapser c(first_, options_.collapse);
       c.run_to(faces_of_a_box, estimate);
-      auto level = measured(first_, c.mesh());
+      auto level = measured(first_, c.mesh(), options_.collapse);
       const bool fits = level.error <= error;
       (fits ? low : high) = estimate;
       if (fits && (!best || level.mesh.n_faces() < best->mesh.n_faces())) best = std::move(level);
@@ -123,7 +130,7 @@ std::vector<std::string> criterion_names() {
 }
 
 LevelMaker::LevelMaker(const Mesh& first, const CollapseOptions& options)
-    : first_(first), seconds_(-thread_seconds()), collapser_(first, options) {
+    : first_(first), options_(options), seconds_(-thread_seconds()), collapser_(first, options) {
   seconds_ += thread_seconds();
 }
 
@@ -133,7 +140,7 @@ std::optional<MeshLevel> LevelMaker::next(std::size_t n_faces) {
   collapser_.run_to(n_faces);
   seconds_ += thread_seconds();
   if (collapser_.n_faces() >= before || collapser_.n_faces() == 0) return std::nullopt;
-  auto level = measured(first_, collapser_.mesh());
+  auto level = measured(first_, collapser_.mesh(), options_);
   level.seconds = seconds_;
   return level;
 }

@@ -39,7 +39,7 @@ struct MeshLevel {
 /// Levels of one mesh by their numbers of triangles, each made from the one before.
 class LevelMaker {
  public:
-  /// `first` is a mesh of triangles (Mesh::is_triangles) and must outlive this.
+  /// `first` is a mesh of triangles (Mesh::is_triangles); both must outlive this.
   LevelMaker(const Mesh& first, const CollapseOptions& options);
 
   /// At most `n_faces` triangles, or as few as there can be; nothing when that are no fewer than there were, or none.
@@ -47,6 +47,7 @@ class LevelMaker {
 
  private:
   const Mesh& first_;
+  const CollapseOptions& options_;
   double seconds_;  // first: it has the time from when the collapser is made
   Collapser collapser_;
 };

@@ -12,7 +12,8 @@ namespace {
 /// Vertices are wedges, so that meshoptimizer sees the seams.
 class Meshopt final : public Simplifier {
  public:
-  explicit Meshopt(const Mesh& mesh) : Simplifier(mesh), n_faces_(surface_.n_faces()) {
+  explicit Meshopt(const Mesh& mesh, bool lock_borders)
+      : Simplifier(mesh), n_faces_(surface_.n_faces()), lock_borders_(lock_borders) {
     for (std::uint32_t f = 0; f < surface_.n_slots(); ++f)
       for (int k = 0; surface_.alive(f) && k < 3; ++k) {
         std::uint32_t v = surface_.face[f].v[k], w = wedges_.present() ? wedges_.of_face[f][k] : v;
@@ -32,7 +33,8 @@ class Meshopt final : public Simplifier {
     float error = 0;
     std::vector<std::uint32_t> out(index_.size());
     out.resize(meshopt_simplify(out.data(), index_.data(), index_.size(), points_.data(), vertex_of_.size(),
-                                3 * sizeof(float), 3 * n_faces, limit, 0, &error));
+                                3 * sizeof(float), 3 * n_faces, limit,
+                                lock_borders_ ? meshopt_SimplifyLockBorder : 0, &error));
     n_faces_ = out.size() / 3;
     error_ = error * scale;
     for (std::uint32_t f = 0; f < surface_.n_slots(); ++f) {
@@ -49,12 +51,15 @@ class Meshopt final : public Simplifier {
 
  private:
   std::size_t n_faces_;
+  bool lock_borders_;  // it cannot hold single vertices
   std::vector<std::uint32_t> index_, vertex_of_;
   std::vector<float> points_;
 };
 
 }  // namespace
 
-std::unique_ptr<Simplifier> meshopt_simplifier(const Mesh& mesh) { return std::make_unique<Meshopt>(mesh); }
+std::unique_ptr<Simplifier> meshopt_simplifier(const Mesh& mesh, bool lock_borders) {
+  return std::make_unique<Meshopt>(mesh, lock_borders);
+}
 
 }  // namespace wrlkit::simplify

@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "passes/simplify/bytes.h"
-#include "passes/simplify/surfaces.h"
+#include "passes/simplify/places.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
@@ -16,7 +15,6 @@ namespace {
 using namespace simplify;
 
 constexpr std::string_view magic = "WPW1";
-constexpr std::size_t most_visits = 4'000'000;  // of nodes, when every USE is followed
 
 struct Placed {
   NodeId geometry;
@@ -39,35 +37,20 @@ std::array<std::uint8_t, 4> color_of(const Scene& scene, NodeId shape) {
 std::vector<Placed> places_of(const Scene& scene, Diagnostics& diag) {
   std::vector<Placed> out;
   std::vector<std::uint32_t> number(scene.node_count());  // of each geometry, from 1
-  std::vector<std::pair<NodeId, Matrix>> stack;
-  std::size_t visits = 0;
-  auto push = [&](const std::vector<NodeId>& list, const Matrix& m) {
-    for (auto n = list.rbegin(); n != list.rend(); ++n)
-      if (*n && ++visits <= most_visits) stack.push_back({*n, m});
-  };
-  push(scene.main.roots, {});
-  while (!stack.empty()) {
-    const auto [n, above] = stack.back();
-    stack.pop_back();
-    if (!scene.is(n, nodes::Shape)) {
-      push(shown_children(scene, n), above * local_matrix(scene, n));
-      continue;
-    }
+  const bool complete = for_each_place(scene, Shown::now, [&](NodeId n, const Matrix& matrix) {
     const NodeId geometry = scene.get(n, nodes::shape::geometry);
-    if (!geometry) continue;
+    if (!geometry) return;
     auto& i = number[geometry.value];
     if (i == 0) out.push_back({geometry, {}}), i = static_cast<std::uint32_t>(out.size());
-    out[i - 1].places.push_back({std::string(scene.name(n)), above, color_of(scene, n)});
-  }
-  if (visits > most_visits) diag.report(Diag::expansion_limit, {}, most_visits, "nodes when every USE is followed");
+    out[i - 1].places.push_back({std::string(scene.name(n)), matrix, color_of(scene, n)});
+  });
+  if (!complete) diag.report(Diag::expansion_limit, {}, most_visits, "nodes when every USE is followed");
   return out;
 }
 
-/// The largest factor by which lengths grow at one of the places, for matrices without shear.
-double scale_of(const ProgressiveSurface& surface) {
+double largest_scale(const ProgressiveSurface& surface) {
   double scale = 0;
-  for (const auto& p : surface.places)
-    for (int c = 0; c < 3; ++c) scale = std::max(scale, std::hypot(p.matrix(0, c), p.matrix(1, c), p.matrix(2, c)));
+  for (const auto& p : surface.places) scale = std::max(scale, scale_of(p.matrix));
   return scale;
 }
 
@@ -80,7 +63,7 @@ struct Piece {
 std::vector<Piece> pieces_of(std::span<const ProgressiveSurface> surfaces) {
   std::vector<Piece> out;
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
-    const double scale = scale_of(surfaces[i]);
+    const double scale = largest_scale(surfaces[i]);
     Piece piece{i, 0, 0, HUGE_VAL};
     for (const auto& cut : surfaces[i].stream.cuts) {
       piece.end = cut.end;

@@ -63,7 +63,7 @@ class GlobalQuadric final : public Pricer {
       if (surface.alive(f)) add_face(f);
   }
 
-  void before_merge(const Ring& from, const Ring& to) override {
+  void before_merge(const Ring& from, const Ring& to, const Vec3&) override {
     quadric_[to.center].add(quadric_[from.center]);
     if (!width_) return;
     for_pairs(from, from.find(to.center), [&](std::uint32_t a, std::uint32_t b) {
@@ -90,8 +90,7 @@ class GlobalQuadric final : public Pricer {
       if (least.exists && dot(least.x, least.x) <= 4 * dot(e, e)) x = middle + least.x;
     }
     const double cost = std::max(q(x), 0.) + length_cost * q.planes.trace() * dot(e, e);
-    const Vec3 exact = x == a ? surface_.position(u) : x == b ? surface_.position(v) : x + origin_;
-    return {s, cost, exact};
+    return {s, cost, x + origin_};
   }
 
  private:

@@ -22,7 +22,7 @@ void Simplifier::write(Mesh& mesh) const {
 }
 
 std::unique_ptr<Simplifier> make_simplifier(const Mesh& mesh, const CollapseOptions& options) {
-  if (options.criterion == Criterion::meshopt) return meshopt_simplifier(mesh);
+  if (options.criterion == Criterion::meshopt) return meshopt_simplifier(mesh, !options.fixed.empty());
   return std::make_unique<Engine>(mesh, options);
 }
 

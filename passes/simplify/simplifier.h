@@ -30,6 +30,6 @@ class Simplifier {
 };
 
 std::unique_ptr<Simplifier> make_simplifier(const Mesh& mesh, const CollapseOptions& options);
-std::unique_ptr<Simplifier> meshopt_simplifier(const Mesh& mesh);
+std::unique_ptr<Simplifier> meshopt_simplifier(const Mesh& mesh, bool lock_borders);
 
 }  // namespace wrlkit::simplify

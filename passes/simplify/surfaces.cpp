@@ -13,7 +13,7 @@ namespace {
 
 class Choice {
  public:
-  explicit Choice(const Scene& scene) : scene_(scene), order_(all_nodes(scene)), kept_(scene.node_count()) {}
+  Choice(const Scene& scene, Diagnostics* diag) : scene_(scene), diag_(diag), order_(all_nodes(scene)), kept_(scene.node_count()) {}
 
   std::vector<ShapeSurface> run() {
     keep_routed();
@@ -22,9 +22,13 @@ class Choice {
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> number(scene_.node_count(), none);
     for (NodeId n : order_) {
-      if (!scene_.is(n, nodes::Shape) || kept_[n.value]) continue;
+      if (!scene_.is(n, nodes::Shape)) continue;
       const Value* v = scene_.find(n, nodes::shape::geometry.slot);
-      if (!v || v->is || !is_fixed(v->node)) continue;
+      if (!v || (!v->is && !is_surface(v->node))) continue;
+      if (const char* why = reason_to_leave(n, *v)) {
+        if (diag_) diag_->report(Diag::not_simplified, scene_.where(n), why);
+        continue;
+      }
       auto& i = number[v->node.value];
       if (i == none) {
         i = static_cast<std::uint32_t>(out.size());
@@ -37,7 +41,7 @@ class Choice {
 
  private:
   void keep_routed() {
-    auto keep = [&](const Scope& s) { for (const auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = 1; };
+    auto keep = [&](const Scope& s) { for (const auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = Kept::routed; };
     keep(scene_.main);
     for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) keep(scene_.proto(ProtoId{i}).body);
   }
@@ -51,7 +55,7 @@ class Choice {
       todo.pop_back();
       for_each_child(scene_, n, [&](NodeId c) {
         if (!c || seen[c.value]) return;
-        seen[c.value] = kept_[c.value] = 1;
+        seen[c.value] = 1, kept_[c.value] = Kept::has_levels;
         todo.push_back(c);
       });
     }
@@ -60,24 +64,38 @@ class Choice {
   bool has_is(NodeId n) const {
     return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return scene_.content(v).is; });
   }
-  bool is_known(NodeId n) const { return n && !kept_[n.value] && scene_.type(n).kind == NodeKind::builtin && !has_is(n); }
+  bool is_surface(NodeId g) const {
+    return g && scene_.type(g).kind == NodeKind::builtin && scene_.type(g).is_a("X3DGeometryNode") &&
+           !scene_.is(g, nodes::IndexedLineSet) && !scene_.is(g, nodes::PointSet);
+  }
 
-  /// Whether the surface of a geometry is known now and stays as it is.
-  bool is_fixed(NodeId g) const {
-    if (!is_known(g) || scene_.is(g, nodes::Text) || !scene_.type(g).is_a("X3DGeometryNode")) return false;
-    bool fixed = true;
-    for_each_child(scene_, g, [&](NodeId c) { fixed = fixed && (!c || is_known(c)); });
-    return fixed;
+  /// Null for a Shape whose surface is known now and stays as it is.
+  const char* reason_to_leave(NodeId shape, const Value& geometry) const {
+    constexpr const char* by_is = "the Shape of a prototype that gets its values by IS";
+    if (const char* why = reason(kept_[shape.value])) return why;
+    if (geometry.is) return by_is;
+    if (scene_.is(geometry.node, nodes::Text)) return "text";
+    const char* why = has_is(geometry.node) ? by_is : reason(kept_[geometry.node.value]);
+    for_each_child(scene_, geometry.node, [&](NodeId c) {
+      if (c && !why) why = has_is(c) ? by_is : scene_.type(c).kind != NodeKind::builtin ? "a Shape with nodes that are not known" : reason(kept_[c.value]);
+    });
+    return why;
+  }
+
+  enum class Kept : std::uint8_t { no, routed, has_levels };
+  static const char* reason(Kept kept) {
+    return kept == Kept::routed ? "a Shape that a ROUTE changes" : kept == Kept::has_levels ? "a Shape below a LOD, which has its levels" : nullptr;
   }
 
   const Scene& scene_;
+  Diagnostics* diag_;
   std::vector<NodeId> order_;
-  std::vector<char> kept_;  // by node: must not change
+  std::vector<Kept> kept_;  // by node: whether it must not change
 };
 
 }  // namespace
 
-std::vector<ShapeSurface> surfaces_of(const Scene& scene) { return Choice(scene).run(); }
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag) { return Choice(scene, diag).run(); }
 
 SurfaceReader::SurfaceReader(const Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
 

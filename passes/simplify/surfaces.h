@@ -14,8 +14,8 @@ struct ShapeSurface {
 
 /// In the order of the scene, the bodies of prototypes too. Left out: text, lines and points; geometry that is the end of a
 /// ROUTE or an IS or has such nodes; Shapes that are the end of a ROUTE or lie below a LOD, which have their levels
-/// already. O(nodes).
-std::vector<ShapeSurface> surfaces_of(const Scene& scene);
+/// already. What is left out of surfaces and text is said to `diag` (not-simplified), if there is one. O(nodes).
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag = nullptr);
 
 /// Makes triangles of them. One object for many surfaces, one after the other.
 class SurfaceReader {

@@ -1,5 +1,5 @@
-// The order in which edges of a large mesh go. Of a cost only the exponent counts: edges between two powers of two are
-// equal. Those up to a limit are taken in one sweep over the vertices as they lie in memory; then the limit rises to
+// The order in which edges of a large mesh go. Of a cost only the exponent counts: edges between two powers of two, or of
+// four, are equal. Those up to a limit are taken in one sweep over the vertices as they lie in memory; then the limit rises to
 // the lowest cost that was seen above it. So there is nothing to keep sorted, and a sweep does much on its way through
 // the memory.
 //
@@ -16,7 +16,9 @@ namespace wrlkit::simplify {
 
 class SweepQueue final : public VertexQueue {
  public:
-  explicit SweepQueue(std::size_t n_vertices) : VertexQueue(52), key_(n_vertices, absent) {}
+  /// `octaves`: 1 or 2, how many powers of two are one. Two are faster and less exact (rationale.md).
+  SweepQueue(std::size_t n_vertices, int octaves)
+      : VertexQueue(51 + octaves), far_(octaves == 1 ? 2 : 1), infinite_(octaves == 1 ? 0x7ff : 0x3ff), key_(n_vertices, absent) {}
 
   bool empty() override { return size_ == 0; }
   /// Whatever has become cheaper behind the sweep waits for the next.
@@ -40,13 +42,13 @@ class SweepQueue final : public VertexQueue {
     size_ -= key_[v] != absent;
     key_[v] = absent;
   }
-  bool put_off(std::uint32_t v) override { return set(v, std::min(limit_ + far, infinite)), true; }
+  bool put_off(std::uint32_t v) override { return set(v, std::min(limit_ + far_, infinite_)), true; }
 
  private:
   using Short = std::uint16_t;
   static constexpr Short absent = 0xffff;
   static constexpr Short last = absent - 1;
-  static constexpr Key far = 2, infinite = 0x7ff;  // four times the cost; the key of an infinite one
+  const Key far_, infinite_;  // four times the cost; the key of an infinite one
 
   std::vector<Short> key_;
   std::size_t size_ = 0;

@@ -9,6 +9,7 @@
 #include "passes/deviation.h"
 #include "passes/geometry.h"
 #include "passes/parallel.h"
+#include "passes/simplify/shared_borders.h"
 
 namespace wrlkit {
 namespace {
@@ -23,10 +24,10 @@ double area_of(const Mesh& mesh) {
   return area;
 }
 
-/// How many triangles a surface has left when its error has grown to a bound.
+/// How many triangles a surface has left when its error, in the world, has grown to a bound.
 class FacesByError {
  public:
-  FacesByError(const Mesh& mesh, const CollapseOptions& options) {
+  FacesByError(const Mesh& mesh, const CollapseOptions& options, double scale) {
     constexpr double share = 0.97;  // from sample to sample
     Collapser c(mesh, options);
     samples_.push_back({0, static_cast<double>(mesh.n_faces())});
@@ -35,7 +36,7 @@ class FacesByError {
       c.run_to(n);
       if (c.n_faces() > n || c.n_faces() == 0) break;  // no edge may go any more, or the surface would
       n = c.n_faces();
-      samples_.push_back({std::max(samples_.back().error, c.error()), static_cast<double>(n)});
+      samples_.push_back({std::max(samples_.back().error, scale * c.error()), static_cast<double>(n)});
     }
   }
 
@@ -91,23 +92,14 @@ std::vector<std::size_t> counts_of(const WorldSimplifyOptions& options, std::siz
 
 SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions& options, PassContext& ctx)
     : scene_(scene), budget_(options.budget) {
-  SurfaceReader reader(scene, ctx);
-  for (auto& s : surfaces_of(scene)) {
-    Part p{std::move(s), {}, 0, {}, {}};
-    reader.read(p.surface, p.mesh);
-    if (p.mesh.n_faces() == 0) continue;
-    n_faces_ += p.mesh.n_faces();
-    p.area = area_of(p.mesh);
-    parts_.push_back(std::move(p));
-  }
-
+  read_parts(options.collapse, ctx);
   auto errors = options.errors;
   std::ranges::sort(errors);
   const auto counts = counts_of(options, n_faces_);
   std::vector<std::vector<std::size_t>> faces;
   if (errors.empty() && parts_.size() > 1) {
     std::vector<std::optional<FacesByError>> curves(parts_.size());
-    parallel_for(parts_.size(), [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, options.collapse); });
+    parallel_for(parts_.size(), [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, parts_[i].collapse, parts_[i].scale); });
     std::vector<FacesByError> all;
     for (auto& c : curves) all.push_back(std::move(*c));
     faces = share_out(all, counts);
@@ -118,23 +110,47 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
   parallel_for(parts_.size(), [&](std::size_t i) {
     auto& p = parts_[i];
     if (!errors.empty()) {
-      p.levels = make_levels(p.mesh, {.collapse = options.collapse, .errors = errors});
-      for (double e : errors)
+      auto local = errors;
+      for (double& e : local) e /= p.scale;
+      p.levels = make_levels(p.mesh, {.collapse = p.collapse, .errors = local});
+      for (double e : local)
         p.at.push_back(static_cast<std::size_t>(std::ranges::count_if(p.levels, [&](const MeshLevel& l) { return l.error <= e; })));
       return;
     }
-    LevelMaker maker(p.mesh, options.collapse);
+    LevelMaker maker(p.mesh, p.collapse);
     for (std::size_t k = 0; k < n_points; ++k) {
       if (auto level = maker.next(faces[k][i])) p.levels.push_back(std::move(*level));
       p.at.push_back(p.levels.size());
     }
   });
   measure_points(n_points);
+  if (n_points > 0 && points_.empty()) ctx.diag.report(Diag::not_simplified, {}, "no edge may go");
+}
+
+void SimplifiedWorld::read_parts(const CollapseOptions& options, PassContext& ctx) {
+  SurfaceReader reader(scene_, ctx);
+  const auto surfaces = surfaces_of(scene_, &ctx.diag);
+  const auto scales = largest_scales(scene_, surfaces);
+  SharedBorders borders;
+  Mesh mesh;
+  std::vector<std::size_t> number;  // of the surface of each part
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    reader.read(surfaces[i], mesh);
+    borders.add(mesh);
+    if (mesh.n_faces() == 0) continue;
+    n_faces_ += mesh.n_faces();
+    number.push_back(i);
+    const double area = area_of(mesh) * scales[i] * scales[i];
+    parts_.push_back({surfaces[i], std::move(mesh), options, scales[i], area, {}, {}});
+  }
+  if (std::ranges::none_of(parts_, [](const Part& p) { return p.mesh.n_faces() > faces_of_a_box; })) return;
+  auto fixed = borders.find(scene_, surfaces);
+  for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].collapse.fixed = std::move(fixed[number[i]]);
 }
 
 void SimplifiedWorld::measure_points(std::size_t n) {
   std::size_t before = n_faces_;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < n;) {
     InteractionPoint point;
     double area = 0;
     for (const auto& p : parts_) {
@@ -142,19 +158,21 @@ void SimplifiedWorld::measure_points(std::size_t n) {
       const MeshLevel* level = p.at[k] ? &p.levels[p.at[k] - 1] : nullptr;
       point.n_faces += (level ? level->mesh : p.mesh).n_faces();
       if (!level) continue;
-      point.rms += p.area * level->rms * level->rms;
-      point.error = std::max(point.error, level->error);
+      point.rms += p.area * p.scale * p.scale * level->rms * level->rms;
+      point.error = std::max(point.error, p.scale * level->error);
       point.normals += p.area * level->normals;
       point.seconds += level->seconds;
     }
-    if (point.n_faces == before) {  // it cannot be simplified further
-      for (auto& p : parts_) p.at.resize(k);
-      return;
+    if (point.n_faces == before) {  // nothing may go within this error, or no more
+      for (auto& p : parts_) p.at.erase(p.at.begin() + static_cast<std::ptrdiff_t>(k));
+      --n;
+      continue;
     }
     before = point.n_faces;
     point.rms = area > 0 ? std::sqrt(point.rms / area) : 0;
     point.normals = area > 0 ? point.normals / area : 0;
     points_.push_back(point);
+    ++k;
   }
 }
 

@@ -13,11 +13,12 @@ struct WorldSimplifyOptions {
   std::size_t every = 0;            // at the multiples of this number of triangles
   std::vector<std::size_t> counts;  // at these numbers of triangles
   std::vector<double> ratios;       // at these shares of the triangles
-  std::vector<double> errors;       // with no surface farther than this from what it was, in units of the geometry
+  std::vector<double> errors;       // with no surface farther than this from what it was, in metres of the world
   ScreenBudget budget;
 };
 
-/// One interaction point. Counts and distances are over all surfaces, each counted once however often it is used.
+/// One interaction point. Counts and distances are over all surfaces, each counted once however often it is used, as large
+/// as the largest of its places in the world. Distances in metres.
 struct InteractionPoint {
   std::size_t n_faces = 0;
   double rms = 0, error = 0;  // two-sided distance from the first: root of the mean square over the surfaces, and largest
@@ -30,8 +31,8 @@ class SimplifiedWorld {
   /// Reads the surfaces of a scene (surfaces_of) and simplifies them. Unless by errors, the triangles are taken where the
   /// error grows least, whichever surface that is on; within a surface in the order of the criterion. One of several
   /// surfaces keeps
-  /// as many as a box has. All meshes are in
-  /// memory. `scene` must outlive this.
+  /// as many as a box has. What open borders of several parts have in common stays where it is (shared_borders.h). What
+  /// is left alone is said (not-simplified). All meshes are in memory. `scene` must outlive this.
   SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions& options, PassContext& ctx);
 
   std::size_t n_faces() const { return n_faces_; }
@@ -46,10 +47,13 @@ class SimplifiedWorld {
   struct Part {
     ShapeSurface surface;
     Mesh mesh;
-    double area = 0;
+    CollapseOptions collapse;         // with what neighbours share
+    double scale = 1;                 // metres of the world for its unit
+    double area = 0;                  // in the world
     std::vector<MeshLevel> levels;    // different ones, the finest first
     std::vector<std::size_t> at;      // by interaction point: how many of the levels have gone by; 0: as it was
   };
+  void read_parts(const CollapseOptions& options, PassContext& ctx);
   void measure_points(std::size_t n);
 
   const Scene& scene_;

@@ -2,10 +2,14 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <set>
+#include <sstream>
 
 #include "parsers/parsers.h"
+#include "passes/closest_point.h"
 #include "passes/lod.h"
 #include "passes/simplify/lod_nodes.h"
+#include "passes/simplify/shared_borders.h"
 #include "passes/simplify/world.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
@@ -191,4 +195,108 @@ TEST_CASE("simplified world: triangles go where they are missed least", "[lod]")
   SurfaceReader reader(again.scene, again.ctx);
   reader.read(surfaces_of(again.scene)[1], left);
   CHECK(left.n_faces() <= 20);
+}
+
+namespace {
+
+/// An IndexedFaceSet of n by n quadrilaterals with waves, from x to x + 1 and 0 to 1, by a scale.
+std::string plate(int n, double x, double scale) {
+  std::ostringstream points, index;
+  points.precision(9);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double u = x + double(i) / n, v = double(j) / n;
+      points << u * scale << ' ' << v * scale << ' ' << 0.05 * std::sin(9 * v + 2 * u) * scale << ", ";
+    }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i;
+      index << a << ' ' << a + 1 << ' ' << a + n + 2 << ' ' << a + n + 1 << " -1 ";
+    }
+  return "IndexedFaceSet { coord Coordinate { point [ " + points.str() + " ] } coordIndex [ " + index.str() + " ] }";
+}
+
+/// The positions of a geometry where x is `at`, by a scale and rounded to what single precision holds.
+std::set<Vec3> cut(TestWorld& w, NodeId geometry, double at, double scale) {
+  Mesh mesh;
+  SurfaceReader(w.scene, w.ctx).read({geometry, {}}, mesh);
+  std::set<Vec3> out;
+  for (auto c : mesh.corners) {
+    Vec3 p = triangles_of(mesh).position(c);
+    for (double& x : p) x = std::round(x * scale * 1e7) / 1e7;
+    if (std::abs(p[0] - at) < 1e-6) out.insert(p);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("lod: parts that share a border meet at all levels", "[lod]") {
+  // The second plate is ten times as large and scaled down; the third stands apart from them.
+  TestWorld w("Shape { geometry " + plate(20, 0, 1) + " } Transform { scale 0.1 0.1 0.1 children Shape { geometry " + plate(20, 1, 10) +
+              " } } Transform { translation 0 0 9 children Shape { geometry " + plate(20, 0, 1) + " } }");
+  REQUIRE(lod(w.scene, {}, w.ctx) == Outcome::changed);
+  const auto lods = all_of(w.scene, nodes::LOD);
+  REQUIRE(lods.size() == 3);
+  std::vector<std::set<Vec3>> borders;
+  for (std::size_t part : {0, 1}) {
+    const auto levels = w.scene.get(lods[part], nodes::lod::children);
+    CHECK(levels.size() > 2);
+    for (NodeId shape : levels) borders.push_back(cut(w, w.scene.get(shape, nodes::shape::geometry), 1, part ? 0.1 : 1));
+  }
+  CHECK(borders[0].size() == 21);
+  for (const auto& b : borders) CHECK(b == borders[0]);
+  const auto alone = w.scene.get(lods[2], nodes::lod::children);
+  CHECK(cut(w, w.scene.get(alone.back(), nodes::shape::geometry), 1, 1).size() < 15);
+}
+
+TEST_CASE("shared borders: places of one geometry, and what is no border", "[lod]") {
+  // Turned by half around the middle of its border x = 1, a plate would meet itself there, but its waves of v and 1 - v
+  // differ. A flat sheet does so with two corners. The boxes stand in one place, but they are closed.
+  const std::string box = "Transform { translation 0 0 7 children Shape { geometry Box { size 2 2 2 } } }";
+  const std::string turned = "Transform { translation 2 1 0 rotation 0 0 1 3.141592653589793 children Shape { geometry ";
+  const std::string flat = "IndexedFaceSet { coord Coordinate { point [ 0 0 5, 1 0 5, 1 1 5, 0 1 5 ] } coordIndex [ 0 1 2 3 ] }";
+  TestWorld w("Shape { geometry DEF P " + plate(5, 0, 1) + " }" + turned + "USE P } } Shape { geometry DEF F " + flat + " }" + turned +
+              "USE F } } " + box + box);
+  const auto surfaces = surfaces_of(w.scene);
+  SharedBorders borders;
+  SurfaceReader reader(w.scene, w.ctx);
+  Mesh mesh;
+  for (const auto& s : surfaces) reader.read(s, mesh), borders.add(mesh);
+  const auto fixed = borders.find(w.scene, surfaces);
+  REQUIRE(fixed.size() == 4);
+  CHECK(fixed[0].empty());
+  CHECK(fixed[1] == std::vector<std::uint32_t>{1, 2});
+  CHECK(fixed[2].empty());
+  CHECK(fixed[3].empty());
+}
+
+TEST_CASE("errors are metres of the world, ranges are not", "[lod]") {
+  const auto ball = [](const std::string& scale) { return "Transform { scale " + scale + " children Shape { geometry DEF S Sphere { radius 1000 } } }"; };
+  LodOptions options;
+  options.ratios.values = {0.25};
+  std::vector<double> ranges;
+  for (const auto& world : {ball("1 1 1"), ball("0.001 0.001 0.001")}) {
+    TestWorld w(world);
+    REQUIRE(lod(w.scene, options, w.ctx) == Outcome::changed);
+    const auto range = w.scene.get(all_of(w.scene, nodes::LOD)[0], nodes::lod::range);
+    ranges.insert(ranges.end(), range.begin(), range.end());
+  }
+  REQUIRE(ranges.size() == 2);
+  CHECK(ranges[0] == ranges[1]);
+
+  // The sphere is one metre large, and two where it is used again.
+  TestWorld w(ball("0.001 0.001 0.001") + "Transform { scale 0.002 0.002 0.002 children Shape { geometry USE S } }");
+  WorldSimplifyOptions within;
+  within.errors = {0.05};
+  const SimplifiedWorld simple(w.scene, within, w.ctx);
+  REQUIRE(simple.n_points() == 1);
+  CHECK(simple.point(0).error <= 0.05);
+  CHECK(simple.point(0).error > 0.02);
+  options.errors.values = {0.05};
+  REQUIRE(lod(w.scene, options, w.ctx) == Outcome::changed);
+  const auto range = w.scene.get(all_of(w.scene, nodes::LOD)[0], nodes::lod::range);
+  REQUIRE(range.size() == 1);
+  CHECK(range[0] <= 1001 + 25 * ScreenBudget{}.per_pixel() * 1.002);  // 0.05 m are 25 units
+  CHECK(range[0] > 1000 + 10 * ScreenBudget{}.per_pixel());
 }
