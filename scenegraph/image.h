@@ -52,7 +52,7 @@ std::optional<Image> decode_image(std::string_view bytes, std::string_view name,
 std::optional<std::string> encode_png(const Image&, std::string& error);
 /// `quality` from 1 to 100. JPEG has no alpha; it is dropped.
 std::optional<std::string> encode_jpeg(const Image&, int quality, std::string& error);
-/// `quality` from 1 to 100; 100 keeps every pixel. Grey becomes RGB, for WebP has no grey.
+/// `quality` from 1 to 100; always with loss. Grey becomes RGB, for WebP has no grey.
 std::optional<std::string> encode_webp(const Image&, int quality, std::string& error);
 /// OpenEXR in half precision, which is 11 bits from 0.00006 to 65504, compressed without loss.
 std::optional<std::string> encode_exr(const FloatImage&, std::string& error);

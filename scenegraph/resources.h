@@ -41,7 +41,7 @@ class Resources {
   virtual std::shared_ptr<const Scene> world(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
 
   /// Hands in a file that a pass has made and returns its url, made_scheme + name: whoever asks for that gets these bytes.
-  /// A name that is taken gets a number. Writers put what is made inside their file, or beside it.
+  /// A name that is taken gets a number. Writers put what is made inside their file, or beside it. Not while others ask.
   std::string add_made(MadeFile);
   /// In the order in which they were handed in.
   const std::deque<MadeFile>& made() const { return made_; }

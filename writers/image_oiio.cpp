@@ -92,7 +92,6 @@ bool encode(const Image& image, const char* codec, int quality, std::string& byt
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeUInt8);
   spec.attribute("oiio:UnassociatedAlpha", 1);
   if (quality > 0) spec.attribute("CompressionQuality", quality);
-  if (quality == 100 && codec == std::string_view("webp")) spec.attribute("Compression", "lossless");
   return write(codec, spec, OIIO::TypeUInt8, image.pixels.data(), bytes, error);
 }
 
