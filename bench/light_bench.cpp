@@ -73,15 +73,22 @@ void each_triangle(const LightWorld& w, F&& f) {
   }
 }
 
-/// Points on all faces, on a grid in each triangle, as the texels of a lightmap of about so many lie.
+/// Points on all faces, on a grid in each triangle, as the texels of a lightmap of about so many lie; of triangles that are
+/// smaller than a texel some have one.
 std::vector<Point> points_over(const LightWorld& w, double n) {
   double area = 0;
   each_triangle(w, [&](std::uint32_t, const auto&, const V3* p) { area += 0.5 * length(cross(p[1] - p[0], p[2] - p[0])); });
   double step = std::sqrt(area / n);
+  double due = 0;
   std::vector<Point> out;
   each_triangle(w, [&](std::uint32_t use, const auto&, const V3* p) {
     V3 a = p[1] - p[0], b = p[2] - p[0], c = cross(a, b), face = unit(c), right = unit(a), up = cross(face, right);
     double width = length(a), height = length(c) / width, shift = dot(b, right);
+    if (std::min(width, height) < step) {
+      due += 0.5 * width * height / (step * step);
+      if (due >= 1) out.push_back({(1. / 3) * (p[0] + p[1] + p[2]), face, face, use}), due -= 1;
+      return;
+    }
     for (double y = 0.5 * step; y < height; y += step)
       for (double x = shift * y / height + 0.5 * step; x < shift * y / height + width * (1 - y / height); x += step)
         out.push_back({p[0] + x * right + y * up, face, face, use});

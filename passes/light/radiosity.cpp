@@ -12,7 +12,8 @@ using Cell = IrradianceCache::Cell;
 constexpr std::size_t fewest_walks = 1 << 16, most_walks = 1 << 18;
 constexpr int walk_length = 4;       // rays
 constexpr std::size_t block = 256;   // walks or cells that are done in one piece
-constexpr int iterations = 8, warm_up = 2, rays_a_cell = 16;
+constexpr int warm_up = 5, counted = 7;   // iterations, of fewer rays in the beginning; those counted give the mean
+constexpr int fewer_rays = 8, rays_a_cell = 16;
 constexpr std::uint32_t often = 4;   // meetings that make a cell known
 constexpr int deepest = 6;           // reflections outside of cells
 
@@ -39,7 +40,7 @@ class Solver {
     keep_sound_cells();
     in_blocks(cache_.cells().size(), [&](std::size_t c) { light_directly(c); });
     sum_.assign(cache_.cells().size(), {});
-    for (int i = 0; i < iterations; ++i) iterate(i);
+    for (int i = 0; i < warm_up + counted; ++i) iterate(i);
   }
 
  private:
@@ -122,7 +123,7 @@ void Solver::walk(Receiver at, Stream& random, std::vector<Meeting>& out) const 
 }
 
 void Solver::light_directly(std::size_t c) {
-  constexpr int lamp_rays = 4, emitter_rays = iterations * rays_a_cell / IrradianceCache::most_places;
+  constexpr int lamp_rays = 4, emitter_rays = counted * rays_a_cell / IrradianceCache::most_places;
   Cell& cell = cache_.cells()[c];
   for (int p = 0; p < cell.n_places(); ++p) {
     Stream random(key_of(seed_, 3, c * IrradianceCache::most_places + p));
@@ -164,10 +165,11 @@ Solver::Gathered Solver::follow(const Receiver& at, Stream& random, int depth) c
 
 Solver::Gathered Solver::gather(std::size_t c, int iteration) {
   const Cell& cell = cache_.cells()[c];
-  Stream random(key_of(seed_, 4, c * iterations + iteration));
+  const int n = iteration < warm_up ? fewer_rays : rays_a_cell;
+  Stream random(key_of(seed_, 4, c * (warm_up + counted) + iteration));
   Lattice<2> directions(key_of(seed_, 5, c));
   Gathered sum;
-  for (int i = 0; i < rays_a_cell; ++i) {
+  for (int i = 0; i < n; ++i) {
     const Receiver& at = cell.places[i % cell.n_places()];
     auto [u, v] = directions[static_cast<std::uint32_t>(iteration * rays_a_cell + i)];
     Ray ray{at.start, cosine_direction(at.normal, u, v)};
@@ -176,7 +178,7 @@ Solver::Gathered Solver::gather(std::size_t c, int iteration) {
     sum.first += g.first;
     sum.further += g.further;
   }
-  return {(1.0 / rays_a_cell) * sum.first, (1.0 / rays_a_cell) * sum.further};
+  return {(1.0 / n) * sum.first, (1.0 / n) * sum.further};
 }
 
 /// All cells gather once from what all had before. What the whole world is too bright or too dark by would need many
@@ -193,11 +195,11 @@ void Solver::iterate(int iteration) {
   }
   auto ratio = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.1, 10.0) : 1; };
   V3 scale{ratio(first.x, lacking.x), ratio(first.y, lacking.y), ratio(first.z, lacking.z)};
-  int counted = std::max(0, iteration - warm_up + 1);
+  int n_counted = std::max(0, iteration - warm_up + 1);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     V3 e = now[c].first + scale * now[c].further;
-    if (counted) sum_[c] += e;
-    cells[c].gathered = counted ? (1.0 / counted) * sum_[c] : e;
+    if (n_counted) sum_[c] += e;
+    cells[c].gathered = n_counted ? (1.0 / n_counted) * sum_[c] : e;
   }
 }
 
