@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "parsers/patches.h"
+#include "parsers/patches_scene.h"
 #include "parsers/vrml/parser.h"
 #include "parsers/vrml/text_encoding.h"
 #include "scenegraph/blanks.h"
@@ -119,8 +121,22 @@ std::unique_ptr<World> read_world(const std::string& path, const ReadOptions& op
   return file ? parse_world(*file, options, diag) : nullptr;
 }
 
+namespace {
+
+std::unique_ptr<World> world_of_patches(const FileText& file, Diagnostics& diag) {
+  const auto set = parse_patches(file, diag);
+  if (!set) return nullptr;
+  auto world = std::make_unique<World>();
+  world->format = world->scene.format = Format::vrml97;
+  world->scene.sources = diag.shared_sources();
+  add_patches(*set, world->scene);
+  return world;
+}
+
+}  // namespace
+
 std::unique_ptr<World> parse_world(const FileText& file, const ReadOptions& options, Diagnostics& diag) {
-  auto world = parse_text(file.view(), file.base, options, diag);
+  auto world = is_patch_file(file.view()) ? world_of_patches(file, diag) : parse_text(file.view(), file.base, options, diag);
   if (world) world->gzip = file.gzip, world->bytes = file.bytes_on_disk;
   return world;
 }

@@ -154,7 +154,7 @@ const Verb verbs[] = {
      },
      run_compare_lod},
     {"illuminate", "the light of a world by global illumination, as patches with a colour each",
-     "wrlkit illuminate room.wrl patches.xml\n  wrlkit illuminate room.wrl patches.xml --method stochastic-iteration --max-edge 5cm --samples 64\n  wrlkit illuminate room.wrl.gz - --gradient 0.2 | gzip > patches.xml.gz",
+     "wrlkit illuminate room.wrl patches.xml\n  wrlkit illuminate room.wrl patches.xml --method stochastic-iteration --max-edge 5cm --samples 64\n  wrlkit illuminate room.wrl.gz - --gradient 0.2 | gzip > patches.xml.gz\n  wrlkit illuminate room.wrl patches.xml --pictures textures/ --smooth",
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.add_option("OUT", f.output, "file.xml; - is standard output")->required();
@@ -163,6 +163,9 @@ const Verb verbs[] = {
        v.add_option("--max-edge", f.max_edge, "longest edge of a patch: 5cm, 0.05; as a rule what makes some twenty thousand patches")->type_name("LENGTH");
        v.add_option("--max-area", f.max_area, "largest area of a patch, in square metres")->check(CLI::PositiveNumber);
        v.add_option("--gradient", f.gradient, "smaller patches, down to an eighth, where neighbours differ by more than this share of the world's mean radiance: 0.2")->check(CLI::PositiveNumber);
+       v.add_option("--max-patches", f.max_patches, "when there would be more, all are made larger; a patch takes some 400 bytes")->check(CLI::Range(1, 100'000'000))->capture_default_str();
+       auto* pictures = v.add_option("--pictures", f.pictures, "folder for the textures as well: a .png for each Shape with its flat polygons as they are lit")->type_name("DIR");
+       v.add_flag("--smooth", f.smooth, "the textures with three colours a patch, so that its edges are not seen")->needs(pictures);
        v.add_option("--emission", f.emission, "emissiveColor shines so many times as bright as it looks")->check(CLI::NonNegativeNumber)->capture_default_str();
        v.add_option("--seed", f.seed, "of the random numbers: the same seed gives the same file")->capture_default_str();
        placing(v, f);

@@ -55,7 +55,9 @@ struct Flags {
   std::string max_edge;                    // a length: 5cm
   double max_area = 0;                     // square metres
   double gradient = 0;
-  int light_samples = 256, seed = 1;
+  int light_samples = 256, seed = 1, max_patches = 10'000'000;
+  std::string pictures;                    // folder
+  bool smooth = false;
   double emission = 1;
 
   std::vector<std::string> criteria;

@@ -3,9 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <set>
 
+#include "passes/patches/patch_lightmap.h"
+#include "scenegraph/image.h"
 #include "tools/lengths.h"
 #include "tools/session.h"
 #include "writers/json.h"
@@ -23,6 +29,7 @@ light::Method method_of(const std::string& name) {
 bool read_options(const Flags& f, light::IlluminateOptions& o) {
   o.method = method_of(f.method);
   o.sizes.max_area = f.max_area;
+  o.sizes.most_patches = static_cast<std::size_t>(f.max_patches);
   o.gradient = f.gradient;
   o.how.samples = f.light_samples;
   o.how.seed = static_cast<std::uint64_t>(f.seed);
@@ -30,6 +37,44 @@ bool read_options(const Flags& f, light::IlluminateOptions& o) {
   o.sizes.max_edge = length_of(f.max_edge);
   if (o.sizes.max_edge > 0) return true;
   return fmt::print(stderr, "wrlkit illuminate: --max-edge: '{}' is no length\n", f.max_edge), false;
+}
+
+Image as_seen(const light::FloatPicture& picture) {
+  Image image{picture.width, picture.height, 3, {}};
+  for (const auto& p : picture.pixels)
+    for (double v : {p.x, p.y, p.z}) {
+      const double linear = std::clamp(v, 0.0, 1.0), display = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+      image.pixels.push_back(static_cast<std::uint8_t>(display * 255 + 0.5));
+    }
+  return image;
+}
+
+/// "Room_Wall.png" of Room/Wall; a number behind it where there are several of that name, or none.
+std::string picture_name(const Scene& scene, const light::LightWorld& world, std::uint32_t use, std::set<std::string>& taken) {
+  auto name = drawing::full_name(scene, world.stage(), world.stage().uses[use]);
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && static_cast<unsigned char>(c) < 0x80) c = '_';
+  if (name.empty() || !taken.insert(name).second) name += (name.empty() ? "" : "_") + std::to_string(use);
+  return name + ".png";
+}
+
+/// A picture for each Shape; false when one cannot be written, which was reported.
+bool write_pictures(Session& s, const PatchSet& set, const light::LightWorld& world) {
+  const std::filesystem::path folder = s.flags().pictures;
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  std::set<std::string> taken;
+  for (const auto& shape : light::patch_lightmap(set, world, {.picture = {.texel = 0, .smooth = s.flags().smooth}}).shapes) {
+    const auto path = (folder / picture_name(s.world().scene, world, shape.use, taken)).string();
+    std::string why;
+    const auto png = encode_png(as_seen(shape.picture), why);
+    if (!png) return s.diag().report(Diag::cannot_write, {}, path, why), false;
+    auto file = OutputFile::open(path, {}, s.diag());
+    if (!file) return false;
+    file->write(*png);
+    if (!file->commit(s.diag())) return false;
+  }
+  return true;
 }
 
 void print(const Session& s, const PatchSet& set, double seconds) {
@@ -73,6 +118,7 @@ int run_illuminate(const Flags& flags) {
   if (!file) return s.end(false);
   write_patches(set, file->sink());
   if (!file->commit(s.diag())) return s.end(false);
+  if (!flags.pictures.empty() && !write_pictures(s, set, world)) return s.end(false);
   print(s, set, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   return s.end(true);
 }

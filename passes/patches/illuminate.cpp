@@ -32,7 +32,7 @@ class Refinement {
       MethodOptions pilot{.samples = pilot_samples, .seed = key_of(options_.how.seed, 40, static_cast<std::uint64_t>(round))};
       irradiance_ = iterate_stochastically(world_, pilot);
       const auto chosen = where_it_changes();
-      if (chosen.empty() || world_.n_sides() + 2 * chosen.size() > PatchSizes::most_patches) return;
+      if (chosen.empty() || world_.n_sides() + 2 * chosen.size() > 2 * world_.sizes().most_patches) return;
       world_.refine(chosen);
     }
   }
@@ -42,6 +42,9 @@ class Refinement {
 
   double brightness(std::uint32_t s) const { return mean(radiance(world_, s, irradiance_[s])); }
 
+  /// The largest that an edge may be, or is about when only the area is limited.
+  double edge() const { return world_.sizes().max_edge > 0 ? world_.sizes().max_edge : 2 * std::sqrt(world_.sizes().max_area); }
+
   double threshold() const {
     double sum = 0, area = 0;
     for (std::uint32_t s = 0; s < world_.n_sides(); ++s) sum += world_.area(s) * (brightness(s) - mean(world_.emission(s))), area += world_.area(s);
@@ -50,7 +53,7 @@ class Refinement {
 
   std::vector<std::uint32_t> where_it_changes() const {
     std::vector<std::uint32_t> out;
-    const double most = threshold(), shortest = world_.max_edge() / 8;
+    const double most = threshold(), shortest = edge() / 8;
     for (std::uint32_t s = 0; s < world_.n_sides(); ++s) {
       const auto [use, face, back] = world_.side(s);
       const auto& mesh = world_.mesh(use);

@@ -51,7 +51,7 @@ void PatchedWorld::cut(Diagnostics& diag) {
     if (!std::isfinite(sizes_.max_edge + sizes_.max_area)) break;
   }
   if (sizes_.max_edge > asked.max_edge || sizes_.max_area > asked.max_area)
-    diag.report(Diag::patch_limit, {}, PatchSizes::most_patches, sizes_.max_edge > 0 ? sizes_.max_edge / asked.max_edge : std::sqrt(sizes_.max_area / asked.max_area));
+    diag.report(Diag::patch_limit, {}, sizes_.most_patches, sizes_.max_edge > 0 ? sizes_.max_edge / asked.max_edge : std::sqrt(sizes_.max_area / asked.max_area));
 }
 
 bool PatchedWorld::try_to_cut() {
@@ -63,7 +63,7 @@ bool PatchedWorld::try_to_cut() {
     if (m.kind != Mesh::Kind::faces || m.n_elements == 0) continue;
     uses_[u].mesh = std::make_unique<PatchMesh>(triangles_of(u));
     uses_[u].both_sides = !m.solid;
-    if (!uses_[u].mesh->split_to(sizes_.max_edge, sizes_.max_area, PatchSizes::most_patches - std::min(n, PatchSizes::most_patches))) return false;
+    if (!uses_[u].mesh->split_to(sizes_.max_edge, sizes_.max_area, sizes_.most_patches - std::min(n, sizes_.most_patches))) return false;
     n += uses_[u].mesh->faces().size();
   }
   return true;

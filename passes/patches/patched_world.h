@@ -13,9 +13,8 @@
 namespace wrlkit::light {
 
 struct PatchSizes {
-  static constexpr std::size_t most_patches = 10'000'000;
-
   double max_edge = 0, max_area = 0;  // metres, square metres; none of both: some twenty thousand patches
+  std::size_t most_patches = 10'000'000;
 };
 
 class PatchedWorld {
@@ -27,7 +26,7 @@ class PatchedWorld {
     bool back;
   };
 
-  /// `world` must stay. When `sizes` ask for more than most_patches, they become larger, which is reported. O(patches).
+  /// `world` must stay. When there would be more than most_patches, they become larger, which is reported. O(patches).
   PatchedWorld(const LightWorld& world, const PatchSizes& sizes, Diagnostics& diag);
 
   const LightWorld& world() const { return world_; }
@@ -36,8 +35,8 @@ class PatchedWorld {
   /// Has that Shape patches? Lines and points have none.
   bool has_patches(std::uint32_t use) const { return uses_[use].mesh != nullptr; }
   bool both_sides(std::uint32_t use) const { return uses_[use].both_sides; }
-  /// The largest edge that patches were allowed.
-  double max_edge() const { return sizes_.max_edge; }
+  /// What was asked for, or became of it.
+  const PatchSizes& sizes() const { return sizes_; }
 
   // Sides are numbered by use, front faces before back faces.
   std::size_t n_sides() const { return sides_.size(); }
