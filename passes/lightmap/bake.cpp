@@ -36,8 +36,8 @@ struct TexelLight {
 
 class PageBaker {
  public:
-  PageBaker(const std::vector<Part>& parts, const PageLayout& page, const light::LightWorld& world)
-      : parts_(parts), page_(page), world_(world), grid_(page.triangles, page.width, page.height) {}
+  PageBaker(const std::vector<Part>& parts, const PageLayout& page, const light::LightWorld& world, bool flat)
+      : parts_(parts), page_(page), world_(world), flat_(flat), grid_(page.triangles, page.width, page.height) {}
 
   std::size_t n_tiles() const { return grid_.n_tiles(); }
 
@@ -97,7 +97,8 @@ class PageBaker {
     p.face = unit(frame.normal(cross(corner[1] - corner[0], corner[2] - corner[0])));
     p.normal = unit(frame.normal(normal));
     if (!(dot(p.face, p.face) > 0.5)) p.face = p.normal;
-    if (!(dot(p.normal, p.face) > 0)) p.normal = p.face;
+    // Who has directions corrects for the normal himself (passes/render/baked.h).
+    if (flat_ || !(dot(p.normal, p.face) > 0)) p.normal = p.face;
     p.use = ref.use;
     return p;
   }
@@ -105,6 +106,7 @@ class PageBaker {
   const std::vector<Part>& parts_;
   const PageLayout& page_;
   const light::LightWorld& world_;
+  bool flat_;                                // by the normal of the face, not by that of shading
   TexelGrid grid_;
   TileTexels texels_;
   std::vector<Point> points_;
@@ -168,18 +170,30 @@ std::vector<char> known_texels(const Page& page, const std::vector<char>& inside
   return known;
 }
 
+/// From what was summed, radiance times cosine times direction, to the mean direction of radiance that lightmapDirection is.
+/// Light from one direction has the same of both; light from all of a hemisphere 2/3 of its normal against 1/2. Between
+/// them we go straight. Means can be mixed with those of texels of other brightness.
+void make_directions(Page& page) {
+  auto mean = [](float x, float y, float z, float all, float out[3]) {
+    const float length = all > 0 ? std::min(1.0f, std::sqrt(x * x + y * y + z * z) / all) : 0;
+    const float scale = all > 0 ? (0.75f + 0.75f * std::max(0.0f, length - 2.0f / 3)) / all : 0;
+    out[0] = x * scale, out[1] = y * scale, out[2] = z * scale;
+  };
+  for (std::size_t i = 0; i < page.size(); ++i) {
+    Rgb &x = page.layers[1][i], &y = page.layers[2][i], &z = page.layers[3][i];
+    const Rgb& all = page.light()[i];
+    float r[3], g[3], b[3];
+    mean(x.r, y.r, z.r, all.r, r), mean(x.g, y.g, z.g, all.g, g), mean(x.b, y.b, z.b, all.b, b);
+    x = {r[0], g[0], b[0]}, y = {r[1], g[1], b[1]}, z = {r[2], g[2], b[2]};
+  }
+}
+
 BakedPage finish(Page page, const std::vector<char>& inside, const BakeOptions& options) {
   const auto known = known_texels(page, inside);
   for (std::size_t i = 0; i < page.size(); ++i)
     if (!known[i]) page.places[i].chart = Place::nowhere;
   if (options.denoise) denoise(page);
-  // Directions are means, so that texels of other brightness can be mixed in.
-  for (std::size_t l = 1; l < page.layers.size(); ++l)
-    for (std::size_t i = 0; i < page.size(); ++i) {
-      auto share = [](float a, float e) { return e > 0 ? std::clamp(a / e, -1.0f, 1.0f) : 0; };
-      const Rgb &a = page.layers[l][i], &e = page.light()[i];
-      page.layers[l][i] = {share(a.r, e.r), share(a.g, e.g), share(a.b, e.b)};
-    }
+  if (page.layers.size() > 1) make_directions(page);
   for (auto& layer : page.layers) fill(layer, known, page.width, page.height);
   BakedPage out{{page.width, page.height, std::move(page.layers[0])}, {}};
   for (std::size_t l = 1; l < page.layers.size(); ++l) out.direction.push_back({page.width, page.height, std::move(page.layers[l])});
@@ -191,7 +205,7 @@ BakedPage finish(Page page, const std::vector<char>& inside, const BakeOptions& 
 std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world, const BakeOptions& options, PassContext& ctx) {
   std::vector<PageBaker> bakers;
   std::uint64_t n_tiles = 0;
-  for (const auto& p : layout.pages()) n_tiles += bakers.emplace_back(parts, p, world).n_tiles();
+  for (const auto& p : layout.pages()) n_tiles += bakers.emplace_back(parts, p, world, options.directional).n_tiles();
   const light::Integrator integrator(world, choose_points(bakers), options.integrator);
   Checkpoint checkpoint(options.checkpoint, key_of(layout, world, options));
   if (ctx.monitor) ctx.monitor->begin("baking", n_tiles, "tiles");
