@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t many_vertices = 1 << 15;  // from which on a mesh is simplified in sweeps
 constexpr std::size_t few_faces = 1 << 14;        // until so many are left
+constexpr double fold_weight = 0.1;               // of the faces that an end takes along; 1: folds stay that nobody needs
 
 /// Where x is along the edge from a (0) to b (1).
 double along(const Vec3& a, const Vec3& b, const Vec3& x) {
@@ -120,14 +121,14 @@ bool Engine::may_go(const Option& option) {
          keeps_shape(surface_, from_, to_, option.position);
 }
 
-/// What an end that is drawn in costs as if all faces around moved so far. The formulas of the paper are let alone.
+/// What an end that is drawn in costs, as if a part of the faces around moved so far. The formulas of the paper are let alone.
 double Engine::cost_of_fold(const Option& option) const {
   const double loss = pricer_->one_way() ? 0 : squared_loss_at_fold(surface_, from_, to_, option.position);
   if (loss == 0) return 0;
   double area = 0;
   for (const Ring::Face& f : from_.face_span()) area += length(surface_.normal(f.face));
   for (const Ring::Face& f : to_.face_span()) area += length(surface_.normal(f.face));
-  return loss * area;
+  return fold_weight * loss * area;
 }
 
 void Engine::run_to(std::size_t n_faces, double max_error) {

@@ -20,10 +20,21 @@ const size = {width: 320, height: 240};
 const key = [0.85, 0.25, 0.65];
 const skipped = 77;
 
+/// Worlds of which three.js draws what `wrlkit simplify` makes of them, with all levels: the finest must show.
+const with_levels = ['corpus/paper/ellipsoid_hole.wrl']
+  .map(name => ({name: `${name} with levels`, file: file_of(name), levels: true}));
+
+/// The file that is converted: the world, or the one with its levels of detail.
+async function source_of({file, levels}, to) {
+  if (!levels) return file;
+  await run(wrlkit, ['simplify', '-q', file, '--ratios', '0.5,0.25', '-o', to]);
+  return path.join(to, `${path.basename(file, '.wrl')}_lod.wrl`);
+}
+
 /// Converts a world, draws it, and says what the page has to do; null when nothing was made.
 async function prepare(world, number) {
   const out = name => path.join(folder, `${number}${name}`);
-  const converted = await run(wrlkit, ['convert', '-q', world.file, out('.glb')]);
+  const converted = await run(wrlkit, ['convert', '-q', await source_of(world, out('')), out('.glb')]);
   const view = view_of(wrlkit, world.file, out('.glb'), world.name.startsWith('corpus/'));
   const drawn = await run(wrlkit, ['render', '-q', world.file, out('.png'), '--width', size.width, '--height', size.height,
     '--samples', 1, '--background', key, ...view.flags]);
@@ -63,7 +74,7 @@ function keep_picture({name, lighting, sheet}) {
 function worlds() {
   if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)];
   const found = found_worlds_to_compare.map(name => ({name, file: file_of(name)})).filter(w => w.file);
-  return [...own_worlds(), ...found].filter(w => w.name.includes(part));
+  return [...own_worlds(), ...with_levels, ...found].filter(w => w.name.includes(part));
 }
 
 async function main() {
