@@ -80,6 +80,7 @@ class SceneBuilder {
   };
   Value* find_field(Open&, std::uint16_t slot);
   void append_all(Open&);
+  void add_x3d_defaults(Open&);
   NodeId defined(std::string_view name) const;
   bool try_route(const Pending&);
   void check_event(NodeId, std::string_view event, bool out, Span);

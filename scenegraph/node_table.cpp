@@ -17,7 +17,9 @@ std::optional<std::uint16_t> NodeType::find(std::string_view field, Dialect dial
   if (!events) return std::nullopt;
   auto exposed = [&](std::string_view stem) -> std::optional<std::uint16_t> {
     auto i = find(stem, dialect, false);
-    return i && fields[*i].access == Access::inout ? i : std::nullopt;
+    // Which initializeOnly fields became inputOutput depends on the version of X3D.
+    bool events = i && (fields[*i].access == Access::inout || (dialect == Dialect::x3d && fields[*i].access == Access::init));
+    return events ? i : std::nullopt;
   };
   if (field.starts_with("set_"))
     if (auto i = exposed(field.substr(4))) return i;

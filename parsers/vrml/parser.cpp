@@ -286,7 +286,8 @@ bool Parser::property_node(std::uint16_t slot, NodeId& out) {
   const auto& def = build_.current_type().fields[slot];
   for (std::uint32_t i = 0; i < builtin_nodes().size(); ++i) {
     const auto& t = builtin_nodes()[i];
-    bool fits = t.is_a("X3DGeometricPropertyNode") && t.fields.size() == 1 && std::ranges::any_of(def.kinds, [&](auto k) { return t.is_a(k); });
+    const bool list = !t.fields.empty() && t.fields[0].has_value() && info(t.fields[0].type).multiple && info(t.fields[0].type).element == Element::number;
+    bool fits = list && t.is_a("X3DGeometricPropertyNode") && std::ranges::any_of(def.kinds, [&](auto k) { return t.is_a(k); });
     if (!fits) continue;
     Token first = lex_.peek();
     diag_.report(Diag::list_repaired, span(first), t.name);
