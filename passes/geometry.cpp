@@ -17,6 +17,13 @@ std::span<const double> values_of(const Scene& scene, NodeId n, FieldKey<T> key)
   return scene.is(n, key.node) ? scene.get(n, key) : std::span<const double>{};
 }
 
+// Of a Color, or of a ColorRGBA, which makes the attribute four wide.
+std::span<const double> colors_of(const Scene& scene, NodeId n, Attribute& color) {
+  if (!scene.is(n, nodes::ColorRGBA)) return values_of(scene, n, nodes::color::color);
+  color.width = 4;
+  return scene.get(n, nodes::color_rgba::color);
+}
+
 bool all_finite(std::span<const double> v) {
   double sum[4] = {};  // 0 * x is 0 or NaN; four sums, because each add waits for the one before
   std::size_t i = 0;
@@ -104,7 +111,7 @@ void read_face_set(MeshJob& job) {
 
   auto runs = read_coord(job, scene.get(n, ifs::coord), scene.get(n, ifs::coordIndex));
   bind_attribute(job, mesh.color,
-                 {"color", values_of(scene, scene.get(n, ifs::color), nodes::color::color),
+                 {"color", colors_of(scene, scene.get(n, ifs::color), mesh.color),
                   scene.get(n, ifs::colorIndex), scene.get(n, ifs::colorPerVertex)},
                  runs);
   bind_attribute(job, mesh.normal,
@@ -125,7 +132,7 @@ void read_line_set(MeshJob& job) {
   job.mesh.kind = Mesh::Kind::lines;
   auto runs = read_coord(job, scene.get(n, ils::coord), scene.get(n, ils::coordIndex));
   bind_attribute(job, job.mesh.color,
-                 {"color", values_of(scene, scene.get(n, ils::color), nodes::color::color),
+                 {"color", colors_of(scene, scene.get(n, ils::color), job.mesh.color),
                   scene.get(n, ils::colorIndex), scene.get(n, ils::colorPerVertex)},
                  runs);
   repair_positions(job);
@@ -139,7 +146,7 @@ void read_point_set(MeshJob& job) {
       values_of(scene, scene.get(job.geometry, nodes::point_set::coord), nodes::coordinate::point));
   mesh.corners.resize(mesh.n_positions());
   std::iota(mesh.corners.begin(), mesh.corners.end(), 0u);
-  auto colors = values_of(scene, scene.get(job.geometry, nodes::point_set::color), nodes::color::color);
+  auto colors = colors_of(scene, scene.get(job.geometry, nodes::point_set::color), mesh.color);
   bind_attribute(job, mesh.color, {"color", colors, {}, true}, {});
   repair_positions(job);
 }

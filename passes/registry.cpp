@@ -5,6 +5,7 @@
 #include "passes/inline.h"
 #include "passes/join.h"
 #include "passes/lod.h"
+#include "passes/lower_x3d.h"
 #include "passes/normals.h"
 #include "passes/pass_info.h"
 #include "passes/prune.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr PassInfo all_passes[] = {
     pass<inline_worlds, InlineOptions>("inline", "put the worlds that Inline nodes name into this one", Level::authored, Level::authored),
     pass<expand_protos, ExpandProtosOptions>("expand-protos", "turn prototype instances into the nodes they stand for", Level::authored, Level::expanded),
+    pass<lower_x3d, LowerX3dOptions>("lower-x3d", "turn nodes that only X3D has into those of VRML97", Level::authored, Level::authored),
     pass<prune, PruneOptions>("prune", "remove what has no effect", Level::authored, Level::authored),
     pass<join, JoinOptions>("join", "make one Shape of many that look the same", Level::authored, Level::authored),
     pass<tessellate, TessellateOptions>("tessellate", "turn every geometry node into faces, and faces into triangles", Level::expanded, Level::mesh),
@@ -29,9 +31,10 @@ constexpr PassInfo all_passes[] = {
 
 // A prototype may hold Inlines, and an inlined world instances of prototypes: both are looked for twice.
 constexpr NamedPipeline named[] = {
-    {"gltf", "inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},prune,tessellate{triangles=false,texcoords=true},normals,triangulate", "what convert does for glTF"},
-    {"picture", "inline,expand-protos,inline,expand-protos,tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
+    {"gltf", "inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},lower-x3d,prune,tessellate{triangles=false,texcoords=true},normals,triangulate", "what convert does for glTF"},
+    {"picture", "inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
     {"expand", "inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
+    {"vrml97", "lower-x3d{vrml97=true}", "what convert does for VRML97: nothing to a world of VRML97"},
     {"none", "", "nothing: the file as it is"},
 };
 

@@ -147,6 +147,14 @@ void SceneBuilder::check_event(NodeId n, std::string_view event, bool out, Span 
   diag_.report(Diag::unknown_event, where, t.name, event);
 }
 
+TypeId SceneBuilder::proto_type(std::string_view name, std::span<const FieldDef> fields) {
+  NodeType t;
+  t.name = scene_.keep(name);
+  t.kind = NodeKind::proto;
+  t.dialects = 0xff;
+  return scene_.add_type(t, fields);
+}
+
 ProtoId SceneBuilder::declare_proto(Proto p, Span where) {
   auto name = scene_.type(p.type).name;
   TypeId type = p.type;

@@ -50,6 +50,8 @@ class SceneBuilder {
   Scope close_scope();
   void root(NodeId n) { scopes_.back().scope.roots.push_back(n); }
   void route(std::string_view from, std::string_view event_out, std::string_view to, std::string_view event_in, Span where);
+  /// The interface of a prototype as a node type.
+  TypeId proto_type(std::string_view name, std::span<const FieldDef> fields);
   /// Makes a prototype known under its name from here on.
   ProtoId declare_proto(Proto p, Span where);
 

@@ -10,16 +10,19 @@
 #include "writers/gltf.h"
 #include "writers/output.h"
 #include "writers/vrml.h"
+#include "writers/x3d.h"
 
 namespace wrlkit {
 namespace {
 
-enum class Target : std::uint8_t { glb, gltf, vrml };
+enum class Target : std::uint8_t { glb, gltf, vrml, x3d };
 
 std::optional<Target> target_of(std::string name, bool& gzip) {
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (name.ends_with(".gz")) gzip = true, name.resize(name.size() - 3);
   if (name.ends_with(".wrz")) return gzip = true, Target::vrml;
+  if (name.ends_with(".x3dz")) return gzip = true, Target::x3d;
+  if (name.ends_with(".x3d")) return Target::x3d;
   if (name.ends_with(".wrl") || name.ends_with(".vrml")) return Target::vrml;
   if (gzip) return std::nullopt;
   if (name.ends_with(".glb") || name == "-") return Target::glb;
@@ -31,11 +34,13 @@ std::size_t count_geometries(const Scene& scene) {
   return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return scene.type(n).is_a("X3DGeometryNode"); }));
 }
 
-bool write_as_vrml(Session& s, bool gzip) {
+bool write_as_text(Session& s, bool gzip, Target target) {
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return false;
   auto file = OutputFile::open(s.flags().output, {.gzip = gzip}, s.diag());
   if (!file) return false;
-  write_vrml(s.world().scene, {.precision = s.flags().precision, .file = s.flags().output}, file->sink(), s.diag());
+  const auto& [precision, name] = std::pair(s.flags().precision, s.flags().output);
+  if (target == Target::x3d) write_x3d(s.world().scene, {.precision = precision, .file = name}, file->sink(), s.diag());
+  else write_vrml(s.world().scene, {.precision = precision, .file = name}, file->sink(), s.diag());
   return file->commit(s.diag());
 }
 
@@ -57,13 +62,13 @@ int run_convert(const Flags& flags) {
   bool gzip = flags.gzip;
   auto target = target_of(flags.output, gzip);
   if (!target) return fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output), usage;
-  if (!s.good() || !s.choose_pipeline(*target == Target::vrml ? "none" : "gltf")) return usage;
+  if (!s.good() || !s.choose_pipeline(*target == Target::vrml ? "vrml97" : *target == Target::x3d ? "none" : "gltf")) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0])) return s.end(false);
   check_values(s.world().scene, s.diag());
   const auto& main = s.world().scene.main;
   if (main.roots.empty() && main.protos.empty() && s.diag().has_errors()) return s.diag().report(Diag::nothing_to_write, {}), s.end(false);
-  bool made = *target == Target::vrml ? write_as_vrml(s, gzip) : write_as_gltf(s, *target == Target::glb);
+  bool made = *target == Target::vrml || *target == Target::x3d ? write_as_text(s, gzip, *target) : write_as_gltf(s, *target == Target::glb);
   if (made && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);
   return s.end(made);
 }

@@ -70,7 +70,7 @@ Hierarchy::Kind Hierarchy::kind(NodeId n) {
   return kinds_[id] = t.kind != NodeKind::builtin      ? Kind::other
                       : t.is_a("X3DGroupingNode")      ? Kind::group
                       : scene_.is(n, nodes::Shape)     ? Kind::shape
-                      : scene_.is(n, nodes::Viewpoint) ? Kind::viewpoint
+                      : t.is_a("X3DViewpointNode")     ? Kind::viewpoint
                       : is_light(scene_, n)            ? Kind::light
                                                        : Kind::other;
 }

@@ -11,6 +11,11 @@
 // more than s, the largest component of specularColor, a wider one makes up for it: roughness = max(2 / (n + 2), 0.01 /
 // s) ^ (1/4), but no more than 1. So black is as rough as can be. Where it is less, the highlight is too dim.
 // specularColor, shininess and ambientIntensity stay in extras.
+//
+// X3D 4.0 (ISO/IEC 19775-1, 12 and 17.2). A PhysicalMaterial is glTF's own; an UnlitMaterial is unlit and of its
+// emissiveColor. There, and with every material of a file of version 4.0, a picture is multiplied by the colour and never
+// replaces it. Pictures for normals, occlusion, emission, metal and roughness are those of glTF; that they may have texture
+// coordinates of their own, by name, is kept in extras. alphaMode and alphaCutoff are glTF's as well.
 #pragma once
 #include <string>
 #include <unordered_map>
@@ -30,6 +35,7 @@ struct SurfaceKind {
   bool faces = true;  // not lines or points
   bool color = false, texcoord = false;
   bool double_sided = false;
+  bool opacity = false;  // of its colours
 };
 
 struct MaterialUse {
@@ -58,7 +64,13 @@ class Materials {
   MaterialUse make(NodeId appearance, SurfaceKind);
   Look look(NodeId appearance, SurfaceKind);
   std::string json(const Look&);
-  void texture_info(JsonOut&, const Look&);
+  void read_material(Look&);
+  void read_alpha_mode(Look&);
+  void further_pictures(Look&);
+  void pbr(JsonOut&, const Look&);
+  void texture_info(JsonOut&, const Look&, std::string_view name, std::uint32_t texture, const char* factor = nullptr, double value = 1);
+  void transform(JsonOut&, const Look&);
+  std::vector<std::uint16_t> said_by_x3d(const Look&) const;
   void extras(JsonOut&, const Look&);
 
   const Scene& scene_;

@@ -1,0 +1,459 @@
+// Recursive descent over the elements. Each function reads one kind of element; what a child is for, its containerField
+// says, and where that is wrong or missing, the node table.
+#include "parsers/x3d/parser.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <unordered_set>
+
+#include "parsers/vrml/grammar.h"
+#include "parsers/x3d/units.h"
+#include "parsers/x3d/values.h"
+#include "scenegraph/blanks.h"
+#include "scenegraph/nodes.h"
+
+namespace wrlkit::x3d {
+namespace {
+
+using Names = std::unordered_set<std::string_view>;
+
+class Parser : private AttributeValues {
+ public:
+  Parser(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag)
+      : AttributeValues(text, base, scene, diag), limits_(limits), build_(scene, diag), whole_(text), tree_(read_xml(text)) {}
+
+  void document();
+
+ private:
+  /// What is known of an open node beside its type: the fields that a Script declares, and nodes in fields without a slot.
+  struct Element {
+    std::string_view name;
+    std::map<std::string_view, FieldDef> own;
+    std::map<std::string_view, std::vector<NodeId>> extra;
+  };
+
+  // The document.
+  void head(const XmlNode&);
+  void component(const XmlNode&);
+  void unit(const XmlNode&);
+  void comment(const XmlNode&);
+  void roots(const XmlNode&);
+  /// ProtoDeclare, ROUTE and the like, which may stand between nodes anywhere. False: it is none.
+  bool statement(const XmlNode&);
+
+  // Nodes.
+  NodeId node(const XmlNode&);
+  TypeId type_of(const XmlNode&);
+  void attributes(const XmlNode&, Element&);
+  void attribute(const XmlAttribute&, Element&);
+  void child(const XmlNode&, Element&);
+  void child_node(const XmlNode&, Element&);
+  void put(const XmlNode&, NodeId, Element&);
+  bool put_into_slot(std::uint16_t slot, NodeId, Span);
+  std::optional<std::uint16_t> slot_by_kind(NodeId) const;
+  std::string_view container_of(NodeId) const;
+  void program(std::string_view text, Span);
+  void extras(Element&);
+
+  // Declarations.
+  void is_element(const XmlNode&, Element&);
+  void connect(const XmlNode&, Element&);
+  void script_field(const XmlNode&, Element&);
+  void field_value(const XmlNode&);
+  std::optional<FieldDef> declaration(const XmlNode&, bool with_value);
+  /// The value of a field or fieldValue element: its attribute, or the nodes in it.
+  bool element_value(const XmlNode&, FieldType, std::uint16_t slot, std::string_view name, const Value& fallback, Value& out);
+  std::vector<FieldDef> interface(const XmlNode&, Names&);
+  void proto(const XmlNode&);
+  void externproto(const XmlNode&);
+  void route(const XmlNode&);
+
+  // The tree.
+  template <class F>
+  void for_each_child(const XmlNode& n, F f) {
+    for (auto i = n.first_child; i != XmlNode::none; i = tree_.nodes[i].next) f(tree_.nodes[i]);
+  }
+  template <class F>
+  void for_each_element(const XmlNode& n, F f) {
+    for_each_child(n, [&](const XmlNode& c) { if (c.kind == XmlNode::Kind::element) f(c); });
+  }
+  const XmlNode* find_element(const XmlNode&, std::string_view name);
+  std::optional<std::string_view> raw(const XmlNode&, std::string_view name) const;
+  std::string_view get(const XmlNode& n, std::string_view name) { auto v = raw(n, name); return v ? plain(*v) : std::string_view{}; }
+  Span where(const XmlNode& n) const { return span_of(n.name); }
+  Span where(const XmlNode& n, std::string_view attribute) const { auto v = raw(n, attribute); return v ? span_of(*v) : where(n); }
+  void unknown(const XmlNode& n) { diag_.report(Diag::unknown_element, where(n), n.name); }
+
+  ParseLimits limits_;
+  SceneBuilder build_;
+  std::string_view whole_;
+  XmlTree tree_;
+  Units units_;
+  std::vector<const Names*> interfaces_;  // of the prototypes whose bodies are being read
+  std::size_t depth_ = 0;
+};
+
+// ---- the document --------------------------------------------------------------------------------------------------
+
+void Parser::document() {
+  if (auto declared = whole_.substr(0, whole_.find("?>")); declared.starts_with("<?xml"))
+    for (auto name : {"ISO-8859-1", "iso-8859-1", "Latin-1", "latin1", "windows-1252", "Windows-1252"}) latin1_ |= declared.find(name) != declared.npos;
+  const XmlNode& top = tree_.nodes[0];
+  for_each_child(top, [&](const XmlNode& n) { if (n.kind == XmlNode::Kind::comment) comment(n); });
+  const XmlNode* x3d = find_element(top, "X3D");
+  if (!x3d) {
+    diag_.report(Diag::x3d_repaired, Span{}, "there is no X3D element; the document is taken as one");
+    x3d = &top;
+  }
+  scene_.x3d.version = version_number(get(*x3d, "version"));
+  scene_.x3d.profile = get(*x3d, "profile");
+  if (const XmlNode* h = find_element(*x3d, "head")) head(*h);
+  const XmlNode* scene = find_element(*x3d, "Scene");
+  if (scene) roots(*scene);
+  for_each_element(*x3d, [&](const XmlNode& n) {
+    if (&n == scene || n.name == "head") return;
+    if (n.name == "Scene") return roots(n);
+    if (scene || x3d == &top) return unknown(n);
+    diag_.report(Diag::x3d_repaired, where(n), "the Scene element is missing");
+    if (!statement(n))
+      if (NodeId id = node(n)) build_.root(id);
+  });
+  if (!tree_.fault.empty())
+    diag_.report(Diag::xml_syntax, span_of(whole_.substr(std::min(tree_.fault_at, whole_.size()), 1)), tree_.fault);
+  scene_.main = build_.close_scope();
+  apply(units_, scene_);
+}
+
+void Parser::comment(const XmlNode& n) {
+  std::string_view rest = n.content;
+  while (!rest.empty()) {
+    auto line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+    while (!line.empty() && line.back() <= ' ') line.remove_suffix(1);
+    if (!line.empty()) ((scene_.comment += '#') += verbatim_text(line)) += '\n';
+  }
+}
+
+void Parser::head(const XmlNode& h) {
+  for_each_element(h, [&](const XmlNode& n) {
+    if (n.name == "meta") scene_.x3d.meta.emplace_back(get(n, "name"), get(n, "content"));
+    else if (n.name == "component") component(n);
+    else if (n.name == "unit") unit(n);
+    else unknown(n);
+  });
+}
+
+void Parser::component(const XmlNode& n) {
+  scene_.x3d.components.emplace_back(get(n, "name"), std::atoi(std::string(get(n, "level")).c_str()));
+}
+
+void Parser::unit(const XmlNode& n) {
+  auto factor = get(n, "conversionFactor");
+  if (!units_.set(get(n, "category"), std::strtod(std::string(factor).c_str(), nullptr)))
+    diag_.report(Diag::unit_dropped, where(n, "conversionFactor"), get(n, "category"), factor);
+}
+
+void Parser::roots(const XmlNode& scene) {
+  for_each_element(scene, [&](const XmlNode& n) {
+    if (statement(n)) return;
+    if (NodeId id = node(n)) build_.root(id);
+  });
+}
+
+bool Parser::statement(const XmlNode& n) {
+  if (n.name == "ROUTE") return route(n), true;
+  if (n.name == "ProtoDeclare") return proto(n), true;
+  if (n.name == "ExternProtoDeclare") return externproto(n), true;
+  if (n.name == "IMPORT" || n.name == "EXPORT") return diag_.report(Diag::import_dropped, where(n), n.name), true;
+  return false;
+}
+
+// ---- nodes ---------------------------------------------------------------------------------------------------------
+
+TypeId Parser::type_of(const XmlNode& n) {
+  if (n.name == "ProtoInstance") return build_.type(scene_.keep(get(n, "name")), where(n, "name"));
+  auto name = verbatim_text(n.name);
+  return build_.type(name.substr(name.find(':') + 1), where(n));  // without the prefix of a namespace
+}
+
+NodeId Parser::node(const XmlNode& n) {
+  if (auto use = raw(n, "USE")) return build_.use(plain(*use), span_of(*use));
+  if (depth_ >= limits_.depth || scene_.node_count() >= limits_.nodes) return diag_.report(Diag::too_deep, where(n), limits_.depth), NodeId{};
+  ++depth_;
+  NodeId id = build_.open(type_of(n), get(n, "DEF"), where(n));
+  Element e{n.name, {}, {}};
+  if (n.name != "ProtoInstance") attributes(n, e);
+  for_each_child(n, [&](const XmlNode& c) { child(c, e); });
+  extras(e);
+  build_.close();
+  --depth_;
+  return id;
+}
+
+void Parser::attributes(const XmlNode& n, Element& e) {
+  for (const auto& a : tree_.attributes_of(n)) {
+    const auto name = a.name;
+    const bool of_xml = name == "DEF" || name == "containerField" || name == "class" || name == "id" || name == "style" || name == "nodeType" || name.find(':') != name.npos;
+    if (!of_xml || (name != "containerField" && name != "DEF" && build_.current_type().find(name, Dialect::x3d))) attribute(a, e);
+  }
+}
+
+void Parser::attribute(const XmlAttribute& a, Element&) {
+  const auto& type = build_.current_type();
+  Value v;
+  if (auto slot = type.find(a.name, Dialect::x3d); slot && type.fields[*slot].has_value()) {
+    const auto& f = type.fields[*slot];
+    if (value(f.type, *slot, f.name, f.default_value, a.value, v)) build_.field(v, span_of(a.value));
+    return;
+  }
+  if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, span_of(a.name), type.name, a.name);
+  v = scene_.make(FieldType::verbatim, Value::extra_slot, plain(a.value));
+  build_.field(scene_.make_extra(scene_.keep(verbatim_text(a.name)), v), span_of(a.value));
+}
+
+void Parser::child(const XmlNode& c, Element& e) {
+  const bool script = build_.current_type().name == "Script";
+  if (c.kind == XmlNode::Kind::text) {
+    auto text = c.cdata ? verbatim_text(c.content) : plain(c.content, false);
+    if (script && !trim(text).empty()) program(text, span_of(c.content));
+    else if (!trim(text).empty()) diag_.report(Diag::stray_token, span_of(c.content), "'" + std::string(trim(text).substr(0, 60)) + "'");
+  }
+  if (c.kind != XmlNode::Kind::element) return;
+  if (statement(c)) return;
+  if (c.name == "IS") return is_element(c, e);
+  if (c.name == "connect") return connect(c, e);
+  if (c.name == "field") return script_field(c, e);
+  if (c.name == "fieldValue") return field_value(c);
+  child_node(c, e);
+}
+
+// The program of a Script in the text of the file, as an url of its own.
+void Parser::program(std::string_view text, Span where) {
+  text.remove_prefix(text.find_first_not_of(" \t\r\n"));
+  build_.field(scene_.make(FieldType::MFString, nodes::script::url.slot, std::vector<std::string_view>{text}), where);
+}
+
+void Parser::child_node(const XmlNode& c, Element& e) {
+  NodeId id = node(c);
+  if (id) put(c, id, e);
+}
+
+std::string_view Parser::container_of(NodeId n) const {
+  const NodeType* t = &scene_.type(n);
+  for (int i = 0; t->kind == NodeKind::proto && i < 100; ++i) {
+    const auto& p = scene_.proto(t->proto);
+    if (p.external || p.body.roots.empty()) return "children";
+    t = &scene_.type(p.body.roots[0]);
+  }
+  return t->container_field.empty() ? std::string_view("children") : t->container_field;
+}
+
+void Parser::put(const XmlNode& c, NodeId id, Element& e) {
+  const auto& type = build_.current_type();
+  auto said = raw(c, "containerField");
+  auto name = said ? plain(*said) : container_of(id);
+  auto slot = type.find(name, Dialect::x3d);
+  if (slot && put_into_slot(*slot, id, where(c))) return;
+  if (type.kind == NodeKind::unknown) return e.extra[scene_.keep(name)].push_back(id);
+  if (auto other = slot_by_kind(id)) {
+    if (said) diag_.report(Diag::container_repaired, span_of(*said), type.name, name, scene_.type(id).name, type.fields[*other].name);
+    put_into_slot(*other, id, where(c));
+    return;
+  }
+  if (auto children = type.find("children", Dialect::x3d); children && scene_.type(id).is_a("X3DGeometryNode")) {
+    diag_.report(Diag::shape_repaired, where(c), scene_.type(id).name);
+    NodeId shape = scene_.add(nodes::Shape, where(c));
+    scene_.set(shape, nodes::shape::geometry, id);
+    put_into_slot(*children, shape, where(c));
+    return;
+  }
+  diag_.report(Diag::unknown_field, where(c, "containerField"), type.name, name);
+  e.extra[scene_.keep(name)].push_back(id);
+}
+
+bool Parser::put_into_slot(std::uint16_t slot, NodeId id, Span at) {
+  const auto type = build_.current_type().fields[slot].type;
+  if (type == FieldType::MFNode) return build_.append_child(slot, id), true;
+  if (type != FieldType::SFNode) return false;
+  return build_.field(scene_.make(type, slot, id), at), true;
+}
+
+/// The first field that may hold such a node.
+std::optional<std::uint16_t> Parser::slot_by_kind(NodeId n) const {
+  const auto& fields = build_.current_type().fields;
+  const auto& t = scene_.type(n);
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (fields[i].has_value() && info(fields[i].type).element == wrlkit::Element::node && std::ranges::any_of(fields[i].kinds, [&](auto k) { return t.is_a(k); }))
+      return static_cast<std::uint16_t>(i);
+  return std::nullopt;
+}
+
+void Parser::extras(Element& e) {
+  for (auto& [name, list] : e.extra)
+    build_.field(scene_.make_extra(name, scene_.make(FieldType::MFNode, Value::extra_slot, list)), scene_.where(build_.current()));
+}
+
+// ---- declarations --------------------------------------------------------------------------------------------------
+
+void Parser::is_element(const XmlNode& is, Element& e) {
+  for_each_element(is, [&](const XmlNode& c) { c.name == "connect" ? connect(c, e) : unknown(c); });
+}
+
+void Parser::connect(const XmlNode& c, Element& e) {
+  auto field = scene_.keep(get(c, "nodeField")), of_proto = scene_.keep(get(c, "protoField"));
+  if (interfaces_.empty()) return diag_.report(Diag::is_outside, where(c));
+  if (!interfaces_.back()->contains(of_proto)) diag_.report(Diag::unknown_is, where(c, "protoField"), of_proto);
+  Value v = scene_.make(FieldType::verbatim, Value::extra_slot, of_proto);
+  v.is = true;
+  const auto& type = build_.current_type();
+  auto own = e.own.find(field);
+  auto slot = type.find(field, Dialect::x3d);
+  if (own != e.own.end() || slot) {
+    const auto& f = own != e.own.end() ? own->second : type.fields[*slot];
+    v.type = f.type;
+    v.slot = own != e.own.end() ? f.default_value.slot : *slot;
+    return build_.field(v, where(c));
+  }
+  if (type.kind != NodeKind::unknown && !type.find(field, Dialect::x3d, true)) diag_.report(Diag::unknown_field, where(c, "nodeField"), type.name, field);
+  build_.field(scene_.make_extra(field, v), where(c));
+}
+
+bool Parser::element_value(const XmlNode& n, FieldType type, std::uint16_t slot, std::string_view name, const Value& fallback, Value& out) {
+  if (info(type).element != wrlkit::Element::node) {
+    auto text = raw(n, "value");
+    return text && value(type, slot, name, fallback, *text, out);
+  }
+  std::vector<NodeId> list;
+  for_each_element(n, [&](const XmlNode& c) { if (NodeId id = node(c)) list.push_back(id); });
+  if (type == FieldType::SFNode) out = scene_.make(type, slot, list.empty() ? NodeId{} : list[0]);
+  else out = scene_.make(type, slot, list);
+  return !list.empty();
+}
+
+std::optional<FieldDef> Parser::declaration(const XmlNode& n, bool with_value) {
+  FieldDef f{};
+  f.name = scene_.keep(get(n, "name"));
+  f.dialects = 0xff;
+  auto type = get(n, "type");
+  if (f.name.empty() || !find_field_type(type, f.type)) return diag_.report(Diag::bad_value, where(n, "type"), "'" + std::string(type) + "'", "field type"), std::nullopt;
+  auto access = vrml::find_access(get(n, "accessType"));
+  if (!access) diag_.report(Diag::bad_value, where(n, "accessType"), "'" + std::string(get(n, "accessType")) + "'", "access type");
+  f.access = access.value_or(Access::inout);
+  f.default_value = empty_value(f.type);
+  if (Value v; with_value && f.has_value() && element_value(n, f.type, Value::extra_slot, f.name, f.default_value, v)) f.default_value = v;
+  return f;
+}
+
+void Parser::script_field(const XmlNode& n, Element& e) {
+  if (build_.current_type().name != "Script") {
+    if (build_.current_type().kind != NodeKind::unknown) diag_.report(Diag::unknown_field, where(n), build_.current_type().name, "field " + std::string(get(n, "name")));
+    for_each_element(n, [&](const XmlNode& c) { if (NodeId id = node(c)) e.extra[scene_.keep(get(n, "name"))].push_back(id); });
+    return;
+  }
+  auto f = declaration(n, false);
+  if (!f) return;
+  auto slot = build_.declare(*f, where(n));
+  if (!slot) return;
+  f->default_value.slot = *slot;
+  e.own[f->name] = *f;
+  for_each_element(n, [&](const XmlNode& c) { if (c.name == "IS") is_element(c, e); });
+  Value v;
+  if (f->has_value() && element_value(n, f->type, *slot, f->name, f->default_value, v)) build_.field(v, where(n, "value"));
+}
+
+void Parser::field_value(const XmlNode& n) {
+  const auto& type = build_.current_type();
+  auto name = get(n, "name");
+  auto slot = type.find(name, Dialect::x3d);
+  Value v;
+  if (slot && type.kind == NodeKind::proto) {
+    const auto& f = type.fields[*slot];
+    if (element_value(n, f.type, *slot, f.name, f.default_value, v)) build_.field(v, where(n, "value"));
+    return;
+  }
+  if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, where(n, "name"), type.name, name);
+  std::vector<NodeId> list;
+  for_each_element(n, [&](const XmlNode& c) { if (NodeId id = node(c)) list.push_back(id); });
+  v = list.empty() ? scene_.make(FieldType::verbatim, Value::extra_slot, get(n, "value")) : scene_.make(FieldType::MFNode, Value::extra_slot, list);
+  build_.field(scene_.make_extra(scene_.keep(name), v), where(n));
+}
+
+std::vector<FieldDef> Parser::interface(const XmlNode& n, Names& names) {
+  std::vector<FieldDef> out;
+  const bool external = n.name == "ExternProtoDeclare";
+  for_each_element(n, [&](const XmlNode& c) {
+    if (c.name != "field") return unknown(c);
+    auto f = declaration(c, !external);
+    if (!f) return;
+    if (out.size() >= SceneBuilder::most_fields) return diag_.report(Diag::expansion_limit, where(c), SceneBuilder::most_fields, "fields");
+    if (!names.insert(f->name).second) return diag_.report(Diag::duplicate_field, where(c, "name"), f->name, "the first one counts");
+    f->default_value.slot = static_cast<std::uint16_t>(out.size());
+    out.push_back(*f);
+  });
+  return out;
+}
+
+void Parser::proto(const XmlNode& n) {
+  auto name = scene_.keep(get(n, "name"));
+  if (depth_ >= limits_.depth) return diag_.report(Diag::too_deep, where(n), limits_.depth);
+  Names names;
+  std::vector<FieldDef> fields;
+  const XmlNode *interface_element = find_element(n, "ProtoInterface"), *body = find_element(n, "ProtoBody");
+  if (interface_element) fields = interface(*interface_element, names);
+  Proto p;
+  p.where = where(n);
+  build_.open_scope();
+  interfaces_.push_back(&names);
+  ++depth_;
+  if (body) roots(*body);
+  --depth_;
+  interfaces_.pop_back();
+  p.body = build_.close_scope();
+  if (p.body.roots.empty()) diag_.report(Diag::empty_proto, where(n, "name"), name);
+  p.type = build_.proto_type(name, fields);
+  build_.declare_proto(std::move(p), where(n, "name"));
+}
+
+void Parser::externproto(const XmlNode& n) {
+  Names names;
+  Proto p;
+  p.where = where(n);
+  p.external = true;
+  Value urls;
+  if (auto url = raw(n, "url"); url && value(FieldType::MFString, 0, "url", {}, *url, urls)) p.urls.assign(urls.text_span().begin(), urls.text_span().end());
+  p.type = build_.proto_type(get(n, "name"), interface(n, names));
+  build_.declare_proto(std::move(p), where(n, "name"));
+}
+
+void Parser::route(const XmlNode& n) {
+  build_.route(get(n, "fromNode"), get(n, "fromField"), get(n, "toNode"), get(n, "toField"), where(n));
+}
+
+// ---- the tree ------------------------------------------------------------------------------------------------------
+
+const XmlNode* Parser::find_element(const XmlNode& n, std::string_view name) {
+  const XmlNode* found = nullptr;
+  for_each_element(n, [&](const XmlNode& c) { if (!found && c.name == name) found = &c; });
+  return found;
+}
+
+std::optional<std::string_view> Parser::raw(const XmlNode& n, std::string_view name) const {
+  for (const auto& a : tree_.attributes_of(n))
+    if (a.name == name) return a.value;
+  return std::nullopt;
+}
+
+}  // namespace
+
+int version_number(std::string_view s) {
+  s = trim(s);
+  const bool good = s.size() >= 3 && s[0] >= '3' && s[0] <= '4' && s[1] == '.' && s[2] >= '0' && s[2] <= '9';
+  return good ? (s[0] - '0') * 10 + (s[2] - '0') : 33;
+}
+
+void parse(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
+  Parser(text, base, limits, scene, diag).document();
+}
+
+}  // namespace wrlkit::x3d
