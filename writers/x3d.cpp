@@ -16,6 +16,8 @@ constexpr int written_version = 40;
 
 constexpr std::string_view access_words[] = {"initializeOnly", "inputOutput", "inputOnly", "outputOnly"};
 
+bool number_like(std::string_view s) { return s == "true" || s == "false" || s.find_first_not_of("+-.0123456789eE, ") == s.npos; }
+
 std::string_view trim_end(std::string_view s) {
   while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
   return s;
@@ -99,7 +101,7 @@ class Writer {
   }
 
   void scope(const Scope& s) {
-    for_each_statement(scene_, Dialect::x3d, names_.unknown(), s, [&](ProtoId p) { proto(scene_.proto(p)); }, [&](NodeId n) { node(n, "children"); });
+    for_each_statement(scene_, Dialect::x3d, names_.unknown(), s, [&](ProtoId p) { proto(scene_.proto(p)); }, [&](NodeId n) { node(n, {}); });
     for (auto& r : s.routes) {
       if (printed_[r.from.value] != scope_ || printed_[r.to.value] != scope_) continue;
       line() << "<ROUTE";
@@ -265,7 +267,15 @@ class Writer {
     const auto name = v.extra->name;
     const bool reserved = name == "DEF" || name == "USE" || name == "containerField" || name == "class" || name == "id" || name == "style";
     if (!is_xml_name(name) || reserved || c.type != FieldType::verbatim) return diag_.report(Diag::no_x3d_value, scene_.where(n), name, scene_.type(n).name);
-    attribute(name, c.text());
+    attribute(name, as_xml(c.text()));
+  }
+
+  /// A value whose type nobody knows, as VRML writes it: a single string needs no quotes here, and truth is written small.
+  static std::string_view as_xml(std::string_view s) {
+    if (s == "TRUE") return "true";
+    if (s == "FALSE") return "false";
+    const bool string = s.size() > 2 && s.front() == '"' && s.find_first_of("\"\\", 1) == s.size() - 1;
+    return string && s.find_first_of("[{\"", 1) == s.size() - 1 && s[1] > ' ' && s[s.size() - 2] > ' ' && !number_like(s.substr(1, s.size() - 2)) ? s.substr(1, s.size() - 2) : s;
   }
 
   void children(NodeId n) {

@@ -83,9 +83,11 @@ void Parser::head_statement(Token keyword) {
     auto name = word_or_string();
     scene_.x3d.meta.emplace_back(name, word_or_string());
   } else if (w == "COMPONENT") {
-    auto c = word_or_string();
+    std::string c(word_or_string());
+    // Blanks around the colon occur.
+    while ((c.find(':') == c.npos && text(lex_.peek()).starts_with(':')) || c.ends_with(':')) c += word_or_string();
     auto colon = c.find(':');
-    scene_.x3d.components.emplace_back(c.substr(0, colon), colon == c.npos ? 1 : std::atoi(std::string(c.substr(colon + 1)).c_str()));
+    scene_.x3d.components.emplace_back(c.substr(0, colon), colon == c.npos ? 1 : std::atoi(c.c_str() + colon + 1));
   } else {
     auto category = word_or_string();
     word_or_string();

@@ -18,6 +18,21 @@ namespace {
 
 using Names = std::unordered_set<std::string_view>;
 
+/// The value of a field whose type nobody knows, as VRML would write it: what is no number is a string.
+std::string as_vrml(std::string_view s) {
+  s = trim(s);
+  if (s == "true") return "TRUE";
+  if (s == "false") return "FALSE";
+  const bool plain = s.starts_with('"') || s.starts_with('[') || (!s.empty() && s.find_first_not_of("+-.0123456789eE, \t\n\r") == s.npos);
+  if (plain) return std::string(s);
+  std::string out = "\"";
+  for (char c : s) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
 class Parser : private AttributeValues {
  public:
   Parser(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag)
@@ -81,6 +96,8 @@ class Parser : private AttributeValues {
   const XmlNode* find_element(const XmlNode&, std::string_view name);
   std::optional<std::string_view> raw(const XmlNode&, std::string_view name) const;
   std::string_view get(const XmlNode& n, std::string_view name) { auto v = raw(n, name); return v ? plain(*v) : std::string_view{}; }
+  /// The name of a node. XML can hold some that no other encoding can write: blanks and the like become '_'.
+  std::string_view name_of(std::string_view attribute);
   Span where(const XmlNode& n) const { return span_of(n.name); }
   Span where(const XmlNode& n, std::string_view attribute) const { auto v = raw(n, attribute); return v ? span_of(*v) : where(n); }
   void unknown(const XmlNode& n) { diag_.report(Diag::unknown_element, where(n), n.name); }
@@ -100,7 +117,8 @@ void Parser::document() {
   if (auto declared = whole_.substr(0, whole_.find("?>")); declared.starts_with("<?xml"))
     for (auto name : {"ISO-8859-1", "iso-8859-1", "Latin-1", "latin1", "windows-1252", "Windows-1252"}) latin1_ |= declared.find(name) != declared.npos;
   const XmlNode& top = tree_.nodes[0];
-  for_each_child(top, [&](const XmlNode& n) { if (n.kind == XmlNode::Kind::comment) comment(n); });
+  for (auto i = top.first_child; i != XmlNode::none && tree_.nodes[i].kind != XmlNode::Kind::element; i = tree_.nodes[i].next)
+    if (tree_.nodes[i].kind == XmlNode::Kind::comment) comment(tree_.nodes[i]);
   const XmlNode* x3d = find_element(top, "X3D");
   if (!x3d) {
     diag_.report(Diag::x3d_repaired, Span{}, "there is no X3D element; the document is taken as one");
@@ -178,10 +196,10 @@ TypeId Parser::type_of(const XmlNode& n) {
 }
 
 NodeId Parser::node(const XmlNode& n) {
-  if (auto use = raw(n, "USE")) return build_.use(plain(*use), span_of(*use));
+  if (auto use = raw(n, "USE")) return build_.use(name_of(*use), span_of(*use));
   if (depth_ >= limits_.depth || scene_.node_count() >= limits_.nodes) return diag_.report(Diag::too_deep, where(n), limits_.depth), NodeId{};
   ++depth_;
-  NodeId id = build_.open(type_of(n), get(n, "DEF"), where(n));
+  NodeId id = build_.open(type_of(n), name_of(raw(n, "DEF").value_or("")), where(n));
   Element e{n.name, {}, {}};
   if (n.name != "ProtoInstance") attributes(n, e);
   for_each_child(n, [&](const XmlNode& c) { child(c, e); });
@@ -208,7 +226,7 @@ void Parser::attribute(const XmlAttribute& a, Element&) {
     return;
   }
   if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, span_of(a.name), type.name, a.name);
-  v = scene_.make(FieldType::verbatim, Value::extra_slot, plain(a.value));
+  v = scene_.make(FieldType::verbatim, Value::extra_slot, as_vrml(plain(a.value)));
   build_.field(scene_.make_extra(scene_.keep(verbatim_text(a.name)), v), span_of(a.value));
 }
 
@@ -375,7 +393,7 @@ void Parser::field_value(const XmlNode& n) {
   if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, where(n, "name"), type.name, name);
   std::vector<NodeId> list;
   for_each_element(n, [&](const XmlNode& c) { if (NodeId id = node(c)) list.push_back(id); });
-  v = list.empty() ? scene_.make(FieldType::verbatim, Value::extra_slot, get(n, "value")) : scene_.make(FieldType::MFNode, Value::extra_slot, list);
+  v = list.empty() ? scene_.make(FieldType::verbatim, Value::extra_slot, as_vrml(get(n, "value"))) : scene_.make(FieldType::MFNode, Value::extra_slot, list);
   build_.field(scene_.make_extra(scene_.keep(name), v), where(n));
 }
 
@@ -427,7 +445,7 @@ void Parser::externproto(const XmlNode& n) {
 }
 
 void Parser::route(const XmlNode& n) {
-  build_.route(get(n, "fromNode"), get(n, "fromField"), get(n, "toNode"), get(n, "toField"), where(n));
+  build_.route(name_of(raw(n, "fromNode").value_or("")), get(n, "fromField"), name_of(raw(n, "toNode").value_or("")), get(n, "toField"), where(n));
 }
 
 // ---- the tree ------------------------------------------------------------------------------------------------------
@@ -436,6 +454,16 @@ const XmlNode* Parser::find_element(const XmlNode& n, std::string_view name) {
   const XmlNode* found = nullptr;
   for_each_element(n, [&](const XmlNode& c) { if (!found && c.name == name) found = &c; });
   return found;
+}
+
+std::string_view Parser::name_of(std::string_view attribute) {
+  const auto name = plain(attribute);
+  auto breaks = [](char c) { return static_cast<unsigned char>(c) <= ' ' || std::string_view("\"#,[]{}").find(c) != std::string_view::npos; };
+  if (std::ranges::none_of(name, breaks)) return name;
+  std::string legal(name);
+  std::ranges::replace_if(legal, breaks, '_');
+  diag_.report(Diag::x3d_repaired, span_of(attribute), "name '" + std::string(name) + "' is read as '" + legal + "'");
+  return scene_.keep(legal);
 }
 
 std::optional<std::string_view> Parser::raw(const XmlNode& n, std::string_view name) const {

@@ -1,6 +1,8 @@
 // Field values in attributes of XML (ISO/IEC 19776-1, 5): numbers are those of VRML without brackets, strings are plain, lists
 // of strings are quoted inside the quotes of XML.
 #pragma once
+#include <algorithm>
+
 #include "parsers/vrml/values.h"
 #include "parsers/x3d/xml.h"
 
@@ -16,7 +18,7 @@ class AttributeValues : protected vrml::Values {
   bool value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, std::string_view attribute, Value& out);
 
   Span span_of(std::string_view part) const {
-    return {text_base_ + static_cast<std::uint32_t>(part.data() - text_.data()), static_cast<std::uint32_t>(part.size())};
+    return {text_base_ + static_cast<std::uint32_t>(part.data() - text_.data()), std::max<std::uint32_t>(1, static_cast<std::uint32_t>(part.size()))};
   }
   /// What an attribute or text says in UTF-8: entities resolved, line ends made blanks as XML asks for.
   std::string_view plain(std::string_view raw, bool attribute = true);

@@ -16,10 +16,10 @@ struct GroupRow {
 
 constexpr GroupRow groups[] = {
     {nodes::StaticGroup, nodes::Group, nodes::static_group::children.slot},
-    {nodes::CADAssembly, nodes::Group, nodes::cadassembly::children.slot},
-    {nodes::CADLayer, nodes::Group, nodes::cadlayer::children.slot},
-    {nodes::CADPart, nodes::Transform, nodes::cadpart::children.slot},
-    {nodes::CADFace, nodes::Group, nodes::cadface::shape.slot},
+    {nodes::CADAssembly, nodes::Group, nodes::cad_assembly::children.slot},
+    {nodes::CADLayer, nodes::Group, nodes::cad_layer::children.slot},
+    {nodes::CADPart, nodes::Transform, nodes::cad_part::children.slot},
+    {nodes::CADFace, nodes::Group, nodes::cad_face::shape.slot},
     {nodes::ViewpointGroup, nodes::Group, nodes::viewpoint_group::children.slot},
     {nodes::LayerSet, nodes::Group, nodes::layer_set::layers.slot},
     {nodes::Layer, nodes::Group, nodes::layer::children.slot},
@@ -54,7 +54,7 @@ std::vector<NodeId> children_of(Scene& scene, NodeId n, const GroupRow& row) {
   const Value& v = scene.value(n, row.children);
   std::vector<NodeId> all(v.is ? nullptr : v.node_span().data(), v.is ? nullptr : v.node_span().data() + v.node_span().size());
   if (row.from != nodes::CADLayer) return all;
-  const auto visible = scene.get(n, nodes::cadlayer::visible);
+  const auto visible = scene.get(n, nodes::cad_layer::visible);
   for (std::size_t i = 0; i < std::min(all.size(), visible.size()); ++i)
     if (!visible[i]) all[i] = hidden(scene, n, std::span(&all[i], 1));
   return all;

@@ -24,6 +24,7 @@ class Lowering {
   Lowering(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
 
   bool run() {
+    for (NodeId n : all_nodes(scene_)) unlit_is_none(n);
     const auto all = all_nodes(scene_);
     for (NodeId n : all) material(n), color(n), viewpoint(n);
     for (NodeId n : all) foreign_children(n);
@@ -41,7 +42,6 @@ class Lowering {
 
   // ---- what has a counterpart ----
   void material(NodeId n) {
-    if (scene_.is(n, nodes::Appearance)) unlit_is_none(n);
     if (scene_.is(n, nodes::PhysicalMaterial)) physical(n);
     if (scene_.is(n, nodes::UnlitMaterial)) unlit(n);
   }
@@ -74,6 +74,7 @@ class Lowering {
 
   /// A white one is none (14772-1, 4.14.2).
   void unlit_is_none(NodeId appearance) {
+    if (!scene_.is(appearance, nodes::Appearance)) return;
     namespace u = nodes::unlit_material;
     NodeId n = scene_.get(appearance, nodes::appearance::material);
     if (!scene_.is(n, nodes::UnlitMaterial) || scene_.get(n, u::emissiveColor) != Vec3{1, 1, 1} || scene_.get(n, u::transparency) != 0) return;

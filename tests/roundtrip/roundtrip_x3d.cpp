@@ -70,6 +70,7 @@ bool has_what_xml_has_not(const Scene& scene) {
     for (const Value& v : scene.fields(n)) {
       if (scene.is_extra(v) && !v.extra->value.is) return true;
       const auto& c = scene.content(v);
+      if (c.is) continue;
       if (t.kind == NodeKind::proto && info(c.type).element == Element::node && c.node_span().empty()) return true;
       if (info(c.type).element == Element::text && !info(c.type).multiple && odd_text(c.text())) return true;
       if (info(c.type).element == Element::text && info(c.type).multiple && std::ranges::any_of(c.text_span(), odd_text)) return true;
