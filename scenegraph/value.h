@@ -30,8 +30,6 @@ namespace wrlkit {
   X(SFRotation, number, 4) X(MFRotation, number, 4)                                                                  \
   X(SFMatrix3f, number, 9) X(MFMatrix3f, number, 9)                                                                  \
   X(SFMatrix4f, number, 16) X(MFMatrix4f, number, 16)                                                                \
-  X(SFMatrix3d, number, 9) X(MFMatrix3d, number, 9)                                                                  \
-  X(SFMatrix4d, number, 16) X(MFMatrix4d, number, 16)                                                                \
   X(SFString, text, 1) X(MFString, text, 1)                                                                          \
   X(SFNode, node, 1) X(MFNode, node, 1)                                                                              \
   X(SFImage, image, 1) X(MFImage, image, 1)                                                                          \
