@@ -75,7 +75,7 @@ class Writer {
       text += '\n';
     }
     for (std::size_t at; (at = text.find("--")) != text.npos;) text.insert(at + 1, " ");
-    out_ << "<!--" << text << "-->\n";
+    out_ << "<!--\n" << text << "-->\n";
   }
 
   void head(const X3dProfile& profile) {

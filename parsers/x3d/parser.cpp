@@ -21,8 +21,9 @@ using Names = std::unordered_set<std::string_view>;
 /// The value of a field whose type nobody knows, as VRML would write it: what is no number is a string.
 std::string as_vrml(std::string_view s) {
   s = trim(s);
-  if (s == "true") return "TRUE";
-  if (s == "false") return "FALSE";
+  if (s == "true" || s == "TRUE") return "TRUE";
+  if (s == "false" || s == "FALSE") return "FALSE";
+  if (s.empty()) return {};
   const bool plain = s.starts_with('"') || s.starts_with('[') || (!s.empty() && s.find_first_not_of("+-.0123456789eE, \t\n\r") == s.npos);
   if (plain) return std::string(s);
   std::string out = "\"";
@@ -145,11 +146,13 @@ void Parser::document() {
 
 void Parser::comment(const XmlNode& n) {
   std::string_view rest = n.content;
+  rest.remove_prefix(rest.starts_with("\r\n") ? 2 : rest.starts_with('\n'));
   while (!rest.empty()) {
     auto line = rest.substr(0, rest.find('\n'));
+    const bool whole = line.size() < rest.size();
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));
     while (!line.empty() && line.back() <= ' ') line.remove_suffix(1);
-    if (!line.empty()) ((scene_.comment += '#') += verbatim_text(line)) += '\n';
+    if (!line.empty() || whole) ((scene_.comment += '#') += verbatim_text(line)) += '\n';
   }
 }
 

@@ -85,7 +85,7 @@ struct Count {
 
 void report(const std::string& path, const std::string& fault, bool explained, Count& count) {
   if (fault.empty()) return;
-  if (explained) return void(++count.explained);
+  if (explained) return void((++count.explained, std::printf("known: %s: %s\n", path.c_str(), fault.c_str())));
   ++count.faulty;
   std::printf("%s: %s\n", path.c_str(), fault.c_str());
 }
