@@ -41,6 +41,8 @@ struct FormatRow {
 };
 constexpr FormatRow formats[] = {
     {"VRML97", ".wrl .wrz .wrl.gz .vrml", "yes, gzip by its first bytes", "yes, --gzip"},
+    {"X3D XML", ".x3d .x3dz", "yes, versions 3.0 to 4.0, gzip", "yes, 4.0, --gzip"},
+    {"X3D VRML", ".x3dv .x3dvz", "yes, versions 3.0 to 4.0, gzip", "no"},
     {"glTF 2.0", ".gltf", "no", "yes"},
     {"GLB", ".glb", "no", "yes"},
     {"pictures", "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR", "as textures", "PNG, JPEG (render)"},

@@ -343,6 +343,8 @@ void Parser::connect(const XmlNode& c, Element& e) {
 bool Parser::element_value(const XmlNode& n, FieldType type, std::uint16_t slot, std::string_view name, const Value& fallback, Value& out) {
   if (info(type).element != wrlkit::Element::node) {
     auto text = raw(n, "value");
+    // Xj3D's own files have the value between the tags.
+    for_each_child(n, [&](const XmlNode& c) { if (!text && c.kind == XmlNode::Kind::text) text = c.content; });
     return text && value(type, slot, name, fallback, *text, out);
   }
   std::vector<NodeId> list;
@@ -388,7 +390,7 @@ void Parser::field_value(const XmlNode& n) {
   auto name = get(n, "name");
   auto slot = type.find(name, Dialect::x3d);
   Value v;
-  if (slot && type.kind == NodeKind::proto) {
+  if (slot && type.fields[*slot].has_value()) {
     const auto& f = type.fields[*slot];
     if (element_value(n, f.type, *slot, f.name, f.default_value, v)) build_.field(v, where(n, "value"));
     return;
