@@ -32,7 +32,7 @@ constexpr PassInfo all_passes[] = {
 // A prototype may hold Inlines, and an inlined world instances of prototypes: both are looked for twice.
 constexpr NamedPipeline named[] = {
     {"gltf", "inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},lower-x3d,prune,tessellate{triangles=false,texcoords=true},normals,triangulate", "what convert does for glTF"},
-    {"picture", "inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
+    {"picture", "inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
     {"expand", "inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
     {"vrml97", "lower-x3d{vrml97=true}", "what convert does for VRML97: nothing to a world of VRML97"},
     {"none", "", "nothing: the file as it is"},

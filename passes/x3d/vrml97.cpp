@@ -1,7 +1,6 @@
 #include "passes/x3d/vrml97.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "passes/x3d/geometry.h"
@@ -24,9 +23,8 @@ class Lowering {
   Lowering(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
 
   bool run() {
-    for (NodeId n : all_nodes(scene_)) unlit_is_none(n);
     const auto all = all_nodes(scene_);
-    for (NodeId n : all) material(n), color(n), viewpoint(n);
+    for (NodeId n : all) color(n);
     for (NodeId n : all) foreign_children(n);
     for (NodeId n : all) foreign_fields(n);
     for (NodeId n : all) foreign_node(n);
@@ -39,54 +37,6 @@ class Lowering {
  private:
   bool builtin(NodeId n) const { return scene_.type(n).kind == NodeKind::builtin; }
   bool foreign(NodeId n) const { return n && builtin(n) && !(scene_.type(n).dialects & in_vrml97); }
-
-  // ---- what has a counterpart ----
-  void material(NodeId n) {
-    if (scene_.is(n, nodes::PhysicalMaterial)) physical(n);
-    if (scene_.is(n, nodes::UnlitMaterial)) unlit(n);
-  }
-
-  void physical(NodeId n) {
-    namespace p = nodes::physical_material;
-    namespace m = nodes::material;
-    const Vec3 base = scene_.get(n, p::baseColor);
-    const double metal = scene_.get(n, p::metallic), rough = scene_.get(n, p::roughness);
-    Vec3 diffuse, specular;
-    for (std::size_t i = 0; i < 3; ++i) diffuse[i] = base[i] * (1 - metal / 2), specular[i] = 0.04 * (1 - metal) + base[i] * metal;
-    auto fields = fields_for(scene_, n, nodes::Material);
-    const double shininess = rough > 0 ? std::clamp((2 / std::pow(rough, 4) - 2) / 128, 0.0, 1.0) : 1;
-    fields.push_back(scene_.make(FieldType::SFColor, m::diffuseColor.slot, diffuse));
-    fields.push_back(scene_.make(FieldType::SFColor, m::specularColor.slot, specular));
-    fields.push_back(scene_.make(FieldType::SFFloat, m::shininess.slot, shininess));
-    become(n, nodes::Material, fields);
-  }
-
-  void unlit(NodeId n) {
-    namespace m = nodes::material;
-    auto fields = fields_for(scene_, n, nodes::Material);
-    const Vec3 emissive = scene_.get(n, nodes::unlit_material::emissiveColor);
-    std::erase_if(fields, [&](const Value& v) { return v.slot == m::emissiveColor.slot; });
-    fields.push_back(scene_.make(FieldType::SFColor, m::emissiveColor.slot, emissive));
-    fields.push_back(scene_.make(FieldType::SFColor, m::diffuseColor.slot, Vec3{0, 0, 0}));
-    fields.push_back(scene_.make(FieldType::SFFloat, m::ambientIntensity.slot, 0.0));
-    become(n, nodes::Material, fields);
-  }
-
-  /// A white one is none (14772-1, 4.14.2).
-  void unlit_is_none(NodeId appearance) {
-    if (!scene_.is(appearance, nodes::Appearance)) return;
-    namespace u = nodes::unlit_material;
-    NodeId n = scene_.get(appearance, nodes::appearance::material);
-    if (!scene_.is(n, nodes::UnlitMaterial) || scene_.get(n, u::emissiveColor) != Vec3{1, 1, 1} || scene_.get(n, u::transparency) != 0) return;
-    scene_.unset(appearance, nodes::appearance::material.slot);
-    changed_ = true;
-  }
-
-  void become(NodeId n, TypeId type, const std::vector<Value>& fields) {
-    diag_.report(Diag::no_vrml97_material, scene_.where(n), scene_.type(n).name);
-    scene_.become(n, type, fields);
-    changed_ = true;
-  }
 
   void color(NodeId n) {
     if (!scene_.is(n, nodes::ColorRGBA)) return;
@@ -101,20 +51,6 @@ class Lowering {
     auto fields = fields_for(scene_, n, nodes::Color);
     fields.push_back(scene_.make(FieldType::MFColor, nodes::color::color.slot, rgb));
     scene_.become(n, nodes::Color, fields);
-    changed_ = true;
-  }
-
-  void viewpoint(NodeId n) {
-    if (!scene_.is(n, nodes::OrthoViewpoint)) return;
-    namespace o = nodes::ortho_viewpoint;
-    const auto p = scene_.get(n, o::position), c = scene_.get(n, o::centerOfRotation);
-    const auto window = scene_.get(n, o::fieldOfView);
-    const double height = window.size() >= 4 ? window[3] - window[1] : 2, distance = std::hypot(p[0] - c[0], p[1] - c[1], p[2] - c[2]);
-    auto fields = fields_for(scene_, n, nodes::Viewpoint);
-    const double angle = distance > 0 ? 2 * std::atan(std::abs(height) / 2 / distance) : 0.785398;
-    fields.push_back(scene_.make(FieldType::SFFloat, nodes::viewpoint::fieldOfView.slot, angle));
-    diag_.report(Diag::no_vrml97_value, scene_.where(n), "OrthoViewpoint", "fieldOfView");
-    scene_.become(n, nodes::Viewpoint, fields);
     changed_ = true;
   }
 
