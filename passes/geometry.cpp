@@ -1,5 +1,6 @@
 #include "passes/geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -164,12 +165,23 @@ void read_mesh(MeshJob& job) {
     read_point_set(job);
 }
 
+namespace {
+
+bool has_picture(const Scene& scene, NodeId appearance) {
+  if (scene.get(appearance, nodes::appearance::texture)) return true;
+  NodeId material = scene.get(appearance, nodes::appearance::material);
+  if (!material) return false;
+  return std::ranges::any_of(scene.fields(material), [&](const Value& v) { return v.type == FieldType::SFNode && !v.is && v.node && scene.type(v.node).is_a("X3DTextureNode"); });
+}
+
+}  // namespace
+
 std::vector<char> textured_geometry(const Scene& scene) {
   std::vector<char> textured(scene.node_count());
   for (NodeId n : all_nodes(scene)) {
     if (!scene.is(n, nodes::Shape)) continue;
     NodeId geometry = scene.get(n, nodes::shape::geometry), appearance = scene.get(n, nodes::shape::appearance);
-    if (geometry && scene.is(appearance, nodes::Appearance) && scene.get(appearance, nodes::appearance::texture)) textured[geometry.value] = 1;
+    if (geometry && scene.is(appearance, nodes::Appearance) && has_picture(scene, appearance)) textured[geometry.value] = 1;
   }
   return textured;
 }

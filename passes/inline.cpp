@@ -48,7 +48,7 @@ class Inliner {
 
   void load(NodeId n, std::vector<Route>& routes) {
     auto urls = scene_.get(n, nodes::inline_::url);
-    if (urls.empty() || !ctx_.resources) return;
+    if (urls.empty() || !ctx_.resources || !scene_.get(n, nodes::inline_::load)) return;
     auto world = ctx_.resources->world(urls, scene_.where(n), ctx_.diag);
     if (!world) return;
     if (world.get() == &scene_ || std::ranges::find(chain_, world.get()) != chain_.end())

@@ -10,7 +10,7 @@ namespace {
 
 /// Nodes that have no counterpart and do not miss one: what they say is kept, and nothing changes for who looks.
 bool harmless(const Scene& scene, NodeId n) {
-  return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline);
+  return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline) || scene.type(n).is_a("X3DMetadataObject");
 }
 
 /// Groups that do something that glTF cannot do.
