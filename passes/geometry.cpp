@@ -171,7 +171,7 @@ bool has_picture(const Scene& scene, NodeId appearance) {
   if (scene.get(appearance, nodes::appearance::texture)) return true;
   NodeId material = scene.get(appearance, nodes::appearance::material);
   if (!material) return false;
-  return std::ranges::any_of(scene.fields(material), [&](const Value& v) { return v.type == FieldType::SFNode && !v.is && v.node && scene.type(v.node).is_a("X3DTextureNode"); });
+  return std::ranges::any_of(scene.fields(material), [&](const Value& v) { return !scene.is_extra(v) && v.type == FieldType::SFNode && !v.is && v.node && scene.type(v.node).is_a("X3DTextureNode"); });
 }
 
 }  // namespace

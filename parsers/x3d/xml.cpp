@@ -1,6 +1,7 @@
 #include "parsers/x3d/xml.h"
 
 #include <cstring>
+#include <functional>
 #include <pugixml.hpp>
 
 namespace wrlkit::x3d {
@@ -31,7 +32,11 @@ class Flattener {
   }
 
  private:
-  std::string_view view(const char* p) const { return text_.substr(static_cast<std::size_t>(p - copy_), std::strlen(p)); }
+  /// What pugixml never read, in a text that is cut off, is a constant of its own.
+  std::string_view view(const char* p) const {
+    const bool inside = !std::less<>{}(p, copy_) && !std::less<>{}(copy_ + text_.size(), p);
+    return inside ? text_.substr(static_cast<std::size_t>(p - copy_), std::strlen(p)) : text_.substr(text_.size());
+  }
 
   std::uint32_t add(pugi::xml_node n) {
     XmlNode out;
