@@ -7,6 +7,7 @@
 #include "parsers/patches_scene.h"
 #include "parsers/vrml/parser.h"
 #include "parsers/vrml/text_encoding.h"
+#include "parsers/x3d/parser.h"
 #include "scenegraph/blanks.h"
 #include "scenegraph/image.h"
 
@@ -49,6 +50,12 @@ std::string leading_comment(std::string_view s) {
   return out;
 }
 
+/// Of "#X3D V3.3 utf8".
+int x3d_version(std::string_view line) {
+  auto v = line.find('V');
+  return x3d::version_number(v == line.npos ? line : line.substr(v + 1));
+}
+
 struct Header {
   Format format = Format::none;
   bool exact = false, missing = false;
@@ -63,7 +70,7 @@ Header read_header(std::string_view text) {
     if (line.starts_with("#X3D")) return {Format::x3d_classic, true, false};
     if (contains_nocase(line.substr(0, 16), "vrml")) return {Format::vrml97, false, false};
   }
-  if (line.starts_with('<') && (contains_nocase(text.substr(0, 4096), "<x3d"))) return {Format::x3d_xml, true, false};
+  if (line.starts_with('<') && (contains_nocase(text.substr(0, 65536), "<x3d"))) return {Format::x3d_xml, true, false};
   if (looks_like_vrml97(text)) return {Format::vrml97, false, true};
   return {};
 }
@@ -99,15 +106,18 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   base += static_cast<std::uint32_t>(text.size() - body.size());
   auto header = read_header(body);
   if (header.format == Format::none) return diag.report(Diag::unknown_format, whole, describe_bytes(body)), nullptr;
-  if (header.format != Format::vrml97) {
+  const bool xml = header.format == Format::x3d_xml, classic = header.format == Format::x3d_classic;
+  if (header.format != Format::vrml97 && !xml && !classic) {
     constexpr std::string_view names[] = {"", "VRML 1.0 / Inventor", "", "X3D (classic)", "X3D (XML)", "glTF"};
     return diag.report(Diag::unsupported_format, first, names[static_cast<std::size_t>(header.format)]), nullptr;
   }
   if (header.missing) diag.report(Diag::header_missing, whole);
   else if (!header.exact) diag.report(Diag::header_repaired, first, trim(first_line(body)));
   auto world = std::make_unique<World>();
-  world->format = world->scene.format = Format::vrml97;
+  world->format = world->scene.format = header.format;
   world->scene.sources = diag.shared_sources();
+  if (xml) return x3d::parse(body, base, options.parse, world->scene, diag), std::move(world);
+  if (classic) world->scene.x3d.version = x3d_version(trim(first_line(trim(body))));
   auto after = header.missing ? body : trim(body).substr(first_line(trim(body)).size());
   world->scene.comment = leading_comment(after);
   vrml::parse(body, base, options.parse, world->scene, diag);

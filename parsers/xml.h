@@ -1,4 +1,4 @@
-// XML, a tag at a time: the one door to pugixml. That is a DOM parser, which would hold every element of a file and end
+// XML, a tag at a time, for files that are long lists. pugixml is a DOM parser, which would hold every element of a file and end
 // at the first fault. So tags are cut out of the text here, and pugixml reads each by itself: a fault costs one tag, and
 // memory is one tag's. Comments, processing instructions, CDATA and document types are passed over; entities beyond those
 // of XML itself are not expanded.

@@ -1,5 +1,6 @@
 #include "passes/geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -15,6 +16,13 @@ namespace {
 template <FieldType T>
 std::span<const double> values_of(const Scene& scene, NodeId n, FieldKey<T> key) {
   return scene.is(n, key.node) ? scene.get(n, key) : std::span<const double>{};
+}
+
+// Of a Color, or of a ColorRGBA, which makes the attribute four wide.
+std::span<const double> colors_of(const Scene& scene, NodeId n, Attribute& color) {
+  if (!scene.is(n, nodes::ColorRGBA)) return values_of(scene, n, nodes::color::color);
+  color.width = 4;
+  return scene.get(n, nodes::color_rgba::color);
 }
 
 bool all_finite(std::span<const double> v) {
@@ -104,7 +112,7 @@ void read_face_set(MeshJob& job) {
 
   auto runs = read_coord(job, scene.get(n, ifs::coord), scene.get(n, ifs::coordIndex));
   bind_attribute(job, mesh.color,
-                 {"color", values_of(scene, scene.get(n, ifs::color), nodes::color::color),
+                 {"color", colors_of(scene, scene.get(n, ifs::color), mesh.color),
                   scene.get(n, ifs::colorIndex), scene.get(n, ifs::colorPerVertex)},
                  runs);
   bind_attribute(job, mesh.normal,
@@ -129,7 +137,7 @@ void read_line_set(MeshJob& job) {
   job.mesh.kind = Mesh::Kind::lines;
   auto runs = read_coord(job, scene.get(n, ils::coord), scene.get(n, ils::coordIndex));
   bind_attribute(job, job.mesh.color,
-                 {"color", values_of(scene, scene.get(n, ils::color), nodes::color::color),
+                 {"color", colors_of(scene, scene.get(n, ils::color), job.mesh.color),
                   scene.get(n, ils::colorIndex), scene.get(n, ils::colorPerVertex)},
                  runs);
   repair_positions(job);
@@ -143,7 +151,7 @@ void read_point_set(MeshJob& job) {
       values_of(scene, scene.get(job.geometry, nodes::point_set::coord), nodes::coordinate::point));
   mesh.corners.resize(mesh.n_positions());
   std::iota(mesh.corners.begin(), mesh.corners.end(), 0u);
-  auto colors = values_of(scene, scene.get(job.geometry, nodes::point_set::color), nodes::color::color);
+  auto colors = colors_of(scene, scene.get(job.geometry, nodes::point_set::color), mesh.color);
   bind_attribute(job, mesh.color, {"color", colors, {}, true}, {});
   repair_positions(job);
 }
@@ -161,12 +169,23 @@ void read_mesh(MeshJob& job) {
     read_point_set(job);
 }
 
+namespace {
+
+bool has_picture(const Scene& scene, NodeId appearance) {
+  if (scene.get(appearance, nodes::appearance::texture)) return true;
+  NodeId material = scene.get(appearance, nodes::appearance::material);
+  if (!material) return false;
+  return std::ranges::any_of(scene.fields(material), [&](const Value& v) { return !scene.is_extra(v) && v.type == FieldType::SFNode && !v.is && v.node && scene.type(v.node).is_a("X3DTextureNode"); });
+}
+
+}  // namespace
+
 std::vector<char> textured_geometry(const Scene& scene) {
   std::vector<char> textured(scene.node_count());
   for (NodeId n : all_nodes(scene)) {
     if (!scene.is(n, nodes::Shape)) continue;
     NodeId geometry = scene.get(n, nodes::shape::geometry), appearance = scene.get(n, nodes::shape::appearance);
-    if (geometry && scene.is(appearance, nodes::Appearance) && scene.get(appearance, nodes::appearance::texture)) textured[geometry.value] = 1;
+    if (geometry && scene.is(appearance, nodes::Appearance) && has_picture(scene, appearance)) textured[geometry.value] = 1;
   }
   return textured;
 }

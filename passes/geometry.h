@@ -29,7 +29,7 @@ void read_mesh(MeshJob& job);
 /// every USE of it follows. A Coordinate, Color, Normal or TextureCoordinate whose values are still those of the mesh
 /// stays the node that it was, shared or not; changed values go into a new node, because others may use the old one. A
 /// mesh of kind `none` changes nothing. What the target cannot hold is dropped: normals and texture coordinates of
-/// lines and points, alpha.
+/// lines and points.
 ///
 /// read_mesh gives the same mesh again, but for the flag `primitive`, a face_begin that lists nothing but triangles,
 /// values that no corner uses, and points that were not in order.

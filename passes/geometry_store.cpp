@@ -76,8 +76,7 @@ class Store {
     if (mesh_.color.present()) {
       Attribute colors(mesh_.color.width);
       gather(mesh_.color.values.data(), mesh_.color.index, colors.values, colors.width);
-      add(nodes::point_set::color,
-          attribute("color", nodes::color::color, identical(mesh_.color.index) ? mesh_.color : colors));
+      add(nodes::point_set::color, color_node(identical(mesh_.color.index) ? mesh_.color : colors));
     }
     become(nodes::PointSet);
   }
@@ -138,10 +137,14 @@ class Store {
     return std::ranges::equal(had, a.values, [](double d, float f) { return static_cast<float>(d) == f; });
   }
 
+  NodeId color_node(const Attribute& a) {
+    return a.width == 4 ? attribute("color", nodes::color_rgba::color, a) : attribute("color", nodes::color::color, a);
+  }
+
   template <FieldType N, FieldType I, FieldType B>
   void color(FieldKey<N> node, FieldKey<I> index, FieldKey<B> per_vertex) {
     if (!mesh_.color.present()) return;
-    add(node, attribute("color", nodes::color::color, mesh_.color));
+    add(node, color_node(mesh_.color));
     bind(mesh_.color, index, &per_vertex);
   }
 

@@ -48,7 +48,7 @@ class Inliner {
 
   void load(NodeId n, std::vector<Route>& routes) {
     auto urls = scene_.get(n, nodes::inline_::url);
-    if (urls.empty() || !ctx_.resources) return;
+    if (urls.empty() || !ctx_.resources || !scene_.get(n, nodes::inline_::load)) return;
     auto world = ctx_.resources->world(urls, scene_.where(n), ctx_.diag);
     if (!world) return;
     if (world.get() == &scene_ || std::ranges::find(chain_, world.get()) != chain_.end())
@@ -80,7 +80,7 @@ class Inliner {
     for (ProtoId p : scope.protos) {
       const TypeId old = scene_.proto(p).type;
       NodeType type = scene_.type(old);
-      if (!find_builtin(type.name, Dialect::vrml97) && !is_taken(type.name)) continue;
+      if (!find_builtin(type.name, scene_.dialect()) && !is_taken(type.name)) continue;
       type.name = scene_.keep(free_name(type.name));
       renamed[old.value] = scene_.proto(p).type = scene_.add_type(type, {type.fields.begin(), type.fields.end()});
     }

@@ -172,6 +172,10 @@ class Joining {
 
   NodeId geometry_of(NodeId shape) const { return scene_.get(shape, nodes::shape::geometry); }
   Parts parts_of(NodeId geometry) const;
+  bool has_opacity(NodeId g) const {
+    const bool faces = scene_.is(g, nodes::IndexedFaceSet);
+    return scene_.is(faces ? scene_.get(g, nodes::indexed_face_set::color) : scene_.get(g, nodes::indexed_line_set::color), nodes::ColorRGBA);
+  }
   bool may_be_textured(NodeId appearance) const {
     return appearance &&
            (!scene_.is(appearance, nodes::Appearance) || scene_.get(appearance, nodes::appearance::texture));
@@ -245,7 +249,7 @@ bool Joining::may_join(NodeId shape) const {
   const Parts parts = parts_of(g);
   for (NodeId n : {parts.color, parts.normal, parts.texcoord, parts.lightcoord})
     if (n && !plain(n)) return false;
-  if (!parts.coord || !plain(parts.coord)) return false;
+  if (!parts.coord || !plain(parts.coord) || has_opacity(g)) return false;
   return !faces || parts.texcoord || !may_be_textured(scene_.get(shape, nodes::shape::appearance));
 }
 

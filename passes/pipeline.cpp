@@ -96,6 +96,13 @@ void Pipeline::complete(std::string_view named) {
       if (std::ranges::find(steps_, from->info, &Step::info) == steps_.end()) all.push_back(std::move(*from));
   };
   add_missing(standard->steps_.begin(), split);
+  // Where nothing is drawn, what the standard pipeline does to a world is done to those that Inlines bring in as well.
+  auto brings_in = [](const Step& s) { return s.info->name == "inline" || s.info->name == "expand-protos"; };
+  if (split == standard->steps_.end() && std::ranges::any_of(steps_, brings_in)) {
+    auto last = std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base();
+    steps_.insert(last, std::make_move_iterator(all.begin()), std::make_move_iterator(all.end()));
+    return;
+  }
   const auto in_front = all.size();
   add_missing(split, standard->steps_.end());
   all.insert(all.begin() + static_cast<std::ptrdiff_t>(in_front), std::make_move_iterator(steps_.begin()), std::make_move_iterator(steps_.end()));

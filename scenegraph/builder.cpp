@@ -17,6 +17,7 @@ NodeId SceneBuilder::open(TypeId type, std::string_view def_name, Span where) {
 void SceneBuilder::close() {
   auto& o = open_.back();
   if (!o.more.empty()) append_all(o);
+  if (scene_.dialect() == Dialect::x3d && current_type().kind == NodeKind::builtin) add_x3d_defaults(o);
   std::span<const Value> fields(fields_.data() + o.first_field, fields_.size() - o.first_field);
   if (o.own.empty()) {
     scene_.set_fields(o.node, fields);
@@ -29,6 +30,12 @@ void SceneBuilder::close() {
   }
   fields_.resize(o.first_field);
   open_.pop_back();
+}
+
+/// Defaults that are not those of the table are said in so many words, so that all scenes mean the same.
+void SceneBuilder::add_x3d_defaults(Open& o) {
+  for (const auto& f : current_type().fields)
+    if (f.x3d_from && scene_.x3d.version >= f.x3d_from && !find_field(o, f.x3d_default.slot)) fields_.push_back(f.x3d_default);
 }
 
 /// The field of that slot, or null. Where there are many, an index grows with them.
@@ -135,9 +142,17 @@ void SceneBuilder::check_event(NodeId n, std::string_view event, bool out, Span 
   auto slot = t.find(event, scene_.dialect(), true);
   if (slot) {
     auto a = t.fields[*slot].access;
-    if (a == Access::inout || a == (out ? Access::out : Access::in)) return;
+    if (a == Access::inout || a == (out ? Access::out : Access::in) || (a == Access::init && scene_.dialect() == Dialect::x3d)) return;
   }
   diag_.report(Diag::unknown_event, where, t.name, event);
+}
+
+TypeId SceneBuilder::proto_type(std::string_view name, std::span<const FieldDef> fields) {
+  NodeType t;
+  t.name = scene_.keep(name);
+  t.kind = NodeKind::proto;
+  t.dialects = 0xff;
+  return scene_.add_type(t, fields);
 }
 
 ProtoId SceneBuilder::declare_proto(Proto p, Span where) {

@@ -50,6 +50,8 @@ class SceneBuilder {
   Scope close_scope();
   void root(NodeId n) { scopes_.back().scope.roots.push_back(n); }
   void route(std::string_view from, std::string_view event_out, std::string_view to, std::string_view event_in, Span where);
+  /// The interface of a prototype as a node type.
+  TypeId proto_type(std::string_view name, std::span<const FieldDef> fields);
   /// Makes a prototype known under its name from here on.
   ProtoId declare_proto(Proto p, Span where);
 
@@ -80,6 +82,7 @@ class SceneBuilder {
   };
   Value* find_field(Open&, std::uint16_t slot);
   void append_all(Open&);
+  void add_x3d_defaults(Open&);
   NodeId defined(std::string_view name) const;
   bool try_route(const Pending&);
   void check_event(NodeId, std::string_view event, bool out, Span);

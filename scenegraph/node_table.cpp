@@ -14,10 +14,16 @@ std::optional<std::uint16_t> NodeType::find(std::string_view field, Dialect dial
   } else for (std::size_t i = 0; i < fields.size(); ++i)
     if (((fields[i].dialects & static_cast<DialectSet>(dialect)) || fields[i].is_own()) && fields[i].name_in(dialect) == field)
       return static_cast<std::uint16_t>(i);
+  // Files of X3D that were VRML97 once (Xj3D's, castle's) still have choice, level and collide.
+  if (dialect == Dialect::x3d && (field == "choice" || field == "level" || field == "collide"))
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      if (fields[i].vrml97_name == field) return static_cast<std::uint16_t>(i);
   if (!events) return std::nullopt;
   auto exposed = [&](std::string_view stem) -> std::optional<std::uint16_t> {
     auto i = find(stem, dialect, false);
-    return i && fields[*i].access == Access::inout ? i : std::nullopt;
+    // Which initializeOnly fields became inputOutput depends on the version of X3D.
+    bool events = i && (fields[*i].access == Access::inout || (dialect == Dialect::x3d && fields[*i].access == Access::init));
+    return events ? i : std::nullopt;
   };
   if (field.starts_with("set_"))
     if (auto i = exposed(field.substr(4))) return i;

@@ -39,9 +39,13 @@ struct FieldDef {
   std::string_view unit;         // "length", "angle", ...; empty: none
   std::string_view doc;
   std::string_view default_text; // as the table has it, for documentation
+  std::uint8_t x3d_from = 0;     // version of X3D, 33 for 3.3, from which the default is x3d_default; 0: it never differs
+  Value x3d_default;
 
   bool is_own() const { return dialects == static_cast<DialectSet>(Dialect::wrlkit); }
   bool has_value() const { return access == Access::init || access == Access::inout; }
+  /// The default by a version of X3D. Scenes are made so that a field that is not written has `default_value`.
+  const Value& x3d_default_in(int version) const { return x3d_from && version >= x3d_from ? x3d_default : default_value; }
   std::string_view name_in(Dialect d) const { return d == Dialect::vrml97 && !vrml97_name.empty() ? vrml97_name : name; }
 };
 

@@ -2,6 +2,7 @@
 // implementation (parsers/resources.h) reads files below the allowed folders and nothing else.
 #pragma once
 #include <deque>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -29,6 +30,9 @@ struct MadeFile {
   std::shared_ptr<const std::string> bytes;
   bool always = false;  // written even if the world that is written does not refer to it
 };
+
+/// The name, beside the file that is written, of the file that has such a url.
+using PlaceMade = std::function<std::string(std::string_view url)>;
 
 class Resources {
  public:

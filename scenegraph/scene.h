@@ -37,6 +37,14 @@ struct Proto {
   Span where;
 };
 
+/// What an X3D file says of itself in front of its nodes (ISO/IEC 19775-1, 7.2.5). Units have been applied.
+struct X3dHead {
+  int version = 33;  // 33: 3.3
+  std::string profile;
+  std::vector<std::pair<std::string, int>> components;    // name, level
+  std::vector<std::pair<std::string, std::string>> meta;  // name, content
+};
+
 enum class Format : std::uint8_t { none, vrml1, vrml97, x3d_classic, x3d_xml, gltf };
 
 class Scene {
@@ -46,6 +54,7 @@ class Scene {
   // What the file says beside nodes.
   Format format = Format::vrml97;
   std::string comment;          // the comment lines that follow the header, with their '#'
+  X3dHead x3d;
   Scope main;
   std::shared_ptr<Sources> sources;
 

@@ -42,8 +42,10 @@ class ValueCheck {
 
  private:
   void range(NodeId n, const FieldDef& f, const Value& v) {
+    // pi/2 is printed as 1.5708, which is a little more.
+    const double rounded = f.unit == "angle" ? 5e-5 : 0;
     for (double d : v.number_span())
-      if (!f.range.contains(d)) return diag_.report(Diag::out_of_range, scene_.where(n), scene_.type(n).name, f.name, d, range_text(f.range));
+      if (!f.range.contains(d) && !f.range.contains(d - rounded) && !f.range.contains(d + rounded)) return diag_.report(Diag::out_of_range, scene_.where(n), scene_.type(n).name, f.name, d, range_text(f.range));
     if (info(f.type).element != Element::integer) return;
     for (auto i : v.integer_span())
       if (!f.range.contains(i)) return diag_.report(Diag::out_of_range, scene_.where(n), scene_.type(n).name, f.name, i, range_text(f.range));

@@ -5,7 +5,7 @@
   tests/check.py --wrlkit ... tests/text/parse/hex.wrl           run one
   tests/check.py --wrlkit ... --update tests/text/write          take the output as it is for the expected one
 
-A test is a .wrl or .test file with comments such as these. Words behind the '#' of a world count wherever they stand, so
+A test is a .wrl, .x3d, .x3dv or .test file with comments such as these. Words behind the '#' of a world count wherever they stand, so
 they come behind the nodes, where no writer takes them for the world's leading comment.
 
   # RUN: wrlkit cat %s             a command for bash, run in the root of the project; %s is this file, %S its folder,
@@ -243,7 +243,7 @@ def tests_below(paths):
         if path.is_file():
             yield path.resolve()
         elif path.is_dir():
-            yield from (p for end in ('wrl', 'test') for p in path.resolve().rglob(f'*.{end}') if 'inputs' not in p.parts)
+            yield from (p for end in ('wrl', 'x3d', 'x3dv', 'test') for p in path.resolve().rglob(f'*.{end}') if 'inputs' not in p.parts)
         else:
             sys.exit(f'check: there is no {path}')
 

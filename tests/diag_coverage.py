@@ -3,7 +3,7 @@
 
   tests/diag_coverage.py
 
-Prints each name of scenegraph/diagnostics.def without a file tests/text/diag/NAME.wrl or NAME.test that expects it, and
+Prints each name of scenegraph/diagnostics.def without a file tests/text/diag/NAME.wrl, .x3d, .x3dv or .test that expects it, and
 each such file that no message has. The exit code is 1 when there is any.
 """
 from pathlib import Path
@@ -32,7 +32,7 @@ def expected_in(test):
 
 
 def main():
-    tests = {t.stem: t for t in TESTS.iterdir() if t.suffix in ('.wrl', '.test')}
+    tests = {t.stem: t for t in TESTS.iterdir() if t.suffix in ('.wrl', '.x3d', '.x3dv', '.test')}
     unit_tests = '\n'.join(t.read_text('utf-8') for t in (ROOT / 'tests/unit').glob('*.cpp'))
     faults = []
     for name in names():

@@ -14,12 +14,14 @@
 namespace wrlkit {
 namespace {
 
-enum class Target : std::uint8_t { glb, gltf, vrml };
+enum class Target : std::uint8_t { glb, gltf, vrml, x3d };
 
 std::optional<Target> target_of(std::string name, bool& gzip) {
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (name.ends_with(".gz")) gzip = true, name.resize(name.size() - 3);
   if (name.ends_with(".wrz")) return gzip = true, Target::vrml;
+  if (name.ends_with(".x3dz")) return gzip = true, Target::x3d;
+  if (name.ends_with(".x3d")) return Target::x3d;
   if (name.ends_with(".wrl") || name.ends_with(".vrml")) return Target::vrml;
   if (gzip) return std::nullopt;
   if (name.ends_with(".glb") || name == "-") return Target::glb;
@@ -48,9 +50,9 @@ std::size_t count_geometries(const Scene& scene) {
   return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return scene.type(n).is_a("X3DGeometryNode"); }));
 }
 
-bool write_as_vrml(Session& s, bool gzip) {
+bool write_as_text(Session& s, bool gzip, Target target) {
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return false;
-  return write_vrml_file(s, s.world().scene, s.flags().output, gzip);
+  return (target == Target::x3d ? write_x3d_file : write_vrml_file)(s, s.world().scene, s.flags().output, gzip);
 }
 
 bool write_as_gltf(Session& s, bool binary) {
@@ -68,8 +70,8 @@ bool write_as_gltf(Session& s, bool binary) {
 
 /// The pipeline that prepares a scene for its writer.
 std::string_view pipeline_for(Target target, const Flags& flags) {
-  if (target != Target::vrml) return light_of(flags.lightmap_as)->pipeline;
-  return flags.dump ? "none" : "vrml";
+  if (target == Target::glb || target == Target::gltf) return light_of(flags.lightmap_as)->pipeline;
+  return flags.dump ? "none" : target == Target::x3d ? "x3d" : "vrml";
 }
 
 }  // namespace
@@ -85,7 +87,7 @@ int run_convert(const Flags& flags) {
   check_values(s.world().scene, s.diag());
   const auto& main = s.world().scene.main;
   if (main.roots.empty() && main.protos.empty() && s.diag().has_errors()) return s.diag().report(Diag::nothing_to_write, {}), s.end(false);
-  bool made = *target == Target::vrml ? write_as_vrml(s, gzip) : write_as_gltf(s, *target == Target::glb);
+  bool made = *target == Target::vrml || *target == Target::x3d ? write_as_text(s, gzip, *target) : write_as_gltf(s, *target == Target::glb);
   if (made && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);
   return s.end(made);
 }

@@ -36,11 +36,23 @@ std::string limits_text(const FieldDef& f) {
   return out;
 }
 
+/// What the field says, and in which dialect it is otherwise.
+std::string doc_text(const NodeType& t, const FieldDef& f) {
+  constexpr auto vrml97 = static_cast<DialectSet>(Dialect::vrml97);
+  std::string out(f.doc);
+  if ((t.dialects & vrml97) && !(f.dialects & vrml97)) out = "X3D: " + out;
+  if (!f.vrml97_name.empty()) out += fmt::format("; in X3D {}", f.name);
+  if (f.x3d_from) out += fmt::format("; another default in X3D {}.{}", f.x3d_from / 10, f.x3d_from % 10);
+  return out;
+}
+
 struct FormatRow {
   std::string_view name, extensions, read, write;
 };
 constexpr FormatRow formats[] = {
     {"VRML97", ".wrl .wrz .wrl.gz .vrml", "yes, gzip by its first bytes", "yes, --gzip"},
+    {"X3D XML", ".x3d .x3dz", "yes, versions 3.0 to 4.0, gzip", "yes, 4.0, --gzip"},
+    {"X3D VRML", ".x3dv .x3dvz", "yes, versions 3.0 to 4.0, gzip", "no"},
     {"glTF 2.0", ".gltf", "no", "yes"},
     {"GLB", ".glb", "no", "yes"},
     {"patches", ".xml", "yes", "illuminate"},
@@ -56,7 +68,7 @@ std::string type_text(const NodeType& t) {
   out += fmt::format("  is a {}\n\n", bases);
   for (auto& f : t.fields) {
     auto name = f.name_in(Dialect::vrml97);
-    out += fmt::format("  {:<13}{:<11}{:<18}{:<14} {:<16} {}\n", access_word(f.access), info(f.type).name, name, f.default_text, limits_text(f), f.doc);
+    out += fmt::format("  {:<13}{:<11}{:<18}{:<14} {:<16} {}\n", access_word(f.access), info(f.type).name, name, f.default_text, limits_text(f), doc_text(t, f));
   }
   return out;
 }
@@ -124,7 +136,7 @@ std::string nodes_page() {
   std::string out = "# Node types\n\nGenerated from `scenegraph/nodes/*.nodes` by `script/docs`; do not edit.\n";
   for (auto& t : builtin_nodes()) {
     out += fmt::format("\n## {}\n\n{} ({})\n\n| access | type | name | default | range, unit, kinds | |\n|---|---|---|---|---|---|\n", t.name, t.doc, t.clauses);
-    for (auto& f : t.fields) out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", access_word(f.access), info(f.type).name, f.name_in(Dialect::vrml97), f.default_text, limits_text(f), f.doc);
+    for (auto& f : t.fields) out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", access_word(f.access), info(f.type).name, f.name_in(Dialect::vrml97), f.default_text, limits_text(f), doc_text(t, f));
   }
   return out;
 }

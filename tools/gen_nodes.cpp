@@ -27,6 +27,8 @@ struct Field {
   bool low_open = false, high_open = false, ranged = false;
   std::vector<std::string> kinds;
   std::vector<std::string> values;  // of the default: numbers, strings without quotes
+  std::vector<std::string> x3d_values;  // of X3D's default, where it has another one
+  int x3d_from = 30;                    // in version 3.0, or from this one on
   std::string only;
 };
 
@@ -131,6 +133,12 @@ Field read_field(const std::string& text, const std::string& doc) {
     else if (s.starts_with("unit=")) f.unit = s.substr(5);
     else if (s.starts_with("vrml97=")) f.vrml97 = s.substr(7);
     else if (s.starts_with("only=")) f.only = s.substr(5);
+    else if (s.starts_with("x3d")) {
+      auto equals = s.find('=');
+      if (equals == std::string::npos) fail("not understood: " + s);
+      if (equals > 3) f.x3d_from = std::stoi(s.substr(3)) * 10 + (s[4] == '.' ? s[5] - '0' : 0);
+      f.x3d_values = split(s.substr(equals + 1), "[]|\"");
+    }
     else fail("not understood: " + s);
   }
   return f;
@@ -326,7 +334,10 @@ struct Generator {
       o << "constexpr std::int32_t d" << id << "[] = {";
       for (auto& v : f.values) o << (v == "TRUE" ? "1" : v == "FALSE" ? "0" : v) << ", ";
       o << "};\n";
-    } else if (t.element == Element::text && t.multiple) o << "constexpr std::string_view d" << id << "[] = {" << list_of(f.values) << "};\n";
+    } else if (t.element == Element::text && t.multiple) {
+      o << "constexpr std::string_view d" << id << "[] = {" << list_of(f.values) << "};\n";
+      if (!f.x3d_values.empty()) o << "constexpr std::string_view x" << id << "[] = {" << list_of(f.x3d_values) << "};\n";
+    }
   }
 
   void write_field(std::ostream& o, std::size_t i, std::size_t k) const {
@@ -343,7 +354,16 @@ struct Generator {
     else value = "number(" + head + ", " + (f.values.empty() ? "0" : infinite(f.values[0])) + ")";
     int d = f.only.empty() ? dialects(nodes[i].clauses) : dialects(f.only);
     o << "    {" << quoted(f.name) << ", " << quoted(f.vrml97) << ", T::" << f.type << ", Access::" << f.access << ", " << d << ", " << value << ", {" << infinite(f.low) << ", " << infinite(f.high) << ", "
-      << (f.low_open ? "true" : "false") << ", " << (f.high_open ? "true" : "false") << "}, " << (f.kinds.empty() ? "{}" : "k" + id) << ", " << quoted(f.unit) << ", " << quoted(f.doc) << ", " << quoted(f.default_text) << "},\n";
+      << (f.low_open ? "true" : "false") << ", " << (f.high_open ? "true" : "false") << "}, " << (f.kinds.empty() ? "{}" : "k" + id) << ", " << quoted(f.unit) << ", " << quoted(f.doc) << ", " << quoted(f.default_text) << x3d_default(f, head, id) << "},\n";
+  }
+
+  static std::string x3d_default(const Field& f, const std::string& head, const std::string& id) {
+    if (f.x3d_values.empty()) return {};
+    const auto& t = wrlkit::info(type_of(f.type));
+    std::string value = t.element == Element::text && t.multiple ? "texts(" + head + ", " + std::to_string(f.x3d_values.size()) + ", x" + id + ")"
+                        : t.element == Element::number && !t.multiple && t.arity == 1 ? "number(" + head + ", " + f.x3d_values[0] + ")" : "";
+    if (value.empty()) fail("no default of X3D's own for this type: " + f.name);
+    return ", " + std::to_string(f.x3d_from) + ", " + value;
   }
 };
 

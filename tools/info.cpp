@@ -71,9 +71,9 @@ void count_expanded(Session& s, Info& info) {
   const Scene& scene = s.world().scene;
   for (NodeId n : reachable(scene, scene.main)) {
     const auto& t = scene.type(n);
-    info.materials += scene.is(n, nodes::Material);
+    info.materials += t.is_a("X3DMaterialNode");
     info.lights += t.is_a("X3DLightNode");
-    info.viewpoints += scene.is(n, nodes::Viewpoint);
+    info.viewpoints += t.is_a("X3DViewpointNode");
     info.lods += scene.is(n, nodes::LOD);
     if (t.is_a("X3DTextureNode")) info.textures.push_back(texture_info(s, n));
   }

@@ -3,16 +3,24 @@
 #include "writers/made_files.h"
 #include "writers/output.h"
 #include "writers/vrml.h"
+#include "writers/x3d.h"
 
 namespace wrlkit {
+namespace {
 
-bool write_vrml_file(Session& s, const Scene& scene, const std::string& path, bool gzip) {
+template <class Options>
+bool write_text_file(Session& s, const Scene& scene, const std::string& path, bool gzip, void (*write)(const Scene&, const Options&, const Sink&, Diagnostics&)) {
   auto file = OutputFile::open(path, {.gzip = gzip}, s.diag());
   if (!file) return false;
   MadeFiles made(scene, s.resources(), path, s.diag());
   const auto place = [&](std::string_view url) { return made.place(url); };
-  write_vrml(scene, {.precision = s.flags().precision, .own_fields = s.flags().dump, .file = path == "-" ? "" : path, .place = place}, file->sink(), s.diag());
+  write(scene, {.precision = s.flags().precision, .own_fields = s.flags().dump, .file = path == "-" ? "" : path, .place = place}, file->sink(), s.diag());
   return made.write() && made.commit() && file->commit(s.diag());
 }
+
+}  // namespace
+
+bool write_vrml_file(Session& s, const Scene& scene, const std::string& path, bool gzip) { return write_text_file(s, scene, path, gzip, write_vrml); }
+bool write_x3d_file(Session& s, const Scene& scene, const std::string& path, bool gzip) { return write_text_file(s, scene, path, gzip, write_x3d); }
 
 }  // namespace wrlkit

@@ -1,4 +1,4 @@
-// A world as a VRML file, with the pictures that passes have made beside it.
+// A world as a VRML or X3D file, with the pictures that passes have made beside it.
 #pragma once
 #include <string>
 
@@ -8,5 +8,6 @@ namespace wrlkit {
 
 /// As the flags want it, all files or none but for faults of the system in between; false, and a message, when not.
 bool write_vrml_file(Session&, const Scene&, const std::string& path, bool gzip);
+bool write_x3d_file(Session&, const Scene&, const std::string& path, bool gzip);
 
 }  // namespace wrlkit

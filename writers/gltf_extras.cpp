@@ -55,7 +55,7 @@ void array(JsonOut& json, std::span<const T> values) {
 }  // namespace
 
 bool Extras::implied(NodeId n) const {
-  constexpr TypeId types[] = {nodes::Group,      nodes::Transform,        nodes::Shape,    nodes::Viewpoint,
+  constexpr TypeId types[] = {nodes::Group,      nodes::Transform,        nodes::Shape,    nodes::Viewpoint, nodes::OrthoViewpoint,
                               nodes::PointLight, nodes::DirectionalLight, nodes::SpotLight};
   return std::ranges::find(types, scene_.type_id(n)) != std::end(types);
 }
@@ -76,6 +76,7 @@ Extras::Said Extras::said_by_node(NodeId n, bool plain_transform) const {
       {Group, {group::children.slot}, 1},
       {LOD, {lod::children.slot}, 1},
       {Shape, {shape::appearance.slot, shape::geometry.slot}, 2},
+      {OrthoViewpoint, {ortho_viewpoint::position.slot, ortho_viewpoint::orientation.slot, ortho_viewpoint::fieldOfView.slot}, 3},
       {Viewpoint, {viewpoint::position.slot, viewpoint::orientation.slot, viewpoint::fieldOfView.slot}, 3},
       {DirectionalLight, {directional_light::direction.slot}, 1},
       {PointLight, {point_light::location.slot}, 1},

@@ -10,7 +10,7 @@ namespace {
 
 /// Nodes that have no counterpart and do not miss one: what they say is kept, and nothing changes for who looks.
 bool harmless(const Scene& scene, NodeId n) {
-  return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline);
+  return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline) || scene.type(n).is_a("X3DMetadataObject");
 }
 
 /// Groups that do something that glTF cannot do.
@@ -70,7 +70,7 @@ Hierarchy::Kind Hierarchy::kind(NodeId n) {
   return kinds_[id] = t.kind != NodeKind::builtin      ? Kind::other
                       : t.is_a("X3DGroupingNode")      ? Kind::group
                       : scene_.is(n, nodes::Shape)     ? Kind::shape
-                      : scene_.is(n, nodes::Viewpoint) ? Kind::viewpoint
+                      : t.is_a("X3DViewpointNode")     ? Kind::viewpoint
                       : is_light(scene_, n)            ? Kind::light
                                                        : Kind::other;
 }

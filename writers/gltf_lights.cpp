@@ -98,6 +98,11 @@ bool is_light(const Scene& scene, NodeId n) {
   return scene.is(n, nodes::DirectionalLight) || scene.is(n, nodes::PointLight) || scene.is(n, nodes::SpotLight);
 }
 
+bool is_global(const Scene& scene, NodeId n) {
+  if (scene.is(n, nodes::DirectionalLight)) return scene.get(n, nodes::directional_light::global);
+  return scene.is(n, nodes::PointLight) ? scene.get(n, nodes::point_light::global) : scene.get(n, nodes::spot_light::global);
+}
+
 bool shines(const Scene& scene, NodeId n) {
   auto c = common(scene, n);
   bool reaches = scene.is(n, nodes::DirectionalLight) || (c.radius > 0 && fits_float(c.radius));
@@ -115,7 +120,7 @@ void report_lost_light(const Scene& scene, NodeId n, bool at_top, Diagnostics& d
   if (c.attenuation[0] != 0 || c.attenuation[1] != 0)
     diag.report(Diag::no_gltf_value, scene.where(n), type, "attenuation");
   if (c.ambient != 0) diag.report(Diag::no_gltf_value, scene.where(n), type, "ambientIntensity");
-  if (!at_top && scene.is(n, nodes::DirectionalLight)) diag.report(Diag::no_gltf_light_scope, scene.where(n));
+  if (!at_top && !is_global(scene, n)) diag.report(Diag::no_gltf_light_scope, scene.where(n), type);
 }
 
 void write_light(JsonOut& json, const Scene& scene, const Light& light, const Box& world) {

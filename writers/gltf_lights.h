@@ -26,6 +26,8 @@ struct Light {
 
 bool is_light(const Scene&, NodeId);
 /// On, and of some effect.
+/// It reaches more than its siblings and what is below them.
+bool is_global(const Scene&, NodeId);
 bool shines(const Scene&, NodeId light);
 /// Location and direction as those of a node.
 Trs light_transform(const Scene&, NodeId light);

@@ -32,18 +32,45 @@ struct Materials::Look {
   UvAffine light_uv;
   bool lit = false, shows_color = false;
   Vec3 base = white, emissive = black;  // display-referred
-  double alpha = 1;
+  double alpha = 1, metallic = 0, rough = 1, cutoff = 0.5;
   Alpha mode = Alpha::opaque;
+  std::uint32_t normal = none, occlusion = none, glow = none, metal_rough = none;  // further pictures
+  double normal_scale = 1, occlusion_strength = 1;
 };
+
+namespace {
+
+bool is_material(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::Material) || scene.is(n, nodes::PhysicalMaterial) || scene.is(n, nodes::UnlitMaterial);
+}
+
+/// The picture of a material in a field that all materials of X3D 4.0 call the same; none where it has no such field.
+NodeId picture(const Scene& scene, NodeId material, std::string_view field) {
+  auto slot = scene.type(material).find(field, Dialect::x3d);
+  const Value* v = slot ? scene.find(material, *slot) : nullptr;
+  return v && !v->is && v->type == FieldType::SFNode ? v->node : NodeId{};
+}
+
+constexpr std::string_view further[] = {"normalTexture", "occlusionTexture", "emissiveTexture", "metallicRoughnessTexture"};
+
+/// Of an UnlitMaterial it is the colour itself.
+NodeId further_picture(const Scene& scene, NodeId material, std::string_view field) {
+  if (field == "emissiveTexture" && scene.is(material, nodes::UnlitMaterial)) return {};
+  return picture(scene, material, field);
+}
+
+}  // namespace
 
 bool Materials::has_picture(NodeId appearance) {
   if (!scene_.is(appearance, nodes::Appearance)) return false;
-  return textures_.get(scene_.get(appearance, nodes::appearance::texture)).texture != none;
+  if (textures_.get(scene_.get(appearance, nodes::appearance::texture)).texture != none) return true;
+  const NodeId m = scene_.get(appearance, nodes::appearance::material);
+  return is_material(scene_, m) && std::ranges::any_of(further, [&](auto f) { return textures_.get(further_picture(scene_, m, f)).texture != none; });
 }
 
 MaterialUse Materials::get(NodeId appearance, SurfaceKind s) {
   std::uint64_t key = appearance.value;
-  for (bool b : {s.faces, s.color, s.texcoord, s.light, s.double_sided}) key = key << 1 | b;
+  for (bool b : {s.faces, s.color, s.texcoord, s.light, s.double_sided, s.opacity}) key = key << 1 | b;
   auto [i, is_new] = uses_.try_emplace(key);
   if (is_new) i->second = make(appearance, s);
   return i->second;
@@ -68,24 +95,55 @@ Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
     l.texture_node = scene_.get(appearance, a::texture);
     l.transform_node = scene_.get(appearance, a::textureTransform);
   }
-  if (!scene_.is(l.material, nodes::Material)) l.material = {};
+  if (!is_material(scene_, l.material)) l.material = {};
   if (!scene_.is(l.transform_node, nodes::TextureTransform)) l.transform_node = {};
-  if (s.faces && s.texcoord) l.texture = textures_.get(l.texture_node);
-  if (l.texture.texture != none) l.uv = uv_affine(scene_, l.transform_node);
-
-  l.lit = l.material && s.faces;
-  bool replaced = l.texture.channels >= 3;
-  l.shows_color = s.color && !replaced;
-  if (l.material) {
-    const Vec3 emissive = scene_.get(l.material, m::emissiveColor);
-    if (!s.color && !replaced) l.base = s.faces ? scene_.get(l.material, m::diffuseColor) : emissive;
-    if (s.faces) l.emissive = emissive;
-    l.alpha = 1 - unit_range(scene_.get(l.material, m::transparency));
-  }
-  if (l.alpha < 1) l.mode = Alpha::blend;
+  if (s.faces && s.texcoord) l.texture = textures_.get(l.texture_node), further_pictures(l);
+  if (s.faces && s.texcoord) l.uv = uv_affine(scene_, l.transform_node);
+  read_material(l);
+  if (l.alpha < 1 || (s.color && s.opacity)) l.mode = Alpha::blend;
   if (l.texture.channels % 2 == 0 && l.texture.channels > 0) l.alpha = 1, l.mode = l.texture.alpha;
+  read_alpha_mode(l);
   if (l.appearance && s.faces && s.light) look_at_light(l);
   return l;
+}
+
+void Materials::read_material(Look& l) {
+  const SurfaceKind& s = l.surface;
+  const bool physical = scene_.is(l.material, nodes::PhysicalMaterial), unlit = scene_.is(l.material, nodes::UnlitMaterial);
+  const bool x3d4 = scene_.dialect() == Dialect::x3d && scene_.x3d.version >= 40;
+  const bool replaced = l.texture.channels >= 3 && !physical && !unlit && !x3d4;
+  l.lit = l.material && s.faces && !unlit;
+  l.shows_color = s.color && !replaced;
+  if (!l.material) return;
+  namespace p = nodes::physical_material;
+  namespace u = nodes::unlit_material;
+  const Vec3 emissive = physical ? scene_.get(l.material, p::emissiveColor) : unlit ? scene_.get(l.material, u::emissiveColor) : scene_.get(l.material, m::emissiveColor);
+  const Vec3 diffuse = physical ? scene_.get(l.material, p::baseColor) : unlit ? emissive : scene_.get(l.material, m::diffuseColor);
+  if (!s.color && !replaced) l.base = s.faces ? diffuse : emissive;
+  if (s.faces && !unlit) l.emissive = emissive;
+  l.alpha = 1 - unit_range(physical ? scene_.get(l.material, p::transparency) : unlit ? scene_.get(l.material, u::transparency) : scene_.get(l.material, m::transparency));
+  if (physical) l.metallic = unit_range(scene_.get(l.material, p::metallic)), l.rough = unit_range(scene_.get(l.material, p::roughness));
+  else if (l.lit) l.rough = roughness(scene_.get(l.material, m::shininess), scene_.get(l.material, m::specularColor));
+}
+
+void Materials::read_alpha_mode(Look& l) {
+  if (!l.appearance) return;
+  const auto mode = scene_.get(l.appearance, nodes::appearance::alphaMode);
+  if (mode == "OPAQUE") l.mode = Alpha::opaque, l.alpha = 1;
+  if (mode == "BLEND") l.mode = Alpha::blend;
+  if (mode == "MASK") l.mode = Alpha::mask, l.cutoff = unit_range(scene_.get(l.appearance, nodes::appearance::alphaCutoff));
+}
+
+void Materials::further_pictures(Look& l) {
+  if (!l.material) return;
+  std::uint32_t* to[] = {&l.normal, &l.occlusion, &l.glow, &l.metal_rough};
+  for (std::size_t i = 0; i < std::size(further); ++i) *to[i] = textures_.get(further_picture(scene_, l.material, further[i])).texture;
+  auto number = [&](std::string_view field) {
+    auto slot = scene_.type(l.material).find(field, Dialect::x3d);
+    return slot ? scene_.value(l.material, *slot).number : 1;
+  };
+  l.normal_scale = number("normalScale");
+  l.occlusion_strength = unit_range(number("occlusionStrength"));
 }
 
 void Materials::look_at_light(Look& l) {
@@ -97,8 +155,9 @@ void Materials::look_at_light(Look& l) {
   l.light_transform = scene_.get(l.appearance, a::lightmapTransform);
   if (!scene_.is(l.light_transform, nodes::TextureTransform)) l.light_transform = {};
   l.light_uv = uv_affine(scene_, l.light_transform);
+  if (lightmaps_ == As::occlusion) l.occlusion = none;
   if (lightmaps_ != As::emissive) return;
-  l.base = black, l.emissive = white, l.shows_color = false;
+  l.base = black, l.emissive = white, l.shows_color = false, l.glow = none;
   if (l.texture.channels % 2 == 1) l.texture = {};
 }
 
@@ -114,23 +173,16 @@ std::string Materials::json(const Look& l) {
               : l.appearance                                 ? scene_.name(l.appearance)
                                                              : std::string_view{};
   if (!name.empty()) json.member("name", name);
-  json.key("pbrMetallicRoughness");
-  json.begin_object();
-  auto base = linear_color(l.base);
-  if (l.base != white || l.alpha < 1)
-    json.member("baseColorFactor",
-                std::span<const float>(std::array{base[0], base[1], base[2], static_cast<float>(l.alpha)}));
-  if (l.texture.texture != none) texture_info(json, l);
-  json.member("metallicFactor", 0);
-  // An unlit material has a fallback for viewers that do not know the extension: as rough as can be.
-  double rough = l.lit ? roughness(scene_.get(l.material, m::shininess), scene_.get(l.material, m::specularColor)) : 1;
-  if (rough < 1) json.member("roughnessFactor", static_cast<float>(rough));
-  json.end_object();
+  pbr(json, l);
+  if (l.normal != none && l.lit) texture_info(json, l, "normalTexture", l.normal, "scale", l.normal_scale);
+  if (l.occlusion != none && l.lit) texture_info(json, l, "occlusionTexture", l.occlusion, "strength", l.occlusion_strength);
   using As = GltfOptions::Lightmaps;
   if (replaced_by_light(l)) json.key("emissiveTexture"), light_info(json, l);
   if (l.light.texture != none && lightmaps_ == As::occlusion) json.key("occlusionTexture"), light_info(json, l);
   if (l.emissive != black) json.member("emissiveFactor", std::span<const float>(linear_color(l.emissive)));
+  if (l.glow != none && l.lit) texture_info(json, l, "emissiveTexture", l.glow);
   if (l.mode != Alpha::opaque) json.member("alphaMode", l.mode == Alpha::mask ? "MASK" : "BLEND");
+  if (l.mode == Alpha::mask && l.cutoff != 0.5) json.member("alphaCutoff", static_cast<float>(l.cutoff));
   if (l.surface.double_sided) json.member("doubleSided", true);
   extensions(json, l);
   extras(json, l);
@@ -154,21 +206,37 @@ void Materials::light_info(JsonOut& json, const Look& l) {
   json.begin_object();
   const double scale = scene_.get(l.appearance, nodes::appearance::lightmapScale);
   if (lightmaps_ == GltfOptions::Lightmaps::moz && scale != 1) json.member("intensity", scale);
-  texture_info_members(json, l.light, l.surface.texcoord, l.light_uv);
+  texture_info_members(json, l.light.texture, l.surface.texcoord, l.light_uv);
   json.end_object();
 }
 
-void Materials::texture_info(JsonOut& json, const Look& l) {
-  json.key("baseColorTexture");
+// An unlit material has a fallback for viewers that do not know the extension: as rough as can be.
+void Materials::pbr(JsonOut& json, const Look& l) {
+  json.key("pbrMetallicRoughness");
   json.begin_object();
-  texture_info_members(json, l.texture, 0, l.uv);
+  auto base = linear_color(l.base);
+  if (l.base != white || l.alpha < 1)
+    json.member("baseColorFactor",
+                std::span<const float>(std::array{base[0], base[1], base[2], static_cast<float>(l.alpha)}));
+  if (l.texture.texture != none) texture_info(json, l, "baseColorTexture", l.texture.texture);
+  json.member("metallicFactor", static_cast<float>(l.lit ? l.metallic : 0));
+  if (l.lit && l.rough < 1) json.member("roughnessFactor", static_cast<float>(l.rough));
+  if (l.lit && l.metal_rough != none) texture_info(json, l, "metallicRoughnessTexture", l.metal_rough);
+  json.end_object();
+}
+
+void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name, std::uint32_t texture, const char* factor, double value) {
+  json.key(name);
+  json.begin_object();
+  if (value != 1) json.member(factor, static_cast<float>(value));
+  texture_info_members(json, texture, 0, l.uv);
   if (extras_ && l.transform_node && extras_->anything(l.transform_node, {}))
     extras_->member(json, l.transform_node, {});
   json.end_object();
 }
 
-void Materials::texture_info_members(JsonOut& json, const TextureUse& use, std::uint32_t set, const UvAffine& uv) {
-  json.member("index", use.texture);
+void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::uint32_t set, const UvAffine& uv) {
+  json.member("index", texture);
   if (set > 0) json.member("texCoord", set);
   auto t = uv_transform(uv);
   if (!t || uv == UvAffine{}) return;
@@ -189,7 +257,7 @@ void Materials::light_extras(JsonOut& json, const Look& l) {
   namespace a = nodes::appearance;
   json.key("lightmap");
   json.begin_object();
-  texture_info_members(json, l.light, l.surface.texcoord, l.light_uv);
+  texture_info_members(json, l.light.texture, l.surface.texcoord, l.light_uv);
   json.member("scale", scene_.get(l.appearance, a::lightmapScale));
   std::vector<std::uint32_t> directions;
   for (NodeId n : scene_.get(l.appearance, a::lightmapDirection))
@@ -198,13 +266,27 @@ void Materials::light_extras(JsonOut& json, const Look& l) {
   json.end_object();
 }
 
-/// The fields of Material that the look does not show, a picture that is not shown at all, and the light.
+/// What glTF has said of a Material.
+std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
+  std::vector<std::uint16_t> said{m::diffuseTexture.slot, m::normalTexture.slot, m::emissiveTexture.slot, m::occlusionTexture.slot, m::normalScale.slot, m::occlusionStrength.slot};
+  if (l.surface.faces && !l.surface.color && l.texture.channels < 3 && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
+  if (!replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
+  if (l.texture.channels % 2 == 1 || l.texture.channels == 0) said.push_back(m::transparency.slot);
+  return said;
+}
+
+/// What glTF has said of a material that only X3D has.
+std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
+  namespace p = nodes::physical_material;
+  namespace u = nodes::unlit_material;
+  if (scene_.is(l.material, nodes::UnlitMaterial)) return {u::emissiveColor.slot, u::transparency.slot, u::emissiveTexture.slot};
+  return {p::baseColor.slot, p::emissiveColor.slot, p::metallic.slot, p::roughness.slot, p::transparency.slot, p::normalScale.slot, p::occlusionStrength.slot, p::baseTexture.slot, p::emissiveTexture.slot, p::metallicRoughnessTexture.slot, p::normalTexture.slot, p::occlusionTexture.slot};
+}
+
+/// The fields of a material that the look does not show, a picture that is not shown at all, and the light.
 void Materials::extras(JsonOut& json, const Look& l) {
   std::vector<std::uint16_t> said;
-  bool from_material = l.material && !l.surface.color && l.texture.channels < 3;
-  if (from_material && l.surface.faces && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
-  if (l.material && !replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
-  if (l.texture.channels % 2 == 1 || l.texture.channels == 0) said.push_back(m::transparency.slot);
+  if (l.material) said = scene_.is(l.material, nodes::Material) ? said_by_vrml97(l) : said_by_x3d(l);
   bool material = extras_ && l.material && extras_->anything(l.material, said);
   bool picture = extras_ && l.texture_node && l.texture.texture == none;
   bool light = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::extras;

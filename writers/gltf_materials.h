@@ -15,6 +15,11 @@
 // Baked light. Where the geometry has places in a lightmap they are the set of texture coordinates behind that of the
 // picture: 1, or 0 when there is none. See GltfOptions::Lightmaps. The texture coordinates of MOZ_lightmap and extras are
 // said as in any textureInfo, with KHR_texture_transform for lightmapTransform; a texel is what a white surface reflects.
+//
+// X3D 4.0 (ISO/IEC 19775-1, 12 and 17.2). A PhysicalMaterial is glTF's own; an UnlitMaterial is unlit and of its
+// emissiveColor. There, and with every material of a file of version 4.0, a picture is multiplied by the colour and never
+// replaces it. Pictures for normals, occlusion, emission, metal and roughness are those of glTF; that they may have texture
+// coordinates of their own, by name, is kept in extras. alphaMode and alphaCutoff are glTF's as well.
 #pragma once
 #include <string>
 #include <unordered_map>
@@ -36,6 +41,7 @@ struct SurfaceKind {
   bool color = false, texcoord = false;
   bool light = false;  // places in a lightmap
   bool double_sided = false;
+  bool opacity = false;  // of its colours
 };
 
 struct MaterialUse {
@@ -69,11 +75,17 @@ class Materials {
   void look_at_light(Look&);
   bool replaced_by_light(const Look&) const;
   std::string json(const Look&);
-  void texture_info(JsonOut&, const Look&);
-  void texture_info_members(JsonOut&, const TextureUse&, std::uint32_t set, const UvAffine&);
+  void read_material(Look&);
+  void read_alpha_mode(Look&);
+  void further_pictures(Look&);
+  void pbr(JsonOut&, const Look&);
+  void texture_info(JsonOut&, const Look&, std::string_view name, std::uint32_t texture, const char* factor = nullptr, double value = 1);
+  void texture_info_members(JsonOut&, std::uint32_t texture, std::uint32_t set, const UvAffine&);
   void light_info(JsonOut&, const Look&);
   void extensions(JsonOut&, const Look&);
   void light_extras(JsonOut&, const Look&);
+  std::vector<std::uint16_t> said_by_x3d(const Look&) const;
+  std::vector<std::uint16_t> said_by_vrml97(const Look&) const;
   void extras(JsonOut&, const Look&);
 
   const Scene& scene_;

@@ -52,6 +52,7 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   g.origin = move_near_origin(mesh, texcoords);
   std::uint32_t positions = store_.positions(v.position, {v.min, v.max});
   if (!v.normal.empty()) g.normals = store_.vertices(View::normal, v.normal);
+  g.opacity = v.color_width == 4;
   if (!v.color.empty()) g.colors = store_.vertices(v.color_width == 4 ? View::rgba : View::rgb, v.color);
   if (!v.texcoord.empty()) g.texcoords = store_.vertices(View::texcoord, v.texcoord);
   if (!v.lightcoord.empty()) g.lightcoords = store_.vertices(View::texcoord, v.lightcoord);

@@ -21,9 +21,10 @@ struct Geometry {
   std::uint32_t textured = none;    // the same geometry, with texture coordinates
   Mode mode = Mode::triangles;
   bool double_sided = false;
+  bool opacity = false;  // its colours have one
 
   bool empty() const { return positions == none; }
-  SurfaceKind surface() const { return {mode == Mode::triangles, colors != none, texcoords != none, lightcoords != none, double_sided}; }
+  SurfaceKind surface() const { return {mode == Mode::triangles, colors != none, texcoords != none, lightcoords != none, double_sided, opacity}; }
 };
 
 struct MeshRecord {

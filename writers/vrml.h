@@ -1,10 +1,9 @@
 // A scene as VRML97 text.
 #pragma once
-#include <functional>
 #include <string>
-#include <string_view>
 
 #include "scenegraph/diagnostics.h"
+#include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
 #include "writers/sink.h"
 
@@ -14,7 +13,7 @@ struct VrmlOptions {
   int precision = 0;  // significant digits of real numbers; 0: as many as it takes to read the same number back
   bool own_fields = false;  // those of the table that no standard has: for people who look, and for wrlkit itself
   std::string file;   // that is written: relative urls are led from its folder. Empty: they stay as they are for the input's
-  std::function<std::string(std::string_view url)> place;  // the file name, beside `file`, of what a pass has made; none: its url stays
+  PlaceMade place;    // names the files that passes have made; none: their urls stay
 };
 
 /// Canonical VRML97 (ISO/IEC 14772-1): fields in the order of the node table, values that equal their default left out,

@@ -68,14 +68,6 @@ Parser::Interface Parser::interface(bool with_values) {
   }
 }
 
-TypeId Parser::proto_type(std::string_view name, std::span<const FieldDef> fields) {
-  NodeType t;
-  t.name = scene_.keep(name);
-  t.kind = NodeKind::proto;
-  t.dialects = 0xff;
-  return scene_.add_type(t, fields);
-}
-
 void Parser::proto(Token keyword) {
   Token name = lex_.next();
   if (!name_like(name)) { expected("a name", name); lex_.seek(name.begin); return; }
@@ -99,7 +91,7 @@ void Parser::proto(Token keyword) {
     --scope_depth_;
   }
   if (p.body.roots.empty()) diag_.report(Diag::empty_proto, span(name), proto_name);
-  p.type = proto_type(proto_name, declared.fields);
+  p.type = build_.proto_type(proto_name, declared.fields);
   build_.declare_proto(std::move(p), span(name));
 }
 
@@ -112,7 +104,7 @@ void Parser::externproto(Token keyword) {
   p.external = true;
   Value urls;
   if (string_list(FieldType::MFString, 0, urls)) p.urls.assign(urls.text_span().begin(), urls.text_span().end());
-  p.type = proto_type(new_name(name), declared.fields);
+  p.type = build_.proto_type(new_name(name), declared.fields);
   build_.declare_proto(std::move(p), span(name));
 }
 

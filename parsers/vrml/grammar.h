@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "parsers/vrml/values.h"
+#include "parsers/x3d/units.h"
 #include "scenegraph/builder.h"
 
 namespace wrlkit::vrml {
@@ -25,6 +26,9 @@ class Parser : private Values {
   /// PROTO, EXTERNPROTO and ROUTE, which may stand between nodes and between fields. False: it is none.
   bool statement(Token);
   void skip_import_export(Token keyword);
+  /// PROFILE, COMPONENT, META and UNIT of X3D.
+  void head_statement(Token keyword);
+  std::string_view word_or_string();
   /// Something that fits nowhere: skipped with everything it brackets, one message for a run of them.
   void stray();
   bool is_stray(Token t) const { return t.kind == Kind::open_bracket || value_like(t) || text(t) == "IS"; }
@@ -64,7 +68,6 @@ class Parser : private Values {
   // Declarations.
   void proto(Token keyword);
   void externproto(Token keyword);
-  TypeId proto_type(std::string_view name, std::span<const FieldDef> fields);
   struct Interface {
     std::vector<FieldDef> fields;
     std::unordered_set<std::string_view> names;
@@ -83,6 +86,7 @@ class Parser : private Values {
   std::vector<NodeId> nodes_, misplaced_;
   std::vector<const Interface*> interfaces_;  // of the prototypes whose bodies are being read
   std::size_t scope_depth_ = 0, open_lists_ = 0;
+  x3d::Units units_;
 };
 
 /// eventIn, eventOut, field and exposedField; also X3D's words, which occur in files that were converted half-way.

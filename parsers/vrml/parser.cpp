@@ -12,6 +12,8 @@ bool begins_statement(std::string_view word) {
   return word == "PROTO" || word == "EXTERNPROTO" || word == "ROUTE" || word == "IMPORT" || word == "EXPORT";
 }
 
+bool begins_head(std::string_view word) { return word == "PROFILE" || word == "COMPONENT" || word == "META" || word == "UNIT"; }
+
 }  // namespace
 
 // ---- statements ----------------------------------------------------------------------------------------------------
@@ -19,6 +21,7 @@ bool begins_statement(std::string_view word) {
 void Parser::vrml_scene() {
   statements(Kind::end);
   scene_.main = build_.close_scope();
+  apply(units_, scene_);
 }
 
 bool Parser::node_follows(Token name) {
@@ -54,6 +57,7 @@ void Parser::statements(Kind until) {
 bool Parser::statement(Token t) {
   if (t.kind != Kind::word) return false;
   auto w = text(t);
+  if (begins_head(w) && scene_.dialect() == Dialect::x3d && !node_follows(t)) return lex_.next(), head_statement(t), true;
   if (!begins_statement(w)) return false;
   lex_.next();
   if (w == "PROTO") proto(t);
@@ -65,9 +69,41 @@ bool Parser::statement(Token t) {
 
 // EXPORT name AS name, IMPORT inline.name AS name: X3D's, found in VRML97 files as well.
 void Parser::skip_import_export(Token keyword) {
-  diag_.report(Diag::dialect_statement, span(keyword), text(keyword));
+  diag_.report(scene_.dialect() == Dialect::x3d ? Diag::import_dropped : Diag::dialect_statement, span(keyword), text(keyword));
   lex_.next();
   if (text(lex_.peek()) == "AS") lex_.next(), lex_.next();
+}
+
+// PROFILE Immersive, COMPONENT Navigation:2, META "name" "content", UNIT length inch 0.0254 (ISO/IEC 19776-2, 5.2).
+void Parser::head_statement(Token keyword) {
+  const auto w = text(keyword);
+  if (w == "PROFILE") {
+    scene_.x3d.profile = word_or_string();
+  } else if (w == "META") {
+    auto name = word_or_string();
+    scene_.x3d.meta.emplace_back(name, word_or_string());
+  } else if (w == "COMPONENT") {
+    std::string c(word_or_string());
+    // Blanks around the colon occur.
+    while ((c.find(':') == c.npos && text(lex_.peek()).starts_with(':')) || c.ends_with(':')) c += word_or_string();
+    auto colon = c.find(':');
+    scene_.x3d.components.emplace_back(c.substr(0, colon), colon == c.npos ? 1 : std::atoi(c.c_str() + colon + 1));
+  } else {
+    auto category = word_or_string();
+    word_or_string();
+    Token factor = lex_.peek();
+    numbers_.clear();
+    read_numbers(FieldType::SFDouble, 1);
+    if (numbers_.empty() || !units_.set(category, numbers_.back())) diag_.report(Diag::unit_dropped, span(factor), category, describe(factor));
+  }
+}
+
+std::string_view Parser::word_or_string() {
+  Token t = lex_.peek();
+  std::string_view s;
+  if (t.kind == Kind::string) return string_token(s), s;
+  if (t.kind != Kind::word) return expected("a word", t), s;
+  return lex_.next(), name_of(t);
 }
 
 void Parser::stray() {
@@ -286,7 +322,8 @@ bool Parser::property_node(std::uint16_t slot, NodeId& out) {
   const auto& def = build_.current_type().fields[slot];
   for (std::uint32_t i = 0; i < builtin_nodes().size(); ++i) {
     const auto& t = builtin_nodes()[i];
-    bool fits = t.is_a("X3DGeometricPropertyNode") && t.fields.size() == 1 && std::ranges::any_of(def.kinds, [&](auto k) { return t.is_a(k); });
+    const bool list = !t.fields.empty() && t.fields[0].has_value() && info(t.fields[0].type).multiple && info(t.fields[0].type).element == Element::number;
+    bool fits = list && t.is_a("X3DGeometricPropertyNode") && std::ranges::any_of(def.kinds, [&](auto k) { return t.is_a(k); });
     if (!fits) continue;
     Token first = lex_.peek();
     diag_.report(Diag::list_repaired, span(first), t.name);

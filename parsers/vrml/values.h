@@ -20,23 +20,23 @@ class Values : protected Tokens {
   std::string verbatim();
   /// The value a field has when nobody gave one: zeroes and empty lists.
   Value empty_value(FieldType);
+  bool image(FieldType, std::uint16_t slot, Value& out);
+  /// Numbers or booleans into numbers_ or integers_, up to the first thing that is none; `most` at the most (0: all).
+  void read_numbers(FieldType, std::size_t most);
+  void fix_arity(std::size_t arity, const Value& fallback, std::string_view field, Span where);
+
+  std::vector<double> numbers_;
+  std::vector<std::int32_t> integers_;
 
  private:
   bool numbers_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
-  bool image(FieldType, std::uint16_t slot, Value& out);
   bool single_string(FieldType, std::uint16_t slot, std::string_view field, Value& out);
-  /// Numbers or booleans into numbers_ or integers_, up to the first thing that is none; `most` at the most (0: all).
-  void read_numbers(FieldType, std::size_t most);
   template <class T, class Read>
   void numbers(std::vector<T>& to, Read read, std::size_t most);
   void booleans(std::size_t most);
   void number_repaired(const char* from, const char* to, double v);
-  void fix_arity(std::size_t arity, const Value& fallback, std::string_view field, Span where);
   /// Behind the values of a list: its ']', or else what is wrong, up to it.
   void close_list(Token opened);
-
-  std::vector<double> numbers_;
-  std::vector<std::int32_t> integers_;
 };
 
 }  // namespace wrlkit::vrml

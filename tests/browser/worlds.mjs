@@ -12,20 +12,23 @@ function table(file) {
   return rows.map(row => Object.fromEntries(header.map((name, i) => [name, row[i] ?? ''])));
 }
 
+export const vrml97 = {ends: /\.wrl$/, format: /^vrml97( gz)?$/};
+export const vrml97_and_x3d = {ends: /\.(wrl|x3d)$/, format: /^(vrml97|x3d|x3dv)( gz)?$/};
+
 /// {name, file} of each world of this project.
-export function own_worlds() {
+export function own_worlds(kinds = vrml97) {
   return fs.readdirSync(path.join(project, 'corpus'), {recursive: true})
-    .filter(name => name.endsWith('.wrl')).sort()
+    .filter(name => kinds.ends.test(name)).sort()
     .map(name => ({name: `corpus/${name}`, file: path.join(project, 'corpus', name)}));
 }
 
-/// {name, file, format, broken} of each found model: all VRML97 ones, and those that are broken, whatever they are.
-export function found_worlds() {
+/// {name, file, format, broken} of each found model: all of those kinds, and those that are broken, whatever they are.
+export function found_worlds(kinds = vrml97) {
   if (!has_shared) return [];
   return table(path.join(shared, 'MANIFEST.tsv'))
     .filter(row => !row.format.startsWith('asset'))
     .map(row => ({name: row.path, file: path.join(shared, row.path), format: row.format, broken: row.path.startsWith('broken/')}))
-    .filter(world => world.broken || /^vrml97( gz)?$/.test(world.format));
+    .filter(world => world.broken || kinds.format.test(world.format));
 }
 
 /// Paths of the found models in which an independent reader saw something to draw.

@@ -67,6 +67,19 @@ def write_part(out, part):
     out.write(text * (times % batch))
 
 
+def document(name, *parts):
+    """A case's make that writes one X3D document, the rest of the scene behind the bad part."""
+    def make(folder):
+        path = folder / f'{name}.x3d'
+        with path.open('w') as out:
+            out.write('<X3D version="3.3" profile="Full"><Scene>\n')
+            for part in parts:
+                write_part(out, part)
+            out.write('\n<Shape DEF="Rest"><Box/></Shape></Scene></X3D>\n')
+        return path
+    return make
+
+
 def files(texts):
     """A case's make that writes several files; the first one is opened."""
     def make(folder):
@@ -236,6 +249,11 @@ CASES = [
     Case('script_fields', world('script_fields', 'Script {', *(f' field SFFloat f{i} 1\n' for i in range(100_000)), '}')),
     Case('wide_interface', world('wide_interface', wide_interface())),
     Case('nested_lists', world('nested_lists', 'Group { children ', ('[ ', 1_000_000), (']', 1_000_000), '}'), TOO_DEEP + '|stray-token'),
+    Case('x3d_nested', document('x3d_nested', ('<Group>', 1_000_000), ('</Group>', 1_000_000)), 'too-deep'),
+    Case('x3d_nested_protos', document('x3d_nested_protos', ('<ProtoDeclare name="P"><ProtoBody>', 300_000), ('</ProtoBody></ProtoDeclare>', 300_000)), 'too-deep'),
+    Case('x3d_entities', document('x3d_entities', '<WorldInfo title="', ('&lol;', 2_000_000), '"/>'), 'xml-entity'),
+    Case('x3d_attributes', document('x3d_attributes', '<Group', *(f' no{i}="1"' for i in range(100_000)), '/>'), 'unknown-field'),
+    Case('x3d_indices', document('x3d_indices', f'<Shape><TriangleStripSet stripCount="{HUGE} {HUGE}"><Coordinate point="0 0 0 1 0 0 0 1 0"/></TriangleStripSet></Shape>')),
     Case('unclosed_lists', world('unclosed_lists', 'Group { children ', ('[ ', 1_000_000)), TOO_DEEP + '|stray-token', rest=False),
 ]
 

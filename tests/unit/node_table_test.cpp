@@ -16,12 +16,35 @@ TEST_CASE("node table: all 54 node types of VRML97, each once", "[node_table]") 
   CHECK(names.size() == 54);
 }
 
+TEST_CASE("node table: X3D's node types, each once, all of VRML97's among them", "[node_table]") {
+  constexpr auto x3d = static_cast<DialectSet>(Dialect::x3d), vrml97 = static_cast<DialectSet>(Dialect::vrml97);
+  std::set<std::string_view> names;
+  for (auto& n : builtin_nodes()) {
+    INFO(n.name);
+    if (n.dialects & x3d) CHECK(names.insert(n.name).second);
+    if (n.dialects & vrml97) CHECK(n.dialects & x3d);
+    if (n.dialects & x3d) CHECK_FALSE(n.component.empty());
+  }
+  CHECK(names.size() == 121);
+}
+
+TEST_CASE("node table: defaults of X3D's own", "[node_table]") {
+  auto& type = builtin_nodes()[nodes::NavigationInfo.value].fields[nodes::navigation_info::type.slot];
+  CHECK(type.default_value.text_span()[0] == "WALK");
+  CHECK(type.x3d_default_in(30).text_span()[0] == "EXAMINE");
+  auto& beam = builtin_nodes()[nodes::SpotLight.value].fields[nodes::spot_light::beamWidth.slot];
+  CHECK(beam.x3d_default_in(32).number == 1.570796);
+  CHECK(beam.x3d_default_in(33).number == 0.589049);
+}
+
 TEST_CASE("node table: no field twice in a node, in any dialect", "[node_table]") {
   for (auto& n : builtin_nodes()) {
     std::set<std::string_view> names;
+    std::set<std::string_view> x3d_names;
     for (auto& f : n.fields) {
       INFO(n.name << '.' << f.name);
       CHECK(names.insert(f.name_in(Dialect::vrml97)).second);
+      CHECK(x3d_names.insert(f.name_in(Dialect::x3d)).second);
       CHECK_FALSE(f.doc.empty());
     }
   }
@@ -54,9 +77,11 @@ TEST_CASE("node table: child kinds are node types or bases", "[node_table]") {
 }
 
 TEST_CASE("node table: every node has a world in the corpus", "[node_table]") {
+  const auto corpus = std::filesystem::path(WRLKIT_SOURCE_DIR) / "corpus";
   for (auto& n : builtin_nodes()) {
     INFO(n.name);
-    CHECK(std::filesystem::exists(std::filesystem::path(WRLKIT_SOURCE_DIR) / "corpus/nodes" / (std::string(n.name) + ".wrl")));
+    if (n.dialects & static_cast<DialectSet>(Dialect::vrml97)) CHECK(std::filesystem::exists(corpus / "nodes" / (std::string(n.name) + ".wrl")));
+    if (n.dialects & static_cast<DialectSet>(Dialect::x3d)) CHECK(std::filesystem::exists(corpus / "x3d" / (std::string(n.name) + ".x3d")));
   }
 }
 

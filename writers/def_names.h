@@ -1,0 +1,133 @@
+// What the writers of VRML and X3D have in common: the order of what is printed, names that a USE finds again, and urls that
+// still lead to their files.
+#pragma once
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "scenegraph/resources.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit {
+
+/// Calls proto(ProtoId) and node(NodeId) in the order in which a scope is printed: prototypes first, but those whose name
+/// means something else as well, where they stood: one that is declared again, of the standard, or of nodes that nobody knew.
+template <class P, class N>
+void for_each_statement(const Scene& scene, Dialect dialect, const std::unordered_set<std::string_view>& unknown, const Scope& s, P&& proto, N&& node) {
+  std::unordered_set<std::string_view> declared;
+  std::vector<ProtoId> later;
+  for (ProtoId p : s.protos) {
+    auto name = scene.type(scene.proto(p).type).name;
+    if (declared.insert(name).second && later.empty() && !unknown.contains(name) && !find_builtin(name, dialect)) proto(p);
+    else later.push_back(p);
+  }
+  auto next = later.begin();
+  for (std::size_t i = 0; i < s.roots.size(); ++i) {
+    for (; next != later.end() && scene.proto(*next).roots_before <= i; ++next) proto(*next);
+    node(s.roots[i]);
+  }
+  for (; next != later.end(); ++next) proto(*next);
+}
+
+/// Output names of a scope and of the bodies of its prototypes, which are scopes of their own: what stands in one and
+/// outside is printed in both. A name may be defined several times: USE means the last one before it (4.4.3). Nodes are met in
+/// the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own.
+class Names {
+ public:
+  Names(const Scene& scene, Dialect dialect, bool own_fields)
+      : scene_(scene), dialect_(dialect), own_fields_(own_fields), met_(scene.node_count(), 0) {
+    for (const auto& t : scene.own_types())
+      if (t.kind == NodeKind::unknown) unknown_.insert(t.name);
+  }
+
+  /// Types of nodes that nobody knew.
+  const std::unordered_set<std::string_view>& unknown() const { return unknown_; }
+
+  void scope(const Scope& s) {
+    ++scope_;
+    last_.clear();
+    auto defaults = [&](ProtoId p) { for (auto& f : scene_.type(scene_.proto(p).type).fields) meet(f.default_value.node_span()); };
+    for_each_statement(scene_, dialect_, unknown_, s, defaults, [&](NodeId n) { meet({&n, 1}); });
+    for (auto& r : s.routes) referred(r.from), referred(r.to);
+    for_each_statement(scene_, dialect_, unknown_, s, [&](ProtoId p) { scope(scene_.proto(p).body); }, [](NodeId) {});
+  }
+  std::string_view operator[](NodeId n) const {
+    auto i = given_.find(n.value);
+    return i == given_.end() ? scene_.name(n) : std::string_view(i->second);
+  }
+
+  /// Written fields in the order of the table, unknown ones behind; in X3D metadata before all. Without `own_fields` those
+  /// that no standard has are left out.
+  std::vector<const Value*> printed_order(NodeId n) const {
+    const auto& t = scene_.type(n);
+    auto hidden = [&](const Value& f) { return !own_fields_ && !scene_.is_extra(f) && t.fields[f.slot].is_own(); };
+    std::vector<const Value*> v;
+    for (auto& f : scene_.fields(n))
+      if (!hidden(f)) v.push_back(&f);
+    auto by_slot = [](const Value* a, const Value* b) { return a->slot < b->slot; };
+    if (!std::ranges::is_sorted(v, by_slot)) std::ranges::stable_sort(v, by_slot);
+    if (dialect_ == Dialect::x3d && !v.empty())
+      std::ranges::stable_partition(v, [&](const Value* f) { return !scene_.is_extra(*f) && t.fields[f->slot].name == "metadata"; });
+    return v;
+  }
+
+ private:
+  void meet(std::span<const NodeId> roots) {
+    std::vector<NodeId> stack(roots.rbegin(), roots.rend());
+    while (!stack.empty()) {
+      NodeId n = stack.back();
+      stack.pop_back();
+      if (!n) continue;
+      if (std::exchange(met_[n.value], scope_) == scope_) { referred(n); continue; }
+      if (auto name = scene_.name(n); !name.empty()) last_[name] = n;
+      auto mark = stack.size();
+      for_each_printed_child(n, [&](NodeId c) { stack.push_back(c); });
+      std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(mark), stack.end());
+    }
+  }
+
+  template <class F>
+  void for_each_printed_child(NodeId n, F&& f) {
+    for (const Value* v : printed_order(n))
+      for (NodeId c : scene_.content(*v).node_span()) f(c);
+  }
+
+  void referred(NodeId n) {
+    auto name = scene_.name(n);
+    if (given_.count(n.value)) return;
+    if (!name.empty() && last_[name] == n) return;
+    given_[n.value] = fresh(name);
+  }
+
+  std::string fresh(std::string_view base) {
+    if (taken_.empty()) {
+      taken_.insert("");
+      for (std::uint32_t i = 0; i < scene_.node_count(); ++i) taken_.insert(std::string(scene_.name(NodeId{i})));
+    }
+    auto& k = counter_[std::string(base)];
+    for (;;) {
+      std::string s = (base.empty() ? std::string("_") : std::string(base) + "_") + std::to_string(++k);
+      if (taken_.insert(s).second) return s;
+    }
+  }
+
+  const Scene& scene_;
+  Dialect dialect_;
+  bool own_fields_;
+  std::unordered_set<std::string_view> unknown_;
+  std::vector<std::uint32_t> met_;  // the last scope that held the node
+  std::uint32_t scope_ = 0;
+  std::unordered_map<std::string_view, NodeId> last_;
+  std::unordered_map<std::uint32_t, std::string> given_;
+  std::unordered_set<std::string> taken_;
+  std::unordered_map<std::string, std::uint64_t> counter_;
+};
+
+/// Urls are relative to the file that they stand in. Those of an inlined world, and those of a world that is written
+/// to `file`, elsewhere, are led to the folder they mean; those of a list that a pass has written to what it has made.
+std::vector<std::string> led_urls(const Scene&, Span where, std::span<const std::string_view> urls, std::string_view file, const PlaceMade& place);
+
+}  // namespace wrlkit
