@@ -5,26 +5,26 @@
 namespace wrlkit::light {
 namespace {
 
-constexpr double angle = 0.25;       // that a cell spans at most, seen from where the ray comes
+constexpr double angle = 0.5;       // that a cell spans at most, seen from where the ray comes
 constexpr int levels = 7;            // each half as large as the one before
 
-/// One of 19 steps of direction along each axis would split flat faces by rounding where a step ends at a usual direction;
-/// these end at 14, 49 degrees and so on.
+/// One of five steps along each axis. They end at 0.25 and 0.75, where the normals of few faces lie.
 std::int64_t direction_step(double v) { return std::llround(2 * v); }
 
 }  // namespace
 
-std::optional<IrradianceCache::Key> IrradianceCache::key(const V3& position, const V3& face, std::uint32_t scope, double distance) const {
-  double size = largest_;
+std::optional<IrradianceCache::Key> IrradianceCache::key(const Place& place, int larger) const {
   int level = 0;
-  while (size > angle * distance && ++level < levels) size *= 0.5;
+  while (level < levels && std::ldexp(largest_, -level) > angle * place.distance) ++level;
   if (level == levels) return {};
+  level = std::max(0, level - larger);
+  const V3& face = place.face;
   // The grid stands askew to the numbers that people write, so that no wall lies on its planes.
-  V3 p = (1 / size) * (position - centre_) + V3(0.137, 0.271, 0.419);
+  V3 p = std::ldexp(1 / largest_, level) * (place.position - centre_) + V3(0.137, 0.271, 0.419);
   auto whole = [](double v) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v))); };
   std::int64_t direction = direction_step(face.x) * 25 + direction_step(face.y) * 5 + direction_step(face.z);
   Key where = key_of(whole(p.x), whole(p.y), whole(p.z));
-  return key_of(where, static_cast<std::uint64_t>(direction + 100) * levels + static_cast<std::uint64_t>(level), scope);
+  return key_of(where, static_cast<std::uint64_t>(direction + 100) * levels + static_cast<std::uint64_t>(level), place.scope);
 }
 
 std::size_t IrradianceCache::slot(Key key) const {
@@ -33,19 +33,32 @@ std::size_t IrradianceCache::slot(Key key) const {
   return at;
 }
 
-const IrradianceCache::Cell* IrradianceCache::find(Key key) const {
-  if (table_.empty()) return nullptr;
-  std::uint32_t cell = table_[slot(key)];
+const IrradianceCache::Cell* IrradianceCache::find(const Place& place, int larger) const {
+  auto k = key(place, larger);
+  if (!k || table_.empty()) return nullptr;
+  std::uint32_t cell = table_[slot(*k)];
   return cell ? &cells_[cell - 1] : nullptr;
 }
 
-void IrradianceCache::grow() {
-  table_.assign(std::max<std::size_t>(1024, table_.size() * 2), 0);
+void IrradianceCache::rebuild(std::size_t size) {
+  table_.assign(size, 0);
   for (std::uint32_t c = 0; c < cells_.size(); ++c) table_[slot(keys_[c])] = c + 1;
 }
 
+void IrradianceCache::keep_only(std::span<const char> keep) {
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (!keep[c]) continue;
+    cells_[kept] = cells_[c];
+    keys_[kept++] = keys_[c];
+  }
+  cells_.resize(kept);
+  keys_.resize(kept);
+  rebuild(table_.size());
+}
+
 void IrradianceCache::meet(Key key, const Receiver& place, std::uint64_t rank) {
-  if (cells_.size() * 2 >= table_.size()) grow();
+  if (cells_.size() * 2 >= table_.size()) rebuild(std::max<std::size_t>(1024, table_.size() * 2));
   std::size_t at = slot(key);
   if (!table_[at]) {
     cells_.emplace_back();

@@ -5,6 +5,7 @@
 // a large cell and one that ends near a small one, so that a cell spans about the same angle from wherever it is seen.
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "passes/light/flux.h"
@@ -20,7 +21,6 @@ class IrradianceCache {
     Receiver places[most_places];    // a fair choice of where rays ended in it
     std::uint32_t n_met = 0;         // rays that ended in it
     V3 direct, gathered;             // mean irradiance from lamps and emitters, and from all else
-    bool trusted = false;            // it has been met often, and its places agree
 
     int n_places() const { return n_met < most_places ? static_cast<int>(n_met) : most_places; }
     V3 irradiance() const { return direct + gathered; }
@@ -29,19 +29,30 @@ class IrradianceCache {
   /// Cells have sides of at most `largest`, world units; positions are relative to `centre`.
   IrradianceCache(const V3& centre, double largest) : centre_(centre), largest_(largest) {}
 
-  /// The cell for a place that a ray meets after a distance; none when it is too near for any cell.
-  std::optional<Key> key(const V3& position, const V3& face, std::uint32_t scope, double distance) const;
+  /// A place that a ray meets.
+  struct Place {
+    V3 position, face;
+    std::uint32_t scope;
+    double distance;                 // how far the ray has come
+  };
+
+  /// The cell for a place; none when it is too near for any cell. `larger`: one that is so many times twice as large, or the
+  /// largest.
+  std::optional<Key> key(const Place& place, int larger = 0) const;
   /// Null when no ray has ended there.
-  const Cell* find(Key key) const;
+  const Cell* find(const Place& place, int larger = 0) const;
   /// Makes the cell when it is new. `rank` is a random number for this meeting.
   void meet(Key key, const Receiver& place, std::uint64_t rank);
+
+  /// Forgets the cells for which `keep`, by number, is false.
+  void keep_only(std::span<const char> keep);
 
   std::vector<Cell>& cells() { return cells_; }
   const std::vector<Cell>& cells() const { return cells_; }
 
  private:
   std::size_t slot(Key key) const;
-  void grow();
+  void rebuild(std::size_t size);
 
   V3 centre_;
   double largest_;

@@ -55,7 +55,7 @@ void DirectLight::lamps(const Receiver& at, int most, Stream& random, Flux& to) 
   }
 }
 
-void DirectLight::emitters(const Receiver& at, const Lattice<3>& places, std::uint32_t first, std::uint32_t n, bool with_gather, Flux& to) const {
+void DirectLight::emitters(const Receiver& at, const Lattice<3>& places, std::uint32_t first, std::uint32_t n, Flux& to) const {
   if (tree_.empty()) return;
   thread_local std::vector<EmitterTree::Choice> choices;
   choices.clear();
@@ -64,11 +64,11 @@ void DirectLight::emitters(const Receiver& at, const Lattice<3>& places, std::ui
   for (const auto& c : choices) {
     if (c.emitter == EmitterTree::none) continue;
     auto p = places[c.index];
-    emitter(at, c, p[1], p[2], with_gather, to);
+    emitter(at, c, p[1], p[2], to);
   }
 }
 
-void DirectLight::emitter(const Receiver& at, const EmitterTree::Choice& choice, double u, double v, bool with_gather, Flux& to) const {
+void DirectLight::emitter(const Receiver& at, const EmitterTree::Choice& choice, double u, double v, Flux& to) const {
   const Emitter& e = world_.emitters()[choice.emitter];
   double root = std::sqrt(u), b1 = root * (1 - v), b2 = root * v;
   V3 target = e.at(b1, b2), across = cross(e.edge1, e.edge2);
@@ -80,11 +80,12 @@ void DirectLight::emitter(const Receiver& at, const EmitterTree::Choice& choice,
   if (!(arriving > 0) || !(dot(at.face, way) > 0)) return;
   // By solid angle: probability / area * distance^2 / cosine.
   double density = choice.probability * 2 * d2 * d / leaving;
-  double weight = arriving / (density + (with_gather ? arriving / pi : 0));
+  double weight = arriving / (density + arriving / pi);
   V3 side = unit(dot(across, way) < 0 ? across : -across);
   V3 end = world_.off_surface(target, side) - at.start;
   double distance = length(end);
   Ray ray{at.start, (1 / distance) * end};
+  distance *= 1 - 0x1p-19;           // the emitter must not stand before itself by rounding
   double through = world_.transmittance(ray, distance);
   if (through > 0) to.add(through * weight * world_.radiance(e, b1, b2), ray.direction);
 }

@@ -16,8 +16,8 @@ class DirectLight {
   void lamps(const Receiver& at, int most, Stream& random, Flux& to) const;
 
   /// Adds the irradiance of `n` places on emitters, from number `first` of a lattice on, n times as much as it is.
-  /// `with_gather`: rays in cosine directions look for emitters, too, as many as go to them; see gather_weight().
-  void emitters(const Receiver& at, const Lattice<3>& places, std::uint32_t first, std::uint32_t n, bool with_gather, Flux& to) const;
+  /// It is a share only: rays in cosine directions find the rest; see gather_weight().
+  void emitters(const Receiver& at, const Lattice<3>& places, std::uint32_t first, std::uint32_t n, Flux& to) const;
 
   /// A ray in a cosine direction met an emitter: the share of its light that counts beside emitters() (the balance
   /// heuristic of Veach and Guibas). 1 when the triangle is no emitter.
@@ -26,7 +26,7 @@ class DirectLight {
   bool has_emitters() const { return !tree_.empty(); }
 
  private:
-  void emitter(const Receiver& at, const EmitterTree::Choice& choice, double u, double v, bool with_gather, Flux& to) const;
+  void emitter(const Receiver& at, const EmitterTree::Choice& choice, double u, double v, Flux& to) const;
 
   const LightWorld& world_;
   EmitterTree tree_;

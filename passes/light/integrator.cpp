@@ -11,9 +11,17 @@ namespace {
 constexpr std::size_t block = 64;    // points that are done in one piece
 constexpr double dark = 0.1;         // an error of what is darker than so much of the mean is not worth many rays
 constexpr int lamp_rays = 16;
+constexpr double largest_cell = 0.1; // of the cache, by the radius of the world
 
 Receiver receiver(const LightWorld& world, const Point& p) {
-  return {world.off_surface(p.position, p.face), p.face, p.normal, world.stage().uses[p.use].lights};
+  std::uint32_t scope = p.use == Point::nowhere ? 0 : world.stage().uses[p.use].lights;
+  return {world.off_surface(p.position, p.face), p.face, p.normal, scope};
+}
+
+double mean_irradiance(const IrradianceCache& cache) {
+  double sum = 0, n = 0;
+  for (const auto& c : cache.cells()) sum += c.n_met * mean(c.irradiance()), n += c.n_met;
+  return n > 0 ? sum / n : 0;
 }
 
 Rgb rgb(const V3& c) { return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)}; }
@@ -26,10 +34,10 @@ struct Integrator::State {
   DirectLight direct;
   IrradianceCache cache;
   Transport transport;
-  double floor = 0;                  // mean irradiance by which the error of dark points is measured
+  double floor = 0;                  // irradiance below which errors are measured as if it were so bright
 
   State(const LightWorld& w, const IntegratorOptions& o)
-      : world(w), options(o), direct(w), cache(w.centre(), o.cell > 0 ? o.cell : w.radius() / 24),
+      : world(w), options(o), direct(w), cache(w.centre(), o.cell > 0 ? o.cell : w.radius() * largest_cell),
         transport(w, direct, o.mode == IntegratorOptions::Mode::cached ? &cache : nullptr) {}
 };
 
@@ -44,7 +52,7 @@ class Estimate {
   }
 
   void trace(std::uint32_t n) {
-    direct_.emitters(at_, places_, n_, n, true, emitters_);
+    direct_.emitters(at_, places_, n_, n, emitters_);
     for (std::uint32_t i = n_; i < n_ + n; ++i) gather(i);
     n_ += n;
   }
@@ -96,7 +104,9 @@ Integrator::Integrator(const LightWorld& world, std::span<const Point> points, c
   State& s = *state_;
   std::vector<Receiver> from;
   for (const Point& p : points) from.push_back(receiver(world, p));
-  if (options.mode == IntegratorOptions::Mode::cached) fill(s.cache, world, s.direct, from, options.seed);
+  if (options.mode != IntegratorOptions::Mode::cached) return;
+  fill(s.cache, world, s.direct, from, options.seed);
+  s.floor = dark * mean_irradiance(s.cache);
 }
 
 Integrator::~Integrator() = default;
@@ -110,7 +120,7 @@ std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, st
     for (std::size_t i = b * block; i < std::min(points.size(), (b + 1) * block); ++i) {
       Estimate e(s.world, s.direct, s.transport, receiver(s.world, points[i]), key_of(s.options.seed, 6, first + i));
       e.trace(rays);
-      auto precise = [&] { return std::sqrt(mean(e.variance())) <= s.options.error * std::max(mean(e.total()), dark * s.floor); };
+      auto precise = [&] { return std::sqrt(mean(e.variance())) <= s.options.error * std::max(mean(e.total()), s.floor); };
       while (s.options.error > 0 && e.n() < most && !precise()) e.trace(std::min(e.n(), most - e.n()));
       out[i] = e.result();
     }

@@ -18,7 +18,7 @@ struct IntegratorOptions {
   int rays = 64;                     // a point, and as many to emitters where there are any
   double error = 0;                  // relative standard error that is wanted; points that have it not yet get more rays
   int most_rays = 1024;              // a point; only with error
-  double cell = 0;                   // largest cell of the cache, world units; 0: a 24th of the half of the world
+  double cell = 0;                   // largest cell of the cache, world units; 0: a tenth of LightWorld::radius()
   std::uint64_t seed = 1;
 };
 
@@ -26,7 +26,8 @@ struct IntegratorOptions {
 struct Point {
   V3 position;                       // world
   V3 face, normal;                   // of the triangle and for shading; unit
-  std::uint32_t use = 0;             // into LightWorld::stage().uses: which DirectionalLights light it
+  static constexpr std::uint32_t nowhere = 0xffffffff;
+  std::uint32_t use = nowhere;       // into LightWorld::stage().uses: for the DirectionalLights on it; nowhere: none
 };
 
 using Rgb = std::array<float, 3>;

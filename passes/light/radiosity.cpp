@@ -9,12 +9,13 @@ namespace {
 
 using Cell = IrradianceCache::Cell;
 
-constexpr std::size_t fewest_walks = 1 << 14, most_walks = 1 << 18;
+constexpr std::size_t fewest_walks = 1 << 16, most_walks = 1 << 18;
 constexpr int walk_length = 4;       // rays
 constexpr std::size_t block = 256;   // walks or cells that are done in one piece
-constexpr int iterations = 8, warm_up = 2, rays_a_cell = 16;
+constexpr int warm_up = 5, counted = 7;   // iterations, of fewer rays in the beginning; those counted give the mean
+constexpr int fewer_rays = 8, rays_a_cell = 16;
 constexpr std::uint32_t often = 4;   // meetings that make a cell known
-constexpr double least_agreement = 0.15;  // of a place's light with the mean of its cell
+constexpr int deepest = 6;           // reflections outside of cells
 
 /// A place where a walk ended a ray.
 struct Meeting {
@@ -36,12 +37,10 @@ class Solver {
 
   void run(std::span<const Receiver> from) {
     discover(from);
-    const std::size_t n = cache_.cells().size();
-    of_place_.assign(n * IrradianceCache::most_places, {});
-    in_blocks(n, [&](std::size_t c) { light_directly(c); });
-    start();
-    for (int i = 0; i < iterations; ++i) iterate(i);
-    for (std::size_t c = 0; c < n; ++c) judge(c);
+    keep_sound_cells();
+    in_blocks(cache_.cells().size(), [&](std::size_t c) { light_directly(c); });
+    sum_.assign(cache_.cells().size(), {});
+    for (int i = 0; i < warm_up + counted; ++i) iterate(i);
   }
 
  private:
@@ -52,21 +51,20 @@ class Solver {
 
   void discover(std::span<const Receiver> from);
   void walk(Receiver at, Stream& random, std::vector<Meeting>& out) const;
+  void keep_sound_cells();
+  bool is_sound(const Cell& cell) const;
   void light_directly(std::size_t c);
-  void start();
   void iterate(int iteration);
   Gathered gather(std::size_t c, int iteration);
-  Gathered look(const Ray& ray, Stream& random) const;
-  void judge(std::size_t c);
+  Gathered look(const Receiver& at, const Ray& ray, Stream& random, int depth) const;
+  Gathered follow(const Receiver& at, Stream& random, int depth) const;
 
   IrradianceCache& cache_;
   const LightWorld& world_;
   const DirectLight& direct_;
   Transport transport_;
   std::uint64_t seed_;
-  V3 mean_gathered_;                   // of all cells
   std::vector<V3> sum_;                // by cell: gathered after the warm-up
-  std::vector<double> of_place_;       // by cell and place: all its light so far, to see whether places agree
 };
 
 void Solver::discover(std::span<const Receiver> from) {
@@ -84,6 +82,26 @@ void Solver::discover(std::span<const Receiver> from) {
     for (const Meeting& m : list) cache_.meet(m.key, m.place, rank.bits());
 }
 
+/// Rarely met cells cost more than they bring.
+void Solver::keep_sound_cells() {
+  const auto& cells = cache_.cells();
+  std::vector<char> sound(cells.size());
+  in_blocks(cells.size(), [&](std::size_t c) { sound[c] = cells[c].n_met >= often && is_sound(cells[c]); });
+  cache_.keep_only(sound);
+}
+
+/// A cell on both sides of a wall would let light through: all its places must see one another. They look from above the
+/// surface, so that one that is bent a little does not stand in the way.
+bool Solver::is_sound(const Cell& cell) const {
+  for (int p = 1; p < cell.n_places(); ++p) {
+    double height = 0.25 * length(cell.places[p].start - cell.places[0].start);
+    V3 from = cell.places[0].start + height * cell.places[0].face, way = cell.places[p].start + height * cell.places[p].face - from;
+    double distance = length(way);
+    if (distance > 0 && world_.transmittance({from, (1 / distance) * way}, distance) == 0) return false;
+  }
+  return true;
+}
+
 void Solver::walk(Receiver at, Stream& random, std::vector<Meeting>& out) const {
   double strength = 1;
   for (int length = 0; length < walk_length; ++length) {
@@ -98,77 +116,69 @@ void Solver::walk(Receiver at, Stream& random, std::vector<Meeting>& out) const 
       strength *= std::max({s.albedo.x, s.albedo.y, s.albedo.z});
       at = transport_.receiver_at(hit, s);
       if (!(strength > 0)) return;
-      if (auto key = cache_.key(s.position, s.face, at.scope, hit.distance)) out.push_back({*key, at});
+      if (auto key = cache_.key({s.position, s.face, at.scope, hit.distance})) out.push_back({*key, at});
     });
     if (!found || next >= strength) return;
   }
 }
 
 void Solver::light_directly(std::size_t c) {
-  constexpr int lamp_rays = 4, emitter_rays = 4;
+  constexpr int lamp_rays = 4, emitter_rays = counted * rays_a_cell / IrradianceCache::most_places;
   Cell& cell = cache_.cells()[c];
   for (int p = 0; p < cell.n_places(); ++p) {
     Stream random(key_of(seed_, 3, c * IrradianceCache::most_places + p));
     Flux lamps, emitters;
     direct_.lamps(cell.places[p], lamp_rays, random, lamps);
-    direct_.emitters(cell.places[p], Lattice<3>(random.bits()), 0, emitter_rays, false, emitters);
+    direct_.emitters(cell.places[p], Lattice<3>(random.bits()), 0, emitter_rays, emitters);
     V3 e = lamps.sum + (1.0 / emitter_rays) * emitters.sum;
-    of_place_[c * IrradianceCache::most_places + p] = mean(e) * iterations * rays_a_cell / cell.n_places();
     cell.direct += (1.0 / cell.n_places()) * e;
   }
 }
 
-/// As if all cells saw one another alike. What is wrong with that goes away with the first corrections.
-void Solver::start() {
-  V3 sum;
-  double n = 0;
-  for (const Cell& c : cache_.cells()) sum += double(c.n_met) * c.direct, n += c.n_met;
-  mean_gathered_ = n > 0 ? (1 / n) * sum : V3();
-  for (Cell& c : cache_.cells()) c.gathered = mean_gathered_;
-  sum_.assign(cache_.cells().size(), {});
-}
-
-Solver::Gathered Solver::look(const Ray& ray, Stream& random) const {
+Solver::Gathered Solver::look(const Receiver& from, const Ray& ray, Stream& random, int depth) const {
   Gathered out;
   double open = transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
-    if (!world_.emitter_of(hit.use, hit.element)) out.first += (part * pi) * s.emission;
+    if (mean(s.emission) > 0) out.first += (part * pi * direct_.gather_weight(from, ray, hit)) * s.emission;
     if (!(mean(s.albedo) > 0)) return;
-    auto key = cache_.key(s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance);
-    const Cell* cell = key ? cache_.find(*key) : nullptr;
-    V3 direct, gathered = mean_gathered_;
-    if (cell) {
-      direct = cell->direct, gathered = cell->gathered;
-    } else {
-      Flux f;
-      Receiver at = transport_.receiver_at(hit, s);
-      direct_.lamps(at, 1, random, f);
-      direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, false, f);
-      direct = f.sum;
-    }
-    out.first += part * (s.albedo * direct);
-    out.further += part * (s.albedo * gathered);
+    IrradianceCache::Place place{s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance};
+    const Cell* cell = nullptr;
+    for (int larger = 0; larger < 3 && !cell; ++larger) cell = cache_.find(place, larger);
+    Gathered there = cell ? Gathered{cell->direct, cell->gathered} : follow(transport_.receiver_at(hit, s), random, depth + 1);
+    out.first += part * (s.albedo * there.first);
+    out.further += part * (s.albedo * there.further);
   });
   if (open > 0 && world_.has_sky()) out.first += (open * pi) * world_.sky(ray.direction);
   return out;
 }
 
+/// Where there is no cell: an estimate by one more ray.
+Solver::Gathered Solver::follow(const Receiver& at, Stream& random, int depth) const {
+  Flux f;
+  direct_.lamps(at, 1, random, f);
+  direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, f);
+  double u = random.next(), v = random.next();
+  V3 direction = cosine_direction(at.normal, u, v);
+  if (depth == deepest || !(dot(direction, at.face) > 0)) return {f.sum, {}};
+  Gathered more = look(at, {at.start, direction}, random, depth);
+  return {f.sum + more.first, more.further};
+}
+
 Solver::Gathered Solver::gather(std::size_t c, int iteration) {
   const Cell& cell = cache_.cells()[c];
-  Stream random(key_of(seed_, 4, c * iterations + iteration));
+  const int n = iteration < warm_up ? fewer_rays : rays_a_cell;
+  Stream random(key_of(seed_, 4, c * (warm_up + counted) + iteration));
   Lattice<2> directions(key_of(seed_, 5, c));
   Gathered sum;
-  for (int i = 0; i < rays_a_cell; ++i) {
-    int place = i % cell.n_places();
-    const Receiver& at = cell.places[place];
+  for (int i = 0; i < n; ++i) {
+    const Receiver& at = cell.places[i % cell.n_places()];
     auto [u, v] = directions[static_cast<std::uint32_t>(iteration * rays_a_cell + i)];
     Ray ray{at.start, cosine_direction(at.normal, u, v)};
     if (!(dot(ray.direction, at.face) > 0)) continue;
-    Gathered g = look(ray, random);
+    Gathered g = look(at, ray, random, 0);
     sum.first += g.first;
     sum.further += g.further;
-    of_place_[c * IrradianceCache::most_places + place] += mean(g.first + g.further);
   }
-  return {(1.0 / rays_a_cell) * sum.first, (1.0 / rays_a_cell) * sum.further};
+  return {(1.0 / n) * sum.first, (1.0 / n) * sum.further};
 }
 
 /// All cells gather once from what all had before. What the whole world is too bright or too dark by would need many
@@ -177,33 +187,20 @@ void Solver::iterate(int iteration) {
   auto& cells = cache_.cells();
   std::vector<Gathered> now(cells.size());
   in_blocks(cells.size(), [&](std::size_t c) { now[c] = gather(c, iteration); });
-  V3 first, lacking, sum;
-  double n = 0;
+  V3 first, lacking;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     double w = cells[c].n_met;
     first += w * now[c].first;
     lacking += w * (cells[c].gathered - now[c].further);
-    n += w;
   }
   auto ratio = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.1, 10.0) : 1; };
   V3 scale{ratio(first.x, lacking.x), ratio(first.y, lacking.y), ratio(first.z, lacking.z)};
-  int counted = std::max(0, iteration - warm_up + 1);
+  int n_counted = std::max(0, iteration - warm_up + 1);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     V3 e = now[c].first + scale * now[c].further;
-    if (counted) sum_[c] += e;
-    cells[c].gathered = counted ? (1.0 / counted) * sum_[c] : e;
-    sum += double(cells[c].n_met) * cells[c].gathered;
+    if (n_counted) sum_[c] += e;
+    cells[c].gathered = n_counted ? (1.0 / n_counted) * sum_[c] : e;
   }
-  if (n > 0) mean_gathered_ = (1 / n) * sum;
-}
-
-/// A cell on both sides of a wall, or of the edge of a shadow, is not to be relied on.
-void Solver::judge(std::size_t c) {
-  Cell& cell = cache_.cells()[c];
-  auto first = of_place_.begin() + static_cast<std::ptrdiff_t>(c * IrradianceCache::most_places), last = first + cell.n_places();
-  double sum = 0;
-  for (auto p = first; p != last; ++p) sum += *p;
-  cell.trusted = cell.n_met >= often && *std::min_element(first, last) >= least_agreement * sum / cell.n_places();
 }
 
 }  // namespace

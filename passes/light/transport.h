@@ -1,5 +1,5 @@
-// What a ray brings back: light that is made where it ends, and light that is reflected there, by the cache where that can
-// be relied on and by following the light further where not.
+// What a ray brings back: light that is made where it ends, and light that is reflected there, by the cache where it has
+// a cell and by following the light further where not.
 #pragma once
 #include "passes/light/cache.h"
 #include "passes/light/direct.h"
@@ -19,8 +19,8 @@ class Transport {
   Transport(const LightWorld& world, const DirectLight& direct, const IrradianceCache* cache)
       : world_(world), direct_(direct), cache_(cache) {}
 
-  /// What comes to a receiver along a ray of its own that was drawn in a cosine direction. Light of emitters is weighted for
-  /// as many rays to emitters beside it (DirectLight::emitters with gather).
+  /// What comes to a receiver along a ray of its own that was drawn in a cosine direction. Light of emitters is weighted
+  /// for rays to emitters beside it (DirectLight::emitters).
   Arriving gather(const Receiver& at, const Ray& ray, Stream& random) const { return along(at, ray, random, 0); }
 
   /// Calls f(hit, surface, part) for what a ray meets, through what is transparent; `part` is how much of the ray's light
