@@ -23,7 +23,7 @@ V3 irradiance_of(const PatchedWorld& world, const DirectLight& direct, const Tra
     const Receiver at = world.receiver(side, pu, pv);
     Flux f;
     direct.lamps(at, lamp_rays, random, f);
-    direct.emitters(at, targets, i, 1, true, f);
+    direct.emitters(at, targets, i, 1, f);
     const Arriving a = transport.gather(at, {at.start, cosine_direction(at.normal, du, dv)}, random);
     sum += f.sum + pi * (a.direct + a.reflected);
   }

@@ -61,7 +61,7 @@ class Iteration {
     const Receiver at = world_.receiver(s, pu, pv);
     Flux f;
     direct_.lamps(at, lamp_rays, random, f);
-    direct_.emitters(at, Lattice<3>(key_of(key, 4)), i, 1, true, f);
+    direct_.emitters(at, Lattice<3>(key_of(key, 4)), i, 1, f);
     const V3 e = f.sum + pi * along(at, {at.start, cosine_direction(at.normal, du, dv)});
     next_[s] = (1 / pi) * (world_.albedo(s) * e);
     if (heard) sum_[s] += e;
