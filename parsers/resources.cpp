@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "parsers/patches.h"
 #include "parsers/url.h"
 #include "scenegraph/image.h"
 
@@ -182,6 +183,11 @@ std::shared_ptr<const Scene> FileResources::parsed(const Target& target, std::st
   world.scene = parse_(target.path, diag);
   world.parsing = false;
   return world.scene;
+}
+
+std::shared_ptr<const PatchSet> FileResources::patches(const std::string& path, Diagnostics& diag) {
+  auto read = read_patches(path, {}, diag);
+  return read ? std::make_shared<const PatchSet>(std::move(*read)) : nullptr;
 }
 
 }  // namespace wrlkit

@@ -39,6 +39,7 @@ class FileResources final : public Resources {
   std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
   /// Parsed worlds are kept. A world that asks for itself while it is being parsed is a cycle.
   std::shared_ptr<const Scene> world(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
+  std::shared_ptr<const PatchSet> patches(const std::string& path, Diagnostics&) override;
 
  private:
   struct Target;

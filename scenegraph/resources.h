@@ -15,6 +15,8 @@
 
 namespace wrlkit {
 
+struct PatchSet;  // scenegraph/patches.h
+
 /// A file as it is: what glTF embeds without touching it.
 struct Blob {
   std::string name;   // file name without folder
@@ -43,6 +45,9 @@ class Resources {
   virtual std::shared_ptr<const Blob> bytes(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
   virtual std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
   virtual std::shared_ptr<const Scene> world(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
+
+  /// A patch file that the user names, relative to where he is; null, reported, when there is nothing of it to be had.
+  virtual std::shared_ptr<const PatchSet> patches(const std::string&, Diagnostics&) { return nullptr; }
 
   /// Hands in a file that a pass has made and returns its url, made_scheme + name: whoever asks for that gets these bytes.
   /// A name that is taken gets a number. Writers put what is made inside their file, or beside it. Not while others ask.

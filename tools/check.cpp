@@ -1,9 +1,7 @@
-// wrlkit check: what the parser and the node table have to say of worlds, and the reader of patch files of those; nothing is
-// written.
+// wrlkit check: what the parser and the node table have to say of worlds; nothing is written.
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "parsers/patches.h"
 #include "scenegraph/verify.h"
 #include "tools/print_diagnostics.h"
 #include "tools/session.h"
@@ -17,16 +15,6 @@ void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
   std::string why;
   if (auto p = Pipeline::parse("expand", why)) p->run(s.world().scene, s.context());
-}
-
-/// False when nothing can be had of the file.
-bool check_file(Session& s, const std::string& path) {
-  const auto file = read_file(path, {}, s.diag());
-  if (!file) return false;
-  if (is_patch_file(file->view())) return parse_patches(*file, s.diag()).has_value();
-  if (!s.read(path, *file)) return false;
-  if (!s.flags().parse_only) check_world(s);
-  return true;
 }
 
 void print_text(const std::string& path, const Diagnostics& d) {
@@ -58,7 +46,8 @@ int run_check(const Flags& flags) {
     one.inputs = {path};
     Session s(one);
     if (!s.good()) return usage;
-    const bool readable = check_file(s, path);
+    bool readable = s.read(path) != nullptr;
+    if (readable && !flags.parse_only) check_world(s);
     s.progress().clear();
     unreadable += !readable;
     faulty += s.diag().has_errors();

@@ -23,8 +23,6 @@ class DirectLight {
   /// heuristic of Veach and Guibas). 1 when the triangle is no emitter.
   double gather_weight(const Receiver& from, const Ray& ray, const Hit& hit) const;
 
-  bool has_emitters() const { return !tree_.empty(); }
-
  private:
   void emitter(const Receiver& at, const EmitterTree::Choice& choice, double u, double v, Flux& to) const;
 

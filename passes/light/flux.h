@@ -27,11 +27,6 @@ struct Flux {
     along[1] += from.y * e;
     along[2] += from.z * e;
   }
-  void add(const Flux& f) {
-    sum += f.sum;
-    squares += f.squares;
-    for (int k = 0; k < 3; ++k) along[k] += f.along[k];
-  }
   /// Of the mean of n samples, by their scatter. For samples of low discrepancy that is an upper bound.
   V3 variance(double n) const {
     if (n < 2) return {};

@@ -46,8 +46,8 @@ namespace {
 /// The rays of one point, in rounds.
 class Estimate {
  public:
-  Estimate(const LightWorld& world, const DirectLight& direct, const Transport& transport, const Receiver& at, std::uint64_t key)
-      : world_(world), direct_(direct), transport_(transport), at_(at), random_(key), directions_(key_of(key, 1)), places_(key_of(key, 2)) {
+  Estimate(const DirectLight& direct, const Transport& transport, const Receiver& at, std::uint64_t key)
+      : direct_(direct), transport_(transport), at_(at), random_(key), directions_(key_of(key, 1)), places_(key_of(key, 2)) {
     direct_.lamps(at_, lamp_rays, random_, lamps_);
   }
 
@@ -85,7 +85,6 @@ class Estimate {
     n_inside_ += a.from_inside;
   }
 
-  const LightWorld& world_;
   const DirectLight& direct_;
   const Transport& transport_;
   Receiver at_;
@@ -118,7 +117,7 @@ std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, st
   std::vector<Irradiance> out(points.size());
   parallel_for((points.size() + block - 1) / block, [&](std::size_t b) {
     for (std::size_t i = b * block; i < std::min(points.size(), (b + 1) * block); ++i) {
-      Estimate e(s.world, s.direct, s.transport, receiver(s.world, points[i]), key_of(s.options.seed, 6, first + i));
+      Estimate e(s.direct, s.transport, receiver(s.world, points[i]), key_of(s.options.seed, 6, first + i));
       e.trace(rays);
       auto precise = [&] { return std::sqrt(mean(e.variance())) <= s.options.error * std::max(mean(e.total()), s.floor); };
       while (s.options.error > 0 && e.n() < most && !precise()) e.trace(std::min(e.n(), most - e.n()));

@@ -9,12 +9,12 @@ namespace {
 
 using Cell = IrradianceCache::Cell;
 
-constexpr std::size_t fewest_walks = 1 << 16, most_walks = 1 << 18;
+constexpr std::size_t fewest_walks = 1 << 16, most_walks = 1 << 17;
 constexpr int walk_length = 4;       // rays
 constexpr std::size_t block = 256;   // walks or cells that are done in one piece
 constexpr int warm_up = 5, counted = 7;   // iterations, of fewer rays in the beginning; those counted give the mean
 constexpr int fewer_rays = 8, rays_a_cell = 16;
-constexpr std::uint32_t often = 4;   // meetings that make a cell known
+constexpr std::ptrdiff_t often = 4;  // meetings that make a cell known
 constexpr int deepest = 6;           // reflections outside of cells
 
 /// A place where a walk ended a ray.
@@ -77,16 +77,22 @@ void Solver::discover(std::span<const Receiver> from) {
       walk(from[i * from.size() / n], random, met[b]);
     }
   });
-  Stream rank(key_of(seed_, 2));
+  std::vector<const Meeting*> order;
   for (const auto& list : met)
-    for (const Meeting& m : list) cache_.meet(m.key, m.place, rank.bits());
+    for (const Meeting& m : list) order.push_back(&m);
+  std::stable_sort(order.begin(), order.end(), [](const Meeting* a, const Meeting* b) { return a->key < b->key; });
+  Stream rank(key_of(seed_, 2));
+  for (auto first = order.begin(), last = first; first != order.end(); first = last) {
+    while (last != order.end() && (*last)->key == (*first)->key) ++last;
+    if (last - first < often) continue;  // rarely met cells cost more than they bring
+    for (auto m = first; m != last; ++m) cache_.meet((*m)->key, (*m)->place, rank.bits());
+  }
 }
 
-/// Rarely met cells cost more than they bring.
 void Solver::keep_sound_cells() {
   const auto& cells = cache_.cells();
   std::vector<char> sound(cells.size());
-  in_blocks(cells.size(), [&](std::size_t c) { sound[c] = cells[c].n_met >= often && is_sound(cells[c]); });
+  in_blocks(cells.size(), [&](std::size_t c) { sound[c] = is_sound(cells[c]); });
   cache_.keep_only(sound);
 }
 

@@ -10,7 +10,7 @@
 namespace wrlkit::light {
 namespace {
 
-constexpr double enough = 1e-3;      // of the light is left when shooting ends
+constexpr double enough = 1e-4;      // of the light is left when shooting ends
 constexpr int lamp_rays = 16;
 
 struct Deposit {
@@ -82,9 +82,10 @@ class Shooting {
     parallel_for(deposits.size(), [&](std::size_t b) {
       for (std::size_t i = b * block; i < std::min(from.size(), (b + 1) * block); ++i) shoot_from(from[i], a_ray, round, deposits[b]);
     });
-    for (auto s : from) unshot_[s] = {};
+    for (auto s : from) sent_ += mean(unshot_[s]), unshot_[s] = {};
     for (const auto& list : deposits)
       for (const auto& [side, power] : list) {
+        landed_ += mean(power);
         received_[side] += (1 / world_.area(side)) * power;
         unshot_[side] += world_.albedo(side) * power;
       }
@@ -109,7 +110,7 @@ class Shooting {
     shot_[s] += n;
   }
 
-  /// The ambient term: what is left goes to all alike, and is reflected for ever.
+  /// The ambient term: what is left goes to all alike, and is reflected for ever, as far as it does not leave the world.
   void share_the_rest() {
     V3 left, reflecting;
     double area = 0;
@@ -118,9 +119,10 @@ class Shooting {
       reflecting += world_.area(s) * world_.albedo(s);
       area += world_.area(s);
     }
-    if (!(area > 0)) return;
-    const V3 rho = (1 / area) * reflecting;
-    const V3 ambient = (1 / area) * V3(left.x / (1 - rho.x), left.y / (1 - rho.y), left.z / (1 - rho.z));
+    if (!(area > 0) || !(sent_ > 0)) return;
+    const double staying = std::min(1.0, landed_ / sent_);
+    const V3 rho = (staying / area) * reflecting;
+    const V3 ambient = (staying / area) * V3(left.x / (1 - rho.x), left.y / (1 - rho.y), left.z / (1 - rho.z));
     for (V3& e : received_) e += ambient;
   }
 
@@ -130,6 +132,7 @@ class Shooting {
   Transport transport_;
   std::vector<V3> received_, unshot_;     // irradiance; power that has not been shot yet
   std::vector<std::uint32_t> shot_;       // rays so far
+  double sent_ = 0, landed_ = 0;          // power of all rays, and of those that met a patch
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace wrlkit::light {
 namespace {
 
 constexpr int lamp_rays = 2;
-constexpr int most_unheard = 16;     // steps before the mean is taken: light must have got around
+constexpr int most_unheard = 32;     // steps before the mean is taken: light must have got around
 
 /// A permutation of 0 to n - 1. Steps of one side that follow each other must be independent, which points of a lattice in
 /// their order are not.

@@ -3,10 +3,11 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <new>
 #include <unordered_set>
+
+#include "passes/render/placement.h"
 
 namespace wrlkit::drawing {
 namespace {
@@ -42,26 +43,6 @@ struct Batch {
   const Part& part_of(std::uint32_t element) const {
     auto after = std::upper_bound(parts.begin(), parts.end(), element, [](auto e, const Part& p) { return e < p.first_element; });
     return after[-1];
-  }
-};
-
-/// A mesh in a frame. What stands twice in one place is put there once: forty doublings of a Group in place would be a
-/// million shapes that every ray has to try.
-struct Placement {
-  std::uint32_t mesh;
-  Affine frame;
-
-  std::array<double, 13> key() const {
-    const Affine& f = frame;
-    return {f.x.x, f.x.y, f.x.z, f.y.x, f.y.y, f.y.z, f.z.x, f.z.y, f.z.z, f.t.x, f.t.y, f.t.z, static_cast<double>(mesh)};
-  }
-  bool operator==(const Placement& o) const { return key() == o.key(); }
-};
-struct PlacementHash {
-  std::size_t operator()(const Placement& p) const {
-    std::size_t h = 0;
-    for (double v : p.key()) h = h * 0x9e3779b97f4a7c15u + std::hash<double>()(v);
-    return h;
   }
 };
 

@@ -115,20 +115,20 @@ TEST_CASE("what is wrong costs the patch it is in, and is told with its place") 
                         "<patch v=\"0 0 0 1 0 0 0 1 0 rgb=\"1 1 1\"/>\n"       // a quote is missing
                         "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"-1 nan 2\"\n"    // '>' is missing
                         "<thing><patch/></thing>\n"
-                        "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"4 5 6\"/>", diag);
+                        "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"4 -5 6\"/>", diag);
   REQUIRE(set);
   REQUIRE(set->patches.size() == 4);
   CHECK(set->patches[0].rgb == std::array<float, 3>{1, 0, 0});
   CHECK(set->patches[2].rgb == std::array<float, 3>{0, 0, 2});
-  CHECK(set->patches[3].rgb == std::array<float, 3>{4, 5, 6});
+  CHECK(set->patches[3].rgb == std::array<float, 3>{4, 0, 6});
   std::map<std::string, std::size_t> lines;
   for (auto& m : diag.messages()) lines[info(m.id).name] = diag.sources().locate(m.where).line;
   CHECK(lines["bad-value"] == 4);
   CHECK(lines["unknown-attribute"] == 5);
-  CHECK(lines["out-of-range"] == 7);
+  CHECK(lines["out-of-range"] == 9);
   CHECK(lines["unknown-element"] == 8);
   CHECK(lines["unclosed"] == 1);
-  CHECK(diag.count(Diag::bad_patch) == 2);
+  CHECK(diag.count(Diag::bad_patch) == 1);  // those of damaged tags were told
   const auto column = diag.sources().locate(diag.messages()[0].where);
   CHECK(column.line == 3);
   CHECK(column.column == 11);

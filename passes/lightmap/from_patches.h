@@ -1,0 +1,19 @@
+// Light from a patch file onto the Shapes of a world: the pipeline of the seed paper (Lazanyi, 3.2). Each Shape gets a
+// picture of its own.
+#pragma once
+#include "passes/light/world.h"
+#include "passes/pass.h"
+#include "scenegraph/patches.h"
+
+namespace wrlkit::bake {
+
+struct FromPatchesOptions {
+  bool smooth = false;            // colours between the corners of patches
+  std::string extension = "png";
+};
+
+/// `world` is that of `scene`. Patches that lie on no surface are reported (orphan-patches). Geometry that several Shapes
+/// show is copied. Statistics: lightmap.shapes, .patches, .orphans. False when no patch has found its place.
+bool light_from_patches(Scene& scene, const light::LightWorld& world, const PatchSet& patches, const FromPatchesOptions& options, PassContext& ctx);
+
+}  // namespace wrlkit::bake

@@ -1,0 +1,144 @@
+// From patches to textures: which triangle a patch belongs to, how it is drawn, and where corners lie in the picture.
+#include "passes/patches/patch_lightmap.h"
+
+#include <catch2/catch.hpp>
+#include <memory>
+
+#include "parsers/parsers.h"
+#include "passes/light/flux.h"
+#include "passes/pipeline.h"
+
+using namespace wrlkit;
+using namespace wrlkit::light;
+
+namespace {
+
+/// A wall of two triangles, 2 m wide and 1 m high, and a floor.
+const std::string_view room = R"(#VRML V2.0 utf8
+DEF Wall Shape { appearance Appearance { material Material { diffuseColor 0.5 0.5 0.5 emissiveColor 0.1 0.1 0.1 } }
+  geometry IndexedFaceSet { coord Coordinate { point [0 0 0, 2 0 0, 2 1 0, 0 1 0] } coordIndex [0 1 2 3 -1] } }
+DEF Floor Shape { appearance Appearance { material Material { } }
+  geometry IndexedFaceSet { coord Coordinate { point [0 0 0, 0 0 2, 2 0 2, 2 0 0] } coordIndex [0 1 2 3 -1] } })";
+
+struct Room {
+  Diagnostics diag;
+  std::unique_ptr<World> world = parse_world(room, "room.wrl", {}, diag);
+  std::unique_ptr<LightWorld> light;
+
+  Room() {
+    Statistics stats;
+    PassContext ctx{diag, stats};
+    std::string why;
+    auto pipeline = Pipeline::parse("tessellate", why);
+    auto meshes = pipeline->run_lazily(world->scene, ctx);
+    light = std::make_unique<LightWorld>(world->scene, meshes, nullptr, LightOptions{}, diag);
+  }
+};
+
+/// The left half of the wall in one colour and the right half in another, each of two patches, without triangles.
+PatchSet halves(double nudge = 0) {
+  PatchSet set;
+  set.add_shape("", PatchSet::unknown);
+  set.add_loose_triangle();
+  auto add = [&](double x0, double x1, float c) {
+    set.patches.push_back({{Vec3{x0, nudge, nudge}, Vec3{x1, 0, nudge}, Vec3{x1, 1, 0}}, {c, c, c}});
+    set.patches.push_back({{Vec3{x0, 0, 0}, Vec3{x1, 1, nudge}, Vec3{x0, 1, 0}}, {c, c, c}});
+  };
+  add(0, 1, 0.25f);
+  add(1, 2, 0.75f);
+  return set;
+}
+
+double at(const ShapePicture& s, double x, double y) {
+  auto picture = s.picture;
+  return picture.at(static_cast<int>(x * picture.width), static_cast<int>((1 - y) * picture.height)).x;
+}
+
+}  // namespace
+
+TEST_CASE("patches without triangles are found by where they lie, printed digits or not") {
+  const Room r;
+  for (double nudge : {0.0, 1e-6, -1e-6}) {
+    const auto match = match_patches(halves(nudge), *r.light);
+    CHECK(match.n_orphans == 0);
+    REQUIRE(match.placed.size() == 4);
+    for (const auto& p : match.placed) {
+      CHECK(p.use == 0);
+      CHECK(!p.back);
+    }
+  }
+}
+
+TEST_CASE("a file's triangles are believed when they are right, and looked for when not") {
+  const Room r;
+  for (std::uint32_t shape : {0u, 1u, 99u}) {
+    auto set = halves();
+    set.shapes[0].index = shape;
+    const auto t = triangle_of(*r.light, 0, 0);
+    set.triangles[0].given = true;
+    set.triangles[0].index = 0;
+    for (std::size_t i = 0; i < 3; ++i) set.triangles[0].corners[i] = {t[i].x, t[i].y, t[i].z};
+    const auto match = match_patches(set, *r.light);
+    CHECK(match.placed.size() == 4);
+    for (const auto& p : match.placed) CHECK(p.use == 0);
+  }
+}
+
+TEST_CASE("patches that lie on nothing are counted") {
+  const Room r;
+  auto set = halves();
+  set.patches.push_back({{Vec3{0, 0, 5}, Vec3{1, 0, 5}, Vec3{0, 1, 5}}, {1, 1, 1}});
+  set.patches.push_back({{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, 0, 0}}, {1, 1, 1}});  // no area
+  const auto lightmap = patch_lightmap(set, *r.light, {});
+  CHECK(lightmap.n_patches == 4);
+  CHECK(lightmap.n_orphans == 2);
+  CHECK(lightmap.shapes.size() == 1);
+}
+
+TEST_CASE("a flat polygon is one picture, upright, with its corners in the corners") {
+  const Room r;
+  PatchLightmapOptions options{.picture = {.texel = 0.05, .border = 2}};
+  const auto lightmap = patch_lightmap(halves(), *r.light, options);
+  REQUIRE(lightmap.shapes.size() == 1);
+  const auto& s = lightmap.shapes[0];
+  CHECK(s.n_polygons == 1);
+  CHECK(s.picture.width == 44);
+  CHECK(s.picture.height == 24);
+  CHECK(at(s, 0.25, 0.5) == Approx(0.25));
+  CHECK(at(s, 0.75, 0.5) == Approx(0.75));
+  CHECK(at(s, 0.001, 0.001) == Approx(0.25));  // the border goes on
+  for (std::uint32_t e = 0; e < 2; ++e) {
+    const auto t = triangle_of(*r.light, 0, e);
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(s.texcoords[e][k][0] == Approx((2 + t[k].x / 0.05) / 44));
+      CHECK(s.texcoords[e][k][1] == Approx((2 + t[k].y / 0.05) / 24));
+    }
+  }
+}
+
+TEST_CASE("a smooth picture has at each corner the patches' colours by their angles") {
+  const Room r;
+  const auto lightmap = patch_lightmap(halves(), *r.light, {.picture = {.texel = 0.005, .smooth = true}});
+  const auto& s = lightmap.shapes.at(0);
+  // At the foot of the middle the left half has a right angle, the right half has two of 45 degrees: as much.
+  CHECK(at(s, 0.5, 0.01) == Approx(0.5).margin(0.02));
+  CHECK(at(s, 0.5, 0.99) == Approx(0.5).margin(0.02));
+  CHECK(at(s, 0.01, 0.5) == Approx(0.25).margin(0.02));
+  CHECK(at(s, 0.99, 0.5) == Approx(0.75).margin(0.02));
+  CHECK(at(s, 0.3, 0.5) < at(s, 0.4, 0.5));
+}
+
+TEST_CASE("without the surface's colour a picture holds what a white surface would reflect") {
+  const Room r;
+  PatchLightmapOptions options{.picture = {.texel = 0.05}};
+  options.without_color = true;
+  const auto s = patch_lightmap(halves(), *r.light, options).shapes.at(0);
+  CHECK(at(s, 0.25, 0.5) == Approx((0.25 - linear(0.1)) / linear(0.5)));
+}
+
+TEST_CASE("pictures are no larger than they may be") {
+  const Room r;
+  const auto s = patch_lightmap(halves(), *r.light, {.picture = {.texel = 1e-5}, .most_side = 256}).shapes.at(0);
+  CHECK(s.picture.width <= 256);
+  CHECK(s.picture.width > 128);
+}
