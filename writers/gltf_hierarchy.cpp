@@ -129,6 +129,14 @@ void Hierarchy::report_group(NodeId n) {
   if (hides && scene_.where(n)) diag_.report(Diag::no_gltf_choice, scene_.where(n));
 }
 
+/// Texture coordinates that a rule makes from where the viewer is.
+void Hierarchy::report_texcoords(NodeId geometry) {
+  auto slot = scene_.type(geometry).find("texCoord", Dialect::x3d);
+  const Value* v = slot ? scene_.find(geometry, *slot) : nullptr;
+  if (v && !v->is && v->type == FieldType::SFNode && scene_.is(v->node, nodes::TextureCoordinateGenerator))
+    diag_.report(Diag::no_gltf_value, scene_.where(v->node), scene_.type(geometry).name, "texCoord (TextureCoordinateGenerator)");
+}
+
 void Hierarchy::leave() {
   Frame f = std::move(frames_.back());
   frames_.pop_back();
@@ -190,7 +198,7 @@ std::uint32_t Hierarchy::shape(NodeId n) {
   Node node{.source = n};
   NodeId geometry_node = scene_.get(n, nodes::shape::geometry);
   if (!geometry_node) return add(node);
-  first_visit(geometry_node);
+  if (first_visit(geometry_node)) report_texcoords(geometry_node);
   NodeId appearance = scene_.get(n, nodes::shape::appearance);
   auto geometry = meshes_.geometry(geometry_node, materials_.has_picture(appearance));
   const Geometry& g = meshes_.geometries()[geometry];

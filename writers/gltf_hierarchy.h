@@ -72,6 +72,7 @@ class Hierarchy {
   void visit(NodeId);
   void enter(NodeId);
   void report_overflow(NodeId);
+  void report_texcoords(NodeId geometry);
   void report_group(NodeId);
   void leave();
   std::uint32_t group(const Frame&);

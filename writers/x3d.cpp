@@ -186,7 +186,7 @@ class Writer {
     return t->container_field.empty() ? std::string_view("children") : t->container_field;
   }
 
-  /// `field`: of the node around it; empty where no field needs to be named.
+  /// `field`: of the node around it; empty where no field needs to be named. Of metadata the default depends on the version.
   void node(NodeId n, std::string_view field) {
     if (!n) return;
     const auto& t = scene_.type(n);
@@ -198,7 +198,7 @@ class Writer {
     auto& printed = printed_[n.value];
     const bool use = printed == scope_;
     if (!name.empty()) attribute(use ? "USE" : "DEF", name);
-    if (!field.empty() && field != container_of(n)) attribute("containerField", field);
+    if (!field.empty() && (field != container_of(n) || t.is_a("X3DMetadataObject"))) attribute("containerField", field);
     if (use) { out_ << "/>"; return; }
     if (printed) again_.emplace_back(n.value, printed);
     printed = scope_;

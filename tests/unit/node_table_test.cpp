@@ -35,6 +35,8 @@ TEST_CASE("node table: defaults of X3D's own", "[node_table]") {
   auto& beam = builtin_nodes()[nodes::SpotLight.value].fields[nodes::spot_light::beamWidth.slot];
   CHECK(beam.x3d_default_in(32).number == 1.570796);
   CHECK(beam.x3d_default_in(33).number == 0.589049);
+  auto& cut_off = builtin_nodes()[nodes::SpotLight.value].fields[nodes::spot_light::cutOffAngle.slot];
+  CHECK(cut_off.x3d_default_in(40).number == 1.570796);
 }
 
 TEST_CASE("node table: no field twice in a node, in any dialect", "[node_table]") {
