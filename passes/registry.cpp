@@ -5,6 +5,7 @@
 #include "passes/inline.h"
 #include "passes/join.h"
 #include "passes/lod.h"
+#include "passes/lower_vrml1.h"
 #include "passes/normals.h"
 #include "passes/pass_info.h"
 #include "passes/prune.h"
@@ -16,6 +17,7 @@ namespace wrlkit {
 namespace {
 
 constexpr PassInfo all_passes[] = {
+    pass<lower_vrml1, LowerVrml1Options>("lower-vrml1", "turn a world of VRML 1.0 or Inventor into one of VRML97", Level::authored, Level::authored),
     pass<inline_worlds, InlineOptions>("inline", "put the worlds that Inline nodes name into this one", Level::authored, Level::authored),
     pass<expand_protos, ExpandProtosOptions>("expand-protos", "turn prototype instances into the nodes they stand for", Level::authored, Level::expanded),
     pass<prune, PruneOptions>("prune", "remove what has no effect", Level::authored, Level::authored),
@@ -29,9 +31,10 @@ constexpr PassInfo all_passes[] = {
 
 // A prototype may hold Inlines, and an inlined world instances of prototypes: both are looked for twice.
 constexpr NamedPipeline named[] = {
-    {"gltf", "inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},prune,tessellate{triangles=false,texcoords=true},normals,triangulate", "what convert does for glTF"},
-    {"picture", "inline,expand-protos,inline,expand-protos,tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
-    {"expand", "inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
+    {"gltf", "lower-vrml1,inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},prune,tessellate{triangles=false,texcoords=true},normals,triangulate", "what convert does for glTF"},
+    {"picture", "lower-vrml1,inline,expand-protos,inline,expand-protos,tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
+    {"expand", "lower-vrml1,inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
+    {"vrml", "lower-vrml1", "what convert and cat do for VRML97"},
     {"none", "", "nothing: the file as it is"},
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "scenegraph/bit_mask.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -54,6 +55,7 @@ class ValueCheck {
       if (std::ranges::find(f.kinds, w) == f.kinds.end()) diag_.report(Diag::unknown_word, scene_.where(n), w, scene_.type(n).name, f.name);
     };
     if (info(v.type).multiple) std::ranges::for_each(v.text_span(), check);
+    else if (v.type == FieldType::SFBitMask) for_each_bit(v.text(), check);
     else check(v.text());
   }
 

@@ -9,7 +9,7 @@ namespace wrlkit {
 
 int run_cat(const Flags& flags) {
   Session s(flags);
-  if (!s.good() || !s.choose_pipeline("none")) return usage;
+  if (!s.good() || !s.choose_pipeline(flags.pipeline == "none" ? "none" : "vrml")) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
   auto file = OutputFile::open(flags.output.empty() ? "-" : flags.output, {.gzip = flags.gzip}, s.diag());

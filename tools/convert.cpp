@@ -57,7 +57,7 @@ int run_convert(const Flags& flags) {
   bool gzip = flags.gzip;
   auto target = target_of(flags.output, gzip);
   if (!target) return fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output), usage;
-  if (!s.good() || !s.choose_pipeline(*target == Target::vrml ? "none" : "gltf")) return usage;
+  if (!s.good() || !s.choose_pipeline(*target != Target::vrml ? "gltf" : flags.pipeline == "none" ? "none" : "vrml")) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0])) return s.end(false);
   check_values(s.world().scene, s.diag());

@@ -126,7 +126,7 @@ void print(const Session& s, std::size_t n_faces, const std::vector<Written>& fi
 int run_simplify(const Flags& flags) {
   Session s(flags);
   auto options = options_of(flags);
-  if (!options || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "none" : flags.progressive ? "inline,expand-protos,inline,expand-protos,weld" : "weld")) return usage;
+  if (!options || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "vrml" : flags.progressive ? "lower-vrml1,inline,expand-protos,inline,expand-protos,weld" : "lower-vrml1,weld")) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
 

@@ -1,0 +1,32 @@
+// The transformation that the traversal of VRML 1.0 has gathered since the group around it, and the Transform that says it.
+// Any matrix is one: a rotation times a scale along turned axes (polar decomposition), which is what Transform can say.
+#pragma once
+#include <optional>
+
+#include "scenegraph/transform.h"
+
+namespace wrlkit::vrml1 {
+
+class Placement {
+ public:
+  /// What follows is moved by this, and then by what was there before.
+  void then(const TransformFields&);
+  void then(const Matrix&);
+  void then(const Placement&);
+
+  bool identity() const { return matrix_ == Matrix{}; }
+  const Matrix& matrix() const { return matrix_; }
+  /// The fields as the file has them where they are those of one Transform, or else from the matrix.
+  TransformFields fields() const;
+  bool operator==(const Placement& o) const { return matrix_ == o.matrix_; }
+
+ private:
+  Matrix matrix_;
+  std::optional<TransformFields> fields_ = TransformFields{};  // while they say it
+};
+
+/// The Transform of a matrix: R V S V', from the eigenvectors V of A'A. A mirrored matrix has negative scales; one that
+/// flattens still has a rotation; one that is not finite is the identity.
+TransformFields decompose(const Matrix&);
+
+}  // namespace wrlkit::vrml1
