@@ -1,5 +1,7 @@
 #include "passes/vrml1/shapes.h"
 
+#include <cmath>
+
 #include "scenegraph/bit_mask.h"
 #include "scenegraph/nodes.h"
 
@@ -41,6 +43,7 @@ NodeId Shapes::shape(NodeId geometry, const State& s, std::size_t material, bool
 }
 
 // ---- primitives ----------------------------------------------------------------------------------------------------
+// Sizes below zero occur in real files, and were drawn.
 
 Shapes::Parts Shapes::cone(NodeId n) {
   const auto parts = scene_.get(n, v1::cone::parts);
@@ -48,7 +51,7 @@ Shapes::Parts Shapes::cone(NodeId n) {
   for (auto [word, material] : {std::pair{"SIDES", 0}, {"BOTTOM", 1}}) {
     if (!has_bit(parts, word)) continue;
     NodeId g = add(nodes::Cone, n);
-    scene_.set(g, nodes::cone::bottomRadius, scene_.get(n, v1::cone::bottomRadius));
+    scene_.set(g, nodes::cone::bottomRadius, std::abs(scene_.get(n, v1::cone::bottomRadius)));
     scene_.set(g, nodes::cone::height, scene_.get(n, v1::cone::height));
     scene_.set(g, nodes::cone::side, material == 0);
     scene_.set(g, nodes::cone::bottom, material == 1);
@@ -63,8 +66,8 @@ Shapes::Parts Shapes::cylinder(NodeId n) {
   for (auto [word, material] : {std::pair{"SIDES", 0}, {"TOP", 1}, {"BOTTOM", 2}}) {
     if (!has_bit(parts, word)) continue;
     NodeId g = add(nodes::Cylinder, n);
-    scene_.set(g, nodes::cylinder::radius, scene_.get(n, v1::cylinder::radius));
-    scene_.set(g, nodes::cylinder::height, scene_.get(n, v1::cylinder::height));
+    scene_.set(g, nodes::cylinder::radius, std::abs(scene_.get(n, v1::cylinder::radius)));
+    scene_.set(g, nodes::cylinder::height, std::abs(scene_.get(n, v1::cylinder::height)));
     scene_.set(g, nodes::cylinder::side, material == 0);
     scene_.set(g, nodes::cylinder::top, material == 1);
     scene_.set(g, nodes::cylinder::bottom, material == 2);
@@ -75,7 +78,7 @@ Shapes::Parts Shapes::cylinder(NodeId n) {
 
 Shapes::Parts Shapes::sphere(NodeId n) {
   NodeId g = add(nodes::Sphere, n);
-  scene_.set(g, nodes::sphere::radius, scene_.get(n, v1::sphere::radius));
+  scene_.set(g, nodes::sphere::radius, std::abs(scene_.get(n, v1::sphere::radius)));
   return {{g, 0}};
 }
 
@@ -99,11 +102,11 @@ std::vector<NodeId> Shapes::primitive(const Parts& parts, const State& s) {
   return out;
 }
 
-// Front, back, left, right, top, bottom, with the texture upright on each as on a Box.
+// Front, back, left, right, top, bottom, with the texture upright on each as on a Box. VRML97 has no flat Box.
 std::vector<NodeId> Shapes::cube(NodeId n, const State& s) {
-  const Vec3 size{scene_.get(n, v1::cube::width), scene_.get(n, v1::cube::height), scene_.get(n, v1::cube::depth)};
-  const bool apart = of_faces(s.material_binding) && looks_.palette(s).size > 1;
-  if (!apart && s.drawing == Drawing::filled) {
+  const Vec3 size{std::abs(scene_.get(n, v1::cube::width)), std::abs(scene_.get(n, v1::cube::height)), std::abs(scene_.get(n, v1::cube::depth))};
+  const bool apart = of_faces(s.material_binding) && looks_.palette(s).size > 1, flat = size[0] * size[1] * size[2] == 0;
+  if (!apart && !flat && s.drawing != Drawing::lines && s.drawing != Drawing::points) {
     NodeId g = add(nodes::Box, n);
     scene_.set(g, nodes::box::size, size);
     return {shape(g, s, 0)};

@@ -45,7 +45,7 @@ NodeId viewpoint(Scene& scene, NodeId camera, Diagnostics& diag) {
   scene.set(n, nodes::viewpoint::orientation, parallel ? scene.get(camera, o::orientation) : scene.get(camera, p::orientation));
   double angle = scene.get(camera, p::heightAngle);
   if (parallel) {
-    diag.report(Diag::no_vrml97_node, scene.where(camera), "OrthographicCamera");
+    diag.report(Diag::no_vrml97_value, scene.where(camera), "OrthographicCamera", "height");
     angle = 2 * std::atan2(scene.get(camera, o::height) / 2, std::max(scene.get(camera, o::focalDistance), 1e-6));
   }
   if (angle != 0.785398) scene.set(n, nodes::viewpoint::fieldOfView, angle);  // the default of both, with the digits of each
