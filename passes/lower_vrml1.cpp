@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "passes/nesting.h"
@@ -31,6 +32,7 @@ class Lowering {
         steps_left_(static_cast<std::size_t>(options.limit) + steps_a_node * scene.node_count()), limit_(options.limit) {}
 
   void run() {
+    legal_names();
     Frame frame;
     State state;
     for (NodeId n : scene_.main.roots) visit(n, state, frame);
@@ -42,6 +44,18 @@ class Lowering {
 
  private:
   static constexpr std::size_t steps_a_node = 16, deepest = 2000;
+
+  // What Inventor puts behind a '+' tells nodes of one name apart. Other characters have no place in names of VRML97.
+  void legal_names() {
+    for (std::uint32_t i = 0; i < scene_.node_count(); ++i) {
+      const auto old = scene_.name(NodeId{i});
+      if (old.find_first_of("+.-'\\0123456789") == old.npos) continue;
+      std::string name(old.substr(0, old.find('+')));
+      std::ranges::replace_if(name, [](char c) { return c == '.' || c == '\'' || c == '\\'; }, '_');
+      if (!name.empty() && (name[0] == '-' || (name[0] >= '0' && name[0] <= '9'))) name.insert(0, 1, '_');
+      if (name != old) scene_.set_name(NodeId{i}, name);
+    }
+  }
 
   // Inventor 2.1 made 0 of it.
   double default_crease_angle() const { return scene_.header.starts_with("#Inventor V2.1") ? 0 : 0.5; }
@@ -240,7 +254,12 @@ void Lowering::visit_switch(NodeId n, State& s, Frame& frame) {
   if (scene_.name(n) == "Cameras") {  // the viewpoints of the world; the chosen one comes first
     std::vector<NodeId> order(nodes.begin(), nodes.end());
     if (chosen > 0 && static_cast<std::size_t>(chosen) < order.size()) std::swap(order[0], order[static_cast<std::size_t>(chosen)]);
-    for (NodeId c : order) { Frame one = contents({&c, 1}, s); if (NodeId g = group(scene_, one, scene_.where(c), {})) frame.add(g); }
+    for (NodeId c : order) {
+      const Placement before = frame.at;
+      State own = s;
+      visit(c, own, frame);
+      frame.at = before;
+    }
     return;
   }
   std::vector<NodeId> choices;

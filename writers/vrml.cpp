@@ -237,7 +237,7 @@ class Writer {
   /// False when it says what the default says.
   bool field(NodeId n, const Value& v) {
     const auto& t = scene_.type(n);
-    if (children(scene_.field_name(n, v), v)) return v.count > 0;
+    if (children(scene_.field_name(n, v), scene_.content(v))) return scene_.content(v).count > 0;
     if (scene_.is_extra(v)) {
       line();
       out_ << v.extra->name;

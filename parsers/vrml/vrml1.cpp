@@ -155,21 +155,22 @@ void Vrml1Parser::node_body(Token opened) {
 
 void Vrml1Parser::element(Token t, Body& body) {
   const auto& type = build_.current_type();
+  if (auto paren = text(t).find('('); paren != 0 && paren != std::string_view::npos) t.end = t.begin + static_cast<std::uint32_t>(paren);  // parts(SIDES)
   auto w = text(t);
   if (auto own = std::ranges::find(body.own, w, [](auto& f) { return f.first; }); own != body.own.end()) {
-    lex_.next();
+    lex_.seek(t.end);
     known_field(own->second, Value::extra_slot, t, empty_value(own->second));
   } else if (auto slot = type.find(w, is_vrml97(type) ? Dialect::vrml97 : Dialect::vrml1); slot && type.fields[*slot].has_value()) {
-    lex_.next();
+    lex_.seek(t.end);
     known_field(type.fields[*slot].type, *slot, t, type.fields[*slot].default_value);
   } else if (node_follows(t)) {
     if (NodeId n = node_statement()) child(n, t, body);
     for (NodeId n : std::exchange(misplaced_, {})) child(n, t, body);
   } else if (w == "fields") {
-    lex_.next();
+    lex_.seek(t.end);
     own_fields(body);
   } else {
-    lex_.next();
+    lex_.seek(t.end);
     if (w == "isA") known_field(FieldType::MFString, Value::extra_slot, t, empty_value(FieldType::MFString));
     else unknown_field(t);
   }

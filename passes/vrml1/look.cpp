@@ -116,7 +116,6 @@ NodeId Looks::material_node(const State& s, std::size_t k, bool colored, bool st
   if (unlit) {
     // Lines show their diffuse colour; exporters that give an emissive one alone mean that.
     const bool glows = strokes && !p.unlit && !s.color && s.material && !scene_.find(s.material, m::diffuseColor.slot) && scene_.find(s.material, m::emissiveColor.slot);
-    scene_.set(n, nodes::material::ambientIntensity, 0.0);
     scene_.set(n, nodes::material::diffuseColor, Vec3{0, 0, 0});
     scene_.set(n, nodes::material::emissiveColor, glows ? vec(m::emissiveColor.slot) : p.color(k));
     return n;
@@ -138,6 +137,10 @@ NodeId Looks::appearance(const State& s, std::size_t k, bool colored, bool strok
   const auto map = texture && !baked ? s.texture_transform : 0;
   auto& n = appearances_[{material, texture, map}];
   if (n) return n;
+  // A picture in colour is multiplied by the material here, and takes its place in VRML97.
+  const Vec3 c = palette(s).color(k);
+  if (texture && (c[0] != c[1] || c[1] != c[2] || scene_.get(s.texture, v1::texture2::model) != "MODULATE"))
+    diag_.report(Diag::no_vrml97_value, scene_.where(s.texture), "Texture2", "model");
   n = scene_.add(nodes::Appearance, material ? scene_.where(material) : Span{});
   if (material) scene_.set(n, nodes::appearance::material, material);
   if (texture) scene_.set(n, nodes::appearance::texture, texture);
@@ -166,7 +169,6 @@ NodeId Looks::texture_node(NodeId source) {
   const bool repeat_s = scene_.get(source, v1::texture2::wrapS) != "CLAMP", repeat_t = scene_.get(source, v1::texture2::wrapT) != "CLAMP";
   scene_.set(n, url ? nodes::image_texture::repeatS : nodes::pixel_texture::repeatS, repeat_s);
   scene_.set(n, url ? nodes::image_texture::repeatT : nodes::pixel_texture::repeatT, repeat_t);
-  if (scene_.get(source, v1::texture2::model) != "MODULATE") diag_.report(Diag::no_vrml97_value, scene_.where(source), "Texture2", "model");
   return n;
 }
 

@@ -38,6 +38,12 @@ std::optional<TransformFields> sum(const TransformFields& a, const TransformFiel
     for (std::size_t i = 0; i < 3; ++i) out.translation[i] = tidy(a.translation[i] + b.translation[i]);
     return out;
   }
+  if (unscaled && a.center == none.center && b == TransformFields{.translation = b.translation}) {
+    auto out = a;
+    const Vec3 turned = rotation_matrix(a.rotation).point(b.translation);
+    for (std::size_t i = 0; i < 3; ++i) out.translation[i] = tidy(a.translation[i] + turned[i]);
+    return without_noise(out.translation), out;
+  }
   const bool b_only_scales = b.translation == none.translation && b.rotation[3] == 0 && b.center == none.center;
   if (!unscaled || a.center != none.center || !b_only_scales) return std::nullopt;
   auto out = a;
@@ -98,6 +104,12 @@ void complete(std::array<Vec3, 3>& columns, const std::array<bool, 3>& known) {
 
 }  // namespace
 
+void without_noise(Vec3& v) {
+  const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  for (double& x : v)
+    if (std::abs(x) < 1e-15 * largest) x = 0;
+}
+
 void Placement::then(const TransformFields& next) {
   matrix_ = matrix_ * matrix_of(next);
   if (fields_) fields_ = sum(*fields_, next);
@@ -119,20 +131,26 @@ TransformFields decompose(const Matrix& m) {
   TransformFields out;
   if (std::ranges::any_of(m.m, [](double v) { return !std::isfinite(v); })) return out;
   out.translation = tidy(Vec3{m(0, 3), m(1, 3), m(2, 3)});
+  without_noise(out.translation);
   Rows a{}, v{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c)
       for (int k = 0; k < 3; ++k) a[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] += m(k, r) * m(k, c);
   eigenvectors(a, v);
-  const double mirror = m.determinant() < 0 ? -1 : 1;
-  std::array<Vec3, 3> u{};
+  std::array<Vec3, 3> u{}, axes{};
   std::array<bool, 3> known{};
   const double largest = std::sqrt(std::max({a[0][0], a[1][1], a[2][2], 0.0}));
   for (std::size_t k = 0; k < 3; ++k) {
-    const double sigma = std::sqrt(std::max(a[k][k], 0.0));
-    out.scale[k] = mirror * sigma;
+    axes[k] = {v[0][k], v[1][k], v[2][k]};
+    const double sigma = out.scale[k] = std::sqrt(std::max(a[k][k], 0.0));
     if (!(known[k] = sigma > 1e-12 * largest)) continue;
-    for (int r = 0; r < 3; ++r) u[k][static_cast<std::size_t>(r)] = mirror * (m(r, 0) * v[0][k] + m(r, 1) * v[1][k] + m(r, 2) * v[2][k]) / sigma;
+    for (int r = 0; r < 3; ++r) u[k][static_cast<std::size_t>(r)] = (m(r, 0) * v[0][k] + m(r, 1) * v[1][k] + m(r, 2) * v[2][k]) / sigma;
+  }
+  if (m.determinant() < 0) {  // mirrored along the axis that leaves the least to turn
+    const std::array<double, 3> along{dot(u[0], axes[0]), dot(u[1], axes[1]), dot(u[2], axes[2])};
+    const auto k = static_cast<std::size_t>(std::ranges::min_element(along) - along.begin());
+    u[k] = scaled(u[k], -1);
+    out.scale[k] = -out.scale[k];
   }
   if (const auto n_known = std::ranges::count(known, true); n_known == 3 || n_known == 2) {
     complete(u, known);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "passes/vrml1/placement.h"
+
 #include "scenegraph/blanks.h"
 
 namespace wrlkit::vrml1 {
@@ -37,18 +39,23 @@ double beam_width(double rate, double cut_off) {
 }  // namespace
 
 NodeId viewpoint(Scene& scene, NodeId camera, Diagnostics& diag) {
+  constexpr double default_angle = 0.785398;
   namespace p = v1::perspective_camera;
   namespace o = v1::orthographic_camera;
   NodeId n = named(scene, nodes::Viewpoint, camera);
   const bool parallel = scene.is(camera, v1::OrthographicCamera);
-  scene.set(n, nodes::viewpoint::position, parallel ? scene.get(camera, o::position) : scene.get(camera, p::position));
-  scene.set(n, nodes::viewpoint::orientation, parallel ? scene.get(camera, o::orientation) : scene.get(camera, p::orientation));
-  double angle = scene.get(camera, p::heightAngle);
-  if (parallel) {
+  auto position = parallel ? scene.get(camera, o::position) : scene.get(camera, p::position);
+  const auto orientation = parallel ? scene.get(camera, o::orientation) : scene.get(camera, p::orientation);
+  const double angle = parallel ? default_angle : scene.get(camera, p::heightAngle);
+  if (parallel) {  // back to where as much is seen
     diag.report(Diag::no_vrml97_value, scene.where(camera), "OrthographicCamera", "height");
-    angle = 2 * std::atan2(scene.get(camera, o::height) / 2, std::max(scene.get(camera, o::focalDistance), 1e-6));
+    const double back = scene.get(camera, o::height) / 2 / std::tan(default_angle / 2) - scene.get(camera, o::focalDistance);
+    const auto offset = rotation_matrix(orientation).point({0, 0, back});
+    for (std::size_t i = 0; i < 3; ++i) position[i] += offset[i];
   }
-  if (angle != 0.785398) scene.set(n, nodes::viewpoint::fieldOfView, angle);  // the default of both, with the digits of each
+  scene.set(n, nodes::viewpoint::position, position);
+  scene.set(n, nodes::viewpoint::orientation, orientation);
+  if (angle != default_angle) scene.set(n, nodes::viewpoint::fieldOfView, angle);  // the default of both, with the digits of each
   scene.set(n, nodes::viewpoint::description, scene.name(camera));
   return n;
 }
@@ -67,8 +74,11 @@ NodeId light(Scene& scene, NodeId source, const Matrix& axes, Diagnostics& diag)
     namespace t = nodes::directional_light;
     NodeId n = named(scene, nodes::DirectionalLight, source);
     common(n, t::on, t::intensity, t::color, d::on, d::intensity, d::color);
-    auto end = axes.point(scene.get(source, d::direction)), origin = axes.point({0, 0, 0});
-    scene.set(n, t::direction, Vec3{end[0] - origin[0], end[1] - origin[1], end[2] - origin[2]});
+    Matrix linear = axes;
+    for (int r = 0; r < 3; ++r) linear(r, 3) = 0;
+    auto direction = linear.point(scene.get(source, d::direction));
+    without_noise(direction);
+    scene.set(n, t::direction, direction);
     return n;
   }
   if (scene.is(source, v1::PointLight)) {

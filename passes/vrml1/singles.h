@@ -5,7 +5,7 @@
 
 namespace wrlkit::vrml1 {
 
-/// A Viewpoint. An OrthographicCamera sees in perspective then as much at its focalDistance.
+/// A Viewpoint. An OrthographicCamera is moved to where as much is seen in perspective at its focalDistance.
 NodeId viewpoint(Scene&, NodeId camera, Diagnostics&);
 /// A light; `axes`: what a direction is turned by. PointLight and SpotLight shine without limit.
 NodeId light(Scene&, NodeId, const Matrix& axes, Diagnostics&);
