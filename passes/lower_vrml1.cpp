@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "passes/nesting.h"
 #include "passes/vrml1/frame.h"
@@ -61,8 +62,10 @@ class Lowering {
   double default_crease_angle() const { return scene_.header.starts_with("#Inventor V2.1") ? 0 : 0.5; }
   bool is(NodeId n, TypeId t) const { return scene_.is(n, t); }
 
-  /// False when there is too much of it, which is reported once.
+  /// False when there is too much that comes again, which is reported once. What comes for the first time is always done.
   bool step(NodeId n) {
+    if (n.value >= met_.size()) met_.resize(n.value + std::size_t{1});
+    if (!std::exchange(met_[n.value], 1)) return true;
     if (steps_left_ > 0) return --steps_left_, true;
     if (!std::exchange(full_, true)) diag_.report(Diag::expansion_limit, scene_.where(n), limit_, "nodes visited again in other states");
     return false;
@@ -105,7 +108,8 @@ class Lowering {
     return n ? n : scene_.add(nodes::Group, scene_.where(child));
   }
   void leave(Frame& outer, const std::vector<Frame::Light>& lights) {
-    for (auto& l : lights) shine(outer, l.source, outer.at.matrix() * l.at);
+    for (auto& l : lights)
+      if (step(l.source)) shine(outer, l.source, outer.at.matrix() * l.at);
   }
   void shine(Frame& frame, NodeId source, const Matrix& at) {
     frame.add_light(light(scene_, source, at, diag_));
@@ -120,6 +124,7 @@ class Lowering {
   std::map<std::pair<NodeId, State>, Effect> effects_;
   std::map<NodeId, NodeId> singles_;  // what is the same in every state
   std::map<NodeId, NodeId> bases_;
+  std::vector<char> met_;
   std::size_t steps_left_, depth_ = 0;
   int limit_;
   bool full_ = false;

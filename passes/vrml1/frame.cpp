@@ -1,5 +1,7 @@
 #include "passes/vrml1/frame.h"
 
+#include <algorithm>
+
 namespace wrlkit::vrml1 {
 
 NodeId placed(Scene& scene, const Placement& at, const std::vector<NodeId>& nodes, Span where) {
@@ -19,13 +21,17 @@ NodeId placed(Scene& scene, const Placement& at, const std::vector<NodeId>& node
 }
 
 std::vector<NodeId> children(Scene& scene, const Frame& frame) {
-  std::vector<NodeId> rest;
+  std::vector<NodeId> backwards;
   for (auto run = frame.runs.rbegin(); run != frame.runs.rend(); ++run) {
-    std::vector<NodeId> here = run->at.identity() ? run->nodes : std::vector{placed(scene, run->at, run->nodes, scene.where(run->nodes[0]))};
-    here.insert(here.end(), rest.begin(), rest.end());
-    rest = run->lights_rest ? std::vector{placed(scene, {}, here, scene.where(run->nodes[0]))} : std::move(here);
+    const Span where = scene.where(run->nodes[0]);
+    if (run->at.identity()) backwards.insert(backwards.end(), run->nodes.rbegin(), run->nodes.rend());
+    else backwards.push_back(placed(scene, run->at, run->nodes, where));
+    if (!run->lights_rest) continue;
+    std::ranges::reverse(backwards);
+    backwards = {placed(scene, {}, backwards, where)};
   }
-  return rest;
+  std::ranges::reverse(backwards);
+  return backwards;
 }
 
 NodeId group(Scene& scene, const Frame& frame, Span where, std::string_view name) {

@@ -1,4 +1,4 @@
-// Converts every VRML97 world to glTF and has the official Khronos validator look at each result: it must find no error and
+// Converts every world of VRML97 and VRML 1.0 to glTF and has the official Khronos validator look at each result: it must find no error and
 // no warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
 // missing, a message.
 //   node validate_gltf.mjs WRLKIT FOLDER [PART-OF-A-NAME] [PIPELINE]

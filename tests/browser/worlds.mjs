@@ -19,13 +19,13 @@ export function own_worlds() {
     .map(name => ({name: `corpus/${name}`, file: path.join(project, 'corpus', name)}));
 }
 
-/// {name, file, format, broken} of each found model: all VRML97 ones, and those that are broken, whatever they are.
+/// {name, file, format, broken} of each found model: all of VRML97 and VRML 1.0, and those that are broken, whatever they are.
 export function found_worlds() {
   if (!has_shared) return [];
   return table(path.join(shared, 'MANIFEST.tsv'))
     .filter(row => !row.format.startsWith('asset'))
     .map(row => ({name: row.path, file: path.join(shared, row.path), format: row.format, broken: row.path.startsWith('broken/')}))
-    .filter(world => world.broken || /^vrml97( gz)?$/.test(world.format));
+    .filter(world => world.broken || /^vrml(97|1)( gz)?$/.test(world.format));
 }
 
 /// Paths of the found models in which an independent reader saw something to draw.
