@@ -41,6 +41,7 @@ struct FormatRow {
 };
 constexpr FormatRow formats[] = {
     {"VRML97", ".wrl .wrz .wrl.gz .vrml", "yes, gzip by its first bytes", "yes, --gzip"},
+    {"VRML 1.0", ".wrl .wrz .wrl.gz .iv", "yes, Inventor 2 ASCII too", "no"},
     {"glTF 2.0", ".gltf", "no", "yes"},
     {"GLB", ".glb", "no", "yes"},
     {"pictures", "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR", "as textures", "PNG, JPEG (render)"},
