@@ -207,8 +207,9 @@ class Writer {
     for (const Value* v : written)
       if (v->slot < own) empty &= !field(n, *v);
     for (std::size_t i = own; i < scene_.type(n).fields.size(); ++i) own_field(n, static_cast<std::uint16_t>(i)), empty = false;
-    for (const Value* v : written)
-      if (scene_.is_extra(*v)) empty &= !field(n, *v);
+    for (const bool children : {true, false})  // before fields without a value, which would take a node for it
+      for (const Value* v : written)
+        if (scene_.is_extra(*v) && is_children(n, *v) == children) empty &= !field(n, *v);
     --depth_;
     if (!empty) line();
     out_ << '}';
@@ -228,16 +229,21 @@ class Writer {
   }
 
   /// VRML 1.0: children have no field in the file. False: these are none.
-  bool children(std::string_view name, const Value& v) {
-    if (!vrml1_ || name != "children" || v.type != FieldType::MFNode) return false;
-    for (NodeId c : v.node_span()) { line(); node(c); }
+  bool children(NodeId n, const Value& v) {
+    if (!is_children(n, v)) return false;
+    for (NodeId c : scene_.content(v).node_span()) { line(); node(c); }
     return true;
+  }
+
+  bool is_children(NodeId n, const Value& v) const {
+    const bool here = vrml1_ && scene_.type(n).dialects & static_cast<DialectSet>(Dialect::vrml1);
+    return here && scene_.field_name(n, v) == "children" && scene_.content(v).type == FieldType::MFNode;
   }
 
   /// False when it says what the default says.
   bool field(NodeId n, const Value& v) {
     const auto& t = scene_.type(n);
-    if (children(scene_.field_name(n, v), scene_.content(v))) return scene_.content(v).count > 0;
+    if (children(n, v)) return scene_.content(v).count > 0;
     if (scene_.is_extra(v)) {
       line();
       out_ << v.extra->name;

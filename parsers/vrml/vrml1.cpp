@@ -3,7 +3,7 @@
 // nodes that describe themselves, and two habits of Inventor: `radius 2 ~` and `radius 2 = Engine { } . output`.
 //
 // Files of Castle Game Engine have nodes of VRML97 among those of VRML 1.0 ("the sum of VRML 1.0 and 2.0"). Where both have
-// a node of that name, the node around it decides.
+// a node of that name, the node in whose field it stands decides.
 #include "parsers/vrml/vrml1.h"
 
 #include <algorithm>
@@ -70,18 +70,20 @@ class Vrml1Parser : private Values {
   bool string(std::string_view& out);
   bool strings(FieldType, std::uint16_t slot, Value& out);
   void connection(Token name);
-  /// What stands in a file as one word, perhaps without a blank to the next.
+  /// A name, and none of the signs that stand between values.
+  bool is_name(Token t) const { return name_like(t) && std::string_view("|=~().").find(text(t)[0]) == std::string_view::npos; }
   bool take_word(std::string_view w) { return text(lex_.peek()) == w && (lex_.next(), true); }
 
   ParseLimits limits_;
   SceneBuilder build_;
+  bool in_vrml97_field_ = false;   // names mean nodes of VRML97 first
   std::vector<NodeId> misplaced_;  // nodes in nodes that can hold none; they are taken behind those
 };
 
 // ---- nodes ---------------------------------------------------------------------------------------------------------
 
 bool Vrml1Parser::node_follows(Token t) {
-  if (!name_like(t)) return false;
+  if (!is_name(t)) return false;
   auto w = text(t);
   if (w == "DEF" || w == "USE" || w == "NULL") return true;
   auto at = lex_.offset();
@@ -110,7 +112,7 @@ NodeId Vrml1Parser::node_statement() {
     def = name_of(name);
     t = lex_.next();
   }
-  if (!name_like(t)) return expected("a node", t), lex_.seek(t.begin), NodeId{};
+  if (!is_name(t)) return expected("a node", t), lex_.seek(t.begin), NodeId{};
   if (Token brace = lex_.peek(); brace.kind != Kind::open_brace) return expected("'{'", brace), NodeId{};
   lex_.next();
   return node(t, def);
@@ -118,10 +120,9 @@ NodeId Vrml1Parser::node_statement() {
 
 TypeId Vrml1Parser::type_of(Token name) {
   auto w = name_of(name);
-  const bool inside_vrml97 = build_.depth() > 0 && is_vrml97(build_.current_type());
   TypeId own = find_builtin(w, Dialect::vrml1), foreign = find_builtin(w, Dialect::vrml97);
-  if (foreign && (inside_vrml97 || !own)) {
-    if (!inside_vrml97) diag_.report(Diag::dialect_node, span(name), w);
+  if (foreign && (in_vrml97_field_ || !own)) {
+    if (!in_vrml97_field_) diag_.report(Diag::dialect_node, span(name), w);
     return foreign;
   }
   if (own) return own;
@@ -136,7 +137,9 @@ NodeId Vrml1Parser::node(Token type_name, std::string_view def) {
     return {};
   }
   NodeId n = build_.open(type_of(type_name), def, span(type_name));
+  const bool around = std::exchange(in_vrml97_field_, false);
   node_body(type_name);
+  in_vrml97_field_ = around;
   build_.close();
   return n;
 }
@@ -147,7 +150,7 @@ void Vrml1Parser::node_body(Token opened) {
     Token t = lex_.peek();
     if (t.kind == Kind::end) { unclosed(opened); break; }
     if (t.kind == Kind::close_brace) { lex_.next(); break; }
-    if (name_like(t)) element(t, body);
+    if (is_name(t)) element(t, body);
     else stray();
   }
   if (!body.children.empty()) build_.field(scene_.make_extra("children", scene_.make(FieldType::MFNode, Value::extra_slot, body.children)), span(opened));
@@ -191,7 +194,7 @@ void Vrml1Parser::stray() {
     if (t.kind == Kind::open_brace) skip_to_close(Kind::open_brace, Kind::close_brace);
     if (t.kind == Kind::open_bracket) skip_to_close(Kind::open_bracket, Kind::close_bracket);
     Token next = lex_.peek();
-    if (next.kind == Kind::end || next.kind == Kind::close_brace || name_like(next)) return;
+    if (next.kind == Kind::end || next.kind == Kind::close_brace || is_name(next)) return;
   }
 }
 
@@ -244,7 +247,7 @@ void Vrml1Parser::unknown_field(Token name) {
     if (!node_value(FieldType::SFNode, Value::extra_slot, v)) return;
   } else {
     auto s = verbatim();
-    if (auto word = text(lex_.peek()); s.empty() && name_like(lex_.peek()) && std::ranges::none_of(word, [](char c) { return c >= 'a' && c <= 'z'; })) s = utf8(word, span(lex_.next()));
+    if (auto word = text(lex_.peek()); s.empty() && is_name(lex_.peek()) && std::ranges::none_of(word, [](char c) { return c >= 'a' && c <= 'z'; })) s = utf8(word, span(lex_.next()));
     v = scene_.make(FieldType::verbatim, Value::extra_slot, s);
   }
   build_.field(scene_.make_extra(name_of(name), v), span(name));
@@ -270,11 +273,13 @@ bool Vrml1Parser::value(FieldType type, std::uint16_t slot, std::string_view fie
 
 bool Vrml1Parser::node_value(FieldType type, std::uint16_t slot, Value& out) {
   std::vector<NodeId> list;
+  const bool around = std::exchange(in_vrml97_field_, is_vrml97(build_.current_type()));
   const bool bracket = take(Kind::open_bracket);
   for (Token t = lex_.peek(); node_follows(t); t = lex_.peek()) {
     if (NodeId n = node_statement()) list.push_back(n);
     if (!bracket) break;
   }
+  in_vrml97_field_ = around;
   if (bracket && !take(Kind::close_bracket)) expected("a node or ']'", lex_.peek()), skip_list();
   if (info(type).multiple) out = scene_.make(type, slot, list);
   else out = scene_.make(type, slot, list.empty() ? NodeId{} : list[0]);
