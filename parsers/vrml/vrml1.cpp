@@ -16,6 +16,9 @@
 namespace wrlkit::vrml {
 namespace {
 
+/// TRUE, CLOCKWISE: a value and not the name of a field.
+bool is_constant(std::string_view word) { return std::ranges::none_of(word, [](char c) { return c >= 'a' && c <= 'z'; }); }
+
 bool is_vrml97(const NodeType& t) { return !(t.dialects & static_cast<DialectSet>(Dialect::vrml1)); }
 
 /// Field types under the names that Inventor and VRML 1.0 have for them.
@@ -71,7 +74,11 @@ class Vrml1Parser : private Values {
   bool strings(FieldType, std::uint16_t slot, Value& out);
   void connection(Token name);
   /// A name, and none of the signs that stand between values.
-  bool is_name(Token t) const { return name_like(t) && std::string_view("|=~().").find(text(t)[0]) == std::string_view::npos; }
+  bool is_name(Token t) const {
+    if (!name_like(t) || text(t)[0] == '.') return false;
+    auto w = text(t).substr(0, text(t).find('('));
+    return !w.empty() && w.find_first_of("|=~)") == w.npos;
+  }
   bool take_word(std::string_view w) { return text(lex_.peek()) == w && (lex_.next(), true); }
 
   ParseLimits limits_;
@@ -105,7 +112,7 @@ NodeId Vrml1Parser::node_statement() {
   if (text(t) == "DEF") {
     Token name = lex_.next();
     if (name.kind != Kind::word) return expected("a name", name), lex_.seek(name.begin), NodeId{};
-    if (lex_.peek().kind == Kind::open_brace) {
+    if (is_name(name) && lex_.peek().kind == Kind::open_brace) {
       diag_.report(Diag::def_without_name, span(name));
       return lex_.next(), node(name, {});
     }
@@ -172,6 +179,8 @@ void Vrml1Parser::element(Token t, Body& body) {
   } else if (w == "fields") {
     lex_.seek(t.end);
     own_fields(body);
+  } else if (is_constant(w)) {
+    stray();
   } else {
     lex_.seek(t.end);
     if (w == "isA") known_field(FieldType::MFString, Value::extra_slot, t, empty_value(FieldType::MFString));
@@ -194,7 +203,7 @@ void Vrml1Parser::stray() {
     if (t.kind == Kind::open_brace) skip_to_close(Kind::open_brace, Kind::close_brace);
     if (t.kind == Kind::open_bracket) skip_to_close(Kind::open_bracket, Kind::close_bracket);
     Token next = lex_.peek();
-    if (next.kind == Kind::end || next.kind == Kind::close_brace || is_name(next)) return;
+    if (next.kind == Kind::end || next.kind == Kind::close_brace || (is_name(next) && !is_constant(text(next))) || node_follows(next)) return;
   }
 }
 
@@ -247,7 +256,12 @@ void Vrml1Parser::unknown_field(Token name) {
     if (!node_value(FieldType::SFNode, Value::extra_slot, v)) return;
   } else {
     auto s = verbatim();
-    if (auto word = text(lex_.peek()); s.empty() && is_name(lex_.peek()) && std::ranges::none_of(word, [](char c) { return c >= 'a' && c <= 'z'; })) s = utf8(word, span(lex_.next()));
+    Token next = lex_.peek();
+    if (s.empty() && next.kind == Kind::word && text(next)[0] == '(') {
+      if (enumeration(FieldType::SFBitMask, Value::extra_slot, v)) s = '(' + std::string(v.text()) + ')';
+    } else if (s.empty() && is_name(next) && is_constant(text(next)) && !node_follows(next)) {
+      s = utf8(text(next), span(lex_.next()));
+    }
     v = scene_.make(FieldType::verbatim, Value::extra_slot, s);
   }
   build_.field(scene_.make_extra(name_of(name), v), span(name));

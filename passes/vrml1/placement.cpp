@@ -52,26 +52,21 @@ std::optional<TransformFields> sum(const TransformFields& a, const TransformFiel
   return out;
 }
 
-/// Jacobi's rotations: the columns of `v` become the eigenvectors of the symmetric `a`, its diagonal their values.
-void eigenvectors(Rows& a, Rows& v) {
+/// Jacobi's rotations of one side: the columns of `a` are turned until they are square to each other, and those of `v` along.
+void square_columns(Rows& a, Rows& v) {
   constexpr int enough = 30;
   for (int sweep = 0; sweep < enough; ++sweep)
     for (auto [p, q] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}}) {
-      if (std::abs(a[p][q]) <= 1e-15 * std::max(std::abs(a[p][p]), std::abs(a[q][q]))) continue;
-      const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+      double pp = 0, qq = 0, pq = 0;
+      for (auto& row : a) pp += row[p] * row[p], qq += row[q] * row[q], pq += row[p] * row[q];
+      if (std::abs(pq) <= 1e-15 * std::sqrt(pp * qq)) continue;
+      const double theta = (qq - pp) / (2 * pq);
       const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1)), c = 1 / std::sqrt(t * t + 1), s = t * c;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double x = a[k][p], y = a[k][q];
-        a[k][p] = c * x - s * y, a[k][q] = s * x + c * y;
-      }
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double x = a[p][k], y = a[q][k];
-        a[p][k] = c * x - s * y, a[q][k] = s * x + c * y;
-      }
-      for (auto& row : v) {
-        const double x = row[p], y = row[q];
-        row[p] = c * x - s * y, row[q] = s * x + c * y;
-      }
+      for (auto* m : {&a, &v})
+        for (auto& row : *m) {
+          const double x = row[p], y = row[q];
+          row[p] = c * x - s * y, row[q] = s * x + c * y;
+        }
     }
 }
 
@@ -133,19 +128,19 @@ TransformFields decompose(const Matrix& m) {
   out.translation = tidy(Vec3{m(0, 3), m(1, 3), m(2, 3)});
   without_noise(out.translation);
   Rows a{}, v{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < 3; ++k) a[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] += m(k, r) * m(k, c);
-  eigenvectors(a, v);
+  for (int r = 0; r < 3; ++r) a[static_cast<std::size_t>(r)] = {m(r, 0), m(r, 1), m(r, 2)};
+  square_columns(a, v);
   std::array<Vec3, 3> u{}, axes{};
-  std::array<bool, 3> known{};
-  const double largest = std::sqrt(std::max({a[0][0], a[1][1], a[2][2], 0.0}));
   for (std::size_t k = 0; k < 3; ++k) {
     axes[k] = {v[0][k], v[1][k], v[2][k]};
-    const double sigma = out.scale[k] = std::sqrt(std::max(a[k][k], 0.0));
-    if (!(known[k] = sigma > 1e-12 * largest)) continue;
-    for (int r = 0; r < 3; ++r) u[k][static_cast<std::size_t>(r)] = (m(r, 0) * v[0][k] + m(r, 1) * v[1][k] + m(r, 2) * v[2][k]) / sigma;
+    u[k] = {a[0][k], a[1][k], a[2][k]};
+    out.scale[k] = std::sqrt(dot(u[k], u[k]));
   }
+  std::array<bool, 3> known{};
+  const double largest = std::ranges::max(out.scale);
+  for (std::size_t k = 0; k < 3; ++k)
+    if ((known[k] = out.scale[k] > 1e-12 * largest)) u[k] = scaled(u[k], 1 / out.scale[k]);
+    else u[k] = {};
   if (m.determinant() < 0) {  // mirrored along the axis that leaves the least to turn
     const std::array<double, 3> along{dot(u[0], axes[0]), dot(u[1], axes[1]), dot(u[2], axes[2])};
     const auto k = static_cast<std::size_t>(std::ranges::min_element(along) - along.begin());
