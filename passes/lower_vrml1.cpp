@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -73,6 +74,7 @@ class Lowering {
 
   void visit(NodeId n, State&, Frame&);
   bool property(NodeId n, State&);
+  NodeId first_equal(NodeId n);
   void visit_group(NodeId n, std::span<const NodeId> children, State&, Frame&);
   void visit_separator(NodeId n, State, Frame&);
   void visit_transform(NodeId n, State&, Frame&);
@@ -124,6 +126,7 @@ class Lowering {
   std::map<std::pair<NodeId, State>, Effect> effects_;
   std::map<NodeId, NodeId> singles_;  // what is the same in every state
   std::map<NodeId, NodeId> bases_;
+  std::unordered_map<std::string, NodeId> equals_;
   std::vector<char> met_;
   std::size_t steps_left_, depth_ = 0;
   int limit_;
@@ -160,21 +163,36 @@ void Lowering::visit(NodeId n, State& s, Frame& frame) {
 
 // ---- state ---------------------------------------------------------------------------------------------------------
 
+/// The first node without a name that says the same in a few words: exporters write one Material over and over.
+NodeId Lowering::first_equal(NodeId n) {
+  constexpr std::size_t few = 64;
+  if (!scene_.name(n).empty()) return n;
+  auto bytes = [](const auto& span) { return std::string_view(reinterpret_cast<const char*>(span.data()), span.size_bytes()); };
+  std::string all = std::to_string(scene_.type_id(n).value);
+  for (const Value& v : scene_.fields(n)) {
+    const Element element = info(v.type).element;
+    if (scene_.is_extra(v) || v.count > few || element == Element::node || v.type == FieldType::MFString) return n;
+    all += '/' + std::to_string(v.slot) + ' ' + std::to_string(v.count) + ' ';
+    all += element == Element::number ? bytes(v.number_span()) : element == Element::text ? v.text() : bytes(v.integer_span());
+  }
+  return equals_.emplace(std::move(all), n).first->second;
+}
+
 bool Lowering::property(NodeId n, State& s) {
   const TypeId t = scene_.type_id(n);
   if (t == v1::Coordinate3 || t == v1::Coordinate4) s.coord = n;
   else if (t == v1::Normal) s.normal = n;
   else if (t == v1::NormalBinding) s.normal_binding = read_binding(scene_.get(n, v1::normal_binding::value));
-  else if (t == v1::Material) s.material = n, s.color = {};
-  else if (t == v1::BaseColor || t == v1::PackedColor) s.color = n;
+  else if (t == v1::Material) s.material = first_equal(n), s.color = {};
+  else if (t == v1::BaseColor || t == v1::PackedColor) s.color = first_equal(n);
   else if (t == v1::MaterialBinding) s.material_binding = read_binding(scene_.get(n, v1::material_binding::value));
-  else if (t == v1::Texture2) s.texture = n;
+  else if (t == v1::Texture2) s.texture = first_equal(n);
   else if (t == v1::Texture2Transform) s.texture_transform = looks_.then(s.texture_transform, n);
   else if (t == v1::TextureCoordinate2 || t == v1::TextureCoordinatePlane || t == v1::TextureCoordinateEnvironment) s.texture_coord = n;
   else if (t == v1::TextureCoordinateDefault) s.texture_coord = {};
   else if (t == v1::TextureCoordinateBinding) s.texture_binding = read_binding(scene_.get(n, v1::texture_coordinate_binding::value));
-  else if (t == v1::ShapeHints) s.hints = n;
-  else if (t == v1::FontStyle || t == v1::Font) s.font = n;
+  else if (t == v1::ShapeHints) s.hints = first_equal(n);
+  else if (t == v1::FontStyle || t == v1::Font) s.font = first_equal(n);
   else if (t == v1::LightModel) s.lit = scene_.get(n, v1::light_model::model) != "BASE_COLOR";
   else if (t == v1::DrawStyle) {
     const auto style = scene_.get(n, v1::draw_style::style);

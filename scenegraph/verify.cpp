@@ -73,6 +73,7 @@ class ValueCheck {
   void children(NodeId n, const FieldDef& f, const Value& v) {
     for (NodeId c : v.node_span()) {
       auto* t = c ? kind_of(c) : nullptr;
+      if (t && t->dialects == static_cast<DialectSet>(Dialect::vrml1)) continue;  // it will be another node there
       if (t && std::ranges::none_of(f.kinds, [&](std::string_view k) { return t->is_a(k); }))
         diag_.report(Diag::wrong_child, scene_.where(c), t->name, scene_.type(n).name, f.name_in(scene_.dialect()));
     }
