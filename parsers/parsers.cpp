@@ -7,6 +7,7 @@
 #include "parsers/patches_scene.h"
 #include "parsers/vrml/parser.h"
 #include "parsers/vrml/text_encoding.h"
+#include "parsers/vrml/vrml1.h"
 #include "parsers/x3d/parser.h"
 #include "scenegraph/blanks.h"
 #include "scenegraph/image.h"
@@ -25,15 +26,16 @@ bool contains_nocase(std::string_view text, std::string_view lower) {
   return std::search(text.begin(), text.end(), lower.begin(), lower.end(), equal) != text.end();
 }
 
-// Without a header: does the first thing that is no comment begin a VRML statement?
-bool looks_like_vrml97(std::string_view s) {
+// Without a header: which dialect has the statement that begins behind the comments?
+Format guess_format(std::string_view s) {
   s = trim(s);
   while (s.starts_with('#')) s = trim(s.substr(first_line(s).size()));
   auto word_end = std::ranges::find_if(s, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '_'; });
   auto word = s.substr(0, static_cast<std::size_t>(word_end - s.begin()));
   auto rest = trim(s.substr(word.size()));
-  if (word == "DEF" || word == "PROTO" || word == "EXTERNPROTO" || word == "ROUTE") return true;
-  return find_builtin(word, Dialect::vrml97) && rest.starts_with('{');
+  if (word == "DEF" || word == "PROTO" || word == "EXTERNPROTO" || word == "ROUTE") return Format::vrml97;
+  if (!rest.starts_with('{')) return Format::none;
+  return find_builtin(word, Dialect::vrml97) ? Format::vrml97 : find_builtin(word, Dialect::vrml1) ? Format::vrml1 : Format::none;
 }
 
 /// The comment lines behind the header, each with its '#', without trailing blanks.
@@ -65,14 +67,13 @@ Header read_header(std::string_view text) {
   auto line = trim(first_line(trim(text)));
   if (line.starts_with('#')) {
     if (line.starts_with("#VRML V2.0 utf8")) return {Format::vrml97, true, false};
-    if (contains_nocase(line, "vrml") && line.find("1.0") != line.npos) return {Format::vrml1, true, false};
+    if (contains_nocase(line, "vrml") && line.find("1.0") != line.npos) return {Format::vrml1, line.starts_with("#VRML V1.0 ascii"), false};
     if (line.starts_with("#Inventor")) return {Format::vrml1, true, false};
     if (line.starts_with("#X3D")) return {Format::x3d_classic, true, false};
     if (contains_nocase(line.substr(0, 16), "vrml")) return {Format::vrml97, false, false};
   }
   if (line.starts_with('<') && (contains_nocase(text.substr(0, 65536), "<x3d"))) return {Format::x3d_xml, true, false};
-  if (looks_like_vrml97(text)) return {Format::vrml97, false, true};
-  return {};
+  return {guess_format(text), false, true};
 }
 
 }  // namespace
@@ -106,13 +107,11 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   base += static_cast<std::uint32_t>(text.size() - body.size());
   auto header = read_header(body);
   if (header.format == Format::none) return diag.report(Diag::unknown_format, whole, describe_bytes(body)), nullptr;
-  const bool xml = header.format == Format::x3d_xml, classic = header.format == Format::x3d_classic;
-  if (header.format != Format::vrml97 && !xml && !classic) {
-    constexpr std::string_view names[] = {"", "VRML 1.0 / Inventor", "", "X3D (classic)", "X3D (XML)", "glTF"};
-    return diag.report(Diag::unsupported_format, first, names[static_cast<std::size_t>(header.format)]), nullptr;
-  }
-  if (header.missing) diag.report(Diag::header_missing, whole);
-  else if (!header.exact) diag.report(Diag::header_repaired, first, trim(first_line(body)));
+  if (first_line(trim(body)).starts_with("#Inventor") && contains_nocase(first_line(trim(body)), "binary"))
+    return diag.report(Diag::unsupported_format, first, "Inventor's binary form"), nullptr;
+  const bool old = header.format == Format::vrml1, xml = header.format == Format::x3d_xml, classic = header.format == Format::x3d_classic;
+  if (header.missing) diag.report(Diag::header_missing, whole, old ? "VRML 1.0" : "VRML97");
+  else if (!header.exact) diag.report(Diag::header_repaired, first, trim(first_line(body)), old ? "#VRML V1.0 ascii" : "#VRML V2.0 utf8");
   auto world = std::make_unique<World>();
   world->format = world->scene.format = header.format;
   world->scene.sources = diag.shared_sources();
@@ -120,7 +119,8 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   if (classic) world->scene.x3d.version = x3d_version(trim(first_line(trim(body))));
   auto after = header.missing ? body : trim(body).substr(first_line(trim(body)).size());
   world->scene.comment = leading_comment(after);
-  vrml::parse(body, base, options.parse, world->scene, diag);
+  if (old && !header.missing) world->scene.header = trim(first_line(trim(body)));
+  (old ? vrml::parse_vrml1 : vrml::parse)(body, base, options.parse, world->scene, diag);
   return world;
 }
 

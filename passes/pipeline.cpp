@@ -99,6 +99,7 @@ void Pipeline::complete(std::string_view named) {
   // Where nothing is drawn, what the standard pipeline does to a world is done to those that Inlines bring in as well.
   auto brings_in = [](const Step& s) { return s.info->name == "inline" || s.info->name == "expand-protos"; };
   if (split == standard->steps_.end() && std::ranges::any_of(steps_, brings_in)) {
+    if (!all.empty() && all[0].info->name == "lower-vrml1") steps_.insert(steps_.begin(), std::move(all[0])), all.erase(all.begin());  // Inlines are found behind it
     auto last = std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base();
     steps_.insert(last, std::make_move_iterator(all.begin()), std::make_move_iterator(all.end()));
     return;

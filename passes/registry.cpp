@@ -7,6 +7,7 @@
 #include "passes/join.h"
 #include "passes/lightmap.h"
 #include "passes/lod.h"
+#include "passes/lower_vrml1.h"
 #include "passes/lower_x3d.h"
 #include "passes/normals.h"
 #include "passes/pass_info.h"
@@ -19,6 +20,7 @@ namespace wrlkit {
 namespace {
 
 constexpr PassInfo all_passes[] = {
+    pass<lower_vrml1, LowerVrml1Options>("lower-vrml1", "turn a world of VRML 1.0 or Inventor into one of VRML97", Level::authored, Level::authored),
     pass<inline_worlds, InlineOptions>("inline", "put the worlds that Inline nodes name into this one", Level::authored, Level::authored),
     pass<expand_protos, ExpandProtosOptions>("expand-protos", "turn prototype instances into the nodes they stand for", Level::authored, Level::expanded),
     pass<lower_x3d, LowerX3dOptions>("lower-x3d", "turn nodes that only X3D has into those of VRML97", Level::authored, Level::authored),
@@ -34,16 +36,16 @@ constexpr PassInfo all_passes[] = {
 };
 
 // A prototype may hold Inlines, and an inlined world instances of prototypes: both are looked for twice.
-#define WRLKIT_GLTF_FRONT "inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},lower-x3d,prune,"
+#define WRLKIT_GLTF_FRONT "lower-vrml1,inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},lower-x3d,prune,"
 #define WRLKIT_GLTF_END "tessellate{triangles=false,texcoords=true},normals,triangulate"
 constexpr NamedPipeline named[] = {
     {"gltf", WRLKIT_GLTF_FRONT "combine-lightmap," WRLKIT_GLTF_END, "what convert does for glTF"},
     {"gltf-emissive", WRLKIT_GLTF_FRONT "combine-lightmap{into=lightmap}," WRLKIT_GLTF_END, "the same for --lightmap-as emissive"},
     {"gltf-light", WRLKIT_GLTF_FRONT WRLKIT_GLTF_END, "the same for --lightmap-as occlusion, moz and extras"},
-    {"vrml", "lower-x3d{vrml97=true},combine-lightmap", "what convert and cat do for VRML97"},
-    {"x3d", "combine-lightmap", "what convert does for X3D"},
-    {"picture", "inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
-    {"expand", "inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
+    {"vrml", "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap", "what convert and cat do for VRML97"},
+    {"x3d", "lower-vrml1,combine-lightmap", "what convert does for X3D"},
+    {"picture", "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
+    {"expand", "lower-vrml1,inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
     {"none", "", "nothing: the file as it is"},
 };
 

@@ -178,8 +178,12 @@ TypeId SceneBuilder::known_type(std::string_view name) const {
 
 TypeId SceneBuilder::type(std::string_view name, Span where) {
   if (TypeId t = known_type(name)) return t;
+  if (!unknown_.contains(name)) diag_.report(Diag::unknown_node, where, name);
+  return unknown_type(name);
+}
+
+TypeId SceneBuilder::unknown_type(std::string_view name) {
   if (auto i = unknown_.find(name); i != unknown_.end()) return i->second;
-  diag_.report(Diag::unknown_node, where, name);
   NodeType t;
   t.name = scene_.keep(name);
   t.kind = NodeKind::unknown;

@@ -57,6 +57,8 @@ class SceneBuilder {
 
   /// Type of a node of that name here: a prototype, a built-in type, or a new unknown type, which is reported once.
   TypeId type(std::string_view name, Span where);
+  /// The type of all unknown nodes of that name, for nodes that describe themselves; nothing is reported.
+  TypeId unknown_type(std::string_view name);
   /// The same without making one: TypeId{} when not known.
   TypeId known_type(std::string_view name) const;
 

@@ -53,6 +53,7 @@ class Scene {
 
   // What the file says beside nodes.
   Format format = Format::vrml97;
+  std::string header;           // of VRML 1.0 and Inventor: the first line, for Inventor's version is in it
   std::string comment;          // the comment lines that follow the header, with their '#'
   X3dHead x3d;
   Scope main;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "scenegraph/bit_mask.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -56,6 +57,7 @@ class ValueCheck {
       if (std::ranges::find(f.kinds, w) == f.kinds.end()) diag_.report(Diag::unknown_word, scene_.where(n), w, scene_.type(n).name, f.name);
     };
     if (info(v.type).multiple) std::ranges::for_each(v.text_span(), check);
+    else if (v.type == FieldType::SFBitMask) for_each_bit(v.text(), check);
     else check(v.text());
   }
 
@@ -73,6 +75,7 @@ class ValueCheck {
   void children(NodeId n, const FieldDef& f, const Value& v) {
     for (NodeId c : v.node_span()) {
       auto* t = c ? kind_of(c) : nullptr;
+      if (t && t->dialects == static_cast<DialectSet>(Dialect::vrml1)) continue;  // it will be another node there
       if (t && std::ranges::none_of(f.kinds, [&](std::string_view k) { return t->is_a(k); }))
         diag_.report(Diag::wrong_child, scene_.where(c), t->name, scene_.type(n).name, f.name_in(scene_.dialect()));
     }

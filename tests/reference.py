@@ -51,7 +51,7 @@ def main():
     for r in rows('reference.tsv'):
         if r['ok'] == '1':
             references.setdefault(r['path'], []).append(r)
-    files = [r['path'] for r in rows('MANIFEST.tsv') if r['format'].startswith(('vrml97', 'x3d')) and not r['path'].startswith('broken/')]
+    files = [r['path'] for r in rows('MANIFEST.tsv') if r['format'].startswith(('vrml97', 'vrml1', 'x3d')) and not r['path'].startswith('broken/')]
     compared = agreed = unread = 0
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for path, info in pool.map(lambda f: read(a.wrlkit, f), files):

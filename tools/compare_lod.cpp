@@ -150,7 +150,7 @@ bool is_usable(const Flags& f) {
 
 int run_compare_lod(const Flags& flags) {
   Session s(flags);
-  if (!is_usable(flags) || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "none" : "weld")) return usage;
+  if (!is_usable(flags) || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "lower-vrml1,lower-x3d{vrml97=true}" : "lower-vrml1,lower-x3d{vrml97=true},weld")) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
   const auto comparison = compare(s);

@@ -71,7 +71,7 @@ bool write_as_gltf(Session& s, bool binary) {
 /// The pipeline that prepares a scene for its writer.
 std::string_view pipeline_for(Target target, const Flags& flags) {
   if (target == Target::glb || target == Target::gltf) return light_of(flags.lightmap_as)->pipeline;
-  return flags.dump ? "none" : target == Target::x3d ? "x3d" : "vrml";
+  return target == Target::x3d && !flags.dump ? "x3d" : vrml_pipeline(flags);
 }
 
 }  // namespace

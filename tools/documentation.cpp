@@ -51,6 +51,7 @@ struct FormatRow {
 };
 constexpr FormatRow formats[] = {
     {"VRML97", ".wrl .wrz .wrl.gz .vrml", "yes, gzip by its first bytes", "yes, --gzip"},
+    {"VRML 1.0", ".wrl .wrz .wrl.gz .iv", "yes, Inventor 2 ASCII too", "no"},
     {"X3D XML", ".x3d .x3dz", "yes, versions 3.0 to 4.0, gzip", "yes, 4.0, --gzip"},
     {"X3D VRML", ".x3dv .x3dvz", "yes, versions 3.0 to 4.0, gzip", "no"},
     {"glTF 2.0", ".gltf", "no", "yes"},

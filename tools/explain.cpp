@@ -42,8 +42,12 @@ std::string nearest(std::string_view name) {
 }  // namespace
 
 int run_explain(const Flags& flags) {
-  for (Dialect d : {Dialect::vrml97, Dialect::x3d})
-    if (TypeId t = find_builtin(flags.name, d)) return fmt::print("{}", type_text(builtin_nodes()[t.value])), done;
+  TypeId type = find_builtin(flags.name, Dialect::vrml97);
+  if (!type) type = find_builtin(flags.name, Dialect::x3d);
+  const TypeId old = find_builtin(flags.name, Dialect::vrml1);
+  if (type) fmt::print("{}", type_text(builtin_nodes()[type.value]));
+  if (old) fmt::print("{}{}", type ? "\n" : "", type_text(builtin_nodes()[old.value]));
+  if (type || old) return done;
   if (auto* p = find_pass(flags.name)) return fmt::print("{}", pass_text(*p)), done;
   if (Diag d; find_diag(flags.name, d)) return fmt::print("{}", diagnostic_text(d)), done;
   fmt::print(stderr, "wrlkit: there is no node type, pass or message '{}'", flags.name);

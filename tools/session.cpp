@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "passes/lower_vrml1.h"
 #include "scenegraph/nodes.h"
 #include "tools/print_diagnostics.h"
 #include "writers/json.h"
@@ -14,8 +15,12 @@
 namespace wrlkit {
 namespace {
 
+/// A file that another one refers to, in the nodes of VRML97.
 std::shared_ptr<const Scene> parse_inlined(const std::string& path, Diagnostics& diag) {
   auto world = read_world(path, {}, diag);
+  Statistics uncounted;
+  PassContext ctx{diag, uncounted};
+  if (world) lower_vrml1(world->scene, {}, ctx);
   return world ? std::make_shared<const Scene>(std::move(world->scene)) : nullptr;
 }
 

@@ -20,6 +20,8 @@ bool write_text_file(Session& s, const Scene& scene, const std::string& path, bo
 
 }  // namespace
 
+std::string_view vrml_pipeline(const Flags& flags) { return flags.dump || flags.pipeline == "none" ? "none" : "vrml"; }
+
 bool write_vrml_file(Session& s, const Scene& scene, const std::string& path, bool gzip) { return write_text_file(s, scene, path, gzip, write_vrml); }
 bool write_x3d_file(Session& s, const Scene& scene, const std::string& path, bool gzip) { return write_text_file(s, scene, path, gzip, write_x3d); }
 

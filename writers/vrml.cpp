@@ -15,7 +15,7 @@ class Writer {
       : scene_(scene), options_(options), out_(sink), names_(scene, Dialect::vrml97, options.own_fields), printed_(scene.node_count(), 0) {}
 
   void file() {
-    out_ << "#VRML V2.0 utf8\n" << scene_.comment;
+    out_ << (!vrml1_ ? "#VRML V2.0 utf8" : scene_.header.empty() ? "#VRML V1.0 ascii" : scene_.header) << '\n' << scene_.comment;
     names_.scope(scene_.main);
     scope(scene_.main);
   }
@@ -93,21 +93,49 @@ class Writer {
     out_ << scene_.type(n).name << " {";
     ++depth_;
     bool empty = true;
+    if (vrml1_) empty &= !declarations(n);
     const auto own = own_fields(scene_.type(n));
     const auto written = names_.printed_order(n);
     for (const Value* v : written)
       if (v->slot < own) empty &= !field(n, *v);
     for (std::size_t i = own; i < scene_.type(n).fields.size(); ++i) own_field(n, static_cast<std::uint16_t>(i)), empty = false;
-    for (const Value* v : written)
-      if (scene_.is_extra(*v)) empty &= !field(n, *v);
+    for (const bool children : {true, false})  // before fields without a value, which would take a node for it
+      for (const Value* v : written)
+        if (scene_.is_extra(*v) && is_children(n, *v) == children) empty &= !field(n, *v);
     --depth_;
     if (!empty) line();
     out_ << '}';
   }
 
+  /// VRML 1.0: the fields that a node describes itself, but for nodes and isA. False: there are none.
+  bool declarations(NodeId n) {
+    std::vector<const ExtraField*> own;
+    for (const Value& v : scene_.fields(n))
+      if (scene_.is_extra(v) && v.extra->value.type != FieldType::verbatim && info(v.extra->value.type).element != Element::node && v.extra->name != "isA") own.push_back(v.extra);
+    if (own.empty()) return false;
+    line();
+    out_ << "fields [ ";
+    for (std::size_t i = 0; i < own.size(); ++i) out_ << (i ? ", " : "") << info(own[i]->value.type).name << ' ' << own[i]->name;
+    out_ << " ]";
+    return true;
+  }
+
+  /// VRML 1.0: children have no field in the file. False: these are none.
+  bool children(NodeId n, const Value& v) {
+    if (!is_children(n, v)) return false;
+    for (NodeId c : scene_.content(v).node_span()) { line(); node(c); }
+    return true;
+  }
+
+  bool is_children(NodeId n, const Value& v) const {
+    const bool here = vrml1_ && scene_.type(n).dialects & static_cast<DialectSet>(Dialect::vrml1);
+    return here && scene_.field_name(n, v) == "children" && scene_.content(v).type == FieldType::MFNode;
+  }
+
   /// False when it says what the default says.
   bool field(NodeId n, const Value& v) {
     const auto& t = scene_.type(n);
+    if (children(n, v)) return scene_.content(v).count > 0;
     if (scene_.is_extra(v)) {
       line();
       out_ << v.extra->name;
@@ -117,7 +145,7 @@ class Writer {
     const auto& f = t.fields[v.slot];
     if (t.kind != NodeKind::proto && !v.is && equal_default(v, f)) return false;
     line();
-    out_ << f.name_in(Dialect::vrml97) << ' ';
+    out_ << f.name_in(t.dialects & static_cast<DialectSet>(Dialect::vrml1) ? Dialect::vrml1 : Dialect::vrml97) << ' ';
     if (!v.is && v.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url"))) urls(scene_.where(n), v.text_span());
     else content(v);
     return true;
@@ -166,7 +194,8 @@ class Writer {
     switch (t.element) {
       case Element::node: return t.multiple ? node_list(v.node_span()) : node(v.node);
       case Element::text:
-        if (v.type == FieldType::verbatim) out_ << v.text();
+        if (v.type == FieldType::verbatim || v.type == FieldType::SFEnum) out_ << v.text();
+        else if (v.type == FieldType::SFBitMask) out_ << '(' << v.text() << ')';
         else if (t.multiple) strings(v.text_span());
         else string(v.text());
         return;
@@ -196,6 +225,7 @@ class Writer {
     auto start = out_.size();
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (i) {
+        if (i % arity == 0 && vrml1_) out_ << ',';
         if (i % arity == 0 && out_.size() - start > width) { out_ << '\n'; start = out_.size(); }
         else out_ << ' ';
       }
@@ -227,7 +257,7 @@ class Writer {
   void strings(std::span<const std::string_view> v) {
     if (v.size() == 1) return string(v[0]);
     out_ << '[';
-    for (std::size_t i = 0; i < v.size(); ++i) { if (i) out_ << ' '; string(v[i]); }
+    for (std::size_t i = 0; i < v.size(); ++i) { if (i) out_ << (vrml1_ ? ", " : " "); string(v[i]); }
     out_ << ']';
   }
 
@@ -242,6 +272,7 @@ class Writer {
   }
 
   const Scene& scene_;
+  const bool vrml1_ = scene_.format == Format::vrml1;
   VrmlOptions options_;
   TextOut out_;
   Names names_;

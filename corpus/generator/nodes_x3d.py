@@ -50,7 +50,7 @@ class Field(nodes.Field):
     def __init__(self, access, kind, name, rest):
         super().__init__(access, kind, name, rest)
         self.name = name
-        self.foreign = False
+        self.foreign = nodes.option(rest, 'only') == 'wrlkit'
 
 
 def read_tables():
@@ -62,7 +62,9 @@ def read_tables():
                 kind.in_x3d = ' x3d ' in line
                 kinds[kind.name] = kind
             elif match := nodes.ROW.match(line.partition(' -- ')[0].rstrip()):
-                kind.fields.append(Field(*match.groups()))
+                field = Field(*match.groups())
+                if not field.foreign:
+                    kind.fields.append(field)
     return kinds
 
 

@@ -13,7 +13,7 @@ function table(file) {
 }
 
 export const vrml97 = {ends: /\.wrl$/, format: /^vrml97( gz)?$/};
-export const vrml97_and_x3d = {ends: /\.(wrl|x3d)$/, format: /^(vrml97|x3d|x3dv)( gz)?$/};
+export const every_format = {ends: /\.(wrl|x3d)$/, format: /^(vrml97|vrml1|x3d|x3dv)( gz)?$/};
 
 /// {name, file} of each world of this project.
 export function own_worlds(kinds = vrml97) {

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""A dictionary for libFuzzer from the node table: every node, field and word of VRML97, and what its grammar is made of.
+"""A dictionary for libFuzzer from the node table: every node, field and word of VRML97 and VRML 1.0, and what
+their grammars are made of.
 
-  tests/fuzz/dictionary.py scenegraph/nodes/vrml97.nodes vrml97.dict
+  tests/fuzz/dictionary.py scenegraph/nodes/vrml97.nodes scenegraph/nodes/vrml1.nodes vrml.dict
 """
 from pathlib import Path
 import re
 import sys
 
-GRAMMAR = ['#VRML V2.0 utf8\n', 'DEF ', 'USE ', 'PROTO ', 'EXTERNPROTO ', 'ROUTE ', ' TO ', ' IS ', 'NULL', 'TRUE', 'FALSE',
+GRAMMAR = ['#VRML V2.0 utf8\n', '#VRML V1.0 ascii\n', '#Inventor V2.1 ascii\n', 'fields [ SFFloat a ]', 'isA [ "Cube" ]', ' ~', ' = ', '(A | B)', 'DEF ', 'USE ', 'PROTO ', 'EXTERNPROTO ', 'ROUTE ', ' TO ', ' IS ', 'NULL', 'TRUE', 'FALSE',
            'field ', 'exposedField ', 'eventIn ', 'eventOut ', '{ ', ' }', '[ ', ' ]', '"', '\\"', '#', '-1', '1e9', '0x7f',
            'nan', '2147483647', '-2147483648', '1e308', 'set_', '_changed', '.', ',']
 
@@ -25,8 +26,8 @@ def words(table):
 
 
 def main():
-    source, target = map(Path, sys.argv[1:])
-    entries = dict.fromkeys([*GRAMMAR, *words(source.read_text(encoding='utf-8'))])
+    *sources, target = map(Path, sys.argv[1:])
+    entries = dict.fromkeys([*GRAMMAR, *(w for source in sources for w in words(source.read_text(encoding='utf-8')))])
     escaped = (e.replace('\\', '\\\\').replace('"', '\\"').replace('\n', '\\x0a') for e in entries)
     target.write_text(''.join(f'"{e}"\n' for e in escaped), encoding='utf-8')
 

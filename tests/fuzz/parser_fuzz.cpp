@@ -63,7 +63,7 @@ void read_back(const Scene& scene) {
 
 void run_passes(Scene scene) {
   std::string why;
-  auto pipeline = Pipeline::parse("expand-protos{limit=5000},prune,tessellate,normals,triangulate", why);
+  auto pipeline = Pipeline::parse("lower-vrml1{limit=5000},expand-protos{limit=5000},prune,tessellate,normals,triangulate", why);
   require(pipeline.has_value(), why);
   Diagnostics diag;
   Statistics statistics;

@@ -1,4 +1,4 @@
-// For every VRML97 world below some folders: what is written reads back as the same scene, and written again it is the same
+// For every world of VRML97 or VRML 1.0 below some folders: what is written reads back as the same scene, and written again it is the same
 // text. Says of each world that breaks this what differs, and fails.
 //
 //   roundtrip FOLDER...    folders that are not there are skipped, and named
@@ -66,7 +66,7 @@ void check_folder(const std::string& folder, Count& count) {
   for (const auto& path : files_below(folder)) {
     Diagnostics diag;
     auto world = read_world(path, {}, diag);
-    if (!world || world->format != Format::vrml97) continue;
+    if (!world || (world->format != Format::vrml97 && world->format != Format::vrml1)) continue;
     ++count.worlds;
     if (auto fault = lost(world->scene); !fault.empty()) ++count.faulty, std::printf("%s: %s\n", path.c_str(), fault.c_str());
   }

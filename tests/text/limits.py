@@ -26,6 +26,8 @@ import zlib
 
 HEADER = '#VRML V2.0 utf8\n'
 REST = '\nDEF Rest Shape { geometry Box {} }\n'
+HEADER_1 = '#VRML V1.0 ascii\n'
+REST_1 = '\nDEF Rest Cube { }\n'
 VERBS = ('check', 'cat', 'info', 'convert')
 EXPANDING = ('check', 'info', 'convert')  # what expands prototypes and loads Inlines
 MEMORY = 2 << 30
@@ -44,12 +46,12 @@ class Case:
     verbs: tuple = VERBS    # where the message must come; the writers see less than check
 
 
-def world(name, *parts, rest=REST):
+def world(name, *parts, rest=REST, header=HEADER):
     """A case's make that writes one file; a part is a text or a pair of a text and how often it comes."""
     def make(folder):
         path = folder / f'{name}.wrl'
         with path.open('w') as out:
-            out.write(HEADER)
+            out.write(header)
             for part in parts:
                 write_part(out, part)
             out.write(rest)
@@ -174,6 +176,19 @@ def doubling_inlines():
     return texts
 
 
+def world_1(name, *parts):
+    """The same of VRML 1.0."""
+    return world(name, *parts, rest=REST_1, header=HEADER_1)
+
+
+def doubling_groups(changes):
+    """Each group holds the one before twice, which changes the state: there are 2^40 of them."""
+    text = f'DEF A0 Group {{ Cube {{ }} {changes} }}'
+    for i in range(1, 41):
+        text = f'DEF A{i} Group {{ {text} USE A{i - 1} }}'
+    return text + '\n'
+
+
 def doubling_uses():
     text = 'DEF A0 Shape { geometry Box {} }'
     for i in range(1, 41):
@@ -254,6 +269,20 @@ CASES = [
     Case('x3d_entities', document('x3d_entities', '<WorldInfo title="', ('&lol;', 2_000_000), '"/>'), 'xml-entity'),
     Case('x3d_attributes', document('x3d_attributes', '<Group', *(f' no{i}="1"' for i in range(100_000)), '/>'), 'unknown-field'),
     Case('x3d_indices', document('x3d_indices', f'<Shape><TriangleStripSet stripCount="{HUGE} {HUGE}"><Coordinate point="0 0 0 1 0 0 0 1 0"/></TriangleStripSet></Shape>')),
+    Case('vrml1_nested', world_1('vrml1_nested', ('Separator { ', 1_000_000), ('}', 1_000_000)), 'too-deep'),
+    Case('vrml1_doubling', world_1('vrml1_doubling', 'Separator {', doubling_groups(''), '}'), 'expansion-limit', verbs=('convert',)),
+    Case('vrml1_doubling_place', world_1('vrml1_doubling_place', 'Separator {', doubling_groups('Translation { translation 1 0 0 }'), '}'),
+         'expansion-limit', verbs=('convert',)),
+    Case('vrml1_doubling_state', world_1('vrml1_doubling_state', 'Separator {', doubling_groups('Texture2Transform { translation 0.1 0 }'), '}'),
+         'expansion-limit', verbs=('cat', 'convert')),
+    Case('vrml1_doubling_lights', world_1('vrml1_doubling_lights', 'Separator {', doubling_groups('DirectionalLight { }'), '}'),
+         'expansion-limit', verbs=('cat', 'convert')),
+    Case('vrml1_lights_in_turn', world_1('vrml1_lights_in_turn', 'Separator {', ('DirectionalLight { } Cube { }\n', 20_000), '}'), 'too-deep',
+         verbs=('cat', 'convert')),
+    Case('vrml1_array', world_1('vrml1_array', f'Array {{ numElements1 {HUGE} numElements2 {HUGE} Cube {{ }} }}'), 'expansion-limit'),
+    Case('vrml1_quad_mesh', world_1('vrml1_quad_mesh', f'Separator {{ Coordinate3 {{ point [ 0 0 0, 1 0 0 ] }} QuadMesh {{ verticesPerRow {HUGE} verticesPerColumn {HUGE} }}',
+                                    f' FaceSet {{ startIndex {HUGE} numVertices [ {HUGE} ] }} PointSet {{ startIndex {HUGE} numPoints {HUGE} }} }}')),
+    Case('vrml1_strays', world_1('vrml1_strays', ('[ ( | ~ = . ] ', 300_000)), 'stray-token|syntax|unclosed', rest=False),
     Case('unclosed_lists', world('unclosed_lists', 'Group { children ', ('[ ', 1_000_000)), TOO_DEEP + '|stray-token', rest=False),
 ]
 

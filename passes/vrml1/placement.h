@@ -1,0 +1,34 @@
+// The transformation that the traversal of VRML 1.0 has gathered since the group around it, and the Transform that says it.
+// Any matrix is one: a rotation times a scale along turned axes (polar decomposition), which is what Transform can say.
+#pragma once
+#include <optional>
+
+#include "scenegraph/transform.h"
+
+namespace wrlkit::vrml1 {
+
+class Placement {
+ public:
+  /// What follows is moved by this, and then by what was there before.
+  void then(const TransformFields&);
+  void then(const Matrix&);
+  void then(const Placement&);
+
+  bool identity() const { return matrix_ == Matrix{}; }
+  const Matrix& matrix() const { return matrix_; }
+  /// The fields as the file has them where they are those of one Transform, or else from the matrix.
+  TransformFields fields() const;
+  bool operator==(const Placement& o) const { return matrix_ == o.matrix_; }
+
+ private:
+  Matrix matrix_;
+  std::optional<TransformFields> fields_ = TransformFields{};  // while they say it
+};
+
+/// The Transform of a matrix: R V S V', where A V has columns square to each other (singular values). A mirrored matrix has one negative scale; one that
+/// flattens still has a rotation; one that is not finite is the identity.
+TransformFields decompose(const Matrix&);
+/// What is nothing beside the largest component becomes 0.
+void without_noise(Vec3&);
+
+}  // namespace wrlkit::vrml1
