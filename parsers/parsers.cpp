@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "parsers/gltf/gltf.h"
 #include "parsers/vrml/parser.h"
 #include "parsers/vrml/text_encoding.h"
 #include "scenegraph/blanks.h"
@@ -62,6 +63,7 @@ Header read_header(std::string_view text) {
     if (contains_nocase(line.substr(0, 16), "vrml")) return {Format::vrml97, false, false};
   }
   if (line.starts_with('<') && (contains_nocase(text.substr(0, 4096), "<x3d"))) return {Format::x3d_xml, true, false};
+  if (gltf_reader::looks_like_gltf(text)) return {Format::gltf, true, false};
   if (looks_like_vrml97(text)) return {Format::vrml97, false, true};
   return {};
 }
@@ -85,7 +87,15 @@ std::string describe_bytes(std::string_view text) {
   return "the first line is '" + std::string(first_line(text).substr(0, 40)) + "'";
 }
 
-std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, const ReadOptions& options, Diagnostics& diag) {
+std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, const std::string& path, const ReadOptions& options, Diagnostics& diag) {
+  auto world = std::make_unique<World>();
+  world->format = Format::gltf;
+  world->scene.sources = diag.shared_sources();
+  gltf_reader::parse(bytes, base, path, options.allowed, options.parse, world->scene, diag);
+  return world;
+}
+
+std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, const std::string& path, const ReadOptions& options, Diagnostics& diag) {
   std::string converted;
   Span whole{base, 0}, first{base, static_cast<std::uint32_t>(std::min<std::size_t>(first_line(text).size(), 80))};
   if (has_utf16_bom(text)) {
@@ -97,6 +107,7 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   base += static_cast<std::uint32_t>(text.size() - body.size());
   auto header = read_header(body);
   if (header.format == Format::none) return diag.report(Diag::unknown_format, whole, describe_bytes(body)), nullptr;
+  if (header.format == Format::gltf) return parse_gltf(body, base, path, options, diag);
   if (header.format != Format::vrml97) {
     constexpr std::string_view names[] = {"", "VRML 1.0 / Inventor", "", "X3D (classic)", "X3D (XML)", "glTF"};
     return diag.report(Diag::unsupported_format, first, names[static_cast<std::size_t>(header.format)]), nullptr;
@@ -117,7 +128,7 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
 std::unique_ptr<World> read_world(const std::string& path, const ReadOptions& options, Diagnostics& diag) {
   auto file = read_file(path, options.limits, diag);
   if (!file) return nullptr;
-  auto world = parse_text(file->view(), file->base, options, diag);
+  auto world = parse_text(file->view(), file->base, file->name == standard_input_name ? std::string() : path, options, diag);
   if (world) world->gzip = file->gzip, world->bytes = file->bytes_on_disk;
   return world;
 }
@@ -126,7 +137,7 @@ std::unique_ptr<World> parse_world(std::string_view text, std::string name, cons
   auto kept = std::make_shared<std::string>(text);
   auto base = diag.sources().add(std::move(name), text.size(), [kept] { return Sources::Loaded{*kept, kept}; });
   if (base == Span::nowhere) return diag.report(Diag::too_large, {}, "the text", "4 GiB", text.size()), nullptr;
-  auto world = parse_text(*kept, base, options, diag);
+  auto world = parse_text(*kept, base, {}, options, diag);
   if (world) world->bytes = text.size();
   return world;
 }

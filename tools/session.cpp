@@ -46,7 +46,7 @@ World* Session::read(const std::string& path) {
   world_.reset();
   resources_ = std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = flags_.allow_paths}, parse_inlined);
   context_.resources = resources_.get();
-  world_ = read_world(path, {}, diag_);
+  world_ = read_world(path, {.allowed = flags_.allow_paths}, diag_);
   if (world_) {
     place(world_->scene);
     resources_->set_root({std::shared_ptr<const Scene>{}, &world_->scene});

@@ -88,20 +88,32 @@ void Hierarchy::visit(NodeId n) {
     case Kind::group:
       return enter(n);
     case Kind::shape:
-      return built_.push_back(shape(n));
+      built_.push_back(shape(n));
+      break;
     case Kind::light:
-      return built_.push_back(light(n));
+      built_.push_back(light(n));
+      break;
     case Kind::viewpoint:
-      return built_.push_back(viewpoint(n));
+      built_.push_back(viewpoint(n));
+      break;
     case Kind::other:
     case Kind::not_known:
-      return built_.push_back(other(n));
+      built_.push_back(other(n));
   }
+  set_same(built_.back());
+}
+
+/// Notes which node this one is once more; what lies in it need not be said.
+void Hierarchy::set_same(std::uint32_t id) {
+  Node& n = nodes_[id];
+  auto [at, is_new] = became_.try_emplace(n.source.value, id);
+  if (!is_new && !frames_.back().again) n.same_as = at->second;
 }
 
 void Hierarchy::enter(NodeId n) {
   if (first_visit(n)) report_group(n);
   Frame f{.node = n, .first_built = built_.size(), .world = frames_.back().world};
+  f.again = frames_.back().again || became_.contains(n.value);
   f.children = scene_.is(n, nodes::LOD) ? hierarchy_children(scene_, n) : shown_children(scene_, n);
   if (scene_.is(n, nodes::Transform)) {
     f.local = node_transform(scene_, n);
@@ -140,6 +152,7 @@ void Hierarchy::leave() {
   auto id = group(f);
   built_.resize(f.first_built);
   built_.push_back(id);
+  set_same(id);
   Frame& parent = frames_.back();
   bool coarse_level = scene_.is(parent.node, nodes::LOD) && parent.next > 1;
   if (!coarse_level) parent.box.add(f.box);
@@ -168,7 +181,7 @@ std::uint32_t Hierarchy::fold(const Frame& f) {
   if (!only_groups || f.local.inner || built_.size() != f.first_built + 1) return none;
   Node& child = nodes_[built_.back()];
   bool bare = child.attachment == Attachment::mesh && child.transform == none && scene_.name(child.source).empty();
-  if (!bare || (extras_ && extras_->says_more(child.source))) return none;
+  if (!bare || (extras_ && extras_->says_more(child.source, nodes::Shape))) return none;
   child.source = f.node;
   child.plain = f.local.plain;
   child.transform = add_transform(f.local.outer);
@@ -190,11 +203,12 @@ std::uint32_t Hierarchy::shape(NodeId n) {
   Node node{.source = n};
   NodeId geometry_node = scene_.get(n, nodes::shape::geometry);
   if (!geometry_node) return add(node);
-  first_visit(geometry_node);
   NodeId appearance = scene_.get(n, nodes::shape::appearance);
   auto geometry = meshes_.geometry(geometry_node, materials_.has_picture(appearance));
   const Geometry& g = meshes_.geometries()[geometry];
+  first_visit(geometry_node, !g.empty());
   if (g.empty()) return add(node);
+  if (extras_) extras_->set_shown(n);
   Frame& f = frames_.back();
   bool coarse_level = scene_.is(f.node, nodes::LOD) && f.next > 1;
   if (!coarse_level) f.box.add(meshes_.bounds(g, f.world));
@@ -257,11 +271,11 @@ void Hierarchy::add_lost(NodeId n) {
   ++lost_[scene_.type(n).name];
 }
 
-bool Hierarchy::first_visit(NodeId n) {
+bool Hierarchy::first_visit(NodeId n, bool has_place) {
   if (visited_[n.value]) return false;
   visited_[n.value] = 1;
   report_overflow(n);
-  if (extras_) extras_->set_placed(n);
+  if (extras_ && has_place) extras_->set_placed(n);
   return true;
 }
 

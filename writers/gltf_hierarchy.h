@@ -26,6 +26,7 @@ struct Node {
   Attachment attachment = Attachment::nothing;
   bool plain = true;  // the transform is what the fields of `source` say
   bool lod = false;   // has an entry in Hierarchy::lods
+  std::uint32_t same_as = none;  // the node that `source` has become before
 };
 
 struct Lod {
@@ -66,6 +67,7 @@ class Hierarchy {
     NodeTransform local{};
     Matrix world{};  // frame of the children
     Box box{};       // of what they show
+    bool again = false;  // in something that was met before
   };
   Kind kind(NodeId);
   bool one_too_many(NodeId);
@@ -84,7 +86,8 @@ class Hierarchy {
   std::uint32_t add(Node, std::span<const std::uint32_t> children = {});
   std::uint32_t add_transform(const Trs&);
   void add_lost(NodeId);
-  bool first_visit(NodeId);
+  bool first_visit(NodeId, bool has_place = true);
+  void set_same(std::uint32_t);
   void add_headlight();
   void move_to_origin();
   void move(std::uint32_t node, const Vec3& by, std::vector<std::uint32_t>& further);
@@ -111,6 +114,7 @@ class Hierarchy {
   std::vector<std::uint32_t> built_;  // nodes that are not yet children of their parents
   std::vector<Kind> kinds_;           // of types
   std::vector<char> visited_;
+  std::unordered_map<std::uint32_t, std::uint32_t> became_;  // of nodes of VRML, the first of glTF
   std::map<std::string_view, std::size_t> lost_;  // by type: each Script has one of its own, but one name
   Span first_lost_;
   bool full_ = false;

@@ -87,9 +87,8 @@ std::string Materials::json(const Look& l) {
   std::string text;
   JsonOut json(text);
   json.begin_object();
-  auto name = l.material && !scene_.name(l.material).empty() ? scene_.name(l.material)
-              : l.appearance                                 ? scene_.name(l.appearance)
-                                                             : std::string_view{};
+  auto name_of = [&](NodeId n) { return !n ? std::string_view{} : extras_ ? extras_->name(n) : scene_.name(n); };
+  auto name = name_of(l.material).empty() ? name_of(l.appearance) : name_of(l.material);
   if (!name.empty()) json.member("name", name);
   json.key("pbrMetallicRoughness");
   json.begin_object();
@@ -137,16 +136,22 @@ void Materials::texture_info(JsonOut& json, const Look& l) {
 void Materials::extras(JsonOut& json, const Look& l) {
   std::vector<std::uint16_t> said;
   bool from_material = l.material && !l.surface.color && l.texture.channels < 3;
-  if (from_material && l.surface.faces) said.push_back(m::diffuseColor.slot);
+  // White with a picture could be either: a white material, or one that the picture replaces.
+  if (from_material && l.surface.faces && (l.texture.texture == none || l.base != white)) said.push_back(m::diffuseColor.slot);
   if (l.material && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
   if (l.texture.channels % 2 == 1 || l.texture.channels == 0) said.push_back(m::transparency.slot);
-  bool material = l.material && extras_->anything(l.material, said);
+  // White and unlit is what a Shape without a Material is, too.
+  bool material = l.material && (extras_->anything(l.material, said) || (!l.lit && l.base == white && l.alpha == 1));
+  bool named = l.appearance && !extras_->name(l.appearance).empty();
   bool picture = l.texture_node && l.texture.texture == none;
-  if (!material && !picture) return;
+  for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
+    if (n) extras_->set_placed(n);
+  if (!material && !picture && !named) return;
   json.key("extras");
   json.begin_object();
   json.key("vrml97");
   json.begin_object();
+  if (named) json.key("Appearance"), json.begin_object(), json.member("DEF", extras_->name(l.appearance)), json.end_object();
   if (material) extras_->node(json, l.material, said);
   if (picture) extras_->node(json, l.texture_node, {});
   if (picture && l.transform_node) extras_->node(json, l.transform_node, {});

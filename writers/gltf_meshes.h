@@ -21,6 +21,7 @@ struct Geometry {
   std::uint32_t textured = none;    // the same geometry, with texture coordinates
   Mode mode = Mode::triangles;
   bool double_sided = false;
+  std::vector<std::uint32_t> polygons;  // pairs: so many triangles were one face, so often; empty: all faces are triangles
 
   bool empty() const { return positions == none; }
   SurfaceKind surface() const { return {mode == Mode::triangles, colors != none, texcoords != none, double_sided}; }
