@@ -41,8 +41,8 @@ struct FormatRow {
 };
 constexpr FormatRow formats[] = {
     {"VRML97", ".wrl .wrz .wrl.gz .vrml", "yes, gzip by its first bytes", "yes, --gzip"},
-    {"glTF 2.0", ".gltf", "no", "yes"},
-    {"GLB", ".glb", "no", "yes"},
+    {"glTF 2.0", ".gltf", "yes, by its asset", "yes"},
+    {"GLB", ".glb", "yes, by its first bytes", "yes"},
     {"pictures", "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR", "as textures", "PNG, JPEG (render)"},
 };
 

@@ -127,8 +127,12 @@ void Materials::texture_info(JsonOut& json, const Look& l) {
     json.end_object();
     json.end_object();
   }
-  if (extras_ && l.transform_node && extras_->anything(l.transform_node, {}))
-    extras_->member(json, l.transform_node, {});
+  if (extras_ && l.transform_node) {
+    json.key("extras");
+    json.begin_object();
+    extras_->vrml97(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());
+    json.end_object();
+  }
   json.end_object();
 }
 
@@ -146,15 +150,16 @@ void Materials::extras(JsonOut& json, const Look& l) {
   bool picture = l.texture_node && l.texture.texture == none;
   for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
     if (n) extras_->set_placed(n);
-  if (!material && !picture && !named) return;
+  bool transform = l.transform_node && l.texture.texture == none;
+  if (!material && !picture && !named && !transform) return;
   json.key("extras");
   json.begin_object();
   json.key("vrml97");
   json.begin_object();
   if (named) json.key("Appearance"), json.begin_object(), json.member("DEF", extras_->name(l.appearance)), json.end_object();
   if (material) extras_->node(json, l.material, said);
-  if (picture) extras_->node(json, l.texture_node, {});
-  if (picture && l.transform_node) extras_->node(json, l.transform_node, {});
+  if (picture) extras_->node(json, l.texture_node, {}, !extras_->name(l.texture_node).empty());
+  if (transform) extras_->node(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());
   json.end_object();
   json.end_object();
 }

@@ -24,6 +24,8 @@ class Buffers {
   std::optional<ViewBytes> view(std::uint32_t index);
   /// The bytes that a bufferView-like object names by buffer, byteOffset and byteLength.
   std::optional<std::string_view> slice(Json of);
+  /// What the uri of a buffer or image leads to.
+  std::optional<std::string> load(Json owner, std::string_view uri);
 
  private:
   struct Buffer {
@@ -37,7 +39,6 @@ class Buffers {
     std::optional<ViewBytes> bytes;
   };
   std::optional<std::string_view> buffer(std::uint32_t index);
-  std::optional<std::string> load(Json buffer, std::string_view uri);
   std::optional<ViewBytes> make_view(Json, View&);
   bool unpack(Json compression, View&);
   bool spend(std::uint64_t bytes, Json on);

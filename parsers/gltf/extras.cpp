@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 #include <utility>
 
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
 
 namespace wrlkit::gltf_reader {
 namespace {
@@ -190,7 +192,7 @@ Value Extras::nodes(FieldType t, std::uint16_t slot, Json j, Children& children)
   auto one = [&](Json e) {
     NodeId n = reference(e, children);
     auto name = !n && e.is_object() && e.begin() != e.end() ? (*e.begin())["USE"].text() : std::string_view{};
-    if (!name.empty() && may_refer_forward()) pending_.push_back({owner_, slot, all.size(), c_.scene.keep(name)});
+    if (!name.empty() && owner_) pending_.push_back({owner_, slot, all.size(), c_.scene.keep(name)});
     else if (!n) return;
     all.push_back(n);
   };
@@ -306,13 +308,30 @@ void Extras::routes(Json list, Scope& scope) {
   }
 }
 
-/// Nodes that Scripts hold and that stood behind them, from a place in pending_ on.
+/// False when the one is in the other already. Files that ask this for very many nodes are told no.
+bool Extras::may_hold(NodeId owner, NodeId held) {
+  constexpr std::size_t most_steps = 50'000'000;
+  const auto& t = c_.scene.type(owner);
+  if (t.name == "Script" || t.kind == NodeKind::proto) return true;
+  std::vector<NodeId> open{held};
+  std::unordered_set<std::uint32_t> seen;
+  while (!open.empty()) {
+    NodeId n = open.back();
+    open.pop_back();
+    if (n == owner || ++n_steps_ > most_steps) return false;
+    if (n && seen.insert(n.value).second) for_each_child(c_.scene, n, [&](NodeId c) { open.push_back(c); });
+  }
+  return true;
+}
+
+/// Nodes that are held and that stood behind them, from a place in pending_ on.
 void Extras::resolve(std::size_t first) {
   for (auto p = pending_.begin() + static_cast<std::ptrdiff_t>(first); p != pending_.end(); ++p) {
     const Value* old = c_.scene.find(p->owner, p->slot);
     if (!old) continue;
     NodeId n = named(p->name);
     if (!n) c_.diag().report(Diag::undefined_use, c_.scene.where(p->owner), p->name);
+    else if (!may_hold(p->owner, n)) c_.diag().report(Diag::use_cycle, c_.scene.where(p->owner), p->name), n = {};
     std::vector<NodeId> all(old->node_span().begin(), old->node_span().end());
     if (!info(old->type).multiple) c_.scene.set(p->owner, c_.scene.make(old->type, p->slot, n));
     else if (p->position < all.size()) all[p->position] = n, c_.scene.set(p->owner, c_.scene.make(old->type, p->slot, all));

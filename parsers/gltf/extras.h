@@ -1,6 +1,7 @@
 // What wrlkit's glTF writer keeps below extras.vrml97, back to nodes (the form is described in writers/gltf_extras.h).
-// Names are those of a scope: {"Shape": {"USE": name}} means the node that got this name last. A node gets its name when
-// it is whole, so nothing can contain itself but a Script, whose fields are filled in the end.
+// Names are those of a scope: {"Shape": {"USE": name}} means the node that got this name last, or else one that gets it
+// later. A node gets its name when it is whole, so only those can make a node contain itself: that is refused, but for
+// Scripts, which may hold what they are in.
 #pragma once
 #include <deque>
 #include <unordered_map>
@@ -59,7 +60,7 @@ class Extras {
   Scope body(Json proto);
   void resolve(std::size_t first);
   void routes(Json list, Scope&);
-  bool may_refer_forward() const { return owner_ && (c_.scene.type(owner_).name == "Script" || c_.scene.type(owner_).kind == NodeKind::proto); }
+  bool may_hold(NodeId owner, NodeId held);
 
   Context c_;
   std::vector<ProtoScope> scopes_;  // the main one first
@@ -68,6 +69,7 @@ class Extras {
   Names names_;
   std::vector<Pending> pending_;
   NodeId owner_;  // whose fields are read
+  std::size_t n_steps_ = 0;
 };
 
 }  // namespace wrlkit::gltf_reader

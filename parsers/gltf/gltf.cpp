@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "parsers/gltf/hierarchy.h"
+#include "parsers/gltf/animations.h"
 #include "scenegraph/blanks.h"
 #include "scenegraph/nodes.h"
 
@@ -49,13 +49,13 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
   Context context{file, buffers, accessors, scene, lost};
   Extras extras(context);
   Meshes meshes(context, extras);
-  Hierarchy hierarchy(context, extras, meshes, limits);
+  Hierarchy hierarchy(context, extras, meshes, limits, file.is_own() ? std::set<std::uint32_t>() : moved_nodes(file));
   const Json kept = vrml97(file.at(Table::scenes, file.root()["scene"].whole().value_or(0)));
   scene.comment = std::string(vrml97(file.root()["asset"])["comment"].text());
   extras.protos(kept["protos"]);
   hierarchy.build();
   extras.finish(kept["routes"]);
-  if (file.count(Table::animations) > 0) lost.add("animations", file.where(file.root()["animations"]));
+  if (!file.is_own()) Animations(context, hierarchy).build();  // wrlkit's own are there as ROUTEs
   if (!file.is_own()) lost.keep(file, file.root()), lost.keep(file, file.root()["asset"]), add_world_info(context);
   lost.report(diag);
 }

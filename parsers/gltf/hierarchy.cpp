@@ -20,14 +20,18 @@ bool is_said_by_gltf(TypeId t) {
   return std::ranges::find(types, t) != std::end(types);
 }
 
-std::optional<std::uint16_t> children_slot(const NodeType& t) { return t.kind == NodeKind::builtin && t.is_a("X3DGroupingNode") ? t.find("children", Dialect::x3d) : std::nullopt; }
+std::optional<std::uint16_t> children_slot(const NodeType& t) {
+  auto f = std::ranges::find(t.fields, "children", &FieldDef::name);
+  if (f == t.fields.end() || !t.is_a("X3DGroupingNode")) return std::nullopt;
+  return static_cast<std::uint16_t>(f - t.fields.begin());
+}
 
 bool has_matrix(const Json& fields) { return fields["center"] || (fields["scaleOrientation"] && fields["scale"]); }
 
 }  // namespace
 
-Hierarchy::Hierarchy(const Context& c, Extras& extras, Meshes& meshes, const ParseLimits& limits)
-    : c_(c), extras_(extras), meshes_(meshes), limits_(limits), parent_(c.file.count(Table::nodes), none), state_(parent_.size()), made_(parent_.size()) {}
+Hierarchy::Hierarchy(const Context& c, Extras& extras, Meshes& meshes, const ParseLimits& limits, std::set<std::uint32_t> moved)
+    : c_(c), extras_(extras), meshes_(meshes), limits_(limits), moved_(std::move(moved)), parent_(c.file.count(Table::nodes), none), state_(parent_.size()), made_(parent_.size()) {}
 
 void Hierarchy::find_parents() {
   for (std::uint32_t n = 0; n < parent_.size(); ++n)
@@ -148,8 +152,7 @@ NodeId Hierarchy::kept(std::uint32_t n, Json fields, const Place& place, Nodes b
   } else if (type == nodes::PointLight || type == nodes::DirectionalLight || type == nodes::SpotLight) {
     light_fields(made, {}, place);
   } else if (type == nodes::Transform && !has_matrix(fields)) {
-    made = transform(json, place, {});
-    if (c_.scene.is(made, nodes::Group)) c_.scene.become(made, nodes::Transform, {});
+    made = transform(json, place, {}, true);
   } else {
     auto own = shapes(n, place);
     below.insert(below.begin(), own.begin(), own.end());
@@ -176,7 +179,8 @@ NodeId Hierarchy::kept(std::uint32_t n, Json fields, const Place& place, Nodes b
 NodeId Hierarchy::implied(std::uint32_t n, const Place& place, Nodes below) {
   const Json json = c_.file.at(Table::nodes, n);
   const bool has_camera = bool(json["camera"]), has_light = bool(light_of(json)), has_mesh = bool(json["mesh"]);
-  const bool alone = below.empty() && has_camera + has_light + has_mesh == 1 && !json["extensions"]["EXT_mesh_gpu_instancing"];
+  const bool moved = moved_.contains(n);
+  const bool alone = !moved && below.empty() && has_camera + has_light + has_mesh == 1 && !json["extensions"]["EXT_mesh_gpu_instancing"];
   NodeId made;
   if (alone && has_camera) {
     made = camera(json, place);
@@ -190,16 +194,16 @@ NodeId Hierarchy::implied(std::uint32_t n, const Place& place, Nodes below) {
       if (has_camera) own.push_back(camera(json, {}));
       if (NodeId l = has_light ? light(json, {}, world(n)) : NodeId{}) own.push_back(l);
       own.insert(own.end(), below.begin(), below.end());
-      made = transform(json, place, own);
+      made = transform(json, place, own, moved);
     }
   }
   if (made) c_.set_name(made, json["name"]);
   return made;
 }
 
-NodeId Hierarchy::transform(Json at, const Place& p, const Nodes& below) {
+NodeId Hierarchy::transform(Json at, const Place& p, const Nodes& below, bool moved) {
   namespace f = nodes::transform;
-  if (p.identity()) {
+  if (p.identity() && !moved) {
     NodeId n = c_.add(nodes::Group, at);
     if (!below.empty()) c_.scene.set(n, nodes::group::children, below);
     return n;

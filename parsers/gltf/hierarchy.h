@@ -7,6 +7,8 @@
 //
 // Everything is posed as the file shows it: skins by the transforms of their joints, morph targets by their weights.
 #pragma once
+#include <set>
+
 #include "parsers/gltf/meshes.h"
 #include "parsers/gltf/trs.h"
 #include "scenegraph/builder.h"
@@ -17,7 +19,8 @@ class Hierarchy {
  public:
   static constexpr std::size_t max_instances = 1'000'000;  // of EXT_mesh_gpu_instancing
 
-  Hierarchy(const Context&, Extras&, Meshes&, const ParseLimits&);
+  /// `moved`: nodes that must be Transforms.
+  Hierarchy(const Context&, Extras&, Meshes&, const ParseLimits&, std::set<std::uint32_t> moved);
 
   /// All scenes; what the default one shows are the scene's roots, the others stand in a Switch that shows none.
   void build();
@@ -39,7 +42,7 @@ class Hierarchy {
   Nodes shapes(std::uint32_t node, const Place&);
   NodeId shape(const Meshes::Part&, Json at);
   void instances(Json, Nodes& shapes);
-  NodeId transform(Json at, const Place&, const Nodes& children);
+  NodeId transform(Json at, const Place&, const Nodes& children, bool moved = false);
   NodeId camera(Json node, const Place&);
   NodeId light(Json node, const Place&, const Matrix& world);
   void light_fields(NodeId, Json light, const Place&);
@@ -52,6 +55,7 @@ class Hierarchy {
   Extras& extras_;
   Meshes& meshes_;
   ParseLimits limits_;
+  std::set<std::uint32_t> moved_;
   std::vector<std::uint32_t> parent_;
   std::vector<State> state_;
   std::vector<NodeId> made_;

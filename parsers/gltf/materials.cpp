@@ -83,6 +83,7 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
       if (extras[type] && !picture) {
         NodeId n = c_.add(find_builtin(type, Dialect::vrml97), extras[type]);
         extras_.fields(n, extras[type]);
+        c_.set_name(n, extras[type]["DEF"]);
         (type == "TextureTransform" ? transform : picture) = n;
       }
   NodeId material = material_node(m, s, look);
@@ -217,9 +218,10 @@ NodeId Materials::make_texture(Json t) {
 /// An SFImage (ISO/IEC 14772-1, 5.5) from the picture that it was written as.
 NodeId Materials::pixel_texture(Json t, Json image) {
   auto view = c_.file.index(Table::bufferViews, image["bufferView"]);
-  auto bytes = view == none ? std::nullopt : c_.buffers.view(view);
+  auto inside = view == none ? std::nullopt : c_.buffers.view(view);
+  auto beside = inside || !image["uri"] ? std::nullopt : c_.buffers.load(image, image["uri"].text());
   std::string why;
-  auto picture = bytes ? decode_image(bytes->bytes, "pixels.png", why) : std::nullopt;
+  auto picture = inside ? decode_image(inside->bytes, "pixels.png", why) : beside ? decode_image(*beside, "pixels.png", why) : std::nullopt;
   if (!picture) return {};
   std::vector<std::int32_t> v{picture->width, picture->height, picture->channels};
   const auto row = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->channels);
@@ -257,7 +259,7 @@ NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {
     if (!said && s.given_texcoord) return {};  // it was applied to the coordinates
     NodeId n = c_.add(nodes::TextureTransform, kept);
     extras_.fields(n, kept);
-    if (kept["DEF"]) c_.set_name(n, kept["DEF"]);
+    c_.set_name(n, kept["DEF"]);
     return n;
   }
   const UvAffine a = affine_of(said);
