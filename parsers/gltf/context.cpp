@@ -27,6 +27,18 @@ std::string legal_name(std::string_view s) {
   return is_keyword(out) ? out + "_" : out;
 }
 
+/// JSON without the blanks between its tokens.
+std::string compact(std::string_view s) {
+  std::string out;
+  bool quoted = false;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (quoted && s[i] == '\\' && i + 1 < s.size()) out += s[i++];
+    else if (s[i] == '"') quoted = !quoted;
+    if (quoted || static_cast<unsigned char>(s[i]) > ' ') out += s[i];
+  }
+  return out;
+}
+
 }  // namespace
 
 bool is_legal_name(std::string_view s) { return !s.empty() && legal_name(s) == s; }
@@ -52,8 +64,7 @@ void Lost::report(Diagnostics& diag) const {
 }
 
 void Lost::keep(const File& file, Json element, std::string_view member) {
-  std::string text(element.source());
-  std::erase_if(text, [](char c) { return c == '\n' || c == '\r' || c == '\t'; });
+  auto text = compact(element.source());
   if (text.size() > max_kept - kept_bytes_) return add("extras beyond 1 MiB", file.where(element));
   kept_bytes_ += text.size();
   kept_.push_back(std::string(member) + " " + text);

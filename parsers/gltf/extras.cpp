@@ -174,8 +174,9 @@ std::optional<Value> Extras::value(FieldType t, std::uint16_t slot, Json j, Chil
       return nodes(t, slot, j, children);
     case Element::text: {
       if (!info(t).multiple) return j.is_text() ? std::optional(c_.scene.make(t, slot, j.text())) : std::nullopt;
+      if (!j.is_array()) return std::nullopt;
       std::vector<std::string_view> all;
-      for (Json e : j.elements()) all.push_back(e.text());
+      for (Json e : j) all.push_back(e.text());
       return c_.scene.make(t, slot, all);
     }
     case Element::integer:

@@ -44,6 +44,28 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
+/// -C S R C T (ISO/IEC 14772-1, 6.49).
+UvAffine affine_of(const Scene& scene, NodeId n) {
+  namespace f = nodes::texture_transform;
+  auto [cx, cy] = scene.get(n, f::center);
+  auto [sx, sy] = scene.get(n, f::scale);
+  auto [tx, ty] = scene.get(n, f::translation);
+  const double r = scene.get(n, f::rotation), c = std::cos(r), s = std::sin(r);
+  UvAffine a{sx * c, -sx * s, sy * s, sy * c, 0, 0};
+  a.x = a.xx * (tx + cx) + a.xy * (ty + cy) - cx;
+  a.y = a.yx * (tx + cx) + a.yy * (ty + cy) - cy;
+  return a;
+}
+
+std::optional<UvAffine> inverse(const UvAffine& a) {
+  const double d = a.xx * a.yy - a.xy * a.yx;
+  if (!(std::abs(d) > 0) || !std::isfinite(1 / d)) return std::nullopt;
+  UvAffine b{a.yy / d, -a.xy / d, -a.yx / d, a.xx / d, 0, 0};
+  b.x = -(b.xx * a.x + b.xy * a.y);
+  b.y = -(b.yx * a.x + b.yy * a.y);
+  return b;
+}
+
 /// The coordinates of glTF count from the top: the map between them is flipped on both sides.
 UvAffine affine_of(Json transform) {
   auto offset = vector<2>(transform["offset"], {0, 0}), scale = vector<2>(transform["scale"], {1, 1});
@@ -256,11 +278,12 @@ NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {
   namespace f = nodes::texture_transform;
   const Json kept = vrml97(info)["TextureTransform"], said = info["extensions"]["KHR_texture_transform"];
   if (c_.file.is_own() && kept) {
-    if (!said && s.given_texcoord) return {};  // it was applied to the coordinates
     NodeId n = c_.add(nodes::TextureTransform, kept);
     extras_.fields(n, kept);
     c_.set_name(n, kept["DEF"]);
-    return n;
+    if (said || !s.given_texcoord) return n;
+    look.bake = inverse(affine_of(c_.scene, n));  // it was applied to the coordinates, and is taken from them again
+    return look.bake ? n : NodeId{};
   }
   const UvAffine a = affine_of(said);
   if (!said || a == UvAffine{}) return {};

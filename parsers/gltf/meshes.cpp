@@ -89,6 +89,7 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
     Streams s;
     if (!load(p, how, texcoord, s)) return std::nullopt;
     geometry = foreign(p, s, look);
+    if (!geometry) return std::nullopt;
     report_lost(p, texcoord);
   }
   if (p.mesh["primitives"].elements().size() == 1) c_.set_name(geometry, p.mesh["name"]);
@@ -302,6 +303,7 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
   NodeId coord, normal, color, texcoord;
   const int variant = is_identity_factor(look.color_factor) && !look.bake ? 0 : static_cast<int>(p.material) + 1;
   coord = attribute(nodes::Coordinate, nodes::coordinate::point.slot, FieldType::MFVec3f, s.position, 0, s.loose, nothing);
+  if (!coord) return {};
   if (s.normal && p.faces()) normal = attribute(nodes::Normal, nodes::normal::vector.slot, FieldType::MFVec3f, s.normal, 0, s.loose, nothing);
   if (s.color)
     color = attribute(nodes::Color, nodes::color::color.slot, FieldType::MFColor, s.color, variant, s.loose, [&](std::vector<double>& v) {
@@ -327,7 +329,7 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
   Scene& scene = c_.scene;
   if (p.mode == points) {
     NodeId n = c_.add(nodes::PointSet, p.json);
-    if (s.indexed && coord) {  // a PointSet has no indices
+    if (s.indexed) {  // a PointSet has no indices
       auto gather = [&](NodeId from, std::uint16_t slot, TypeId type) {
         auto all = scene.value(from, slot).number_span();
         std::vector<double> some;
@@ -339,7 +341,7 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
       coord = gather(coord, nodes::coordinate::point.slot, nodes::Coordinate);
       if (color) color = gather(color, nodes::color::color.slot, nodes::Color);
     }
-    if (coord) scene.set(n, nodes::point_set::coord, coord);
+    scene.set(n, nodes::point_set::coord, coord);
     if (color) scene.set(n, nodes::point_set::color, color);
     return n;
   }
@@ -351,12 +353,12 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
   }
   if (!p.faces()) {
     namespace f = nodes::indexed_line_set;
-    if (coord) scene.set(n, f::coord, coord);
+    scene.set(n, f::coord, coord);
     if (color) scene.set(n, f::color, color);
     return index.slot = f::coordIndex.slot, scene.set(n, index), n;
   }
   namespace f = nodes::indexed_face_set;
-  if (coord) scene.set(n, f::coord, coord);
+  scene.set(n, f::coord, coord);
   if (normal) scene.set(n, f::normal, normal);
   if (color) scene.set(n, f::color, color);
   if (texcoord) scene.set(n, f::texCoord, texcoord);
@@ -383,6 +385,12 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
   for (std::size_t i = 0; i < s.texcoord.values.size(); i += 2) {
     double& t = s.texcoord.values[i + 1];
     t = shortest(1 - t, [v = static_cast<float>(t)](double d) { return static_cast<float>(1 - d) == v; });
+    if (!look.bake) continue;
+    const auto& a = *look.bake;
+    const double u = s.texcoord.values[i], v = t;
+    auto rounded = [](double x) { return std::round(x * 1e7) / 1e7 + 0.0; };
+    s.texcoord.values[i] = rounded(a.xx * u + a.xy * v + a.x);
+    t = rounded(a.yx * u + a.yy * v + a.y);
   }
   if (s.color.width == 3)
     for (double& v : s.color.values) v = display(static_cast<float>(v));
