@@ -94,7 +94,8 @@ double display(double l) {
   if (!(l > 0)) return 0;
   if (l >= 1) return 1;
   double guess = l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
-  return shortest(guess, [f = static_cast<float>(l)](double d) { return static_cast<float>(linear(d)) == f; });
+  // Writers convert either the number or the float that it is stored as.
+  return shortest(guess, [f = static_cast<float>(l)](double d) { return static_cast<float>(linear(d)) == f || static_cast<float>(linear(static_cast<float>(d))) == f; });
 }
 
 }  // namespace wrlkit::gltf_reader
