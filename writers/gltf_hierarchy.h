@@ -5,11 +5,15 @@
 // with extras, in their place. Of a Switch the chosen child is there, the others are in extras. Of a LOD the first
 // level is the child; the others hang on it by MSFT_lod, whose screen coverage is that of the level's bounding sphere
 // at the distances of `range`, seen with VRML's standard field of view.
+//
+// A Transform whose rotation or scale is animated while it has a center or a scaleOrientation is a chain of nodes, one for
+// each part of T C R SR S -SR -C that moves by itself.
 #pragma once
 #include <map>
 #include <unordered_map>
 
 #include "writers/gltf.h"
+#include "writers/gltf_animations.h"
 #include "writers/gltf_cameras.h"
 #include "writers/gltf_lights.h"
 #include "writers/gltf_meshes.h"
@@ -36,7 +40,7 @@ struct Lod {
 
 class Hierarchy {
  public:
-  Hierarchy(const Scene&, const GltfOptions&, Meshes&, Materials&, Extras*, Diagnostics&);
+  Hierarchy(const Scene&, const GltfOptions&, Meshes&, Materials&, Animations&, Extras*, Diagnostics&);
 
   /// Everything below the roots of the scene.
   void build();
@@ -52,6 +56,8 @@ class Hierarchy {
   const Lod& lod(std::uint32_t node) const { return lods_.at(node); }
   bool uses_lod() const { return !lods_.empty(); }
   const Box& world() const { return world_; }
+  /// What a node's translation is beyond the field that it comes from.
+  Vec3 offset(std::uint32_t node) const;
   /// What was subtracted from all coordinates.
   const std::optional<Vec3>& origin() const { return origin_; }
   NodeId navigation_info() const { return navigation_info_; }
@@ -78,13 +84,17 @@ class Hierarchy {
   void leave();
   std::uint32_t group(const Frame&);
   std::uint32_t fold(const Frame&);
+  std::uint32_t turning(const Frame&, std::span<const std::uint32_t> children);
+  bool turns_about_a_center(NodeId transform) const;
   void make_lod(const Frame&);
   std::uint32_t shape(NodeId);
   std::uint32_t light(NodeId);
   std::uint32_t viewpoint(NodeId);
   std::uint32_t other(NodeId);
   std::uint32_t add(Node, std::span<const std::uint32_t> children = {});
-  std::uint32_t add_transform(const Trs&);
+  /// None for the identity, unless it must be there.
+  std::uint32_t add_transform(const Trs&, bool always = false);
+  void add_targets(NodeId source, std::uint32_t translation, std::uint32_t rotation, std::uint32_t scale);
   void add_lost(NodeId);
   bool first_visit(NodeId, bool has_place = true);
   void set_same(std::uint32_t);
@@ -97,6 +107,7 @@ class Hierarchy {
   const GltfOptions& options_;
   Meshes& meshes_;
   Materials& materials_;
+  Animations& animations_;
   Extras* extras_;
   Diagnostics& diag_;
 

@@ -34,6 +34,7 @@ class Writer {
     list("textures", p_.textures.textures().size(), [&](std::size_t i) { texture(p_.textures.textures()[i]); });
     list("images", p_.textures.pictures().size(), [&](std::size_t i) { image(i); });
     list("samplers", p_.textures.samplers().size(), [&](std::size_t i) { sampler(p_.textures.samplers()[i]); });
+    list("animations", p_.animations.count(), [&](std::size_t i) { p_.animations.write(json_, i); });
     list("accessors", p_.store.accessors().size(), [&](std::size_t i) { accessor(p_.store.accessors()[i]); });
     list("bufferViews", p_.layout.views().size(), [&](std::size_t i) { buffer_view(p_.layout.views()[i]); });
     list("buffers", p_.layout.size() > 0, [&](std::size_t) { buffer(); });
@@ -178,13 +179,14 @@ class Writer {
 
   /// The type that a reader takes a node for.
   TypeId implied(const Node& n) const {
+    const bool stays = n.transform == none || h_.transforms()[n.transform].identity();
     switch (n.attachment) {
-      case Attachment::mesh: return n.transform == none ? nodes::Shape : nodes::Transform;
+      case Attachment::mesh: return stays ? nodes::Shape : nodes::Transform;
       case Attachment::camera: return nodes::Viewpoint;
       case Attachment::light: return n.source ? p_.scene.type_id(n.source) : TypeId{};
       case Attachment::nothing: break;
     }
-    return n.transform == none ? nodes::Group : nodes::Transform;
+    return stays ? nodes::Group : nodes::Transform;
   }
 
   void node_extras(const Node& n, std::uint32_t id) {
@@ -288,8 +290,10 @@ class Writer {
     json_.member("count", a.count);
     json_.member("type", type.type);
     if (a.bounds != none) {
-      numbers("max", std::span<const float>(p_.store.bounds()[a.bounds].high));
-      numbers("min", std::span<const float>(p_.store.bounds()[a.bounds].low));
+      const auto& b = p_.store.bounds()[a.bounds];
+      const std::size_t n = a.view == View::time ? 1 : 3;
+      numbers("max", std::span<const float>(b.high).first(n));
+      numbers("min", std::span<const float>(b.low).first(n));
     }
     json_.end_object();
   }
@@ -302,7 +306,7 @@ class Writer {
     if (v.picture == none) {
       const auto& type = info(v.view);
       if (type.vertices) json_.member("byteStride", type.element);
-      json_.member("target", type.vertices ? array_buffer : element_array_buffer);
+      if (type.vertices || type.indices) json_.member("target", type.vertices ? array_buffer : element_array_buffer);
     }
     json_.end_object();
   }
