@@ -82,7 +82,7 @@ void Extras::name_what_is_referred_to() {
 }
 
 std::string_view Extras::name(NodeId n) const {
-  auto i = given_.find(n.value);
+  auto i = body_ ? given_.end() : given_.find(n.value);
   return i == given_.end() ? scene_.name(n) : std::string_view(i->second);
 }
 
@@ -246,6 +246,7 @@ void Extras::protos(JsonOut& json, std::span<const ProtoId> declared) {
 
 void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in) {
   const auto& type = scene_.type(p.type);
+  body_.emplace();
   json.begin_object();
   json.member(p.external ? "EXTERNPROTO" : "PROTO", type.name);
   if (in) json.member("in", *in);
@@ -262,6 +263,7 @@ void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in)
   list("body", p.body.roots, [&](NodeId n) { reference(json, n, 0); });
   list("routes", p.body.routes, [&](const Route& r) { route(json, r); });
   json.end_object();
+  body_.reset();
 }
 
 void Extras::route(JsonOut& json, const Route& r) const {
@@ -298,7 +300,7 @@ void Extras::value(JsonOut& json, const Value& v, std::size_t depth) {
 }
 
 void Extras::reference(JsonOut& json, NodeId n, std::size_t depth) {
-  bool nameless_child = n && is_placed(n) && name(n).empty();
+  bool nameless_child = n && !body_ && is_placed(n) && name(n).empty();
   if (!n || nameless_child || too_much(n, depth)) return json.raw("null");
   json.begin_object();
   json.key(scene_.type(n).name);
@@ -310,9 +312,10 @@ void Extras::reference(JsonOut& json, NodeId n, std::size_t depth) {
 
 void Extras::content(JsonOut& json, NodeId n, std::size_t depth) {
   auto def = name(n);
-  if (!def.empty() && marks_[n.value] & (placed | written)) return json.member("USE", def);
+  const bool known = body_ ? !body_->insert(n.value).second : (marks_[n.value] & (placed | written)) != 0;
+  if (!def.empty() && known) return json.member("USE", def);
   if (!def.empty()) json.member("DEF", def);
-  marks_[n.value] |= written;
+  if (!body_) marks_[n.value] |= written;
   ++n_written_;
   fields(json, n, {}, depth + 1);
 }

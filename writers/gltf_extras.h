@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "scenegraph/diagnostics.h"
@@ -100,6 +101,7 @@ class Extras {
   std::vector<std::uint8_t> marks_;
   std::unordered_map<std::uint32_t, std::string> given_;
   std::size_t n_written_ = 0;
+  std::optional<std::unordered_set<std::uint32_t>> body_;  // nodes of the prototype that is written: names are its own there
 };
 
 }  // namespace wrlkit::gltf

@@ -161,6 +161,8 @@ NodeId Hierarchy::kept(std::uint32_t n, Json fields, const Place& place, Nodes b
     auto own = shapes(n, place);
     below.insert(below.begin(), own.begin(), own.end());
   }
+  // A long text is written once, where the file describes itself.
+  if (type == nodes::WorldInfo) extras_.plain_fields(made, vrml97(c_.file.root()["asset"])["WorldInfo"]);
   std::deque<NodeId> rest(below.begin(), below.end());
   extras_.fields(made, fields, rest);
   if (auto slot = children_slot(c_.scene.type(made)); slot && !rest.empty()) {

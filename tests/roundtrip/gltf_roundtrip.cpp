@@ -83,9 +83,18 @@ class Comparison {
     auto [at, is_new] = met_.try_emplace(x.value, y);
     if (!is_new) return void(++(at->second == y ? tally_["USE"].equal : tally_["USE"].other));
     ++tally_["nodes"].equal;
-    if (!a_.name(x).empty()) ++(a_.name(x) == b_.name(y) ? tally_["DEF names"].equal : tally_["DEF names"].other);
-    if (a_.is(x, nodes::IndexedFaceSet) && polygons(x, y)) return;
+    if (!a_.name(x).empty()) name(x, y);
+    if (a_.is(x, nodes::IndexedFaceSet)) return polygons(x, y, "polygons", polygons_of);
+    if (a_.is(x, nodes::IndexedLineSet)) return polygons(x, y, "polylines", polylines_of);
     fields(x, y);
+  }
+
+  /// Instances of a prototype have the names of its body; what a ROUTE refers to among them gets a number.
+  void name(NodeId x, NodeId y) {
+    const auto wanted = a_.name(x), found = b_.name(y);
+    if (found == wanted) ++tally_["DEF names"].equal;
+    else if (found.starts_with(std::string(wanted) + "_")) ++tally_["DEF names"].near;
+    else ++tally_["DEF names of " + std::string(a_.type(x).name)].other;
   }
 
   void fields(NodeId x, NodeId y) {
@@ -132,18 +141,40 @@ class Comparison {
     return out;
   }
 
-  bool polygons(NodeId x, NodeId y) {
-    auto p = polygons_of(a_, x), q = polygons_of(b_, y);
-    auto& c = tally_["polygons"];
-    std::size_t i = 0;
-    for (; i < std::min(p.size(), q.size()); ++i) {
-      if (p[i] == q[i]) { ++c.equal; continue; }
-      bool close = p[i].size() == q[i].size();
-      for (std::size_t k = 0; close && k < p[i].size(); ++k) close = near_numbers(p[i][k], q[i][k]);
-      ++(close ? c.near : c.other);
+  static std::vector<std::vector<Point>> polylines_of(const Scene& s, NodeId n) {
+    namespace f = nodes::indexed_line_set;
+    std::vector<std::vector<Point>> out(1);
+    NodeId coord = s.get(n, f::coord);
+    if (!coord) return {};
+    auto p = s.get(coord, nodes::coordinate::point);
+    for (auto i : s.get(n, f::coordIndex)) {
+      const auto k = static_cast<std::size_t>(i) * 3;
+      if (i >= 0 && k + 2 < p.size()) out.back().push_back({p[k], p[k + 1], p[k + 2]});
+      else if (i < 0) out.emplace_back();
     }
-    c.other += std::max(p.size(), q.size()) - i;
-    return true;
+    std::erase_if(out, [](auto& line) { return line.size() < 2; });
+    return out;
+  }
+
+  template <class Read>
+  void polygons(NodeId x, NodeId y, const char* what, Read read) {
+    auto p = read(a_, x), q = read(b_, y);
+    auto& c = tally_[what];
+    auto close = [](const auto& f, const auto& g) {
+      bool all = f.size() == g.size();
+      for (std::size_t k = 0; all && k < f.size(); ++k) all = near_numbers(f[k], g[k]);
+      return all;
+    };
+    // Faces without area are dropped on the way: what follows is looked for a little further on.
+    constexpr std::size_t further = 8;
+    std::size_t at = 0;
+    for (const auto& face : p) {
+      std::size_t i = at;
+      while (i < std::min(q.size(), at + further) && !close(face, q[i])) ++i;
+      if (i == std::min(q.size(), at + further)) { ++c.other; continue; }
+      ++(face == q[i] ? c.equal : c.near);
+      at = i + 1;
+    }
   }
 
   const Scene &a_, &b_;
