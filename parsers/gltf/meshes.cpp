@@ -42,6 +42,15 @@ std::vector<std::uint32_t> list_of(int mode, std::uint32_t n) {
 
 constexpr std::initializer_list<std::size_t> three{3}, two{2}, color_widths{3, 4};
 
+/// RGB of RGBA; was any of it transparent?
+bool without_alpha(std::vector<double>& v) {
+  std::size_t to = 0;
+  bool clear = false;
+  for (std::size_t i = 0; i + 3 < v.size(); i += 4) clear |= v[i + 3] < 1, v[to++] = v[i], v[to++] = v[i + 1], v[to++] = v[i + 2];
+  v.resize(to);
+  return clear;
+}
+
 bool is_identity_factor(const Vec3& f) { return f == Vec3{1, 1, 1}; }
 
 }  // namespace
@@ -52,7 +61,7 @@ std::vector<Meshes::Part> Meshes::parts(std::uint32_t index, const Pose& pose) {
   const Json mesh = c_.file.at(Table::meshes, index);
   std::uint32_t k = 0;
   for (Json json : mesh["primitives"].elements()) {
-    Primitive p{json, mesh, c_.file.index(Table::materials, json["material"]), static_cast<int>(json["mode"].whole().value_or(json["mode"] ? 99 : 4))};
+    Primitive p{json, mesh, c_.file.index(Table::materials, json["material"]), static_cast<int>(json["mode"] ? std::min<std::uint64_t>(json["mode"].whole().value_or(99), 99) : 4)};
     if (p.mode > 6) { c_.diag().report(Diag::gltf_bad_value, c_.file.where(json), "mode"); continue; }
     if (!pose.shared()) {
       if (auto made = part(p, pose)) out.push_back(*made);
@@ -307,13 +316,7 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
   if (s.normal && p.faces()) normal = attribute(nodes::Normal, nodes::normal::vector.slot, FieldType::MFVec3f, s.normal, 0, s.loose, nothing);
   if (s.color)
     color = attribute(nodes::Color, nodes::color::color.slot, FieldType::MFColor, s.color, variant, s.loose, [&](std::vector<double>& v) {
-      if (s.color.width == 4) {
-        std::size_t to = 0;
-        bool clear = false;
-        for (std::size_t i = 0; i + 3 < v.size(); i += 4) clear |= v[i + 3] < 1, v[to++] = v[i], v[to++] = v[i + 1], v[to++] = v[i + 2];
-        v.resize(to);
-        if (clear) c_.lost.add("alpha of COLOR_0", c_.file.where(p.json));
-      }
+      if (s.color.width == 4 && without_alpha(v)) c_.lost.add("alpha of COLOR_0", c_.file.where(p.json));
       for (std::size_t i = 0; i < v.size(); ++i) v[i] = display(static_cast<float>(v[i] * look.color_factor[i % 3]));
     });
   if (s.texcoord && p.faces() && look.textured)
@@ -392,8 +395,8 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
     s.texcoord.values[i] = rounded(a.xx * u + a.xy * v + a.x);
     t = rounded(a.yx * u + a.yy * v + a.y);
   }
-  if (s.color.width == 3)
-    for (double& v : s.color.values) v = display(static_cast<float>(v));
+  if (s.color.width == 4) without_alpha(s.color.values);
+  for (double& v : s.color.values) v = display(static_cast<float>(v));
   const TypeId type = p.faces() ? nodes::IndexedFaceSet : p.mode == points ? nodes::PointSet : nodes::IndexedLineSet;
   NodeId n = c_.add(type, p.json);
   Json fields = kept[builtin_nodes()[type.value].name];
