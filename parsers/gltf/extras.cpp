@@ -194,6 +194,7 @@ Value Extras::nodes(FieldType t, std::uint16_t slot, Json j, Children& children)
     NodeId n = reference(e, children);
     auto name = !n && e.is_object() && e.begin() != e.end() ? (*e.begin())["USE"].text() : std::string_view{};
     if (!name.empty() && owner_) pending_.push_back({owner_, slot, all.size(), c_.scene.keep(name)});
+    else if (!name.empty()) return c_.diag().report(Diag::undefined_use, c_.file.where(e), name);
     else if (!n) return;
     all.push_back(n);
   };
@@ -240,7 +241,9 @@ void Extras::fields(NodeId n, Json all, Children& children) {
     }
     auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97);
     if (!slot && !std::ranges::all_of(words_of(f.key()), is_legal_name)) { bad(f, "a field"); continue; }
+    if (!slot) owner_ = {};  // what has no slot cannot be filled in later
     auto v = slot ? value(c_.scene.type(n).fields[*slot].type, *slot, f, children) : unknown(f, children);
+    owner_ = n;
     if (!v) bad(f, std::string(c_.scene.type(n).name) + "." + std::string(f.key()));
     else c_.scene.set(n, slot ? *v : c_.scene.make_extra(f.key(), *v));
   }
