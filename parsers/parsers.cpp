@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "parsers/gltf/gltf.h"
 #include "parsers/patches.h"
 #include "parsers/patches_scene.h"
 #include "parsers/vrml/parser.h"
@@ -73,6 +74,7 @@ Header read_header(std::string_view text) {
     if (contains_nocase(line.substr(0, 16), "vrml")) return {Format::vrml97, false, false};
   }
   if (line.starts_with('<') && (contains_nocase(text.substr(0, 65536), "<x3d"))) return {Format::x3d_xml, true, false};
+  if (gltf_reader::looks_like_gltf(text)) return {Format::gltf, true, false};
   return {guess_format(text), false, true};
 }
 
@@ -95,7 +97,15 @@ std::string describe_bytes(std::string_view text) {
   return "the first line is '" + std::string(first_line(text).substr(0, 40)) + "'";
 }
 
-std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, const ReadOptions& options, Diagnostics& diag) {
+std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, const std::string& path, const ReadOptions& options, Diagnostics& diag) {
+  auto world = std::make_unique<World>();
+  world->format = Format::gltf;
+  world->scene.sources = diag.shared_sources();
+  gltf_reader::parse(bytes, base, path, options.allowed, options.parse, world->scene, diag);
+  return world;
+}
+
+std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, const std::string& path, const ReadOptions& options, Diagnostics& diag) {
   std::string converted;
   Span whole{base, 0}, first{base, static_cast<std::uint32_t>(std::min<std::size_t>(first_line(text).size(), 80))};
   if (has_utf16_bom(text)) {
@@ -107,6 +117,7 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   base += static_cast<std::uint32_t>(text.size() - body.size());
   auto header = read_header(body);
   if (header.format == Format::none) return diag.report(Diag::unknown_format, whole, describe_bytes(body)), nullptr;
+  if (header.format == Format::gltf) return parse_gltf(body, base, path, options, diag);
   if (first_line(trim(body)).starts_with("#Inventor") && contains_nocase(first_line(trim(body)), "binary"))
     return diag.report(Diag::unsupported_format, first, "Inventor's binary form"), nullptr;
   const bool old = header.format == Format::vrml1, xml = header.format == Format::x3d_xml, classic = header.format == Format::x3d_classic;
@@ -146,7 +157,7 @@ std::unique_ptr<World> world_of_patches(const FileText& file, Diagnostics& diag)
 }  // namespace
 
 std::unique_ptr<World> parse_world(const FileText& file, const ReadOptions& options, Diagnostics& diag) {
-  auto world = is_patch_file(file.view()) ? world_of_patches(file, diag) : parse_text(file.view(), file.base, options, diag);
+  auto world = is_patch_file(file.view()) ? world_of_patches(file, diag) : parse_text(file.view(), file.base, file.name == standard_input_name ? std::string() : file.name, options, diag);
   if (world) world->gzip = file.gzip, world->bytes = file.bytes_on_disk;
   return world;
 }
@@ -155,7 +166,7 @@ std::unique_ptr<World> parse_world(std::string_view text, std::string name, cons
   auto kept = std::make_shared<std::string>(text);
   auto base = diag.sources().add(std::move(name), text.size(), [kept] { return Sources::Loaded{*kept, kept}; });
   if (base == Span::nowhere) return diag.report(Diag::too_large, {}, "the text", "4 GiB", text.size()), nullptr;
-  auto world = parse_text(*kept, base, options, diag);
+  auto world = parse_text(*kept, base, {}, options, diag);
   if (world) world->bytes = text.size();
   return world;
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "parsers/read_file.h"
 #include "scenegraph/builder.h"
@@ -13,6 +14,7 @@ namespace wrlkit {
 struct ReadOptions {
   ReadLimits limits;
   ParseLimits parse;
+  std::vector<std::string> allowed = {};  // folders beside the world's own that its buffers may lie in (glTF)
 };
 
 /// What a text is by its first bytes; the file's name does not matter. none: no world.

@@ -191,7 +191,7 @@ MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOp
   return [this, tail, &scene, &ctx, state](NodeId n) -> const Mesh& {
     MeshJob job{scene, n, state->mesh, state->scratch, ctx, n.value < state->textured.size() && state->textured[n.value] != 0};
     read_mesh(job);
-    for (std::size_t i = tail; i < steps_.size(); ++i) steps_[i].pass->run(job);
+    for (std::size_t i = tail; i < steps_.size(); ++i) state->mesh.cut.clear(), steps_[i].pass->run(job);
     return state->mesh;
   };
 }

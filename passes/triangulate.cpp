@@ -108,7 +108,12 @@ void Triangulation::cut_faces(std::size_t most) {
   sources_.resize(3 * most);
   out_ = sources_.data();
   const auto& begin = mesh_.face_begin;
-  for (std::size_t f = 0; f + 1 < begin.size(); ++f) cut_face(begin[f], begin[f + 1] - begin[f]);
+  mesh_.cut.resize(begin.size() - 1);
+  for (std::size_t f = 0; f + 1 < begin.size(); ++f) {
+    const auto* before = out_;
+    cut_face(begin[f], begin[f + 1] - begin[f]);
+    mesh_.cut[f] = static_cast<std::uint32_t>((out_ - before) / 3);
+  }
   gather();
   mesh_.face_begin.clear();
 }

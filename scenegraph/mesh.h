@@ -71,6 +71,8 @@ struct Mesh {
   std::vector<std::uint32_t> corners;    // position of each corner; of points: one corner each
   std::vector<std::uint32_t> face_begin; // first corner of each face or polyline, and the end; n + 1. Empty: triangles
                                          // (kind faces), segments (kind lines) or single corners (kind points)
+  std::vector<std::uint32_t> cut;        // how many triangles each face became that was cut, in order; empty: none was, or
+                                         // a pass has changed them since
   Attribute normal{3}, color{3}, texcoord{2};
   Attribute lightcoord{2};               // places in a lightmap
 
@@ -93,7 +95,7 @@ struct Mesh {
   /// Back to nothing; memory is kept, so that one Mesh can serve a million shapes.
   void clear() {
     kind = Kind::none;
-    positions.clear(); corners.clear(); face_begin.clear();
+    positions.clear(); corners.clear(); face_begin.clear(); cut.clear();
     for (Attribute* a : attributes()) a->clear();
     color.width = 3;
     ccw = solid = convex = true;

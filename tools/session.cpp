@@ -58,7 +58,7 @@ World* Session::read(const std::string& path, const FileText& file) {
   world_.reset();
   resources_ = std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = flags_.allow_paths}, parse_inlined);
   context_.resources = resources_.get();
-  world_ = parse_world(file, {}, diag_);
+  world_ = parse_world(file, {.allowed = flags_.allow_paths}, diag_);
   if (world_) {
     place(world_->scene);
     resources_->set_root({std::shared_ptr<const Scene>{}, &world_->scene});

@@ -84,19 +84,21 @@ class Writer {
         extras_(scene, diag),
         materials_(scene, textures_, options.extras ? &extras_ : nullptr, options.lightmaps),
         meshes_(scene, source, store_, options.lightmaps != GltfOptions::Lightmaps::base_color, diag),
-        hierarchy_(scene, options, meshes_, materials_, options.extras ? &extras_ : nullptr, diag) {}
+        animations_(scene, options.animations, diag),
+        hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag) {}
 
   bool write() {
     Files files(diag_);
     if (!files.open(path_)) return false;
     hierarchy_.build();
+    animations_.store(store_, [&](std::uint32_t node) { return hierarchy_.offset(node); });
     if (store_.full()) return report_too_large(store_.bytes(), diag_);
     bool inside = options_.images == GltfOptions::Images::embedded ||
                   (options_.images == GltfOptions::Images::automatic && options_.binary);
     static const std::vector<Picture> no_pictures;
     Layout layout(store_, inside ? textures_.pictures() : no_pictures);
     Parts parts{scene_,     hierarchy_, meshes_, store_,
-                materials_, textures_,  layout,  options_.extras ? &extras_ : nullptr,
+                materials_, textures_,  layout,  animations_, options_.extras ? &extras_ : nullptr,
                 {},         {}};
     if (!inside && !pictures_beside(parts, files)) return false;
     bool written = options_.binary ? glb(parts, files) : gltf(parts, files);
@@ -168,6 +170,7 @@ class Writer {
   Store store_;
   Materials materials_;
   Meshes meshes_;
+  Animations animations_;
   Hierarchy hierarchy_;
 };
 

@@ -1,6 +1,6 @@
 // A scene as glTF 2.0. What becomes of each node type is written in the headers that this one names: gltf_hierarchy
 // (grouping nodes, LOD, Switch), gltf_transform, gltf_meshes, gltf_materials, gltf_textures, gltf_texture_transform,
-// gltf_lights, gltf_cameras, gltf_origin (large coordinates), gltf_extras (everything else).
+// gltf_lights, gltf_cameras, gltf_animations, gltf_origin (large coordinates), gltf_extras (everything else).
 #pragma once
 #include <string>
 
@@ -21,7 +21,7 @@ struct GltfOptions {
   bool binary = true;                 // .glb; false: .gltf with a .bin beside it
   Images images = Images::automatic;  // in the binary part, or files beside; automatic: as `binary`
   Lightmaps lightmaps = Lightmaps::base_color;
-  bool lights = true, cameras = true;
+  bool lights = true, cameras = true, animations = true;
   bool extras = true;                  // what glTF cannot say is kept
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
 };

@@ -5,6 +5,7 @@
 
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -54,10 +55,35 @@ void array(JsonOut& json, std::span<const T> values) {
 
 }  // namespace
 
-bool Extras::implied(NodeId n) const {
-  constexpr TypeId types[] = {nodes::Group,      nodes::Transform,        nodes::Shape,    nodes::Viewpoint, nodes::OrthoViewpoint,
-                              nodes::PointLight, nodes::DirectionalLight, nodes::SpotLight};
-  return std::ranges::find(types, scene_.type_id(n)) != std::end(types);
+Extras::Extras(const Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag), marks_(scene.node_count(), 0) {
+  name_what_is_referred_to();
+}
+
+/// Names that a ROUTE or a Script uses must be unique in the file, as there are no scopes left.
+void Extras::name_what_is_referred_to() {
+  std::vector<NodeId> referred;
+  for (const Route& r : scene_.main.routes) {
+    for (NodeId n : {r.from, r.to}) marks_[n.value] |= routed, referred.push_back(n);
+  }
+  for (NodeId n : all_nodes(scene_))
+    if (scene_.type(n).kind == NodeKind::script) for_each_child(scene_, n, [&](NodeId held) { referred.push_back(held); });
+  if (referred.empty()) return;
+  std::unordered_map<std::string, std::size_t> times;
+  for (NodeId n : reachable(scene_, scene_.main)) ++times[std::string(scene_.name(n))];
+  std::size_t count = 0;
+  for (NodeId n : referred) {
+    std::string name(scene_.name(n));
+    if ((!name.empty() && times[name] <= 1) || given_.contains(n.value)) continue;
+    std::string fresh;
+    do fresh = (name.empty() ? "_" : name + "_") + std::to_string(++count);
+    while (times.contains(fresh));
+    given_[n.value] = fresh;
+  }
+}
+
+std::string_view Extras::name(NodeId n) const {
+  auto i = body_ ? given_.end() : given_.find(n.value);
+  return i == given_.end() ? scene_.name(n) : std::string_view(i->second);
 }
 
 Extras::Said Extras::said_by_node(NodeId n, bool plain_transform) const {
@@ -83,6 +109,7 @@ Extras::Said Extras::said_by_node(NodeId n, bool plain_transform) const {
       {SpotLight, {spot_light::location.slot, spot_light::direction.slot}, 2},
   };
   if (scene_.is(n, Transform)) return Said(transform_slots, plain_transform ? 4 : 1);
+  if (scene_.is(n, Shape) && !shown(n)) return {};
   for (const Row& r : rows)
     if (scene_.is(n, r.type)) return Said(r.slots).first(r.n);
   return {};
@@ -107,18 +134,69 @@ void Extras::member(JsonOut& json, NodeId n, Said said) {
   json.end_object();
 }
 
-void Extras::vrml97(JsonOut& json, NodeId n, Said said) {
+void Extras::vrml97(JsonOut& json, NodeId n, Said said, bool with_name) {
   json.key("vrml97");
   json.begin_object();
-  node(json, n, said);
+  node(json, n, said, with_name);
   json.end_object();
 }
 
-void Extras::node(JsonOut& json, NodeId n, Said said) {
+/// Slots of a geometry whose values its vertices, indices and material say.
+Extras::Said Extras::said_by_vertices(NodeId n) const {
+  using namespace nodes;
+  static constexpr std::uint16_t faces[] = {indexed_face_set::colorIndex.slot, indexed_face_set::coordIndex.slot, indexed_face_set::normalIndex.slot,
+                                            indexed_face_set::texCoordIndex.slot, indexed_face_set::ccw.slot, indexed_face_set::solid.slot};
+  static constexpr std::uint16_t lines[] = {indexed_line_set::colorIndex.slot, indexed_line_set::coordIndex.slot, indexed_line_set::colorPerVertex.slot};
+  return scene_.is(n, IndexedFaceSet) ? Said(faces) : scene_.is(n, IndexedLineSet) ? Said(lines) : Said();
+}
+
+/// Points and colours are in the vertices whether or not the file gave them a name; normals and texture coordinates of the
+/// vertices may be made from creaseAngle and the bounding box.
+bool Extras::adds_to_vertices(NodeId n, const Value& v) const {
+  if (!speaks(n, v, said_by_vertices(n))) return false;
+  if (scene_.is_extra(v) || info(v.type).element != Element::node) return true;
+  const auto field = scene_.type(n).fields[v.slot].name;
+  return !v.node_span().empty() && ((field != "coord" && field != "color") || !name(v.node).empty());
+}
+
+bool Extras::geometry_says_more(NodeId n) const {
+  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return adds_to_vertices(n, v); });
+}
+
+void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> polygons) {
+  json.key("extras");
+  json.begin_object();
+  json.key("vrml97");
+  json.begin_object();
+  if (geometry_says_more(n)) {
+    json.key(scene_.type(n).name);
+    json.begin_object();
+    for (const Value& v : scene_.fields(n))
+      if (adds_to_vertices(n, v)) geometry_field(json, n, v);
+    json.end_object();
+  }
+  if (!polygons.empty()) json.member("polygons", polygons);
+  json.end_object();
+  json.end_object();
+}
+
+void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {
+  json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
+  if (scene_.is_extra(v) || info(v.type).element != Element::node || info(v.type).multiple) return value(json, scene_.content(v), 0);
+  json.begin_object();
+  json.key(scene_.type(v.node).name);
+  json.begin_object();
+  if (auto def = name(v.node); !def.empty()) json.member("DEF", def);
+  json.end_object();
+  json.end_object();
+}
+
+void Extras::node(JsonOut& json, NodeId n, Said said, bool with_name) {
   bool again = marks_[n.value] & told;
   marks_[n.value] |= told;
   json.key(scene_.type(n).name);
   json.begin_object();
+  if (with_name) json.member("DEF", name(n));
   fields(json, n, said, 0, again);
   json.end_object();
 }
@@ -144,7 +222,8 @@ void Extras::interface(JsonOut& json, const NodeType& t, NodeId n, std::size_t d
     json.value(word(f.access));
     json.value(info(f.type).name);
     json.value(f.name_in(Dialect::vrml97));
-    if (f.has_value()) value(json, n ? scene_.value(n, static_cast<std::uint16_t>(i)) : f.default_value, depth);
+    const Value* given = n ? scene_.find(n, static_cast<std::uint16_t>(i)) : nullptr;
+    if (f.has_value() || (given && given->is)) value(json, given ? *given : f.default_value, depth);
     json.end_array();
   }
   json.end_array();
@@ -169,6 +248,7 @@ void Extras::protos(JsonOut& json, std::span<const ProtoId> declared) {
 
 void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in) {
   const auto& type = scene_.type(p.type);
+  body_.emplace();
   json.begin_object();
   json.member(p.external ? "EXTERNPROTO" : "PROTO", type.name);
   if (in) json.member("in", *in);
@@ -185,13 +265,14 @@ void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in)
   list("body", p.body.roots, [&](NodeId n) { reference(json, n, 0); });
   list("routes", p.body.routes, [&](const Route& r) { route(json, r); });
   json.end_object();
+  body_.reset();
 }
 
 void Extras::route(JsonOut& json, const Route& r) const {
   std::string s;
-  (s += scene_.name(r.from)) += '.';
+  (s += name(r.from)) += '.';
   (s += r.event_out) += " TO ";
-  (s += scene_.name(r.to)) += '.';
+  (s += name(r.to)) += '.';
   json.value(s += r.event_in);
 }
 
@@ -221,7 +302,7 @@ void Extras::value(JsonOut& json, const Value& v, std::size_t depth) {
 }
 
 void Extras::reference(JsonOut& json, NodeId n, std::size_t depth) {
-  bool nameless_child = n && is_placed(n) && scene_.name(n).empty();
+  bool nameless_child = n && !body_ && is_placed(n) && name(n).empty();
   if (!n || nameless_child || too_much(n, depth)) return json.raw("null");
   json.begin_object();
   json.key(scene_.type(n).name);
@@ -232,10 +313,11 @@ void Extras::reference(JsonOut& json, NodeId n, std::size_t depth) {
 }
 
 void Extras::content(JsonOut& json, NodeId n, std::size_t depth) {
-  auto name = scene_.name(n);
-  if (!name.empty() && marks_[n.value] & (placed | written)) return json.member("USE", name);
-  if (!name.empty()) json.member("DEF", name);
-  marks_[n.value] |= written;
+  auto def = name(n);
+  const bool known = body_ ? !body_->insert(n.value).second : (marks_[n.value] & (placed | written)) != 0;
+  if (!def.empty() && known) return json.member("USE", def);
+  if (!def.empty()) json.member("DEF", def);
+  if (!body_) marks_[n.value] |= written;
   ++n_written_;
   fields(json, n, {}, depth + 1);
 }

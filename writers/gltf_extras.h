@@ -8,8 +8,16 @@
 // prototype declares is listed under "interface" as [access, type, name, value], text that was kept as it is under
 // "verbatim". Long fields of a node that is there several times are written only with the first. All prototypes are in one
 // list; "in" is the index of the one that a prototype is declared in.
+//
+// {} marks a node of glTF that VRML needs not, {"USE": n} one that is the node which stands at n of the file's nodes once
+// more. A type without fields, {"Group": {}}, is there where a reader would take another one: a node of glTF that shows a
+// mesh and is not moved reads as a Shape, moved as a Transform with a Shape; without a mesh as a Transform, or if it is
+// not moved a Group. What can be reached by a ROUTE or held by a Script gets a name of its own where it has none.
 #pragma once
 #include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "scenegraph/diagnostics.h"
@@ -26,28 +34,40 @@ class Extras {
   /// Of nodes inside each other. Each is three levels of JSON, and some readers refuse more than 128 of these (serde_json).
   static constexpr std::size_t max_depth = 32;
 
-  Extras(const Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag), marks_(scene.node_count(), 0) {}
+  Extras(const Scene& scene, Diagnostics& diag);
+
+  /// DEF name, or the one that was given to what a ROUTE or Script refers to.
+  std::string_view name(NodeId n) const;
+  /// Can events reach it?
+  bool is_routed(NodeId n) const { return marks_[n.value] & routed; }
 
   /// A node that glTF has a place for: in fields of others it is only referred to.
   void set_placed(NodeId n) { marks_[n.value] |= placed; }
   bool is_placed(NodeId n) const { return marks_[n.value] & placed; }
+  /// A Shape whose geometry is a mesh.
+  void set_shown(NodeId n) { marks_[n.value] |= shown_mark; }
 
   /// Is there a field beside those?
   bool anything(NodeId n, Said said) const;
-  /// Does the node say more than its node of glTF does? Groups, Transforms, Shapes, Viewpoints and lights do not by
-  /// being one.
-  bool says_more(NodeId n, bool plain_transform = true) const {
-    return !implied(n) || anything(n, said_by_node(n, plain_transform));
+  /// Does the node say more than its node of glTF, which reads as one of type `implied`?
+  bool says_more(NodeId n, TypeId implied, bool plain_transform = true) const {
+    return !scene_.is(n, implied) || anything(n, said_by_node(n, plain_transform));
   }
   /// What a node of glTF says of one of VRML. `plain_transform`: its transform is that of the fields, see
   /// NodeTransform.
   Said said_by_node(NodeId n, bool plain_transform) const;
   /// The member Type: {fields} of an object.
-  void node(JsonOut&, NodeId, Said);
-  /// The member vrml97: {Type: {fields}} of an object.
-  void vrml97(JsonOut&, NodeId, Said said);
+  void node(JsonOut&, NodeId, Said, bool with_name = false);
+  /// The member vrml97: {Type: {fields}} of an object; `with_name`: its DEF name among them.
+  void vrml97(JsonOut&, NodeId, Said said, bool with_name = false);
   /// The member extras: {vrml97: ...} of an object.
   void member(JsonOut&, NodeId, Said said);
+  /// The member vrml97: {Type: {fields}, polygons}: what the vertices of an IndexedFaceSet, IndexedLineSet or PointSet do
+  /// not tell. A node in a field only says that it was there, and its name. `polygons` are pairs: so many triangles are
+  /// one polygon, so often.
+  void geometry(JsonOut&, NodeId, std::span<const std::uint32_t> polygons);
+  /// Is there anything of that?
+  bool geometry_says_more(NodeId) const;
   /// The member protos of an object: declarations, and those in their bodies behind them. Each is {PROTO: name, in,
   /// interface, body, routes} or {EXTERNPROTO: name, in, interface, url}.
   void protos(JsonOut&, std::span<const ProtoId>);
@@ -58,9 +78,15 @@ class Extras {
   enum Mark : std::uint8_t {
     placed = 1,   // it has a node of glTF
     written = 2,  // it is in a field of another
-    told = 4      // its own extras are written
+    told = 4,     // its own extras are written
+    routed = 8,
+    shown_mark = 16
   };
-  bool implied(NodeId) const;
+  bool shown(NodeId n) const { return marks_[n.value] & shown_mark; }
+  void name_what_is_referred_to();
+  Said said_by_vertices(NodeId geometry) const;
+  bool adds_to_vertices(NodeId geometry, const Value&) const;
+  void geometry_field(JsonOut&, NodeId, const Value&);
   bool speaks(NodeId, const Value&, Said) const;
   void fields(JsonOut&, NodeId, Said, std::size_t depth, bool only_short = false);
   void interface(JsonOut&, const NodeType&, NodeId, std::size_t depth);
@@ -73,7 +99,9 @@ class Extras {
   const Scene& scene_;
   Diagnostics& diag_;
   std::vector<std::uint8_t> marks_;
+  std::unordered_map<std::uint32_t, std::string> given_;
   std::size_t n_written_ = 0;
+  std::optional<std::unordered_set<std::uint32_t>> body_;  // nodes of the prototype that is written: names are its own there
 };
 
 }  // namespace wrlkit::gltf

@@ -38,11 +38,12 @@ std::vector<double> screen_coverage(std::span<const double> range, double radius
 }  // namespace
 
 Hierarchy::Hierarchy(const Scene& scene, const GltfOptions& options, Meshes& meshes, Materials& materials,
-                     Extras* extras, Diagnostics& diag)
+                     Animations& animations, Extras* extras, Diagnostics& diag)
     : scene_(scene),
       options_(options),
       meshes_(meshes),
       materials_(materials),
+      animations_(animations),
       extras_(extras),
       diag_(diag),
       visited_(scene.node_count(), 0) {}
@@ -88,20 +89,32 @@ void Hierarchy::visit(NodeId n) {
     case Kind::group:
       return enter(n);
     case Kind::shape:
-      return built_.push_back(shape(n));
+      built_.push_back(shape(n));
+      break;
     case Kind::light:
-      return built_.push_back(light(n));
+      built_.push_back(light(n));
+      break;
     case Kind::viewpoint:
-      return built_.push_back(viewpoint(n));
+      built_.push_back(viewpoint(n));
+      break;
     case Kind::other:
     case Kind::not_known:
-      return built_.push_back(other(n));
+      built_.push_back(other(n));
   }
+  set_same(built_.back());
+}
+
+/// Notes which node this one is once more; what lies in it need not be said.
+void Hierarchy::set_same(std::uint32_t id) {
+  Node& n = nodes_[id];
+  auto [at, is_new] = became_.try_emplace(n.source.value, id);
+  if (!is_new && !frames_.back().again) n.same_as = at->second;
 }
 
 void Hierarchy::enter(NodeId n) {
   if (first_visit(n)) report_group(n);
   Frame f{.node = n, .first_built = built_.size(), .world = frames_.back().world};
+  f.again = frames_.back().again || became_.contains(n.value);
   f.children = scene_.is(n, nodes::LOD) ? hierarchy_children(scene_, n) : shown_children(scene_, n);
   if (scene_.is(n, nodes::Transform)) {
     f.local = node_transform(scene_, n);
@@ -148,6 +161,7 @@ void Hierarchy::leave() {
   auto id = group(f);
   built_.resize(f.first_built);
   built_.push_back(id);
+  set_same(id);
   Frame& parent = frames_.back();
   bool coarse_level = scene_.is(parent.node, nodes::LOD) && parent.next > 1;
   if (!coarse_level) parent.box.add(f.box);
@@ -160,26 +174,66 @@ std::uint32_t Hierarchy::group(const Frame& f) {
     make_lod(f);
     children = children.first(1);
   }
+  if (turns_about_a_center(f.node)) return turning(f, children);
   Node node{.source = f.node, .plain = f.local.plain};
   if (!f.local.inner) {
-    node.transform = add_transform(f.local.outer);
-    return add(node, children);
+    node.transform = add_transform(f.local.outer, animations_.moves(f.node));
+    auto id = add(node, children);
+    return add_targets(f.node, id, id, id), id;
   }
   auto inner = add({.transform = add_transform(*f.local.inner)}, children);
   node.transform = add_transform(f.local.outer);
-  return add(node, {&inner, 1});
+  auto id = add(node, {&inner, 1});
+  return add_targets(f.node, id, id, id), id;
+}
+
+bool Hierarchy::turns_about_a_center(NodeId n) const {
+  namespace t = nodes::transform;
+  if (!scene_.is(n, nodes::Transform) || (!animations_.moves(n, Path::rotation) && !animations_.moves(n, Path::scale))) return false;
+  return scene_.get(n, t::center) != Vec3{0, 0, 0} || !quaternion(scene_.get(n, t::scaleOrientation)).identity();
+}
+
+/// T, then C R, then SR S, then -SR -C.
+std::uint32_t Hierarchy::turning(const Frame& f, std::span<const std::uint32_t> children) {
+  namespace t = nodes::transform;
+  const Vec3 c = scene_.get(f.node, t::center);
+  const Quaternion sr = quaternion(scene_.get(f.node, t::scaleOrientation)), back = inverse(sr);
+  const std::vector<std::uint32_t> below(children.begin(), children.end());
+  auto helper = [&](const Trs& trs, std::span<const std::uint32_t> held) { return add({.transform = add_transform(trs, true)}, held); };
+  auto last = helper(placed_at(rotate(back, {-c[0], -c[1], -c[2]}), back), below);
+  auto scale = helper({{0, 0, 0}, sr, scene_.get(f.node, t::scale)}, {&last, 1});
+  auto rotation = helper({c, quaternion(scene_.get(f.node, t::rotation)), {1, 1, 1}}, {&scale, 1});
+  Node node{.source = f.node, .transform = add_transform({scene_.get(f.node, t::translation), {}, {1, 1, 1}}, true), .plain = false};
+  auto id = add(node, {&rotation, 1});
+  return add_targets(f.node, id, rotation, scale), id;
+}
+
+void Hierarchy::add_targets(NodeId source, std::uint32_t translation, std::uint32_t rotation, std::uint32_t scale) {
+  if (!animations_.moves(source)) return;
+  animations_.add_target(source, Path::translation, translation);
+  animations_.add_target(source, Path::rotation, rotation);
+  animations_.add_target(source, Path::scale, scale);
+}
+
+Vec3 Hierarchy::offset(std::uint32_t id) const {
+  const Node& n = nodes_[id];
+  if (!n.source || n.transform == none) return {0, 0, 0};
+  const Vec3 field = scene_.is(n.source, nodes::Viewpoint) ? scene_.get(n.source, nodes::viewpoint::position) : scene_.get(n.source, nodes::transform::translation);
+  const Vec3& at = transforms_[n.transform].translation;
+  return {at[0] - field[0], at[1] - field[1], at[2] - field[2]};
 }
 
 /// A lone Shape without a name and with nothing of its own to say becomes the mesh of its Transform or Group.
 std::uint32_t Hierarchy::fold(const Frame& f) {
   bool only_groups = scene_.is(f.node, nodes::Transform) || scene_.is(f.node, nodes::Group);
-  if (!only_groups || f.local.inner || built_.size() != f.first_built + 1) return none;
+  if (!only_groups || f.local.inner || turns_about_a_center(f.node) || built_.size() != f.first_built + 1) return none;
   Node& child = nodes_[built_.back()];
   bool bare = child.attachment == Attachment::mesh && child.transform == none && scene_.name(child.source).empty();
-  if (!bare || (extras_ && extras_->says_more(child.source))) return none;
+  if (!bare || (extras_ && extras_->says_more(child.source, nodes::Shape))) return none;
   child.source = f.node;
   child.plain = f.local.plain;
-  child.transform = add_transform(f.local.outer);
+  child.transform = add_transform(f.local.outer, animations_.moves(f.node));
+  add_targets(f.node, built_.back(), built_.back(), built_.back());
   return built_.back();
 }
 
@@ -198,11 +252,12 @@ std::uint32_t Hierarchy::shape(NodeId n) {
   Node node{.source = n};
   NodeId geometry_node = scene_.get(n, nodes::shape::geometry);
   if (!geometry_node) return add(node);
-  if (first_visit(geometry_node)) report_texcoords(geometry_node);
   NodeId appearance = scene_.get(n, nodes::shape::appearance);
   auto geometry = meshes_.geometry(geometry_node, materials_.has_picture(appearance));
   const Geometry& g = meshes_.geometries()[geometry];
+  if (first_visit(geometry_node, !g.empty())) report_texcoords(geometry_node);
   if (g.empty()) return add(node);
+  if (extras_) extras_->set_shown(n);
   Frame& f = frames_.back();
   bool coarse_level = scene_.is(f.node, nodes::LOD) && f.next > 1;
   if (!coarse_level) f.box.add(meshes_.bounds(g, f.world));
@@ -230,17 +285,18 @@ std::uint32_t Hierarchy::light(NodeId n) {
 
 std::uint32_t Hierarchy::viewpoint(NodeId n) {
   first_visit(n);
-  Node node{.source = n, .transform = add_transform(camera_transform(scene_, n))};
+  Node node{.source = n, .transform = add_transform(camera_transform(scene_, n), animations_.moves(n))};
   if (options_.cameras) {
     node.attachment = Attachment::camera;
     node.attached = static_cast<std::uint32_t>(cameras_.size());
     cameras_.push_back({n, position(frames_.back().world * matrix(camera_transform(scene_, n)))});
   }
-  return add(node);
+  auto id = add(node);
+  return add_targets(n, id, id, id), id;
 }
 
 std::uint32_t Hierarchy::other(NodeId n) {
-  if (first_visit(n) && !harmless(scene_, n)) add_lost(n);
+  if (first_visit(n) && !harmless(scene_, n) && !animations_.expressed(n)) add_lost(n);
   if (!navigation_info_ && scene_.is(n, nodes::NavigationInfo)) navigation_info_ = n;
   if (!world_info_ && scene_.is(n, nodes::WorldInfo)) world_info_ = n;
   return add({.source = n});
@@ -254,8 +310,8 @@ std::uint32_t Hierarchy::add(Node n, std::span<const std::uint32_t> children) {
   return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
 
-std::uint32_t Hierarchy::add_transform(const Trs& t) {
-  if (t.identity()) return none;
+std::uint32_t Hierarchy::add_transform(const Trs& t, bool always) {
+  if (t.identity() && !always) return none;
   transforms_.push_back(t);
   return static_cast<std::uint32_t>(transforms_.size() - 1);
 }
@@ -265,11 +321,11 @@ void Hierarchy::add_lost(NodeId n) {
   ++lost_[scene_.type(n).name];
 }
 
-bool Hierarchy::first_visit(NodeId n) {
+bool Hierarchy::first_visit(NodeId n, bool has_place) {
   if (visited_[n.value]) return false;
   visited_[n.value] = 1;
   report_overflow(n);
-  if (extras_) extras_->set_placed(n);
+  if (extras_ && has_place) extras_->set_placed(n);
   return true;
 }
 
@@ -326,7 +382,7 @@ void Hierarchy::report_lost() {
     if (n > 1) types += " (" + std::to_string(n) + ")";
   }
   if (!lost_.empty()) diag_.report(Diag::no_gltf_node, first_lost_, types);
-  if (!scene_.main.routes.empty()) diag_.report(Diag::no_gltf_route, {}, scene_.main.routes.size());
+  if (auto n = scene_.main.routes.size() - animations_.n_expressed_routes()) diag_.report(Diag::no_gltf_route, {}, n);
 }
 
 }  // namespace wrlkit::gltf

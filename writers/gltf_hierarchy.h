@@ -5,11 +5,15 @@
 // with extras, in their place. Of a Switch the chosen child is there, the others are in extras. Of a LOD the first
 // level is the child; the others hang on it by MSFT_lod, whose screen coverage is that of the level's bounding sphere
 // at the distances of `range`, seen with VRML's standard field of view.
+//
+// A Transform whose rotation or scale is animated while it has a center or a scaleOrientation is a chain of nodes, one for
+// each part of T C R SR S -SR -C that moves by itself.
 #pragma once
 #include <map>
 #include <unordered_map>
 
 #include "writers/gltf.h"
+#include "writers/gltf_animations.h"
 #include "writers/gltf_cameras.h"
 #include "writers/gltf_lights.h"
 #include "writers/gltf_meshes.h"
@@ -26,6 +30,7 @@ struct Node {
   Attachment attachment = Attachment::nothing;
   bool plain = true;  // the transform is what the fields of `source` say
   bool lod = false;   // has an entry in Hierarchy::lods
+  std::uint32_t same_as = none;  // the node that `source` has become before
 };
 
 struct Lod {
@@ -35,7 +40,7 @@ struct Lod {
 
 class Hierarchy {
  public:
-  Hierarchy(const Scene&, const GltfOptions&, Meshes&, Materials&, Extras*, Diagnostics&);
+  Hierarchy(const Scene&, const GltfOptions&, Meshes&, Materials&, Animations&, Extras*, Diagnostics&);
 
   /// Everything below the roots of the scene.
   void build();
@@ -51,6 +56,8 @@ class Hierarchy {
   const Lod& lod(std::uint32_t node) const { return lods_.at(node); }
   bool uses_lod() const { return !lods_.empty(); }
   const Box& world() const { return world_; }
+  /// What a node's translation is beyond the field that it comes from.
+  Vec3 offset(std::uint32_t node) const;
   /// What was subtracted from all coordinates.
   const std::optional<Vec3>& origin() const { return origin_; }
   NodeId navigation_info() const { return navigation_info_; }
@@ -66,6 +73,7 @@ class Hierarchy {
     NodeTransform local{};
     Matrix world{};  // frame of the children
     Box box{};       // of what they show
+    bool again = false;  // in something that was met before
   };
   Kind kind(NodeId);
   bool one_too_many(NodeId);
@@ -77,15 +85,20 @@ class Hierarchy {
   void leave();
   std::uint32_t group(const Frame&);
   std::uint32_t fold(const Frame&);
+  std::uint32_t turning(const Frame&, std::span<const std::uint32_t> children);
+  bool turns_about_a_center(NodeId transform) const;
   void make_lod(const Frame&);
   std::uint32_t shape(NodeId);
   std::uint32_t light(NodeId);
   std::uint32_t viewpoint(NodeId);
   std::uint32_t other(NodeId);
   std::uint32_t add(Node, std::span<const std::uint32_t> children = {});
-  std::uint32_t add_transform(const Trs&);
+  /// None for the identity, unless it must be there.
+  std::uint32_t add_transform(const Trs&, bool always = false);
+  void add_targets(NodeId source, std::uint32_t translation, std::uint32_t rotation, std::uint32_t scale);
   void add_lost(NodeId);
-  bool first_visit(NodeId);
+  bool first_visit(NodeId, bool has_place = true);
+  void set_same(std::uint32_t);
   void add_headlight();
   void move_to_origin();
   void move(std::uint32_t node, const Vec3& by, std::vector<std::uint32_t>& further);
@@ -95,6 +108,7 @@ class Hierarchy {
   const GltfOptions& options_;
   Meshes& meshes_;
   Materials& materials_;
+  Animations& animations_;
   Extras* extras_;
   Diagnostics& diag_;
 
@@ -112,6 +126,7 @@ class Hierarchy {
   std::vector<std::uint32_t> built_;  // nodes that are not yet children of their parents
   std::vector<Kind> kinds_;           // of types
   std::vector<char> visited_;
+  std::unordered_map<std::uint32_t, std::uint32_t> became_;  // of nodes of VRML, the first of glTF
   std::map<std::string_view, std::size_t> lost_;  // by type: each Script has one of its own, but one name
   Span first_lost_;
   bool full_ = false;

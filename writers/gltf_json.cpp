@@ -1,5 +1,7 @@
 #include "writers/gltf_json.h"
 
+#include "scenegraph/walk.h"
+
 namespace wrlkit::gltf {
 namespace {
 
@@ -8,7 +10,7 @@ constexpr int linear_filter = 9729, linear_mipmap_linear = 9987, repeat = 10497,
 
 /// Forms whose numbers say more than their triangles do.
 bool is_parametric(const Scene& scene, NodeId n) {
-  constexpr TypeId types[] = {nodes::Box, nodes::Cone, nodes::Cylinder, nodes::Extrusion, nodes::Sphere, nodes::Text};
+  constexpr TypeId types[] = {nodes::Box, nodes::Cone, nodes::Cylinder, nodes::ElevationGrid, nodes::Extrusion, nodes::Sphere, nodes::Text};
   return std::ranges::find(types, scene.type_id(n)) != std::end(types);
 }
 
@@ -32,6 +34,7 @@ class Writer {
     list("textures", p_.textures.textures().size(), [&](std::size_t i) { texture(p_.textures.textures()[i]); });
     list("images", p_.textures.pictures().size(), [&](std::size_t i) { image(i); });
     list("samplers", p_.textures.samplers().size(), [&](std::size_t i) { sampler(p_.textures.samplers()[i]); });
+    list("animations", p_.animations.count(), [&](std::size_t i) { p_.animations.write(json_, i); });
     list("accessors", p_.store.accessors().size(), [&](std::size_t i) { accessor(p_.store.accessors()[i]); });
     list("bufferViews", p_.layout.views().size(), [&](std::size_t i) { buffer_view(p_.layout.views()[i]); });
     list("buffers", p_.layout.size() > 0, [&](std::size_t) { buffer(); });
@@ -66,7 +69,7 @@ class Writer {
     json_.begin_object();
     json_.member("version", "2.0");
     json_.member("generator", "wrlkit");
-    if (p_.extras && (h_.world_info() || !p_.scene.comment.empty())) {
+    if (p_.extras) {
       json_.key("extras");
       json_.begin_object();
       json_.key("vrml97");
@@ -142,8 +145,11 @@ class Writer {
 
   std::string_view node_name(const Node& n) const {
     if (!n.source) return n.attachment == Attachment::light ? "headlight" : "";
-    return n.attachment == Attachment::camera ? camera_name(p_.scene, n.source) : p_.scene.name(n.source);
+    if (n.attachment == Attachment::camera) return camera_name(p_.scene, n.source);
+    return name_of(n.source);
   }
+
+  std::string_view name_of(NodeId n) const { return p_.extras ? p_.extras->name(n) : p_.scene.name(n); }
 
   void transform(const Trs& t) {
     if (t.translation != Vec3{0, 0, 0}) numbers("translation", std::span<const double>(t.translation));
@@ -172,21 +178,47 @@ class Writer {
     json_.end_object();
   }
 
+  /// The type that a reader takes a node for.
+  TypeId implied(const Node& n) const {
+    const bool stays = n.transform == none || h_.transforms()[n.transform].identity();
+    switch (n.attachment) {
+      case Attachment::mesh: return stays ? nodes::Shape : nodes::Transform;
+      case Attachment::camera: return nodes::Viewpoint;
+      case Attachment::light: return n.source ? p_.scene.type_id(n.source) : TypeId{};
+      case Attachment::nothing: break;
+    }
+    return stays ? nodes::Group : nodes::Transform;
+  }
+
   void node_extras(const Node& n, std::uint32_t id) {
-    bool vrml97 = p_.extras && n.source && p_.extras->says_more(n.source, n.plain);
+    bool vrml97 = p_.extras && (!n.source || n.same_as != none || p_.extras->says_more(n.source, implied(n), n.plain) || named_as_described(n));
     bool coverage = n.lod && !h_.lod(id).coverage.empty();
     if (!vrml97 && !coverage) return;
     json_.key("extras");
     json_.begin_object();
     if (coverage) numbers("MSFT_screencoverage", std::span(h_.lod(id).coverage));
-    if (vrml97) p_.extras->vrml97(json_, n.source, p_.extras->said_by_node(n.source, n.plain));
+    if (vrml97 && (!n.source || n.same_as != none)) {
+      json_.key("vrml97");
+      json_.begin_object();
+      if (n.source) json_.member("USE", n.same_as);
+      json_.end_object();
+    } else if (vrml97) {
+      p_.extras->vrml97(json_, n.source, p_.extras->said_by_node(n.source, n.plain), named_as_described(n));
+    }
     json_.end_object();
+  }
+
+  /// A Viewpoint without a name has its description as that of its node: one that has both says so.
+  bool named_as_described(const Node& n) const {
+    if (n.attachment != Attachment::camera || !p_.scene.is(n.source, nodes::Viewpoint)) return false;
+    auto name = p_.scene.name(n.source);
+    return !name.empty() && name == p_.scene.get(n.source, nodes::viewpoint::description);
   }
 
   void mesh(const MeshRecord& m) {
     const Geometry& g = p_.meshes.geometries()[m.geometry];
     json_.begin_object();
-    if (auto name = p_.scene.name(g.source); !name.empty()) json_.member("name", name);
+    if (auto name = name_of(g.source); !name.empty()) json_.member("name", name);
     json_.key("primitives");
     json_.begin_array();
     json_.begin_object();
@@ -204,13 +236,25 @@ class Writer {
     if (g.mode != Mode::triangles) json_.member("mode", static_cast<int>(g.mode));
     json_.end_object();
     json_.end_array();
-    if (p_.extras && is_parametric(p_.scene, g.source)) p_.extras->member(json_, g.source, {});
+    if (p_.extras) mesh_extras(g);
     json_.end_object();
+  }
+
+  void mesh_extras(const Geometry& g) {
+    if (is_parametric(p_.scene, g.source) || points_move(g.source)) p_.extras->member(json_, g.source, {});
+    else if (!g.polygons.empty() || p_.extras->geometry_says_more(g.source)) p_.extras->geometry(json_, g.source, g.polygons);
+  }
+
+  /// The order of points that events replace matters.
+  bool points_move(NodeId geometry) const {
+    bool moves = p_.extras->is_routed(geometry);
+    for_each_child(p_.scene, geometry, [&](NodeId n) { moves |= p_.extras->is_routed(n); });
+    return moves;
   }
 
   void texture(const Texture& t) {
     json_.begin_object();
-    if (auto name = p_.scene.name(t.source); !name.empty()) json_.member("name", name);
+    if (auto name = name_of(t.source); !name.empty()) json_.member("name", name);
     json_.member("sampler", t.sampler);
     json_.member("source", t.picture);
     if (p_.extras) p_.extras->member(json_, t.source, said_by_texture(p_.scene, t.source));
@@ -248,8 +292,10 @@ class Writer {
     json_.member("count", a.count);
     json_.member("type", type.type);
     if (a.bounds != none) {
-      numbers("max", std::span<const float>(p_.store.bounds()[a.bounds].high));
-      numbers("min", std::span<const float>(p_.store.bounds()[a.bounds].low));
+      const auto& b = p_.store.bounds()[a.bounds];
+      const std::size_t n = a.view == View::time ? 1 : 3;
+      numbers("max", std::span<const float>(b.high).first(n));
+      numbers("min", std::span<const float>(b.low).first(n));
     }
     json_.end_object();
   }
@@ -262,7 +308,7 @@ class Writer {
     if (v.picture == none) {
       const auto& type = info(v.view);
       if (type.vertices) json_.member("byteStride", type.element);
-      json_.member("target", type.vertices ? array_buffer : element_array_buffer);
+      if (type.vertices || type.indices) json_.member("target", type.vertices ? array_buffer : element_array_buffer);
     }
     json_.end_object();
   }

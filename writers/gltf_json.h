@@ -17,6 +17,7 @@ struct Parts {
   const Materials& materials;
   const Textures& textures;
   const Layout& layout;
+  const Animations& animations;
   Extras* extras;                         // none: without
   std::string buffer_uri;                 // none: the buffer is that of a GLB
   std::vector<std::string> picture_uris;  // of those that are not inside

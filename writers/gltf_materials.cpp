@@ -169,9 +169,8 @@ std::string Materials::json(const Look& l) {
   std::string text;
   JsonOut json(text);
   json.begin_object();
-  auto name = l.material && !scene_.name(l.material).empty() ? scene_.name(l.material)
-              : l.appearance                                 ? scene_.name(l.appearance)
-                                                             : std::string_view{};
+  auto name_of = [&](NodeId n) { return !n ? std::string_view{} : extras_ ? extras_->name(n) : scene_.name(n); };
+  auto name = name_of(l.material).empty() ? name_of(l.appearance) : name_of(l.material);
   if (!name.empty()) json.member("name", name);
   pbr(json, l);
   if (l.normal != none && l.lit) texture_info(json, l, "normalTexture", l.normal, "scale", l.normal_scale);
@@ -230,8 +229,12 @@ void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name
   json.begin_object();
   if (value != 1) json.member(factor, static_cast<float>(value));
   texture_info_members(json, texture, 0, l.uv);
-  if (extras_ && l.transform_node && extras_->anything(l.transform_node, {}))
-    extras_->member(json, l.transform_node, {});
+  if (extras_ && l.transform_node) {
+    json.key("extras");
+    json.begin_object();
+    extras_->vrml97(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());
+    json.end_object();
+  }
   json.end_object();
 }
 
@@ -269,7 +272,9 @@ void Materials::light_extras(JsonOut& json, const Look& l) {
 /// What glTF has said of a Material.
 std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
   std::vector<std::uint16_t> said{m::diffuseTexture.slot, m::normalTexture.slot, m::emissiveTexture.slot, m::occlusionTexture.slot, m::normalScale.slot, m::occlusionStrength.slot};
-  if (l.surface.faces && !l.surface.color && l.texture.channels < 3 && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
+  // White with a picture could be either: a white material, or one that the picture replaces.
+  const bool one_color = l.surface.faces && !l.surface.color && l.texture.channels < 3 && (l.texture.texture == none || l.base != white);
+  if (one_color && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
   if (!replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
   if (l.texture.channels % 2 == 1 || l.texture.channels == 0) said.push_back(m::transparency.slot);
   return said;
@@ -287,19 +292,25 @@ std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
 void Materials::extras(JsonOut& json, const Look& l) {
   std::vector<std::uint16_t> said;
   if (l.material) said = scene_.is(l.material, nodes::Material) ? said_by_vrml97(l) : said_by_x3d(l);
-  bool material = extras_ && l.material && extras_->anything(l.material, said);
+  // White and unlit is what a Shape without a Material is, too.
+  bool material = extras_ && l.material && (extras_->anything(l.material, said) || (!l.lit && l.base == white && l.alpha == 1));
+  bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
   bool picture = extras_ && l.texture_node && l.texture.texture == none;
+  bool transform = extras_ && l.transform_node && l.texture.texture == none;
   bool light = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::extras;
-  if (!material && !picture && !light) return;
+  for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
+    if (n && extras_) extras_->set_placed(n);
+  if (!material && !picture && !named && !transform && !light) return;
   json.key("extras");
   json.begin_object();
   if (light) light_extras(json, l);
-  if (material || picture) {
+  if (material || picture || named || transform) {
     json.key("vrml97");
     json.begin_object();
+    if (named) json.key("Appearance"), json.begin_object(), json.member("DEF", extras_->name(l.appearance)), json.end_object();
     if (material) extras_->node(json, l.material, said);
-    if (picture) extras_->node(json, l.texture_node, {});
-    if (picture && l.transform_node) extras_->node(json, l.transform_node, {});
+    if (picture) extras_->node(json, l.texture_node, {}, !extras_->name(l.texture_node).empty());
+    if (transform) extras_->node(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());
     json.end_object();
   }
   json.end_object();

@@ -17,6 +17,19 @@ bool counts_up(std::span<const std::uint32_t> index, std::size_t n_vertices) {
   return true;
 }
 
+/// Of the faces that triangles were cut from: how many triangles, how often in a row.
+std::vector<std::uint32_t> runs(const Mesh& mesh) {
+  std::vector<std::uint32_t> out;
+  bool polygons = false;
+  for (auto n : mesh.cut) {
+    if (n == 0) continue;
+    polygons |= n > 1;
+    if (!out.empty() && out[out.size() - 2] == n) ++out.back();
+    else out.insert(out.end(), {n, 1});
+  }
+  return polygons ? out : std::vector<std::uint32_t>{};
+}
+
 }  // namespace
 
 std::uint32_t Meshes::geometry(NodeId n, bool picture) {
@@ -49,6 +62,7 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
     diag_.report(Diag::float_overflow, scene_.where(n),
                  std::string(scene_.type(n).name) + " (" + std::to_string(v.n_not_finite) + " numbers)");
   if (v.index.empty()) return g;
+  if (scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size()) g.polygons = runs(mesh);
   g.origin = move_near_origin(mesh, texcoords);
   std::uint32_t positions = store_.positions(v.position, {v.min, v.max});
   if (!v.normal.empty()) g.normals = store_.vertices(View::normal, v.normal);

@@ -22,6 +22,7 @@ struct Geometry {
   Mode mode = Mode::triangles;
   bool double_sided = false;
   bool opacity = false;  // its colours have one
+  std::vector<std::uint32_t> polygons;  // pairs: so many triangles were one face, so often; empty: all faces are triangles
 
   bool empty() const { return positions == none; }
   SurfaceKind surface() const { return {mode == Mode::triangles, colors != none, texcoords != none, lightcoords != none, double_sided, opacity}; }

@@ -12,10 +12,11 @@ constexpr std::size_t max_vertices_16 = 65535;
 }  // namespace
 
 const ViewInfo& info(View v) {
-  static constexpr ViewInfo table[n_views] = {{12, float_, true, "VEC3"},        {12, float_, true, "VEC3"},
-                                              {12, float_, true, "VEC3"},        {16, float_, true, "VEC4"},
-                                              {8, float_, true, "VEC2"},         {2, unsigned_short, false, "SCALAR"},
-                                              {4, unsigned_int, false, "SCALAR"}};
+  static constexpr ViewInfo table[n_views] = {
+      {12, float_, true, false, "VEC3"}, {12, float_, true, false, "VEC3"}, {12, float_, true, false, "VEC3"},
+      {16, float_, true, false, "VEC4"}, {8, float_, true, false, "VEC2"}, {2, unsigned_short, false, true, "SCALAR"},
+      {4, unsigned_int, false, true, "SCALAR"}, {4, float_, false, false, "SCALAR"}, {12, float_, false, false, "VEC3"},
+      {16, float_, false, false, "VEC4"}};
   return table[static_cast<std::size_t>(v)];
 }
 
@@ -24,6 +25,15 @@ std::uint32_t Store::positions(std::span<const float> values, const Bounds& boun
   if (a != none && accessors_[a].bounds == none) {
     accessors_[a].bounds = static_cast<std::uint32_t>(bounds_.size());
     bounds_.push_back(bounds);
+  }
+  return a;
+}
+
+std::uint32_t Store::times(std::span<const float> values) {
+  std::uint32_t a = add(View::time, values.data(), values.size_bytes());
+  if (a != none && accessors_[a].bounds == none) {
+    accessors_[a].bounds = static_cast<std::uint32_t>(bounds_.size());
+    bounds_.push_back({{values.front(), 0, 0}, {values.back(), 0, 0}});
   }
   return a;
 }

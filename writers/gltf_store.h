@@ -14,13 +14,13 @@ namespace wrlkit::gltf {
 
 inline constexpr std::uint32_t none = 0xffffffffu;
 
-enum class View : std::uint8_t { position, normal, rgb, rgba, texcoord, index16, index32 };
-inline constexpr std::size_t n_views = 7;
+enum class View : std::uint8_t { position, normal, rgb, rgba, texcoord, index16, index32, time, moving3, moving4 };
+inline constexpr std::size_t n_views = 10;
 
 struct ViewInfo {
   std::uint8_t element;  // bytes
   std::uint16_t component_type;
-  bool vertices;  // not indices
+  bool vertices, indices;
   const char* type;
 };
 const ViewInfo& info(View);
@@ -41,6 +41,8 @@ class Store {
   /// Accessors with these values; `none` when they do not fit any more.
   std::uint32_t positions(std::span<const float>, const Bounds&);
   std::uint32_t vertices(View, std::span<const float>);
+  /// Of an animation, ascending.
+  std::uint32_t times(std::span<const float>);
   /// 16-bit indices when there are few enough vertices for them.
   std::uint32_t indices(std::span<const std::uint32_t>, std::size_t n_vertices);
 

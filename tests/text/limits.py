@@ -59,6 +59,36 @@ def world(name, *parts, rest=REST, header=HEADER):
     return make
 
 
+def gltf(name, *parts):
+    """The same for a glTF file."""
+    def make(folder):
+        path = folder / f'{name}.gltf'
+        with path.open('w') as out:
+            for part in parts:
+                write_part(out, part)
+        return path
+    return make
+
+
+def deep_gltf_nodes(n=100_000):
+    nodes = [{'children': [i + 1]} for i in range(n)] + [{}]
+    return json.dumps({'asset': {'version': '2.0'}, 'scenes': [{'nodes': [0]}], 'nodes': nodes})
+
+
+def zeros_in_gltf(n=2000):
+    """Accessors without data, of as many elements as one may have."""
+    primitives = [{'attributes': {'POSITION': i}} for i in range(n)]
+    accessors = [{'componentType': 5126, 'count': 10_000_000, 'type': 'VEC3'}] * n
+    return json.dumps({'asset': {'version': '2.0'}, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}], 'meshes': [{'primitives': primitives}], 'accessors': accessors})
+
+
+def instances_in_gltf():
+    instancing = {'EXT_mesh_gpu_instancing': {'attributes': {'TRANSLATION': 1}}}
+    accessors = [{'componentType': 5126, 'count': 3, 'type': 'VEC3'}, {'componentType': 5126, 'count': 16_000_000, 'type': 'VEC3'}]
+    return json.dumps({'asset': {'version': '2.0'}, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0, 'extensions': instancing}],
+                       'meshes': [{'primitives': [{'attributes': {'POSITION': 0}}]}], 'accessors': accessors})
+
+
 def write_part(out, part):
     if isinstance(part, str):
         return out.write(part)
@@ -243,6 +273,10 @@ CASES = [
          files({'a.wrl': 'EXTERNPROTO B [] "b.wrl#B"\nPROTO A [] { B {} }\nA {}' + REST,
                 'b.wrl': 'EXTERNPROTO A [] "a.wrl#A"\nPROTO B [] { A {} }\n'}),
          'url-cycle|proto-cycle', verbs=('info', 'convert')),
+    Case('gltf_deep', gltf('gltf_deep', '{"asset":{"version":"2.0"},"extras":', ('[', 5_000_000)), 'syntax', rest=False),
+    Case('gltf_deep_nodes', gltf('gltf_deep_nodes', deep_gltf_nodes()), 'too-deep', rest=False),
+    Case('gltf_zeros', gltf('gltf_zeros', zeros_in_gltf()), 'gltf-no-data', rest=False),
+    Case('gltf_instances', gltf('gltf_instances', instances_in_gltf()), 'gltf-no-data|expansion-limit', rest=False),
     Case('gzip_bomb', gzip_bomb, 'gzip-bomb|too-large'),
     Case('huge_index',
          world('huge_index', 'Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0 1 0 0 0 1 0 ] }',

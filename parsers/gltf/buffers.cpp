@@ -1,0 +1,102 @@
+#include "parsers/gltf/buffers.h"
+
+#include <filesystem>
+
+#include "parsers/gltf/meshopt.h"
+#include "parsers/read_file.h"
+#include "parsers/url.h"
+
+namespace wrlkit::gltf_reader {
+namespace {
+
+std::vector<std::string> folders(const std::string& path, const std::vector<std::string>& allowed) {
+  std::vector<std::string> all = allowed;
+  if (!path.empty()) all.push_back(std::filesystem::path(path).parent_path().string());
+  return all;
+}
+
+}  // namespace
+
+Buffers::Buffers(File& file, std::string path, const std::vector<std::string>& allowed)
+    : file_(file), path_(std::move(path)), files_(folders(path_, allowed)), buffers_(file.count(Table::buffers)), views_(file.count(Table::bufferViews)) {}
+
+bool Buffers::spend(std::uint64_t bytes, Json on) {
+  if (bytes <= max_bytes - spent_) return spent_ += bytes, true;
+  return file_.diag().report(Diag::too_large, file_.where(on), "the data of all buffers", readable_size(max_bytes), readable_size(bytes)), false;
+}
+
+std::optional<std::string> Buffers::load(Json buffer, std::string_view uri) {
+  auto report = [&](Diag id, auto... more) { return file_.diag().report(id, file_.where(buffer["uri"]), uri.substr(0, 100), more...), std::nullopt; };
+  if (url_kind(uri) == UrlKind::data) {
+    if (!spend(uri.size(), buffer)) return std::nullopt;
+    auto bytes = decode_data_url(uri);
+    if (!bytes) return report(Diag::url_not_found);
+    return bytes;
+  }
+  if (url_kind(uri) != UrlKind::file) return report(Diag::url_network);
+  if (path_.empty()) return report(Diag::url_not_found);
+  AllowedFiles::Result best;
+  for (auto& p : url_paths(uri))
+    if (auto r = files_.find(p, path_); r.state < best.state) best = std::move(r);
+  if (best.state == AllowedFiles::outside) return report(Diag::url_outside);
+  if (best.state == AllowedFiles::missing) return report(Diag::url_not_found);
+  if (best.state == AllowedFiles::repaired) report(Diag::url_repaired, best.path);
+  std::string why;
+  auto bytes = read_bytes(best.path, max_bytes - spent_, why);
+  if (!bytes) return file_.diag().report(Diag::cannot_read, file_.where(buffer), best.path, why), std::nullopt;
+  if (!spend(bytes->size(), buffer)) return std::nullopt;
+  return bytes;
+}
+
+std::optional<std::string_view> Buffers::buffer(std::uint32_t index) {
+  auto& b = buffers_[index];
+  if (std::exchange(b.tried, true)) return b.bytes;
+  const Json json = file_.at(Table::buffers, index), uri = json["uri"];
+  if (!uri && index == 0 && file_.is_binary()) return b.bytes = file_.binary_chunk();
+  auto loaded = uri ? load(json, uri.text()) : std::nullopt;
+  if (!uri) file_.diag().report(Diag::gltf_no_data, file_.where(json), word(Table::buffers), index, "it has no uri");
+  if (!loaded) return std::nullopt;
+  b.own = std::move(*loaded);
+  return b.bytes = b.own;
+}
+
+std::optional<std::string_view> Buffers::slice(Json of) {
+  auto index = file_.index(Table::buffers, of["buffer"]);
+  auto all = index == none ? std::nullopt : buffer(index);
+  if (!all) return std::nullopt;
+  auto offset = of["byteOffset"] ? of["byteOffset"].whole() : 0, length = of["byteLength"].whole();
+  if (!offset || !length || *offset > all->size() || *length > all->size() - *offset)
+    return file_.diag().report(Diag::gltf_outside, file_.where(of), "bufferView", "the buffer"), std::nullopt;
+  return all->substr(*offset, *length);
+}
+
+std::optional<ViewBytes> Buffers::view(std::uint32_t index) {
+  auto& v = views_[index];
+  if (std::exchange(v.tried, true)) return v.bytes;
+  return v.bytes = make_view(file_.at(Table::bufferViews, index), v);
+}
+
+std::optional<ViewBytes> Buffers::make_view(Json json, View& v) {
+  Json packed = json["extensions"]["EXT_meshopt_compression"];
+  if (!packed) packed = json["extensions"]["KHR_meshopt_compression"];
+  auto stride = json["byteStride"].whole().value_or(0);
+  if (packed) {
+    if (!unpack(packed, v)) return std::nullopt;
+    return ViewBytes{v.unpacked, stride};
+  }
+  auto bytes = slice(json);
+  return bytes ? std::optional(ViewBytes{*bytes, stride}) : std::nullopt;
+}
+
+bool Buffers::unpack(Json json, View& v) {
+  auto packed = slice(json);
+  if (!packed) return false;
+  const auto count = json["count"].whole().value_or(0), stride = json["byteStride"].whole().value_or(0);
+  // No mode packs more than 64 to 1, but for its tail: what claims more is damaged, and must not cost memory.
+  const bool likely = stride > 0 && stride <= 256 && count <= max_bytes / stride && count * stride <= 256 * (packed->size() + 256);
+  if (likely && !spend(count * stride, json)) return false;
+  if (likely && meshopt_unpack(*packed, {json["mode"].text(), json["filter"].text("NONE"), count, stride}, v.unpacked)) return true;
+  return file_.diag().report(Diag::gltf_packed, file_.where(json), "EXT_meshopt_compression"), false;
+}
+
+}  // namespace wrlkit::gltf_reader

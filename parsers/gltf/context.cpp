@@ -1,0 +1,101 @@
+#include "parsers/gltf/context.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wrlkit::gltf_reader {
+namespace {
+
+constexpr std::string_view known_extensions[] = {
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization", "KHR_texture_transform",
+    "KHR_lights_punctual", "KHR_materials_unlit", "EXT_mesh_gpu_instancing", "MSFT_lod", "KHR_animation_pointer", "KHR_materials_emissive_strength"};
+
+/// ISO/IEC 14772-1, A.3: characters of a name; the first is no digit or sign either.
+bool in_name(unsigned char c) { return c > ' ' && c != 0x7f && std::string_view("\"#',.[\\]{}").find(static_cast<char>(c)) == std::string_view::npos; }
+
+bool is_keyword(std::string_view s) {
+  constexpr std::string_view words[] = {"DEF", "EXTERNPROTO", "FALSE", "IS", "NULL", "PROTO", "ROUTE", "TO", "TRUE", "USE",
+                                        "eventIn", "eventOut", "exposedField", "field"};
+  return std::ranges::find(words, s) != std::end(words);
+}
+
+std::string legal_name(std::string_view s) {
+  std::string out(s);
+  for (char& c : out)
+    if (!in_name(static_cast<unsigned char>(c))) c = '_';
+  if (!out.empty() && ((out[0] >= '0' && out[0] <= '9') || out[0] == '+' || out[0] == '-')) out.insert(0, "_");
+  return is_keyword(out) ? out + "_" : out;
+}
+
+/// JSON without the blanks between its tokens.
+std::string compact(std::string_view s) {
+  std::string out;
+  bool quoted = false;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (quoted && s[i] == '\\' && i + 1 < s.size()) out += s[i++];
+    else if (s[i] == '"') quoted = !quoted;
+    if (quoted || static_cast<unsigned char>(s[i]) > ' ') out += s[i];
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_legal_name(std::string_view s) { return !s.empty() && legal_name(s) == s; }
+
+void Lost::add(std::string_view what, Span where) {
+  if (names_.empty()) first_ = where;
+  auto at = names_.find(what);
+  if (at == names_.end()) at = names_.emplace(what, 0).first;
+  ++at->second;
+}
+
+void Lost::report(Diagnostics& diag) const {
+  constexpr std::size_t most = 40;
+  std::string all;
+  std::size_t n = 0;
+  for (const auto& [name, count] : names_) {
+    if (++n > most) { all += ", ... (" + std::to_string(names_.size()) + " kinds)"; break; }
+    if (!all.empty()) all += ", ";
+    all += name;
+    if (count > 1) all += " (" + std::to_string(count) + ")";
+  }
+  if (!names_.empty()) diag.report(Diag::no_vrml_word, first_, all);
+}
+
+void Lost::keep(const File& file, Json element, std::string_view member) {
+  auto text = compact(element.source());
+  if (text.size() > max_kept - kept_bytes_) return add("extras beyond 1 MiB", file.where(element));
+  kept_bytes_ += text.size();
+  kept_.push_back(std::string(member) + " " + text);
+}
+
+void Lost::keep(const File& file, Json element) {
+  for (Json e : element["extensions"].is_object() ? element["extensions"] : Json()) {
+    if (std::ranges::find(known_extensions, e.key()) != std::end(known_extensions)) continue;
+    add(e.key(), file.where(e));
+    keep(file, e, std::string(element["name"].text()) + ": " + std::string(e.key()));
+  }
+  for (Json e : element["extras"].is_object() ? element["extras"] : Json())
+    if (e.key() != "vrml97" && e.key() != "MSFT_screencoverage")
+      keep(file, e, std::string(element["name"].text()) + ": extras." + std::string(e.key()));
+}
+
+void Context::set_name(NodeId n, Json name) const {
+  if (name.text().empty()) return;
+  auto legal = legal_name(name.text());
+  if (legal != name.text()) diag().report(Diag::name_changed, file.where(name), name.text(), legal);
+  scene.set_name(n, legal);
+}
+
+double linear(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+double display(double l) {
+  if (!(l > 0)) return 0;
+  if (l >= 1) return 1;
+  double guess = l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+  // Writers convert either the number or the float that it is stored as.
+  return shortest(guess, [f = static_cast<float>(l)](double d) { return static_cast<float>(linear(d)) == f || static_cast<float>(linear(static_cast<float>(d))) == f; });
+}
+
+}  // namespace wrlkit::gltf_reader

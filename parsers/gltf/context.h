@@ -1,0 +1,66 @@
+// What the parts of the reader share: the file, the scene that grows, and what VRML has no word for.
+#pragma once
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "parsers/gltf/accessors.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit::gltf_reader {
+
+/// What is left out, by name, said in one message; and what is kept of it as text, for a WorldInfo.
+class Lost {
+ public:
+  /// Of texts that are kept, all together.
+  static constexpr std::size_t max_kept = 1 << 20;
+
+  void add(std::string_view what, Span where);
+  /// An element's extras that are not VRML's, and extensions that nobody here knows.
+  void keep(const File&, Json element);
+  void report(Diagnostics&) const;
+  /// "/materials/3/extensions/KHR_materials_sheen {...}"
+  const std::vector<std::string>& kept() const { return kept_; }
+
+ private:
+  void keep(const File&, Json element, std::string_view member);
+
+  std::map<std::string, std::size_t, std::less<>> names_;
+  Span first_;
+  std::vector<std::string> kept_;
+  std::size_t kept_bytes_ = 0;
+};
+
+struct Context {
+  File& file;
+  Buffers& buffers;
+  Accessors& accessors;
+  Scene& scene;
+  Lost& lost;
+
+  Diagnostics& diag() const { return file.diag(); }
+  /// A node that stands where a value of the JSON does.
+  NodeId add(TypeId type, Json at) const { return scene.add(type, file.where(at)); }
+  /// Gives a node a DEF name, changed where VRML does not allow it, which is reported.
+  void set_name(NodeId, Json name) const;
+};
+
+/// ISO/IEC 14772-1, A.3.
+bool is_legal_name(std::string_view);
+
+/// An element's vrml97 extras: no Json when there are none.
+inline Json vrml97(Json element) { return element["extras"]["vrml97"]; }
+
+/// `guess` with as few decimals as `accepts` allows, or as it is.
+template <class Accepts>
+double shortest(double guess, Accepts accepts) {
+  for (double step : {1e2, 1e3, 1e4, 1e6, 1e7, 1e8})
+    if (double d = std::round(guess * step) / step; accepts(d)) return d;
+  return guess;
+}
+
+/// Display-referred colours of linear ones (IEC 61966-2-1), in [0, 1]: the shortest that is this linear one, as a float.
+double display(double linear);
+double linear(double display);
+
+}  // namespace wrlkit::gltf_reader

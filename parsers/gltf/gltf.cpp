@@ -1,0 +1,63 @@
+#include "parsers/gltf/gltf.h"
+
+#include <algorithm>
+
+#include "parsers/gltf/animations.h"
+#include "scenegraph/blanks.h"
+#include "scenegraph/nodes.h"
+
+namespace wrlkit::gltf_reader {
+namespace {
+
+constexpr std::string_view understood[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",
+                                           "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit", "EXT_mesh_gpu_instancing", "MSFT_lod",
+                                           "EXT_texture_webp", "KHR_materials_emissive_strength"};
+
+void check_required(File& file) {
+  for (Json e : file.root()["extensionsRequired"].elements())
+    if (std::ranges::find(understood, e.text()) == std::end(understood)) file.diag().report(Diag::gltf_extension, file.where(e), e.text());
+}
+
+/// Title and what is kept as text.
+void add_world_info(const Context& c) {
+  const File& file = c.file;
+  auto shown = file.root()["scene"].whole().value_or(0);
+  const auto title = file.at(Table::scenes, shown)["name"].text();
+  if (title.empty() && c.lost.kept().empty()) return;
+  NodeId n = c.add(nodes::WorldInfo, file.root()["asset"]);
+  if (!title.empty()) c.scene.set(n, nodes::world_info::title, title);
+  std::vector<std::string_view> lines(c.lost.kept().begin(), c.lost.kept().end());
+  if (!lines.empty()) c.scene.set(n, nodes::world_info::info, lines);
+  c.scene.main.roots.insert(c.scene.main.roots.begin(), n);
+}
+
+}  // namespace
+
+bool looks_like_gltf(std::string_view bytes) {
+  if (is_glb(bytes)) return true;
+  auto s = trim(bytes.substr(0, 1 << 16));
+  return s.starts_with('{') && (s.find("\"asset\"") != s.npos || s.find("\"scenes\"") != s.npos || s.find("\"nodes\"") != s.npos || s.find("\"accessors\"") != s.npos);
+}
+
+void parse(std::string_view bytes, std::uint32_t base, const std::string& path, const std::vector<std::string>& allowed, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
+  File file(bytes, base, diag);
+  if (!file.read()) return;
+  check_required(file);
+  Buffers buffers(file, path, allowed);
+  Accessors accessors(file, buffers);
+  Lost lost;
+  Context context{file, buffers, accessors, scene, lost};
+  Extras extras(context);
+  Meshes meshes(context, extras);
+  Hierarchy hierarchy(context, extras, meshes, limits, file.is_own() ? std::set<std::uint32_t>() : moved_nodes(file));
+  const Json kept = vrml97(file.at(Table::scenes, file.root()["scene"].whole().value_or(0)));
+  scene.comment = std::string(vrml97(file.root()["asset"])["comment"].text());
+  extras.protos(kept["protos"]);
+  hierarchy.build();
+  extras.finish(kept["routes"]);
+  if (!file.is_own()) Animations(context, hierarchy).build();  // wrlkit's own are there as ROUTEs
+  if (!file.is_own()) lost.keep(file, file.root()), lost.keep(file, file.root()["asset"]), add_world_info(context);
+  lost.report(diag);
+}
+
+}  // namespace wrlkit::gltf_reader

@@ -1,0 +1,379 @@
+#include "parsers/gltf/hierarchy.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "parsers/gltf/bounds.h"
+#include "scenegraph/nodes.h"
+
+namespace wrlkit::gltf_reader {
+namespace {
+
+constexpr double pi = std::numbers::pi, half_field_of_view = 0.785398 / 2;
+
+Json light_of(Json node) { return node["extensions"]["KHR_lights_punctual"]["light"]; }
+Json lod_of(Json node) { return node["extensions"]["MSFT_lod"]["ids"]; }
+
+/// Types that glTF has elements for: what another program made of those is believed, not the extras.
+bool is_said_by_gltf(TypeId t) {
+  constexpr TypeId types[] = {nodes::Group, nodes::Transform, nodes::Shape, nodes::Viewpoint, nodes::LOD, nodes::PointLight, nodes::DirectionalLight, nodes::SpotLight};
+  return std::ranges::find(types, t) != std::end(types);
+}
+
+std::optional<std::uint16_t> children_slot(const NodeType& t) {
+  auto f = std::ranges::find(t.fields, "children", &FieldDef::name);
+  if (f == t.fields.end() || !t.is_a("X3DGroupingNode")) return std::nullopt;
+  return static_cast<std::uint16_t>(f - t.fields.begin());
+}
+
+bool has_matrix(const Json& fields) { return fields["center"] || (fields["scaleOrientation"] && fields["scale"]); }
+
+}  // namespace
+
+Hierarchy::Hierarchy(const Context& c, Extras& extras, Meshes& meshes, const ParseLimits& limits, std::set<std::uint32_t> moved)
+    : c_(c), extras_(extras), meshes_(meshes), limits_(limits), moved_(std::move(moved)), parent_(c.file.count(Table::nodes), none), state_(parent_.size()), made_(parent_.size()) {}
+
+void Hierarchy::find_parents() {
+  for (std::uint32_t n = 0; n < parent_.size(); ++n)
+    for (Json c : c_.file.at(Table::nodes, n)["children"].elements())
+      if (auto i = c.whole(); i && *i < parent_.size() && parent_[*i] == none) parent_[*i] = n;
+}
+
+void Hierarchy::build() {
+  find_parents();
+  auto shown = c_.file.index(Table::scenes, c_.file.root()["scene"]);
+  if (shown == none && c_.file.count(Table::scenes) > 0) shown = 0;
+  std::vector<NodeId> hidden;
+  auto add = [&](Json scene) {
+    Nodes all;
+    Vec3 origin{0, 0, 0};
+    if (auto v = vrml97(scene)["origin"].numbers(); v.size() == 3 && c_.file.is_own()) origin = {v[0], v[1], v[2]};
+    for (Json n : scene["nodes"].elements())
+      if (auto i = c_.file.index(Table::nodes, n); i != none) visit(i, 0, origin, all);
+    c_.lost.keep(c_.file, scene);
+    return all;
+  };
+  Nodes roots;
+  if (shown != none) roots = add(c_.file.at(Table::scenes, shown));
+  else  // a library of nodes: all of them
+    for (std::uint32_t n = 0; n < parent_.size(); ++n)
+      if (parent_[n] == none) visit(n, 0, {}, roots);
+  roots.insert(roots.end(), suns_.begin(), suns_.end());
+  for (std::uint32_t s = 0; s < c_.file.count(Table::scenes); ++s) {
+    if (s == shown) continue;
+    suns_.clear();
+    const Json scene = c_.file.at(Table::scenes, s);
+    NodeId group = c_.add(nodes::Group, scene);
+    auto all = add(scene);
+    all.insert(all.end(), suns_.begin(), suns_.end());
+    c_.scene.set(group, nodes::group::children, all);
+    c_.set_name(group, scene["name"]);
+    hidden.push_back(group);
+  }
+  if (!hidden.empty()) {
+    NodeId choice = c_.add(nodes::Switch, c_.file.root()["scenes"]);
+    c_.scene.set(choice, nodes::switch_::children, hidden);
+    roots.push_back(choice);
+    c_.diag().report(Diag::gltf_scenes, c_.file.where(c_.file.root()["scenes"]), hidden.size());
+  }
+  c_.scene.main.roots = std::move(roots);
+}
+
+void Hierarchy::visit(std::uint32_t n, std::size_t depth, const Vec3& origin, Nodes& out) {
+  const Json json = c_.file.at(Table::nodes, n);
+  if (state_[n] == State::open) return c_.diag().report(Diag::gltf_cycle, c_.file.where(json), n);
+  if (state_[n] == State::done) {
+    c_.diag().report(Diag::gltf_two_parents, c_.file.where(json), n);
+    if (made_[n]) out.push_back(made_[n]);
+    return;
+  }
+  if (depth + 4 > limits_.depth) return c_.diag().report(Diag::too_deep, c_.file.where(json), limits_.depth);
+  state_[n] = State::open;
+  const auto before = out.size();
+  make(n, depth, origin, out);
+  if (out.size() == before + 1) made_[n] = out.back();
+  const Json levels = lod_of(json);
+  if (levels && c_.file.is_own()) {
+    for (Json l : levels.elements())
+      if (auto i = c_.file.index(Table::nodes, l); i != none) visit(i, depth, origin, out);
+  } else if (levels && made_[n]) {
+    made_[n] = out.back() = level_of_detail(n, made_[n], depth, origin);
+  }
+  state_[n] = State::done;
+}
+
+Hierarchy::Nodes Hierarchy::children(std::uint32_t n, std::size_t depth, const Vec3& origin) {
+  Nodes out;
+  for (Json c : c_.file.at(Table::nodes, n)["children"].elements())
+    if (auto i = c_.file.index(Table::nodes, c); i != none) visit(i, depth + 1, origin, out);
+  return out;
+}
+
+void Hierarchy::make(std::uint32_t n, std::size_t depth, Vec3 origin, Nodes& out) {
+  const Json json = c_.file.at(Table::nodes, n), extras = vrml97(json);
+  Place place = place_of(json);
+  const bool passes_on = place.translation == Vec3{0, 0, 0} && !place.scaled() && place.rotation[3] == 0 && !json["mesh"] && !json["camera"] && !light_of(json);
+  if (!passes_on) {
+    for (std::size_t i = 0; i < 3; ++i) place.translation[i] += origin[i];
+    origin = {};
+  }
+  if (extras.is_object() && extras.begin() == extras.end() && c_.file.is_own()) {  // a helper
+    auto all = light_of(json) ? Nodes() : children(n, depth, origin);
+    return void(out.insert(out.end(), all.begin(), all.end()));
+  }
+  Json type;
+  if (extras.is_object() && extras.begin() != extras.end()) type = *extras.begin();
+  if (type.key() == "USE" && c_.file.is_own()) {
+    if (auto i = c_.file.index(Table::nodes, type); i != none && made_[i]) return out.push_back(made_[i]);
+    type = {};
+  }
+  const bool known = type.is_object() && (c_.file.is_own() || !is_said_by_gltf(find_builtin(type.key(), Dialect::vrml97)));
+  auto below = children(n, depth, origin);
+  NodeId made = known ? kept(n, type, place, std::move(below)) : implied(n, place, std::move(below));
+  if (!c_.file.is_own()) report(json);
+  if (made) extras_.define(made), out.push_back(made);
+}
+
+void Hierarchy::report(Json json) {
+  c_.lost.keep(c_.file, json);
+}
+
+// ---- nodes that wrlkit has written ---------------------------------------------------------------------------------
+
+NodeId Hierarchy::kept(std::uint32_t n, Json fields, const Place& place, Nodes below) {
+  const Json json = c_.file.at(Table::nodes, n);
+  const TypeId type = extras_.type(fields.key(), fields);
+  NodeId made = c_.add(type, fields);
+  const bool viewpoint = type == nodes::Viewpoint, shape_ = type == nodes::Shape;
+  if (shape_) {
+    if (auto parts = shapes(n, place); !parts.empty()) made = parts[0];
+  } else if (viewpoint) {
+    made = camera(json, place);
+  } else if (type == nodes::PointLight || type == nodes::DirectionalLight || type == nodes::SpotLight) {
+    light_fields(made, {}, place);
+  } else if (type == nodes::Transform && !has_matrix(fields)) {
+    made = transform(json, place, {}, true);
+  } else {
+    auto own = shapes(n, place);
+    below.insert(below.begin(), own.begin(), own.end());
+  }
+  if (type == nodes::Transform && !has_matrix(fields)) {
+    auto own = shapes(n, place);
+    below.insert(below.begin(), own.begin(), own.end());
+  }
+  // A long text is written once, where the file describes itself.
+  if (type == nodes::WorldInfo) extras_.plain_fields(made, vrml97(c_.file.root()["asset"])["WorldInfo"]);
+  std::deque<NodeId> rest(below.begin(), below.end());
+  extras_.fields(made, fields, rest);
+  if (auto slot = children_slot(c_.scene.type(made)); slot && !rest.empty()) {
+    std::vector<NodeId> all;
+    if (auto* v = c_.scene.find(made, *slot)) all.assign(v->node_span().begin(), v->node_span().end());
+    all.insert(all.end(), rest.begin(), rest.end());
+    c_.scene.set(made, c_.scene.make(FieldType::MFNode, *slot, all));
+  }
+  if (fields["DEF"]) c_.set_name(made, fields["DEF"]);
+  else if (!viewpoint || fields["description"].text() != json["name"].text()) c_.set_name(made, json["name"]);
+  return made;
+}
+
+// ---- nodes of glTF -------------------------------------------------------------------------------------------------
+
+NodeId Hierarchy::implied(std::uint32_t n, const Place& place, Nodes below) {
+  const Json json = c_.file.at(Table::nodes, n);
+  const bool has_camera = bool(json["camera"]), has_light = bool(light_of(json)), has_mesh = bool(json["mesh"]);
+  const bool moved = moved_.contains(n);
+  const bool alone = !moved && below.empty() && has_camera + has_light + has_mesh == 1 && !json["extensions"]["EXT_mesh_gpu_instancing"];
+  NodeId made;
+  if (alone && has_camera) {
+    made = camera(json, place);
+  } else if (alone && has_light) {
+    made = light(json, place, world(n));
+  } else {
+    auto own = has_mesh ? shapes(n, place) : Nodes();
+    if (alone && place.identity() && own.size() == 1) {
+      made = own[0];
+    } else {
+      if (has_camera) own.push_back(camera(json, {}));
+      if (NodeId l = has_light ? light(json, {}, world(n)) : NodeId{}) own.push_back(l);
+      own.insert(own.end(), below.begin(), below.end());
+      made = transform(json, place, own, moved);
+    }
+  }
+  if (made) c_.set_name(made, json["name"]);
+  return made;
+}
+
+NodeId Hierarchy::transform(Json at, const Place& p, const Nodes& below, bool moved) {
+  namespace f = nodes::transform;
+  if (p.identity() && !moved) {
+    NodeId n = c_.add(nodes::Group, at);
+    if (!below.empty()) c_.scene.set(n, nodes::group::children, below);
+    return n;
+  }
+  NodeId n = c_.add(nodes::Transform, at);
+  if (p.translation != Vec3{0, 0, 0}) c_.scene.set(n, f::translation, p.translation);
+  if (p.rotation[3] != 0) c_.scene.set(n, f::rotation, p.rotation);
+  if (p.scaled()) c_.scene.set(n, f::scale, p.scale);
+  if (p.scaled() && p.scale_orientation[3] != 0) c_.scene.set(n, f::scaleOrientation, p.scale_orientation);
+  if (!below.empty()) c_.scene.set(n, f::children, below);
+  return n;
+}
+
+/// MSFT_lod: a level is shown down to a part of the window's height, VRML's up to a distance.
+NodeId Hierarchy::level_of_detail(std::uint32_t n, NodeId first, std::size_t depth, const Vec3& origin) {
+  const Json json = c_.file.at(Table::nodes, n);
+  Nodes levels{first};
+  for (Json l : lod_of(json).elements())
+    if (auto i = c_.file.index(Table::nodes, l); i != none) visit(i, depth + 1, origin, levels);
+  NodeId lod = c_.add(nodes::LOD, json);
+  c_.scene.set(lod, nodes::lod::children, levels);
+  const auto ball = bounds_below(c_.file, n);
+  const auto coverage = json["extras"]["MSFT_screencoverage"].numbers();
+  std::vector<double> range;
+  for (std::size_t i = 0; i + 1 < levels.size() && i < coverage.size() && coverage[i] > 0 && ball.radius > 0; ++i)
+    range.push_back(std::max(range.empty() ? 0 : range.back(), ball.radius / (coverage[i] * std::tan(half_field_of_view))));
+  if (range.size() + 1 == levels.size()) {
+    c_.scene.set(lod, nodes::lod::range, range);
+    if (ball.center != Vec3{0, 0, 0}) c_.scene.set(lod, nodes::lod::center, ball.center);
+  }
+  return lod;
+}
+
+NodeId Hierarchy::shape(const Meshes::Part& part, Json at) {
+  NodeId n = c_.add(nodes::Shape, at);
+  if (part.appearance) c_.scene.set(n, nodes::shape::appearance, part.appearance);
+  if (part.geometry) c_.scene.set(n, nodes::shape::geometry, part.geometry);
+  return n;
+}
+
+Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const Place& place) {
+  const Json json = c_.file.at(Table::nodes, n);
+  auto mesh = c_.file.index(Table::meshes, json["mesh"]);
+  if (mesh == none) return {};
+  Pose p = pose(n);
+  if (c_.file.is_own() && vrml97(json)["Shape"]) p.origin = place.translation;
+  Nodes out;
+  for (const auto& part : meshes_.parts(mesh, p)) out.push_back(shape(part, json));
+  if (auto m = meshes_.take_morphs(); !m.empty()) morphs_[n] = std::move(m);
+  if (const Json at = json["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]; at) instances(at, out);
+  return out;
+}
+
+/// A Transform with the same Shapes for each.
+void Hierarchy::instances(Json attributes, Nodes& shapes) {
+  auto read = [&](const char* name, std::size_t width) { return c_.accessors.numbers(c_.file.index(Table::accessors, attributes[name]), {width}); };
+  auto t = read("TRANSLATION", 3), r = read("ROTATION", 4), s = read("SCALE", 3);
+  const std::size_t n = std::max({t ? t->count() : 0, r ? r->count() : 0, s ? s->count() : 0});
+  for (Json a : attributes)
+    if (a.key() != "TRANSLATION" && a.key() != "ROTATION" && a.key() != "SCALE") c_.lost.add("instances' " + std::string(a.key()), c_.file.where(a));
+  Nodes all;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (++n_instances_ > max_instances) { c_.diag().report(Diag::expansion_limit, c_.file.where(attributes), max_instances, "instances"); break; }
+    Place p;
+    if (t && i < t->count()) p.translation = {t->at(i)[0], t->at(i)[1], t->at(i)[2]};
+    if (r && i < r->count()) p.rotation = axis_angle({r->at(i)[0], r->at(i)[1], r->at(i)[2], r->at(i)[3]});
+    if (s && i < s->count()) p.scale = {s->at(i)[0], s->at(i)[1], s->at(i)[2]};
+    all.push_back(transform(attributes, p, shapes));
+  }
+  shapes = std::move(all);
+}
+
+// ---- skins ---------------------------------------------------------------------------------------------------------
+
+Matrix Hierarchy::world(std::uint32_t n) {
+  Matrix m;
+  for (std::size_t up = 0; n != none && up < limits_.depth; ++up, n = parent_[n]) m = place_of(c_.file.at(Table::nodes, n)).matrix() * m;
+  return m;
+}
+
+Pose Hierarchy::pose(std::uint32_t n) {
+  const Json json = c_.file.at(Table::nodes, n);
+  Pose p;
+  p.weights = json["weights"].numbers();
+  p.skin = c_.file.index(Table::skins, json["skin"]);
+  if (p.skin == none) return p;
+  const Json skin = c_.file.at(Table::skins, p.skin);
+  auto bind = c_.accessors.numbers(c_.file.index(Table::accessors, skin["inverseBindMatrices"]), {16});
+  const Matrix back = inverse(world(n));
+  for (Json j : skin["joints"].elements()) {
+    auto joint = c_.file.index(Table::nodes, j);
+    Matrix m = joint == none ? Matrix() : back * world(joint);
+    Matrix b;
+    for (int r = 0; bind && p.joints.size() < bind->count() && r < 3; ++r)
+      for (int c = 0; c < 4; ++c) b(r, c) = bind->at(p.joints.size())[c * 4 + r];
+    p.joints.push_back(m * b);
+  }
+  c_.lost.add("skin (posed as it stands)", c_.file.where(json));
+  return p;
+}
+
+// ---- cameras and lights --------------------------------------------------------------------------------------------
+
+NodeId Hierarchy::camera(Json node, const Place& place) {
+  namespace f = nodes::viewpoint;
+  const Json camera = c_.file.at(Table::cameras, c_.file.index(Table::cameras, node["camera"]));
+  NodeId n = c_.add(nodes::Viewpoint, node);
+  if (place.translation != Vec3{0, 0, 10}) c_.scene.set(n, f::position, place.translation);
+  if (place.rotation[3] != 0) c_.scene.set(n, f::orientation, place.rotation);
+  const Json seen = camera["perspective"];
+  double angle = seen["yfov"].number(pi / 4);
+  if (double aspect = seen["aspectRatio"].number(1); !c_.file.is_own() && aspect > 0 && aspect < 1) angle = 2 * std::atan(std::tan(angle / 2) * aspect);
+  if (angle > 0 && angle < pi && std::abs(angle - 0.785398) > 1e-6) c_.scene.set(n, f::fieldOfView, angle);
+  if (c_.file.is_own()) return n;
+  if (camera["orthographic"]) c_.lost.add("orthographic camera", c_.file.where(camera));
+  auto title = camera["name"].text().empty() ? node["name"].text() : camera["name"].text();
+  if (!title.empty()) c_.scene.set(n, f::description, title);
+  c_.lost.keep(c_.file, camera);
+  return n;
+}
+
+/// Location and direction, as far as the type has them.
+void Hierarchy::light_fields(NodeId n, Json light, const Place& place) {
+  Scene& scene = c_.scene;
+  auto put = [&](std::string_view name, FieldType type, auto v) {
+    if (auto slot = scene.type(n).find(name, Dialect::vrml97)) scene.set(n, scene.make(type, *slot, v));
+  };
+  Vec3 d = rotate(place.rotation, {0, 0, -1});
+  for (double& v : d) v = std::round(v * 1e9) / 1e9 + 0.0;
+  if (place.translation != Vec3{0, 0, 0}) put("location", FieldType::SFVec3f, place.translation);
+  if (d != Vec3{0, 0, -1}) put("direction", FieldType::SFVec3f, d);
+  if (!light) return;
+  const double intensity = light["intensity"].number(1);
+  if (auto c = light["color"].numbers(); c.size() == 3 && c != std::vector<double>{1, 1, 1})
+    put("color", FieldType::SFColor, Vec3{display(c[0]), display(c[1]), display(c[2])});
+  if (scene.is(n, nodes::DirectionalLight)) {
+    const double i = intensity / pi;
+    if (i > 1) c_.lost.add("light brighter than VRML's brightest", c_.file.where(light));
+    return put("intensity", FieldType::SFFloat, std::clamp(std::round(i * 1e7) / 1e7, 0.0, 1.0));
+  }
+  // Intensity 1 that falls off as 1 / (k r^2): candela / (pi r^2) from where that is below 1.
+  const double k = intensity > 0 ? pi / intensity : 0;
+  put("attenuation", FieldType::SFVec3f, Vec3{0, 0, k});
+  if (!(intensity > 0)) put("intensity", FieldType::SFFloat, 0.0);
+  constexpr double unseen = 1000;  // where no limit is given: as far as a thousandth of the full light
+  const double range = light["range"].number(0);
+  put("radius", FieldType::SFFloat, range > 0 ? range : k > 0 ? std::sqrt(unseen / k) : 0.0);
+  const Json spot = light["spot"];
+  if (light["type"].text() == "spot") {
+    put("cutOffAngle", FieldType::SFFloat, spot["outerConeAngle"].number(pi / 4));
+    put("beamWidth", FieldType::SFFloat, spot["innerConeAngle"].number(0));
+  }
+}
+
+/// None for one that goes elsewhere: a sun of another program lights the whole world, one of VRML its group.
+NodeId Hierarchy::light(Json node, const Place& place, const Matrix& world) {
+  auto index = c_.file.index(Table::lights, light_of(node));
+  if (index == none) return {};
+  const Json light = c_.file.at(Table::lights, index);
+  const auto type = light["type"].text();
+  NodeId n = c_.add(type == "directional" ? nodes::DirectionalLight : type == "spot" ? nodes::SpotLight : nodes::PointLight, node);
+  if (c_.file.is_own()) return light_fields(n, {}, place), n;
+  c_.lost.keep(c_.file, light);
+  if (type != "directional") return light_fields(n, light, place), n;
+  light_fields(n, light, decompose(world));
+  if (c_.scene.name(n).empty()) c_.set_name(n, light["name"].text().empty() ? node["name"] : light["name"]);
+  suns_.push_back(n);
+  return {};
+}
+
+}  // namespace wrlkit::gltf_reader

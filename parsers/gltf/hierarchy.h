@@ -1,0 +1,68 @@
+// The nodes of glTF as grouping nodes, Shapes, lights and Viewpoints.
+//
+// A node that shows a mesh and stands where it is not moved is a Shape; others are Transforms, those that do not move
+// Groups. A camera or light without children takes translation and rotation into its fields. What wrlkit's writer has
+// kept in extras says which node of VRML it was instead: {} is a helper that VRML needs not, {"USE": n} is the node that
+// node n of the file has become.
+//
+// Everything is posed as the file shows it: skins by the transforms of their joints, morph targets by their weights.
+#pragma once
+#include <set>
+
+#include "parsers/gltf/meshes.h"
+#include "parsers/gltf/trs.h"
+#include "scenegraph/builder.h"
+
+namespace wrlkit::gltf_reader {
+
+class Hierarchy {
+ public:
+  static constexpr std::size_t max_instances = 1'000'000;  // of EXT_mesh_gpu_instancing
+
+  /// `moved`: nodes that must be Transforms.
+  Hierarchy(const Context&, Extras&, Meshes&, const ParseLimits&, std::set<std::uint32_t> moved);
+
+  /// All scenes; what the default one shows are the scene's roots, the others stand in a Switch that shows none.
+  void build();
+  /// What a node has become; none when it has not.
+  NodeId made(std::uint32_t node) const { return node < made_.size() ? made_[node] : NodeId{}; }
+  /// Of each node with morph targets, the points that move.
+  const std::map<std::uint32_t, std::vector<Morph>>& morphs() const { return morphs_; }
+
+ private:
+  using Nodes = std::vector<NodeId>;
+  enum class State : std::uint8_t { untouched, open, done };
+  /// What stands for a node is appended; `origin` is to be added to the first translation.
+  void visit(std::uint32_t node, std::size_t depth, const Vec3& origin, Nodes& out);
+  void make(std::uint32_t node, std::size_t depth, Vec3 origin, Nodes& out);
+  Nodes children(std::uint32_t node, std::size_t depth, const Vec3& origin);
+  NodeId kept(std::uint32_t node, Json type_and_fields, const Place&, Nodes children);
+  NodeId implied(std::uint32_t node, const Place&, Nodes children);
+  NodeId level_of_detail(std::uint32_t node, NodeId first, std::size_t depth, const Vec3& origin);
+  Nodes shapes(std::uint32_t node, const Place&);
+  NodeId shape(const Meshes::Part&, Json at);
+  void instances(Json, Nodes& shapes);
+  NodeId transform(Json at, const Place&, const Nodes& children, bool moved = false);
+  NodeId camera(Json node, const Place&);
+  NodeId light(Json node, const Place&, const Matrix& world);
+  void light_fields(NodeId, Json light, const Place&);
+  Pose pose(std::uint32_t node);
+  Matrix world(std::uint32_t node);
+  void find_parents();
+  void report(Json node);
+
+  Context c_;
+  Extras& extras_;
+  Meshes& meshes_;
+  ParseLimits limits_;
+  std::set<std::uint32_t> moved_;
+  std::vector<std::uint32_t> parent_;
+  std::vector<State> state_;
+  std::vector<NodeId> made_;
+  std::map<std::uint32_t, std::vector<Morph>> morphs_;
+  std::map<std::uint32_t, std::vector<Matrix>> joints_;
+  Nodes suns_;  // DirectionalLights: in VRML they light their group only
+  std::size_t n_instances_ = 0;
+};
+
+}  // namespace wrlkit::gltf_reader

@@ -1,0 +1,316 @@
+#include "parsers/gltf/materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parsers/url.h"
+#include "scenegraph/equal.h"
+#include "scenegraph/image.h"
+#include "scenegraph/nodes.h"
+
+namespace wrlkit::gltf_reader {
+namespace {
+
+constexpr Vec3 white{1, 1, 1}, black{0, 0, 0};
+
+/// Sets a field away from its default.
+template <FieldType T, class V>
+void set(Scene& scene, NodeId n, FieldKey<T> key, const V& v) {
+  Value made = scene.make(T, key.slot, v);
+  if (!equal_plain(made, scene.type(n).fields[key.slot].default_value)) scene.set(n, made);
+}
+
+/// Three or four numbers of an array, or the fallback.
+template <std::size_t N>
+std::array<double, N> vector(Json j, std::array<double, N> fallback) {
+  auto v = j.numbers();
+  if (v.size() == N) std::ranges::copy(v, fallback.begin());
+  return fallback;
+}
+
+Vec3 display_color(const Vec3& l) { return {display(l[0]), display(l[1]), display(l[2])}; }
+
+double unit_range(double v) { return v >= 0 ? std::min(v, 1.0) : 0.0; }
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t v = 0;
+    for (std::size_t k = 0; k < 3; ++k) v = v << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += i + k > bytes.size() ? '=' : digits[v >> (18 - 6 * k) & 63];
+  }
+  return out;
+}
+
+/// -C S R C T (ISO/IEC 14772-1, 6.49).
+UvAffine affine_of(const Scene& scene, NodeId n) {
+  namespace f = nodes::texture_transform;
+  auto [cx, cy] = scene.get(n, f::center);
+  auto [sx, sy] = scene.get(n, f::scale);
+  auto [tx, ty] = scene.get(n, f::translation);
+  const double r = scene.get(n, f::rotation), c = std::cos(r), s = std::sin(r);
+  UvAffine a{sx * c, -sx * s, sy * s, sy * c, 0, 0};
+  a.x = a.xx * (tx + cx) + a.xy * (ty + cy) - cx;
+  a.y = a.yx * (tx + cx) + a.yy * (ty + cy) - cy;
+  return a;
+}
+
+std::optional<UvAffine> inverse(const UvAffine& a) {
+  const double d = a.xx * a.yy - a.xy * a.yx;
+  if (!(std::abs(d) > 0) || !std::isfinite(1 / d)) return std::nullopt;
+  UvAffine b{a.yy / d, -a.xy / d, -a.yx / d, a.xx / d, 0, 0};
+  b.x = -(b.xx * a.x + b.xy * a.y);
+  b.y = -(b.yx * a.x + b.yy * a.y);
+  return b;
+}
+
+/// The coordinates of glTF count from the top: the map between them is flipped on both sides.
+UvAffine affine_of(Json transform) {
+  auto offset = vector<2>(transform["offset"], {0, 0}), scale = vector<2>(transform["scale"], {1, 1});
+  double r = transform["rotation"].number(), c = std::cos(r), s = std::sin(r);
+  double xx = c * scale[0], xy = s * scale[1], yx = -s * scale[0], yy = c * scale[1];
+  return {xx, -xy, -yx, yy, xy + offset[0], 1 - yy - offset[1]};
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> Materials::texcoord_set(std::uint32_t material) const {
+  const Json info = c_.file.at(Table::materials, material)["pbrMetallicRoughness"]["baseColorTexture"];
+  if (!info) return std::nullopt;
+  const Json moved = info["extensions"]["KHR_texture_transform"]["texCoord"];
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>((moved ? moved : info["texCoord"]).whole().value_or(0), 99));
+}
+
+const Look& Materials::get(std::uint32_t material, SurfaceKind s) {
+  auto [i, is_new] = looks_.try_emplace({material, s});
+  if (is_new) i->second = make(material, s);
+  return i->second;
+}
+
+Look Materials::make(std::uint32_t index, SurfaceKind s) {
+  Look look;
+  const Json m = c_.file.at(Table::materials, index);
+  if (!m) return look;
+  look.double_sided = m["doubleSided"].boolean();
+  const Json extras = vrml97(m), info = m["pbrMetallicRoughness"]["baseColorTexture"];
+  auto texture_index = s.faces && (s.given_texcoord || c_.file.is_own()) ? c_.file.index(Table::textures, info["index"]) : none;
+  NodeId picture = texture_index == none ? NodeId{} : texture(texture_index);
+  NodeId transform = picture ? texture_transform(info, s, look) : NodeId{};
+  look.textured = bool(picture);
+  look.texcoord = texcoord_set(index).value_or(0);
+  if (c_.file.is_own() && !picture)  // one that could not be shown
+    for (std::string_view type : {"ImageTexture", "PixelTexture", "MovieTexture", "TextureTransform"})
+      if (extras[type]) {
+        NodeId n = c_.add(find_builtin(type, Dialect::vrml97), extras[type]);
+        extras_.fields(n, extras[type]);
+        c_.set_name(n, extras[type]["DEF"]);
+        (type == "TextureTransform" ? transform : picture) = n;
+      }
+  NodeId material = material_node(m, s, look);
+  const Json name = c_.file.is_own() ? extras["Appearance"]["DEF"] : m["name"];
+  if (material && c_.file.is_own() && name.text() != m["name"].text()) c_.set_name(material, m["name"]), material = same_named(material, nodes::Material);
+  if (!material && !picture && !name) return look;
+  look.appearance = c_.add(nodes::Appearance, m);
+  if (material) c_.scene.set(look.appearance, nodes::appearance::material, material);
+  if (picture) c_.scene.set(look.appearance, nodes::appearance::texture, picture);
+  if (transform) c_.scene.set(look.appearance, nodes::appearance::textureTransform, transform);
+  c_.set_name(look.appearance, name);
+  look.appearance = same_named(look.appearance, nodes::Appearance);
+  if (material) extras_.define(material);
+  if (picture) extras_.define(picture);
+  if (transform) extras_.define(transform);
+  extras_.define(look.appearance);
+  if (!c_.file.is_own()) report_lost(m);
+  return look;
+}
+
+/// One node for a name where several materials of glTF are one of VRML, on different kinds of surfaces.
+NodeId Materials::same_named(NodeId n, TypeId type) {
+  if (c_.scene.name(n).empty()) return n;
+  auto [i, is_new] = named_.try_emplace({type.value, std::string(c_.scene.name(n))}, n);
+  if (is_new) return n;
+  auto a = c_.scene.fields(i->second), b = c_.scene.fields(n);
+  auto same = [](const Value& x, const Value& y) { return x.slot == y.slot && x.type == y.type && (info(x.type).element == Element::node ? x.node == y.node : equal_plain(x, y)); };
+  return std::ranges::equal(a, b, same) ? i->second : n;
+}
+
+NodeId Materials::material_node(Json m, SurfaceKind s, Look& look) {
+  const bool unlit = bool(m["extensions"]["KHR_materials_unlit"]), own = c_.file.is_own();
+  const Json extras = vrml97(m)["Material"];
+  const auto factor = vector<4>(m["pbrMetallicRoughness"]["baseColorFactor"], {1, 1, 1, 1});
+  const Vec3 rgb{factor[0], factor[1], factor[2]};
+  if (s.color && !own) look.color_factor = rgb;
+  // Unlit and white, of its Color, or of its picture: that is a Shape without a Material (tables 4.5 and 4.6).
+  const bool plain = rgb == white || s.color || look.textured;
+  if ((unlit || !s.faces) && plain && factor[3] >= 1 && !extras) {
+    if (look.textured && rgb != white) c_.lost.add("baseColorFactor with a picture", c_.file.where(m));
+    return {};
+  }
+  NodeId n = c_.add(nodes::Material, m);
+  set_color(n, m, s, look);
+  if (s.faces && !unlit && !own) set_highlight(n, m);
+  if (own) extras_.fields(n, extras);
+  return n;
+}
+
+void Materials::set_color(NodeId n, Json m, SurfaceKind s, Look& look) {
+  namespace f = nodes::material;
+  const bool unlit = bool(m["extensions"]["KHR_materials_unlit"]), own = c_.file.is_own();
+  const Json factor_json = m["pbrMetallicRoughness"]["baseColorFactor"];
+  const auto factor = vector<4>(factor_json, {1, 1, 1, 1});
+  const Vec3 base = display_color({factor[0], factor[1], factor[2]});
+  const bool said = !own || (!s.color && !(look.textured && base == white));
+  if (unlit || !s.faces) {
+    if (s.faces) set(c_.scene, n, f::diffuseColor, black);
+    if (said) set(c_.scene, n, f::emissiveColor, base);
+  } else {
+    if (said) set(c_.scene, n, f::diffuseColor, base);
+    Vec3 emissive = vector<3>(m["emissiveFactor"], black);
+    const double strength = m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"].number(1);
+    for (double& e : emissive) e *= strength;
+    // A picture of what shines is lost: its factor would make all of the surface shine.
+    if (!m["emissiveTexture"]) set(c_.scene, n, f::emissiveColor, display_color(emissive));
+  }
+  const auto mode = m["alphaMode"].text("OPAQUE");
+  double alpha = mode == "OPAQUE" ? 1 : unit_range(factor[3]);
+  if (mode == "MASK" && !look.textured) alpha = alpha >= m["alphaCutoff"].number(0.5) ? 1 : 0;
+  const auto single = static_cast<float>(alpha);
+  set(c_.scene, n, f::transparency, shortest(1 - alpha, [&](double d) { return static_cast<float>(1 - d) == single; }));
+}
+
+void Materials::set_highlight(NodeId n, Json m) {
+  namespace f = nodes::material;
+  constexpr double peak = 0.01;
+  const Json pbr = m["pbrMetallicRoughness"], kept = vrml97(m)["Material"];
+  const double r = unit_range(pbr["roughnessFactor"].number(1)), metallic = unit_range(pbr["metallicFactor"].number(1));
+  const double wide = std::max(r * r * r * r, 1e-6), bright = unit_range(peak / wide);
+  const auto base = vector<4>(pbr["baseColorFactor"], {1, 1, 1, 1});
+  if (kept && metallic == 0) {  // another program has changed the file, but perhaps not this
+    auto specular = vector<3>(kept["specularColor"], black);
+    const double s = unit_range(std::max({specular[0], specular[1], specular[2]})), shininess = unit_range(kept["shininess"].number(0.2));
+    const double expected = s <= peak ? 1 : std::pow(std::max(2 / (128 * shininess + 2), peak / s), 0.25);
+    if (std::abs(expected - r) < 1e-4) return extras_.fields(n, kept);
+  }
+  if (r >= 1 || bright <= peak) return;
+  Vec3 specular;
+  for (std::size_t i = 0; i < 3; ++i) specular[i] = bright * (1 - metallic) + bright * metallic * display(base[i]);
+  auto rounded = [](double v) { return std::round(v * 1e6) / 1e6; };
+  set(c_.scene, n, f::specularColor, Vec3{rounded(specular[0]), rounded(specular[1]), rounded(specular[2])});
+  set(c_.scene, n, f::shininess, rounded(unit_range((2 / wide - 2) / 128)));
+}
+
+// ---- pictures ------------------------------------------------------------------------------------------------------
+
+NodeId Materials::texture(std::uint32_t index) {
+  auto [i, is_new] = textures_.try_emplace(index);
+  if (is_new) i->second = make_texture(c_.file.at(Table::textures, index));
+  return i->second;
+}
+
+NodeId Materials::make_texture(Json t) {
+  const Json webp = t["extensions"]["EXT_texture_webp"]["source"];
+  auto image = c_.file.index(Table::images, t["source"] ? t["source"] : webp);
+  const Json extras = vrml97(t);
+  if (image == none) return c_.lost.add("a texture without a picture", c_.file.where(t)), NodeId{};
+  NodeId n;
+  if (extras["PixelTexture"]) n = pixel_texture(t, c_.file.at(Table::images, image));
+  if (!n) {
+    n = c_.add(nodes::ImageTexture, t);
+    auto all = urls(t, image);
+    std::vector<std::string_view> views(all.begin(), all.end());
+    c_.scene.set(n, nodes::image_texture::url, views);
+  }
+  constexpr double clamp = 33071, mirror = 33648, nearest = 9728;
+  auto sampler_index = c_.file.index(Table::samplers, t["sampler"]);
+  const Json sampler = sampler_index == none ? Json() : c_.file.at(Table::samplers, sampler_index);
+  const bool pixels = c_.scene.is(n, nodes::PixelTexture);
+  for (auto [name, image_slot, pixel_slot] : {std::tuple{"wrapS", nodes::image_texture::repeatS.slot, nodes::pixel_texture::repeatS.slot},
+                                              {"wrapT", nodes::image_texture::repeatT.slot, nodes::pixel_texture::repeatT.slot}}) {
+    if (sampler[name].number() == clamp) c_.scene.set(n, c_.scene.make(FieldType::SFBool, pixels ? pixel_slot : image_slot, false));
+    if (sampler[name].number() == mirror) c_.lost.add("MIRRORED_REPEAT", c_.file.where(sampler));
+  }
+  if (sampler["magFilter"].number() == nearest) c_.lost.add("filter NEAREST", c_.file.where(sampler));
+  c_.set_name(n, t["name"]);
+  c_.lost.keep(c_.file, t);
+  return n;
+}
+
+/// An SFImage (ISO/IEC 14772-1, 5.5) from the picture that it was written as.
+NodeId Materials::pixel_texture(Json t, Json image) {
+  auto view = c_.file.index(Table::bufferViews, image["bufferView"]);
+  auto inside = view == none ? std::nullopt : c_.buffers.view(view);
+  auto beside = inside || !image["uri"] ? std::nullopt : c_.buffers.load(image, image["uri"].text());
+  std::string why;
+  auto picture = inside ? decode_image(inside->bytes, "pixels.png", why) : beside ? decode_image(*beside, "pixels.png", why) : std::nullopt;
+  if (!picture) return {};
+  std::vector<std::int32_t> v{picture->width, picture->height, picture->channels};
+  const auto row = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->channels);
+  for (auto y = static_cast<std::size_t>(picture->height); y-- > 0;)
+    for (std::size_t x = 0; x < row; x += static_cast<std::size_t>(picture->channels)) {
+      std::uint32_t pixel = 0;
+      for (int k = 0; k < picture->channels; ++k) pixel = pixel << 8 | picture->pixels[y * row + x + static_cast<std::size_t>(k)];
+      v.push_back(static_cast<std::int32_t>(pixel));
+    }
+  NodeId n = c_.add(nodes::PixelTexture, t);
+  c_.scene.set(n, nodes::pixel_texture::image, v);
+  return n;
+}
+
+/// Those that wrlkit has kept, then where the picture is now.
+std::vector<std::string> Materials::urls(Json t, std::uint32_t index) {
+  std::vector<std::string> all;
+  for (Json url : vrml97(t)["ImageTexture"]["url"].elements()) all.emplace_back(url.text());
+  const Json image = c_.file.at(Table::images, index);
+  if (auto uri = image["uri"].text(); !uri.empty()) return all.emplace_back(uri), all;
+  auto& url = image_urls_[index];
+  auto view = url.empty() ? c_.file.index(Table::bufferViews, image["bufferView"]) : none;
+  if (auto bytes = view == none ? std::nullopt : c_.buffers.view(view)) {
+    auto mime = sniff_mime(bytes->bytes);
+    url = "data:" + std::string(mime.empty() ? image["mimeType"].text() : mime) + ";base64," + base64(bytes->bytes);
+  }
+  if (!url.empty()) all.push_back(url);
+  return all;
+}
+
+NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {
+  namespace f = nodes::texture_transform;
+  const Json kept = vrml97(info)["TextureTransform"], said = info["extensions"]["KHR_texture_transform"];
+  if (c_.file.is_own() && kept) {
+    NodeId n = c_.add(nodes::TextureTransform, kept);
+    extras_.fields(n, kept);
+    c_.set_name(n, kept["DEF"]);
+    if (said || !s.given_texcoord) return n;
+    look.bake = inverse(affine_of(c_.scene, n));  // it was applied to the coordinates, and is taken from them again
+    return look.bake ? n : NodeId{};
+  }
+  const UvAffine a = affine_of(said);
+  if (!said || a == UvAffine{}) return {};
+  const double sx = std::hypot(a.xx, a.xy), sy = std::hypot(a.yx, a.yy);
+  // VRML turns before it scales, so the rows must be at right angles.
+  if (!(sx > 0 && sy > 0) || std::abs(a.xx * a.yx + a.xy * a.yy) > 1e-9 * sx * sy || !std::isfinite(sx + sy + a.x + a.y)) return look.bake = a, NodeId{};
+  const double r = std::atan2(-a.xy, a.xx), c = std::cos(r), sn = std::sin(r), signed_sy = a.yx * sn + a.yy * c;
+  const double x = a.x / sx, y = a.y / signed_sy;
+  NodeId n = c_.add(nodes::TextureTransform, said);
+  auto rounded = [](double v) { return std::round(v * 1e12) / 1e12; };
+  set(c_.scene, n, f::scale, Vec2{rounded(sx), rounded(signed_sy)});
+  set(c_.scene, n, f::rotation, rounded(r));
+  set(c_.scene, n, f::translation, Vec2{rounded(c * x + sn * y), rounded(c * y - sn * x)});
+  return n;
+}
+
+void Materials::report_lost(Json m) {
+  const Span where = c_.file.where(m);
+  if (!reported_.insert(m.offset()).second) return;
+  for (std::string_view t : {"normalTexture", "occlusionTexture", "emissiveTexture"})
+    if (m[t]) c_.lost.add(t, where);
+  const Json pbr = m["pbrMetallicRoughness"];
+  if (pbr["metallicRoughnessTexture"]) c_.lost.add("metallicRoughnessTexture", where);
+  if (pbr["metallicFactor"].number(1) > 0 && !m["extensions"]["KHR_materials_unlit"]) c_.lost.add("metallicFactor", where);
+  if (pbr["baseColorTexture"] && pbr["baseColorFactor"]) c_.lost.add("baseColorFactor with a picture", where);
+  if (m["alphaMode"].text() == "MASK") c_.lost.add("alphaMode MASK", where);
+  c_.lost.keep(c_.file, m);
+}
+
+}  // namespace wrlkit::gltf_reader

@@ -1,0 +1,69 @@
+// Materials of glTF as Appearance nodes: the inverse of what the glTF writer does (writers/gltf_materials.h).
+//
+// Colour. baseColorFactor is diffuseColor, or emissiveColor where KHR_materials_unlit says so; a picture of three or four
+// channels replaces it (ISO/IEC 14772-1, table 4.6). roughness r is a highlight of shininess (2 / r^4 - 2) / 128 and
+// specularColor 0.01 / r^4, both up to 1; as rough as can be is black. Of metal, the highlight has the base colour. What
+// wrlkit wrote has the very fields in extras.
+#pragma once
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "parsers/gltf/extras.h"
+
+namespace wrlkit::gltf_reader {
+
+/// (s, t) -> (xx s + xy t + x, yx s + yy t + y), in VRML's coordinates.
+struct UvAffine {
+  double xx = 1, xy = 0, yx = 0, yy = 1, x = 0, y = 0;
+  bool operator==(const UvAffine&) const = default;
+};
+
+/// What a geometry brings to its material.
+struct SurfaceKind {
+  bool faces = true;  // not lines or points
+  bool color = false;
+  bool given_texcoord = false;  // coordinates that stay; others are made from the bounding box
+  auto operator<=>(const SurfaceKind&) const = default;
+};
+
+struct Look {
+  NodeId appearance;  // or none
+  bool double_sided = false;
+  Vec3 color_factor{1, 1, 1};      // linear; of the geometry's colours
+  std::uint32_t texcoord = 0;      // TEXCOORD_n that the picture uses
+  bool textured = false;
+  std::optional<UvAffine> bake;    // to be applied to the texture coordinates
+};
+
+class Materials {
+ public:
+  Materials(const Context& c, Extras& extras) : c_(c), extras_(extras) {}
+
+  const Look& get(std::uint32_t material, SurfaceKind);
+  /// Index n of the TEXCOORD_n of a material's picture; nothing when it has none.
+  std::optional<std::uint32_t> texcoord_set(std::uint32_t material) const;
+
+ private:
+  Look make(std::uint32_t material, SurfaceKind);
+  NodeId material_node(Json, SurfaceKind, Look&);
+  void set_color(NodeId material, Json, SurfaceKind, Look&);
+  void set_highlight(NodeId material, Json);
+  NodeId texture(std::uint32_t index);
+  NodeId make_texture(Json);
+  NodeId pixel_texture(Json texture, Json image);
+  std::vector<std::string> urls(Json texture, std::uint32_t image);
+  NodeId texture_transform(Json info, SurfaceKind, Look&);
+  void report_lost(Json);
+  NodeId same_named(NodeId, TypeId);
+
+  Context c_;
+  Extras& extras_;
+  std::map<std::tuple<std::uint32_t, SurfaceKind>, Look> looks_;
+  std::map<std::uint32_t, NodeId> textures_;
+  std::map<std::uint32_t, std::string> image_urls_;
+  std::map<std::pair<std::uint32_t, std::string>, NodeId> named_;
+  std::set<std::uint32_t> reported_;
+};
+
+}  // namespace wrlkit::gltf_reader

@@ -1,0 +1,162 @@
+#include "parsers/gltf/trs.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace wrlkit::gltf_reader {
+namespace {
+
+double to_15_digits(double v) {
+  char text[40];
+  auto end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 15).ptr;
+  std::from_chars(text, end, v);
+  return v + 0.0;
+}
+
+Vec3 column(const Matrix& m, int c) { return {m(0, c), m(1, c), m(2, c)}; }
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+
+Matrix of_columns(const Vec3& a, const Vec3& b, const Vec3& c) {
+  Matrix m;
+  for (int r = 0; r < 3; ++r) m(r, 0) = a[static_cast<std::size_t>(r)], m(r, 1) = b[static_cast<std::size_t>(r)], m(r, 2) = c[static_cast<std::size_t>(r)];
+  return m;
+}
+
+/// Of a rotation matrix.
+Vec4 axis_angle_of(const Matrix& m) {
+  Quaternion q;
+  const double t = m(0, 0) + m(1, 1) + m(2, 2);
+  if (t > 0) {
+    q = {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1), 1 + t};
+  } else if (m(0, 0) >= m(1, 1) && m(0, 0) >= m(2, 2)) {
+    q = {1 + m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(0, 2) + m(2, 0), m(2, 1) - m(1, 2)};
+  } else if (m(1, 1) >= m(2, 2)) {
+    q = {m(0, 1) + m(1, 0), 1 - m(0, 0) + m(1, 1) - m(2, 2), m(1, 2) + m(2, 1), m(0, 2) - m(2, 0)};
+  } else {
+    q = {m(0, 2) + m(2, 0), m(1, 2) + m(2, 1), 1 - m(0, 0) - m(1, 1) + m(2, 2), m(1, 0) - m(0, 1)};
+  }
+  return axis_angle(q);
+}
+
+/// Eigenvectors of a symmetric matrix, as columns of a rotation, by Jacobi's method.
+Matrix eigenvectors(Matrix a) {
+  Matrix v;
+  for (int sweep = 0; sweep < 20; ++sweep)
+    for (auto [p, q] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
+      if (a(p, q) == 0) continue;
+      const double theta = (a(q, q) - a(p, p)) / (2 * a(p, q));
+      const double t = (theta < 0 ? -1.0 : 1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1)), c = 1 / std::sqrt(t * t + 1), s = t * c;
+      Matrix g;
+      g(p, p) = g(q, q) = c, g(p, q) = s, g(q, p) = -s;
+      Matrix gt;
+      gt(p, p) = gt(q, q) = c, gt(p, q) = -s, gt(q, p) = s;
+      a = gt * a * g;
+      v = v * g;
+    }
+  return v;
+}
+
+bool finite(const std::vector<double>& v) { return std::ranges::all_of(v, [](double x) { return std::isfinite(x); }); }
+
+}  // namespace
+
+Vec4 axis_angle(Quaternion q) {
+  double n = std::hypot(q.x, q.y, q.z);
+  if (!(n > 0) || !std::isfinite(n)) return {0, 0, 1, 0};
+  if (q.w < 0) q = {-q.x, -q.y, -q.z, -q.w};
+  const double angle = 2 * std::atan2(n, q.w);
+  return {to_15_digits(q.x / n), to_15_digits(q.y / n), to_15_digits(q.z / n), to_15_digits(angle)};
+}
+
+Vec3 rotate(const Vec4& r, const Vec3& v) { return rotation_matrix(r).point(v); }
+
+Matrix Place::matrix() const {
+  Matrix m = translation_matrix(translation) * rotation_matrix(rotation);
+  const Vec4& o = scale_orientation;
+  return scaled() ? m * rotation_matrix(o) * scale_matrix(scale) * rotation_matrix({o[0], o[1], o[2], -o[3]}) : m;
+}
+
+Place decompose(const Matrix& m) {
+  Place p;
+  p.translation = column(m, 3);
+  Vec3 x = column(m, 0), y = column(m, 1), z = column(m, 2);
+  const double a = length(x), b = length(y), c = length(z), sign = m.determinant() < 0 ? -1 : 1;
+  constexpr double right_angle = 1e-6;
+  const bool square = std::abs(dot(x, y)) <= right_angle * a * b && std::abs(dot(y, z)) <= right_angle * b * c && std::abs(dot(x, z)) <= right_angle * a * c;
+  if (square && a > 0 && b > 0 && c > 0) {
+    auto by = [](Vec3 v, double s) { for (double& k : v) k /= s; return v; };
+    p.rotation = axis_angle_of(of_columns(by(x, sign * a), by(y, b), by(z, c)));
+    p.scale = {to_15_digits(sign * a), to_15_digits(b), to_15_digits(c)};
+    for (double& s : p.scale) if (std::abs(std::abs(s) - 1) < 1e-7) s = s < 0 ? -1 : 1;  // rounding of single precision
+    return p;
+  }
+  // M = R V D V^T; a mirror goes into D.
+  Matrix square_of;
+  for (int r = 0; r < 3; ++r)
+    for (int k = 0; k < 3; ++k) square_of(r, k) = dot(column(m, r), column(m, k));
+  Matrix v = eigenvectors(square_of), linear = m;
+  for (int r = 0; r < 3; ++r) linear(r, 3) = 0;
+  Matrix mv = linear * v;
+  std::array<Vec3, 3> axes;
+  std::array<std::size_t, 3> order{0, 1, 2};
+  Vec3 size;
+  for (std::size_t i = 0; i < 3; ++i) size[i] = length(column(mv, static_cast<int>(i)));
+  std::ranges::sort(order, std::greater{}, [&](std::size_t i) { return size[i]; });
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3 d = column(mv, static_cast<int>(i));
+    for (double& k : d) k = size[i] > 0 ? sign * k / size[i] : 0;
+    axes[i] = d;
+  }
+  // Directions without extent: at right angles to the others.
+  if (!(size[order[0]] > 0)) return p.scale = {0, 0, 0}, p;
+  if (!(size[order[1]] > 1e-12 * size[order[0]])) {
+    const Vec3& d = axes[order[0]];
+    Vec3 other = std::abs(d[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n = cross(d, other);
+    const double l = length(n);
+    for (double& k : n) k /= l;
+    axes[order[1]] = n, size[order[1]] = 0;
+  }
+  if (!(size[order[2]] > 1e-12 * size[order[0]])) {
+    axes[order[2]] = cross(axes[order[0]], axes[order[1]]), size[order[2]] = 0;
+    if (v.determinant() * of_columns(axes[0], axes[1], axes[2]).determinant() < 0)
+      for (double& k : axes[order[2]]) k = -k;
+  }
+  Matrix vt = of_columns({v(0, 0), v(0, 1), v(0, 2)}, {v(1, 0), v(1, 1), v(1, 2)}, {v(2, 0), v(2, 1), v(2, 2)});
+  p.rotation = axis_angle_of(of_columns(axes[0], axes[1], axes[2]) * vt);
+  p.scale_orientation = axis_angle_of(v);
+  p.scale = {to_15_digits(sign * size[0]), to_15_digits(sign * size[1]), to_15_digits(sign * size[2])};
+  return p;
+}
+
+Place place_of(Json node) {
+  if (auto v = node["matrix"].numbers(); v.size() == 16 && finite(v)) {
+    Matrix m;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 4; ++c) m(r, c) = v[static_cast<std::size_t>(c * 4 + r)];
+    return decompose(m);
+  }
+  Place p;
+  if (auto t = node["translation"].numbers(); t.size() == 3) p.translation = {t[0], t[1], t[2]};
+  if (auto s = node["scale"].numbers(); s.size() == 3) p.scale = {s[0], s[1], s[2]};
+  if (auto r = node["rotation"].numbers(); r.size() == 4) p.rotation = axis_angle({r[0], r[1], r[2], r[3]});
+  return p;
+}
+
+Matrix inverse(const Matrix& m) {
+  const double d = m.determinant();
+  Matrix o;
+  if (!(std::abs(d) > 0) || !std::isfinite(d)) return o;
+  const Vec3 x = column(m, 0), y = column(m, 1), z = column(m, 2), r0 = cross(y, z), r1 = cross(z, x), r2 = cross(x, y);
+  for (int c = 0; c < 3; ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    o(0, c) = r0[k] / d, o(1, c) = r1[k] / d, o(2, c) = r2[k] / d;
+  }
+  const Vec3 t = o.point(column(m, 3));
+  for (int r = 0; r < 3; ++r) o(r, 3) = -t[static_cast<std::size_t>(r)];
+  return o;
+}
+
+}  // namespace wrlkit::gltf_reader

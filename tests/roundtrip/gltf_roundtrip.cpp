@@ -1,0 +1,282 @@
+// What comes back through glTF. VRML97 -> glTF -> VRML97 over corpus/, and glTF -> VRML97 -> glTF over tests/gltf: both
+// scenes are walked side by side, and each name, sharing, ROUTE and field is equal, within a bound (1e-5 of its size, as
+// single precision and quaternions have it), or other. The counts are the table in docs/conformance.md.
+//
+//   gltf_roundtrip --check          fails when the table in docs/conformance.md says something else
+//   gltf_roundtrip --update         writes it there
+//   gltf_roundtrip FOLDER...        counts for the worlds below other folders
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "parsers/parsers.h"
+#include "parsers/resources.h"
+#include "passes/pipeline.h"
+#include "scenegraph/equal.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/transform.h"
+#include "scenegraph/walk.h"
+#include "writers/gltf.h"
+#include "writers/vrml.h"
+
+using namespace wrlkit;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Counts {
+  std::size_t equal = 0, near = 0, other = 0;
+};
+using Tally = std::map<std::string, Counts>;
+
+bool near(double a, double b) { return std::abs(a - b) <= 1e-5 * (1 + std::abs(a)); }
+
+bool near_numbers(std::span<const double> a, std::span<const double> b) { return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), near); }
+
+bool same_rotation(std::span<const double> a, std::span<const double> b) {
+  return near_numbers(rotation_matrix({a[0], a[1], a[2], a[3]}).m, rotation_matrix({b[0], b[1], b[2], b[3]}).m);
+}
+
+std::vector<double> unit(std::span<const double> v) {
+  const double length = std::hypot(v[0], v[1], v[2]);
+  return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+/// Two scenes, node by node.
+class Comparison {
+ public:
+  Comparison(const Scene& a, const Scene& b, Tally& tally) : a_(a), b_(b), tally_(tally) {}
+
+  void run() {
+    nodes(a_.main.roots, b_.main.roots, "roots");
+    count("ROUTE", a_.main.routes.size(), b_.main.routes.size());
+    count("PROTO", a_.main.protos.size(), b_.main.protos.size());
+  }
+
+ private:
+  void count(const std::string& what, std::size_t wanted, std::size_t found) {
+    auto& c = tally_[what];
+    c.equal += std::min(wanted, found);
+    c.other += std::max(wanted, found) - std::min(wanted, found);
+  }
+
+  void nodes(std::span<const NodeId> x, std::span<const NodeId> y, const std::string& where) {
+    if (x.size() != y.size()) return void(tally_[where + ": another number of nodes"].other++);
+    for (std::size_t i = 0; i < x.size(); ++i) node(x[i], y[i], where);
+  }
+
+  void node(NodeId x, NodeId y, const std::string& where) {
+    if (!x && !y) return;
+    if (!x || !y || a_.type(x).name != b_.type(y).name) {
+      std::string from(x ? a_.type(x).name : "NULL"), to(y ? b_.type(y).name : "NULL");
+      return void(tally_[where + ": " + from + " is " + to].other++);
+    }
+    auto [at, is_new] = met_.try_emplace(x.value, y);
+    if (!is_new) return void(++(at->second == y ? tally_["USE"].equal : tally_["USE"].other));
+    ++tally_["nodes"].equal;
+    if (!a_.name(x).empty()) name(x, y);
+    if (a_.is(x, nodes::IndexedFaceSet)) return polygons(x, y, "polygons", polygons_of);
+    if (a_.is(x, nodes::IndexedLineSet)) return polygons(x, y, "polylines", polylines_of);
+    fields(x, y);
+  }
+
+  /// Instances of a prototype have the names of its body; what a ROUTE refers to among them gets a number.
+  void name(NodeId x, NodeId y) {
+    const auto wanted = a_.name(x), found = b_.name(y);
+    if (found == wanted) ++tally_["DEF names"].equal;
+    else if (found.starts_with(std::string(wanted) + "_")) ++tally_["DEF names"].near;
+    else ++tally_["DEF names of " + std::string(a_.type(x).name)].other;
+  }
+
+  void fields(NodeId x, NodeId y) {
+    const auto& t = a_.type(x);
+    for (std::uint16_t slot = 0; slot < std::min(t.fields.size(), b_.type(y).fields.size()); ++slot) {
+      const auto& f = t.fields[slot];
+      if (!f.has_value()) continue;
+      const Value &v = a_.value(x, slot), &w = b_.value(y, slot);
+      const std::string name = std::string(t.name) + "." + std::string(f.name_in(Dialect::vrml97));
+      if (info(f.type).element == Element::node) nodes(v.node_span(), w.node_span(), name);
+      else if (a_.find(x, slot) || b_.find(y, slot)) value(v, w, name);
+    }
+  }
+
+  void value(const Value& v, const Value& w, const std::string& name) {
+    if (equal_plain(v, w)) return void(++tally_["fields"].equal);
+    bool close = info(v.type).element == Element::number && v.count == w.count;
+    if (close) close = v.type == FieldType::SFRotation ? same_rotation(v.number_span(), w.number_span()) : near_numbers(v.number_span(), w.number_span());
+    if (!close && name.ends_with(".direction")) close = near_numbers(unit(v.number_span()), unit(w.number_span()));
+    // Behind the urls stands where the picture is now.
+    if (!close && name.ends_with("Texture.url")) close = w.count > v.count && std::ranges::equal(v.text_span(), w.text_span().first(v.count));
+    if (close) return void(++tally_["fields"].near);
+    ++tally_[name].other;
+  }
+
+  using Point = std::array<double, 3>;
+  /// The polygons of an IndexedFaceSet, each from its least corner on.
+  static std::vector<std::vector<Point>> polygons_of(const Scene& s, NodeId n) {
+    namespace f = nodes::indexed_face_set;
+    NodeId coord = s.get(n, f::coord);
+    std::vector<std::vector<Point>> out(1);
+    if (!coord) return {};
+    auto p = s.get(coord, nodes::coordinate::point);
+    for (auto i : s.get(n, f::coordIndex)) {
+      const auto k = static_cast<std::size_t>(i) * 3;
+      if (i >= 0 && k + 2 < p.size()) out.back().push_back({p[k], p[k + 1], p[k + 2]});
+      else if (i < 0) out.emplace_back();
+    }
+    std::erase_if(out, [](auto& face) { return face.size() < 3; });
+    for (auto& face : out) {
+      if (!s.get(n, f::ccw)) std::ranges::reverse(face);
+      std::ranges::rotate(face, std::ranges::min_element(face));
+    }
+    return out;
+  }
+
+  static std::vector<std::vector<Point>> polylines_of(const Scene& s, NodeId n) {
+    namespace f = nodes::indexed_line_set;
+    std::vector<std::vector<Point>> out(1);
+    NodeId coord = s.get(n, f::coord);
+    if (!coord) return {};
+    auto p = s.get(coord, nodes::coordinate::point);
+    for (auto i : s.get(n, f::coordIndex)) {
+      const auto k = static_cast<std::size_t>(i) * 3;
+      if (i >= 0 && k + 2 < p.size()) out.back().push_back({p[k], p[k + 1], p[k + 2]});
+      else if (i < 0) out.emplace_back();
+    }
+    std::erase_if(out, [](auto& line) { return line.size() < 2; });
+    return out;
+  }
+
+  template <class Read>
+  void polygons(NodeId x, NodeId y, const char* what, Read read) {
+    auto p = read(a_, x), q = read(b_, y);
+    auto& c = tally_[what];
+    auto close = [](const auto& f, const auto& g) {
+      bool all = f.size() == g.size();
+      for (std::size_t k = 0; all && k < f.size(); ++k) all = near_numbers(f[k], g[k]);
+      return all;
+    };
+    // Faces without area are dropped on the way: what follows is looked for a little further on.
+    constexpr std::size_t further = 8;
+    std::size_t at = 0;
+    for (const auto& face : p) {
+      std::size_t i = at;
+      while (i < std::min(q.size(), at + further) && !close(face, q[i])) ++i;
+      if (i == std::min(q.size(), at + further)) { ++c.other; continue; }
+      ++(face == q[i] ? c.equal : c.near);
+      at = i + 1;
+    }
+  }
+
+  const Scene &a_, &b_;
+  Tally& tally_;
+  std::map<std::uint32_t, NodeId> met_;
+};
+
+std::unique_ptr<World> read(const fs::path& path) {
+  Diagnostics diag;
+  return read_world(path.string(), {}, diag);
+}
+
+/// Writes a world as .glb with the standard pipeline; the scene stays as it was before its meshes were made.
+bool write_glb(World& world, const fs::path& from, const fs::path& to) {
+  Diagnostics diag(world.scene.sources);
+  Statistics stats;
+  auto parse = [](const std::string& path, Diagnostics& d) {
+    auto w = read_world(path, {}, d);
+    return w ? std::make_shared<const Scene>(std::move(w->scene)) : nullptr;
+  };
+  FileResources resources({.input = from.string()}, parse);
+  PassContext context{diag, stats, &resources};
+  std::string why;
+  auto pipeline = Pipeline::parse("gltf", why);
+  auto meshes = pipeline->run_lazily(world.scene, context);
+  return meshes && write_gltf(world.scene, meshes, {}, &resources, to.string(), diag);
+}
+
+fs::path temporary(const char* name) { return fs::temp_directory_path() / (std::string(name) + std::to_string(::getpid())); }
+
+bool through_gltf(const fs::path& path, Tally& tally) {
+  auto world = read(path);
+  if (!world || world->format != Format::vrml97) return false;
+  const auto glb = temporary("through.glb");
+  if (write_glb(*world, path, glb)) {
+    if (auto back = read(glb)) Comparison(world->scene, back->scene, tally).run();
+    else ++tally["not read"].other;
+  }
+  fs::remove(glb);
+  return true;
+}
+
+bool through_vrml(const fs::path& path, Tally& tally) {
+  auto world = read(path);
+  if (!world || world->format != Format::gltf) return false;
+  Diagnostics diag(world->scene.sources);
+  std::string text;
+  write_vrml(world->scene, {}, [&](std::string_view s) { text += s; }, diag);
+  auto vrml = parse_world(text, path.string() + ".wrl", {}, diag);
+  const auto glb = temporary("back.glb");
+  if (vrml && write_glb(*vrml, path, glb)) {
+    if (auto back = read(glb)) Comparison(vrml->scene, back->scene, tally).run();
+    else ++tally["not read"].other;
+  }
+  fs::remove(glb);
+  return true;
+}
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& e : fs::recursive_directory_iterator(folder))
+    if (e.is_regular_file()) files.push_back(e.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+std::string table(const std::string& title, const fs::path& folder, bool (*run)(const fs::path&, Tally&)) {
+  Tally tally;
+  std::size_t worlds = 0;
+  for (const auto& path : files_below(folder)) worlds += run(path, tally);
+  std::ostringstream out;
+  out << title << ", " << worlds << " files:\n\n| what | equal | within the bound | other |\n|---|---|---|---|\n";
+  for (const auto& [what, c] : tally) out << "| " << what << " | " << c.equal << " | " << c.near << " | " << c.other << " |\n";
+  return out.str() + "\n";
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const fs::path source = WRLKIT_SOURCE_DIR, page = source / "docs/conformance.md";
+  const std::string mode = argc > 1 ? argv[1] : "--check";
+  if (!mode.starts_with("--")) {
+    for (int i = 1; i < argc; ++i) std::fputs(table("VRML97 -> glTF -> VRML97", argv[i], through_gltf).c_str(), stdout);
+    return 0;
+  }
+  const std::string made = table("VRML97 -> glTF -> VRML97, corpus/", source / "corpus", through_gltf) +
+                           table("glTF -> VRML97 -> glTF, tests/gltf/", source / "tests/gltf", through_vrml);
+  const std::string begin = "<!-- made by tests/roundtrip/gltf_roundtrip -->\n", end = "<!-- end -->";
+  auto text = text_of(page);
+  auto from = text.find(begin), to = text.find(end, from);
+  if (from == text.npos || to == text.npos) return std::printf("docs/conformance.md has no place for the table\n%s", made.c_str()), 1;
+  from += begin.size();
+  if (mode == "--update") {
+    std::ofstream(page) << text.replace(from, to - from, made);
+  } else if (text.substr(from, to - from) != made) {
+    std::printf("docs/conformance.md says otherwise than this; gltf_roundtrip --update writes it there\n%s", made.c_str());
+    return 1;
+  }
+  return 0;
+}
