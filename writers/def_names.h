@@ -70,7 +70,7 @@ class Names {
     auto by_slot = [](const Value* a, const Value* b) { return a->slot < b->slot; };
     if (!std::ranges::is_sorted(v, by_slot)) std::ranges::stable_sort(v, by_slot);
     if (dialect_ == Dialect::x3d && !v.empty())
-      std::ranges::stable_partition(v, [&](const Value* f) { return !scene_.is_extra(*f) && t.fields[f->slot].name == "metadata"; });
+      std::stable_partition(v.begin(), v.end(), [&](const Value* f) { return !scene_.is_extra(*f) && t.fields[f->slot].name == "metadata"; });
     return v;
   }
 

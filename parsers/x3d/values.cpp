@@ -83,7 +83,11 @@ bool AttributeValues::value(FieldType type, std::uint16_t slot, std::string_view
   if (t.element == Element::text) return strings(slot, attribute, out), true;
   const bool entities = attribute.find('&') != attribute.npos;
   enter(attribute, entities ? plain(attribute) : attribute);
-  if (t.element == Element::image) return image(type, slot, out) && (at_end(t.name), true);
+  if (t.element == Element::image) {
+    const bool read = image(type, slot, out);
+    if (read) at_end(t.name);
+    return read;
+  }
   if (type == FieldType::SFBool || type == FieldType::MFBool) return booleans(type, slot, field, attribute, out);
   return numbers_of(type, slot, field, fallback, attribute, out);
 }
@@ -98,7 +102,10 @@ bool AttributeValues::numbers_of(FieldType type, std::uint16_t slot, std::string
   if (bracket && take(vrml::Kind::close_bracket)) diag_.report(Diag::extra_bracket, span_of(attribute), field);
   at_end(t.name);
   const std::size_t count = real ? numbers_.size() : integers_.size();
-  if (count == 0 && !t.multiple) return trim(attribute).empty() && (diag_.report(Diag::bad_value, span_of(attribute), "''", t.name), true), false;
+  if (count == 0 && !t.multiple) {
+    if (trim(attribute).empty()) diag_.report(Diag::bad_value, span_of(attribute), "''", t.name);
+    return false;
+  }
   if (!t.multiple && count < t.arity) fix_arity(t.arity, fallback, field, span_of(attribute));
   if (!t.multiple && count > t.arity) diag_.report(Diag::missing_values, span_of(attribute), count, field, static_cast<int>(t.arity));
   if (t.multiple && count % t.arity) diag_.report(Diag::missing_values, span_of(attribute), count, field, static_cast<int>(t.arity));

@@ -16,10 +16,13 @@ const counts = {worlds: 0, broken: 0, valid: 0, bytes: 0};
 
 const fault = (world, kind, detail = '') => faults.push({name: world.name, kind, detail});
 
+// glTF lets the viewer make tangents for a normal map (3.7.2.1); the materials of X3D 4.0 have such maps and no tangents.
+const accepted = ['MESH_PRIMITIVE_GENERATED_TANGENT_SPACE'];
+
 /// Errors and warnings that the validator finds in a .glb.
 async function findings(bytes) {
   const report = await validator.validateBytes(new Uint8Array(bytes), {maxIssues: 0});
-  return {meshes: report.info.totalTriangleCount + report.info.drawCallCount, issues: report.issues.messages.filter(m => m.severity <= 1)};
+  return {meshes: report.info.totalTriangleCount + report.info.drawCallCount, issues: report.issues.messages.filter(m => m.severity <= 1 && !accepted.includes(m.code))};
 }
 
 async function check_result(world, result, out) {
