@@ -310,10 +310,11 @@ bool Vrml1Parser::enumeration(FieldType type, std::uint16_t slot, Value& out) {
     Token t = lex_.next();
     for (char c : text(t)) {
       depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-      if (c != '(' && c != ')' && c != '"') all += c;
+      if (c != '(' && c != ')' && !Lexer::separates(c)) all += c;
     }
     if (lex_.peek().kind != Kind::word) break;
   } while (depth > 0 || all.ends_with('|') || text(lex_.peek()).starts_with('|'));
+  if (all.empty()) return diag_.report(Diag::bad_value, span(first), describe(first), info(type).name), false;
   out = scene_.make(type, slot, utf8(all, span(first)));
   return true;
 }
