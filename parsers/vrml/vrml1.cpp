@@ -174,7 +174,9 @@ void Vrml1Parser::element(Token t, Body& body) {
     lex_.seek(t.end);
     known_field(type.fields[*slot].type, *slot, t, type.fields[*slot].default_value);
   } else if (node_follows(t)) {
+    const bool around = std::exchange(in_vrml97_field_, is_vrml97(type) && type.find("children", Dialect::vrml97));
     if (NodeId n = node_statement()) child(n, t, body);
+    in_vrml97_field_ = around;
     for (NodeId n : std::exchange(misplaced_, {})) child(n, t, body);
   } else if (w == "fields") {
     lex_.seek(t.end);
