@@ -174,7 +174,9 @@ void Vrml1Parser::element(Token t, Body& body) {
     lex_.seek(t.end);
     known_field(type.fields[*slot].type, *slot, t, type.fields[*slot].default_value);
   } else if (node_follows(t)) {
+    const bool around = std::exchange(in_vrml97_field_, is_vrml97(type) && type.find("children", Dialect::vrml97));
     if (NodeId n = node_statement()) child(n, t, body);
+    in_vrml97_field_ = around;
     for (NodeId n : std::exchange(misplaced_, {})) child(n, t, body);
   } else if (w == "fields") {
     lex_.seek(t.end);
@@ -310,10 +312,11 @@ bool Vrml1Parser::enumeration(FieldType type, std::uint16_t slot, Value& out) {
     Token t = lex_.next();
     for (char c : text(t)) {
       depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-      if (c != '(' && c != ')' && c != '"') all += c;
+      if (c != '(' && c != ')' && !Lexer::separates(c)) all += c;
     }
     if (lex_.peek().kind != Kind::word) break;
   } while (depth > 0 || all.ends_with('|') || text(lex_.peek()).starts_with('|'));
+  if (all.empty()) return diag_.report(Diag::bad_value, span(first), describe(first), info(type).name), false;
   out = scene_.make(type, slot, utf8(all, span(first)));
   return true;
 }
