@@ -7,6 +7,7 @@
 #include "passes/geometry.h"
 #include "passes/light/world.h"
 #include "passes/lightmap/bake.h"
+#include "passes/lightmap/from_patches.h"
 #include "passes/lightmap/layout.h"
 #include "passes/lightmap/own_shapes.h"
 #include "passes/lightmap/parts.h"
@@ -78,11 +79,18 @@ class Meshes {
   MeshScratch scratch_;
 };
 
+Outcome take_patches(Scene& scene, const light::LightWorld& world, const LightmapOptions& options, PassContext& ctx) {
+  const auto patches = ctx.resources->patches(options.patches, ctx.diag);
+  if (!patches) return Outcome::failed;
+  return light_from_patches(scene, world, *patches, {options.smooth, options.format}, ctx) ? Outcome::changed : Outcome::unchanged;
+}
+
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
   own_shapes(scene, ctx.diag);
   Meshes meshes(scene, ctx);
   const light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options), ctx.diag);
-  auto parts = find_parts(scene, world.stage(), ctx);
+  if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
+  auto parts = find_parts(scene, world.stage(), Sides::apart, ctx);
   if (parts.empty()) return Outcome::unchanged;
   if (!world.has_sky_of_its_own()) ctx.diag.report(Diag::no_light, {});
   unfold_parts(parts, world.stage());

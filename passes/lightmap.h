@@ -39,7 +39,8 @@ struct LightmapOptions {
   SkyLight sky;
   double emission = 1;
   bool directional = false, exr = false, denoise = true;
-  std::string format = "png", checkpoint;
+  std::string format = "png", checkpoint, patches;
+  bool smooth = false;
   int seed = 1;
 
   void fields(auto&& f) {
@@ -55,6 +56,8 @@ struct LightmapOptions {
     f("format", format, "of the pictures: png, jpg or webp");
     f("checkpoint", checkpoint, "file in which finished work is kept, so that the same call goes on after an interruption");
     f("seed", seed, "of the random numbers");
+    f("patches", patches, "patch file (wrlkit illuminate) to take the light from, instead of computing it");
+    f("smooth", smooth, "colours of patches go over into one another");
   }
 };
 
@@ -65,6 +68,8 @@ struct LightmapOptions {
 ///   (lightmap/own_shapes.h). What events can reach is not copied: it has the light of its first place.
 /// - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get faces.
 /// - Left alone: Shapes without a Material, text, lines, points, levels of a LOD behind the first, other choices of a Switch.
+/// - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only `smooth`
+///   and `format` count. Backs share the picture of their fronts.
 /// - A world without any light is lit by a white sky, which is reported (no-light).
 ///
 /// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays, .inside.

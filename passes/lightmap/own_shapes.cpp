@@ -54,14 +54,16 @@ class Unsharer {
   }
 
  private:
-  /// Puts a copy for each node that was met before. False when nothing changed.
+  /// Puts a copy for each node that was met before. False when nothing changed. The first place in the file keeps the node.
   bool own(std::vector<NodeId>& ids) {
     bool changed = false;
+    const auto mark = static_cast<std::ptrdiff_t>(open_.size());
     for (NodeId& n : ids) {
       if (!n || !is_holder(n)) continue;
       if (!is_met(n)) met_[n.value] = 1, open_.push_back(n);
       else if (!moving_[n]) n = copy(n), changed = true;
     }
+    std::reverse(open_.begin() + mark, open_.end());
     return changed;
   }
 

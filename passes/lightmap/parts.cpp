@@ -96,7 +96,8 @@ class Backs {
 
 class Finder {
  public:
-  Finder(const Scene& scene, const Stage& stage, PassContext& ctx) : scene_(scene), stage_(stage), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
+  Finder(const Scene& scene, const Stage& stage, Sides sides, PassContext& ctx)
+      : scene_(scene), stage_(stage), sides_(sides), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
     for (const auto& s : surfaces_of(scene)) lit_.emplace(s.geometry.value, s);
   }
 
@@ -127,7 +128,7 @@ class Finder {
     resolve_order(p.mesh);
     add_normals(p);
     p.n_fronts = p.n_triangles();
-    if (p.mesh.solid) return;
+    if (p.mesh.solid || sides_ == Sides::as_they_are) return;
     PointJoiner joiner;
     p.mesh.solid = true;
     if (!is_closed(points_of(p.mesh, joiner))) Backs(p).append();
@@ -160,6 +161,7 @@ class Finder {
 
   const Scene& scene_;
   const Stage& stage_;
+  Sides sides_;
   Diagnostics unheard_;  // whoever draws the geometry says what is wrong with it
   Statistics unheard_counts_;
   PassContext reading_;
@@ -194,7 +196,7 @@ void unfold(Part& p, const Stage& stage) {
 
 }  // namespace
 
-std::vector<Part> find_parts(const Scene& scene, const Stage& stage, PassContext& ctx) { return Finder(scene, stage, ctx).run(); }
+std::vector<Part> find_parts(const Scene& scene, const Stage& stage, Sides sides, PassContext& ctx) { return Finder(scene, stage, sides, ctx).run(); }
 
 void unfold_parts(std::vector<Part>& parts, const Stage& stage) {
   parallel_for(parts.size(), [&](std::size_t i) { unfold(parts[i], stage); });

@@ -27,13 +27,16 @@ struct Part {
   drawing::V3 normal(std::size_t corner) const { return {normals[3 * corner], normals[3 * corner + 1], normals[3 * corner + 2]}; }
 };
 
+/// What becomes of the backs of faces that are seen from both sides.
+enum class Sides : std::uint8_t { apart, as_they_are };
+
 /// The parts of a stage, in its order. Left out: what has no Material, as it is not lit; text, lines and points; geometry
 /// that events can change. O(triangles).
 ///
-/// A face of `solid` FALSE is seen from both sides, which have light of their own; where the surface is closed nobody sees
+/// Sides apart: a face of `solid` FALSE is seen from both sides, which have light of their own; where the surface is closed nobody sees
 /// the inner side, and only the outer one is lit. So an open surface of `solid` FALSE gets a back for each face, and
 /// `solid` TRUE. A closed one that is wound inside out is turned.
-std::vector<Part> find_parts(const Scene& scene, const drawing::Stage& stage, PassContext& ctx);
+std::vector<Part> find_parts(const Scene& scene, const drawing::Stage& stage, Sides sides, PassContext& ctx);
 
 /// Unfolds each part into charts; in parallel.
 void unfold_parts(std::vector<Part>& parts, const drawing::Stage& stage);

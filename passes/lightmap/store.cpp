@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 #include <stdexcept>
-#include <tuple>
 
 #include "passes/geometry.h"
 #include "passes/weld/value_table.h"
@@ -53,105 +50,101 @@ double exposure(const std::vector<BakedPage>& pages) {
   return std::max(1.0, double{*at});
 }
 
-class Storing {
- public:
-  Storing(Scene& scene, const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx)
-      : scene_(scene), options_(options), ctx_(ctx), scale_(exposure(pages)) {
-    for (std::size_t i = 0; i < pages.size(); ++i) add_page(i, pages[i]);
-  }
-
-  void add(Part& part, const std::vector<float>& coords, NodeId geometry) {
-    ValueTable<float, 2> table;
-    table.start(coords.size() / 2);
-    Attribute& to = part.mesh.lightcoord;
-    to.index.clear();
-    for (std::size_t c = 0; c < coords.size(); c += 2) to.index.push_back(table.number(&coords[c]));
-    to.values = std::move(table.values);
-    store_mesh(scene_, geometry, part.mesh);
-  }
-
-  void light(NodeId shape, const Layout& layout, const ShapePlace& place) {
-    namespace f = nodes::appearance;
-    NodeId appearance = scene_.get(shape, nodes::shape::appearance);
-    auto [mine, added] = place.own_coords ? of_.try_emplace({appearance.value, place.page}) : std::pair(of_.end(), true);
-    if (!added) return scene_.set(shape, nodes::shape::appearance, mine->second);
-    if (!taken_.insert(appearance.value).second) {
-      const NodeId copy = scene_.add(nodes::Appearance, scene_.where(appearance));
-      const std::vector<Value> fields(scene_.fields(appearance).begin(), scene_.fields(appearance).end());
-      scene_.set_fields(copy, fields);
-      appearance = copy;
-      scene_.set(shape, nodes::shape::appearance, appearance);
-    }
-    if (mine != of_.end()) mine->second = appearance;
-    scene_.set(appearance, f::lightmap, lightmaps_[place.page]);
-    scene_.set(appearance, f::lightmapScale, scale_);
-    if (!directions_[place.page].empty()) scene_.set(appearance, f::lightmapDirection, directions_[place.page]);
-    if (place.own_coords) scene_.unset(appearance, f::lightmapTransform.slot);
-    else scene_.set(appearance, f::lightmapTransform, transform(place, layout.pages()[place.page]));
-  }
-
- private:
-  void add_page(std::size_t i, const BakedPage& page) {
-    const std::string name = "lightmap_" + std::to_string(i);
-    const double scale = scale_;
-    lightmaps_.push_back(texture(name, picture(page.light, [scale](float v) { return byte(linear_to_srgb(v / scale)); })));
-    auto& directions = directions_.emplace_back();
-    const char* axes[] = {"_x", "_y", "_z"};
-    for (std::size_t k = 0; k < page.direction.size(); ++k)
-      directions.push_back(texture(name + axes[k], picture(page.direction[k], [](float v) { return byte(0.5 + 0.5 * v); })));
-    if (!options_.exr) return;
-    std::string error;
-    auto bytes = encode_exr(raw(page.light), error);
-    if (!bytes) throw std::runtime_error(error);
-    ctx_.resources->add_made({name + ".exr", std::make_shared<const std::string>(std::move(*bytes)), true});
-  }
-
-  NodeId texture(const std::string& name, const Image& image) {
-    namespace f = nodes::image_texture;
-    std::string error;
-    const std::string file = name + "." + options_.extension;
-    auto bytes = encode_as(file, image, error);
-    if (!bytes) throw std::runtime_error(error);
-    const std::string url = ctx_.resources->add_made({file, std::make_shared<const std::string>(std::move(*bytes)), false});
-    const NodeId n = scene_.add(nodes::ImageTexture);
-    scene_.set(n, f::url, std::vector<std::string_view>{url});
-    scene_.set(n, f::repeatS, false);
-    scene_.set(n, f::repeatT, false);
-    return n;
-  }
-
-  /// ISO/IEC 14772-1, 6.49: moved, then turned, then scaled.
-  NodeId transform(const ShapePlace& p, const PageLayout& page) {
-    namespace f = nodes::texture_transform;
-    constexpr double quarter = 1.57079632679489662;
-    const double x = p.x / p.unit, y = p.y / p.unit;
-    const double moved[4][2] = {{x, y}, {y, -x}, {-x, -y}, {-y, x}};  // turned back
-    const auto& m = moved[p.quarter_turns & 3];
-    const NodeId n = scene_.add(nodes::TextureTransform);
-    scene_.set(n, f::rotation, quarter * p.quarter_turns);
-    scene_.set(n, f::scale, Vec2{p.unit / page.width, p.unit / page.height});
-    scene_.set(n, f::translation, Vec2{m[0], m[1]});
-    return n;
-  }
-
-  Scene& scene_;
-  const StoreOptions& options_;
-  PassContext& ctx_;
-  double scale_;
-  std::vector<NodeId> lightmaps_;                // of each page
-  std::vector<std::vector<NodeId>> directions_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, NodeId> of_;  // Appearances by the one that was, and page
-  std::set<std::uint32_t> taken_;                // Appearances that have a lightmap
-};
-
 }  // namespace
 
-void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const drawing::Stage& stage, std::vector<BakedPage>& pages,
+Storing::Storing(Scene& scene, const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx)
+    : scene_(scene), options_(options), ctx_(ctx), scale_(exposure(pages)) {
+  for (std::size_t i = 0; i < pages.size(); ++i) add_page(i, pages[i]);
+}
+
+void Storing::place(Part& part, const std::vector<float>& coords, NodeId geometry) {
+  ValueTable<float, 2> table;
+  table.start(coords.size() / 2);
+  Attribute& to = part.mesh.lightcoord;
+  to.index.clear();
+  for (std::size_t c = 0; c < coords.size(); c += 2) to.index.push_back(table.number(&coords[c]));
+  to.values = std::move(table.values);
+  store_mesh(scene_, geometry, part.mesh);
+}
+
+/// Shapes with places of their own share an Appearance where they did and lie on one page.
+NodeId Storing::own_appearance(NodeId shape, const ShapePlace& place) {
+  const NodeId there = scene_.get(shape, nodes::shape::appearance);
+  auto known = of_.find({there.value, place.page});
+  if (place.own_coords && known != of_.end()) return known->second;
+  NodeId mine = there;
+  if (!taken_.insert(there.value).second) {
+    mine = scene_.add(nodes::Appearance, scene_.where(there));
+    const std::vector<Value> fields(scene_.fields(there).begin(), scene_.fields(there).end());
+    scene_.set_fields(mine, fields);
+  }
+  if (place.own_coords) of_[{there.value, place.page}] = mine;
+  return mine;
+}
+
+void Storing::light(NodeId shape, const ShapePlace& place, const PageLayout& page) {
+  namespace f = nodes::appearance;
+  const NodeId appearance = own_appearance(shape, place);
+  scene_.set(shape, nodes::shape::appearance, appearance);
+  scene_.set(appearance, f::lightmap, lightmaps_[place.page]);
+  scene_.set(appearance, f::lightmapScale, scale_);
+  if (!directions_[place.page].empty()) scene_.set(appearance, f::lightmapDirection, directions_[place.page]);
+  if (place.own_coords) scene_.unset(appearance, f::lightmapTransform.slot);
+  else scene_.set(appearance, f::lightmapTransform, transform(place, page));
+}
+
+void Storing::add_page(std::size_t i, const BakedPage& page) {
+  const std::string name = "lightmap_" + std::to_string(i);
+  const double scale = scale_;
+  lightmaps_.push_back(texture(name, picture(page.light, [scale](float v) { return byte(linear_to_srgb(v / scale)); })));
+  auto& directions = directions_.emplace_back();
+  const char* axes[] = {"_x", "_y", "_z"};
+  for (std::size_t k = 0; k < page.direction.size(); ++k)
+    directions.push_back(texture(name + axes[k], picture(page.direction[k], [](float v) { return byte(0.5 + 0.5 * v); })));
+  if (!options_.exr) return;
+  std::string error;
+  auto bytes = encode_exr(raw(page.light), error);
+  if (!bytes) throw std::runtime_error(error);
+  ctx_.resources->add_made({name + ".exr", std::make_shared<const std::string>(std::move(*bytes)), true});
+}
+
+NodeId Storing::texture(const std::string& name, const Image& image) {
+  namespace f = nodes::image_texture;
+  std::string error;
+  const std::string file = name + "." + options_.extension;
+  auto bytes = encode_as(file, image, error);
+  if (!bytes) throw std::runtime_error(error);
+  const std::string url = ctx_.resources->add_made({file, std::make_shared<const std::string>(std::move(*bytes)), false});
+  const NodeId n = scene_.add(nodes::ImageTexture);
+  scene_.set(n, f::url, std::vector<std::string_view>{url});
+  scene_.set(n, f::repeatS, false);
+  scene_.set(n, f::repeatT, false);
+  return n;
+}
+
+/// ISO/IEC 14772-1, 6.49: moved, then turned, then scaled.
+NodeId Storing::transform(const ShapePlace& p, const PageLayout& page) {
+  namespace f = nodes::texture_transform;
+  constexpr double quarter = 1.57079632679489662;
+  const double x = p.x / p.unit, y = p.y / p.unit;
+  const double moved[4][2] = {{x, y}, {y, -x}, {-x, -y}, {-y, x}};  // turned back
+  const auto& m = moved[p.quarter_turns & 3];
+  const NodeId n = scene_.add(nodes::TextureTransform);
+  scene_.set(n, f::rotation, quarter * p.quarter_turns);
+  scene_.set(n, f::scale, Vec2{p.unit / page.width, p.unit / page.height});
+  scene_.set(n, f::translation, Vec2{m[0], m[1]});
+  return n;
+}
+
+void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const drawing::Stage& stage, const std::vector<BakedPage>& pages,
            const StoreOptions& options, PassContext& ctx) {
   Storing storing(scene, pages, options, ctx);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    storing.add(parts[i], layout.coords(i), parts[i].geometry);
-    for (std::size_t k = 0; k < parts[i].uses.size(); ++k) storing.light(stage.uses[parts[i].uses[k]].shape, layout, layout.place(i, k));
+    storing.place(parts[i], layout.coords(i), parts[i].geometry);
+    for (std::size_t k = 0; k < parts[i].uses.size(); ++k) {
+      const ShapePlace place = layout.place(i, k);
+      storing.light(stage.uses[parts[i].uses[k]].shape, place, layout.pages()[place.page]);
+    }
   }
 }
 

@@ -4,10 +4,14 @@
 //                                            lightmapTransform TextureTransform { ... } lightmapScale 2.5 }
 //                    geometry IndexedFaceSet { ... lightCoord TextureCoordinate { ... } lightCoordIndex [ ... ] } }
 #pragma once
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "passes/lightmap/bake.h"
+#include "scenegraph/image.h"
 
 namespace wrlkit::bake {
 
@@ -16,10 +20,35 @@ struct StoreOptions {
   bool exr = false;               // the light as it is beside them, linear and not scaled
 };
 
-/// The geometry of each part becomes an IndexedFaceSet of triangles with lightCoord. The Appearance of each Shape gets the
-/// lightmap of its page; one that Shapes with different lightmaps share is copied. lightmapScale is the same everywhere: as
-/// much as keeps all but the brightest thousandth of the texels below white. Pictures go to ctx.resources.
-void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const drawing::Stage& stage, std::vector<BakedPage>& pages,
+/// Takes the pictures of all pages, which go to ctx.resources, and then part by part and Shape by Shape what lies on them.
+/// lightmapScale is the same everywhere: as much as keeps all but the brightest thousandth of the texels below white.
+class Storing {
+ public:
+  Storing(Scene& scene, const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx);
+
+  /// `geometry` becomes an IndexedFaceSet of the triangles of the part, with lightCoord: two numbers for each corner.
+  void place(Part& part, const std::vector<float>& coords, NodeId geometry);
+  /// The Appearance of the Shape gets the lightmap of a page; one that Shapes with different lightmaps share is copied.
+  void light(NodeId shape, const ShapePlace& place, const PageLayout& page);
+
+ private:
+  void add_page(std::size_t i, const BakedPage& page);
+  NodeId texture(const std::string& name, const Image& image);
+  NodeId transform(const ShapePlace& p, const PageLayout& page);
+  NodeId own_appearance(NodeId shape, const ShapePlace& place);
+
+  Scene& scene_;
+  StoreOptions options_;
+  PassContext& ctx_;
+  double scale_;
+  std::vector<NodeId> lightmaps_;                // of each page
+  std::vector<std::vector<NodeId>> directions_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, NodeId> of_;  // Appearances by the one that was, and page
+  std::set<std::uint32_t> taken_;                // Appearances that have a lightmap
+};
+
+/// All of a layout.
+void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const drawing::Stage& stage, const std::vector<BakedPage>& pages,
            const StoreOptions& options, PassContext& ctx);
 
 }  // namespace wrlkit::bake
