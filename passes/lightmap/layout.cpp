@@ -72,18 +72,24 @@ void Layout::pack_all() {
   }
 }
 
+/// A part that has more charts than a page has texels gets a larger page.
+int Layout::larger(int side) const {
+  constexpr int most_side = 32768;
+  if (side >= most_side) throw std::length_error("a surface has more charts than the largest page has texels");
+  return side ? 2 * side : options_.side;
+}
+
 /// A Shape has one lightmap: where the charts of a part are not all on one page, fewer parts are tried together, and what
 /// does not fit alone gets fewer texels.
 void Layout::pack(std::size_t begin, std::size_t end, int side) {
   std::vector<unwrap::PackItem> items;
   for (std::size_t i = begin; i < end; ++i) items.push_back(item(i));
-  auto atlas = unwrap::pack(items, {options_.padding, options_.side, side});
+  auto atlas = unwrap::pack(items, {options_.padding, std::max(options_.side, side), side});
   auto whole = [](const unwrap::PackedItem& i) {
     return std::ranges::all_of(i.charts, [&](const Placement& c) { return c.page == i.charts[0].page; });
   };
   if (!std::ranges::all_of(atlas.items, whole)) {
-    if (end - begin == 1 && side == options_.side) throw std::length_error("more charts than texels");
-    if (end - begin == 1) return pack(begin, end, options_.side);
+    if (end - begin == 1) return pack(begin, end, larger(side));
     const std::size_t middle = begin + (end - begin) / 2;
     pack(begin, middle, side);
     return pack(middle, end, side);

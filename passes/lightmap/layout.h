@@ -55,6 +55,7 @@ class Layout {
   unwrap::PackItem item(std::size_t part) const;
   void pack_all();
   void pack(std::size_t begin, std::size_t end, int side);
+  int larger(int side) const;
   void measure_pieces();
   void place_triangles();
   unwrap::Point2 in_item(std::size_t part, std::size_t corner) const;

@@ -1,0 +1,200 @@
+// The pass `lightmap` from world to picture: closed formulas, leaks, seams, both sides, and the same bytes on any number of
+// threads.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "parsers/parsers.h"
+#include "parsers/resources.h"
+#include "passes/geometry.h"
+#include "passes/parallel.h"
+#include "passes/pipeline.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/srgb.h"
+#include "scenegraph/walk.h"
+
+using namespace wrlkit;
+
+namespace {
+
+/// A world that was baked.
+struct Baked {
+  Diagnostics diag;
+  Statistics stats;
+  FileResources resources{{.input = "test.wrl"}, [](const std::string&, Diagnostics&) { return nullptr; }};
+  PassContext ctx{diag, stats, &resources};
+  std::unique_ptr<World> world;
+
+  Baked(const std::string& body, const std::string& options) : world(parse_world("#VRML V2.0 utf8\n" + body, "test.wrl", {}, diag)) {
+    REQUIRE(world);
+    std::string why;
+    auto p = Pipeline::parse("lightmap{" + options + "}", why);
+    INFO(why);
+    REQUIRE(p);
+    REQUIRE(p->run(world->scene, ctx));
+  }
+
+  NodeId shape(std::string_view name) const {
+    for (NodeId n : all_nodes(world->scene))
+      if (world->scene.name(n) == name) return n;
+    FAIL("there is no " << name);
+    return {};
+  }
+};
+
+/// The lightmap of one Shape without lightmapTransform.
+class Light {
+ public:
+  Light(Baked& b, std::string_view name) {
+    const Scene& scene = b.world->scene;
+    const NodeId shape = b.shape(name), appearance = scene.get(shape, nodes::shape::appearance), map = scene.get(appearance, nodes::appearance::lightmap);
+    REQUIRE(map);
+    REQUIRE(!scene.get(appearance, nodes::appearance::lightmapTransform));
+    picture_ = b.resources.image(scene.get(map, nodes::image_texture::url), scene.where(map), b.diag);
+    REQUIRE(picture_);
+    scale_ = scene.get(appearance, nodes::appearance::lightmapScale);
+    MeshScratch scratch;
+    MeshJob job{scene, scene.get(shape, nodes::shape::geometry), mesh, scratch, b.ctx};
+    read_mesh(job);
+    REQUIRE(mesh.lightcoord.present());
+  }
+
+  /// What a bilinear filter shows there: irradiance / pi, green.
+  double at(double s, double t) const {
+    const double x = s * picture_->width - 0.5, y = (1 - t) * picture_->height - 0.5;
+    const int u = static_cast<int>(std::floor(x)), v = static_cast<int>(std::floor(y));
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) {
+      const double w = (k & 1 ? x - u : 1 - (x - u)) * (k >> 1 ? y - v : 1 - (y - v));
+      sum += w * srgb_to_linear(texel(u + (k & 1), v + (k >> 1)) / 255.0);
+    }
+    return scale_ * sum;
+  }
+  /// At weights of the corners of a triangle.
+  double at(std::size_t triangle, double a, double b) const {
+    const double w[] = {a, b, 1 - a - b};
+    double s = 0, t = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* c = mesh.lightcoord.at(mesh.lightcoord.index[3 * triangle + k]);
+      s += w[k] * c[0], t += w[k] * c[1];
+    }
+    return at(s, t);
+  }
+  /// At a place of the local frame that lies in a triangle of the plane y = 0.
+  double on_floor(double x, double z) const {
+    for (std::size_t i = 0; i < mesh.corners.size() / 3; ++i) {
+      double p[3][2];
+      for (std::size_t k = 0; k < 3; ++k) p[k][0] = mesh.positions[3 * mesh.corners[3 * i + k]], p[k][1] = mesh.positions[3 * mesh.corners[3 * i + k] + 2];
+      auto area = [](double ax, double ay, double bx, double by, double cx, double cy) { return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); };
+      const double all = area(p[0][0], p[0][1], p[1][0], p[1][1], p[2][0], p[2][1]);
+      const double a = area(x, z, p[1][0], p[1][1], p[2][0], p[2][1]) / all, b = area(p[0][0], p[0][1], x, z, p[2][0], p[2][1]) / all;
+      if (a >= -1e-9 && b >= -1e-9 && a + b <= 1 + 1e-9) return at(i, a, b);
+    }
+    FAIL("no triangle there");
+    return 0;
+  }
+
+  Mesh mesh;
+
+ private:
+  int texel(int x, int y) const {
+    x = std::clamp(x, 0, picture_->width - 1), y = std::clamp(y, 0, picture_->height - 1);
+    return picture_->pixels[(std::size_t(y) * picture_->width + x) * picture_->channels + 1];
+  }
+
+  std::shared_ptr<const Image> picture_;
+  double scale_ = 1;
+};
+
+/// A box of 2 m; its faces look inward or outward.
+std::string box(bool inward, double half) {
+  const auto h = std::to_string(half);
+  std::string points;
+  for (int i = 0; i < 8; ++i) points += std::string(i & 1 ? "" : "-") + h + (i & 2 ? " " : " -") + h + (i & 4 ? " " : " -") + h + ", ";
+  std::string faces = "0 2 3 1 -1 4 5 7 6 -1 0 1 5 4 -1 2 6 7 3 -1 0 4 6 2 -1 1 3 7 5 -1";
+  return "IndexedFaceSet { ccw " + std::string(inward ? "FALSE" : "TRUE") + " coord Coordinate { point [ " + points + " ] } coordIndex [ " + faces + " ] }";
+}
+
+std::string material(double diffuse, double emissive = 0) {
+  auto c = [](double linear) { auto v = std::to_string(linear_to_srgb(linear)); return v + " " + v + " " + v; };
+  return "appearance Appearance { material Material { diffuseColor " + c(diffuse) + " emissiveColor " + c(emissive) + " } }";
+}
+
+const std::string floor_of_4 = "IndexedFaceSet { coord Coordinate { point [ -2 0 -2, -2 0 2, 2 0 2, 2 0 -2 ] } coordIndex [ 0 1 2 3 -1 ] }";
+
+}  // namespace
+
+TEST_CASE("bake: the white furnace is as bright everywhere", "[bake]") {
+  // Radiance L = emission + albedo L.
+  Baked b("DEF Room Shape { " + material(0.5, 0.25) + " geometry " + box(true, 1) + " }", "quality=normal,max-size=64");
+  Light room(b, "Room");
+  for (std::size_t i = 0; i < room.mesh.corners.size() / 3; ++i)
+    for (auto [u, v] : {std::pair{0.02, 0.02}, {0.96, 0.02}, {0.3, 0.3}, {0.02, 0.96}}) CHECK(room.at(i, u, v) == Approx(0.5).epsilon(0.03));
+}
+
+TEST_CASE("bake: a lamp over a floor, by the inverse square", "[bake]") {
+  Baked b("DEF Floor Shape { " + material(0.5) + " geometry " + floor_of_4 + " } PointLight { location 0 2 0 attenuation 0 0 1 }", "quality=draft,max-size=128");
+  Light floor(b, "Floor");
+  for (double r : {0.0, 0.5, 1.0, 1.5}) CHECK(floor.on_floor(r, 0.01) == Approx(2 / std::pow(4 + r * r, 1.5)).epsilon(0.02));
+}
+
+TEST_CASE("bake: no light comes into a closed room", "[bake]") {
+  Baked b("DEF In Shape { " + material(0.8) + " geometry " + box(true, 1) + " } DEF Out Shape { " + material(0.8) + " geometry " + box(false, 1.1) + " }",
+          "quality=draft,max-size=128,sky=1:1:1");
+  Light in(b, "In"), out(b, "Out");
+  for (std::size_t i = 0; i < in.mesh.corners.size() / 3; ++i)
+    for (auto [u, v] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.3, 0.3}}) {
+      CHECK(in.at(i, u, v) < 1e-3);
+      CHECK(out.at(i, u, v) == Approx(1).epsilon(0.05));
+    }
+}
+
+TEST_CASE("bake: both sides of a thin plate have light of their own", "[bake]") {
+  Baked b("DEF Plate Shape { " + material(0.5) + " geometry IndexedFaceSet { solid FALSE coord Coordinate { point [ -2 0 -2, -2 0 2, 2 0 2, 2 0 -2 ] } "
+          "coordIndex [ 0 1 2 3 -1 ] } } PointLight { location 0 2 0 attenuation 0 0 1 }", "quality=draft,max-size=128");
+  Light plate(b, "Plate");
+  REQUIRE(plate.mesh.corners.size() == 12);
+  CHECK(plate.mesh.solid);
+  CHECK(plate.at(std::size_t{0}, 0.3, 0.3) > 0.1);
+  CHECK(plate.at(std::size_t{2}, 0.3, 0.3) == 0);
+}
+
+TEST_CASE("bake: the light of a smooth surface goes on across a cut", "[bake]") {
+  Baked b("DEF Pipe Shape { " + material(0.5) + " geometry Cylinder { top FALSE bottom FALSE } } PointLight { location 2 1 2 attenuation 0 0 1 }",
+          "quality=normal,max-size=128,sky=0.2:0.2:0.2");
+  Light pipe(b, "Pipe");
+  std::map<std::array<double, 3>, std::vector<double>> shown;
+  for (std::size_t c = 0; c < pipe.mesh.corners.size(); ++c) {
+    const double* p = pipe.mesh.positions.data() + 3 * std::size_t{pipe.mesh.corners[c]};
+    const float* l = pipe.mesh.lightcoord.at(pipe.mesh.lightcoord.index[c]);
+    shown[{p[0], p[1], p[2]}].push_back(pipe.at(l[0], l[1]));
+  }
+  std::size_t n_cut = 0;
+  for (auto& [p, light] : shown) {
+    auto [low, high] = std::ranges::minmax(light);
+    n_cut += low != high;
+    CHECK(high - low < 0.02);
+  }
+  CHECK(n_cut >= 1);
+}
+
+TEST_CASE("bake: shared geometry has light of its own at each place, and the same bytes come from any number of threads", "[bake]") {
+  const std::string world = "DEF A Shape { " + material(0.5) + " geometry DEF G " + floor_of_4 +
+                            " } Transform { translation 0 0 50 children USE A } PointLight { location 0 2 0 attenuation 0 0 1 }";
+  std::vector<std::string> pictures;
+  for (int threads : {1, 2}) {
+    ThreadLimit limit(threads);
+    Baked b(world, "quality=draft,max-size=128");
+    const Scene& scene = b.world->scene;
+    CHECK(scene.get(b.shape("A"), nodes::shape::geometry) == scene.get(b.shape("A_2"), nodes::shape::geometry));
+    REQUIRE(b.resources.made().size() == 1);
+    pictures.push_back(*b.resources.made()[0].bytes);
+    // One place is bright and the other dark.
+    auto place = [&](const char* name) {
+      const NodeId a = scene.get(b.shape(name), nodes::shape::appearance);
+      return scene.get(scene.get(a, nodes::appearance::lightmapTransform), nodes::texture_transform::translation);
+    };
+    CHECK(place("A") != place("A_2"));
+  }
+  CHECK(pictures[0] == pictures[1]);
+}
