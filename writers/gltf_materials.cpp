@@ -227,8 +227,8 @@ void Materials::pbr(JsonOut& json, const Look& l) {
 void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name, std::uint32_t texture, const char* factor, double value) {
   json.key(name);
   json.begin_object();
-  if (value != 1) json.member(factor, static_cast<float>(value));
   texture_info_members(json, texture, 0, l.uv);
+  if (value != 1) json.member(factor, static_cast<float>(value));
   if (extras_ && l.transform_node) {
     json.key("extras");
     json.begin_object();

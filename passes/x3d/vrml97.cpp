@@ -78,7 +78,7 @@ class Lowering {
     if (t.kind != NodeKind::builtin && t.kind != NodeKind::script) return;
     const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
     for (const Value& v : fields) {
-      if (scene_.is_extra(v) || (t.fields[v.slot].dialects & in_vrml97)) continue;
+      if (scene_.is_extra(v) || t.fields[v.slot].is_own() || (t.fields[v.slot].dialects & in_vrml97)) continue;
       const auto& f = t.fields[v.slot];
       if (v.is || !equals_default(v, f)) diag_.report(Diag::no_vrml97_value, scene_.where(n), t.name, f.name);
       scene_.unset(n, v.slot);
