@@ -312,13 +312,14 @@ TEST_CASE("combine-lightmap: a pipeline has it behind the last pass over the sce
     }
     return names;
   };
-  const std::string front = "inline,expand-protos,inline,expand-protos,prune,", end = ",tessellate,normals,triangulate";
+  const std::string front = "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d,prune,", end = ",tessellate,normals,triangulate";
   CHECK(completed("weld", "gltf") == front + "combine-lightmap,weld" + end);
   CHECK(completed("weld,lod", "gltf") == front + "weld,lod,combine-lightmap" + end);
   CHECK(completed("lod,weld", "gltf") == front + "lod,combine-lightmap,weld" + end);
   CHECK(completed("lod", "gltf-light") == front + "lod" + end);
-  CHECK(completed("prune", "vrml") == "prune,combine-lightmap");
-  CHECK(completed("combine-lightmap,prune", "vrml") == "combine-lightmap,prune");
+  CHECK(completed("prune", "vrml") == "lower-vrml1,lower-x3d,prune,combine-lightmap");
+  CHECK(completed("combine-lightmap,prune", "vrml") == "lower-vrml1,lower-x3d,combine-lightmap,prune");
+  CHECK(completed("inline", "vrml") == "lower-vrml1,inline,lower-x3d,combine-lightmap");
 }
 
 TEST_CASE("render: baked light is shown, and not lit again", "[lightmap]") {
