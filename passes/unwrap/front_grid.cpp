@@ -33,9 +33,12 @@ void FrontGrid::reset(double cell, std::size_t n) {
   shift_ = 32 - bits;
   head_.assign(std::size_t{1} << bits, end);
   entries_.clear();
+  asked_.assign(n, 0);
+  query_ = 0;
 }
 
 void FrontGrid::insert(const Triangle2& t, std::uint32_t name) {
+  if (name >= asked_.size()) asked_.resize(2 * std::size_t{name} + 1, 0);
   for_each_touched_row(scaled(t), [&](int y, int x0, int x1) {
     for (int x = x0; x <= x1; ++x) {
       std::uint32_t& head = head_[bucket(x, y)];

@@ -23,19 +23,25 @@ class FrontGrid {
   template <class Get>
   bool overlaps(const Triangle2& t, Get&& get) {
     bool found = false;
+    int n = 0;
+    ++query_;
     for_each_touched_row(scaled(t), [&](int y, int x0, int x1) {
       for (int x = x0; x <= x1 && !found; ++x)
         for (std::uint32_t* link = &head_[bucket(x, y)]; *link != end;) {
           Triangle2 other;
           Entry& e = entries_[*link];
+          found |= ++n > most_asked;
+          if (found) break;
+          if (asked_[e.name] == query_) {
+            link = &e.next;
+            continue;
+          }
+          asked_[e.name] = query_;
           if (!get(e.name, other)) {
             *link = e.next;
             continue;
           }
-          if (overlap(t, other)) {
-            found = true;
-            break;
-          }
+          found |= overlap(t, other);
           link = &e.next;
         }
     });
@@ -43,6 +49,7 @@ class FrontGrid {
   }
 
  private:
+  static constexpr int most_asked = 8192;
   static constexpr std::uint32_t end = 0xffffffffu;
   struct Entry {
     std::uint32_t name, next;
@@ -52,6 +59,8 @@ class FrontGrid {
     return (static_cast<std::uint32_t>(x) * 0x9E3779B1u ^ static_cast<std::uint32_t>(y) * 0x85EBCA77u) >> shift_;
   }
 
+  std::vector<std::uint32_t> asked_;  // of a name: the last query that met it
+  std::uint32_t query_ = 0;
   double scale_ = 1;
   int shift_ = 31;
   std::vector<std::uint32_t> head_;

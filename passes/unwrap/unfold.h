@@ -21,7 +21,8 @@ struct UnfoldOptions {
 /// Unfolds a surface. Neighbours are those that share positions, so equal points must have been joined.
 ///
 /// - What is developable (planes, cylinders, cones, chains of such) is unrolled without any distortion, and coplanar
-///   neighbours come into one chart. The rest is cut into charts whose stretch is bounded.
+///   neighbours come into one chart. The rest is cut into charts whose stretch is bounded. (A plane of more than 2,000
+///   triangles around one point may come in several charts.)
 /// - Triangles of a chart never overlap, and none is mirrored.
 /// - Charts are cut at borders, creases, groups, edges of more than two triangles and where the winding turns over.
 /// - Each triangle has a chart. One without area, or not finite, covers nothing: it lies on a neighbour's edge or, when

@@ -410,6 +410,16 @@ TEST_CASE("unwrap: broken triangles have harmless places") {
   check({&item, 1}, pack({&item, 1}, {.side = 64}), 2);
 }
 
+TEST_CASE("unwrap: a disc of very many needles") {
+  Solid s;
+  std::uint32_t n = 10000, middle = s.point(0, 0, 0);
+  for (std::uint32_t i = 0; i < n; ++i) s.point(std::cos(2 * pi * i / n), std::sin(2 * pi * i / n), 0);
+  for (std::uint32_t i = 0; i < n; ++i) s.triangle(middle, 1 + i, 1 + (i + 1) % n);
+  Charts c = s.charts();
+  CHECK(c.size() < 60);
+  CHECK(distortion(s, c) < 1e-2);
+}
+
 TEST_CASE("unwrap: a million loose corners") {
   Solid s;
   std::mt19937 random(5);
