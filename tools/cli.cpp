@@ -163,7 +163,7 @@ const Verb verbs[] = {
        v.add_option("--max-edge", f.max_edge, "longest edge of a patch: 5cm, 0.05; as a rule what makes some twenty thousand patches")->type_name("LENGTH");
        v.add_option("--max-area", f.max_area, "largest area of a patch, in square metres")->check(CLI::PositiveNumber);
        v.add_option("--gradient", f.gradient, "smaller patches, down to an eighth, where neighbours differ by more than this share of the world's mean radiance: 0.2")->check(CLI::PositiveNumber);
-       v.add_option("--max-patches", f.max_patches, "when there would be more, all are made larger; a patch takes some 400 bytes")->check(CLI::Range(1, 100'000'000))->capture_default_str();
+       v.add_option("--max-patches", f.max_patches, "when there would be more, all are made larger; a patch takes some 260 bytes")->check(CLI::Range(1, 100'000'000))->capture_default_str();
        auto* pictures = v.add_option("--pictures", f.pictures, "folder for the textures as well: a .png for each Shape with its flat polygons as they are lit")->type_name("DIR");
        v.add_flag("--smooth", f.smooth, "the textures with three colours a patch, so that its edges are not seen")->needs(pictures);
        v.add_option("--emission", f.emission, "emissiveColor shines so many times as bright as it looks")->check(CLI::NonNegativeNumber)->capture_default_str();

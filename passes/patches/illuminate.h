@@ -15,7 +15,7 @@ struct IlluminateOptions {
 };
 
 /// Radiance of each patch of each Shape that is shown, in the order of LightWorld::stage(); shapes have its numbers. The same
-/// set for any number of threads. Memory: some 400 bytes a patch.
+/// set for any number of threads. Memory: some 260 bytes a patch.
 PatchSet illuminate(const Scene& scene, const LightWorld& world, const IlluminateOptions& options, Diagnostics& diag);
 
 }  // namespace wrlkit::light
