@@ -10,7 +10,7 @@
 import fs from 'node:fs';
 import path from 'node:path';
 import {has_chromium, take_pictures} from './browser.mjs';
-import {expected, found_worlds_to_compare} from './expectations.mjs';
+import {expected, found_worlds_to_compare, is_compared} from './expectations.mjs';
 import {in_lanes, run} from './program.mjs';
 import {view_of} from './view.mjs';
 import {file_of, found_worlds, has_shared, own_worlds} from './worlds.mjs';
@@ -74,7 +74,7 @@ function keep_picture({name, lighting, sheet}) {
 function worlds() {
   if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)];
   const found = found_worlds_to_compare.map(name => ({name, file: file_of(name)})).filter(w => w.file);
-  return [...own_worlds(), ...with_levels, ...found].filter(w => w.name.includes(part));
+  return [...own_worlds(), ...with_levels, ...found].filter(w => is_compared(w.name) && w.name.includes(part));
 }
 
 async function main() {
