@@ -12,6 +12,7 @@
 
 #include "passes/patches/patch_lightmap.h"
 #include "scenegraph/image.h"
+#include "scenegraph/srgb.h"
 #include "tools/lengths.h"
 #include "tools/session.h"
 #include "writers/json.h"
@@ -42,10 +43,7 @@ bool read_options(const Flags& f, light::IlluminateOptions& o) {
 Image as_seen(const light::FloatPicture& picture) {
   Image image{picture.width, picture.height, 3, {}};
   for (const auto& p : picture.pixels)
-    for (double v : {p.x, p.y, p.z}) {
-      const double linear = std::clamp(v, 0.0, 1.0), display = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-      image.pixels.push_back(static_cast<std::uint8_t>(display * 255 + 0.5));
-    }
+    for (double v : {p.x, p.y, p.z}) image.pixels.push_back(static_cast<std::uint8_t>(linear_to_srgb(v) * 255 + 0.5));
   return image;
 }
 

@@ -1,6 +1,7 @@
 // From the colours of the display, which VRML writes, to light, in which sums are taken: IEC 61966-2-1 (sRGB).
 #pragma once
 #include "passes/render/linear.h"
+#include "scenegraph/srgb.h"
 
 namespace wrlkit::light {
 
@@ -8,8 +9,7 @@ using drawing::V3;
 
 /// Goes on beyond 1 by the same formula: lights may be brighter than white.
 inline double linear(double display) {
-  if (!(display > 0)) return 0;
-  return display <= 0.04045 ? display / 12.92 : std::pow((display + 0.055) / 1.055, 2.4);
+  return display > 0 ? srgb_to_linear(display) : 0;
 }
 inline V3 linear(const V3& display) { return {linear(display.x), linear(display.y), linear(display.z)}; }
 
