@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "passes/pipeline.h"
+#include "scenegraph/nearest_name.h"
 
 namespace wrlkit {
 namespace option_text {
@@ -63,10 +64,12 @@ class PassOf final : public PassInstance {
   }
   bool set(std::string_view option, std::string_view value, std::string& why) override {
     bool found = false, good = false;
+    NearestName nearest(option);
     options_.fields([&](std::string_view name, auto& field, std::string_view) {
+      nearest.consider(name);
       if (name == option) found = true, good = option_text::read(value, field);
     });
-    if (!found) why = "has no option '" + std::string(option) + "'";
+    if (!found) why = "has no option '" + std::string(option) + "'" + nearest.question();
     else if (!good) why = "option '" + std::string(option) + "': '" + std::string(value) + "' is no value for it";
     return good;
   }

@@ -7,6 +7,7 @@
 
 #include "passes/geometry.h"
 #include "scenegraph/blanks.h"
+#include "scenegraph/nearest_name.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
@@ -40,6 +41,12 @@ bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
   return true;
 }
 
+std::string no_such_pass(std::string_view name) {
+  NearestName nearest(name);
+  for (const auto& p : passes()) nearest.consider(p.name);
+  return "there is no pass '" + std::string(name) + "'" + nearest.question();
+}
+
 bool is_geometry(const Scene& scene, NodeId n) { return scene.type(n).kind == NodeKind::builtin && scene.type(n).is_a("X3DGeometryNode"); }
 
 class Timer {
@@ -66,7 +73,7 @@ std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why)
     auto brace = item.find('{');
     auto name = trim(item.substr(0, brace));
     auto* info = find_pass(name);
-    if (!info) return why = "there is no pass '" + std::string(name) + "'", std::nullopt;
+    if (!info) return why = no_such_pass(name), std::nullopt;
     Step s{info, info->make()};
     if (brace != item.npos) {
       if (item.back() != '}') return why = "'}' is missing behind '" + std::string(name) + "'", std::nullopt;
@@ -110,11 +117,16 @@ void Pipeline::complete(std::string_view named) {
   steps_ = std::move(all);
 }
 
+std::vector<Pipeline::StepInfo> Pipeline::steps() const {
+  std::vector<StepInfo> out;
+  for (const auto& s : steps_) out.push_back({s.info->name, s.pass->options()});
+  return out;
+}
+
 std::string Pipeline::text() const {
   std::string out;
-  for (auto& s : steps_) {
-    out += (out.empty() ? "" : ",") + std::string(s.info->name);
-    auto options = s.pass->options();
+  for (const auto& [name, options] : steps()) {
+    out += (out.empty() ? "" : ",") + std::string(name);
     for (std::size_t i = 0; i < options.size(); ++i) out += (i ? "," : "{") + options[i].name + "=" + options[i].value;
     if (!options.empty()) out += "}";
   }

@@ -75,6 +75,12 @@ class Pipeline {
   MeshSource run_lazily(Scene&, PassContext&, const PipelineOptions& = {});
 
   bool empty() const { return steps_.empty(); }
+  struct StepInfo {
+    std::string_view name;
+    std::vector<OptionInfo> options;
+  };
+  /// What text() says, pass by pass.
+  std::vector<StepInfo> steps() const;
 
  private:
   struct Step {

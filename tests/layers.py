@@ -7,7 +7,7 @@ root = pathlib.Path(__file__).resolve().parents[1]
 folders = ['scenegraph', 'parsers', 'passes', 'writers', 'tools']
 allowed = {'scenegraph': ['scenegraph'], 'parsers': ['scenegraph', 'parsers'], 'passes': ['scenegraph', 'passes'],
            'writers': ['scenegraph', 'writers'], 'tools': folders}
-third_party = re.compile(r'^(fmt|zlib|fast_float|embree3|OpenImageIO|CLI|tbb|ft2build|freetype|nlohmann|pugixml|catch2|meshoptimizer|draco)\b')
+third_party = re.compile(r'^(fmt|toml|xxhash|pybind11|zlib|fast_float|embree3|OpenImageIO|CLI|tbb|ft2build|freetype|nlohmann|pugixml|catch2|meshoptimizer|draco)\b')
 faults = []
 for folder in folders:
     for path in sorted((root / folder).rglob('*')):

@@ -5,8 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <memory>
 
 #include "passes/simplify/levels.h"
+#include "tools/recipe.h"
 
 #ifndef WRLKIT_VERSION
 #define WRLKIT_VERSION "unknown"
@@ -81,6 +83,8 @@ const Verb verbs[] = {
        input(v, f);
        v.add_option("OUT", f.output, "file.glb, .gltf, .wrl, .wrz")->required();
        pipeline(v, f);
+       v.add_option("--recipe", f.recipe, "passes and options from a recipe, as far as they are not given here; see docs/recipes.md")->type_name("FILE");
+       v.add_flag("--print-recipe", f.print_recipe, "print the whole pipeline and all options as a recipe, and end");
        v.add_option("--lightmap-as", f.lightmap_as, "baked light in glTF: base-color, in the texture of unlit materials; emissive; occlusion, its brightness alone; moz, as MOZ_lightmap; extras, for programs that look there")
            ->check(CLI::IsMember({"base-color", "emissive", "occlusion", "moz", "extras"}))->capture_default_str();
        placing(v, f);
@@ -175,8 +179,8 @@ const Verb verbs[] = {
     {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",
      [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "node type, pass or message")->required(); }, run_explain},
-    {"docs", "a page of the documentation that is made from the tables: nodes, passes or diagnostics", "wrlkit docs nodes",
-     [](CLI::App& v, Flags& f) { v.add_option("PAGE", f.name, "nodes, passes or diagnostics")->required()->check(CLI::IsMember({"nodes", "passes", "diagnostics"})); }, run_docs},
+    {"docs", "a page of the documentation that is made from the tables: nodes, passes, diagnostics or recipes", "wrlkit docs nodes",
+     [](CLI::App& v, Flags& f) { v.add_option("PAGE", f.name, "nodes, passes, diagnostics or recipes")->required()->check(CLI::IsMember({"nodes", "passes", "diagnostics", "recipes"})); }, run_docs},
 };
 
 /// "8G" to bytes; 0 when it is no size.
@@ -198,20 +202,48 @@ bool limit_memory(const Flags& f) {
 
 }  // namespace
 
-int run_command_line(int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  Flags flags;
-  flags.warnings = take_warning_flags(words);
-  if (!words.empty() && !words[0].starts_with('-') && std::ranges::none_of(verbs, [&](const Verb& v) { return words[0] == v.name; }))
-    return std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str()), usage;
-  std::ranges::reverse(words);
+namespace {
 
-  CLI::App app("wrlkit: legacy virtual worlds (VRML97) to glTF, and back to better VRML", "wrlkit");
+constexpr std::string_view program_help = "wrlkit: legacy virtual worlds (VRML97) to glTF, and back to better VRML";
+
+const Verb* find_verb(std::string_view name) {
+  auto i = std::ranges::find(verbs, name, &Verb::name);
+  return i == std::end(verbs) ? nullptr : &*i;
+}
+
+/// The options of one verb, as an application of their own.
+std::unique_ptr<CLI::App> app_of(const Verb& verb, Flags& flags) {
+  auto app = std::make_unique<CLI::App>(verb.help, verb.name);
+  verb.flags(*app, flags);
+  common(*app, flags);
+  return app;
+}
+
+std::vector<CLI::Option*> long_options(const CLI::App& app) {
+  std::vector<CLI::Option*> out;
+  for (auto* o : app.get_options([](const CLI::Option* o) { return !o->get_lnames().empty(); })) out.push_back(const_cast<CLI::Option*>(o));
+  for (auto* group : app.get_subcommands([](const CLI::App* a) { return a->get_name().empty(); }))
+    for (auto* o : long_options(*group)) out.push_back(o);
+  return out;
+}
+
+bool is_flag(const CLI::Option& o) { return o.get_expected_min() == 0; }
+
+/// What was given on the command line.
+GivenOptions given_options(const CLI::App& verb) {
+  GivenOptions out;
+  for (auto* o : long_options(verb))
+    if (o->count() > 0) out.emplace_back(o->get_lnames()[0], o->results());
+  return out;
+}
+
+/// One parse. Flags that CLI11 cannot set are set by the caller.
+int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
+  std::ranges::reverse(words);
+  CLI::App app(std::string(program_help), "wrlkit");
   app.set_version_flag("--version", std::string("wrlkit ") + WRLKIT_VERSION);
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
-  int code = done;
-  const Verb* chosen = nullptr;
   for (const Verb& v : verbs) {
     auto* sub = app.add_subcommand(v.name, v.help);
     v.flags(*sub, flags);
@@ -222,11 +254,77 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(words);
   } catch (const CLI::ParseError& e) {
-    code = app.exit(e);
-    return code == 0 ? done : usage;
+    chosen = nullptr;
+    return app.exit(e) == 0 ? done : usage;
   }
-  for (auto* sub : app.get_subcommands())
+  for (auto* sub : app.get_subcommands()) {
+    flags.given = given_options(*sub);
     if (auto* p = sub->get_option_no_throw("--pipeline")) flags.pipeline_given = p->count() > 0;
+  }
+  return done;
+}
+
+/// The command line with what its recipe says, as far as it does not say that itself. False, with a message, when the recipe
+/// is none.
+bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& words, std::vector<std::string>& warnings) {
+  std::string why;
+  auto recipe = read_recipe(flags.recipe, why);
+  if (!recipe) return std::fputs(why.c_str(), stderr), false;
+  if (recipe->pipeline) recipe->options.emplace_back("pipeline", std::vector{*recipe->pipeline});
+  Flags unused;
+  const auto app = app_of(verb, unused);
+  std::vector<std::string> added;
+  for (const auto& [name, values] : recipe->options) {
+    const auto* option = app->get_option_no_throw("--" + name);
+    if (!option || std::ranges::find(flags.given, name, &GivenOptions::value_type::first) != flags.given.end()) continue;
+    for (const auto& v : values) added.push_back("--" + name + "=" + v);
+  }
+  words.insert(std::ranges::find(words, verb.name) + 1, added.begin(), added.end());
+  warnings.insert(warnings.begin(), recipe->warnings.begin(), recipe->warnings.end());
+  return true;
+}
+
+}  // namespace
+
+std::vector<OptionHelp> options_of(std::string_view verb) {
+  Flags unused;
+  const auto app = app_of(*find_verb(verb), unused);
+  std::vector<OptionHelp> out;
+  for (auto* o : long_options(*app)) out.push_back({o->get_lnames()[0], is_flag(*o) ? std::string(flag_type) : o->get_type_name(), o->get_description()});
+  return out;
+}
+
+bool check_option(std::string_view verb, std::string_view option, const std::vector<std::string>& values, std::string& why) {
+  Flags unused;
+  const auto app = app_of(*find_verb(verb), unused);
+  auto* o = app->get_option("--" + std::string(option));
+  try {
+    for (const auto& v : values) o->add_result(v);
+    o->run_callback();
+    return true;
+  } catch (const CLI::Error& e) {
+    why = e.what();
+    return false;
+  }
+}
+
+int run_command_line(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const auto warnings = take_warning_flags(words);
+  if (!words.empty() && !words[0].starts_with('-') && !find_verb(words[0]))
+    return std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str()), usage;
+  Flags flags;
+  const Verb* chosen = nullptr;
+  int code = parse(words, flags, chosen);
+  std::vector<std::string> of_recipe;
+  if (chosen && !flags.recipe.empty()) {
+    if (!add_recipe(flags, *chosen, words, of_recipe)) return usage;
+    flags = {};
+    code = parse(words, flags, chosen);
+  }
+  if (!chosen) return code;
+  flags.warnings = of_recipe;
+  flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
   if (!limit_memory(flags)) return std::fprintf(stderr, "wrlkit: --memory: '%s' is no size\n", flags.memory.c_str()), usage;
   return chosen->run(flags);
 }

@@ -6,6 +6,7 @@
 
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
+#include "tools/recipe.h"
 #include "tools/session.h"
 #include "tools/vrml_file.h"
 #include "writers/gltf.h"
@@ -83,6 +84,7 @@ int run_convert(const Flags& flags) {
   if (!target) return fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output), usage;
   if (!s.good() || !s.choose_pipeline(pipeline_for(*target, flags))) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
+  if (flags.print_recipe) return fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline())), done;
   if (!s.read(flags.inputs[0])) return s.end(false);
   check_values(s.world().scene, s.diag());
   const auto& main = s.world().scene.main;

@@ -1,42 +1,23 @@
 // wrlkit explain, passes, formats: what the tables say of node types, passes, messages and formats.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-#include <vector>
-
 #include "passes/pipeline.h"
 #include "scenegraph/diagnostics.h"
+#include "scenegraph/nearest_name.h"
 #include "scenegraph/node_table.h"
 #include "tools/documentation.h"
 #include "tools/flags.h"
+#include "tools/recipe.h"
 
 namespace wrlkit {
 namespace {
 
-/// Letters that must be changed, at the most, to count as meant.
-constexpr std::size_t near = 3;
-
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]))}));
-  }
-  return row.back();
-}
-
-std::string nearest(std::string_view name) {
-  std::string best;
-  std::size_t least = near + 1;
-  auto consider = [&](std::string_view candidate) {
-    if (auto d = distance(name, candidate); d < least) least = d, best = candidate;
-  };
-  for (auto& n : builtin_nodes()) consider(n.name);
-  for (auto& p : passes()) consider(p.name);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i) consider(info(static_cast<Diag>(i)).name);
-  return best;
+std::string meant(std::string_view name) {
+  NearestName nearest(name);
+  for (auto& n : builtin_nodes()) nearest.consider(n.name);
+  for (auto& p : passes()) nearest.consider(p.name);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i) nearest.consider(info(static_cast<Diag>(i)).name);
+  return nearest.question();
 }
 
 }  // namespace
@@ -50,9 +31,7 @@ int run_explain(const Flags& flags) {
   if (type || old) return done;
   if (auto* p = find_pass(flags.name)) return fmt::print("{}", pass_text(*p)), done;
   if (Diag d; find_diag(flags.name, d)) return fmt::print("{}", diagnostic_text(d)), done;
-  fmt::print(stderr, "wrlkit: there is no node type, pass or message '{}'", flags.name);
-  auto meant = nearest(flags.name);
-  fmt::print(stderr, "{}\n", meant.empty() ? "" : fmt::format("; did you mean '{}'?", meant));
+  fmt::print(stderr, "wrlkit: there is no node type, pass or message '{}'{}\n", flags.name, meant(flags.name));
   return usage;
 }
 
@@ -69,7 +48,7 @@ int run_passes(const Flags& flags) {
 }
 
 int run_docs(const Flags& flags) {
-  fmt::print("{}", flags.name == "nodes" ? nodes_page() : flags.name == "passes" ? passes_page() : diagnostics_page());
+  fmt::print("{}", flags.name == "nodes" ? nodes_page() : flags.name == "passes" ? passes_page() : flags.name == "recipes" ? recipes_page() : diagnostics_page());
   return done;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wrlkit {
@@ -28,6 +29,9 @@ struct Flags {
   std::string print_after;
   bool gzip = false, dump = false;
   int precision = 0;
+  std::string recipe;
+  bool print_recipe = false;
+  std::vector<std::pair<std::string, std::vector<std::string>>> given;  // every option that was given, by name
   std::string lightmap_as = "base-color";  // what becomes of baked light in glTF
 
   bool parse_only = false;                 // check
