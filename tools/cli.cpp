@@ -175,6 +175,17 @@ const Verb verbs[] = {
        placing(v, f);
      },
      run_illuminate},
+    {"view", "a page to look at the world, or to compare two: one HTML file that needs no other and no network",
+     "wrlkit view plant.wrl -o plant.html\n  wrlkit view plant.wrl simpler.wrl -o compared.html\n  wrlkit view valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view plant.wrl --serve",
+     [](CLI::App& v, Flags& f) {
+       v.add_option("IN", f.inputs, "the world, or two worlds to be compared")->required()->expected(1, 2);
+       v.add_option("-o,--output", f.output, "file.html; - is standard output")->type_name("FILE");
+       v.add_flag("--serve", f.serve, "show the page at an address of this machine, which nobody else can reach, until it is interrupted");
+       v.add_option("--criteria", f.criteria, "criteria whose collapses are shown step by step; as a rule three of a single world of up to 300,000 triangles")->delimiter(',')->check(CLI::IsMember(criterion_names()));
+       pipeline(v, f);
+       placing(v, f);
+     },
+     run_view},
     {"passes", "every pass, or one with its options", "wrlkit passes tessellate", [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "a pass"); }, run_passes},
     {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",

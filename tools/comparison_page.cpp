@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "tools/base64.h"
 #include "tools/chart.h"
 #include "tools/comparison.h"
 
@@ -24,18 +25,6 @@ constexpr std::string_view page_style =
     ".scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}"
     "td,th{padding:3px 14px 3px 0;text-align:right;white-space:nowrap;border-bottom:1px solid var(--rule)}td:first-child,th:first-child{text-align:left}"
     "th{font-weight:600;color:var(--soft)}";
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 

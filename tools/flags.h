@@ -64,7 +64,9 @@ struct Flags {
   bool smooth = false;
   double emission = 1;
 
-  std::vector<std::string> criteria;
+  bool serve = false;                      // view
+
+  std::vector<std::string> criteria;       // compare-lod, view
   bool bare = false;
   int picture_size = 300;
 };
@@ -81,6 +83,7 @@ int run_render(const Flags&);
 int run_simplify(const Flags&);
 int run_compare_lod(const Flags&);
 int run_illuminate(const Flags&);
+int run_view(const Flags&);
 int run_passes(const Flags&);
 int run_formats(const Flags&);
 int run_explain(const Flags&);

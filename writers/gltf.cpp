@@ -90,22 +90,38 @@ class Writer {
   bool write() {
     Files files(diag_);
     if (!files.open(path_)) return false;
-    hierarchy_.build();
-    animations_.store(store_, [&](std::uint32_t node) { return hierarchy_.offset(node); });
-    if (store_.full()) return report_too_large(store_.bytes(), diag_);
-    bool inside = options_.images == GltfOptions::Images::embedded ||
-                  (options_.images == GltfOptions::Images::automatic && options_.binary);
-    static const std::vector<Picture> no_pictures;
-    Layout layout(store_, inside ? textures_.pictures() : no_pictures);
-    Parts parts{scene_,     hierarchy_, meshes_, store_,
-                materials_, textures_,  layout,  animations_, options_.extras ? &extras_ : nullptr,
-                {},         {}};
-    if (!inside && !pictures_beside(parts, files)) return false;
-    bool written = options_.binary ? glb(parts, files) : gltf(parts, files);
-    return written && files.commit();
+    return build([&](Parts& parts) {
+      if (!pictures_inside() && !pictures_beside(parts, files)) return false;
+      bool written = options_.binary ? glb(parts, [&](auto& pieces) { files.first().write(pieces); }) : gltf(parts, files);
+      return written && files.commit();
+    });
+  }
+
+  bool write_glb_to(const Sink& sink) {
+    return build([&](Parts& parts) {
+      return glb(parts, [&](auto& pieces) { for (auto piece : pieces) sink(piece); });
+    });
   }
 
  private:
+  bool pictures_inside() const {
+    return options_.images == GltfOptions::Images::embedded ||
+           (options_.images == GltfOptions::Images::automatic && options_.binary);
+  }
+
+  /// Makes what a file is written from and gives it to `put`.
+  bool build(auto&& put) {
+    hierarchy_.build();
+    animations_.store(store_, [&](std::uint32_t node) { return hierarchy_.offset(node); });
+    if (store_.full()) return report_too_large(store_.bytes(), diag_);
+    static const std::vector<Picture> no_pictures;
+    Layout layout(store_, pictures_inside() ? textures_.pictures() : no_pictures);
+    Parts parts{scene_,     hierarchy_, meshes_, store_,
+                materials_, textures_,  layout,  animations_, options_.extras ? &extras_ : nullptr,
+                {},         {}};
+    return put(parts);
+  }
+
   std::filesystem::path beside(const std::string& name) const {
     return std::filesystem::path(path_).parent_path() / name;
   }
@@ -123,7 +139,7 @@ class Writer {
     return true;
   }
 
-  bool glb(const Parts& parts, Files& files) {
+  bool glb(const Parts& parts, auto&& put) {
     Blocks json = json_of(parts);
     while (json.size() % 4 != 0) json.append(" ");
     constexpr std::uint64_t header = 12, chunk = 8;
@@ -135,7 +151,7 @@ class Writer {
     json.pieces(pieces);
     if (bin > 0) pieces.push_back(between);
     parts.layout.pieces(pieces);
-    files.first().write(pieces);
+    put(pieces);
     return true;
   }
 
@@ -180,6 +196,14 @@ class Writer {
 bool write_gltf(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,
                 const std::string& path, Diagnostics& diag) {
   return gltf::Writer(scene, source, options, resources, path, diag).write();
+}
+
+bool write_glb(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,
+               const Sink& sink, Diagnostics& diag) {
+  GltfOptions whole = options;
+  whole.binary = true;
+  whole.images = GltfOptions::Images::embedded;
+  return gltf::Writer(scene, source, whole, resources, {}, diag).write_glb_to(sink);
 }
 
 }  // namespace wrlkit

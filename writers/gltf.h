@@ -7,6 +7,7 @@
 #include "scenegraph/mesh.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
+#include "writers/sink.h"
 
 namespace wrlkit {
 
@@ -36,5 +37,8 @@ struct GltfOptions {
 ///
 /// The same scene gives the same bytes. Memory: about the size of the output, beside one mesh.
 bool write_gltf(const Scene&, const MeshSource&, const GltfOptions&, Resources*, const std::string& path, Diagnostics&);
+
+/// The same as one .glb with its pictures, piece by piece to a sink, whatever `binary` and `images` say.
+bool write_glb(const Scene&, const MeshSource&, const GltfOptions&, Resources*, const Sink&, Diagnostics&);
 
 }  // namespace wrlkit

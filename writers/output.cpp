@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <array>
 #include <atomic>
@@ -13,6 +12,8 @@
 #include <filesystem>
 #include <system_error>
 #include <utility>
+
+#include "writers/gzip.h"
 
 namespace wrlkit {
 namespace {
@@ -58,49 +59,6 @@ int write_all(int fd, std::span<const std::string_view> pieces) {
   }
   return 0;
 }
-
-class Gzip {
- public:
-  Gzip() {
-    constexpr int gzip = 16, memory = 9;
-    ok_ = deflateInit2(&z_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, MAX_WBITS + gzip, memory, Z_DEFAULT_STRATEGY) == Z_OK;
-    header_.os = 255;  // unknown: not the machine's
-    ok_ = ok_ && deflateSetHeader(&z_, &header_) == Z_OK;
-  }
-  ~Gzip() { deflateEnd(&z_); }
-  Gzip(const Gzip&) = delete;
-
-  /// Packs a piece; `last` also ends the data. 0, or the error of the write.
-  int pack(std::string_view piece, bool last, int fd) {
-    if (!ok_) return ENOMEM;
-    constexpr std::size_t step = std::size_t{1} << 30;  // zlib counts in 32 bits
-    do {
-      auto now = piece.substr(0, step);
-      piece.remove_prefix(now.size());
-      z_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(now.data()));
-      z_.avail_in = static_cast<uInt>(now.size());
-      if (int error = run(last && piece.empty() ? Z_FINISH : Z_NO_FLUSH, fd)) return error;
-    } while (!piece.empty());
-    return 0;
-  }
-
- private:
-  int run(int flush, int fd) {
-    do {
-      z_.next_out = packed_.data();
-      z_.avail_out = static_cast<uInt>(packed_.size());
-      deflate(&z_, flush);
-      std::string_view out(reinterpret_cast<char*>(packed_.data()), packed_.size() - z_.avail_out);
-      if (int error = out.empty() ? 0 : write_all(fd, {&out, 1})) return error;
-    } while (z_.avail_out == 0);
-    return 0;
-  }
-
-  z_stream z_{};
-  gz_header header_{};
-  bool ok_ = false;
-  std::array<Bytef, 256 * 1024> packed_;
-};
 
 std::string reason(int error, const fs::path& path) {
   std::error_code ec;
@@ -199,10 +157,14 @@ struct OutputFile::State {
     fd = opened;
   }
 
+  Gzip::Put packed() {
+    return [this](std::string_view s) { return write_all(fd, {&s, 1}); };
+  }
+
   void put(std::span<const std::string_view> pieces) {
     if (error) return;
     if (!gzip) error = write_all(fd, pieces);
-    for (std::size_t i = 0; gzip && !error && i < pieces.size(); ++i) error = gzip->pack(pieces[i], false, fd);
+    for (std::size_t i = 0; gzip && !error && i < pieces.size(); ++i) error = gzip->pack(pieces[i], false, packed());
   }
 
   void flush() {
@@ -225,7 +187,7 @@ struct OutputFile::State {
 
   void finish() {
     flush();
-    if (gzip && !error) error = gzip->pack({}, true, fd);
+    if (gzip && !error) error = gzip->pack({}, true, packed());
     if (!error && kind == standard_output) copy_to_standard_output();
     if (!error && kind == replace) put_in_place();
     if (int late = fd.close(); late && !error) error = late;

@@ -1,0 +1,97 @@
+// The viewer page of a world: what it counts is what `wrlkit info` counts, parts are selected by click and by search, and
+// nothing is said on the console or asked of a network.
+//   node viewer_world.mjs WRLKIT FOLDER
+import assert from 'node:assert';
+import fs from 'node:fs';
+import path from 'node:path';
+import {open_page, number_of, start_chromium, wrlkit} from './viewer_page.mjs';
+import {file_of} from './worlds.mjs';
+
+const [program, folder] = process.argv.slice(2);
+fs.mkdirSync(folder, {recursive: true});
+const browser = await start_chromium();
+
+const world = file_of('corpus/plant/pump_room_faces.wrl'), html = path.join(folder, 'world.html');
+wrlkit(program, 'view', '-q', world, '-o', html, '--criteria', 'quadric');
+const info = JSON.parse(wrlkit(program, 'info', '-q', '--json', world));
+
+async function figures_and_selection() {
+  const {page, faults, close} = await open_page(browser, html);
+  assert.equal(number_of(await page.textContent('#world-triangles')), info.triangles);
+  assert.equal(await page.title(), 'pump_room_faces.wrl: wrlkit');
+
+  // The heaviest part is the first of the table, and one click away.
+  const first = page.locator('table tbody tr').first();
+  const heaviest = {name: await first.locator('td').nth(0).textContent(), triangles: await first.locator('td').nth(2).textContent()};
+  await first.getByRole('button').click();
+  assert.equal(await page.textContent('#part-triangles'), heaviest.triangles);
+  assert.equal(await page.locator('.part[aria-selected=true] .name').textContent(), heaviest.name);
+
+  // By search. It is looked at then, so a click into the middle of the picture meets it, or what stands before it.
+  await page.getByRole('searchbox').fill('Receiver_shell');
+  await page.getByRole('searchbox').press('Enter');
+  assert.equal(await page.locator('#panel-part h2').first().textContent(), 'Receiver_shell');
+  await page.locator('canvas').first().focus();
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('.part[aria-selected=true]').count(), 0);
+  const box = await page.locator('.view canvas').boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  assert.equal(await page.locator('.part[aria-selected=true]').count(), 1);
+  assert(number_of(await page.textContent('#part-triangles')) > 0);
+
+  // The address keeps it.
+  const selected = await page.locator('#panel-part h2').first().textContent();
+  await page.waitForFunction(() => location.hash.includes('select='));
+  const fragment = new URL(page.url()).hash;
+  const other = await open_page(browser, html, {fragment});
+  assert.equal(await other.page.locator('#panel-part h2').first().textContent(), selected);
+  assert.deepEqual([...faults, ...other.faults], []);
+  await close(), await other.close();
+}
+
+/// A picture of the canvas as bytes, to be told from another.
+const picture = page => page.locator('.view canvas').screenshot();
+
+async function display() {
+  const {page, faults, close} = await open_page(browser, html);
+  await page.getByRole('tab', {name: 'View'}).click();
+  const plain = await picture(page);
+  const differs = async what => { await page.waitForTimeout(150); assert(!plain.equals(await picture(page)), what); };
+  for (const label of ['Edges (hidden lines removed)', 'Bounding boxes', 'Sky of the world']) {
+    await page.getByLabel(label).check();
+    await differs(label);
+    await page.getByLabel(label).uncheck();
+  }
+  await page.getByLabel('Off', {exact: true}).check({force: true});
+  await differs('light off');
+  await page.getByRole('button', {name: 'Platform'}).click();
+  await differs('viewpoint');
+  assert.deepEqual(faults, []);
+  await close();
+}
+
+async function phone() {
+  const {page, faults, close} = await open_page(browser, html, {width: 390, height: 800, touch: true});
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  await page.getByRole('button', {name: 'Parts', exact: true}).tap();
+  await page.getByRole('treeitem', {name: /Building/}).tap();
+  await page.getByRole('button', {name: 'Panel', exact: true}).tap();
+  assert.equal(await page.locator('#panel-part h2').first().textContent(), 'Building');
+  assert.deepEqual(faults, []);
+  await close();
+}
+
+function bundle_is_small() {
+  const bytes = fs.statSync(path.join(path.dirname(program), 'viewer/index.html')).size;
+  assert(bytes < 1e6, `the page without a world has ${bytes} bytes`);
+}
+
+try {
+  await figures_and_selection();
+  await display();
+  await phone();
+  bundle_is_small();
+  console.log(`${info.triangles} triangles, ${fs.statSync(html).size} bytes`);
+} finally {
+  await browser.close();
+}

@@ -1,0 +1,108 @@
+// wrlkit view: a page that shows a world, or two beside each other. The worlds go into it as glTF, with everything that
+// glTF cannot say in extras; what a simplification does goes into it as progressive meshes.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "passes/simplify/progressive_world.h"
+#include "tools/serve.h"
+#include "tools/session.h"
+#include "tools/viewer_page.h"
+#include "writers/gltf.h"
+#include "writers/output.h"
+
+namespace wrlkit {
+namespace {
+
+/// Surfaces without loose faces, as `simplify --progressive` makes them.
+constexpr std::string_view surfaces_pipeline = "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
+/// Baked light stays apart from the colours, so that each can be looked at alone.
+constexpr std::string_view world_pipeline = "gltf-light";
+
+std::vector<std::string> usual_criteria() { return {"length-normal", "melax", "lindstrom-turk"}; }
+constexpr std::size_t usual_most_triangles = 300'000;  // of the usual criteria: seconds, and a few megabytes each
+
+class Viewer {
+ public:
+  explicit Viewer(Session& s) : s_(s) {}
+
+  /// False when a world cannot be had.
+  bool fill() {
+    for (const auto& input : s_.flags().inputs)
+      if (!s_.read(input) || !add_world(input)) return false;
+    return true;
+  }
+  ViewerPage& page() { return page_; }
+
+ private:
+  bool add_world(const std::string& input) {
+    const Scene authored = s_.world().scene;
+    auto& world = page_.worlds.emplace_back();
+    world.name = std::filesystem::path(input).filename().string();
+    Scene& scene = s_.world().scene;
+    const auto meshes = s_.pipeline().run_lazily(scene, s_.context(), s_.pipeline_options());
+    if (!meshes) return false;
+    std::size_t n_triangles = 0;
+    auto counted = [&](NodeId n) -> const Mesh& {
+      const Mesh& mesh = meshes(n);
+      n_triangles += mesh.is_triangles() ? mesh.n_faces() : 0;
+      return mesh;
+    };
+    const GltfOptions options{.lightmaps = GltfOptions::Lightmaps::moz};
+    auto take = [&](std::string_view bytes) { world.glb += bytes; };
+    if (!write_glb(scene, counted, options, &s_.resources(), take, s_.diag())) return false;
+    const bool usual = s_.flags().criteria.empty();
+    if (!usual || (s_.flags().inputs.size() == 1 && n_triangles <= usual_most_triangles))
+      for (const auto& criterion : usual ? usual_criteria() : s_.flags().criteria) add_collapse(authored, criterion);
+    return true;
+  }
+
+  void add_collapse(Scene scene, const std::string& name) {
+    CriterionName criterion;
+    criterion.read(name);
+    if (criterion.value == Criterion::meshopt || page_.worlds.size() > 1) return;
+    s_.progress().begin("collapsing by " + name, 0, "");
+    Diagnostics unheard(s_.diag().shared_sources());
+    PassContext silent{unheard, s_.context().stats, &s_.resources()};
+    std::string why;
+    if (!Pipeline::parse(surfaces_pipeline, why)->run(scene, silent)) return;
+    const auto surfaces = progressive_surfaces(scene, criterion.value, silent);
+    if (!surfaces.empty()) page_.collapses.push_back({name, write_progressive_world(surfaces)});
+  }
+
+  Session& s_;
+  ViewerPage page_;
+};
+
+bool is_usable(const Flags& f) {
+  if (f.output.empty() && !f.serve) return fmt::print(stderr, "wrlkit view: -o FILE or --serve is needed\n"), false;
+  for (const auto& name : f.criteria)
+    if (name == "meshopt") return fmt::print(stderr, "wrlkit view: --criteria: meshopt keeps no record of its steps\n"), false;
+  return true;
+}
+
+bool write_page(Session& s, const ViewerPage& page) {
+  auto file = OutputFile::open(s.flags().output, {}, s.diag());
+  if (!file) return false;
+  write_viewer_page(page, file->sink());
+  return file->commit(s.diag());
+}
+
+}  // namespace
+
+int run_view(const Flags& flags) {
+  Session s(flags);
+  if (!is_usable(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;
+  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
+  if (!has_viewer()) return fmt::print(stderr, "wrlkit view: the page was not built into this program: that needs Node.js and npm packages (script/bootstrap)\n"), nothing;
+  Viewer viewer(s);
+  if (!viewer.fill()) return s.end(false);
+  if (!flags.output.empty() && !write_page(s, viewer.page())) return s.end(false);
+  const int code = s.end(true);
+  if (!flags.serve) return code;
+  std::string html;
+  write_viewer_page(viewer.page(), [&](std::string_view bytes) { html += bytes; });
+  return fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_page(html)), nothing;
+}
+
+}  // namespace wrlkit

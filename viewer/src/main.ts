@@ -1,0 +1,54 @@
+// The page begins here: what wrlkit has put into it is read, and shown.
+import {Color} from 'three';
+import {readContents, readFile, type Contents} from './data';
+import {WorldMode} from './modes/world';
+import {followAddress, state} from './state';
+import {h} from './ui/dom';
+import {count} from './ui/format';
+import {listenToKeys} from './ui/keys';
+import {Shell, type ModeView} from './ui/shell';
+import {Tree} from './ui/tree';
+import {WorldPanel} from './ui/world_panel';
+import {Stage} from './view/stage';
+import {loadWorld} from './world/load';
+import './ui/style.css';
+
+function worldView(mode: WorldMode, shell: Shell): ModeView {
+  const tree = new Tree(mode.world, (part, closer) => mode.select(part, closer));
+  const panel = new WorldPanel(mode);
+  mode.onSelect(part => tree.select(part));
+  mode.stage.onFrame(() => {
+    if (shell.mode !== 'world') return;
+    const f = mode.stage.figures;
+    shell.say(`${count(f.triangles)} triangles · ${count(f.draws)} draws · ${f.milliseconds.toFixed(1)} ms`);
+  });
+  return {key: 'world', title: 'World', left: tree.element, right: panel.element, over: null, enter: () => mode.enter()};
+}
+
+async function start(contents: Contents): Promise<void> {
+  const shell = new Shell(contents.worlds.map(w => w.name).join(' and '), document.getElementById('app')!);
+  shell.say('Loading');
+  const stage = new Stage(shell.canvas);
+  shell.onTheme = () => stage.setBackground(new Color(shell.dark ? 0x1a1e23 : 0xf1f3f5));
+  shell.onTheme();
+  const first = contents.worlds[0]!;
+  const world = await loadWorld(first.name, await readFile(first.file));
+  const mode = new WorldMode(world, stage);
+  stage.overview(world.box);
+  const begin = world.viewpoints[0];
+  if (begin) mode.goTo(begin);
+  shell.setModes([worldView(mode, shell)]);
+  stage.recall();
+  const wanted = state.number('select');
+  if (wanted !== null) mode.select(world.parts.find(p => p.node === wanted) ?? null);
+  listenToKeys(shell, mode);
+  document.documentElement.dataset['ready'] = 'yes';
+}
+
+function fail(error: unknown): void {
+  document.getElementById('app')!.replaceChildren(h('p', {class: 'failed', role: 'alert'}, `This page cannot be shown: ${error instanceof Error ? error.message : String(error)}`));
+  throw error;
+}
+
+followAddress();
+start(readContents()).catch(fail);

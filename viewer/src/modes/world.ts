@@ -1,0 +1,143 @@
+// The mode in which one world is looked at.
+import {AnimationMixer, Color, Raycaster, Scene, Vector3, type AnimationAction} from 'three';
+import {state} from '../state';
+import {Boxes, edgeMaterial, Highlight} from '../view/overlay';
+import type {Mode, Stage} from '../view/stage';
+import {Lights, type Lighting} from '../world/lights';
+import {Looks, type Look} from '../world/looks';
+import {boxOf, partOf, type Part, type Viewpoint, type World} from '../world/world';
+
+export class WorldMode implements Mode {
+  readonly scene = new Scene();
+  readonly lights: Lights;
+  readonly looks = new Looks();
+  look: Look = 'full';
+  edges = false;
+  playing = false;
+  selected: Part | null = null;
+  private readonly highlight: Highlight;
+  private readonly boxes: Boxes;
+  private readonly mixer: AnimationMixer;
+  private readonly actions: AnimationAction[];
+  private readonly selectedBy: ((part: Part | null) => void)[] = [];
+  /// Is told the camera's place before each picture.
+  beforeDraw: (() => void) | null = null;
+
+  constructor(readonly world: World, readonly stage: Stage) {
+    this.scene.add(world.root, stage.camera);
+    this.lights = new Lights(this.scene, stage.camera, world);
+    this.highlight = new Highlight(this.scene);
+    this.boxes = new Boxes(this.scene, world);
+    this.mixer = new AnimationMixer(world.root);
+    this.actions = world.clips.map(clip => this.mixer.clipAction(clip));
+  }
+
+  get box() { return this.world.box; }
+
+  enter(): void {
+    this.scene.add(this.stage.camera);
+    this.stage.navigator.manner = this.stage.navigator.manner === 'free' ? 'orbit' : this.stage.navigator.manner;
+    this.stage.show(this);
+  }
+
+  draw({renderer, camera}: Stage): void {
+    this.beforeDraw?.();
+    renderer.render(this.scene, camera);
+    if (!this.edges) return;
+    this.scene.overrideMaterial = edgeMaterial;
+    this.setOverlays(false);
+    renderer.autoClearColor = renderer.autoClearDepth = false;
+    const background = this.scene.background;
+    this.scene.background = null;
+    renderer.render(this.scene, camera);
+    this.scene.background = background;
+    renderer.autoClearColor = renderer.autoClearDepth = true;
+    this.scene.overrideMaterial = null;
+    this.setOverlays(true);
+  }
+
+  private setOverlays(on: boolean): void {
+    for (const o of this.scene.children) if (o.userData['overlay']) o.layers.set(on ? 0 : 1), o.traverse(x => x.layers.set(on ? 0 : 1));
+  }
+
+  tick(seconds: number): boolean {
+    if (this.playing) this.mixer.update(seconds);
+    return this.playing;
+  }
+
+  play(on: boolean): void {
+    this.playing = on;
+    for (const action of this.actions) {
+      if (on && !action.isRunning()) action.play();
+    }
+    this.stage.invalidate();
+  }
+
+  setLook(look: Look): void {
+    this.look = look;
+    this.looks.apply(this.world.root, look);
+    this.stage.invalidate();
+  }
+
+  setLighting(lighting: Lighting): void {
+    this.lights.set(lighting);
+    if (lighting === 'off' && this.look === 'full') this.setLook('albedo');
+    else if (lighting !== 'off' && this.look === 'albedo') this.setLook('full');
+    this.stage.invalidate();
+  }
+
+  setEdges(on: boolean): void {
+    this.edges = on;
+    this.stage.invalidate();
+  }
+
+  setBoxes(on: boolean): void {
+    this.boxes.show(on);
+    this.stage.invalidate();
+  }
+
+  setSky(on: boolean): void {
+    const sky = this.world.sky;
+    this.scene.background = on && sky ? new Color().setRGB(sky[0]!, sky[1]!, sky[2]!, 'srgb') : null;
+    this.stage.invalidate();
+  }
+
+  onSelect(call: (part: Part | null) => void): void { this.selectedBy.push(call); }
+
+  select(part: Part | null, closer = false): void {
+    this.selected = part;
+    this.highlight.show(part);
+    state.set('select', part ? part.node : null);
+    for (const call of this.selectedBy) call(part);
+    if (closer && part) this.lookAt(part);
+    this.stage.invalidate();
+  }
+
+  lookAt(part: Part): void {
+    const box = boxOf(part);
+    if (box.isEmpty()) box.expandByPoint(part.object.getWorldPosition(new Vector3()));
+    this.stage.frameBox(box);
+  }
+
+  goTo(viewpoint: Viewpoint): void {
+    const {position, quaternion, fov} = viewpoint.camera;
+    this.stage.fieldOfView = fov;
+    const center = this.box.getCenter(new Vector3());
+    const ahead = new Vector3(0, 0, -1).applyQuaternion(quaternion);
+    const distance = Math.max(center.clone().sub(position).dot(ahead), this.box.getSize(new Vector3()).length() * 0.05);
+    this.stage.navigator.take(position, quaternion, distance);
+  }
+
+  click(x: number, y: number): void {
+    const ray = new Raycaster();
+    ray.params.Line.threshold = ray.params.Points.threshold = 4 * this.stage.metresPerPixel(this.stage.navigator.distance);
+    ray.setFromCamera(this.stage.toClip(x, y), this.stage.camera);
+    const hit = ray.intersectObject(this.world.root, true).find(found => isShown(found.object));
+    this.select(hit ? partOf(this.world, hit.object) : null);
+  }
+}
+
+function isShown(object: {visible: boolean; parent: unknown}): boolean {
+  for (let o: {visible: boolean; parent: unknown} | null = object; o; o = o.parent as typeof o) if (!o.visible) return false;
+  return true;
+}

@@ -1,0 +1,31 @@
+// Numbers for people.
+
+const whole = new Intl.NumberFormat('en');
+
+export const count = (n: number): string => whole.format(n);
+
+export function bytes(n: number): string {
+  if (n < 1000) return `${n} B`;
+  if (n < 1e6) return `${(n / 1e3).toPrecision(3)} kB`;
+  return `${(n / 1e6).toPrecision(3)} MB`;
+}
+
+/// Metres, in the unit in which they are easy to read.
+export function length(metres: number): string {
+  const size = Math.abs(metres);
+  if (size === 0) return '0 mm';
+  if (size < 1e-5) return `${(metres * 1e6).toPrecision(3)} µm`;
+  if (size < 1) return `${significant(metres * 1e3)} mm`;
+  return `${significant(metres)} m`;
+}
+
+/// In millimetres whatever the size.
+export const millimetres = (metres: number): string => `${significant(metres * 1e3)} mm`;
+
+export function significant(x: number, digits = 3): string {
+  if (x === 0) return '0';
+  const text = Math.abs(x) >= 1000 ? whole.format(Math.round(x)) : x.toPrecision(digits);
+  return text.includes('e') ? Number(text).toString() : text;
+}
+
+export const share = (part: number, all: number): string => `${(all > 0 ? 100 * part / all : 0).toFixed(1)} %`;

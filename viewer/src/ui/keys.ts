@@ -1,0 +1,35 @@
+// Keys that act wherever the focus is, but in a field that takes text.
+import type {WorldMode} from '../modes/world';
+import type {Shell} from './shell';
+
+/// Clicks what the page has for it, so that keys and buttons are the same thing.
+function press(selector: string): void {
+  document.querySelector<HTMLElement>(selector)?.click();
+}
+
+export function listenToKeys(shell: Shell, world: WorldMode): void {
+  const keys: Record<string, () => void> = {
+    '?': () => shell.openHelp(),
+    '/': () => document.querySelector<HTMLInputElement>('.search input')?.focus(),
+    t: () => shell.toggleTheme(),
+    f: () => world.selected ? world.lookAt(world.selected) : world.stage.frameBox(world.box),
+    Escape: () => world.select(null),
+    x: () => press('[data-key=x]'),
+    b: () => press('[data-key=b]'),
+    l: () => press('[data-key=l] input:not(:checked)'),
+    p: () => press('[data-key=p]'),
+    ' ': () => press('[data-key=space]'),
+    Backspace: () => press('[data-key=back]'),
+  };
+  for (const n of [1, 2, 3]) keys[n] = () => press(`.modes button:nth-child(${n})`);
+  document.addEventListener('keydown', e => {
+    const target = e.target as HTMLElement;
+    const takesText = target instanceof HTMLInputElement && ['search', 'number', 'text'].includes(target.type);
+    const takesSpace = e.key === ' ' && (target instanceof HTMLButtonElement || target instanceof HTMLInputElement);
+    if (e.ctrlKey || e.metaKey || e.altKey || takesText || takesSpace || document.querySelector('dialog[open]')) return;
+    const act = keys[e.key.length === 1 ? e.key.toLowerCase() : e.key];
+    if (!act) return;
+    act();
+    e.preventDefault();
+  });
+}

@@ -1,0 +1,184 @@
+// Beside the world: its figures, the selected part, how it is shown, its materials.
+import {Vector3, type MeshStandardMaterial, type Texture} from 'three';
+import type {WorldMode} from '../modes/world';
+import {state} from '../state';
+import {lightOf} from '../world/lightmaps';
+import type {Lighting} from '../world/lights';
+import type {Look} from '../world/looks';
+import {bytesByKind, heaviest} from '../world/statistics';
+import {densityScale} from '../world/texels';
+import {boxOf, labelOf, meshesBelow, type Part} from '../world/world';
+import {button, check, choice, facts, h, section, slider, table} from './dom';
+import {bytes, count, length, share, significant} from './format';
+import {Tabs, type Tab} from './tabs';
+
+export class WorldPanel {
+  readonly element: HTMLElement;
+  private readonly tabs: Tabs;
+  private readonly part = h('div', {class: 'panel'});
+  private readonly live = h('div', {class: 'live'});
+
+  constructor(private readonly mode: WorldMode, extra: Tab[] = []) {
+    this.tabs = new Tabs('World', [
+      {key: 'figures', title: 'Figures', content: this.figures()},
+      {key: 'part', title: 'Part', content: this.part},
+      {key: 'view', title: 'View', content: this.view()},
+      ...extra,
+      {key: 'materials', title: 'Materials', content: this.materials()},
+    ], key => state.set('panel', key));
+    this.element = this.tabs.element;
+    this.showPart(null);
+    mode.onSelect(part => { this.showPart(part); if (part) this.tabs.show('part'); });
+    mode.stage.onFrame(() => this.drawn());
+    const wanted = state.get('panel');
+    if (wanted) this.tabs.show(wanted, false);
+  }
+
+  private drawn(): void {
+    const f = this.mode.stage.figures;
+    this.live.replaceChildren(facts([['Draws', count(f.draws)], ['Triangles drawn', count(f.triangles)], ['Time to draw', `${f.milliseconds.toFixed(1)} ms`]]));
+  }
+
+  private figures(): HTMLElement {
+    const {world} = this.mode;
+    const size = world.box.getSize(new Vector3());
+    const meshes = world.parts.filter(p => p.mesh !== null).length;
+    const heavy = heaviest(world, 20).filter(row => row.triangles > 0);
+    const rows = heavy.map(row => [button(row.label, () => this.mode.select(row.part, true), {class: 'link'}), count(row.places), count(row.triangles), bytes(row.bytes)]);
+    return h('div', {class: 'panel'},
+      section('World', facts([
+        ['Triangles', h('output', {id: 'world-triangles'}, count(world.triangles))], ['Parts', count(world.parts.length)], ['Shapes', count(meshes)],
+        ['Materials', count(world.file.materials?.length ?? 0)], ['Pictures', count(world.file.images?.length ?? 0)],
+        ['Size', `${length(size.x)} × ${length(size.y)} × ${length(size.z)}`], ['As GLB', bytes(world.size)]])),
+      section('Heaviest parts', heavy.length > 0
+        ? h('div', {class: 'scroll'}, table('Heaviest parts', [{title: 'Part'}, {title: 'Places', number: true}, {title: 'Triangles', number: true}, {title: 'Bytes', number: true}], rows))
+        : h('p', {}, 'There are no triangles.')),
+      section('Bytes', byteBar(bytesByKind(world))),
+      section('Picture', this.live));
+  }
+
+  private showPart(part: Part | null): void {
+    if (!part) {
+      this.part.replaceChildren(h('p', {class: 'hint'}, 'Click a part in the picture, or choose one in the tree.'));
+      return;
+    }
+    const size = boxOf(part).getSize(new Vector3());
+    const materials = [...new Set(meshesBelow(part).map(mesh => this.mode.looks.original(mesh).name || 'unnamed'))];
+    const rows: [string, string | HTMLElement][] = [['Type', part.type], ['Triangles', h('output', {id: 'part-triangles'}, count(part.triangles))], ['Bytes', bytes(part.bytes)]];
+    if (part.children.length > 0) rows.push(['Parts inside', count(countBelow(part))]);
+    if (size.length() > 0) rows.push(['Size', `${length(size.x)} × ${length(size.y)} × ${length(size.z)}`]);
+    if (materials.length > 0) rows.push([materials.length > 1 ? 'Materials' : 'Material', materials.slice(0, 6).join(', ') + (materials.length > 6 ? ` and ${materials.length - 6} more` : '')]);
+    this.part.replaceChildren(
+      section(labelOf(part), ...above(part, p => this.mode.select(p)), facts(rows),
+        h('div', {class: 'buttons'}, button('Look at it', () => this.mode.lookAt(part)), button('Hide', () => this.hide(part)), button('Show only this', () => this.isolate(part)), button('Show all', () => this.showAll()))),
+      ...(Object.keys(part.extras).length > 0 ? [section('Extras', h('pre', {tabindex: 0, 'aria-label': 'Extras'}, JSON.stringify(part.extras, null, 1)))] : []));
+  }
+
+  private hide(part: Part): void {
+    part.object.visible = false;
+    this.mode.select(null);
+  }
+
+  private isolate(part: Part): void {
+    this.showAll();
+    const family = new Set<Part>([part]);
+    for (let p = part.parent; p; p = p.parent) family.add(p);
+    const hideOthers = (parts: Part[]): void => {
+      for (const p of parts) {
+        if (!family.has(p)) p.object.visible = false;
+        else if (p !== part) hideOthers(p.children);
+      }
+    };
+    hideOthers(this.mode.world.roots);
+    this.mode.stage.invalidate();
+  }
+
+  private showAll(): void {
+    for (const part of this.mode.world.parts) part.object.visible = true;
+    this.mode.stage.invalidate();
+  }
+
+  private view(): HTMLElement {
+    const {mode} = this;
+    const {world, stage} = mode;
+    const manner = choice('Move', [['orbit', 'Orbit'], ['walk', 'Walk']] as const, stage.navigator.manner === 'walk' ? 'walk' : 'orbit', value => { stage.navigator.manner = value; state.set('move', value); stage.canvas.focus(); });
+    const lighting = choice<Lighting>('Light', [['world', 'World’s'], ['headlight', 'Headlight'], ['off', 'Off']], 'world', value => mode.setLighting(value));
+    lighting.element.dataset['key'] = 'l';
+    const parts: HTMLElement[] = [manner.element, lighting.element];
+    if (world.parts.some(p => p.meshes.some(m => lightOf(mode.looks.original(m))))) parts.push(this.bakedLight());
+    else parts.push(choice<Look>('Surface', [['full', 'As it is'], ['grey', 'Grey']], 'full', value => mode.setLook(value)).element);
+    parts.push(check('Edges (hidden lines removed)', false, on => { mode.setEdges(on); state.set('edges', on ? 1 : null); }, 'x'), check('Bounding boxes', false, on => mode.setBoxes(on), 'b'));
+    if (world.sky) parts.push(check('Sky of the world', false, on => mode.setSky(on)));
+    const sections = [section('Display', ...parts)];
+    const places = world.viewpoints.map(v => button(v.name, () => mode.goTo(v)));
+    sections.push(section('Viewpoints', h('div', {class: 'buttons'}, button('All of it', () => stage.overview(world.box)), ...places)));
+    if (world.clips.length > 0) sections.push(section('Animations', h('p', {}, world.clips.map(c => c.name || 'unnamed').join(', ')), check('Play', false, on => mode.play(on), 'p')));
+    const speed = slider('Walking speed', {min: -2, max: 2, step: 0.1, value: 0}, value => setSpeed(value));
+    const setSpeed = (value: number): void => {
+      stage.navigator.speed = world.navigation.speed * 4 ** value;
+      speed.set(value, `${significant(stage.navigator.speed, 2)} m/s`);
+    };
+    setSpeed(0);
+    sections.push(section('Walking', speed.element));
+    return h('div', {class: 'panel'}, ...sections);
+  }
+
+  private bakedLight(): HTMLElement {
+    const legend = h('ul', {class: 'legend', hidden: true}, ...densityScale.map(([n, color]) => h('li', {}, h('i', {style: `background:${color}`}), `${n} texels a metre`)));
+    const looks = choice<Look>('Surface', [['full', 'Both'], ['light', 'Baked light'], ['albedo', 'Colour'], ['checker', 'Texels'], ['density', 'Density']], 'full', value => {
+      this.mode.setLook(value);
+      legend.hidden = value !== 'density';
+    });
+    return h('div', {}, looks.element, legend);
+  }
+
+  private materials(): HTMLElement {
+    const users = new Map<MeshStandardMaterial, Part[]>();
+    for (const part of this.mode.world.parts) {
+      for (const mesh of part.meshes) {
+        const m = this.mode.looks.original(mesh) as MeshStandardMaterial;
+        users.set(m, [...(users.get(m) ?? []), part]);
+      }
+    }
+    const entries = [...users].map(([m, parts]) => this.material(m, parts));
+    return h('div', {class: 'panel'}, section(`Materials`, ...(entries.length > 0 ? entries : [h('p', {}, 'There are none.')])));
+  }
+
+  private material(m: MeshStandardMaterial, parts: Part[]): HTMLElement {
+    const swatch = h('i', {class: 'swatch', style: `background:${m.color ? `#${m.color.getHexString()}` : 'none'}`});
+    const words = [`${count(parts.length)} ${parts.length === 1 ? 'part' : 'parts'}`];
+    if (m.opacity < 1) words.push(`opacity ${significant(m.opacity, 2)}`);
+    if (m.roughness !== undefined) words.push(`roughness ${significant(m.roughness, 2)}`);
+    else words.push(lightOf(m) ? 'baked light' : 'unlit');
+    const pictures = ([['texture', m.map], ['emission', m.emissiveMap], ['baked light', lightOf(m)]] as const).flatMap(([name, t]) => t ? [thumbnail(t, name)] : []);
+    return h('div', {class: 'material'}, swatch, h('div', {}, button(m.name || 'unnamed', () => this.mode.select(parts[0]!, true), {class: 'link'}), h('div', {class: 'soft'}, words.join(' · ')), ...pictures));
+  }
+}
+
+function thumbnail(texture: Texture, what: string): HTMLElement {
+  const image = texture.image as ImageBitmap | undefined;
+  if (!image?.width) return h('span');
+  const canvas = h('canvas', {class: 'thumb', width: 64, height: Math.max(1, Math.round(64 * Math.min(2, image.height / image.width))), role: 'img', 'aria-label': what});
+  canvas.getContext('2d')?.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return h('div', {class: 'soft'}, canvas, `${what}: ${texture.name ? `${texture.name}, ` : ''}${image.width} × ${image.height}`);
+}
+
+const countBelow = (part: Part): number => part.children.reduce((n, p) => n + 1 + countBelow(p), 0);
+
+/// The way from the root to a part, to be clicked.
+function above(part: Part, pick: (part: Part) => void): HTMLElement[] {
+  const way: HTMLElement[] = [];
+  for (let p = part.parent; p; p = p.parent) {
+    const at = p;
+    way.unshift(h('li', {}, button(p.name || p.type, () => pick(at), {class: 'link'})));
+  }
+  return way.length > 0 ? [h('ol', {class: 'way', 'aria-label': 'Inside of'}, ...way)] : [];
+}
+
+const kindColors = ['#3565a8', '#c8772b', '#4b8b5a', '#8a5ba6', '#b5474f', '#6d7680', '#2f8f9d'];
+
+function byteBar(kinds: {name: string; bytes: number}[]): HTMLElement {
+  const all = kinds.reduce((n, k) => n + k.bytes, 0);
+  const bar = h('div', {class: 'bar-of-bytes', 'aria-hidden': 'true'}, ...kinds.map((k, i) => h('i', {style: `flex:${k.bytes};background:${kindColors[i % kindColors.length]}`})));
+  return h('div', {}, bar, h('ul', {class: 'legend'}, ...kinds.map((k, i) => h('li', {}, h('i', {style: `background:${kindColors[i % kindColors.length]}`}), `${k.name} `, h('span', {class: 'soft'}, `${bytes(k.bytes)}, ${share(k.bytes, all)}`)))));
+}

@@ -1,0 +1,159 @@
+// The canvas and its camera. It is drawn when something has changed, not all the time. What is drawn is the matter of the
+// mode that is on: the world, the comparison, the collapse.
+import {Color, MathUtils, PerspectiveCamera, Quaternion, Sphere, Vector2, Vector3, WebGLRenderer, type Box3} from 'three';
+import {state} from '../state';
+import {significant} from '../ui/format';
+import {Navigator} from './navigate';
+
+export interface Mode {
+  /// What is looked at.
+  readonly box: Box3;
+  draw(stage: Stage): void;
+  /// Time goes on; true as long as another picture is wanted.
+  tick?(seconds: number): boolean;
+  /// Was clicked at, in pixels of the canvas.
+  click?(x: number, y: number): void;
+}
+
+export interface FrameFigures {
+  draws: number;
+  triangles: number;
+  milliseconds: number;
+}
+
+export class Stage {
+  readonly canvas: HTMLCanvasElement;
+  readonly renderer: WebGLRenderer;
+  readonly camera = new PerspectiveCamera(45, 1, 0.1, 1000);
+  readonly navigator: Navigator;
+  /// Of the shorter side of the picture, in degrees, as VRML has it (ISO/IEC 14772-1, 6.53).
+  fieldOfView = 45;
+  readonly figures: FrameFigures = {draws: 0, triangles: 0, milliseconds: 0};
+  private mode: Mode | null = null;
+  private due = 0;
+  private last = 0;
+  private readonly after: (() => void)[] = [];
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true, powerPreference: 'high-performance'});
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.info.autoReset = false;
+    this.navigator = new Navigator(this.camera, canvas, () => this.invalidate());
+    canvas.addEventListener('pointerup', e => {
+      if (e.button === 0 && this.navigator.wasClick) this.mode?.click?.(e.offsetX, e.offsetY);
+    });
+    new ResizeObserver(() => this.resize()).observe(canvas);
+  }
+
+  /// The size of the canvas, in pixels of the page.
+  get width(): number { return this.canvas.clientWidth; }
+  get height(): number { return this.canvas.clientHeight; }
+
+  show(mode: Mode): void {
+    this.mode = mode;
+    this.invalidate();
+  }
+
+  /// Calls back after each picture.
+  onFrame(call: () => void): void { this.after.push(call); }
+
+  invalidate(): void {
+    this.due ||= requestAnimationFrame(time => this.frame(time));
+  }
+
+  setBackground(color: Color): void {
+    this.renderer.setClearColor(color);
+    this.invalidate();
+  }
+
+  private resize(): void {
+    if (this.width === 0 || this.height === 0) return;
+    this.renderer.setSize(this.width, this.height, false);
+    this.fit();
+    this.invalidate();
+  }
+
+  private frame(time: number): void {
+    this.due = 0;
+    const mode = this.mode;
+    if (!mode || this.width === 0) return;
+    const seconds = this.last > 0 ? Math.min(0.1, (time - this.last) / 1000) : 1 / 60;
+    const moving = this.navigator.step(seconds);
+    const going = mode.tick?.(seconds) ?? false;
+    const begin = performance.now();
+    this.clip(mode.box);
+    this.renderer.info.reset();
+    mode.draw(this);
+    Object.assign(this.figures, {draws: this.renderer.info.render.calls, triangles: this.renderer.info.render.triangles, milliseconds: performance.now() - begin});
+    this.last = moving || going ? time : 0;
+    for (const call of this.after) call();
+    this.remember();
+    if (moving || going) this.invalidate();
+  }
+
+  private fit(): void {
+    const tangent = Math.tan(MathUtils.degToRad(this.fieldOfView) / 2);
+    this.camera.aspect = this.width / this.height;
+    this.camera.fov = 2 * MathUtils.radToDeg(Math.atan(tangent / Math.min(1, this.camera.aspect)));
+  }
+
+  /// Near and far planes around what is looked at.
+  private clip(box: Box3): void {
+    this.fit();
+    const ball = box.getBoundingSphere(new Sphere());
+    const distance = this.camera.position.distanceTo(ball.center);
+    this.camera.far = (distance + ball.radius) * 1.05 + 1e-6;
+    this.camera.near = Math.max(this.camera.far / 20000, (distance - ball.radius) * 0.9, Math.min(this.navigator.distance * 0.05, ball.radius * 0.01));
+    this.camera.updateProjectionMatrix();
+    this.camera.updateMatrixWorld();
+  }
+
+  /// Draws with the part of the canvas that is given, in pixels of the page from its lower left corner.
+  within(x: number, y: number, width: number, height: number, draw: () => void): void {
+    this.renderer.setViewport(x, y, width, height);
+    this.renderer.setScissor(x, y, width, height);
+    this.renderer.setScissorTest(true);
+    draw();
+    this.renderer.setScissorTest(false);
+    this.renderer.setViewport(0, 0, this.width, this.height);
+  }
+
+  /// Looks at all of a box, from the direction that the camera has.
+  frameBox(box: Box3): void {
+    if (box.isEmpty()) return;
+    this.fit();
+    const ball = box.getBoundingSphere(new Sphere());
+    this.navigator.frame(ball.center, ball.radius);
+  }
+
+  overview(box: Box3): void {
+    this.fit();
+    const ball = box.getBoundingSphere(new Sphere());
+    this.navigator.overview(ball.center, ball.radius * 0.9);
+  }
+
+  /// Where the page is on the canvas, as three.js counts: -1 to 1.
+  toClip(x: number, y: number): Vector2 {
+    return new Vector2(x / this.width * 2 - 1, 1 - y / this.height * 2);
+  }
+
+  /// Metres that one pixel shows at that distance.
+  metresPerPixel(distance: number): number {
+    return 2 * distance * Math.tan(MathUtils.degToRad(this.camera.fov) / 2) / this.height;
+  }
+
+  private remember(): void {
+    const {position: p, quaternion: q} = this.camera;
+    const numbers = [p.x, p.y, p.z, q.x, q.y, q.z, q.w, this.navigator.distance];
+    state.set('camera', numbers.map(n => significant(n, 6).replaceAll(',', '')).join(' '));
+  }
+
+  /// The camera of the address; false when it has none.
+  recall(): boolean {
+    const n = (state.get('camera') ?? '').split(' ').map(Number);
+    if (n.length !== 8 || !n.every(Number.isFinite)) return false;
+    this.navigator.take(new Vector3(n[0], n[1], n[2]), new Quaternion(n[3], n[4], n[5], n[6]).normalize(), n[7]!);
+    return true;
+  }
+}

@@ -1,0 +1,153 @@
+// Bytes of a .glb to a World.
+import {Box3, type Mesh, type Light, type Object3D, PerspectiveCamera, Vector3} from 'three';
+import {GLTFLoader, type GLTF} from 'three/addons/loaders/GLTFLoader.js';
+import {accessorBytes, accessorsOf, trianglesOf, typeOf, vrmlOf, type GltfFile} from './file';
+import {bakedLight} from './lightmaps';
+import type {Levels, Navigation, Part, Viewpoint, World} from './world';
+
+const isMesh = (o: Object3D): o is Mesh => (o as Mesh).isMesh;
+
+/// The node of the file that an object is; undefined for a primitive of a mesh.
+function nodeOf(gltf: GLTF, o: Object3D): number | undefined {
+  return gltf.parser.associations.get(o)?.nodes;
+}
+
+class Builder {
+  readonly parts: Part[] = [];
+  private readonly file: GltfFile;
+
+  constructor(private readonly gltf: GLTF) {
+    this.file = gltf.parser.json as GltfFile;
+  }
+
+  /// The parts at an object and below it.
+  build(o: Object3D, parent: Part | null): Part[] {
+    const node = nodeOf(this.gltf, o);
+    if (node === undefined) return o.children.flatMap(child => this.build(child, parent));
+    const part = this.part(o, node, parent);
+    for (const child of o.children) {
+      if (isMesh(child) && nodeOf(this.gltf, child) === undefined) part.meshes.push(child);
+      else part.children.push(...this.build(child, part));
+    }
+    part.triangles += part.children.reduce((n, p) => n + p.triangles, 0);
+    return [part];
+  }
+
+  private part(object: Object3D, node: number, parent: Part | null): Part {
+    const said = this.file.nodes?.[node] ?? {};
+    const mesh = said.mesh ?? null;
+    const part: Part = {
+      node, object, parent, mesh, name: said.name ?? '', type: this.typeOf(said.extras, mesh, object), extras: said.extras ?? {},
+      children: [], meshes: isMesh(object) ? [object] : [], triangles: mesh === null ? 0 : trianglesOf(this.file, mesh), bytes: 0,
+    };
+    this.parts.push(part);
+    return part;
+  }
+
+  private typeOf(extras: Record<string, unknown> | undefined, mesh: number | null, object: Object3D): string {
+    const said = typeOf(extras);
+    if (said) return said;
+    if (mesh !== null) return typeOf(this.file.meshes?.[mesh]?.extras) ?? 'Shape';
+    if ((object as Light).isLight || object.children.some(c => (c as Light).isLight)) return 'Light';
+    return object.children.length > 0 ? 'Group' : 'Node';
+  }
+
+  /// Bytes of each part's meshes; what several share counts once.
+  sizes(parts: Part[]): void {
+    for (const part of parts) {
+      const accessors = new Set<number>();
+      const collect = (p: Part): void => {
+        if (p.mesh !== null) for (const a of accessorsOf(this.file, p.mesh).keys()) accessors.add(a);
+        p.children.forEach(collect);
+      };
+      collect(part);
+      part.bytes = [...accessors].reduce((n, a) => n + accessorBytes(this.file, a), 0);
+    }
+  }
+}
+
+/// Hangs the coarser levels beside the finest one (MSFT_lod), hidden.
+async function loadLevels(gltf: GLTF, parts: Part[]): Promise<Levels[]> {
+  const file = gltf.parser.json as GltfFile;
+  const found: Levels[] = [];
+  for (const part of parts) {
+    const ids = file.nodes?.[part.node]?.extensions?.MSFT_lod?.ids;
+    if (!ids) continue;
+    const coarser = await Promise.all(ids.map(id => gltf.parser.getDependency('node', id) as Promise<Object3D>));
+    for (const level of coarser) {
+      part.object.parent?.add(level);
+      level.visible = false;
+    }
+    const coverage = (part.extras['MSFT_screencoverage'] as number[] | undefined) ?? [];
+    const triangles = [part.triangles, ...coarser.map(level => trianglesBelow(gltf, level))];
+    found.push({part, levels: [part.object, ...coarser], coverage, triangles, box: new Box3()});
+  }
+  return found;
+}
+
+function trianglesBelow(gltf: GLTF, o: Object3D): number {
+  const file = gltf.parser.json as GltfFile;
+  const mesh = file.nodes?.[nodeOf(gltf, o) ?? -1]?.mesh;
+  return (mesh === undefined ? 0 : trianglesOf(file, mesh)) + o.children.reduce((n, child) => n + trianglesBelow(gltf, child), 0);
+}
+
+function viewpoints(gltf: GLTF): Viewpoint[] {
+  const file = gltf.parser.json as GltfFile;
+  gltf.scene.updateMatrixWorld(true);
+  return gltf.cameras.flatMap((camera, i) => {
+    const holder = camera.parent && nodeOf(gltf, camera) === undefined ? camera.parent : camera;
+    const node = file.nodes?.[nodeOf(gltf, holder) ?? -1];
+    const said = vrmlOf(node?.extras)['Viewpoint'] as {description?: string} | undefined;
+    const placed = new PerspectiveCamera(camera instanceof PerspectiveCamera ? camera.fov : 45);
+    camera.matrixWorld.decompose(placed.position, placed.quaternion, new Vector3());
+    return [{name: said?.description || node?.name || `Viewpoint ${i + 1}`, camera: placed}];
+  });
+}
+
+function findVrml<T>(file: GltfFile, type: string): T | undefined {
+  for (const holder of [...(file.scenes ?? []), ...(file.nodes ?? [])]) {
+    const found = vrmlOf(holder.extras)[type];
+    if (found) return found as T;
+  }
+  return undefined;
+}
+
+function navigation(file: GltfFile): Navigation {
+  const said = findVrml<{type?: string[]; speed?: number; avatarSize?: number[]; headlight?: boolean}>(file, 'NavigationInfo') ?? {};
+  const [radius = 0.25, height = 1.6, step = 0.75] = said.avatarSize ?? [];
+  return {type: said.type ?? ['WALK', 'ANY'], speed: said.speed ?? 1, size: [radius, height, step], headlight: said.headlight ?? true};
+}
+
+function sky(file: GltfFile): number[] | null {
+  const colors = findVrml<{skyColor?: number[]}>(file, 'Background')?.skyColor;
+  return colors && colors.length >= 3 ? colors.slice(-3) : null;
+}
+
+function allLights(root: Object3D): Light[] {
+  const lights: Light[] = [];
+  root.traverse(o => { if ((o as Light).isLight) lights.push(o as Light); });
+  return lights;
+}
+
+/// A mesh that several nodes show comes out as objects of the same geometry and materials.
+export async function loadWorld(name: string, bytes: ArrayBuffer): Promise<World> {
+  const loader = new GLTFLoader();
+  const gltf = await loader.parseAsync(bytes, '');
+  const file = gltf.parser.json as GltfFile;
+  const builder = new Builder(gltf);
+  const roots = gltf.scene.children.flatMap(child => builder.build(child, null));
+  const levels = await loadLevels(gltf, builder.parts);
+  await bakedLight(gltf);
+  builder.sizes(builder.parts);
+  const cameras = viewpoints(gltf);
+  gltf.scene.updateMatrixWorld(true);
+  for (const l of levels) l.box.setFromObject(l.part.object);
+  const box = new Box3();
+  for (const part of builder.parts) for (const mesh of part.meshes) box.expandByObject(mesh);
+  if (box.isEmpty()) box.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
+  return {
+    name, size: bytes.byteLength, file, root: gltf.scene, parts: builder.parts, roots, levels, viewpoints: cameras, navigation: navigation(file),
+    sky: sky(file), lights: allLights(gltf.scene), clips: gltf.animations, box, triangles: roots.reduce((n, p) => n + p.triangles, 0),
+  };
+}
+

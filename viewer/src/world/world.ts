@@ -1,0 +1,87 @@
+// A world that is loaded: its parts as a tree, its levels of detail, its cameras and lights. A part is a node of glTF,
+// which is a grouping node or a Shape of VRML.
+import {Box3, type AnimationClip, type Light, type Mesh, type Object3D, type PerspectiveCamera} from 'three';
+import type {GltfFile} from './file';
+
+export interface Part {
+  node: number;        // in the glTF file
+  object: Object3D;
+  name: string;        // empty when it has none
+  type: string;
+  extras: Record<string, unknown>;
+  parent: Part | null;
+  children: Part[];
+  meshes: Mesh[];      // its own
+  mesh: number | null; // in the glTF file
+  triangles: number;   // its own and those below, finest level
+  bytes: number;       // of the meshes, its own and those below, each once
+}
+
+export interface Levels {
+  part: Part;
+  levels: Object3D[];   // finest first; the first is part.object
+  coverage: number[];   // part of the window's height down to which each is shown; empty: not said
+  triangles: number[];  // of each level
+  box: Box3;            // of the finest, in the world
+}
+
+export interface Viewpoint {
+  name: string;
+  camera: PerspectiveCamera;
+}
+
+export interface Navigation {
+  type: string[];
+  speed: number;        // metres a second
+  size: [number, number, number];
+  headlight: boolean;
+}
+
+export interface World {
+  name: string;
+  size: number;         // of the glb, bytes
+  file: GltfFile;
+  root: Object3D;
+  parts: Part[];        // every one, parents first
+  roots: Part[];
+  levels: Levels[];
+  viewpoints: Viewpoint[];
+  navigation: Navigation;
+  sky: number[] | null; // red, green, blue at the horizon
+  lights: Light[];
+  clips: AnimationClip[];
+  box: Box3;
+  triangles: number;    // as shown: finest level
+}
+
+/// What a part is called where it has no name itself: by the nearest part above that has one.
+export function labelOf(part: Part): string {
+  if (part.name) return part.name;
+  for (let above = part.parent; above; above = above.parent) if (above.name) return `${part.type} in ${above.name}`;
+  return part.type;
+}
+
+/// The part to which an object of the scene belongs.
+export function partOf(world: World, object: Object3D | null): Part | null {
+  for (let o = object; o; o = o.parent) {
+    const part = byObject(world).get(o);
+    if (part) return part;
+  }
+  return null;
+}
+
+const tables = new WeakMap<World, Map<Object3D, Part>>();
+function byObject(world: World): Map<Object3D, Part> {
+  let table = tables.get(world);
+  if (!table) tables.set(world, table = new Map(world.parts.map(p => [p.object, p])));
+  return table;
+}
+
+export function boxOf(part: Part): Box3 {
+  return new Box3().setFromObject(part.object);
+}
+
+/// All meshes at a part and below.
+export function meshesBelow(part: Part): Mesh[] {
+  return [...part.meshes, ...part.children.flatMap(meshesBelow)];
+}
