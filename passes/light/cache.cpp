@@ -6,25 +6,37 @@ namespace wrlkit::light {
 namespace {
 
 constexpr double angle = 0.5;       // that a cell spans at most, seen from where the ray comes
-constexpr int levels = 7;            // each half as large as the one before
 
 /// One of five steps along each axis. They end at 0.25 and 0.75, where the normals of few faces lie.
 std::int64_t direction_step(double v) { return std::llround(2 * v); }
 
 }  // namespace
 
-std::optional<IrradianceCache::Key> IrradianceCache::key(const Place& place, int larger) const {
-  int level = 0;
-  while (level < levels && std::ldexp(largest_, -level) > angle * place.distance) ++level;
-  if (level == levels) return {};
-  level = std::max(0, level - larger);
+IrradianceCache::IrradianceCache(const V3& centre, double largest) : centre_(centre), finest_(std::ldexp(largest / angle, 1 - levels)) {
+  for (int level = 0; level < levels; ++level) per_unit_[level] = std::ldexp(1 / largest, level);
+}
+
+/// The first level whose cells are small enough for that distance; `levels` when none is.
+int IrradianceCache::level_for(double distance) const {
+  const double times = distance / finest_;
+  if (!(times >= 1)) return levels;
+  return std::max(0, levels - 1 - std::ilogb(times));
+}
+
+IrradianceCache::Key IrradianceCache::key_at(const Place& place, int level) const {
   const V3& face = place.face;
   // The grid stands askew to the numbers that people write, so that no wall lies on its planes.
-  V3 p = std::ldexp(1 / largest_, level) * (place.position - centre_) + V3(0.137, 0.271, 0.419);
+  V3 p = per_unit_[level] * (place.position - centre_) + V3(0.137, 0.271, 0.419);
   auto whole = [](double v) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v))); };
   std::int64_t direction = direction_step(face.x) * 25 + direction_step(face.y) * 5 + direction_step(face.z);
   Key where = key_of(whole(p.x), whole(p.y), whole(p.z));
   return key_of(where, static_cast<std::uint64_t>(direction + 100) * levels + static_cast<std::uint64_t>(level), place.scope);
+}
+
+std::optional<IrradianceCache::Key> IrradianceCache::key(const Place& place, int larger) const {
+  const int level = level_for(place.distance);
+  if (level == levels) return {};
+  return key_at(place, std::max(0, level - larger));
 }
 
 std::size_t IrradianceCache::slot(Key key) const {
@@ -34,10 +46,11 @@ std::size_t IrradianceCache::slot(Key key) const {
 }
 
 const IrradianceCache::Cell* IrradianceCache::find(const Place& place, int larger) const {
-  auto k = key(place, larger);
-  if (!k || table_.empty()) return nullptr;
-  std::uint32_t cell = table_[slot(*k)];
-  return cell ? &cells_[cell - 1] : nullptr;
+  if (table_.empty()) return nullptr;
+  const int level = level_for(place.distance);
+  for (int l = std::min(level, levels - 1); l >= std::max(0, level - larger); --l)
+    if (std::uint32_t cell = table_[slot(key_at(place, l))]) return &cells_[cell - 1];
+  return nullptr;
 }
 
 void IrradianceCache::rebuild(std::size_t size) {

@@ -27,7 +27,7 @@ class IrradianceCache {
   };
 
   /// Cells have sides of at most `largest`, world units; positions are relative to `centre`.
-  IrradianceCache(const V3& centre, double largest) : centre_(centre), largest_(largest) {}
+  IrradianceCache(const V3& centre, double largest);
 
   /// A place that a ray meets.
   struct Place {
@@ -36,10 +36,13 @@ class IrradianceCache {
     double distance;                 // how far the ray has come
   };
 
+  static constexpr int levels = 7;   // each half as large as the one before
+
   /// The cell for a place; none when it is too near for any cell. `larger`: one that is so many times twice as large, or the
   /// largest.
   std::optional<Key> key(const Place& place, int larger = 0) const;
-  /// Null when no ray has ended there.
+  /// The cell of a place or, when no ray has ended there, the smallest of those that are up to `larger` times twice as large.
+  /// Null when none of them is there.
   const Cell* find(const Place& place, int larger = 0) const;
   /// Makes the cell when it is new. `rank` is a random number for this meeting.
   void meet(Key key, const Receiver& place, std::uint64_t rank);
@@ -51,11 +54,14 @@ class IrradianceCache {
   const std::vector<Cell>& cells() const { return cells_; }
 
  private:
+  int level_for(double distance) const;
+  Key key_at(const Place& place, int level) const;
   std::size_t slot(Key key) const;
   void rebuild(std::size_t size);
 
   V3 centre_;
-  double largest_;
+  double finest_;                    // ratio of a distance to it: which cells are small enough
+  double per_unit_[levels];          // cells, by level
   std::vector<Cell> cells_;
   std::vector<Key> keys_;            // of the cells
   std::vector<std::uint32_t> table_; // cell + 1 by hash of its key; 0: free

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "passes/light/lambert.h"
+
 namespace wrlkit::light {
 namespace {
 
@@ -68,26 +70,94 @@ void DirectLight::emitters(const Receiver& at, const Lattice<3>& places, std::ui
   }
 }
 
+/// None when the place is turned away.
+std::optional<DirectLight::Sight> DirectLight::look(const Receiver& at, const Emitter& e, double b1, double b2) const {
+  V3 target = e.at(b1, b2), across = cross(e.edge1, e.edge2);
+  V3 way = target - at.start;
+  Sight s;
+  s.distance2 = dot(way, way), s.leaving = -dot(across, way);
+  if (e.both_sides) s.leaving = std::fabs(s.leaving);
+  if (!(s.leaving > 0) || !(s.distance2 > 0)) return {};
+  s.distance = std::sqrt(s.distance2), s.arriving = dot(at.normal, way) / s.distance;
+  if (!(s.arriving > 0) || !(dot(at.face, way) > 0)) return {};
+  V3 side = unit(dot(across, way) < 0 ? across : -across);
+  V3 end = world_.off_surface(target, side) - at.start;
+  double length_of_ray = length(end);
+  s.ray = {at.start, (1 / length_of_ray) * end};
+  s.through = world_.transmittance(s.ray, length_of_ray * (1 - 0x1p-19));  // the emitter must not stand before itself by rounding
+  return s;
+}
+
 void DirectLight::emitter(const Receiver& at, const EmitterTree::Choice& choice, double u, double v, Flux& to) const {
   const Emitter& e = world_.emitters()[choice.emitter];
   double root = std::sqrt(u), b1 = root * (1 - v), b2 = root * v;
-  V3 target = e.at(b1, b2), across = cross(e.edge1, e.edge2);
-  V3 way = target - at.start;
-  double d2 = dot(way, way), leaving = -dot(across, way);  // cosine * distance * twice the area
-  if (e.both_sides) leaving = std::fabs(leaving);
-  if (!(leaving > 0) || !(d2 > 0)) return;
-  double d = std::sqrt(d2), arriving = dot(at.normal, way) / d;
-  if (!(arriving > 0) || !(dot(at.face, way) > 0)) return;
+  auto s = look(at, e, b1, b2);
+  if (!s || !(s->through > 0)) return;
   // By solid angle: probability / area * distance^2 / cosine.
-  double density = choice.probability * 2 * d2 * d / leaving;
-  double weight = arriving / (density + arriving / pi);
-  V3 side = unit(dot(across, way) < 0 ? across : -across);
-  V3 end = world_.off_surface(target, side) - at.start;
-  double distance = length(end);
-  Ray ray{at.start, (1 / distance) * end};
-  distance *= 1 - 0x1p-19;           // the emitter must not stand before itself by rounding
-  double through = world_.transmittance(ray, distance);
-  if (through > 0) to.add(through * weight * world_.radiance(e, b1, b2), ray.direction);
+  double density = choice.probability * 2 * s->distance2 * s->distance / s->leaving;
+  double weight = s->arriving / (density + s->arriving / pi);
+  to.add(s->through * weight * world_.radiance(e, b1, b2), s->ray.direction);
+}
+
+void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint32_t n, Flux& to, V3& noise) const {
+  const auto emitters = world_.emitters();
+  double strength[few], sum = 0;
+  for (std::size_t i = 0; i < emitters.size(); ++i) {
+    const Emitter& e = emitters[i];
+    const V3 corner[] = {e.corner - at.start, e.corner + e.edge1 - at.start, e.corner + e.edge2 - at.start};
+    const bool faces = e.both_sides || dot(cross(e.edge1, e.edge2), corner[0]) < 0;
+    sum += strength[i] = faces && mean(e.radiance) > 0 ? mean(e.radiance) * irradiance_of(corner, at) : 0;
+  }
+  if (!(sum > 0)) return;
+  // Rays by strength, two at least, so that they tell how they scatter. Emitters of less are drawn, by equal steps along the
+  // sum of their strengths; those scatter from one another.
+  const double step = 2 * sum / n;
+  double next = fraction(key_of(key, emitters.size())) * step, n_drawn = 0;
+  V3 drawn, drawn_squares, drawn_noise;
+  for (std::size_t i = 0; i < emitters.size(); ++i) {
+    const V3 full((n / mean(emitters[i].radiance)) * strength[i]);
+    if (strength[i] >= step) {
+      add_seen(at, emitters[i], full, key_of(key, i), static_cast<std::uint32_t>(std::lround(2 * strength[i] / step)), to, noise);
+    } else if (strength[i] > 0 && (next -= strength[i]) < 0) {
+      next += step;
+      const V3 e = add_seen(at, emitters[i], (step / strength[i]) * full, key_of(key, i), 2, to, drawn_noise);
+      drawn += e, drawn_squares += e * e, ++n_drawn;
+    }
+  }
+  noise += n_drawn < 2 ? drawn_noise : max(V3(), (n_drawn / (n_drawn - 1)) * (drawn_squares - (1 / n_drawn) * (drawn * drawn)));
+}
+
+/// `strength` is the irradiance by radiance 1 when nothing stands between. Returns what was added.
+V3 DirectLight::add_seen(const Receiver& at, const Emitter& e, const V3& strength, std::uint64_t key, std::uint32_t n, Flux& to, V3& noise) const {
+  struct Seen {
+    V3 light, direction;
+    double weight;
+  };
+  thread_local std::vector<Seen> seen;
+  seen.clear();
+  const Lattice<2> places(key);
+  double weights = 0;
+  V3 sum;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    auto [u, v] = places[i];
+    double root = std::sqrt(u), b1 = root * (1 - v), b2 = root * v;
+    auto s = look(at, e, b1, b2);
+    if (!s) continue;
+    const double weight = s->arriving * s->leaving / (s->distance2 * s->distance);
+    seen.push_back({s->through > 0 ? s->through * world_.radiance(e, b1, b2) : V3(), s->ray.direction, weight});
+    weights += weight;
+    sum += weight * seen.back().light;
+  }
+  if (!(weights > 0)) return {};
+  const V3 part = (1 / weights) * sum;
+  V3 squares;
+  for (const Seen& s : seen) {
+    to.add((s.weight / weights) * (strength * s.light), s.direction);
+    const V3 off = (s.weight / weights) * (strength * (s.light - part));
+    squares += off * off;
+  }
+  noise += squares;
+  return strength * part;
 }
 
 double DirectLight::gather_weight(const Receiver& from, const Ray& ray, const Hit& hit) const {

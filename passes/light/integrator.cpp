@@ -46,20 +46,25 @@ namespace {
 /// The rays of one point, in rounds.
 class Estimate {
  public:
-  Estimate(const DirectLight& direct, const Transport& transport, const Receiver& at, std::uint64_t key)
-      : direct_(direct), transport_(transport), at_(at), random_(key), directions_(key_of(key, 1)), places_(key_of(key, 2)) {
+  Estimate(const DirectLight& direct, const Transport& transport, bool all_emitters, const Receiver& at, std::uint64_t key)
+      : direct_(direct), transport_(transport), at_(at), all_emitters_(all_emitters), key_(key), random_(key), directions_(key_of(key, 1)),
+        places_(key_of(key, 2)) {
     direct_.lamps(at_, lamp_rays, random_, lamps_);
   }
 
   void trace(std::uint32_t n) {
-    direct_.emitters(at_, places_, n_, n, emitters_);
+    if (all_emitters_) direct_.all_emitters(at_, key_of(key_, 3, n_), n, emitters_, emitter_noise_);
+    else direct_.emitters(at_, places_, n_, n, emitters_);
     for (std::uint32_t i = n_; i < n_ + n; ++i) gather(i);
     n_ += n;
   }
 
   std::uint32_t n() const { return n_; }
   V3 total() const { return lamps_.sum + (1.0 / n_) * (emitters_.sum + gathered_.sum); }
-  V3 variance() const { return emitters_.variance(n_) + gathered_.variance(n_); }
+  V3 variance() const {
+    const V3 of_emitters = all_emitters_ ? (1.0 / n_ / n_) * emitter_noise_ : emitters_.variance(n_);
+    return of_emitters + gathered_.variance(n_);
+  }
 
   Irradiance result() const {
     Irradiance out;
@@ -79,7 +84,7 @@ class Estimate {
     auto [u, v] = directions_[i];
     V3 direction = cosine_direction(at_.normal, u, v);
     if (!(dot(direction, at_.face) > 0)) return;
-    Arriving a = transport_.gather(at_, {at_.start, direction}, random_);
+    Arriving a = transport_.gather(at_, {at_.start, direction}, random_, all_emitters_);
     gathered_.add(pi * (a.direct + a.reflected), direction);
     reflected_ += pi * a.reflected;
     n_inside_ += a.from_inside;
@@ -88,11 +93,13 @@ class Estimate {
   const DirectLight& direct_;
   const Transport& transport_;
   Receiver at_;
+  bool all_emitters_;                // each is looked at, so that rays leave them out
+  std::uint64_t key_;
   Stream random_;
   Lattice<2> directions_;
   Lattice<3> places_;
   Flux lamps_, emitters_, gathered_;
-  V3 reflected_;
+  V3 emitter_noise_, reflected_;
   std::uint32_t n_ = 0, n_inside_ = 0;
 };
 
@@ -114,10 +121,11 @@ std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, st
   const State& s = *state_;
   const auto rays = static_cast<std::uint32_t>(std::max(1, s.options.rays));
   const auto most = static_cast<std::uint32_t>(std::max(s.options.rays, s.options.most_rays));
+  const bool all_emitters = s.options.mode == IntegratorOptions::Mode::cached && s.direct.has_few_emitters();
   std::vector<Irradiance> out(points.size());
   parallel_for((points.size() + block - 1) / block, [&](std::size_t b) {
     for (std::size_t i = b * block; i < std::min(points.size(), (b + 1) * block); ++i) {
-      Estimate e(s.direct, s.transport, receiver(s.world, points[i]), key_of(s.options.seed, 6, first + i));
+      Estimate e(s.direct, s.transport, all_emitters, receiver(s.world, points[i]), key_of(s.options.seed, 6, first + i));
       e.trace(rays);
       auto precise = [&] { return std::sqrt(mean(e.variance())) <= s.options.error * std::max(mean(e.total()), s.floor); };
       while (s.options.error > 0 && e.n() < most && !precise()) e.trace(std::min(e.n(), most - e.n()));

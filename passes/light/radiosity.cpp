@@ -147,8 +147,7 @@ Solver::Gathered Solver::look(const Receiver& from, const Ray& ray, Stream& rand
     if (mean(s.emission) > 0) out.first += (part * pi * direct_.gather_weight(from, ray, hit)) * s.emission;
     if (!(mean(s.albedo) > 0)) return;
     IrradianceCache::Place place{s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance};
-    const Cell* cell = nullptr;
-    for (int larger = 0; larger < 3 && !cell; ++larger) cell = cache_.find(place, larger);
+    const Cell* cell = cache_.find(place, 2);
     Gathered there = cell ? Gathered{cell->direct, cell->gathered} : follow(transport_.receiver_at(hit, s), random, depth + 1);
     out.first += part * (s.albedo * there.first);
     out.further += part * (s.albedo * there.further);

@@ -5,15 +5,16 @@ namespace {
 
 constexpr int deepest = 512;         // reflections; what then is left out is less than 0.6 %
 constexpr int certain = 3;           // reflections that are followed whatever they bring
+constexpr double survivors = 0.5;    // of light beyond these, where there is no cell: narrow gaps would keep it for ever
 constexpr int lamp_rays = 2;
 
 }  // namespace
 
-Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, int depth) const {
+Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, int depth, bool all_emitters) const {
   Arriving out;
   double open = each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
     out.from_inside |= s.inside;
-    if (mean(s.emission) > 0) out.direct += part * direct_.gather_weight(at, ray, hit) * s.emission;
+    if (mean(s.emission) > 0 && !(all_emitters && direct_.is_emitter(hit))) out.direct += part * direct_.gather_weight(at, ray, hit) * s.emission;
     if (mean(s.albedo) > 0) out.reflected += (part / pi) * (s.albedo * irradiance(hit, s, random, depth + 1));
   });
   if (open > 0 && world_.has_sky()) out.direct += open * world_.sky(ray.direction);
@@ -22,7 +23,8 @@ Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, in
 
 V3 Transport::irradiance(const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const {
   if (cache_) {
-    const IrradianceCache::Cell* cell = cache_->find({s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance});
+    const int larger = depth <= 1 ? 0 : depth <= certain ? 2 : IrradianceCache::levels;  // the further back, the less a cell's size is seen
+    const IrradianceCache::Cell* cell = cache_->find({s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance}, larger);
     if (cell) return cell->irradiance();
   }
   return followed(receiver_at(hit, s), s.albedo, random, depth);
@@ -34,6 +36,7 @@ V3 Transport::followed(const Receiver& at, const V3& albedo, Stream& random, int
   direct_.lamps(at, lamp_rays, random, f);
   direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, f);
   double survival = depth <= certain ? 1 : std::max({albedo.x, albedo.y, albedo.z});
+  if (cache_ && depth > certain) survival = std::min(survival, survivors);
   if (depth == deepest || random.next() >= survival) return f.sum;
   double u = random.next(), v = random.next();
   V3 direction = cosine_direction(at.normal, u, v);

@@ -20,8 +20,8 @@ class Transport {
       : world_(world), direct_(direct), cache_(cache) {}
 
   /// What comes to a receiver along a ray of its own that was drawn in a cosine direction. Light of emitters is weighted
-  /// for rays to emitters beside it (DirectLight::emitters).
-  Arriving gather(const Receiver& at, const Ray& ray, Stream& random) const { return along(at, ray, random, 0); }
+  /// for rays to emitters beside it (DirectLight::emitters), or left out (`all_emitters`: DirectLight::all_emitters).
+  Arriving gather(const Receiver& at, const Ray& ray, Stream& random, bool all_emitters = false) const { return along(at, ray, random, 0, all_emitters); }
 
   /// Calls f(hit, surface, part) for what a ray meets, through what is transparent; `part` is how much of the ray's light
   /// comes from there. Returns the part that comes from the sky.
@@ -47,7 +47,7 @@ class Transport {
   }
 
  private:
-  Arriving along(const Receiver& at, const Ray& ray, Stream& random, int depth) const;
+  Arriving along(const Receiver& at, const Ray& ray, Stream& random, int depth, bool all_emitters = false) const;
   V3 irradiance(const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const;
   V3 followed(const Receiver& at, const V3& albedo, Stream& random, int depth) const;
 
