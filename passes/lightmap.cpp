@@ -88,10 +88,13 @@ Outcome take_patches(Scene& scene, const light::LightWorld& world, const Lightma
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
   own_shapes(scene, ctx.diag);
   Meshes meshes(scene, ctx);
-  const light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options), ctx.diag);
+  light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options), ctx.diag);
   if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
-  auto parts = find_parts(scene, world.stage(), Sides::apart, ctx);
+  auto parts = find_parts(scene, world, Sides::apart, ctx);
   if (parts.empty()) return Outcome::unchanged;
+  for (const Part& p : parts)
+    for (std::uint32_t u : p.uses)
+      if (p.sealed) world.seal(u, p.inside_out);
   if (!world.has_sky_of_its_own()) ctx.diag.report(Diag::no_light, {});
   unfold_parts(parts, world.stage());
   const Layout layout(parts, layout_options(options));

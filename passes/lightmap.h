@@ -72,7 +72,8 @@ struct LightmapOptions {
 ///   and `format` count. Backs share the picture of their fronts.
 /// - A world without any light is lit by a white sky, which is reported (no-light).
 ///
-/// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays, .inside.
+/// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays, and for judging the
+/// result .inside, .leaks, .black, .seam-places, .jumps (lightmap/bake.h).
 /// O(texels * rays * log triangles). The same result for any number of threads.
 Outcome lightmap(Scene& scene, const LightmapOptions& options, PassContext& ctx);
 

@@ -51,6 +51,7 @@ void LightWorld::make_facts(const Scene& scene, Resources* resources, Diagnostic
     f.surface = surfaces_->of(stage_.uses[u].appearance);
     const Surface& s = (*surfaces_)[f.surface];
     if (m.kind == Mesh::Kind::faces) {
+      if (m.solid) f.inner = Inner::back;
       f.clear = may_be_clear(s, m);
       has_clear_ |= f.clear;
       f.plain = m.colors == PooledMesh::absent && (!s.picture.texture || m.texcoords == PooledMesh::absent);
@@ -94,7 +95,7 @@ void LightWorld::make_emitters() {
     for (std::uint32_t e = 0; e < m.n_elements; ++e) {
       V3 p[3];
       for (int k = 0; k < 3; ++k) p[k] = frame.point(pool_.position(m, e, k) + m.origin);
-      emitters_.push_back({p[0], p[1] - p[0], p[2] - p[0], {}, u, e, !m.solid});
+      emitters_.push_back({p[0], p[1] - p[0], p[2] - p[0], {}, u, e, f.inner == Inner::neither});
       emitters_.back().radiance = radiance(emitters_.back(), 1. / 3, 1. / 3);
     }
   }
@@ -135,7 +136,7 @@ SurfacePoint LightWorld::surface(const Hit& hit) const {
     if (dot(smooth, s.face) > 0) s.normal = smooth;
   }
   if (hit.back) s.face = -s.face, s.normal = -s.normal;
-  s.inside = hit.back && m.solid;
+  s.inside = use.inner == (hit.back ? Inner::back : Inner::front);
   if (!s.inside) paint(use, hit, s);
   else if (use.clear) s.alpha = std::clamp(base(use, hit).alpha, 0.0, 1.0);
   return s;

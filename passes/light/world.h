@@ -78,6 +78,9 @@ class LightWorld {
   bool nearest(const Ray& ray, double after, Hit& hit) const { return rays_->nearest(ray, after, hit); }
   /// The surface at a hit on the side that was hit. The back of a `solid` face is black.
   SurfacePoint surface(const Hit& hit) const;
+  /// A closed surface of `solid` FALSE whose inner side nobody sees counts as `solid` TRUE from then on; `inside_out`: its
+  /// fronts are the inner side.
+  void seal(std::uint32_t use, bool inside_out) { facts_[use].inner = inside_out ? Inner::front : Inner::back; }
   /// What of the light passes along so much of a ray: 0 when something opaque stands there.
   double transmittance(const Ray& ray, double distance) const;
   /// Radiance of the sky in a direction of the world.
@@ -114,8 +117,10 @@ class LightWorld {
 
  private:
   static constexpr std::uint32_t no_emitter = 0xffffffff;
+  enum class Inner : std::uint8_t { neither, back, front };  // the side of a face that is black, as nobody sees it
   struct UseFacts {
     std::uint32_t surface = 0;
+    Inner inner = Inner::neither;
     std::uint32_t first_emitter = no_emitter;
     bool clear = false;              // some of it may be transparent
     bool plain = false;              // one colour everywhere

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 
 #include "passes/lightmap/checkpoint.h"
 #include "passes/lightmap/denoise.h"
@@ -25,10 +26,18 @@ constexpr float within = 0.5f;               // share of rays that meet backs, f
 Vec vec(const V3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Rgb rgb(const light::Rgb& c) { return {c[0], c[1], c[2]}; }
 
+/// Where the points of a texel lie.
+enum class Site : std::uint32_t {
+  open,
+  within,                                    // something: what few rays see is not the light there
+  pierced,                                   // within something on all sides, and yet a lamp shines there: a leak
+};
+
 /// What is kept of a texel: what the checkpoint holds.
 struct TexelLight {
   std::int32_t x, y;
-  std::uint32_t chart, inside;
+  std::uint32_t chart;
+  Site site;
   Rgb light, along[3];
   float variance;
   Vec position, normal;
@@ -53,15 +62,15 @@ class PageBaker {
   std::vector<TexelLight> gather(const std::vector<Irradiance>& light) const {
     std::vector<TexelLight> out;
     for (const auto& t : texels_.texels) {
-      TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, 0, {}, {}, 0, {}, {}};
-      std::uint32_t n = 0;
-      for (auto i = t.first; i < t.first + t.count; ++i) {
-        if (light[i].inside > within) continue;
-        add(light[i], texel);
-        ++n;
+      const std::span all(&light[t.first], t.count);
+      TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, site_of(all), {}, {}, 0, {}, {}};
+      float weight = 0;  // of a point that lies within something, as far as it sees out; such light counts where there is no other
+      for (const Irradiance& l : all) {
+        if (texel.site == Site::open && l.inside > within) continue;
+        add(l, texel);
+        weight += texel.site == Site::open ? 1 : 1 - l.inside;
       }
-      const auto scale = static_cast<float>(1 / (pi * std::max(1u, n)));
-      texel.inside = n == 0;
+      const auto scale = weight > 0 ? static_cast<float>(1 / (pi * weight)) : 0;
       texel.light = scale * texel.light;
       for (Rgb& a : texel.along) a = scale * a;
       texel.variance *= scale * scale;
@@ -74,6 +83,12 @@ class PageBaker {
   }
 
  private:
+  static Site site_of(std::span<const Irradiance> points) {
+    if (std::ranges::any_of(points, [](const Irradiance& p) { return p.inside <= within; })) return Site::open;
+    const bool leaks = std::ranges::any_of(points, [](const Irradiance& p) { return p.inside == 1 && luminance(rgb(p.direct)) > 0; });
+    return leaks ? Site::pierced : Site::within;
+  }
+
   static void add(const Irradiance& from, TexelLight& to) {
     to.light += rgb(from.direct) + rgb(from.indirect);
     for (int k = 0; k < 3; ++k) to.along[k] += rgb(from.along[k]);
@@ -157,7 +172,7 @@ std::vector<char> packed(const std::vector<TexelLight>& texels) {
   return {p, p + texels.size() * sizeof(TexelLight)};
 }
 
-/// Texels within something have no light of their own. Where a whole chart is, it stays as dark as it is.
+/// Texels within something have no light of their own. Where a whole chart is, it keeps what it sees.
 std::vector<char> known_texels(const Page& page, const std::vector<char>& inside) {
   std::vector<char> lit_charts, known(page.size());
   auto lit = [&](std::uint32_t chart) -> char& {
@@ -232,8 +247,10 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
         for (std::size_t l = 1; l < page.layers.size(); ++l) page.layers[l][i] = t.along[l - 1];
         page.variance[i] = t.variance;
         page.places[i] = {t.chart, t.position, t.normal};
-        inside[i] = t.inside != 0;
-        ctx.stats["lightmap.inside"] += t.inside;
+        inside[i] = t.site != Site::open;
+        ctx.stats["lightmap.inside"] += inside[i];
+        ctx.stats["lightmap.leaks"] += t.site == Site::pierced;
+        ctx.stats["lightmap.black"] += t.site == Site::open && !(t.light.r + t.light.g + t.light.b > 0);
       }
       ctx.stats["lightmap.texels"] += texels.size();
       if (ctx.monitor) ctx.monitor->step();
@@ -243,7 +260,9 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
 
   std::vector<Canvas> light;
   for (auto& p : out) light.push_back(std::move(p.light));
-  close_seams(light, layout.seams());
+  const SeamReport seams = close_seams(light, layout.seams());
+  ctx.stats["lightmap.seam-places"] += seams.places;
+  ctx.stats["lightmap.jumps"] += seams.jumps;
   for (std::size_t p = 0; p < out.size(); ++p) out[p].light = std::move(light[p]);
   checkpoint.finish();
   return out;

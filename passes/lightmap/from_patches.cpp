@@ -67,7 +67,7 @@ bool light_from_patches(Scene& scene, const light::LightWorld& world, const Patc
   for (const auto& s : made.shapes) pages.push_back({canvas_of(s.picture), {}});
   Storing storing(scene, pages, {options.extension}, ctx);
   std::unordered_set<std::uint32_t> taken;
-  for (Part& part : find_parts(scene, world.stage(), Sides::as_they_are, ctx))
+  for (Part& part : find_parts(scene, world, Sides::as_they_are, ctx))
     for (std::uint32_t use : part.uses) {
       const auto shape = std::ranges::lower_bound(made.shapes, use, {}, &ShapePicture::use);
       if (shape == made.shapes.end() || shape->use != use) continue;

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "passes/lightmap/witnesses.h"
 #include "passes/normals.h"
 #include "passes/parallel.h"
 #include "passes/simplify/surfaces.h"
@@ -96,8 +97,8 @@ class Backs {
 
 class Finder {
  public:
-  Finder(const Scene& scene, const Stage& stage, Sides sides, PassContext& ctx)
-      : scene_(scene), stage_(stage), sides_(sides), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
+  Finder(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx)
+      : scene_(scene), stage_(world.stage()), witnesses_(scene, world), sides_(sides), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
     for (const auto& s : surfaces_of(scene)) lit_.emplace(s.geometry.value, s);
   }
 
@@ -131,8 +132,18 @@ class Finder {
     if (p.mesh.solid || sides_ == Sides::as_they_are) return;
     PointJoiner joiner;
     p.mesh.solid = true;
-    if (!is_closed(points_of(p.mesh, joiner))) Backs(p).append();
-    else if (signed_volume(p) < 0) Backs(p).turn();
+    p.sealed = is_closed(points_of(p.mesh, joiner)) && !has_witness(p);
+    if (!p.sealed) return Backs(p).append();
+    p.inside_out = signed_volume(p) < 0;
+    if (p.inside_out) Backs(p).turn();
+  }
+
+  bool has_witness(const Part& p) const {
+    return std::ranges::any_of(p.uses, [&](std::uint32_t u) {
+      drawing::Box box;
+      for (std::size_t c = 0; c < p.mesh.corners.size(); ++c) box.add(stage_.frames[stage_.uses[u].frame].point(p.position(c)));
+      return witnesses_.within(box, u);
+    });
   }
 
   /// `ccw` FALSE: corners and all that they have turn round, so that the front is where they run counter-clockwise.
@@ -161,6 +172,7 @@ class Finder {
 
   const Scene& scene_;
   const Stage& stage_;
+  Witnesses witnesses_;
   Sides sides_;
   Diagnostics unheard_;  // whoever draws the geometry says what is wrong with it
   Statistics unheard_counts_;
@@ -196,7 +208,7 @@ void unfold(Part& p, const Stage& stage) {
 
 }  // namespace
 
-std::vector<Part> find_parts(const Scene& scene, const Stage& stage, Sides sides, PassContext& ctx) { return Finder(scene, stage, sides, ctx).run(); }
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx) { return Finder(scene, world, sides, ctx).run(); }
 
 void unfold_parts(std::vector<Part>& parts, const Stage& stage) {
   parallel_for(parts.size(), [&](std::size_t i) { unfold(parts[i], stage); });

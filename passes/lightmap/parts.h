@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "passes/light/world.h"
 #include "passes/pass.h"
 #include "passes/render/stage.h"
 #include "passes/unwrap/charts.h"
@@ -17,6 +18,7 @@ struct Part {
   Mesh mesh;                         // triangles; the backs, where they need light of their own, behind the fronts
   std::vector<float> normals;        // unit, of each corner, in the frame of the geometry
   std::size_t n_fronts = 0;          // triangles that are not backs
+  bool sealed = false, inside_out = false;  // closed, though `solid` is FALSE: nobody sees the inner side, which the fronts were
   unwrap::Charts charts;             // in metres of the world, as the first use has it
 
   std::size_t n_triangles() const { return mesh.corners.size() / 3; }
@@ -30,13 +32,13 @@ struct Part {
 /// What becomes of the backs of faces that are seen from both sides.
 enum class Sides : std::uint8_t { apart, as_they_are };
 
-/// The parts of a stage, in its order. Left out: what has no Material, as it is not lit; text, lines and points; geometry
+/// The parts of a world, in its order. Left out: what has no Material, as it is not lit; text, lines and points; geometry
 /// that events can change. O(triangles).
 ///
-/// Sides apart: a face of `solid` FALSE is seen from both sides, which have light of their own; where the surface is closed nobody sees
-/// the inner side, and only the outer one is lit. So an open surface of `solid` FALSE gets a back for each face, and
-/// `solid` TRUE. A closed one that is wound inside out is turned.
-std::vector<Part> find_parts(const Scene& scene, const drawing::Stage& stage, Sides sides, PassContext& ctx);
+/// Sides apart: a face of `solid` FALSE is seen from both sides, which have light of their own. Where the surface is closed, and
+/// neither a Viewpoint nor anything that shines stands in its box, nobody sees the inner side: it is sealed, and only the outer
+/// one is lit; one that is wound inside out is turned. Any other surface of `solid` FALSE gets a back for each face, and `solid` TRUE.
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx);
 
 /// Unfolds each part into charts; in parallel.
 void unfold_parts(std::vector<Part>& parts, const drawing::Stage& stage);

@@ -7,6 +7,8 @@
 namespace wrlkit::bake {
 namespace {
 
+constexpr float unlike = 0.1f;    // difference that is a jump, relative to the brighter side
+constexpr float unseen = 0.004f;  // in a display-referred picture less than 14 of 255, in the dark
 constexpr float stay = 0.1f;  // what moving a texel costs, against a difference across the seam
 
 /// What a bilinear filter shows at a place: four texels and their weights.
@@ -51,6 +53,20 @@ class System {
       rr = next;
     }
     for (std::size_t i = 0; i < x.size(); ++i) texel(i) = {std::max(0.0f, x[i].r), std::max(0.0f, x[i].g), std::max(0.0f, x[i].b)};
+  }
+
+  SeamReport report() {
+    SeamReport out{agreements_.size(), 0};
+    auto shown = [this](const Tap& t) {
+      Rgb sum;
+      for (int k = 0; k < 4; ++k) sum += t.weight[k] * texel(t.unknown[k]);
+      return luminance(sum);
+    };
+    for (const auto& e : agreements_) {
+      const float a = shown(e.a), b = shown(e.b);
+      out.jumps += std::fabs(a - b) > unlike * std::max(a, b) + unseen;
+    }
+    return out;
   }
 
  private:
@@ -107,10 +123,11 @@ class System {
 
 }  // namespace
 
-void close_seams(std::span<Canvas> pages, std::span<const Seam> seams, int iterations) {
+SeamReport close_seams(std::span<Canvas> pages, std::span<const Seam> seams, int iterations) {
   System system(pages);
   for (const Seam& s : seams) system.add(s);
   system.solve(iterations);
+  return system.report();
 }
 
 }  // namespace wrlkit::bake

@@ -26,9 +26,15 @@ struct Canvas {
   std::vector<Rgb> texels;
 };
 
+/// How well both sides of the seams agree.
+struct SeamReport {
+  std::uint64_t places = 0;          // along the seams, two a texel
+  std::uint64_t jumps = 0;           // where the sides differ by more than a tenth, and by what is seen
+};
+
 /// Changes the texels along the seams by as little as makes what a bilinear filter shows on both sides the same: least
 /// squares over the texels that the filter reaches, solved by conjugate gradients. Texels elsewhere stay as they are.
 /// O(texels along the seams * iterations).
-void close_seams(std::span<Canvas> pages, std::span<const Seam> seams, int iterations = 30);
+SeamReport close_seams(std::span<Canvas> pages, std::span<const Seam> seams, int iterations = 30);
 
 }  // namespace wrlkit::bake

@@ -198,3 +198,24 @@ TEST_CASE("bake: shared geometry has light of its own at each place, and the sam
   }
   CHECK(pictures[0] == pictures[1]);
 }
+
+TEST_CASE("bake: under what is closed the floor takes the light around, though both sides of it were to be seen", "[bake]") {
+  const std::string block = "Transform { translation 0 1 0 children DEF Block Shape { " + material(0.5) + " geometry IndexedFaceSet { solid FALSE " + box(false, 1).substr(17) + " } }";
+  Baked b("DEF Floor Shape { " + material(0.5) + " geometry " + floor_of_4 + " } " + block, "quality=draft,max-size=128,sky=1:1:1");
+  Light floor(b, "Floor"), top(b, "Block");
+  CHECK(top.mesh.corners.size() == 36);  // the inner side is not lit
+  CHECK(floor.on_floor(0.01, 0.02) > 0.2);
+  CHECK(b.stats["lightmap.inside"] > 500);
+  CHECK(b.stats["lightmap.black"] == 0);
+  CHECK(b.stats["lightmap.leaks"] == 0);
+  CHECK(b.stats["lightmap.jumps"] == 0);
+}
+
+TEST_CASE("bake: a closed room of which both sides are to be seen has light on both when somebody stands in it", "[bake]") {
+  const std::string room = "DEF Room Shape { " + material(0.5, 0.1) + " geometry IndexedFaceSet { solid FALSE " + box(true, 1).substr(17) + " } ";
+  Baked nobody(room, "quality=draft,max-size=128"), viewer(room + "Viewpoint { position 0 0 0.5 }", "quality=draft,max-size=128"),
+      lamp(room + "PointLight { location 0 0.5 0 }", "quality=draft,max-size=128");
+  CHECK(Light(nobody, "Room").mesh.corners.size() == 36);
+  CHECK(Light(viewer, "Room").mesh.corners.size() == 72);
+  CHECK(Light(lamp, "Room").mesh.corners.size() == 72);
+}
