@@ -1,8 +1,10 @@
 // The page begins here: what wrlkit has put into it is read, and shown.
 import {Color} from 'three';
 import {readContents, readFile, type Contents} from './data';
+import {CollapseMode} from './modes/collapse';
 import {WorldMode} from './modes/world';
 import {followAddress, state} from './state';
+import {CollapsePanel} from './ui/collapse_panel';
 import {h} from './ui/dom';
 import {count} from './ui/format';
 import {listenToKeys} from './ui/keys';
@@ -25,6 +27,19 @@ function worldView(mode: WorldMode, shell: Shell): ModeView {
   return {key: 'world', title: 'World', left: tree.element, right: panel.element, over: null, enter: () => mode.enter()};
 }
 
+function collapseView(mode: CollapseMode, shell: Shell): ModeView {
+  const panel = new CollapsePanel(mode);
+  const enter = (): void => {
+    shell.say('Reading the collapses');
+    void mode.enter().then(() => {
+      if (!panel.built) panel.build();
+      shell.say('');
+      document.documentElement.dataset['collapse'] = 'ready';
+    });
+  };
+  return {key: 'collapse', title: 'Collapse', left: null, right: panel.element, over: panel.labels, enter};
+}
+
 async function start(contents: Contents): Promise<void> {
   const shell = new Shell(contents.worlds.map(w => w.name).join(' and '), document.getElementById('app')!);
   shell.say('Loading');
@@ -37,8 +52,13 @@ async function start(contents: Contents): Promise<void> {
   stage.overview(world.box);
   const begin = world.viewpoints[0];
   if (begin) mode.goTo(begin);
-  shell.setModes([worldView(mode, shell)]);
-  stage.recall();
+  const views = [worldView(mode, shell)];
+  const collapse = contents.collapses.length > 0 ? new CollapseMode(stage, contents.collapses) : null;
+  if (collapse) views.push(collapseView(collapse, shell));
+  Object.assign(window, {viewer: {world, mode, collapse}});  // for tests, and for people at the console
+  const camera = stage.rememberedCamera();
+  shell.setModes(views);
+  if (camera) stage.take(camera);
   const wanted = state.number('select');
   if (wanted !== null) mode.select(world.parts.find(p => p.node === wanted) ?? null);
   listenToKeys(shell, mode);

@@ -92,9 +92,9 @@ export class Stage {
     if (moving || going) this.invalidate();
   }
 
-  private fit(): void {
+  private fit(width = this.width, height = this.height): void {
     const tangent = Math.tan(MathUtils.degToRad(this.fieldOfView) / 2);
-    this.camera.aspect = this.width / this.height;
+    this.camera.aspect = width / height;
     this.camera.fov = 2 * MathUtils.radToDeg(Math.atan(tangent / Math.min(1, this.camera.aspect)));
   }
 
@@ -114,6 +114,8 @@ export class Stage {
     this.renderer.setViewport(x, y, width, height);
     this.renderer.setScissor(x, y, width, height);
     this.renderer.setScissorTest(true);
+    this.fit(width, height);
+    this.camera.updateProjectionMatrix();
     draw();
     this.renderer.setScissorTest(false);
     this.renderer.setViewport(0, 0, this.width, this.height);
@@ -149,11 +151,13 @@ export class Stage {
     state.set('camera', numbers.map(n => significant(n, 6).replaceAll(',', '')).join(' '));
   }
 
-  /// The camera of the address; false when it has none.
-  recall(): boolean {
+  /// The camera of the address, if it has one.
+  rememberedCamera(): number[] | null {
     const n = (state.get('camera') ?? '').split(' ').map(Number);
-    if (n.length !== 8 || !n.every(Number.isFinite)) return false;
+    return n.length === 8 && n.every(Number.isFinite) ? n : null;
+  }
+
+  take(n: number[]): void {
     this.navigator.take(new Vector3(n[0], n[1], n[2]), new Quaternion(n[3], n[4], n[5], n[6]).normalize(), n[7]!);
-    return true;
   }
 }

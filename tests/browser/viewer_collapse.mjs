@@ -1,0 +1,97 @@
+// The collapse in the viewer page: forward and back, by button, key and click; and at interaction points the faces that are
+// shown are those of the files that `wrlkit simplify` writes.
+//   node viewer_collapse.mjs WRLKIT FOLDER
+import assert from 'node:assert';
+import fs from 'node:fs';
+import path from 'node:path';
+import {number_of, open_page, start_chromium, wrlkit} from './viewer_page.mjs';
+import {file_of} from './worlds.mjs';
+
+const [program, folder] = process.argv.slice(2);
+fs.mkdirSync(folder, {recursive: true});
+const model = file_of('corpus/paper/ellipsoid_hole_fine.wrl'), html = path.join(folder, 'collapse.html');
+const criteria = ['length-normal', 'melax', 'lindstrom-turk'], points = [5000, 1000, 200, 100];
+wrlkit(program, 'view', '-q', model, '-o', html);
+
+/// Nine numbers a triangle, of the one IndexedFaceSet of triangles in a file.
+function triangles_of(file) {
+  const text = fs.readFileSync(file, 'utf8');
+  const list = name => text.match(new RegExp(`${name}\\s*\\[([^\\]]*)\\]`))[1].trim().split(/[\s,]+/).map(Number);
+  const point = list('point'), index = list('coordIndex');
+  return index.filter(i => i >= 0).flatMap(i => point.slice(3 * i, 3 * i + 3));
+}
+
+/// How many triangles of the one list have no counterpart in the other, with each corner no farther away than `reach`.
+function differing(list, other, reach) {
+  const triangles = numbers => Array.from({length: numbers.length / 9}, (_, t) => numbers.slice(9 * t, 9 * t + 9));
+  const middle = t => t[0] + t[3] + t[6];
+  const rows = triangles(other).sort((a, b) => middle(a) - middle(b));
+  const alike = (a, b, turn) => a.every((x, k) => Math.abs(x - b[(k + 3 * turn) % 9]) <= reach);
+  const found = t => {
+    let low = 0, high = rows.length;
+    while (low < high) {
+      const at = (low + high) >> 1;
+      if (middle(rows[at]) < middle(t) - 3 * reach) low = at + 1;
+      else high = at;
+    }
+    for (; low < rows.length && middle(rows[low]) <= middle(t) + 3 * reach; ++low) if ([0, 1, 2].some(turn => alike(t, rows[low], turn))) return true;
+    return false;
+  };
+  return triangles(list).filter(t => !found(t)).length;
+}
+
+const browser = await start_chromium();
+try {
+  const {page, faults} = await open_page(browser, html, {fragment: '#mode=collapse'});
+  await page.waitForSelector('html[data-collapse]', {state: 'attached'});
+  const faces = async () => number_of((await page.locator('.label output').first().textContent()).replace(' faces', ''));
+  const picture = () => page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(document.querySelector('.view canvas').toDataURL())))));
+  const all = JSON.parse(wrlkit(program, 'info', '-q', '--json', model)).triangles;
+  assert.equal(await faces(), all);
+
+  // One edge takes two faces; back is where it was.
+  const begin = await picture();
+  await page.getByRole('button', {name: 'Collapse edge'}).click();
+  assert.equal(await faces(), all - 2);
+  await page.locator('.view canvas').focus();
+  await page.keyboard.press('Space');
+  assert.equal(await faces(), all - 4);
+  const box = await page.locator('.view canvas').boundingBox();
+  await page.mouse.click(box.x + 40, box.y + box.height / 2);
+  assert.equal(await faces(), all - 6);
+  assert.notEqual(await picture(), begin);
+  for (let i = 0; i < 3; ++i) await page.getByRole('button', {name: 'Back'}).click();
+  assert.equal(await faces(), all);
+  assert(await picture() === begin, 'the picture after three steps and back');
+
+  // Interaction points against the files of simplify.
+  for (const [i, criterion] of criteria.entries()) {
+    wrlkit(program, 'simplify', '-q', model, '--counts', points.join(), '--criterion', criterion, '-o', path.join(folder, criterion));
+    for (const n of points) {
+      await page.getByLabel('Faces', {exact: true}).and(page.locator('input[type=number]')).fill(String(n));
+      await page.keyboard.press('Enter');
+      const shown = await page.evaluate(i => Array.from(window.viewer.collapse.lanes[i].run.shown()), i);
+      const file = fs.readdirSync(path.join(folder, criterion)).find(name => Number(name.match(/_(\d+)\.wrl$/)?.[1]) === shown.length / 9);
+      assert(file, `${criterion}: no file of ${shown.length / 9} faces`);
+      const expected = triangles_of(path.join(folder, criterion, file));
+      assert.equal(shown.length, expected.length);
+      // The formulas leave vertices where they were measured; positions in between are rounded to the digits of the file, here four.
+      const wrong = differing(shown, expected, criterion === 'lindstrom-turk' ? 1e-4 : 1e-7);
+      assert.equal(wrong, 0, `${criterion} at ${n} faces: ${wrong} triangles differ`);
+    }
+  }
+
+  // By itself, until few are left; then it asks.
+  await page.getByLabel('Ask for a click only below so many faces').fill('150');
+  await page.keyboard.press('Enter');
+  await page.getByRole('button', {name: '200', exact: true}).click();
+  await page.getByRole('button', {name: 'Play'}).click();
+  await page.waitForFunction(() => document.querySelector('.label output').textContent.startsWith('150 '), null, {timeout: 8000});
+  await page.getByRole('button', {name: 'Play'}).waitFor();
+  await page.getByRole('button', {name: 'Original'}).click();
+  assert.equal(await faces(), all);
+  assert.deepEqual(faults, []);
+  console.log(`${criteria.length} criteria, ${points.length} points: the same triangles as wrlkit simplify`);
+} finally {
+  await browser.close();
+}
