@@ -49,7 +49,7 @@ std::vector<std::string> split(const std::string& s) {
   return parts;
 }
 
-/// The largest mesh of the file.
+/// The largest mesh of the file, its points joined, as `simplify` takes it: what only touches would crack.
 Mesh read(const char* path) {
   std::string why;
   Diagnostics diag;
@@ -57,7 +57,7 @@ Mesh read(const char* path) {
   auto world = read_world(path, {}, diag);
   if (!world) std::fprintf(stderr, "cannot read %s\n", path), std::exit(1);
   PassContext ctx{diag, stats};
-  auto pipeline = Pipeline::parse("triangulate", why);
+  auto pipeline = Pipeline::parse("weld,triangulate", why);
   MeshSource source = pipeline->run_lazily(world->scene, ctx);
   Mesh largest;
   for (std::uint32_t i = 0; i < world->scene.node_count(); ++i)

@@ -17,7 +17,9 @@
 // - Creases: the same, but a collapse that does not go along them is possible, for four times the cost. So they stay
 // while
 //   there is anything else to take; forbidden altogether, noisy scans and small budgets suffer (docs/rationale.md).
-// - No face turns by 90 degrees or more in a collapse; slivers are not made of good faces.
+// - No face turns by 90 degrees or more in a collapse; slivers are not made of good faces. No face comes to lie back on a
+//   neighbour, unless by steps of less than ten degrees, or where the faces between two sides of a sheet go; length_normal
+//   and melax are left free to, as their formulas have it.
 //
 // Attributes of the corners are interpolated along the edge. Deterministic; single-threaded.
 #pragma once

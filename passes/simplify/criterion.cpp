@@ -29,11 +29,25 @@ void Pricer::price(const Ring& ring, int spokes, std::vector<Option>& options) {
     if (spokes == own && !one_way() && s.vertex < ring.center && v.degree <= Ring::max_faces) continue;
     const Placement where = placement(u.kind, v.kind, s.feature);
     if (where == Placement::nowhere || (one_way() && where == Placement::center)) continue;
-    options.push_back(option(ring, i, where));
-    if (where == Placement::center) options.back().position = u.position;  // exactly
-    if (where == Placement::spoke) options.back().position = v.position;
-    if (placement(u.crease_kind, v.crease_kind, s.feature || s.crease) != where) options.back().cost *= crease_factor;
+    options.push_back(placed(ring, i, where));
   }
+}
+
+void Pricer::price_ends(const Ring& ring, int spoke, std::vector<Option>& options) {
+  prepare(ring, spoke);
+  for (Placement where : {Placement::center, Placement::spoke}) options.push_back(placed(ring, spoke, where));
+}
+
+Option Pricer::placed(const Ring& ring, int spoke, Placement where) const {
+  const Ring::Spoke& s = ring.spokes[spoke];
+  const Surface::Vertex &u = surface_.vertex[ring.center], &v = surface_.vertex[s.vertex];
+  Option o = option(ring, spoke, where);
+  o.where = where;
+  if (where == Placement::center) o.position = u.position;  // exactly
+  if (where == Placement::spoke) o.position = v.position;
+  const Placement along_creases = placement(u.crease_kind, v.crease_kind, s.feature || s.crease);
+  if (along_creases != where && along_creases != Placement::anywhere) o.cost *= crease_factor;
+  return o;
 }
 
 std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface, const Wedges& wedges) {

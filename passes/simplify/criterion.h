@@ -9,15 +9,16 @@
 
 namespace wrlkit::simplify {
 
+/// Where the vertex of an edge may go.
+enum class Placement { nowhere, center, spoke, anywhere };
+
 /// The edge from the centre of a ring to one of its spokes, what its collapse costs and where its vertex goes.
 struct Option {
   int spoke;
   double cost;  // not negative; infinite: only when nothing else is left
   Vec3 position;
+  Placement where = Placement::anywhere;
 };
-
-/// Where the vertex of an edge may go.
-enum class Placement { nowhere, center, spoke, anywhere };
 
 class Pricer {
  public:
@@ -29,6 +30,8 @@ class Pricer {
   /// Adds the options of the ring's centre: of every spoke, of those whose other end will not offer the edge (own), or
   /// of one. Collapses across a crease are made dearer.
   void price(const Ring& ring, int spokes, std::vector<Option>& options);
+  /// Adds the two options of an edge whose vertex may go anywhere to be at one of its ends.
+  void price_ends(const Ring& ring, int spoke, std::vector<Option>& options);
 
   /// Whether an edge has a cost of its own in each direction, goes from the centre to the spoke only, and is an option
   /// of both ends.
@@ -37,6 +40,9 @@ class Pricer {
   virtual void before_merge(const Ring& /*from*/, const Ring& /*to*/, const Vec3& /*x*/) {}
   /// After it, with the same rings: those of their faces that are alive belong to the centre of `to`.
   virtual void after_merge(const Ring& /*from*/, const Ring& /*to*/) {}
+
+ private:
+  Option placed(const Ring& ring, int spoke, Placement where) const;
 
  protected:
   /// Called for a ring before option is, for every spoke or for one.

@@ -102,9 +102,11 @@ bool Engine::settle_vertex(std::uint32_t v, Move& move) {
       options_.clear();
       pricer_->price(from_, Pricer::every, options_);
       all = true;
-    } else if (!may_go(*best)) {
+    } else if (const Refusal why = refusal(*best); why != Refusal::none) {
       if (!all) best_[v] = none;
       best->cost = -1;
+      if (why == Refusal::shape && best->where == Placement::anywhere && !pricer_->one_way())
+        pricer_->price_ends(from_, best->spoke, options_);
     } else if (best->cost = std::max(best->cost, cost_of_fold(*best)); queue_->key(best->cost) <= key) {
       move = {best->cost, best->position};
       if (move.position == surface_.position(from_.center)) std::swap(from_, to_);
@@ -116,9 +118,10 @@ bool Engine::settle_vertex(std::uint32_t v, Move& move) {
   return false;
 }
 
-bool Engine::may_go(const Option& option) {
-  return surface_.gather(from_.spokes[option.spoke].vertex, to_) && keeps_topology(from_, to_) &&
-         keeps_shape(surface_, from_, to_, option.position);
+/// Brings the other end of the edge into to_. The formulas of the paper may fold, as the paper has them.
+Engine::Refusal Engine::refusal(const Option& option) {
+  if (!surface_.gather(from_.spokes[option.spoke].vertex, to_) || !keeps_topology(from_, to_)) return Refusal::topology;
+  return keeps_shape(surface_, from_, to_, option.position, pricer_->one_way()) ? Refusal::none : Refusal::shape;
 }
 
 /// What an end that is drawn in costs, as if a part of the faces around moved so far. The formulas of the paper are let alone.

@@ -2,7 +2,8 @@
 //
 // Every vertex is in the queue with the cost of the cheapest edge that it has to offer, whether or not that edge may
 // go. Only at the top of the queue this is looked at: the vertex is priced once more, and goes back into the queue when
-// it has become dearer, or when it is the next best edge that may go.
+// it has become dearer, or when it is the next best edge that may go. An edge whose best place would turn a face over is
+// offered at both its ends instead.
 //
 // After a collapse only the vertex that is left is priced, with all its edges; in a large mesh (sweeping_), later. What
 // became dearer around it is found at the top of the queue; what became cheaper there, a little late. That saves time
@@ -25,6 +26,8 @@ class Engine final : public Simplifier {
   std::optional<double> cost(std::uint32_t from, std::uint32_t to) override;
 
  private:
+  /// Why an edge may not go. What would spoil the shape of a face may do better at one end of the edge.
+  enum class Refusal { none, topology, shape };
   /// What is going to be done to the vertices of from_ and to_.
   struct Move {
     double cost;
@@ -34,7 +37,7 @@ class Engine final : public Simplifier {
   /// Brings the cheapest collapse that may be done into from_ and to_. False when there is none.
   bool settle(Move& move);
   bool settle_vertex(std::uint32_t v, Move& move);
-  bool may_go(const Option& option);
+  Refusal refusal(const Option& option);
   double cost_of_fold(const Option& option) const;
   void collapse(const Move& move);
   void merge_vertices(const Vec3& position);

@@ -71,6 +71,14 @@ void Surface::make_lists() {
       for (std::uint32_t v : face[f].v) pool_[vertex[v].begin + vertex[v].size++] = f;
 }
 
+std::uint32_t Surface::across(std::uint32_t f, std::uint32_t a, std::uint32_t b) const {
+  for (std::uint32_t g : std::span(pool_).subspan(vertex[a].begin, vertex[a].size)) {
+    const auto& v = face[g].v;
+    if (g != f && alive(g) && (v[0] == b || v[1] == b || v[2] == b)) return g;
+  }
+  return none;
+}
+
 bool Surface::gather(std::uint32_t v, Ring& ring) {
   Vertex& center = vertex[v];
   ring.center = v;

@@ -92,6 +92,9 @@ class Surface {
     return cross(vertex[t.v[1]].position - a, vertex[t.v[2]].position - a);
   }
 
+  /// Another face with these two vertices, the first in the list of `a`; none when there is none.
+  std::uint32_t across(std::uint32_t f, std::uint32_t a, std::uint32_t b) const;
+
   /// Sets the kind by the features of its spokes.
   void classify(const Ring& ring);
 

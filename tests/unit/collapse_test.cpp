@@ -399,6 +399,36 @@ TEST_CASE("collapse: no face turns over") {
     }
 }
 
+TEST_CASE("collapse: no face lies back on another, on a rough surface") {
+  std::uint32_t seed = 1;
+  Mesh m = sheet(80, 80, [&](double x, double y) {
+    seed = seed * 1664525 + 1013904223;
+    return 0.2 * std::sin(5 * x) * std::cos(4 * y) + 0.02 * (seed >> 8) / 0x1p24;
+  });
+  auto normal = [](const Mesh& r, std::size_t f) {
+    auto p = [&](int k) { return &r.positions[r.corners[3 * f + static_cast<std::size_t>(k)] * std::size_t{3}]; };
+    const double *a = p(0), *b = p(1), *c = p(2);
+    Point u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const double l = std::hypot(n[0], n[1], n[2]);
+    return Point{n[0] / l, n[1] / l, n[2] / l};
+  };
+  for (Criterion by : {Criterion::lindstrom_turk, Criterion::quadric})
+    for (std::size_t n : {6400u, 3000u, 1000u, 300u}) {
+      Mesh r = simplified(m, n, {.criterion = by});
+      std::map<Edge, Point> first;
+      int folds = 0;
+      for (std::size_t c = 0; c < r.corners.size(); ++c) {
+        const auto a = r.corners[c], b = r.corners[c % 3 == 2 ? c - 2 : c + 1];
+        const Point at = normal(r, c / 3);
+        auto [other, is_first] = first.try_emplace(std::minmax(a, b), at);
+        folds += !is_first && at[0] * other->second[0] + at[1] * other->second[1] + at[2] * other->second[2] < -0.866;
+      }
+      INFO(static_cast<int>(by) << ' ' << n);
+      CHECK(folds == 0);
+    }
+}
+
 TEST_CASE("collapse: an error bound is kept, and given up for more") {
   Mesh m = torus(60, 30);
   Collapser c(m, {});
