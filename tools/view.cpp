@@ -5,8 +5,10 @@
 #include <filesystem>
 
 #include "passes/simplify/progressive_world.h"
+#include "tools/deviation_map.h"
 #include "tools/serve.h"
 #include "tools/session.h"
+#include "tools/shown_surface.h"
 #include "tools/viewer_page.h"
 #include "writers/gltf.h"
 #include "writers/output.h"
@@ -30,6 +32,7 @@ class Viewer {
   bool fill() {
     for (const auto& input : s_.flags().inputs)
       if (!s_.read(input) || !add_world(input)) return false;
+    if (surfaces_.size() == 2) compare();
     return true;
   }
   ViewerPage& page() { return page_; }
@@ -43,16 +46,19 @@ class Viewer {
     const auto meshes = s_.pipeline().run_lazily(scene, s_.context(), s_.pipeline_options());
     if (!meshes) return false;
     std::size_t n_triangles = 0;
+    const bool compared = s_.flags().inputs.size() == 2;
+    if (compared) surfaces_.push_back(std::make_unique<ShownSurface>(scene, s_.diag()));
     auto counted = [&](NodeId n) -> const Mesh& {
       const Mesh& mesh = meshes(n);
       n_triangles += mesh.is_triangles() ? mesh.n_faces() : 0;
+      if (compared) surfaces_.back()->add(n, mesh);
       return mesh;
     };
     const GltfOptions options{.lightmaps = GltfOptions::Lightmaps::moz};
     auto take = [&](std::string_view bytes) { world.glb += bytes; };
     if (!write_glb(scene, counted, options, &s_.resources(), take, s_.diag())) return false;
     const bool usual = s_.flags().criteria.empty();
-    if (!usual || (s_.flags().inputs.size() == 1 && n_triangles <= usual_most_triangles))
+    if (!usual || (!compared && n_triangles <= usual_most_triangles))
       for (const auto& criterion : usual ? usual_criteria() : s_.flags().criteria) add_collapse(authored, criterion);
     return true;
   }
@@ -70,8 +76,18 @@ class Viewer {
     if (!surfaces.empty()) page_.collapses.push_back({name, write_progressive_world(surfaces)});
   }
 
+  /// Nothing is measured when there is no surface in one of them, or too much.
+  void compare() {
+    const auto &a = *surfaces_[0], &b = *surfaces_[1];
+    if (!a.complete() || !b.complete() || a.triangles().size() == 0 || b.triangles().size() == 0) return;
+    s_.progress().begin("comparing", 0, "");
+    page_.apart = ViewerPage::Apart{measure_deviation(a.triangles(), b.triangles()),
+                                    {deviation_map(a.triangles(), b.triangles()), deviation_map(b.triangles(), a.triangles())}};
+  }
+
   Session& s_;
   ViewerPage page_;
+  std::vector<std::unique_ptr<ShownSurface>> surfaces_;  // when two are compared
 };
 
 bool is_usable(const Flags& f) {

@@ -47,6 +47,28 @@ std::string without_tags(std::string json) {
   return json;
 }
 
+void write_apart(const ViewerPage::Apart& apart, Files& files, JsonOut& json) {
+  const auto& d = apart.deviation;
+  json.key("deviation");
+  json.begin_object();
+  json.member("rms", d.rms);
+  json.member("max", d.max);
+  json.member("where", std::span(d.where));
+  json.key("sides");
+  json.begin_array();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto& one = side == 0 ? d.forward : d.backward;
+    json.begin_object();
+    json.member("rms", one.rms);
+    json.member("max", one.max);
+    json.member("where", std::span(one.where));
+    json.member("file", files.add(apart.maps[side]));
+    json.end_object();
+  }
+  json.end_array();
+  json.end_object();
+}
+
 void write_data(const ViewerPage& page, const Sink& sink) {
   Files files(sink);
   std::string text;
@@ -70,6 +92,7 @@ void write_data(const ViewerPage& page, const Sink& sink) {
     json.end_object();
   }
   json.end_array();
+  if (page.apart) write_apart(*page.apart, files, json);
   json.end_object();
   sink("<script type=\"application/json\" id=\"contents\">");
   sink(without_tags(std::move(text)));

@@ -1,9 +1,11 @@
 // The page that `view` writes: the viewer (viewer/, built by Vite and linked into the program as one HTML text) with the
 // worlds that it shows. What stands in the page is read by viewer/src/data.ts.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "passes/deviation.h"
 #include "writers/sink.h"
 
 namespace wrlkit {
@@ -20,6 +22,12 @@ struct ViewerPage {
 
   std::vector<World> worlds;  // one, or two to be compared
   std::vector<Collapse> collapses;
+  /// Of the two worlds; the maps of each from the other (tools/deviation_map.h).
+  struct Apart {
+    Deviation deviation;
+    std::string maps[2];
+  };
+  std::optional<Apart> apart;
 };
 
 /// False when this program was built without Node.js; pages cannot be written then.

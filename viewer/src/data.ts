@@ -1,8 +1,20 @@
 // What wrlkit has put into the page: a table of contents, and files packed by gzip as base64 (tools/viewer_page.cpp).
 
+/// How far two worlds are apart, in metres; `where` the distance is largest.
+export interface OneSide {
+  rms: number;
+  max: number;
+  where: [number, number, number];
+}
+
+export interface Apart extends OneSide {
+  sides: [OneSide & {file: number}, OneSide & {file: number}];
+}
+
 export interface Contents {
   worlds: {name: string; file: number}[];
   collapses: {criterion: string; file: number}[];
+  deviation?: Apart;
 }
 
 function textOf(id: string): string {

@@ -2,9 +2,11 @@
 import {Color} from 'three';
 import {readContents, readFile, type Contents} from './data';
 import {CollapseMode} from './modes/collapse';
+import {CompareMode} from './modes/compare';
 import {WorldMode} from './modes/world';
 import {followAddress, state} from './state';
 import {CollapsePanel} from './ui/collapse_panel';
+import {ComparePanel} from './ui/compare_panel';
 import {h} from './ui/dom';
 import {count} from './ui/format';
 import {listenToKeys} from './ui/keys';
@@ -40,6 +42,11 @@ function collapseView(mode: CollapseMode, shell: Shell): ModeView {
   return {key: 'collapse', title: 'Collapse', left: null, right: panel.element, over: panel.labels, enter};
 }
 
+function compareView(mode: CompareMode, shell: Shell): ModeView {
+  const panel = new ComparePanel(mode);
+  return {key: 'compare', title: 'Compare', left: null, right: panel.element, over: panel.over, enter: () => { shell.say(''); mode.enter(); }};
+}
+
 async function start(contents: Contents): Promise<void> {
   const shell = new Shell(contents.worlds.map(w => w.name).join(' and '), document.getElementById('app')!);
   shell.say('Loading');
@@ -53,9 +60,16 @@ async function start(contents: Contents): Promise<void> {
   const begin = world.viewpoints[0];
   if (begin) mode.goTo(begin);
   const views = [worldView(mode, shell)];
+  const second = contents.worlds[1];
+  let compare: CompareMode | null = null;
+  if (second) {
+    const other = new WorldMode(await loadWorld(second.name, await readFile(second.file)), stage);
+    compare = new CompareMode(stage, [mode, other], contents.deviation ?? null);
+    views.unshift(compareView(compare, shell));
+  }
   const collapse = contents.collapses.length > 0 ? new CollapseMode(stage, contents.collapses) : null;
   if (collapse) views.push(collapseView(collapse, shell));
-  Object.assign(window, {viewer: {world, mode, collapse}});  // for tests, and for people at the console
+  Object.assign(window, {viewer: {world, mode, compare, collapse}});  // for tests, and for people at the console
   const camera = stage.rememberedCamera();
   shell.setModes(views);
   if (camera) stage.take(camera);

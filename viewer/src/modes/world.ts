@@ -24,8 +24,8 @@ export class WorldMode implements Mode {
   beforeDraw: (() => void) | null = null;
 
   constructor(readonly world: World, readonly stage: Stage) {
-    this.scene.add(world.root, stage.camera);
-    this.lights = new Lights(this.scene, stage.camera, world);
+    this.scene.add(world.root);
+    this.lights = new Lights(this.scene, world);
     this.highlight = new Highlight(this.scene);
     this.boxes = new Boxes(this.scene, world);
     this.mixer = new AnimationMixer(world.root);
@@ -35,13 +35,13 @@ export class WorldMode implements Mode {
   get box() { return this.world.box; }
 
   enter(): void {
-    this.scene.add(this.stage.camera);
     this.stage.navigator.manner = this.stage.navigator.manner === 'free' ? 'orbit' : this.stage.navigator.manner;
     this.stage.show(this);
   }
 
   draw({renderer, camera}: Stage): void {
     this.beforeDraw?.();
+    this.lights.follow(camera);
     renderer.render(this.scene, camera);
     if (!this.edges) return;
     this.scene.overrideMaterial = edgeMaterial;

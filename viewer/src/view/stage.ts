@@ -121,6 +121,14 @@ export class Stage {
     this.renderer.setViewport(0, 0, this.width, this.height);
   }
 
+  /// Draws the whole picture, of which only columns are seen.
+  clipped(left: number, width: number, draw: () => void): void {
+    this.renderer.setScissor(left, 0, width, this.height);
+    this.renderer.setScissorTest(true);
+    draw();
+    this.renderer.setScissorTest(false);
+  }
+
   /// Looks at all of a box, from the direction that the camera has.
   frameBox(box: Box3): void {
     if (box.isEmpty()) return;

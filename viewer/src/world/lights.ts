@@ -1,5 +1,5 @@
 // The lights of a world, its headlight, and what is shone with instead.
-import {DirectionalLight, HemisphereLight, type Light, type PerspectiveCamera, type Scene} from 'three';
+import {DirectionalLight, Group, HemisphereLight, type Light, type PerspectiveCamera, type Scene} from 'three';
 import type {World} from './world';
 
 export type Lighting = 'world' | 'headlight' | 'off';
@@ -9,14 +9,21 @@ export class Lights {
   private readonly fill = new HemisphereLight(0xffffff, 0x8a9099, 0.35);
   private readonly own: Light | undefined;  // the headlight of the file, which stands where its first camera is
 
-  /// The camera must be in the scene.
-  constructor(scene: Scene, camera: PerspectiveCamera, private readonly world: World) {
+  private readonly eye = new Group();      // goes with the camera
+
+  constructor(scene: Scene, private readonly world: World) {
     this.own = world.lights.find(light => light.name === 'headlight' || light.parent?.name === 'headlight');
     this.headlight.position.set(0, 0, 0);
     this.headlight.target.position.set(0, 0, -1);
-    camera.add(this.headlight, this.headlight.target);
-    scene.add(this.fill);
+    this.eye.add(this.headlight, this.headlight.target);
+    scene.add(this.fill, this.eye);
     this.set('world');
+  }
+
+  /// Before each picture.
+  follow(camera: PerspectiveCamera): void {
+    this.eye.position.copy(camera.position);
+    this.eye.quaternion.copy(camera.quaternion);
   }
 
   /// Whether the world has lights beside the headlight.
