@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "passes/geometry.h"
+#include "passes/usage.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -37,39 +38,6 @@ class Key {
 
  private:
   std::string text_;
-};
-
-/// Who holds a node and who touches it.
-class Usage {
- public:
-  explicit Usage(const Scene& scene) : uses_(scene.node_count()), touched_(scene.node_count()) {
-    for (NodeId n : all_nodes(scene)) {
-      auto kind = scene.type(n).kind;
-      for_each_child(scene, n, [&](NodeId c) {
-        ++uses_[c.value];
-        if (kind == NodeKind::script || kind == NodeKind::proto) touched_[c.value] = 1;
-      });
-    }
-    add(scene.main);
-    for (std::uint32_t i = 0; i < scene.proto_count(); ++i) {
-      const Proto& p = scene.proto(ProtoId{i});
-      add(p.body);
-      for (const auto& f : scene.type(p.type).fields)
-        for (NodeId n : f.default_value.node_span()) touched_[n.value] = 1;
-    }
-  }
-  bool touched(NodeId n) const { return touched_[n.value]; }
-  bool once(NodeId n) const { return uses_[n.value] == 1; }
-
- private:
-  void add(const Scope& s) {
-    for (NodeId n : s.roots)
-      if (n) ++uses_[n.value];
-    for (const Route& r : s.routes) touched_[r.from.value] = touched_[r.to.value] = 1;
-  }
-
-  std::vector<std::uint32_t> uses_;
-  std::vector<char> touched_;
 };
 
 /// Numbers for what nodes say: equal where they say the same. A node that can be told from others has its own.

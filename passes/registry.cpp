@@ -2,8 +2,11 @@
 #include <algorithm>
 
 #include "passes/combine_lightmap.h"
+#include "passes/cull.h"
+#include "passes/dedup.h"
 #include "passes/expand_protos.h"
 #include "passes/inline.h"
+#include "passes/instance.h"
 #include "passes/join.h"
 #include "passes/lightmap.h"
 #include "passes/lod.h"
@@ -26,6 +29,9 @@ constexpr PassInfo all_passes[] = {
     pass<lower_x3d, LowerX3dOptions>("lower-x3d", "turn nodes that only X3D has into those of VRML97", Level::authored, Level::authored),
     pass<prune, PruneOptions>("prune", "remove what has no effect", Level::authored, Level::authored),
     pass<join, JoinOptions>("join", "make one Shape of many that look the same", Level::authored, Level::authored),
+    pass<dedup, DedupOptions>("dedup", "share what is written several times and says the same", Level::authored, Level::authored),
+    pass<instance, InstanceOptions>("instance", "share geometry that is the same but for a motion and a scale", Level::authored, Level::authored),
+    pass<cull, CullOptions>("cull", "leave out what is small, or never seen", Level::expanded, Level::expanded),
     pass<tessellate, TessellateOptions>("tessellate", "turn every geometry node into faces, and faces into triangles", Level::expanded, Level::mesh),
     pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", Level::authored, Level::authored),
     pass<lod, LodOptions>("lod", "make levels of detail of each Shape", Level::authored, Level::authored),

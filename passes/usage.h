@@ -1,0 +1,29 @@
+// Who holds a node and who touches it: what a pass may merge, move or leave out without anybody noticing.
+#pragma once
+#include <vector>
+
+#include "scenegraph/scene.h"
+
+namespace wrlkit {
+
+class Usage {
+ public:
+  /// Of all scopes. O(nodes).
+  explicit Usage(const Scene& scene);
+
+  /// An end of a ROUTE, held by a Script or by an instance of a prototype, or below one that a Script with directOutput
+  /// holds: events may come here that this file does not show.
+  bool touched(NodeId n) const { return touched_[n.value]; }
+  /// Held in one place, as a child, in a field or at the top of a scope.
+  bool once(NodeId n) const { return uses_[n.value] == 1; }
+  std::uint32_t uses(NodeId n) const { return uses_[n.value]; }
+
+ private:
+  void add(const Scope&);
+  void touch_below(const Scene&, std::vector<NodeId>);
+
+  std::vector<std::uint32_t> uses_;
+  std::vector<char> touched_;
+};
+
+}  // namespace wrlkit
