@@ -60,6 +60,16 @@ void vrml_output(CLI::App& verb, Flags& f) {
   verb.add_option("--precision", f.precision, "significant digits of VRML output; 0: all that are needed")->check(CLI::Range(0, 17));
 }
 
+void small_gltf(CLI::App& verb, Flags& f) {
+  verb.add_option("--compress", f.compress, "vertices in glTF: none, as floats; quantize, in fewer bits; meshopt, that and packed")
+      ->check(CLI::IsMember({"none", "quantize", "meshopt"}))->capture_default_str();
+  auto* tolerance = verb.add_option("--tolerance", f.tolerance, "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; as a rule 1mm, or less in a small world")->type_name("LENGTH");
+  verb.add_option("--position-bits", f.position_bits, "instead of that, bits of the extent of each mesh")->check(CLI::Range(1, 16))->excludes(tolerance);
+  verb.add_option("--normal-bits", f.normal_bits, "of each component")->check(CLI::Range(2, 8))->capture_default_str();
+  verb.add_option("--texcoord-bits", f.texcoord_bits, "of a picture's width and height; of a lightmap's two more")->check(CLI::Range(1, 16))->capture_default_str();
+  verb.add_option("--color-bits", f.color_bits, "of each component, in linear light")->check(CLI::Range(1, 16))->capture_default_str();
+}
+
 void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint");
   verb.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
@@ -78,7 +88,7 @@ struct Verb {
 
 const Verb verbs[] = {
     {"convert", "convert a world; the name of OUT decides the format",
-     "wrlkit convert plant.wrl plant.glb\n  wrlkit convert old.wrl.gz new.wrl -p inline,expand-protos --gzip",
+     "wrlkit convert plant.wrl plant.glb\n  wrlkit convert plant.wrl small.glb --compress meshopt --tolerance 1mm\n  wrlkit convert old.wrl.gz new.wrl -p inline,expand-protos --gzip",
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.add_option("OUT", f.output, "file.glb, .gltf, .wrl, .wrz")->required();
@@ -87,6 +97,7 @@ const Verb verbs[] = {
        v.add_flag("--print-recipe", f.print_recipe, "print the whole pipeline and all options as a recipe, and end");
        v.add_option("--lightmap-as", f.lightmap_as, "baked light in glTF: base-color, in the texture of unlit materials; emissive; occlusion, its brightness alone; moz, as MOZ_lightmap; extras, for programs that look there")
            ->check(CLI::IsMember({"base-color", "emissive", "occlusion", "moz", "extras"}))->capture_default_str();
+       small_gltf(v, f);
        placing(v, f);
        vrml_output(v, f);
      },

@@ -6,6 +6,7 @@
 
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
+#include "tools/gltf_output.h"
 #include "tools/recipe.h"
 #include "tools/session.h"
 #include "tools/vrml_file.h"
@@ -65,8 +66,12 @@ bool write_as_gltf(Session& s, bool binary) {
   s.progress().begin("writing " + s.flags().output, n_geometries, "shapes");
   auto counted = [&](NodeId n) -> const Mesh& { return s.progress().step(), meshes(n); };
   MadeFiles beside(scene, s.resources(), s.flags().output, s.diag());  // pictures are glTF's own matter; the rest is here
-  const GltfOptions options{.binary = binary, .lightmaps = light_of(s.flags().lightmap_as)->as};
-  return beside.write() && write_gltf(scene, counted, options, &s.resources(), s.flags().output, s.diag()) && beside.commit();
+  const GltfOptions options{.binary = binary, .lightmaps = light_of(s.flags().lightmap_as)->as, .compression = *compression_of(s.flags()), .measure_gzip = s.flags().verbose || s.flags().json};
+  GltfSummary summary;
+  if (!beside.write() || !write_gltf(scene, counted, options, &s.resources(), s.flags().output, s.diag(), &summary) || !beside.commit()) return false;
+  s.fact("gltf", summary_json(summary));
+  if (s.flags().verbose) fmt::print(stderr, "{}", summary_text(summary));
+  return true;
 }
 
 /// The pipeline that prepares a scene for its writer.
@@ -82,7 +87,7 @@ int run_convert(const Flags& flags) {
   bool gzip = flags.gzip;
   auto target = target_of(flags.output, gzip);
   if (!target) return fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output), usage;
-  if (!s.good() || !s.choose_pipeline(pipeline_for(*target, flags))) return usage;
+  if (!s.good() || !compression_of(flags) || !s.choose_pipeline(pipeline_for(*target, flags))) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (flags.print_recipe) return fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline())), done;
   if (!s.read(flags.inputs[0])) return s.end(false);

@@ -34,6 +34,11 @@ struct Flags {
   std::vector<std::pair<std::string, std::vector<std::string>>> given;  // every option that was given, by name
   std::string lightmap_as = "base-color";  // what becomes of baked light in glTF
 
+  // glTF that is to be small
+  std::string compress = "none";
+  std::string tolerance;                   // a length: 1mm
+  int position_bits = 0, normal_bits = 8, texcoord_bits = 12, color_bits = 10;
+
   bool parse_only = false;                 // check
 
   // render

@@ -37,6 +37,16 @@ class Blocks {
     return true;
   }
 
+  /// The n bytes at an offset, all of which must exist.
+  void copy(std::uint64_t at, void* to, std::size_t n) const {
+    auto* out = static_cast<char*>(to);
+    while (n > 0) {
+      std::size_t now = std::min<std::size_t>(n, block - at % block);
+      std::memcpy(out, blocks_[at / block].get() + at % block, now);
+      out += now, n -= now, at += now;
+    }
+  }
+
   /// All bytes, in order.
   void pieces(std::vector<std::string_view>& out) const {
     for (std::uint64_t at = 0; at < size_; at += block)

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "writers/gltf_json.h"
+#include "writers/gzip.h"
 #include "writers/output.h"
 
 namespace wrlkit {
@@ -75,15 +76,17 @@ class Files {
 class Writer {
  public:
   Writer(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,
-         const std::string& path, Diagnostics& diag)
+         const std::string& path, Diagnostics& diag, GltfSummary* summary = nullptr)
       : scene_(scene),
         options_(options),
         path_(path),
         diag_(diag),
+        summary_(summary),
         textures_(scene, resources, diag),
         extras_(scene, diag),
         materials_(scene, textures_, options.extras ? &extras_ : nullptr, options.lightmaps),
-        meshes_(scene, source, store_, options.lightmaps != GltfOptions::Lightmaps::base_color, diag),
+        meshes_(scene, source, store_, options.lightmaps != GltfOptions::Lightmaps::base_color,
+                options.compression.method == GltfCompression::Method::meshopt, diag),
         animations_(scene, options.animations, diag),
         hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag) {}
 
@@ -115,8 +118,9 @@ class Writer {
     animations_.store(store_, [&](std::uint32_t node) { return hierarchy_.offset(node); });
     if (store_.full()) return report_too_large(store_.bytes(), diag_);
     static const std::vector<Picture> no_pictures;
-    Layout layout(store_, pictures_inside() ? textures_.pictures() : no_pictures);
-    Parts parts{scene_,     hierarchy_, meshes_, store_,
+    Packing packing(options_.compression, store_, meshes_, hierarchy_);
+    Layout layout(packing.store(), pictures_inside() ? textures_.pictures() : no_pictures, packing.uses_meshopt());
+    Parts parts{scene_,     hierarchy_, meshes_, packing,
                 materials_, textures_,  layout,  animations_, options_.extras ? &extras_ : nullptr,
                 {},         {}};
     return put(parts);
@@ -137,6 +141,27 @@ class Writer {
       if (!files.write(beside(name), {picture.bytes})) return false;
     }
     return true;
+  }
+
+  void summarize(const Parts& parts, const Blocks& json) const {
+    GltfSummary& s = *summary_ = {};
+    s.nodes = hierarchy_.nodes().size(), s.meshes = meshes_.meshes().size();
+    for (const Node& n : hierarchy_.nodes()) {
+      s.named += n.source && !scene_.name(n.source).empty();
+      if (n.attachment != Attachment::mesh) continue;
+      ++s.draws;
+      const Streams& streams = parts.packing.streams(n.attached);
+      const auto& accessors = parts.packing.store().accessors();
+      if (meshes_.geometries()[meshes_.meshes()[n.attached].geometry].mode == Mode::triangles)
+        s.triangles += accessors[streams.indices == none ? streams.positions : streams.indices].count / 3;
+    }
+    std::vector<std::string_view> text, pictures, geometry;
+    json.pieces(text);
+    parts.layout.pieces(geometry, false);
+    for (const Picture& p : textures_.pictures()) pictures.push_back(p.bytes), s.pictures += p.bytes.size();
+    s.json = json.size(), s.geometry = parts.layout.geometry_size();
+    s.quantization = parts.packing.quantization();
+    if (options_.measure_gzip) s.json_gzip = gzipped_size(text), s.geometry_gzip = gzipped_size(geometry), s.pictures_gzip = gzipped_size(pictures);
   }
 
   bool glb(const Parts& parts, auto&& put) {
@@ -171,9 +196,10 @@ class Writer {
     return true;
   }
 
-  static Blocks json_of(const Parts& parts) {
+  Blocks json_of(const Parts& parts) const {
     Blocks json;
     write_json(parts, [&](std::string_view s) { json.append(s); });
+    if (summary_) summarize(parts, json);
     return json;
   }
 
@@ -181,6 +207,7 @@ class Writer {
   const GltfOptions& options_;
   std::string path_;
   Diagnostics& diag_;
+  GltfSummary* summary_;
   Textures textures_;
   Extras extras_;
   Store store_;
@@ -194,8 +221,8 @@ class Writer {
 }  // namespace gltf
 
 bool write_gltf(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,
-                const std::string& path, Diagnostics& diag) {
-  return gltf::Writer(scene, source, options, resources, path, diag).write();
+                const std::string& path, Diagnostics& diag, GltfSummary* summary) {
+  return gltf::Writer(scene, source, options, resources, path, diag, summary).write();
 }
 
 bool write_glb(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,

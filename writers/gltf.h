@@ -11,6 +11,33 @@
 
 namespace wrlkit {
 
+/// How vertices and indices are stored. none: as floats. quantize: in fewer bits (KHR_mesh_quantization). meshopt: that, in
+/// the order in which they are drawn best, and packed (EXT_meshopt_compression).
+struct GltfCompression {
+  enum class Method : std::uint8_t { none, quantize, meshopt };
+
+  Method method = Method::none;
+  double tolerance = 0;   // metres of the world that no vertex moves further; 0: a millimetre, or less in a small world
+  int position_bits = 0;  // instead of that: of the extent of each mesh; 0: by the tolerance
+  int normal_bits = 8, texcoord_bits = 12, color_bits = 10;
+};
+
+/// What was written.
+struct GltfSummary {
+  /// Largest differences between what is stored and what was there.
+  struct Quantization {
+    double tolerance = 0, position = 0;  // metres of the world
+    double normal = 0;                   // radians
+    double texcoord = 0, color = 0;      // parts of a picture; of the full range
+    std::size_t kept = 0;                // accessors that had to stay floats
+  };
+  std::size_t nodes = 0, named = 0, meshes = 0, draws = 0, triangles = 0;
+  std::uint64_t json = 0, geometry = 0, pictures = 0;                         // bytes
+  std::uint64_t json_gzip = 0, geometry_gzip = 0, pictures_gzip = 0;          // the same, gzipped each by itself; 0: not measured
+  Quantization quantization;
+  std::uint64_t bytes() const { return json + geometry + pictures; }
+};
+
 struct GltfOptions {
   enum class Images : std::uint8_t { automatic, embedded, beside };
   /// What becomes of lightmaps. base_color: the pass combine-lightmap has made textures of them, nothing is left to do. The
@@ -22,6 +49,8 @@ struct GltfOptions {
   bool binary = true;                 // .glb; false: .gltf with a .bin beside it
   Images images = Images::automatic;  // in the binary part, or files beside; automatic: as `binary`
   Lightmaps lightmaps = Lightmaps::base_color;
+  GltfCompression compression;
+  bool measure_gzip = false;  // for the summary
   bool lights = true, cameras = true, animations = true;
   bool extras = true;                  // what glTF cannot say is kept
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
@@ -35,8 +64,10 @@ struct GltfOptions {
 /// shows a picture; segments or polylines; points. Other faces are cut into fans. Each geometry is asked for once, in
 /// the order of the file (again when a TextureTransform has to be applied to its texture coordinates).
 ///
-/// The same scene gives the same bytes. Memory: about the size of the output, beside one mesh.
-bool write_gltf(const Scene&, const MeshSource&, const GltfOptions&, Resources*, const std::string& path, Diagnostics&);
+/// The same scene gives the same bytes. Memory: about the size of the output without compression and with it, beside one
+/// mesh.
+bool write_gltf(const Scene&, const MeshSource&, const GltfOptions&, Resources*, const std::string& path, Diagnostics&,
+                GltfSummary* = nullptr);
 
 /// The same as one .glb with its pictures, piece by piece to a sink, whatever `binary` and `images` say.
 bool write_glb(const Scene&, const MeshSource&, const GltfOptions&, Resources*, const Sink&, Diagnostics&);

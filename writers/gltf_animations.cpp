@@ -176,7 +176,7 @@ void Animations::add_channel(Written& w, const Channel& c, double cycle, Store& 
   }
 }
 
-void Animations::write(JsonOut& json, std::size_t i) const {
+void Animations::write(JsonOut& json, std::size_t i, const std::function<std::uint32_t(std::uint32_t)>& accessor) const {
   constexpr std::string_view paths[] = {"translation", "rotation", "scale"};
   const Written& w = written_[i];
   json.begin_object();
@@ -198,8 +198,8 @@ void Animations::write(JsonOut& json, std::size_t i) const {
   json.begin_array();
   for (const auto& s : w.samplers) {
     json.begin_object();
-    json.member("input", s.input);
-    json.member("output", s.output);
+    json.member("input", accessor(s.input));
+    json.member("output", accessor(s.output));
     json.end_object();
   }
   json.end_array();

@@ -43,7 +43,7 @@ class Animations {
   void store(Store&, const std::function<Vec3(std::uint32_t node)>& offset);
   bool empty() const { return written_.empty(); }
   std::size_t count() const { return written_.size(); }
-  void write(JsonOut&, std::size_t i) const;
+  void write(JsonOut&, std::size_t i, const std::function<std::uint32_t(std::uint32_t)>& accessor) const;
 
  private:
   struct Channel {

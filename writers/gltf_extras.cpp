@@ -163,7 +163,7 @@ bool Extras::geometry_says_more(NodeId n) const {
   return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return adds_to_vertices(n, v); });
 }
 
-void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> polygons) {
+void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> polygons, double step) {
   json.key("extras");
   json.begin_object();
   json.key("vrml97");
@@ -176,6 +176,7 @@ void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> po
     json.end_object();
   }
   if (!polygons.empty()) json.member("polygons", polygons);
+  if (step != 1) json.member("step", step);
   json.end_object();
   json.end_object();
 }

@@ -64,8 +64,9 @@ class Extras {
   void member(JsonOut&, NodeId, Said said);
   /// The member vrml97: {Type: {fields}, polygons}: what the vertices of an IndexedFaceSet, IndexedLineSet or PointSet do
   /// not tell. A node in a field only says that it was there, and its name. `polygons` are pairs: so many triangles are
-  /// one polygon, so often.
-  void geometry(JsonOut&, NodeId, std::span<const std::uint32_t> polygons);
+  /// one polygon, so often. `step`, unless it is 1: what positions are to be multiplied by; the scale of nodes with the mesh
+  /// is that and nothing else.
+  void geometry(JsonOut&, NodeId, std::span<const std::uint32_t> polygons, double step);
   /// Is there anything of that?
   bool geometry_says_more(NodeId) const;
   /// The member protos of an object: declarations, and those in their bodies behind them. Each is {PROTO: name, in,

@@ -259,6 +259,7 @@ std::uint32_t Hierarchy::shape(NodeId n) {
   if (g.empty()) return add(node);
   if (extras_) extras_->set_shown(n);
   Frame& f = frames_.back();
+  meshes_.note_use(geometry, f.world);
   bool coarse_level = scene_.is(f.node, nodes::LOD) && f.next > 1;
   if (!coarse_level) f.box.add(meshes_.bounds(g, f.world));
   if (g.origin != none) node.transform = add_transform({.translation = meshes_.origins()[g.origin]});
@@ -371,6 +372,26 @@ void Hierarchy::move(std::uint32_t id, const Vec3& by, std::vector<std::uint32_t
   }
   auto& t = transforms_[n.transform].translation;
   for (std::size_t i = 0; i < 3; ++i) t[i] += by[i];
+}
+
+/// In the node of the mesh where that can be; what is animated, or is a Transform that can come back, has it in a child.
+void Hierarchy::dequantize(const std::function<const Dequantization*(std::uint32_t)>& of_mesh) {
+  for (std::uint32_t id = 0, n = static_cast<std::uint32_t>(nodes_.size()); id < n; ++id) {
+    const auto* d = nodes_[id].attachment == Attachment::mesh ? of_mesh(nodes_[id].attached) : nullptr;
+    if (!d) continue;
+    const Vec3 step{d->step, d->step, d->step};
+    const bool keeps = extras_ && !(nodes_[id].source && scene_.is(nodes_[id].source, nodes::Shape));
+    if (keeps || animations_.moves(nodes_[id].source)) {
+      const auto child = add({.transform = add_transform({d->origin, {}, step}), .attached = nodes_[id].attached, .attachment = Attachment::mesh});
+      nodes_[id].attachment = Attachment::nothing;
+      nodes_[id].first_child = static_cast<std::uint32_t>(children_.size());
+      nodes_[id].n_children = 1;
+      children_.push_back(child);
+      continue;
+    }
+    const Trs t = nodes_[id].transform == none ? Trs{} : transforms_[nodes_[id].transform];
+    nodes_[id].transform = add_transform({matrix(t).point(d->origin), t.rotation, {t.scale[0] * d->step, t.scale[1] * d->step, t.scale[2] * d->step}}, true);
+  }
 }
 
 /// In one message: a world may have dozens of types that glTF does not know.

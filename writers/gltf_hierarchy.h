@@ -9,6 +9,7 @@
 // A Transform whose rotation or scale is animated while it has a center or a scaleOrientation is a chain of nodes, one for
 // each part of T C R SR S -SR -C that moves by itself.
 #pragma once
+#include <functional>
 #include <map>
 #include <unordered_map>
 
@@ -44,6 +45,9 @@ class Hierarchy {
 
   /// Everything below the roots of the scene.
   void build();
+
+  /// Gives nodes of meshes the transform that makes metres of whole numbers; null: a mesh needs none.
+  void dequantize(const std::function<const Dequantization*(std::uint32_t mesh)>&);
 
   const std::vector<Node>& nodes() const { return nodes_; }
   std::span<const std::uint32_t> children(const Node& n) const {

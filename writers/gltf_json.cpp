@@ -22,6 +22,7 @@ class Writer {
     json_.begin_object();
     asset();
     extensions_used();
+    extensions_required();
     extensions();
     json_.member("scene", 0);
     list("scenes", 1, [&](std::size_t) { scene(); });
@@ -29,15 +30,16 @@ class Writer {
     auto visible = visibility(p_.scene, h_.navigation_info());
     list("cameras", h_.cameras().size(),
          [&](std::size_t i) { write_camera(json_, p_.scene, h_.cameras()[i], h_.world(), visible); });
-    list("meshes", p_.meshes.meshes().size(), [&](std::size_t i) { mesh(p_.meshes.meshes()[i]); });
+    list("meshes", p_.meshes.meshes().size(), [&](std::size_t i) { mesh(p_.meshes.meshes()[i], p_.packing.streams(static_cast<std::uint32_t>(i))); });
     list("materials", p_.materials.materials().size(), [&](std::size_t i) { json_.raw(p_.materials.materials()[i]); });
     list("textures", p_.textures.textures().size(), [&](std::size_t i) { texture(p_.textures.textures()[i]); });
     list("images", p_.textures.pictures().size(), [&](std::size_t i) { image(i); });
     list("samplers", p_.textures.samplers().size(), [&](std::size_t i) { sampler(p_.textures.samplers()[i]); });
-    list("animations", p_.animations.count(), [&](std::size_t i) { p_.animations.write(json_, i); });
-    list("accessors", p_.store.accessors().size(), [&](std::size_t i) { accessor(p_.store.accessors()[i]); });
+    list("animations", p_.animations.count(), [&](std::size_t i) { p_.animations.write(json_, i, [&](std::uint32_t a) { return p_.packing.of(a); }); });
+    const auto& accessors = p_.packing.store().accessors();
+    list("accessors", accessors.size(), [&](std::size_t i) { accessor(accessors[i]); });
     list("bufferViews", p_.layout.views().size(), [&](std::size_t i) { buffer_view(p_.layout.views()[i]); });
-    list("buffers", p_.layout.size() > 0, [&](std::size_t) { buffer(); });
+    list("buffers", (p_.layout.size() > 0) + (p_.layout.unpacked_size() > 0), [&](std::size_t i) { i == 0 ? buffer() : unpacked_buffer(); });
     json_.end_object();
     sink_(text_);
   }
@@ -89,7 +91,22 @@ class Writer {
     if (p_.materials.uses_texture_transform()) used.push_back("KHR_texture_transform");
     if (p_.materials.uses_moz_lightmap()) used.push_back("MOZ_lightmap");
     if (h_.uses_lod()) used.push_back("MSFT_lod");
+    const auto needed = required();
+    used.insert(used.end(), needed.begin(), needed.end());
     list("extensionsUsed", used.size(), [&](std::size_t i) { json_.value(used[i]); });
+  }
+
+  /// What a reader must know to see anything.
+  std::vector<std::string_view> required() const {
+    std::vector<std::string_view> names;
+    if (p_.packing.uses_quantization()) names.push_back("KHR_mesh_quantization");
+    if (p_.layout.unpacked_size() > 0) names.push_back("EXT_meshopt_compression");
+    return names;
+  }
+
+  void extensions_required() {
+    const auto names = required();
+    list("extensionsRequired", names.size(), [&](std::size_t i) { json_.value(names[i]); });
   }
 
   void extensions() {
@@ -201,6 +218,7 @@ class Writer {
       json_.key("vrml97");
       json_.begin_object();
       if (n.source) json_.member("USE", n.same_as);
+      if (n.attachment == Attachment::mesh && !n.source) json_.key("Shape"), json_.raw("{}");
       json_.end_object();
     } else if (vrml97) {
       p_.extras->vrml97(json_, n.source, p_.extras->said_by_node(n.source, n.plain), named_as_described(n));
@@ -215,7 +233,7 @@ class Writer {
     return !name.empty() && name == p_.scene.get(n.source, nodes::viewpoint::description);
   }
 
-  void mesh(const MeshRecord& m) {
+  void mesh(const MeshRecord& m, const Streams& s) {
     const Geometry& g = p_.meshes.geometries()[m.geometry];
     json_.begin_object();
     if (auto name = name_of(g.source); !name.empty()) json_.member("name", name);
@@ -224,25 +242,26 @@ class Writer {
     json_.begin_object();
     json_.key("attributes");
     json_.begin_object();
-    json_.member("POSITION", g.positions);
-    if (g.normals != none) json_.member("NORMAL", g.normals);
+    json_.member("POSITION", s.positions);
+    if (s.normals != none) json_.member("NORMAL", s.normals);
     // Colours that a picture hides are kept under a name that viewers do not know.
-    if (g.colors != none) json_.member(m.shows_color ? "COLOR_0" : "_COLOR", g.colors);
-    if (m.texcoords != none) json_.member("TEXCOORD_0", m.texcoords);
-    if (m.lightcoords != none) json_.member(m.texcoords != none ? "TEXCOORD_1" : "TEXCOORD_0", m.lightcoords);
+    if (s.colors != none) json_.member(m.shows_color ? "COLOR_0" : "_COLOR", s.colors);
+    if (s.texcoords != none) json_.member("TEXCOORD_0", s.texcoords);
+    if (s.lightcoords != none) json_.member(s.texcoords != none ? "TEXCOORD_1" : "TEXCOORD_0", s.lightcoords);
     json_.end_object();
-    if (g.indices != none) json_.member("indices", g.indices);
+    if (s.indices != none) json_.member("indices", s.indices);
     if (m.material != none) json_.member("material", m.material);
     if (g.mode != Mode::triangles) json_.member("mode", static_cast<int>(g.mode));
     json_.end_object();
     json_.end_array();
-    if (p_.extras) mesh_extras(g);
+    if (p_.extras) mesh_extras(g, p_.packing.dequantization(m));
     json_.end_object();
   }
 
-  void mesh_extras(const Geometry& g) {
+  void mesh_extras(const Geometry& g, const Dequantization* whole) {
+    const double step = whole ? whole->step : 1;
     if (is_parametric(p_.scene, g.source) || points_move(g.source)) p_.extras->member(json_, g.source, {});
-    else if (!g.polygons.empty() || p_.extras->geometry_says_more(g.source)) p_.extras->geometry(json_, g.source, g.polygons);
+    else if (!g.polygons.empty() || step != 1 || p_.extras->geometry_says_more(g.source)) p_.extras->geometry(json_, g.source, g.polygons, step);
   }
 
   /// The order of points that events replace matters.
@@ -290,9 +309,10 @@ class Writer {
     if (a.offset > 0) json_.member("byteOffset", a.offset);
     json_.member("componentType", type.component_type);
     json_.member("count", a.count);
+    if (type.normalized) json_.member("normalized", true);
     json_.member("type", type.type);
     if (a.bounds != none) {
-      const auto& b = p_.store.bounds()[a.bounds];
+      const auto& b = p_.packing.store().bounds()[a.bounds];
       const std::size_t n = a.view == View::time ? 1 : 3;
       numbers("max", std::span<const float>(b.high).first(n));
       numbers("min", std::span<const float>(b.low).first(n));
@@ -301,15 +321,45 @@ class Writer {
   }
 
   void buffer_view(const Layout::BufferView& v) {
+    const bool packed = v.unpacked > 0;
+    const auto offset = packed ? v.unpacked_offset : v.offset;
     json_.begin_object();
-    json_.member("buffer", 0);
-    if (v.offset > 0) json_.member("byteOffset", v.offset);
-    json_.member("byteLength", v.length);
+    json_.member("buffer", packed ? 1 : 0);
+    if (offset > 0) json_.member("byteOffset", offset);
+    json_.member("byteLength", packed ? v.unpacked : v.length);
     if (v.picture == none) {
       const auto& type = info(v.view);
       if (type.vertices) json_.member("byteStride", type.element);
       if (type.vertices || type.indices) json_.member("target", type.vertices ? array_buffer : element_array_buffer);
     }
+    if (packed) packed_view(v);
+    json_.end_object();
+  }
+
+  void packed_view(const Layout::BufferView& v) {
+    constexpr std::string_view filters[] = {"", "OCTAHEDRAL", "EXPONENTIAL"};
+    const auto& type = info(v.view);
+    const bool triangles = v.view == View::index16 || v.view == View::index32;
+    json_.key("extensions");
+    json_.begin_object();
+    json_.key("EXT_meshopt_compression");
+    json_.begin_object();
+    json_.member("buffer", 0);
+    if (v.offset > 0) json_.member("byteOffset", v.offset);
+    json_.member("byteLength", v.length);
+    json_.member("byteStride", type.element);
+    json_.member("count", v.unpacked / type.element);
+    json_.member("mode", !type.indices ? "ATTRIBUTES" : triangles ? "TRIANGLES" : "INDICES");
+    if (type.filter != Filter::none) json_.member("filter", filters[static_cast<std::size_t>(type.filter)]);
+    json_.end_object();
+    json_.end_object();
+  }
+
+  void unpacked_buffer() {
+    json_.begin_object();
+    json_.member("byteLength", p_.layout.unpacked_size());
+    json_.key("extensions");
+    json_.raw(R"({"EXT_meshopt_compression":{"fallback":true}})");
     json_.end_object();
   }
 

@@ -4,6 +4,7 @@
 #pragma once
 #include "writers/gltf_hierarchy.h"
 #include "writers/gltf_layout.h"
+#include "writers/gltf_packing.h"
 #include "writers/sink.h"
 
 namespace wrlkit::gltf {
@@ -13,7 +14,7 @@ struct Parts {
   const Scene& scene;
   const Hierarchy& hierarchy;
   const Meshes& meshes;
-  const Store& store;
+  const Packing& packing;
   const Materials& materials;
   const Textures& textures;
   const Layout& layout;

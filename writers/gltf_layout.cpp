@@ -1,5 +1,7 @@
 #include "writers/gltf_layout.h"
 
+#include "writers/meshopt.h"
+
 namespace wrlkit::gltf {
 namespace {
 
@@ -7,30 +9,54 @@ constexpr std::uint64_t alignment = 4;
 
 std::uint64_t padding(std::uint64_t size) { return (alignment - size % alignment) % alignment; }
 
+std::string all_of(const Blocks& blocks) {
+  std::string out(blocks.size(), '\0');
+  blocks.copy(0, out.data(), out.size());
+  return out;
+}
+
+std::string packed(View v, const Blocks& blocks) {
+  const auto& type = info(v);
+  const std::string bytes = all_of(blocks);
+  if (!type.indices) return pack_elements(bytes, type.element);
+  return v == View::index16 || v == View::index32 ? pack_triangles(bytes, type.element) : pack_sequence(bytes, type.element);
+}
+
 }  // namespace
 
-Layout::Layout(const Store& store, const std::vector<Picture>& inside)
+Layout::Layout(const Store& store, const std::vector<Picture>& inside, bool meshopt)
     : store_(store), pictures_(inside), n_pictures_(inside.size()) {
   of_view_.fill(none);
   for (std::size_t i = 0; i < n_views; ++i) {
     auto view = static_cast<View>(i);
     if (store.view(view).size() == 0) continue;
     of_view_[i] = static_cast<std::uint32_t>(views_.size());
-    add({0, store.view(view).size(), view});
+    const auto size = store.view(view).size();
+    if (!meshopt) {
+      add({0, size, view});
+      continue;
+    }
+    auto bytes = packed(view, store.view(view));
+    add({0, bytes.size(), view, none, std::move(bytes), size, unpacked_size_});
+    unpacked_size_ += size + padding(size);
   }
+  geometry_size_ = size_;
   for (std::size_t i = 0; i < inside.size(); ++i) add({0, inside[i].bytes.size(), {}, static_cast<std::uint32_t>(i)});
 }
 
 void Layout::add(BufferView v) {
   v.offset = size_;
   size_ += v.length + padding(v.length);
-  views_.push_back(v);
+  views_.push_back(std::move(v));
 }
 
-void Layout::pieces(std::vector<std::string_view>& out) const {
+void Layout::pieces(std::vector<std::string_view>& out, bool with_pictures) const {
   constexpr std::string_view zeros("\0\0\0", alignment - 1);
   for (const auto& v : views_) {
-    if (v.picture == none)
+    if (v.picture != none && !with_pictures) continue;
+    if (v.unpacked > 0)
+      out.push_back(v.packed);
+    else if (v.picture == none)
       store_.view(v.view).pieces(out);
     else
       out.push_back(pictures_[v.picture].bytes);

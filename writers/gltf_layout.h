@@ -1,5 +1,6 @@
 // How the binary part of a glTF file is laid out: the views of the Store one after another, then pictures, each at a
-// multiple of four bytes.
+// multiple of four bytes. Views may be packed by meshoptimizer; what they are unpacked into is a second buffer, which is in
+// no file.
 #pragma once
 #include "writers/gltf_store.h"
 #include "writers/gltf_textures.h"
@@ -12,9 +13,12 @@ class Layout {
     std::uint64_t offset, length;
     View view;  // unless it is a picture
     std::uint32_t picture = none;
+    std::string packed;          // empty: it is not
+    std::uint64_t unpacked = 0;  // bytes of a packed one; its place in the second buffer
+    std::uint64_t unpacked_offset = 0;
   };
 
-  Layout(const Store&, const std::vector<Picture>& inside);
+  Layout(const Store&, const std::vector<Picture>& inside, bool meshopt);
 
   const std::vector<BufferView>& views() const { return views_; }
   /// Index into views().
@@ -22,8 +26,12 @@ class Layout {
   std::uint32_t of_picture(std::size_t i) const { return static_cast<std::uint32_t>(views_.size() - n_pictures_ + i); }
   bool pictures_inside() const { return n_pictures_ > 0; }
   std::uint64_t size() const { return size_; }
+  /// Of the second buffer; 0: nothing is packed.
+  std::uint64_t unpacked_size() const { return unpacked_size_; }
+  /// Without pictures.
+  std::uint64_t geometry_size() const { return geometry_size_; }
   /// The bytes.
-  void pieces(std::vector<std::string_view>& out) const;
+  void pieces(std::vector<std::string_view>& out, bool with_pictures = true) const;
 
  private:
   void add(BufferView);
@@ -33,7 +41,7 @@ class Layout {
   std::size_t n_pictures_;
   std::array<std::uint32_t, n_views> of_view_;
   std::vector<BufferView> views_;
-  std::uint64_t size_ = 0;
+  std::uint64_t size_ = 0, unpacked_size_ = 0, geometry_size_ = 0;
 };
 
 }  // namespace wrlkit::gltf

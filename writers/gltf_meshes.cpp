@@ -2,6 +2,7 @@
 
 #include "scenegraph/nodes.h"
 #include "writers/gltf_origin.h"
+#include "writers/meshopt.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -62,7 +63,7 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
     diag_.report(Diag::float_overflow, scene_.where(n),
                  std::string(scene_.type(n).name) + " (" + std::to_string(v.n_not_finite) + " numbers)");
   if (v.index.empty()) return g;
-  if (scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size()) g.polygons = runs(mesh);
+  if (!ordered_ && scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size()) g.polygons = runs(mesh);
   g.origin = move_near_origin(mesh, texcoords);
   std::uint32_t positions = store_.positions(v.position, {v.min, v.max});
   if (!v.normal.empty()) g.normals = store_.vertices(View::normal, v.normal);
@@ -81,6 +82,7 @@ void Meshes::split(const Mesh& mesh, bool texcoords, const Vec3& origin) {
       mesh,
       {.origin = origin, .normals = faces, .texcoords = faces && texcoords, .lightcoords = faces && light_, .linear_colors = true, .flip_v = true},
       scratch_, vertices_);
+  if (ordered_ && faces) order_for_drawing(vertices_);
 }
 
 std::uint32_t Meshes::move_near_origin(const Mesh& mesh, bool texcoords) {

@@ -7,6 +7,7 @@
 #include "writers/gltf_box.h"
 #include "writers/gltf_materials.h"
 #include "writers/gltf_store.h"
+#include "writers/gltf_transform.h"
 
 namespace wrlkit::gltf {
 
@@ -22,6 +23,7 @@ struct Geometry {
   Mode mode = Mode::triangles;
   bool double_sided = false;
   bool opacity = false;  // its colours have one
+  double scale = 0;      // how many times larger it is in the world, at most, where it is shown
   std::vector<std::uint32_t> polygons;  // pairs: so many triangles were one face, so often; empty: all faces are triangles
 
   bool empty() const { return positions == none; }
@@ -39,13 +41,18 @@ struct MeshRecord {
 
 class Meshes {
  public:
-  /// `light`: places in lightmaps are kept.
-  Meshes(const Scene& scene, const MeshSource& source, Store& store, bool light, Diagnostics& diag)
-      : scene_(scene), source_(source), store_(store), light_(light), diag_(diag), by_node_(scene.node_count(), none) {}
+  /// `light`: places in lightmaps are kept. `ordered`: triangles and vertices come in the order in which they are drawn best.
+  Meshes(const Scene& scene, const MeshSource& source, Store& store, bool light, bool ordered, Diagnostics& diag)
+      : scene_(scene), source_(source), store_(store), light_(light), ordered_(ordered), diag_(diag), by_node_(scene.node_count(), none) {}
 
   /// Index into geometries() of the data of a geometry node. Texture coordinates that the file does not give are there
   /// only for who has a picture.
   std::uint32_t geometry(NodeId, bool picture);
+  /// It is shown in this frame.
+  void note_use(std::uint32_t geometry, const Matrix& frame) {
+    Geometry& g = geometries_[geometry];
+    g.scale = std::max(g.scale, largest_scale(frame));
+  }
   /// Index into meshes().
   std::uint32_t mesh(std::uint32_t geometry, const MaterialUse&);
 
@@ -65,7 +72,7 @@ class Meshes {
   const Scene& scene_;
   const MeshSource& source_;
   Store& store_;
-  bool light_;
+  bool light_, ordered_;
   Diagnostics& diag_;
   std::vector<std::uint32_t> by_node_;
   std::vector<Geometry> geometries_;

@@ -5,37 +5,65 @@
 namespace wrlkit::gltf {
 namespace {
 
-constexpr std::uint16_t unsigned_short = 5123, unsigned_int = 5125, float_ = 5126;
+constexpr std::uint16_t byte = 5120, short_ = 5122, unsigned_short = 5123, unsigned_int = 5125, float_ = 5126;
 // 65535 would start a new primitive in some graphics libraries, so glTF does not allow it as an index.
 constexpr std::size_t max_vertices_16 = 65535;
 
 }  // namespace
 
 const ViewInfo& info(View v) {
+  using enum Filter;
+  constexpr bool yes = true, no = false;
   static constexpr ViewInfo table[n_views] = {
-      {12, float_, true, false, "VEC3"}, {12, float_, true, false, "VEC3"}, {12, float_, true, false, "VEC3"},
-      {16, float_, true, false, "VEC4"}, {8, float_, true, false, "VEC2"}, {2, unsigned_short, false, true, "SCALAR"},
-      {4, unsigned_int, false, true, "SCALAR"}, {4, float_, false, false, "SCALAR"}, {12, float_, false, false, "VEC3"},
-      {16, float_, false, false, "VEC4"}};
+      {12, float_, yes, no, no, "VEC3", none},           {12, float_, yes, no, no, "VEC3", none},
+      {12, float_, yes, no, no, "VEC3", none},           {16, float_, yes, no, no, "VEC4", none},
+      {8, float_, yes, no, no, "VEC2", none},            {2, unsigned_short, no, yes, no, "SCALAR", none},
+      {4, unsigned_int, no, yes, no, "SCALAR", none},    {4, float_, no, no, no, "SCALAR", none},
+      {12, float_, no, no, no, "VEC3", none},            {16, float_, no, no, no, "VEC4", none},
+      {8, short_, yes, no, no, "VEC3", none},            {4, byte, yes, no, yes, "VEC3", none},
+      {8, unsigned_short, yes, no, yes, "VEC3", none},   {8, unsigned_short, yes, no, yes, "VEC4", none},
+      {4, unsigned_short, yes, no, yes, "VEC2", none},   {12, float_, yes, no, no, "VEC3", exponential},
+      {4, byte, yes, no, yes, "VEC3", octahedral},       {8, float_, yes, no, no, "VEC2", exponential},
+      {2, unsigned_short, no, yes, no, "SCALAR", none},  {4, unsigned_int, no, yes, no, "SCALAR", none}};
   return table[static_cast<std::size_t>(v)];
+}
+
+void Store::set_bounds(std::uint32_t a, const Bounds& bounds) {
+  if (a == none || accessors_[a].bounds != none) return;
+  accessors_[a].bounds = static_cast<std::uint32_t>(bounds_.size());
+  bounds_.push_back(bounds);
 }
 
 std::uint32_t Store::positions(std::span<const float> values, const Bounds& bounds) {
   std::uint32_t a = add(View::position, values.data(), values.size_bytes());
-  if (a != none && accessors_[a].bounds == none) {
-    accessors_[a].bounds = static_cast<std::uint32_t>(bounds_.size());
-    bounds_.push_back(bounds);
-  }
+  set_bounds(a, bounds);
   return a;
 }
 
 std::uint32_t Store::times(std::span<const float> values) {
   std::uint32_t a = add(View::time, values.data(), values.size_bytes());
-  if (a != none && accessors_[a].bounds == none) {
-    accessors_[a].bounds = static_cast<std::uint32_t>(bounds_.size());
-    bounds_.push_back({{values.front(), 0, 0}, {values.back(), 0, 0}});
-  }
+  set_bounds(a, {{values.front(), 0, 0}, {values.back(), 0, 0}});
   return a;
+}
+
+std::uint32_t Store::raw(View view, std::string_view bytes, const Bounds* bounds) {
+  std::uint32_t a = add(view, bytes.data(), bytes.size());
+  if (bounds) set_bounds(a, *bounds);
+  return a;
+}
+
+std::uint32_t Store::described(View view, std::uint32_t count, const Bounds* bounds) {
+  accessors_.push_back({none, count, none, view});
+  auto id = static_cast<std::uint32_t>(accessors_.size() - 1);
+  if (bounds) set_bounds(id, *bounds);
+  return id;
+}
+
+std::string Store::bytes(std::uint32_t id) const {
+  const Accessor& a = accessors_[id];
+  std::string out(std::size_t{a.count} * info(a.view).element, '\0');
+  views_[static_cast<std::size_t>(a.view)].copy(a.offset, out.data(), out.size());
+  return out;
 }
 
 std::uint32_t Store::vertices(View v, std::span<const float> values) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "writers/blocks.h"
@@ -14,14 +16,22 @@ namespace wrlkit::gltf {
 
 inline constexpr std::uint32_t none = 0xffffffffu;
 
-enum class View : std::uint8_t { position, normal, rgb, rgba, texcoord, index16, index32, time, moving3, moving4 };
-inline constexpr std::size_t n_views = 10;
+enum class View : std::uint8_t {
+  position, normal, rgb, rgba, texcoord, index16, index32, time, moving3, moving4,
+  // Quantised (gltf_packing.h). "grid": floats on a grid; "sequence": indices that are not those of triangles.
+  short_position, byte_normal, short_rgb, short_rgba, short_texcoord, grid_position, oct_normal, grid_texcoord, sequence16, sequence32
+};
+inline constexpr std::size_t n_views = 20;
+
+/// What meshoptimizer's decoder does to the elements of a view behind decoding (EXT_meshopt_compression).
+enum class Filter : std::uint8_t { none, octahedral, exponential };
 
 struct ViewInfo {
   std::uint8_t element;  // bytes
   std::uint16_t component_type;
-  bool vertices, indices;
+  bool vertices, indices, normalized;
   const char* type;
+  Filter filter;
 };
 const ViewInfo& info(View);
 
@@ -31,7 +41,7 @@ struct Bounds {
 };
 
 struct Accessor {
-  std::uint32_t offset, count;  // bytes, elements
+  std::uint32_t offset, count;  // bytes, elements; no offset (none): the values are elsewhere, packed by Draco
   std::uint32_t bounds;         // into Store::bounds; none unless of positions
   View view;
 };
@@ -45,6 +55,12 @@ class Store {
   std::uint32_t times(std::span<const float>);
   /// 16-bit indices when there are few enough vertices for them.
   std::uint32_t indices(std::span<const std::uint32_t>, std::size_t n_vertices);
+  /// Bytes as they are to be stored; `bounds` of positions.
+  std::uint32_t raw(View, std::string_view bytes, const Bounds* bounds = nullptr);
+  /// Without values.
+  std::uint32_t described(View, std::uint32_t count, const Bounds* bounds = nullptr);
+  /// The bytes of an accessor.
+  std::string bytes(std::uint32_t accessor) const;
 
   const std::vector<Accessor>& accessors() const { return accessors_; }
   const std::vector<Bounds>& bounds() const { return bounds_; }
@@ -60,6 +76,7 @@ class Store {
     std::uint32_t hash = 0, accessor = none;
   };
   std::uint32_t add(View, const void* data, std::size_t n_bytes);
+  void set_bounds(std::uint32_t accessor, const Bounds&);
   Slot& find(View, const void* data, std::size_t n_bytes, std::uint32_t hash);
   void grow();
 

@@ -78,6 +78,16 @@ Matrix matrix(const Trs& t) {
 
 double mean_scale(const Matrix& m) { return std::cbrt(std::abs(m.determinant())); }
 
+double largest_scale(const Matrix& m) {
+  double largest = 0, sum = 0, dots = 0;
+  for (int c = 0; c < 3; ++c) {
+    double square = 0, dot = 0;
+    for (int r = 0; r < 3; ++r) square += m(r, c) * m(r, c), dot += m(r, c) * m(r, (c + 1) % 3);
+    largest = std::max(largest, square), sum += square, dots = std::max(dots, std::abs(dot));
+  }
+  return std::sqrt(dots <= 1e-9 * sum ? largest : sum);
+}
+
 Trs placed_at(const Vec3& position, const Quaternion& rotation) {
   return {fitting_or(position, {0, 0, 0}), rotation, {1, 1, 1}};
 }

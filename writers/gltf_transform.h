@@ -33,6 +33,14 @@ Trs placed_at(const Vec3& position, const Quaternion& rotation);
 Matrix matrix(const Trs&);
 /// How much lengths grow, on average: cube root of the volume of what was a unit cube.
 double mean_scale(const Matrix&);
+/// How much any length grows, at most; exact where axes stay at right angles, otherwise not below it.
+double largest_scale(const Matrix&);
+
+/// What makes metres of positions that are stored as whole numbers.
+struct Dequantization {
+  Vec3 origin{0, 0, 0};
+  double step = 1;
+};
 
 /// A node of type Transform as one or two glTF nodes.
 struct NodeTransform {

@@ -55,4 +55,13 @@ std::string gzipped(std::string_view bytes) {
   return out;
 }
 
+std::uint64_t gzipped_size(std::span<const std::string_view> pieces) {
+  std::uint64_t size = 0;
+  const Gzip::Put count = [&](std::string_view packed) { return size += packed.size(), 0; };
+  Gzip gzip;
+  for (auto p : pieces) gzip.pack(p, false, count);
+  gzip.pack({}, true, count);
+  return size;
+}
+
 }  // namespace wrlkit

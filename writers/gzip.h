@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,5 +26,7 @@ class Gzip {
 
 /// All at once.
 std::string gzipped(std::string_view bytes);
+/// How many bytes all of them would become.
+std::uint64_t gzipped_size(std::span<const std::string_view> pieces);
 
 }  // namespace wrlkit

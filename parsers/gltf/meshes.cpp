@@ -171,6 +171,8 @@ bool Meshes::load(const Primitive& p, const Pose& how, const std::string& texcoo
   }
   const bool moved = !how.joints.empty() || !how.weights.empty() || p.json["targets"] || how.origin != Vec3{0, 0, 0};
   if ((c_.file.is_own() || moved) && !fill(s.position, three)) return false;
+  if (const double step = c_.file.is_own() ? vrml97(p.mesh)["step"].number(1) : 1; step != 1)
+    for (double& v : s.position.values) v = decimal(static_cast<float>(v * step));
   return !moved || pose(p, how, s);
 }
 

@@ -5,7 +5,8 @@
 // background that no world shows. Each is judged twice (page/show.mjs): lit by three.js, where only a loose bound can hold
 // because physically based light is another than VRML's, and lit as VRML does, where colours are the same but for a few
 // levels. Where a bound cannot hold, expectations.mjs says why.
-//   node three_pictures.mjs WRLKIT FOLDER [PART-OF-A-NAME | --all]
+//   node three_pictures.mjs WRLKIT FOLDER [PART-OF-A-NAME | --all] [FLAGS-OF-CONVERT...]
+// PART-OF-A-NAME is a regular expression.
 // Pictures of worlds that fail are left in FOLDER. --all: the whole found corpus, too; for people, no bounds are known there.
 import fs from 'node:fs';
 import path from 'node:path';
@@ -15,7 +16,7 @@ import {in_lanes, run} from './program.mjs';
 import {view_of} from './view.mjs';
 import {file_of, found_worlds, has_shared, own_worlds} from './worlds.mjs';
 
-const [wrlkit, folder, part = ''] = process.argv.slice(2);
+const [wrlkit, folder, part = '', ...flags] = process.argv.slice(2);
 const size = {width: 320, height: 240};
 const key = [0.85, 0.25, 0.65];
 const skipped = 77;
@@ -34,7 +35,7 @@ async function source_of({file, levels}, to) {
 /// Converts a world, draws it, and says what the page has to do; null when nothing was made.
 async function prepare(world, number) {
   const out = name => path.join(folder, `${number}${name}`);
-  const converted = await run(wrlkit, ['convert', '-q', await source_of(world, out('')), out('.glb')]);
+  const converted = await run(wrlkit, ['convert', '-q', await source_of(world, out('')), out('.glb'), ...flags]);
   const view = view_of(wrlkit, world.file, out('.glb'), world.name.startsWith('corpus/'));
   const drawn = await run(wrlkit, ['render', '-q', world.file, out('.png'), '--width', size.width, '--height', size.height,
     '--samples', 1, '--background', key, ...view.flags]);
@@ -74,7 +75,7 @@ function keep_picture({name, lighting, sheet}) {
 function worlds() {
   if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)];
   const found = found_worlds_to_compare.map(name => ({name, file: file_of(name)})).filter(w => w.file);
-  return [...own_worlds(), ...with_levels, ...found].filter(w => is_compared(w.name) && w.name.includes(part));
+  return [...own_worlds(), ...with_levels, ...found].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
 }
 
 async function main() {

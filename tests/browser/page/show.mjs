@@ -7,16 +7,20 @@
 // lighting 'three': GLTFLoader's materials as they are, what people get. 'vrml': see vrml_light.mjs; close enough to a VRML
 // browser that colours can be compared tightly.
 import * as THREE from 'three';
+import {MeshoptDecoder} from 'three/addons/libs/meshopt_decoder.module.js';
+import {DRACOLoader} from 'three/addons/loaders/DRACOLoader.js';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import {light_as_vrml} from './vrml_light.mjs';
 
+const draco = new DRACOLoader().setDecoderPath('/node_modules/three/examples/jsm/libs/draco/gltf/');
+const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).setDRACOLoader(draco);
 let renderer;
 
 /// Draws job.glb and returns the canvas. job: {glb, width, height, camera, background, smooth, lighting}; camera is the
 /// number or name of one in the file, or {eye, target, up}, seen with VRML's standard field of view; without a background it
 /// is the colour of the sky at the horizon, if the file keeps one, or black.
 export async function show(job) {
-  const gltf = await new GLTFLoader().loadAsync(job.glb);
+  const gltf = await loader.loadAsync(job.glb);
   const scene = gltf.scene;
   const camera = make_camera(gltf, job);
   scene.add(camera);

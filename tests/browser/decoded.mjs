@@ -1,0 +1,95 @@
+// Compressed glTF is decoded by glTF-Transform, with the decoders of meshoptimizer and Draco that their authors publish, and
+// compared with the same world as floats: the same names, as many triangles, and no corner further from one of the original
+// than the tolerance. The Khronos validator finds no error and no warning.
+//   node decoded.mjs WRLKIT FOLDER METHOD
+import assert from 'node:assert';
+import fs from 'node:fs';
+import path from 'node:path';
+import validator from 'gltf-validator';
+import {run} from './program.mjs';
+import {own_worlds} from './worlds.mjs';
+
+const [wrlkit, folder, method] = process.argv.slice(2);
+const skipped = 77, tolerance = 1e-3, rounding = 1e-5;
+
+async function make_reader() {
+  const {NodeIO} = await import('@gltf-transform/core');
+  const {ALL_EXTENSIONS} = await import('@gltf-transform/extensions');
+  const {MeshoptDecoder} = await import('meshoptimizer');
+  const {default: draco} = await import('draco3dgltf');
+  await MeshoptDecoder.ready;
+  return new NodeIO().registerExtensions(ALL_EXTENSIONS)
+    .registerDependencies({'meshopt.decoder': MeshoptDecoder, 'draco3d.decoder': await draco.createDecoderModule()});
+}
+
+/// A point by a column-major matrix.
+const moved = (m, [x, y, z]) => [0, 1, 2].map(r => m[r] * x + m[4 + r] * y + m[8 + r] * z + m[12 + r]);
+
+/// {name, corners} of every drawn primitive, in the order of the file; corners in the world.
+function drawn(document) {
+  const out = [];
+  for (const node of document.getRoot().listNodes()) {
+    for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
+      const position = primitive.getAttribute('POSITION'), index = primitive.getIndices();
+      const n = index ? index.getCount() : position.getCount();
+      const corners = Array.from({length: n}, (_, i) => moved(node.getWorldMatrix(), position.getElement(index ? index.getScalar(i) : i, [])));
+      out.push({corners});
+    }
+  }
+  return out;
+}
+
+const names = document => document.getRoot().listNodes().map(node => node.getName()).filter(Boolean).sort();
+
+/// Largest distance of a point of `a` to the nearest of `b`, if it is below `reach`; otherwise infinite.
+function distance(a, b, reach) {
+  const cell = p => p.map(v => Math.floor(v / reach));
+  const cells = new Map();
+  for (const p of b) {
+    const key = cell(p).join();
+    cells.set(key, [...cells.get(key) ?? [], p]);
+  }
+  const near = [-1, 0, 1];
+  const around = p => near.flatMap(x => near.flatMap(y => near.flatMap(z => cells.get([p[0] + x, p[1] + y, p[2] + z].join()) ?? [])));
+  const unique = [...new Map(a.map(p => [p.join(), p])).values()];
+  return unique.reduce((worst, p) => Math.max(worst, Math.min(Infinity, ...around(cell(p)).map(q => Math.hypot(...p.map((v, k) => v - q[k]))))), 0);
+}
+
+async function check_valid(file, name) {
+  const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)), {maxIssues: 0});
+  assert.deepEqual(report.issues.messages.filter(m => m.severity <= 1), [], name);
+}
+
+async function compare(world, reader, number) {
+  const out = name => path.join(folder, `${number}${name}.glb`);
+  await run(wrlkit, ['convert', '-q', world.file, out('')]);
+  await run(wrlkit, ['convert', '-q', world.file, out('small'), '--compress', method, '--tolerance', tolerance]);
+  await check_valid(out('small'), world.name);
+  const [plain, small] = [await reader.read(out('')), await reader.read(out('small'))];
+  assert.deepEqual(names(small), names(plain), world.name);
+  const [a, b] = [drawn(plain), drawn(small)];
+  assert.equal(b.length, a.length, `${world.name}: primitives`);
+  assert.equal(b.reduce((n, p) => n + p.corners.length, 0), a.reduce((n, p) => n + p.corners.length, 0), `${world.name}: corners`);
+  const all = list => [...new Map(list.flatMap(p => p.corners).map(p => [p.join(), p])).values()];
+  const worst = distance(all(b), all(a), 2 * tolerance);
+  assert(worst <= tolerance + rounding, `${world.name}: a corner is ${worst} m away`);
+  return {worst, bytes: fs.statSync(out('small')).size, before: fs.statSync(out('')).size};
+}
+
+async function main() {
+  const reader = await make_reader().catch(error => console.log(`skipped: ${error.message} (script/bootstrap)`));
+  if (!reader) return skipped;
+  fs.rmSync(folder, {recursive: true, force: true});
+  fs.mkdirSync(folder, {recursive: true});
+  const chosen = own_worlds().filter(w => /corpus\/(plant|paper|features)\//.test(w.name));
+  assert(chosen.length > 20);
+  const sum = {worst: 0, bytes: 0, before: 0};
+  for (const [i, world] of chosen.entries()) {
+    const one = await compare(world, reader, i);
+    sum.worst = Math.max(sum.worst, one.worst), sum.bytes += one.bytes, sum.before += one.before;
+  }
+  console.log(`${chosen.length} worlds: ${sum.before} -> ${sum.bytes} bytes, no corner further than ${(sum.worst * 1e3).toFixed(3)} mm`);
+  return 0;
+}
+
+process.exitCode = await main();

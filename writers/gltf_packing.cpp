@@ -1,0 +1,157 @@
+#include "writers/gltf_packing.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace wrlkit::gltf {
+namespace {
+
+constexpr double usual_tolerance = 1e-3, usual_part_of_world = 8192;
+constexpr int more_light_bits = 2;  // a lightmap's texels are small, and those of other charts lie beside them
+
+double tolerance_for(const GltfCompression& options, const Box& world) {
+  if (options.tolerance > 0) return options.tolerance;
+  const double extent = world.extent();
+  return extent > 0 && std::isfinite(extent) ? std::min(usual_tolerance, extent / usual_part_of_world) : usual_tolerance;
+}
+
+Streams streams_of(const Geometry& g, const MeshRecord& m) {
+  return {g.positions, g.normals, g.colors, m.texcoords, m.lightcoords, g.indices};
+}
+
+}  // namespace
+
+Packing::Packing(const GltfCompression& options, const Store& from, const Meshes& meshes, Hierarchy& hierarchy)
+    : options_(options), from_(from), meshes_(meshes), store_(&from) {
+  const auto& records = meshes.meshes();
+  for (const MeshRecord& m : records) streams_.push_back(streams_of(meshes.geometries()[m.geometry], m));
+  if (options_.method == Method::none) return;
+  store_ = &own_;
+  summary_.tolerance = tolerance_for(options, hierarchy.world());
+  note_uses();
+  for (Streams& s : streams_) s = packed(s);
+  pack_others();
+  hierarchy.dequantize([&](std::uint32_t mesh) { return dequantization(records[mesh]); });
+}
+
+void Packing::note_uses() {
+  const std::size_t n = from_.accessors().size();
+  to_.assign(n, none);
+  scale_.assign(n, 0);
+  lines_.assign(n, 0);
+  light_.assign(n, 0);
+  for (const Geometry& g : meshes_.geometries()) {
+    if (g.empty()) continue;
+    scale_[g.positions] = std::max(scale_[g.positions], g.scale);
+    if (g.indices != none && g.mode != Mode::triangles) lines_[g.indices] = 1;
+  }
+  for (const MeshRecord& m : meshes_.meshes())
+    if (m.lightcoords != none) light_[m.lightcoords] = 1;
+}
+
+Streams Packing::packed(const Streams& s) {
+  return {positions(s.positions), normals(s.normals), colors(s.colors), texcoords(s.texcoords), texcoords(s.lightcoords), indices(s.indices)};
+}
+
+/// What animations have.
+void Packing::pack_others() {
+  for (std::uint32_t a = 0; a < to_.size(); ++a) {
+    const View v = from_.accessors()[a].view;
+    if (!info(v).vertices && !info(v).indices) copied(a, v);
+  }
+}
+
+std::vector<float> Packing::floats(std::uint32_t accessor) const {
+  const std::string bytes = from_.bytes(accessor);
+  std::vector<float> out(bytes.size() / sizeof(float));
+  std::memcpy(out.data(), bytes.data(), bytes.size());
+  return out;
+}
+
+template <class Pack>
+std::uint32_t Packing::once(std::uint32_t accessor, Pack pack) {
+  if (accessor == none || to_[accessor] != none) return accessor == none ? none : to_[accessor];
+  return to_[accessor] = pack();
+}
+
+std::uint32_t Packing::copied(std::uint32_t accessor, View view) {
+  return once(accessor, [&] {
+    const std::uint32_t bounds = from_.accessors()[accessor].bounds;
+    return own_.raw(view, from_.bytes(accessor), bounds == none ? nullptr : &from_.bounds()[bounds]);
+  });
+}
+
+/// Of the grid of some positions, in their own frame.
+double Packing::step(std::uint32_t accessor) const {
+  const Bounds& b = from_.bounds_of(accessor);
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, double{b.high[k]} - b.low[k]);
+  if (options_.position_bits > 0 && extent > 0) return std::exp2(std::ceil(std::log2(extent / ((1 << options_.position_bits) - 1))));
+  const double scale = scale_[accessor];
+  return grid_step(summary_.tolerance / (scale > 0 && std::isfinite(scale) ? scale : 1));
+}
+
+std::uint32_t Packing::positions(std::uint32_t accessor) {
+  return once(accessor, [&] {
+    const auto xyz = floats(accessor);
+    const double s = step(accessor), scale = std::max(scale_[accessor], 0.0);
+    auto note = [&](const Quantized& q) { summary_.position = std::max(summary_.position, q.error * scale); };
+    if (options_.method == Method::meshopt) {
+      const auto q = on_grid(xyz, 3, s);
+      note(q);
+      return own_.raw(View::grid_position, q.bytes, &q.bounds);
+    }
+    const Bounds& b = from_.bounds_of(accessor);
+    for (std::size_t k = 0; k < 3; ++k)
+      if ((double{b.high[k]} - b.low[k]) / s > 65534) return ++summary_.kept, own_.raw(View::position, from_.bytes(accessor), &b);
+    const auto q = short_positions(xyz, s);
+    note(q.values);
+    short_.emplace(accessor, Dequantization{q.origin, s});
+    return own_.raw(View::short_position, q.values.bytes, &q.values.bounds);
+  });
+}
+
+std::uint32_t Packing::normals(std::uint32_t accessor) {
+  return once(accessor, [&] {
+    const bool filtered = options_.method == Method::meshopt;
+    const auto q = filtered ? octahedral_normals(floats(accessor), options_.normal_bits) : byte_normals(floats(accessor));
+    summary_.normal = std::max(summary_.normal, q.error);
+    return own_.raw(filtered ? View::oct_normal : View::byte_normal, q.bytes);
+  });
+}
+
+std::uint32_t Packing::colors(std::uint32_t accessor) {
+  return once(accessor, [&] {
+    const bool alpha = from_.accessors()[accessor].view == View::rgba;
+    const auto q = shorts(floats(accessor), alpha ? 4 : 3, options_.color_bits);
+    summary_.color = std::max(summary_.color, q.error);
+    return own_.raw(alpha ? View::short_rgba : View::short_rgb, q.bytes);
+  });
+}
+
+std::uint32_t Packing::texcoords(std::uint32_t accessor) {
+  return once(accessor, [&] {
+    const auto uv = floats(accessor);
+    const int bits = std::min(options_.texcoord_bits + (light_[accessor] ? more_light_bits : 0), 16);
+    const bool in_picture = std::ranges::all_of(uv, [](float v) { return v >= 0 && v <= 1; });
+    const bool on_a_grid = options_.method == Method::meshopt;
+    if (!on_a_grid && !in_picture) return ++summary_.kept, own_.raw(View::texcoord, from_.bytes(accessor));
+    const auto q = on_a_grid ? on_grid(uv, 2, std::exp2(-bits)) : shorts(uv, 2, bits);
+    summary_.texcoord = std::max(summary_.texcoord, q.error);
+    return own_.raw(on_a_grid ? View::grid_texcoord : View::short_texcoord, q.bytes);
+  });
+}
+
+std::uint32_t Packing::indices(std::uint32_t accessor) {
+  if (accessor == none) return none;
+  const View v = from_.accessors()[accessor].view;
+  const bool apart = lines_[accessor] && options_.method == Method::meshopt;
+  return copied(accessor, !apart ? v : v == View::index16 ? View::sequence16 : View::sequence32);
+}
+
+bool Packing::uses_quantization() const {
+  constexpr View kinds[] = {View::short_position, View::byte_normal, View::oct_normal};
+  return std::ranges::any_of(kinds, [&](View v) { return store_->view(v).size() > 0; });
+}
+
+}  // namespace wrlkit::gltf
