@@ -1,8 +1,9 @@
 // The mode in which one world is looked at.
 import {AnimationMixer, Color, Raycaster, Scene, Vector3, type AnimationAction} from 'three';
 import {state} from '../state';
-import {Boxes, edgeMaterial, Highlight} from '../view/overlay';
+import {Boxes, edgeMaterial, Flashes, Highlight} from '../view/overlay';
 import type {Mode, Stage} from '../view/stage';
+import {LevelControl} from '../world/levels';
 import {Lights, type Lighting} from '../world/lights';
 import {Looks, type Look} from '../world/looks';
 import {boxOf, partOf, type Part, type Viewpoint, type World} from '../world/world';
@@ -20,14 +21,17 @@ export class WorldMode implements Mode {
   private readonly mixer: AnimationMixer;
   private readonly actions: AnimationAction[];
   private readonly selectedBy: ((part: Part | null) => void)[] = [];
-  /// Is told the camera's place before each picture.
-  beforeDraw: (() => void) | null = null;
+  readonly levels: LevelControl | null;
+  flash = false;          // boxes around objects whose level changes
+  private readonly flashes: Flashes;
 
   constructor(readonly world: World, readonly stage: Stage) {
     this.scene.add(world.root);
     this.lights = new Lights(this.scene, world);
     this.highlight = new Highlight(this.scene);
     this.boxes = new Boxes(this.scene, world);
+    this.levels = world.levels.length > 0 ? new LevelControl(world) : null;
+    this.flashes = new Flashes(this.scene);
     this.mixer = new AnimationMixer(world.root);
     this.actions = world.clips.map(clip => this.mixer.clipAction(clip));
   }
@@ -39,8 +43,9 @@ export class WorldMode implements Mode {
     this.stage.show(this);
   }
 
-  draw({renderer, camera}: Stage): void {
-    this.beforeDraw?.();
+  draw({renderer, camera, height}: Stage): void {
+    const switched = this.levels?.update(camera, height) ?? [];
+    if (this.flash) this.flashes.add(switched);
     this.lights.follow(camera);
     renderer.render(this.scene, camera);
     if (!this.edges) return;
@@ -62,7 +67,7 @@ export class WorldMode implements Mode {
 
   tick(seconds: number): boolean {
     if (this.playing) this.mixer.update(seconds);
-    return this.playing;
+    return this.flashes.tick(seconds) || this.playing;
   }
 
   play(on: boolean): void {
@@ -76,6 +81,19 @@ export class WorldMode implements Mode {
   setLook(look: Look): void {
     this.look = look;
     this.looks.apply(this.world.root, look);
+    this.stage.invalidate();
+  }
+
+  setTint(on: boolean): void {
+    if (on) this.levels?.tint(this.looks);
+    else this.looks.apply(this.world.root, this.look);
+    this.stage.invalidate();
+  }
+
+  /// Hidden parts stay so when levels are switched.
+  setHidden(part: Part, hidden: boolean): void {
+    part.object.userData['hidden'] = hidden;
+    part.object.visible = !hidden;
     this.stage.invalidate();
   }
 

@@ -10,6 +10,7 @@ import {densityScale} from '../world/texels';
 import {boxOf, labelOf, meshesBelow, type Part} from '../world/world';
 import {button, check, choice, facts, h, section, slider, table} from './dom';
 import {bytes, count, length, share, significant} from './format';
+import {levelsPanel} from './levels_panel';
 import {Tabs, type Tab} from './tabs';
 
 export class WorldPanel {
@@ -18,12 +19,13 @@ export class WorldPanel {
   private readonly part = h('div', {class: 'panel'});
   private readonly live = h('div', {class: 'live'});
 
-  constructor(private readonly mode: WorldMode, extra: Tab[] = []) {
+  constructor(private readonly mode: WorldMode) {
+    const levels: Tab[] = mode.levels ? [{key: 'levels', title: 'Levels', content: levelsPanel(mode, mode.levels)}] : [];
     this.tabs = new Tabs('World', [
       {key: 'figures', title: 'Figures', content: this.figures()},
       {key: 'part', title: 'Part', content: this.part},
       {key: 'view', title: 'View', content: this.view()},
-      ...extra,
+      ...levels,
       {key: 'materials', title: 'Materials', content: this.materials()},
     ], key => state.set('panel', key));
     this.element = this.tabs.element;
@@ -75,7 +77,7 @@ export class WorldPanel {
   }
 
   private hide(part: Part): void {
-    part.object.visible = false;
+    this.mode.setHidden(part, true);
     this.mode.select(null);
   }
 
@@ -85,17 +87,15 @@ export class WorldPanel {
     for (let p = part.parent; p; p = p.parent) family.add(p);
     const hideOthers = (parts: Part[]): void => {
       for (const p of parts) {
-        if (!family.has(p)) p.object.visible = false;
+        if (!family.has(p)) this.mode.setHidden(p, true);
         else if (p !== part) hideOthers(p.children);
       }
     };
     hideOthers(this.mode.world.roots);
-    this.mode.stage.invalidate();
   }
 
   private showAll(): void {
-    for (const part of this.mode.world.parts) part.object.visible = true;
-    this.mode.stage.invalidate();
+    for (const part of this.mode.world.parts) if (part.object.userData['hidden']) this.mode.setHidden(part, false);
   }
 
   private view(): HTMLElement {

@@ -66,3 +66,30 @@ export class Boxes {
     }
   }
 }
+
+/// Boxes that are seen for a moment.
+export class Flashes {
+  private readonly group = marked(new Group());
+  private readonly left: {helper: Box3Helper; seconds: number}[] = [];
+
+  constructor(scene: Scene) { scene.add(this.group); }
+
+  add(boxes: readonly Box3[]): void {
+    for (const box of boxes) {
+      const helper = marked(new Box3Helper(box, new Color(0xe0162b)));
+      this.group.add(helper);
+      this.left.push({helper, seconds: 0.7});
+    }
+  }
+
+  /// True as long as there are any.
+  tick(seconds: number): boolean {
+    for (const flash of this.left) flash.seconds -= seconds;
+    while (this.left[0] && this.left[0].seconds <= 0) {
+      const {helper} = this.left.shift()!;
+      this.group.remove(helper);
+      helper.dispose();
+    }
+    return this.left.length > 0;
+  }
+}

@@ -73,7 +73,10 @@ export function partOf(world: World, object: Object3D | null): Part | null {
 const tables = new WeakMap<World, Map<Object3D, Part>>();
 function byObject(world: World): Map<Object3D, Part> {
   let table = tables.get(world);
-  if (!table) tables.set(world, table = new Map(world.parts.map(p => [p.object, p])));
+  if (!table) {
+    tables.set(world, table = new Map(world.parts.map(p => [p.object, p])));
+    for (const l of world.levels) for (const level of l.levels) table.set(level, l.part);
+  }
   return table;
 }
 
