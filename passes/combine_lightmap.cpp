@@ -302,7 +302,6 @@ bool TexelFactor::read(std::string_view text) {
 
 bool CombineTarget::read(std::string_view text) { return lightmap = text == "lightmap", lightmap || text == "texture"; }
 
-bool CombineFormat::read(std::string_view text) { return value = text, can_encode_as("." + value) && value != "jpeg"; }
 
 Outcome combine_lightmap(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx) {
   if (!ctx.resources || !has_lightmaps(scene)) return Outcome::unchanged;

@@ -21,7 +21,9 @@
 // A page of light becomes one combined page (two, when it has transparent Shapes), larger by a whole factor, so that textures
 // keep their detail. Nodes that other Shapes use, which have no light, are copied before they change.
 #pragma once
+#include "passes/option_range.h"
 #include "passes/pass.h"
+#include "passes/picture_format.h"
 
 namespace wrlkit {
 
@@ -40,22 +42,15 @@ struct CombineTarget {
   std::string print() const { return lightmap ? "lightmap" : "texture"; }
 };
 
-struct CombineFormat {
-  static constexpr std::string_view type = "png, jpg or webp";
-  std::string value = "png";
-  bool read(std::string_view text);
-  std::string print() const { return value; }
-};
-
 struct CombineLightmapOptions {
   TexelFactor scale;
   int max_size = 4096;
   CombineTarget into;
-  CombineFormat format;
+  PictureFormat format;
 
   void fields(auto&& f) {
     f("scale", scale, "texels for each texel of the light, along each side; auto: as many as the textures have");
-    f("max-size", max_size, "pixels along each side of a picture; a larger page of light keeps its size");
+    f("max-size", max_size, "pixels along each side of a picture; a larger page of light keeps its size", between(1, 32768));
     f("into", into, "texture: VRML's one texture; lightmap: all stays as it is, and the lightmap shows the combined colours");
     f("format", format, "of the pictures; JPEG only where there is no alpha");
   }

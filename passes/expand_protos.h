@@ -14,6 +14,7 @@
 // times costs forty nodes and not 2^40. Cost: n log n in what comes out, which is limited; instances beyond the limit become
 // empty Groups.
 #pragma once
+#include "passes/option_range.h"
 #include "passes/pass.h"
 
 namespace wrlkit {
@@ -22,7 +23,7 @@ struct ExpandProtosOptions {
   int limit = 500'000;
   bool keep_declarations = false;
   void fields(auto&& f) {
-    f("limit", limit, "how many nodes and ROUTEs the instances may become, beyond sixteen for each node of the world");
+    f("limit", limit, "how many nodes and ROUTEs the instances may become, beyond sixteen for each node of the world", at_least(0));
     f("keep-declarations", keep_declarations, "keep the declarations although nothing uses them any more");
   }
 };

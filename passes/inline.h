@@ -7,6 +7,7 @@
 // cannot be reached by name from outside (ISO/IEC 14772-1, 6.25). Cost: n log n in the nodes of the files and in the copies,
 // which are limited; beyond the limit they are shared.
 #pragma once
+#include "passes/option_range.h"
 #include "passes/pass.h"
 
 namespace wrlkit {
@@ -15,8 +16,8 @@ struct InlineOptions {
   int depth = 16;
   int limit = 500'000;
   void fields(auto&& f) {
-    f("depth", depth, "how deep Inlines may be nested");
-    f("limit", limit, "how many nodes and ROUTEs may be copied for files that are inlined several times");
+    f("depth", depth, "how deep Inlines may be nested", at_least(0));
+    f("limit", limit, "how many nodes and ROUTEs may be copied for files that are inlined several times", at_least(0));
   }
 };
 Outcome inline_worlds(Scene&, const InlineOptions&, PassContext&);

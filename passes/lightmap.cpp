@@ -82,7 +82,7 @@ class Meshes {
 Outcome take_patches(Scene& scene, const light::LightWorld& world, const LightmapOptions& options, PassContext& ctx) {
   const auto patches = ctx.resources->patches(options.patches, ctx.diag);
   if (!patches) return Outcome::failed;
-  return light_from_patches(scene, world, *patches, {options.smooth, options.format}, ctx) ? Outcome::changed : Outcome::unchanged;
+  return light_from_patches(scene, world, *patches, {options.smooth, options.format.value}, ctx) ? Outcome::changed : Outcome::unchanged;
 }
 
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
@@ -99,7 +99,7 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
   unfold_parts(parts, world.stage());
   const Layout layout(parts, layout_options(options));
   auto pages = bake::bake(parts, layout, world, bake_options(options), ctx);
-  store(scene, parts, layout, world.stage(), pages, {options.format, options.exr}, ctx);
+  store(scene, parts, layout, world.stage(), pages, {options.format.value, options.exr}, ctx);
   for (const Part& p : parts) ctx.stats["lightmap.shapes"] += p.uses.size(), ctx.stats["lightmap.charts"] += p.charts.size() * p.uses.size();
   ctx.stats["lightmap.pages"] += pages.size();
   return Outcome::changed;

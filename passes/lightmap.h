@@ -9,7 +9,9 @@
 #pragma once
 #include <string>
 
+#include "passes/option_range.h"
 #include "passes/pass.h"
+#include "passes/picture_format.h"
 
 namespace wrlkit {
 
@@ -39,21 +41,22 @@ struct LightmapOptions {
   SkyLight sky;
   double emission = 1;
   bool directional = false, exr = false, denoise = true;
-  std::string format = "png", checkpoint, patches;
+  PictureFormat format;
+  std::string checkpoint, patches;
   bool smooth = false;
   int seed = 1;
 
   void fields(auto&& f) {
     f("quality", quality, "how many rays, and how many texels unless a density is given");
-    f("error", error, "relative standard error that is wanted of a texel, such as 0.01; 0: as the quality has it");
-    f("density", density, "texels per metre; 0: as many as fit on one page");
-    f("max-size", max_size, "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given");
+    f("error", error, "relative standard error that is wanted of a texel, such as 0.01; 0: as the quality has it", between(0, 1));
+    f("density", density, "texels per metre; 0: as many as fit on one page", at_least(0));
+    f("max-size", max_size, "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given", between(0, 32768));
     f("sky", sky, "what shines from beyond the world: its Background, nothing, or one radiance");
-    f("emission", emission, "emissiveColor shines so many times as bright as it looks");
+    f("emission", emission, "emissiveColor shines so many times as bright as it looks", at_least(0));
     f("directional", directional, "keep from where the light comes, too");
     f("exr", exr, "write the light as OpenEXR, too");
     f("denoise", denoise, "take the noise out");
-    f("format", format, "of the pictures: png, jpg or webp");
+    f("format", format, "of the pictures");
     f("checkpoint", checkpoint, "file in which finished work is kept, so that the same call goes on after an interruption");
     f("seed", seed, "of the random numbers");
     f("patches", patches, "patch file (wrlkit illuminate) to take the light from, instead of computing it");

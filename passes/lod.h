@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "passes/option_range.h"
 #include "passes/pass.h"
 #include "passes/simplify/levels.h"
 
@@ -37,12 +38,12 @@ struct LodOptions {
     f("ratios", ratios, "triangles of each further level, as shares of the first");
     f("errors", errors, "instead of ratios: how far each further level may be from the first, in metres of the world");
     f("criterion", criterion, "length-normal, melax, lindstrom-turk, quadric or meshopt");
-    f("pixels", pixels, "error of a level on the screen, in pixels, from which on it may be shown");
-    f("screen-height", screen_height, "pixels");
-    f("field-of-view", field_of_view, "of the screen's height, in radians");
-    f("vanish", vanish, "pixels below which a part may be left out altogether, by an empty last level; 0: never");
-    f("min-saving", min_saving, "share of the triangles of the level before that a level has to save to be written");
-    f("min-faces", min_faces, "triangles below which a Shape is left as it is");
+    f("pixels", pixels, "error of a level on the screen, in pixels, from which on it may be shown", at_least(0));
+    f("screen-height", screen_height, "pixels", at_least(1));
+    f("field-of-view", field_of_view, "of the screen's height, in radians", between(0.001, 3.141));
+    f("vanish", vanish, "pixels below which a part may be left out altogether, by an empty last level; 0: never", at_least(0));
+    f("min-saving", min_saving, "share of the triangles of the level before that a level has to save to be written", between(0, 1));
+    f("min-faces", min_faces, "triangles below which a Shape is left as it is", at_least(0));
   }
 };
 

@@ -23,13 +23,14 @@
 // Worlds that are not VRML 1.0 are left alone. Linear in the file and in what it draws; nodes that are used in ever other
 // states are limited like the copies of expand-protos.
 #pragma once
+#include "passes/option_range.h"
 #include "passes/pass.h"
 
 namespace wrlkit {
 
 struct LowerVrml1Options {
   int limit = 500'000;
-  void fields(auto&& f) { f("limit", limit, "how many nodes may be visited again because the state is another one"); }
+  void fields(auto&& f) { f("limit", limit, "how many nodes may be visited again because the state is another one", at_least(0)); }
 };
 Outcome lower_vrml1(Scene&, const LowerVrml1Options&, PassContext&);
 

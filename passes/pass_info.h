@@ -4,6 +4,7 @@
 #include <charconv>
 #include <type_traits>
 
+#include "passes/option_range.h"
 #include "passes/pipeline.h"
 #include "scenegraph/nearest_name.h"
 
@@ -36,6 +37,17 @@ bool read(std::string_view s, N& v) {
   return r.ec == std::errc{} && r.ptr == s.data() + s.size();
 }
 
+/// "0 to 1", "at least 0"; empty when every number will do.
+inline std::string print(OptionRange r) {
+  if (r.most != OptionRange::none) return print(r.least) + " to " + print(r.most);
+  return r.least != -OptionRange::none ? "at least " + print(r.least) : std::string();
+}
+template <class T>
+bool in_range(const T& v, OptionRange r) {
+  if constexpr (std::is_arithmetic_v<T>) return r.contains(v);
+  else return true;
+}
+
 /// A type made for options says these itself: weld.h has one.
 template <class T>
 std::string_view type_name(const T&) { return T::type; }
@@ -45,6 +57,11 @@ std::string print(const T& v) { return v.print(); }
 template <class T>
   requires requires(T& v) { v.read(std::string_view{}); }
 bool read(std::string_view s, T& v) { return v.read(s); }
+
+template <class T>
+OptionInfo describe(std::string_view name, const T& value, std::string_view help, OptionRange range) {
+  return {std::string(name), std::string(type_name(value)), print(value), std::string(help), print(range)};
+}
 
 }  // namespace option_text
 
@@ -63,21 +80,24 @@ class PassOf final : public PassInstance {
     else return Outcome::failed;
   }
   bool set(std::string_view option, std::string_view value, std::string& why) override {
-    bool found = false, good = false;
+    bool found = false;
     NearestName nearest(option);
-    options_.fields([&](std::string_view name, auto& field, std::string_view) {
+    options_.fields([&](std::string_view name, auto& field, std::string_view help, OptionRange range = {}) {
       nearest.consider(name);
-      if (name == option) found = true, good = option_text::read(value, field);
+      if (name != option) return;
+      found = true;
+      auto given = field;
+      if (option_text::read(value, given) && option_text::in_range(given, range)) return why.clear(), void(field = std::move(given));
+      why = "option '" + std::string(option) + "': '" + std::string(value) + "' is no value for it: " + option_text::describe(name, field, help, range).type_and_range();
     });
     if (!found) why = "has no option '" + std::string(option) + "'" + nearest.question();
-    else if (!good) why = "option '" + std::string(option) + "': '" + std::string(value) + "' is no value for it";
-    return good;
+    return why.empty();
   }
   std::vector<OptionInfo> options() const override {
     std::vector<OptionInfo> out;
     Options copy = options_;
-    copy.fields([&](std::string_view name, auto& field, std::string_view help) {
-      out.push_back({std::string(name), std::string(option_text::type_name(field)), option_text::print(field), std::string(help)});
+    copy.fields([&](std::string_view name, auto& field, std::string_view help, OptionRange range = {}) {
+      out.push_back(option_text::describe(name, field, help, range));
     });
     return out;
   }

@@ -18,6 +18,10 @@ namespace wrlkit {
 /// One option of a pass as text: what `passes`, --print-pipeline and the docs show.
 struct OptionInfo {
   std::string name, type, value, help;
+  std::string range;  // of a number: "0 to 1", "at least 0"; empty: any
+
+  /// "number at least 0".
+  std::string type_and_range() const { return range.empty() ? type : type + " " + range; }
 };
 
 /// A pass with its options, type-erased.

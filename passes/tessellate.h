@@ -1,5 +1,6 @@
 // Every geometry node as a mesh of triangles.
 #pragma once
+#include "passes/option_range.h"
 #include "passes/pass.h"
 
 namespace wrlkit {
@@ -21,8 +22,8 @@ struct TessellateOptions {
   bool texcoords = false;  // for a job that is `textured`
 
   void fields(auto&& f) {
-    f("tolerance", tolerance, "largest distance between a curved surface and its faces, in metres; 0: by the size");
-    f("segments", segments, "faces around Cone, Cylinder and Sphere; 0: by the tolerance");
+    f("tolerance", tolerance, "largest distance between a curved surface and its faces, in metres; 0: by the size", at_least(0));
+    f("segments", segments, "faces around Cone, Cylinder and Sphere; 0: by the tolerance", between(0, 4096));
     f("triangles", triangles, "cut all faces into triangles");
     f("texcoords", texcoords, "make the default texture coordinates where a texture needs them and the file has none");
   }

@@ -1,5 +1,7 @@
 #include "passes/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -117,6 +119,7 @@ class TextMaker {
     if (!find_fonts()) return;
     for (auto s : strings) add_line(s);
     if (cut_off_) job_.ctx.diag.report(Diag::expansion_limit, where(), most_characters, "characters in one Text node");
+    report_missing();
     set_lengths();
     place();
   }
@@ -134,6 +137,7 @@ class TextMaker {
   void start_mesh();
   bool find_fonts();
   const Glyph& glyph(char32_t);
+  void report_missing();
   void add_line(std::string_view);
   double advance(const Glyph& g) const { return style_.horizontal ? g.advance * style_.size : style_.size; }
   void set_lengths();
@@ -150,6 +154,8 @@ class TextMaker {
   std::vector<const Glyph*> glyphs_;
   std::vector<Line> lines_;
   bool cut_off_ = false;
+  std::size_t n_missing_ = 0;
+  char32_t first_missing_ = 0;
   Vec2 origin_{};  // of the texture
 };
 
@@ -176,7 +182,12 @@ bool TextMaker::find_fonts() {
 const Glyph& TextMaker::glyph(char32_t c) {
   if (auto* g = font_->glyph(c)) return *g;
   if (auto* g = second_->glyph(c)) return *g;
+  if (n_missing_++ == 0) first_missing_ = c;
   return font_->missing();
+}
+
+void TextMaker::report_missing() {
+  if (n_missing_) job_.ctx.diag.report(Diag::missing_glyph, where(), title(job_), n_missing_, fmt::format("{:04X}", static_cast<std::uint32_t>(first_missing_)));
 }
 
 void TextMaker::add_line(std::string_view s) {

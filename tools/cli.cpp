@@ -31,7 +31,7 @@ void common(CLI::App& verb, Flags& f) {
   g->add_flag("--json", f.json, "print for machines");
   g->add_flag("--strict", f.strict, "every repair is an error");
   g->add_option("--report", f.report, "write what happened to this file, as JSON")->type_name("FILE");
-  g->add_option("--allow-path", f.allow_paths, "files below this folder may be read, too (Inline, textures)")->type_name("DIR");
+  g->add_option("--allow-path", f.allow_paths, "files below this folder may be read, too (Inline, textures)")->type_name("DIR")->allow_extra_args(false);
   g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
   g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")->type_name("SIZE");
 }

@@ -57,12 +57,19 @@ bool write_as_text(Session& s, bool gzip, Target target) {
   return (target == Target::x3d ? write_x3d_file : write_vrml_file)(s, s.world().scene, s.flags().output, gzip);
 }
 
+/// A glTF without meshes is what some worlds deserve (lights, PROTO libraries), but nobody should find it out later.
+void say_why_empty(const Scene& scene, Diagnostics& diag) {
+  const auto& roots = scene.main.roots;
+  if (diag.count(Diag::unknown_node) > 0) diag.report(Diag::nothing_drawn, roots.empty() ? Span{} : scene.where(roots[0]), "it has no geometry, but nodes that are not known");
+  else if (roots.empty()) diag.report(Diag::nothing_drawn, Span{}, "it holds no node");
+}
+
 bool write_as_gltf(Session& s, bool binary) {
   Scene& scene = s.world().scene;
   auto meshes = s.pipeline().run_lazily(scene, s.context(), s.pipeline_options());
   if (!meshes) return false;
   const auto n_geometries = count_geometries(scene);
-  if (n_geometries == 0 && s.diag().count(Diag::unknown_node) > 0) s.diag().report(Diag::nothing_drawn, scene.main.roots.empty() ? Span{} : scene.where(scene.main.roots[0]));
+  if (n_geometries == 0) say_why_empty(scene, s.diag());
   s.progress().begin("writing " + s.flags().output, n_geometries, "shapes");
   auto counted = [&](NodeId n) -> const Mesh& { return s.progress().step(), meshes(n); };
   MadeFiles beside(scene, s.resources(), s.flags().output, s.diag());  // pictures are glTF's own matter; the rest is here

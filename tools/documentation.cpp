@@ -76,7 +76,7 @@ std::string type_text(const NodeType& t) {
 
 std::string pass_text(const PassInfo& p) {
   std::string out = fmt::format("{}: {}\n  needs level {}, leaves level {}\n", p.name, p.summary, level_word(p.needs), level_word(p.leaves));
-  for (auto& o : p.make()->options()) out += fmt::format("  {:<20}{:<9}{:<12}{}\n", o.name, o.type, o.value, o.help);
+  for (auto& o : p.make()->options()) out += fmt::format("  {:<18} {:<28} {:<14} {}\n", o.name, o.type_and_range(), o.value, o.help);
   return out;
 }
 
@@ -122,6 +122,7 @@ std::string passes_json() {
       json.begin_object();
       json.member("name", o.name);
       json.member("type", o.type);
+      if (!o.range.empty()) json.member("range", o.range);
       json.member("default", o.value);
       json.member("help", o.help);
       json.end_object();
@@ -148,7 +149,7 @@ std::string passes_page() {
     out += fmt::format("\n## {}\n\n{}. Needs level *{}*, leaves level *{}*.\n", p.name, p.summary, level_word(p.needs), level_word(p.leaves));
     auto options = p.make()->options();
     if (!options.empty()) out += "\n| option | type | default | |\n|---|---|---|---|\n";
-    for (auto& o : options) out += fmt::format("| {} | {} | {} | {} |\n", o.name, o.type, o.value, o.help);
+    for (auto& o : options) out += fmt::format("| {} | {} | {} | {} |\n", o.name, o.type_and_range(), o.value, o.help);
   }
   out += "\n## Pipelines with a name\n\n| name | passes | |\n|---|---|---|\n";
   for (auto& n : named_pipelines()) out += fmt::format("| {} | `{}` | {} |\n", n.name, n.text, n.summary);

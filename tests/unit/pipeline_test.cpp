@@ -30,7 +30,11 @@ TEST_CASE("pipeline: text and back", "[pipeline]") {
 TEST_CASE("pipeline: what is wrong with a text", "[pipeline]") {
   CHECK(canonical("polish") == "error: there is no pass 'polish'");
   CHECK(canonical("inline{deepness=3}") == "error: pass 'inline' has no option 'deepness'");
-  CHECK(canonical("inline{depth=deep}") == "error: pass 'inline' option 'depth': 'deep' is no value for it");
+  CHECK(canonical("inline{depth=deep}") == "error: pass 'inline' option 'depth': 'deep' is no value for it: integer at least 0");
+  CHECK(canonical("inline{depth=-1}") == "error: pass 'inline' option 'depth': '-1' is no value for it: integer at least 0");
+  CHECK(canonical("lod{min-saving=nan}") == "error: pass 'lod' option 'min-saving': 'nan' is no value for it: number 0 to 1");
+  CHECK(canonical("lod{min-saving=1.01}") == "error: pass 'lod' option 'min-saving': '1.01' is no value for it: number 0 to 1");
+  CHECK(canonical("lightmap{format=bmp}") == "error: pass 'lightmap' option 'format': 'bmp' is no value for it: png, jpg or webp");
   CHECK(canonical("inline{depth=3") == "error: '}' is missing behind 'inline'");
 }
 
