@@ -39,6 +39,16 @@ async function figures_and_selection() {
   assert.equal(await page.locator('.part[aria-selected=true]').count(), 1);
   assert(number_of(await page.textContent('#part-triangles')) > 0);
 
+  // Its 623 shapes are drawn in few calls, and each can be hidden all the same.
+  const figures = () => page.evaluate(() => new Promise(done => { window.viewer.mode.stage.invalidate(); requestAnimationFrame(() => requestAnimationFrame(() => done(window.viewer.mode.stage.figures))); }));
+  await page.keyboard.press('f');
+  const before = await figures();
+  assert(before.draws < 60, `${before.draws} draws`);
+  await page.getByRole('button', {name: 'Show only this'}).click();
+  assert((await figures()).triangles < before.triangles);
+  await page.getByRole('button', {name: 'Show all'}).click();
+  assert.equal((await figures()).triangles, before.triangles);
+
   // The address keeps it.
   const selected = await page.locator('#panel-part h2').first().textContent();
   await page.waitForFunction(() => location.hash.includes('select='));

@@ -3,15 +3,17 @@ import {AnimationMixer, Color, Raycaster, Scene, Vector3, type AnimationAction} 
 import {state} from '../state';
 import {Boxes, edgeMaterial, Flashes, Highlight} from '../view/overlay';
 import type {Mode, Stage} from '../view/stage';
+import {Batches, batchedLayer} from '../world/batches';
 import {LevelControl} from '../world/levels';
 import {Lights, type Lighting} from '../world/lights';
 import {Looks, type Look} from '../world/looks';
-import {boxOf, partOf, type Part, type Viewpoint, type World} from '../world/world';
+import {boxOf, isShown, partOf, type Part, type Viewpoint, type World} from '../world/world';
 
 export class WorldMode implements Mode {
   readonly scene = new Scene();
   readonly lights: Lights;
   readonly looks = new Looks();
+  private readonly batches: Batches;
   look: Look = 'full';
   edges = false;
   playing = false;
@@ -27,6 +29,7 @@ export class WorldMode implements Mode {
 
   constructor(readonly world: World, readonly stage: Stage) {
     this.scene.add(world.root);
+    this.batches = new Batches(this.scene, world);
     this.lights = new Lights(this.scene, world);
     this.highlight = new Highlight(this.scene);
     this.boxes = new Boxes(this.scene, world);
@@ -47,6 +50,7 @@ export class WorldMode implements Mode {
     const switched = this.levels?.update(camera, height) ?? [];
     if (this.flash) this.flashes.add(switched);
     this.lights.follow(camera);
+    this.batches.update();
     renderer.render(this.scene, camera);
     if (!this.edges) return;
     this.scene.overrideMaterial = edgeMaterial;
@@ -81,12 +85,14 @@ export class WorldMode implements Mode {
   setLook(look: Look): void {
     this.look = look;
     this.looks.apply(this.world.root, look);
+    this.batches.setLook(this.looks, look);
     this.stage.invalidate();
   }
 
   setTint(on: boolean): void {
-    if (on) this.levels?.tint(this.looks);
-    else this.looks.apply(this.world.root, this.look);
+    if (!on) return this.setLook(this.look);
+    this.levels?.tint(this.looks);
+    this.batches.setLook(this.looks, 'grey');
     this.stage.invalidate();
   }
 
@@ -94,6 +100,7 @@ export class WorldMode implements Mode {
   setHidden(part: Part, hidden: boolean): void {
     part.object.userData['hidden'] = hidden;
     part.object.visible = !hidden;
+    this.batches.visibilityChanged();
     this.stage.invalidate();
   }
 
@@ -148,14 +155,10 @@ export class WorldMode implements Mode {
 
   click(x: number, y: number): void {
     const ray = new Raycaster();
+    ray.layers.enable(batchedLayer);
     ray.params.Line.threshold = ray.params.Points.threshold = 4 * this.stage.metresPerPixel(this.stage.navigator.distance);
     ray.setFromCamera(this.stage.toClip(x, y), this.stage.camera);
     const hit = ray.intersectObject(this.world.root, true).find(found => isShown(found.object));
     this.select(hit ? partOf(this.world, hit.object) : null);
   }
-}
-
-function isShown(object: {visible: boolean; parent: unknown}): boolean {
-  for (let o: {visible: boolean; parent: unknown} | null = object; o; o = o.parent as typeof o) if (!o.visible) return false;
-  return true;
 }

@@ -88,3 +88,9 @@ export function boxOf(part: Part): Box3 {
 export function meshesBelow(part: Part): Mesh[] {
   return [...part.meshes, ...part.children.flatMap(meshesBelow)];
 }
+
+/// Whether neither an object nor anything above it is hidden.
+export function isShown(object: Object3D): boolean {
+  for (let o: Object3D | null = object; o; o = o.parent) if (!o.visible) return false;
+  return true;
+}
