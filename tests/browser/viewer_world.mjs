@@ -53,7 +53,8 @@ async function figures_and_selection() {
   const selected = await page.locator('#panel-part h2').first().textContent();
   await page.waitForFunction(() => location.hash.includes('select='));
   const fragment = new URL(page.url()).hash;
-  const other = await open_page(browser, html, {fragment});
+  const other = await open_page(browser, html, {fragment: `${fragment}&edges=1`});
+  assert(await other.page.getByLabel('Edges (hidden lines removed)').isChecked());
   assert.equal(await other.page.locator('#panel-part h2').first().textContent(), selected);
   assert.deepEqual([...faults, ...other.faults], []);
   await close(), await other.close();

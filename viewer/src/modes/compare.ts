@@ -37,7 +37,7 @@ export class CompareMode implements Mode {
   onChange(call: () => void): void { this.changed.push(call); }
 
   enter(): void {
-    if (this.stage.navigator.manner === 'free') this.stage.navigator.manner = 'orbit';
+    this.stage.navigator.manner = 'orbit';
     this.stage.show(this);
     void this.setLayout(this.layout);
   }

@@ -17,6 +17,7 @@ export class WorldMode implements Mode {
   look: Look = 'full';
   edges = false;
   playing = false;
+  manner: 'orbit' | 'walk' = 'orbit';
   selected: Part | null = null;
   private readonly highlight: Highlight;
   private readonly boxes: Boxes;
@@ -42,7 +43,7 @@ export class WorldMode implements Mode {
   get box() { return this.world.box; }
 
   enter(): void {
-    this.stage.navigator.manner = this.stage.navigator.manner === 'free' ? 'orbit' : this.stage.navigator.manner;
+    this.stage.navigator.manner = this.manner;
     this.stage.show(this);
   }
 
@@ -125,6 +126,11 @@ export class WorldMode implements Mode {
     const sky = this.world.sky;
     this.scene.background = on && sky ? new Color().setRGB(sky[0]!, sky[1]!, sky[2]!, 'srgb') : null;
     this.stage.invalidate();
+  }
+
+  move(manner: 'orbit' | 'walk'): void {
+    this.manner = this.stage.navigator.manner = manner;
+    state.set('move', manner === 'walk' ? manner : null);
   }
 
   onSelect(call: (part: Part | null) => void): void { this.selectedBy.push(call); }

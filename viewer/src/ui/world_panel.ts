@@ -101,14 +101,23 @@ export class WorldPanel {
   private view(): HTMLElement {
     const {mode} = this;
     const {world, stage} = mode;
-    const manner = choice('Move', [['orbit', 'Orbit'], ['walk', 'Walk']] as const, stage.navigator.manner === 'walk' ? 'walk' : 'orbit', value => { stage.navigator.manner = value; state.set('move', value); stage.canvas.focus(); });
+    if (state.get('move') === 'walk') mode.move('walk');
+    const manner = choice('Move', [['orbit', 'Orbit'], ['walk', 'Walk']] as const, mode.manner, value => {
+      mode.move(value);
+      stage.canvas.focus();
+    });
     const lighting = choice<Lighting>('Light', [['world', 'World’s'], ['headlight', 'Headlight'], ['off', 'Off']], 'world', value => mode.setLighting(value));
     lighting.element.dataset['key'] = 'l';
     const parts: HTMLElement[] = [manner.element, lighting.element];
     if (world.parts.some(p => p.meshes.some(m => lightOf(mode.looks.original(m))))) parts.push(this.bakedLight());
     else parts.push(choice<Look>('Surface', [['full', 'As it is'], ['grey', 'Grey']], 'full', value => mode.setLook(value)).element);
-    parts.push(check('Edges (hidden lines removed)', false, on => { mode.setEdges(on); state.set('edges', on ? 1 : null); }, 'x'), check('Bounding boxes', false, on => mode.setBoxes(on), 'b'));
-    if (world.sky) parts.push(check('Sky of the world', false, on => mode.setSky(on)));
+    const kept = (label: string, name: string, key: string, set: (on: boolean) => void): HTMLElement => {
+      const on = state.get(name) === '1';
+      if (on) set(true);
+      return check(label, on, value => { set(value); state.set(name, value ? 1 : null); }, key);
+    };
+    parts.push(kept('Edges (hidden lines removed)', 'edges', 'x', on => mode.setEdges(on)), kept('Bounding boxes', 'boxes', 'b', on => mode.setBoxes(on)));
+    if (world.sky) parts.push(kept('Sky of the world', 'sky', '', on => mode.setSky(on)));
     const sections = [section('Display', ...parts)];
     const places = world.viewpoints.map(v => button(v.name, () => mode.goTo(v)));
     sections.push(section('Viewpoints', h('div', {class: 'buttons'}, button('All of it', () => stage.overview(world.box)), ...places)));
