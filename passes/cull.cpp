@@ -12,6 +12,7 @@
 #include "passes/geometry.h"
 #include "passes/render/gather.h"
 #include "passes/tessellate.h"
+#include "passes/text_list.h"
 #include "passes/usage.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -31,8 +32,14 @@ class Culling {
     mesh_of_ = Gatherer(scene_, [this](NodeId n) -> const Mesh& { return triangles(n); }, pool_).meshes_of(stage_, unheard_);
     find_fixed();
     gone_.resize(stage_.uses.size());
-    if (options_.smaller.metres > 0) find_small(), leave_out("cull.small");
-    if (options_.hidden) find_hidden(), leave_out("cull.hidden");
+    if (options_.smaller.metres > 0) {
+      find_small();
+      leave_out("cull.small", "smaller than " + options_.smaller.print() + " m");
+    }
+    if (options_.hidden) {
+      find_hidden();
+      leave_out("cull.hidden", "hidden");
+    }
     if (left_out_.empty()) return Outcome::unchanged;
     remove_shapes();
     write_list();
@@ -49,7 +56,7 @@ class Culling {
   double extent(std::uint32_t use, const Box& box) const;
   void find_hidden();
   bool may_be_clear(const Use& use) const;
-  void leave_out(const char* counter);
+  void leave_out(const char* counter, const std::string& why);
   void remove_shapes();
   void write_list() const;
 
@@ -190,8 +197,9 @@ void Culling::find_hidden() {
 }
 
 /// Shapes of which every place is gone.
-void Culling::leave_out(const char* counter) {
+void Culling::leave_out(const char* counter, const std::string& why) {
   shape_gone_.resize(scene_.node_count());
+  TextList names;
   std::vector<char> stays(scene_.node_count());
   for (std::size_t u = 0; u < gone_.size(); ++u)
     if (!gone_[u]) stays[stage_.uses[u].shape.value] = 1;
@@ -202,7 +210,9 @@ void Culling::leave_out(const char* counter) {
     if (std::exchange(shape_gone_[use.shape.value], 1)) continue;
     ++ctx_.stats[counter];
     left_out_.push_back(full_name(scene_, stage_, use));
+    names.add(left_out_.back().empty() ? "(no name)" : left_out_.back());
   }
+  if (!names.empty()) ctx_.diag.report(Diag::culled, {}, names.count(), why, names.text());
 }
 
 void Culling::remove_shapes() {

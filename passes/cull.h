@@ -38,8 +38,8 @@ struct CullOptions {
 /// - Left alone: what a ROUTE, a Script, an IS or an instance of a prototype may change, with all below it; what stands
 ///   below a LOD or Switch, or is held otherwise than by a group; lines and points, by `hidden`.
 ///
-/// Groups stay, also empty ones: run `prune` behind it. `list` gets the names of what is left out, from the root.
-/// Counted: cull.small, cull.hidden (Shapes), cull.triangles, and figures.h. The same result for any number of threads.
+/// Groups stay, also empty ones: run `prune` behind it. What is left out is said (culled), with the first names; `list`
+/// gets all. Counted: cull.small, cull.hidden (Shapes), cull.triangles, and figures.h. The same result for any number of threads.
 Outcome cull(Scene&, const CullOptions&, PassContext&);
 
 }  // namespace wrlkit

@@ -2,6 +2,7 @@
 
 #include "passes/figures.h"
 #include "passes/representatives.h"
+#include "passes/text_list.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -26,6 +27,7 @@ class Sharing {
     share(scene_.main, seen);
     for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) share(scene_.proto(ProtoId{i}).body, seen);
     if (!any_) return Outcome::unchanged;
+    if (!lost_.empty()) ctx_.diag.report(Diag::names_lost, {}, "dedup", lost_.count(), lost_.text());
     count_figures(ctx_, "dedup", before, figures_of(scene_));
     return Outcome::changed;
   }
@@ -40,7 +42,7 @@ class Sharing {
       if (same.of(n) == n) continue;
       any_ = true;
       ++ctx_.stats[kind_of(scene_.type(n))];
-      if (const auto name = scene_.name(n); !name.empty() && name != scene_.name(same.of(n))) ++ctx_.stats["dedup.names-lost"];
+      if (const auto name = scene_.name(n); !name.empty() && name != scene_.name(same.of(n))) lost_.add(name);
     }
   }
 
@@ -62,6 +64,7 @@ class Sharing {
   const DedupOptions& options_;
   PassContext& ctx_;
   Usage usage_;
+  TextList lost_;
   bool any_ = false;
 };
 

@@ -28,7 +28,7 @@ struct DedupOptions {
 ///   that are not known; Shapes and groups, which are things of their own.
 /// - The bodies of prototypes are scopes of their own, and share among themselves.
 ///
-/// Nothing is seen of it. Counted: dedup.names-lost, dedup.appearances, dedup.materials, dedup.textures, dedup.geometries, dedup.arrays (Coordinate,
+/// Nothing is seen of it. Counted: dedup.appearances, dedup.materials, dedup.textures, dedup.geometries, dedup.arrays (Coordinate,
 /// Normal, ...), dedup.others: how many fewer there are; and figures.h. Linear in nodes and values.
 Outcome dedup(Scene&, const DedupOptions&, PassContext&);
 

@@ -8,6 +8,7 @@
 #include "passes/geometry.h"
 #include "passes/instance/match.h"
 #include "passes/simplify/places.h"
+#include "passes/text_list.h"
 #include "passes/usage.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -39,7 +40,7 @@ class Instancing {
     if (dropped_.empty()) return Outcome::unchanged;
     replace_shapes();
     ctx_.stats["instance.copies"] += dropped_.size();
-    count_lost_names();
+    report_lost_names();
     count_figures(ctx_, "instance", before, figures_of(scene_));
     return Outcome::changed;
   }
@@ -65,7 +66,7 @@ class Instancing {
   std::vector<std::uint64_t> cells(const Form& form, double tolerance, bool all) const;
   bool is_worth(const Group& g) const;
   void share(const Group& g);
-  void count_lost_names();
+  void report_lost_names();
   void put(const ShapeSurface& surface, const TransformFields& where, std::string_view name);
   void replace_shapes();
   bool replace(std::span<NodeId> list) const;
@@ -249,14 +250,16 @@ void Instancing::replace_shapes() {
 }
 
 /// Of Coordinates and the like that nobody holds any more.
-void Instancing::count_lost_names() {
+void Instancing::report_lost_names() {
   std::vector<char> seen;
   std::vector<NodeId> left;
   reach(scene_, scene_.main.roots, seen, left);
+  TextList lost;
   for (NodeId g : dropped_)
     for_each_child(scene_, g, [&](NodeId n) {
-      if (!seen[n.value] && !scene_.name(n).empty()) ++ctx_.stats["instance.names-lost"];
+      if (!seen[n.value] && !scene_.name(n).empty()) lost.add(scene_.name(n));
     });
+  if (!lost.empty()) ctx_.diag.report(Diag::names_lost, {}, "instance", lost.count(), lost.text());
 }
 
 }  // namespace

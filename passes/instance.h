@@ -55,7 +55,7 @@ struct InstanceOptions {
 ///   geometry; Shapes that are held otherwise than by a group; bodies of prototypes.
 ///
 /// Run `weld`, and for one Shape a face `join`, before it. Counted: instance.groups, instance.copies (geometries that are no more),
-/// instance.names-lost, and figures.h. Expected linear in the corners, n log n where copies differ in their order.
+/// and figures.h. Names that go are said (names-lost). Expected linear in the corners, n log n where copies differ in their order.
 Outcome instance(Scene&, const InstanceOptions&, PassContext&);
 
 }  // namespace wrlkit

@@ -103,8 +103,9 @@ void Pipeline::complete(std::string_view named) {
       if (std::ranges::find(steps_, from->info, &Step::info) == steps_.end()) all.push_back(std::move(*from));
   };
   add_missing(standard->steps_.begin(), split);
-  // Where nothing is drawn, what the standard pipeline does to a world is done to those that Inlines bring in as well.
-  auto brings_in = [](const Step& s) { return s.info->name == "inline" || s.info->name == "expand-protos"; };
+  // Where nothing is drawn, what the standard pipeline does to a world is done to those that Inlines bring in as well, and to the metadata
+  // that `merge` makes.
+  auto brings_in = [](const Step& s) { return s.info->name == "inline" || s.info->name == "expand-protos" || s.info->name == "merge"; };
   if (split == standard->steps_.end() && std::ranges::any_of(steps_, brings_in)) {
     if (!all.empty() && all[0].info->name == "lower-vrml1") steps_.insert(steps_.begin(), std::move(all[0])), all.erase(all.begin());  // Inlines are found behind it
     auto last = std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base();

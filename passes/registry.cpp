@@ -12,6 +12,7 @@
 #include "passes/lod.h"
 #include "passes/lower_vrml1.h"
 #include "passes/lower_x3d.h"
+#include "passes/merge.h"
 #include "passes/normals.h"
 #include "passes/pass_info.h"
 #include "passes/prune.h"
@@ -32,6 +33,7 @@ constexpr PassInfo all_passes[] = {
     pass<dedup, DedupOptions>("dedup", "share what is written several times and says the same", Level::authored, Level::authored),
     pass<instance, InstanceOptions>("instance", "share geometry that is the same but for a motion and a scale", Level::authored, Level::authored),
     pass<cull, CullOptions>("cull", "leave out what is small, or never seen", Level::expanded, Level::expanded),
+    pass<merge, MergeOptions>("merge", "few Shapes of many, each part still known by its name", Level::expanded, Level::expanded),
     pass<tessellate, TessellateOptions>("tessellate", "turn every geometry node into faces, and faces into triangles", Level::expanded, Level::mesh),
     pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", Level::authored, Level::authored),
     pass<lod, LodOptions>("lod", "make levels of detail of each Shape", Level::authored, Level::authored),

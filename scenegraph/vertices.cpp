@@ -287,7 +287,7 @@ class Indices {
 }  // namespace
 
 void Vertices::clear() {
-  position.clear(), normal.clear(), color.clear(), texcoord.clear(), lightcoord.clear(), index.clear();
+  position.clear(), normal.clear(), color.clear(), texcoord.clear(), lightcoord.clear(), feature.clear(), index.clear();
   color_width = 3;
   origin = {};
   min = max = {};

@@ -28,6 +28,7 @@ struct Vertices {
   std::vector<float> color;          // rgb or rgba as `color_width` says, in [0, 1]
   std::vector<float> texcoord;       // uv
   std::vector<float> lightcoord;     // uv
+  std::vector<float> feature;        // the part that a vertex is of; split_vertices leaves it empty
   std::vector<std::uint32_t> index;  // three for each triangle, two for each segment, one for each point
   int color_width = 3;
   std::array<double, 3> origin{};

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "scenegraph/equal.h"
+#include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -156,6 +157,7 @@ bool Extras::adds_to_vertices(NodeId n, const Value& v) const {
   if (!speaks(n, v, said_by_vertices(n))) return false;
   if (scene_.is_extra(v) || info(v.type).element != Element::node) return true;
   const auto field = scene_.type(n).fields[v.slot].name;
+  if (field == "metadata" && features_of(scene_, n)) return false;  // feature ids say it
   return !v.node_span().empty() && ((field != "coord" && field != "color") || !name(v.node).empty());
 }
 

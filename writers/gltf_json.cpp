@@ -71,16 +71,20 @@ class Writer {
     json_.begin_object();
     json_.member("version", "2.0");
     json_.member("generator", "wrlkit");
-    if (p_.extras) {
+    const auto& parts = p_.meshes.feature_names();
+    if (p_.extras || !parts.empty()) {
       json_.key("extras");
       json_.begin_object();
+      list("features", parts.size(), [&](std::size_t i) { json_.value(parts[i]); });
+    }
+    if (p_.extras) {
       json_.key("vrml97");
       json_.begin_object();
       if (!p_.scene.comment.empty()) json_.member("comment", p_.scene.comment);
       if (h_.world_info()) p_.extras->node(json_, h_.world_info(), {});
       json_.end_object();
-      json_.end_object();
     }
+    if (p_.extras || !parts.empty()) json_.end_object();
     json_.end_object();
   }
 
@@ -90,6 +94,7 @@ class Writer {
     if (p_.materials.uses_unlit()) used.push_back("KHR_materials_unlit");
     if (p_.materials.uses_texture_transform()) used.push_back("KHR_texture_transform");
     if (p_.materials.uses_moz_lightmap()) used.push_back("MOZ_lightmap");
+    if (!p_.meshes.feature_names().empty()) used.push_back("EXT_mesh_features");
     if (h_.uses_lod()) used.push_back("MSFT_lod");
     const auto needed = required();
     used.insert(used.end(), needed.begin(), needed.end());
@@ -248,13 +253,31 @@ class Writer {
     if (s.colors != none) json_.member(m.shows_color ? "COLOR_0" : "_COLOR", s.colors);
     if (s.texcoords != none) json_.member("TEXCOORD_0", s.texcoords);
     if (s.lightcoords != none) json_.member(s.texcoords != none ? "TEXCOORD_1" : "TEXCOORD_0", s.lightcoords);
+    if (s.features != none) json_.member("_FEATURE_ID_0", s.features);
     json_.end_object();
     if (s.indices != none) json_.member("indices", s.indices);
     if (m.material != none) json_.member("material", m.material);
     if (g.mode != Mode::triangles) json_.member("mode", static_cast<int>(g.mode));
+    if (g.features != none) mesh_features(g);
     json_.end_object();
     json_.end_array();
     if (p_.extras) mesh_extras(g, p_.packing.dequantization(m));
+    json_.end_object();
+  }
+
+  /// EXT_mesh_features: the numbers of the first set are in _FEATURE_ID_0.
+  void mesh_features(const Geometry& g) {
+    json_.key("extensions");
+    json_.begin_object();
+    json_.key("EXT_mesh_features");
+    json_.begin_object();
+    list("featureIds", 1, [&](std::size_t) {
+      json_.begin_object();
+      json_.member("featureCount", g.n_features);
+      json_.member("attribute", 0);
+      json_.end_object();
+    });
+    json_.end_object();
     json_.end_object();
   }
 

@@ -1,5 +1,8 @@
 #include "writers/gltf_meshes.h"
 
+#include <algorithm>
+
+#include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
 #include "writers/gltf_origin.h"
 #include "writers/meshopt.h"
@@ -31,6 +34,11 @@ std::vector<std::uint32_t> runs(const Mesh& mesh) {
   return polygons ? out : std::vector<std::uint32_t>{};
 }
 
+std::uint32_t n_different(std::vector<float> v) {
+  std::ranges::sort(v);
+  return static_cast<std::uint32_t>(std::ranges::unique(v).begin() - v.begin());
+}
+
 }  // namespace
 
 std::uint32_t Meshes::geometry(NodeId n, bool picture) {
@@ -57,6 +65,8 @@ bool Meshes::gives_texcoords(NodeId n) const {
 Geometry Meshes::make(NodeId n, bool texcoords) {
   const Mesh& mesh = source_(n);
   Geometry g{.source = n, .mode = mode_of(mesh.kind), .double_sided = mesh.kind == Mesh::Kind::faces && !mesh.solid};
+  feature_of_corner_.clear();
+  if (!number_parts(n, mesh)) diag_.report(Diag::no_gltf_value, scene_.where(n), scene_.type(n).name, "metadata (faces of parts that a pass has changed)");
   split(mesh, texcoords);
   const Vertices& v = vertices_;
   if (v.n_not_finite > 0)
@@ -71,6 +81,10 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   if (!v.color.empty()) g.colors = store_.vertices(v.color_width == 4 ? View::rgba : View::rgb, v.color);
   if (!v.texcoord.empty()) g.texcoords = store_.vertices(View::texcoord, v.texcoord);
   if (!v.lightcoord.empty()) g.lightcoords = store_.vertices(View::texcoord, v.lightcoord);
+  if (!v.feature.empty()) {
+    g.features = store_.vertices(View::feature, v.feature);
+    g.n_features = n_different(v.feature);
+  }
   if (!counts_up(v.index, v.count())) g.indices = store_.indices(v.index, v.count());
   if (!store_.full()) g.positions = positions;
   return g;
@@ -82,7 +96,29 @@ void Meshes::split(const Mesh& mesh, bool texcoords, const Vec3& origin) {
       mesh,
       {.origin = origin, .normals = faces, .texcoords = faces && texcoords, .lightcoords = faces && light_, .linear_colors = true, .flip_v = true},
       scratch_, vertices_);
+  if (!feature_of_corner_.empty()) {
+    vertices_.feature.resize(vertices_.count());
+    for (std::size_t c = 0; c < feature_of_corner_.size(); ++c) vertices_.feature[scratch_.of_corner[c]] = feature_of_corner_[c];
+  }
   if (ordered_ && faces) order_for_drawing(vertices_);
+}
+
+/// The names of parts get numbers that are those of the whole file. False when parts and faces do not agree.
+bool Meshes::number_parts(NodeId n, const Mesh& mesh) {
+  const auto parts = features_of(scene_, n);
+  if (!parts) return true;
+  const auto& cut = mesh.cut;
+  if (parts->n_faces() != (cut.empty() ? mesh.n_faces() : cut.size())) return false;
+  std::size_t face = 0;
+  for (std::size_t p = 0; p < parts->names.size(); ++p) {
+    auto [at, is_new] = feature_of_.try_emplace(std::string(parts->names[p]), static_cast<std::uint32_t>(feature_names_.size()));
+    if (is_new) feature_names_.push_back(at->first);
+    for (std::int32_t i = 0; i < parts->faces[p]; ++i, ++face) {
+      const std::size_t corners = cut.empty() ? mesh.end_of(face) - mesh.begin_of(face) : cut[face] * std::size_t{3};
+      feature_of_corner_.insert(feature_of_corner_.end(), corners, static_cast<float>(at->second));
+    }
+  }
+  return true;
 }
 
 std::uint32_t Meshes::move_near_origin(const Mesh& mesh, bool texcoords) {

@@ -1,6 +1,9 @@
 // Meshes: one for each geometry and material that are used together. The vertex data of a geometry is made when it is
 // first met, and shared by all meshes with it.
 #pragma once
+#include <string>
+#include <unordered_map>
+
 #include "scenegraph/diagnostics.h"
 #include "scenegraph/transform.h"
 #include "scenegraph/vertices.h"
@@ -17,6 +20,8 @@ enum class Mode : std::uint8_t { points = 0, lines = 1, triangles = 4 };
 struct Geometry {
   NodeId source;
   std::uint32_t positions = none, normals = none, colors = none, texcoords = none, lightcoords = none, indices = none;
+  std::uint32_t features = none;    // for each vertex the number of the part that it is of (scenegraph/features.h)
+  std::uint32_t n_features = 0;     // different ones
   std::uint32_t origin = none;      // into Meshes::origins: where the positions are relative to
   std::uint32_t first_mesh = none;  // of those with it
   std::uint32_t textured = none;    // the same geometry, with texture coordinates
@@ -59,12 +64,15 @@ class Meshes {
   const std::vector<Geometry>& geometries() const { return geometries_; }
   const std::vector<MeshRecord>& meshes() const { return meshes_; }
   const std::vector<Vec3>& origins() const { return origins_; }
+  /// Names of parts; the number of a part is its place here.
+  const std::vector<std::string>& feature_names() const { return feature_names_; }
   /// Of a geometry that is not empty, in a frame.
   Box bounds(const Geometry&, const Matrix&) const;
 
  private:
   Geometry make(NodeId, bool texcoords);
   void split(const Mesh&, bool texcoords, const Vec3& origin = {});
+  bool number_parts(NodeId, const Mesh&);
   bool gives_texcoords(NodeId) const;
   std::uint32_t move_near_origin(const Mesh&, bool texcoords);
   std::uint32_t baked(const Geometry&, NodeId texture_transform, std::vector<float> Vertices::*places);
@@ -78,6 +86,9 @@ class Meshes {
   std::vector<Geometry> geometries_;
   std::vector<MeshRecord> meshes_;
   std::vector<Vec3> origins_;
+  std::vector<std::string> feature_names_;
+  std::unordered_map<std::string, std::uint32_t> feature_of_;
+  std::vector<float> feature_of_corner_;  // of the mesh that is being made; empty: it has no parts
   SplitScratch scratch_;
   Vertices vertices_;
 };

@@ -16,7 +16,7 @@ double tolerance_for(const GltfCompression& options, const Box& world) {
 }
 
 Streams streams_of(const Geometry& g, const MeshRecord& m) {
-  return {g.positions, g.normals, g.colors, m.texcoords, m.lightcoords, g.indices};
+  return {g.positions, g.normals, g.colors, m.texcoords, m.lightcoords, g.indices, g.features};
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ void Packing::note_uses() {
 }
 
 Streams Packing::packed(const Streams& s) {
-  return {positions(s.positions), normals(s.normals), colors(s.colors), texcoords(s.texcoords), texcoords(s.lightcoords), indices(s.indices)};
+  return {positions(s.positions), normals(s.normals), colors(s.colors), texcoords(s.texcoords), texcoords(s.lightcoords), indices(s.indices), s.features == none ? none : copied(s.features, View::feature)};
 }
 
 /// What animations have.

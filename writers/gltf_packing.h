@@ -10,7 +10,7 @@ namespace wrlkit::gltf {
 
 /// Accessors of one mesh.
 struct Streams {
-  std::uint32_t positions = none, normals = none, colors = none, texcoords = none, lightcoords = none, indices = none;
+  std::uint32_t positions = none, normals = none, colors = none, texcoords = none, lightcoords = none, indices = none, features = none;
 };
 
 class Packing {

@@ -24,7 +24,8 @@ const ViewInfo& info(View v) {
       {8, unsigned_short, yes, no, yes, "VEC3", none},   {8, unsigned_short, yes, no, yes, "VEC4", none},
       {4, unsigned_short, yes, no, yes, "VEC2", none},   {12, float_, yes, no, no, "VEC3", exponential},
       {4, byte, yes, no, yes, "VEC3", octahedral},       {8, float_, yes, no, no, "VEC2", exponential},
-      {2, unsigned_short, no, yes, no, "SCALAR", none},  {4, unsigned_int, no, yes, no, "SCALAR", none}};
+      {2, unsigned_short, no, yes, no, "SCALAR", none},  {4, unsigned_int, no, yes, no, "SCALAR", none},
+      {4, float_, yes, no, no, "SCALAR", none}};
   return table[static_cast<std::size_t>(v)];
 }
 

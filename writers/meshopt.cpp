@@ -54,6 +54,7 @@ void order_for_drawing(Vertices& v) {
   permute(v.color, static_cast<std::size_t>(v.color_width), to);
   permute(v.texcoord, 2, to);
   permute(v.lightcoord, 2, to);
+  permute(v.feature, 1, to);
 }
 
 std::string pack_elements(std::string_view bytes, std::size_t stride) {

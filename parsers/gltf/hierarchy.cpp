@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "parsers/gltf/bounds.h"
 #include "scenegraph/nodes.h"
@@ -48,8 +49,12 @@ void Hierarchy::build() {
     Nodes all;
     Vec3 origin{0, 0, 0};
     if (auto v = vrml97(scene)["origin"].numbers(); v.size() == 3 && c_.file.is_own()) origin = {v[0], v[1], v[2]};
+    PartGroups groups;
+    part_groups_ = &groups;
     for (Json n : scene["nodes"].elements())
       if (auto i = c_.file.index(Table::nodes, n); i != none) visit(i, 0, origin, all);
+    groups.finish(c_.scene);
+    part_groups_ = nullptr;
     c_.lost.keep(c_.file, scene);
     return all;
   };
@@ -104,8 +109,12 @@ void Hierarchy::visit(std::uint32_t n, std::size_t depth, const Vec3& origin, No
 
 Hierarchy::Nodes Hierarchy::children(std::uint32_t n, std::size_t depth, const Vec3& origin) {
   Nodes out;
+  PartGroups groups;
+  auto* above = std::exchange(part_groups_, &groups);
   for (Json c : c_.file.at(Table::nodes, n)["children"].elements())
     if (auto i = c_.file.index(Table::nodes, c); i != none) visit(i, depth + 1, origin, out);
+  part_groups_ = above;
+  groups.finish(c_.scene);
   return out;
 }
 
@@ -129,6 +138,11 @@ void Hierarchy::make(std::uint32_t n, std::size_t depth, Vec3 origin, Nodes& out
   }
   const bool known = type.is_object() && (c_.file.is_own() || !is_said_by_gltf(find_builtin(type.key(), Dialect::vrml97)));
   auto below = children(n, depth, origin);
+  // Parts of a merged mesh stand by themselves.
+  if (auto mesh = c_.file.index(Table::meshes, json["mesh"]); mesh != none && !type && below.empty() && place.identity() && meshes_.has_features(mesh)) {
+    auto parts = shapes(n, place);
+    return void(out.insert(out.end(), parts.begin(), parts.end()));
+  }
   NodeId made = known ? kept(n, type, place, std::move(below)) : implied(n, place, std::move(below));
   if (!c_.file.is_own()) report(json);
   if (made) extras_.define(made), out.push_back(made);
@@ -253,7 +267,10 @@ Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const Place& place) {
   Pose p = pose(n);
   if (c_.file.is_own() && vrml97(json)["Shape"]) p.origin = place.translation;
   Nodes out;
-  for (const auto& part : meshes_.parts(mesh, p)) out.push_back(shape(part, json));
+  PartGroups apart;
+  auto& groups = place.identity() && part_groups_ ? *part_groups_ : apart;
+  for (const auto& part : meshes_.parts(mesh, p)) groups.put(c_.scene, part.name, shape(part, json), out);
+  apart.finish(c_.scene);
   if (auto m = meshes_.take_morphs(); !m.empty()) morphs_[n] = std::move(m);
   if (const Json at = json["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]; at) instances(at, out);
   return out;

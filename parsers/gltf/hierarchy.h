@@ -9,6 +9,7 @@
 #pragma once
 #include <set>
 
+#include "parsers/gltf/features.h"
 #include "parsers/gltf/meshes.h"
 #include "parsers/gltf/trs.h"
 #include "scenegraph/builder.h"
@@ -41,6 +42,7 @@ class Hierarchy {
   NodeId level_of_detail(std::uint32_t node, NodeId first, std::size_t depth, const Vec3& origin);
   Nodes shapes(std::uint32_t node, const Place&);
   NodeId shape(const Meshes::Part&, Json at);
+
   void instances(Json, Nodes& shapes);
   NodeId transform(Json at, const Place&, const Nodes& children, bool moved = false);
   NodeId camera(Json node, const Place&);
@@ -61,6 +63,7 @@ class Hierarchy {
   std::vector<NodeId> made_;
   std::map<std::uint32_t, std::vector<Morph>> morphs_;
   std::map<std::uint32_t, std::vector<Matrix>> joints_;
+  PartGroups* part_groups_ = nullptr;  // of the group whose children are made
   Nodes suns_;  // DirectionalLights: in VRML they light their group only
   std::size_t n_instances_ = 0;
 };

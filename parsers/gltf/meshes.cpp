@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "parsers/gltf/draco.h"
+#include "parsers/gltf/features.h"
 #include "parsers/gltf/polygons.h"
 #include "scenegraph/nodes.h"
 
@@ -63,12 +64,19 @@ std::vector<Meshes::Part> Meshes::parts(std::uint32_t index, const Pose& pose) {
   for (Json json : mesh["primitives"].elements()) {
     Primitive p{json, mesh, c_.file.index(Table::materials, json["material"]), static_cast<int>(json["mode"] ? std::min<std::uint64_t>(json["mode"].whole().value_or(99), 99) : 4)};
     if (p.mode > 6) { c_.diag().report(Diag::gltf_bad_value, c_.file.where(json), "mode"); continue; }
+    auto make = [&](std::vector<Part>& to) {
+      auto made = part(p, pose);
+      if (!made) return;
+      auto apart = features(p, *made);
+      if (apart.empty()) apart.push_back(*made);
+      to.insert(to.end(), apart.begin(), apart.end());
+    };
     if (!pose.shared()) {
-      if (auto made = part(p, pose)) out.push_back(*made);
+      make(out);
     } else {
       auto [i, is_new] = parts_.try_emplace({index, k});
-      if (is_new) i->second = part(p, pose);
-      if (i->second) out.push_back(*i->second);
+      if (is_new) make(i->second);
+      out.insert(out.end(), i->second.begin(), i->second.end());
     }
     ++k;
   }
@@ -108,6 +116,35 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
     morphs_.back().coordinate = c_.scene.value(geometry, coord).node;
   }
   return Part{look.appearance, geometry};
+}
+
+bool Meshes::has_features(std::uint32_t mesh) const {
+  if (!c_.file.is_own()) return false;
+  for (Json p : c_.file.at(Table::meshes, mesh)["primitives"].elements())
+    if (p["extensions"]["EXT_mesh_features"]) return true;
+  return false;
+}
+
+std::vector<Meshes::Part> Meshes::features(const Primitive& p, const Part& whole) {
+  std::vector<Part> out;
+  const Json set = p.json["extensions"]["EXT_mesh_features"];
+  const auto first = first_vertex_.find(whole.geometry.value);
+  if (!c_.file.is_own() || !set || first == first_vertex_.end()) return out;
+  const auto ids = c_.accessors.numbers(c_.file.index(Table::accessors, p.json["attributes"]["_FEATURE_ID_0"]), {1});
+  if (!ids) return out;
+  std::vector<std::uint32_t> of_face;
+  for (auto v : first->second) {
+    const double id = v < ids->count() ? ids->values[v] : -1;
+    if (!(id >= 0 && id < 16777216)) return c_.diag().report(Diag::gltf_bad_value, c_.file.where(set), "_FEATURE_ID_0"), out;
+    of_face.push_back(static_cast<std::uint32_t>(id));
+  }
+  if (!feature_names_) {
+    feature_names_.emplace();
+    for (Json n : c_.file.root()["asset"]["extras"]["features"].elements()) feature_names_->push_back(n.text());
+  }
+  for (auto [id, geometry] : take_apart(c_.scene, whole.geometry, of_face))
+    out.push_back({whole.appearance, geometry, id < feature_names_->size() ? std::string((*feature_names_)[id]) : std::string()});
+  return out;
 }
 
 /// Forms whose fields are all in extras; the mesh is what they look like.
@@ -402,6 +439,7 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
   const TypeId type = p.faces() ? nodes::IndexedFaceSet : p.mode == points ? nodes::PointSet : nodes::IndexedLineSet;
   NodeId n = c_.add(type, p.json);
   Json fields = kept[builtin_nodes()[type.value].name];
+  if (p.json["attributes"]["_FEATURE_ID_0"]) first_vertex_[n.value] = first_vertices(p, corners);
   if (p.mode == points) {
     NodeId coord = c_.add(nodes::Coordinate, p.json);
     std::vector<double> at, shade;
@@ -429,6 +467,14 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
     }
   extras_.plain_fields(n, fields);
   return n;
+}
+
+std::vector<std::uint32_t> Meshes::first_vertices(const Primitive& p, const std::vector<std::uint32_t>& corners) const {
+  if (p.mode == points) return corners;
+  const auto faces = p.faces() ? polygons_of(corners, vrml97(p.mesh)["polygons"].numbers()) : polylines(corners);
+  std::vector<std::uint32_t> out;
+  for (std::size_t f = 0; f < faces.size(); ++f) out.push_back(faces.corners[faces.begin[f]]);
+  return out;
 }
 
 void Meshes::name_attribute(NodeId n, Json kept) {

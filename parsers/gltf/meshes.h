@@ -38,9 +38,12 @@ class Meshes {
 
   struct Part {
     NodeId appearance, geometry;
+    std::string name{};  // of a part of a merged mesh: the names on the way to it
   };
   /// One for each primitive that can be had.
   std::vector<Part> parts(std::uint32_t mesh, const Pose&);
+  /// Is it a mesh of wrlkit with feature ids, which becomes several Shapes?
+  bool has_features(std::uint32_t mesh) const;
   /// Of the last call, one for each primitive with targets.
   std::vector<Morph> take_morphs() { return std::move(morphs_); }
 
@@ -66,6 +69,8 @@ class Meshes {
     bool faces() const { return mode >= 4; }
   };
   std::optional<Part> part(const Primitive&, const Pose&);
+  /// Of a mesh with feature ids the parts; none if it has no good ones.
+  std::vector<Part> features(const Primitive&, const Part& whole);
   NodeId kept_whole(const Primitive&);
   bool load(const Primitive&, const Pose&, const std::string& texcoord, Streams&);
   bool load_draco(const Primitive&, const std::string& texcoord, Streams&);
@@ -79,6 +84,7 @@ class Meshes {
   NodeId foreign(const Primitive&, Streams&, const Look&);
   NodeId own(const Primitive&, Streams&, const Look&);
   void own_faces(NodeId, const Primitive&, const Streams&, const std::vector<std::uint32_t>& triangles);
+  std::vector<std::uint32_t> first_vertices(const Primitive&, const std::vector<std::uint32_t>& corners) const;
   void own_lines(NodeId, const Streams&, const std::vector<std::uint32_t>& segments);
   NodeId attribute(TypeId, std::uint16_t slot, FieldType, Stream&, int variant, bool loose, const std::function<void(std::vector<double>&)>& change);
   void name_attribute(NodeId, Json kept);
@@ -87,10 +93,12 @@ class Meshes {
   Context c_;
   Extras& extras_;
   Materials materials_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<Part>> parts_;  // by mesh and primitive
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Part>> parts_;  // by mesh and primitive
   std::map<std::tuple<std::uint32_t, std::uint32_t, int>, NodeId> attributes_;    // by type, accessor and variant
   std::map<std::tuple<int, std::uint32_t, std::size_t>, Value> coord_index_;      // by mode, accessor and vertices
   std::map<std::string, NodeId> own_;                                             // by what they are made of
+  std::map<std::uint32_t, std::vector<std::uint32_t>> first_vertex_;  // by geometry node: of each face
+  std::optional<std::vector<std::string_view>> feature_names_;
   std::vector<Morph> morphs_;
   std::vector<char> reported_;
   std::uint64_t n_posed_ = 0;

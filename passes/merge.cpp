@@ -1,0 +1,344 @@
+#include "passes/merge.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <set>
+#include <system_error>
+#include <tuple>
+#include <unordered_map>
+
+#include "passes/figures.h"
+#include "passes/geometry.h"
+#include "passes/merge/cells.h"
+#include "passes/merge/still_places.h"
+#include "passes/normals.h"
+#include "passes/representatives.h"
+#include "passes/simplify/places.h"
+#include "passes/tessellate.h"
+#include "passes/text_list.h"
+#include "scenegraph/features.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr std::size_t most_indices = std::numeric_limits<std::int32_t>::max() / 2;  // with room for the -1
+
+/// What is known of a geometry without its mesh.
+struct Outline {
+  bool known = false;
+  std::uint64_t kind = 0;  // what has to agree; 0: nothing to draw
+  std::size_t corners = 0;
+  Vec3 centre{};
+};
+
+class Merging {
+ public:
+  Merging(Scene& scene, const MergeOptions& options, PassContext& ctx)
+      : scene_(scene), options_(options), ctx_(ctx), usage_(scene), textured_(textured_geometry(scene)), still_(scene, usage_) {}
+
+  Outcome run() {
+    const auto before = figures_of(scene_);
+    if (still_.too_many() || before.draws <= static_cast<std::size_t>(std::max(options_.max_draws, 0))) return Outcome::unchanged;
+    names_before_ = names();
+    name_parts();
+    divide();
+    for (const auto& cell : cells_) merge_cell(cell);
+    if (made_.empty()) return Outcome::unchanged;
+    put_into_zones();
+    remove_merged();
+    report_lost_names();
+    write_csv();
+    ctx_.stats["merge.shapes"] += n_made_;
+    count_figures(ctx_, "merge", before, figures_of(scene_));
+    return Outcome::changed;
+  }
+
+ private:
+  const Mesh& mesh_of(NodeId geometry);
+  const Outline& outline(NodeId geometry);
+  void name_parts();
+  void divide();
+  void merge_cell(std::vector<std::uint32_t> cell);
+  void append(const Mesh& mesh, const Matrix& frame);
+  void put_into_zones();
+  void remove_merged();
+  std::set<std::string_view> names() const;
+  void report_lost_names();
+  void write_csv() const;
+  const StillPlace& place(std::uint32_t i) const { return still_.places()[i]; }
+  NodeId geometry(std::uint32_t i) const { return scene_.get(place(i).shape, nodes::shape::geometry); }
+
+  Scene& scene_;
+  const MergeOptions& options_;
+  PassContext& ctx_;
+  Usage usage_;
+  std::vector<char> textured_;
+  StillPlaces still_;
+  std::unordered_map<std::uint32_t, Outline> outlines_;
+  std::vector<std::string> part_names_;  // by place
+  std::vector<std::vector<std::uint32_t>> cells_;
+  std::vector<std::uint32_t> items_;     // places that are drawn
+  std::vector<char> merged_;             // by node: Shapes that are not needed any more
+  std::map<std::uint32_t, std::vector<NodeId>> made_;  // by zone
+  std::size_t n_made_ = 0;
+  std::set<std::string_view> names_before_;
+  std::set<std::string> merged_parts_;
+  Mesh mesh_, all_;
+  MeshScratch scratch_;
+};
+
+/// As it is drawn: faces with their normals.
+const Mesh& Merging::mesh_of(NodeId g) {
+  mesh_.clear();
+  MeshJob job{scene_, g, mesh_, scratch_, ctx_, textured_[g.value] != 0};
+  tessellate(job, {.triangles = false, .texcoords = true});
+  normals(job, {});
+  if (!job.textured) mesh_.texcoord.clear();
+  return mesh_;
+}
+
+const Outline& Merging::outline(NodeId g) {
+  Outline& o = outlines_[g.value];
+  if (o.known) return o;
+  o.known = true;
+  const Mesh& m = mesh_of(g);
+  if (m.corners.empty() || m.kind == Mesh::Kind::none) return o;
+  o.kind = static_cast<std::uint64_t>(m.kind) * 64 + m.solid * 32 + m.color.present() * (m.color.width == 4 ? 16 : 8) + m.normal.present() * 2 + m.texcoord.present();
+  o.corners = m.corners.size();
+  Vec3 low{}, high{};
+  for (std::size_t i = 0; i < m.corners.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = m.positions[m.corners[i] * std::size_t{3} + k];
+      low[k] = i ? std::min(low[k], x) : x, high[k] = i ? std::max(high[k], x) : x;
+    }
+  for (std::size_t k = 0; k < 3; ++k) o.centre[k] = (low[k] + high[k]) / 2;
+  return o;
+}
+
+/// All Shapes below one node with a name are one part; what has another path but the same names is another one.
+void Merging::name_parts() {
+  std::unordered_map<std::string, std::size_t> times;
+  std::unordered_map<std::uint32_t, std::string> of_path;
+  for (const StillPlace& p : still_.places()) {
+    auto [at, fresh] = of_path.try_emplace(p.path);
+    if (fresh) {
+      at->second = still_.name(p.path);
+      if (const auto n = ++times[at->second]; n > 1) at->second += "#" + std::to_string(n);
+    }
+    part_names_.push_back(at->second);
+  }
+}
+
+void Merging::divide() {
+  std::vector<char> seen;
+  std::vector<NodeId> nodes;
+  reach(scene_, scene_.main.roots, seen, nodes);
+  const Representatives same(scene_, usage_, nodes, false);
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>, std::uint32_t> kinds;
+  std::vector<CellItem> items;
+  std::size_t n_empty = 0;
+  for (std::uint32_t i = 0; i < still_.places().size(); ++i) {
+    const Outline& o = outline(geometry(i));
+    n_empty += o.kind == 0;
+    if (o.kind == 0) continue;
+    const auto appearance = same.of(scene_.get(place(i).shape, nodes::shape::appearance));
+    const auto kind = kinds.try_emplace({place(i).zone, appearance.value, o.kind}, static_cast<std::uint32_t>(kinds.size())).first->second;
+    items.push_back({kind, still_.zones()[place(i).zone].times, place(i).frame.point(o.centre), static_cast<double>(o.corners)});
+    items_.push_back(i);
+  }
+  const auto budget = static_cast<std::size_t>(std::max(options_.max_draws, 0));
+  const auto fixed = still_.n_fixed() + n_empty;
+  cells_ = cells_of(items, budget > fixed ? budget - fixed : 0);
+  for (auto& cell : cells_)
+    for (auto& i : cell) i = items_[i];
+  // A Shape whose places all are by themselves stays what it is.
+  merged_.resize(scene_.node_count());
+  for (const auto& cell : cells_)
+    if (cell.size() > 1)
+      for (auto i : cell) merged_[place(i).shape.value] = 1;
+}
+
+void Merging::merge_cell(std::vector<std::uint32_t> cell) {
+  if (!merged_[place(cell[0]).shape.value]) return;
+  // The Shapes of a part stand together, where the first of them is.
+  std::unordered_map<std::string_view, std::uint32_t> first;
+  for (auto i : cell) first.try_emplace(part_names_[i], i);
+  std::ranges::stable_sort(cell, {}, [&](auto i) { return first[part_names_[i]]; });
+  std::vector<std::string_view> names;
+  std::vector<std::int32_t> faces;
+  const NodeId appearance = scene_.get(place(cell[0]).shape, nodes::shape::appearance);
+  all_.clear();
+  for (auto i : cell) {
+    const auto before = all_.face_begin.empty() ? 0 : all_.face_begin.size() - 1;
+    append(mesh_of(geometry(i)), place(i).frame);
+    const auto added = static_cast<std::int32_t>(all_.face_begin.size() - 1 - before);
+    if (!names.empty() && names.back() == part_names_[i]) {
+      faces.back() += added;
+      continue;
+    }
+    names.push_back(part_names_[i]);
+    faces.push_back(added);
+    merged_parts_.insert(part_names_[i]);
+  }
+  const NodeId geometry = scene_.add(all_.kind == Mesh::Kind::lines ? nodes::IndexedLineSet : all_.kind == Mesh::Kind::points ? nodes::PointSet : nodes::IndexedFaceSet);
+  store_mesh(scene_, geometry, all_);
+  set_features(scene_, geometry, {names, faces});
+  const NodeId shape = scene_.add(nodes::Shape, scene_.where(place(cell[0]).shape));
+  if (appearance) scene_.set(shape, nodes::shape::appearance, appearance);
+  scene_.set(shape, nodes::shape::geometry, geometry);
+  made_[place(cell[0]).zone].push_back(shape);
+  ctx_.stats["merge.parts"] += names.size();
+  ++n_made_;
+}
+
+/// Faces that a mirroring frame turns inside out, and those of ccw FALSE, run the other way then.
+void Merging::append(const Mesh& m, const Matrix& frame) {
+  if (all_.corners.size() + m.corners.size() > most_indices) return;
+  if (all_.kind == Mesh::Kind::none) {
+    all_.kind = m.kind;
+    all_.solid = m.solid;
+    all_.color.width = m.color.width;
+    all_.face_begin.push_back(0);
+  }
+  all_.convex &= m.convex;
+  const bool reversed = m.kind == Mesh::Kind::faces && m.ccw == (frame.determinant() < 0);
+  const double sign = frame.determinant() < 0 ? -1 : 1;
+  const auto first_corner = static_cast<std::uint32_t>(all_.corners.size());
+  // Points in the order in which corners use them, so that those of a part stand together.
+  auto& points = all_.positions.edit();
+  StampedMap& map = scratch_.map;
+  map.reset(m.n_positions());
+  auto take = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to, auto&& make) {
+    for (std::size_t f = 0; f < m.n_faces(); ++f)
+      for (std::size_t begin = m.begin_of(f), end = m.end_of(f), c = begin; c < end; ++c) {
+        const auto v = from[reversed ? begin + end - 1 - c : c];
+        if (!map.contains(v)) map.set(v, make(v));
+        to.push_back(map[v]);
+      }
+  };
+  take(m.corners, all_.corners, [&](std::uint32_t v) {
+    const double* p = m.positions.data() + std::size_t{v} * 3;
+    const Vec3 at = frame.point({p[0], p[1], p[2]});
+    points.insert(points.end(), at.begin(), at.end());
+    return static_cast<std::uint32_t>(points.size() / 3 - 1);
+  });
+  for (std::size_t f = 0; f < m.n_faces(); ++f) all_.face_begin.push_back(first_corner + static_cast<std::uint32_t>(m.end_of(f)));
+  for (auto a : {&Mesh::normal, &Mesh::color, &Mesh::texcoord}) {
+    const Attribute& from = m.*a;
+    Attribute& to = all_.*a;
+    if (!from.present()) continue;
+    map.reset(from.count());
+    take(from.index, to.index, [&](std::uint32_t v) {
+      const float* p = from.at(v);
+      if (a != &Mesh::normal) {
+        to.values.insert(to.values.end(), p, p + from.width);
+        return static_cast<std::uint32_t>(to.count() - 1);
+      }
+      std::array<double, 3> n{};
+      for (int r = 0; r < 3; ++r) {
+        const int r1 = (r + 1) % 3, r2 = (r + 2) % 3;
+        for (int c = 0; c < 3; ++c) n[static_cast<std::size_t>(r)] += sign * p[c] * (frame(r1, (c + 1) % 3) * frame(r2, (c + 2) % 3) - frame(r1, (c + 2) % 3) * frame(r2, (c + 1) % 3));
+      }
+      const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+      for (double v : n) to.values.push_back(static_cast<float>(length > 0 ? v / length : 0));
+      return static_cast<std::uint32_t>(to.count() - 1);
+    });
+  }
+}
+
+void Merging::put_into_zones() {
+  for (const auto& [zone, shapes] : made_) {
+    const NodeId holder = still_.zones()[zone].holder;
+    if (!holder) {
+      scene_.main.roots.insert(scene_.main.roots.end(), shapes.begin(), shapes.end());
+      continue;
+    }
+    const auto slot = scene_.type(holder).find("children", Dialect::x3d);
+    const auto list = scene_.value(holder, *slot).node_span();
+    std::vector<NodeId> all(list.begin(), list.end());
+    all.insert(all.end(), shapes.begin(), shapes.end());
+    scene_.set(holder, scene_.make(FieldType::MFNode, *slot, all));
+  }
+}
+
+/// And the groups that have become empty by it.
+void Merging::remove_merged() {
+  std::vector<char> gone(scene_.node_count());
+  for (std::size_t n = 0; n < merged_.size(); ++n) gone[n] = merged_[n];
+  std::vector<char> zone(scene_.node_count());
+  for (const Zone& z : still_.zones())
+    if (z.holder) zone[z.holder.value] = 1;
+  auto is_gone = [&](NodeId n) { return n && gone[n.value]; };
+  for (auto g = still_.groups().rbegin(); g != still_.groups().rend(); ++g) {
+    bool any = false, left = false;
+    for (const Value& v : std::vector<Value>(scene_.fields(*g).begin(), scene_.fields(*g).end())) {
+      if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
+      std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
+      if (std::erase_if(list, is_gone) > 0) any = true, scene_.set(*g, scene_.make(FieldType::MFNode, v.slot, list));
+      left |= !list.empty();
+    }
+    gone[g->value] = any && !left && !zone[g->value] && !usage_.touched(*g);
+  }
+  std::erase_if(scene_.main.roots, is_gone);
+}
+
+std::set<std::string_view> Merging::names() const {
+  std::set<std::string_view> out;
+  for (NodeId n : reachable(scene_, scene_.main))
+    if (!scene_.name(n).empty()) out.insert(scene_.name(n));
+  return out;
+}
+
+/// Those of nodes that are neither there any more nor on the way to a part.
+void Merging::report_lost_names() {
+  const auto now = names();
+  std::set<std::string_view> in_table;
+  for (const auto& path : merged_parts_)
+    for (std::size_t from = 0; from <= path.size();) {
+      const auto to = std::min(path.find('/', from), path.size());
+      const std::string_view step(path.data() + from, to - from);
+      in_table.insert(step);
+      in_table.insert(step.substr(0, step.find('#')));
+      from = to + 1;
+    }
+  TextList lost;
+  for (auto n : names_before_)
+    if (!now.contains(n) && !in_table.contains(n)) lost.add(n);
+  if (!lost.empty()) ctx_.diag.report(Diag::names_lost, {}, "merge", lost.count(), lost.text());
+}
+
+void Merging::write_csv() const {
+  if (options_.csv.empty()) return;
+  auto quoted = [](std::string_view s) {
+    std::string out = "\"";
+    for (char c : s) out += c == '"' ? "\"\"" : std::string(1, c);
+    return out + '"';
+  };
+  errno = 0;
+  std::ofstream out(options_.csv, std::ios::binary);
+  out << "id,name,appearance\n";
+  // Numbers as those of glTF: by the order in which parts are drawn.
+  std::map<std::string_view, std::size_t> ids;
+  std::set<std::pair<std::size_t, NodeId>> said;
+  for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix&) {
+    const NodeId g = scene_.get(shape, nodes::shape::geometry), appearance = scene_.get(shape, nodes::shape::appearance);
+    const auto parts = g ? features_of(scene_, g) : std::nullopt;
+    if (!parts) return;
+    for (auto name : parts->names) {
+      const auto id = ids.try_emplace(name, ids.size()).first->second;
+      if (said.emplace(id, appearance).second) out << id << ',' << quoted(name) << ',' << quoted(appearance ? scene_.name(appearance) : std::string_view()) << '\n';
+    }
+  });
+  if (!out.flush()) ctx_.diag.report(Diag::cannot_write, {}, options_.csv, std::generic_category().message(errno ? errno : EIO));
+}
+
+}  // namespace
+
+Outcome merge(Scene& scene, const MergeOptions& options, PassContext& ctx) { return Merging(scene, options, ctx).run(); }
+
+}  // namespace wrlkit

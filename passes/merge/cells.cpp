@@ -1,0 +1,77 @@
+#include "passes/merge/cells.h"
+
+#include <algorithm>
+#include <map>
+#include <queue>
+
+namespace wrlkit {
+namespace {
+
+using Cell = std::vector<std::uint32_t>;
+
+class Halving {
+ public:
+  Halving(std::span<const CellItem> items, std::size_t budget) : items_(items), budget_(budget) {}
+
+  std::vector<Cell> run() {
+    std::map<std::uint32_t, Cell> kinds;
+    for (std::uint32_t i = 0; i < items_.size(); ++i) kinds[items_[i].kind].push_back(i);
+    std::size_t cost = 0;
+    for (auto& [kind, cell] : kinds) {
+      cost += items_[cell[0]].cost;
+      add(std::move(cell));
+    }
+    while (!heaviest_.empty()) {
+      const auto c = heaviest_.top().second;
+      heaviest_.pop();
+      const auto more = items_[cells_[c][0]].cost;
+      if (more == 0 || cost + more > budget_) continue;
+      cost += more;
+      halve(c);
+    }
+    std::ranges::sort(cells_, {}, [](const Cell& c) { return c[0]; });
+    return std::move(cells_);
+  }
+
+ private:
+  void add(Cell cell) {
+    cells_.push_back(std::move(cell));
+    remember(cells_.size() - 1);
+  }
+
+  void remember(std::size_t c) {
+    if (cells_[c].size() < 2) return;
+    double weight = 0;
+    for (auto i : cells_[c]) weight += items_[i].weight;
+    heaviest_.push({{weight, -static_cast<std::int64_t>(c)}, c});
+  }
+
+  void halve(std::size_t c) {
+    Cell& cell = cells_[c];
+    Vec3 low = items_[cell[0]].at, high = low;
+    for (auto i : cell)
+      for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], items_[i].at[k]), high[k] = std::max(high[k], items_[i].at[k]);
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+    std::ranges::sort(cell, [&](auto a, auto b) { return items_[a].at[axis] != items_[b].at[axis] ? items_[a].at[axis] < items_[b].at[axis] : a < b; });
+    const auto middle = cell.begin() + static_cast<std::ptrdiff_t>(cell.size() / 2);
+    Cell upper(middle, cell.end());
+    cell.erase(middle, cell.end());
+    std::ranges::sort(cell);
+    std::ranges::sort(upper);
+    remember(c);
+    add(std::move(upper));
+  }
+
+  std::span<const CellItem> items_;
+  std::size_t budget_;
+  std::vector<Cell> cells_;
+  std::priority_queue<std::pair<std::pair<double, std::int64_t>, std::size_t>> heaviest_;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> cells_of(std::span<const CellItem> items, std::size_t budget) { return Halving(items, budget).run(); }
+
+}  // namespace wrlkit

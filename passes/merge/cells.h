@@ -1,0 +1,22 @@
+// Which things go together, when there may be only so many of them: those of one kind that stand near each other.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scenegraph/value.h"
+
+namespace wrlkit {
+
+struct CellItem {
+  std::uint32_t kind;    // only things of one kind go together
+  std::uint32_t cost;    // of each cell of that kind
+  Vec3 at;
+  double weight;
+};
+
+/// The cells, as numbers of items in the order of the first of each: one for each kind to begin with. As long as what all cost is at
+/// most `budget`, the heaviest is halved at its median along its longest side. n log n; the same for the same items.
+std::vector<std::vector<std::uint32_t>> cells_of(std::span<const CellItem> items, std::size_t budget);
+
+}  // namespace wrlkit

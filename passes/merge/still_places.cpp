@@ -1,0 +1,163 @@
+#include "passes/merge/still_places.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "passes/simplify/places.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr std::uint32_t no_zone = 0xffffffff;
+
+}  // namespace
+
+StillPlaces::StillPlaces(const Scene& scene, const Usage& usage)
+    : scene_(scene), usage_(usage), bound_(scene.node_count()), takers_(scene.node_count()), zone_at_(scene.node_count()), listed_(scene.node_count()), fixed_(scene.node_count()) {
+  find_bound();
+  walk();
+  // A Shape that has to stay somewhere stays everywhere.
+  const std::size_t before = places_.size();
+  std::erase_if(places_, [&](const StillPlace& p) { return fixed_[p.shape.value] || takers_[p.shape.value] != usage_.uses(p.shape); });
+  n_fixed_ += before - places_.size();
+}
+
+/// Bodies of prototypes may share nodes with the world.
+void StillPlaces::find_bound() {
+  std::vector<NodeId> all;
+  for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) reach(scene_, scene_.proto(ProtoId{i}).body.roots, bound_, all);
+}
+
+void StillPlaces::walk() {
+  for (NodeId n : scene_.main.roots)
+    if (n) ++takers_[n.value];
+  for (auto n = scene_.main.roots.rbegin(); n != scene_.main.roots.rend(); ++n)
+    if (*n) stack_.push_back({*n, 0, {}, 0, true});
+  const std::size_t most = most_visits + scene_.node_count();
+  for (std::size_t visits = 0; !stack_.empty(); ++visits) {
+    if ((too_many_ = visits == most)) return;
+    const Item i = stack_.back();
+    stack_.pop_back();
+    visit(i);
+  }
+}
+
+bool StillPlaces::is_plain(NodeId n) const {
+  return scene_.type(n).kind == NodeKind::builtin && !usage_.touched(n) &&
+         std::ranges::none_of(scene_.fields(n), [&](const Value& v) { return v.is || scene_.is_extra(v); });
+}
+
+/// Something in it or of it goes for what is below, and for nothing else.
+bool StillPlaces::is_apart(NodeId n) const {
+  if (!scene_.is(n, nodes::Group) && !scene_.is(n, nodes::Transform) && !scene_.is(n, nodes::StaticGroup)) return true;
+  if (!is_plain(n)) return true;
+  bool apart = false;
+  for_each_child(scene_, n, [&](NodeId c) {
+    const auto& t = scene_.type(c);
+    apart |= t.is_a("X3DSensorNode") || scene_.is(c, nodes::DirectionalLight) || scene_.is(c, nodes::ClipPlane);
+  });
+  return apart;
+}
+
+bool StillPlaces::may_take(NodeId shape) const {
+  const NodeId g = scene_.get(shape, nodes::shape::geometry);
+  if (bound_[shape.value] || !is_plain(shape) || !is_plain(g) || !scene_.type(g).is_a("X3DGeometryNode")) return false;
+  bool plain = true;
+  for_each_child(scene_, g, [&](NodeId c) { plain &= is_plain(c) && !scene_.is(c, nodes::TextureCoordinateGenerator) && !scene_.is(c, nodes::MetadataSet); });
+  return plain && !(scene_.is(g, nodes::IndexedFaceSet) && scene_.get(g, nodes::indexed_face_set::lightCoord));
+}
+
+void StillPlaces::visit(const Item& i) {
+  const auto path_below = [&] {
+    if (scene_.name(i.node).empty()) return i.path;
+    paths_.push_back({scene_.name(i.node), i.path});
+    return static_cast<std::uint32_t>(paths_.size() - 1);
+  };
+  if (scene_.is(i.node, nodes::Shape)) {
+    const NodeId g = scene_.get(i.node, nodes::shape::geometry);
+    if (!g) return;
+    if (!may_take(i.node)) fixed_[i.node.value] = 1;
+    Item at = i;
+    at.path = path_below();
+    if (scene_.name(i.node).empty() && !scene_.name(g).empty()) paths_.push_back({scene_.name(g), at.path}), at.path = static_cast<std::uint32_t>(paths_.size() - 1);
+    if (i.zone != no_zone) places_.push_back({i.node, i.zone, i.frame, at.path});
+    else n_fixed_ += i.shown, fixed_[i.node.value] = 1;
+    return;
+  }
+  const auto& type = scene_.type(i.node);
+  if (hierarchy_children(scene_, i.node).empty()) return;
+  const bool known = type.kind == NodeKind::builtin && (type.is_a("X3DGroupingNode") || scene_.is(i.node, nodes::StaticGroup)) && !bound_[i.node.value];
+  Item below = i;
+  below.path = path_below();
+  if (!known) {
+    below.zone = no_zone;
+    return children(i.node, below);
+  }
+  if (scene_.is(i.node, nodes::Switch) || scene_.is(i.node, nodes::LOD)) return alternatives(below);
+  below.frame = i.frame * local_matrix(scene_, i.node);
+  if (is_apart(i.node)) {
+    bool fresh;
+    below.zone = zone_of(i.node, i.shown, fresh);
+    below.frame = {};
+    if (!fresh) return;
+  }
+  children(i.node, below);
+}
+
+void StillPlaces::children(NodeId group, Item as) {
+  const auto list = hierarchy_children(scene_, group);
+  if (as.zone != no_zone && !std::exchange(listed_[group.value], 1)) {
+    groups_.push_back(group);
+    // The proxy of a Collision is no list.
+    for (const Value& v : scene_.fields(group))
+      if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode)
+        for (NodeId c : v.node_span()) ++takers_[c.value];
+  }
+  for (auto n = list.rbegin(); n != list.rend(); ++n)
+    if (*n) as.node = *n, stack_.push_back(as);
+}
+
+/// Each child of a Switch or LOD is a world of its own.
+void StillPlaces::alternatives(const Item& i) {
+  const auto shown = shown_children(scene_, i.node);
+  const auto list = hierarchy_children(scene_, i.node);
+  for (auto n = list.rbegin(); n != list.rend(); ++n) {
+    if (!*n) continue;
+    Item below = i;
+    below.node = *n;
+    below.shown = i.shown && std::ranges::find(shown, *n) != shown.end();
+    const bool group = !scene_.is(*n, nodes::Shape) && scene_.type(*n).kind == NodeKind::builtin && scene_.type(*n).is_a("X3DGroupingNode") &&
+                       !scene_.is(*n, nodes::Switch) && !scene_.is(*n, nodes::LOD) && !bound_[n->value];
+    if (!group) {
+      below.zone = no_zone;
+      stack_.push_back(below);
+      continue;
+    }
+    bool fresh;
+    below.zone = zone_of(*n, below.shown, fresh);
+    if (!fresh) continue;
+    if (!scene_.name(*n).empty()) paths_.push_back({scene_.name(*n), i.path}), below.path = static_cast<std::uint32_t>(paths_.size() - 1);
+    below.frame = {};
+    children(*n, below);
+  }
+}
+
+std::uint32_t StillPlaces::zone_of(NodeId holder, bool shown, bool& fresh) {
+  auto& z = zone_at_[holder.value];
+  if ((fresh = z == 0)) {
+    zones_.push_back({holder});
+    z = static_cast<std::uint32_t>(zones_.size());
+  }
+  zones_[z - 1].times += shown;
+  return z - 1;
+}
+
+std::string StillPlaces::name(std::uint32_t path) const {
+  std::string out;
+  for (; path; path = paths_[path].above) out = std::string(paths_[path].name) + (out.empty() ? "" : "/") + out;
+  return out;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,78 @@
+// Where Shapes stand that never move against one another, and what keeps others apart.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "passes/usage.h"
+#include "scenegraph/transform.h"
+
+namespace wrlkit {
+
+/// A group within which nothing moves, and out of which nothing may be taken. The world is the first, without a node.
+struct Zone {
+  NodeId holder;
+  std::uint32_t times = 0;  // it is drawn
+};
+
+struct StillPlace {
+  NodeId shape;
+  std::uint32_t zone;
+  Matrix frame;         // to the zone
+  std::uint32_t path;   // into StillPlaces::paths
+};
+
+class StillPlaces {
+ public:
+  /// Of the main scope. O(nodes and places).
+  StillPlaces(const Scene& scene, const Usage& usage);
+
+  /// More places than anybody wants to see: nothing can be said.
+  bool too_many() const { return too_many_; }
+  const std::vector<Zone>& zones() const { return zones_; }
+  /// Of Shapes that may be taken out of their groups, all places of each; in the order of the file.
+  const std::vector<StillPlace>& places() const { return places_; }
+  /// Places of other Shapes with geometry, as they are shown.
+  std::size_t n_fixed() const { return n_fixed_; }
+  /// Groups out of which Shapes may be taken.
+  const std::vector<NodeId>& groups() const { return groups_; }
+  /// The named nodes from the root to a place: "Unit/Pump"; the same for all Shapes below the last of them.
+  std::string name(std::uint32_t path) const;
+
+ private:
+  struct Step {
+    std::string_view name;
+    std::uint32_t above;
+  };
+  struct Item {
+    NodeId node;
+    std::uint32_t zone;
+    Matrix frame;
+    std::uint32_t path;
+    bool shown;
+  };
+  void find_bound();
+  void walk();
+  void visit(const Item&);
+  void children(NodeId group, Item as);
+  void alternatives(const Item&);
+  std::uint32_t zone_of(NodeId holder, bool shown, bool& fresh);
+  bool may_take(NodeId shape) const;
+  bool is_plain(NodeId n) const;
+  bool is_apart(NodeId group) const;
+
+  const Scene& scene_;
+  const Usage& usage_;
+  std::vector<char> bound_;              // by node: of a prototype, or below what is not known
+  std::vector<std::uint32_t> takers_;    // by node: lists out of which it may be taken
+  std::vector<std::uint32_t> zone_at_;   // by node, plus one
+  std::vector<char> listed_, fixed_;
+  std::vector<Zone> zones_{Zone{.times = 1}};
+  std::vector<StillPlace> places_;
+  std::vector<NodeId> groups_;
+  std::vector<Step> paths_{Step{}};
+  std::vector<Item> stack_;
+  std::size_t n_fixed_ = 0;
+  bool too_many_ = false;
+};
+
+}  // namespace wrlkit
