@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "passes/simplify/levels.h"
+#include "tools/profiles.h"
 #include "tools/recipe.h"
 
 #ifndef WRLKIT_VERSION
@@ -60,6 +61,12 @@ void vrml_output(CLI::App& verb, Flags& f) {
   verb.add_option("--precision", f.precision, "significant digits of VRML output; 0: all that are needed")->check(CLI::Range(0, 17));
 }
 
+std::vector<std::string> profile_names() {
+  std::vector<std::string> out;
+  for (const Profile& p : profiles()) out.emplace_back(p.name);
+  return out;
+}
+
 void small_gltf(CLI::App& verb, Flags& f) {
   verb.add_option("--compress", f.compress, "vertices in glTF: none, as floats; quantize, in fewer bits; meshopt, that and packed")
       ->check(CLI::IsMember({"none", "quantize", "meshopt"}))->capture_default_str();
@@ -67,6 +74,9 @@ void small_gltf(CLI::App& verb, Flags& f) {
   verb.add_option("--position-bits", f.position_bits, "instead of that, bits of the extent of each mesh")->check(CLI::Range(1, 16))->excludes(tolerance);
   verb.add_option("--normal-bits", f.normal_bits, "of each component")->check(CLI::Range(2, 8))->capture_default_str();
   verb.add_option("--texcoord-bits", f.texcoord_bits, "of a picture's width and height; of a lightmap's two more")->check(CLI::Range(1, 16))->capture_default_str();
+  verb.add_option("--extras", f.extras, "what VRML says and glTF cannot, kept in extras: all, so that the same VRML can be made again; facts, what nodes say that draw nothing, links and descriptions; none")
+      ->check(CLI::IsMember({"all", "facts", "none"}))->capture_default_str();
+  verb.add_option("--profile", f.profile, "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")->check(CLI::IsMember(profile_names()));
   verb.add_option("--color-bits", f.color_bits, "of each component, in linear light")->check(CLI::Range(1, 16))->capture_default_str();
 }
 
@@ -102,6 +112,18 @@ const Verb verbs[] = {
        vrml_output(v, f);
      },
      run_convert},
+    {"optimize", "a small glTF file: equal parts shared, vertices in as few bits as a tolerance allows, packed; names and parts stay",
+     "wrlkit optimize plant.wrl plant.glb\n  wrlkit optimize plant.wrl plant.glb --profile cesium --tolerance 2mm --json\n  wrlkit optimize --profile unity --print-profile",
+     [](CLI::App& v, Flags& f) {
+       input(v, f);
+       v.get_option("IN")->required(false);
+       v.add_option("OUT", f.output, "file.glb or .gltf");
+       v.add_flag("--print-profile", f.print_profile, "print what the profile chooses, and end");
+       pipeline(v, f);
+       small_gltf(v, f);
+       placing(v, f);
+     },
+     run_optimize},
     {"info", "what is inside: nodes, triangles, bounds, textures, lights", "wrlkit info plant.wrl --json",
      [](CLI::App& v, Flags& f) { input(v, f); placing(v, f); }, run_info},
     {"check", "faults and doubtful places of worlds", "wrlkit check *.wrl",
@@ -201,8 +223,8 @@ const Verb verbs[] = {
     {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",
      [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "node type, pass or message")->required(); }, run_explain},
-    {"docs", "a page of the documentation that is made from the tables: nodes, passes, diagnostics or recipes", "wrlkit docs nodes",
-     [](CLI::App& v, Flags& f) { v.add_option("PAGE", f.name, "nodes, passes, diagnostics or recipes")->required()->check(CLI::IsMember({"nodes", "passes", "diagnostics", "recipes"})); }, run_docs},
+    {"docs", "a page of the documentation that is made from the tables: nodes, passes, diagnostics, recipes or profiles", "wrlkit docs nodes",
+     [](CLI::App& v, Flags& f) { v.add_option("PAGE", f.name, "nodes, passes, diagnostics, recipes or profiles")->required()->check(CLI::IsMember({"nodes", "passes", "diagnostics", "recipes", "profiles"})); }, run_docs},
 };
 
 /// "8G" to bytes; 0 when it is no size.

@@ -54,8 +54,8 @@ constexpr FormatRow formats[] = {
     {"VRML 1.0", ".wrl .wrz .wrl.gz .iv", "yes, Inventor 2 ASCII too", "no"},
     {"X3D XML", ".x3d .x3dz", "yes, versions 3.0 to 4.0, gzip", "yes, 4.0, --gzip"},
     {"X3D VRML", ".x3dv .x3dvz", "yes, versions 3.0 to 4.0, gzip", "no"},
-    {"glTF 2.0", ".gltf", "yes, by its asset", "yes"},
-    {"GLB", ".glb", "yes, by its first bytes", "yes"},
+    {"glTF 2.0", ".gltf", "yes, by its asset", "yes, --compress, optimize"},
+    {"GLB", ".glb", "yes, by its first bytes", "yes, --compress, optimize"},
     {"patches", ".xml", "yes", "illuminate"},
     {"pictures", "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR", "as textures", "PNG, JPEG, WebP, EXR"},
 };

@@ -6,6 +6,7 @@
 #include "scenegraph/nearest_name.h"
 #include "scenegraph/node_table.h"
 #include "tools/documentation.h"
+#include "tools/profiles.h"
 #include "tools/flags.h"
 #include "tools/recipe.h"
 
@@ -48,7 +49,7 @@ int run_passes(const Flags& flags) {
 }
 
 int run_docs(const Flags& flags) {
-  fmt::print("{}", flags.name == "nodes" ? nodes_page() : flags.name == "passes" ? passes_page() : flags.name == "recipes" ? recipes_page() : diagnostics_page());
+  fmt::print("{}", flags.name == "nodes" ? nodes_page() : flags.name == "passes" ? passes_page() : flags.name == "recipes" ? recipes_page() : flags.name == "profiles" ? profiles_page() : diagnostics_page());
   return done;
 }
 

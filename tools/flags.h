@@ -37,6 +37,8 @@ struct Flags {
   // glTF that is to be small
   std::string compress = "none";
   std::string tolerance;                   // a length: 1mm
+  std::string profile, extras = "all";
+  bool print_profile = false;
   int position_bits = 0, normal_bits = 8, texcoord_bits = 12, color_bits = 10;
 
   bool parse_only = false;                 // check
@@ -80,6 +82,7 @@ struct Flags {
 enum ExitCode : int { done = 0, partly = 1, usage = 2, nothing = 3 };
 
 int run_convert(const Flags&);
+int run_optimize(const Flags&);
 int run_info(const Flags&);
 int run_check(const Flags&);
 int run_cat(const Flags&);

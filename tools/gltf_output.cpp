@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
+#include "scenegraph/walk.h"
 #include "tools/lengths.h"
+#include "tools/profiles.h"
 #include "writers/json.h"
+#include "writers/made_files.h"
 
 namespace wrlkit {
 namespace {
@@ -30,14 +34,69 @@ void size_line(std::string& out, std::string_view what, std::uint64_t bytes, std
   out += '\n';
 }
 
+struct LightRow {
+  std::string_view name;
+  GltfOptions::Lightmaps as;
+  std::string_view pipeline;
+};
+
+/// What --lightmap-as says.
+const LightRow* light_of(std::string_view name) {
+  using As = GltfOptions::Lightmaps;
+  static constexpr LightRow rows[] = {{"base-color", As::base_color, "gltf"},
+                                      {"emissive", As::emissive, "gltf-emissive"},
+                                      {"occlusion", As::occlusion, "gltf-light"},
+                                      {"moz", As::moz, "gltf-light"},
+                                      {"extras", As::extras, "gltf-light"}};
+  return std::ranges::find(rows, name, &LightRow::name);
+}
+
+std::size_t count_geometries(const Scene& scene) {
+  return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return scene.type(n).is_a("X3DGeometryNode"); }));
+}
+
+/// A glTF without meshes is what some worlds deserve (lights, PROTO libraries), but nobody should find it out later.
+void say_why_empty(const Scene& scene, Diagnostics& diag) {
+  const auto& roots = scene.main.roots;
+  if (diag.count(Diag::unknown_node) > 0) diag.report(Diag::nothing_drawn, roots.empty() ? Span{} : scene.where(roots[0]), "it has no geometry, but nodes that are not known");
+  else if (roots.empty()) diag.report(Diag::nothing_drawn, Span{}, "it holds no node");
+}
+
 }  // namespace
 
-std::optional<GltfCompression> compression_of(const Flags& f) {
+void apply_profile(Flags& f) {
+  const Profile* profile = f.profile.empty() ? nullptr : find_profile(f.profile);
+  if (!profile) return;
+  auto given = [&](std::string_view name) { return std::ranges::any_of(f.given, [&](const auto& g) { return g.first == name; }); };
+  if (!given("compress")) f.compress = profile->compress;
+  if (!given("extras")) f.extras = profile->extras;
+}
+
+std::optional<GltfOptions> gltf_options(const Flags& f) {
   GltfCompression c{.method = method_of(f.compress), .position_bits = f.position_bits, .normal_bits = f.normal_bits, .texcoord_bits = f.texcoord_bits, .color_bits = f.color_bits};
-  if (f.tolerance.empty()) return c;
-  c.tolerance = length_of(f.tolerance);
-  if (!(c.tolerance > 0)) return fmt::print(stderr, "wrlkit: --tolerance: '{}' is no length\n", f.tolerance), std::nullopt;
-  return c;
+  if (!f.tolerance.empty()) c.tolerance = length_of(f.tolerance);
+  if (!f.tolerance.empty() && !(c.tolerance > 0)) return fmt::print(stderr, "wrlkit: --tolerance: '{}' is no length\n", f.tolerance), std::nullopt;
+  std::string name = f.output;
+  std::ranges::transform(name, name.begin(), [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
+  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .extras = f.extras != "none", .facts_only = f.extras != "all"};
+}
+
+std::string_view gltf_pipeline(const Flags& f) { return light_of(f.lightmap_as)->pipeline; }
+
+bool write_gltf_file(Session& s, const GltfOptions& options, GltfSummary& summary) {
+  Scene& scene = s.world().scene;
+  auto meshes = s.pipeline().run_lazily(scene, s.context(), s.pipeline_options());
+  if (!meshes) return false;
+  const auto n_geometries = count_geometries(scene);
+  if (n_geometries == 0) say_why_empty(scene, s.diag());
+  s.progress().begin("writing " + s.flags().output, n_geometries, "shapes");
+  auto counted = [&](NodeId n) -> const Mesh& { return s.progress().step(), meshes(n); };
+  MadeFiles beside(scene, s.resources(), s.flags().output, s.diag());  // pictures are glTF's own matter; the rest is here
+  GltfOptions measured = options;
+  measured.measure_gzip = s.flags().verbose || s.flags().json;
+  if (!beside.write() || !write_gltf(scene, counted, measured, &s.resources(), s.flags().output, s.diag(), &summary) || !beside.commit()) return false;
+  s.fact("gltf", summary_json(summary));
+  return true;
 }
 
 std::string summary_text(const GltfSummary& s) {
@@ -48,8 +107,8 @@ std::string summary_text(const GltfSummary& s) {
   out += fmt::format("  {} nodes, {} of them with a name; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named), grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
   const auto& q = s.quantization;
   if (q.tolerance > 0)
-    out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), normals {:.2g} degrees, texture coordinates {:.2g}, colours {:.2g}\n", q.position * 1e3, q.tolerance * 1e3,
-                       q.normal * degrees, q.texcoord, q.color);
+    out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), normals {:.2g} degrees, texture coordinates {:.2g}, colours {:.2g}; places of nodes within {:.2g} mm\n", q.position * 1e3, q.tolerance * 1e3,
+                       q.normal * degrees, q.texcoord, q.color, q.placement * 1e3);
   return out;
 }
 
@@ -78,6 +137,7 @@ std::string summary_json(const GltfSummary& s) {
     json.begin_object();
     json.member("tolerance", q.tolerance);
     json.member("position", q.position);
+    json.member("placement", q.placement);
     json.member("normal_degrees", q.normal * degrees);
     json.member("texcoord", q.texcoord);
     json.member("color", q.color);

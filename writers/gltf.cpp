@@ -84,7 +84,7 @@ class Writer {
         summary_(summary),
         textures_(scene, resources, diag),
         extras_(scene, diag),
-        materials_(scene, textures_, options.extras ? &extras_ : nullptr, options.lightmaps),
+        materials_(scene, textures_, options.extras && !options.facts_only ? &extras_ : nullptr, options.lightmaps),
         meshes_(scene, source, store_, options.lightmaps != GltfOptions::Lightmaps::base_color,
                 options.compression.method == GltfCompression::Method::meshopt, diag),
         animations_(scene, options.animations, diag),
@@ -122,7 +122,7 @@ class Writer {
     Layout layout(packing.store(), pictures_inside() ? textures_.pictures() : no_pictures, packing.uses_meshopt());
     Parts parts{scene_,     hierarchy_, meshes_, packing,
                 materials_, textures_,  layout,  animations_, options_.extras ? &extras_ : nullptr,
-                {},         {}};
+                options_.facts_only, {}, {}};
     return put(parts);
   }
 

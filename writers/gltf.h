@@ -27,6 +27,7 @@ struct GltfSummary {
   /// Largest differences between what is stored and what was there.
   struct Quantization {
     double tolerance = 0, position = 0;  // metres of the world
+    double placement = 0;                // the same, for numbers of nodes; not above this
     double normal = 0;                   // radians
     double texcoord = 0, color = 0;      // parts of a picture; of the full range
     std::size_t kept = 0;                // accessors that had to stay floats
@@ -53,6 +54,8 @@ struct GltfOptions {
   bool measure_gzip = false;  // for the summary
   bool lights = true, cameras = true, animations = true;
   bool extras = true;                  // what glTF cannot say is kept
+  bool facts_only = false;             // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
+                                       // the same VRML again. Groups without a name that hold one thing are then one node with it
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
 };
 

@@ -160,6 +160,7 @@ void Hierarchy::leave() {
   }
   auto id = group(f);
   built_.resize(f.first_built);
+  if (says_nothing(nodes_[id]) && id + 1 == nodes_.size() && !scene_.is(frames_.back().node, nodes::LOD)) return nodes_.pop_back();
   built_.push_back(id);
   set_same(id);
   Frame& parent = frames_.back();
@@ -228,6 +229,7 @@ std::uint32_t Hierarchy::fold(const Frame& f) {
   bool only_groups = scene_.is(f.node, nodes::Transform) || scene_.is(f.node, nodes::Group);
   if (!only_groups || f.local.inner || turns_about_a_center(f.node) || built_.size() != f.first_built + 1) return none;
   Node& child = nodes_[built_.back()];
+  if (options_.facts_only) return fold_into(f, child);
   bool bare = child.attachment == Attachment::mesh && child.transform == none && scene_.name(child.source).empty();
   if (!bare || (extras_ && extras_->says_more(child.source, nodes::Shape))) return none;
   child.source = f.node;
@@ -235,6 +237,29 @@ std::uint32_t Hierarchy::fold(const Frame& f) {
   child.transform = add_transform(f.local.outer, animations_.moves(f.node));
   add_targets(f.node, built_.back(), built_.back(), built_.back());
   return built_.back();
+}
+
+/// A group and the one thing in it, when only one of them has a name and their transforms are one.
+std::uint32_t Hierarchy::fold_into(const Frame& f, Node& child) {
+  const bool drawn = child.attachment == Attachment::mesh || child.attachment == Attachment::nothing;
+  if (!drawn || child.lod || !child.source || animations_.moves(child.source) || animations_.moves(f.node)) return none;
+  if (!scene_.name(child.source).empty() && !scene_.name(f.node).empty()) return none;
+  const bool only_groups = scene_.is(child.source, nodes::Transform) || scene_.is(child.source, nodes::Group) || scene_.is(child.source, nodes::Shape);
+  const Trs& outer = f.local.outer;
+  const Trs inner = child.transform == none ? Trs{} : transforms_[child.transform];
+  const bool even = outer.scale[0] == outer.scale[1] && outer.scale[1] == outer.scale[2];
+  if (!only_groups || !(even || inner.rotation.identity())) return none;
+  Trs both{matrix(outer).point(inner.translation), outer.rotation * inner.rotation, inner.scale};
+  for (std::size_t i = 0; i < 3; ++i) both.scale[i] *= outer.scale[i];
+  child.transform = add_transform(both);
+  if (scene_.name(child.source).empty()) child.source = f.node;
+  return built_.back();
+}
+
+/// Nobody would miss it: no name, nothing in it.
+bool Hierarchy::says_nothing(const Node& n) const {
+  const bool group = n.source && scene_.name(n.source).empty() && (scene_.type(n.source).is_a("X3DGroupingNode") || scene_.is(n.source, nodes::Shape));
+  return options_.facts_only && group && n.n_children == 0 && n.attachment == Attachment::nothing && !does_something(scene_, n.source);
 }
 
 void Hierarchy::make_lod(const Frame& f) {
@@ -374,13 +399,79 @@ void Hierarchy::move(std::uint32_t id, const Vec3& by, std::vector<std::uint32_t
   for (std::size_t i = 0; i < 3; ++i) t[i] += by[i];
 }
 
+namespace {
+
+/// Digits behind the point, as the nearest double: 0.1 + 0.2 is written 0.3.
+double decimal(double v, int digits) {
+  const double per_unit = std::pow(10, digits);
+  return std::round(v * per_unit) / per_unit;
+}
+
+}  // namespace
+
+double Hierarchy::round_transforms(double tolerance) {
+  // From the roots down: every node behind its parent, levels of detail beside the first.
+  std::vector<std::uint32_t> order = roots_, parent(nodes_.size(), none);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Node& n = nodes_[order[i]];
+    auto below = [&](std::uint32_t c, std::uint32_t p) { parent[c] = p, order.push_back(c); };
+    for (auto c : children(n)) below(c, order[i]);
+    if (n.lod)
+      for (auto l : lods_.at(order[i]).levels) below(l, parent[order[i]]);
+  }
+  auto trs = [&](std::uint32_t id) { return nodes_[id].transform == none ? Trs{} : transforms_[nodes_[id].transform]; };
+  auto stretch = [](const Trs& t) { return std::max({std::abs(t.scale[0]), std::abs(t.scale[1]), std::abs(t.scale[2])}); };
+  std::vector<double> reach(nodes_.size(), 0);  // of what is in a node, in its frame
+  for (std::size_t i = order.size(); i-- > 0;) {
+    const std::uint32_t id = order[i];
+    const Node& n = nodes_[id];
+    if (n.attachment == Attachment::mesh) reach[id] = std::max(reach[id], meshes_.reach(n.attached));
+    if (n.attachment == Attachment::camera || n.attachment == Attachment::light) reach[id] = std::max(reach[id], world_.extent());
+    const Trs t = trs(id);
+    if (parent[id] != none) reach[parent[id]] = std::max(reach[parent[id]], std::hypot(t.translation[0], t.translation[1], t.translation[2]) + stretch(t) * reach[id]);
+  }
+  // The fewest digits with which the sum on the way to each leaf stays below the tolerance.
+  constexpr int most = 9;
+  for (int digits = std::max(0, static_cast<int>(std::floor(-std::log10(tolerance)))); digits <= most; ++digits) {
+    std::vector<double> moved(nodes_.size(), 0), scale(nodes_.size(), 1);
+    std::vector<std::pair<std::uint32_t, Trs>> all;
+    double worst = 0;
+    for (std::uint32_t id : order) {
+      if (parent[id] != none) moved[id] = moved[parent[id]], scale[id] = scale[parent[id]];
+      if (nodes_[id].transform == none || animations_.moves(nodes_[id].source)) {
+        scale[id] *= stretch(trs(id));
+        continue;
+      }
+      const Trs t = trs(id);
+      Trs r = t;
+      const int turn_digits = std::clamp(digits + static_cast<int>(std::ceil(std::log10(std::max(2 * reach[id] * scale[id] * stretch(t), 1e-9)))), 3, 15);
+      const int place_digits = std::clamp(digits + static_cast<int>(std::ceil(std::log10(std::max(scale[id], 1e-9)))), 0, 15);
+      for (double& v : r.translation) v = decimal(v, place_digits);
+      for (double& v : r.scale) v = decimal(v, turn_digits) == 0 ? v : decimal(v, turn_digits);
+      for (double* v : {&r.rotation.x, &r.rotation.y, &r.rotation.z, &r.rotation.w}) *v = decimal(*v, turn_digits);
+      const Quaternion &a = t.rotation, &b = r.rotation;
+      const double place = std::hypot(t.translation[0] - r.translation[0], t.translation[1] - r.translation[1], t.translation[2] - r.translation[2]);
+      const double turn = 2 * std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z) + (a.w - b.w) * (a.w - b.w));
+      const double grown = std::hypot(t.scale[0] - r.scale[0], t.scale[1] - r.scale[1], t.scale[2] - r.scale[2]);
+      moved[id] += scale[id] * (place + (turn * stretch(t) + grown) * reach[id]);
+      scale[id] *= stretch(t);
+      worst = std::max(worst, moved[id]);
+      all.emplace_back(id, r);
+    }
+    if (worst > tolerance) continue;
+    for (const auto& [id, t] : all) transforms_[nodes_[id].transform] = t;
+    return worst;
+  }
+  return 0;
+}
+
 /// In the node of the mesh where that can be; what is animated, or is a Transform that can come back, has it in a child.
 void Hierarchy::dequantize(const std::function<const Dequantization*(std::uint32_t)>& of_mesh) {
   for (std::uint32_t id = 0, n = static_cast<std::uint32_t>(nodes_.size()); id < n; ++id) {
     const auto* d = nodes_[id].attachment == Attachment::mesh ? of_mesh(nodes_[id].attached) : nullptr;
     if (!d) continue;
     const Vec3 step{d->step, d->step, d->step};
-    const bool keeps = extras_ && !(nodes_[id].source && scene_.is(nodes_[id].source, nodes::Shape));
+    const bool keeps = extras_ && !options_.facts_only && !(nodes_[id].source && scene_.is(nodes_[id].source, nodes::Shape));
     if (keeps || animations_.moves(nodes_[id].source)) {
       const auto child = add({.transform = add_transform({d->origin, {}, step}), .attached = nodes_[id].attached, .attachment = Attachment::mesh});
       nodes_[id].attachment = Attachment::nothing;

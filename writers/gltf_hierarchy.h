@@ -46,6 +46,8 @@ class Hierarchy {
   /// Everything below the roots of the scene.
   void build();
 
+  /// Leaves out digits of transforms, as far as nothing in the world moves further than `tolerance`. How far it may move.
+  double round_transforms(double tolerance);
   /// Gives nodes of meshes the transform that makes metres of whole numbers; null: a mesh needs none.
   void dequantize(const std::function<const Dequantization*(std::uint32_t mesh)>&);
 
@@ -89,6 +91,8 @@ class Hierarchy {
   void leave();
   std::uint32_t group(const Frame&);
   std::uint32_t fold(const Frame&);
+  std::uint32_t fold_into(const Frame&, Node& child);
+  bool says_nothing(const Node&) const;
   std::uint32_t turning(const Frame&, std::span<const std::uint32_t> children);
   bool turns_about_a_center(NodeId transform) const;
   void make_lod(const Frame&);

@@ -213,7 +213,7 @@ class Writer {
   }
 
   void node_extras(const Node& n, std::uint32_t id) {
-    bool vrml97 = p_.extras && (!n.source || n.same_as != none || p_.extras->says_more(n.source, implied(n), n.plain) || named_as_described(n));
+    bool vrml97 = p_.extras && (p_.facts_only ? is_fact(n) : !n.source || n.same_as != none || p_.extras->says_more(n.source, implied(n), n.plain) || named_as_described(n));
     bool coverage = n.lod && !h_.lod(id).coverage.empty();
     if (!vrml97 && !coverage) return;
     json_.key("extras");
@@ -229,6 +229,13 @@ class Writer {
       p_.extras->vrml97(json_, n.source, p_.extras->said_by_node(n.source, n.plain), named_as_described(n));
     }
     json_.end_object();
+  }
+
+  /// What a reader other than wrlkit may want to know: the whole of what glTF has no node for, links and descriptions.
+  bool is_fact(const Node& n) const {
+    if (!n.source || n.same_as != none || p_.scene.is(n.source, nodes::Switch) || p_.scene.is(n.source, nodes::LOD)) return false;
+    const bool group = p_.scene.type(n.source).is_a("X3DGroupingNode") && !p_.scene.is(n.source, nodes::Anchor) && !p_.scene.is(n.source, nodes::Billboard);
+    return !group && !p_.scene.is(n.source, nodes::Shape) && p_.extras->says_more(n.source, implied(n), n.plain);
   }
 
   /// A Viewpoint without a name has its description as that of its node: one that has both says so.
@@ -261,7 +268,7 @@ class Writer {
     if (g.features != none) mesh_features(g);
     json_.end_object();
     json_.end_array();
-    if (p_.extras) mesh_extras(g, p_.packing.dequantization(m));
+    if (p_.extras && !p_.facts_only) mesh_extras(g, p_.packing.dequantization(m));
     json_.end_object();
   }
 
@@ -299,7 +306,7 @@ class Writer {
     if (auto name = name_of(t.source); !name.empty()) json_.member("name", name);
     json_.member("sampler", t.sampler);
     json_.member("source", t.picture);
-    if (p_.extras) p_.extras->member(json_, t.source, said_by_texture(p_.scene, t.source));
+    if (p_.extras && !p_.facts_only) p_.extras->member(json_, t.source, said_by_texture(p_.scene, t.source));
     json_.end_object();
   }
 

@@ -20,6 +20,7 @@ struct Parts {
   const Layout& layout;
   const Animations& animations;
   Extras* extras;                         // none: without
+  bool facts_only;                        // see GltfOptions
   std::string buffer_uri;                 // none: the buffer is that of a GLB
   std::vector<std::string> picture_uris;  // of those that are not inside
 };

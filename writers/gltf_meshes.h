@@ -66,6 +66,8 @@ class Meshes {
   const std::vector<Vec3>& origins() const { return origins_; }
   /// Names of parts; the number of a part is its place here.
   const std::vector<std::string>& feature_names() const { return feature_names_; }
+  /// How far a mesh goes from its origin.
+  double reach(std::uint32_t mesh) const { return bounds(geometries_[meshes_[mesh].geometry], {}).reach() * std::sqrt(3.0); }
   /// Of a geometry that is not empty, in a frame.
   Box bounds(const Geometry&, const Matrix&) const;
 

@@ -25,12 +25,16 @@ Packing::Packing(const GltfCompression& options, const Store& from, const Meshes
     : options_(options), from_(from), meshes_(meshes), store_(&from) {
   const auto& records = meshes.meshes();
   for (const MeshRecord& m : records) streams_.push_back(streams_of(meshes.geometries()[m.geometry], m));
-  if (options_.method == Method::none) return;
+  if (options_.method == Method::none) {
+    if (options_.tolerance > 0) summary_.placement = hierarchy.round_transforms(options_.tolerance);
+    return;
+  }
   store_ = &own_;
   summary_.tolerance = tolerance_for(options, hierarchy.world());
   note_uses();
   for (Streams& s : streams_) s = packed(s);
   pack_others();
+  if (const double rest = summary_.tolerance - summary_.position; rest > 0) summary_.placement = hierarchy.round_transforms(rest);
   hierarchy.dequantize([&](std::uint32_t mesh) { return dequantization(records[mesh]); });
 }
 
