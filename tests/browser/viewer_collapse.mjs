@@ -81,6 +81,22 @@ try {
     }
   }
 
+  // View-dependent: what the clock says where the lens is not, more in it; near the eye more than far away.
+  await page.getByRole('button', {name: '200', exact: true}).click();
+  await page.getByLabel('In a lens').check({force: true});
+  const drawn = (x, y) => page.evaluate(([x, y]) => new Promise(done => {
+    const {collapse} = window.viewer;
+    Object.assign(collapse.lens, {x, y});
+    collapse.stage.invalidate();
+    requestAnimationFrame(() => requestAnimationFrame(() => done(collapse.lanes.map(lane => lane.drawn))));
+  }), [x, y]);
+  assert.deepEqual(await drawn(9, 9), [200, 200, 200]);
+  for (const n of await drawn(0.5, 0.5)) assert(n > 400 && n < all / 2, `${n} faces with a lens`);
+  await page.getByLabel('Near the eye').check({force: true});
+  for (const n of await drawn(0, 0)) assert(n > 50 && n < 1000, `${n} faces near the eye`);
+  await page.getByLabel('Everywhere').check({force: true});
+  assert.deepEqual(await drawn(0, 0), [200, 200, 200]);
+
   // By itself, until few are left; then it asks.
   await page.getByLabel('Ask for a click only below so many faces').fill('150');
   await page.keyboard.press('Enter');

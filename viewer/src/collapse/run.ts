@@ -1,11 +1,15 @@
 // The collapses of a world by one criterion, as one sequence: of all surfaces the one goes next whose error stays smallest. So a
 // world of one surface collapses in the order of its criterion.
-import {Box3, BufferGeometry, Color, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, Scene, Vector3, type Matrix4} from 'three';
+import {Box3, BufferGeometry, Color, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, Matrix4, Scene, Vector3, Vector4, type PerspectiveCamera} from 'three';
 import type {Surface} from './file';
 import {edgeOf, type Edge} from './cost';
+import type {Refinement} from './refine';
 import {Stepper} from './stepper';
 
 export type Shading = 'greys' | 'shaded';
+
+/// Where a run shows more detail than its clock says: nowhere; in a lens, a circle in the picture; near the eye, and less far away.
+export type Detail = {kind: 'even'} | {kind: 'lens'; x: number; y: number; radius: number} | {kind: 'near'; distance: number};
 
 const greyMaterial = new MeshBasicMaterial({vertexColors: true, side: DoubleSide});
 
@@ -17,11 +21,12 @@ export class Run {
   at = 0;                               // collapses done
   private readonly steppers: Stepper[];
   private readonly order: Uint32Array;  // the surface of each collapse
-  private readonly meshes: {mesh: Mesh; color: Color}[] = [];
+  private readonly meshes: {mesh: Mesh; color: Color; surface: number}[] = [];
+  private readonly refined: (Refinement | undefined)[] = [];
 
   constructor(readonly criterion: string, private readonly surfaces: Surface[]) {
     this.steppers = surfaces.map(s => new Stepper(s.record, centerOf(s)));
-    surfaces.forEach((s, i) => this.place(s, this.steppers[i]!));
+    surfaces.forEach((s, i) => this.place(s, i));
     this.scene.add(this.root);
     this.order = orderOf(surfaces);
     this.faces = this.countFaces();
@@ -62,6 +67,34 @@ export class Run {
 
   flush(): void { for (const s of this.steppers) s.flush(); }
 
+  /// Draws with more detail where it is wanted, for this camera; the number of faces that are drawn.
+  refine(detail: Detail, camera: PerspectiveCamera): number {
+    for (const {mesh, surface} of this.meshes) mesh.geometry = detail.kind === 'even' ? this.steppers[surface]!.geometry : this.refinementOf(surface).geometry;
+    if (detail.kind === 'even') return this.count;
+    const view = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    this.surfaces.forEach((surface, i) => {
+      const refinement = this.refinementOf(i), done = this.steppers[i]!.done, error = this.steppers[i]!.error * surface.scale;
+      const placed = this.meshes.filter(m => m.surface === i).map(m => new Matrix4().multiplyMatrices(view, m.mesh.matrix));
+      const seen = new Vector4();
+      const isNear = (node: number, test: (p: Vector4) => boolean): boolean =>
+        placed.some(m => test(seen.set(refinement.places[3 * node]!, refinement.places[3 * node + 1]!, refinement.places[3 * node + 2]!, 1).applyMatrix4(m)));
+      if (detail.kind === 'lens') {
+        const {x, y, radius} = detail;
+        const inside = (p: Vector4): boolean => p.w > 0 && Math.hypot((p.x / p.w - x) * camera.aspect, p.y / p.w - y) < radius;
+        refinement.update((split, node) => split < done || isNear(node, inside));
+      } else {
+        // At the pivot a split is wanted when the clock has it; its error may be as much larger as it is farther away.
+        const before = (split: number): number => (split > 0 ? surface.record.error[split - 1]! : surface.record.baseError) * surface.scale;
+        refinement.update((split, node) => isNear(node, p => before(split) * detail.distance > error * Math.max(p.w, 0)));
+      }
+    });
+    return this.surfaces.reduce((n, s, i) => n + this.refinementOf(i).faces * s.places.length, 0);
+  }
+
+  private refinementOf(surface: number): Refinement {
+    return this.refined[surface] ??= this.steppers[surface]!.refinement();
+  }
+
   shade(shading: Shading): void {
     for (const {mesh, color} of this.meshes) mesh.material = shading === 'greys' ? greyMaterial : new MeshLambertMaterial({color, side: DoubleSide, flatShading: true});
   }
@@ -76,15 +109,16 @@ export class Run {
     return Float64Array.from(out);
   }
 
-  private place(surface: Surface, stepper: Stepper): void {
+  private place(surface: Surface, index: number): void {
+    const stepper = this.steppers[index]!;
     const color = new Color().setRGB(...surface.color.map(c => c / 255) as [number, number, number], 'srgb');
     const center = centerOf(surface);
     for (const place of surface.places) {
       const mesh = new Mesh<BufferGeometry>(stepper.geometry, greyMaterial);
       mesh.matrixAutoUpdate = false;
-      mesh.matrix.copy(place).multiply(translation(place, center));
+      mesh.matrix.copy(place).multiply(translation(center));
       this.root.add(mesh);
-      this.meshes.push({mesh, color});
+      this.meshes.push({mesh, color, surface: index});
     }
     this.root.updateMatrixWorld(true);
     for (const mesh of this.root.children.slice(-surface.places.length)) this.box.expandByObject(mesh);
@@ -108,7 +142,7 @@ function centerOf(surface: Surface): Vector3 {
   return box.isEmpty() ? new Vector3() : box.getCenter(new Vector3());
 }
 
-const translation = (like: Matrix4, by: Vector3): Matrix4 => like.clone().makeTranslation(by);
+const translation = (by: Vector3): Matrix4 => new Matrix4().makeTranslation(by);
 
 /// Surfaces by the error that their next collapse leaves; it never falls within a surface, so a stable sort keeps their order.
 function orderOf(surfaces: Surface[]): Uint32Array {

@@ -2,6 +2,7 @@
 // face can have its own greys. A step changes the corners around one edge.
 import {BufferAttribute, BufferGeometry, Sphere, Vector3} from 'three';
 import type {Record} from './record';
+import {Refinement} from './refine';
 
 /// Three greys at the corners of each face, in an order of its own (Lazanyi, 2.3): edges are seen where neighbours differ.
 const greys = [72, 138, 214] as const;
@@ -24,6 +25,7 @@ export class Stepper {
   readonly corners: Uint32Array;
   readonly positions: Float64Array;  // of the vertices, at this state
   done: number;                      // splits that are there
+  private readonly original: Uint32Array;  // vertices of all corners at the finest state
   private readonly place: BufferAttribute;
   private readonly drawn: Float32Array;
   private readonly center: Vector3;
@@ -33,6 +35,7 @@ export class Stepper {
   constructor(readonly record: Record, center: Vector3) {
     this.center = center;
     this.corners = record.corners;
+    this.original = record.corners.slice();
     this.positions = record.positions;
     this.done = record.splits;
     this.drawn = new Float32Array(9 * record.faces);
@@ -44,6 +47,11 @@ export class Stepper {
     this.geometry.computeBoundingSphere();
     this.geometry.boundingSphere ??= new Sphere();
     this.geometry.boundingSphere.radius *= 1.5;
+  }
+
+  /// The same surface for view-dependent refinement, in the same greys.
+  refinement(): Refinement {
+    return new Refinement(this.record, this.original, this.geometry.getAttribute('color').array as Uint8Array, this.center);
   }
 
   get faces(): number { return this.done > 0 ? this.record.faceEnd[this.done - 1]! : this.record.baseFaces; }

@@ -5,7 +5,7 @@ import {LineSegments2} from 'three/addons/lines/LineSegments2.js';
 import {LineSegmentsGeometry} from 'three/addons/lines/LineSegmentsGeometry.js';
 import type {Edge} from '../collapse/cost';
 import {readWorld} from '../collapse/file';
-import {Run, type Shading} from '../collapse/run';
+import {Run, type Detail, type Shading} from '../collapse/run';
 import {readFile} from '../data';
 import {state} from '../state';
 import type {Mode, Stage} from '../view/stage';
@@ -35,6 +35,7 @@ export interface Lane {
   edge: (Edge & {surface: string}) | null;
   marks: NextEdge;
   lamp: DirectionalLight;
+  drawn: number;          // faces in the picture
 }
 
 export interface Rectangle {
@@ -52,11 +53,15 @@ export class CollapseMode implements Mode {
   askBelow = 0;           // faces
   speed = 60;             // collapses a second
   markNext = true;
+  detail: Detail['kind'] = 'even';
+  readonly lens = {x: 0.5, y: 0.5};  // in each part of the canvas, from its upper left corner
   private owed = 0;       // part of a collapse
   private loading: Promise<void> | null = null;
   private readonly changed: (() => void)[] = [];
 
-  constructor(readonly stage: Stage, private readonly files: {criterion: string; file: number}[]) {}
+  constructor(readonly stage: Stage, private readonly files: {criterion: string; file: number}[]) {
+    stage.canvas.addEventListener('pointermove', e => this.moveLens(e.offsetX, e.offsetY));
+  }
 
   onChange(call: () => void): void { this.changed.push(call); }
 
@@ -72,7 +77,7 @@ export class CollapseMode implements Mode {
       const run = new Run(criterion, readWorld(await readFile(file)));
       const lamp = new DirectionalLight(0xffffff, 2.6);
       run.scene.add(lamp, lamp.target, new HemisphereLight(0xffffff, 0x777777, 0.7));
-      this.lanes.push({run, edge: null, marks: new NextEdge(run.scene), lamp});
+      this.lanes.push({run, edge: null, marks: new NextEdge(run.scene), lamp, drawn: run.count});
       this.box.union(run.box);
     }
     const faces = state.number('faces');
@@ -115,6 +120,27 @@ export class CollapseMode implements Mode {
     this.update();
   }
 
+  setDetail(kind: Detail['kind']): void {
+    this.detail = kind;
+    this.update();
+  }
+
+  private moveLens(x: number, y: number): void {
+    const r = this.rectangles().find(part => x >= part.left && x < part.left + part.width && y >= part.top && y < part.top + part.height);
+    if (this.detail !== 'lens' || !r) return;
+    this.lens.x = (x - r.left) / r.width;
+    this.lens.y = (y - r.top) / r.height;
+    this.stage.invalidate();
+  }
+
+  /// The lens's radius in a part of the canvas, pixels.
+  lensRadius({width, height}: Rectangle): number { return 0.16 * Math.min(width, height); }
+
+  private wantedDetail(part: Rectangle): Detail {
+    if (this.detail === 'lens') return {kind: 'lens', x: 2 * this.lens.x - 1, y: 1 - 2 * this.lens.y, radius: this.lensRadius(part) / (part.height / 2)};
+    return this.detail === 'near' ? {kind: 'near', distance: this.stage.navigator.distance} : {kind: 'even'};
+  }
+
   private update(): void {
     for (const lane of this.lanes) {
       lane.edge = lane.run.next();
@@ -152,12 +178,16 @@ export class CollapseMode implements Mode {
 
   draw(stage: Stage): void {
     const rectangles = this.rectangles();
-    this.shown.forEach(({run, lamp}, i) => {
+    this.shown.forEach((lane, i) => {
+      const {run, lamp} = lane;
       const {left, top, width, height} = rectangles[i]!;
       run.flush();
       lamp.position.set(0.3, 0.5, 1).applyQuaternion(stage.camera.quaternion).add(stage.camera.position);
       lamp.target.position.copy(stage.camera.position);
-      stage.within(left, stage.height - top - height, width, height, () => stage.renderer.render(run.scene, stage.camera));
+      stage.within(left, stage.height - top - height, width, height, () => {
+        lane.drawn = run.refine(this.wantedDetail(rectangles[i]!), stage.camera);
+        stage.renderer.render(run.scene, stage.camera);
+      });
     });
   }
 }

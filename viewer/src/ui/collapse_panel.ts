@@ -1,7 +1,7 @@
 // Beside the collapse: its clock, its bookmarks, what is shown. And the labels on the picture.
 import type {CollapseMode, Lane} from '../modes/collapse';
 import {state} from '../state';
-import type {Shading} from '../collapse/run';
+import type {Detail, Shading} from '../collapse/run';
 import {button, check, choice, h, section, slider, table} from './dom';
 import {count, length, significant} from './format';
 
@@ -31,6 +31,7 @@ export class CollapsePanel {
   private position = slider('Faces', {min: 0, max: 1000, step: 1, value: 1000}, () => undefined);
   private every = 0;
   built = false;
+  private parts: {label: HTMLElement; faces: HTMLElement; lens: HTMLElement}[] = [];  // on the picture, one a criterion
 
   constructor(private readonly mode: CollapseMode) {
     mode.onChange(() => this.update());
@@ -66,6 +67,7 @@ export class CollapsePanel {
       section('Interaction points', h('label', {class: 'line'}, 'Every', every, 'faces'), this.bookmarks),
       section('Criteria', ...mode.lanes.map(({run}) => check(titleOf(run.criterion), mode.shown.some(l => l.run === run), on => this.choose(run.criterion, on)))),
       section('Display', choice<Shading>('Faces', [['greys', 'Three greys'], ['shaded', 'Shaded']], 'greys', value => mode.shade(value)).element,
+        choice<Detail['kind']>('Detail', [['even', 'Everywhere'], ['lens', 'In a lens'], ['near', 'Near the eye']], 'even', value => mode.setDetail(value)).element,
         check('Mark the next edge', true, on => mode.mark(on)), h('div', {class: 'buttons'}, button('All of it', () => mode.stage.overview(mode.box)), button('Look at the edge', () => this.lookAtEdge()))));
     this.fillBookmarks();
     this.update();
@@ -107,16 +109,25 @@ export class CollapsePanel {
     this.playButton.textContent = this.mode.playing ? 'Stop' : 'Play';
     const rows = this.mode.shown.map(({run: r}) => [titleOf(r.criterion), count(r.count), length(r.error)]);
     this.figures.replaceChildren(table('At this moment', [{title: 'Criterion'}, {title: 'Faces', number: true}, {title: 'Deviation, at most about', number: true}], rows));
-    this.labels.replaceChildren(...this.mode.shown.map(lane => h('div', {class: 'label', 'data-criterion': lane.run.criterion},
-      h('strong', {}, titleOf(lane.run.criterion)), h('output', {}, `${count(lane.run.count)} faces`), h('span', {}, costOf(lane)))));
+    this.parts = this.mode.shown.map(lane => {
+      const faces = h('output');
+      const label = h('div', {class: 'label', 'data-criterion': lane.run.criterion}, h('strong', {}, titleOf(lane.run.criterion)), faces, h('span', {}, costOf(lane)));
+      return {label, faces, lens: h('div', {class: 'lens', hidden: true})};
+    });
+    this.labels.replaceChildren(...this.parts.flatMap(({label, lens}) => [label, lens]));
     this.placeLabels();
   }
 
   private placeLabels(): void {
     const rectangles = this.mode.rectangles();
-    [...this.labels.children].forEach((label, i) => {
-      const r = rectangles[i];
-      if (r) (label as HTMLElement).style.cssText = `left:${r.left}px;top:${r.top}px;max-width:${r.width}px`;
+    this.parts.forEach(({label, faces, lens}, i) => {
+      const r = rectangles[i], lane = this.mode.shown[i];
+      if (!r || !lane) return;
+      label.style.cssText = `left:${r.left}px;top:${r.top}px;max-width:${r.width}px`;
+      faces.textContent = `${count(lane.run.count)} faces` + (this.mode.detail === 'even' ? '' : `, ${count(lane.drawn)} drawn`);
+      const radius = this.mode.lensRadius(r);
+      lens.hidden = this.mode.detail !== 'lens';
+      lens.style.cssText = `left:${r.left + this.mode.lens.x * r.width - radius}px;top:${r.top + this.mode.lens.y * r.height - radius}px;width:${2 * radius}px;height:${2 * radius}px`;
     });
   }
 }
