@@ -9,6 +9,7 @@ export class Refinement {
   readonly geometry = new BufferGeometry();
   readonly places: Float32Array;              // xyz of each node
   readonly before: Uint32Array;               // the node that each split splits
+  readonly radius: Float32Array;              // of a ball around each node that has all that becomes of it
   faces = 0;
   private readonly leaf: Uint32Array;         // of each corner of the original
   private readonly shown: Uint32Array;        // of each node: itself, or the ancestor that is there
@@ -34,12 +35,30 @@ export class Refinement {
       put(now[record.vertex[i]!] = base + 2 * i, record.fine, i);
       put(now[base + i] = base + 2 * i + 1, record.made, i);
     }
+    this.radius = this.radii(nodes);
     this.leaf = Uint32Array.from(corners, v => now[v]!);
     this.place = new BufferAttribute(new Float32Array(3 * corners.length), 3).setUsage(DynamicDrawUsage);
     this.color = new BufferAttribute(new Uint8Array(3 * corners.length), 3, true).setUsage(DynamicDrawUsage);
     this.geometry.setAttribute('position', this.place);
     this.geometry.setAttribute('color', this.color);
     this.geometry.boundingSphere = new Sphere(undefined, Infinity);
+  }
+
+  /// From the boxes of what becomes of each node, from the finest up.
+  private radii(nodes: number): Float32Array {
+    const {places, before} = this, low = places.slice(), high = places.slice(), radius = new Float32Array(nodes), base = this.record.baseVertices;
+    for (let i = before.length - 1; i >= 0; --i) {
+      const node = 3 * before[i]!, reach = [0, 0, 0];
+      for (let k = 0; k < 3; ++k) {
+        for (const child of [3 * (base + 2 * i), 3 * (base + 2 * i + 1)]) {
+          low[node + k] = Math.min(low[node + k]!, low[child + k]!);
+          high[node + k] = Math.max(high[node + k]!, high[child + k]!);
+        }
+        reach[k] = Math.max(high[node + k]! - places[node + k]!, places[node + k]! - low[node + k]!);
+      }
+      radius[before[i]!] = Math.hypot(...reach);
+    }
+    return radius;
   }
 
   /// Every split whose ancestors are there and that is wanted. O(splits and faces).

@@ -76,16 +76,17 @@ export class Run {
       const refinement = this.refinementOf(i), done = this.steppers[i]!.done, error = this.steppers[i]!.error * surface.scale;
       const placed = this.meshes.filter(m => m.surface === i).map(m => new Matrix4().multiplyMatrices(view, m.mesh.matrix));
       const seen = new Vector4();
-      const isNear = (node: number, test: (p: Vector4) => boolean): boolean =>
-        placed.some(m => test(seen.set(refinement.places[3 * node]!, refinement.places[3 * node + 1]!, refinement.places[3 * node + 2]!, 1).applyMatrix4(m)));
+      /// Whether a test holds at one of the places, of where a node is in the picture and how far around it its ball reaches.
+      const isNear = (node: number, test: (p: Vector4, reach: number) => boolean): boolean =>
+        placed.some(m => test(seen.set(refinement.places[3 * node]!, refinement.places[3 * node + 1]!, refinement.places[3 * node + 2]!, 1).applyMatrix4(m), refinement.radius[node]! * surface.scale));
       if (detail.kind === 'lens') {
-        const {x, y, radius} = detail;
-        const inside = (p: Vector4): boolean => p.w > 0 && Math.hypot((p.x / p.w - x) * camera.aspect, p.y / p.w - y) < radius;
+        const {x, y, radius} = detail, zoom = camera.projectionMatrix.elements[5]!;
+        const inside = (p: Vector4, reach: number): boolean => p.w > 0 && Math.hypot((p.x / p.w - x) * camera.aspect, p.y / p.w - y) < radius + reach * zoom / p.w;
         refinement.update((split, node) => split < done || isNear(node, inside));
       } else {
         // At the pivot a split is wanted when the clock has it; its error may be as much larger as it is farther away.
         const before = (split: number): number => (split > 0 ? surface.record.error[split - 1]! : surface.record.baseError) * surface.scale;
-        refinement.update((split, node) => isNear(node, p => before(split) * detail.distance > error * Math.max(p.w, 0)));
+        refinement.update((split, node) => isNear(node, (p, reach) => before(split) * detail.distance > error * Math.max(p.w - reach, 0)));
       }
     });
     return this.surfaces.reduce((n, s, i) => n + this.refinementOf(i).faces * s.places.length, 0);
