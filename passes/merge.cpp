@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <set>
 #include <system_error>
@@ -13,6 +12,7 @@
 #include "passes/figures.h"
 #include "passes/geometry.h"
 #include "passes/merge/cells.h"
+#include "passes/merge/moved.h"
 #include "passes/merge/still_places.h"
 #include "passes/normals.h"
 #include "passes/representatives.h"
@@ -25,8 +25,6 @@
 
 namespace wrlkit {
 namespace {
-
-constexpr std::size_t most_indices = std::numeric_limits<std::int32_t>::max() / 2;  // with room for the -1
 
 /// What is known of a geometry without its mesh.
 struct Outline {
@@ -64,7 +62,6 @@ class Merging {
   void name_parts();
   void divide();
   void merge_cell(std::vector<std::uint32_t> cell);
-  void append(const Mesh& mesh, const Matrix& frame);
   void put_into_zones();
   void remove_merged();
   std::set<std::string_view> names() const;
@@ -175,7 +172,7 @@ void Merging::merge_cell(std::vector<std::uint32_t> cell) {
   all_.clear();
   for (auto i : cell) {
     const auto before = all_.face_begin.empty() ? 0 : all_.face_begin.size() - 1;
-    append(mesh_of(geometry(i)), place(i).frame);
+    append_moved(all_, mesh_of(geometry(i)), place(i).frame, scratch_.map);
     const auto added = static_cast<std::int32_t>(all_.face_begin.size() - 1 - before);
     if (!names.empty() && names.back() == part_names_[i]) {
       faces.back() += added;
@@ -194,61 +191,6 @@ void Merging::merge_cell(std::vector<std::uint32_t> cell) {
   made_[place(cell[0]).zone].push_back(shape);
   ctx_.stats["merge.parts"] += names.size();
   ++n_made_;
-}
-
-/// Faces that a mirroring frame turns inside out, and those of ccw FALSE, run the other way then.
-void Merging::append(const Mesh& m, const Matrix& frame) {
-  if (all_.corners.size() + m.corners.size() > most_indices) return;
-  if (all_.kind == Mesh::Kind::none) {
-    all_.kind = m.kind;
-    all_.solid = m.solid;
-    all_.color.width = m.color.width;
-    all_.face_begin.push_back(0);
-  }
-  all_.convex &= m.convex;
-  const bool reversed = m.kind == Mesh::Kind::faces && m.ccw == (frame.determinant() < 0);
-  const double sign = frame.determinant() < 0 ? -1 : 1;
-  const auto first_corner = static_cast<std::uint32_t>(all_.corners.size());
-  // Points in the order in which corners use them, so that those of a part stand together.
-  auto& points = all_.positions.edit();
-  StampedMap& map = scratch_.map;
-  map.reset(m.n_positions());
-  auto take = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to, auto&& make) {
-    for (std::size_t f = 0; f < m.n_faces(); ++f)
-      for (std::size_t begin = m.begin_of(f), end = m.end_of(f), c = begin; c < end; ++c) {
-        const auto v = from[reversed ? begin + end - 1 - c : c];
-        if (!map.contains(v)) map.set(v, make(v));
-        to.push_back(map[v]);
-      }
-  };
-  take(m.corners, all_.corners, [&](std::uint32_t v) {
-    const double* p = m.positions.data() + std::size_t{v} * 3;
-    const Vec3 at = frame.point({p[0], p[1], p[2]});
-    points.insert(points.end(), at.begin(), at.end());
-    return static_cast<std::uint32_t>(points.size() / 3 - 1);
-  });
-  for (std::size_t f = 0; f < m.n_faces(); ++f) all_.face_begin.push_back(first_corner + static_cast<std::uint32_t>(m.end_of(f)));
-  for (auto a : {&Mesh::normal, &Mesh::color, &Mesh::texcoord}) {
-    const Attribute& from = m.*a;
-    Attribute& to = all_.*a;
-    if (!from.present()) continue;
-    map.reset(from.count());
-    take(from.index, to.index, [&](std::uint32_t v) {
-      const float* p = from.at(v);
-      if (a != &Mesh::normal) {
-        to.values.insert(to.values.end(), p, p + from.width);
-        return static_cast<std::uint32_t>(to.count() - 1);
-      }
-      std::array<double, 3> n{};
-      for (int r = 0; r < 3; ++r) {
-        const int r1 = (r + 1) % 3, r2 = (r + 2) % 3;
-        for (int c = 0; c < 3; ++c) n[static_cast<std::size_t>(r)] += sign * p[c] * (frame(r1, (c + 1) % 3) * frame(r2, (c + 2) % 3) - frame(r1, (c + 2) % 3) * frame(r2, (c + 1) % 3));
-      }
-      const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-      for (double v : n) to.values.push_back(static_cast<float>(length > 0 ? v / length : 0));
-      return static_cast<std::uint32_t>(to.count() - 1);
-    });
-  }
 }
 
 void Merging::put_into_zones() {

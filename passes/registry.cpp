@@ -5,6 +5,7 @@
 #include "passes/cull.h"
 #include "passes/dedup.h"
 #include "passes/expand_protos.h"
+#include "passes/flatten.h"
 #include "passes/inline.h"
 #include "passes/instance.h"
 #include "passes/join.h"
@@ -34,6 +35,7 @@ constexpr PassInfo all_passes[] = {
     pass<instance, InstanceOptions>("instance", "share geometry that is the same but for a motion and a scale", Level::authored, Level::authored),
     pass<cull, CullOptions>("cull", "leave out what is small, or never seen", Level::expanded, Level::expanded),
     pass<merge, MergeOptions>("merge", "few Shapes of many, each part still known by its name", Level::expanded, Level::expanded),
+    pass<flatten, FlattenOptions>("flatten", "multiply transformations that never change into the points", Level::expanded, Level::expanded),
     pass<tessellate, TessellateOptions>("tessellate", "turn every geometry node into faces, and faces into triangles", Level::expanded, Level::mesh),
     pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", Level::authored, Level::authored),
     pass<lod, LodOptions>("lod", "make levels of detail of each Shape", Level::authored, Level::authored),
