@@ -97,6 +97,15 @@ std::string describe_bytes(std::string_view text) {
   return "the first line is '" + std::string(first_line(text).substr(0, 40)) + "'";
 }
 
+/// Encodings of worlds that are known and not read; empty: it is none of them.
+std::string_view unread_encoding(std::string_view body) {
+  const auto line = first_line(trim(body));
+  if (line.starts_with("#Inventor") && contains_nocase(line, "binary")) return "Inventor's binary form";
+  if (body.starts_with(std::string_view("\xe0\0\0\1", 4)) || (body.starts_with("<?xml") && contains_nocase(line, "encoding='finf'"))) return "X3D's binary encoding";
+  const auto head = trim(body.substr(0, 4096));
+  return head.starts_with('{') && trim(head.substr(1)).starts_with("\"X3D\"") ? "X3D's JSON encoding" : "";
+}
+
 std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, const std::string& path, const ReadOptions& options, Diagnostics& diag) {
   auto world = std::make_unique<World>();
   world->format = Format::gltf;
@@ -115,11 +124,10 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   }
   auto body = without_bom(text);
   base += static_cast<std::uint32_t>(text.size() - body.size());
+  if (const auto encoding = unread_encoding(body); !encoding.empty()) return diag.report(Diag::unsupported_format, first, encoding), nullptr;
   auto header = read_header(body);
   if (header.format == Format::none) return diag.report(Diag::unknown_format, whole, describe_bytes(body)), nullptr;
   if (header.format == Format::gltf) return parse_gltf(body, base, path, options, diag);
-  if (first_line(trim(body)).starts_with("#Inventor") && contains_nocase(first_line(trim(body)), "binary"))
-    return diag.report(Diag::unsupported_format, first, "Inventor's binary form"), nullptr;
   const bool old = header.format == Format::vrml1, xml = header.format == Format::x3d_xml, classic = header.format == Format::x3d_classic;
   if (header.missing) diag.report(Diag::header_missing, whole, old ? "VRML 1.0" : "VRML97");
   else if (!header.exact) diag.report(Diag::header_repaired, first, trim(first_line(body)), old ? "#VRML V1.0 ascii" : "#VRML V2.0 utf8");

@@ -172,7 +172,7 @@ class PatchParser {
 
   /// Reads up to N numbers and returns how many there were; what comes behind them is reported.
   template <std::size_t N>
-  std::size_t numbers(const XmlAttribute& a, double (&out)[N]) {
+  std::size_t numbers(const XmlTag::Attribute& a, double (&out)[N]) {
     const char *p = a.value.data(), *end = p + a.value.size();
     for (std::size_t n = 0;; ++n) {
       while (p < end && (static_cast<unsigned char>(*p) <= ' ' || *p == ',')) ++p;
@@ -198,7 +198,7 @@ class PatchParser {
     return PatchSet::unknown;
   }
 
-  double metres_of(const XmlAttribute& a) {
+  double metres_of(const XmlTag::Attribute& a) {
     constexpr struct { std::string_view name; double metres; } units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
     for (auto& u : units)
       if (a.value == u.name) return u.metres;

@@ -1,14 +1,123 @@
 #include "parsers/xml.h"
 
 #include <algorithm>
+#include <cstring>
+#include <functional>
 #include <pugixml.hpp>
-#include <string>
-#include <vector>
 
 #include "scenegraph/blanks.h"
 
 namespace wrlkit {
 namespace {
+
+/// What is done to a text so that pugixml reads on.
+struct Repairs {
+  std::vector<std::size_t> blanks;  // in front of these places, ascending
+  std::vector<std::pair<std::size_t, std::size_t>> erased;  // from, to
+};
+
+/// What pugixml works in and cuts up: a copy of the text, repaired.
+struct Copy {
+  std::string bytes;
+  const std::vector<std::size_t>& blanks;
+
+  Copy(std::string_view text, const Repairs& r) : blanks(r.blanks) {
+    bytes.reserve(text.size() + blanks.size());
+    bytes = text;
+    for (auto [from, to] : r.erased) std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.begin() + static_cast<std::ptrdiff_t>(to), ' ');
+    for (auto b = blanks.rbegin(); b != blanks.rend(); ++b) bytes.insert(*b, 1, ' ');
+  }
+  std::size_t in_text(std::size_t at) const {
+    std::size_t before = 0;
+    while (before < blanks.size() && blanks[before] + before < at) ++before;
+    return at - before;
+  }
+};
+
+class Flattener {
+ public:
+  Flattener(std::string_view text, const Copy& copy, XmlTree& tree) : text_(text), copy_(copy), tree_(tree) {}
+
+  void run(pugi::xml_node document) {
+    tree_.nodes.emplace_back();
+    std::vector<std::uint32_t> last{XmlNode::none}, open{0};
+    for (pugi::xml_node n = document.first_child(); n;) {
+      if (auto id = add(n); id != XmlNode::none) {
+        (last.back() == XmlNode::none ? tree_.nodes[open.back()].first_child : tree_.nodes[last.back()].next) = id;
+        last.back() = id;
+        if (n.first_child()) {
+          open.push_back(id);
+          last.push_back(XmlNode::none);
+          n = n.first_child();
+          continue;
+        }
+      }
+      while (!n.next_sibling() && n.parent() != document) n = n.parent(), open.pop_back(), last.pop_back();
+      n = n.next_sibling();
+    }
+  }
+
+ private:
+  /// What pugixml never read, in a text that is cut off, is a constant of its own.
+  std::string_view view(const char* p) const {
+    const char* begin = copy_.bytes.data();
+    const bool inside = !std::less<>{}(p, begin) && !std::less<>{}(begin + copy_.bytes.size(), p);
+    return inside ? text_.substr(copy_.in_text(static_cast<std::size_t>(p - begin)), std::strlen(p)) : text_.substr(text_.size());
+  }
+
+  std::uint32_t add(pugi::xml_node n) {
+    XmlNode out;
+    switch (n.type()) {
+      case pugi::node_element:
+        out.name = view(n.name());
+        out.first_attribute = static_cast<std::uint32_t>(tree_.attributes.size());
+        for (auto a : n.attributes()) tree_.attributes.push_back({view(a.name()), view(a.value())});
+        out.n_attributes = static_cast<std::uint32_t>(tree_.attributes.size()) - out.first_attribute;
+        break;
+      case pugi::node_cdata:
+      case pugi::node_pcdata:
+        out.kind = XmlNode::Kind::text;
+        out.cdata = n.type() == pugi::node_cdata;
+        out.content = view(n.value());
+        break;
+      case pugi::node_comment:
+        out.kind = XmlNode::Kind::comment;
+        out.content = view(n.value());
+        break;
+      default:
+        return XmlNode::none;
+    }
+    tree_.nodes.push_back(out);
+    return static_cast<std::uint32_t>(tree_.nodes.size() - 1);
+  }
+
+  std::string_view text_;
+  const Copy& copy_;
+  XmlTree& tree_;
+};
+
+/// Adds what helps against a fault; false: nothing does. `lost`: something of the text is gone then.
+bool repair(std::string_view s, std::size_t at, pugi::xml_parse_status status, Repairs& repairs, bool& lost) {
+  auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
+  at = std::min(at, s.size());
+  lost = status != pugi::status_bad_attribute || at == 0 || at == s.size() || (s[at - 1] != '"' && s[at - 1] != '\'') || blank(s[at]);
+  if (!lost) return repairs.blanks.insert(std::ranges::upper_bound(repairs.blanks, at), at), true;
+  auto begin = at, end = at;
+  if (status == pugi::status_bad_attribute) {  // an attribute without quotes: the word that it is
+    while (begin > 0 && !blank(s[begin - 1]) && s[begin - 1] != '<' && s[begin - 1] != '>') --begin;
+    while (end < s.size() && !blank(s[end]) && s[end] != '>' && s[end] != '<' && s.substr(end, 2) != "/>") ++end;
+    if (begin == end || begin == 0 || s[begin - 1] == '<') return false;
+  } else if (status == pugi::status_unrecognized_tag) {
+    begin = s.rfind('<', at), end = begin + 1;
+    if (begin == s.npos || s.substr(begin).starts_with("<!") || s.substr(begin).starts_with("<?")) return false;
+  } else {
+    return false;
+  }
+  const std::pair range(begin, end);
+  if (std::ranges::find(repairs.erased, range) != repairs.erased.end()) return false;
+  repairs.erased.push_back(range);
+  return true;
+}
 
 struct Cut {
   std::string_view text;   // with its brackets, if they are there
@@ -50,8 +159,31 @@ constexpr Skipped skipped[] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>
 
 }  // namespace
 
-const XmlAttribute* XmlTag::find(std::string_view attribute) const {
-  auto found = std::ranges::find(attributes, attribute, &XmlAttribute::name);
+XmlTree read_xml(std::string_view text) {
+  constexpr int most_repairs = 16;
+  XmlTree tree;
+  Repairs repairs;
+  for (int i = 0;; ++i) {
+    Copy copy(text, repairs);
+    pugi::xml_document document;
+    // No conversion of entities and line ends: values keep their length and place.
+    const auto result = document.load_buffer_inplace(copy.bytes.data(), copy.bytes.size(), pugi::parse_cdata | pugi::parse_comments, pugi::encoding_utf8);
+    const auto at = copy.in_text(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
+    bool lost = false;
+    if (!result && i < most_repairs && repair(text, at, result.status, repairs, lost)) {
+      tree.repaired.push_back({result.description(), at, lost});
+      continue;
+    }
+    if (!result) tree.fault = result.description(), tree.fault_at = at;
+    Flattener(text, copy, tree).run(document);
+    return tree;
+  }
+}
+
+// ---- a tag at a time -----------------------------------------------------------------------------------------------
+
+const XmlTag::Attribute* XmlTag::find(std::string_view attribute) const {
+  auto found = std::ranges::find(attributes, attribute, &XmlTag::Attribute::name);
   return found == attributes.end() ? nullptr : &*found;
 }
 
@@ -61,7 +193,7 @@ struct XmlReader::State {
   Diagnostics& diag;
   std::size_t at = 0;
   XmlTag tag;
-  std::vector<XmlAttribute> attributes;
+  std::vector<XmlTag::Attribute> attributes;
   std::string buffer;      // the tag that pugixml reads, and changes in place
   pugi::xml_document document;
 

@@ -5,7 +5,7 @@
 //   CADPart { name "bolt" children ... }         ->   DEF bolt Transform { children ... }
 //
 // Triangle, quad and line sets become IndexedFaceSet and IndexedLineSet, Geometry2D these with 64 sides to a circle; StaticGroup,
-// CAD nodes, layers and ViewpointGroup become groups; what is not `visible` stands in a Switch that shows nothing; of a MultiTexture
+// CAD nodes, layers, ViewpointGroup and the nodes of humanoids (H-Anim, as they stand) become groups; what is not `visible` stands in a Switch that shows nothing; of a MultiTexture
 // the first picture stays, of a TwoSidedMaterial the front. Worlds without such nodes stay as they are. O(scene).
 //
 // With `materials` the first three of these, with `vrml97` everything else that VRML97 cannot say is turned into what comes near to

@@ -107,6 +107,7 @@ const Verb verbs[] = {
        v.add_flag("--print-recipe", f.print_recipe, "print the whole pipeline and all options as a recipe, and end");
        v.add_option("--lightmap-as", f.lightmap_as, "baked light in glTF: base-color, in the texture of unlit materials; emissive; occlusion, its brightness alone; moz, as MOZ_lightmap; extras, for programs that look there")
            ->check(CLI::IsMember({"base-color", "emissive", "occlusion", "moz", "extras"}))->capture_default_str();
+       v.add_flag("--animation-pointer", f.animation_pointer, "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few viewers know");
        small_gltf(v, f);
        placing(v, f);
        vrml_output(v, f);

@@ -85,8 +85,8 @@ std::string diagnostic_text(Diag d) {
 }
 
 std::string formats_text() {
-  std::string out = fmt::format("{:<10}{:<40}{:<30}{}\n", "format", "extensions", "read", "write");
-  for (auto& f : formats) out += fmt::format("{:<10}{:<40}{:<30}{}\n", f.name, f.extensions, f.read, f.write);
+  std::string out = fmt::format("{:<10}{:<40}{:<32}{}\n", "format", "extensions", "read", "write");
+  for (auto& f : formats) out += fmt::format("{:<10}{:<40}{:<32}{}\n", f.name, f.extensions, f.read, f.write);
   return out;
 }
 

@@ -78,7 +78,7 @@ std::optional<GltfOptions> gltf_options(const Flags& f) {
   if (!f.tolerance.empty() && !(c.tolerance > 0)) return fmt::print(stderr, "wrlkit: --tolerance: '{}' is no length\n", f.tolerance), std::nullopt;
   std::string name = f.output;
   std::ranges::transform(name, name.begin(), [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
-  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .extras = f.extras != "none", .facts_only = f.extras != "all"};
+  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .animation_pointer = f.animation_pointer, .extras = f.extras != "none", .facts_only = f.extras != "all"};
 }
 
 std::string_view gltf_pipeline(const Flags& f) { return light_of(f.lightmap_as)->pipeline; }

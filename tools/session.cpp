@@ -7,6 +7,7 @@
 
 #include "passes/lower_vrml1.h"
 #include "scenegraph/nodes.h"
+#include "tools/embedded_pictures.h"
 #include "tools/print_diagnostics.h"
 #include "writers/json.h"
 #include "writers/output.h"
@@ -61,6 +62,7 @@ World* Session::read(const std::string& path, const FileText& file) {
   world_ = parse_world(file, {.allowed = flags_.allow_paths}, diag_);
   if (world_) {
     place(world_->scene);
+    if (world_->format == Format::gltf && !flags_.output.empty() && flags_.output != "-") unpack_pictures(world_->scene, *resources_);
     resources_->set_root({std::shared_ptr<const Scene>{}, &world_->scene});
   }
   return world_.get();

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "writers/gltf_json.h"
+#include "writers/gltf_pointers.h"
 #include "writers/gzip.h"
 #include "writers/output.h"
 
@@ -84,10 +85,10 @@ class Writer {
         summary_(summary),
         textures_(scene, resources, diag),
         extras_(scene, diag),
-        materials_(scene, textures_, options.extras && !options.facts_only ? &extras_ : nullptr, options.lightmaps),
-        meshes_(scene, source, store_, options.lightmaps != GltfOptions::Lightmaps::base_color,
+        animations_(scene, reach(options), diag),
+        materials_(scene, textures_, animations_.motion(), options.extras && !options.facts_only ? &extras_ : nullptr, options.lightmaps),
+        meshes_(scene, source, animations_.motion(), store_, options.lightmaps != GltfOptions::Lightmaps::base_color,
                 options.compression.method == GltfCompression::Method::meshopt, diag),
-        animations_(scene, options.animations, diag),
         hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag) {}
 
   bool write() {
@@ -107,6 +108,22 @@ class Writer {
   }
 
  private:
+  static Motion::Reach reach(const GltfOptions& o) {
+    return !o.animations ? Motion::Reach::nothing : o.animation_pointer ? Motion::Reach::pointers : Motion::Reach::core;
+  }
+
+  /// The nodes that show a geometry with morph targets have the weights.
+  void add_morphs() {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> nodes;
+    for (std::uint32_t i = 0; i < hierarchy_.nodes().size(); ++i) {
+      const Node& n = hierarchy_.nodes()[i];
+      if (n.attachment != Attachment::mesh) continue;
+      const auto morph = meshes_.geometries()[meshes_.meshes()[n.attached].geometry].morph;
+      if (morph != none) nodes[morph].push_back(i);
+    }
+    for (auto& [morph, list] : nodes) animations_.add(meshes_.morphs().weights(morph, std::move(list)));
+  }
+
   bool pictures_inside() const {
     return options_.images == GltfOptions::Images::embedded ||
            (options_.images == GltfOptions::Images::automatic && options_.binary);
@@ -115,6 +132,8 @@ class Writer {
   /// Makes what a file is written from and gives it to `put`.
   bool build(auto&& put) {
     hierarchy_.build();
+    add_morphs();
+    add_pointers(animations_, scene_, materials_, hierarchy_);
     animations_.store(store_, [&](std::uint32_t node) { return hierarchy_.offset(node); });
     if (store_.full()) return report_too_large(store_.bytes(), diag_);
     static const std::vector<Picture> no_pictures;
@@ -211,9 +230,9 @@ class Writer {
   Textures textures_;
   Extras extras_;
   Store store_;
+  Animations animations_;
   Materials materials_;
   Meshes meshes_;
-  Animations animations_;
   Hierarchy hierarchy_;
 };
 

@@ -1,6 +1,6 @@
 // A scene as glTF 2.0. What becomes of each node type is written in the headers that this one names: gltf_hierarchy
 // (grouping nodes, LOD, Switch), gltf_transform, gltf_meshes, gltf_materials, gltf_textures, gltf_texture_transform,
-// gltf_lights, gltf_cameras, gltf_animations, gltf_origin (large coordinates), gltf_extras (everything else).
+// gltf_lights, gltf_cameras, gltf_motion (what ROUTEs move), gltf_animations, gltf_morphs, gltf_pointers, gltf_origin (large coordinates), gltf_extras (everything else).
 #pragma once
 #include <string>
 
@@ -53,6 +53,7 @@ struct GltfOptions {
   GltfCompression compression;
   bool measure_gzip = false;  // for the summary
   bool lights = true, cameras = true, animations = true;
+  bool animation_pointer = false;      // animations of colours and the like, by KHR_animation_pointer
   bool extras = true;                  // what glTF cannot say is kept
   bool facts_only = false;             // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
                                        // the same VRML again. Groups without a name that hold one thing are then one node with it

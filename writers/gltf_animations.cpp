@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "scenegraph/nodes.h"
 #include "writers/gltf_number.h"
@@ -11,59 +10,24 @@
 namespace wrlkit::gltf {
 namespace {
 
-bool is_event(std::string_view event, std::string_view field) { return event == field || event == "set_" + std::string(field); }
+constexpr std::string_view paths[] = {"translation", "rotation", "scale"};
 
-std::span<const double> keys(const Scene& scene, NodeId n) {
-  return scene.is(n, nodes::PositionInterpolator) ? scene.get(n, nodes::position_interpolator::key) : scene.get(n, nodes::orientation_interpolator::key);
+/// The field that says a property of a node.
+std::optional<std::uint16_t> slot_of(const Scene& scene, NodeId n, Path p) {
+  using namespace nodes;
+  if (scene.is(n, Transform)) return p == Path::translation ? transform::translation.slot : p == Path::rotation ? transform::rotation.slot : transform::scale.slot;
+  if (scene.is(n, Viewpoint) && p != Path::scale) return p == Path::translation ? viewpoint::position.slot : viewpoint::orientation.slot;
+  if (scene.is(n, PointLight) && p == Path::translation) return point_light::location.slot;
+  if (scene.is(n, SpotLight) && p == Path::translation) return spot_light::location.slot;
+  return std::nullopt;
 }
 
-std::span<const double> values(const Scene& scene, NodeId n) {
-  return scene.is(n, nodes::PositionInterpolator) ? scene.get(n, nodes::position_interpolator::keyValue) : scene.get(n, nodes::orientation_interpolator::keyValue);
-}
+Sample quaternion_of(const std::vector<double>& v) { return {v[0], v[1], v[2], v[3]}; }
 
-/// A vector or a quaternion.
-using Sample = std::array<double, 4>;
-
-double dot(const Sample& a, const Sample& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
-
-Sample mix(const Sample& a, Sample b, double t, bool rotation) {
-  double wa = 1 - t, wb = t;
-  if (rotation) {
-    double c = dot(a, b);
-    if (c < 0) c = -c, b = {-b[0], -b[1], -b[2], -b[3]};
-    if (const double angle = std::acos(std::min(c, 1.0)); angle > 1e-6) wa = std::sin((1 - t) * angle) / std::sin(angle), wb = std::sin(t * angle) / std::sin(angle);
-  }
-  return {wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2], wa * a[3] + wb * b[3]};
-}
-
-struct Frame {
-  double key;
-  Sample value;
-};
-
-/// What an interpolator says at fraction 0, at 1, and at its keys between them (ISO/IEC 14772-1, 4.6.8).
-std::vector<Frame> frames(std::span<const double> key, const std::vector<Sample>& value, bool rotation) {
-  std::vector<Frame> out;
-  const std::size_t n = std::min(key.size(), value.size());
-  auto between = [&](std::size_t i, double f) { return mix(value[i], value[i + 1], (f - key[i]) / (key[i + 1] - key[i]), rotation); };
-  auto add = [&](double k, const Sample& v) {
-    const bool again = out.size() > 1 && out.back().key == k && out[out.size() - 2].key == k;  // of more than two equal keys, the last counts
-    if (again) out.back().value = v;
-    else out.push_back({k, v});
-  };
-  if (key[0] > 0) add(0, value[0]);
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool crosses_0 = i + 1 < n && key[i] < 0 && key[i + 1] > 0, crosses_1 = i + 1 < n && key[i] < 1 && key[i + 1] > 1;
-    if (key[i] >= 0 && key[i] <= 1) add(key[i], value[i]);
-    if (crosses_0) add(0, between(i, 0));
-    if (crosses_1) add(1, between(i, 1));
-  }
-  if (out.empty()) add(0, key[0] > 1 ? value[0] : value[n - 1]);
-  if (out.back().key < 1) add(1, out.back().value);
-  return out;
-}
+double dot(const std::vector<double>& a, const std::vector<double>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
 /// Rotations follow one another without a change of sign; between distant ones stands one more.
+template <class Frame>
 std::vector<Frame> continuous(const std::vector<Frame>& in) {
   constexpr double distant = 0.1;  // cosine of half the angle
   std::vector<Frame> out;
@@ -71,126 +35,180 @@ std::vector<Frame> continuous(const std::vector<Frame>& in) {
     if (!out.empty()) {
       const Frame last = out.back();
       if (dot(last.value, f.value) < 0) for (double& v : f.value) v = -v;
-      if (dot(last.value, f.value) < distant && f.key > last.key) out.push_back({(last.key + f.key) / 2, mix(last.value, f.value, 0.5, true)});
+      if (dot(last.value, f.value) < distant && f.at > last.at) {
+        const Sample middle = mix(quaternion_of(last.value), quaternion_of(f.value), 0.5, true);
+        out.push_back({(last.at + f.at) / 2, {middle.begin(), middle.end()}});
+      }
     }
-    out.push_back(f);
+    out.push_back(std::move(f));
   }
   return out;
 }
 
+View view_of(std::size_t width) { return width == 3 ? View::moving3 : width == 4 ? View::moving4 : View::moving1; }
+
 }  // namespace
 
-Animations::Animations(const Scene& scene, bool wanted, Diagnostics& diag) : scene_(scene), diag_(diag) {
-  if (!wanted) return;
-  const auto& routes = scene.main.routes;
-  std::multimap<std::uint32_t, const Route*> onward;
-  for (const Route& r : routes) onward.emplace(r.from.value, &r);
-  std::set<const Route*> expressed;
-  for (const Route& r : routes) {
-    if (!scene.is(r.from, nodes::TimeSensor) || r.event_out != "fraction_changed" || r.event_in != "set_fraction") continue;
-    if (!scene.is(r.to, nodes::PositionInterpolator) && !scene.is(r.to, nodes::OrientationInterpolator)) continue;
-    auto key = keys(scene, r.to);
-    if (key.empty() || values(scene, r.to).empty()) continue;
-    if (!std::ranges::is_sorted(key)) {
-      diag.report(Diag::no_gltf_value, scene.where(r.to), scene.type(r.to).name, "key, as it does not ascend,");
-      continue;
-    }
-    for (auto [i, end] = onward.equal_range(r.to.value); i != end; ++i) {
-      Path path{};
-      if (!drives(*i->second, path)) continue;
-      channels_[r.from.value].push_back({r.to, i->second->to, path});
-      moved_[{i->second->to.value, path}];
-      expressed.insert(&r), expressed.insert(i->second);
-    }
-  }
-  n_routes_ = expressed.size();
-  for (const Route& r : routes)
-    for (NodeId n : {r.from, r.to}) {
-      auto& [all, said] = routes_[n.value];
-      ++all;
-      said += expressed.contains(&r);
-    }
+Animations::Animations(const Scene& scene, Motion::Reach reach, Diagnostics& diag) : scene_(scene), diag_(diag), motion_(scene, reach, diag) {
+  for (const Route& r : scene.main.routes)
+    if (scene.is(r.to, nodes::TimeSensor)) triggers_[r.to.value].push_back(&r);
 }
 
-bool Animations::drives(const Route& r, Path& path) const {
-  if (r.event_out != "value_changed") return false;
-  const bool turns = scene_.is(r.from, nodes::OrientationInterpolator);
-  if (scene_.is(r.to, nodes::Transform)) {
-    if (turns) return path = Path::rotation, is_event(r.event_in, "rotation");
-    path = is_event(r.event_in, "scale") ? Path::scale : Path::translation;
-    return path == Path::scale || is_event(r.event_in, "translation");
-  }
-  path = turns ? Path::rotation : Path::translation;
-  return scene_.is(r.to, nodes::Viewpoint) && is_event(r.event_in, turns ? "orientation" : "position");
-}
-
-bool Animations::expressed(NodeId n) const {
-  auto i = routes_.find(n.value);
-  return i != routes_.end() && i->second.first == i->second.second;
+bool Animations::moves(NodeId n, Path p) const {
+  auto slot = n ? slot_of(scene_, n, p) : std::nullopt;
+  return slot && motion_.moves(n, *slot);
 }
 
 void Animations::add_target(NodeId source, Path p, std::uint32_t node) {
-  if (auto i = moved_.find({source.value, p}); i != moved_.end()) i->second.push_back(node);
+  if (moves(source, p)) moved_[{source.value, p}].push_back(node);
+}
+
+/// Nodes of glTF that one field moves, with the same offset, are one property.
+void Animations::add_transforms(const std::function<Vec3(std::uint32_t)>& offset) {
+  for (const auto& [key, nodes] : moved_) {
+    const auto [source, path] = key;
+    const std::size_t width = path == Path::rotation ? 4 : 3;
+    std::map<Vec3, std::vector<std::uint32_t>> by_offset;
+    for (auto node : nodes) by_offset[path == Path::translation ? offset(node) : Vec3{0, 0, 0}].push_back(node);
+    for (const auto& [by, same] : by_offset) {
+      auto evaluate = [by = by, width](std::span<const Property::At> in, std::vector<double>& out) {
+        const Sample s = in[0].value({});
+        for (std::size_t k = 0; k < width; ++k) out.push_back(s[k] + (k < 3 ? by[k] : 0));
+      };
+      add({same, std::string(paths[static_cast<std::size_t>(path)]), width, {{source, *slot_of(scene_, NodeId{source}, path)}}, evaluate});
+    }
+  }
 }
 
 void Animations::store(Store& store, const std::function<Vec3(std::uint32_t)>& offset) {
-  for (const auto& [clock, channels] : channels_) {
-    Written w{NodeId{clock}, {}, {}};
+  add_transforms(offset);
+  std::map<std::uint32_t, std::set<std::uint32_t>> of_clock;
+  for (std::uint32_t p = 0; p < properties_.size(); ++p)
+    for (const auto& [node, slot] : properties_[p].inputs)
+      for (const auto& d : motion_.drives(NodeId{node}, slot)) of_clock[d.clock.value].insert(p);
+  for (const auto& [clock, properties] : of_clock) {
+    Written w{NodeId{clock}, {}, {}, {}};
     const double cycle = scene_.get(w.clock, nodes::time_sensor::cycleInterval);
-    for (const auto& c : channels) add_channel(w, c, cycle > 0 && fits_float(cycle) ? cycle : 1, store, offset);
+    for (auto p : properties) add_channel(w, p, cycle > 0 && fits_float(cycle) ? cycle : 1, store);
     if (!w.channels.empty()) written_.push_back(std::move(w));
   }
+  for (const Written& w : written_)
+    if (triggers_.contains(w.clock.value)) diag_.report(Diag::no_gltf_trigger, scene_.where(w.clock), scene_.name(w.clock));
 }
 
-void Animations::add_channel(Written& w, const Channel& c, double cycle, Store& store, const std::function<Vec3(std::uint32_t)>& offset) {
-  const bool turns = c.path == Path::rotation;
-  const auto raw = values(scene_, c.interpolator);
-  const std::size_t width = turns ? 4 : 3;
-  std::vector<Sample> value;
-  for (std::size_t i = 0; i + width <= raw.size(); i += width) {
-    if (!turns) { value.push_back({raw[i], raw[i + 1], raw[i + 2], 0}); continue; }
-    const Quaternion q = quaternion({raw[i], raw[i + 1], raw[i + 2], raw[i + 3]});
-    value.push_back({q.x, q.y, q.z, q.w});
+void Animations::add_channel(Written& w, std::uint32_t id, double cycle, Store& store) {
+  const Property& p = properties_[id];
+  std::vector<const Curve*> curves;
+  for (const auto& [node, slot] : p.inputs) {
+    curves.push_back(nullptr);
+    for (const auto& d : motion_.drives(NodeId{node}, slot))
+      if (d.clock == w.clock) curves.back() = &motion_.curve(d.curve);
   }
-  auto all = frames(keys(scene_, c.interpolator), value, turns);
-  if (turns) all = continuous(all);
-  std::vector<float> time;
+  auto all = frames(p, curves);
+  if (p.path == "rotation") all = continuous(all);
+  std::vector<float> time, out;
   for (const Frame& f : all) {
-    auto t = static_cast<float>(f.key * cycle);
+    auto t = static_cast<float>(f.at * cycle);
     if (!time.empty() && t <= time.back()) t = std::nextafter(time.back(), std::numeric_limits<float>::infinity());
     time.push_back(t);
+    for (double v : f.value) out.push_back(to_float(v));
   }
-  std::map<Vec3, std::uint32_t> by_offset;
-  for (std::uint32_t node : moved_[{c.target.value, c.path}]) {
-    const bool twice = std::ranges::any_of(w.channels, [&](const WrittenChannel& k) { return k.node == node && k.path == c.path; });
-    if (twice) continue;
-    const Vec3 by = c.path == Path::translation ? offset(node) : Vec3{0, 0, 0};
-    auto [at, is_new] = by_offset.try_emplace(by, static_cast<std::uint32_t>(w.samplers.size()));
-    if (is_new) {
-      std::vector<float> out;
-      for (const Frame& f : all)
-        for (std::size_t k = 0; k < width; ++k) out.push_back(to_float(f.value[k] + (k < 3 ? by[k] : 0)));
-      w.samplers.push_back({store.times(time), store.vertices(turns ? View::moving4 : View::moving3, out)});
-    }
-    w.channels.push_back({at->second, node, c.path});
-  }
+  const Sampler s{store.times(time), store.vertices(view_of(p.path == "weights" ? 1 : p.width), out)};
+  auto [known, is_new] = w.known.try_emplace({s.input, s.output}, static_cast<std::uint32_t>(w.samplers.size()));
+  if (is_new) w.samplers.push_back(s);
+  const auto at = known->second;
+  if (p.nodes.empty()) w.channels.push_back({at, none, id}), pointers_ = true;
+  for (auto node : p.nodes) w.channels.push_back({at, node, id});
 }
 
-void Animations::write(JsonOut& json, std::size_t i, const std::function<std::uint32_t(std::uint32_t)>& accessor) const {
-  constexpr std::string_view paths[] = {"translation", "rotation", "scale"};
-  const Written& w = written_[i];
+/// Wherever a curve has a frame, and between them where it is not straight.
+std::vector<Animations::Frame> Animations::frames(const Property& p, std::span<const Curve* const> curves) const {
+  std::vector<double> ats;
+  for (const Curve* c : curves)
+    for (std::size_t i = 0; c && i < c->frames.size(); ++i) ats.push_back(c->frames[i].at);
+  std::ranges::sort(ats);
+  ats.erase(std::unique(ats.begin(), ats.end()), ats.end());
+  auto value = [&](double at, Curve::Side side) {
+    std::vector<Property::At> inputs;
+    for (const Curve* c : curves) inputs.push_back({&scene_, c, c ? c->place(at, side) : 0});
+    std::vector<double> out;
+    p.evaluate(inputs, out);
+    return out;
+  };
+  std::vector<Frame> out;
+  for (double at : ats) {
+    Frame before{at, value(at, Curve::Side::before)}, behind{at, value(at, Curve::Side::behind)};
+    if (!out.empty()) {
+      if (!p.straight) cut(out, before, value);
+      if (before.value != behind.value) out.push_back(std::move(before));
+    }
+    out.push_back(std::move(behind));
+  }
+  return out;
+}
+
+/// Adds what is needed between the last frame and the next.
+void Animations::cut(std::vector<Frame>& out, const Frame& to, const std::function<std::vector<double>(double, Curve::Side)>& value) const {
+  constexpr int most_pieces = 64;
+  constexpr double tolerance = 1e-3;
+  const Frame from = out.back();
+  int pieces = 1;
+  std::vector<Frame> inner{from, to};
+  auto close = [&] {
+    for (std::size_t i = 0; i + 1 < inner.size(); ++i)
+      for (double t : {0.25, 0.5, 0.75}) {
+        const auto exact = value(inner[i].at + t * (inner[i + 1].at - inner[i].at), Curve::Side::behind);
+        for (std::size_t k = 0; k < exact.size(); ++k) {
+          const double a = inner[i].value[k], b = inner[i + 1].value[k];
+          if (std::abs(exact[k] - (a + t * (b - a))) > tolerance * std::max({1.0, std::abs(a), std::abs(b)})) return false;
+        }
+      }
+    return true;
+  };
+  while (pieces < most_pieces && !close()) {
+    pieces *= 2;
+    inner.assign(1, from);
+    for (int i = 1; i < pieces; ++i) {
+      const double at = from.at + (to.at - from.at) * i / pieces;
+      inner.push_back({at, value(at, Curve::Side::behind)});
+    }
+    inner.push_back(to);
+  }
+  out.insert(out.end(), inner.begin() + 1, inner.end() - 1);
+}
+
+void Animations::write_target(JsonOut& json, const Channel& c) const {
+  const Property& p = properties_[c.property];
+  json.key("target");
   json.begin_object();
-  if (auto name = scene_.name(w.clock); !name.empty()) json.member("name", name);
+  if (c.node != none) json.member("node", c.node);
+  json.member("path", c.node == none ? "pointer" : std::string_view(p.path));
+  if (c.node == none) {
+    json.key("extensions");
+    json.begin_object();
+    json.key("KHR_animation_pointer");
+    json.begin_object();
+    json.member("pointer", p.path);
+    json.end_object();
+    json.end_object();
+  }
+  json.end_object();
+}
+
+void Animations::write(JsonOut& json, std::size_t i, const Extras* extras, const std::function<std::uint32_t(std::uint32_t)>& accessor) const {
+  const Written& w = written_[i];
+  const auto trigger = triggers_.find(w.clock.value);
+  const bool waits = trigger != triggers_.end();
+  json.begin_object();
+  std::string name(extras && waits ? extras->name(w.clock) : scene_.name(w.clock));
+  if (name.empty() && waits) name = "animation_" + std::to_string(i);
+  if (!name.empty()) json.member("name", name);
   json.key("channels");
   json.begin_array();
   for (const auto& c : w.channels) {
     json.begin_object();
     json.member("sampler", c.sampler);
-    json.key("target");
-    json.begin_object();
-    json.member("node", c.node);
-    json.member("path", paths[static_cast<std::size_t>(c.path)]);
-    json.end_object();
+    write_target(json, c);
     json.end_object();
   }
   json.end_array();
@@ -203,6 +221,21 @@ void Animations::write(JsonOut& json, std::size_t i, const std::function<std::ui
     json.end_object();
   }
   json.end_array();
+  if (extras) {
+    json.key("extras");
+    json.begin_object();
+    json.key("vrml97");
+    json.begin_object();
+    json.member("loop", scene_.get(w.clock, nodes::time_sensor::loop));
+    if (waits) {
+      json.key("trigger");
+      json.begin_array();
+      for (const Route* r : trigger->second) extras->route(json, *r);
+      json.end_array();
+    }
+    json.end_object();
+    json.end_object();
+  }
   json.end_object();
 }
 

@@ -219,7 +219,9 @@ void Hierarchy::add_targets(NodeId source, std::uint32_t translation, std::uint3
 Vec3 Hierarchy::offset(std::uint32_t id) const {
   const Node& n = nodes_[id];
   if (!n.source || n.transform == none) return {0, 0, 0};
-  const Vec3 field = scene_.is(n.source, nodes::Viewpoint) ? scene_.get(n.source, nodes::viewpoint::position) : scene_.get(n.source, nodes::transform::translation);
+  const Vec3 field = scene_.is(n.source, nodes::Transform) ? scene_.get(n.source, nodes::transform::translation)
+                     : scene_.is(n.source, nodes::Viewpoint) ? scene_.get(n.source, nodes::viewpoint::position)
+                                                             : light_transform(scene_, n.source).translation;
   const Vec3& at = transforms_[n.transform].translation;
   return {at[0] - field[0], at[1] - field[1], at[2] - field[2]};
 }
@@ -295,8 +297,8 @@ std::uint32_t Hierarchy::shape(NodeId n) {
 }
 
 std::uint32_t Hierarchy::light(NodeId n) {
-  Node node{.source = n, .transform = add_transform(light_transform(scene_, n))};
-  bool on = options_.lights && shines(scene_, n);
+  Node node{.source = n, .transform = add_transform(light_transform(scene_, n), animations_.moves(n, Path::translation))};
+  bool on = options_.lights && shines(scene_, n, animations_.motion());
   if (first_visit(n) && on) report_lost_light(scene_, n, frames_.size() == 1, diag_);
   if (on) {
     const Matrix& frame = frames_.back().world;
@@ -306,7 +308,8 @@ std::uint32_t Hierarchy::light(NodeId n) {
     lights_.push_back(
         {n, position(frame * matrix(light_transform(scene_, n))), scale > 0 && std::isfinite(scale) ? scale : 1});
   }
-  return add(node);
+  auto id = add(node);
+  return animations_.add_target(n, Path::translation, id), id;
 }
 
 std::uint32_t Hierarchy::viewpoint(NodeId n) {
@@ -322,7 +325,7 @@ std::uint32_t Hierarchy::viewpoint(NodeId n) {
 }
 
 std::uint32_t Hierarchy::other(NodeId n) {
-  if (first_visit(n) && !harmless(scene_, n) && !animations_.expressed(n)) add_lost(n);
+  if (first_visit(n) && !harmless(scene_, n) && !animations_.motion().expressed(n)) add_lost(n);
   if (!navigation_info_ && scene_.is(n, nodes::NavigationInfo)) navigation_info_ = n;
   if (!world_info_ && scene_.is(n, nodes::WorldInfo)) world_info_ = n;
   return add({.source = n});
@@ -494,7 +497,7 @@ void Hierarchy::report_lost() {
     if (n > 1) types += " (" + std::to_string(n) + ")";
   }
   if (!lost_.empty()) diag_.report(Diag::no_gltf_node, first_lost_, types);
-  if (auto n = scene_.main.routes.size() - animations_.n_expressed_routes()) diag_.report(Diag::no_gltf_route, {}, n);
+  if (auto n = scene_.main.routes.size() - animations_.motion().n_expressed_routes()) diag_.report(Diag::no_gltf_route, {}, n);
 }
 
 }  // namespace wrlkit::gltf

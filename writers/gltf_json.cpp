@@ -35,7 +35,7 @@ class Writer {
     list("textures", p_.textures.textures().size(), [&](std::size_t i) { texture(p_.textures.textures()[i]); });
     list("images", p_.textures.pictures().size(), [&](std::size_t i) { image(i); });
     list("samplers", p_.textures.samplers().size(), [&](std::size_t i) { sampler(p_.textures.samplers()[i]); });
-    list("animations", p_.animations.count(), [&](std::size_t i) { p_.animations.write(json_, i, [&](std::uint32_t a) { return p_.packing.of(a); }); });
+    list("animations", p_.animations.count(), [&](std::size_t i) { p_.animations.write(json_, i, p_.facts_only ? nullptr : p_.extras, [&](std::uint32_t a) { return p_.packing.of(a); }); });
     const auto& accessors = p_.packing.store().accessors();
     list("accessors", accessors.size(), [&](std::size_t i) { accessor(accessors[i]); });
     list("bufferViews", p_.layout.views().size(), [&](std::size_t i) { buffer_view(p_.layout.views()[i]); });
@@ -90,6 +90,7 @@ class Writer {
 
   void extensions_used() {
     std::vector<std::string_view> used;
+    if (p_.animations.uses_pointers()) used.push_back("KHR_animation_pointer");
     if (!h_.lights().empty()) used.push_back("KHR_lights_punctual");
     if (p_.materials.uses_unlit()) used.push_back("KHR_materials_unlit");
     if (p_.materials.uses_texture_transform()) used.push_back("KHR_texture_transform");
@@ -263,6 +264,7 @@ class Writer {
     if (s.features != none) json_.member("_FEATURE_ID_0", s.features);
     json_.end_object();
     if (s.indices != none) json_.member("indices", s.indices);
+    if (g.morph != none) targets(p_.meshes.morphs()[g.morph]);
     if (m.material != none) json_.member("material", m.material);
     if (g.mode != Mode::triangles) json_.member("mode", static_cast<int>(g.mode));
     if (g.features != none) mesh_features(g);
@@ -286,6 +288,16 @@ class Writer {
     });
     json_.end_object();
     json_.end_object();
+  }
+
+  void targets(const Morph& m) {
+    list("targets", m.targets.size(), [&](std::size_t i) {
+      const auto& t = m.targets[i];
+      json_.begin_object();
+      if (t.positions != none) json_.member("POSITION", p_.packing.of(t.positions));
+      if (t.normals != none) json_.member("NORMAL", p_.packing.of(t.normals));
+      json_.end_object();
+    });
   }
 
   void mesh_extras(const Geometry& g, const Dequantization* whole) {

@@ -61,14 +61,14 @@ double mean_distance(const Vec3& p, const Box& box) {
   return std::sqrt(std::pow(distance(p, box.centre()), 2) + mean_square * std::pow(box.extent(), 2));
 }
 
-/// Candela of a light whose brightness in VRML is right at one distance.
+/// Candela of a light of intensity 1 whose brightness in VRML is right at one distance.
 double candela(const Common& c, const Light& light, const Box& world) {
   const double mean_of_ball = std::sqrt(3.0 / 5) * c.radius * light.scale;
   double d = world.empty() ? light.scale : mean_distance(light.position, world);
   d = std::min(d > 0 ? d : light.scale, mean_of_ball);
   double local = d / light.scale;
   double falloff = std::max(c.attenuation[0] + local * (c.attenuation[1] + local * c.attenuation[2]), 1.0);
-  double candela = pi * c.intensity / falloff * d * d;
+  double candela = pi / falloff * d * d;
   return std::isnan(candela) ? 0 : candela;
 }
 
@@ -103,8 +103,10 @@ bool is_global(const Scene& scene, NodeId n) {
   return scene.is(n, nodes::PointLight) ? scene.get(n, nodes::point_light::global) : scene.get(n, nodes::spot_light::global);
 }
 
-bool shines(const Scene& scene, NodeId n) {
+bool shines(const Scene& scene, NodeId n, const Motion& motion) {
   auto c = common(scene, n);
+  auto intensity = scene.type(n).find("intensity", Dialect::x3d);
+  if (motion.moves(n, *intensity)) c.intensity = 1;
   bool reaches = scene.is(n, nodes::DirectionalLight) || (c.radius > 0 && fits_float(c.radius));
   return c.on && reaches && c.intensity > 0 && fits_float(c.intensity);
 }
@@ -123,6 +125,10 @@ void report_lost_light(const Scene& scene, NodeId n, bool at_top, Diagnostics& d
   if (!at_top && !is_global(scene, n)) diag.report(Diag::no_gltf_light_scope, scene.where(n), type);
 }
 
+double full_intensity(const Scene& scene, const Light& light, const Box& world) {
+  return scene.is(light.source, nodes::DirectionalLight) ? pi : candela(common(scene, light.source), light, world);
+}
+
 void write_light(JsonOut& json, const Scene& scene, const Light& light, const Box& world) {
   NodeId n = light.source;
   if (!n) return write_headlight(json);
@@ -132,7 +138,7 @@ void write_light(JsonOut& json, const Scene& scene, const Light& light, const Bo
   json.member("type", sun ? "directional" : is_spot ? "spot" : "point");
   if (!scene.name(n).empty()) json.member("name", scene.name(n));
   if (c.color != Vec3{1, 1, 1}) json.member("color", std::span<const float>(linear_color(c.color)));
-  json.member("intensity", to_float(sun ? pi * c.intensity : candela(c, light, world)));
+  json.member("intensity", to_float(c.intensity * full_intensity(scene, light, world)));
   if (!sun) json.member("range", to_float(c.radius * light.scale));
   if (is_spot) write_cone(json, scene, n);
   json.end_object();

@@ -13,6 +13,7 @@
 #pragma once
 #include "scenegraph/diagnostics.h"
 #include "writers/gltf_box.h"
+#include "writers/gltf_motion.h"
 #include "writers/gltf_transform.h"
 #include "writers/json.h"
 
@@ -25,14 +26,16 @@ struct Light {
 };
 
 bool is_light(const Scene&, NodeId);
-/// On, and of some effect.
 /// It reaches more than its siblings and what is below them.
 bool is_global(const Scene&, NodeId);
-bool shines(const Scene&, NodeId light);
+/// On, and of some effect, now or at times.
+bool shines(const Scene&, NodeId light, const Motion&);
 /// Location and direction as those of a node.
 Trs light_transform(const Scene&, NodeId light);
 /// What of a light cannot be said; `at_top`: it stands in no group.
 void report_lost_light(const Scene&, NodeId light, bool at_top, Diagnostics&);
+/// The intensity of glTF for one of 1 in VRML.
+double full_intensity(const Scene&, const Light&, const Box& world);
 void write_light(JsonOut&, const Scene&, const Light&, const Box& world);
 
 }  // namespace wrlkit::gltf

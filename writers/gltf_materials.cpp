@@ -30,7 +30,8 @@ struct Materials::Look {
   TextureUse light;
   NodeId light_transform;
   UvAffine light_uv;
-  bool lit = false, shows_color = false;
+  bool lit = false, shows_color = false, shows_alpha = true;
+  std::string_view base_field;  // of the material
   Vec3 base = white, emissive = black;  // display-referred
   double alpha = 1, metallic = 0, rough = 1, cutoff = 0.5;
   Alpha mode = Alpha::opaque;
@@ -79,8 +80,11 @@ MaterialUse Materials::get(NodeId appearance, SurfaceKind s) {
 MaterialUse Materials::make(NodeId appearance, SurfaceKind s) {
   Look l = look(appearance, s);
   bool bake = l.texture.texture != none && !uv_transform(l.uv);
-  auto [i, is_new] = by_json_.try_emplace(json(l), static_cast<std::uint32_t>(materials_.size()));
-  if (is_new) materials_.push_back(i->first);
+  const std::string text = json(l);
+  const bool moving = moves(l);
+  auto [i, is_new] = by_json_.try_emplace(moving ? text + std::to_string(l.material.value) : text, static_cast<std::uint32_t>(materials_.size()));
+  if (is_new) materials_.push_back(text);
+  if (is_new && moving) moved_.push_back({i->second, l.material, l.base, l.emissive, l.alpha, l.base_field, l.shows_alpha, l.surface.faces && l.lit && !replaced_by_light(l), l.lit});
   bool light = l.light.texture != none, bake_light = light && !uv_transform(l.light_uv);
   return {i->second, bake ? l.transform_node : NodeId{}, light, bake_light ? l.light_transform : NodeId{}, l.shows_color};
 }
@@ -100,8 +104,8 @@ Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
   if (s.faces && s.texcoord) l.texture = textures_.get(l.texture_node), further_pictures(l);
   if (s.faces && s.texcoord) l.uv = uv_affine(scene_, l.transform_node);
   read_material(l);
-  if (l.alpha < 1 || (s.color && s.opacity)) l.mode = Alpha::blend;
-  if (l.texture.channels % 2 == 0 && l.texture.channels > 0) l.alpha = 1, l.mode = l.texture.alpha;
+  if (l.alpha < 1 || (s.color && s.opacity) || moves(l, "transparency")) l.mode = Alpha::blend;
+  if (l.texture.channels % 2 == 0 && l.texture.channels > 0) l.alpha = 1, l.mode = l.texture.alpha, l.shows_alpha = false;
   read_alpha_mode(l);
   if (l.appearance && s.faces && s.light) look_at_light(l);
   return l;
@@ -120,6 +124,7 @@ void Materials::read_material(Look& l) {
   const Vec3 emissive = physical ? scene_.get(l.material, p::emissiveColor) : unlit ? scene_.get(l.material, u::emissiveColor) : scene_.get(l.material, m::emissiveColor);
   const Vec3 diffuse = physical ? scene_.get(l.material, p::baseColor) : unlit ? emissive : scene_.get(l.material, m::diffuseColor);
   if (!s.color && !replaced) l.base = s.faces ? diffuse : emissive;
+  if (!s.color && !replaced) l.base_field = unlit || (!s.faces && !physical) ? "emissiveColor" : physical ? "baseColor" : "diffuseColor";
   if (s.faces && !unlit) l.emissive = emissive;
   l.alpha = 1 - unit_range(physical ? scene_.get(l.material, p::transparency) : unlit ? scene_.get(l.material, u::transparency) : scene_.get(l.material, m::transparency));
   if (physical) l.metallic = unit_range(scene_.get(l.material, p::metallic)), l.rough = unit_range(scene_.get(l.material, p::roughness));
@@ -129,7 +134,7 @@ void Materials::read_material(Look& l) {
 void Materials::read_alpha_mode(Look& l) {
   if (!l.appearance) return;
   const auto mode = scene_.get(l.appearance, nodes::appearance::alphaMode);
-  if (mode == "OPAQUE") l.mode = Alpha::opaque, l.alpha = 1;
+  if (mode == "OPAQUE") l.mode = Alpha::opaque, l.alpha = 1, l.shows_alpha = false;
   if (mode == "BLEND") l.mode = Alpha::blend;
   if (mode == "MASK") l.mode = Alpha::mask, l.cutoff = unit_range(scene_.get(l.appearance, nodes::appearance::alphaCutoff));
 }
@@ -157,8 +162,18 @@ void Materials::look_at_light(Look& l) {
   l.light_uv = uv_affine(scene_, l.light_transform);
   if (lightmaps_ == As::occlusion) l.occlusion = none;
   if (lightmaps_ != As::emissive) return;
-  l.base = black, l.emissive = white, l.shows_color = false, l.glow = none;
+  l.base = black, l.emissive = white, l.shows_color = false, l.glow = none, l.base_field = {};
   if (l.texture.channels % 2 == 1) l.texture = {};
+}
+
+bool Materials::moves(const Look& l, std::string_view field) const {
+  auto slot = l.material && !field.empty() ? scene_.type(l.material).find(field, Dialect::x3d) : std::nullopt;
+  return slot && motion_.moves(l.material, *slot);
+}
+
+bool Materials::moves(const Look& l) const {
+  constexpr std::string_view fields[] = {"emissiveColor", "specularColor", "shininess", "metallic", "roughness"};
+  return moves(l, l.base_field) || (l.shows_alpha && moves(l, "transparency")) || (l.lit && std::ranges::any_of(fields, [&](auto f) { return moves(l, f); }));
 }
 
 bool Materials::replaced_by_light(const Look& l) const {
@@ -178,7 +193,7 @@ std::string Materials::json(const Look& l) {
   using As = GltfOptions::Lightmaps;
   if (replaced_by_light(l)) json.key("emissiveTexture"), light_info(json, l);
   if (l.light.texture != none && lightmaps_ == As::occlusion) json.key("occlusionTexture"), light_info(json, l);
-  if (l.emissive != black) json.member("emissiveFactor", std::span<const float>(linear_color(l.emissive)));
+  if (l.emissive != black || (l.lit && moves(l, "emissiveColor"))) json.member("emissiveFactor", std::span<const float>(linear_color(l.emissive)));
   if (l.glow != none && l.lit) texture_info(json, l, "emissiveTexture", l.glow);
   if (l.mode != Alpha::opaque) json.member("alphaMode", l.mode == Alpha::mask ? "MASK" : "BLEND");
   if (l.mode == Alpha::mask && l.cutoff != 0.5) json.member("alphaCutoff", static_cast<float>(l.cutoff));
@@ -214,12 +229,12 @@ void Materials::pbr(JsonOut& json, const Look& l) {
   json.key("pbrMetallicRoughness");
   json.begin_object();
   auto base = linear_color(l.base);
-  if (l.base != white || l.alpha < 1)
+  if (l.base != white || l.alpha < 1 || moves(l, l.base_field) || moves(l, "transparency"))
     json.member("baseColorFactor",
                 std::span<const float>(std::array{base[0], base[1], base[2], static_cast<float>(l.alpha)}));
   if (l.texture.texture != none) texture_info(json, l, "baseColorTexture", l.texture.texture);
   json.member("metallicFactor", static_cast<float>(l.lit ? l.metallic : 0));
-  if (l.lit && l.rough < 1) json.member("roughnessFactor", static_cast<float>(l.rough));
+  if (l.lit && (l.rough < 1 || moves(l))) json.member("roughnessFactor", static_cast<float>(l.rough));
   if (l.lit && l.metal_rough != none) texture_info(json, l, "metallicRoughnessTexture", l.metal_rough);
   json.end_object();
 }

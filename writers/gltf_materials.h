@@ -28,6 +28,7 @@
 #include "writers/gltf.h"
 #include "writers/gltf_color.h"
 #include "writers/gltf_extras.h"
+#include "writers/gltf_motion.h"
 #include "writers/gltf_texture_transform.h"
 #include "writers/gltf_textures.h"
 
@@ -54,13 +55,24 @@ struct MaterialUse {
 
 class Materials {
  public:
-  Materials(const Scene& scene, Textures& textures, Extras* extras, GltfOptions::Lightmaps lightmaps)
-      : scene_(scene), textures_(textures), extras_(extras), lightmaps_(lightmaps) {}
+  Materials(const Scene& scene, Textures& textures, const Motion& motion, Extras* extras, GltfOptions::Lightmaps lightmaps)
+      : scene_(scene), textures_(textures), motion_(motion), extras_(extras), lightmaps_(lightmaps) {}
 
   /// Has an Appearance a picture that can be shown?
   bool has_picture(NodeId appearance);
   /// Of an Appearance, or of none.
   MaterialUse get(NodeId appearance, SurfaceKind);
+
+  /// What fields of a node that are moved do to one of its materials.
+  struct Moved {
+    std::uint32_t material;
+    NodeId source;
+    Vec3 base, emissive;
+    double alpha;
+    std::string_view base_field;            // empty: nothing of the source is in the base colour
+    bool shows_alpha, shows_emissive, lit;
+  };
+  const std::vector<Moved>& moved() const { return moved_; }
 
   /// The JSON of each material.
   const std::vector<std::string>& materials() const { return materials_; }
@@ -71,6 +83,8 @@ class Materials {
  private:
   struct Look;
   MaterialUse make(NodeId appearance, SurfaceKind);
+  bool moves(const Look&, std::string_view field) const;
+  bool moves(const Look&) const;
   Look look(NodeId appearance, SurfaceKind);
   void look_at_light(Look&);
   bool replaced_by_light(const Look&) const;
@@ -90,11 +104,13 @@ class Materials {
 
   const Scene& scene_;
   Textures& textures_;
+  const Motion& motion_;
   Extras* extras_;
   GltfOptions::Lightmaps lightmaps_;
   std::unordered_map<std::uint64_t, MaterialUse> uses_;
   std::unordered_map<std::string, std::uint32_t> by_json_;
   std::vector<std::string> materials_;
+  std::vector<Moved> moved_;
   bool unlit_ = false, texture_transform_ = false, moz_lightmap_ = false;
 };
 

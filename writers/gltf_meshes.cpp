@@ -62,8 +62,30 @@ bool Meshes::gives_texcoords(NodeId n) const {
   return scene_.is(n, nodes::ElevationGrid) && scene_.get(n, nodes::elevation_grid::texCoord);
 }
 
-Geometry Meshes::make(NodeId n, bool texcoords) {
+/// The mesh of a geometry. Flat faces that will move have a normal of their own each, even where they lie in one plane now.
+const Mesh& Meshes::mesh_of(NodeId n) {
   const Mesh& mesh = source_(n);
+  moving_ = morphs_.moves(n);
+  if (!morphs_.makes_normals(n) || !mesh.normal.present() || mesh.crease_angle > 0) return mesh;
+  faceted_ = mesh;
+  auto& normal = faceted_.normal;
+  normal.values.clear();
+  std::size_t face = 0;
+  auto add = [&](std::size_t n_pieces) {
+    if (face >= mesh.n_faces()) return;
+    const auto id = static_cast<std::uint32_t>(normal.values.size() / 3);
+    const float* value = mesh.normal.at(mesh.normal.index[mesh.begin_of(face)]);
+    normal.values.insert(normal.values.end(), value, value + 3);
+    for (; n_pieces > 0 && face < mesh.n_faces(); --n_pieces, ++face)
+      std::fill(normal.index.begin() + static_cast<std::ptrdiff_t>(mesh.begin_of(face)), normal.index.begin() + static_cast<std::ptrdiff_t>(mesh.end_of(face)), id);
+  };
+  for (auto n_pieces : mesh.cut) add(n_pieces);
+  while (face < mesh.n_faces()) add(1);
+  return faceted_;
+}
+
+Geometry Meshes::make(NodeId n, bool texcoords) {
+  const Mesh& mesh = mesh_of(n);
   Geometry g{.source = n, .mode = mode_of(mesh.kind), .double_sided = mesh.kind == Mesh::Kind::faces && !mesh.solid};
   feature_of_corner_.clear();
   if (!number_parts(n, mesh)) diag_.report(Diag::no_gltf_value, scene_.where(n), scene_.type(n).name, "metadata (faces of parts that a pass has changed)");
@@ -86,6 +108,7 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
     g.n_features = n_different(v.feature);
   }
   if (!counts_up(v.index, v.count())) g.indices = store_.indices(v.index, v.count());
+  g.morph = morphs_.add(n, mesh, scratch_, v);
   if (!store_.full()) g.positions = positions;
   return g;
 }
@@ -100,7 +123,7 @@ void Meshes::split(const Mesh& mesh, bool texcoords, const Vec3& origin) {
     vertices_.feature.resize(vertices_.count());
     for (std::size_t c = 0; c < feature_of_corner_.size(); ++c) vertices_.feature[scratch_.of_corner[c]] = feature_of_corner_[c];
   }
-  if (ordered_ && faces) order_for_drawing(vertices_);
+  if (ordered_ && faces && !moving_) order_for_drawing(vertices_);
 }
 
 /// The names of parts get numbers that are those of the whole file. False when parts and faces do not agree.
@@ -145,7 +168,7 @@ std::uint32_t Meshes::mesh(std::uint32_t geometry, const MaterialUse& use) {
 /// The texture transform is applied before V is turned round, so the coordinates are turned back and forth.
 std::uint32_t Meshes::baked(const Geometry& g, NodeId texture_transform, std::vector<float> Vertices::*places) {
   auto affine = uv_affine(scene_, texture_transform);
-  split(source_(g.source), g.texcoords != none);
+  split(mesh_of(g.source), g.texcoords != none);
   auto& uv = vertices_.*places;
   for (std::size_t i = 0; i + 1 < uv.size(); i += 2) {
     auto [s, t] = affine(uv[i], 1.0 - uv[i + 1]);

@@ -9,6 +9,7 @@
 #include "scenegraph/vertices.h"
 #include "writers/gltf_box.h"
 #include "writers/gltf_materials.h"
+#include "writers/gltf_morphs.h"
 #include "writers/gltf_store.h"
 #include "writers/gltf_transform.h"
 
@@ -24,6 +25,7 @@ struct Geometry {
   std::uint32_t n_features = 0;     // different ones
   std::uint32_t origin = none;      // into Meshes::origins: where the positions are relative to
   std::uint32_t first_mesh = none;  // of those with it
+  std::uint32_t morph = none;       // into Meshes::morphs
   std::uint32_t textured = none;    // the same geometry, with texture coordinates
   Mode mode = Mode::triangles;
   bool double_sided = false;
@@ -47,8 +49,8 @@ struct MeshRecord {
 class Meshes {
  public:
   /// `light`: places in lightmaps are kept. `ordered`: triangles and vertices come in the order in which they are drawn best.
-  Meshes(const Scene& scene, const MeshSource& source, Store& store, bool light, bool ordered, Diagnostics& diag)
-      : scene_(scene), source_(source), store_(store), light_(light), ordered_(ordered), diag_(diag), by_node_(scene.node_count(), none) {}
+  Meshes(const Scene& scene, const MeshSource& source, const Motion& motion, Store& store, bool light, bool ordered, Diagnostics& diag)
+      : scene_(scene), source_(source), store_(store), light_(light), ordered_(ordered), diag_(diag), morphs_(scene, motion, store, diag), by_node_(scene.node_count(), none) {}
 
   /// Index into geometries() of the data of a geometry node. Texture coordinates that the file does not give are there
   /// only for who has a picture.
@@ -68,11 +70,13 @@ class Meshes {
   const std::vector<std::string>& feature_names() const { return feature_names_; }
   /// How far a mesh goes from its origin.
   double reach(std::uint32_t mesh) const { return bounds(geometries_[meshes_[mesh].geometry], {}).reach() * std::sqrt(3.0); }
+  const Morphs& morphs() const { return morphs_; }
   /// Of a geometry that is not empty, in a frame.
   Box bounds(const Geometry&, const Matrix&) const;
 
  private:
   Geometry make(NodeId, bool texcoords);
+  const Mesh& mesh_of(NodeId);
   void split(const Mesh&, bool texcoords, const Vec3& origin = {});
   bool number_parts(NodeId, const Mesh&);
   bool gives_texcoords(NodeId) const;
@@ -84,6 +88,7 @@ class Meshes {
   Store& store_;
   bool light_, ordered_;
   Diagnostics& diag_;
+  Morphs morphs_;
   std::vector<std::uint32_t> by_node_;
   std::vector<Geometry> geometries_;
   std::vector<MeshRecord> meshes_;
@@ -92,6 +97,8 @@ class Meshes {
   std::unordered_map<std::string, std::uint32_t> feature_of_;
   std::vector<float> feature_of_corner_;  // of the mesh that is being made; empty: it has no parts
   SplitScratch scratch_;
+  Mesh faceted_;
+  bool moving_ = false;  // the mesh at hand: its vertices stay those of the points
   Vertices vertices_;
 };
 

@@ -47,10 +47,18 @@ void Packing::note_uses() {
   for (const Geometry& g : meshes_.geometries()) {
     if (g.empty()) continue;
     scale_[g.positions] = std::max(scale_[g.positions], g.scale);
+    if (g.morph != none) keep_floats(g);
     if (g.indices != none && g.mode != Mode::triangles) lines_[g.indices] = 1;
   }
   for (const MeshRecord& m : meshes_.meshes())
     if (m.lightcoords != none) light_[m.lightcoords] = 1;
+}
+
+/// What morph targets are added to stays as they are.
+void Packing::keep_floats(const Geometry& g) {
+  copied(g.positions, View::position);
+  copied(g.normals, View::normal);
+  for (const auto& t : meshes_.morphs()[g.morph].targets) copied(t.positions, View::position), copied(t.normals, View::normal);
 }
 
 Streams Packing::packed(const Streams& s) {

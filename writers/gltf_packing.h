@@ -34,6 +34,7 @@ class Packing {
 
  private:
   void note_uses();
+  void keep_floats(const Geometry&);
   Streams packed(const Streams&);
   void pack_others();
   double step(std::uint32_t positions) const;

@@ -22,8 +22,10 @@ double cubic(double a, double a_out, double b, double b_in, double span, double 
 std::set<std::uint32_t> moved_nodes(File& file) {
   std::set<std::uint32_t> out;
   for (std::size_t a = 0; a < file.count(Table::animations); ++a)
-    for (Json c : file.at(Table::animations, a)["channels"].elements())
+    for (Json c : file.at(Table::animations, a)["channels"].elements()) {
       if (auto n = c["target"]["node"].whole(); n && *n < file.count(Table::nodes) && c["target"]["path"].text() != "weights") out.insert(static_cast<std::uint32_t>(*n));
+      if (auto p = node_path(c["target"]["extensions"]["KHR_animation_pointer"]["pointer"].text()); p && p->second != "weights") out.insert(p->first);
+    }
   return out;
 }
 
@@ -42,12 +44,19 @@ double Animations::duration(Json a) {
   return last > 0 ? last : 1;
 }
 
+/// What wrlkit wrote and another program has kept is there as the TimeSensor that it was, with its ROUTEs.
+bool Animations::came_back(Json a) const {
+  const NodeId clock = vrml97(a) ? extras_.named(a["name"].text()) : NodeId{};
+  return c_.scene.is(clock, nodes::TimeSensor) && std::ranges::any_of(c_.scene.main.routes, [&](const Route& r) { return r.from == clock; });
+}
+
 void Animations::animation(Json a, bool runs) {
+  if (came_back(a)) return;
   namespace f = nodes::time_sensor;
   NodeId clock = c_.add(nodes::TimeSensor, a);
   const double whole = duration(a);
   c_.scene.set(clock, f::cycleInterval, whole);
-  c_.scene.set(clock, f::loop, true);
+  c_.scene.set(clock, f::loop, vrml97(a)["loop"].boolean(true));
   if (!runs) c_.scene.set(clock, f::enabled, false);
   c_.set_name(clock, a["name"]);
   made_.push_back(clock);
@@ -119,14 +128,18 @@ void Animations::channel(Json c, Json animation, NodeId clock, double whole) {
   const auto samplers = animation["samplers"].elements();
   const auto path = c["target"]["path"].text();
   auto s = c["sampler"].whole();
-  auto node = c_.file.index(Table::nodes, c["target"]["node"]);
   if (!s || *s >= samplers.size()) return c_.diag().report(Diag::gltf_bad_index, c_.file.where(c), "sampler", c["sampler"].source().substr(0, 20));
+  if (path == "pointer") return pointer(samplers[*s], c["target"]["extensions"]["KHR_animation_pointer"]["pointer"].text(), clock, whole, c);
+  move(samplers[*s], c_.file.index(Table::nodes, c["target"]["node"]), path, clock, whole, c);
+}
+
+void Animations::move(Json sampler, std::uint32_t node, std::string_view path, NodeId clock, double whole, Json c) {
   if (node == none) return c_.lost.add("animation of " + std::string(path), c_.file.where(c));
-  if (path == "weights") return morph(samplers[*s], node, clock, whole, c);
+  if (path == "weights") return morph(sampler, node, clock, whole, c);
   const NodeId to = hierarchy_.made(node);
   const bool rotates = path == "rotation";
   if (!to || !c_.scene.is(to, nodes::Transform) || (!rotates && path != "translation" && path != "scale")) return c_.lost.add("animation of " + std::string(path), c_.file.where(c));
-  auto t = track(samplers[*s], rotates ? 4 : 3);
+  auto t = track(sampler, rotates ? 4 : 3);
   if (!t) return;
   std::vector<double> key, value;
   for (std::size_t i = 0; i < t->time.size(); ++i) {
@@ -147,6 +160,49 @@ void Animations::channel(Json c, Json animation, NodeId clock, double whole) {
     c_.scene.set(n, nodes::position_interpolator::keyValue, value);
   }
   connect(clock, n, to, path == "rotation" ? "set_rotation" : path == "scale" ? "set_scale" : "set_translation");
+}
+
+void Animations::pointer(Json sampler, std::string_view pointer, NodeId clock, double whole, Json at) {
+  if (auto p = node_path(pointer); p && p->first < c_.file.count(Table::nodes)) return move(sampler, p->first, p->second, clock, whole, at);
+  const Pointed p = followers_of(c_, hierarchy_, meshes_, pointer);
+  if (p.followers.empty()) return c_.lost.add("animation of " + std::string(pointer.substr(0, 80)), c_.file.where(at));
+  if (auto t = track(sampler, p.width))
+    for (const Follower& f : p.followers) follow(*t, f, clock, whole, at);
+}
+
+/// Unless the field stays as it is.
+void Animations::follow(const Track& t, const Follower& f, NodeId clock, double whole, Json at) {
+  constexpr int pieces = 8;
+  const std::size_t width = f.color ? 3 : 1;
+  auto same = [&](const auto& a, const auto& b) { return std::equal(a.begin() + static_cast<std::ptrdiff_t>(f.at), a.begin() + static_cast<std::ptrdiff_t>(f.at + width), b.begin() + static_cast<std::ptrdiff_t>(f.at)); };
+  std::vector<double> key, value;
+  auto add = [&](double time, const std::vector<double>& v) {
+    key.push_back(std::clamp(time / whole, 0.0, 1.0));
+    if (!f.color) return value.push_back(f.scale * v[f.at] + f.offset);
+    for (std::size_t k = 0; k < 3; ++k) value.push_back(display(v[f.at + k]));
+  };
+  bool moves = false;
+  for (std::size_t i = 0; i < t.time.size(); ++i) {
+    add(t.time[i], t.value[i]);
+    if (i + 1 == t.time.size() || same(t.value[i], t.value[i + 1])) continue;
+    moves = true;
+    for (int p = 1; f.color && t.time[i + 1] > t.time[i] && p < pieces; ++p) {
+      const double u = double(p) / pieces;
+      auto v = t.value[i];
+      for (std::size_t k = 0; k < v.size(); ++k) v[k] += u * (t.value[i + 1][k] - v[k]);
+      add(t.time[i] + u * (t.time[i + 1] - t.time[i]), v);
+    }
+  }
+  if (!moves) return;
+  NodeId n = c_.add(f.color ? nodes::ColorInterpolator : nodes::ScalarInterpolator, at);
+  if (f.color) {
+    c_.scene.set(n, nodes::color_interpolator::key, key);
+    c_.scene.set(n, nodes::color_interpolator::keyValue, value);
+  } else {
+    c_.scene.set(n, nodes::scalar_interpolator::key, key);
+    c_.scene.set(n, nodes::scalar_interpolator::keyValue, value);
+  }
+  connect(clock, n, f.node, f.event);
 }
 
 void Animations::morph(Json sampler, std::uint32_t node, NodeId clock, double whole, Json at) {

@@ -55,7 +55,7 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
   extras.protos(kept["protos"]);
   hierarchy.build();
   extras.finish(kept["routes"]);
-  if (!file.is_own()) Animations(context, hierarchy).build();  // wrlkit's own are there as ROUTEs
+  if (!file.is_own()) Animations(context, hierarchy, meshes, extras).build();  // wrlkit's own are there as ROUTEs
   if (!file.is_own()) lost.keep(file, file.root()), lost.keep(file, file.root()["asset"]), add_world_info(context);
   lost.report(diag);
 }

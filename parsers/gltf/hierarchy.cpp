@@ -328,8 +328,10 @@ Pose Hierarchy::pose(std::uint32_t n) {
 
 NodeId Hierarchy::camera(Json node, const Place& place) {
   namespace f = nodes::viewpoint;
-  const Json camera = c_.file.at(Table::cameras, c_.file.index(Table::cameras, node["camera"]));
+  const auto index = c_.file.index(Table::cameras, node["camera"]);
+  const Json camera = c_.file.at(Table::cameras, index);
   NodeId n = c_.add(nodes::Viewpoint, node);
+  cameras_[index].push_back(n);
   if (place.translation != Vec3{0, 0, 10}) c_.scene.set(n, f::position, place.translation);
   if (place.rotation[3] != 0) c_.scene.set(n, f::orientation, place.rotation);
   const Json seen = camera["perspective"];
@@ -384,6 +386,7 @@ NodeId Hierarchy::light(Json node, const Place& place, const Matrix& world) {
   const Json light = c_.file.at(Table::lights, index);
   const auto type = light["type"].text();
   NodeId n = c_.add(type == "directional" ? nodes::DirectionalLight : type == "spot" ? nodes::SpotLight : nodes::PointLight, node);
+  lights_[index].push_back(n);
   if (c_.file.is_own()) return light_fields(n, {}, place), n;
   c_.lost.keep(c_.file, light);
   if (type != "directional") return light_fields(n, light, place), n;

@@ -29,9 +29,13 @@ class Hierarchy {
   NodeId made(std::uint32_t node) const { return node < made_.size() ? made_[node] : NodeId{}; }
   /// Of each node with morph targets, the points that move.
   const std::map<std::uint32_t, std::vector<Morph>>& morphs() const { return morphs_; }
+  /// What a light or camera of the file has become.
+  std::vector<NodeId> lights(std::uint32_t light) const { return of(lights_, light); }
+  std::vector<NodeId> cameras(std::uint32_t camera) const { return of(cameras_, camera); }
 
  private:
   using Nodes = std::vector<NodeId>;
+  static Nodes of(const std::map<std::uint32_t, Nodes>& all, std::uint32_t i) { return all.contains(i) ? all.at(i) : Nodes(); }
   enum class State : std::uint8_t { untouched, open, done };
   /// What stands for a node is appended; `origin` is to be added to the first translation.
   void visit(std::uint32_t node, std::size_t depth, const Vec3& origin, Nodes& out);
@@ -64,6 +68,7 @@ class Hierarchy {
   std::map<std::uint32_t, std::vector<Morph>> morphs_;
   std::map<std::uint32_t, std::vector<Matrix>> joints_;
   PartGroups* part_groups_ = nullptr;  // of the group whose children are made
+  std::map<std::uint32_t, Nodes> lights_, cameras_;
   Nodes suns_;  // DirectionalLights: in VRML they light their group only
   std::size_t n_instances_ = 0;
 };

@@ -89,6 +89,15 @@ const Look& Materials::get(std::uint32_t material, SurfaceKind s) {
   return i->second;
 }
 
+std::vector<std::pair<NodeId, bool>> Materials::nodes_of(std::uint32_t material) const {
+  std::vector<std::pair<NodeId, bool>> out;
+  for (const auto& [key, look] : looks_) {
+    const NodeId n = std::get<0>(key) == material && look.appearance ? c_.scene.get(look.appearance, nodes::appearance::material) : NodeId{};
+    if (c_.scene.is(n, nodes::Material) && std::ranges::find(out, n, &std::pair<NodeId, bool>::first) == out.end()) out.emplace_back(n, std::get<1>(key).faces);
+  }
+  return out;
+}
+
 Look Materials::make(std::uint32_t index, SurfaceKind s) {
   Look look;
   const Json m = c_.file.at(Table::materials, index);

@@ -41,6 +41,8 @@ class Materials {
   Materials(const Context& c, Extras& extras) : c_(c), extras_(extras) {}
 
   const Look& get(std::uint32_t material, SurfaceKind);
+  /// The Material nodes that a material has become, and whether faces have them.
+  std::vector<std::pair<NodeId, bool>> nodes_of(std::uint32_t material) const;
   /// Index n of the TEXCOORD_n of a material's picture; nothing when it has none.
   std::optional<std::uint32_t> texcoord_set(std::uint32_t material) const;
 

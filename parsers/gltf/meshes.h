@@ -44,6 +44,8 @@ class Meshes {
   std::vector<Part> parts(std::uint32_t mesh, const Pose&);
   /// Is it a mesh of wrlkit with feature ids, which becomes several Shapes?
   bool has_features(std::uint32_t mesh) const;
+  /// See Materials::nodes_of.
+  std::vector<std::pair<NodeId, bool>> materials_of(std::uint32_t material) const { return materials_.nodes_of(material); }
   /// Of the last call, one for each primitive with targets.
   std::vector<Morph> take_morphs() { return std::move(morphs_); }
 

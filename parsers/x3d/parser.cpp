@@ -16,7 +16,10 @@ void Parser::document() {
   const XmlNode& top = tree_.nodes[0];
   for (auto i = top.first_child; i != XmlNode::none && tree_.nodes[i].kind != XmlNode::Kind::element; i = tree_.nodes[i].next)
     if (tree_.nodes[i].kind == XmlNode::Kind::comment) comment(tree_.nodes[i]);
+  auto is = [](const XmlNode& n, std::string_view name) { return n.kind == XmlNode::Kind::element && std::ranges::equal(n.name, name, {}, [](unsigned char c) { return std::tolower(c); }); };
   const XmlNode* x3d = find_element(top, "X3D");
+  // A page has it somewhere within, in small letters.
+  for (const auto& n : tree_.nodes) if (!x3d && is(n, "x3d")) x3d = &n;
   if (!x3d) {
     diag_.report(Diag::x3d_repaired, Span{}, "there is no X3D element; the document is taken as one");
     x3d = &top;
@@ -28,12 +31,15 @@ void Parser::document() {
   if (scene) roots(*scene);
   for_each_element(*x3d, [&](const XmlNode& n) {
     if (&n == scene || n.name == "head") return;
-    if (n.name == "Scene") return roots(n);
+    if (is(n, "scene")) return roots(n);
     if (scene || x3d == &top) return unknown(n);
     diag_.report(Diag::x3d_repaired, where(n), "the Scene element is missing");
     if (!statement(n))
       if (NodeId id = node(n)) build_.root(id);
   });
+  for (const auto& f : tree_.repaired)
+    diag_.report(f.lost ? Diag::xml_syntax : Diag::x3d_repaired, span_of(whole_.substr(std::min(f.at, whole_.size()), 1)),
+                 f.lost ? f.what + "; it is passed over" : std::string("a blank is missing between two attributes"));
   if (!tree_.fault.empty())
     diag_.report(Diag::xml_syntax, span_of(whole_.substr(std::min(tree_.fault_at, whole_.size()), 1)), tree_.fault + "; what stands behind is not read");
   scene_.main = build_.close_scope();

@@ -22,15 +22,12 @@ export function own_worlds(kinds = vrml97) {
     .map(name => ({name: `corpus/${name}`, file: path.join(project, 'corpus', name)}));
 }
 
-// Two attributes without a blank between them: no XML, and an X3D reader that says so has done what it can.
-const not_xml = /AddDynamicRoutes\.x3d$/;
-
 /// {name, file, format, broken} of each found model: all of those kinds, and those that are broken, whatever they are.
 export function found_worlds(kinds = vrml97) {
   if (!has_shared) return [];
   return table(path.join(shared, 'MANIFEST.tsv'))
     .filter(row => !row.format.startsWith('asset'))
-    .map(row => ({name: row.path, file: path.join(shared, row.path), format: row.format, broken: row.path.startsWith('broken/') || not_xml.test(row.path)}))
+    .map(row => ({name: row.path, file: path.join(shared, row.path), format: row.format, broken: row.path.startsWith('broken/')}))
     .filter(world => world.broken || kinds.format.test(world.format));
 }
 

@@ -1,15 +1,19 @@
-// What comes back through glTF. VRML97 -> glTF -> VRML97 over corpus/, and glTF -> VRML97 -> glTF over tests/gltf: both
-// scenes are walked side by side, and each name, sharing, ROUTE and field is equal, within a bound (1e-5 of its size, as
-// single precision and quaternions have it), or other. The counts are the table in docs/conformance.md.
+// What comes back from other languages: VRML97 -> X3D -> VRML97, VRML97 -> glTF -> VRML97, X3D -> VRML97 -> X3D,
+// glTF -> VRML97 -> glTF, VRML 1.0 -> VRML97 -> glTF (and back). Both scenes are walked side by side, and each name, sharing,
+// ROUTE and field is equal, within a bound (1e-5 of its size, as single precision and quaternions have it), or other. The
+// counts, over corpus/ and tests/gltf and over a part of the found corpus (WRLKIT_SHARED, or ../shared), are the tables in
+// docs/conformance.md.
 //
-//   gltf_roundtrip --check          fails when the table in docs/conformance.md says something else
-//   gltf_roundtrip --update         writes it there
-//   gltf_roundtrip FOLDER...        counts for the worlds below other folders
+//   gltf_roundtrip --check          fails when a table in docs/conformance.md says something else; those of the found corpus are
+//                                   skipped when it is not there
+//   gltf_roundtrip --update         writes them there
+//   gltf_roundtrip FOLDER...        counts for the VRML97 worlds below other folders, through glTF
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -19,6 +23,8 @@
 
 #include "parsers/parsers.h"
 #include "parsers/resources.h"
+#include "passes/lower_vrml1.h"
+#include "passes/lower_x3d.h"
 #include "passes/pipeline.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
@@ -26,6 +32,7 @@
 #include "scenegraph/walk.h"
 #include "writers/gltf.h"
 #include "writers/vrml.h"
+#include "writers/x3d.h"
 
 using namespace wrlkit;
 
@@ -205,31 +212,78 @@ bool write_glb(World& world, const fs::path& from, const fs::path& to) {
 
 fs::path temporary(const char* name) { return fs::temp_directory_path() / (std::string(name) + std::to_string(::getpid())); }
 
+std::unique_ptr<World> again(const Scene& scene, const char* name, void (*write)(const Scene&, std::string&)) {
+  Diagnostics diag;
+  std::string text;
+  write(scene, text);
+  return parse_world(text, name, {}, diag);
+}
+
+void as_vrml(const Scene& scene, std::string& text) {
+  Diagnostics diag(scene.sources);
+  write_vrml(scene, {}, [&](std::string_view s) { text += s; }, diag);
+}
+
+void as_x3d(const Scene& scene, std::string& text) {
+  Diagnostics diag(scene.sources);
+  write_x3d(scene, {}, [&](std::string_view s) { text += s; }, diag);
+}
+
+/// The scene in the nodes of VRML97.
+Scene lowered(Scene scene) {
+  Diagnostics diag(scene.sources);
+  Statistics stats;
+  PassContext context{diag, stats};
+  lower_vrml1(scene, {}, context);
+  lower_x3d(scene, {.vrml97 = true}, context);
+  return scene;
+}
+
+/// A world as .glb and back, against the world as it is brought to glTF.
+void compare_with_glb(World& world, const fs::path& path, Tally& tally) {
+  const auto glb = temporary("through.glb");
+  if (write_glb(world, path, glb)) {
+    if (auto back = read(glb)) Comparison(world.scene, back->scene, tally).run();
+    else ++tally["not read"].other;
+  }
+  fs::remove(glb);
+}
+
 bool through_gltf(const fs::path& path, Tally& tally) {
   auto world = read(path);
   if (!world || world->format != Format::vrml97) return false;
-  const auto glb = temporary("through.glb");
-  if (write_glb(*world, path, glb)) {
-    if (auto back = read(glb)) Comparison(world->scene, back->scene, tally).run();
-    else ++tally["not read"].other;
-  }
-  fs::remove(glb);
+  return compare_with_glb(*world, path, tally), true;
+}
+
+bool through_x3d(const fs::path& path, Tally& tally) {
+  auto world = read(path);
+  if (!world || world->format != Format::vrml97) return false;
+  if (auto back = again(world->scene, "through.x3d", as_x3d)) Comparison(lowered(world->scene), lowered(back->scene), tally).run();
+  else ++tally["not read"].other;
   return true;
 }
 
-bool through_vrml(const fs::path& path, Tally& tally) {
+bool x3d_through_vrml(const fs::path& path, Tally& tally) {
+  auto world = read(path);
+  if (!world || (world->format != Format::x3d_xml && world->format != Format::x3d_classic)) return false;
+  auto vrml = again(lowered(world->scene), "through.wrl", as_vrml);
+  auto back = vrml ? again(vrml->scene, "back.x3d", as_x3d) : nullptr;
+  if (back) Comparison(world->scene, back->scene, tally).run();
+  else ++tally["not read"].other;
+  return true;
+}
+
+bool gltf_through_vrml(const fs::path& path, Tally& tally) {
   auto world = read(path);
   if (!world || world->format != Format::gltf) return false;
-  Diagnostics diag(world->scene.sources);
-  std::string text;
-  write_vrml(world->scene, {}, [&](std::string_view s) { text += s; }, diag);
-  auto vrml = parse_world(text, path.string() + ".wrl", {}, diag);
-  const auto glb = temporary("back.glb");
-  if (vrml && write_glb(*vrml, path, glb)) {
-    if (auto back = read(glb)) Comparison(vrml->scene, back->scene, tally).run();
-    else ++tally["not read"].other;
-  }
-  fs::remove(glb);
+  if (auto vrml = again(world->scene, (path.string() + ".wrl").c_str(), as_vrml)) compare_with_glb(*vrml, path, tally);
+  return true;
+}
+
+bool vrml1_through_vrml(const fs::path& path, Tally& tally) {
+  auto world = read(path);
+  if (!world || world->format != Format::vrml1) return false;
+  if (auto vrml = again(lowered(world->scene), (path.string() + ".wrl").c_str(), as_vrml)) compare_with_glb(*vrml, path, tally);
   return true;
 }
 
@@ -241,10 +295,15 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-std::string table(const std::string& title, const fs::path& folder, bool (*run)(const fs::path&, Tally&)) {
+using Run = bool (*)(const fs::path&, Tally&);
+
+/// Of the files one in `every`; of very large ones none, where not all are asked for.
+std::string table(const std::string& title, const fs::path& folder, Run run, std::size_t every = 1) {
+  constexpr std::uintmax_t large = 200'000;
   Tally tally;
-  std::size_t worlds = 0;
-  for (const auto& path : files_below(folder)) worlds += run(path, tally);
+  std::size_t worlds = 0, n = 0;
+  for (const auto& path : files_below(folder))
+    if (n++ % every == 0 && (every == 1 || fs::file_size(path) < large)) worlds += run(path, tally);
   std::ostringstream out;
   out << title << ", " << worlds << " files:\n\n| what | equal | within the bound | other |\n|---|---|---|---|\n";
   for (const auto& [what, c] : tally) out << "| " << what << " | " << c.equal << " | " << c.near << " | " << c.other << " |\n";
@@ -256,6 +315,18 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// Between two marks of docs/conformance.md; false, and what is wrong, when that says otherwise.
+bool put(std::string& text, const std::string& mark, const std::string& made, bool update) {
+  const std::string begin = "<!-- made by tests/roundtrip/" + mark + " -->\n", end = "<!-- end -->";
+  auto from = text.find(begin), to = text.find(end, from);
+  if (from == text.npos || to == text.npos) return std::printf("docs/conformance.md has no place for %s\n%s", mark.c_str(), made.c_str()), false;
+  from += begin.size();
+  const bool same = text.substr(from, to - from) == made;
+  if (!same && !update) std::printf("docs/conformance.md says otherwise than this; gltf_roundtrip --update writes it there\n%s", made.c_str());
+  if (update) text.replace(from, to - from, made);
+  return same || update;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -265,18 +336,28 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) std::fputs(table("VRML97 -> glTF -> VRML97", argv[i], through_gltf).c_str(), stdout);
     return 0;
   }
-  const std::string made = table("VRML97 -> glTF -> VRML97, corpus/", source / "corpus", through_gltf) +
-                           table("glTF -> VRML97 -> glTF, tests/gltf/", source / "tests/gltf", through_vrml);
-  const std::string begin = "<!-- made by tests/roundtrip/gltf_roundtrip -->\n", end = "<!-- end -->";
-  auto text = text_of(page);
-  auto from = text.find(begin), to = text.find(end, from);
-  if (from == text.npos || to == text.npos) return std::printf("docs/conformance.md has no place for the table\n%s", made.c_str()), 1;
-  from += begin.size();
-  if (mode == "--update") {
-    std::ofstream(page) << text.replace(from, to - from, made);
-  } else if (text.substr(from, to - from) != made) {
-    std::printf("docs/conformance.md says otherwise than this; gltf_roundtrip --update writes it there\n%s", made.c_str());
-    return 1;
+  struct Row {
+    const char* title;
+    const char *folder, *found;
+    Run run;
+  };
+  const Row rows[] = {{"VRML97 -> X3D -> VRML97", "corpus", "", through_x3d},
+                      {"VRML97 -> glTF -> VRML97", "corpus", "", through_gltf},
+                      {"X3D -> VRML97 -> X3D", "corpus", "x3d", x3d_through_vrml},
+                      {"glTF -> VRML97 -> glTF", "tests/gltf", nullptr, gltf_through_vrml},
+                      {"VRML 1.0 -> VRML97 -> glTF", "corpus", "vrml1", vrml1_through_vrml}};
+  const char* given = std::getenv("WRLKIT_SHARED");
+  const fs::path found = (given ? fs::path(given) : source.parent_path() / "shared") / "corpus";
+  const bool update = mode == "--update", has_found = fs::exists(found / "MANIFEST.tsv");
+  if (!has_found) std::printf("skipped: there is no %s\n", found.c_str());
+  std::string own, others;
+  for (const Row& r : rows) {
+    own += table(r.title + std::string(", ") + r.folder + "/", source / r.folder, r.run);
+    if (has_found && r.found) others += table(r.title + std::string(", one of ten found files"), found / r.found, r.run, 10);
   }
-  return 0;
+  auto text = text_of(page);
+  bool good = put(text, "gltf_roundtrip", own, update);
+  if (has_found) good &= put(text, "gltf_roundtrip, found corpus", others, update);
+  if (update) std::ofstream(page) << text;
+  return !good;
 }

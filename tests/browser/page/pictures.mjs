@@ -67,6 +67,14 @@ export function compare(a, b, {key, reach = 0}) {
   };
 }
 
+/// Pictures of one width, one below the other.
+export function stack(pictures) {
+  const c = canvas(pictures[0].width, pictures.reduce((sum, p) => sum + p.height, 0));
+  let y = 0;
+  for (const p of pictures) pen(c).drawImage(p, 0, y), y += p.height;
+  return c;
+}
+
 /// Pictures beside each other, with a line of text above each.
 export function sheet(pictures, labels) {
   const gap = 4, head = 20;

@@ -16,12 +16,13 @@ const draco = new DRACOLoader().setDecoderPath('/node_modules/three/examples/jsm
 const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).setDRACOLoader(draco);
 let renderer;
 
-/// Draws job.glb and returns the canvas. job: {glb, width, height, camera, background, smooth, lighting}; camera is the
+/// Draws job.glb and returns the canvas. job: {glb, time, width, height, camera, background, smooth, lighting}; camera is the
 /// number or name of one in the file, or {eye, target, up}, seen with VRML's standard field of view; without a background it
 /// is the colour of the sky at the horizon, if the file keeps one, or black.
 export async function show(job) {
   const gltf = await loader.loadAsync(job.glb);
   const scene = gltf.scene;
+  if (job.time !== undefined) play(gltf, job.time);
   const camera = make_camera(gltf, job);
   scene.add(camera);
   place_headlight(gltf, camera);
@@ -30,6 +31,13 @@ export async function show(job) {
   if (job.lighting === 'vrml') light_as_vrml(scene);
   renderer.render(scene, camera);
   return renderer.domElement;
+}
+
+/// All animations, as they are so many seconds from their start.
+function play({scene, animations}, time) {
+  const mixer = new THREE.AnimationMixer(scene);
+  for (const clip of animations) mixer.clipAction(clip).play();
+  mixer.setTime(time);
 }
 
 function sky(scene) {

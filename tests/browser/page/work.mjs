@@ -1,9 +1,23 @@
 // What the page does: it fetches the list of pictures to be taken, takes one after the other, and sends back each with what
 // it saw. The driver (browser.mjs) is at the other end.
-import {compare, load_picture, picture_of, sheet} from './pictures.mjs';
+import {compare, load_picture, picture_of, sheet, stack} from './pictures.mjs';
 import {show} from './show.mjs';
 
+/// Pictures of one file at several times, each compared with its own: the worst of all, and both rows of pictures.
+async function series(job) {
+  const all = [], shown = [], references = [];
+  for (const frame of job.frames) {
+    shown.push(picture_of(await show({...job, time: frame.time})));
+    references.push(await load_picture(frame.url));
+    all.push(compare(references.at(-1), shown.at(-1), job));
+  }
+  const worst = (name, of) => of(...all.map(c => c[name]));
+  const rows = [sheet(references, job.frames.map(f => `VRML, ${f.time} s`)), sheet(shown, job.frames.map(f => `three.js, ${f.time} s`))];
+  return {overlap: worst('overlap', Math.min), difference: worst('difference', Math.max), coverage: worst('coverage', Math.min), sheet: stack(rows).toDataURL()};
+}
+
 async function work(job) {
+  if (job.frames) return series(job);
   const shown = picture_of(await show(job));
   if (!job.reference) return {shown: shown.toDataURL()};
   const pictures = await Promise.all(job.reference.map(({url}) => load_picture(url)));

@@ -1,0 +1,12 @@
+// Pictures that stand in a glTF file, as files of their own.
+#pragma once
+#include "scenegraph/resources.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit {
+
+/// ImageTextures whose url is the picture itself get one of a made file instead, which writers put beside what they write:
+/// out.wrl has out.picture_0.png. Each picture is there once.
+void unpack_pictures(Scene&, Resources&);
+
+}  // namespace wrlkit
