@@ -28,7 +28,8 @@ struct MergeOptions {
 /// - Which Shapes go together is decided by where they stand: each appearance begins as one cell, and as long as there may be
 ///   more draws, the cell with the most vertices is halved, across its longest side. So large parts stay by themselves,
 ///   as they are, and shared.
-/// - Each part keeps its name: the DEF names from the root to the Shape, or to its geometry, as in "Unit/Pump". Where two
+/// - Each part keeps its name: the DEF names from the root to the Shape, and to its geometry if the Shape has none or is the first with it,
+///   as in "Unit/Pump". Where two
 ///   parts have one name they are numbered ("Bolt#2"). glTF has a feature id for each corner (EXT_mesh_features) and the
 ///   table in extras; X3D has it as metadata; VRML97 cannot say it, which is reported then. Names of what is merged and
 ///   of the groups that are left without anything in them are only there. Other names that go are said (names-lost).

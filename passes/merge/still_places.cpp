@@ -15,7 +15,7 @@ constexpr std::uint32_t no_zone = 0xffffffff;
 }  // namespace
 
 StillPlaces::StillPlaces(const Scene& scene, const Usage& usage)
-    : scene_(scene), usage_(usage), bound_(scene.node_count()), takers_(scene.node_count()), zone_at_(scene.node_count()), listed_(scene.node_count()), fixed_(scene.node_count()) {
+    : scene_(scene), usage_(usage), bound_(scene.node_count()), takers_(scene.node_count()), zone_at_(scene.node_count()), listed_(scene.node_count()), fixed_(scene.node_count()), named_(scene.node_count()) {
   find_bound();
   walk();
   // A Shape that has to stay somewhere stays everywhere.
@@ -81,7 +81,9 @@ void StillPlaces::visit(const Item& i) {
     if (!may_take(i.node)) fixed_[i.node.value] = 1;
     Item at = i;
     at.path = path_below();
-    if (scene_.name(i.node).empty() && !scene_.name(g).empty()) paths_.push_back({scene_.name(g), at.path}), at.path = static_cast<std::uint32_t>(paths_.size() - 1);
+    // The name of a geometry tells parts apart that have no other; where they have, it is kept with the first.
+    const bool first = !std::exchange(named_[g.value], 1);
+    if ((first || scene_.name(i.node).empty()) && !scene_.name(g).empty()) paths_.push_back({scene_.name(g), at.path}), at.path = static_cast<std::uint32_t>(paths_.size() - 1);
     if (i.zone != no_zone) places_.push_back({i.node, i.zone, i.frame, at.path});
     else n_fixed_ += i.shown, fixed_[i.node.value] = 1;
     return;

@@ -65,7 +65,7 @@ class StillPlaces {
   std::vector<char> bound_;              // by node: of a prototype, or below what is not known
   std::vector<std::uint32_t> takers_;    // by node: lists out of which it may be taken
   std::vector<std::uint32_t> zone_at_;   // by node, plus one
-  std::vector<char> listed_, fixed_;
+  std::vector<char> listed_, fixed_, named_;
   std::vector<Zone> zones_{Zone{.times = 1}};
   std::vector<StillPlace> places_;
   std::vector<NodeId> groups_;
