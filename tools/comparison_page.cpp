@@ -5,7 +5,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "tools/base64.h"
+#include "scenegraph/base64.h"
 #include "tools/chart.h"
 #include "tools/comparison.h"
 

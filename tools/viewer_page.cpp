@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/base64.h"
+#include "scenegraph/base64.h"
 #include "writers/gzip.h"
 #include "writers/json.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "parsers/url.h"
+#include "scenegraph/base64.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/image.h"
 #include "scenegraph/nodes.h"
@@ -31,18 +32,6 @@ std::array<double, N> vector(Json j, std::array<double, N> fallback) {
 Vec3 display_color(const Vec3& l) { return {display(l[0]), display(l[1]), display(l[2])}; }
 
 double unit_range(double v) { return v >= 0 ? std::min(v, 1.0) : 0.0; }
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t v = 0;
-    for (std::size_t k = 0; k < 3; ++k) v = v << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += i + k > bytes.size() ? '=' : digits[v >> (18 - 6 * k) & 63];
-  }
-  return out;
-}
 
 /// -C S R C T (ISO/IEC 14772-1, 6.49).
 UvAffine affine_of(const Scene& scene, NodeId n) {

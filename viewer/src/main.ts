@@ -4,7 +4,7 @@ import {readContents, readFile, type Contents} from './data';
 import {CollapseMode} from './modes/collapse';
 import {CompareMode} from './modes/compare';
 import {WorldMode} from './modes/world';
-import {followAddress, state} from './state';
+import {followAddress} from './state';
 import {CollapsePanel} from './ui/collapse_panel';
 import {ComparePanel} from './ui/compare_panel';
 import {h} from './ui/dom';
@@ -17,16 +17,16 @@ import {Stage} from './view/stage';
 import {loadWorld} from './world/load';
 import './ui/style.css';
 
-function worldView(mode: WorldMode, shell: Shell): ModeView {
+function worldView(mode: WorldMode, shell: Shell, key: string, title: string): ModeView {
   const tree = new Tree(mode.world, (part, closer) => mode.select(part, closer));
   const panel = new WorldPanel(mode);
   mode.onSelect(part => tree.select(part));
   mode.stage.onFrame(() => {
-    if (shell.mode !== 'world') return;
+    if (shell.mode !== key) return;
     const f = mode.stage.figures;
     shell.say(`${count(f.triangles)} triangles · ${count(f.draws)} draws · ${f.milliseconds.toFixed(1)} ms`);
   });
-  return {key: 'world', title: 'World', left: tree.element, right: panel.element, over: null, enter: () => mode.enter()};
+  return {key, title, left: tree.element, right: panel.element, over: null, enter: () => mode.enter()};
 }
 
 function collapseView(mode: CollapseMode, shell: Shell): ModeView {
@@ -59,13 +59,15 @@ async function start(contents: Contents): Promise<void> {
   stage.overview(world.box);
   const begin = world.viewpoints[0];
   if (begin) mode.goTo(begin);
-  const views = [worldView(mode, shell)];
+  const views = [worldView(mode, shell, 'world', contents.worlds.length > 1 ? 'First' : 'World')];
   const second = contents.worlds[1];
   let compare: CompareMode | null = null;
   if (second) {
-    const other = new WorldMode(await loadWorld(second.name, await readFile(second.file)), stage);
+    const other = new WorldMode(await loadWorld(second.name, await readFile(second.file)), stage, 'select2');
     compare = new CompareMode(stage, [mode, other], contents.deviation ?? null);
     views.unshift(compareView(compare, shell));
+    views.push(worldView(other, shell, 'world2', 'Second'));
+    other.recall();
   }
   const collapse = contents.collapses.length > 0 ? new CollapseMode(stage, contents.collapses) : null;
   if (collapse) views.push(collapseView(collapse, shell));
@@ -73,9 +75,8 @@ async function start(contents: Contents): Promise<void> {
   const camera = stage.rememberedCamera();
   shell.setModes(views);
   if (camera) stage.take(camera);
-  const wanted = state.number('select');
-  if (wanted !== null) mode.select(world.parts.find(p => p.node === wanted) ?? null);
-  listenToKeys(shell, mode);
+  mode.recall();
+  listenToKeys(shell, () => shell.mode === 'world2' && compare ? compare.worlds[1] : mode);
   document.documentElement.dataset['ready'] = 'yes';
 }
 

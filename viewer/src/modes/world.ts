@@ -28,7 +28,8 @@ export class WorldMode implements Mode {
   flash = false;          // boxes around objects whose level changes
   private readonly flashes: Flashes;
 
-  constructor(readonly world: World, readonly stage: Stage) {
+  /// `key` is what the address calls the part that is selected.
+  constructor(readonly world: World, readonly stage: Stage, private readonly key = 'select') {
     this.scene.add(world.root);
     this.batches = new Batches(this.scene, world);
     this.lights = new Lights(this.scene, world);
@@ -133,12 +134,18 @@ export class WorldMode implements Mode {
     state.set('move', manner === 'walk' ? manner : null);
   }
 
+  /// The part of the address.
+  recall(): void {
+    const wanted = state.number(this.key);
+    if (wanted !== null) this.select(this.world.parts.find(p => p.node === wanted) ?? null);
+  }
+
   onSelect(call: (part: Part | null) => void): void { this.selectedBy.push(call); }
 
   select(part: Part | null, closer = false): void {
     this.selected = part;
     this.highlight.show(part);
-    state.set('select', part ? part.node : null);
+    state.set(this.key, part ? part.node : null);
     for (const call of this.selectedBy) call(part);
     if (closer && part) this.lookAt(part);
     this.stage.invalidate();

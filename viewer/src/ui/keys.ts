@@ -7,13 +7,18 @@ function press(selector: string): void {
   document.querySelector<HTMLElement>(selector)?.click();
 }
 
-export function listenToKeys(shell: Shell, world: WorldMode): void {
+/// `world` is the one that is looked at.
+export function listenToKeys(shell: Shell, world: () => WorldMode): void {
   const keys: Record<string, () => void> = {
     '?': () => shell.openHelp(),
     '/': () => document.querySelector<HTMLInputElement>('.search input')?.focus(),
     t: () => shell.toggleTheme(),
-    f: () => world.selected ? world.lookAt(world.selected) : world.stage.frameBox(world.box),
-    Escape: () => world.select(null),
+    f: () => {
+      const {selected, stage, box} = world();
+      if (selected) world().lookAt(selected);
+      else stage.frameBox(box);
+    },
+    Escape: () => world().select(null),
     x: () => press('[data-key=x]'),
     b: () => press('[data-key=b]'),
     l: () => press('[data-key=l] input:not(:checked)'),

@@ -1,4 +1,4 @@
-#include "tools/base64.h"
+#include "scenegraph/base64.h"
 
 #include <cstdint>
 
