@@ -33,7 +33,7 @@ class Flattening {
       const Matrix below = all ? frame * local_matrix(scene_, n) : Matrix{};
       if (all && scene_.is(n, nodes::Shape) && frame != Matrix{}) move(n, frame);
       for (NodeId c : hierarchy_children(scene_, n)) todo.push_back({c, below});
-      if (all && scene_.is(n, nodes::Transform)) become_group(n);
+      if (all && local_matrix(scene_, n) != Matrix{}) become_group(n);
     }
     return n_transforms_ > 0;
   }

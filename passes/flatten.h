@@ -17,6 +17,7 @@ struct FlattenOptions {
 ///
 /// - A Transform stays if a ROUTE, a Script or an IS touches it or something below it, or if it holds lights, Viewpoints,
 ///   sensors, LODs or anything else with a place of its own. What is below it is moved to its frame.
+/// - A Transform that moves nothing stays, too.
 /// - Names stay where they were, but for those of geometry and Coordinates that were shared.
 ///
 /// Files become larger by it: run it on request only. Counted: flatten.transforms, flatten.shapes, and figures.h. Linear in what is drawn,
