@@ -6,6 +6,7 @@
 
 #include "passes/figures.h"
 #include "passes/geometry.h"
+#include "passes/hashing.h"
 #include "passes/instance/match.h"
 #include "passes/simplify/places.h"
 #include "passes/text_list.h"
@@ -19,11 +20,6 @@ namespace {
 using namespace instancing;
 
 constexpr std::size_t most_compared = 16;  // groups of equal invariants that a mesh is compared with
-
-std::uint64_t mixed(std::uint64_t h, std::uint64_t v) {
-  h = (h ^ v) * 0x9e3779b97f4a7c15u;
-  return h ^ (h >> 29);
-}
 
 class Instancing {
  public:

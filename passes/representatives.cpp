@@ -5,17 +5,13 @@
 #include <bit>
 #include <map>
 
+#include "passes/hashing.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
-
-std::uint64_t mixed(std::uint64_t h, std::uint64_t v) {
-  h = (h ^ v) * 0x9e3779b97f4a7c15u;
-  return h ^ (h >> 29);
-}
 
 std::uint64_t hash_of(std::string_view s) {
   std::uint64_t h = s.size();

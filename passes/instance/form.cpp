@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "passes/hashing.h"
+
 namespace wrlkit::instancing {
-namespace {
-
-std::uint64_t mixed(std::uint64_t h, std::uint64_t v) {
-  h = (h ^ v) * 0x9e3779b97f4a7c15u;
-  return h ^ (h >> 29);
-}
-
-}  // namespace
-
 void Form::take(const Mesh& m) {
   mesh = &m;
   at.resize(m.corners.size());
