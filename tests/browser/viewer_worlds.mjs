@@ -1,5 +1,5 @@
-// Pages of many worlds, of all kinds that wrlkit reads: each opens without a word on the console, shows something, and counts the
-// triangles that `wrlkit info` counts.
+// Pages of many worlds, of all kinds that wrlkit reads: each opens without a word on the console, shows something in
+// every way that can be chosen, and counts the triangles that `wrlkit info` counts.
 //   node viewer_worlds.mjs WRLKIT FOLDER [--all]        ten of them, or thirty
 import assert from 'node:assert';
 import fs from 'node:fs';
@@ -23,13 +23,17 @@ try {
     assert(world, `${name} is not there`);
     wrlkit(program, 'view', '-q', world, '-o', html);
     const {triangles, lines, points} = JSON.parse(wrlkit(program, 'info', '-q', '--json', world));
-    const opened = await open_page(browser, html, {width: 700, height: 480});
+    const opened = await open_page(browser, html, {width: 800, height: 480});
     const {page} = opened;
     const counted = number_of(await page.textContent('#world-triangles'));
     if (counted !== triangles) faults.push(`${name}: ${counted} triangles, info says ${triangles}`);
     await page.waitForFunction(() => window.viewer.mode.stage.figures.draws > 0, null, {timeout: 5000}).catch(() => {
       if (triangles + lines + points > 0) faults.push(`${name}: nothing is drawn`);
     });
+    // Whatever can be chosen in how it is shown is chosen once.
+    await page.getByRole('tab', {name: 'View'}).click();
+    for (const box of await page.locator('#panel-view input:is([type=radio], [type=checkbox])').all()) await box.check({force: true});
+    await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
     faults.push(...opened.faults.map(fault => `${name}: ${fault}`));
     await opened.close();
   }
