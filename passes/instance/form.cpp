@@ -6,6 +6,7 @@
 #include "passes/hashing.h"
 
 namespace wrlkit::instancing {
+
 void Form::take(const Mesh& m) {
   mesh = &m;
   at.resize(m.corners.size());
