@@ -2,6 +2,7 @@
 // glTF cannot say in extras; what a simplification does goes into it as progressive meshes.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "passes/simplify/progressive_world.h"
@@ -11,6 +12,7 @@
 #include "tools/shown_surface.h"
 #include "tools/viewer_page.h"
 #include "writers/gltf.h"
+#include "writers/json.h"
 #include "writers/output.h"
 
 namespace wrlkit {
@@ -97,11 +99,36 @@ bool is_usable(const Flags& f) {
   return true;
 }
 
+/// What went into a page; the keys are stable.
+std::string contents_json(const ViewerPage& page, const std::string& file, std::size_t bytes) {
+  std::string text;
+  JsonOut json(text);
+  json.begin_object();
+  json.member("file", file);
+  json.member("bytes", bytes);
+  json.key("worlds");
+  json.begin_array();
+  for (const auto& world : page.worlds) json.value(world.name);
+  json.end_array();
+  json.key("criteria");
+  json.begin_array();
+  for (const auto& collapse : page.collapses) json.value(collapse.criterion);
+  json.end_array();
+  json.member("deviation", page.apart ? page.apart->deviation.max : HUGE_VAL);
+  json.end_object();
+  return text;
+}
+
 bool write_page(Session& s, const ViewerPage& page) {
   auto file = OutputFile::open(s.flags().output, {}, s.diag());
   if (!file) return false;
-  write_viewer_page(page, file->sink());
-  return file->commit(s.diag());
+  std::size_t n_bytes = 0;
+  write_viewer_page(page, [&](std::string_view bytes) { n_bytes += bytes.size(), file->write(bytes); });
+  if (!file->commit(s.diag())) return false;
+  const auto contents = contents_json(page, s.flags().output, n_bytes);
+  if (s.flags().json && s.flags().output != "-") fmt::print("{}\n", contents);
+  s.fact("page", contents);
+  return true;
 }
 
 }  // namespace

@@ -12,9 +12,11 @@ fs.mkdirSync(folder, {recursive: true});
 const model = file_of('corpus/paper/ellipsoid_hole.wrl'), html = path.join(folder, 'compare.html');
 wrlkit(program, 'simplify', '-q', model, '--counts', '120', '-o', folder);
 const simple = path.join(folder, fs.readdirSync(folder).find(name => /_\d+\.wrl$/.test(name)));
-wrlkit(program, 'view', '-q', model, simple, '-o', html);
+const contents = JSON.parse(wrlkit(program, 'view', '-q', '--json', model, simple, '-o', html));
 const {surface, triangles} = JSON.parse(wrlkit(program, 'diff', '-q', '--json', model, simple));
 const near = (a, b, part) => assert(Math.abs(a - b) <= part * Math.abs(b), `${a} is not ${b}`);
+
+assert.deepEqual(contents, {file: html, bytes: fs.statSync(html).size, worlds: [model, simple].map(file => path.basename(file)), criteria: [], deviation: surface.max});
 
 const browser = await start_chromium();
 try {
