@@ -68,12 +68,13 @@ std::vector<std::string> profile_names() {
 }
 
 void small_gltf(CLI::App& verb, Flags& f) {
-  verb.add_option("--compress", f.compress, "vertices in glTF: none, as floats; quantize, in fewer bits; meshopt, that and packed")
-      ->check(CLI::IsMember({"none", "quantize", "meshopt"}))->capture_default_str();
+  verb.add_option("--compress", f.compress, "vertices in glTF: none, as floats; quantize, in fewer bits; meshopt, that and packed; draco, packed smaller, each mesh by itself")
+      ->check(CLI::IsMember({"none", "quantize", "meshopt", "draco"}))->capture_default_str();
   auto* tolerance = verb.add_option("--tolerance", f.tolerance, "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; as a rule 1mm, or less in a small world")->type_name("LENGTH");
   verb.add_option("--position-bits", f.position_bits, "instead of that, bits of the extent of each mesh")->check(CLI::Range(1, 16))->excludes(tolerance);
   verb.add_option("--normal-bits", f.normal_bits, "of each component")->check(CLI::Range(2, 8))->capture_default_str();
   verb.add_option("--texcoord-bits", f.texcoord_bits, "of a picture's width and height; of a lightmap's two more")->check(CLI::Range(1, 16))->capture_default_str();
+  verb.add_option("--draco-level", f.draco_level, "0: fast, 10: small")->check(CLI::Range(0, 10))->capture_default_str();
   verb.add_option("--extras", f.extras, "what VRML says and glTF cannot, kept in extras: all, so that the same VRML can be made again; facts, what nodes say that draw nothing, links and descriptions; none")
       ->check(CLI::IsMember({"all", "facts", "none"}))->capture_default_str();
   verb.add_option("--profile", f.profile, "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")->check(CLI::IsMember(profile_names()));

@@ -40,7 +40,7 @@ struct Flags {
   std::string tolerance;                   // a length: 1mm
   std::string profile, extras = "all";
   bool print_profile = false;
-  int position_bits = 0, normal_bits = 8, texcoord_bits = 12, color_bits = 10;
+  int position_bits = 0, normal_bits = 8, texcoord_bits = 12, color_bits = 10, draco_level = 7;
 
   bool parse_only = false;                 // check
 

@@ -18,7 +18,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 
 GltfCompression::Method method_of(const std::string& name) {
   using enum GltfCompression::Method;
-  return name == "meshopt" ? meshopt : name == "quantize" ? quantize : none;
+  return name == "meshopt" ? meshopt : name == "draco" ? draco : name == "quantize" ? quantize : none;
 }
 
 /// 1,234,567.
@@ -73,7 +73,7 @@ void apply_profile(Flags& f) {
 }
 
 std::optional<GltfOptions> gltf_options(const Flags& f) {
-  GltfCompression c{.method = method_of(f.compress), .position_bits = f.position_bits, .normal_bits = f.normal_bits, .texcoord_bits = f.texcoord_bits, .color_bits = f.color_bits};
+  GltfCompression c{.method = method_of(f.compress), .position_bits = f.position_bits, .normal_bits = f.normal_bits, .texcoord_bits = f.texcoord_bits, .color_bits = f.color_bits, .level = f.draco_level};
   if (!f.tolerance.empty()) c.tolerance = length_of(f.tolerance);
   if (!f.tolerance.empty() && !(c.tolerance > 0)) return fmt::print(stderr, "wrlkit: --tolerance: '{}' is no length\n", f.tolerance), std::nullopt;
   std::string name = f.output;
@@ -106,9 +106,12 @@ std::string summary_text(const GltfSummary& s) {
   if (s.pictures > 0) size_line(out, "textures", s.pictures, s.pictures_gzip);
   out += fmt::format("  {} nodes, {} of them with a name; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named), grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
   const auto& q = s.quantization;
-  if (q.tolerance > 0)
-    out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), normals {:.2g} degrees, texture coordinates {:.2g}, colours {:.2g}; places of nodes within {:.2g} mm\n", q.position * 1e3, q.tolerance * 1e3,
-                       q.normal * degrees, q.texcoord, q.color, q.placement * 1e3);
+  if (q.tolerance <= 0) return out;
+  out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), places of nodes within {:.2g} mm", q.position * 1e3, q.tolerance * 1e3, q.placement * 1e3);
+  if (q.normal > 0) out += fmt::format(", normals {:.2g} degrees", q.normal * degrees);
+  if (q.texcoord > 0) out += fmt::format(", texture coordinates {:.2g}", q.texcoord);
+  if (q.color > 0) out += fmt::format(", colours {:.2g}", q.color);
+  out += '\n';
   return out;
 }
 

@@ -138,7 +138,7 @@ class Writer {
     if (store_.full()) return report_too_large(store_.bytes(), diag_);
     static const std::vector<Picture> no_pictures;
     Packing packing(options_.compression, store_, meshes_, hierarchy_);
-    Layout layout(packing.store(), pictures_inside() ? textures_.pictures() : no_pictures, packing.uses_meshopt());
+    Layout layout(packing.store(), packing.blobs(), pictures_inside() ? textures_.pictures() : no_pictures, packing.uses_meshopt());
     Parts parts{scene_,     hierarchy_, meshes_, packing,
                 materials_, textures_,  layout,  animations_, options_.extras ? &extras_ : nullptr,
                 options_.facts_only, {}, {}};

@@ -12,14 +12,16 @@
 namespace wrlkit {
 
 /// How vertices and indices are stored. none: as floats. quantize: in fewer bits (KHR_mesh_quantization). meshopt: that, in
-/// the order in which they are drawn best, and packed (EXT_meshopt_compression).
+/// the order in which they are drawn best, and packed (EXT_meshopt_compression). draco: in fewer bits and packed, each mesh by
+/// itself (KHR_draco_mesh_compression), where that is smaller; lines and points stay floats.
 struct GltfCompression {
-  enum class Method : std::uint8_t { none, quantize, meshopt };
+  enum class Method : std::uint8_t { none, quantize, meshopt, draco };
 
   Method method = Method::none;
   double tolerance = 0;   // metres of the world that no vertex moves further; 0: a millimetre, or less in a small world
   int position_bits = 0;  // instead of that: of the extent of each mesh; 0: by the tolerance
   int normal_bits = 8, texcoord_bits = 12, color_bits = 10;
+  int level = 7;          // of Draco: from 0, fast, to 10, small
 };
 
 /// What was written.

@@ -107,6 +107,7 @@ class Writer {
     std::vector<std::string_view> names;
     if (p_.packing.uses_quantization()) names.push_back("KHR_mesh_quantization");
     if (p_.layout.unpacked_size() > 0) names.push_back("EXT_meshopt_compression");
+    if (!p_.packing.blobs().empty()) names.push_back("KHR_draco_mesh_compression");
     return names;
   }
 
@@ -255,22 +256,17 @@ class Writer {
     json_.begin_object();
     json_.key("attributes");
     json_.begin_object();
-    json_.member("POSITION", s.positions);
-    if (s.normals != none) json_.member("NORMAL", s.normals);
-    // Colours that a picture hides are kept under a name that viewers do not know.
-    if (s.colors != none) json_.member(m.shows_color ? "COLOR_0" : "_COLOR", s.colors);
-    if (s.texcoords != none) json_.member("TEXCOORD_0", s.texcoords);
-    if (s.lightcoords != none) json_.member(s.texcoords != none ? "TEXCOORD_1" : "TEXCOORD_0", s.lightcoords);
-    if (s.features != none) json_.member("_FEATURE_ID_0", s.features);
+    attributes(m, s);
     json_.end_object();
     if (s.indices != none) json_.member("indices", s.indices);
     if (g.morph != none) targets(p_.meshes.morphs()[g.morph]);
     if (m.material != none) json_.member("material", m.material);
+    if (s.draco != none) draco(m, s);
     if (g.mode != Mode::triangles) json_.member("mode", static_cast<int>(g.mode));
     if (g.features != none) mesh_features(g);
     json_.end_object();
     json_.end_array();
-    if (p_.extras && !p_.facts_only) mesh_extras(g, p_.packing.dequantization(m));
+    if (p_.extras && !p_.facts_only) mesh_extras(g, s.draco == none, p_.packing.dequantization(m));
     json_.end_object();
   }
 
@@ -300,10 +296,41 @@ class Writer {
     });
   }
 
-  void mesh_extras(const Geometry& g, const Dequantization* whole) {
+  void attributes(const MeshRecord& m, const Streams& s) {
+    json_.member("POSITION", s.positions);
+    if (s.normals != none) json_.member("NORMAL", s.normals);
+    // Colours that a picture hides are kept under a name that viewers do not know.
+    if (s.colors != none) json_.member(m.shows_color ? "COLOR_0" : "_COLOR", s.colors);
+    if (s.texcoords != none) json_.member("TEXCOORD_0", s.texcoords);
+    if (s.lightcoords != none) json_.member(s.texcoords != none ? "TEXCOORD_1" : "TEXCOORD_0", s.lightcoords);
+    if (s.features != none) json_.member("_FEATURE_ID_0", s.features);
+  }
+
+  /// Attributes of Draco are numbered in the order in which the mesh has them.
+  void draco(const MeshRecord& m, const Streams& s) {
+    Streams ids;
+    std::uint32_t next = 0;
+    for (auto part : {&Streams::positions, &Streams::normals, &Streams::colors, &Streams::texcoords, &Streams::lightcoords})
+      if (s.*part != none) ids.*part = next++;
+    json_.key("extensions");
+    json_.begin_object();
+    json_.key("KHR_draco_mesh_compression");
+    json_.begin_object();
+    json_.member("bufferView", p_.layout.of_blob(s.draco));
+    json_.key("attributes");
+    json_.begin_object();
+    attributes(m, ids);
+    json_.end_object();
+    json_.end_object();
+    json_.end_object();
+  }
+
+  /// `in_order`: the triangles are in the order of the polygons that they were cut from.
+  void mesh_extras(const Geometry& g, bool in_order, const Dequantization* whole) {
     const double step = whole ? whole->step : 1;
+    const auto polygons = in_order ? std::span<const std::uint32_t>(g.polygons) : std::span<const std::uint32_t>();
     if (is_parametric(p_.scene, g.source) || points_move(g.source)) p_.extras->member(json_, g.source, {});
-    else if (!g.polygons.empty() || step != 1 || p_.extras->geometry_says_more(g.source)) p_.extras->geometry(json_, g.source, g.polygons, step);
+    else if (!polygons.empty() || step != 1 || p_.extras->geometry_says_more(g.source)) p_.extras->geometry(json_, g.source, polygons, step);
   }
 
   /// The order of points that events replace matters.
@@ -347,8 +374,8 @@ class Writer {
   void accessor(const Accessor& a) {
     const auto& type = info(a.view);
     json_.begin_object();
-    json_.member("bufferView", p_.layout.of(a.view));
-    if (a.offset > 0) json_.member("byteOffset", a.offset);
+    if (a.offset != none) json_.member("bufferView", p_.layout.of(a.view));
+    if (a.offset > 0 && a.offset != none) json_.member("byteOffset", a.offset);
     json_.member("componentType", type.component_type);
     json_.member("count", a.count);
     if (type.normalized) json_.member("normalized", true);
@@ -369,7 +396,7 @@ class Writer {
     json_.member("buffer", packed ? 1 : 0);
     if (offset > 0) json_.member("byteOffset", offset);
     json_.member("byteLength", packed ? v.unpacked : v.length);
-    if (v.picture == none) {
+    if (v.picture == none && v.blob == none) {
       const auto& type = info(v.view);
       if (type.vertices) json_.member("byteStride", type.element);
       if (type.vertices || type.indices) json_.member("target", type.vertices ? array_buffer : element_array_buffer);

@@ -24,8 +24,8 @@ std::string packed(View v, const Blocks& blocks) {
 
 }  // namespace
 
-Layout::Layout(const Store& store, const std::vector<Picture>& inside, bool meshopt)
-    : store_(store), pictures_(inside), n_pictures_(inside.size()) {
+Layout::Layout(const Store& store, const std::vector<std::string>& blobs, const std::vector<Picture>& inside, bool meshopt)
+    : store_(store), blobs_(blobs), pictures_(inside), n_pictures_(inside.size()) {
   of_view_.fill(none);
   for (std::size_t i = 0; i < n_views; ++i) {
     auto view = static_cast<View>(i);
@@ -37,9 +37,10 @@ Layout::Layout(const Store& store, const std::vector<Picture>& inside, bool mesh
       continue;
     }
     auto bytes = packed(view, store.view(view));
-    add({0, bytes.size(), view, none, std::move(bytes), size, unpacked_size_});
+    add({0, bytes.size(), view, none, none, std::move(bytes), size, unpacked_size_});
     unpacked_size_ += size + padding(size);
   }
+  for (std::size_t i = 0; i < blobs.size(); ++i) add({.offset = 0, .length = blobs[i].size(), .view = {}, .blob = static_cast<std::uint32_t>(i)});
   geometry_size_ = size_;
   for (std::size_t i = 0; i < inside.size(); ++i) add({0, inside[i].bytes.size(), {}, static_cast<std::uint32_t>(i)});
 }
@@ -54,7 +55,9 @@ void Layout::pieces(std::vector<std::string_view>& out, bool with_pictures) cons
   constexpr std::string_view zeros("\0\0\0", alignment - 1);
   for (const auto& v : views_) {
     if (v.picture != none && !with_pictures) continue;
-    if (v.unpacked > 0)
+    if (v.blob != none)
+      out.push_back(blobs_[v.blob]);
+    else if (v.unpacked > 0)
       out.push_back(v.packed);
     else if (v.picture == none)
       store_.view(v.view).pieces(out);

@@ -12,17 +12,19 @@ class Layout {
   struct BufferView {
     std::uint64_t offset, length;
     View view;  // unless it is a picture
-    std::uint32_t picture = none;
+    std::uint32_t picture = none, blob = none;
     std::string packed;          // empty: it is not
     std::uint64_t unpacked = 0;  // bytes of a packed one; its place in the second buffer
     std::uint64_t unpacked_offset = 0;
   };
 
-  Layout(const Store&, const std::vector<Picture>& inside, bool meshopt);
+  /// `blobs` become views of their own, behind those of the Store.
+  Layout(const Store&, const std::vector<std::string>& blobs, const std::vector<Picture>& inside, bool meshopt);
 
   const std::vector<BufferView>& views() const { return views_; }
   /// Index into views().
   std::uint32_t of(View v) const { return of_view_[static_cast<std::size_t>(v)]; }
+  std::uint32_t of_blob(std::size_t i) const { return static_cast<std::uint32_t>(views_.size() - n_pictures_ - blobs_.size() + i); }
   std::uint32_t of_picture(std::size_t i) const { return static_cast<std::uint32_t>(views_.size() - n_pictures_ + i); }
   bool pictures_inside() const { return n_pictures_ > 0; }
   std::uint64_t size() const { return size_; }
@@ -37,6 +39,7 @@ class Layout {
   void add(BufferView);
 
   const Store& store_;
+  const std::vector<std::string>& blobs_;
   const std::vector<Picture>& pictures_;
   std::size_t n_pictures_;
   std::array<std::uint32_t, n_views> of_view_;

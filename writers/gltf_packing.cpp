@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "writers/draco.h"
+
 namespace wrlkit::gltf {
 namespace {
 
@@ -32,7 +34,11 @@ Packing::Packing(const GltfCompression& options, const Store& from, const Meshes
   store_ = &own_;
   summary_.tolerance = tolerance_for(options, hierarchy.world());
   note_uses();
-  for (Streams& s : streams_) s = packed(s);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Geometry& g = meshes.geometries()[records[i].geometry];
+    const bool still = g.mode == Mode::triangles && g.morph == none;
+    streams_[i] = options_.method != Method::draco ? packed(streams_[i]) : still ? draco(streams_[i]) : copied(streams_[i]);
+  }
   pack_others();
   if (const double rest = summary_.tolerance - summary_.position; rest > 0) summary_.placement = hierarchy.round_transforms(rest);
   hierarchy.dequantize([&](std::uint32_t mesh) { return dequantization(records[mesh]); });
@@ -63,6 +69,55 @@ void Packing::keep_floats(const Geometry& g) {
 
 Streams Packing::packed(const Streams& s) {
   return {positions(s.positions), normals(s.normals), colors(s.colors), texcoords(s.texcoords), texcoords(s.lightcoords), indices(s.indices), s.features == none ? none : copied(s.features, View::feature)};
+}
+
+Streams Packing::copied(const Streams& s) {
+  auto copy = [&](std::uint32_t a) { return a == none ? none : copied(a, from_.accessors()[a].view); };
+  return {copy(s.positions), copy(s.normals), copy(s.colors), copy(s.texcoords), copy(s.lightcoords), copy(s.indices), copy(s.features)};
+}
+
+/// Meshes with the same values are one, whatever their material.
+Streams Packing::draco(const Streams& s) {
+  constexpr std::size_t json_of_view = 160;  // what a view and the extension take, about
+  auto [known, is_new] = by_draco_.try_emplace(s);
+  if (!is_new) return known->second;
+  if (s.features != none) return ++summary_.kept, known->second = copied(s);  // ids of parts must not be mixed up
+  const double grid = step(s.positions), scale = std::max(scale_[s.positions], 0.0);
+  double error = 0;
+  const auto xyz = snapped(floats(s.positions), 3, grid, error);
+  std::vector<std::vector<float>> values;
+  std::vector<DracoValues> all{{DracoValues::Kind::position, 3, xyz, 0}};
+  std::size_t raw = xyz.size() * sizeof(float) + (s.indices == none ? 0 : from_.bytes(s.indices).size());
+  values.reserve(4);
+  auto add = [&](std::uint32_t a, DracoValues::Kind kind, int bits) {
+    if (a == none) return;
+    values.push_back(floats(a));
+    raw += values.back().size() * sizeof(float);
+    all.push_back({kind, info(from_.accessors()[a].view).element / 4u, values.back(), bits});
+  };
+  add(s.normals, DracoValues::Kind::normal, options_.normal_bits);
+  add(s.colors, DracoValues::Kind::color, options_.color_bits);
+  const int uv_bits = std::min(options_.texcoord_bits + (s.lightcoords != none ? more_light_bits : 0), 16);
+  add(s.texcoords, DracoValues::Kind::texcoord, uv_bits);
+  add(s.lightcoords, DracoValues::Kind::texcoord, uv_bits);
+  std::vector<std::uint32_t> index(s.indices == none ? xyz.size() / 3 : from_.accessors()[s.indices].count);
+  for (std::uint32_t i = 0; i < index.size(); ++i) index[i] = i;
+  if (s.indices != none) {
+    const std::string bytes = from_.bytes(s.indices);
+    const std::size_t width = bytes.size() / index.size();
+    for (std::size_t i = 0; i < index.size(); ++i) index[i] = 0, std::memcpy(&index[i], bytes.data() + i * width, width);
+  }
+  auto mesh = draco_pack(all, index, grid, options_.level);
+  if (!mesh || mesh->n_corners == 0 || mesh->bytes.size() + json_of_view >= raw) return ++summary_.kept, known->second = copied(s);
+  summary_.position = std::max(summary_.position, error * scale);
+  Bounds box{{xyz[0], xyz[1], xyz[2]}, {xyz[0], xyz[1], xyz[2]}};
+  for (std::size_t i = 0; i < xyz.size(); ++i) box.low[i % 3] = std::min(box.low[i % 3], xyz[i]), box.high[i % 3] = std::max(box.high[i % 3], xyz[i]);
+  auto described = [&](std::uint32_t a) { return a == none ? none : own_.described(from_.accessors()[a].view, mesh->n_vertices); };
+  Streams out{own_.described(View::position, mesh->n_vertices, &box), described(s.normals), described(s.colors), described(s.texcoords), described(s.lightcoords)};
+  out.indices = own_.described(mesh->n_vertices <= 65535 ? View::index16 : View::index32, mesh->n_corners);
+  out.draco = static_cast<std::uint32_t>(blobs_.size());
+  blobs_.push_back(std::move(mesh->bytes));
+  return known->second = out;
 }
 
 /// What animations have.

@@ -11,6 +11,8 @@ namespace wrlkit::gltf {
 /// Accessors of one mesh.
 struct Streams {
   std::uint32_t positions = none, normals = none, colors = none, texcoords = none, lightcoords = none, indices = none, features = none;
+  std::uint32_t draco = none;  // into Packing::blobs: the values of all of them
+  auto operator<=>(const Streams&) const = default;
 };
 
 class Packing {
@@ -27,6 +29,8 @@ class Packing {
     auto at = short_.find(meshes_.geometries()[m.geometry].positions);
     return at == short_.end() ? nullptr : &at->second;
   }
+  /// Compressed data of Draco, a mesh each.
+  const std::vector<std::string>& blobs() const { return blobs_; }
   bool uses_meshopt() const { return options_.method == GltfCompression::Method::meshopt; }
   /// Are there numbers of kinds that glTF knows by KHR_mesh_quantization only?
   bool uses_quantization() const;
@@ -36,6 +40,8 @@ class Packing {
   void note_uses();
   void keep_floats(const Geometry&);
   Streams packed(const Streams&);
+  Streams copied(const Streams&);
+  Streams draco(const Streams&);
   void pack_others();
   double step(std::uint32_t positions) const;
   template <class Pack>
@@ -60,6 +66,8 @@ class Packing {
   std::vector<double> scale_;          // of accessors of positions: how much larger they are in the world
   std::vector<std::uint8_t> lines_, light_;  // accessors of indices that are not triangles; of places in lightmaps
   std::unordered_map<std::uint32_t, Dequantization> short_;  // of accessors of positions
+  std::vector<std::string> blobs_;
+  std::map<Streams, Streams> by_draco_;
   GltfSummary::Quantization summary_;
 };
 
