@@ -78,4 +78,5 @@ def main():
                 print(f'| {os.path.basename(path)} | {mb:.1f} | {name} | {cpu:.3f} | {mb / cpu:.0f} | {base / cpu:.2f} | {peak:.0f} | {peak / mb:.1f} |', flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()
