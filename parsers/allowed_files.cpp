@@ -102,4 +102,11 @@ AllowedFiles::Result AllowedFiles::find(const std::string& path, const std::stri
   return beside;
 }
 
+AllowedFiles::Result find_url(AllowedFiles& files, std::string_view url, const std::string& referrer) {
+  AllowedFiles::Result best;
+  for (const auto& path : url_paths(url))
+    if (auto result = files.find(path, referrer); result.state < best.state) best = std::move(result);
+  return best;
+}
+
 }  // namespace wrlkit

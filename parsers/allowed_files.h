@@ -39,4 +39,13 @@ class AllowedFiles {
   std::unordered_map<std::string, std::map<std::string, std::string>> listings_;  // folder: lower-case name to name
 };
 
+/// What was asked for, and what it has led to: who asks again finds out whether it still does.
+struct FileLookup {
+  std::string referrer, url;
+  AllowedFiles::Result result;
+};
+
+/// The best of what the paths that a url may mean lead to.
+AllowedFiles::Result find_url(AllowedFiles&, std::string_view url, const std::string& referrer);
+
 }  // namespace wrlkit

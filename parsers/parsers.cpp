@@ -110,7 +110,7 @@ std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, co
   auto world = std::make_unique<World>();
   world->format = Format::gltf;
   world->scene.sources = diag.shared_sources();
-  gltf_reader::parse(bytes, base, path, options.allowed, options.parse, world->scene, diag);
+  gltf_reader::parse(bytes, base, path, options.allowed, options.lookups, options.parse, world->scene, diag);
   return world;
 }
 

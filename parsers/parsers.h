@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "parsers/allowed_files.h"
 #include "parsers/read_file.h"
 #include "scenegraph/builder.h"
 #include "scenegraph/diagnostics.h"
@@ -15,6 +16,7 @@ struct ReadOptions {
   ReadLimits limits;
   ParseLimits parse;
   std::vector<std::string> allowed = {};  // folders beside the world's own that its buffers may lie in (glTF)
+  std::vector<FileLookup>* lookups = nullptr;  // is told of each buffer that is looked for
 };
 
 /// What a text is by its first bytes; the file's name does not matter. none: no world.

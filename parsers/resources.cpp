@@ -109,9 +109,7 @@ FileResources::Target FileResources::locate(std::string_view url, Span where, co
   if (referrer.empty() || referrer == standard_input_name) referrer = options_.input;
   auto [at, is_new] = looked_up_.try_emplace({referrer, std::string(url)});
   auto& best = at->second;
-  if (is_new)
-    for (auto& path : url_paths(url))
-      if (auto result = files_.find(path, referrer); result.state < best.state) best = std::move(result);
+  if (is_new) best = find_url(files_, url, referrer);
   return {best.state, best.path, best.canonical};
 }
 
@@ -185,7 +183,15 @@ std::shared_ptr<const Scene> FileResources::parsed(const Target& target, std::st
   return world.scene;
 }
 
+std::vector<FileLookup> FileResources::lookups() const {
+  std::vector<FileLookup> out;
+  for (const auto& [asked, result] : looked_up_) out.push_back({asked.first, asked.second, result});
+  for (const auto& path : patch_files_) out.push_back({"", path, {AllowedFiles::found, path, path}});
+  return out;
+}
+
 std::shared_ptr<const PatchSet> FileResources::patches(const std::string& path, Diagnostics& diag) {
+  patch_files_.insert(path);
   auto read = read_patches(path, {}, diag);
   return read ? std::make_shared<const PatchSet>(std::move(*read)) : nullptr;
 }

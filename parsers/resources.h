@@ -41,6 +41,9 @@ class FileResources final : public Resources {
   std::shared_ptr<const Scene> world(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
   std::shared_ptr<const PatchSet> patches(const std::string& path, Diagnostics&) override;
 
+  /// All that was asked for until now: what the result depends on beside the input. Who has no referrer was named by the user.
+  std::vector<FileLookup> lookups() const;
+
  private:
   struct Target;
   struct Failure;
@@ -74,6 +77,7 @@ class FileResources final : public Resources {
   std::recursive_mutex mutex_;
   AllowedFiles files_;
   std::map<std::pair<std::string, std::string>, AllowedFiles::Result> looked_up_;  // referrer and url
+  std::set<std::string> patch_files_;
   std::map<std::string, ParsedWorld> worlds_;
   std::set<std::pair<std::uint32_t, std::string>> reported_;
   std::mutex cache_mutex_;

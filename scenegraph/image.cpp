@@ -4,8 +4,10 @@
 #include <link.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 
+#include "scenegraph/image_codecs.h"
 #include "scenegraph/image_module.h"
 #include "scenegraph/png.h"
 
@@ -54,8 +56,10 @@ Opened open_module() {
   return opened;
 }
 
+std::atomic<bool> loaded = false;
+
 const Opened& image_module() {
-  static const Opened opened = open_module();
+  static const Opened opened = (loaded = true, open_module());
   return opened;
 }
 
@@ -144,6 +148,9 @@ std::optional<Image> decode_image(std::string_view bytes, std::string_view name,
     image = with_channels(with_channels(std::move(image), header->channels - 1), header->channels);
   return image;
 }
+
+void load_image_codecs() { image_module(); }
+bool image_codecs_are_loaded() { return loaded; }
 
 std::optional<std::string> encode_png(const Image& image, std::string& error) {
   auto bytes = encode(image, "png", 0, error);

@@ -91,6 +91,17 @@ void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--mode", f.mode, "preview; wireframe; albedo: no light; and of lightmaps: the light alone, its texels as a checker, their density (texels a metre)")->check(CLI::IsMember({"preview", "wireframe", "albedo", "lightmap", "checker", "density"}))->capture_default_str();
 }
 
+void corpus_inputs(CLI::App& verb, Flags& f) {
+  verb.add_option("RECIPE", f.recipe, "a recipe; see docs/recipes.md")->required();
+  verb.add_option("IN", f.inputs, "folders, globs, worlds, @FILE: a list of worlds; -: such a list on standard input")->required();
+  verb.add_option("-o,--output", f.output, "folder for the outputs, which stand in it as the inputs in theirs")->required()->type_name("DIR");
+  verb.add_option("--format", f.format, "ending of the outputs")->check(CLI::IsMember({"glb", "gltf", "wrl", "wrz", "wrl.gz", "x3d", "x3dz"}))->capture_default_str();
+  verb.add_option("--include", f.include, "of folders, only files like these: '*.wrl', 'unit_1/**'")->type_name("GLOB");
+  verb.add_option("--exclude", f.exclude, "of folders, no files like these")->type_name("GLOB");
+  verb.add_option("--base", f.base, "files of lists stand in the output as below this folder; else as below the current one")->type_name("DIR");
+  verb.add_option("--shard", f.shard, "only a part of the files: 2/8, the second of eight; auto, auto/8: by the environment of Slurm or Kubernetes")->type_name("I/N");
+}
+
 struct Verb {
   const char *name, *help, *example;
   void (*flags)(CLI::App&, Flags&);
@@ -221,6 +232,18 @@ const Verb verbs[] = {
        placing(v, f);
      },
      run_view},
+    {"corpus-run", "one recipe over many files, each in a process of its own; what was done before is not done again",
+     "wrlkit corpus run recipes/plant-web.toml plant/ -o web/\n  wrlkit corpus run recipes/archive.toml 'old/**/*.wrl' @more.txt -o new/ --jobs 8 --memory 32G --timeout 5m\n  wrlkit corpus run recipe.toml plant/ -o web/ --shard 2/8",
+     [](CLI::App& v, Flags& f) {
+       corpus_inputs(v, f);
+       v.add_option("--timeout", f.timeout, "a file that takes longer is given up: 90s, 10m, 2h")->type_name("TIME")->capture_default_str();
+       v.add_option("--joblog", f.joblog, "a line for each file as GNU parallel writes them, behind what is there")->type_name("FILE");
+       v.add_flag("--retry", f.retry, "files of which nothing could be made are tried again");
+     },
+     run_corpus_run},
+    {"corpus-plan", "what corpus run would do: each file with its output, its shard and what it is likely to cost",
+     "wrlkit corpus plan recipes/plant-web.toml plant/ -o web/ --shard 1/8\n  wrlkit corpus plan recipes/plant-web.toml plant/ -o web/ --json",
+     [](CLI::App& v, Flags& f) { corpus_inputs(v, f); }, run_corpus_plan},
     {"passes", "every pass, or one with its options", "wrlkit passes tessellate", [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "a pass"); }, run_passes},
     {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",
@@ -229,21 +252,11 @@ const Verb verbs[] = {
      [](CLI::App& v, Flags& f) { v.add_option("PAGE", f.name, "nodes, passes, diagnostics, recipes or profiles")->required()->check(CLI::IsMember({"nodes", "passes", "diagnostics", "recipes", "profiles"})); }, run_docs},
 };
 
-/// "8G" to bytes; 0 when it is no size.
-std::uint64_t size_of(const std::string& s) {
-  char* end = nullptr;
-  double v = std::strtod(s.c_str(), &end);
-  std::string unit = end;
-  double factor = unit == "G" || unit == "g" ? 1 << 30 : unit == "M" || unit == "m" ? 1 << 20 : unit == "K" || unit == "k" ? 1 << 10 : unit.empty() ? 1 : 0;
-  return v > 0 ? static_cast<std::uint64_t>(v * factor) : 0;
-}
-
-bool limit_memory(const Flags& f) {
-  if (f.memory.empty()) return true;
-  rlim_t bytes = size_of(f.memory);
-  if (!bytes) return false;
-  rlimit limit{bytes, bytes};
-  return setrlimit(RLIMIT_AS, &limit) == 0;
+void limit_memory(const Flags& f) {
+  if (f.memory.empty()) return;
+  const rlim_t bytes = size_of(f.memory);
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_AS, &limit);
 }
 
 }  // namespace
@@ -310,6 +323,13 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
   return done;
 }
 
+std::vector<std::string> words_of(const GivenOptions& options) {
+  std::vector<std::string> words;
+  for (const auto& [name, values] : options)
+    for (const auto& v : values) words.push_back("--" + name + "=" + v);
+  return words;
+}
+
 /// The command line with what its recipe says, as far as it does not say that itself. False, with a message, when the recipe
 /// is none.
 bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& words, std::vector<std::string>& warnings) {
@@ -319,18 +339,26 @@ bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& 
   if (recipe->pipeline) recipe->options.emplace_back("pipeline", std::vector{*recipe->pipeline});
   Flags unused;
   const auto app = app_of(verb, unused);
-  std::vector<std::string> added;
-  for (const auto& [name, values] : recipe->options) {
-    const auto* option = app->get_option_no_throw("--" + name);
-    if (!option || std::ranges::find(flags.given, name, &GivenOptions::value_type::first) != flags.given.end()) continue;
-    for (const auto& v : values) added.push_back("--" + name + "=" + v);
-  }
+  std::erase_if(recipe->options, [&](const auto& o) {
+    return !app->get_option_no_throw("--" + o.first) || std::ranges::find(flags.given, o.first, &GivenOptions::value_type::first) != flags.given.end();
+  });
+  const auto added = words_of(recipe->options);
   words.insert(std::ranges::find(words, verb.name) + 1, added.begin(), added.end());
   warnings.insert(warnings.begin(), recipe->warnings.begin(), recipe->warnings.end());
   return true;
 }
 
 }  // namespace
+
+std::string_view program_version() { return WRLKIT_VERSION; }
+
+std::uint64_t size_of(const std::string& s) {
+  char* end = nullptr;
+  double v = std::strtod(s.c_str(), &end);
+  std::string unit = end;
+  double factor = unit == "G" || unit == "g" ? 1 << 30 : unit == "M" || unit == "m" ? 1 << 20 : unit == "K" || unit == "k" ? 1 << 10 : unit.empty() ? 1 : 0;
+  return v > 0 ? static_cast<std::uint64_t>(v * factor) : 0;
+}
 
 std::vector<OptionHelp> options_of(std::string_view verb) {
   Flags unused;
@@ -354,9 +382,27 @@ bool check_option(std::string_view verb, std::string_view option, const std::vec
   }
 }
 
+Flags conversion_flags(const Recipe& recipe) {
+  const Verb& convert = *find_verb("convert");
+  Flags flags;
+  const auto app = app_of(convert, flags);
+  auto options = recipe.options;
+  std::erase_if(options, [&](const auto& o) { return !app->get_option_no_throw("--" + o.first); });
+  if (recipe.pipeline) options.emplace_back("pipeline", std::vector{*recipe.pipeline});
+  auto words = words_of(options);
+  for (const char* word : {"--", "IN", "OUT"}) words.emplace_back(word);
+  std::ranges::reverse(words);
+  app->parse(words);
+  flags.given = given_options(*app);
+  flags.pipeline_given = recipe.pipeline.has_value();
+  flags.warnings = recipe.warnings;
+  return flags;
+}
+
 int run_command_line(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const auto warnings = take_warning_flags(words);
+  if (words.size() > 1 && words[0] == "corpus" && !words[1].starts_with('-')) words[0] += "-" + words[1], words.erase(words.begin() + 1);
   if (!words.empty() && !words[0].starts_with('-') && !find_verb(words[0]))
     return std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str()), usage;
   Flags flags;
@@ -371,7 +417,9 @@ int run_command_line(int argc, char** argv) {
   if (!chosen) return code;
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
-  if (!limit_memory(flags)) return std::fprintf(stderr, "wrlkit: --memory: '%s' is no size\n", flags.memory.c_str()), usage;
+  // A corpus run divides the memory among its workers.
+  if (!flags.memory.empty() && !size_of(flags.memory)) return std::fprintf(stderr, "wrlkit: --memory: '%s' is no size\n", flags.memory.c_str()), usage;
+  if (!std::string_view(chosen->name).starts_with("corpus")) limit_memory(flags);
   return chosen->run(flags);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/flags.h"
+#include "tools/recipe.h"
 
 namespace wrlkit {
 
@@ -20,5 +21,13 @@ struct OptionHelp {
 std::vector<OptionHelp> options_of(std::string_view verb);
 /// Whether that option of a verb may be given so; else why not.
 bool check_option(std::string_view verb, std::string_view option, const std::vector<std::string>& values, std::string& why);
+
+/// The flags of a convert that does what a recipe says. The recipe has been read, so it says what convert understands.
+Flags conversion_flags(const Recipe& recipe);
+
+std::string_view program_version();
+
+/// "8G", "800M" to bytes; 0 when it is no size.
+std::uint64_t size_of(const std::string& text);
 
 }  // namespace wrlkit

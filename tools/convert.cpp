@@ -1,4 +1,6 @@
 // wrlkit convert: read, run the pipeline, write. The end of the output's name decides the format.
+#include "tools/convert.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,21 +50,33 @@ std::string_view pipeline_for(Target target, const Flags& flags) {
 
 }  // namespace
 
+bool prepare_conversion(Session& s) {
+  const auto& flags = s.flags();
+  bool gzip = flags.gzip;
+  const auto target = target_of(flags.output, gzip);
+  if (!target) return fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output), false;
+  return s.good() && gltf_options(flags) && s.choose_pipeline(pipeline_for(*target, flags));
+}
+
+bool convert_world(Session& s) {
+  const auto& flags = s.flags();
+  bool gzip = flags.gzip;
+  const auto target = target_of(flags.output, gzip);
+  if (!s.read(flags.inputs[0])) return false;
+  check_values(s.world().scene, s.diag());
+  const auto& main = s.world().scene.main;
+  if (main.roots.empty() && main.protos.empty() && s.diag().has_errors()) return s.diag().report(Diag::nothing_to_write, {}), false;
+  return *target == Target::vrml || *target == Target::x3d ? write_as_text(s, gzip, *target) : write_as_gltf(s);
+}
+
 int run_convert(const Flags& given) {
   Flags flags = given;
   apply_profile(flags);
   Session s(flags);
-  bool gzip = flags.gzip;
-  auto target = target_of(flags.output, gzip);
-  if (!target) return fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output), usage;
-  if (!s.good() || !gltf_options(flags) || !s.choose_pipeline(pipeline_for(*target, flags))) return usage;
+  if (!prepare_conversion(s)) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (flags.print_recipe) return fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline())), done;
-  if (!s.read(flags.inputs[0])) return s.end(false);
-  check_values(s.world().scene, s.diag());
-  const auto& main = s.world().scene.main;
-  if (main.roots.empty() && main.protos.empty() && s.diag().has_errors()) return s.diag().report(Diag::nothing_to_write, {}), s.end(false);
-  bool made = *target == Target::vrml || *target == Target::x3d ? write_as_text(s, gzip, *target) : write_as_gltf(s);
+  const bool made = convert_world(s);
   if (made && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);
   return s.end(made);
 }

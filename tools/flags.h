@@ -42,7 +42,15 @@ struct Flags {
   bool print_profile = false;
   int position_bits = 0, normal_bits = 8, texcoord_bits = 12, color_bits = 10, draco_level = 7;
 
+  bool keep_urls = false;                  // of VRML and X3D output: what they mean stands beside the output, too
+
   bool parse_only = false;                 // check
+
+  // corpus
+  std::string format = "glb";              // ending of the outputs
+  std::vector<std::string> include, exclude;
+  std::string timeout = "10m", shard, base, joblog;
+  bool retry = false;
 
   // render
   int width = 1280, height = 960, samples = 4;
@@ -97,5 +105,7 @@ int run_passes(const Flags&);
 int run_formats(const Flags&);
 int run_explain(const Flags&);
 int run_docs(const Flags&);
+int run_corpus_run(const Flags&);
+int run_corpus_plan(const Flags&);
 
 }  // namespace wrlkit

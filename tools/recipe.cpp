@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 
 #include "parsers/read_file.h"
 #include "passes/pipeline.h"
@@ -17,18 +18,24 @@ constexpr std::uint64_t most_bytes = 1 << 20;
 
 // How a run is watched is not a matter of the recipe.
 constexpr std::string_view not_in_recipes[] = {"help", "recipe", "pipeline", "print-pipeline", "print-recipe", "verify-each", "print-after", "time-passes", "stats",
-                                               "quiet", "verbose", "json", "report", "jobs"};
-constexpr std::string_view of_input[] = {"unit", "up", "allow-path"};
-constexpr std::string_view of_limits[] = {"memory"};
+                                               "output", "quiet", "verbose", "json", "report", "jobs", "base", "shard", "joblog", "retry"};
+constexpr std::string_view of_input[] = {"unit", "up", "allow-path", "include", "exclude"};
+constexpr std::string_view of_limits[] = {"memory", "timeout"};
 constexpr std::string_view of_messages[] = {"strict"};
 constexpr std::string_view sections[] = {"input", "output", "limits", "messages"};
 
 bool contains(auto&& list, std::string_view name) { return std::ranges::find(list, name) != std::end(list); }
 
+struct RecipeOption : OptionHelp {
+  std::string_view verb;  // whose it is
+};
+
 /// Options of the command line that recipes may say.
-std::vector<OptionHelp> recipe_options() {
-  auto all = options_of("convert");
-  std::erase_if(all, [](const OptionHelp& o) { return recipe_section(o.name).empty(); });
+std::vector<RecipeOption> recipe_options() {
+  std::vector<RecipeOption> all;
+  for (std::string_view verb : {"convert", "corpus-run"})
+    for (auto& o : options_of(verb))
+      if (!recipe_section(o.name).empty() && !contains(all | std::views::transform(&OptionHelp::name), o.name)) all.push_back({std::move(o), verb});
   return all;
 }
 
@@ -141,7 +148,7 @@ class Reader {
     std::string fault;
     if (found->type == flag_type && !want(node, TomlNode::Kind::boolean)) return false;
     if (!texts(node, values)) return false;
-    if (!check_option("convert", node.key, values, fault)) return fail(node.place, fault);
+    if (!check_option(found->verb, node.key, values, fault)) return fail(node.place, fault);
     recipe_.options.emplace_back(node.key, std::move(values));
     return true;
   }
@@ -220,7 +227,7 @@ std::string recipe_text(const GivenOptions& options, const std::vector<std::stri
 std::string recipes_page() {
   std::string out =
       "# Recipes\n\nGenerated from the options of the command line by `script/docs`; do not edit. A recipe is a TOML file: sections with options of "
-      "`wrlkit convert`, and passes, one `[[pass]]` with its `name` and its options after the other, or all in one line as `pipeline = \"weld,lod\"`. "
+      "`wrlkit convert` and of `wrlkit corpus run`, and passes, one `[[pass]]` with its `name` and its options after the other, or all in one line as `pipeline = \"weld,lod\"`. "
       "`convert --recipe FILE` runs it, `--print-recipe` prints the whole of what a command would do as a recipe. What stands on the command line "
       "comes before what the recipe says. `recipes/` has some; [passes.md](passes.md) has the passes with their options.\n"
       "\n```\nsummary = \"what it is for\"\n\n[output]\nprecision = 6\n\n[[pass]]\nname = \"weld\"\ntolerance = 0.001\n\n[[pass]]\nname = \"lod\"\nratios = [0.5, 0.1]\n```\n";

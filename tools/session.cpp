@@ -14,18 +14,20 @@
 #include "writers/vrml.h"
 
 namespace wrlkit {
-namespace {
-
 /// A file that another one refers to, in the nodes of VRML97.
-std::shared_ptr<const Scene> parse_inlined(const std::string& path, Diagnostics& diag) {
-  auto world = read_world(path, {}, diag);
+std::shared_ptr<const Scene> Session::parse_inlined(const std::string& path, Diagnostics& diag) {
+  auto world = read_world(path, {.lookups = &buffers_}, diag);
   Statistics uncounted;
   PassContext ctx{diag, uncounted};
   if (world) lower_vrml1(world->scene, {}, ctx);
   return world ? std::make_shared<const Scene>(std::move(world->scene)) : nullptr;
 }
 
-}  // namespace
+std::vector<FileLookup> Session::lookups() const {
+  auto all = resources_ ? resources_->lookups() : std::vector<FileLookup>();
+  all.insert(all.end(), buffers_.begin(), buffers_.end());
+  return all;
+}
 
 Session::Session(const Flags& flags)
     : flags_(flags), threads_(flags.jobs), context_{diag_, stats_}, progress_(!flags.quiet) {
@@ -57,9 +59,9 @@ World* Session::read(const std::string& path) {
 
 World* Session::read(const std::string& path, const FileText& file) {
   world_.reset();
-  resources_ = std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = flags_.allow_paths}, parse_inlined);
+  resources_ = std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = flags_.allow_paths}, [this](const std::string& inlined, Diagnostics& diag) { return parse_inlined(inlined, diag); });
   context_.resources = resources_.get();
-  world_ = parse_world(file, {.allowed = flags_.allow_paths}, diag_);
+  world_ = parse_world(file, {.allowed = flags_.allow_paths, .lookups = &buffers_}, diag_);
   if (world_) {
     place(world_->scene);
     if (world_->format == Format::gltf && !flags_.output.empty() && flags_.output != "-") unpack_pictures(world_->scene, *resources_);
@@ -95,7 +97,7 @@ PipelineOptions Session::pipeline_options() {
 
 int Session::end(bool made) {
   progress_.clear();
-  int code = !made ? nothing : diag_.has_errors() ? partly : done;
+  const int code = exit_code(made);
   if (flags_.time_passes)
     for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);
   if (flags_.stats)

@@ -30,6 +30,8 @@ class Session {
   World* read(const std::string& path);
   /// The same of a file that was read already.
   World* read(const std::string& path, const FileText& file);
+  /// The files that were asked for beside it, found or not.
+  std::vector<FileLookup> lookups() const;
   /// What `read` gave.
   World& world() { return *world_; }
   /// -p with what it lacks of `standard`, or else `standard`; false when it is no pipeline, which was printed.
@@ -40,11 +42,13 @@ class Session {
   /// For --report: facts beside the messages, as JSON.
   void fact(std::string name, std::string json) { facts_.emplace_back(std::move(name), std::move(json)); }
 
+  int exit_code(bool made) const { return !made ? nothing : diag_.has_errors() ? partly : done; }
   /// Prints the messages, writes the report and gives the exit code. `made`: there is an output.
   int end(bool made);
 
  private:
   bool apply_warning_flags();
+  std::shared_ptr<const Scene> parse_inlined(const std::string& path, Diagnostics&);
   void place(Scene&) const;
   bool write_report(int code);
 
@@ -54,6 +58,7 @@ class Session {
   Statistics stats_;
   std::unique_ptr<World> world_;
   std::unique_ptr<FileResources> resources_;
+  std::vector<FileLookup> buffers_;
   PassContext context_;
   std::optional<Pipeline> pipeline_;
   std::vector<PassTime> times_;

@@ -14,7 +14,7 @@ bool write_text_file(Session& s, const Scene& scene, const std::string& path, bo
   if (!file) return false;
   MadeFiles made(scene, s.resources(), path, s.diag());
   const auto place = [&](std::string_view url) { return made.place(url); };
-  write(scene, {.precision = s.flags().precision, .own_fields = s.flags().dump, .file = path == "-" ? "" : path, .place = place}, file->sink(), s.diag());
+  write(scene, {.precision = s.flags().precision, .own_fields = s.flags().dump, .file = path == "-" || s.flags().keep_urls ? "" : path, .place = place}, file->sink(), s.diag());
   return made.write() && made.commit() && file->commit(s.diag());
 }
 

@@ -17,8 +17,8 @@ std::vector<std::string> folders(const std::string& path, const std::vector<std:
 
 }  // namespace
 
-Buffers::Buffers(File& file, std::string path, const std::vector<std::string>& allowed)
-    : file_(file), path_(std::move(path)), files_(folders(path_, allowed)), buffers_(file.count(Table::buffers)), views_(file.count(Table::bufferViews)) {}
+Buffers::Buffers(File& file, std::string path, const std::vector<std::string>& allowed, std::vector<FileLookup>* lookups)
+    : file_(file), path_(std::move(path)), files_(folders(path_, allowed)), lookups_(lookups), buffers_(file.count(Table::buffers)), views_(file.count(Table::bufferViews)) {}
 
 bool Buffers::spend(std::uint64_t bytes, Json on) {
   if (bytes <= max_bytes - spent_) return spent_ += bytes, true;
@@ -35,9 +35,8 @@ std::optional<std::string> Buffers::load(Json buffer, std::string_view uri) {
   }
   if (url_kind(uri) != UrlKind::file) return report(Diag::url_network);
   if (path_.empty()) return report(Diag::url_not_found);
-  AllowedFiles::Result best;
-  for (auto& p : url_paths(uri))
-    if (auto r = files_.find(p, path_); r.state < best.state) best = std::move(r);
+  const auto best = find_url(files_, uri, path_);
+  if (lookups_) lookups_->push_back({path_, std::string(uri), best});
   if (best.state == AllowedFiles::outside) return report(Diag::url_outside);
   if (best.state == AllowedFiles::missing) return report(Diag::url_not_found);
   if (best.state == AllowedFiles::repaired) report(Diag::url_repaired, best.path);

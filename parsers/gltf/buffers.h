@@ -18,7 +18,7 @@ class Buffers {
   static constexpr std::uint64_t max_bytes = std::uint64_t{4} << 30;  // of all buffers and unpacked views
 
   /// `path` is the file's own; none, and no files, when it is empty.
-  Buffers(File& file, std::string path, const std::vector<std::string>& allowed);
+  Buffers(File& file, std::string path, const std::vector<std::string>& allowed, std::vector<FileLookup>* lookups);
 
   /// Nothing when it cannot be had, which was reported.
   std::optional<ViewBytes> view(std::uint32_t index);
@@ -46,6 +46,7 @@ class Buffers {
   File& file_;
   std::string path_;
   AllowedFiles files_;
+  std::vector<FileLookup>* lookups_;
   std::vector<Buffer> buffers_;
   std::vector<View> views_;
   std::uint64_t spent_ = 0;

@@ -39,11 +39,11 @@ bool looks_like_gltf(std::string_view bytes) {
   return s.starts_with('{') && (s.find("\"asset\"") != s.npos || s.find("\"scenes\"") != s.npos || s.find("\"nodes\"") != s.npos || s.find("\"accessors\"") != s.npos);
 }
 
-void parse(std::string_view bytes, std::uint32_t base, const std::string& path, const std::vector<std::string>& allowed, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
+void parse(std::string_view bytes, std::uint32_t base, const std::string& path, const std::vector<std::string>& allowed, std::vector<FileLookup>* lookups, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
   File file(bytes, base, diag);
   if (!file.read()) return;
   check_required(file);
-  Buffers buffers(file, path, allowed);
+  Buffers buffers(file, path, allowed, lookups);
   Accessors accessors(file, buffers);
   Lost lost;
   Context context{file, buffers, accessors, scene, lost};

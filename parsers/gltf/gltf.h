@@ -8,13 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "parsers/allowed_files.h"
 #include "scenegraph/builder.h"
 
 namespace wrlkit::gltf_reader {
 
 /// Fills a scene of format vrml97. `base`: offset of the bytes in the sources; `path`: of the file, for what lies beside
-/// it; `allowed`: further folders that buffers may lie in.
-void parse(std::string_view bytes, std::uint32_t base, const std::string& path, const std::vector<std::string>& allowed, const ParseLimits&, Scene&, Diagnostics&);
+/// it; `allowed`: further folders that buffers may lie in; `lookups`, if any, is told of each that is looked for there.
+void parse(std::string_view bytes, std::uint32_t base, const std::string& path, const std::vector<std::string>& allowed, std::vector<FileLookup>* lookups, const ParseLimits&, Scene&, Diagnostics&);
 
 /// A GLB, or JSON that has an "asset".
 bool looks_like_gltf(std::string_view bytes);

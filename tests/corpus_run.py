@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+"""wrlkit corpus run: the mirrored tree, exit codes, the journal, kill -9 and resume, shards, limits of workers."""
+import argparse, hashlib, json, os, pathlib, random, signal, subprocess, sys, tempfile, time
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+parser = argparse.ArgumentParser()
+parser.add_argument('--wrlkit', required=True)
+WRLKIT = str(pathlib.Path(parser.parse_args().wrlkit).resolve())
+RECIPE = str(ROOT / 'recipes/plant-web.toml')
+BOX = '#VRML V2.0 utf8\nShape { geometry Box { } }\n'
+faults = []
+
+
+def check(what, good, *details):
+    print('ok    ' if good else 'FAILED', what, *([] if good else details))
+    if not good:
+        faults.append(what)
+
+
+def corpus(*words, verb='run', **more):
+    """The verb with a recipe; the exit code, what it printed, and what it printed as errors."""
+    r = subprocess.run([WRLKIT, 'corpus', verb, *map(str, words)], capture_output=True, text=True, **more)
+    return r.returncode, r.stdout, r.stderr
+
+
+def tree(folder):
+    """Every output with its contents."""
+    return {str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest()
+            for p in sorted(folder.rglob('*')) if p.is_file() and '.wrlkit' not in p.parts}
+
+
+def journal(folder):
+    lines = [l for j in sorted((folder / '.wrlkit').glob('journal-*')) for l in j.read_text().splitlines()]
+    out = []
+    for l in lines:
+        try:
+            out.append(json.loads(l))
+        except json.JSONDecodeError:
+            pass  # cut off by a kill
+    return out
+
+
+def write(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+
+
+def inputs(tmp):
+    a = tmp / 'in'
+    write(a / 'one.wrl', BOX)
+    write(a / 'unit 1/two.wrl', BOX.replace('Box', 'Cone'))
+    write(a / 'unit 1/two.x3d', '<X3D version="3.3" profile="Interchange"><Scene><Shape><Box/></Shape></Scene></X3D>')
+    write(a / 'notes.txt', 'no world')
+    write(a / '.hidden.wrl', BOX)
+    code, _, err = corpus(RECIPE, a, '-o', tmp / 'folder')
+    check('a folder becomes a mirrored tree, names that collide keep their endings',
+          code == 0 and set(tree(tmp / 'folder')) == {'one.glb', 'unit 1/two.wrl.glb', 'unit 1/two.x3d.glb'}, code, err)
+    check('collisions are reported', err.count('several inputs would become') == 2, err)
+    corpus(RECIPE, 'in/**/two.*', '-o', 'glob', cwd=tmp)
+    check('globs cross folders', set(tree(tmp / 'glob')) == {'unit 1/two.wrl.glb', 'unit 1/two.x3d.glb'}, tree(tmp / 'glob'))
+    write(tmp / 'list.txt', 'in/one.wrl\nin/unit 1/two.wrl\n')
+    corpus(RECIPE, '@list.txt', '-o', 'list', cwd=tmp)
+    check('lists are mirrored', set(tree(tmp / 'list')) == {'in/one.glb', 'in/unit 1/two.glb'}, tree(tmp / 'list'))
+    corpus(RECIPE, '-', '-o', 'stdin', '--base', 'in', cwd=tmp, input='in/unit 1/two.wrl\n')
+    check('a list on standard input, below --base', set(tree(tmp / 'stdin')) == {'unit 1/two.glb'}, tree(tmp / 'stdin'))
+    corpus(RECIPE, a, '-o', tmp / 'some', '--include', '*.wrl', '--exclude', 'unit*/**')
+    check('include and exclude', set(tree(tmp / 'some')) == {'one.glb'}, tree(tmp / 'some'))
+    write(a / 'tex/a.png', 'a picture')
+    write(a / 'tex/t.wrl', BOX.replace('geometry', 'appearance Appearance { texture ImageTexture { url "a.png" } } geometry'))
+    corpus(ROOT / 'recipes/archive.toml', a, '-o', tmp / 'archive')
+    check('VRML keeps its urls, and what they mean is beside it',
+          (tmp / 'archive/tex/a.png').read_text() == 'a picture' and '"a.png"' in (tmp / 'archive/tex/t.wrl').read_text(), tree(tmp / 'archive'))
+    for words, why in [((RECIPE, a, '-o', a), 'one of their own'), ((RECIPE, tmp / 'none', '-o', tmp / 'o'), 'no file or folder'), ((RECIPE, a, '-o', tmp / 'o', '--timeout', 'soon'), 'no time'),
+                       ((RECIPE, a, '-o', tmp / 'o', '--shard', '3/2'), 'no shard'), ((tmp / 'no.toml', a, '-o', tmp / 'o'), 'no such file')]:
+        code, _, err = corpus(*words)
+        check(f'wrong usage: {why}', code == 2 and why in err, code, err)
+
+
+def exit_codes(tmp):
+    a = tmp / 'codes'
+    write(a / 'good.wrl', BOX)
+    write(a / 'bad.wrl', 'nothing of a world')
+    code, _, err = corpus(RECIPE, a, '-o', tmp / 'c1')
+    check('1 when some failed, and they are named', code == 1 and 'bad.wrl' in err and set(tree(tmp / 'c1')) == {'good.glb'}, code, err)
+    code, _, _ = corpus(RECIPE, a / 'bad.wrl', '-o', tmp / 'c2')
+    check('3 when all failed', code == 3, code)
+    code, _, err = corpus(RECIPE, a, '-o', tmp / 'c1')
+    check('what failed before is remembered, and is still a failure', code == 1 and len(journal(tmp / 'c1')) == 2, code, err)
+    corpus(RECIPE, a, '-o', tmp / 'c1', '--retry')
+    check('--retry tries it again, and nothing else', len(journal(tmp / 'c1')) == 3)
+    write(a / 'good.wrl', 'no longer one')
+    corpus(RECIPE, a, '-o', tmp / 'c1')
+    check('what can no longer be made does not stay', tree(tmp / 'c1') == {}, tree(tmp / 'c1'))
+
+
+def resume(tmp):
+    a, out = tmp / 'keys', tmp / 'keys-out'
+    write(a / 'a.wrl', '#VRML V2.0 utf8\nInline { url "part.wrl" }\n')
+    write(a / 'b.wrl', BOX)
+    done = lambda: [l['input'].split('/')[-1] for l in journal(out)]
+    corpus(RECIPE, a, '-o', out)
+    check('an Inline that is missing is an error of that file', sorted(done()) == ['a.wrl', 'b.wrl'])
+    corpus(RECIPE, a, '-o', out)
+    check('nothing is done twice', len(done()) == 2, done())
+    write(a / 'part.wrl', BOX)
+    corpus(RECIPE, a, '-o', out)
+    check('what refers to a file that has come is done again', done()[2:].count('a.wrl') == 1 and 'b.wrl' not in done()[2:], done())
+    write(a / 'part.wrl', BOX.replace('Box', 'Sphere'))
+    corpus(RECIPE, a, '-o', out)
+    check('and when that file changes', done()[4:].count('a.wrl') == 1 and 'b.wrl' not in done()[4:], done())
+    os.utime(a / 'b.wrl', (1, 1))
+    before = len(done())
+    corpus(RECIPE, a, '-o', out)
+    check('the time of a file does not matter', len(done()) == before, done())
+    (out / 'b.glb').unlink()
+    corpus(RECIPE, a, '-o', out)
+    check('an output that is gone is made again', done()[before:] == ['b.wrl'] and (out / 'b.glb').exists(), done())
+    write(tmp / 'other.toml', 'pipeline = "weld"\n')
+    before = len(done())
+    corpus(tmp / 'other.toml', a, '-o', out)
+    check('another recipe is other work', len(done()) == before + 3, done())
+
+
+def killed(tmp):
+    """kill -9 at random moments; shards; numbers of jobs: always the same bytes."""
+    worlds = ROOT / 'corpus'
+    words = (RECIPE, worlds / 'nodes', worlds / 'paper', '--exclude', '*Texture*')
+    code, _, err = corpus(*words, '-o', tmp / 'whole', '--jobs', 1)
+    whole = tree(tmp / 'whole')
+    check('an undisturbed run', code == 0 and len(whole) > 50, code, err)
+    rng = random.Random(7)
+    for i in range(3):
+        run = subprocess.Popen([WRLKIT, 'corpus', 'run', *map(str, words), '-o', str(tmp / 'killed'), '--jobs', '2'], stderr=subprocess.DEVNULL)
+        enough = len(journal(tmp / 'killed')) + rng.randint(5, 15)
+        while run.poll() is None and len(journal(tmp / 'killed')) < enough:
+            time.sleep(0.005)
+        run.send_signal(signal.SIGKILL)
+        run.wait()
+        part = tree(tmp / 'killed') if (tmp / 'killed').exists() else {}
+        check(f'after kill {i + 1} there is no half file ({len(part)} outputs)', all(whole.get(n) == h for n, h in part.items()))
+    code, _, err = corpus(*words, '-o', tmp / 'killed', '--jobs', 2)
+    check('three times killed and resumed, two jobs: the same bytes', code == 0 and tree(tmp / 'killed') == whole, code, err)
+    inputs = [l['input'] for l in journal(tmp / 'killed')]
+    check('finished work is not done twice', len(inputs) == len(set(inputs)), len(inputs), len(set(inputs)))
+    parts = []
+    for i in (3, 1, 2):
+        code, _, err = corpus(*words, '-o', tmp / 'shards', '--shard', f'{i}/3')
+        parts.append(len(tree(tmp / 'shards')))
+    check('three shards: the same bytes', code == 0 and tree(tmp / 'shards') == whole, parts)
+    plan = corpus(*words, '-o', tmp / 'shards', '--shard', '1/3', '--json', verb='plan')[1]
+    check('the plan of a shard has a third', abs(len(json.loads(plan)) - len(whole) / 3) < len(whole) / 10, len(json.loads(plan)))
+    for env, n in (({'SLURM_ARRAY_TASK_ID': '5', 'SLURM_ARRAY_TASK_MIN': '4', 'SLURM_ARRAY_TASK_COUNT': '3'}, 'auto'), ({'JOB_COMPLETION_INDEX': '1'}, 'auto/3')):
+        out = corpus(*words, '-o', tmp / 'shards', '--shard', n, verb='plan', env=os.environ | env)[1]
+        check(f'the shard of {sorted(env)[0]}', out.splitlines()[1].startswith('2/3\t'), out[:200])
+
+
+def limits(tmp):
+    a = tmp / 'limits'
+    write(a / 'small.wrl', BOX)
+    faces = ''.join(f'{i} {i * 7 % 1000} {i % 13}, ' for i in range(1000000))
+    write(a / 'large.wrl', f'#VRML V2.0 utf8\nShape {{ geometry PointSet {{ coord Coordinate {{ point [ {faces} ] }} }} }}\n')
+    code, _, err = corpus(RECIPE, a, '-o', tmp / 'l1', '--memory', '40M')
+    states = {l['output']: l['state'] for l in journal(tmp / 'l1')}
+    check('not enough memory ends one file and no other', code == 1 and states == {'small.glb': 'made', 'large.glb': 'no-memory'} and '40 MiB' in err, code, err, states)
+    code, _, err = corpus(RECIPE, a, '-o', tmp / 'l2', '--timeout', '0.03s')
+    states = {l['output']: l['state'] for l in journal(tmp / 'l2')}
+    check('a file that takes too long is ended', states.get('large.glb') == 'timeout' and 'longer than 0.03s' in err, code, err, states)
+    code, _, err = corpus(RECIPE, a, '-o', tmp / 'l3', '--joblog', tmp / 'log')
+    lines = [l.split('\t') for l in (tmp / 'log').read_text().splitlines()]
+    check('the joblog is that of GNU parallel', lines[0] == 'Seq Host Starttime JobRuntime Send Receive Exitval Signal Command'.split() and len(lines) == 3
+          and all(len(l) == 9 and l[6:8] == ['0', '0'] for l in lines[1:]), lines)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as tmp:
+        for part in (inputs, exit_codes, resume, killed, limits):
+            part(pathlib.Path(tmp))
+    print(f'{len(faults)} failed')
+    return bool(faults)
+
+
+sys.exit(main())

@@ -1,0 +1,150 @@
+#include "tools/corpus/conversion.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "tools/cli.h"
+#include "tools/convert.h"
+#include "tools/gltf_output.h"
+#include "tools/print_diagnostics.h"
+#include "tools/recipe.h"
+#include "writers/output.h"
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t largest_asset = std::uint64_t{4} << 30;
+
+/// Version, and contents of the file that this code is in: builds of one version may differ.
+std::string program() {
+  Dl_info info{};
+  std::string file = "/proc/self/exe";
+  if (dladdr(reinterpret_cast<void*>(&corpus_work), &info) && std::string_view(info.dli_fname).find(".so") != std::string_view::npos) file = info.dli_fname;
+  return std::string(program_version()) + hash_of_file(file).value_or(ContentHash{}).hex();
+}
+
+std::vector<std::string> allowed_folders(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job) {
+  auto all = work.flags.allow_paths;
+  all.push_back(plan.roots[job.input.root]);
+  return all;
+}
+
+void use(const FileLookup& lookup, JournalLine& line) {
+  const bool found = lookup.result.state == AllowedFiles::found || lookup.result.state == AllowedFiles::repaired;
+  line.files.push_back({lookup.referrer, lookup.url, found ? lookup.result.path : "", found ? hash_of_file(lookup.result.path).value_or(ContentHash{}) : ContentHash{}});
+}
+
+/// The first error, in one line.
+std::string cause_in(const Diagnostics& diag) {
+  for (const auto& m : diag.messages())
+    if (m.severity == Severity::error) {
+      const auto text = message_text(m, diag.sources(), false);
+      return text.substr(0, text.find('\n'));
+    }
+  return "";
+}
+
+bool copy(const std::string& from, const std::string& to, std::string& cause) {
+  Diagnostics diag;
+  const auto bytes = read_bytes(from, largest_asset, cause);
+  if (!bytes) return false;
+  auto file = OutputFile::open(to, {}, diag);
+  if (file) file->write(*bytes);
+  if (file && file->commit(diag)) return true;
+  return cause = cause_in(diag), false;
+}
+
+bool convert(const Flags& flags, JournalLine& line) {
+  Session s(flags);
+  if (!prepare_conversion(s)) return line.cause = "the recipe does not fit", false;
+  const bool made = convert_world(s);
+  line.state = !made ? JobState::failed : s.diag().has_errors() ? JobState::made_partly : JobState::made;
+  line.messages = messages_json(s.diag());
+  if (!made) line.cause = cause_in(s.diag());
+  for (const auto& lookup : s.lookups()) use(lookup, line);
+  return made;
+}
+
+}  // namespace
+
+std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& why) {
+  const auto recipe = read_recipe(corpus_flags.recipe, why);
+  if (!recipe) return std::nullopt;
+  CorpusWork work{.flags = conversion_flags(*recipe), .out = corpus_flags.output};
+  auto& f = work.flags;
+  apply_profile(f);
+  f.warnings = corpus_flags.warnings;
+  f.allow_paths = corpus_flags.allow_paths;
+  f.strict = corpus_flags.strict;
+  f.quiet = true;
+  f.jobs = 1;
+  f.memory.clear();
+  f.output = "out." + corpus_flags.format;
+  work.text = corpus_flags.format.starts_with("wr") || corpus_flags.format.starts_with("x3d");
+  Session s(f);
+  if (!prepare_conversion(s)) return why.clear(), std::nullopt;
+  work.hash = hash_of(program() + "\n" + corpus_flags.format + "\n" + (f.strict ? "strict\n" : "") + recipe_text(f.given, f.warnings, s.pipeline()));
+  return work;
+}
+
+int do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, JournalLine& line) {
+  const auto target = (fs::path(work.out) / job.output).string();
+  std::error_code none;
+  fs::create_directories(fs::path(target).parent_path(), none);
+  line.input_hash = hash_of_file(job.input.path).value_or(ContentHash{});
+  if (job.input.asset) {
+    line.state = copy(job.input.path, target, line.cause) ? JobState::made : JobState::failed;
+  } else {
+    Flags flags = work.flags;
+    flags.inputs = {job.input.path};
+    flags.output = target;
+    flags.allow_paths = allowed_folders(work, plan, job);
+    flags.keep_urls = work.text && job.input.mirrored;
+    convert(flags, line);
+  }
+  if (is_made(line.state)) line.output_bytes = fs::file_size(target, none), line.output_hash = hash_of_file(target).value_or(ContentHash{});
+  return line.state == JobState::made ? done : line.state == JobState::made_partly ? partly : nothing;
+}
+
+DoneBefore::DoneBefore(const CorpusWork& work, const CorpusPlan& plan) : work_(work), plan_(plan) {
+  read_journals(corpus_folder(work.out), [&](JournalLine&& l) {
+    known_[l.output] = {l.work, l.input_hash, l.output_bytes, l.state, std::move(l.files)};
+  });
+}
+
+std::optional<JobState> DoneBefore::state_of(const CorpusJob& job) {
+  const auto at = known_.find(job.output);
+  if (at == known_.end() || at->second.work != work_.hash) return std::nullopt;
+  const auto& known = at->second;
+  std::error_code fault;
+  if (is_made(known.state) && (fs::file_size(fs::path(work_.out) / job.output, fault) != known.output_bytes || fault)) return std::nullopt;
+  if (hash_of_file(job.input.path) != known.input) return std::nullopt;
+  for (const auto& f : known.files)
+    if (!still_the_same(job, f)) return std::nullopt;
+  return known.state;
+}
+
+/// Asks once more as the worker did: what was missing may have come, another file may now be nearer.
+bool DoneBefore::still_the_same(const CorpusJob& job, const UsedFile& file) {
+  std::string path = file.url;
+  if (!file.referrer.empty()) {
+    auto folders = allowed_folders(work_, plan_, job);
+    folders.insert(folders.begin(), fs::path(job.input.path).parent_path().string());
+    AllowedFiles files(folders);
+    const auto found = find_url(files, file.url, file.referrer);
+    path = found.state == AllowedFiles::found || found.state == AllowedFiles::repaired ? found.path : "";
+  }
+  return path.empty() ? file.path.empty() : !file.path.empty() && hash(path) == file.hash;
+}
+
+const ContentHash& DoneBefore::hash(const std::string& path) {
+  auto [at, is_new] = hashes_.try_emplace(path);
+  if (is_new) at->second = hash_of_file(path).value_or(ContentHash{});
+  return at->second;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,52 @@
+// What a worker of a corpus run does with one file, and whether it has to be done at all.
+#pragma once
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "tools/corpus/journal.h"
+#include "tools/flags.h"
+
+namespace wrlkit {
+
+/// What everything of a run has in common.
+struct CorpusWork {
+  Flags flags;        // of a conversion
+  ContentHash hash;   // of program, recipe and format: the same gives the same bytes
+  std::string out;    // folder
+  bool text = false;  // outputs are VRML or X3D, which refer to files beside them
+};
+
+/// Nothing, and why, when the recipe is none.
+std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& why);
+
+/// Does a job and fills in what the journal wants to know of it. Returns an exit code of convert.
+int do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, JournalLine& line);
+
+/// Knows what was done before, by the journals.
+class DoneBefore {
+ public:
+  DoneBefore(const CorpusWork& work, const CorpusPlan& plan);
+  /// The state that a job ended in when it was done with the same program and recipe from the same input and the same files
+  /// behind it, and what was made then is still there.
+  std::optional<JobState> state_of(const CorpusJob& job);
+  /// Whether an earlier run has worked on that output.
+  bool has(const CorpusJob& job) const { return known_.contains(job.output); }
+
+ private:
+  struct Known {
+    ContentHash work, input;
+    std::uint64_t output_bytes;
+    JobState state;
+    std::vector<UsedFile> files;
+  };
+  bool still_the_same(const CorpusJob& job, const UsedFile& file);
+  const ContentHash& hash(const std::string& path);
+
+  const CorpusWork& work_;
+  const CorpusPlan& plan_;
+  std::unordered_map<std::string, Known> known_;         // by output
+  std::unordered_map<std::string, ContentHash> hashes_;  // of files that inputs refer to
+};
+
+}  // namespace wrlkit

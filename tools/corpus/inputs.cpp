@@ -1,0 +1,177 @@
+#include "tools/corpus/inputs.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <span>
+#include <string_view>
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view world_endings[] = {".wrl.gz", ".x3d.gz", ".x3dv.gz", ".wrl", ".wrz", ".vrml", ".x3d", ".x3dz", ".x3dv", ".x3dvz", ".iv", ".gltf", ".glb"};
+constexpr std::string_view asset_endings[] = {".png", ".jpg", ".jpeg", ".gif", ".bmp", ".tga", ".tif", ".tiff", ".webp", ".exr", ".hdr", ".dds",
+                                              ".wav", ".mp3", ".mid", ".midi", ".mpg", ".mpeg", ".mp4", ".avi", ".js", ".class"};
+
+/// The ending of a name that is in the list; empty when none is.
+std::string_view ending_in(std::span<const std::string_view> list, std::string_view name) {
+  for (auto e : list)
+    if (name.size() > e.size() && std::ranges::equal(name.substr(name.size() - e.size()), e, {}, [](unsigned char c) { return std::tolower(c); })) return e;
+  return {};
+}
+
+std::vector<std::string> names_of(const std::string& path) {
+  std::vector<std::string> names;
+  for (const auto& n : fs::path(path)) names.push_back(n.string());
+  return names;
+}
+
+bool match(std::span<const std::string> glob, std::span<const std::string> names) {
+  if (glob.empty()) return names.empty();
+  if (glob[0] == "**") return match(glob.subspan(1), names) || (!names.empty() && match(glob, names.subspan(1)));
+  return !names.empty() && fnmatch(glob[0].c_str(), names[0].c_str(), 0) == 0 && match(glob.subspan(1), names.subspan(1));
+}
+
+bool is_glob(const std::string& word) { return word.find_first_of("*?[") != word.npos; }
+
+class Gatherer {
+ public:
+  Gatherer(const InputRules& rules, std::string& why) : rules_(rules), why_(why) {
+    std::error_code none;
+    if (!rules.output.empty()) output_ = fs::weakly_canonical(rules.output, none);
+  }
+
+  bool word(const std::string& w) {
+    if (w == "-") return list(std::cin, "standard input");
+    if (w.starts_with('@')) {
+      std::ifstream file(w.substr(1));
+      return file ? list(file, w.substr(1)) : fail("there is no list '" + w.substr(1) + "'");
+    }
+    std::error_code none;
+    if (fs::is_directory(w, none)) return folder(w, "");
+    if (fs::is_regular_file(w, none)) return named(w, false);
+    if (is_glob(w)) return glob(w);
+    return fail("there is no file or folder '" + w + "'");
+  }
+
+  Inputs take() {
+    // Named twice, it is still one file.
+    std::ranges::stable_sort(out_.files, {}, &InputFile::path);
+    const auto rest = std::ranges::unique(out_.files, {}, &InputFile::path);
+    out_.files.erase(rest.begin(), rest.end());
+    return std::move(out_);
+  }
+
+ private:
+  bool fail(std::string what) { return why_ = std::move(what), false; }
+
+  std::uint32_t root(const fs::path& path) {
+    auto name = path.empty() ? std::string(".") : path.lexically_normal().string();
+    auto i = std::ranges::find(out_.roots, name);
+    if (i == out_.roots.end()) i = out_.roots.insert(i, name);
+    return static_cast<std::uint32_t>(i - out_.roots.begin());
+  }
+
+  bool list(std::istream& lines, const std::string& name) {
+    for (std::string line; std::getline(lines, line);) {
+      if (line.ends_with('\r')) line.pop_back();
+      if (line.empty()) continue;
+      std::error_code none;
+      if (!fs::is_regular_file(line, none)) return fail(name + ": there is no file '" + line + "'");
+      named(line, true);
+    }
+    return true;
+  }
+
+  /// A file by its name, whatever its ending. Those of lists stand in the mirrored tree where their paths say.
+  bool named(const fs::path& path, bool from_list) {
+    std::error_code none;
+    auto inside = path.filename();
+    fs::path from = path.parent_path();
+    if (from_list) {
+      const auto base = rules_.base.empty() ? fs::path(".") : fs::path(rules_.base);
+      const auto relative = fs::proximate(path, base, none).lexically_normal();
+      if (!none && !relative.empty() && *relative.begin() != ".." && !relative.is_absolute()) inside = relative, from = base;
+    }
+    add(path, inside.string(), root(from), false, false);
+    return true;
+  }
+
+  bool glob(const std::string& word) {
+    fs::path front;
+    std::string pattern;
+    for (const auto& n : fs::path(word))
+      if (pattern.empty() && !is_glob(n.string())) front /= n;
+      else pattern += (pattern.empty() ? "" : "/") + n.string();
+    std::error_code none;
+    if (!fs::is_directory(front.empty() ? "." : front, none)) return fail("there is no folder '" + front.string() + "'");
+    // Without "/" a glob here is about the names in that folder, not below it.
+    return folder(front.empty() ? "." : front.string(), pattern);
+  }
+
+  bool folder(const std::string& path, const std::string& pattern) {
+    const auto at = root(path);
+    const auto parts = names_of(pattern);
+    std::error_code fault;
+    fs::recursive_directory_iterator i(path, fs::directory_options::follow_directory_symlink, fault), end;
+    if (fault) return fail("cannot read the folder '" + path + "': " + fault.message());
+    for (; i != end; i.increment(fault)) {
+      if (fault) return fail("cannot read below '" + path + "': " + fault.message());
+      const auto name = i->path().filename().string();
+      std::error_code none;
+      const bool is_folder = i->is_directory(none);
+      if (name.starts_with('.') || (is_folder && !output_.empty() && fs::weakly_canonical(i->path(), none) == output_) || i.depth() > most_depth) {
+        if (is_folder) i.disable_recursion_pending();
+        continue;
+      }
+      if (is_folder || !i->is_regular_file(none)) continue;
+      auto inside = i->path().lexically_relative(path).string();
+      const bool is_world = !ending_in(world_endings, name).empty(), is_asset = rules_.assets && !is_world && !ending_in(asset_endings, name).empty();
+      if (is_asset) add(i->path(), std::move(inside), at, true, true);
+      else if (pattern.empty() ? is_world && wanted(inside) : match(parts, names_of(inside)) && wanted(inside)) add(i->path(), std::move(inside), at, rules_.assets, false);
+    }
+    return true;
+  }
+
+  bool wanted(const std::string& inside) const {
+    const auto matches = [&](const std::string& g) { return glob_matches(g, inside); };
+    return (rules_.include.empty() || std::ranges::any_of(rules_.include, matches)) && std::ranges::none_of(rules_.exclude, matches);
+  }
+
+  void add(const fs::path& path, std::string inside, std::uint32_t root, bool mirrored, bool asset) {
+    std::error_code none;
+    out_.files.push_back({path.lexically_normal().string(), std::move(inside), root, fs::file_size(path, none), mirrored, asset});
+  }
+
+  static constexpr int most_depth = 64;  // symbolic links may go round in circles
+  const InputRules& rules_;
+  std::string& why_;
+  fs::path output_;
+  Inputs out_;
+};
+
+}  // namespace
+
+std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const InputRules& rules, std::string& why) {
+  Gatherer gatherer(rules, why);
+  for (const auto& w : words)
+    if (!gatherer.word(w)) return std::nullopt;
+  return gatherer.take();
+}
+
+bool glob_matches(const std::string& glob, const std::string& path) {
+  if (glob.find('/') == glob.npos) return fnmatch(glob.c_str(), fs::path(path).filename().c_str(), 0) == 0;
+  return match(names_of(glob), names_of(path));
+}
+
+std::optional<std::string> without_ending(const std::string& path) {
+  const auto e = ending_in(world_endings, fs::path(path).filename().string());
+  return e.empty() ? std::nullopt : std::optional(path.substr(0, path.size() - e.size()));
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,43 @@
+// Which files a corpus run is about: folders, globs, lists and names on the command line, in an order that does not depend
+// on the file system.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wrlkit {
+
+struct InputFile {
+  std::string path;    // to read it
+  std::string inside;  // below its root: where it stands in the mirrored tree
+  std::uint32_t root = 0;
+  std::uint64_t bytes = 0;
+  bool mirrored = false;  // all that stands beside it in its folder stands beside its output, too
+  bool asset = false;     // no world, but what worlds refer to: a picture, a sound
+};
+
+struct InputRules {
+  std::vector<std::string> include, exclude;  // globs, of names or of paths below the root
+  std::string base;                           // paths of lists are mirrored below this folder
+  std::string output;                         // a folder that is passed over
+  bool assets = false;                        // pictures and sounds as well
+};
+
+struct Inputs {
+  std::vector<std::string> roots;  // folders; files below them may refer to all that is there
+  std::vector<InputFile> files;    // by path, each once
+};
+
+/// "plant/", "plant/**/*.wrl", "@list.txt", "-" (a list on standard input), "pump.wrl". In folders and globs only what has
+/// the ending of a world counts, and nothing that is hidden. Nothing, and why, when something named is not there.
+std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const InputRules& rules, std::string& why);
+
+/// Whether a path below some folder is meant by a glob: "*" within a name, "**" across folders; without "/" it is about the
+/// last name alone.
+bool glob_matches(const std::string& glob, const std::string& path);
+
+/// "a/b.wrl.gz" without its ending, when that is one of a world: "a/b"; else nothing.
+std::optional<std::string> without_ending(const std::string& path);
+
+}  // namespace wrlkit

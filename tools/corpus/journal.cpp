@@ -1,0 +1,142 @@
+#include "tools/corpus/journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include "parsers/gltf/json.h"
+#include "writers/json.h"
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view states[] = {"made", "made-partly", "failed", "crashed", "timeout", "no-memory"};
+
+bool lock(int fd) {
+  // Workers of a run that was killed a moment ago hold it until they are gone, too.
+  for (int i = 0; i < 50; ++i, usleep(100'000))
+    if (flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
+  return false;
+}
+
+/// A line that was cut off stays what it is, and the next one begins on a line of its own.
+void end_cut_line(int fd) {
+  const auto size = lseek(fd, 0, SEEK_END);
+  char last = '\n';
+  if (size > 0 && pread(fd, &last, 1, size - 1) == 1 && last != '\n' && write(fd, "\n", 1) != 1) return;
+}
+
+}  // namespace
+
+std::string_view to_string(JobState s) { return states[static_cast<int>(s)]; }
+
+std::string to_json(const JournalLine& l) {
+  std::string out;
+  JsonOut json(out);
+  json.begin_object();
+  json.member("input", l.input);
+  json.member("output", l.output);
+  json.member("state", to_string(l.state));
+  if (!l.cause.empty()) json.member("cause", l.cause);
+  json.member("work", l.work.hex());
+  json.member("started", l.started);
+  json.member("seconds", l.seconds);
+  json.member("cpu", l.cpu);
+  json.member("memory", l.memory);
+  json.member("input_bytes", l.input_bytes);
+  json.member("input_hash", l.input_hash.hex());
+  if (is_made(l.state)) json.member("output_bytes", l.output_bytes), json.member("output_hash", l.output_hash.hex());
+  if (l.codecs) json.member("codecs", true);
+  json.key("files");
+  json.begin_array();
+  for (const auto& f : l.files) {
+    json.begin_object();
+    json.member("referrer", f.referrer);
+    json.member("url", f.url);
+    json.member("path", f.path);
+    json.member("hash", f.hash.hex());
+    json.end_object();
+  }
+  json.end_array();
+  json.key("messages");
+  json.raw(l.messages.empty() ? "[]" : l.messages);
+  json.end_object();
+  return out;
+}
+
+std::optional<JournalLine> journal_line(std::string_view text) {
+  gltf_reader::JsonDocument doc;
+  if (doc.parse(text)) return std::nullopt;
+  const auto json = doc.root();
+  JournalLine l;
+  auto word = [&](std::string_view key) { return std::string(json[key].text()); };
+  auto whole = [&](std::string_view key) { return json[key].whole().value_or(0); };
+  const auto state = std::ranges::find(states, json["state"].text());
+  if (!json.is_object() || state == std::end(states)) return std::nullopt;
+  l.state = static_cast<JobState>(state - std::begin(states));
+  l.input = word("input"), l.output = word("output"), l.cause = word("cause");
+  l.work = hash_from(json["work"].text()), l.input_hash = hash_from(json["input_hash"].text()), l.output_hash = hash_from(json["output_hash"].text());
+  l.started = json["started"].number(), l.seconds = json["seconds"].number(), l.cpu = json["cpu"].number();
+  l.memory = whole("memory"), l.input_bytes = whole("input_bytes"), l.output_bytes = whole("output_bytes");
+  l.codecs = json["codecs"].boolean();
+  for (auto f : json["files"])
+    l.files.push_back({std::string(f["referrer"].text()), std::string(f["url"].text()), std::string(f["path"].text()), hash_from(f["hash"].text())});
+  l.messages = json["messages"].source();
+  return l;
+}
+
+std::optional<Journal> Journal::open(const std::string& folder, Shard shard, std::string& why) {
+  std::error_code fault;
+  fs::create_directories(folder, fault);
+  const auto path = fmt::format("{}/journal-{}-of-{}.jsonl", folder, shard.index + 1, shard.count);
+  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (fd < 0) return why = path + ": " + std::strerror(errno), std::nullopt;
+  Journal journal(fd);
+  if (!lock(fd)) return why = path + ": another run is writing it", std::nullopt;
+  end_cut_line(fd);
+  return journal;
+}
+
+Journal::Journal(Journal&& o) noexcept : fd_(std::exchange(o.fd_, -1)) {}
+
+Journal::~Journal() {
+  if (fd_ >= 0) settle(), close(fd_);
+}
+
+bool Journal::append(const JournalLine& l) {
+  const auto text = to_json(l) + '\n';
+  return write(fd_, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+}
+
+void Journal::settle() { fdatasync(fd_); }
+
+void read_journals(const std::string& folder, const std::function<void(JournalLine&&)>& take) {
+  std::vector<fs::path> paths;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const auto name = entry.path().filename().string();
+    if (name.starts_with("journal-") && name.ends_with(".jsonl")) paths.push_back(entry.path());
+  }
+  // The journal that was written last has the last word.
+  std::ranges::sort(paths, {}, [&](const fs::path& p) { return std::pair(fs::last_write_time(p, none), p); });
+  for (const auto& path : paths) {
+    std::ifstream in(path);
+    for (std::string text; std::getline(in, text);)
+      if (auto l = journal_line(text)) take(std::move(*l));
+  }
+}
+
+std::string corpus_folder(const std::string& out) { return out + "/.wrlkit"; }
+
+}  // namespace wrlkit

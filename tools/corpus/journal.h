@@ -1,0 +1,71 @@
+// What has been done, a line of JSON a file, in OUT/.wrlkit/. A line is written at once behind the last one and nothing is ever
+// changed, so whatever ends a run leaves whole lines and at most one half, which is no line. Each shard has a journal of its own;
+// who reads takes all of them, and the last line about an output counts.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/corpus/content_hash.h"
+#include "tools/corpus/plan.h"
+
+namespace wrlkit {
+
+/// How it went. made_partly: the output is there and something of the input is not in it.
+
+enum class JobState : std::uint8_t { made, made_partly, failed, crashed, timeout, no_memory };
+std::string_view to_string(JobState);
+inline bool is_made(JobState s) { return s == JobState::made || s == JobState::made_partly; }
+
+/// A file that the input refers to: who asked for it, by which url or path, what was found, and its contents.
+struct UsedFile {
+  std::string referrer, url;
+  std::string path;  // empty: nothing was found
+  ContentHash hash;
+};
+
+struct JournalLine {
+  std::string input, output;  // the output below the folder of the run
+  ContentHash work;           // program and recipe
+  JobState state = JobState::failed;
+  std::string cause;          // why nothing was made
+  double started = 0, seconds = 0, cpu = 0;  // Unix time; wall clock; processor
+  std::uint64_t memory = 0;   // most at a time, bytes
+  std::uint64_t input_bytes = 0, output_bytes = 0;
+  ContentHash input_hash, output_hash;
+  std::vector<UsedFile> files;
+  std::string messages;       // JSON, as --report has them
+  bool codecs = false;        // a worker has loaded the codecs for pictures: told to the run, not kept
+};
+
+std::string to_json(const JournalLine&);
+/// Nothing when the text is no whole line.
+std::optional<JournalLine> journal_line(std::string_view text);
+
+class Journal {
+ public:
+  /// Opens a shard's journal to write behind what it has. Nothing, and why, when it cannot be written or another run has it.
+  static std::optional<Journal> open(const std::string& folder, Shard shard, std::string& why);
+  Journal(Journal&&) noexcept;
+  ~Journal();
+
+  /// False when the line could not be written.
+  bool append(const JournalLine&);
+  /// On the disk, and not on its way there.
+  void settle();
+
+ private:
+  explicit Journal(int fd) : fd_(fd) {}
+  int fd_;
+};
+
+/// Every line of every journal of a run, journal by journal, in order. Memory: one line.
+void read_journals(const std::string& folder, const std::function<void(JournalLine&&)>& take);
+
+/// Where a run keeps what is its own: OUT/.wrlkit
+std::string corpus_folder(const std::string& out);
+
+}  // namespace wrlkit

@@ -1,0 +1,70 @@
+#include "tools/corpus/status.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace wrlkit {
+namespace {
+
+std::string time_text(double seconds) {
+  const auto s = static_cast<long long>(seconds + 0.5);
+  return s < 100 ? fmt::format("{} s", s) : s < 6000 ? fmt::format("{} min", (s + 30) / 60) : fmt::format("{}:{:02} h", s / 3600, s % 3600 / 60);
+}
+
+}  // namespace
+
+CorpusStatus::CorpusStatus(std::size_t files, double cost, bool quiet) : files_(files), cost_(cost), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void CorpusStatus::add(JobState state, double cost, bool again) {
+  ++done_;
+  ++states_[static_cast<std::size_t>(state)];
+  done_cost_ += cost;
+  if (again) ++before_;
+  else cost_now_ += cost;
+}
+
+void CorpusStatus::failed(const std::string& input, const std::string& cause) {
+  clear();
+  fmt::print(stderr, "{}: {}\n", input, cause);
+}
+
+void CorpusStatus::clear() {
+  if (std::exchange(shown_, false) && terminal_) std::fputs("\r\033[K", stderr);
+}
+
+void CorpusStatus::show(const std::vector<std::string>& now) {
+  const auto time = Clock::now();
+  const double since = std::chrono::duration<double>(time - last_).count(), elapsed = std::chrono::duration<double>(time - start_).count();
+  if (quiet_ || elapsed < 1 || since < (terminal_ ? 0.2 : 10.0)) return;
+  last_ = time;
+  clear();
+  auto line = fmt::format("{}/{} files", done_, files_);
+  if (before_) line += fmt::format(", {} of them before", before_);
+  if (const auto lost = done_ - n_made()) line += fmt::format(", {} failed", lost);
+  if (cost_now_ > 0) line += fmt::format(", {:.0f}/s, {} left", static_cast<double>(done_ - before_) / elapsed, time_text(elapsed * (cost_ - done_cost_) / cost_now_));
+  for (std::size_t i = 0; i < now.size() && i < 3; ++i) line += (i ? ", " : "; now ") + now[i];
+  if (now.size() > 3) line += ", ...";
+  if (terminal_) line = line.substr(0, 160);
+  fmt::print(stderr, "{}{}", line, terminal_ ? "" : "\n");
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+std::string CorpusStatus::summary() const {
+  auto line = fmt::format("{} files: {} made", done_, n_made());
+  const auto part = [&](std::size_t n, std::string_view what) {
+    if (n) line += fmt::format(", {} {}", n, what);
+  };
+  part(n(JobState::made_partly), "of them without all that is in the input");
+  part(n(JobState::failed), "failed");
+  part(n(JobState::crashed), "crashed");
+  part(n(JobState::timeout), "took too long");
+  part(n(JobState::no_memory), "had not enough memory");
+  part(before_, "had been done before");
+  return line + fmt::format("; {}\n", time_text(std::chrono::duration<double>(Clock::now() - start_).count()));
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,72 @@
+// Processes that each do one thing and are gone: what one of them does to itself it does to no other. They are forks of this
+// process, so that nothing has to be loaded or read again; this process must have a single thread.
+#pragma once
+#include <sys/types.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wrlkit {
+
+/// What a worker leaves behind.
+struct WorkerEnd {
+  std::size_t job = 0;
+  int exit_code = 0;      // unless a signal has ended it
+  int signal = 0;
+  bool timed_out = false;
+  double started = 0, seconds = 0, cpu = 0;  // Unix time; wall clock; processor
+  std::uint64_t memory = 0;                  // most at a time, bytes
+  std::string result;     // what it said of its work
+  std::string printed;    // the end of what it printed
+};
+
+class Workers {
+ public:
+  /// Gives what is to be said of the work, and an exit code.
+  using Work = std::function<int(std::string& result)>;
+  /// Of a worker that has run out of memory and knows it.
+  static constexpr int no_memory = 100;
+
+  Workers() = default;
+  /// Those still at work are ended.
+  ~Workers();
+  Workers(const Workers&) = delete;
+
+  std::size_t running() const { return running_.size(); }
+  /// Jobs at work, in the order in which they were begun.
+  std::vector<std::size_t> jobs() const;
+  /// Begins a job, with `memory` bytes beyond what this process has and so many seconds. False when the system has no more
+  /// processes.
+  bool start(std::size_t job, std::uint64_t memory, double timeout, const Work& work);
+  /// The next that ends, or nothing after so many seconds.
+  std::optional<WorkerEnd> wait(double seconds);
+
+ private:
+  struct Worker {
+    std::size_t job;
+    pid_t pid;
+    int result, printed;  // pipes
+    double started, began, deadline;
+    bool timed_out = false;
+    WorkerEnd end;
+  };
+  void read_some(Worker&);
+  WorkerEnd finish(Worker&);
+  std::vector<Worker> running_;
+};
+
+/// To be called around a fork, by a language that runs in this process as well.
+struct ForkHooks {
+  void (*before)() = [] {};
+  void (*parent)() = [] {};
+  void (*child)() = [] {};
+};
+inline ForkHooks fork_hooks;
+
+/// What the system says is free for programs now, in bytes, or what a control group leaves of it.
+std::uint64_t free_memory();
+
+}  // namespace wrlkit
