@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """wrlkit corpus run: the mirrored tree, exit codes, the journal, kill -9 and resume, shards, limits of workers."""
-import argparse, hashlib, json, os, pathlib, random, signal, subprocess, sys, tempfile, time
+import argparse, hashlib, json, os, pathlib, random, shutil, signal, subprocess, sys, tempfile, time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 parser = argparse.ArgumentParser()
@@ -171,9 +171,35 @@ def limits(tmp):
           and all(len(l) == 9 and l[6:8] == ['0', '0'] for l in lines[1:]), lines)
 
 
+def report(tmp):
+    a, out = tmp / 'report-in', tmp / 'report-out'
+    write(a / 'ball.wrl', '#VRML V2.0 utf8\nSound { }\n' + BOX.replace('Box', 'Sphere').split('\n', 1)[1])
+    write(a / 'bad <b>.wrl', 'nothing')
+    corpus(RECIPE, a, '-o', out)
+    code, _, err = corpus(out, '-o', tmp / 'r.html', '-o', tmp / 'r.csv', '-o', tmp / 'r.json', verb='report')
+    data = json.loads((tmp / 'r.json').read_text())
+    files = {f['output']: f for f in data['files']}
+    check('a report counts states', code == 0 and data['states']['made'] == 1 and data['states']['failed'] == 1, code, err, data)
+    check('what was lost, by kind', any(k['severity'] == 'lost' and 'Sound' in k['example'] for k in data['messages']), data['messages'])
+    check('how far the surface has moved', 0 <= files['ball.glb']['max'] < 1e-3, files)
+    csv = (tmp / 'r.csv').read_text().splitlines()
+    check('a table', len(csv) == 3 and csv[0].startswith('input,output,state,cause') and all(l.count(',') >= 14 for l in csv), csv)
+    page = (tmp / 'r.html').read_text()
+    check('a page with pictures and nothing from elsewhere', page.count('/9j/') == 2 and 'http' not in page.replace('http-equiv', '') and 'bad &lt;b&gt;.wrl' in page, len(page))
+    shutil.copytree(out, tmp / 'report-before')
+    write(a / 'ball.wrl', 'no longer a world')
+    write(a / 'new.wrl', BOX)
+    corpus(RECIPE, a, '-o', out)
+    code, text, err = corpus(out, '--looks', 0, '--json', '--compare', tmp / 'report-before', verb='report')
+    changes = {c['output']: c for c in json.loads(text)['changes']}
+    check('what became worse since another run', code == 1 and changes['ball.glb']['worse'] and not changes['new.glb']['worse'], code, err, changes)
+    code, _, err = corpus(tmp, verb='report')
+    check('wrong usage: no run there', code == 2 and 'no corpus run' in err, code, err)
+
+
 def main():
     with tempfile.TemporaryDirectory() as tmp:
-        for part in (inputs, exit_codes, resume, killed, limits):
+        for part in (inputs, exit_codes, resume, killed, limits, report):
             part(pathlib.Path(tmp))
     print(f'{len(faults)} failed')
     return bool(faults)

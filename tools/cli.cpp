@@ -244,6 +244,15 @@ const Verb verbs[] = {
     {"corpus-plan", "what corpus run would do: each file with its output, its shard and what it is likely to cost",
      "wrlkit corpus plan recipes/plant-web.toml plant/ -o web/ --shard 1/8\n  wrlkit corpus plan recipes/plant-web.toml plant/ -o web/ --json",
      [](CLI::App& v, Flags& f) { corpus_inputs(v, f); }, run_corpus_plan},
+    {"corpus-report", "what a corpus run has come to: a page, tables, or what became worse since another run; exit code 1 when something did",
+     "wrlkit corpus report web/\n  wrlkit corpus report web/ -o report.html -o files.csv --compare web_before/\n  wrlkit corpus report web/ --looks 0 --json",
+     [](CLI::App& v, Flags& f) {
+       v.add_option_function<std::string>("OUT", [&f](const std::string& path) { f.inputs = {path}; }, "the folder of the run")->required();
+       v.add_option("-o,--output", f.outputs, "file.html, .csv or .json; several times; OUT/report.html as a rule")->type_name("FILE");
+       v.add_option("--compare", f.compare, "the folder of another run, before this one")->type_name("DIR");
+       v.add_option("--looks", f.looks, "of how many worlds, at the most, surfaces are compared and pictures drawn")->check(CLI::Range(0, 1'000'000))->capture_default_str();
+     },
+     run_corpus_report},
     {"passes", "every pass, or one with its options", "wrlkit passes tessellate", [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "a pass"); }, run_passes},
     {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",

@@ -1,46 +1,24 @@
 // wrlkit diff: how two worlds differ in what they show, and in their names and nodes. The keys of --json are stable.
 // The worlds are read one after the other; of the first one only what is compared is kept.
+#include "tools/diff.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 
-#include "passes/deviation.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
-#include "tools/shown_surface.h"
 #include "tools/world_meshes.h"
 #include "writers/json.h"
 
 namespace wrlkit {
-namespace {
 
-using Names = std::set<std::string, std::less<>>;
-
-/// What is compared of a world.
-struct Facts {
-  std::map<std::string, std::uint64_t, std::less<>> nodes;  // authored, each once
-  Names names;                                              // when prototypes and Inlines are expanded
-  std::uint64_t materials = 0;                              // the same
-  GeometryCensus geometry;
-  std::optional<ShownSurface> surface;
-};
-
-struct Difference {
-  Facts a, b;
-  std::vector<std::string_view> missing, added;  // names
-  double bounds = 0;                             // the largest difference of a number; infinite: one world has none
-  std::optional<Deviation> surface;              // none: too large to be measured
-  double of_diagonal = 0;
-};
-
-std::optional<Facts> facts_of(Session& s, const std::string& path) {
+std::optional<WorldFacts> facts_of(Session& s, const std::string& path) {
   if (!s.read(path)) return std::nullopt;
-  Facts facts;
+  WorldFacts facts;
   const Scene& scene = s.world().scene;
   for (NodeId n : all_nodes(scene)) ++facts.nodes[std::string(scene.type(n).name)];
   WorldMeshes meshes(s);
@@ -59,6 +37,8 @@ std::optional<Facts> facts_of(Session& s, const std::string& path) {
   return facts;
 }
 
+namespace {
+
 double apart(const Bounds& a, const Bounds& b) {
   if (a.empty() && b.empty()) return 0;
   if (a.empty() || b.empty()) return Bounds::inf;
@@ -72,8 +52,10 @@ double diagonal(const Bounds& b) {
   return b.empty() ? 0 : std::hypot(b.max[0] - b.min[0], b.max[1] - b.min[1], b.max[2] - b.min[2]);
 }
 
-Difference difference(Facts a, Facts b) {
-  Difference d{.a = std::move(a), .b = std::move(b)};
+}  // namespace
+
+WorldDifference difference(WorldFacts a, WorldFacts b) {
+  WorldDifference d{.a = std::move(a), .b = std::move(b)};
   std::ranges::set_difference(d.a.names, d.b.names, std::back_inserter(d.missing));
   std::ranges::set_difference(d.b.names, d.a.names, std::back_inserter(d.added));
   d.bounds = apart(d.a.geometry.bounds, d.b.geometry.bounds);
@@ -83,7 +65,9 @@ Difference difference(Facts a, Facts b) {
   return d;
 }
 
-std::string difference_json(const Difference& d) {
+namespace {
+
+std::string difference_json(const WorldDifference& d) {
   std::string out;
   JsonOut json(out);
   json.begin_object();
@@ -115,13 +99,13 @@ std::string change(std::uint64_t a, std::uint64_t b) {
   return a == b ? fmt::format("{}", a) : fmt::format("{} -> {}", a, b);
 }
 
-std::string node_changes(const Difference& d) {
+std::string node_changes(const WorldDifference& d) {
   std::set<std::string_view> types;
   for (auto* facts : {&d.a, &d.b})
     for (auto& [type, n] : facts->nodes) types.insert(type);
   std::string out;
   for (auto type : types) {
-    auto count = [type](const Facts& f) {
+    auto count = [type](const WorldFacts& f) {
       auto n = f.nodes.find(type);
       return n == f.nodes.end() ? 0 : n->second;
     };
@@ -145,7 +129,7 @@ std::string bounds_text(double apart) {
                            : "the same";
 }
 
-std::string surface_text(const Difference& d) {
+std::string surface_text(const WorldDifference& d) {
   if (!d.surface) return "too large to be measured";
   const Deviation& s = *d.surface;
   if (std::isinf(s.max)) return "one of them has none";
@@ -157,7 +141,7 @@ std::string surface_text(const Difference& d) {
       s.rms, d.of_diagonal, s.max, s.where[0], s.where[1], s.where[2], degrees(s.normal_mean));
 }
 
-std::string difference_text(const Difference& d, const Flags& flags) {
+std::string difference_text(const WorldDifference& d, const Flags& flags) {
   const GeometryCensus &a = d.a.geometry, &b = d.b.geometry;
   std::string out = fmt::format("{} -> {}\n", flags.inputs[0], flags.inputs[1]);
   out += fmt::format("  shapes {}, polygons {}, triangles {}, lines {}, points {}\n", change(a.shapes, b.shapes),
@@ -180,7 +164,7 @@ int run_diff(const Flags& flags) {
   auto b = facts_of(s, flags.inputs[1]);
   if (!b) return s.end(false);
   s.progress().begin("comparing", 0, "");
-  const Difference d = difference(std::move(*a), std::move(*b));
+  const WorldDifference d = difference(std::move(*a), std::move(*b));
   s.progress().clear();
   const std::string json = difference_json(d);
   fmt::print("{}{}", flags.json ? json : difference_text(d, flags), flags.json ? "\n" : "");

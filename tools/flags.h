@@ -51,6 +51,9 @@ struct Flags {
   std::vector<std::string> include, exclude;
   std::string timeout = "10m", shard, base, joblog;
   bool retry = false;
+  std::vector<std::string> outputs;        // report
+  std::string compare;
+  int looks = 2000;
 
   // render
   int width = 1280, height = 960, samples = 4;
@@ -107,5 +110,6 @@ int run_explain(const Flags&);
 int run_docs(const Flags&);
 int run_corpus_run(const Flags&);
 int run_corpus_plan(const Flags&);
+int run_corpus_report(const Flags&);
 
 }  // namespace wrlkit

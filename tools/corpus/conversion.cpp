@@ -91,6 +91,19 @@ std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& wh
   return work;
 }
 
+std::string run_recipe(const std::string& out) { return corpus_folder(out) + "/recipe.toml"; }
+
+bool write_run_recipe(const CorpusWork& work, const CorpusPlan& plan) {
+  Session s(work.flags);
+  if (!prepare_conversion(s)) return false;
+  auto options = work.flags.given;
+  std::erase_if(options, [](const auto& o) { return o.first == "allow-path"; });
+  auto folders = work.flags.allow_paths;
+  folders.insert(folders.end(), plan.roots.begin(), plan.roots.end());
+  options.emplace_back("allow-path", std::move(folders));
+  return write_text_file(run_recipe(work.out), recipe_text(options, work.flags.warnings, s.pipeline()));
+}
+
 int do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, JournalLine& line) {
   const auto target = (fs::path(work.out) / job.output).string();
   std::error_code none;

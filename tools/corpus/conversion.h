@@ -11,11 +11,16 @@ namespace wrlkit {
 
 /// What everything of a run has in common.
 struct CorpusWork {
-  Flags flags;        // of a conversion
-  ContentHash hash;   // of program, recipe and format: the same gives the same bytes
-  std::string out;    // folder
-  bool text = false;  // outputs are VRML or X3D, which refer to files beside them
+  Flags flags;         // of a conversion
+  ContentHash hash;    // of program, recipe and format: the same gives the same bytes
+  std::string out;     // folder
+  bool text = false;   // outputs are VRML or X3D, which refer to files beside them
 };
+
+/// Where a run writes down its whole recipe.
+std::string run_recipe(const std::string& out);
+/// Writes it, with the folders of the inputs; false when it cannot be written, which was printed.
+bool write_run_recipe(const CorpusWork& work, const CorpusPlan& plan);
 
 /// Nothing, and why, when the recipe is none.
 std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& why);

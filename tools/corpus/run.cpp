@@ -252,6 +252,7 @@ int run_corpus_run(const Flags& flags) {
   if (!planned) return usage;
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
   if (!journal) return fmt::print(stderr, "wrlkit: {}\n", why), usage;
+  if (!write_run_recipe(*work, planned->plan)) return usage;
   return Run(flags, *work, *planned, std::move(*journal)).run();
 }
 

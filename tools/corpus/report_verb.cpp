@@ -1,0 +1,93 @@
+// wrlkit corpus report: the journals of a run as a page, a table or JSON. What has become of the worlds is measured and drawn by
+// workers, as in the run: a world that ends a worker has no picture, and the report has all others.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "scenegraph/image_codecs.h"
+#include "tools/cli.h"
+#include "tools/corpus/conversion.h"
+#include "tools/corpus/report.h"
+#include "tools/corpus/workers.h"
+#include "tools/progress.h"
+#include "tools/session.h"
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double most_seconds = 120;
+
+/// Lines of what was made and has not been looked at, at most so many.
+std::vector<JournalLine> to_be_looked_at(const std::string& out, std::size_t most) {
+  std::map<std::string, JournalLine> last;
+  read_journals(corpus_folder(out), [&](JournalLine&& l) {
+    l.messages.clear();
+    auto name = l.output;
+    last[std::move(name)] = std::move(l);
+  });
+  std::vector<JournalLine> lines;
+  std::size_t n = 0;
+  for (auto& [name, l] : last) {
+    if (!is_made(l.state) || !without_ending(l.output) || n == most) continue;
+    ++n;
+    if (!fs::exists(look_file(out, l))) lines.push_back(std::move(l));
+  }
+  return lines;
+}
+
+void look(const Flags& flags, std::size_t most) {
+  const auto& out = flags.inputs[0];
+  const auto lines = to_be_looked_at(out, most);
+  if (lines.empty()) return;
+  std::string why;
+  const auto recipe = read_recipe(run_recipe(out), why);
+  Flags conversion = recipe ? conversion_flags(*recipe) : Flags{};
+  conversion.allow_paths.insert(conversion.allow_paths.end(), flags.allow_paths.begin(), flags.allow_paths.end());
+  std::error_code none;
+  fs::create_directories(corpus_folder(out) + "/looks", none);
+  load_image_codecs();
+  const auto memory = flags.memory.empty() ? free_memory() / 10 * 8 : size_of(flags.memory);
+  const std::size_t jobs = flags.jobs > 0 ? static_cast<std::size_t>(flags.jobs) : std::max(1u, std::thread::hardware_concurrency());
+  Progress progress(!flags.quiet);
+  progress.begin("looking", lines.size(), "worlds");
+  Workers workers;
+  for (std::size_t next = 0, ended = 0; ended < lines.size();) {
+    while (next < lines.size() && workers.running() < jobs) {
+      const auto& line = lines[next];
+      const bool begun = workers.start(next, memory / jobs, most_seconds, [&](std::string&) { return make_look(conversion, out, line) ? 0 : 1; });
+      if (!begun && !workers.running()) return;
+      if (!begun) break;
+      ++next;
+    }
+    if (workers.wait(1)) progress.set(++ended);
+  }
+}
+
+bool write(const CorpusReport& report, const std::string& path) {
+  return write_text_file(path, path.ends_with(".csv") ? report_csv(report) : path.ends_with(".json") ? report_json(report) : report_page(report));
+}
+
+}  // namespace
+
+int run_corpus_report(const Flags& flags) {
+  const auto& out = flags.inputs[0];
+  for (const auto& folder : {out, flags.compare})
+    if (!folder.empty() && !fs::is_directory(corpus_folder(folder))) return fmt::print(stderr, "wrlkit: there is no corpus run in '{}'\n", folder), usage;
+  if (flags.looks > 0) look(flags, static_cast<std::size_t>(flags.looks));
+  auto report = read_report(out);
+  if (!flags.compare.empty()) compare(report, read_report(flags.compare));
+  if (flags.json) fmt::print("{}", report_json(report));
+  auto paths = flags.outputs;
+  if (paths.empty() && !flags.json) paths = {(fs::path(out) / "report.html").string()};
+  for (const auto& path : paths) {
+    if (!write(report, path)) return nothing;
+    if (!flags.quiet) fmt::print(stderr, "{}\n", path);
+  }
+  return std::ranges::any_of(report.changes, &Change::worse) ? partly : done;
+}
+
+}  // namespace wrlkit
