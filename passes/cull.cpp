@@ -92,12 +92,12 @@ void Culling::find_fixed() {
   for (NodeId n : scene_.main.roots)
     if (n) ++held[n.value];
   auto below = [&](NodeId top, std::vector<char>& mark) {
-    std::vector<NodeId> todo{top};
-    while (!todo.empty()) {
-      const NodeId n = todo.back();
-      todo.pop_back();
+    std::vector<NodeId> open{top};
+    while (!open.empty()) {
+      const NodeId n = open.back();
+      open.pop_back();
       for_each_child(scene_, n, [&](NodeId c) {
-        if (!std::exchange(mark[c.value], 1)) todo.push_back(c);
+        if (!std::exchange(mark[c.value], 1)) open.push_back(c);
       });
     }
   };

@@ -97,17 +97,17 @@ class Expansion {
   }
 
  private:
-  void visit_all(std::vector<NodeId> todo) {
-    std::ranges::reverse(todo);
-    while (!todo.empty()) {
-      NodeId n = todo.back();
-      todo.pop_back();
+  void visit_all(std::vector<NodeId> open) {
+    std::ranges::reverse(open);
+    while (!open.empty()) {
+      NodeId n = open.back();
+      open.pop_back();
       if (n.value >= seen_.size()) seen_.resize(scene_.node_count() + scene_.node_count() / 2);
       if (std::exchange(seen_[n.value], 1)) continue;
       while (is_instance(scene_, n) && expand(n)) {}  // the first node of a body may be an instance itself
-      auto mark = todo.size();
-      for_each_child(scene_, n, [&](NodeId c) { todo.push_back(c); });
-      std::reverse(todo.begin() + static_cast<std::ptrdiff_t>(mark), todo.end());
+      auto mark = open.size();
+      for_each_child(scene_, n, [&](NodeId c) { open.push_back(c); });
+      std::reverse(open.begin() + static_cast<std::ptrdiff_t>(mark), open.end());
     }
   }
 

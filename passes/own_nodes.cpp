@@ -11,15 +11,15 @@ struct Edge {
   NodeId child, parent;
 };
 
-/// Everything that hangs on one of `todo` in the direction that `neighbours(node, visit)` leads to.
+/// Everything that hangs on one of `open` in the direction that `neighbours(node, visit)` leads to.
 template <class Neighbours>
-void spread(std::vector<NodeId> todo, std::vector<char>& marks, Neighbours neighbours) {
-  for (NodeId n : todo) marks[n.value] = 1;
-  while (!todo.empty()) {
-    NodeId n = todo.back();
-    todo.pop_back();
+void spread(std::vector<NodeId> open, std::vector<char>& marks, Neighbours neighbours) {
+  for (NodeId n : open) marks[n.value] = 1;
+  while (!open.empty()) {
+    NodeId n = open.back();
+    open.pop_back();
     neighbours(n, [&](NodeId m) {
-      if (!std::exchange(marks[m.value], 1)) todo.push_back(m);
+      if (!std::exchange(marks[m.value], 1)) open.push_back(m);
     });
   }
 }

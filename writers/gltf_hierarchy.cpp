@@ -378,11 +378,11 @@ void Hierarchy::add_headlight() {
 void Hierarchy::move_to_origin() {
   origin_ = world_origin(world_);
   if (!origin_) return;
-  std::vector<std::uint32_t> todo = roots_;
-  while (!todo.empty()) {
-    auto n = todo.back();
-    todo.pop_back();
-    move(n, {-(*origin_)[0], -(*origin_)[1], -(*origin_)[2]}, todo);
+  std::vector<std::uint32_t> open = roots_;
+  while (!open.empty()) {
+    auto n = open.back();
+    open.pop_back();
+    move(n, {-(*origin_)[0], -(*origin_)[1], -(*origin_)[2]}, open);
   }
 }
 

@@ -47,16 +47,16 @@ class Choice {
   }
 
   void keep_below_levels() {
-    std::vector<NodeId> todo;
-    std::ranges::copy_if(order_, std::back_inserter(todo), [&](NodeId n) { return scene_.is(n, nodes::LOD); });
+    std::vector<NodeId> open;
+    std::ranges::copy_if(order_, std::back_inserter(open), [&](NodeId n) { return scene_.is(n, nodes::LOD); });
     std::vector<char> seen(scene_.node_count());
-    while (!todo.empty()) {
-      NodeId n = todo.back();
-      todo.pop_back();
+    while (!open.empty()) {
+      NodeId n = open.back();
+      open.pop_back();
       for_each_child(scene_, n, [&](NodeId c) {
         if (!c || seen[c.value]) return;
         seen[c.value] = 1, kept_[c.value] = Kept::has_levels;
-        todo.push_back(c);
+        open.push_back(c);
       });
     }
   }
