@@ -12,6 +12,7 @@
 #include "passes/render/surface.h"
 #include "passes/tessellate.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/srgb_table.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -238,9 +239,13 @@ Texel4 Combining::color(const Painted& t, const std::array<double, 3>& weights, 
     texel = s.picture.sample(s.texcoords(at[0], at[1]), t.detail);
   }
   auto base = s.base(vertex, texel);
-  drawing::V3 c = drawing::to_srgb(drawing::to_linear(base.color) * s.baked.at(place, 1) + drawing::to_linear(s.emissive));
-  auto byte = [](double x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0, 1.0) * 255 + 0.5); };
-  return {{byte(c.x), byte(c.y), byte(c.z), alpha ? byte(base.alpha) : std::uint8_t{255}}};
+  const SrgbTable& table = SrgbTable::get();
+  const auto light = s.baked.light.sample(place, 1).color;
+  auto shown = [&](double color, double texel, double emitted) {
+    return table.byte(table.linear(color) * s.baked.scale * table.linear(texel) + table.linear(emitted));
+  };
+  const auto opacity = alpha ? static_cast<std::uint8_t>(std::clamp(base.alpha, 0.0, 1.0) * 255 + 0.5) : std::uint8_t{255};
+  return {{shown(base.color.x, light.x, s.emissive.x), shown(base.color.y, light.y, s.emissive.y), shown(base.color.z, light.z, s.emissive.z), opacity}};
 }
 
 void Combining::show(const LitShape& lit, NodeId texture) {

@@ -1,5 +1,7 @@
 #include "passes/lightmap.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <unordered_map>
@@ -79,6 +81,13 @@ class Meshes {
   MeshScratch scratch_;
 };
 
+/// Of the names on the way to a Shape the nearest one that fits counts.
+double density_of(const NamedDensities& densities, const Scene& scene, const drawing::Stage& stage, std::uint32_t use) {
+  for (std::uint32_t n = stage.uses[use].name; n; n = stage.names[n].parent)
+    if (const double factor = densities.of(scene.name(stage.names[n].node))) return factor;
+  return 1;
+}
+
 Outcome take_patches(Scene& scene, const light::LightWorld& world, const LightmapOptions& options, PassContext& ctx) {
   const auto patches = ctx.resources->patches(options.patches, ctx.diag);
   if (!patches) return Outcome::failed;
@@ -92,9 +101,13 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
   if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
   auto parts = find_parts(scene, world, Sides::apart, ctx);
   if (parts.empty()) return Outcome::unchanged;
-  for (const Part& p : parts)
-    for (std::uint32_t u : p.uses)
+  for (Part& p : parts) {
+    p.density = 0;
+    for (std::uint32_t u : p.uses) {
       if (p.sealed) world.seal(u, p.inside_out);
+      p.density = std::max(p.density, density_of(options.densities, scene, world.stage(), u));
+    }
+  }
   if (!world.has_sky_of_its_own()) ctx.diag.report(Diag::no_light, {});
   unfold_parts(parts, world.stage());
   const Layout layout(parts, layout_options(options));
@@ -122,6 +135,40 @@ bool SkyLight::read(std::string_view text) {
   char rest;
   const std::string all(text);
   return std::sscanf(all.c_str(), "%lf:%lf:%lf%c", &color[0], &color[1], &color[2], &rest) == 3 && color[0] >= 0 && color[1] >= 0 && color[2] >= 0;
+}
+
+bool NamedDensities::read(std::string_view text) {
+  all.clear();
+  while (!text.empty()) {
+    const std::string_view one = text.substr(0, text.find(':'));
+    const auto sign = one.rfind('=');
+    if (sign == std::string_view::npos || sign == 0) return false;
+    double factor = 0;
+    const char* end = one.data() + one.size();
+    const auto r = std::from_chars(one.data() + sign + 1, end, factor);
+    if (r.ec != std::errc{} || r.ptr != end || !(factor >= 1e-3 && factor <= 1e3)) return false;
+    all.emplace_back(one.substr(0, sign), factor);
+    text.remove_prefix(std::min(text.size(), one.size() + 1));
+  }
+  return true;
+}
+
+std::string NamedDensities::print() const {
+  std::string text;
+  for (const auto& [name, factor] : all) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.9g", factor);
+    text += (text.empty() ? "" : ":") + name + "=" + number;
+  }
+  return text;
+}
+
+double NamedDensities::of(std::string_view name) const {
+  for (const auto& [pattern, factor] : all) {
+    const bool open = pattern.back() == '*';
+    if (open ? name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1)) : name == pattern) return factor;
+  }
+  return 0;
 }
 
 std::string SkyLight::print() const {

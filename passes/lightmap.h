@@ -8,6 +8,8 @@
 // The surface keeps its own colour and texture; what VRML97 can say, one texture, is made of both by `combine-lightmap`.
 #pragma once
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "passes/option_range.h"
 #include "passes/pass.h"
@@ -34,9 +36,21 @@ struct SkyLight {
   std::string print() const;
 };
 
+/// More or fewer texels for what has a name: "Floor=0.25" or, with an asterisk at the end for any name that begins so, "Sign*=4",
+/// several with colons between. The first that fits a Shape counts; Shapes have the names of the groups around them, too.
+struct NamedDensities {
+  static constexpr std::string_view type = "NAME=FACTOR:NAME*=FACTOR...";
+  std::vector<std::pair<std::string, double>> all;
+  bool read(std::string_view text);
+  std::string print() const;
+  /// Of a name; 0: none fits.
+  double of(std::string_view name) const;
+};
+
 struct LightmapOptions {
   BakeQuality quality;
   double error = 0, density = 0;
+  NamedDensities densities;
   int max_size = 0;
   SkyLight sky;
   double emission = 1;
@@ -50,6 +64,7 @@ struct LightmapOptions {
     f("quality", quality, "how many rays, and how many texels unless a density is given");
     f("error", error, "relative standard error that is wanted of a texel, such as 0.01; 0: as the quality has it", between(0, 1));
     f("density", density, "texels per metre; 0: as many as fit on one page", at_least(0));
+    f("densities", densities, "by name, times the density of the rest");
     f("max-size", max_size, "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given", between(0, 32768));
     f("sky", sky, "what shines from beyond the world: its Background, nothing, or one radiance");
     f("emission", emission, "emissiveColor shines so many times as bright as it looks", at_least(0));

@@ -137,9 +137,23 @@ SurfacePoint LightWorld::surface(const Hit& hit) const {
   }
   if (hit.back) s.face = -s.face, s.normal = -s.normal;
   s.inside = use.inner == (hit.back ? Inner::back : Inner::front);
+  if (hit.leaves != Hit::none && facts_[hit.leaves].sealed && facts_[hit.leaves].inner == Inner::back) s.inside = true;
   if (!s.inside) paint(use, hit, s);
   else if (use.clear) s.alpha = std::clamp(base(use, hit).alpha, 0.0, 1.0);
   return s;
+}
+
+bool LightWorld::encloses(const Ray& from) const {
+  constexpr int most = 64;
+  int left = 0;
+  double after = 0;
+  Hit hit;
+  for (int i = 0; i < most && nearest(from, after, hit); ++i, after = hit.distance) {
+    const UseFacts& use = facts_[hit.use];
+    if (use.sealed) left += use.inner == (hit.back ? Inner::back : Inner::front) ? 1 : -1;
+    if (hit.leaves != Hit::none && facts_[hit.leaves].sealed) left += facts_[hit.leaves].inner == Inner::back ? 1 : -1;
+  }
+  return left > 0;
 }
 
 double LightWorld::transmittance(const Ray& ray, double distance) const {

@@ -78,9 +78,12 @@ class LightWorld {
   bool nearest(const Ray& ray, double after, Hit& hit) const { return rays_->nearest(ray, after, hit); }
   /// The surface at a hit on the side that was hit. The back of a `solid` face is black.
   SurfacePoint surface(const Hit& hit) const;
-  /// A closed surface of `solid` FALSE whose inner side nobody sees counts as `solid` TRUE from then on; `inside_out`: its
-  /// fronts are the inner side.
-  void seal(std::uint32_t use, bool inside_out) { facts_[use].inner = inside_out ? Inner::front : Inner::back; }
+  /// A use is a closed surface around some room whose inner side nobody sees: it counts as `solid` TRUE from then on, and who
+  /// sees its back is within it even where it touches the front of another one. `inside_out`: its fronts are the inner side.
+  void seal(std::uint32_t use, bool inside_out) { facts_[use].inner = inside_out ? Inner::front : Inner::back, facts_[use].sealed = true; }
+  /// Whether a place lies within sealed surfaces: a ray from there leaves more of them than it enters. As many nearest() as
+  /// there are surfaces on its way, 64 at the most.
+  bool encloses(const Ray& from) const;
   /// What of the light passes along so much of a ray: 0 when something opaque stands there.
   double transmittance(const Ray& ray, double distance) const;
   /// Radiance of the sky in a direction of the world.
@@ -121,6 +124,7 @@ class LightWorld {
   struct UseFacts {
     std::uint32_t surface = 0;
     Inner inner = Inner::neither;
+    bool sealed = false;
     std::uint32_t first_emitter = no_emitter;
     bool clear = false;              // some of it may be transparent
     bool plain = false;              // one colour everywhere

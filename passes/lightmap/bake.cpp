@@ -59,8 +59,10 @@ class PageBaker {
   }
 
   /// The light of each texel of the tile whose points were asked for last.
-  std::vector<TexelLight> gather(const std::vector<Irradiance>& light) const {
+  std::vector<TexelLight> gather(std::vector<Irradiance> light) const {
     std::vector<TexelLight> out;
+    for (std::size_t i = 0; i < light.size(); ++i)
+      if (is_dark(light[i]) && is_enclosed(points_[i])) light[i].inside = 1;
     for (const auto& t : texels_.texels) {
       const std::span all(&light[t.first], t.count);
       TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, site_of(all), {}, {}, 0, {}, {}};
@@ -83,6 +85,14 @@ class PageBaker {
   }
 
  private:
+  static bool is_dark(const Irradiance& p) { return !(luminance(rgb(p.direct)) + luminance(rgb(p.indirect)) > 0); }
+
+  /// Where closed things touch, a ray may meet the front of the one before the back of the other: it sees no back then.
+  bool is_enclosed(const Point& p) const {
+    const V3 askew = p.face + V3(0.0137, 0.0271, 0.0419);
+    return world_.encloses({world_.off_surface(p.position, p.face), unit(askew)});
+  }
+
   static Site site_of(std::span<const Irradiance> points) {
     if (std::ranges::any_of(points, [](const Irradiance& p) { return p.inside <= within; })) return Site::open;
     const bool leaks = std::ranges::any_of(points, [](const Irradiance& p) { return p.inside == 1 && luminance(rgb(p.direct)) > 0; });

@@ -56,7 +56,7 @@ Layout::Layout(const std::vector<Part>& parts, const LayoutOptions& options)
 
 unwrap::PackItem Layout::item(std::size_t part) const {
   const Part& p = parts_[part];
-  return {&p.charts, density_, static_cast<std::uint32_t>(p.uses.size())};
+  return {&p.charts, density_ * p.density, static_cast<std::uint32_t>(p.uses.size())};
 }
 
 /// In runs of parts, so many as should fill a page.
@@ -66,7 +66,7 @@ void Layout::pack_all() {
   for (std::size_t begin = 0; begin < parts_.size();) {
     std::size_t end = begin;
     for (double area = 0; end < parts_.size() && (end == begin || area < room); ++end)
-      for (const auto& box : parts_[end].charts.sizes) area += double{box.x} * box.y * static_cast<double>(parts_[end].uses.size());
+      for (const auto& box : parts_[end].charts.sizes) area += parts_[end].density * parts_[end].density * box.x * box.y * static_cast<double>(parts_[end].uses.size());
     pack(begin, end, 0);
     begin = end;
   }

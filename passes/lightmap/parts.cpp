@@ -38,12 +38,18 @@ bool is_closed(const std::vector<std::uint32_t>& corners) {
   return std::ranges::all_of(edges, [&](std::uint64_t e) { return std::ranges::binary_search(edges, e << 32 | e >> 32); });
 }
 
+/// 0 for a plate of which both sides lie in one place.
 double signed_volume(const Part& p) {
+  constexpr double nothing = 1e-9;
   const V3 from = p.position(0);
   double six = 0;
-  for (std::size_t c = 0; c < p.mesh.corners.size(); c += 3)
+  drawing::Box box;
+  for (std::size_t c = 0; c < p.mesh.corners.size(); c += 3) {
     six += dot(p.position(c) - from, cross(p.position(c + 1) - from, p.position(c + 2) - from));
-  return six / 6;
+    for (std::size_t k = 0; k < 3; ++k) box.add(p.position(c + k));
+  }
+  const double size = length(box.size());
+  return std::fabs(six) > nothing * size * size * size ? six / 6 : 0;
 }
 
 /// Appends a triangle's corners in the other order, with all that they have.
@@ -129,12 +135,15 @@ class Finder {
     resolve_order(p.mesh);
     add_normals(p);
     p.n_fronts = p.n_triangles();
-    if (p.mesh.solid || sides_ == Sides::as_they_are) return;
+    if (sides_ == Sides::as_they_are) return;
     PointJoiner joiner;
+    const double volume = is_closed(points_of(p.mesh, joiner)) ? signed_volume(p) : 0;
+    const bool was_solid = p.mesh.solid;
     p.mesh.solid = true;
-    p.sealed = is_closed(points_of(p.mesh, joiner)) && !has_witness(p);
+    p.sealed = was_solid ? volume > 0 : volume != 0 && !has_witness(p);
+    if (was_solid) return;
     if (!p.sealed) return Backs(p).append();
-    p.inside_out = signed_volume(p) < 0;
+    p.inside_out = volume < 0;
     if (p.inside_out) Backs(p).turn();
   }
 

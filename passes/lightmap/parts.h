@@ -18,7 +18,8 @@ struct Part {
   Mesh mesh;                         // triangles; the backs, where they need light of their own, behind the fronts
   std::vector<float> normals;        // unit, of each corner, in the frame of the geometry
   std::size_t n_fronts = 0;          // triangles that are not backs
-  bool sealed = false, inside_out = false;  // closed, though `solid` is FALSE: nobody sees the inner side, which the fronts were
+  bool sealed = false, inside_out = false;  // closed around some room: nobody sees the inner side, which the fronts were
+  double density = 1;                // texels a metre, relative to those of other parts
   unwrap::Charts charts;             // in metres of the world, as the first use has it
 
   std::size_t n_triangles() const { return mesh.corners.size() / 3; }

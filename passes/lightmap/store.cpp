@@ -8,7 +8,7 @@
 #include "passes/weld/value_table.h"
 #include "scenegraph/image.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/srgb.h"
+#include "scenegraph/srgb_table.h"
 
 namespace wrlkit::bake {
 namespace {
@@ -96,7 +96,7 @@ void Storing::light(NodeId shape, const ShapePlace& place, const PageLayout& pag
 void Storing::add_page(std::size_t i, const BakedPage& page) {
   const std::string name = "lightmap_" + std::to_string(i);
   const double scale = scale_;
-  lightmaps_.push_back(texture(name, picture(page.light, [scale](float v) { return byte(linear_to_srgb(v / scale)); })));
+  lightmaps_.push_back(texture(name, picture(page.light, [scale, &table = SrgbTable::get()](float v) { return table.byte(v / scale); })));
   auto& directions = directions_.emplace_back();
   const char* axes[] = {"_x", "_y", "_z"};
   for (std::size_t k = 0; k < page.direction.size(); ++k)

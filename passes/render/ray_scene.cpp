@@ -110,6 +110,8 @@ struct Context {
   const void* state;
   float distance;
   Found found;
+  Found left;                                // a back at the same distance as a front
+  bool leaves;
 };
 
 bool is_back(const RTCFilterFunctionNArguments* a) {
@@ -127,9 +129,11 @@ void keep(const RTCFilterFunctionNArguments* a) {
   float distance = RTCRayN_tfar(a->ray, a->N, 0);
   Found f{RTCHitN_geomID(a->hit, a->N, 0), RTCHitN_primID(a->hit, a->N, 0), RTCHitN_instID(a->hit, a->N, 0, 0), is_back(a)};
   if (culled && f.back) { a->valid[0] = 0; return; }
-  if (distance == context.distance && static_cast<const State*>(context.state)->before(context.found, f)) {
-    a->valid[0] = 0;
-    return;
+  if (distance == context.distance) {
+    if (context.found.back != f.back) context.leaves = true, context.left = f.back ? f : context.found;
+    if (static_cast<const State*>(context.state)->before(context.found, f)) { a->valid[0] = 0; return; }
+  } else {
+    context.leaves = false;
   }
   context.distance = distance;
   context.found = f;
@@ -363,7 +367,7 @@ bool RayScene::holds(std::uint32_t use) const { return state_->held[use]; }
 
 bool RayScene::nearest(const Ray& ray, double after, Hit& hit) const {
   const State& s = *state_;
-  Context context{{}, &s, -1, {}};
+  Context context{{}, &s, -1, {}, {}, false};
   rtcInitIntersectContext(&context.base);
   RTCRayHit r{s.embree_ray(ray, after, infinity), {}};
   r.ray.mask = opaque | clear;
@@ -373,6 +377,7 @@ bool RayScene::nearest(const Ray& ray, double after, Hit& hit) const {
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit.distance = r.ray.tfar;
   hit.back = context.found.back;
+  hit.leaves = context.leaves && !hit.back ? s.resolve(context.left).first : Hit::none;
   bool flipped = false;
   if (r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
     hit.use = s.use_of[r.hit.instID[0]];

@@ -23,6 +23,8 @@ struct Hit {
   std::uint32_t use = 0;      // into Stage::uses
   std::uint32_t element = 0;  // of the mesh: triangle, segment or point
   bool back = false;          // the ray comes from behind the triangle
+  static constexpr std::uint32_t none = 0xffffffff;
+  std::uint32_t leaves = none;  // a use of which the ray meets a back at the very same distance, though a front counts as nearer
   double weights[3] = {1, 0, 0};  // of the corners of the element
 };
 

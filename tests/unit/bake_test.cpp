@@ -7,6 +7,7 @@
 #include "parsers/parsers.h"
 #include "parsers/resources.h"
 #include "passes/geometry.h"
+#include "passes/lightmap.h"
 #include "passes/parallel.h"
 #include "passes/pipeline.h"
 #include "scenegraph/nodes.h"
@@ -218,4 +219,26 @@ TEST_CASE("bake: a closed room of which both sides are to be seen has light on b
   CHECK(Light(nobody, "Room").mesh.corners.size() == 36);
   CHECK(Light(viewer, "Room").mesh.corners.size() == 72);
   CHECK(Light(lamp, "Room").mesh.corners.size() == 72);
+}
+
+TEST_CASE("bake: what has a name gets as many texels as it is said to", "[bake]") {
+  const std::string two = "DEF Floor Shape { " + material(0.5) + " geometry " + floor_of_4 + " } DEF Signs Group { children Transform { translation 0 1 0 children DEF Board Shape { " +
+                          material(0.5) + " geometry " + floor_of_4 + " } } }";
+  auto sides = [&](const std::string& options) {
+    Baked b(two, "quality=draft,max-size=128" + options);
+    auto side = [&](std::string_view name) {
+      const Light l(b, name);
+      double low = 1, high = 0;
+      for (std::size_t i = 0; i < l.mesh.lightcoord.values.size(); i += 2) low = std::min(low, double{l.mesh.lightcoord.values[i]}), high = std::max(high, double{l.mesh.lightcoord.values[i]});
+      return high - low;
+    };
+    return side("Board") / side("Floor");
+  };
+  CHECK(sides("") == Approx(1).epsilon(0.05));
+  CHECK(sides(",densities=Board=0.25") == Approx(0.25).epsilon(0.05));
+  CHECK(sides(",densities=Wall*=3:Sig*=0.5:Floor=1") == Approx(0.5).epsilon(0.05));
+  NamedDensities d;
+  for (const char* wrong : {"Floor", "=2", "Floor=x", "Floor=0", "Floor=1:Wall"}) CHECK(!d.read(wrong));
+  REQUIRE(d.read("A*=2:B=0.5"));
+  CHECK(d.print() == "A*=2:B=0.5");
 }

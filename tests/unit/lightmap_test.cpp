@@ -11,7 +11,7 @@
 #include "passes/render/baked.h"
 #include "passes/render/render.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/srgb.h"
+#include "scenegraph/srgb_table.h"
 #include "scenegraph/vertices.h"
 #include "scenegraph/walk.h"
 #include "tests/unit/temp_folder.h"
@@ -366,4 +366,13 @@ TEST_CASE("baked light with a direction: what faces it gets more, and it shines 
   CHECK(red(from({0, 0, 0.5}), slant, aside) == Approx(0.2 * (1 + std::sqrt(0.5)) / 2));
   s.material.specular = V3(1);
   CHECK(red(from({0, 0, 0.5}), face, face) == Approx(0.2 + 0.5 * 0.2).margin(1e-3));
+}
+
+TEST_CASE("sRGB by table: the bytes of the formula, and its linear numbers", "[lightmap]") {
+  const SrgbTable& table = SrgbTable::get();
+  for (int i = -10; i <= 20'010; ++i) {
+    const double v = i / 20'000.0;
+    REQUIRE(table.byte(v) == static_cast<int>(linear_to_srgb(v) * 255 + 0.5));
+    REQUIRE(table.linear(v) == Approx(srgb_to_linear(v)).margin(1e-7));
+  }
 }
