@@ -25,8 +25,15 @@ const skipped = 77;
 const with_levels = ['corpus/paper/ellipsoid_hole.wrl']
   .map(name => ({name: `${name} with levels`, file: file_of(name), levels: true}));
 
-/// The file that is converted: the world, or the one with its levels of detail.
-async function source_of({file, levels}, to) {
+/// Worlds whose light is baked: three.js draws the glTF that the pass makes, wrlkit the VRML.
+const bake = ['-p', 'lightmap{quality=draft,max-size=128}'];
+const with_light = ['corpus/paper/stairs_room.wrl', 'corpus/paper/pipes.wrl', 'corpus/features/light_spot.wrl', 'corpus/features/use_nested.wrl',
+  'corpus/features/transparency.wrl', 'corpus/features/material_texture.wrl', 'corpus/vrml1/PointLight.wrl']
+  .map(name => ({name: `${name} with light`, file: file_of(name), baked: true}));
+
+/// The file that is drawn: the world, or the one with its levels of detail or its light.
+async function source_of({file, levels, baked}, to) {
+  if (baked) return await run(wrlkit, ['convert', '-q', file, `${to}.wrl`, ...bake]), `${to}.wrl`;
   if (!levels) return file;
   await run(wrlkit, ['simplify', '-q', file, '--ratios', '0.5,0.25', '-o', to]);
   return path.join(to, `${path.basename(file, '.wrl')}_lod.wrl`);
@@ -35,9 +42,10 @@ async function source_of({file, levels}, to) {
 /// Converts a world, draws it, and says what the page has to do; null when nothing was made.
 async function prepare(world, number) {
   const out = name => path.join(folder, `${number}${name}`);
-  const converted = await run(wrlkit, ['convert', '-q', await source_of(world, out('')), out('.glb'), ...flags]);
+  const source = await source_of(world, out(''));
+  const converted = await run(wrlkit, ['convert', '-q', world.baked ? world.file : source, out('.glb'), ...flags, ...world.baked ? bake : []]);
   const view = view_of(wrlkit, world.file, out('.glb'), world.name.startsWith('corpus/'));
-  const drawn = await run(wrlkit, ['render', '-q', world.file, out('.png'), '--width', size.width, '--height', size.height,
+  const drawn = await run(wrlkit, ['render', '-q', world.baked ? source : world.file, out('.png'), '--width', size.width, '--height', size.height,
     '--samples', 1, '--background', key, ...view.flags]);
   const bad = [converted, drawn].find(r => r.code !== 0 && r.code !== 1);
   if (bad) return console.log(`${world.name}: exit code ${bad.code}: ${bad.text.trim()}`), null;
@@ -75,7 +83,7 @@ function keep_picture({name, lighting, sheet}) {
 function worlds() {
   if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)];
   const found = found_worlds_to_compare.map(name => ({name, file: file_of(name)})).filter(w => w.file);
-  return [...own_worlds(), ...with_levels, ...found].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
+  return [...own_worlds(), ...with_levels, ...with_light, ...found].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
 }
 
 async function main() {
