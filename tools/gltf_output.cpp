@@ -59,7 +59,7 @@ std::size_t count_geometries(const Scene& scene) {
 void say_why_empty(const Scene& scene, Diagnostics& diag) {
   const auto& roots = scene.main.roots;
   if (diag.count(Diag::unknown_node) > 0) diag.report(Diag::nothing_drawn, roots.empty() ? Span{} : scene.where(roots[0]), "it has no geometry, but nodes that are not known");
-  else if (roots.empty()) diag.report(Diag::nothing_drawn, Span{}, "it holds no node");
+  else if (roots.empty() && scene.proto_count() == 0) diag.report(Diag::nothing_drawn, Span{.begin = 0}, "it holds no node");
 }
 
 }  // namespace
