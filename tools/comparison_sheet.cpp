@@ -2,17 +2,12 @@
 #include <algorithm>
 
 #include "tools/comparison.h"
+#include "tools/picture_grid.h"
 
 namespace wrlkit {
 namespace {
 
 constexpr std::size_t columns = 4;
-
-void put(Image& sheet, const Image& picture, std::size_t x, std::size_t y) {
-  const auto row = static_cast<std::size_t>(picture.width) * 3;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(picture.height); ++i)
-    std::copy_n(picture.pixels.data() + i * row, row, sheet.pixels.data() + ((y + i) * static_cast<std::size_t>(sheet.width) + x) * 3);
-}
 
 }  // namespace
 
@@ -27,7 +22,7 @@ Image comparison_sheet(const Comparison& c) {
   sheet.pixels.assign(static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height) * 3, 255);
   std::size_t row = 0;
   for (const auto& criterion : c.criteria) {
-    for (std::size_t i = 0; i < criterion.pictures.size(); ++i) put(sheet, criterion.pictures[i], i % columns * width, (row + i / columns) * height);
+    for (std::size_t i = 0; i < criterion.pictures.size(); ++i) put(sheet, criterion.pictures[i], static_cast<int>(i % columns * width), static_cast<int>((row + i / columns) * height));
     row += (criterion.pictures.size() + columns - 1) / columns;
   }
   return sheet;

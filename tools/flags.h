@@ -52,7 +52,7 @@ struct Flags {
   std::string timeout = "10m", shard, base, joblog;
   bool retry = false;
   std::vector<std::string> outputs;        // report
-  std::string compare;
+  std::string compare;                     // and of render: a world
   int looks = 2000;
 
   // render
@@ -62,6 +62,7 @@ struct Flags {
   bool fit = false;
   std::vector<double> background;          // r, g, b; empty: the world's
   std::string headlight;                   // "on", "off"; empty: as NavigationInfo says
+  int turntable = 0;                       // pictures around the world
   double field_of_view = 0;                // degrees; 0: the Viewpoint's
 
   // simplify, compare-lod

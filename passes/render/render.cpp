@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "passes/render/gather.h"
 #include "passes/render/inspect.h"
@@ -62,19 +63,54 @@ void turn_billboards(const Scene& scene, const Camera& camera, Stage& stage) {
   stage = set_stage(scene, &viewer, said_already);
 }
 
+Box bounds_of(const Scene& scene, const Stage& stage, const MeshSource& source, Diagnostics& diag) {
+  MeshPool pool;
+  const auto mesh_of = Gatherer(scene, source, pool).meshes_of(stage, diag);
+  return bounds(stage, pool, mesh_of);
+}
+
+Vec3 numbers(const V3& v) { return {v.x, v.y, v.z}; }
+
+RenderOptions seen_by(const Camera& c, RenderOptions options) {
+  options.look_at = LookAt{numbers(c.eye), numbers(c.eye - c.back), numbers(c.up)};
+  options.field_of_view = 2 * std::atan(std::min(c.half_x, c.half_y));
+  return options;
+}
+
+/// The box with room for what is in it however it is turned around the vertical through its middle.
+Box room_to_turn(const Box& box) {
+  if (box.empty()) return box;
+  const V3 size = box.size(), middle = box.centre();
+  const double radius = 0.5 * std::hypot(size.x, size.z);
+  Box out;
+  out.add({middle.x - radius, box.low.y, middle.z - radius});
+  out.add({middle.x + radius, box.high.y, middle.z + radius});
+  return out;
+}
+
 }  // namespace
 
 RenderOptions with_camera(const Scene& scene, const MeshSource& source, RenderOptions options, Diagnostics& diag) {
   const Stage stage = set_stage(scene, nullptr, diag);
-  const Camera c = choose_camera(scene, stage, options, diag, [&] {
-    MeshPool pool;
-    const auto mesh_of = Gatherer(scene, source, pool).meshes_of(stage, diag);
-    return bounds(stage, pool, mesh_of);
-  });
-  const V3 target = c.eye - c.back;
-  options.look_at = LookAt{{c.eye.x, c.eye.y, c.eye.z}, {target.x, target.y, target.z}, {c.up.x, c.up.y, c.up.z}};
-  options.field_of_view = 2 * std::atan(std::min(c.half_x, c.half_y));
-  return options;
+  return seen_by(choose_camera(scene, stage, options, diag, [&] { return bounds_of(scene, stage, source, diag); }), options);
+}
+
+std::vector<RenderOptions> turntable(const Scene& scene, const MeshSource& source, RenderOptions options, int n, Diagnostics& diag) {
+  const Stage stage = set_stage(scene, nullptr, diag);
+  const Box box = bounds_of(scene, stage, source, diag);
+  if (options.viewpoint.empty()) options.fit = true;
+  const Camera first = choose_camera(scene, stage, options, diag, [&] { return room_to_turn(box); });
+  const V3 axis = box.empty() ? V3(0) : box.centre();
+  std::vector<RenderOptions> out;
+  for (int i = 0; i < n; ++i) {
+    const Affine turn = rotation({0, 1, 0, 2 * std::numbers::pi * i / n});
+    Camera c = first;
+    c.eye = axis + turn.vector(first.eye - axis);
+    c.back = turn.vector(first.back);
+    c.up = turn.vector(first.up);
+    out.push_back(seen_by(c, options));
+  }
+  return out;
 }
 
 Image render(const Scene& scene, const MeshSource& source, const RenderOptions& options, Resources* resources, Diagnostics& diag) {

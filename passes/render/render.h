@@ -7,6 +7,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scenegraph/diagnostics.h"
 #include "scenegraph/mesh.h"
@@ -51,5 +52,9 @@ Image render(const Scene& scene, const MeshSource& meshes, const RenderOptions& 
 /// The options with the camera that render() would take for this scene spelled out: for pictures of other worlds from the
 /// same place.
 RenderOptions with_camera(const Scene& scene, const MeshSource& meshes, RenderOptions options, Diagnostics& diag);
+
+/// The options for `n` pictures around the world: the camera goes once around the vertical through the middle of it, to the
+/// right first. Without `look_at` and `viewpoint` it sees all of the world from each side, from above.
+std::vector<RenderOptions> turntable(const Scene& scene, const MeshSource& meshes, RenderOptions options, int n, Diagnostics& diag);
 
 }  // namespace wrlkit
