@@ -148,6 +148,7 @@ class Expansion {
       for (std::size_t k = 1; k < body.roots.size(); ++k)
         if (prototypes_.own()[body.roots[k]]) hidden_.push_back(i.copies.of(body.roots[k]));
     for (const Route& r : body.routes) i.copies.of(r.from), i.copies.of(r.to);
+    for (const Import& m : body.imports) scene_.main.imports.push_back({i.copies.of(m.inline_node), m.exported, i.copies.of(m.node)});
     for (NodeId from, to; i.copies.next(from, to);) fill(i, from, to);
     if (i.routed) redirect(i);
     for (const Route& r : body.routes) add_route({i.copies.of(r.from), i.copies.of(r.to), r.event_out, r.event_in}, i.where);

@@ -27,26 +27,27 @@ class Inliner {
   Outcome run() {
     const auto n_protos = static_cast<std::uint32_t>(scene_.proto_count());
     note_names();
-    load_all(scene_.main.roots, scene_.main.routes);
+    load_all(scene_.main.roots, scene_.main);
     for (std::uint32_t i = 0; i < n_protos; ++i) {
       Proto& p = scene_.proto(ProtoId{i});
-      for (const auto& f : scene_.type(p.type).fields) load_all(f.default_value.node_span(), p.body.routes);
-      load_all(p.body.roots, p.body.routes);
+      for (const auto& f : scene_.type(p.type).fields) load_all(f.default_value.node_span(), p.body);
+      load_all(p.body.roots, p.body);
     }
     if (changed_) limit_nesting(scene_, ctx_.diag);
     return changed_ ? Outcome::changed : Outcome::unchanged;
   }
 
  private:
-  /// `routes` are those of the scope that the nodes are in.
-  void load_all(std::span<const NodeId> roots, std::vector<Route>& routes) {
+  /// `scope` is the one that the nodes are in.
+  void load_all(std::span<const NodeId> roots, Scope& scope) {
     std::vector<NodeId> nodes;
     reach(scene_, roots, met_, nodes);
     for (NodeId n : nodes)
-      if (scene_.is(n, nodes::Inline)) load(n, routes);
+      if (scene_.is(n, nodes::Inline)) load(n, scope);
+    connect(scope);
   }
 
-  void load(NodeId n, std::vector<Route>& routes) {
+  void load(NodeId n, Scope& scope) {
     auto urls = scene_.get(n, nodes::inline_::url);
     if (urls.empty() || !ctx_.resources || !scene_.get(n, nodes::inline_::load)) return;
     auto world = ctx_.resources->world(urls, scene_.where(n), ctx_.diag);
@@ -56,8 +57,8 @@ class Inliner {
     if (chain_.size() >= static_cast<std::size_t>(options_.depth))
       return ctx_.diag.report(Diag::expansion_limit, scene_.where(n), options_.depth, "Inlines inside each other");
     auto known = imported_.find(world.get());
-    if (known == imported_.end()) become_group(n, first_use(world), routes);
-    else become_group(n, further_use(known->second, scene_.where(n)), routes);
+    if (known == imported_.end()) become_group(n, first_use(world), scope);
+    else become_group(n, further_use(known->second, scene_.where(n)), scope);
   }
 
   const Scope& first_use(const std::shared_ptr<const Scene>& world) {
@@ -68,7 +69,7 @@ class Inliner {
     rename_protos(scope, n_nodes);
     scene_.main.protos.insert(scene_.main.protos.begin(), scope.protos.begin(), scope.protos.end());
     chain_.push_back(world.get());
-    load_all(scope.roots, scope.routes);
+    load_all(scope.roots, scope);
     chain_.pop_back();
     return scope;
   }
@@ -121,6 +122,8 @@ class Inliner {
     Scope out;
     for (NodeId n : scope.roots) out.roots.push_back(copies.of(n));
     for (const Route& r : scope.routes) out.routes.push_back({copies.of(r.from), copies.of(r.to), r.event_out, r.event_in});
+    for (const Import& i : scope.imports) out.imports.push_back({copies.of(i.inline_node), i.exported, copies.of(i.node)});
+    for (const Export& e : scope.exports) out.exports.push_back({copies.of(e.node), e.name});
     for (NodeId from, to; copies.next(from, to);) {
       std::vector<Value> fields;
       const std::vector<Value> source(scene_.fields(from).begin(), scene_.fields(from).end());
@@ -128,7 +131,7 @@ class Inliner {
       scene_.set_fields(to, fields);
       n_copied_ += cost_of_copy(scene_, from);
     }
-    n_copied_ += out.routes.size();
+    n_copied_ += out.routes.size() + out.exports.size();
     return out;
   }
 
@@ -143,7 +146,7 @@ class Inliner {
     return own_.mark(scene_, scope, {}, has_state);
   }
 
-  void become_group(NodeId n, const Scope& use, std::vector<Route>& routes) {
+  void become_group(NodeId n, const Scope& use, Scope& scope) {
     std::vector<Value> fields;
     if (!use.roots.empty()) fields.push_back(scene_.make(FieldType::MFNode, nodes::group::children.slot, use.roots));
     for (auto [from, to] : {std::pair{nodes::inline_::bboxCenter.slot, nodes::group::bboxCenter.slot}, {nodes::inline_::bboxSize.slot, nodes::group::bboxSize.slot}})
@@ -152,8 +155,31 @@ class Inliner {
         fields.back().slot = to;
       }
     scene_.become(n, nodes::Group, fields);
-    routes.insert(routes.end(), use.routes.begin(), use.routes.end());
+    scope.routes.insert(scope.routes.end(), use.routes.begin(), use.routes.end());
+    scope.imports.insert(scope.imports.end(), use.imports.begin(), use.imports.end());
+    for (const Export& e : use.exports) exports_[n.value].emplace(e.name, e.node);
     changed_ = true;
+  }
+
+  /// What a scope imports of worlds that are there now.
+  void connect(Scope& scope) {
+    std::unordered_map<std::uint32_t, NodeId> meant;
+    std::erase_if(scope.imports, [&](const Import& i) {
+      if (scene_.is(i.inline_node, nodes::Inline)) return false;
+      const auto& exports = exports_[i.inline_node.value];
+      const auto found = exports.find(i.exported);
+      if (found == exports.end()) ctx_.diag.report(Diag::import_not_found, scene_.where(i.node), scene_.name(i.inline_node), i.exported);
+      meant[i.node.value] = found == exports.end() ? NodeId{} : found->second;
+      return true;
+    });
+    if (meant.empty()) return;
+    auto lead = [&](NodeId& n) {
+      if (auto m = meant.find(n.value); m != meant.end()) n = m->second;
+    };
+    for (Route& r : scope.routes) lead(r.from), lead(r.to);
+    for (Export& e : scope.exports) lead(e.node);
+    std::erase_if(scope.routes, [](const Route& r) { return !r.from || !r.to; });
+    std::erase_if(scope.exports, [](const Export& e) { return !e.node; });
   }
 
   Scene& scene_;
@@ -161,6 +187,7 @@ class Inliner {
   PassContext& ctx_;
   std::unordered_map<const Scene*, Imported> imported_;
   std::vector<std::shared_ptr<const Scene>> kept_;
+  std::unordered_map<std::uint32_t, std::unordered_map<std::string_view, NodeId>> exports_;  // of the file of an Inline
   std::vector<const Scene*> chain_;  // files that are being loaded, each inlined by the one before
   std::unordered_set<std::string_view> taken_;  // names of prototypes
   std::unordered_map<std::string_view, std::size_t> counter_;

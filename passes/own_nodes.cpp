@@ -39,7 +39,9 @@ bool OwnNodes::mark(const Scene& scene, const Scope& scope, std::span<const Node
     for_each_child(scene, n, [&](NodeId c) { edges.push_back({c, n}); });
   }
   for (const Route& r : scope.routes) varying.push_back(r.from), varying.push_back(r.to);
-  const bool state = !acting.empty() || !scope.routes.empty();
+  for (const Import& i : scope.imports) varying.push_back(i.inline_node), varying.push_back(i.node);
+  for (const Export& e : scope.exports) varying.push_back(e.node);
+  const bool state = !acting.empty() || !scope.routes.empty() || !scope.exports.empty();
 
   // Down from Scripts, then up from all. A child may have been met, and marked, with another scope.
   spread(acting, own_, [&](NodeId n, auto visit) { for_each_child(scene, n, visit); });

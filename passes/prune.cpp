@@ -13,7 +13,10 @@ class Pruning {
   explicit Pruning(Scene& scene) : scene_(scene), order_(all_nodes(scene)), kept_(scene.node_count(), 0) {}
 
   Outcome run() {
-    auto routes = [&](const Scope& s) { for (auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = 1; };
+    auto routes = [&](const Scope& s) {
+      for (auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = 1;
+      for (auto& e : s.exports) kept_[e.node.value] = 1;
+    };
     routes(scene_.main);
     for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) routes(scene_.proto(ProtoId{i}).body);
     // Children first, so that a group of empty groups goes as a whole.
@@ -23,7 +26,11 @@ class Pruning {
     changed_ |= before != scene_.main.roots.size();
     std::vector<char> here(scene_.node_count());
     for (NodeId n : all_nodes(scene_)) here[n.value] = 1;
-    changed_ |= std::erase_if(scene_.main.routes, [&](const Route& r) { return !here[r.from.value] || !here[r.to.value]; }) > 0;
+    Scope& main = scene_.main;
+    for (const Import& i : main.imports) here[i.node.value] = here[i.inline_node.value];
+    changed_ |= std::erase_if(main.imports, [&](const Import& i) { return !here[i.node.value]; }) > 0;
+    changed_ |= std::erase_if(main.exports, [&](const Export& e) { return !here[e.node.value]; }) > 0;
+    changed_ |= std::erase_if(main.routes, [&](const Route& r) { return !here[r.from.value] || !here[r.to.value]; }) > 0;
     return changed_ ? Outcome::changed : Outcome::unchanged;
   }
 

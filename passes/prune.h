@@ -1,5 +1,5 @@
 // prune: what has no effect goes: Shapes without geometry, grouping nodes without children that nobody can name, and
-// ROUTEs from or to nodes that are not in the scene any more.
+// ROUTEs from or to nodes that are not in the scene any more, with their IMPORTs and EXPORTs.
 //
 //   Group { children [ Shape { } Group { } DEF A Group { } ] }   ->   Group { children DEF A Group { } }
 //

@@ -31,6 +31,8 @@ void Usage::add(const Scope& s) {
   for (NodeId n : s.roots)
     if (n) ++uses_[n.value];
   for (const Route& r : s.routes) touched_[r.from.value] = touched_[r.to.value] = 1;
+  for (const Import& i : s.imports) touched_[i.inline_node.value] = 1;
+  for (const Export& e : s.exports) touched_[e.node.value] = 1;
 }
 
 void Usage::touch_below(const Scene& scene, std::vector<NodeId> todo) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scenegraph/nodes.h"
+
 namespace wrlkit {
 
 NodeId SceneBuilder::open(TypeId type, std::string_view def_name, Span where) {
@@ -113,9 +115,12 @@ NodeId SceneBuilder::use(std::string_view name, Span where) {
 }
 
 Scope SceneBuilder::close_scope() {
+  const auto links = std::move(scopes_.back().links);
+  for (auto& l : links)
+    if (!try_link(l)) diag_.report(Diag::undefined_import, l.where, l.import ? "IMPORT" : "EXPORT", l.node, "not defined");
   auto forward = std::move(scopes_.back().forward);
   for (auto& r : forward)
-    if (!try_route(r)) diag_.report(Diag::undefined_route, r.where, defined(r.from) ? r.to : r.from);
+    if (!try_route(r)) diag_.report(Diag::undefined_route, r.where, routed(r.from) ? r.to : r.from);
   Scope s = std::move(scopes_.back().scope);
   scopes_.pop_back();
   return s;
@@ -127,11 +132,42 @@ void SceneBuilder::route(std::string_view from, std::string_view event_out, std:
 }
 
 bool SceneBuilder::try_route(const Pending& r) {
-  NodeId from = defined(r.from), to = defined(r.to);
+  NodeId from = routed(r.from), to = routed(r.to);
   if (!from || !to) return false;
   check_event(from, r.event_out, true, r.where);
   check_event(to, r.event_in, false, r.where);
   scopes_.back().scope.routes.push_back({from, to, r.event_out, r.event_in});
+  return true;
+}
+
+NodeId SceneBuilder::routed(std::string_view name) const {
+  if (NodeId n = defined(name)) return n;
+  auto& imported = scopes_.back().imported;
+  auto i = imported.find(name);
+  return i == imported.end() ? NodeId{} : i->second;
+}
+
+void SceneBuilder::import_name(std::string_view inline_name, std::string_view exported, std::string_view name, Span where) {
+  link({true, scene_.keep(inline_name), scene_.keep(exported), scene_.keep(name), where});
+}
+
+void SceneBuilder::export_name(std::string_view node, std::string_view name, Span where) {
+  link({false, scene_.keep(node), {}, scene_.keep(name), where});
+}
+
+void SceneBuilder::link(const Link& l) {
+  if (!try_link(l)) scopes_.back().links.push_back(l);
+}
+
+bool SceneBuilder::try_link(const Link& l) {
+  Names& s = scopes_.back();
+  const NodeId n = l.import ? defined(l.node) : routed(l.node);
+  if (!n || l.name.empty() || (l.import && l.exported.empty())) return false;
+  const auto* keyword = l.import ? "IMPORT" : "EXPORT";
+  if (l.import && !scene_.is(n, nodes::Inline)) diag_.report(Diag::undefined_import, l.where, keyword, l.node, "no Inline");
+  else if (l.import ? static_cast<bool>(routed(l.name)) : !s.exported.insert(l.name).second) diag_.report(Diag::duplicate_import, l.where, keyword, l.name);
+  else if (l.import) s.scope.imports.push_back({n, l.exported, s.imported[l.name] = scene_.add_stand_in(l.name, l.where)});
+  else s.scope.exports.push_back({n, l.name});
   return true;
 }
 

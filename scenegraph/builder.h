@@ -4,6 +4,7 @@
 #pragma once
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,9 @@ class SceneBuilder {
   Scope close_scope();
   void root(NodeId n) { scopes_.back().scope.roots.push_back(n); }
   void route(std::string_view from, std::string_view event_out, std::string_view to, std::string_view event_in, Span where);
+  /// `IMPORT inline_name.exported AS name` and `EXPORT node AS name`, also of nodes that are defined later.
+  void import_name(std::string_view inline_name, std::string_view exported, std::string_view name, Span where);
+  void export_name(std::string_view node, std::string_view name, Span where);
   /// The interface of a prototype as a node type.
   TypeId proto_type(std::string_view name, std::span<const FieldDef> fields);
   /// Makes a prototype known under its name from here on.
@@ -75,18 +79,30 @@ class SceneBuilder {
     std::string_view from, event_out, to, event_in;
     Span where;
   };
+  struct Link {  // IMPORT, of a name that a world exports, and EXPORT
+    bool import;
+    std::string_view node, exported, name;
+    Span where;
+  };
   struct Names {
     Scope scope;
     std::unordered_map<std::string_view, NodeId> defs;
     std::unordered_map<std::string_view, TypeId> protos;
+    std::unordered_map<std::string_view, NodeId> imported;
+    std::unordered_set<std::string_view> exported;
     std::vector<Pending> forward;  // ROUTEs whose nodes are defined later, as some exporters write them
+    std::vector<Link> links;       // and IMPORTs and EXPORTs of such nodes
     std::size_t depth = 0;
   };
   Value* find_field(Open&, std::uint16_t slot);
   void append_all(Open&);
   void add_x3d_defaults(Open&);
   NodeId defined(std::string_view name) const;
+  /// What a ROUTE means by a name.
+  NodeId routed(std::string_view name) const;
   bool try_route(const Pending&);
+  void link(const Link&);
+  bool try_link(const Link&);
   void check_event(NodeId, std::string_view event, bool out, Span);
 
   Scene& scene_;

@@ -89,11 +89,8 @@ class Comparison {
     if (a.roots.size() != b.roots.size()) return "number of root nodes: " + std::to_string(a.roots.size()) + " and " + std::to_string(b.roots.size());
     for (std::size_t i = 0; i < a.roots.size(); ++i)
       if (!same(a.roots[i], b.roots[i])) return "root node " + std::to_string(i);
-    while (!todo_.empty()) {
-      auto [x, y] = todo_.back();
-      todo_.pop_back();
-      if (auto d = node(x, y); !d.empty()) return d;
-    }
+    if (auto d = rest_of_nodes(); !d.empty()) return d;
+    if (auto d = links(a, b); !d.empty()) return d;
     const auto x = met(a.routes, partner_), y = met(b.routes, partner_back_);
     if (x.size() != y.size()) return "number of ROUTEs";
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -101,6 +98,31 @@ class Comparison {
       if (!same(r.from, s.from) || !same(r.to, s.to) || r.event_out != s.event_out || r.event_in != s.event_in) return "ROUTE " + std::to_string(i);
     }
     return {};
+  }
+
+  std::string rest_of_nodes() {
+    while (!todo_.empty()) {
+      auto [x, y] = todo_.back();
+      todo_.pop_back();
+      if (auto d = node(x, y); !d.empty()) return d;
+    }
+    return {};
+  }
+
+  /// IMPORTs and EXPORTs.
+  std::string links(const Scope& a, const Scope& b) {
+    auto met = [](const auto& all, auto member, const auto& nodes) {
+      auto out = all;
+      std::erase_if(out, [&](const auto& l) { return !nodes.count((l.*member).value); });
+      return out;
+    };
+    const auto imports = met(a.imports, &Import::inline_node, partner_), imports_b = met(b.imports, &Import::inline_node, partner_back_);
+    auto same_import = [&](const Import& x, const Import& y) { return same(x.inline_node, y.inline_node) && x.exported == y.exported && same(x.node, y.node); };
+    if (!std::ranges::equal(imports, imports_b, same_import)) return "IMPORTs";
+    if (auto d = rest_of_nodes(); !d.empty()) return d;
+    const auto exports = met(a.exports, &Export::node, partner_), exports_b = met(b.exports, &Export::node, partner_back_);
+    auto same_export = [&](const Export& x, const Export& y) { return same(x.node, y.node) && x.name == y.name; };
+    return std::ranges::equal(exports, exports_b, same_export) ? "" : "EXPORTs";
   }
 
   /// Those of them whose nodes are in the scene: a fault in the file may have cost the others.

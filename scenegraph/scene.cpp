@@ -12,6 +12,19 @@ NodeId Scene::add(TypeId type, Span where) {
   return NodeId{static_cast<std::uint32_t>(nodes_.size() - 1)};
 }
 
+NodeId Scene::add_stand_in(std::string_view name, Span where) {
+  if (!stand_in_) {
+    NodeType t;
+    t.name = "IMPORT";
+    t.kind = NodeKind::unknown;
+    t.dialects = static_cast<DialectSet>(Dialect::x3d);
+    stand_in_ = add_type(t, {});
+  }
+  const NodeId n = add(stand_in_, where);
+  set_name(n, name);
+  return n;
+}
+
 const NodeType& Scene::type(TypeId t) const {
   auto rows = builtin_nodes();
   return t.value < rows.size() ? rows[t.value] : types_[t.value - rows.size()];
@@ -194,6 +207,8 @@ Scope Scene::import(const Scene& other) {
     for (auto n : s.roots) o.roots.push_back(node(n));
     for (auto r : s.routes) o.routes.push_back({node(r.from), node(r.to), r.event_out, r.event_in});
     for (auto p : s.protos) o.protos.push_back(ProtoId{p.value + p0});
+    for (auto i : s.imports) o.imports.push_back({node(i.inline_node), i.exported, node(i.node)});
+    for (auto e : s.exports) o.exports.push_back({node(e.node), e.name});
     return o;
   };
 

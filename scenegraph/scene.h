@@ -21,11 +21,26 @@ struct Route {
   bool operator==(const Route&) const = default;
 };
 
+/// IMPORT of X3D (ISO/IEC 19775-1, 4.4.6): ROUTEs here may lead to a node that an inlined world exports.
+struct Import {
+  NodeId inline_node;
+  std::string_view exported;  // the name in that world
+  NodeId node;                // stands for the one that is meant, in ROUTEs and exports alone; has the name of this scope
+};
+
+/// EXPORT of X3D: what the worlds that inline this one may import.
+struct Export {
+  NodeId node;
+  std::string_view name;
+};
+
 /// A name scope of the standard (ISO/IEC 14772-1, 4.4.7): the file, or the body of a PROTO.
 struct Scope {
   std::vector<NodeId> roots;
   std::vector<Route> routes;
   std::vector<ProtoId> protos;  // declared here, in order
+  std::vector<Import> imports{};
+  std::vector<Export> exports{};
 };
 
 struct Proto {
@@ -61,6 +76,8 @@ class Scene {
 
   // Nodes.
   NodeId add(TypeId, Span where = {});
+  /// The node of an Import: of a type that nothing else has, without fields.
+  NodeId add_stand_in(std::string_view name, Span where = {});
   std::size_t node_count() const { return nodes_.size(); }
   TypeId type_id(NodeId n) const { return nodes_[n.value].type; }
   const NodeType& type(NodeId n) const { return type(nodes_[n.value].type); }
@@ -152,6 +169,7 @@ class Scene {
   std::vector<std::string_view> names_{std::string_view{}};
   std::deque<NodeType> types_;             // of this scene; TypeId = builtin_nodes().size() + index
   std::deque<Proto> protos_;
+  TypeId stand_in_;                        // once there is one
   std::shared_ptr<Arena> arena_;
   std::vector<std::shared_ptr<Arena>> shared_;  // of imported scenes
 };

@@ -51,7 +51,12 @@ class Names {
     last_.clear();
     auto defaults = [&](ProtoId p) { for (auto& f : scene_.type(scene_.proto(p).type).fields) meet(f.default_value.node_span()); };
     for_each_statement(scene_, dialect_, unknown_, s, defaults, [&](NodeId n) { meet({&n, 1}); });
+    for (auto& i : s.imports) {
+      referred(i.inline_node);
+      if (auto name = scene_.name(i.node); !last_.try_emplace(name, i.node).second) given_[i.node.value] = fresh(name);
+    }
     for (auto& r : s.routes) referred(r.from), referred(r.to);
+    for (auto& e : s.exports) referred(e.node);
     for_each_statement(scene_, dialect_, unknown_, s, [&](ProtoId p) { scope(scene_.proto(p).body); }, [](NodeId) {});
   }
   std::string_view operator[](NodeId n) const {

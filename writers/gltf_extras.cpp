@@ -66,11 +66,14 @@ void Extras::name_what_is_referred_to() {
   for (const Route& r : scene_.main.routes) {
     for (NodeId n : {r.from, r.to}) marks_[n.value] |= routed, referred.push_back(n);
   }
+  for (const Import& i : scene_.main.imports) referred.push_back(i.inline_node);
+  for (const Export& e : scene_.main.exports) referred.push_back(e.node);
   for (NodeId n : all_nodes(scene_))
     if (scene_.type(n).kind == NodeKind::script) for_each_child(scene_, n, [&](NodeId held) { referred.push_back(held); });
   if (referred.empty()) return;
   std::unordered_map<std::string, std::size_t> times;
   for (NodeId n : reachable(scene_, scene_.main)) ++times[std::string(scene_.name(n))];
+  for (const Import& i : scene_.main.imports) ++times[std::string(scene_.name(i.node))];
   std::size_t count = 0;
   for (NodeId n : referred) {
     std::string name(scene_.name(n));
@@ -266,6 +269,8 @@ void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in)
     json.end_array();
   };
   list("body", p.body.roots, [&](NodeId n) { reference(json, n, 0); });
+  list("imports", p.body.imports, [&](const Import& i) { import(json, i); });
+  list("exports", p.body.exports, [&](const Export& e) { export_(json, e); });
   list("routes", p.body.routes, [&](const Route& r) { route(json, r); });
   json.end_object();
   body_.reset();
@@ -277,6 +282,18 @@ void Extras::route(JsonOut& json, const Route& r) const {
   (s += r.event_out) += " TO ";
   (s += name(r.to)) += '.';
   json.value(s += r.event_in);
+}
+
+void Extras::import(JsonOut& json, const Import& i) const {
+  std::string s;
+  (s += name(i.inline_node)) += '.';
+  (s += i.exported) += " AS ";
+  json.value(s += name(i.node));
+}
+
+void Extras::export_(JsonOut& json, const Export& e) const {
+  std::string s(name(e.node));
+  json.value((s += " AS ") += e.name);
 }
 
 void Extras::value(JsonOut& json, const Value& v, std::size_t depth) {

@@ -74,6 +74,9 @@ class Extras {
   void protos(JsonOut&, std::span<const ProtoId>);
   /// "Source.event TO Target.event".
   void route(JsonOut&, const Route&) const;
+  /// "inline.name AS name" and "node AS name".
+  void import(JsonOut&, const Import&) const;
+  void export_(JsonOut&, const Export&) const;
 
  private:
   enum Mark : std::uint8_t {

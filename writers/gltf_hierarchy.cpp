@@ -498,6 +498,7 @@ void Hierarchy::report_lost() {
   }
   if (!lost_.empty()) diag_.report(Diag::no_gltf_node, first_lost_, types);
   if (auto n = scene_.main.routes.size() - animations_.motion().n_expressed_routes()) diag_.report(Diag::no_gltf_route, {}, n);
+  if (auto n = scene_.main.imports.size() + scene_.main.exports.size()) diag_.report(Diag::no_gltf_import, {}, n);
 }
 
 }  // namespace wrlkit::gltf

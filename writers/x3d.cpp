@@ -102,6 +102,15 @@ class Writer {
 
   void scope(const Scope& s) {
     for_each_statement(scene_, Dialect::x3d, names_.unknown(), s, [&](ProtoId p) { proto(scene_.proto(p)); }, [&](NodeId n) { node(n, {}); });
+    for (auto& i : s.imports) {
+      if (printed_[i.inline_node.value] != scope_) continue;
+      printed_[i.node.value] = scope_;
+      line() << "<IMPORT";
+      attribute("inlineDEF", names_[i.inline_node]);
+      attribute("importedDEF", i.exported);
+      attribute("AS", names_[i.node]);
+      out_ << "/>";
+    }
     for (auto& r : s.routes) {
       if (printed_[r.from.value] != scope_ || printed_[r.to.value] != scope_) continue;
       line() << "<ROUTE";
@@ -109,6 +118,13 @@ class Writer {
       attribute("fromField", event(r.from, r.event_out));
       attribute("toNode", names_[r.to]);
       attribute("toField", event(r.to, r.event_in));
+      out_ << "/>";
+    }
+    for (auto& e : s.exports) {
+      if (printed_[e.node.value] != scope_) continue;
+      line() << "<EXPORT";
+      attribute("localDEF", names_[e.node]);
+      attribute("AS", e.name);
       out_ << "/>";
     }
   }

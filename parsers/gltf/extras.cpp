@@ -140,7 +140,7 @@ Scope Extras::body(Json proto) {
   for (Json n : proto["body"].elements())
     if (NodeId id = reference(n, none_)) s.roots.push_back(id);
   resolve(first);
-  routes(proto["routes"], s);
+  links(proto, s);
   std::swap(outer, names_);
   return s;
 }
@@ -348,9 +348,49 @@ void Extras::resolve(std::size_t first) {
   pending_.resize(first);
 }
 
-void Extras::finish(Json list) {
+void Extras::imports(Json list, Scope& scope) {
+  for (Json i : list.elements()) {
+    const auto text = i.text();
+    const auto as_at = text.find(" AS ");
+    if (as_at == text.npos) { bad(i, "an IMPORT"); continue; }
+    const auto [world, exported] = split(text.substr(0, as_at));
+    const auto name = text.substr(as_at + 4);
+    const NodeId n = named(world);
+    if (!is_legal_name(exported) || !is_legal_name(name)) {
+      bad(i, "an IMPORT");
+    } else if (!c_.scene.is(n, wrlkit::nodes::Inline)) {
+      c_.diag().report(Diag::undefined_import, c_.file.where(i), "IMPORT", world, n ? "no Inline" : "not defined");
+    } else if (named(name)) {
+      c_.diag().report(Diag::duplicate_import, c_.file.where(i), "IMPORT", name);
+    } else {
+      scope.imports.push_back({n, c_.scene.keep(exported), c_.scene.add_stand_in(name, c_.file.where(i))});
+      define(scope.imports.back().node);
+    }
+  }
+}
+
+void Extras::exports(Json list, Scope& scope) {
+  for (Json e : list.elements()) {
+    const auto text = e.text();
+    const auto as_at = text.find(" AS ");
+    const auto name = as_at == text.npos ? std::string_view() : text.substr(as_at + 4);
+    const NodeId n = named(text.substr(0, as_at));
+    if (!is_legal_name(name)) bad(e, "an EXPORT");
+    else if (!n) c_.diag().report(Diag::undefined_import, c_.file.where(e), "EXPORT", text.substr(0, as_at), "not defined");
+    else scope.exports.push_back({n, c_.scene.keep(name)});
+  }
+}
+
+/// What connects the nodes of a scope with each other and with other worlds.
+void Extras::links(Json from, Scope& scope) {
+  imports(from["imports"], scope);
+  exports(from["exports"], scope);
+  routes(from["routes"], scope);
+}
+
+void Extras::finish(Json scene) {
   resolve(0);
-  routes(list, c_.scene.main);
+  links(scene, c_.scene.main);
 }
 
 }  // namespace wrlkit::gltf_reader

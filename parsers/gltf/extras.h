@@ -30,8 +30,8 @@ class Extras {
   /// Makes a node known under its name.
   void define(NodeId n);
   NodeId named(std::string_view name) const;
-  /// ROUTEs of the scene, and what Scripts hold of nodes behind them.
-  void finish(Json routes);
+  /// ROUTEs, IMPORTs and EXPORTs of the scene, and what Scripts hold of nodes behind them.
+  void finish(Json scene);
 
  private:
   using Children = std::deque<NodeId>;
@@ -60,6 +60,9 @@ class Extras {
   Scope body(Json proto);
   void resolve(std::size_t first);
   void routes(Json list, Scope&);
+  void imports(Json list, Scope&);
+  void exports(Json list, Scope&);
+  void links(Json scope, Scope&);
   bool may_hold(NodeId owner, NodeId held);
 
   Context c_;

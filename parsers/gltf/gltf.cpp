@@ -54,7 +54,7 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
   scene.comment = std::string(vrml97(file.root()["asset"])["comment"].text());
   extras.protos(kept["protos"]);
   hierarchy.build();
-  extras.finish(kept["routes"]);
+  extras.finish(kept);
   if (!file.is_own()) Animations(context, hierarchy, meshes, extras).build();  // wrlkit's own are there as ROUTEs
   if (!file.is_own()) lost.keep(file, file.root()), lost.keep(file, file.root()["asset"]), add_world_info(context);
   lost.report(diag);

@@ -1,4 +1,4 @@
-// What a file declares: the interfaces of prototypes and Scripts, and ROUTEs.
+// What a file declares: the interfaces of prototypes and Scripts, ROUTEs, IMPORTs and EXPORTs.
 #include <algorithm>
 
 #include "parsers/vrml/grammar.h"
@@ -183,6 +183,30 @@ bool Parser::route_end(std::string_view& node, std::string_view& event) {
     }
   }
   return true;
+}
+
+// EXPORT name AS name, IMPORT inline.name AS name: X3D's, found in VRML97 files as well. Without AS the name stays.
+void Parser::import_export(Token keyword) {
+  const bool import = text(keyword) == "IMPORT";
+  std::string_view node, name;
+  if (import && !route_end(node, name)) return;
+  if (!import) {
+    Token t = lex_.peek();
+    if (t.kind != Kind::word || node_follows(t)) return expected("a name", t);
+    lex_.next();
+    node = name = name_of(t);
+  }
+  const auto exported = name;
+  if (text(lex_.peek()) == "AS") {
+    lex_.next();
+    Token t = lex_.peek();
+    if (t.kind != Kind::word) return expected("a name", t);
+    lex_.next();
+    name = new_name(t);
+  }
+  if (scene_.dialect() != Dialect::x3d) diag_.report(Diag::dialect_statement, span(keyword), text(keyword));
+  else if (import) build_.import_name(node, exported, name, span(keyword));
+  else build_.export_name(node, name, span(keyword));
 }
 
 }  // namespace wrlkit::vrml

@@ -23,9 +23,8 @@ class Parser : private Values {
   // Statements.
   /// Up to the end of the text, or of the body of a PROTO, which ends with a brace.
   void statements(Kind until);
-  /// PROTO, EXTERNPROTO and ROUTE, which may stand between nodes and between fields. False: it is none.
+  /// PROTO, EXTERNPROTO, ROUTE, IMPORT and EXPORT, which may stand between nodes and between fields. False: it is none.
   bool statement(Token);
-  void skip_import_export(Token keyword);
   /// PROFILE, COMPONENT, META and UNIT of X3D.
   void head_statement(Token keyword);
   std::string_view word_or_string();
@@ -80,6 +79,7 @@ class Parser : private Values {
   void undeclarable(Access, Token keyword);
   void route_statement(Token keyword);
   bool route_end(std::string_view& node, std::string_view& event);
+  void import_export(Token keyword);
 
   ParseLimits limits_;
   SceneBuilder build_;

@@ -63,15 +63,8 @@ bool Parser::statement(Token t) {
   if (w == "PROTO") proto(t);
   else if (w == "EXTERNPROTO") externproto(t);
   else if (w == "ROUTE") route_statement(t);
-  else skip_import_export(t);
+  else import_export(t);
   return true;
-}
-
-// EXPORT name AS name, IMPORT inline.name AS name: X3D's, found in VRML97 files as well.
-void Parser::skip_import_export(Token keyword) {
-  diag_.report(scene_.dialect() == Dialect::x3d ? Diag::import_dropped : Diag::dialect_statement, span(keyword), text(keyword));
-  lex_.next();
-  if (text(lex_.peek()) == "AS") lex_.next(), lex_.next();
 }
 
 // PROFILE Immersive, COMPONENT Navigation:2, META "name" "content", UNIT length inch 0.0254 (ISO/IEC 19776-2, 5.2).

@@ -1,4 +1,4 @@
-// What a document declares: the interfaces of prototypes and Scripts, IS, and ROUTEs.
+// What a document declares: the interfaces of prototypes and Scripts, IS, ROUTEs, IMPORTs and EXPORTs.
 #include "parsers/vrml/grammar.h"
 #include "parsers/x3d/grammar.h"
 
@@ -138,6 +138,17 @@ void Parser::externproto(const XmlNode& n) {
 
 void Parser::route(const XmlNode& n) {
   build_.route(name_of(raw(n, "fromNode").value_or("")), get(n, "fromField"), name_of(raw(n, "toNode").value_or("")), get(n, "toField"), where(n));
+}
+
+// Without AS the name stays.
+void Parser::import(const XmlNode& n) {
+  const auto exported = raw(n, "importedDEF").value_or("");
+  build_.import_name(name_of(raw(n, "inlineDEF").value_or("")), name_of(exported), name_of(raw(n, "AS").value_or(exported)), where(n));
+}
+
+void Parser::export_(const XmlNode& n) {
+  const auto local = raw(n, "localDEF").value_or("");
+  build_.export_name(name_of(local), name_of(raw(n, "AS").value_or(local)), where(n));
 }
 
 }  // namespace wrlkit::x3d

@@ -67,6 +67,8 @@ class Parser : private AttributeValues {
   void proto(const XmlNode&);
   void externproto(const XmlNode&);
   void route(const XmlNode&);
+  void import(const XmlNode&);
+  void export_(const XmlNode&);
 
   // The tree.
   template <class F>

@@ -88,7 +88,8 @@ bool Parser::statement(const XmlNode& n) {
   if (n.name == "ROUTE") return route(n), true;
   if (n.name == "ProtoDeclare") return proto(n), true;
   if (n.name == "ExternProtoDeclare") return externproto(n), true;
-  if (n.name == "IMPORT" || n.name == "EXPORT") return diag_.report(Diag::import_dropped, where(n), n.name), true;
+  if (n.name == "IMPORT") return import(n), true;
+  if (n.name == "EXPORT") return export_(n), true;
   return false;
 }
 

@@ -55,7 +55,8 @@ class Lowering {
   }
 
   // ---- what has none ----
-  void lose(NodeId n) { if (lost_.empty()) first_lost_ = scene_.where(n); ++lost_[scene_.type(n).name]; }
+  void lose(NodeId n) { lose(n, scene_.type(n).name); }
+  void lose(NodeId n, std::string_view what) { if (lost_.empty()) first_lost_ = scene_.where(n); ++lost_[what]; }
 
   /// Nodes that VRML97 does not have, in fields that it has.
   void foreign_children(NodeId n) {
@@ -104,6 +105,14 @@ class Lowering {
   }
 
   // ---- ROUTEs ----
+  void links(Scope& s) {
+    dropped_.resize(scene_.node_count());
+    for (const Import& i : s.imports) lose(i.node), dropped_[i.node.value] = 1;
+    for (const Export& e : s.exports) lose(e.node, "EXPORT");
+    changed_ |= !s.imports.empty() || !s.exports.empty();
+    s.imports.clear(), s.exports.clear();
+  }
+
   bool is_dropped(NodeId n) const { return n.value < dropped_.size() && dropped_[n.value]; }
 
   /// The event under its VRML97 name; empty: VRML97 has none.
@@ -121,6 +130,7 @@ class Lowering {
   }
 
   void routes(Scope& s) {
+    links(s);
     std::vector<Route> kept;
     for (Route r : s.routes) {
       const Route old = r;
