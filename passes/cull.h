@@ -7,6 +7,7 @@
 #include <string>
 
 #include "passes/length_option.h"
+#include "passes/option_range.h"
 #include "passes/pass.h"
 
 namespace wrlkit {
@@ -22,7 +23,7 @@ struct CullOptions {
     f("smaller", smaller, "parts of a smaller extent than this go, in metres of the world, or with a unit: 20mm");
     f("hidden", hidden, "parts go that are seen neither from outside nor from a Viewpoint");
     f("walkways", walkways, "hidden: nor from where a visitor could stand, on whatever faces up and has room above it");
-    f("rays", rays, "hidden: how many rays of a part have to end at others before it counts as hidden");
+    f("rays", rays, "hidden: how many rays of a part have to end at others before it counts as hidden", at_least(1));
     f("seed", seed, "hidden: of the random numbers");
     f("list", list, "file for the names of what is left out, one a line");
   }

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "passes/instance/form.h"
+#include "passes/option_range.h"
 #include "passes/pass.h"
 
 namespace wrlkit {
@@ -30,11 +31,11 @@ struct InstanceOptions {
   double min_saving = 1000;
 
   void fields(auto&& f) {
-    f("tolerance", tolerance, "how far a point may be from where it was, in metres of the world");
+    f("tolerance", tolerance, "how far a point may be from where it was, in metres of the world", at_least(0));
     f("scaling", scaling, "what a copy may be scaled by: none, one factor (uniform), or a factor along each of three axes (axis)");
     f("mirror", mirror, "also mirror images, by a negative scale, which VRML97 does not have");
     f("named", named, "also where a Coordinate or the like has a DEF name, which is lost");
-    f("min-saving", min_saving, "bytes that a group of equal parts has to save to be shared, as glTF counts them");
+    f("min-saving", min_saving, "bytes that a group of equal parts has to save to be shared, as glTF counts them", at_least(0));
   }
 };
 

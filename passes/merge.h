@@ -8,6 +8,7 @@
 #pragma once
 #include <string>
 
+#include "passes/option_range.h"
 #include "passes/pass.h"
 
 namespace wrlkit {
@@ -17,7 +18,7 @@ struct MergeOptions {
   std::string csv;
 
   void fields(auto&& f) {
-    f("max-draws", max_draws, "Shapes that are left to be drawn, at most, if there are not more appearances and places of their own");
+    f("max-draws", max_draws, "Shapes that are left to be drawn, at most, if there are not more appearances and places of their own", at_least(1));
     f("csv", csv, "file for a table of the parts: id, name, appearance");
   }
 };

@@ -77,6 +77,7 @@ void small_gltf(CLI::App& verb, Flags& f) {
   verb.add_option("--draco-level", f.draco_level, "0: fast, 10: small")->check(CLI::Range(0, 10))->capture_default_str();
   verb.add_option("--extras", f.extras, "what VRML says and glTF cannot, kept in extras: all, so that the same VRML can be made again; facts, what nodes say that draw nothing, links and descriptions; none")
       ->check(CLI::IsMember({"all", "facts", "none"}))->capture_default_str();
+  verb.add_flag("--gpu-instancing", f.gpu_instancing, "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call (EXT_mesh_gpu_instancing; not every viewer knows it)");
   verb.add_option("--profile", f.profile, "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")->check(CLI::IsMember(profile_names()));
   verb.add_option("--color-bits", f.color_bits, "of each component, in linear light")->check(CLI::Range(1, 16))->capture_default_str();
 }

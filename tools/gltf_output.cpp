@@ -78,7 +78,7 @@ std::optional<GltfOptions> gltf_options(const Flags& f) {
   if (!f.tolerance.empty() && !(c.tolerance > 0)) return fmt::print(stderr, "wrlkit: --tolerance: '{}' is no length\n", f.tolerance), std::nullopt;
   std::string name = f.output;
   std::ranges::transform(name, name.begin(), [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
-  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .animation_pointer = f.animation_pointer, .extras = f.extras != "none", .facts_only = f.extras != "all"};
+  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .animation_pointer = f.animation_pointer, .gpu_instancing = f.gpu_instancing, .extras = f.extras != "none", .facts_only = f.extras != "all"};
 }
 
 std::string_view gltf_pipeline(const Flags& f) { return light_of(f.lightmap_as)->pipeline; }
@@ -105,6 +105,7 @@ std::string summary_text(const GltfSummary& s) {
   size_line(out, "geometry", s.geometry, s.geometry_gzip);
   if (s.pictures > 0) size_line(out, "textures", s.pictures, s.pictures_gzip);
   out += fmt::format("  {} nodes, {} of them with a name; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named), grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
+  if (s.instances > 0) out += fmt::format("  {} instances in tables (EXT_mesh_gpu_instancing)\n", grouped(s.instances));
   const auto& q = s.quantization;
   if (q.tolerance <= 0) return out;
   out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), places of nodes within {:.2g} mm", q.position * 1e3, q.tolerance * 1e3, q.placement * 1e3);
@@ -124,6 +125,7 @@ std::string summary_json(const GltfSummary& s) {
   json.member("meshes", s.meshes);
   json.member("draws", s.draws);
   json.member("triangles", s.triangles);
+  if (s.instances > 0) json.member("instances", s.instances);
   auto sizes = [&](std::string_view name, std::uint64_t text, std::uint64_t geometry, std::uint64_t pictures) {
     json.key(name);
     json.begin_object();

@@ -132,6 +132,7 @@ class Writer {
   /// Makes what a file is written from and gives it to `put`.
   bool build(auto&& put) {
     hierarchy_.build();
+    hierarchy_.store_instances(store_);
     add_morphs();
     add_pointers(animations_, scene_, materials_, hierarchy_);
     animations_.store(store_, [&](std::uint32_t node) { return hierarchy_.offset(node); });
@@ -167,12 +168,14 @@ class Writer {
     s.nodes = hierarchy_.nodes().size(), s.meshes = meshes_.meshes().size();
     for (const Node& n : hierarchy_.nodes()) {
       s.named += n.source && !scene_.name(n.source).empty();
+      const Instances* table = n.instances == none ? nullptr : &hierarchy_.instances()[n.instances];
+      if (table) s.instances += table->places.size(), s.named += static_cast<std::size_t>(std::ranges::count_if(table->sources, [&](NodeId i) { return !scene_.name(i).empty(); }));
       if (n.attachment != Attachment::mesh) continue;
       ++s.draws;
       const Streams& streams = parts.packing.streams(n.attached);
       const auto& accessors = parts.packing.store().accessors();
       if (meshes_.geometries()[meshes_.meshes()[n.attached].geometry].mode == Mode::triangles)
-        s.triangles += accessors[streams.indices == none ? streams.positions : streams.indices].count / 3;
+        s.triangles += accessors[streams.indices == none ? streams.positions : streams.indices].count / 3 * (table ? table->places.size() : 1);
     }
     std::vector<std::string_view> text, pictures, geometry;
     json.pieces(text);

@@ -35,6 +35,7 @@ struct GltfSummary {
     std::size_t kept = 0;                // accessors that had to stay floats
   };
   std::size_t nodes = 0, named = 0, meshes = 0, draws = 0, triangles = 0;
+  std::size_t instances = 0;  // places in tables of EXT_mesh_gpu_instancing; a table is one node and one draw
   std::uint64_t json = 0, geometry = 0, pictures = 0;                         // bytes
   std::uint64_t json_gzip = 0, geometry_gzip = 0, pictures_gzip = 0;          // the same, gzipped each by itself; 0: not measured
   Quantization quantization;
@@ -56,6 +57,7 @@ struct GltfOptions {
   bool measure_gzip = false;  // for the summary
   bool lights = true, cameras = true, animations = true;
   bool animation_pointer = false;      // animations of colours and the like, by KHR_animation_pointer
+  bool gpu_instancing = false;         // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (gltf_instances.h)
   bool extras = true;                  // what glTF cannot say is kept
   bool facts_only = false;             // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
                                        // the same VRML again. Groups without a name that hold one thing are then one node with it

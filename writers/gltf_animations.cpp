@@ -63,6 +63,11 @@ void Animations::add_target(NodeId source, Path p, std::uint32_t node) {
   if (moves(source, p)) moved_[{source.value, p}].push_back(node);
 }
 
+void Animations::renumber(std::span<const std::uint32_t> became) {
+  for (auto& [key, nodes] : moved_)
+    for (auto& n : nodes) n = became[n];
+}
+
 /// Nodes of glTF that one field moves, with the same offset, are one property.
 void Animations::add_transforms(const std::function<Vec3(std::uint32_t)>& offset) {
   for (const auto& [key, nodes] : moved_) {

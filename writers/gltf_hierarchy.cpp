@@ -59,6 +59,7 @@ void Hierarchy::build() {
   }
   add_headlight();
   move_to_origin();
+  if (options_.gpu_instancing) make_instances();
   report_lost();
 }
 
@@ -428,7 +429,9 @@ double Hierarchy::round_transforms(double tolerance) {
   for (std::size_t i = order.size(); i-- > 0;) {
     const std::uint32_t id = order[i];
     const Node& n = nodes_[id];
-    if (n.attachment == Attachment::mesh) reach[id] = std::max(reach[id], meshes_.reach(n.attached));
+    if (n.attachment == Attachment::mesh && n.instances == none) reach[id] = std::max(reach[id], meshes_.reach(n.attached));
+    if (n.instances != none)
+      for (const Trs& t : instances_[n.instances].places) reach[id] = std::max(reach[id], std::hypot(t.translation[0], t.translation[1], t.translation[2]) + stretch(t) * meshes_.reach(n.attached));
     if (n.attachment == Attachment::camera || n.attachment == Attachment::light) reach[id] = std::max(reach[id], world_.extent());
     const Trs t = trs(id);
     if (parent[id] != none) reach[parent[id]] = std::max(reach[parent[id]], std::hypot(t.translation[0], t.translation[1], t.translation[2]) + stretch(t) * reach[id]);

@@ -16,6 +16,7 @@
 #include "writers/gltf.h"
 #include "writers/gltf_animations.h"
 #include "writers/gltf_cameras.h"
+#include "writers/gltf_instances.h"
 #include "writers/gltf_lights.h"
 #include "writers/gltf_meshes.h"
 
@@ -32,6 +33,7 @@ struct Node {
   bool plain = true;  // the transform is what the fields of `source` say
   bool lod = false;   // has an entry in Hierarchy::lods
   std::uint32_t same_as = none;  // the node that `source` has become before
+  std::uint32_t instances = none;  // into Hierarchy::instances; such a node is nobody's, its rows have sources
 };
 
 struct Lod {
@@ -46,6 +48,8 @@ class Hierarchy {
   /// Everything below the roots of the scene.
   void build();
 
+  /// Puts the places of instances where accessors are.
+  void store_instances(Store&);
   /// Leaves out digits of transforms, as far as nothing in the world moves further than `tolerance`. How far it may move.
   double round_transforms(double tolerance);
   /// Gives nodes of meshes the transform that makes metres of whole numbers; null: a mesh needs none.
@@ -61,6 +65,7 @@ class Hierarchy {
   const std::vector<Light>& lights() const { return lights_; }
   const Lod& lod(std::uint32_t node) const { return lods_.at(node); }
   bool uses_lod() const { return !lods_.empty(); }
+  const std::vector<Instances>& instances() const { return instances_; }
   const Box& world() const { return world_; }
   /// What a node's translation is beyond the field that it comes from.
   Vec3 offset(std::uint32_t node) const;
@@ -111,6 +116,12 @@ class Hierarchy {
   void move_to_origin();
   void move(std::uint32_t node, const Vec3& by, std::vector<std::uint32_t>& further);
   void report_lost();
+  bool only_places_a_mesh(const Node&) const;
+  void make_instances();
+  /// Is another node the same once more, so that it has to stay; has it become a row of a table?
+  enum class Mark : std::uint8_t { nothing, referred, row };
+  std::size_t share_places(std::span<std::uint32_t> siblings, std::vector<Mark>& marks);
+  void leave_out(const std::vector<Mark>& marks);
 
   const Scene& scene_;
   const GltfOptions& options_;
@@ -126,6 +137,7 @@ class Hierarchy {
   std::vector<Camera> cameras_;
   std::vector<Light> lights_;
   std::unordered_map<std::uint32_t, Lod> lods_;
+  std::vector<Instances> instances_;
   Box world_;
   std::optional<Vec3> origin_;
   NodeId navigation_info_, world_info_;

@@ -105,6 +105,7 @@ class Writer {
   /// What a reader must know to see anything.
   std::vector<std::string_view> required() const {
     std::vector<std::string_view> names;
+    if (!h_.instances().empty()) names.push_back("EXT_mesh_gpu_instancing");
     if (p_.packing.uses_quantization()) names.push_back("KHR_mesh_quantization");
     if (p_.layout.unpacked_size() > 0) names.push_back("EXT_meshopt_compression");
     if (!p_.packing.blobs().empty()) names.push_back("KHR_draco_mesh_compression");
@@ -165,7 +166,8 @@ class Writer {
     if (n.attachment == Attachment::camera) json_.member("camera", n.attached);
     if (n.n_children > 0) numbers("children", h_.children(n));
     if (n.attachment == Attachment::light || n.lod) node_extensions(n, id);
-    node_extras(n, id);
+    if (n.instances != none) instances(h_.instances()[n.instances]);
+    else node_extras(n, id);
     json_.end_object();
   }
 
@@ -201,6 +203,26 @@ class Writer {
       numbers("ids", std::span(h_.lod(id).levels));
       json_.end_object();
     }
+    json_.end_object();
+  }
+
+  void instances(const Instances& all) {
+    json_.key("extensions");
+    json_.begin_object();
+    json_.key("EXT_mesh_gpu_instancing");
+    json_.begin_object();
+    json_.key("attributes");
+    json_.begin_object();
+    if (all.translations != none) json_.member("TRANSLATION", p_.packing.of(all.translations));
+    if (all.rotations != none) json_.member("ROTATION", p_.packing.of(all.rotations));
+    if (all.scales != none) json_.member("SCALE", p_.packing.of(all.scales));
+    json_.end_object();
+    json_.end_object();
+    json_.end_object();
+    if (std::ranges::all_of(all.sources, [&](NodeId n) { return name_of(n).empty(); })) return;
+    json_.key("extras");
+    json_.begin_object();
+    list("names", all.sources.size(), [&](std::size_t i) { json_.value(name_of(all.sources[i])); });
     json_.end_object();
   }
 

@@ -33,7 +33,7 @@ Packing::Packing(const GltfCompression& options, const Store& from, const Meshes
   }
   store_ = &own_;
   summary_.tolerance = tolerance_for(options, hierarchy.world());
-  note_uses();
+  note_uses(hierarchy);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Geometry& g = meshes.geometries()[records[i].geometry];
     const bool still = g.mode == Mode::triangles && g.morph == none;
@@ -44,7 +44,7 @@ Packing::Packing(const GltfCompression& options, const Store& from, const Meshes
   hierarchy.dequantize([&](std::uint32_t mesh) { return dequantization(records[mesh]); });
 }
 
-void Packing::note_uses() {
+void Packing::note_uses(const Hierarchy& hierarchy) {
   const std::size_t n = from_.accessors().size();
   to_.assign(n, none);
   scale_.assign(n, 0);
@@ -58,6 +58,12 @@ void Packing::note_uses() {
   }
   for (const MeshRecord& m : meshes_.meshes())
     if (m.lightcoords != none) light_[m.lightcoords] = 1;
+  // Metres cannot be made of whole numbers by a node whose places come behind it.
+  for (const Node& n : hierarchy.nodes()) {
+    if (n.instances == none || options_.method != Method::quantize) continue;
+    const auto positions = meshes_.geometries()[meshes_.meshes()[n.attached].geometry].positions;
+    if (to_[positions] == none) ++summary_.kept, copied(positions, View::position);
+  }
 }
 
 /// What morph targets are added to stays as they are.

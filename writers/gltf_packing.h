@@ -37,7 +37,7 @@ class Packing {
   const GltfSummary::Quantization& quantization() const { return summary_; }
 
  private:
-  void note_uses();
+  void note_uses(const Hierarchy&);
   void keep_floats(const Geometry&);
   Streams packed(const Streams&);
   Streams copied(const Streams&);

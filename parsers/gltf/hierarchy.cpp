@@ -13,6 +13,7 @@ namespace {
 constexpr double pi = std::numbers::pi, half_field_of_view = 0.785398 / 2;
 
 Json light_of(Json node) { return node["extensions"]["KHR_lights_punctual"]["light"]; }
+Json instancing(Json node) { return node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]; }
 Json lod_of(Json node) { return node["extensions"]["MSFT_lod"]["ids"]; }
 
 /// Types that glTF has elements for: what another program made of those is believed, not the extras.
@@ -121,6 +122,10 @@ Hierarchy::Nodes Hierarchy::children(std::uint32_t n, std::size_t depth, const V
 void Hierarchy::make(std::uint32_t n, std::size_t depth, Vec3 origin, Nodes& out) {
   const Json json = c_.file.at(Table::nodes, n), extras = vrml97(json);
   Place place = place_of(json);
+  if (c_.file.is_own() && instancing(json) && c_.file.index(Table::meshes, json["mesh"]) != none) {
+    auto all = own_instances(n, origin);
+    return void(out.insert(out.end(), all.begin(), all.end()));
+  }
   const bool passes_on = place.translation == Vec3{0, 0, 0} && !place.scaled() && place.rotation[3] == 0 && !json["mesh"] && !json["camera"] && !light_of(json);
   if (!passes_on) {
     for (std::size_t i = 0; i < 3; ++i) place.translation[i] += origin[i];
@@ -196,7 +201,7 @@ NodeId Hierarchy::implied(std::uint32_t n, const Place& place, Nodes below) {
   const Json json = c_.file.at(Table::nodes, n);
   const bool has_camera = bool(json["camera"]), has_light = bool(light_of(json)), has_mesh = bool(json["mesh"]);
   const bool moved = moved_.contains(n);
-  const bool alone = !moved && below.empty() && has_camera + has_light + has_mesh == 1 && !json["extensions"]["EXT_mesh_gpu_instancing"];
+  const bool alone = !moved && below.empty() && has_camera + has_light + has_mesh == 1 && !instancing(json);
   NodeId made;
   if (alone && has_camera) {
     made = camera(json, place);
@@ -272,27 +277,54 @@ Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const Place& place) {
   for (const auto& part : meshes_.parts(mesh, p)) groups.put(c_.scene, part.name, shape(part, json), out);
   apart.finish(c_.scene);
   if (auto m = meshes_.take_morphs(); !m.empty()) morphs_[n] = std::move(m);
-  if (const Json at = json["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]; at) instances(at, out);
+  if (instancing(json)) instances(json, out);
   return out;
 }
 
-/// A Transform with the same Shapes for each.
-void Hierarchy::instances(Json attributes, Nodes& shapes) {
+std::vector<Place> Hierarchy::places(Json attributes) {
   auto read = [&](const char* name, std::size_t width) { return c_.accessors.numbers(c_.file.index(Table::accessors, attributes[name]), {width}); };
   auto t = read("TRANSLATION", 3), r = read("ROTATION", 4), s = read("SCALE", 3);
   const std::size_t n = std::max({t ? t->count() : 0, r ? r->count() : 0, s ? s->count() : 0});
   for (Json a : attributes)
     if (a.key() != "TRANSLATION" && a.key() != "ROTATION" && a.key() != "SCALE") c_.lost.add("instances' " + std::string(a.key()), c_.file.where(a));
-  Nodes all;
+  std::vector<Place> all;
   for (std::size_t i = 0; i < n; ++i) {
     if (++n_instances_ > max_instances) { c_.diag().report(Diag::expansion_limit, c_.file.where(attributes), max_instances, "instances"); break; }
-    Place p;
+    Place& p = all.emplace_back();
     if (t && i < t->count()) p.translation = {t->at(i)[0], t->at(i)[1], t->at(i)[2]};
     if (r && i < r->count()) p.rotation = axis_angle({r->at(i)[0], r->at(i)[1], r->at(i)[2], r->at(i)[3]});
     if (s && i < s->count()) p.scale = {s->at(i)[0], s->at(i)[1], s->at(i)[2]};
-    all.push_back(transform(attributes, p, shapes));
   }
+  return all;
+}
+
+/// A Transform with the same Shapes for each. Names are where wrlkit writes them (gltf_instances.h).
+void Hierarchy::instances(Json node, Nodes& shapes) {
+  const Json at = instancing(node);
+  Nodes all;
+  for (const Place& p : places(at)) all.push_back(transform(at, p, shapes));
+  std::size_t i = 0;
+  for (Json name : node["extras"]["names"].elements())
+    if (i < all.size()) c_.set_name(all[i++], name);
   shapes = std::move(all);
+}
+
+/// Each is what a node with the mesh would be.
+Hierarchy::Nodes Hierarchy::own_instances(std::uint32_t n, const Vec3& origin) {
+  const Json json = c_.file.at(Table::nodes, n), at = instancing(json);
+  const auto mesh = c_.file.index(Table::meshes, json["mesh"]);
+  const auto names = json["extras"]["names"].elements();
+  auto name = names.begin();
+  Nodes out;
+  for (Place p : places(at)) {
+    for (std::size_t i = 0; i < 3; ++i) p.translation[i] += origin[i];
+    Nodes own;
+    for (const auto& part : meshes_.parts(mesh, pose(n))) own.push_back(shape(part, json));
+    out.push_back(p.identity() && own.size() == 1 ? own[0] : transform(at, p, own));
+    if (name != names.end()) c_.set_name(out.back(), *name), ++name;
+    extras_.define(out.back());
+  }
+  return out;
 }
 
 // ---- skins ---------------------------------------------------------------------------------------------------------

@@ -47,7 +47,10 @@ class Hierarchy {
   Nodes shapes(std::uint32_t node, const Place&);
   NodeId shape(const Meshes::Part&, Json at);
 
-  void instances(Json, Nodes& shapes);
+  /// Of EXT_mesh_gpu_instancing.
+  std::vector<Place> places(Json attributes);
+  void instances(Json node, Nodes& shapes);
+  Nodes own_instances(std::uint32_t node, const Vec3& origin);
   NodeId transform(Json at, const Place&, const Nodes& children, bool moved = false);
   NodeId camera(Json node, const Place&);
   NodeId light(Json node, const Place&, const Matrix& world);
