@@ -35,7 +35,7 @@ struct InstanceOptions {
     f("scaling", scaling, "what a copy may be scaled by: none, one factor (uniform), or a factor along each of three axes (axis)");
     f("mirror", mirror, "also mirror images, by a negative scale, which VRML97 does not have");
     f("named", named, "also where a Coordinate or the like has a DEF name, which is lost");
-    f("min-saving", min_saving, "bytes that a group of equal parts has to save to be shared, as glTF counts them", at_least(0));
+    f("min-saving", min_saving, "bytes that a group of equal parts has to save to be shared, as glTF counts them");
   }
 };
 
