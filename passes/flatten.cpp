@@ -21,18 +21,18 @@ class Flattening {
   Flattening(Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), usage_(scene), textured_(textured_geometry(scene)), state_(scene.node_count(), State::unknown) {}
 
   bool run() {
-    std::vector<std::pair<NodeId, Matrix>> todo;
+    std::vector<std::pair<NodeId, Matrix>> open;
     for (NodeId n : scene_.main.roots)
-      if (n) todo.push_back({n, {}});
+      if (n) open.push_back({n, {}});
     std::vector<char> seen(scene_.node_count());
-    while (!todo.empty()) {
-      const auto [n, frame] = todo.back();
-      todo.pop_back();
+    while (!open.empty()) {
+      const auto [n, frame] = open.back();
+      open.pop_back();
       if (std::exchange(seen[n.value], 1)) continue;
       const bool all = is_still(n);
       const Matrix below = all ? frame * local_matrix(scene_, n) : Matrix{};
       if (all && scene_.is(n, nodes::Shape) && frame != Matrix{}) move(n, frame);
-      for (NodeId c : hierarchy_children(scene_, n)) todo.push_back({c, below});
+      for (NodeId c : hierarchy_children(scene_, n)) open.push_back({c, below});
       if (all && local_matrix(scene_, n) != Matrix{}) become_group(n);
     }
     return n_transforms_ > 0;

@@ -35,14 +35,14 @@ void Usage::add(const Scope& s) {
   for (const Export& e : s.exports) touched_[e.node.value] = 1;
 }
 
-void Usage::touch_below(const Scene& scene, std::vector<NodeId> todo) {
+void Usage::touch_below(const Scene& scene, std::vector<NodeId> open) {
   std::vector<char> seen(scene.node_count());
-  while (!todo.empty()) {
-    const NodeId n = todo.back();
-    todo.pop_back();
+  while (!open.empty()) {
+    const NodeId n = open.back();
+    open.pop_back();
     if (seen[n.value]) continue;
     seen[n.value] = touched_[n.value] = 1;
-    for_each_child(scene, n, [&](NodeId c) { todo.push_back(c); });
+    for_each_child(scene, n, [&](NodeId c) { open.push_back(c); });
   }
 }
 
