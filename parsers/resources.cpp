@@ -61,9 +61,13 @@ std::shared_ptr<const Image> FileResources::image(std::span<const std::string_vi
   return first_of<Image>(urls, where, diag, [&](const Target& t, Failure& f) { return picture(t, f.why); });
 }
 
-std::shared_ptr<const Scene> FileResources::world(std::span<const std::string_view> urls, Span where,
-                                                  Diagnostics& diag) {
-  return first_of<Scene>(urls, where, diag, [&](const Target& t, Failure& f) { return parsed(t, f.url, where, diag); });
+LinkedWorld FileResources::world(std::span<const std::string_view> urls, Span where, Diagnostics& diag) {
+  LinkedWorld found;
+  found.scene = first_of<Scene>(urls, where, diag, [&](const Target& t, Failure& f) {
+    found.url = f.url;
+    return parsed(t, f.url, where, diag);
+  });
+  return found;
 }
 
 // Failures are told when no url works, and then only one: the first that is about a file, for the user can do something

@@ -38,7 +38,7 @@ class FileResources final : public Resources {
   std::shared_ptr<const Blob> bytes(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
   std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
   /// Parsed worlds are kept. A world that asks for itself while it is being parsed is a cycle.
-  std::shared_ptr<const Scene> world(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
+  LinkedWorld world(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
   std::shared_ptr<const PatchSet> patches(const std::string& path, Diagnostics&) override;
 
   /// All that was asked for until now: what the result depends on beside the input. Who has no referrer was named by the user.

@@ -50,7 +50,7 @@ class Inliner {
   void load(NodeId n, Scope& scope) {
     auto urls = scene_.get(n, nodes::inline_::url);
     if (urls.empty() || !ctx_.resources || !scene_.get(n, nodes::inline_::load)) return;
-    auto world = ctx_.resources->world(urls, scene_.where(n), ctx_.diag);
+    auto world = ctx_.resources->world(urls, scene_.where(n), ctx_.diag).scene;
     if (!world) return;
     if (world.get() == &scene_ || std::ranges::find(chain_, world.get()) != chain_.end())
       return ctx_.diag.report(Diag::url_cycle, scene_.where(n), urls[0]);

@@ -47,19 +47,27 @@ Prototype Prototypes::find_body(const Proto& external) {
   return far ? prepare(far) : Prototype{.state = Prototype::missing};
 }
 
-/// Without #name it is the first PROTO of the file; EXTERNPROTOs do not count then (4.9.3).
+/// In the first file that has it: urls are in order of preference (4.9.3).
 ProtoId Prototypes::find_external(const Proto& external) {
-  if (!ctx_.resources || external.urls.empty()) return {};
-  auto world = ctx_.resources->world(external.urls, external.where, ctx_.diag);
-  if (!world) return {};
-  const Library& lib = library(world);
-  for (auto url : external.urls) {
-    auto hash = url.find('#');
-    if (hash == url.npos && lib.first) return lib.first;
-    if (auto i = hash == url.npos ? lib.by_name.end() : lib.by_name.find(url.substr(hash + 1)); i != lib.by_name.end()) return i->second;
+  if (!ctx_.resources) return {};
+  std::string_view without_it;
+  for (std::span<const std::string_view> urls = external.urls; !urls.empty();) {
+    const auto [world, url] = ctx_.resources->world(urls, external.where, ctx_.diag);
+    if (!world) break;
+    if (ProtoId p = library(world).named_by(url)) return p;
+    if (without_it.empty()) without_it = url;
+    urls = urls.subspan(static_cast<std::size_t>(std::ranges::find(urls, url) - urls.begin()) + 1);
   }
-  ctx_.diag.report(Diag::proto_not_found, external.where, name(external), external.urls[0]);
+  if (!without_it.empty()) ctx_.diag.report(Diag::proto_not_found, external.where, name(external), without_it);
   return {};
+}
+
+/// Without #name it is the first PROTO of the file; EXTERNPROTOs do not count then (4.9.3).
+ProtoId Prototypes::Library::named_by(std::string_view url) const {
+  const auto hash = url.find('#');
+  if (hash == url.npos) return first;
+  const auto i = by_name.find(url.substr(hash + 1));
+  return i == by_name.end() ? ProtoId{} : i->second;
 }
 
 const Prototypes::Library& Prototypes::library(const std::shared_ptr<const Scene>& world) {

@@ -37,6 +37,8 @@ class Prototypes {
   struct Library {
     ProtoId first;
     std::unordered_map<std::string_view, ProtoId> by_name;
+    /// Null: there is none.
+    ProtoId named_by(std::string_view url) const;
   };
 
   const Prototype& prepare(ProtoId);

@@ -36,6 +36,12 @@ struct MadeFile {
 /// The name, beside the file that is written, of the file that has such a url.
 using PlaceMade = std::function<std::string(std::string_view url)>;
 
+/// A world, and which of the urls led to it: what follows '#' there names a part of it.
+struct LinkedWorld {
+  std::shared_ptr<const Scene> scene;  // null: none could be had
+  std::string_view url;
+};
+
 class Resources {
  public:
   virtual ~Resources() = default;
@@ -44,7 +50,7 @@ class Resources {
   /// Reports and returns null when none can. Each file is read once; later calls return the same object.
   virtual std::shared_ptr<const Blob> bytes(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
   virtual std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
-  virtual std::shared_ptr<const Scene> world(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
+  virtual LinkedWorld world(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
 
   /// A patch file that the user names, relative to where he is; null, reported, when there is nothing of it to be had.
   virtual std::shared_ptr<const PatchSet> patches(const std::string&, Diagnostics&) { return nullptr; }

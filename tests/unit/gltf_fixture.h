@@ -43,7 +43,7 @@ class Files final : public Resources {
     auto image = decode_image(blob->bytes, blob->name, error);
     return image ? std::make_shared<const Image>(std::move(*image)) : nullptr;
   }
-  std::shared_ptr<const Scene> world(std::span<const std::string_view>, Span, Diagnostics&) override { return nullptr; }
+  LinkedWorld world(std::span<const std::string_view>, Span, Diagnostics&) override { return {}; }
 
  private:
   std::map<std::string, std::shared_ptr<const Blob>> blobs_;

@@ -22,7 +22,7 @@ struct Pictures : Resources {
   std::map<std::string, std::shared_ptr<const Image>, std::less<>> images;
 
   std::shared_ptr<const Blob> bytes(std::span<const std::string_view>, Span, Diagnostics&) override { return {}; }
-  std::shared_ptr<const Scene> world(std::span<const std::string_view>, Span, Diagnostics&) override { return {}; }
+  LinkedWorld world(std::span<const std::string_view>, Span, Diagnostics&) override { return {}; }
   std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span, Diagnostics&) override {
     auto i = images.find(urls[0]);
     return i == images.end() ? nullptr : i->second;

@@ -236,7 +236,7 @@ TEST_CASE("Messages name files as the input was named", "[resources]") {
     return std::make_shared<const Scene>();
   });
   Diagnostics diag;
-  CHECK(resources.world(Urls{"part.wrl"}, {diag.sources().add("plant.wrl", 1, nullptr), 1}, diag));
+  CHECK(resources.world(Urls{"part.wrl"}, {diag.sources().add("plant.wrl", 1, nullptr), 1}, diag).scene);
   fs::current_path(before);
   CHECK(path == "Part.wrl");
   CHECK(diag.messages()[0].text() == "'part.wrl' is not found; 'Part.wrl' beside the file is taken");
@@ -245,13 +245,13 @@ TEST_CASE("Messages name files as the input was named", "[resources]") {
 TEST_CASE("A world is parsed once, however it is called", "[resources]") {
   World w;
   w.folder.write("world/parts/valve.wrl", "");
-  auto first = w.resources.world(Urls{"parts/valve.wrl"}, w.where, w.diag);
+  auto first = w.resources.world(Urls{"parts/valve.wrl"}, w.where, w.diag).scene;
   REQUIRE(first);
-  CHECK(w.resources.world(Urls{"parts/../parts/valve.wrl#Valve"}, w.where, w.diag) == first);
-  CHECK(w.resources.world(Urls{"PARTS\\Valve.wrl"}, w.where, w.diag) == first);
+  CHECK(w.resources.world(Urls{"parts/../parts/valve.wrl#Valve"}, w.where, w.diag).scene == first);
+  CHECK(w.resources.world(Urls{"PARTS\\Valve.wrl"}, w.where, w.diag).scene == first);
   CHECK(w.parsed == 1);
   CHECK(w.paths[0] == w.folder / "world/parts/valve.wrl");
-  CHECK_FALSE(w.resources.world(Urls{"data:model/vrml,Shape{}"}, w.where, w.diag));
+  CHECK_FALSE(w.resources.world(Urls{"data:model/vrml,Shape{}"}, w.where, w.diag).scene);
 }
 
 TEST_CASE("A world that cannot be parsed is tried once, and the next url after it", "[resources]") {
@@ -266,11 +266,11 @@ TEST_CASE("A world that cannot be parsed is tried once, and the next url after i
                             diag.report(Diag::empty_file, {});
                             return nullptr;
                           });
-  CHECK_FALSE(resources.world(Urls{"bad.wrl"}, w.where, w.diag));
-  CHECK_FALSE(resources.world(Urls{"bad.wrl"}, w.where, w.diag));
+  CHECK_FALSE(resources.world(Urls{"bad.wrl"}, w.where, w.diag).scene);
+  CHECK_FALSE(resources.world(Urls{"bad.wrl"}, w.where, w.diag).scene);
   CHECK(w.message() == "empty-file: the file is empty");
   CHECK(tried == 1);
-  CHECK(resources.world(Urls{"bad.wrl", "good.wrl"}, w.where, w.diag));
+  CHECK(resources.world(Urls{"bad.wrl", "good.wrl"}, w.where, w.diag).scene);
 }
 
 TEST_CASE("A world that asks for itself while it is parsed is a cycle", "[resources]") {
@@ -278,11 +278,11 @@ TEST_CASE("A world that asks for itself while it is parsed is a cycle", "[resour
   w.folder.write("world/a.wrl", "");
   FileResources* self = nullptr;
   FileResources resources({.input = w.input}, [&](const std::string&, Diagnostics& diag) {
-    CHECK_FALSE(self->world(Urls{"a.wrl"}, w.where, diag));
+    CHECK_FALSE(self->world(Urls{"a.wrl"}, w.where, diag).scene);
     return std::make_shared<const Scene>();
   });
   self = &resources;
-  CHECK(resources.world(Urls{"a.wrl"}, w.where, w.diag));
+  CHECK(resources.world(Urls{"a.wrl"}, w.where, w.diag).scene);
   CHECK(w.message() == "url-cycle: 'a.wrl' contains itself");
 }
 
