@@ -89,7 +89,7 @@ void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")->expected(3)->delimiter(',');
   verb.add_option("--headlight", f.headlight, "on or off, whatever NavigationInfo says")->check(CLI::IsMember({"on", "off"}));
   verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")->check(CLI::Range(0.0, 179.0));
-  verb.add_option("--mode", f.mode, "preview; wireframe; albedo: no light; and of lightmaps: the light alone, its texels as a checker, their density (texels a metre)")->check(CLI::IsMember({"preview", "wireframe", "albedo", "lightmap", "checker", "density"}))->capture_default_str();
+  verb.add_option("--mode", f.mode, "preview; path: with shadows and reflected light, as noisy as --samples are few; wireframe; albedo: no light; and of lightmaps: the light alone, its texels as a checker, their density (texels a metre)")->check(CLI::IsMember({"preview", "path", "wireframe", "albedo", "lightmap", "checker", "density"}))->capture_default_str();
 }
 
 void corpus_inputs(CLI::App& verb, Flags& f) {
@@ -172,7 +172,7 @@ const Verb verbs[] = {
        v.add_option("--turntable", f.turntable, "so many pictures around the middle of the world: OUT_000.png, OUT_001.png, ...")->check(CLI::Range(1, 3600))->type_name("N");
        v.add_option("--width", f.width, "pixels; in a contact sheet 320 when it is not said")->check(CLI::Range(1, 16384))->capture_default_str();
        v.add_option("--height", f.height, "pixels; in a contact sheet 240 when it is not said")->check(CLI::Range(1, 16384))->capture_default_str();
-       v.add_option("--samples", f.samples, "samples a pixel, along each side")->check(CLI::Range(1, 16))->capture_default_str();
+       v.add_option("--samples", f.samples, "samples a pixel, along each side; beyond 16 for --mode path only")->check(CLI::Range(1, 64))->capture_default_str();
        pictures(v, f);
        pipeline(v, f);
        placing(v, f);

@@ -13,6 +13,14 @@ MeshSource open_world(Session& s, const std::string& input) {
   return s.pipeline().run_lazily(s.world().scene, s.context(), s.pipeline_options());
 }
 
+Image draw(Session& s, const MeshSource& meshes, RenderOptions options, std::string name, Diagnostics* diag) {
+  const bool path = options.mode == RenderOptions::Mode::path;
+  const auto pixels = static_cast<double>(options.width) * options.height;
+  s.progress().begin(std::move(name), path ? static_cast<std::uint64_t>(pixels) : 0, path ? "pixels" : "");
+  if (path) options.done = [&](double share) { s.progress().set(static_cast<std::uint64_t>(share * pixels)); };
+  return render(s.world().scene, meshes, options, &s.resources(), diag ? *diag : s.diag());
+}
+
 bool write_picture(Session& s, const Image& picture, const std::string& name) {
   std::string why;
   auto bytes = encode_as(name == "-" ? ".png" : name, picture, why);
@@ -28,7 +36,7 @@ namespace {
 bool render_one(Session& s) {
   const auto meshes = open_world(s, s.flags().inputs[0]);
   if (!meshes) return false;
-  return write_picture(s, render(s.world().scene, meshes, render_options(s.flags()), &s.resources(), s.diag()), s.flags().output);
+  return write_picture(s, draw(s, meshes, render_options(s.flags()), "picture"), s.flags().output);
 }
 
 /// "pump.png", 7: "pump_007.png".
@@ -45,8 +53,7 @@ bool render_turntable(Session& s) {
   Diagnostics unheard(s.diag().shared_sources());
   int i = 0;
   for (const auto& options : turntable(scene, meshes, render_options(s.flags()), s.flags().turntable, s.diag())) {
-    s.progress().begin(fmt::format("picture {}", i), 0, "");
-    if (!write_picture(s, render(scene, meshes, options, &s.resources(), i == 0 ? s.diag() : unheard), numbered(s.flags().output, i))) return false;
+    if (!write_picture(s, draw(s, meshes, options, fmt::format("picture {}", i), i == 0 ? nullptr : &unheard), numbered(s.flags().output, i))) return false;
     ++i;
   }
   return true;

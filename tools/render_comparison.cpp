@@ -65,12 +65,12 @@ bool render_comparison(Session& s) {
     const auto meshes = open_world(s, f.inputs[0]);
     if (!meshes) return false;
     options = with_camera(s.world().scene, meshes, options, s.diag());
-    first = render(s.world().scene, meshes, options, &s.resources(), s.diag());
+    first = draw(s, meshes, options, "first picture");
   }
   {
     const auto meshes = open_world(s, f.compare);
     if (!meshes) return false;
-    second = render(s.world().scene, meshes, options, &s.resources(), s.diag());
+    second = draw(s, meshes, options, "second picture");
   }
   auto d = difference(first, second);
   const std::string figures = figures_json(d), text = figures_text(d);

@@ -13,7 +13,7 @@ RenderOptions render_options(const Flags& f) {
   o.samples = f.samples;
   using Mode = RenderOptions::Mode;
   constexpr std::pair<std::string_view, Mode> modes[] = {{"preview", Mode::preview}, {"wireframe", Mode::wireframe}, {"lightmap", Mode::lightmap},
-                                                         {"checker", Mode::checker}, {"density", Mode::density},     {"albedo", Mode::albedo}};
+                                                         {"checker", Mode::checker}, {"density", Mode::density},     {"albedo", Mode::albedo},   {"path", Mode::path}};
   for (auto [name, mode] : modes)
     if (f.mode == name) o.mode = mode;
   o.viewpoint = f.viewpoint;

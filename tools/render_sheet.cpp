@@ -79,7 +79,7 @@ int render_sheet(Session& s) {
   for (const auto& world : *worlds) {
     const auto meshes = open_world(s, world.path);
     drawn.push_back(static_cast<bool>(meshes));
-    pictures.push_back({world.name, meshes ? render(s.world().scene, meshes, options, &s.resources(), s.diag())
+    pictures.push_back({world.name, meshes ? draw(s, meshes, options, world.name)
                                            : plain_picture(options.width, options.height, 225)});
     if (!meshes) {
       const int line = std::min(options.height, 32);

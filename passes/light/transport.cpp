@@ -21,6 +21,15 @@ Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, in
   return out;
 }
 
+V3 Transport::seen(const Ray& ray, Stream& random, const std::optional<V3>& background) const {
+  V3 sum;
+  const double open = each_layer(ray, [&](const Hit& hit, SurfacePoint& s, double part) {
+    if (s.inside) s.alpha = 0;
+    else sum += part * (s.emission + (1 / pi) * (s.albedo * irradiance(hit, s, random, 1)));
+  });
+  return open > 0 ? sum + open * (background ? *background : world_.has_sky() ? world_.sky(ray.direction) : V3(0)) : sum;
+}
+
 V3 Transport::irradiance(const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const {
   if (cache_) {
     const int larger = depth <= 1 ? 0 : depth <= certain ? 2 : IrradianceCache::levels;  // the further back, the less a cell's size is seen

@@ -23,8 +23,11 @@ class Transport {
   /// for rays to emitters beside it (DirectLight::emitters), or left out (`all_emitters`: DirectLight::all_emitters).
   Arriving gather(const Receiver& at, const Ray& ray, Stream& random, bool all_emitters = false) const { return along(at, ray, random, 0, all_emitters); }
 
+  /// Radiance that a camera sees along a ray; `background`: instead of the sky. The backs of solid faces let it through.
+  V3 seen(const Ray& ray, Stream& random, const std::optional<V3>& background) const;
+
   /// Calls f(hit, surface, part) for what a ray meets, through what is transparent; `part` is how much of the ray's light
-  /// comes from there. Returns the part that comes from the sky.
+  /// comes from there. An f that sets surface.alpha to 0 lets the ray pass. Returns the part that comes from the sky.
   template <class F>
   double each_layer(const Ray& ray, F&& f) const {
     constexpr int most_layers = 32;

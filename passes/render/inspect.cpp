@@ -61,6 +61,7 @@ V3 Inspector::light(const Hit& hit, double area, double facing) const {
     case RenderOptions::Mode::lightmap:
     case RenderOptions::Mode::albedo:
     case RenderOptions::Mode::preview:
+    case RenderOptions::Mode::path:
     case RenderOptions::Mode::wireframe:
       break;
   }

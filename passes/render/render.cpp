@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "passes/light/path_picture.h"
 #include "passes/render/gather.h"
 #include "passes/render/inspect.h"
 #include "passes/render/sampling.h"
@@ -115,6 +116,12 @@ std::vector<RenderOptions> turntable(const Scene& scene, const MeshSource& sourc
 
 Image render(const Scene& scene, const MeshSource& source, const RenderOptions& options, Resources* resources, Diagnostics& diag) {
   Stage stage = set_stage(scene, nullptr, diag);
+  if (options.mode == RenderOptions::Mode::path) {
+    const Camera seen_from = choose_camera(scene, stage, options, diag, [&] { return bounds_of(scene, stage, source, diag); });
+    light::PathOptions how{.samples = std::clamp(options.samples, 1, 64), .done = options.done};
+    if (options.background) how.background = light::linear(V3(*options.background));
+    return light::path_picture(scene, source, seen_from, how, resources, diag);
+  }
   MeshPool pool;
   auto mesh_of = Gatherer(scene, source, pool).meshes_of(stage, diag);
   Camera camera = choose_camera(scene, stage, options, diag, [&] { return bounds(stage, pool, mesh_of); });

@@ -5,6 +5,7 @@
 // Billboards turn to the viewer. There are no shadows: VRML has none. The same scene gives the same bytes on any number of
 // threads.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,10 +28,12 @@ struct RenderOptions {
   /// preview: what a browser shows, and baked light where there is some. wireframe: grey surfaces with the edges of their
   /// triangles, hidden lines removed. lightmap: the baked light alone. checker: its texels, alternately dark and light.
   /// density: texels a metre, from blue (1) by green (32) to red (1024). albedo: surfaces without any light.
-  enum class Mode : std::uint8_t { preview, wireframe, lightmap, checker, density, albedo };
+  /// path: with shadows and reflected light, by path tracing (passes/light/path_picture.h); noise falls with `samples`,
+  /// the headlight is off, and there are no lines and points.
+  enum class Mode : std::uint8_t { preview, wireframe, lightmap, checker, density, albedo, path };
 
   int width = 1280, height = 960;
-  int samples = 4;                   // rays along each side of a pixel where the picture changes; at most 16
+  int samples = 4;                   // rays along each side of a pixel where the picture changes, at most 16; path: everywhere, at most 64
   Mode mode = Mode::preview;
 
   // From where: `look_at`, else `fit`, else the Viewpoint of that name or description, else the first Viewpoint of the
@@ -42,6 +45,7 @@ struct RenderOptions {
 
   std::optional<Vec3> background;    // instead of the world's Background
   std::optional<bool> headlight;     // instead of what NavigationInfo says
+  std::function<void(double)> done;  // path: told now and then how much of the picture is there, up to 1
 };
 
 /// Draws the scene. `resources` gives the pictures of textures; without it, or where one cannot be had, the material shows.
