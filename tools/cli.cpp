@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "passes/simplify/levels.h"
+#include "scenegraph/image.h"
 #include "tools/profiles.h"
 #include "tools/recipe.h"
 
@@ -77,6 +78,10 @@ void small_gltf(CLI::App& verb, Flags& f) {
   verb.add_option("--draco-level", f.draco_level, "0: fast, 10: small")->check(CLI::Range(0, 10))->capture_default_str();
   verb.add_option("--extras", f.extras, "what VRML says and glTF cannot, kept in extras: all, so that the same VRML can be made again; facts, what nodes say that draw nothing, links and descriptions; none")
       ->check(CLI::IsMember({"all", "facts", "none"}))->capture_default_str();
+  verb.add_option("--texture-format", f.texture_format, "pictures in glTF: keep, PNG and JPEG as they are; png; jpeg, of colours without alpha, where it is smaller; webp, of colours, where it is smaller (EXT_texture_webp)")
+      ->check(CLI::IsMember({"keep", "png", "jpeg", "webp"}))->capture_default_str();
+  verb.add_option("--texture-quality", f.texture_quality, "of JPEG and WebP")->check(CLI::Range(1, 100))->capture_default_str();
+  verb.add_option("--texture-size", f.texture_size, "pictures in glTF have so many pixels along their longer side, at most; 0: as they are")->check(CLI::Range(0, static_cast<int>(max_image_side)))->type_name("PIXELS")->capture_default_str();
   verb.add_flag("--gpu-instancing", f.gpu_instancing, "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call (EXT_mesh_gpu_instancing; not every viewer knows it)");
   verb.add_option("--profile", f.profile, "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")->check(CLI::IsMember(profile_names()));
   verb.add_option("--color-bits", f.color_bits, "of each component, in linear light")->check(CLI::Range(1, 16))->capture_default_str();

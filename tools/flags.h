@@ -40,6 +40,8 @@ struct Flags {
   std::string tolerance;                   // a length: 1mm
   std::string profile, extras = "all";
   bool print_profile = false;
+  std::string texture_format = "keep";
+  int texture_quality = 85, texture_size = 0;
   int position_bits = 0, normal_bits = 8, texcoord_bits = 12, color_bits = 10, draco_level = 7;
 
   bool keep_urls = false;                  // of VRML and X3D output: what they mean stands beside the output, too

@@ -21,6 +21,11 @@ GltfCompression::Method method_of(const std::string& name) {
   return name == "meshopt" ? meshopt : name == "draco" ? draco : name == "quantize" ? quantize : none;
 }
 
+GltfTextures::Format format_of(const std::string& name) {
+  using enum GltfTextures::Format;
+  return name == "png" ? png : name == "jpeg" ? jpeg : name == "webp" ? webp : keep;
+}
+
 /// 1,234,567.
 std::string grouped(std::uint64_t n) {
   std::string s = std::to_string(n);
@@ -28,10 +33,12 @@ std::string grouped(std::uint64_t n) {
   return s;
 }
 
-void size_line(std::string& out, std::string_view what, std::uint64_t bytes, std::uint64_t gzip) {
+void size_line(std::string& out, std::string_view what, std::uint64_t bytes, std::uint64_t gzip, const std::vector<GltfSummary::Share>& shares = {}) {
   out += fmt::format("  {:<10}{:>14} bytes", what, grouped(bytes));
   if (gzip > 0) out += fmt::format("{:>14} gzipped", grouped(gzip));
-  out += '\n';
+  std::string kinds;
+  for (const auto& [name, n] : shares) kinds += fmt::format("{}{} {}", kinds.empty() ? "  " : ", ", name, grouped(n));
+  out += kinds + '\n';
 }
 
 struct LightRow {
@@ -70,6 +77,7 @@ void apply_profile(Flags& f) {
   auto given = [&](std::string_view name) { return std::ranges::any_of(f.given, [&](const auto& g) { return g.first == name; }); };
   if (!given("compress")) f.compress = profile->compress;
   if (!given("extras")) f.extras = profile->extras;
+  if (!given("texture-format")) f.texture_format = profile->texture_format;
 }
 
 std::optional<GltfOptions> gltf_options(const Flags& f) {
@@ -78,7 +86,7 @@ std::optional<GltfOptions> gltf_options(const Flags& f) {
   if (!f.tolerance.empty() && !(c.tolerance > 0)) return fmt::print(stderr, "wrlkit: --tolerance: '{}' is no length\n", f.tolerance), std::nullopt;
   std::string name = f.output;
   std::ranges::transform(name, name.begin(), [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
-  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .animation_pointer = f.animation_pointer, .gpu_instancing = f.gpu_instancing, .extras = f.extras != "none", .facts_only = f.extras != "all"};
+  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .textures = {format_of(f.texture_format), f.texture_quality, f.texture_size}, .animation_pointer = f.animation_pointer, .gpu_instancing = f.gpu_instancing, .extras = f.extras != "none", .facts_only = f.extras != "all"};
 }
 
 std::string_view gltf_pipeline(const Flags& f) { return light_of(f.lightmap_as)->pipeline; }
@@ -93,7 +101,7 @@ bool write_gltf_file(Session& s, const GltfOptions& options, GltfSummary& summar
   auto counted = [&](NodeId n) -> const Mesh& { return s.progress().step(), meshes(n); };
   MadeFiles beside(scene, s.resources(), s.flags().output, s.diag());  // pictures are glTF's own matter; the rest is here
   GltfOptions measured = options;
-  measured.measure_gzip = s.flags().verbose || s.flags().json;
+  measured.measure_gzip |= s.flags().verbose || s.flags().json;
   if (!beside.write() || !write_gltf(scene, counted, measured, &s.resources(), s.flags().output, s.diag(), &summary) || !beside.commit()) return false;
   s.fact("gltf", summary_json(summary));
   return true;
@@ -101,11 +109,16 @@ bool write_gltf_file(Session& s, const GltfOptions& options, GltfSummary& summar
 
 std::string summary_text(const GltfSummary& s) {
   std::string out;
-  size_line(out, "JSON", s.json, s.json_gzip);
-  size_line(out, "geometry", s.geometry, s.geometry_gzip);
+  size_line(out, "JSON", s.json, s.json_gzip, s.json_shares);
+  size_line(out, "geometry", s.geometry, s.geometry_gzip, s.geometry_shares);
   if (s.pictures > 0) size_line(out, "textures", s.pictures, s.pictures_gzip);
+  size_line(out, "together", s.bytes(), s.json_gzip + s.geometry_gzip + s.pictures_gzip);
   out += fmt::format("  {} nodes, {} of them with a name; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named), grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
   if (s.instances > 0) out += fmt::format("  {} instances in tables (EXT_mesh_gpu_instancing)\n", grouped(s.instances));
+  if (const auto& r = s.recoding; r.pictures > 0) {
+    out += fmt::format("  pictures: {} written anew, {} of them at another size; {} bytes became {}", grouped(r.pictures), grouped(r.resized), grouped(r.before), grouped(r.after));
+    out += r.psnr > 0 ? fmt::format(", PSNR at least {:.1f} dB\n", r.psnr) : "\n";
+  }
   const auto& q = s.quantization;
   if (q.tolerance <= 0) return out;
   out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), places of nodes within {:.2g} mm", q.position * 1e3, q.tolerance * 1e3, q.placement * 1e3);
@@ -136,6 +149,24 @@ std::string summary_json(const GltfSummary& s) {
   };
   sizes("bytes", s.json, s.geometry, s.pictures);
   if (s.json_gzip > 0) sizes("gzip", s.json_gzip, s.geometry_gzip, s.pictures_gzip);
+  if (const auto& r = s.recoding; r.pictures > 0) {
+    json.key("pictures");
+    json.begin_object();
+    json.member("written_anew", r.pictures);
+    json.member("resized", r.resized);
+    json.member("bytes_before", r.before);
+    json.member("bytes_after", r.after);
+    if (r.psnr > 0) json.member("psnr", r.psnr);
+    json.end_object();
+  }
+  auto kinds = [&](std::string_view name, const std::vector<GltfSummary::Share>& shares) {
+    json.key(name);
+    json.begin_object();
+    for (const auto& [kind, n] : shares) json.member(kind, n);
+    json.end_object();
+  };
+  kinds("json_bytes", s.json_shares);
+  kinds("geometry_bytes", s.geometry_shares);
   const auto& q = s.quantization;
   if (q.tolerance > 0) {
     json.key("quantization");

@@ -63,13 +63,14 @@ int run_optimize(const Flags& given) {
   if (flags.inputs.empty() || flags.output.empty()) return fmt::print(stderr, "wrlkit: optimize needs IN and OUT\n"), usage;
   if (!flags.pipeline_given) flags.pipeline = profile->pipeline, flags.pipeline_given = true;
   Session s(flags);
-  const auto options = gltf_options(flags);
+  auto options = gltf_options(flags);
   if (!s.good() || !options || !s.choose_pipeline(gltf_pipeline(flags))) return usage;
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (!s.read(flags.inputs[0])) return s.end(false);
   std::error_code ec;
   const auto size = std::filesystem::file_size(flags.inputs[0], ec);
   const Before before{ec ? 0 : size, names_of(s.world().scene)};
+  options->measure_gzip = !flags.quiet;
   GltfSummary made;
   if (!write_gltf_file(s, *options, made)) return s.end(false);
   const auto after = names_of(s.world().scene);

@@ -83,10 +83,10 @@ class Writer {
         path_(path),
         diag_(diag),
         summary_(summary),
-        textures_(scene, resources, diag),
+        textures_(scene, resources, options.textures, diag),
         extras_(scene, diag),
         animations_(scene, reach(options), diag),
-        materials_(scene, textures_, animations_.motion(), options.extras && !options.facts_only ? &extras_ : nullptr, options.lightmaps),
+        materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
         meshes_(scene, source, animations_.motion(), store_, options.lightmaps != GltfOptions::Lightmaps::base_color,
                 options.compression.method == GltfCompression::Method::meshopt, diag),
         hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag) {}
@@ -163,8 +163,10 @@ class Writer {
     return true;
   }
 
-  void summarize(const Parts& parts, const Blocks& json) const {
+  void summarize(const Parts& parts, const Blocks& json, std::vector<GltfSummary::Share> json_shares) const {
     GltfSummary& s = *summary_ = {};
+    s.json_shares = std::move(json_shares), s.geometry_shares = parts.layout.shares();
+    for (auto* shares : {&s.json_shares, &s.geometry_shares}) std::ranges::stable_sort(*shares, std::greater{}, &GltfSummary::Share::second);
     s.nodes = hierarchy_.nodes().size(), s.meshes = meshes_.meshes().size();
     for (const Node& n : hierarchy_.nodes()) {
       s.named += n.source && !scene_.name(n.source).empty();
@@ -182,7 +184,7 @@ class Writer {
     parts.layout.pieces(geometry, false);
     for (const Picture& p : textures_.pictures()) pictures.push_back(p.bytes), s.pictures += p.bytes.size();
     s.json = json.size(), s.geometry = parts.layout.geometry_size();
-    s.quantization = parts.packing.quantization();
+    s.quantization = parts.packing.quantization(), s.recoding = textures_.recoding();
     if (options_.measure_gzip) s.json_gzip = gzipped_size(text), s.geometry_gzip = gzipped_size(geometry), s.pictures_gzip = gzipped_size(pictures);
   }
 
@@ -220,8 +222,8 @@ class Writer {
 
   Blocks json_of(const Parts& parts) const {
     Blocks json;
-    write_json(parts, [&](std::string_view s) { json.append(s); });
-    if (summary_) summarize(parts, json);
+    auto shares = write_json(parts, [&](std::string_view s) { json.append(s); });
+    if (summary_) summarize(parts, json, std::move(shares));
     return json;
   }
 

@@ -3,6 +3,8 @@
 // gltf_lights, gltf_cameras, gltf_motion (what ROUTEs move), gltf_animations, gltf_morphs, gltf_pointers, gltf_origin (large coordinates), gltf_extras (everything else).
 #pragma once
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "scenegraph/mesh.h"
 #include "scenegraph/resources.h"
@@ -24,6 +26,16 @@ struct GltfCompression {
   int level = 7;          // of Draco: from 0, fast, to 10, small
 };
 
+/// How pictures are stored. keep: PNG and JPEG as they are, others as PNG. jpeg, webp: colour pictures in that format where that is
+/// smaller, see gltf_recoding.h.
+struct GltfTextures {
+  enum class Format : std::uint8_t { keep, png, jpeg, webp };
+
+  Format format = Format::keep;
+  int quality = 85;  // of JPEG and WebP, from 1 to 100
+  int size = 0;      // pixels along the longer side, at most; 0: as they are
+};
+
 /// What was written.
 struct GltfSummary {
   /// Largest differences between what is stored and what was there.
@@ -34,11 +46,20 @@ struct GltfSummary {
     double texcoord = 0, color = 0;      // parts of a picture; of the full range
     std::size_t kept = 0;                // accessors that had to stay floats
   };
+  /// Pictures that were decoded and written anew.
+  struct Recoding {
+    std::size_t pictures = 0, resized = 0;
+    std::uint64_t before = 0, after = 0;  // bytes
+    double psnr = 0;                      // of the worst of those with a loss, against its pixels at the new size, in dB; 0: there is none
+  };
   std::size_t nodes = 0, named = 0, meshes = 0, draws = 0, triangles = 0;
   std::size_t instances = 0;  // places in tables of EXT_mesh_gpu_instancing; a table is one node and one draw
   std::uint64_t json = 0, geometry = 0, pictures = 0;                         // bytes
   std::uint64_t json_gzip = 0, geometry_gzip = 0, pictures_gzip = 0;          // the same, gzipped each by itself; 0: not measured
+  using Share = std::pair<std::string_view, std::uint64_t>;
+  std::vector<Share> json_shares, geometry_shares;  // of what kind of thing so many of those bytes are, the most first
   Quantization quantization;
+  Recoding recoding;
   std::uint64_t bytes() const { return json + geometry + pictures; }
 };
 
@@ -54,6 +75,7 @@ struct GltfOptions {
   Images images = Images::automatic;  // in the binary part, or files beside; automatic: as `binary`
   Lightmaps lightmaps = Lightmaps::base_color;
   GltfCompression compression;
+  GltfTextures textures;
   bool measure_gzip = false;  // for the summary
   bool lights = true, cameras = true, animations = true;
   bool animation_pointer = false;      // animations of colours and the like, by KHR_animation_pointer

@@ -18,7 +18,7 @@ class Writer {
  public:
   Writer(const Parts& parts, const Sink& sink) : p_(parts), h_(parts.hierarchy), sink_(sink) {}
 
-  void write() {
+  std::vector<GltfSummary::Share> write() {
     json_.begin_object();
     asset();
     extensions_used();
@@ -26,22 +26,22 @@ class Writer {
     extensions();
     json_.member("scene", 0);
     list("scenes", 1, [&](std::size_t) { scene(); });
-    list("nodes", h_.nodes().size(), [&](std::size_t i) { node(static_cast<std::uint32_t>(i)); });
+    measured("nodes", h_.nodes().size(), [&](std::size_t i) { node(static_cast<std::uint32_t>(i)); });
     auto visible = visibility(p_.scene, h_.navigation_info());
-    list("cameras", h_.cameras().size(),
-         [&](std::size_t i) { write_camera(json_, p_.scene, h_.cameras()[i], h_.world(), visible); });
-    list("meshes", p_.meshes.meshes().size(), [&](std::size_t i) { mesh(p_.meshes.meshes()[i], p_.packing.streams(static_cast<std::uint32_t>(i))); });
-    list("materials", p_.materials.materials().size(), [&](std::size_t i) { json_.raw(p_.materials.materials()[i]); });
-    list("textures", p_.textures.textures().size(), [&](std::size_t i) { texture(p_.textures.textures()[i]); });
-    list("images", p_.textures.pictures().size(), [&](std::size_t i) { image(i); });
-    list("samplers", p_.textures.samplers().size(), [&](std::size_t i) { sampler(p_.textures.samplers()[i]); });
-    list("animations", p_.animations.count(), [&](std::size_t i) { p_.animations.write(json_, i, p_.facts_only ? nullptr : p_.extras, [&](std::uint32_t a) { return p_.packing.of(a); }); });
+    measured("cameras", h_.cameras().size(), [&](std::size_t i) { write_camera(json_, p_.scene, h_.cameras()[i], h_.world(), visible); });
+    measured("meshes", p_.meshes.meshes().size(), [&](std::size_t i) { mesh(p_.meshes.meshes()[i], p_.packing.streams(static_cast<std::uint32_t>(i))); });
+    measured("materials", p_.materials.materials().size(), [&](std::size_t i) { json_.raw(p_.materials.materials()[i]); });
+    measured("textures", p_.textures.textures().size(), [&](std::size_t i) { texture(p_.textures.textures()[i]); });
+    measured("images", p_.textures.pictures().size(), [&](std::size_t i) { image(i); });
+    measured("samplers", p_.textures.samplers().size(), [&](std::size_t i) { sampler(p_.textures.samplers()[i]); });
+    measured("animations", p_.animations.count(), [&](std::size_t i) { p_.animations.write(json_, i, p_.facts_only ? nullptr : p_.extras, [&](std::uint32_t a) { return p_.packing.of(a); }); });
     const auto& accessors = p_.packing.store().accessors();
-    list("accessors", accessors.size(), [&](std::size_t i) { accessor(accessors[i]); });
-    list("bufferViews", p_.layout.views().size(), [&](std::size_t i) { buffer_view(p_.layout.views()[i]); });
+    measured("accessors", accessors.size(), [&](std::size_t i) { accessor(accessors[i]); });
+    measured("bufferViews", p_.layout.views().size(), [&](std::size_t i) { buffer_view(p_.layout.views()[i]); });
     list("buffers", (p_.layout.size() > 0) + (p_.layout.unpacked_size() > 0), [&](std::size_t i) { i == 0 ? buffer() : unpacked_buffer(); });
     json_.end_object();
     sink_(text_);
+    return std::move(shares_);
   }
 
  private:
@@ -56,9 +56,18 @@ class Writer {
       element(i);
       if (text_.size() < piece) continue;
       sink_(text_);
+      written_ += text_.size();
       text_.clear();
     }
     json_.end_array();
+  }
+
+  /// The same, one of the whole file.
+  template <class F>
+  void measured(std::string_view name, std::size_t n, F element) {
+    const auto before = written_ + text_.size();
+    list(name, n, element);
+    if (n > 0) shares_.emplace_back(name, written_ + text_.size() - before);
   }
 
   template <class T>
@@ -80,6 +89,7 @@ class Writer {
     if (p_.extras) {
       json_.key("vrml97");
       json_.begin_object();
+      if (p_.facts_only) json_.member("facts", true);
       if (!p_.scene.comment.empty()) json_.member("comment", p_.scene.comment);
       if (h_.world_info()) p_.extras->node(json_, h_.world_info(), {});
       json_.end_object();
@@ -109,6 +119,7 @@ class Writer {
     if (p_.packing.uses_quantization()) names.push_back("KHR_mesh_quantization");
     if (p_.layout.unpacked_size() > 0) names.push_back("EXT_meshopt_compression");
     if (!p_.packing.blobs().empty()) names.push_back("KHR_draco_mesh_compression");
+    if (p_.textures.uses_webp()) names.push_back("EXT_texture_webp");
     return names;
   }
 
@@ -368,8 +379,19 @@ class Writer {
     json_.begin_object();
     if (auto name = name_of(t.source); !name.empty()) json_.member("name", name);
     json_.member("sampler", t.sampler);
-    json_.member("source", t.picture);
+    if (p_.textures.pictures()[t.picture].is_webp()) webp(t.picture);
+    else json_.member("source", t.picture);
     if (p_.extras && !p_.facts_only) p_.extras->member(json_, t.source, said_by_texture(p_.scene, t.source));
+    json_.end_object();
+  }
+
+  void webp(std::uint32_t picture) {
+    json_.key("extensions");
+    json_.begin_object();
+    json_.key("EXT_texture_webp");
+    json_.begin_object();
+    json_.member("source", picture);
+    json_.end_object();
     json_.end_object();
   }
 
@@ -467,11 +489,13 @@ class Writer {
   const Hierarchy& h_;
   const Sink& sink_;
   std::string text_;
+  std::uint64_t written_ = 0;
+  std::vector<GltfSummary::Share> shares_;
   JsonOut json_{text_};
 };
 
 }  // namespace
 
-void write_json(const Parts& parts, const Sink& sink) { Writer(parts, sink).write(); }
+std::vector<GltfSummary::Share> write_json(const Parts& parts, const Sink& sink) { return Writer(parts, sink).write(); }
 
 }  // namespace wrlkit::gltf

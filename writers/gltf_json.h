@@ -25,7 +25,7 @@ struct Parts {
   std::vector<std::string> picture_uris;  // of those that are not inside
 };
 
-/// Writes it in one line, a piece at a time.
-void write_json(const Parts&, const Sink&);
+/// Writes it in one line, a piece at a time. How many bytes each list of the file has.
+std::vector<GltfSummary::Share> write_json(const Parts&, const Sink&);
 
 }  // namespace wrlkit::gltf

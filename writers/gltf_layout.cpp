@@ -1,5 +1,7 @@
 #include "writers/gltf_layout.h"
 
+#include <map>
+
 #include "writers/meshopt.h"
 
 namespace wrlkit::gltf {
@@ -43,6 +45,13 @@ Layout::Layout(const Store& store, const std::vector<std::string>& blobs, const 
   for (std::size_t i = 0; i < blobs.size(); ++i) add({.offset = 0, .length = blobs[i].size(), .view = {}, .blob = static_cast<std::uint32_t>(i)});
   geometry_size_ = size_;
   for (std::size_t i = 0; i < inside.size(); ++i) add({0, inside[i].bytes.size(), {}, static_cast<std::uint32_t>(i)});
+}
+
+std::vector<std::pair<std::string_view, std::uint64_t>> Layout::shares() const {
+  std::map<std::string_view, std::uint64_t> sums;
+  for (const auto& v : views_)
+    if (v.picture == none) sums[v.blob != none ? "draco" : info(v.view).name] += v.length;
+  return {sums.begin(), sums.end()};
 }
 
 void Layout::add(BufferView v) {

@@ -32,6 +32,8 @@ class Layout {
   std::uint64_t unpacked_size() const { return unpacked_size_; }
   /// Without pictures.
   std::uint64_t geometry_size() const { return geometry_size_; }
+  /// So many of these are of what kind.
+  std::vector<std::pair<std::string_view, std::uint64_t>> shares() const;
   /// The bytes.
   void pieces(std::vector<std::string_view>& out, bool with_pictures = true) const;
 

@@ -52,7 +52,11 @@ NodeId picture(const Scene& scene, NodeId material, std::string_view field) {
   return v && !v->is && v->type == FieldType::SFNode ? v->node : NodeId{};
 }
 
-constexpr std::string_view further[] = {"normalTexture", "occlusionTexture", "emissiveTexture", "metallicRoughnessTexture"};
+struct FurtherPicture {
+  std::string_view field;
+  PixelMeaning meaning;
+};
+constexpr FurtherPicture further[] = {{"normalTexture", PixelMeaning::data}, {"occlusionTexture", PixelMeaning::data}, {"emissiveTexture", PixelMeaning::color}, {"metallicRoughnessTexture", PixelMeaning::data}};
 
 /// Of an UnlitMaterial it is the colour itself.
 NodeId further_picture(const Scene& scene, NodeId material, std::string_view field) {
@@ -66,7 +70,7 @@ bool Materials::has_picture(NodeId appearance) {
   if (!scene_.is(appearance, nodes::Appearance)) return false;
   if (textures_.get(scene_.get(appearance, nodes::appearance::texture)).texture != none) return true;
   const NodeId m = scene_.get(appearance, nodes::appearance::material);
-  return is_material(scene_, m) && std::ranges::any_of(further, [&](auto f) { return textures_.get(further_picture(scene_, m, f)).texture != none; });
+  return is_material(scene_, m) && std::ranges::any_of(further, [&](auto f) { return textures_.get(further_picture(scene_, m, f.field), f.meaning).texture != none; });
 }
 
 MaterialUse Materials::get(NodeId appearance, SurfaceKind s) {
@@ -142,7 +146,7 @@ void Materials::read_alpha_mode(Look& l) {
 void Materials::further_pictures(Look& l) {
   if (!l.material) return;
   std::uint32_t* to[] = {&l.normal, &l.occlusion, &l.glow, &l.metal_rough};
-  for (std::size_t i = 0; i < std::size(further); ++i) *to[i] = textures_.get(further_picture(scene_, l.material, further[i])).texture;
+  for (std::size_t i = 0; i < std::size(further); ++i) *to[i] = textures_.get(further_picture(scene_, l.material, further[i].field), further[i].meaning).texture;
   auto number = [&](std::string_view field) {
     auto slot = scene_.type(l.material).find(field, Dialect::x3d);
     return slot ? scene_.value(l.material, *slot).number : 1;
@@ -279,7 +283,7 @@ void Materials::light_extras(JsonOut& json, const Look& l) {
   json.member("scale", scene_.get(l.appearance, a::lightmapScale));
   std::vector<std::uint32_t> directions;
   for (NodeId n : scene_.get(l.appearance, a::lightmapDirection))
-    if (auto use = textures_.get(n); use.texture != none) directions.push_back(use.texture);
+    if (auto use = textures_.get(n, PixelMeaning::data); use.texture != none) directions.push_back(use.texture);
   if (directions.size() == 3) json.member("directions", std::span<const std::uint32_t>(directions));
   json.end_object();
 }

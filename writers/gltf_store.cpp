@@ -15,18 +15,28 @@ const ViewInfo& info(View v) {
   using enum Filter;
   constexpr bool yes = true, no = false;
   static constexpr ViewInfo table[n_views] = {
-      {12, float_, yes, no, no, "VEC3", none},           {12, float_, yes, no, no, "VEC3", none},
-      {12, float_, yes, no, no, "VEC3", none},           {16, float_, yes, no, no, "VEC4", none},
-      {8, float_, yes, no, no, "VEC2", none},            {2, unsigned_short, no, yes, no, "SCALAR", none},
-      {4, unsigned_int, no, yes, no, "SCALAR", none},    {4, float_, no, no, no, "SCALAR", none},
-      {4, float_, no, no, no, "SCALAR", none},           {12, float_, no, no, no, "VEC3", none},
-      {16, float_, no, no, no, "VEC4", none},
-      {8, short_, yes, no, no, "VEC3", none},            {4, byte, yes, no, yes, "VEC3", none},
-      {8, unsigned_short, yes, no, yes, "VEC3", none},   {8, unsigned_short, yes, no, yes, "VEC4", none},
-      {4, unsigned_short, yes, no, yes, "VEC2", none},   {12, float_, yes, no, no, "VEC3", exponential},
-      {4, byte, yes, no, yes, "VEC3", octahedral},       {8, float_, yes, no, no, "VEC2", exponential},
-      {2, unsigned_short, no, yes, no, "SCALAR", none},  {4, unsigned_int, no, yes, no, "SCALAR", none},
-      {4, float_, yes, no, no, "SCALAR", none}};
+      {12, float_, yes, no, no, "VEC3", none, "positions"},
+      {12, float_, yes, no, no, "VEC3", none, "normals"},
+      {12, float_, yes, no, no, "VEC3", none, "colors"},
+      {16, float_, yes, no, no, "VEC4", none, "colors"},
+      {8, float_, yes, no, no, "VEC2", none, "texcoords"},
+      {2, unsigned_short, no, yes, no, "SCALAR", none, "indices"},
+      {4, unsigned_int, no, yes, no, "SCALAR", none, "indices"},
+      {4, float_, no, no, no, "SCALAR", none, "animation"},
+      {4, float_, no, no, no, "SCALAR", none, "animation"},
+      {12, float_, no, no, no, "VEC3", none, "places"},
+      {16, float_, no, no, no, "VEC4", none, "places"},
+      {8, short_, yes, no, no, "VEC3", none, "positions"},
+      {4, byte, yes, no, yes, "VEC3", none, "normals"},
+      {8, unsigned_short, yes, no, yes, "VEC3", none, "colors"},
+      {8, unsigned_short, yes, no, yes, "VEC4", none, "colors"},
+      {4, unsigned_short, yes, no, yes, "VEC2", none, "texcoords"},
+      {12, float_, yes, no, no, "VEC3", exponential, "positions"},
+      {4, byte, yes, no, yes, "VEC3", octahedral, "normals"},
+      {8, float_, yes, no, no, "VEC2", exponential, "texcoords"},
+      {2, unsigned_short, no, yes, no, "SCALAR", none, "indices"},
+      {4, unsigned_int, no, yes, no, "SCALAR", none, "indices"},
+      {4, float_, yes, no, no, "SCALAR", none, "features"}};
   return table[static_cast<std::size_t>(v)];
 }
 

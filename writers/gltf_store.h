@@ -33,6 +33,7 @@ struct ViewInfo {
   bool vertices, indices, normalized;
   const char* type;
   Filter filter;
+  std::string_view name;  // what it holds
 };
 const ViewInfo& info(View);
 

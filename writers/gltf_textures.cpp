@@ -33,8 +33,21 @@ std::string honest_name(const std::string& name, std::string_view mime) {
     return name.size() > e.size() && std::ranges::equal(name.substr(name.size() - e.size()), e,
                                                         [](char a, char b) { return (a | 0x20) == b || a == b; });
   };
-  if (mime == "image/png") return ends(".png") ? name : with_extension(name, ".png");
+  for (auto [type, extension] : {std::pair{"image/png", ".png"}, {"image/webp", ".webp"}})
+    if (mime == type) return ends(extension) ? name : with_extension(name, extension);
   return ends(".jpg") || ends(".jpeg") ? name : with_extension(name, ".jpg");
+}
+
+/// The file untouched, where glTF takes it.
+std::optional<Picture> untouched(const std::shared_ptr<const Blob>& blob, std::string_view mime) {
+  auto portable = portable_image(blob->bytes, mime);
+  if (!portable.usable) return std::nullopt;
+  Picture p{honest_name(blob->name, mime), mime, blob->bytes, blob};
+  if (portable.cleaned) {
+    auto bytes = std::make_shared<const std::string>(std::move(*portable.cleaned));
+    p.bytes = *bytes, p.owner = bytes;
+  }
+  return p;
 }
 
 }  // namespace
@@ -47,21 +60,25 @@ std::span<const std::uint16_t> said_by_texture(const Scene& scene, NodeId n) {
   return scene.is(n, nodes::PixelTexture) ? std::span<const std::uint16_t>(pixels) : image;
 }
 
-TextureUse Textures::get(NodeId n) {
+TextureUse Textures::get(NodeId n, PixelMeaning meaning) {
   if (!n) return {};
-  auto [i, is_new] = by_node_.try_emplace(n.value);
-  if (is_new) i->second = make(n);
+  auto [i, is_new] = by_node_.try_emplace({n.value, meaning});
+  if (is_new) i->second = make(n, meaning);
   return i->second;
 }
 
-TextureUse Textures::make(NodeId n) {
+bool Textures::uses_webp() const {
+  return std::ranges::any_of(pictures_, [](const Picture& p) { return p.is_webp(); });
+}
+
+TextureUse Textures::make(NodeId n, PixelMeaning meaning) {
   if (scene_.is(n, nodes::ImageTexture)) {
     namespace f = nodes::image_texture;
-    return make(n, load_file(n), {scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)});
+    return make(n, load_file(n, meaning), {scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)});
   }
   if (scene_.is(n, nodes::PixelTexture)) {
     namespace f = nodes::pixel_texture;
-    return make(n, load_pixels(n), {scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)});
+    return make(n, load_pixels(n, meaning), {scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)});
   }
   if (scene_.is(n, nodes::MovieTexture)) {
     auto urls = scene_.get(n, nodes::movie_texture::url);
@@ -87,7 +104,7 @@ TextureUse Textures::brightness(NodeId n, double scale) {
     double y = scale * (0.2126 * part(0) + 0.7152 * part(1) + 0.0722 * part(2));  // ITU-R BT.709
     grey.pixels.push_back(static_cast<std::uint8_t>(unit_range(y) * 255 + 0.5));
   }
-  return at->second = make(n, encoded(n, scene_.name(n).empty() ? "light" : std::string(scene_.name(n)) + "_light", grey), {false, false});
+  return at->second = make(n, stored(n, scene_.name(n).empty() ? "light" : std::string(scene_.name(n)) + "_light", grey, PixelMeaning::data), {false, false});
 }
 
 TextureUse Textures::make(NodeId n, const Loaded& loaded, Sampler sampler) {
@@ -105,40 +122,24 @@ TextureUse Textures::make(NodeId n, const Loaded& loaded, Sampler sampler) {
   return {id, loaded.channels, loaded.alpha};
 }
 
-Textures::Loaded Textures::load_file(NodeId n) {
+Textures::Loaded Textures::load_file(NodeId n, PixelMeaning meaning) {
   auto urls = scene_.get(n, nodes::image_texture::url);
   if (urls.empty() || !resources_) return {};
   auto blob = resources_->bytes(urls, scene_.where(n), diag_);
   if (!blob) return {};
-  auto [i, is_new] = by_file_.try_emplace(blob);
+  auto [i, is_new] = by_file_.try_emplace({blob, meaning});
   if (!is_new) return i->second;
-  auto header = read_image_header(blob->bytes, blob->name);
-  auto loaded = header ? as_it_is(n, blob, *header) : Loaded{};
-  if (loaded.picture == none)
-    if (auto image = resources_->image(urls, scene_.where(n), diag_)) loaded = encoded(n, blob->name, *image);
-  return by_file_[blob] = loaded;
+  const auto header = read_image_header(blob->bytes, blob->name);
+  auto plain = header ? untouched(blob, header->mime) : std::nullopt;
+  Loaded loaded;
+  if (plain && !header->alpha && !may_recode(options_, {plain->mime, plain->bytes.size()}, header->width, header->height))
+    loaded = {add(std::move(*plain)), header->channels, Alpha::opaque};
+  else if (auto image = resources_->image(urls, scene_.where(n), diag_))
+    loaded = stored(n, blob->name, *image, meaning, blob->bytes.size(), std::move(plain));
+  return by_file_[{blob, meaning}] = loaded;
 }
 
-/// The file untouched, where glTF takes it.
-Textures::Loaded Textures::as_it_is(NodeId n, const std::shared_ptr<const Blob>& blob, const ImageHeader& header) {
-  auto portable = portable_image(blob->bytes, header.mime);
-  if (!portable.usable) return {};
-  Loaded out{none, header.channels, Alpha::opaque};
-  if (header.alpha) {
-    auto image = resources_->image(scene_.get(n, nodes::image_texture::url), scene_.where(n), diag_);
-    if (!image) return {};
-    out.alpha = alpha_of(*image);
-  }
-  Picture p{honest_name(blob->name, header.mime), header.mime, blob->bytes, blob};
-  if (portable.cleaned) {
-    auto bytes = std::make_shared<const std::string>(std::move(*portable.cleaned));
-    p.bytes = *bytes, p.owner = bytes;
-  }
-  out.picture = add(std::move(p));
-  return out;
-}
-
-Textures::Loaded Textures::load_pixels(NodeId n) {
+Textures::Loaded Textures::load_pixels(NodeId n, PixelMeaning meaning) {
   auto numbers = scene_.get(n, nodes::pixel_texture::image);
   auto image = image_of(numbers);
   if (!image) {
@@ -147,15 +148,25 @@ Textures::Loaded Textures::load_pixels(NodeId n) {
       diag_.report(Diag::image_unreadable, scene_.where(n), "PixelTexture", "its numbers are not those of a picture");
     return {};
   }
-  return encoded(n, scene_.name(n).empty() ? "pixels" : std::string(scene_.name(n)), *image);
+  return stored(n, scene_.name(n).empty() ? "pixels" : std::string(scene_.name(n)), *image, meaning);
 }
 
-Textures::Loaded Textures::encoded(NodeId n, const std::string& name, const Image& image) {
+/// In the format and size that are asked for, of a file of so many bytes; `plain`: glTF would take that.
+Textures::Loaded Textures::stored(NodeId n, const std::string& name, const Image& image, PixelMeaning meaning, std::size_t bytes_before, std::optional<Picture> plain) {
+  const PlainFile file{plain ? plain->mime : std::string_view(), plain ? plain->bytes.size() : bytes_before};
   std::string error;
-  auto png = encode_png(image, error);
-  if (!png) return diag_.report(Diag::image_unreadable, scene_.where(n), name, error), Loaded{};
-  auto bytes = std::make_shared<const std::string>(std::move(*png));
-  return {add({honest_name(name, "image/png"), "image/png", *bytes, bytes}), image.channels, alpha_of(image)};
+  auto made = recoded(image, meaning, file, options_, error);
+  if (!made && !error.empty()) diag_.report(Diag::image_unreadable, scene_.where(n), name, error);
+  if (!made && !plain) return {};
+  const Alpha alpha = alpha_of(image);
+  if (!made) return {add(std::move(*plain)), image.channels, alpha};
+  if (file.bytes > 0 || made->resized || made->psnr > 0) {
+    ++recoding_.pictures, recoding_.resized += made->resized;
+    recoding_.before += file.bytes, recoding_.after += made->bytes.size();
+    if (made->psnr > 0) recoding_.psnr = recoding_.psnr > 0 ? std::min(recoding_.psnr, made->psnr) : made->psnr;
+  }
+  auto bytes = std::make_shared<const std::string>(std::move(made->bytes));
+  return {add({honest_name(name, made->mime), made->mime, *bytes, bytes}), image.channels, alpha};
 }
 
 std::uint32_t Textures::add(Picture p) {

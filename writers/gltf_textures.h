@@ -9,6 +9,7 @@
 
 #include "scenegraph/resources.h"
 #include "writers/gltf_images.h"
+#include "writers/gltf_recoding.h"
 #include "writers/gltf_store.h"
 
 namespace wrlkit::gltf {
@@ -18,6 +19,8 @@ struct Picture {
   std::string_view mime;
   std::string_view bytes;
   std::shared_ptr<const void> owner;  // of the bytes
+
+  bool is_webp() const { return mime == "image/webp"; }
 };
 
 struct Texture {
@@ -42,18 +45,20 @@ std::span<const std::uint16_t> said_by_texture(const Scene&, NodeId);
 
 class Textures {
  public:
-  Textures(const Scene& scene, Resources* resources, Diagnostics& diag)
-      : scene_(scene), resources_(resources), diag_(diag) {}
+  Textures(const Scene& scene, Resources* resources, const GltfTextures& options, Diagnostics& diag)
+      : scene_(scene), resources_(resources), options_(options), diag_(diag) {}
 
   /// Of an ImageTexture, PixelTexture or MovieTexture; equal ones are one texture. What cannot be had is reported,
   /// once.
-  TextureUse get(NodeId texture);
+  TextureUse get(NodeId texture, PixelMeaning = PixelMeaning::color);
   /// A grey picture of how bright the light of a lightmap is: linear, times `scale`, cut at 1.
   TextureUse brightness(NodeId lightmap, double scale);
 
   const std::vector<Picture>& pictures() const { return pictures_; }
   const std::vector<Texture>& textures() const { return textures_; }
   const std::vector<Sampler>& samplers() const { return samplers_; }
+  bool uses_webp() const;
+  const GltfSummary::Recoding& recoding() const { return recoding_; }
 
  private:
   struct Loaded {
@@ -61,26 +66,27 @@ class Textures {
     int channels = 0;
     Alpha alpha = Alpha::opaque;
   };
-  TextureUse make(NodeId);
+  TextureUse make(NodeId, PixelMeaning);
   TextureUse make(NodeId, const Loaded&, Sampler);
-  Loaded load_file(NodeId);
+  Loaded load_file(NodeId, PixelMeaning);
   std::shared_ptr<const Image> image(NodeId);
-  Loaded load_pixels(NodeId);
-  Loaded as_it_is(NodeId, const std::shared_ptr<const Blob>&, const ImageHeader&);
-  Loaded encoded(NodeId, const std::string& name, const Image&);
+  Loaded load_pixels(NodeId, PixelMeaning);
+  Loaded stored(NodeId, const std::string& name, const Image&, PixelMeaning, std::size_t bytes = 0, std::optional<Picture> plain = {});
   std::uint32_t add(Picture);
 
   const Scene& scene_;
   Resources* resources_;
+  const GltfTextures& options_;
   Diagnostics& diag_;
-  std::unordered_map<std::uint32_t, TextureUse> by_node_;
+  std::map<std::pair<std::uint32_t, PixelMeaning>, TextureUse> by_node_;
   std::map<std::pair<std::uint32_t, double>, TextureUse> brightness_;
-  std::unordered_map<std::shared_ptr<const Blob>, Loaded>
+  std::map<std::pair<std::shared_ptr<const Blob>, PixelMeaning>, Loaded>
       by_file_;  // keeps them, so that none takes the place of another
   std::unordered_map<std::string_view, std::uint32_t> by_bytes_;
   std::vector<Picture> pictures_;
   std::vector<Texture> textures_;
   std::vector<Sampler> samplers_;
+  GltfSummary::Recoding recoding_;
 };
 
 }  // namespace wrlkit::gltf

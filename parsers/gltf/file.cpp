@@ -60,6 +60,7 @@ bool File::read() {
     tables_[t] = holder[names[t]].elements();
   }
   own_ = asset["generator"].text() == "wrlkit" && asset["extras"]["vrml97"].is_object();
+  whole_ = own_ && !asset["extras"]["vrml97"]["facts"].boolean();
   return true;
 }
 

@@ -39,6 +39,9 @@ class File {
 
   /// Written by wrlkit with extras: what it leaves out has the default of VRML.
   bool is_own() const { return own_; }
+  /// And with all extras, so that what meshes and materials leave out has the default of VRML, too; without that (--extras facts) they
+  /// are what glTF says.
+  bool is_whole() const { return whole_; }
   bool is_binary() const { return text_.data() != bytes_.data(); }
 
   Span where(Json j) const { return {static_cast<std::uint32_t>(base_ + (text_.data() - bytes_.data()) + j.offset()), j.length()}; }
@@ -54,7 +57,7 @@ class File {
   JsonDocument document_;
   Json root_;
   std::array<std::vector<Json>, n_tables> tables_;
-  bool own_ = false;
+  bool own_ = false, whole_ = false;
 };
 
 inline bool is_glb(std::string_view bytes) { return bytes.starts_with("glTF"); }

@@ -99,7 +99,7 @@ void Hierarchy::visit(std::uint32_t n, std::size_t depth, const Vec3& origin, No
   make(n, depth, origin, out);
   if (out.size() == before + 1) made_[n] = out.back();
   const Json levels = lod_of(json);
-  if (levels && c_.file.is_own()) {
+  if (levels && c_.file.is_whole()) {
     for (Json l : levels.elements())
       if (auto i = c_.file.index(Table::nodes, l); i != none) visit(i, depth, origin, out);
   } else if (levels && made_[n]) {

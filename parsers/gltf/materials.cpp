@@ -93,12 +93,12 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
   if (!m) return look;
   look.double_sided = m["doubleSided"].boolean();
   const Json extras = vrml97(m), info = m["pbrMetallicRoughness"]["baseColorTexture"];
-  auto texture_index = s.faces && (s.given_texcoord || c_.file.is_own()) ? c_.file.index(Table::textures, info["index"]) : none;
+  auto texture_index = s.faces && (s.given_texcoord || c_.file.is_whole()) ? c_.file.index(Table::textures, info["index"]) : none;
   NodeId picture = texture_index == none ? NodeId{} : texture(texture_index);
   NodeId transform = picture ? texture_transform(info, s, look) : NodeId{};
   look.textured = bool(picture);
   look.texcoord = texcoord_set(index).value_or(0);
-  if (c_.file.is_own() && !picture)  // one that could not be shown
+  if (c_.file.is_whole() && !picture)  // one that could not be shown
     for (std::string_view type : {"ImageTexture", "PixelTexture", "MovieTexture", "TextureTransform"})
       if (extras[type]) {
         NodeId n = c_.add(find_builtin(type, Dialect::vrml97), extras[type]);
@@ -107,8 +107,8 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
         (type == "TextureTransform" ? transform : picture) = n;
       }
   NodeId material = material_node(m, s, look);
-  const Json name = c_.file.is_own() ? extras["Appearance"]["DEF"] : m["name"];
-  if (material && c_.file.is_own() && name.text() != m["name"].text()) c_.set_name(material, m["name"]), material = same_named(material, nodes::Material);
+  const Json name = c_.file.is_whole() ? extras["Appearance"]["DEF"] : m["name"];
+  if (material && c_.file.is_whole() && name.text() != m["name"].text()) c_.set_name(material, m["name"]), material = same_named(material, nodes::Material);
   if (!material && !picture && !name) return look;
   look.appearance = c_.add(nodes::Appearance, m);
   if (material) c_.scene.set(look.appearance, nodes::appearance::material, material);
@@ -135,7 +135,7 @@ NodeId Materials::same_named(NodeId n, TypeId type) {
 }
 
 NodeId Materials::material_node(Json m, SurfaceKind s, Look& look) {
-  const bool unlit = bool(m["extensions"]["KHR_materials_unlit"]), own = c_.file.is_own();
+  const bool unlit = bool(m["extensions"]["KHR_materials_unlit"]), own = c_.file.is_whole();
   const Json extras = vrml97(m)["Material"];
   const auto factor = vector<4>(m["pbrMetallicRoughness"]["baseColorFactor"], {1, 1, 1, 1});
   const Vec3 rgb{factor[0], factor[1], factor[2]};
@@ -155,7 +155,7 @@ NodeId Materials::material_node(Json m, SurfaceKind s, Look& look) {
 
 void Materials::set_color(NodeId n, Json m, SurfaceKind s, Look& look) {
   namespace f = nodes::material;
-  const bool unlit = bool(m["extensions"]["KHR_materials_unlit"]), own = c_.file.is_own();
+  const bool unlit = bool(m["extensions"]["KHR_materials_unlit"]), own = c_.file.is_whole();
   const Json factor_json = m["pbrMetallicRoughness"]["baseColorFactor"];
   const auto factor = vector<4>(factor_json, {1, 1, 1, 1});
   const Vec3 base = display_color({factor[0], factor[1], factor[2]});
@@ -275,7 +275,7 @@ std::vector<std::string> Materials::urls(Json t, std::uint32_t index) {
 NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {
   namespace f = nodes::texture_transform;
   const Json kept = vrml97(info)["TextureTransform"], said = info["extensions"]["KHR_texture_transform"];
-  if (c_.file.is_own() && kept) {
+  if (c_.file.is_whole() && kept) {
     NodeId n = c_.add(nodes::TextureTransform, kept);
     extras_.fields(n, kept);
     c_.set_name(n, kept["DEF"]);

@@ -84,15 +84,15 @@ std::vector<Meshes::Part> Meshes::parts(std::uint32_t index, const Pose& pose) {
 }
 
 std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
-  const bool is_own = c_.file.is_own();
+  const bool is_whole = c_.file.is_whole();
   const Json attributes = p.json["attributes"];
-  const std::string texcoord = "TEXCOORD_" + std::to_string(is_own ? 0 : materials_.texcoord_set(p.material).value_or(0));
+  const std::string texcoord = "TEXCOORD_" + std::to_string(is_whole ? 0 : materials_.texcoord_set(p.material).value_or(0));
   const Json kept = vrml97(p.mesh);
-  SurfaceKind kind{p.faces(), bool(attributes["COLOR_0"]) || (is_own && attributes["_COLOR"]), bool(attributes[texcoord])};
-  if (is_own) kind.given_texcoord = bool(kept["IndexedFaceSet"]["texCoord"]);
+  SurfaceKind kind{p.faces(), bool(attributes["COLOR_0"]) || (is_whole && attributes["_COLOR"]), bool(attributes[texcoord])};
+  if (is_whole) kind.given_texcoord = bool(kept["IndexedFaceSet"]["texCoord"]);
   const Look& look = materials_.get(p.material, kind);
   NodeId geometry;
-  if (is_own) {
+  if (is_whole) {
     std::string key = look.double_sided ? "2" : "1";
     for (Json part : {attributes, p.json["indices"], p.json["mode"], p.mesh["name"], kept}) (key += ' ') += part.source();
     NodeId& known = own_[key];
@@ -107,7 +107,7 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
     if (!load(p, how, texcoord, s)) return std::nullopt;
     geometry = foreign(p, s, look);
     if (!geometry) return std::nullopt;
-    report_lost(p, texcoord);
+    if (!c_.file.is_own()) report_lost(p, texcoord);
   }
   if (p.mesh["primitives"].elements().size() == 1) c_.set_name(geometry, p.mesh["name"]);
   extras_.define(geometry);
@@ -182,7 +182,7 @@ Meshes::Stream Meshes::stream(const Primitive& p, std::string_view name, std::si
   if (c_.accessors.count(s.accessor) != n) {
     c_.diag().report(Diag::gltf_bad_value, c_.file.where(a), std::string(name) + " with another count than POSITION");
     s.accessor = none;
-  } else if (c_.file.is_own()) {
+  } else if (c_.file.is_whole()) {
     fill(s, widths);
   }
   return s;
@@ -198,7 +198,7 @@ bool Meshes::load(const Primitive& p, const Pose& how, const std::string& texcoo
     s.n = c_.accessors.count(accessor);
     s.position = {accessor, 3, {}};
     s.normal = stream(p, "NORMAL", s.n, three);
-    s.color = stream(p, p.json["attributes"]["COLOR_0"] || !c_.file.is_own() ? "COLOR_0" : "_COLOR", s.n, color_widths);
+    s.color = stream(p, p.json["attributes"]["COLOR_0"] || !c_.file.is_whole() ? "COLOR_0" : "_COLOR", s.n, color_widths);
     s.texcoord = stream(p, texcoord, s.n, two);
     if (p.json["indices"]) {
       s.index_accessor = c_.file.index(Table::accessors, p.json["indices"]);
@@ -207,8 +207,8 @@ bool Meshes::load(const Primitive& p, const Pose& how, const std::string& texcoo
     }
   }
   const bool moved = !how.joints.empty() || !how.weights.empty() || p.json["targets"] || how.origin != Vec3{0, 0, 0};
-  if ((c_.file.is_own() || moved) && !fill(s.position, three)) return false;
-  if (const double step = c_.file.is_own() ? vrml97(p.mesh)["step"].number(1) : 1; step != 1)
+  if ((c_.file.is_whole() || moved) && !fill(s.position, three)) return false;
+  if (const double step = c_.file.is_whole() ? vrml97(p.mesh)["step"].number(1) : 1; step != 1)
     for (double& v : s.position.values) v = decimal(static_cast<float>(v * step));
   return !moved || pose(p, how, s);
 }
@@ -371,6 +371,7 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
   Scene& scene = c_.scene;
   if (p.mode == points) {
     NodeId n = c_.add(nodes::PointSet, p.json);
+    note_first_vertices(n, p, corners);
     if (s.indexed) {  // a PointSet has no indices
       auto gather = [&](NodeId from, std::uint16_t slot, TypeId type) {
         auto all = scene.value(from, slot).number_span();
@@ -388,6 +389,7 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
     return n;
   }
   NodeId n = c_.add(p.faces() ? nodes::IndexedFaceSet : nodes::IndexedLineSet, p.json);
+  note_first_vertices(n, p, corners);
   Value index = scene.make(FieldType::MFInt32, 0, p.faces() ? faces_of(corners) : polylines_of(corners));
   if (!s.loose) {
     auto [i, is_new] = coord_index_.try_emplace({p.mode, s.index_accessor, s.n}, index);
@@ -439,7 +441,7 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
   const TypeId type = p.faces() ? nodes::IndexedFaceSet : p.mode == points ? nodes::PointSet : nodes::IndexedLineSet;
   NodeId n = c_.add(type, p.json);
   Json fields = kept[builtin_nodes()[type.value].name];
-  if (p.json["attributes"]["_FEATURE_ID_0"]) first_vertex_[n.value] = first_vertices(p, corners);
+  note_first_vertices(n, p, corners);
   if (p.mode == points) {
     NodeId coord = c_.add(nodes::Coordinate, p.json);
     std::vector<double> at, shade;
@@ -467,6 +469,10 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
     }
   extras_.plain_fields(n, fields);
   return n;
+}
+
+void Meshes::note_first_vertices(NodeId n, const Primitive& p, const std::vector<std::uint32_t>& corners) {
+  if (c_.file.is_own() && p.json["attributes"]["_FEATURE_ID_0"]) first_vertex_[n.value] = first_vertices(p, corners);
 }
 
 std::vector<std::uint32_t> Meshes::first_vertices(const Primitive& p, const std::vector<std::uint32_t>& corners) const {

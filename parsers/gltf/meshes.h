@@ -86,6 +86,7 @@ class Meshes {
   NodeId foreign(const Primitive&, Streams&, const Look&);
   NodeId own(const Primitive&, Streams&, const Look&);
   void own_faces(NodeId, const Primitive&, const Streams&, const std::vector<std::uint32_t>& triangles);
+  void note_first_vertices(NodeId, const Primitive&, const std::vector<std::uint32_t>& corners);
   std::vector<std::uint32_t> first_vertices(const Primitive&, const std::vector<std::uint32_t>& corners) const;
   void own_lines(NodeId, const Streams&, const std::vector<std::uint32_t>& segments);
   NodeId attribute(TypeId, std::uint16_t slot, FieldType, Stream&, int variant, bool loose, const std::function<void(std::vector<double>&)>& change);
