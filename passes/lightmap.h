@@ -88,6 +88,8 @@ struct LightmapOptions {
 /// - Left alone: Shapes without a Material, text, lines, points, levels of a LOD behind the first, other choices of a Switch.
 /// - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only `smooth`
 ///   and `format` count. Backs share the picture of their fronts.
+/// - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `inline` and `expand-protos` before.
+/// - There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach (density-limit).
 /// - A world without any light is lit by a white sky, which is reported (no-light).
 ///
 /// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays, and for judging the

@@ -11,6 +11,9 @@ namespace {
 using unwrap::Placement;
 using unwrap::Point2;
 
+constexpr double usual_fill = 0.5;       // of a page
+constexpr double most_texels = 1 << 28;  // of all pages; 3 GiB of light
+
 /// An edge of a triangle: its points in order of their numbers, and where it is.
 struct HalfEdge {
   std::uint32_t a, b, triangle, corner;
@@ -48,7 +51,7 @@ bool is_smooth(const Part& p, std::uint32_t c0, std::uint32_t c1, std::uint32_t 
 
 Layout::Layout(const std::vector<Part>& parts, const LayoutOptions& options)
     : parts_(parts), options_(options), items_(parts.size()), piece_unit_(parts.size(), 1), density_(options.density > 0 ? options.density : 1) {
-  if (options_.density > 0) pack_all();
+  if (options_.density > 0) density_ = possible_density(), pack_all();
   else pack(0, parts_.size(), options_.side);
   measure_pieces();
   place_triangles();
@@ -59,14 +62,39 @@ unwrap::PackItem Layout::item(std::size_t part) const {
   return {&p.charts, density_ * p.density, static_cast<std::uint32_t>(p.uses.size())};
 }
 
+/// Of the boxes of all charts, at one texel a metre.
+double Layout::texels(std::size_t part) const {
+  const Part& p = parts_[part];
+  double area = 0;
+  for (const auto& box : p.charts.sizes) area += box.x * box.y;
+  return area * p.density * p.density * static_cast<double>(p.uses.size());
+}
+
+/// As was asked for, unless there would be more texels than memory can be expected for. A surface that is larger than a page
+/// will not have so many as it counts for here.
+double Layout::possible_density() const {
+  double sum = 0, wish = options_.density, page = usual_fill * options_.side * options_.side;
+  for (std::size_t i = 0; i < parts_.size(); ++i) sum += std::min(wish * wish * texels(i), page * static_cast<double>(parts_[i].uses.size()));
+  return wish * std::min(1.0, std::sqrt(usual_fill * most_texels / sum));
+}
+
+Layout::Coarse Layout::coarse() const {
+  constexpr double enough = 0.99;
+  Coarse out{0, 1};
+  for (std::size_t i = 0; i < parts_.size() && options_.density > 0; ++i) {
+    double least = 1;
+    for (const Placement& c : items_[i].charts) least = std::min(least, c.scale / (options_.density * parts_[i].density));
+    if (least < enough) out.n_shapes += parts_[i].uses.size(), out.least = std::min(out.least, least);
+  }
+  return out;
+}
+
 /// In runs of parts, so many as should fill a page.
 void Layout::pack_all() {
-  constexpr double usual_fill = 0.5;
   const double room = usual_fill * options_.side * options_.side / (density_ * density_);
   for (std::size_t begin = 0; begin < parts_.size();) {
     std::size_t end = begin;
-    for (double area = 0; end < parts_.size() && (end == begin || area < room); ++end)
-      for (const auto& box : parts_[end].charts.sizes) area += parts_[end].density * parts_[end].density * box.x * box.y * static_cast<double>(parts_[end].uses.size());
+    for (double area = 0; end < parts_.size() && (end == begin || area < room); ++end) area += texels(end);
     pack(begin, end, 0);
     begin = end;
   }

@@ -44,6 +44,12 @@ class Layout {
   const std::vector<PageLayout>& pages() const { return pages_; }
   /// Texels per metre.
   double density() const { return density_; }
+  /// What did not get as many as were asked for.
+  struct Coarse {
+    std::size_t n_shapes = 0;
+    double least = 0;                   // texels per metre, relative to the wish
+  };
+  Coarse coarse() const;
   /// Of use `k` of a part.
   ShapePlace place(std::size_t part, std::size_t k) const;
   /// lightCoord of each corner of a part, xy.
@@ -53,6 +59,8 @@ class Layout {
 
  private:
   unwrap::PackItem item(std::size_t part) const;
+  double texels(std::size_t part) const;
+  double possible_density() const;
   void pack_all();
   void pack(std::size_t begin, std::size_t end, int side);
   int larger(int side) const;

@@ -1,0 +1,54 @@
+#include "passes/lightmap/closed_nodes.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit::bake {
+namespace {
+
+bool is_proto(const Scene& scene, NodeId n) { return scene.type(n).kind == NodeKind::proto; }
+
+bool makes_surface(const Scene& scene, NodeId n) {
+  if (scene.is(n, nodes::Inline)) return !scene.get(n, nodes::inline_::url).empty();
+  constexpr std::string_view bases[] = {"Shape", "Appearance", "X3DMaterialNode", "X3DGeometryNode"};
+  return std::ranges::any_of(bases, [&](std::string_view base) { return scene.type(n).is_a(base); });
+}
+
+/// By prototype. Those that hold instances of others have surfaces when these have.
+std::vector<char> with_surfaces(const Scene& scene) {
+  std::vector<char> has(scene.proto_count());
+  std::vector<std::vector<std::uint32_t>> holders(has.size());
+  std::vector<std::uint32_t> open;
+  auto found = [&](std::uint32_t p) {
+    if (!has[p]) has[p] = 1, open.push_back(p);
+  };
+  for (std::uint32_t p = 0; p < has.size(); ++p) {
+    const Proto& proto = scene.proto(ProtoId{p});
+    if (proto.external) found(p);
+    for (NodeId n : reachable(scene, proto.body)) {
+      if (is_proto(scene, n)) holders[scene.type(n).proto.value].push_back(p);
+      else if (makes_surface(scene, n)) found(p);
+    }
+  }
+  while (!open.empty()) {
+    const std::uint32_t p = open.back();
+    open.pop_back();
+    for (std::uint32_t h : holders[p]) found(h);
+  }
+  return has;
+}
+
+}  // namespace
+
+std::size_t closed_nodes(const Scene& scene) {
+  const auto has = with_surfaces(scene);
+  return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) {
+    return is_proto(scene, n) ? has[scene.type(n).proto.value] != 0 : scene.is(n, nodes::Inline) && makes_surface(scene, n);
+  }));
+}
+
+}  // namespace wrlkit::bake
