@@ -94,13 +94,16 @@ bool decode(std::string_view bytes, std::string_view mime, Image& image, std::st
   return opened.module->decode({bytes, codec->name, &image_size_fault}, image, error);
 }
 
+template <class Picture>
+bool has_pixels(const Picture& image) {
+  auto pixels = std::uint64_t(image.width) * std::uint64_t(image.height) * std::uint64_t(image.channels);
+  return image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4 && image.pixels.size() == pixels;
+}
+
 /// The bytes that `write(module, bytes)` makes of a picture that has all its pixels.
 template <class Picture, class Write>
 std::optional<std::string> encode_with(const Picture& image, std::string& error, Write write) {
-  auto pixels = std::uint64_t(image.width) * std::uint64_t(image.height) * std::uint64_t(image.channels);
-  if (image.width <= 0 || image.height <= 0 || image.channels < 1 || image.channels > 4 ||
-      image.pixels.size() != pixels)
-    return error = "it has no pixels", std::nullopt;
+  if (!has_pixels(image)) return error = "it has no pixels", std::nullopt;
   auto& opened = image_module();
   if (!opened.module) return error = opened.error, std::nullopt;
   std::string bytes;
@@ -116,7 +119,6 @@ std::optional<std::string> encode(const Image& image, const char* codec, int qua
 
 constexpr int unseen_losses = 92;  // quality
 
-std::optional<std::string> png_of(const Image& image, std::string& error) { return encode_png(image, error); }
 std::optional<std::string> jpeg_of(const Image& image, std::string& error) { return encode_jpeg(image, unseen_losses, error); }
 std::optional<std::string> webp_of(const Image& image, std::string& error) { return encode_webp(image, unseen_losses, error); }
 
@@ -124,7 +126,7 @@ struct Extension {
   std::string_view end;
   std::optional<std::string> (*encode)(const Image&, std::string& error);
 };
-constexpr Extension extensions[] = {{".png", png_of}, {".jpg", jpeg_of}, {".jpeg", jpeg_of}, {".webp", webp_of}};
+constexpr Extension extensions[] = {{".png", encode_png}, {".jpg", jpeg_of}, {".jpeg", jpeg_of}, {".webp", webp_of}};
 
 const Extension* extension_of(std::string_view name) {
   auto i = std::ranges::find_if(extensions, [&](const Extension& e) { return name.ends_with(e.end); });
@@ -153,8 +155,8 @@ void load_image_codecs() { image_module(); }
 bool image_codecs_are_loaded() { return loaded; }
 
 std::optional<std::string> encode_png(const Image& image, std::string& error) {
-  auto bytes = encode(image, "png", 0, error);
-  return bytes ? essential_png(*bytes) : std::nullopt;
+  if (!has_pixels(image)) return error = "it has no pixels", std::nullopt;
+  return png_of(image);
 }
 
 std::optional<std::string> encode_jpeg(const Image& image, int quality, std::string& error) {
