@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""A bake that is killed and called again gives the bytes of one that was left alone.
+
+  tests/bake_resume.py --wrlkit build/release/wrlkit
+
+Bakes corpus/paper/stairs_room.wrl three times: undisturbed; with a checkpoint, killed when a tenth of the work is kept; and the same
+call again. Then once more after the end of the checkpoint's file was cut off and its last tile damaged, as a full disk or a crash of
+the machine leaves it. Each time the world and its pictures must be the same, the second call must have traced fewer rays than the
+first, and no checkpoint may be left.
+"""
+import argparse, pathlib, re, signal, subprocess, sys, tempfile, time
+
+project = pathlib.Path(__file__).resolve().parents[1]
+world = project / 'corpus/paper/stairs_room.wrl'
+
+
+def command(wrlkit, folder, checkpoint):
+    options = 'quality=draft,max-size=256' + (f',checkpoint={checkpoint}' if checkpoint else '')
+    return [wrlkit, 'convert', world, folder / 'lit.wrl', '-p', f'lightmap{{{options}}}', '--stats']
+
+
+def bake(wrlkit, folder, checkpoint=None):
+    """The bytes of all files that it wrote, and the rays that it traced."""
+    folder.mkdir(exist_ok=True)
+    r = subprocess.run(command(wrlkit, folder, checkpoint), capture_output=True, text=True, timeout=300)
+    if r.returncode != 0:
+        sys.exit(f'bake-resume: exit code {r.returncode}: {r.stderr[-500:]}')
+    rays = re.search(r'(\d+)\s+lightmap\.rays', r.stdout + r.stderr)
+    return {p.name: p.read_bytes() for p in sorted(folder.iterdir())}, int(rays[1]) if rays else 0
+
+
+def interrupted(wrlkit, folder, checkpoint, size):
+    """Kills a bake once that much is kept. False when it was done before."""
+    folder.mkdir(exist_ok=True)
+    p = subprocess.Popen(command(wrlkit, folder, checkpoint), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while p.poll() is None and not (checkpoint.exists() and checkpoint.stat().st_size > size):
+        time.sleep(0.002)
+    p.send_signal(signal.SIGKILL)
+    p.wait()
+    return checkpoint.exists()
+
+
+def main():
+    a = argparse.ArgumentParser()
+    a.add_argument('--wrlkit', default='build/release/wrlkit')
+    wrlkit = pathlib.Path(a.parse_args().wrlkit).resolve()
+    faults = []
+    with tempfile.TemporaryDirectory() as t:
+        folder, checkpoint = pathlib.Path(t), pathlib.Path(t) / 'kept'
+        whole, rays = bake(wrlkit, folder / 'whole')
+
+        def check(what, found):
+            files, again = found
+            if files != whole:
+                faults.append(f'{what}: other bytes in {[n for n in whole if files.get(n) != whole[n]] or sorted(files)}')
+            if not 0 < again < rays:
+                faults.append(f'{what}: {again} rays of {rays}')
+            if checkpoint.exists():
+                faults.append(f'{what}: the checkpoint is left')
+
+        for damaged in (False, True):
+            if not any(interrupted(wrlkit, folder / 'part', checkpoint, size) for size in (400_000, 100_000, 1000)):
+                sys.exit('bake-resume: the bake was done before it could be killed')
+            if damaged:
+                kept = checkpoint.read_bytes()
+                checkpoint.write_bytes(kept[:-1000] + bytes(b ^ 0x55 for b in kept[-1000:-500]))
+            check('damaged' if damaged else 'killed', bake(wrlkit, folder / 'part', checkpoint))
+    print('\n'.join(faults) or f'a killed bake goes on: {len(whole)} files alike')
+    sys.exit(bool(faults))
+
+
+main()
