@@ -79,6 +79,7 @@ std::vector<Point> points_over(const LightWorld& w, double n) {
   double area = 0;
   each_triangle(w, [&](std::uint32_t, const auto&, const V3* p) { area += 0.5 * length(cross(p[1] - p[0], p[2] - p[0])); });
   double step = std::sqrt(area / n);
+  auto point = [](const V3& at, const V3& face, std::uint32_t use, const V3* p) { return Point{at, face, face, use, std::max(length(p[1] - p[0]), length(p[2] - p[0]))}; };
   double due = 0;
   std::vector<Point> out;
   each_triangle(w, [&](std::uint32_t use, const auto&, const V3* p) {
@@ -86,12 +87,12 @@ std::vector<Point> points_over(const LightWorld& w, double n) {
     double width = length(a), height = length(c) / width, shift = dot(b, right);
     if (std::min(width, height) < step) {
       due += 0.5 * width * height / (step * step);
-      if (due >= 1) out.push_back({(1. / 3) * (p[0] + p[1] + p[2]), face, face, use}), due -= 1;
+      if (due >= 1) out.push_back(point((1. / 3) * (p[0] + p[1] + p[2]), face, use, p)), due -= 1;
       return;
     }
     for (double y = 0.5 * step; y < height; y += step)
       for (double x = shift * y / height + 0.5 * step; x < shift * y / height + width * (1 - y / height); x += step)
-        out.push_back({p[0] + x * right + y * up, face, face, use});
+        out.push_back(point(p[0] + x * right + y * up, face, use, p));
   });
   return out;
 }
@@ -152,7 +153,7 @@ void bench_rays(const char* path, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const Point& p = points[i * points.size() / n];
     auto [u, v] = Lattice<2>(i / 16)[static_cast<std::uint32_t>(i)];
-    rays.push_back({w.off_surface(p.position, p.face), cosine_direction(p.normal, u, v)});
+    rays.push_back({w.off_surface(p.position, p.face, p.extent), cosine_direction(p.normal, u, v)});
   }
   RTCIntersectContext c;
   rtcInitIntersectContext(&c);

@@ -9,8 +9,10 @@
 #include "passes/geometry.h"
 #include "passes/light/world.h"
 #include "passes/lightmap/bake.h"
+#include "passes/lightmap/closed_nodes.h"
 #include "passes/lightmap/from_patches.h"
 #include "passes/lightmap/layout.h"
+#include "passes/lightmap/levels.h"
 #include "passes/lightmap/own_shapes.h"
 #include "passes/lightmap/parts.h"
 #include "passes/lightmap/store.h"
@@ -28,12 +30,15 @@ using namespace bake;
 struct Work {
   int side, samples, rays;  // of a page; points a texel; rays a point
 };
-constexpr Work work_of[] = {{512, 1, 16}, {1024, 4, 16}, {4096, 4, 64}};
-constexpr int side_for_density = 4096;
+constexpr Work work_of[] = {{512, 1, 10}, {1024, 4, 16}, {4096, 4, 64}};
+constexpr int side_for_density = 4096, smallest_side = 64;
 
-LayoutOptions layout_options(const LightmapOptions& o) {
+/// A level that is seen from further away needs half the texels.
+LayoutOptions layout_options(const LightmapOptions& o, std::size_t level) {
   const int usual = o.density > 0 ? side_for_density : work_of[o.quality.value].side;
-  return {.density = o.density, .side = o.max_size > 0 ? o.max_size : usual};
+  const int side = o.max_size > 0 ? o.max_size : usual;
+  if (o.density > 0) return {.density = std::ldexp(o.density, -static_cast<int>(level)), .side = side};
+  return {.side = std::max(side >> level, std::min(side, smallest_side))};
 }
 
 light::LightOptions light_options(const LightmapOptions& o) {
@@ -94,28 +99,53 @@ Outcome take_patches(Scene& scene, const light::LightWorld& world, const Lightma
   return light_from_patches(scene, world, *patches, {options.smooth, options.format.value}, ctx) ? Outcome::changed : Outcome::unchanged;
 }
 
-Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
+/// What nobody sees from within is sealed; what has light already stays as it is.
+void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& world, const Levels& levels, const LightmapOptions& options) {
+  const auto& uses = world.stage().uses;
+  for (Part& p : parts) {
+    for (std::uint32_t u : p.uses)
+      if (p.sealed) world.seal(u, p.inside_out);
+    std::erase_if(p.uses, [&](std::uint32_t u) { return levels.is_lit(uses[u].shape); });
+    p.density = 0;
+    for (std::uint32_t u : p.uses) p.density = std::max(p.density, density_of(options.densities, scene, world.stage(), u));
+  }
+  std::erase_if(parts, [](const Part& p) { return p.uses.empty(); });
+}
+
+/// Lights what is shown now.
+Outcome bake_level(Scene& scene, std::size_t level, Levels& levels, const LightmapOptions& options, PassContext& ctx) {
   own_shapes(scene, ctx.diag);
+  levels.own_what_is_lit();
   Meshes meshes(scene, ctx);
   light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options), ctx.diag);
   if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
   auto parts = find_parts(scene, world, Sides::apart, ctx);
+  prepare(parts, scene, world, levels, options);
   if (parts.empty()) return Outcome::unchanged;
-  for (Part& p : parts) {
-    p.density = 0;
-    for (std::uint32_t u : p.uses) {
-      if (p.sealed) world.seal(u, p.inside_out);
-      p.density = std::max(p.density, density_of(options.densities, scene, world.stage(), u));
-    }
-  }
-  if (!world.has_sky_of_its_own()) ctx.diag.report(Diag::no_light, {});
+  if (!world.has_sky_of_its_own() && !level) ctx.diag.report(Diag::no_light, {});
   unfold_parts(parts, world.stage());
-  const Layout layout(parts, layout_options(options));
+  const LayoutOptions wanted = layout_options(options, level);
+  const Layout layout(parts, wanted);
+  if (const auto coarse = layout.coarse(); coarse.n_shapes) ctx.diag.report(Diag::density_limit, {}, wanted.density, coarse.n_shapes, coarse.least * wanted.density);
   auto pages = bake::bake(parts, layout, world, bake_options(options), ctx);
   store(scene, parts, layout, world.stage(), pages, {options.format.value, options.exr}, ctx);
-  for (const Part& p : parts) ctx.stats["lightmap.shapes"] += p.uses.size(), ctx.stats["lightmap.charts"] += p.charts.size() * p.uses.size();
+  for (const Part& p : parts) {
+    for (std::uint32_t u : p.uses) levels.add(world.stage().uses[u].shape);
+    ctx.stats["lightmap.shapes"] += p.uses.size(), ctx.stats["lightmap.charts"] += p.charts.size() * p.uses.size();
+  }
   ctx.stats["lightmap.pages"] += pages.size();
   return Outcome::changed;
+}
+
+Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
+  if (const auto n = closed_nodes(scene)) ctx.diag.report(Diag::not_lit, {}, n);
+  Levels levels(scene);
+  Outcome all = Outcome::unchanged;
+  for (std::size_t level = 0; level < (options.patches.empty() ? levels.count() : 1) && all != Outcome::failed; ++level) {
+    levels.show(level);
+    if (const Outcome one = bake_level(scene, level, levels, options, ctx); one != Outcome::unchanged) all = one;
+  }
+  return all;
 }
 
 }  // namespace

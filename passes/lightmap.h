@@ -85,7 +85,9 @@ struct LightmapOptions {
 /// - Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays shared
 ///   (lightmap/own_shapes.h). What events can reach is not copied: it has the light of its first place.
 /// - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get faces.
-/// - Left alone: Shapes without a Material, text, lines, points, levels of a LOD behind the first, other choices of a Switch.
+/// - Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels a level. The first
+///   eight are looked at, and of LODs within levels those that such a view shows (lightmap/levels.h).
+/// - Left alone: Shapes without a Material, text, lines, points, other choices of a Switch.
 /// - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only `smooth`
 ///   and `format` count. Backs share the picture of their fronts.
 /// - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `inline` and `expand-protos` before.
@@ -93,7 +95,7 @@ struct LightmapOptions {
 /// - A world without any light is lit by a white sky, which is reported (no-light).
 ///
 /// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays, and for judging the
-/// result .inside, .leaks, .black, .seam-places, .jumps (lightmap/bake.h).
+/// result .inside, .leaks, .black, .holes, .seam-places, .jumps (lightmap/bake.h).
 /// O(texels * rays * log triangles). The same result for any number of threads.
 Outcome lightmap(Scene& scene, const LightmapOptions& options, PassContext& ctx);
 

@@ -64,7 +64,11 @@ class IrradianceCache {
   double per_unit_[levels];          // cells, by level
   std::vector<Cell> cells_;
   std::vector<Key> keys_;            // of the cells
-  std::vector<std::uint32_t> table_; // cell + 1 by hash of its key; 0: free
+  struct Entry {
+    Key key = 0;
+    std::uint32_t cell = 0;          // its number + 1; 0: free
+  };
+  std::vector<Entry> table_;         // by key
 };
 
 }  // namespace wrlkit::light

@@ -81,7 +81,7 @@ std::optional<DirectLight::Sight> DirectLight::look(const Receiver& at, const Em
   s.distance = std::sqrt(s.distance2), s.arriving = dot(at.normal, way) / s.distance;
   if (!(s.arriving > 0) || !(dot(at.face, way) > 0)) return {};
   V3 side = unit(dot(across, way) < 0 ? across : -across);
-  V3 end = world_.off_surface(target, side) - at.start;
+  V3 end = world_.off_surface(target, side, length(e.edge1)) - at.start;
   double length_of_ray = length(end);
   s.ray = {at.start, (1 / length_of_ray) * end};
   s.through = world_.transmittance(s.ray, length_of_ray * (1 - 0x1p-19));  // the emitter must not stand before itself by rounding

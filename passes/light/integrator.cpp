@@ -15,7 +15,7 @@ constexpr double largest_cell = 0.1; // of the cache, by the radius of the world
 
 Receiver receiver(const LightWorld& world, const Point& p) {
   std::uint32_t scope = p.use == Point::nowhere ? 0 : world.stage().uses[p.use].lights;
-  return {world.off_surface(p.position, p.face), p.face, p.normal, scope};
+  return {world.off_surface(p.position, p.face, p.extent), p.face, p.normal, scope};
 }
 
 double mean_irradiance(const IrradianceCache& cache) {
@@ -111,7 +111,7 @@ Integrator::Integrator(const LightWorld& world, std::span<const Point> points, c
   std::vector<Receiver> from;
   for (const Point& p : points) from.push_back(receiver(world, p));
   if (options.mode != IntegratorOptions::Mode::cached) return;
-  fill(s.cache, world, s.direct, from, options.seed);
+  fill(s.cache, world, s.direct, from, options.rays, options.seed);
   s.floor = dark * mean_irradiance(s.cache);
 }
 

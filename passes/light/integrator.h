@@ -28,6 +28,7 @@ struct Point {
   V3 face, normal;                   // of the triangle and for shading; unit
   static constexpr std::uint32_t nowhere = 0xffffffff;
   std::uint32_t use = nowhere;       // into LightWorld::stage().uses: for the DirectionalLights on it; nowhere: none
+  double extent = 0;                 // of the triangle: a long side
 };
 
 using Rgb = std::array<float, 3>;

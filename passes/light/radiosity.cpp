@@ -9,13 +9,21 @@ namespace {
 
 using Cell = IrradianceCache::Cell;
 
-constexpr std::size_t fewest_walks = 1 << 16, most_walks = 1 << 17;
+constexpr std::size_t most_walks = 1 << 17;
 constexpr int walk_length = 4;       // rays
 constexpr std::size_t block = 256;   // walks or cells that are done in one piece
-constexpr int warm_up = 5, counted = 7;   // iterations, of fewer rays in the beginning; those counted give the mean
+constexpr int warm_up = 5;           // iterations of fewer rays, before those that are counted
 constexpr int fewer_rays = 8, rays_a_cell = 16;
 constexpr std::ptrdiff_t often = 4;  // meetings that make a cell known
 constexpr int deepest = 6;           // reflections outside of cells
+
+/// How well the cells are known.
+struct Effort {
+  std::size_t fewest_walks;
+  int counted;                       // iterations that give the mean
+};
+constexpr Effort thorough{1 << 16, 7}, quick{1 << 15, 3};
+constexpr int few = 16;              // rays a point: below, the quick way will do
 
 /// A place where a walk ended a ray.
 struct Meeting {
@@ -32,15 +40,15 @@ void in_blocks(std::size_t n, F&& f) {
 
 class Solver {
  public:
-  Solver(IrradianceCache& cache, const LightWorld& world, const DirectLight& direct, std::uint64_t seed)
-      : cache_(cache), world_(world), direct_(direct), transport_(world, direct, &cache), seed_(seed) {}
+  Solver(IrradianceCache& cache, const LightWorld& world, const DirectLight& direct, const Effort& effort, std::uint64_t seed)
+      : cache_(cache), world_(world), direct_(direct), transport_(world, direct, &cache), effort_(effort), seed_(seed) {}
 
   void run(std::span<const Receiver> from) {
     discover(from);
     keep_sound_cells();
     in_blocks(cache_.cells().size(), [&](std::size_t c) { light_directly(c); });
     sum_.assign(cache_.cells().size(), {});
-    for (int i = 0; i < warm_up + counted; ++i) iterate(i);
+    for (int i = 0; i < warm_up + effort_.counted; ++i) iterate(i);
   }
 
  private:
@@ -63,13 +71,14 @@ class Solver {
   const LightWorld& world_;
   const DirectLight& direct_;
   Transport transport_;
+  Effort effort_;
   std::uint64_t seed_;
   std::vector<V3> sum_;                // by cell: gathered after the warm-up
 };
 
 void Solver::discover(std::span<const Receiver> from) {
   if (from.empty()) return;
-  std::size_t n = std::clamp(from.size(), fewest_walks, most_walks), n_blocks = (n + block - 1) / block;
+  std::size_t n = std::clamp(from.size(), effort_.fewest_walks, most_walks), n_blocks = (n + block - 1) / block;
   std::vector<std::vector<Meeting>> met(n_blocks);
   parallel_for(n_blocks, [&](std::size_t b) {
     for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i) {
@@ -122,14 +131,15 @@ void Solver::walk(Receiver at, Stream& random, std::vector<Meeting>& out) const 
       strength *= std::max({s.albedo.x, s.albedo.y, s.albedo.z});
       at = transport_.receiver_at(hit, s);
       if (!(strength > 0)) return;
-      if (auto key = cache_.key({s.position, s.face, at.scope, hit.distance})) out.push_back({*key, at});
+      if (auto key = cache_.key({ray.at(hit.distance), s.face, at.scope, hit.distance})) out.push_back({*key, at});
     });
     if (!found || next >= strength) return;
   }
 }
 
 void Solver::light_directly(std::size_t c) {
-  constexpr int lamp_rays = 4, emitter_rays = counted * rays_a_cell / IrradianceCache::most_places;
+  constexpr int lamp_rays = 4;
+  const int emitter_rays = effort_.counted * rays_a_cell / IrradianceCache::most_places;
   Cell& cell = cache_.cells()[c];
   for (int p = 0; p < cell.n_places(); ++p) {
     Stream random(key_of(seed_, 3, c * IrradianceCache::most_places + p));
@@ -146,7 +156,7 @@ Solver::Gathered Solver::look(const Receiver& from, const Ray& ray, Stream& rand
   double open = transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
     if (mean(s.emission) > 0) out.first += (part * pi * direct_.gather_weight(from, ray, hit)) * s.emission;
     if (!(mean(s.albedo) > 0)) return;
-    IrradianceCache::Place place{s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance};
+    IrradianceCache::Place place{ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance};
     const Cell* cell = cache_.find(place, 2);
     Gathered there = cell ? Gathered{cell->direct, cell->gathered} : follow(transport_.receiver_at(hit, s), random, depth + 1);
     out.first += part * (s.albedo * there.first);
@@ -171,7 +181,7 @@ Solver::Gathered Solver::follow(const Receiver& at, Stream& random, int depth) c
 Solver::Gathered Solver::gather(std::size_t c, int iteration) {
   const Cell& cell = cache_.cells()[c];
   const int n = iteration < warm_up ? fewer_rays : rays_a_cell;
-  Stream random(key_of(seed_, 4, c * (warm_up + counted) + iteration));
+  Stream random(key_of(seed_, 4, c * static_cast<std::size_t>(warm_up + effort_.counted) + static_cast<std::size_t>(iteration)));
   Lattice<2> directions(key_of(seed_, 5, c));
   Gathered sum;
   for (int i = 0; i < n; ++i) {
@@ -210,8 +220,8 @@ void Solver::iterate(int iteration) {
 
 }  // namespace
 
-void fill(IrradianceCache& cache, const LightWorld& world, const DirectLight& direct, std::span<const Receiver> from, std::uint64_t seed) {
-  Solver(cache, world, direct, seed).run(from);
+void fill(IrradianceCache& cache, const LightWorld& world, const DirectLight& direct, std::span<const Receiver> from, int rays, std::uint64_t seed) {
+  Solver(cache, world, direct, rays < few ? quick : thorough, seed).run(from);
 }
 
 }  // namespace wrlkit::light

@@ -15,7 +15,7 @@ Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, in
   double open = each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
     out.from_inside |= s.inside;
     if (mean(s.emission) > 0 && !(all_emitters && direct_.is_emitter(hit))) out.direct += part * direct_.gather_weight(at, ray, hit) * s.emission;
-    if (mean(s.albedo) > 0) out.reflected += (part / pi) * (s.albedo * irradiance(hit, s, random, depth + 1));
+    if (mean(s.albedo) > 0) out.reflected += (part / pi) * (s.albedo * irradiance(ray, hit, s, random, depth + 1));
   });
   if (open > 0 && world_.has_sky()) out.direct += open * world_.sky(ray.direction);
   return out;
@@ -25,15 +25,15 @@ V3 Transport::seen(const Ray& ray, Stream& random, const std::optional<V3>& back
   V3 sum;
   const double open = each_layer(ray, [&](const Hit& hit, SurfacePoint& s, double part) {
     if (s.inside) s.alpha = 0;
-    else sum += part * (s.emission + (1 / pi) * (s.albedo * irradiance(hit, s, random, 1)));
+    else sum += part * (s.emission + (1 / pi) * (s.albedo * irradiance(ray, hit, s, random, 1)));
   });
   return open > 0 ? sum + open * (background ? *background : world_.has_sky() ? world_.sky(ray.direction) : V3(0)) : sum;
 }
 
-V3 Transport::irradiance(const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const {
+V3 Transport::irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const {
   if (cache_) {
     const int larger = depth <= 1 ? 0 : depth <= certain ? 2 : IrradianceCache::levels;  // the further back, the less a cell's size is seen
-    const IrradianceCache::Cell* cell = cache_->find({s.position, s.face, world_.stage().uses[hit.use].lights, hit.distance}, larger);
+    const IrradianceCache::Cell* cell = cache_->find({ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance}, larger);
     if (cell) return cell->irradiance();
   }
   return followed(receiver_at(hit, s), s.albedo, random, depth);

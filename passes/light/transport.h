@@ -46,12 +46,12 @@ class Transport {
 
   /// The receiver of the light at a place that a ray met.
   Receiver receiver_at(const Hit& hit, const SurfacePoint& s) const {
-    return {world_.off_surface(s.position, s.face), s.face, s.normal, world_.stage().uses[hit.use].lights};
+    return {world_.off_surface(hit, s.face), s.face, world_.normal(hit, s.face), world_.stage().uses[hit.use].lights};
   }
 
  private:
   Arriving along(const Receiver& at, const Ray& ray, Stream& random, int depth, bool all_emitters = false) const;
-  V3 irradiance(const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const;
+  V3 irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const;
   V3 followed(const Receiver& at, const V3& albedo, Stream& random, int depth) const;
 
   const LightWorld& world_;

@@ -56,7 +56,7 @@ void LightWorld::make_facts(const Scene& scene, Resources* resources, Diagnostic
       has_clear_ |= f.clear;
       f.plain = m.colors == PooledMesh::absent && (!s.picture.texture || m.texcoords == PooledMesh::absent);
       V3 color = s.base({}, {}).color;
-      bool emits = !s.lit && options_.unlit_emits;
+      const bool emits = glows(s);
       f.emission = options_.emission * linear(emits ? color : s.emissive);
       if (!emits) f.albedo = reflectance(color);
       if (mean(f.emission) > 0 || (emits && !f.plain)) emits_ = true;
@@ -88,7 +88,7 @@ void LightWorld::make_emitters() {
     UseFacts& f = facts_[u];
     const PooledMesh& m = pool_[mesh_of_[u]];
     const Affine& frame = stage_.frames[stage_.uses[u].frame];
-    bool unlit = options_.unlit_emits && !(*surfaces_)[f.surface].lit;
+    const bool unlit = glows((*surfaces_)[f.surface]);
     if (m.kind != Mesh::Kind::faces || !rays_->holds(u) || !(mean(f.emission) > 0 || (unlit && !f.plain))) continue;
     if (emitters_.size() + m.n_elements > most_emitters) continue;
     f.first_emitter = static_cast<std::uint32_t>(emitters_.size());
@@ -115,7 +115,7 @@ void LightWorld::paint(const UseFacts& use, const Hit& hit, SurfacePoint& to) co
     return;
   }
   Texel t = base(use, hit);
-  bool emits = options_.unlit_emits && !(*surfaces_)[use.surface].lit;
+  const bool emits = glows((*surfaces_)[use.surface]);
   to.emission = emits ? options_.emission * linear(t.color) : use.emission;
   to.albedo = emits ? V3() : reflectance(t.color);
   to.alpha = std::clamp(t.alpha, 0.0, 1.0);
@@ -123,24 +123,30 @@ void LightWorld::paint(const UseFacts& use, const Hit& hit, SurfacePoint& to) co
 
 SurfacePoint LightWorld::surface(const Hit& hit) const {
   const UseFacts& use = facts_[hit.use];
-  const PooledMesh& m = pool_[mesh_of_[hit.use]];
-  const Affine& frame = stage_.frames[stage_.uses[hit.use].frame];
-  V3 a = pool_.position(m, hit.element, 0);
-  V3 e1 = pool_.position(m, hit.element, 1) - a, e2 = pool_.position(m, hit.element, 2) - a;
   SurfacePoint s;
-  s.position = frame.point(m.origin + a + hit.weights[1] * e1 + hit.weights[2] * e2);
-  s.face = s.normal = unit(frame.normal(cross(e1, e2)));
-  if (m.normals != PooledMesh::absent) {
-    auto n = interpolate<3>(pool_, pool_.normals, m, m.normals, hit);
-    V3 smooth = unit(frame.normal({n[0], n[1], n[2]}));
-    if (dot(smooth, s.face) > 0) s.normal = smooth;
-  }
-  if (hit.back) s.face = -s.face, s.normal = -s.normal;
+  s.face = unit(hit.back ? -hit.across : hit.across);
   s.inside = use.inner == (hit.back ? Inner::back : Inner::front);
   if (hit.leaves != Hit::none && facts_[hit.leaves].sealed && facts_[hit.leaves].inner == Inner::back) s.inside = true;
   if (!s.inside) paint(use, hit, s);
   else if (use.clear) s.alpha = std::clamp(base(use, hit).alpha, 0.0, 1.0);
   return s;
+}
+
+LightWorld::Place LightWorld::place(const Hit& hit) const {
+  const PooledMesh& m = pool_[mesh_of_[hit.use]];
+  const Affine& frame = stage_.frames[stage_.uses[hit.use].frame];
+  const V3 a = pool_.position(m, hit.element, 0);
+  const V3 e1 = frame.vector(pool_.position(m, hit.element, 1) - a), e2 = frame.vector(pool_.position(m, hit.element, 2) - a);
+  return {frame.point(m.origin + a) + hit.weights[1] * e1 + hit.weights[2] * e2, std::sqrt(std::max(dot(e1, e1), dot(e2, e2)))};
+}
+
+V3 LightWorld::normal(const Hit& hit, const V3& face) const {
+  const PooledMesh& m = pool_[mesh_of_[hit.use]];
+  if (m.normals == PooledMesh::absent) return face;
+  const auto n = interpolate<3>(pool_, pool_.normals, m, m.normals, hit);
+  const V3 front = unit(stage_.frames[stage_.uses[hit.use].frame].normal({n[0], n[1], n[2]}));
+  const V3 smooth = hit.back ? -front : front;
+  return dot(smooth, face) > 0 ? smooth : face;
 }
 
 bool LightWorld::encloses(const Ray& from) const {
@@ -170,11 +176,12 @@ double LightWorld::transmittance(const Ray& ray, double distance) const {
 
 V3 LightWorld::sky(const V3& direction) const { return background_ ? linear(background_->color(direction, 0)) : constant_sky_; }
 
-/// Coordinates are rounded to 24 bits around the centre, and a frame or two on the way round again.
-V3 LightWorld::off_surface(const V3& position, const V3& face) const {
+/// Coordinates are rounded to 24 bits around the centre, and a frame or two on the way round again. At the centre a large triangle is
+/// where its corners have been rounded to.
+V3 LightWorld::off_surface(const V3& position, const V3& face, double extent) const {
   constexpr double roundings = 1.0 / (1 << 21);
   V3 p = position - centre();
-  double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z), radius() / 128});
+  double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z), radius() / 128, std::min(extent, radius())});
   return position + (size * roundings) * face;
 }
 

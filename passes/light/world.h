@@ -39,8 +39,7 @@ struct LightOptions {
 
 /// A place on a surface, seen from one side.
 struct SurfacePoint {
-  V3 position;                       // world
-  V3 face, normal;                   // of the triangle and for shading; world, unit, on the side that is seen
+  V3 face;                           // normal of the triangle; world, unit, on the side that is seen
   V3 albedo, emission;               // reflectance and radiance there
   double alpha = 1;                  // how much of what comes is met; the rest passes
   bool inside = false;               // it is the back of a `solid` face: who sees it is within something
@@ -79,6 +78,13 @@ class LightWorld {
   bool nearest(const Ray& ray, double after, Hit& hit) const { return rays_->nearest(ray, after, hit); }
   /// The surface at a hit on the side that was hit. The back of a `solid` face is black.
   SurfacePoint surface(const Hit& hit) const;
+  /// Where a hit lies in the world, as exactly as the mesh has it, and the normal for shading on the side of `face`, which is the hit's.
+  V3 position(const Hit& hit) const { return place(hit).position; }
+  V3 normal(const Hit& hit, const V3& face) const;
+  V3 off_surface(const Hit& hit, const V3& face) const {
+    const Place p = place(hit);
+    return off_surface(p.position, face, p.extent);
+  }
   /// A use is a closed surface around some room whose inner side nobody sees: it counts as `solid` TRUE from then on, and who
   /// sees its back is within it even where it touches the front of another one. `inside_out`: its fronts are the inner side.
   void seal(std::uint32_t use, bool inside_out) { facts_[use].inner = inside_out ? Inner::front : Inner::back, facts_[use].sealed = true; }
@@ -93,8 +99,9 @@ class LightWorld {
   /// The world has no light, no emissive surface and no Background: a white sky of radiance 1 stands in for them.
   bool has_sky_of_its_own() const { return !sky_stands_in_; }
 
-  /// Where a ray that leaves a surface starts: off the face by more than the rounding of coordinates there.
-  V3 off_surface(const V3& position, const V3& face) const;
+  /// Where a ray that leaves a surface starts: off the face by more than the rounding of coordinates there, and of the corners of
+  /// the triangle, of which `extent` is a long side.
+  V3 off_surface(const V3& position, const V3& face, double extent) const;
 
   /// PointLights and SpotLights.
   std::span<const Lamp> lamps() const { return lamps_; }
@@ -132,10 +139,17 @@ class LightWorld {
     V3 albedo, emission;             // when it is plain
   };
 
+  struct Place {
+    V3 position;
+    double extent;
+  };
+  Place place(const Hit& hit) const;
   void make_facts(const Scene& scene, Resources* resources, Diagnostics& diag);
   void make_lamps(const Scene& scene);
   void make_sky(const Scene& scene, Resources* resources, Diagnostics& diag);
   void make_emitters();
+  /// Its own colour is light.
+  bool glows(const drawing::Surface& s) const { return s.shines || (!s.lit && options_.unlit_emits); }
   drawing::Texel base(const UseFacts& use, const Hit& hit) const;
   void paint(const UseFacts& use, const Hit& hit, SurfacePoint& to) const;
 

@@ -50,9 +50,9 @@ class PageBaker {
 
   std::size_t n_tiles() const { return grid_.n_tiles(); }
 
-  /// Points of the surface for a tile's samples, in their order.
-  const std::vector<Point>& points(std::size_t tile, int samples) {
-    grid_.texels_of(tile, grid, samples, texels_);
+  /// Points of the surface for a tile's samples, in their order; of a grid with so many along each side of a texel.
+  const std::vector<Point>& points(std::size_t tile, int samples, int side = grid) {
+    grid_.texels_of(tile, side, samples, texels_);
     points_.clear();
     for (const auto& s : texels_.samples) points_.push_back(point(s));
     return points_;
@@ -90,7 +90,7 @@ class PageBaker {
   /// Where closed things touch, a ray may meet the front of the one before the back of the other: it sees no back then.
   bool is_enclosed(const Point& p) const {
     const V3 askew = p.face + V3(0.0137, 0.0271, 0.0419);
-    return world_.encloses({world_.off_surface(p.position, p.face), unit(askew)});
+    return world_.encloses({world_.off_surface(p.position, p.face, p.extent), unit(askew)});
   }
 
   static Site site_of(std::span<const Irradiance> points) {
@@ -125,6 +125,7 @@ class PageBaker {
     // Who has directions corrects for the normal himself (passes/render/baked.h).
     if (flat_ || !(dot(p.normal, p.face) > 0)) p.normal = p.face;
     p.use = ref.use;
+    p.extent = std::max(length(frame.vector(corner[1] - corner[0])), length(frame.vector(corner[2] - corner[0])));
     return p;
   }
 
@@ -142,7 +143,7 @@ std::vector<Point> choose_points(std::vector<PageBaker>& pages) {
   std::vector<Point> all;
   for (PageBaker& p : pages)
     for (std::size_t tile = 0; tile < p.n_tiles(); ++tile) {
-      const auto& points = p.points(tile, 1);
+      const auto& points = p.points(tile, 1, 1);
       all.insert(all.end(), points.begin(), points.end());
     }
   if (all.size() <= most_cache_points) return all;
@@ -213,10 +214,30 @@ void make_directions(Page& page) {
   }
 }
 
-BakedPage finish(Page page, const std::vector<char>& inside, const BakeOptions& options) {
+/// Texels without light amid others of their chart that have some: nothing in the world is so small that only they are in its shadow.
+std::uint64_t count_holes(const Page& page) {
+  constexpr int amid = 6;  // of eight neighbours
+  auto is_lit = [](const Rgb& c) { return c.r + c.g + c.b > 0; };
+  std::uint64_t n = 0;
+  for (int y = 1; y + 1 < page.height; ++y)
+    for (int x = 1; x + 1 < page.width; ++x) {
+      const std::size_t i = page.at(x, y);
+      if (!page.covered(i) || is_lit(page.light()[i])) continue;
+      int n_lit = 0;
+      for (int k = 0; k < 9; ++k) {
+        const std::size_t j = page.at(x + k % 3 - 1, y + k / 3 - 1);
+        n_lit += page.places[j].chart == page.places[i].chart && is_lit(page.light()[j]);
+      }
+      n += n_lit >= amid;
+    }
+  return n;
+}
+
+BakedPage finish(Page page, const std::vector<char>& inside, const BakeOptions& options, Statistics& stats) {
   const auto known = known_texels(page, inside);
   for (std::size_t i = 0; i < page.size(); ++i)
     if (!known[i]) page.places[i].chart = Place::nowhere;
+  stats["lightmap.holes"] += count_holes(page);
   if (options.denoise) denoise(page);
   if (page.layers.size() > 1) make_directions(page);
   for (auto& layer : page.layers) fill(layer, known, page.width, page.height);
@@ -265,7 +286,7 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
       ctx.stats["lightmap.texels"] += texels.size();
       if (ctx.monitor) ctx.monitor->step();
     }
-    out.push_back(finish(std::move(page), inside, options));
+    out.push_back(finish(std::move(page), inside, options, ctx.stats));
   }
 
   std::vector<Canvas> light;

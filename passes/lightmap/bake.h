@@ -25,7 +25,7 @@ struct BakedPage {
 /// One for each page of the layout. `world` must have been made of the stage that the layout's uses refer to. Statistics:
 /// lightmap.texels (covered), .samples, .rays, .inside (texels whose points lie within something, filled from their
 /// neighbours), .leaks (those of them on which a lamp shines though backs are all around), .black (texels in the open that no
-/// light reaches), .seam-places and .jumps (SeamReport). The same for any number of threads, and after an interruption.
+/// light reaches), .holes (those of them amid lit ones), .seam-places and .jumps (SeamReport). The same for any number of threads, and after an interruption.
 std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world, const BakeOptions& options, PassContext& ctx);
 
 }  // namespace wrlkit::bake

@@ -105,7 +105,7 @@ class Finder {
  public:
   Finder(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx)
       : scene_(scene), stage_(world.stage()), witnesses_(scene, world), sides_(sides), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
-    for (const auto& s : surfaces_of(scene)) lit_.emplace(s.geometry.value, s);
+    for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take)) lit_.emplace(s.geometry.value, s);
   }
 
   std::vector<Part> run() {
@@ -126,7 +126,9 @@ class Finder {
 
  private:
   bool has_material(NodeId appearance) const {
-    return scene_.is(appearance, nodes::Appearance) && scene_.is(scene_.get(appearance, nodes::appearance::material), nodes::Material);
+    if (!scene_.is(appearance, nodes::Appearance)) return false;
+    const NodeId m = scene_.get(appearance, nodes::appearance::material);
+    return scene_.is(m, nodes::Material) || scene_.is(m, nodes::PhysicalMaterial);
   }
 
   void read(Part& p) {

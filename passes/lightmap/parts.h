@@ -33,7 +33,7 @@ struct Part {
 /// What becomes of the backs of faces that are seen from both sides.
 enum class Sides : std::uint8_t { apart, as_they_are };
 
-/// The parts of a world, in its order. Left out: what has no Material, as it is not lit; text, lines and points; geometry
+/// The parts of a world, in its order. Left out: what has no Material or PhysicalMaterial, as it is not lit; text, lines and points; geometry
 /// that events can change. O(triangles).
 ///
 /// Sides apart: a face of `solid` FALSE is seen from both sides, which have light of their own. Where the surface is closed, and

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "passes/geometry.h"
+#include "passes/lightmap/polygons.h"
 #include "passes/weld/value_table.h"
 #include "scenegraph/image.h"
 #include "scenegraph/nodes.h"
@@ -64,7 +65,10 @@ void Storing::place(Part& part, const std::vector<float>& coords, NodeId geometr
   to.index.clear();
   for (std::size_t c = 0; c < coords.size(); c += 2) to.index.push_back(table.number(&coords[c]));
   to.values = std::move(table.values);
-  store_mesh(scene_, geometry, part.mesh);
+  if (part.mesh.cut.empty()) return store_mesh(scene_, geometry, part.mesh);
+  Mesh whole = part.mesh;
+  join_cut_faces(whole);
+  store_mesh(scene_, geometry, whole);
 }
 
 /// Shapes with places of their own share an Appearance where they did and lie on one page.

@@ -26,7 +26,8 @@ class Storing {
  public:
   Storing(Scene& scene, const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx);
 
-  /// `geometry` becomes an IndexedFaceSet of the triangles of the part, with lightCoord: two numbers for each corner.
+  /// `geometry` becomes an IndexedFaceSet of the triangles of the part, with lightCoord: two numbers for each corner. Polygons that lie
+  /// in one chart are polygons again.
   void place(Part& part, const std::vector<float>& coords, NodeId geometry);
   /// The Appearance of the Shape gets the lightmap of a page; one that Shapes with different lightmaps share is copied.
   void light(NodeId shape, const ShapePlace& place, const PageLayout& page);

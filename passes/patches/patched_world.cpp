@@ -113,7 +113,8 @@ Receiver PatchedWorld::receiver(std::uint32_t s, double u, double v) const {
   const V3 e1 = c[1] - c[0], e2 = c[2] - c[0], p = c[0] + (root * (1 - v)) * e1 + (root * v) * e2;
   V3 face = unit(cross(e1, e2));
   if (side.back) face = -face;
-  return {world_.off_surface(p, face), face, face, world_.stage().uses[side.use].lights};
+  const auto t = triangle_of(world_, side.use, mesh(side.use).faces()[side.face].triangle);
+  return {world_.off_surface(p, face, std::max(length(t[1] - t[0]), length(t[2] - t[0]))), face, face, world_.stage().uses[side.use].lights};
 }
 
 std::uint32_t PatchedWorld::side_at(const Hit& hit, const V3& position) const {

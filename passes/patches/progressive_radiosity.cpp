@@ -101,8 +101,9 @@ class Shooting {
       const auto [pu, pv] = places[i];
       const auto [du, dv] = directions[i];
       const Receiver at = world_.receiver(s, pu, pv);
-      transport_.each_layer({at.start, cosine_direction(at.normal, du, dv)}, [&](const Hit& hit, const SurfacePoint& p, double part) {
-        const auto side = world_.side_at(hit, p.position);
+      const Ray ray{at.start, cosine_direction(at.normal, du, dv)};
+      transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& p, double part) {
+        const auto side = world_.side_at(hit, ray.at(hit.distance));
         // A side reflects its albedo times its alpha; `part` has the alpha already.
         if (side != PatchedWorld::none && part > 0 && world_.area(side) > 0) out.push_back({side, (part / p.alpha) * power});
       });

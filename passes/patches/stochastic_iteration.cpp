@@ -71,7 +71,7 @@ class Iteration {
     V3 sum;
     const double open = transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& p, double part) {
       if (mean(p.emission) > 0) sum += part * direct_.gather_weight(at, ray, hit) * p.emission;
-      const auto side = world_.side_at(hit, p.position);
+      const auto side = world_.side_at(hit, ray.at(hit.distance));
       // What a side reflects has its alpha in it, as `part` has.
       if (side != PatchedWorld::none && part > 0) sum += (part / p.alpha) * reflected_[side];
     });

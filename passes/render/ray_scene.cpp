@@ -39,11 +39,9 @@ struct Batch {
   std::vector<std::uint32_t> indices;
   std::vector<Part> parts;
   std::uint32_t n_elements = 0;
+  std::vector<std::uint32_t> part_number;  // by element
 
-  const Part& part_of(std::uint32_t element) const {
-    auto after = std::upper_bound(parts.begin(), parts.end(), element, [](auto e, const Part& p) { return e < p.first_element; });
-    return after[-1];
-  }
+  const Part& part_of(std::uint32_t element) const { return parts[part_number[element]]; }
 };
 
 struct Found {
@@ -226,6 +224,7 @@ void RayScene::State::flatten(std::uint32_t use) {
   bool lines_or_points = m.kind != Mesh::Kind::faces;
   Batch& to = batches[kind_of(use)];
   bool flipped = !lines_or_points && frame.determinant() < 0;
+  to.part_number.resize(to.part_number.size() + m.n_elements, static_cast<std::uint32_t>(to.parts.size()));
   to.parts.push_back({to.n_elements, use, flipped});
   to.n_elements += m.n_elements;
   if (m.kind == Mesh::Kind::lines) return add_ribbons(to, frame, m);
@@ -379,9 +378,11 @@ bool RayScene::nearest(const Ray& ray, double after, Hit& hit) const {
   hit.back = context.found.back;
   hit.leaves = context.leaves && !hit.back ? s.resolve(context.left).first : Hit::none;
   bool flipped = false;
+  hit.across = {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z};
   if (r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
     hit.use = s.use_of[r.hit.instID[0]];
     hit.element = r.hit.primID;
+    hit.across = s.stage.frames[s.stage.uses[hit.use].frame].normal(hit.across);
   } else {
     const Part& p = s.batch_of[r.hit.geomID]->part_of(r.hit.primID);
     hit.use = p.use;

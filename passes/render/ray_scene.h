@@ -16,6 +16,8 @@ namespace wrlkit::drawing {
 
 struct Ray {
   V3 origin, direction;  // world; the direction is unit
+
+  V3 at(double distance) const { return origin + distance * direction; }
 };
 
 struct Hit {
@@ -26,6 +28,7 @@ struct Hit {
   static constexpr std::uint32_t none = 0xffffffff;
   std::uint32_t leaves = none;  // a use of which the ray meets a back at the very same distance, though a front counts as nearer
   double weights[3] = {1, 0, 0};  // of the corners of the element
+  V3 across;                  // of a triangle: its normal, world, on the front; of any length
 };
 
 /// Lines and points have no width of their own: a pen says how they are drawn.

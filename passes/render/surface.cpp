@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/x3d/appearance.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::drawing {
@@ -15,6 +16,23 @@ void read_material(Surface& s, const Scene& scene, NodeId n) {
   s.material.ambient = scene.get(n, f::ambientIntensity);
   s.material.shininess = std::clamp(scene.get(n, f::shininess), 0.0, 1.0);
   s.emissive = scene.get(n, f::emissiveColor);
+  s.alpha = 1 - std::clamp(scene.get(n, f::transparency), 0.0, 1.0);
+}
+
+/// Metals are as dull as all else; their colour is what they reflect.
+void read_physical(Surface& s, const Scene& scene, NodeId n) {
+  namespace f = nodes::physical_material;
+  s.lit = s.modulates = true;
+  s.material.diffuse = scene.get(n, f::baseColor);
+  s.material.specular = {};
+  s.emissive = scene.get(n, f::emissiveColor);
+  s.alpha = 1 - std::clamp(scene.get(n, f::transparency), 0.0, 1.0);
+}
+
+void read_unlit(Surface& s, const Scene& scene, NodeId n) {
+  namespace f = nodes::unlit_material;
+  s.shines = s.modulates = true;
+  s.material.diffuse = scene.get(n, f::emissiveColor);
   s.alpha = 1 - std::clamp(scene.get(n, f::transparency), 0.0, 1.0);
 }
 
@@ -37,10 +55,10 @@ V3 BakedLight::at(const std::array<double, 2>& place, double detail) const {
 }
 
 Texel Surface::base(const std::optional<Texel>& vertex, const std::optional<Texel>& texel) const {
-  Texel out{lit ? material.diffuse : V3(1), alpha};
+  Texel out{lit || shines ? material.diffuse : V3(1), alpha};
   if (vertex) out.color = vertex->color, out.alpha *= vertex->alpha;
   if (!texel) return out;
-  out.color = picture.texture->is_grey() ? texel->color * out.color : texel->color;
+  out.color = modulates || picture.texture->is_grey() ? texel->color * out.color : texel->color;
   if (picture.texture->has_alpha()) out.alpha = texel->alpha;
   return out;
 }
@@ -62,9 +80,13 @@ Surface Surfaces::make(NodeId appearance) {
   namespace f = nodes::appearance;
   Surface s;
   NodeId material = scene_.get(appearance, f::material), map = scene_.get(appearance, f::textureTransform);
+  s.modulates = scene_.dialect() == Dialect::x3d && scene_.x3d.version >= 40;
   if (scene_.is(material, nodes::Material)) read_material(s, scene_, material);
+  if (scene_.is(material, nodes::PhysicalMaterial)) read_physical(s, scene_, material);
+  if (scene_.is(material, nodes::UnlitMaterial)) read_unlit(s, scene_, material);
   if (scene_.is(map, nodes::TextureTransform)) s.texcoords = texcoord_map(scene_, map);
-  s.picture = layer(scene_.get(appearance, f::texture));
+  const NodeId texture = scene_.get(appearance, f::texture);
+  s.picture = layer(texture ? texture : x3d::picture_of(scene_, material));
   s.baked = baked_light(appearance);
   return s;
 }

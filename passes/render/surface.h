@@ -42,7 +42,9 @@ struct BakedLight {
 };
 
 struct Surface {
-  bool lit = false;                  // it has a Material
+  bool lit = false;                  // it has a Material or PhysicalMaterial
+  bool shines = false;               // it has an UnlitMaterial: its colour is light of its own
+  bool modulates = false;            // the picture multiplies the colour (ISO/IEC 19775-1 since 4.0) and does not replace it
   Lit material;
   V3 emissive;
   double alpha = 1;                  // 1 - transparency

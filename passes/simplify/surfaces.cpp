@@ -13,11 +13,11 @@ namespace {
 
 class Choice {
  public:
-  Choice(const Scene& scene, Diagnostics* diag) : scene_(scene), diag_(diag), order_(all_nodes(scene)), kept_(scene.node_count()) {}
+  Choice(const Scene& scene, Diagnostics* diag, BelowLod below) : scene_(scene), diag_(diag), below_(below), order_(all_nodes(scene)), kept_(scene.node_count()) {}
 
   std::vector<ShapeSurface> run() {
     keep_routed();
-    keep_below_levels();
+    if (below_ == BelowLod::leave) keep_below_levels();
     std::vector<ShapeSurface> out;
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> number(scene_.node_count(), none);
@@ -89,13 +89,14 @@ class Choice {
 
   const Scene& scene_;
   Diagnostics* diag_;
+  BelowLod below_;
   std::vector<NodeId> order_;
   std::vector<Kept> kept_;  // by node: whether it must not change
 };
 
 }  // namespace
 
-std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag) { return Choice(scene, diag).run(); }
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag, BelowLod below) { return Choice(scene, diag, below).run(); }
 
 SurfaceReader::SurfaceReader(const Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
 

@@ -60,13 +60,6 @@ bool first_only(Scene& scene, NodeId n, Diagnostics& diag) {
   return changed;
 }
 
-NodeId picture_of(const Scene& scene, NodeId material) {
-  if (scene.is(material, nodes::Material)) return scene.get(material, nodes::material::diffuseTexture);
-  if (scene.is(material, nodes::PhysicalMaterial)) return scene.get(material, nodes::physical_material::baseTexture);
-  if (scene.is(material, nodes::UnlitMaterial)) return scene.get(material, nodes::unlit_material::emissiveTexture);
-  return {};
-}
-
 bool take_picture(Scene& scene, NodeId n, Diagnostics& diag) {
   namespace a = nodes::appearance;
   if (!scene.is(n, nodes::Appearance)) return false;
@@ -83,6 +76,13 @@ bool take_picture(Scene& scene, NodeId n, Diagnostics& diag) {
 }
 
 }  // namespace
+
+NodeId picture_of(const Scene& scene, NodeId material) {
+  if (scene.is(material, nodes::Material)) return scene.get(material, nodes::material::diffuseTexture);
+  if (scene.is(material, nodes::PhysicalMaterial)) return scene.get(material, nodes::physical_material::baseTexture);
+  if (scene.is(material, nodes::UnlitMaterial)) return scene.get(material, nodes::unlit_material::emissiveTexture);
+  return {};
+}
 
 bool lower_appearance(Scene& scene, NodeId n, Diagnostics& diag) {
   const bool side = one_side(scene, n, diag), first = first_only(scene, n, diag);

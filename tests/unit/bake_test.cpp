@@ -10,6 +10,7 @@
 #include "passes/lightmap.h"
 #include "passes/parallel.h"
 #include "passes/pipeline.h"
+#include "passes/triangulate.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/srgb.h"
 #include "scenegraph/walk.h"
@@ -26,7 +27,7 @@ struct Baked {
   PassContext ctx{diag, stats, &resources};
   std::unique_ptr<World> world;
 
-  Baked(const std::string& body, const std::string& options) : world(parse_world("#VRML V2.0 utf8\n" + body, "test.wrl", {}, diag)) {
+  Baked(const std::string& body, const std::string& options, const std::string& head = "#VRML V2.0 utf8\n") : world(parse_world(head + body, "test.wrl", {}, diag)) {
     REQUIRE(world);
     std::string why;
     auto p = Pipeline::parse("lightmap{" + options + "}", why);
@@ -57,6 +58,7 @@ class Light {
     MeshScratch scratch;
     MeshJob job{scene, scene.get(shape, nodes::shape::geometry), mesh, scratch, b.ctx};
     read_mesh(job);
+    triangulate(job, {});
     REQUIRE(mesh.lightcoord.present());
   }
 
@@ -219,6 +221,40 @@ TEST_CASE("bake: a closed room of which both sides are to be seen has light on b
   CHECK(Light(nobody, "Room").mesh.corners.size() == 36);
   CHECK(Light(viewer, "Room").mesh.corners.size() == 72);
   CHECK(Light(lamp, "Room").mesh.corners.size() == 72);
+}
+
+TEST_CASE("bake: a large face hides nothing from itself where it goes through the middle of the world", "[bake]") {
+  Baked b("DEF Plate Shape { " + material(0.5) + " geometry IndexedFaceSet { coord Coordinate { point [ -1.1 -0.6 0.53, 1.1 -0.6 -0.53, 1.1 0.67 -0.53, -1.1 0.67 0.53 ] } "
+          "coordIndex [ 0 1 2 3 -1 ] } } DirectionalLight { direction 0 0 -1 }", "quality=draft,max-size=128");
+  Light plate(b, "Plate");
+  for (double a = 0.01; a < 1; a += 0.02)
+    for (double c = 0.01; a + c < 1; c += 0.02) CHECK(plate.at(std::size_t{0}, a, c) == Approx(0.901).epsilon(0.02));
+}
+
+TEST_CASE("bake: a polygon in one chart is a polygon again, and all levels of a LOD have light", "[bake]") {
+  auto level = [&](const char* name, const std::string& geometry) { return "DEF " + std::string(name) + " Shape { appearance DEF A Appearance { material Material { } } geometry " + geometry + " } "; };
+  Baked b("LOD { range 10 level [ " + level("Near", "DEF G " + floor_of_4) + "Group { children [ " + level("Far", "USE G") + " ] } ] } " +
+          "DEF Else Transform { translation 9 0 0 children Shape { appearance USE A geometry Box { } } } PointLight { location 0 2 0 attenuation 0 0 1 }", "quality=draft,max-size=128");
+  const Scene& scene = b.world->scene;
+  auto geometry = [&](const char* name) { return scene.get(b.shape(name), nodes::shape::geometry); };
+  CHECK(geometry("Near") != geometry("Far"));
+  for (const char* name : {"Near", "Far"}) {
+    CHECK(scene.get(geometry(name), nodes::indexed_face_set::coordIndex).size() == 5);
+    CHECK(Light(b, name).on_floor(0.01, 0.01) == Approx(0.25).epsilon(0.05));
+  }
+  const auto lods = all_nodes(scene);
+  const auto lod = std::ranges::find_if(lods, [&](NodeId n) { return scene.is(n, nodes::LOD); });
+  REQUIRE(lod != lods.end());
+  CHECK(scene.get(*lod, nodes::lod::children)[0] == b.shape("Near"));
+}
+
+TEST_CASE("bake: materials of X3D 4.0 take light, and those that are unlit give it", "[bake]") {
+  const std::string lamp = "Transform { translation 0 1 0 rotation 1 0 0 3.14159265 children Shape { appearance Appearance { material UnlitMaterial { emissiveColor 1 0.5 1 } } geometry " + floor_of_4 + " } } ";
+  Baked b("DEF Floor Shape { appearance Appearance { material PhysicalMaterial { baseColor 0.5 0.5 0.5 metallic 1 } } geometry " + floor_of_4 + " } " + lamp, "quality=draft,max-size=128,sky=none",
+          "#X3D V4.0 utf8\nPROFILE Full\n");
+  // The form factor of a square of 4 m from a point 1 m below its middle.
+  CHECK(Light(b, "Floor").on_floor(0.01, 0.01) == Approx(0.831 * srgb_to_linear(0.5)).epsilon(0.03));
+  CHECK(b.stats["lightmap.shapes"] == 1);
 }
 
 TEST_CASE("bake: what has a name gets as many texels as it is said to", "[bake]") {
