@@ -108,7 +108,7 @@ class PassOf final : public PassInstance {
 
 template <auto Function, class Options>
 constexpr PassInfo pass(std::string_view name, std::string_view summary, Level needs, Level leaves) {
-  return {name, summary, needs, leaves, []() -> std::unique_ptr<PassInstance> { return std::make_unique<PassOf<Function, Options>>(); }};
+  return {name, summary, needs, leaves, [](const PassInfo&) -> std::unique_ptr<PassInstance> { return std::make_unique<PassOf<Function, Options>>(); }};
 }
 
 }  // namespace wrlkit

@@ -7,7 +7,6 @@
 
 #include "passes/geometry.h"
 #include "scenegraph/blanks.h"
-#include "scenegraph/nearest_name.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
@@ -41,11 +40,7 @@ bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
   return true;
 }
 
-std::string no_such_pass(std::string_view name) {
-  NearestName nearest(name);
-  for (const auto& p : passes()) nearest.consider(p.name);
-  return "there is no pass '" + std::string(name) + "'" + nearest.question();
-}
+std::string no_such_pass(std::string_view name) { return "there is no pass '" + std::string(name) + "'" + pass_question(name); }
 
 bool is_geometry(const Scene& scene, NodeId n) { return scene.type(n).kind == NodeKind::builtin && scene.type(n).is_a("X3DGeometryNode"); }
 
@@ -82,6 +77,16 @@ std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why)
     p.steps_.push_back(std::move(s));
   }
   return p;
+}
+
+bool Pipeline::add(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options, std::string& why) {
+  auto* info = find_pass(name);
+  if (!info) return why = no_such_pass(name), false;
+  Step s{info, info->make()};
+  for (const auto& [option, value] : options)
+    if (!s.pass->set(option, value, why)) return why = "pass '" + std::string(name) + "' " + why, false;
+  steps_.push_back(std::move(s));
+  return true;
 }
 
 void Pipeline::complete(std::string_view named) {
@@ -121,6 +126,13 @@ void Pipeline::complete(std::string_view named) {
 std::vector<Pipeline::StepInfo> Pipeline::steps() const {
   std::vector<StepInfo> out;
   for (const auto& s : steps_) out.push_back({s.info->name, s.pass->options()});
+  return out;
+}
+
+std::vector<std::string> Pipeline::files() const {
+  std::vector<std::string> out;
+  for (const auto& s : steps_)
+    for (auto& file : s.pass->files()) out.push_back(std::move(file));
   return out;
 }
 

@@ -1,5 +1,6 @@
-// The whole list of passes. Adding one is a header, a source, a line here and a test.
+// The whole list of passes. Adding one is a header, a source, a line here and a test. Programs may add some of their own.
 #include <algorithm>
+#include <map>
 
 #include "passes/combine_lightmap.h"
 #include "passes/cull.h"
@@ -59,14 +60,40 @@ constexpr NamedPipeline named[] = {
     {"none", "", "nothing: the file as it is"},
 };
 
+/// Passes that a program brings itself, as the Python package does.
+std::map<std::string, const PassInfo*, std::less<>>& added_by_name() {
+  static std::map<std::string, const PassInfo*, std::less<>> added;
+  return added;
+}
+
 }  // namespace
 
 std::span<const PassInfo> passes() { return all_passes; }
 std::span<const NamedPipeline> named_pipelines() { return named; }
 
 const PassInfo* find_pass(std::string_view name) {
-  auto i = std::ranges::find(all_passes, name, &PassInfo::name);
-  return i == std::end(all_passes) ? nullptr : i;
+  if (auto i = std::ranges::find(all_passes, name, &PassInfo::name); i != std::end(all_passes)) return i;
+  const auto added = added_by_name().find(name);
+  return added == added_by_name().end() ? nullptr : added->second;
+}
+
+bool add_pass(const PassInfo& info) {
+  if (std::ranges::find(all_passes, info.name, &PassInfo::name) != std::end(all_passes) || std::ranges::find(named, info.name, &NamedPipeline::name) != std::end(named)) return false;
+  added_by_name().insert_or_assign(std::string(info.name), &info);
+  return true;
+}
+
+std::vector<const PassInfo*> added_passes() {
+  std::vector<const PassInfo*> out;
+  for (const auto& [name, info] : added_by_name()) out.push_back(info);
+  return out;
+}
+
+std::string pass_question(std::string_view name) {
+  NearestName nearest(name);
+  for (const auto& p : all_passes) nearest.consider(p.name);
+  for (const auto* p : added_passes()) nearest.consider(p->name);
+  return nearest.question();
 }
 
 }  // namespace wrlkit

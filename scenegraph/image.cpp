@@ -31,7 +31,7 @@ fs::path own_folder() {
 /// Where the module may be: in the build tree beside the program or above it, installed in a folder of libraries.
 std::vector<fs::path> module_paths() {
   const fs::path folder = own_folder(), name = "wrlkit_images.so", lib = folder / ".." / "lib";
-  std::vector<fs::path> paths{folder / name, folder / ".." / name, folder / "wrlkit" / name, lib / "wrlkit" / name};
+  std::vector<fs::path> paths{folder / name, folder / ".." / name, folder / ".." / ".." / name, folder / "wrlkit" / name, lib / "wrlkit" / name};
   std::error_code ec;
   for (fs::directory_iterator i(lib, ec), end; !ec && i != end; i.increment(ec))  // lib/x86_64-linux-gnu
     if (auto path = i->path() / "wrlkit" / name; fs::exists(path, ec)) paths.push_back(path);

@@ -15,6 +15,7 @@ they come behind the nodes, where no writer takes them for the world's leading c
   # CHECK: geometry Cone           a line further down in the output contains this; {{...}} is a regular expression
   # CHECK-NEXT: height 3           the next one does
   # CHECK-NOT: radius              no line between the neighbouring CHECKs does
+  # NEEDS: python                  the test is left out where the program was built without the Python package
   # EXPECT-EXIT: 3                 exit code of the RUN above; otherwise 1 when an error is expected, else 0
   # EXPECT-ERROR [unknown-field] no field 'radius'
                                    the command reports this on this line of this file, on its error output; likewise
@@ -67,6 +68,11 @@ class Expected:
 
 class Faulty(Exception):
     pass
+
+
+def can_run(path, options):
+    """Whether there is what the test needs."""
+    return '# NEEDS: python\n' not in path.read_text(encoding='utf-8') or (options.wrlkit.parent / 'python/wrlkit/__main__.py').exists()
 
 
 def parse(lines):
@@ -259,9 +265,12 @@ def main():
     options.wrlkit = options.wrlkit.resolve()
     if not options.wrlkit.is_file():
         sys.exit(f'check: there is no program {options.wrlkit}')
-    tests = sorted(set(tests_below(options.tests)))
-    if not tests:
+    below = sorted(set(tests_below(options.tests)))
+    if not below:
         sys.exit('check: there are no tests')
+    tests = [t for t in below if can_run(t, options)]
+    if len(tests) < len(below):
+        print(f'{len(below) - len(tests)} tests need Python and are left out')
     with ThreadPoolExecutor(options.jobs) as pool:
         results = list(pool.map(lambda t: run_test(t, options), tests))
     failed = [(t, faults) for t, faults in zip(tests, results) if faults]

@@ -10,6 +10,7 @@
 #include "passes/simplify/levels.h"
 #include "scenegraph/image.h"
 #include "tools/profiles.h"
+#include "tools/python_passes.h"
 #include "tools/recipe.h"
 
 #ifndef WRLKIT_VERSION
@@ -47,8 +48,13 @@ void placing(CLI::App& verb, Flags& f) {
   verb.add_option("--up", f.up, "which axis of the input points up: y, z, x")->check(CLI::IsMember({"y", "z", "x"}));
 }
 
+void python(CLI::App& verb, Flags& f) {
+  verb.add_option("--python", f.python, "a file with passes in Python, which then have a name like all others; see docs/python.md")->type_name("FILE")->allow_extra_args(false);
+}
+
 void pipeline(CLI::App& verb, Flags& f) {
   verb.add_option("-p,--pipeline", f.pipeline, "passes to run, or the name of a pipeline; see wrlkit passes")->type_name("PASSES");
+  python(verb, f);
   verb.add_flag("--print-pipeline", f.print_pipeline, "print the whole pipeline with all options, and end");
   verb.add_flag("--verify-each", f.verify_each, "check the scene after each pass");
   verb.add_option("--print-after", f.print_after, "print the scene as VRML after this pass, or after all")->type_name("PASS");
@@ -263,7 +269,7 @@ const Verb verbs[] = {
        v.add_option("--looks", f.looks, "of how many worlds, at the most, surfaces are compared and pictures drawn")->check(CLI::Range(0, 1'000'000))->capture_default_str();
      },
      run_corpus_report},
-    {"passes", "every pass, or one with its options", "wrlkit passes tessellate", [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "a pass"); }, run_passes},
+    {"passes", "every pass, or one with its options", "wrlkit passes tessellate", [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "a pass"); python(v, f); }, run_passes},
     {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",
      [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "node type, pass or message")->required(); }, run_explain},
@@ -345,7 +351,9 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
 std::vector<std::string> words_of(const GivenOptions& options) {
   std::vector<std::string> words;
   for (const auto& [name, values] : options)
-    for (const auto& v : values) words.push_back("--" + name + "=" + v);
+    for (const auto& v : values)
+      if (v.empty()) words.insert(words.end(), {"--" + name, ""});  // behind "=" CLI11 takes no value for a missing one
+      else words.push_back("--" + name + "=" + v);
   return words;
 }
 
@@ -355,6 +363,7 @@ bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& 
   std::string why;
   auto recipe = read_recipe(flags.recipe, why);
   if (!recipe) return std::fputs(why.c_str(), stderr), false;
+  if (!recipe->python.empty()) recipe->options.emplace_back("python", recipe->python);
   if (recipe->pipeline) recipe->options.emplace_back("pipeline", std::vector{*recipe->pipeline});
   Flags unused;
   const auto app = app_of(verb, unused);
@@ -408,6 +417,7 @@ Flags conversion_flags(const Recipe& recipe) {
   auto options = recipe.options;
   std::erase_if(options, [&](const auto& o) { return !app->get_option_no_throw("--" + o.first); });
   if (recipe.pipeline) options.emplace_back("pipeline", std::vector{*recipe.pipeline});
+  if (!recipe.python.empty()) options.emplace_back("python", recipe.python);
   auto words = words_of(options);
   for (const char* word : {"--", "IN", "OUT"}) words.emplace_back(word);
   std::ranges::reverse(words);
@@ -428,6 +438,8 @@ int run_command_line(int argc, char** argv) {
   const Verb* chosen = nullptr;
   int code = parse(words, flags, chosen);
   std::vector<std::string> of_recipe;
+  std::string why;
+  if (chosen && !load_python_passes(flags.python, why)) return std::fprintf(stderr, "wrlkit: --python: %s\n", why.c_str()), usage;
   if (chosen && !flags.recipe.empty()) {
     if (!add_recipe(flags, *chosen, words, of_recipe)) return usage;
     flags = {};

@@ -50,6 +50,11 @@ std::string_view pipeline_for(Target target, const Flags& flags) {
 
 }  // namespace
 
+bool is_output_name(const std::string& name) {
+  bool gzip = false;
+  return target_of(name, gzip).has_value();
+}
+
 bool prepare_conversion(Session& s) {
   const auto& flags = s.flags();
   bool gzip = flags.gzip;
@@ -60,12 +65,16 @@ bool prepare_conversion(Session& s) {
 
 bool convert_world(Session& s) {
   const auto& flags = s.flags();
-  bool gzip = flags.gzip;
-  const auto target = target_of(flags.output, gzip);
   if (!s.read(flags.inputs[0])) return false;
   check_values(s.world().scene, s.diag());
   const auto& main = s.world().scene.main;
   if (main.roots.empty() && main.protos.empty() && s.diag().has_errors()) return s.diag().report(Diag::nothing_to_write, {}), false;
+  return write_world(s);
+}
+
+bool write_world(Session& s) {
+  bool gzip = s.flags().gzip;
+  const auto target = target_of(s.flags().output, gzip);
   return *target == Target::vrml || *target == Target::x3d ? write_as_text(s, gzip, *target) : write_as_gltf(s);
 }
 

@@ -4,9 +4,13 @@
 
 namespace wrlkit {
 
+/// Whether the end of a name says in which format a world is written there.
+bool is_output_name(const std::string& name);
 /// Chooses the pipeline by the flags and the name of the output; false when that cannot be done, which was printed.
 bool prepare_conversion(Session&);
 /// Reads the input, runs the pipeline and writes the output; false when there is none. Messages are in the session.
 bool convert_world(Session&);
+/// The same behind the reading.
+bool write_world(Session&);
 
 }  // namespace wrlkit

@@ -77,6 +77,7 @@ std::string type_text(const NodeType& t) {
 std::string pass_text(const PassInfo& p) {
   std::string out = fmt::format("{}: {}\n  needs level {}, leaves level {}\n", p.name, p.summary, level_word(p.needs), level_word(p.leaves));
   for (auto& o : p.make()->options()) out += fmt::format("  {:<18} {:<28} {:<14} {}\n", o.name, o.type_and_range(), o.value, o.help);
+  if (!p.doc.empty()) out += fmt::format("\n{}\n", p.doc);
   return out;
 }
 

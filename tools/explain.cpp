@@ -17,6 +17,7 @@ std::string meant(std::string_view name) {
   NearestName nearest(name);
   for (auto& n : builtin_nodes()) nearest.consider(n.name);
   for (auto& p : passes()) nearest.consider(p.name);
+  for (auto* p : added_passes()) nearest.consider(p->name);
   for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i) nearest.consider(info(static_cast<Diag>(i)).name);
   return nearest.question();
 }
@@ -39,10 +40,11 @@ int run_explain(const Flags& flags) {
 int run_passes(const Flags& flags) {
   if (!flags.name.empty()) {
     if (auto* p = find_pass(flags.name)) return fmt::print("{}", pass_text(*p)), done;
-    return fmt::print(stderr, "wrlkit: there is no pass '{}'\n", flags.name), usage;
+    return fmt::print(stderr, "wrlkit: there is no pass '{}'{}\n", flags.name, pass_question(flags.name)), usage;
   }
   if (flags.json) return fmt::print("{}\n", passes_json()), done;
   for (auto& p : passes()) fmt::print("{:<16}{}\n", p.name, p.summary);
+  for (auto* p : added_passes()) fmt::print("{:<16}{}\n", p->name, p->summary);
   fmt::print("\nPipelines with a name:\n");
   for (auto& n : named_pipelines()) fmt::print("{:<16}{}\n                {}\n", n.name, n.summary, n.text);
   return done;

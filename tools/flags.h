@@ -27,6 +27,7 @@ struct Flags {
   bool pipeline_given = false;
   bool print_pipeline = false, verify_each = false, time_passes = false, stats = false;
   std::string print_after;
+  std::vector<std::string> python;         // files with passes
   bool gzip = false, dump = false;
   int precision = 0;
   std::string recipe;

@@ -1,4 +1,6 @@
 // wrlkit info: what is inside a world. The keys of --json are stable.
+#include "tools/info.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -182,23 +184,27 @@ std::string info_text(Session& s, const Info& i) {
 
 }  // namespace
 
+std::optional<std::string> info_of(Session& s) {
+  check_values(s.world().scene, s.diag());
+  Info info;
+  count_authored(s.world().scene, info);
+  WorldMeshes meshes(s);
+  if (!meshes.good()) return std::nullopt;
+  count_expanded(s, info);
+  info.geometry = count_geometry(s.world().scene, meshes.polygons, meshes.triangles);
+  count_levels(s, meshes, info);
+  return s.flags().json ? info_json(s, info) + "\n" : info_text(s, info);
+}
+
 int run_info(const Flags& flags) {
   Session s(flags);
   if (!s.good()) return usage;
   const auto file = read_file(flags.inputs[0], {}, s.diag());
   if (file && is_patch_file(file->view())) return print_patches_info(s, *file);
   if (!file || !s.read(flags.inputs[0], *file)) return s.end(false);
-  check_values(s.world().scene, s.diag());
-  Info info;
-  count_authored(s.world().scene, info);
-  WorldMeshes meshes(s);
-  if (!meshes.good()) return s.end(false);
-  count_expanded(s, info);
-  info.geometry = count_geometry(s.world().scene, meshes.polygons, meshes.triangles);
-  count_levels(s, meshes, info);
-  if (flags.json) fmt::print("{}\n", info_json(s, info));
-  else fmt::print("{}", info_text(s, info));
-  return s.end(true);
+  const auto text = info_of(s);
+  if (text) fmt::print("{}", *text);
+  return s.end(text.has_value());
 }
 
 }  // namespace wrlkit

@@ -1,32 +1,11 @@
 // The command line. Which words it knows is in cli.cpp, what a verb does is in its own file.
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <exception>
-#include <new>
-
 #include "tools/cli.h"
-
-namespace {
-
-/// A full disk shows when what was printed leaves the buffer, not before.
-bool everything_printed() {
-  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
-  std::fprintf(stderr, "wrlkit: error: cannot write to standard output: %s\n", std::strerror(errno));
-  return false;
-}
-
-}  // namespace
+#include "tools/python_passes.h"
 
 int main(int argc, char** argv) {
-  using namespace wrlkit;
   try {
-    const int code = run_command_line(argc, argv);
-    return everything_printed() ? code : nothing;
-  } catch (const std::bad_alloc&) {
-    std::fputs("wrlkit: error: there is not enough memory\n", stderr);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "wrlkit: error: %s\n", e.what());
+    return wrlkit::run_program(argc, argv);
+  } catch (const wrlkit::NeedsPython&) {
+    return wrlkit::run_in_python(argv);
   }
-  return nothing;
 }

@@ -3,25 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <ranges>
 
 #include "parsers/read_file.h"
 #include "passes/pipeline.h"
 #include "scenegraph/nearest_name.h"
 #include "tools/cli.h"
+#include "tools/python_passes.h"
 #include "tools/toml.h"
 
 namespace wrlkit {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::uint64_t most_bytes = 1 << 20;
 
 // How a run is watched is not a matter of the recipe.
-constexpr std::string_view not_in_recipes[] = {"help", "recipe", "pipeline", "print-pipeline", "print-recipe", "verify-each", "print-after", "time-passes", "stats",
+constexpr std::string_view not_in_recipes[] = {"help", "recipe", "python", "pipeline", "print-pipeline", "print-recipe", "verify-each", "print-after", "time-passes", "stats",
                                                "output", "quiet", "verbose", "json", "report", "jobs", "base", "shard", "joblog", "retry"};
 constexpr std::string_view of_input[] = {"unit", "up", "allow-path", "include", "exclude"};
 constexpr std::string_view of_limits[] = {"memory", "timeout"};
 constexpr std::string_view of_messages[] = {"strict"};
+constexpr std::string_view keys_of_passes[] = {"python", "pipeline", "pass"};
 constexpr std::string_view sections[] = {"input", "output", "limits", "messages"};
 
 bool contains(auto&& list, std::string_view name) { return std::ranges::find(list, name) != std::end(list); }
@@ -41,7 +46,7 @@ std::vector<RecipeOption> recipe_options() {
 
 class Reader {
  public:
-  Reader(const std::string& path, std::string_view text, std::string& why) : path_(path), text_(text), why_(why) {}
+  Reader(const std::string& path, std::string_view text, bool with_passes, std::string& why) : path_(path), text_(text), with_passes_(with_passes), why_(why) {}
 
   std::optional<Recipe> read() {
     TomlPlace where;
@@ -49,6 +54,7 @@ class Reader {
     const auto root = parse_toml(text_, fault, where);
     if (!root) return fail(where, fault), std::nullopt;
     recipe_.path = path_;
+    if (const auto* files = root->find("python"); files && with_passes_ && !python(*files)) return std::nullopt;  // the passes below are in them
     for (const auto& member : root->items)
       if (!top(member)) return std::nullopt;
     if (!passes_.empty()) recipe_.pipeline = passes_;
@@ -69,6 +75,8 @@ class Reader {
 
   bool top(const TomlNode& node) {
     using enum TomlNode::Kind;
+    if (!with_passes_ && contains(keys_of_passes, node.key)) return true;
+    if (node.key == "python") return true;
     if (node.key == "summary") return want(node, text) && (recipe_.summary = node.text, true);
     if (node.key == "pipeline") return want(node, text) && pipeline(node);
     if (node.key == "pass") {
@@ -77,9 +85,21 @@ class Reader {
     }
     if (contains(sections, node.key)) return want(node, table) && std::ranges::all_of(node.items, [&](const TomlNode& n) { return node.key == "messages" && n.key != "strict" ? message(n) : option(node.key, n); });
     NearestName nearest(node.key);
-    for (auto name : {"summary", "pipeline", "pass"}) nearest.consider(name);
+    nearest.consider("summary");
+    for (auto name : keys_of_passes) nearest.consider(name);
     for (auto name : sections) nearest.consider(name);
     return unknown(node, fmt::format("a recipe has no '{}'", node.key), nearest);
+  }
+
+  bool python(const TomlNode& node) {
+    using enum TomlNode::Kind;
+    if (node.kind == boolean || node.kind == number) return want(node, text);
+    std::vector<std::string> names;
+    std::string fault;
+    if (!texts(node, names)) return false;
+    std::error_code none;
+    for (const auto& name : names) recipe_.python.push_back(fs::absolute(fs::path(path_).parent_path() / name, none).lexically_normal().string());
+    return load_python_passes(recipe_.python, fault) || fail(node.place, fault);
   }
 
   bool only_one_pipeline(TomlPlace where) { return !(recipe_.pipeline && !passes_.empty()) || fail(where, "the passes are given twice: as a pipeline and one by one"); }
@@ -173,6 +193,7 @@ class Reader {
 
   const std::string& path_;
   std::string_view text_;
+  bool with_passes_;
   std::string& why_;
   Recipe recipe_;
   std::string passes_;
@@ -192,6 +213,12 @@ std::string names_behind(const std::vector<std::string>& warnings, std::string_v
   return names.empty() ? "" : fmt::format("{} = {}\n", key, list_of(names));
 }
 
+std::optional<Recipe> read(const std::string& path, bool with_passes, std::string& why) {
+  const auto text = read_bytes(path, most_bytes, why);
+  if (!text) return why = fmt::format("wrlkit: {}: {}\n", path, why), std::nullopt;
+  return Reader(path, *text, with_passes, why).read();
+}
+
 }  // namespace
 
 std::string_view recipe_section(std::string_view option) {
@@ -199,14 +226,13 @@ std::string_view recipe_section(std::string_view option) {
   return contains(of_input, option) ? "input" : contains(of_limits, option) ? "limits" : contains(of_messages, option) ? "messages" : "output";
 }
 
-std::optional<Recipe> read_recipe(const std::string& path, std::string& why) {
-  const auto text = read_bytes(path, most_bytes, why);
-  if (!text) return why = fmt::format("wrlkit: {}: {}\n", path, why), std::nullopt;
-  return Reader(path, *text, why).read();
-}
+std::optional<Recipe> read_recipe(const std::string& path, std::string& why) { return read(path, true, why); }
+std::optional<Recipe> read_recipe_options(const std::string& path, std::string& why) { return read(path, false, why); }
 
 std::string recipe_text(const GivenOptions& options, const std::vector<std::string>& warnings, const Pipeline& pipeline) {
-  std::string out = pipeline.empty() ? "pipeline = \"\"\n\n" : "";
+  std::string out;
+  if (const auto python = std::ranges::find(options, "python", &GivenOptions::value_type::first); python != options.end()) out += fmt::format("python = {}\n\n", list_of(python->second));
+  if (pipeline.empty()) out += "pipeline = \"\"\n\n";
   for (auto section : sections) {
     std::string keys;
     for (const auto& [name, values] : options)
@@ -228,6 +254,7 @@ std::string recipes_page() {
   std::string out =
       "# Recipes\n\nGenerated from the options of the command line by `script/docs`; do not edit. A recipe is a TOML file: sections with options of "
       "`wrlkit convert` and of `wrlkit corpus run`, and passes, one `[[pass]]` with its `name` and its options after the other, or all in one line as `pipeline = \"weld,lod\"`. "
+      "`python = [\"tags.py\"]` names files with passes in Python ([python.md](python.md)), from the folder of the recipe; they stand below `[[pass]]` like all others. "
       "`convert --recipe FILE` runs it, `--print-recipe` prints the whole of what a command would do as a recipe. What stands on the command line "
       "comes before what the recipe says. `recipes/` has some; [passes.md](passes.md) has the passes with their options.\n"
       "\n```\nsummary = \"what it is for\"\n\n[output]\nprecision = 6\n\n[[pass]]\nname = \"weld\"\ntolerance = 0.001\n\n[[pass]]\nname = \"lod\"\nratios = [0.5, 0.1]\n```\n";

@@ -35,6 +35,9 @@ Session::Session(const Flags& flags)
   good_ = apply_warning_flags();
 }
 
+Session::Session(const Flags& flags, std::unique_ptr<World> world, Resources& resources, Diagnostics& diag)
+    : flags_(flags), threads_(flags.jobs), diag_(diag), world_(std::move(world)), context_{diag_, stats_, &resources}, progress_(!flags.quiet) {}
+
 bool Session::apply_warning_flags() {
   if (flags_.strict) diag_.warnings_are_errors();
   for (const auto& w : flags_.warnings) {
@@ -78,7 +81,7 @@ bool Session::choose_pipeline(std::string_view standard) {
   if (!pipeline_) return fmt::print(stderr, "wrlkit: -p: {}\n", why), false;
   if (flags_.pipeline_given) pipeline_->complete(standard);
   const auto& after = flags_.print_after;
-  if (!after.empty() && after != "all" && !find_pass(after)) return fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'\n", after), false;
+  if (!after.empty() && after != "all" && !find_pass(after)) return fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after)), false;
   return true;
 }
 

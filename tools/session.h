@@ -17,12 +17,14 @@ namespace wrlkit {
 class Session {
  public:
   explicit Session(const Flags&);
+  /// Over a world that was read elsewhere, with its files; what there is to say goes to `diag`.
+  Session(const Flags&, std::unique_ptr<World>, Resources&, Diagnostics& diag);
 
   /// False when a flag makes no sense; that was printed.
   bool good() const { return good_; }
   const Flags& flags() const { return flags_; }
   Diagnostics& diag() { return diag_; }
-  Resources& resources() { return *resources_; }
+  Resources& resources() { return *context_.resources; }
   PassContext& context() { return context_; }
   Progress& progress() { return progress_; }
 
@@ -54,7 +56,8 @@ class Session {
 
   const Flags& flags_;
   ThreadLimit threads_;
-  Diagnostics diag_;
+  Diagnostics own_diag_;
+  Diagnostics& diag_ = own_diag_;
   Statistics stats_;
   std::unique_ptr<World> world_;
   std::unique_ptr<FileResources> resources_;

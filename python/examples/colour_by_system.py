@@ -1,13 +1,23 @@
 #!/usr/bin/env python3
-"""Colours everything below a node by the system that its name begins with: colour_by_system.py plant.wrl out.wrl Pump=1,0,0 Pipe=0,0.5,1"""
+"""Colours everything below a node by the system that its name begins with: colour_by_system.py plant.wrl out.wrl Pump=ff0000 Pipe=0080ff
+
+Also a pass: wrlkit convert plant.wrl out.wrl --python colour_by_system.py -p 'inline,expand-protos,colour-by-system{systems=Pump=ff0000:Pipe=0080ff}'
+"""
 import sys
 
 import wrlkit
 
 
-def colour(world, systems):
-    """`systems`: beginning of a name to a colour. Materials are new, so that what others share with them stays as it is."""
-    materials = {prefix: world.add('Material', diffuseColor=rgb) for prefix, rgb in systems.items()}
+@wrlkit.pass_
+def colour_by_system(world, systems: list[str] = []):
+    """Colour everything below a node by the system that its name begins with.
+
+    systems: beginnings of names with a colour each, Pump=ff0000; of several that fit the first counts
+    """
+    materials = {}  # new ones, so that what others share with them stays as it is
+    for system in systems:
+        prefix, colour = system.split('=')
+        materials[prefix] = world.add('Material', diffuseColor=[byte / 255 for byte in bytes.fromhex(colour)])
     coloured = 0
 
     def below(node, material):
@@ -20,12 +30,12 @@ def colour(world, systems):
             below(child, material)
     for root in world.roots:
         below(root, None)
-    return coloured
+    return {'coloured': coloured}
 
 
 if __name__ == '__main__':
-    source, target, *words = sys.argv[1:]
+    source, target, *systems = sys.argv[1:]
     world = wrlkit.load(source)
     world.run('inline,expand-protos')
-    print(colour(world, {prefix: tuple(map(float, rgb.split(','))) for prefix, rgb in (w.split('=') for w in words)}), 'coloured')
+    print(colour_by_system(world, systems)['coloured'], 'coloured')
     world.save(target)

@@ -23,7 +23,7 @@ def test_rename_tags(tmp_path):
 
 def test_colour_by_system(tmp_path):
     name = next(n.name for n in wrlkit.load(PUMP_ROOM).nodes('Transform') if n.name and n.children)
-    words = example('colour_by_system.py', PUMP_ROOM, tmp_path / 'out.wrl', f'{name}=1,0,0').split()
+    words = example('colour_by_system.py', PUMP_ROOM, tmp_path / 'out.wrl', f'{name}=ff0000').split()
     assert int(words[0]) > 0 and words[1] == 'coloured'
     assert any(m.diffuseColor == (1, 0, 0) for m in wrlkit.load(str(tmp_path / 'out.wrl')).nodes('Material'))
 
@@ -33,3 +33,12 @@ def test_remove_small(tmp_path):
     removed = int(example('remove_small.py', PUMP_ROOM, tmp_path / 'out.wrl', 0.3).split()[0])
     assert 0 < removed < before
     assert len(wrlkit.load(str(tmp_path / 'out.wrl')).nodes('X3DGeometryNode')) < before
+
+
+def test_a_recipe_with_passes_in_python(tmp_path):
+    """By corpus run, in workers of its own."""
+    run = subprocess.run([sys.executable, '-m', 'wrlkit', 'corpus', 'run', str(ROOT / 'python/examples/tags.toml'), PUMP_ROOM, '-o', str(tmp_path / 'out')], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    world = wrlkit.load(str(tmp_path / 'out/pump_room_faces.glb'))
+    assert world.find('Pump_101A') and not world.find('P_101A')
+    assert 0 < world.info()['shapes'] < wrlkit.info(PUMP_ROOM)['shapes']

@@ -5,8 +5,17 @@
     for material in world.nodes('Material'):
         material.diffuseColor = 0.8, 0.1, 0.1
     world.run('weld,lod{ratios=0.3}')
-    world.save('plant.glb')
+    world.save('plant.glb', compress='meshopt', tolerance='1mm')
 """
-from ._wrlkit import Error, Mesh, Message, Node, World, load, passes
+from typing import Any, Dict, Sequence
 
-__all__ = ['Error', 'Mesh', 'Message', 'Node', 'World', 'load', 'passes']
+from . import nodes
+from ._wrlkit import Error, Mesh, Message, Node, World, convert, load, main, node_types, passes
+from .definitions import Range, pass_
+
+__all__ = ['Error', 'Mesh', 'Message', 'Node', 'Range', 'World', 'convert', 'info', 'load', 'main', 'node_types', 'nodes', 'pass_', 'passes']
+
+
+def info(path: str, allow: Sequence[str] = (), unit: str = '', up: str = '') -> Dict[str, Any]:
+    """What is inside a world, as `wrlkit info --json` says it: a dict of format, nodes, triangles, bounds, textures and more."""
+    return load(path, list(allow), unit, up).info()

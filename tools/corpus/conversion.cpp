@@ -87,7 +87,11 @@ std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& wh
   work.text = corpus_flags.format.starts_with("wr") || corpus_flags.format.starts_with("x3d");
   Session s(f);
   if (!prepare_conversion(s)) return why.clear(), std::nullopt;
-  work.hash = hash_of(program() + "\n" + corpus_flags.format + "\n" + (f.strict ? "strict\n" : "") + recipe_text(f.given, f.warnings, s.pipeline()));
+  auto options = f.given;  // of files in Python their contents count, not where they are
+  std::erase_if(options, [](const auto& o) { return o.first == "python"; });
+  std::string files;
+  for (const auto& file : s.pipeline().files()) files += hash_of_file(file).value_or(ContentHash{}).hex() + "\n";
+  work.hash = hash_of(program() + "\n" + corpus_flags.format + "\n" + (f.strict ? "strict\n" : "") + files + recipe_text(options, f.warnings, s.pipeline()));
   return work;
 }
 

@@ -44,7 +44,7 @@ void look(const Flags& flags, std::size_t most) {
   const auto lines = to_be_looked_at(out, most);
   if (lines.empty()) return;
   std::string why;
-  const auto recipe = read_recipe(run_recipe(out), why);
+  const auto recipe = read_recipe_options(run_recipe(out), why);
   Flags conversion = recipe ? conversion_flags(*recipe) : Flags{};
   conversion.allow_paths.insert(conversion.allow_paths.end(), flags.allow_paths.begin(), flags.allow_paths.end());
   std::error_code none;

@@ -41,6 +41,12 @@ std::string host_name() {
   return gethostname(name, sizeof name - 1) == 0 ? name : "localhost";
 }
 
+/// "SIGABRT (Aborted)".
+std::string signal_text(int signal) {
+  const char* name = sigabbrev_np(signal);
+  return fmt::format("{} ({})", name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal), strsignal(signal));
+}
+
 /// Whether the outputs would be written among the inputs.
 bool is_input_folder(const CorpusPlan& plan, const std::string& out) {
   std::error_code none;
@@ -172,7 +178,7 @@ class Run {
     const auto printed = end.printed.empty() ? "" : ": " + end.printed.substr(0, end.printed.find_last_not_of('\n') + 1);
     if (end.timed_out) line.state = JobState::timeout, line.cause = fmt::format("it took longer than {}", flags_.timeout);
     else if (end.exit_code == Workers::no_memory) line.state = JobState::no_memory, line.cause = fmt::format("it needs more than {} of memory", readable_size(memory_));
-    else if (end.signal) line.state = JobState::crashed, line.cause = fmt::format("the worker has ended by signal {} ({}){}", end.signal, strsignal(end.signal), printed);
+    else if (end.signal) line.state = JobState::crashed, line.cause = fmt::format("the worker has ended by {}{}", signal_text(end.signal), printed);
     else line.state = JobState::crashed, line.cause = fmt::format("the worker has ended with exit code {}{}", end.exit_code, printed);
     return line;
   }

@@ -1,0 +1,102 @@
+// Fields of nodes as Python values, and back, with the types of the node table.
+#include <algorithm>
+
+#include "python/world.h"
+#include "scenegraph/nearest_name.h"
+
+namespace wrlkit::python {
+namespace {
+
+py::object to_python(const PyNode& node, const Value& v) {
+  const auto& t = info(v.type);
+  auto tuple = [](auto span) {
+    py::tuple out(span.size());
+    for (std::size_t i = 0; i < span.size(); ++i) out[i] = span[i];
+    return out;
+  };
+  const auto array = [&](auto span, std::size_t width) { return view(py::cast(node.world), span, width); };
+  switch (t.element) {
+    case Element::number:
+      if (t.multiple) return array(v.number_span(), t.arity);
+      return t.arity == 1 ? py::object(py::float_(v.number)) : py::object(tuple(v.number_span()));
+    case Element::integer:
+      if (t.multiple) return array(v.integer_span(), 1);
+      return v.type == FieldType::SFBool ? py::object(py::bool_(v.integer != 0)) : py::object(py::int_(v.integer));
+    case Element::image: return array(v.integer_span(), 1);
+    case Element::text:
+      if (t.multiple) return py::cast(std::vector<std::string>(v.text_span().begin(), v.text_span().end()));
+      return py::str(std::string(v.text()));
+    case Element::node:
+      if (!t.multiple) return v.node ? py::cast(PyNode{node.world, v.node}) : py::none();
+      std::vector<PyNode> nodes;
+      for (NodeId n : v.node_span()) nodes.push_back({node.world, n});
+      return py::cast(nodes);
+  }
+  return py::none();
+}
+
+NodeId node_of(const PyNode& holder, const py::handle& value) {
+  if (value.is_none()) return {};
+  const auto& node = value.cast<const PyNode&>();
+  if (node.world != holder.world) throw py::value_error("the node is of another world");
+  return node.id;
+}
+
+Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot, const py::object& value) {
+  const auto& t = info(field.type);
+  Scene& scene = node.scene();
+  const auto wrong = [&] { return py::type_error(std::string(node.type().name) + "." + std::string(field.name) + " is a " + std::string(t.name)); };
+  try {
+    switch (t.element) {
+      case Element::number: {
+        if (t.arity == 1 && !t.multiple) return scene.make(field.type, slot, value.cast<double>());
+        const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
+        if (!array || array.size() % t.arity != 0 || (!t.multiple && array.size() != t.arity)) throw wrong();
+        return scene.make(field.type, slot, std::span<const double>(array.data(), static_cast<std::size_t>(array.size())));
+      }
+      case Element::integer:
+      case Element::image: {
+        if (field.type == FieldType::SFBool) return scene.make(field.type, slot, value.cast<bool>());
+        if (field.type == FieldType::SFInt32) return scene.make(field.type, slot, value.cast<std::int32_t>());
+        const auto array = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>::ensure(value);
+        if (!array) throw wrong();
+        return scene.make(field.type, slot, std::span<const std::int32_t>(array.data(), static_cast<std::size_t>(array.size())));
+      }
+      case Element::text: {
+        if (!t.multiple) return scene.make(field.type, slot, value.cast<std::string>());
+        const auto texts = py::isinstance<py::str>(value) ? std::vector{value.cast<std::string>()} : value.cast<std::vector<std::string>>();
+        const std::vector<std::string_view> kept(texts.begin(), texts.end());
+        return scene.make(field.type, slot, kept);
+      }
+      case Element::node: {
+        if (!t.multiple) return scene.make(field.type, slot, node_of(node, value));
+        std::vector<NodeId> ids;
+        for (auto item : value) ids.push_back(node_of(node, item));
+        return scene.make(field.type, slot, ids);
+      }
+    }
+  } catch (const py::cast_error&) {
+    throw wrong();
+  }
+  throw wrong();
+}
+
+std::uint16_t slot_of(const PyNode& node, const std::string& name) {
+  auto slot = node.type().find(name, Dialect::vrml97);
+  if (!slot) slot = node.type().find(name, Dialect::x3d);
+  if (slot && node.type().fields[*slot].has_value()) return *slot;
+  NearestName nearest(name);
+  for (const auto& f : node.type().fields) nearest.consider(f.name);
+  throw py::attribute_error(std::string(node.type().name) + " has no field '" + name + "'" + nearest.question());
+}
+
+}  // namespace
+
+py::object get_field(const PyNode& node, const std::string& name) { return to_python(node, node.scene().value(node.id, slot_of(node, name))); }
+
+void set_field(const PyNode& node, const std::string& name, const py::object& value) {
+  const auto slot = slot_of(node, name);
+  node.scene().set(node.id, from_python(node, node.type().fields[slot], slot, value));
+}
+
+}  // namespace wrlkit::python

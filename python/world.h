@@ -1,0 +1,112 @@
+// Worlds and nodes as Python sees them. The headers of pybind11 are seen in this folder only.
+//
+// Lifetime: a Node and every array hold the World that they are of, so nothing that Python still has goes away under it. A world that
+// a pass was given is the scene of whoever runs the pass; when Python still has something of it behind the pass, that becomes a
+// world of its own, which shares its arrays.
+#pragma once
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "parsers/parsers.h"
+#include "parsers/resources.h"
+#include "passes/pipeline.h"
+#include "tools/recipe.h"
+
+namespace wrlkit::python {
+
+namespace py = pybind11;
+
+/// A message as Python has it.
+struct MessageView {
+  std::string severity, name, text, file;
+  std::size_t line, column;
+
+  std::string str() const;
+};
+
+std::vector<MessageView> views(const Diagnostics& diag);
+
+/// Makes wrlkit.Error.
+void define_error(py::module_& module);
+/// Raises it: its text is the first error with its place, and it has all messages. The exception that a pass has ended with is its cause.
+[[noreturn]] void fail(const std::string& otherwise, const std::vector<MessageView>& messages);
+/// What a pass has ended with, for the next `fail`.
+void set_cause(py::object exception);
+
+/// Options by Python's keywords: with "_" for "-", numbers, bool, texts and lists of those.
+GivenOptions options_of_keywords(const py::kwargs& keywords);
+
+/// A world with all that reading and passes need beside it.
+class PyWorld : public std::enable_shared_from_this<PyWorld> {
+ public:
+  PyWorld() = default;
+  /// Of a pass that is being run.
+  PyWorld(Scene& scene, PassContext& ctx) : scene_(&scene), diag_(&ctx.diag), resources_(ctx.resources) {}
+  PyWorld(const PyWorld&) = delete;
+
+  static std::shared_ptr<PyWorld> load(const std::string& path, std::vector<std::string> allow, const std::string& unit, const std::string& up);
+
+  Scene& scene() const { return *scene_; }
+  Diagnostics& diag() const { return *diag_; }
+  PassContext context(Statistics& stats) const { return {*diag_, stats, resources_}; }
+
+  using Counts = std::map<std::string, std::uint64_t>;
+  Counts run(const std::string& pipeline);
+  Counts apply(const std::string& pass, const py::kwargs& options);
+  void save(const std::string& path, const py::kwargs& options);
+  py::object info();
+  void report(const std::string& severity, const std::string& text, const py::object& node);
+  /// The scene goes its own way: what Python still has of it is a copy from now on.
+  void detach();
+
+ private:
+  Counts run(Pipeline& pipeline);
+  void own(std::unique_ptr<World> world);
+  std::unique_ptr<World> copy() const;
+
+  std::string path_;
+  Diagnostics own_diag_;
+  std::unique_ptr<World> own_world_;
+  std::unique_ptr<FileResources> own_resources_;
+  Scene* scene_ = nullptr;
+  Diagnostics* diag_ = &own_diag_;
+  Resources* resources_ = nullptr;
+};
+
+/// A node of a world. Two are equal when they are the same node.
+struct PyNode {
+  std::shared_ptr<PyWorld> world;
+  NodeId id;
+
+  Scene& scene() const { return world->scene(); }
+  const NodeType& type() const { return scene().type(id); }
+  bool operator==(const PyNode& o) const { return world == o.world && id == o.id; }
+};
+
+/// An array of the scene's as NumPy sees it: no copy, read-only, and `holder` lives as long as the array.
+template <class T>
+py::array view(py::object holder, std::span<const T> all, std::size_t width) {
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(all.size() / width)};
+  if (width > 1) shape.push_back(static_cast<py::ssize_t>(width));
+  py::array out(py::dtype::of<T>(), shape, {}, all.data(), std::move(holder));
+  out.attr("flags").attr("writeable") = false;
+  return out;
+}
+
+py::object get_field(const PyNode& node, const std::string& name);
+void set_field(const PyNode& node, const std::string& name, const py::object& value);
+
+/// Converts a file as `wrlkit convert` does, by a recipe (empty: none), a pipeline and options; gives what was said.
+std::vector<MessageView> convert(const std::string& source, const std::string& target, const std::string& recipe, const std::optional<std::string>& pipeline, const py::kwargs& options);
+
+/// Passes that are Python functions, and the command line in Python (passes.cpp).
+void define_passes(py::module_& module);
+
+}  // namespace wrlkit::python
