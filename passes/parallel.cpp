@@ -3,17 +3,34 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-namespace wrlkit {
+#include <atomic>
 
-void parallel_for(std::size_t n, const std::function<void(std::size_t)>& f) { tbb::parallel_for(std::size_t{0}, n, f); }
+namespace wrlkit {
+namespace {
+
+std::atomic<int> limits_of_one = 0;
+
+}  // namespace
+
+bool only_one_thread() { return limits_of_one > 0; }
+
+void parallel_for(std::size_t n, const std::function<void(std::size_t)>& f) {
+  if (!only_one_thread()) return tbb::parallel_for(std::size_t{0}, n, f);
+  for (std::size_t i = 0; i < n; ++i) f(i);
+}
 
 struct ThreadLimit::Control {
   tbb::global_control limit;
 };
 
-ThreadLimit::ThreadLimit(int threads) {
-  if (threads > 0) control_.reset(new Control{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
+// One thread needs no oneTBB, which looks through 80 places for a library when it is first used: in a process that converts one
+// small file that is a good part of its time.
+ThreadLimit::ThreadLimit(int threads) : one_(threads == 1) {
+  if (one_) ++limits_of_one;
+  else if (threads > 0) control_.reset(new Control{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
 }
-ThreadLimit::~ThreadLimit() = default;
+ThreadLimit::~ThreadLimit() {
+  if (one_) --limits_of_one;
+}
 
 }  // namespace wrlkit

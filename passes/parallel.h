@@ -20,6 +20,10 @@ class ThreadLimit {
  private:
   struct Control;
   std::unique_ptr<Control> control_;
+  bool one_;
 };
+
+/// Whether a ThreadLimit of one lives: for libraries that have threads of their own.
+bool only_one_thread();
 
 }  // namespace wrlkit

@@ -71,6 +71,15 @@ def inputs(tmp):
     corpus(ROOT / 'recipes/archive.toml', a, '-o', tmp / 'archive')
     check('VRML keeps its urls, and what they mean is beside it',
           (tmp / 'archive/tex/a.png').read_text() == 'a picture' and '"a.png"' in (tmp / 'archive/tex/t.wrl').read_text(), tree(tmp / 'archive'))
+    p = tmp / 'parts'
+    write(p / 'whole.wrl', '#VRML V2.0 utf8\nInline { url "sub/Part one.x3d#x" }\nInline { url [ "gone.wrz" "sub/PIPE.WRZ" ] }\nAnchor { url "whole.wrl" }\nInline { url "http://example.org/a.wrz" }\n'
+          'EXTERNPROTO P [ ] "sub/pipe.wrz#P"\n')
+    write(p / 'sub/Part one.x3d', '<X3D version="3.3" profile="Interchange"><Scene><Inline url=\'"../whole.wrl"\'/><Inline url=\'"pipe.wrz"\'/></Scene></X3D>')
+    write(p / 'sub/pipe.wrz', BOX)
+    corpus(ROOT / 'recipes/archive.toml', p, '-o', tmp / 'parts-out')
+    whole, part = ((tmp / 'parts-out' / n).read_text() for n in ('whole.wrl', 'sub/Part one.wrl'))
+    check('urls of files that get another name are those of what is written', all(w in whole for w in ('"sub/Part%20one.wrl#x"', '"gone.wrz" "sub/pipe.wrl"', '"whole.wrl"', '"http://example.org/a.wrz"', '"sub/pipe.wrl#P"'))
+          and '"../whole.wrl"' in part and '"pipe.wrl"' in part, whole, part)
     for words, why in [((RECIPE, a, '-o', a), 'one of their own'), ((RECIPE, tmp / 'none', '-o', tmp / 'o'), 'no file or folder'), ((RECIPE, a, '-o', tmp / 'o', '--timeout', 'soon'), 'no time'),
                        ((RECIPE, a, '-o', tmp / 'o', '--shard', '3/2'), 'no shard'), ((tmp / 'no.toml', a, '-o', tmp / 'o'), 'no such file')]:
         code, _, err = corpus(*words)

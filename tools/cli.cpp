@@ -36,7 +36,7 @@ void common(CLI::App& verb, Flags& f) {
   g->add_option("--report", f.report, "write what happened to this file, as JSON")->type_name("FILE");
   g->add_option("--allow-path", f.allow_paths, "files below this folder may be read, too (Inline, textures)")->type_name("DIR")->allow_extra_args(false);
   g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
-  g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")->type_name("SIZE");
+  g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")->type_name("SIZE")->check([](const std::string& s) { return size_of(s) ? "" : "'" + s + "' is no size"; }, "", "");
 }
 
 void input(CLI::App& verb, Flags& f) {
@@ -252,7 +252,7 @@ const Verb verbs[] = {
      "wrlkit corpus run recipes/plant-web.toml plant/ -o web/\n  wrlkit corpus run recipes/archive.toml 'old/**/*.wrl' @more.txt -o new/ --jobs 8 --memory 32G --timeout 5m\n  wrlkit corpus run recipe.toml plant/ -o web/ --shard 2/8",
      [](CLI::App& v, Flags& f) {
        corpus_inputs(v, f);
-       v.add_option("--timeout", f.timeout, "a file that takes longer is given up: 90s, 10m, 2h")->type_name("TIME")->capture_default_str();
+       v.add_option("--timeout", f.timeout, "a file that takes longer is given up: 90s, 10m, 2h")->type_name("TIME")->capture_default_str()->check([](const std::string& s) { return seconds_of(s) > 0 ? "" : "'" + s + "' is no time; 90s, 10m, 2h"; }, "", "");
        v.add_option("--joblog", f.joblog, "a line for each file as GNU parallel writes them, behind what is there")->type_name("FILE");
        v.add_flag("--retry", f.retry, "files of which nothing could be made are tried again");
      },
@@ -388,6 +388,14 @@ std::uint64_t size_of(const std::string& s) {
   return v > 0 ? static_cast<std::uint64_t>(v * factor) : 0;
 }
 
+double seconds_of(const std::string& text) {
+  char* end = nullptr;
+  const double v = std::strtod(text.c_str(), &end);
+  const std::string unit = end;
+  const double factor = unit == "h" ? 3600 : unit == "m" || unit == "min" ? 60 : unit == "s" || unit.empty() ? 1 : 0;
+  return v > 0 ? v * factor : 0;
+}
+
 std::vector<OptionHelp> options_of(std::string_view verb) {
   Flags unused;
   const auto app = app_of(*find_verb(verb), unused);
@@ -449,7 +457,6 @@ int run_command_line(int argc, char** argv) {
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
   // A corpus run divides the memory among its workers.
-  if (!flags.memory.empty() && !size_of(flags.memory)) return std::fprintf(stderr, "wrlkit: --memory: '%s' is no size\n", flags.memory.c_str()), usage;
   if (!std::string_view(chosen->name).starts_with("corpus")) limit_memory(flags);
   return chosen->run(flags);
 }

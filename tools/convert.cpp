@@ -30,8 +30,9 @@ std::optional<Target> target_of(std::string name, bool& gzip) {
   return std::nullopt;
 }
 
-bool write_as_text(Session& s, bool gzip, Target target) {
+bool write_as_text(Session& s, bool gzip, Target target, const std::function<void(Scene&)>& last) {
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return false;
+  if (last) last(s.world().scene);
   return (target == Target::x3d ? write_x3d_file : write_vrml_file)(s, s.world().scene, s.flags().output, gzip);
 }
 
@@ -63,19 +64,21 @@ bool prepare_conversion(Session& s) {
   return s.good() && gltf_options(flags) && s.choose_pipeline(pipeline_for(*target, flags));
 }
 
-bool convert_world(Session& s) {
+bool convert_world(Session& s) { return read_input(s) && write_world(s); }
+
+bool read_input(Session& s) {
   const auto& flags = s.flags();
   if (!s.read(flags.inputs[0])) return false;
   check_values(s.world().scene, s.diag());
   const auto& main = s.world().scene.main;
   if (main.roots.empty() && main.protos.empty() && s.diag().has_errors()) return s.diag().report(Diag::nothing_to_write, {}), false;
-  return write_world(s);
+  return true;
 }
 
-bool write_world(Session& s) {
+bool write_world(Session& s, const std::function<void(Scene&)>& last) {
   bool gzip = s.flags().gzip;
   const auto target = target_of(s.flags().output, gzip);
-  return *target == Target::vrml || *target == Target::x3d ? write_as_text(s, gzip, *target) : write_as_gltf(s);
+  return *target == Target::vrml || *target == Target::x3d ? write_as_text(s, gzip, *target, last) : write_as_gltf(s);
 }
 
 int run_convert(const Flags& given) {

@@ -1,5 +1,7 @@
 // A conversion, for the verb and for those who convert many files.
 #pragma once
+#include <functional>
+
 #include "tools/session.h"
 
 namespace wrlkit {
@@ -10,7 +12,9 @@ bool is_output_name(const std::string& name);
 bool prepare_conversion(Session&);
 /// Reads the input, runs the pipeline and writes the output; false when there is none. Messages are in the session.
 bool convert_world(Session&);
-/// The same behind the reading.
-bool write_world(Session&);
+
+/// The two halves of that: reads the input; runs the pipeline and writes the output. `last` sees the scene as it is written, as VRML or X3D.
+bool read_input(Session&);
+bool write_world(Session&, const std::function<void(Scene&)>& last = {});
 
 }  // namespace wrlkit

@@ -7,6 +7,7 @@
 #include <new>
 #include <unordered_set>
 
+#include "passes/parallel.h"
 #include "passes/render/placement.h"
 
 namespace wrlkit::drawing {
@@ -340,7 +341,7 @@ RayScene::RayScene(const Stage& stage, const MeshPool& meshes, std::span<const s
                    Diagnostics& diag)
     : state_(new State{.stage = stage, .meshes = meshes, .mesh_of = mesh_of, .options = options}) {
   State& s = *state_;
-  s.device = rtcNewDevice(nullptr);
+  s.device = rtcNewDevice(only_one_thread() ? "threads=1" : nullptr);
   if (!s.device) throw std::bad_alloc();
   std::size_t elements = 0;
   for (auto m : mesh_of) elements += meshes[m].n_elements;

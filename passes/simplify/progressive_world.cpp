@@ -1,10 +1,10 @@
 #include "passes/simplify/progressive_world.h"
 
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "passes/parallel.h"
 #include "passes/simplify/bytes.h"
 #include "passes/simplify/places.h"
 #include "scenegraph/nodes.h"
@@ -100,7 +100,7 @@ std::vector<ProgressiveSurface> progressive_surfaces(const Scene& scene, Criteri
     out.push_back({std::move(placed.places), {}});
   }
   if (n_lit) ctx.diag.report(Diag::no_progressive_light, {}, n_lit);
-  tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
+  parallel_for(meshes.size(), [&](std::size_t i) {
     if (const auto record = make_progressive(meshes[i], criterion)) out[i].stream = write_progressive(*record);
   });
   return out;

@@ -9,6 +9,7 @@
 #include "tools/convert.h"
 #include "tools/gltf_output.h"
 #include "tools/print_diagnostics.h"
+#include "tools/corpus/written_names.h"
 #include "tools/recipe.h"
 #include "writers/output.h"
 
@@ -58,10 +59,10 @@ bool copy(const std::string& from, const std::string& to, std::string& cause) {
   return cause = cause_in(diag), false;
 }
 
-bool convert(const Flags& flags, JournalLine& line) {
+bool convert(const Flags& flags, const std::function<void(Scene&)>& last, JournalLine& line) {
   Session s(flags);
   if (!prepare_conversion(s)) return line.cause = "the recipe does not fit", false;
-  const bool made = convert_world(s);
+  const bool made = read_input(s) && write_world(s, last);
   line.state = !made ? JobState::failed : s.diag().has_errors() ? JobState::made_partly : JobState::made;
   line.messages = messages_json(s.diag());
   if (!made) line.cause = cause_in(s.diag());
@@ -121,7 +122,7 @@ int do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job,
     flags.output = target;
     flags.allow_paths = allowed_folders(work, plan, job);
     flags.keep_urls = work.text && job.input.mirrored;
-    convert(flags, line);
+    convert(flags, flags.keep_urls ? [&](Scene& scene) { name_written_files(scene, plan, job, flags.allow_paths); } : std::function<void(Scene&)>(), line);
   }
   if (is_made(line.state)) line.output_bytes = fs::file_size(target, none), line.output_hash = hash_of_file(target).value_or(ContentHash{});
   return line.state == JobState::made ? done : line.state == JobState::made_partly ? partly : nothing;
@@ -134,7 +135,7 @@ DoneBefore::DoneBefore(const CorpusWork& work, const CorpusPlan& plan) : work_(w
 }
 
 std::optional<JobState> DoneBefore::state_of(const CorpusJob& job) {
-  const auto at = known_.find(job.output);
+  const auto at = known_.find(name_in_journal(job.output));
   if (at == known_.end() || at->second.work != work_.hash) return std::nullopt;
   const auto& known = at->second;
   std::error_code fault;

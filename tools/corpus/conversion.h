@@ -36,7 +36,7 @@ class DoneBefore {
   /// behind it, and what was made then is still there.
   std::optional<JobState> state_of(const CorpusJob& job);
   /// Whether an earlier run has worked on that output.
-  bool has(const CorpusJob& job) const { return known_.contains(job.output); }
+  bool has(const CorpusJob& job) const { return known_.contains(name_in_journal(job.output)); }
 
  private:
   struct Known {

@@ -1,6 +1,7 @@
 #include "tools/corpus/inputs.h"
 
 #include <fnmatch.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -8,6 +9,8 @@
 #include <iostream>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace wrlkit {
 namespace {
@@ -120,8 +123,9 @@ class Gatherer {
     std::error_code fault;
     fs::recursive_directory_iterator i(path, fs::directory_options::follow_directory_symlink, fault), end;
     if (fault) return fail("cannot read the folder '" + path + "': " + fault.message());
+    std::vector<Identity> above{identity(path)};  // of the folders that lead to where the iterator is
+    std::string entered = path;
     for (; i != end; i.increment(fault)) {
-      if (fault) return fail("cannot read below '" + path + "': " + fault.message());
       const auto name = i->path().filename().string();
       std::error_code none;
       const bool is_folder = i->is_directory(none);
@@ -129,13 +133,20 @@ class Gatherer {
         if (is_folder) i.disable_recursion_pending();
         continue;
       }
+      if (is_folder) {
+        above.resize(static_cast<std::size_t>(i.depth()) + 1);
+        const auto folder = identity(i->path());
+        if (std::ranges::find(above, folder) != above.end()) i.disable_recursion_pending();  // a symbolic link that leads back
+        above.push_back(folder);
+        entered = i->path().string();
+      }
       if (is_folder || !i->is_regular_file(none)) continue;
       auto inside = i->path().lexically_relative(path).string();
       const bool is_world = !ending_in(world_endings, name).empty(), is_asset = rules_.assets && !is_world && !ending_in(asset_endings, name).empty();
       if (is_asset) add(i->path(), std::move(inside), at, true, true);
       else if (pattern.empty() ? is_world && wanted(inside) : match(parts, names_of(inside)) && wanted(inside)) add(i->path(), std::move(inside), at, rules_.assets, false);
     }
-    return true;
+    return !fault || fail("cannot read the folder '" + entered + "': " + fault.message());  // nothing is left out in silence
   }
 
   bool wanted(const std::string& inside) const {
@@ -148,7 +159,13 @@ class Gatherer {
     out_.files.push_back({path.lexically_normal().string(), std::move(inside), root, fs::file_size(path, none), mirrored, asset});
   }
 
-  static constexpr int most_depth = 64;  // symbolic links may go round in circles
+  using Identity = std::pair<dev_t, ino_t>;
+  static Identity identity(const fs::path& path) {
+    struct stat there {};
+    return stat(path.c_str(), &there) == 0 ? Identity{there.st_dev, there.st_ino} : Identity{};
+  }
+
+  static constexpr int most_depth = 64;
   const InputRules& rules_;
   std::string& why_;
   fs::path output_;

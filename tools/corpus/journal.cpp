@@ -96,11 +96,19 @@ std::optional<JournalLine> journal_line(std::string_view text) {
   return l;
 }
 
+std::string name_in_journal(const std::string& name) {
+  if (std::ranges::all_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x80; })) return name;
+  JournalLine line;
+  line.output = name;
+  return journal_line(to_json(line))->output;
+}
+
 std::optional<Journal> Journal::open(const std::string& folder, Shard shard, std::string& why) {
   std::error_code fault;
   fs::create_directories(folder, fault);
   const auto path = fmt::format("{}/journal-{}-of-{}.jsonl", folder, shard.index + 1, shard.count);
   const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (fd < 0 && fault) return why = folder + ": " + fault.message(), std::nullopt;
   if (fd < 0) return why = path + ": " + std::strerror(errno), std::nullopt;
   Journal journal(fd);
   if (!lock(fd)) return why = path + ": another run is writing it", std::nullopt;
@@ -116,7 +124,9 @@ Journal::~Journal() {
 
 bool Journal::append(const JournalLine& l) {
   const auto text = to_json(l) + '\n';
-  return write(fd_, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const auto n = write(fd_, text.data(), text.size());
+  if (n >= 0 && n < static_cast<ssize_t>(text.size())) errno = ENOSPC;  // the half line is none
+  return n == static_cast<ssize_t>(text.size());
 }
 
 void Journal::settle() { fdatasync(fd_); }

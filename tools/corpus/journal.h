@@ -15,7 +15,6 @@
 namespace wrlkit {
 
 /// How it went. made_partly: the output is there and something of the input is not in it.
-
 enum class JobState : std::uint8_t { made, made_partly, failed, crashed, timeout, no_memory };
 std::string_view to_string(JobState);
 inline bool is_made(JobState s) { return s == JobState::made || s == JobState::made_partly; }
@@ -44,6 +43,8 @@ struct JournalLine {
 std::string to_json(const JournalLine&);
 /// Nothing when the text is no whole line.
 std::optional<JournalLine> journal_line(std::string_view text);
+/// As a line that was read back has a name: JSON cannot say bytes that are no UTF-8.
+std::string name_in_journal(const std::string& name);
 
 class Journal {
  public:
@@ -52,7 +53,7 @@ class Journal {
   Journal(Journal&&) noexcept;
   ~Journal();
 
-  /// False when the line could not be written.
+  /// False when the line could not be written; errno says why.
   bool append(const JournalLine&);
   /// On the disk, and not on its way there.
   void settle();

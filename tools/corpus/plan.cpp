@@ -102,6 +102,7 @@ std::optional<CorpusPlan> plan_corpus(Inputs inputs, const std::string& ending, 
   if (!place(plan, ending, why)) return std::nullopt;
   std::ranges::stable_sort(plan.jobs, std::greater{}, &CorpusJob::cost);
   divide(plan.jobs, shards);
+  for (std::uint32_t i = 0; i < plan.jobs.size(); ++i) plan.by_path.emplace(plan.jobs[i].input.path, i);
   return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct CorpusJob {
 struct CorpusPlan {
   std::vector<std::string> roots;
   std::vector<CorpusJob> jobs;                            // the dearest first
+  std::unordered_map<std::string, std::uint32_t> by_path; // the job of an input
   std::vector<std::pair<std::string, std::string>> kept;  // inputs whose outputs keep the input's ending in their names, and
                                                           // the output that several of them would have had
 };

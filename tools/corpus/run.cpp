@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -27,18 +28,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "90s", "10m", "2h" in seconds; 0 when it is no time.
-double seconds_of(const std::string& text) {
-  char* end = nullptr;
-  const double v = std::strtod(text.c_str(), &end);
-  const std::string unit = end;
-  const double factor = unit == "h" ? 3600 : unit == "m" || unit == "min" ? 60 : unit == "s" || unit.empty() ? 1 : 0;
-  return v > 0 ? v * factor : 0;
-}
-
 std::string host_name() {
   char name[256] = {};
   return gethostname(name, sizeof name - 1) == 0 ? name : "localhost";
+}
+
+/// As a shell reads it, on one line whatever is in it.
+std::string shell_word(const std::string& word) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c >= 0x80 || std::string_view("/._-+:,=@%").find(static_cast<char>(c)) != std::string_view::npos; };
+  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
+  std::string out = "$'";
+  for (const char c : word) {
+    if (c == '\'' || c == '\\') out += '\\', out += c;
+    else if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+    else out += c;
+  }
+  return out + '\'';
 }
 
 /// "SIGABRT (Aborted)".
@@ -96,21 +101,28 @@ class Run {
     if (!flags_.quiet)
       for (const auto& [input, output] : plan_.kept) fmt::print(stderr, "{}: several inputs would become '{}'; this one keeps its ending in the name of the output\n", input, output);
     std::size_t next = 0;
-    while (good_ && (next < todo_.size() || workers_.running() || !alone_.empty())) {
+    const auto start_some = [&] {
       while (next < todo_.size() && workers_.running() < jobs_) {
         const auto at = todo_[next];
         if (was_done(at)) { ++next; continue; }
         if (!start(at, share(at))) break;
         ++next;
       }
+    };
+    while (good_ && (next < todo_.size() || workers_.running() || !alone_.empty())) {
+      start_some();
       // Those that need all of the memory wait until everybody else is done.
       if (next == todo_.size() && !workers_.running() && !alone_.empty() && start(alone_.back(), memory_)) alone_.pop_back();
       if (workers_.running()) {
-        if (auto end = workers_.wait(0.2)) take(std::move(*end));
+        if (auto end = workers_.wait(0.2)) {
+          const auto memory = release(*end);
+          start_some();  // before the journal has it, so that no core waits for that
+          take(std::move(*end), memory);
+        }
       }
       status.show(at_work());
     }
-    if (!good_) return fmt::print(stderr, "wrlkit: the journal in '{}' cannot be written: {}\n", corpus_folder(work_.out), std::strerror(errno)), nothing;
+    if (!good_) return fmt::print(stderr, "wrlkit: the journal in '{}' cannot be written: {}\n", corpus_folder(work_.out), journal_fault_), nothing;
     journal_.settle();
     if (!flags_.quiet) fmt::print(stderr, "{}", status.summary());
     return status.n_made() == 0 && status.n_done() > 0 ? nothing : status.n(JobState::made) == status.n_done() ? done : partly;
@@ -146,12 +158,18 @@ class Run {
     return true;
   }
 
-  void take(WorkerEnd end) {
+  /// Takes the memory back that a worker had; how much that was.
+  std::uint64_t release(const WorkerEnd& end) {
+    const auto at = grants_.find(static_cast<std::uint32_t>(end.job));
+    const auto memory = at->second;
+    grants_.erase(at);
+    granted_ -= memory;
+    return memory;
+  }
+
+  void take(WorkerEnd end, std::uint64_t grant) {
     const auto at = static_cast<std::uint32_t>(end.job);
     const auto& job = plan_.jobs[at];
-    const auto grant = grants_[at];
-    grants_.erase(at);
-    granted_ -= grant;
     const bool too_little = !end.timed_out && (end.exit_code == Workers::no_memory || end.signal == SIGKILL);
     if (too_little && grant < memory_) return alone_.push_back(at);
     auto line = line_of(job, end);
@@ -162,8 +180,8 @@ class Run {
       if (before_.has(job)) fs::remove(fs::path(work_.out) / job.output, none);  // made by another recipe, or of what the input was
       status_->failed(line.input, line.cause);
     }
-    good_ = journal_.append(line);
-    if (const auto now = std::chrono::steady_clock::now(); now - settled_ > std::chrono::seconds(1)) journal_.settle(), settled_ = now;
+    if (!journal_.append(line)) good_ = false, journal_fault_ = std::strerror(errno);
+    if (const auto now = std::chrono::steady_clock::now(); now - settled_ > std::chrono::seconds(5)) journal_.settle(), settled_ = now;
     log(line, end);
     status_->add(line.state, job.cost, false);
   }
@@ -194,7 +212,7 @@ class Run {
   void log(const JournalLine& l, const WorkerEnd& end) {
     if (!joblog_.is_open()) return;
     joblog_ << fmt::format("{}\t{}\t{:.3f}\t{:10.3f}\t{}\t{}\t{}\t{}\twrlkit convert {} {} --recipe {}\n", ++logged_, host_, l.started, l.seconds, l.input_bytes, l.output_bytes, end.exit_code, end.signal,
-                           l.input, (fs::path(work_.out) / l.output).string(), flags_.recipe)
+                           shell_word(l.input), shell_word((fs::path(work_.out) / l.output).string()), shell_word(flags_.recipe))
             << std::flush;
   }
 
@@ -221,6 +239,7 @@ class Run {
   std::chrono::steady_clock::time_point settled_ = std::chrono::steady_clock::now();
   CorpusStatus* status_ = nullptr;
   bool good_ = true;
+  std::string journal_fault_;
   Workers workers_;
 };
 
@@ -251,7 +270,6 @@ void print_plan(const Planned& p, const Flags& flags) {
 
 int run_corpus_run(const Flags& flags) {
   std::string why;
-  if (seconds_of(flags.timeout) <= 0) return fmt::print(stderr, "wrlkit: --timeout: '{}' is no time; 90s, 10m, 2h\n", flags.timeout), usage;
   const auto work = corpus_work(flags, why);
   if (!work) return fmt::print(stderr, "{}", why), usage;
   const auto planned = plan_of(flags, work->text);
