@@ -37,8 +37,15 @@ class PythonPass final : public PassInstance {
   Outcome run(Scene& scene, PassContext& ctx) const override {
     py::gil_scoped_acquire lock;
     auto world = std::make_shared<PyWorld>(scene, ctx);
-    const bool good = call(world, ctx);
-    if (world.use_count() > 1) world->detach();
+    const auto let_go = [&] { if (world.use_count() > 1) world->detach(); };
+    bool good = false;
+    try {
+      good = call(world, ctx);
+    } catch (...) {
+      let_go();
+      throw;
+    }
+    let_go();
     return good ? Outcome::changed : Outcome::failed;
   }
 

@@ -86,6 +86,41 @@ def inputs(tmp):
         check(f'wrong usage: {why}', code == 2 and why in err, code, err)
 
 
+def odd(tmp):
+    """Names and folders as they are not in books."""
+    a = tmp / 'odd'
+    names = ['a b', 'ü€', 'new\nline', '-dash', "quo'te\"", 'star*[x]', 'tab\t', '#100%25']
+    for n in names:
+        write(a / f'{n}.wrl', BOX)
+    (a / os.fsdecode(b'no-utf-8-\xff.wrl')).write_text(BOX)
+    (a / 'sub').mkdir()
+    for n, to in (('round', '.'), ('sub/up', '..'), ('gone.wrl', 'nowhere')):
+        (a / n).symlink_to(to)
+    os.mkfifo(a / 'pipe.wrl')
+    code, _, err = corpus(RECIPE, a, '-o', tmp / 'odd-out', '--joblog', tmp / 'odd-log', timeout=60)
+    check('odd names, links that go round, pipes', code == 0 and set(tree(tmp / 'odd-out')) == {f'{n}.glb' for n in [*names, os.fsdecode(b'no-utf-8-\xff')]}, code, err, tree(tmp / 'odd-out'))
+    check('each has one line of the joblog', all(l.count('\t') == 8 for l in (tmp / 'odd-log').read_text(errors='replace').splitlines()))
+    code, _, err = corpus(RECIPE, a, '-o', tmp / 'odd-out', timeout=60)
+    check('and is not done again', code == 0 and len(journal(tmp / 'odd-out')) == len(names) + 1, err)
+    code, _, _ = corpus(tmp / 'odd-out', '--looks', 2, '-o', tmp / 'odd.csv', '-o', tmp / 'odd.html', verb='report')
+    check('a report of them', code == 0 and 'star*[x]' in (tmp / 'odd.csv').read_text(errors='replace'), code)
+    b, recipe = tmp / 'faults', tmp / 'faults.toml'
+    write(b / 'in/a.wrl', BOX)
+    for text, why in (('passs = 1', "did you mean 'pass'"), ('[output]\nprecision = 99', 'not in range'), ('[limits]\ntimeout = "soon"', 'faults.toml:2:11: error: --timeout: \'soon\' is no time'),
+                      ('[limits]\nmemory = "much"', "'much' is no size"), ('[[pass]]\nname = "weld"\ntolerence = 1', "did you mean 'tolerance'"), ('[input', 'parsing table header')):
+        write(recipe, text + '\n')
+        code, _, err = corpus(recipe, b / 'in', '-o', b / 'out')
+        check(f'a recipe with {text.split(chr(10))[-1]}', code == 2 and why in err and not (b / 'out').exists(), code, err)
+    write(recipe, 'pipeline = ""\n')
+    check('a recipe of no passes', corpus(recipe, b / 'in', '-o', b / 'out')[0] == 0 and set(tree(b / 'out')) == {'a.glb'})
+    if os.getuid() == 0:
+        return print('skipped: folders that may not be read, for root may read all')
+    (b / 'in/shut').mkdir(0)
+    code, _, err = corpus(RECIPE, b / 'in', '-o', b / 'out2')
+    (b / 'in/shut').chmod(0o700)
+    check('a folder that may not be read is not passed over in silence', code == 2 and "shut': Permission denied" in err, code, err)
+
+
 def exit_codes(tmp):
     a = tmp / 'codes'
     write(a / 'good.wrl', BOX)
@@ -189,7 +224,7 @@ def killed_in_python(tmp):
     killed(tmp / 'sets', tmp / 'sets.toml', (ROOT / 'corpus/nodes', '--include', '*[m-z].wrl', '--exclude', '*Texture*'))
 
 
-POISON = '''import ctypes, os, pathlib, wrlkit
+POISON = '''import ctypes, os, pathlib, time, wrlkit
 
 @wrlkit.pass_
 def poison(world, table: pathlib.Path = pathlib.Path('table.txt')):
@@ -197,7 +232,7 @@ def poison(world, table: pathlib.Path = pathlib.Path('table.txt')):
     what = world.roots[0].name
     if what == 'loops':
         while True:
-            pass
+            time.sleep(0.01)
     kept = []
     while what == 'eats':
         kept.append(bytearray(1 << 20))
@@ -221,11 +256,11 @@ def poisoned(tmp):
     write(tmp / 'poison.py', POISON)
     write(tmp / 'table.txt', 'P-101')
     write(recipe, 'python = "poison.py"\n[[pass]]\nname = "poison"\n[output]\nformat = "wrl"\n')
-    ends = {'loops': ('timeout', 'it took longer than 2s'), 'eats': ('no-memory', 'it needs more than 300 MiB'), 'aborts': ('crashed', 'SIGABRT'), 'faults': ('crashed', 'SIGSEGV'),
+    ends = {'loops': ('timeout', 'it took longer than 15s'), 'eats': ('no-memory', 'it needs more than 300 MiB'), 'aborts': ('crashed', 'SIGABRT'), 'faults': ('crashed', 'SIGSEGV'),
             'leaves': ('crashed', 'exit code 7'), 'raises': ('failed', "pass 'poison' has failed: ValueError: no pump (poison.py:")}
     for name in [*ends, 'good', 'fine', 'well']:
         write(a / f'{name}.wrl', BOX.replace('Shape', f'DEF {name} Shape', 1))
-    words = (recipe, a, '-o', out, '--memory', '300M', '--timeout', '2s')
+    words = (recipe, a, '-o', out, '--memory', '300M', '--timeout', '15s')
     code, _, err = corpus(*words)
     lines = {l['output'].removesuffix('.wrl'): l for l in journal(out)}
     for name, (state, cause) in ends.items():
@@ -274,7 +309,7 @@ def report(tmp):
 
 def main():
     with tempfile.TemporaryDirectory() as tmp:
-        for part in (inputs, exit_codes, resume, killed, killed_in_python, limits, poisoned, report):
+        for part in (inputs, odd, exit_codes, resume, killed, killed_in_python, limits, poisoned, report):
             part(pathlib.Path(tmp))
     print(f'{len(faults)} failed')
     return bool(faults)
