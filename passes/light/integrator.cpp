@@ -111,7 +111,7 @@ Integrator::Integrator(const LightWorld& world, std::span<const Point> points, c
   std::vector<Receiver> from;
   for (const Point& p : points) from.push_back(receiver(world, p));
   if (options.mode != IntegratorOptions::Mode::cached) return;
-  fill(s.cache, world, s.direct, from, options.rays, options.seed);
+  fill(s.cache, world, s.direct, from, options.error > 0 ? options.most_rays : options.rays, options.seed);
   s.floor = dark * mean_irradiance(s.cache);
 }
 
