@@ -10,6 +10,7 @@
 #include "parsers/vrml/text_encoding.h"
 #include "parsers/vrml/vrml1.h"
 #include "parsers/x3d/parser.h"
+#include "parsers/xml.h"
 #include "scenegraph/blanks.h"
 #include "scenegraph/image.h"
 
@@ -64,6 +65,12 @@ struct Header {
   bool exact = false, missing = false;
 };
 
+/// With the prefix of a namespace, or without an X3D element around it.
+bool is_x3d_element(std::string_view name) {
+  name.remove_prefix(name.find(':') + 1);
+  return name == "X3D" || name == "Scene" || name == "scene";
+}
+
 Header read_header(std::string_view text) {
   auto line = trim(first_line(trim(text)));
   if (line.starts_with('#')) {
@@ -73,7 +80,7 @@ Header read_header(std::string_view text) {
     if (line.starts_with("#X3D")) return {Format::x3d_classic, true, false};
     if (contains_nocase(line.substr(0, 16), "vrml")) return {Format::vrml97, false, false};
   }
-  if (line.starts_with('<') && (contains_nocase(text.substr(0, 65536), "<x3d"))) return {Format::x3d_xml, true, false};
+  if (line.starts_with('<') && (contains_nocase(text.substr(0, 65536), "<x3d") || is_x3d_element(first_element(text)))) return {Format::x3d_xml, true, false};
   if (gltf_reader::looks_like_gltf(text)) return {Format::gltf, true, false};
   return {guess_format(text), false, true};
 }

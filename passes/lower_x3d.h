@@ -6,7 +6,9 @@
 //
 // Triangle, quad and line sets become IndexedFaceSet and IndexedLineSet, Geometry2D these with 64 sides to a circle; StaticGroup,
 // CAD nodes, layers, ViewpointGroup and the nodes of humanoids (H-Anim, as they stand) become groups; what is not `visible` stands in a Switch that shows nothing; of a MultiTexture
-// the first picture stays, of a TwoSidedMaterial the front. Worlds without such nodes stay as they are. O(scene).
+// the first picture stays, of a TwoSidedMaterial the front. NURBS become triangles and lines within `tolerance`, NurbsSweptSurface an
+// Extrusion, interpolators along curves those along lines, with more keys; places on Earth become metres around the scene's GeoOrigin, or around the first place where there is none, with Y up there
+// and X east. Worlds without such nodes stay as they are. O(scene).
 //
 // With `materials` the first three of these, with `vrml97` everything else that VRML97 cannot say is turned into what comes near to
 // it, or dropped, and reported:
@@ -18,6 +20,7 @@
 //   OrthoViewpoint     ->   Viewpoint that sees the same height at centerOfRotation
 //   ColorRGBA          ->   Color
 #pragma once
+#include "passes/option_range.h"
 #include "passes/pass.h"
 
 namespace wrlkit {
@@ -25,9 +28,11 @@ namespace wrlkit {
 struct LowerX3dOptions {
   bool materials = false;
   bool vrml97 = false;
+  double tolerance = 0;
   void fields(auto&& f) {
     f("materials", materials, "also the materials and the OrthoViewpoint, which glTF can say");
     f("vrml97", vrml97, "everything that VRML97 cannot say");
+    f("tolerance", tolerance, "largest distance of triangles and lines from NURBS, in metres; 0: a thousandth of their size", at_least(0));
   }
 };
 Outcome lower_x3d(Scene&, const LowerX3dOptions&, PassContext&);

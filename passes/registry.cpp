@@ -13,6 +13,7 @@
 #include "passes/lightmap.h"
 #include "passes/lod.h"
 #include "passes/lower_vrml1.h"
+#include "passes/keep_colors.h"
 #include "passes/lower_x3d.h"
 #include "passes/merge.h"
 #include "passes/normals.h"
@@ -29,6 +30,7 @@ constexpr PassInfo all_passes[] = {
     pass<lower_vrml1, LowerVrml1Options>("lower-vrml1", "turn a world of VRML 1.0 or Inventor into one of VRML97", Level::authored, Level::authored),
     pass<inline_worlds, InlineOptions>("inline", "put the worlds that Inline nodes name into this one", Level::authored, Level::authored),
     pass<expand_protos, ExpandProtosOptions>("expand-protos", "turn prototype instances into the nodes they stand for", Level::authored, Level::expanded),
+    pass<keep_colors, KeepColorsOptions>("keep-colors", "keep X3D 4.0 from multiplying pictures by colours that they take the place of", Level::authored, Level::authored),
     pass<lower_x3d, LowerX3dOptions>("lower-x3d", "turn nodes that only X3D has into those of VRML97", Level::authored, Level::authored),
     pass<prune, PruneOptions>("prune", "remove what has no effect", Level::authored, Level::authored),
     pass<join, JoinOptions>("join", "make one Shape of many that look the same", Level::authored, Level::authored),
@@ -54,7 +56,7 @@ constexpr NamedPipeline named[] = {
     {"gltf-emissive", WRLKIT_GLTF_FRONT "combine-lightmap{into=lightmap}," WRLKIT_GLTF_END, "the same for --lightmap-as emissive"},
     {"gltf-light", WRLKIT_GLTF_FRONT WRLKIT_GLTF_END, "the same for --lightmap-as occlusion, moz and extras"},
     {"vrml", "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap", "what convert and cat do for VRML97"},
-    {"x3d", "lower-vrml1,combine-lightmap", "what convert does for X3D"},
+    {"x3d", "lower-vrml1,combine-lightmap,keep-colors", "what convert does for X3D"},
     {"picture", "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
     {"expand", "lower-vrml1,inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
     {"none", "", "nothing: the file as it is"},

@@ -39,6 +39,7 @@ struct FieldDef {
   std::string_view unit;         // "length", "angle", ...; empty: none
   std::string_view doc;
   std::string_view default_text; // as the table has it, for documentation
+  std::uint8_t since = 0;        // version of X3D that it came with, 40 for 4.0; 0: one that is not newer than 3.3
   std::uint8_t x3d_from = 0;     // version of X3D, 33 for 3.3, from which the default is x3d_default; 0: it never differs
   Value x3d_default;
 
@@ -64,6 +65,8 @@ struct NodeType {
   std::string_view doc;
   ProtoId proto;                            // of kind proto
   std::span<const std::uint16_t> by_name;   // slots in the order of their names, of a type of a scene with many fields
+
+  std::uint8_t since = 0;                   // as of a field
 
   static constexpr std::size_t many_fields = 32;
 

@@ -41,6 +41,7 @@ std::string doc_text(const NodeType& t, const FieldDef& f) {
   constexpr auto vrml97 = static_cast<DialectSet>(Dialect::vrml97);
   std::string out(f.doc);
   if ((t.dialects & vrml97) && !(f.dialects & vrml97)) out = "X3D: " + out;
+  if (f.since) out += fmt::format(" (X3D {}.{})", f.since / 10, f.since % 10);
   if (!f.vrml97_name.empty()) out += fmt::format("; in X3D {}", f.name);
   if (f.x3d_from) out += fmt::format("; another default in X3D {}.{}", f.x3d_from / 10, f.x3d_from % 10);
   return out;
@@ -52,7 +53,7 @@ struct FormatRow {
 constexpr FormatRow formats[] = {
     {"VRML97", ".wrl .wrz .wrl.gz .vrml", "yes, gzip by its first bytes", "yes, --gzip"},
     {"VRML 1.0", ".wrl .wrz .wrl.gz .iv", "yes, Inventor 2 ASCII too", "no"},
-    {"X3D XML", ".x3d .x3dz", "yes, versions 3.0 to 4.0, gzip", "yes, 4.0, --gzip"},
+    {"X3D XML", ".x3d .x3dz", "yes, versions 3.0 to 4.0, gzip", "yes, 3.3 or 4.0, --gzip"},
     {"X3D VRML", ".x3dv .x3dvz", "yes, versions 3.0 to 4.0, gzip", "no"},
     {"glTF 2.0", ".gltf", "yes, by its asset", "yes, --compress, optimize"},
     {"GLB", ".glb", "yes, by its first bytes", "yes, --compress, optimize"},

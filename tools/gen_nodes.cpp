@@ -31,6 +31,7 @@ struct Field {
   std::vector<std::string> x3d_values;  // of X3D's default, where it has another one
   int x3d_from = 30;                    // in version 3.0, or from this one on
   std::string only;
+  int since = 0;  // version of X3D; 0: one that is not newer than 3.3
 };
 
 struct Node {
@@ -38,6 +39,7 @@ struct Node {
   std::vector<std::string> bases;
   std::vector<Field> fields;
   bool abstract = false;
+  int since = 0;  // as of a field
 };
 
 std::string file;
@@ -90,6 +92,9 @@ FieldType type_of(const std::string& name) {
   return t;
 }
 
+/// 33 of "3.3".
+int version(const std::string& s) { return std::stoi(s) * 10 + (s[1] == '.' ? s[2] - '0' : 0); }
+
 void read_default(Field& f, const std::vector<std::string>& w, std::size_t& i) {
   const auto& t = wrlkit::info(type_of(f.type));
   auto take = [&]() -> const std::string& { if (i >= w.size()) fail("default missing"); return w[i++]; };
@@ -134,10 +139,11 @@ Field read_field(const std::string& text, const std::string& doc) {
     else if (s.starts_with("unit=")) f.unit = s.substr(5);
     else if (s.starts_with("vrml97=")) f.vrml97 = s.substr(7);
     else if (s.starts_with("only=")) f.only = s.substr(5);
+    else if (s.starts_with("since=")) f.since = version(s.substr(6));
     else if (s.starts_with("x3d")) {
       auto equals = s.find('=');
       if (equals == std::string::npos) fail("not understood: " + s);
-      if (equals > 3) f.x3d_from = std::stoi(s.substr(3)) * 10 + (s[4] == '.' ? s[5] - '0' : 0);
+      if (equals > 3) f.x3d_from = version(s.substr(3));
       f.x3d_values = split(s.substr(equals + 1), "[]|\"");
     }
     else fail("not understood: " + s);
@@ -155,6 +161,7 @@ Node read_head(const std::string& text, bool abstract) {
   while (in >> w) {
     if (w == ":") { bases = true; continue; }
     if (w.starts_with("component=")) n.component = w.substr(10);
+    else if (w.starts_with("since=")) n.since = version(w.substr(6));
     else if (w.starts_with("container=")) n.container = w.substr(10);
     else if (w == "vrml1" || w == "vrml97" || w == "x3d") { bases = false; clauses += (clauses.empty() ? "" : " ") + w; }
     else if (bases) n.bases.push_back(w.back() == ',' ? w.substr(0, w.size() - 1) : w);
@@ -323,7 +330,7 @@ struct Generator {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto& n = nodes[i];
       o << "    {" << quoted(n.name) << ", NodeKind::builtin, " << dialects(n.clauses) << ", " << (n.fields.empty() ? "{}" : "f" + std::to_string(i)) << ", "
-        << (n.bases.empty() ? "{}" : "b" + std::to_string(i)) << ", " << quoted(n.clauses) << ", " << quoted(n.component) << ", " << quoted(container(n)) << ", " << quoted(n.doc) << ", {}},\n";
+        << (n.bases.empty() ? "{}" : "b" + std::to_string(i)) << ", " << quoted(n.clauses) << ", " << quoted(n.component) << ", " << quoted(container(n)) << ", " << quoted(n.doc) << ", {}, {}, " << n.since << "},\n";
     }
     o << "};\nconstexpr std::string_view base_names[] = {";
     std::vector<std::string> names;
@@ -365,7 +372,7 @@ struct Generator {
     else value = "number(" + head + ", " + (f.values.empty() ? "0" : infinite(f.values[0])) + ")";
     int d = f.only.empty() ? dialects(nodes[i].clauses) : dialects(f.only);
     o << "    {" << quoted(f.name) << ", " << quoted(f.vrml97) << ", T::" << f.type << ", Access::" << f.access << ", " << d << ", " << value << ", {" << infinite(f.low) << ", " << infinite(f.high) << ", "
-      << (f.low_open ? "true" : "false") << ", " << (f.high_open ? "true" : "false") << "}, " << (f.kinds.empty() ? "{}" : "k" + id) << ", " << quoted(f.unit) << ", " << quoted(f.doc) << ", " << quoted(f.default_text) << x3d_default(f, head, id) << "},\n";
+      << (f.low_open ? "true" : "false") << ", " << (f.high_open ? "true" : "false") << "}, " << (f.kinds.empty() ? "{}" : "k" + id) << ", " << quoted(f.unit) << ", " << quoted(f.doc) << ", " << quoted(f.default_text) << ", " << f.since << x3d_default(f, head, id) << "},\n";
   }
 
   static std::string x3d_default(const Field& f, const std::string& head, const std::string& id) {

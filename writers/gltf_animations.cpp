@@ -45,7 +45,7 @@ std::vector<Frame> continuous(const std::vector<Frame>& in) {
   return out;
 }
 
-View view_of(std::size_t width) { return width == 3 ? View::moving3 : width == 4 ? View::moving4 : View::moving1; }
+View view_of(std::size_t width) { return width == 2 ? View::moving2 : width == 3 ? View::moving3 : width == 4 ? View::moving4 : View::moving1; }
 
 }  // namespace
 
@@ -110,7 +110,7 @@ void Animations::add_channel(Written& w, std::uint32_t id, double cycle, Store& 
       if (d.clock == w.clock) curves.back() = &motion_.curve(d.curve);
   }
   auto all = frames(p, curves);
-  if (p.path == "rotation") all = continuous(all);
+  if (p.path == "rotation" && !p.nodes.empty()) all = continuous(all);
   std::vector<float> time, out;
   for (const Frame& f : all) {
     auto t = static_cast<float>(f.at * cycle);

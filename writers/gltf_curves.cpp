@@ -54,14 +54,14 @@ double place_of(std::span<const double> key, double v, bool last) {
 
 /// All interpolators have key and keyValue, of one type.
 std::span<const double> numbers(const Scene& scene, NodeId n, std::string_view field) {
-  auto slot = scene.type(n).find(field, Dialect::vrml97);
+  auto slot = scene.type(n).find(field, Dialect::x3d);
   const Value* v = slot ? &scene.value(n, *slot) : nullptr;
   return v && !v->is ? v->number_span() : std::span<const double>();
 }
 
 bool has_lists(const Scene& scene, NodeId n) { return scene.is(n, nodes::CoordinateInterpolator) || scene.is(n, nodes::NormalInterpolator); }
 
-std::size_t width_of(const Scene& scene, NodeId n) { return scene.is(n, nodes::ScalarInterpolator) ? 1 : scene.is(n, nodes::OrientationInterpolator) ? 4 : 3; }
+std::size_t width_of(const Scene& scene, NodeId n) { return scene.is(n, nodes::ScalarInterpolator) ? 1 : scene.is(n, nodes::PositionInterpolator2D) ? 2 : scene.is(n, nodes::OrientationInterpolator) ? 4 : 3; }
 
 }  // namespace
 
@@ -76,7 +76,7 @@ Sample mix(const Sample& a, Sample b, double t, bool rotation) {
 }
 
 bool is_interpolator(const Scene& scene, NodeId n) {
-  constexpr TypeId types[] = {nodes::PositionInterpolator, nodes::OrientationInterpolator, nodes::ScalarInterpolator, nodes::ColorInterpolator, nodes::CoordinateInterpolator, nodes::NormalInterpolator};
+  constexpr TypeId types[] = {nodes::PositionInterpolator, nodes::OrientationInterpolator, nodes::ScalarInterpolator, nodes::ColorInterpolator, nodes::CoordinateInterpolator, nodes::NormalInterpolator, nodes::PositionInterpolator2D};
   return n && std::ranges::find(types, scene.type_id(n)) != std::end(types);
 }
 
@@ -139,6 +139,7 @@ Ramp ramp_of(const Scene& scene, const Curve& c) {
 }
 
 Sample value_at(const Scene& scene, NodeId n, double place) {
+  if (!n) return {place};
   const auto raw = key_values(scene, n);
   const bool turns = scene.is(n, nodes::OrientationInterpolator);
   const std::size_t width = width_of(scene, n), count = raw.size() / width;

@@ -24,7 +24,7 @@ struct Curve {
   struct Frame {
     double at, place;
   };
-  NodeId interpolator;
+  NodeId interpolator;  // none: the place is the value, an SFFloat
   std::vector<Frame> frames;
 
   double place(double at, Side) const;

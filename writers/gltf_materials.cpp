@@ -1,9 +1,11 @@
 #include "writers/gltf_materials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scenegraph/nodes.h"
+#include "scenegraph/picture_color.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -85,10 +87,12 @@ MaterialUse Materials::make(NodeId appearance, SurfaceKind s) {
   Look l = look(appearance, s);
   bool bake = l.texture.texture != none && !uv_transform(l.uv);
   const std::string text = json(l);
-  const bool moving = moves(l);
-  auto [i, is_new] = by_json_.try_emplace(moving ? text + std::to_string(l.material.value) : text, static_cast<std::uint32_t>(materials_.size()));
+  const bool moving = moves(l), moving_picture = moves_picture(l);
+  const std::string source = (moving ? std::to_string(l.material.value) : "") + (moving_picture ? "/" + std::to_string(l.transform_node.value) : "");
+  auto [i, is_new] = by_json_.try_emplace(text + source, static_cast<std::uint32_t>(materials_.size()));
   if (is_new) materials_.push_back(text);
-  if (is_new && moving) moved_.push_back({i->second, l.material, l.base, l.emissive, l.alpha, l.base_field, l.shows_alpha, l.surface.faces && l.lit && !replaced_by_light(l), l.lit});
+  if (is_new && (moving || moving_picture))
+    moved_.push_back({i->second, l.material, l.base, l.emissive, l.alpha, l.base_field, l.shows_alpha, l.surface.faces && l.lit && !replaced_by_light(l), l.lit, moving_picture ? l.transform_node : NodeId{}, mapped(l)});
   bool light = l.light.texture != none, bake_light = light && !uv_transform(l.light_uv);
   return {i->second, bake ? l.transform_node : NodeId{}, light, bake_light ? l.light_transform : NodeId{}, l.shows_color};
 }
@@ -118,8 +122,7 @@ Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
 void Materials::read_material(Look& l) {
   const SurfaceKind& s = l.surface;
   const bool physical = scene_.is(l.material, nodes::PhysicalMaterial), unlit = scene_.is(l.material, nodes::UnlitMaterial);
-  const bool x3d4 = scene_.dialect() == Dialect::x3d && scene_.x3d.version >= 40;
-  const bool replaced = l.texture.channels >= 3 && !physical && !unlit && !x3d4;
+  const bool replaced = l.texture.channels >= 3 && !(l.appearance && multiplies_picture(scene_, l.appearance));
   l.lit = l.material && s.faces && !unlit;
   l.shows_color = s.color && !replaced;
   if (!l.material) return;
@@ -178,6 +181,23 @@ bool Materials::moves(const Look& l, std::string_view field) const {
 bool Materials::moves(const Look& l) const {
   constexpr std::string_view fields[] = {"emissiveColor", "specularColor", "shininess", "metallic", "roughness"};
   return moves(l, l.base_field) || (l.shows_alpha && moves(l, "transparency")) || (l.lit && std::ranges::any_of(fields, [&](auto f) { return moves(l, f); }));
+}
+
+bool Materials::moves_picture(const Look& l) const {
+  namespace t = nodes::texture_transform;
+  return l.transform_node && l.texture.texture != none && uv_transform(l.uv) &&
+         std::ranges::any_of(std::array{t::center.slot, t::scale.slot, t::rotation.slot, t::translation.slot}, [&](auto slot) { return motion_.moves(l.transform_node, slot); });
+}
+
+/// The pictures that have the TextureTransform.
+std::vector<std::string_view> Materials::mapped(const Look& l) {
+  std::vector<std::string_view> out{"pbrMetallicRoughness/baseColorTexture"};
+  if (!l.lit) return out;
+  if (l.metal_rough != none) out.push_back("pbrMetallicRoughness/metallicRoughnessTexture");
+  if (l.normal != none) out.push_back("normalTexture");
+  if (l.occlusion != none) out.push_back("occlusionTexture");
+  if (l.glow != none) out.push_back("emissiveTexture");
+  return out;
 }
 
 bool Materials::replaced_by_light(const Look& l) const {
@@ -246,7 +266,7 @@ void Materials::pbr(JsonOut& json, const Look& l) {
 void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name, std::uint32_t texture, const char* factor, double value) {
   json.key(name);
   json.begin_object();
-  texture_info_members(json, texture, 0, l.uv);
+  texture_info_members(json, texture, 0, l.uv, moves_picture(l));
   if (value != 1) json.member(factor, static_cast<float>(value));
   if (extras_ && l.transform_node) {
     json.key("extras");
@@ -257,19 +277,19 @@ void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name
   json.end_object();
 }
 
-void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::uint32_t set, const UvAffine& uv) {
+void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::uint32_t set, const UvAffine& uv, bool moved) {
   json.member("index", texture);
   if (set > 0) json.member("texCoord", set);
   auto t = uv_transform(uv);
-  if (!t || uv == UvAffine{}) return;
+  if (!t || (uv == UvAffine{} && !moved)) return;
   texture_transform_ = true;
   json.key("extensions");
   json.begin_object();
   json.key("KHR_texture_transform");
   json.begin_object();
-  if (t->offset != Vec2{0, 0}) json.member("offset", std::span<const double>(t->offset));
-  if (t->rotation != 0) json.member("rotation", t->rotation);
-  if (t->scale != Vec2{1, 1}) json.member("scale", std::span<const double>(t->scale));
+  if (moved || t->offset != Vec2{0, 0}) json.member("offset", std::span<const double>(t->offset));
+  if (moved || t->rotation != 0) json.member("rotation", t->rotation);
+  if (moved || t->scale != Vec2{1, 1}) json.member("scale", std::span<const double>(t->scale));
   json.end_object();
   json.end_object();
 }
@@ -292,7 +312,7 @@ void Materials::light_extras(JsonOut& json, const Look& l) {
 std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
   std::vector<std::uint16_t> said{m::diffuseTexture.slot, m::normalTexture.slot, m::emissiveTexture.slot, m::occlusionTexture.slot, m::normalScale.slot, m::occlusionStrength.slot};
   // White with a picture could be either: a white material, or one that the picture replaces.
-  const bool one_color = l.surface.faces && !l.surface.color && l.texture.channels < 3 && (l.texture.texture == none || l.base != white);
+  const bool one_color = l.surface.faces && !l.surface.color && (l.texture.channels < 3 || own_picture(scene_, l.material)) && (l.texture.texture == none || l.base != white);
   if (one_color && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
   if (!replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
   if (l.texture.channels % 2 == 1 || l.texture.channels == 0) said.push_back(m::transparency.slot);
@@ -316,17 +336,20 @@ void Materials::extras(JsonOut& json, const Look& l) {
   bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
   bool picture = extras_ && l.texture_node && l.texture.texture == none;
   bool transform = extras_ && l.transform_node && l.texture.texture == none;
+  // Of a Material alone: a picture that is multiplied, not one that takes the place of the colour.
+  bool multiplied = extras_ && l.texture.texture != none && scene_.is(l.material, nodes::Material) && own_picture(scene_, l.material);
   bool light = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::extras;
   for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
     if (n && extras_) extras_->set_placed(n);
-  if (!material && !picture && !named && !transform && !light) return;
+  if (!material && !picture && !named && !transform && !multiplied && !light) return;
   json.key("extras");
   json.begin_object();
   if (light) light_extras(json, l);
-  if (material || picture || named || transform) {
+  if (material || picture || named || transform || multiplied) {
     json.key("vrml97");
     json.begin_object();
     if (named) json.key("Appearance"), json.begin_object(), json.member("DEF", extras_->name(l.appearance)), json.end_object();
+    if (multiplied) json.member("multiplied", true);
     if (material) extras_->node(json, l.material, said);
     if (picture) extras_->node(json, l.texture_node, {}, !extras_->name(l.texture_node).empty());
     if (transform) extras_->node(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());

@@ -71,6 +71,8 @@ class Materials {
     double alpha;
     std::string_view base_field;            // empty: nothing of the source is in the base colour
     bool shows_alpha, shows_emissive, lit;
+    NodeId transform;                       // a TextureTransform that is moved; none: it stands still
+    std::vector<std::string_view> mapped;   // pictures that it moves, by their path in the material
   };
   const std::vector<Moved>& moved() const { return moved_; }
 
@@ -85,6 +87,8 @@ class Materials {
   MaterialUse make(NodeId appearance, SurfaceKind);
   bool moves(const Look&, std::string_view field) const;
   bool moves(const Look&) const;
+  bool moves_picture(const Look&) const;
+  static std::vector<std::string_view> mapped(const Look&);
   Look look(NodeId appearance, SurfaceKind);
   void look_at_light(Look&);
   bool replaced_by_light(const Look&) const;
@@ -94,7 +98,7 @@ class Materials {
   void further_pictures(Look&);
   void pbr(JsonOut&, const Look&);
   void texture_info(JsonOut&, const Look&, std::string_view name, std::uint32_t texture, const char* factor = nullptr, double value = 1);
-  void texture_info_members(JsonOut&, std::uint32_t texture, std::uint32_t set, const UvAffine&);
+  void texture_info_members(JsonOut&, std::uint32_t texture, std::uint32_t set, const UvAffine&, bool moved = false);
   void light_info(JsonOut&, const Look&);
   void extensions(JsonOut&, const Look&);
   void light_extras(JsonOut&, const Look&);

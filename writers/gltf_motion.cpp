@@ -46,9 +46,20 @@ const Row* row_of(TypeId interpolator, TypeId type, std::uint16_t slot) {
       {ScalarInterpolator, DirectionalLight, directional_light::intensity.slot, pointers},
       {ScalarInterpolator, PointLight, point_light::intensity.slot, pointers},
       {ScalarInterpolator, SpotLight, spot_light::intensity.slot, pointers},
-      {ScalarInterpolator, Viewpoint, viewpoint::fieldOfView.slot, pointers}};
+      {ScalarInterpolator, Viewpoint, viewpoint::fieldOfView.slot, pointers},
+      {PositionInterpolator2D, TextureTransform, texture_transform::center.slot, pointers},
+      {PositionInterpolator2D, TextureTransform, texture_transform::scale.slot, pointers},
+      {PositionInterpolator2D, TextureTransform, texture_transform::translation.slot, pointers},
+      {ScalarInterpolator, TextureTransform, texture_transform::rotation.slot, pointers}};
   auto i = std::ranges::find_if(rows, [&](const Row& r) { return r.interpolator == interpolator && r.type == type && r.slot == slot; });
   return i == std::end(rows) ? nullptr : i;
+}
+
+/// glTF scales before it turns, VRML behind.
+bool turns_uneven(const Scene& scene, NodeId n, std::uint16_t slot) {
+  namespace t = nodes::texture_transform;
+  const Vec2 scale = scene.get(n, t::scale);
+  return (slot == t::rotation.slot && scale[0] != scale[1]) || (slot == t::scale.slot && scene.get(n, t::rotation) != 0);
 }
 
 }  // namespace
@@ -89,9 +100,14 @@ bool Motion::take(const Step& at, const Route& r) {
   next.node = r.to;
   if (!is_interpolator(scene_, r.to) || r.event_in != "set_fraction") {
     next.slot = *slot;
-    return at.curve != no_curve && type.fields[*slot].access == Access::inout;
+    if (type.fields[*slot].access != Access::inout) return false;
+    if (at.curve != no_curve) return true;
+    if (type.fields[*slot].type != FieldType::SFFloat) return false;
+    next.curve = static_cast<std::uint32_t>(curves_.size());  // the fraction itself
+    curves_.push_back({NodeId{}, {{0, 0}, {1, 1}}});
+    return true;
   }
-  const bool scalar = at.curve == no_curve || scene_.is(curves_[at.curve].interpolator, nodes::ScalarInterpolator);
+  const bool scalar = at.curve == no_curve || !curves_[at.curve].interpolator || scene_.is(curves_[at.curve].interpolator, nodes::ScalarInterpolator);
   auto curve = scalar ? follow(scene_, r.to, at.curve == no_curve ? Ramp{} : ramp_of(scene_, curves_[at.curve]), max_frames - n_frames_) : std::nullopt;
   if (!curve) {
     if (scalar && !keys(scene_, r.to).empty() && told_.insert(r.to.value).second) diag_.report(Diag::no_gltf_value, scene_.where(r.to), type.name, "key, as it does not ascend,");
@@ -107,8 +123,11 @@ bool Motion::take(const Step& at, const Route& r) {
 
 void Motion::arrive(const Step& at, NodeId clock) {
   if (is_interpolator(scene_, at.node)) return;
-  const Row* row = row_of(scene_.type_id(curves_[at.curve].interpolator), scene_.type_id(at.node), at.slot);
+  const NodeId interpolator = curves_[at.curve].interpolator;
+  const Row* row = row_of(interpolator ? scene_.type_id(interpolator) : nodes::ScalarInterpolator, scene_.type_id(at.node), at.slot);
   if (!row) return;
+  if (scene_.is(at.node, nodes::TextureTransform) && turns_uneven(scene_, at.node, at.slot))
+    return diag_.report(Diag::no_gltf_value, scene_.where(at.node), "TextureTransform", "rotation, with a scale that is not even,");
   if (row->reach > reach_) {
     diag_.report(Diag::no_gltf_pointer, scene_.where(at.node), scene_.type(at.node).name, scene_.type(at.node).fields[at.slot].name_in(scene_.dialect()));
     return;

@@ -3,7 +3,7 @@
 //
 // Core glTF says translation, rotation and scale of a Transform, position and orientation of a Viewpoint, the location of a
 // light, the points of a Coordinate and the vectors of a Normal (as morph targets). By KHR_animation_pointer: colours and
-// numbers of materials and lights, and fieldOfView. What moves anything else is kept in extras and lost.
+// numbers of materials and lights, fieldOfView, and TextureTransform. A number can be the fraction itself. What moves anything else is kept in extras and lost.
 #pragma once
 #include <map>
 #include <set>

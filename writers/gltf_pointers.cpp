@@ -1,8 +1,12 @@
 #include "writers/gltf_pointers.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "scenegraph/nodes.h"
 #include "writers/gltf_color.h"
 #include "writers/gltf_number.h"
+#include "writers/gltf_texture_transform.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -16,6 +20,9 @@ class Pointers {
 
   void material(const Materials::Moved& m) {
     const std::string at = "/materials/" + std::to_string(m.material);
+    if (m.transform)
+      for (std::string_view picture : m.mapped) texture_transform(at + "/" + std::string(picture) + "/extensions/KHR_texture_transform", m.transform);
+    if (!m.source) return;
     // The fields that are looked at, a missing one as it stands.
     auto base = [=](In in, Out& out) {
       const Sample color = m.base_field.empty() ? sample(m.base) : in[0].value(sample(m.base));
@@ -51,6 +58,27 @@ class Pointers {
 
   void camera(std::size_t i, NodeId n) {
     if (scene_.is(n, nodes::Viewpoint)) add("/cameras/" + std::to_string(i) + "/perspective/yfov", 1, n, {"fieldOfView"}, [](In in, Out& out) { out.push_back(in[0].value({})[0]); }, true);
+  }
+
+  /// KHR_texture_transform counts from the top, and scales before it turns: a turn has an even scale.
+  void texture_transform(const std::string& at, NodeId n) {
+    namespace f = nodes::texture_transform;
+    const Vec2 center = scene_.get(n, f::center), scale = scene_.get(n, f::scale), shift = scene_.get(n, f::translation);
+    const double rotation = scene_.get(n, f::rotation);
+    const bool turns = rotation != 0 || animations_.motion().moves(n, f::rotation.slot);
+    auto two = [](const Property::At& in, const Vec2& still) { const Sample s = in.value({still[0], still[1]}); return Vec2{s[0], s[1]}; };
+    auto offset = [=](In in, Out& out) {
+      const UvAffine a = uv_affine(two(in[0], center), two(in[1], scale), in[2].value({rotation})[0], two(in[3], shift));
+      out.push_back(a.xy + a.x), out.push_back(1 - a.yy - a.y);
+    };
+    auto size = [=](In in, Out& out) {
+      const Vec2 s = two(in[0], scale);
+      for (double v : s) out.push_back(turns ? std::abs(v) : v);
+    };
+    auto turn = [=](In in, Out& out) { out.push_back(in[0].value({rotation})[0] + (scale[0] < 0 ? std::numbers::pi : 0)); };
+    add(at + "/offset", 2, n, {"center", "scale", "rotation", "translation"}, offset, false);
+    add(at + "/scale", 2, n, {"scale"}, size, true);
+    if (turns) add(at + "/rotation", 1, n, {"rotation"}, turn, true);
   }
 
  private:

@@ -24,6 +24,7 @@ const ViewInfo& info(View v) {
       {4, unsigned_int, no, yes, no, "SCALAR", none, "indices"},
       {4, float_, no, no, no, "SCALAR", none, "animation"},
       {4, float_, no, no, no, "SCALAR", none, "animation"},
+      {8, float_, no, no, no, "VEC2", none, "animation"},
       {12, float_, no, no, no, "VEC3", none, "places"},
       {16, float_, no, no, no, "VEC4", none, "places"},
       {8, short_, yes, no, no, "VEC3", none, "positions"},

@@ -22,6 +22,7 @@ struct UvTransform {
 
 /// -C S R C T of a TextureTransform; identity for none, and where its numbers are not finite.
 UvAffine uv_affine(const Scene&, NodeId texture_transform);
+UvAffine uv_affine(const Vec2& center, const Vec2& scale, double rotation, const Vec2& translation);
 
 /// The same for coordinates that count from the top. Null when the extension cannot say it: VRML scales after it turns,
 /// the extension before; and viewers are known to disagree about the order. Such transforms are applied to the

@@ -5,14 +5,13 @@
 
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/x3d_version.h"
 #include "writers/def_names.h"
 #include "writers/x3d_profile.h"
 #include "writers/xml_text.h"
 
 namespace wrlkit {
 namespace {
-
-constexpr int written_version = 40;
 
 constexpr std::string_view access_words[] = {"initializeOnly", "inputOutput", "inputOnly", "outputOnly"};
 
@@ -26,16 +25,17 @@ std::string_view trim_end(std::string_view s) {
 class Writer {
  public:
   Writer(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag)
-      : scene_(scene), options_(options), diag_(diag), out_(sink), names_(scene, Dialect::x3d, options.own_fields), printed_(scene.node_count(), 0) {}
+      : scene_(scene), options_(options), diag_(diag), out_(sink), names_(scene, Dialect::x3d, options.own_fields), version_(x3d_version(scene)), printed_(scene.node_count(), 0) {}
 
   void file() {
     const auto profile = x3d_profile(scene_);
-    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-            "<!DOCTYPE X3D PUBLIC \"ISO//Web3D//DTD X3D 4.0//EN\" \"https://www.web3d.org/specifications/x3d-4.0.dtd\">\n";
+    const std::string version = std::to_string(version_ / 10) + '.' + std::to_string(version_ % 10);
+    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE X3D PUBLIC \"ISO//Web3D//DTD X3D " << version
+         << "//EN\" \"https://www.web3d.org/specifications/x3d-" << version << ".dtd\">\n";
     comment();
     out_ << "<X3D profile='" << profile.name
-         << "' version='4.0' xmlns:xsd='http://www.w3.org/2001/XMLSchema-instance' "
-            "xsd:noNamespaceSchemaLocation='https://www.web3d.org/specifications/x3d-4.0.xsd'>";
+         << "' version='" << version << "' xmlns:xsd='http://www.w3.org/2001/XMLSchema-instance' "
+            "xsd:noNamespaceSchemaLocation='https://www.web3d.org/specifications/x3d-" << version << ".xsd'>";
     head(profile);
     ++depth_;
     line() << "<Scene>";
@@ -251,7 +251,7 @@ class Writer {
 
   bool says_default(const Value& v, const FieldDef& f) const {
     if (info(v.type).element == Element::node) return v.node_span().empty();
-    return equal_plain(v, f.x3d_default_in(written_version));
+    return equal_plain(v, f.x3d_default_in(version_));
   }
 
   static bool is_url(const FieldDef& f) { return f.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url")); }
@@ -267,7 +267,7 @@ class Writer {
     }
     if (t.kind != NodeKind::builtin) return;
     for (const auto& f : t.fields)  // what the reader would take for another default
-      if (f.x3d_from && !scene_.find(n, f.x3d_default.slot)) field_attribute(n, f, f.default_value);
+      if (f.x3d_from && version_ >= f.x3d_from && !scene_.find(n, f.x3d_default.slot)) field_attribute(n, f, f.default_value);
   }
 
   void field_attribute(NodeId n, const FieldDef& f, const Value& v) {
@@ -415,6 +415,7 @@ class Writer {
   Diagnostics& diag_;
   TextOut out_;
   Names names_;
+  int version_;
   std::vector<std::uint32_t> printed_;                          // the scope that printed the node last, from 1
   std::vector<std::pair<std::uint32_t, std::uint32_t>> again_;  // nodes printed once more in a body, and where before
   std::uint32_t scope_ = 1, scopes_ = 1;

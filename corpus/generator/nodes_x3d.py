@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape
 from generator import nodes
 from generator.vrml import Node, Raw
 
-TABLES = nodes.TABLE, nodes.TABLE.with_name('x3d.nodes')
+TABLES = nodes.TABLE, *(nodes.TABLE.with_name(name) for name in ('x3d.nodes', 'x3d_geo.nodes', 'x3d_nurbs.nodes'))
 
 SPECIAL = {
     **{key: value.replace('"media/', '"../nodes/media/').replace('"Box.wrl', '"../nodes/Box.wrl') for key, value in nodes.SPECIAL.items()},
@@ -26,6 +26,17 @@ SPECIAL = {
     'LineProperties.linetype': '2', 'MultiTexture.mode': '[ "MODULATE" ]', 'TextureBackground.groundAngle': '[ 0.8, 1.5 ]',
     'TextureBackground.skyAngle': '[ 0.8, 1.5 ]', 'TextureProperties.borderWidth': '1', 'Viewpoint.viewAll': 'FALSE',
     'SplinePositionInterpolator.keyVelocity': '[ 0 0 0, 0 1 0, 0 0 0 ]',
+    # four control points: curves of degree 3, and patches of two by two, near a place of zone 33
+    '*.order': '4', '*.knot': '[ 0 0 0 0 1 1 1 1 ]', '*.weight': '[ 1 2 1 1 ]', '*.uOrder': '2', '*.vOrder': '2',
+    '*.uDimension': '2', '*.vDimension': '2', '*.uKnot': '[ 0 0 1 1 ]', '*.vKnot': '[ 0 0 1 1 ]',
+    **{f'{name}.controlPoint': '[ 0 0, 1 0, 1 1, 0.5 1 ]' for name in ('ContourPolyline2D', 'NurbsCurve2D', 'NurbsTextureCoordinate')},
+    'CoordinateDouble.point': '[ -1 0 1, 1 0 1, -1 0 -1, 1 0.5 -1 ]',
+    '*.geoSystem': '[ "UTM" "Z33" ]', 'GeoCoordinate.point': '[ 5762000 392000 30, 5762000 392010 30, 5762010 392010 31, 5762010 392000 31 ]',
+    **{f'*.{name}': '5762000 392000 30' for name in ('geoCoords', 'geoCenter', 'geoGridOrigin')},
+    'GeoViewpoint.position': '5761950 392000 60', 'GeoViewpoint.centerOfRotation': '5762000 392000 30', 'GeoLOD.center': '5762000 392000 30',
+    'GeoPositionInterpolator.keyValue': '[ 5762000 392000 30, 5762010 392000 30, 5762000 392000 30 ]',
+    **{f'GeoElevationGrid.{name}': '2' for name in ('xDimension', 'zDimension')}, 'GeoElevationGrid.height': '[ 0.1, 0.2, 0.3, 0.4 ]',
+    '*.rootUrl': '[ "../nodes/Box.wrl" ]', **{f'*.child{i}Url': '[ "../nodes/Box.wrl" ]' for i in range(1, 5)},
     '*.closureType': '"CHORD"', '*.visible': 'TRUE', '*.load': 'TRUE',
 }
 # Nodes that would hold each other without end, and what only shaders need.

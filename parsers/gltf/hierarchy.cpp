@@ -89,7 +89,8 @@ void Hierarchy::visit(std::uint32_t n, std::size_t depth, const Vec3& origin, No
   const Json json = c_.file.at(Table::nodes, n);
   if (state_[n] == State::open) return c_.diag().report(Diag::gltf_cycle, c_.file.where(json), n);
   if (state_[n] == State::done) {
-    c_.diag().report(Diag::gltf_two_parents, c_.file.where(json), n);
+    // Scenes may share their roots.
+    if (depth > 0 || parent_[n] != none) c_.diag().report(Diag::gltf_two_parents, c_.file.where(json), n);
     if (made_[n]) out.push_back(made_[n]);
     return;
   }
@@ -417,6 +418,7 @@ NodeId Hierarchy::light(Json node, const Place& place, const Matrix& world) {
   if (index == none) return {};
   const Json light = c_.file.at(Table::lights, index);
   const auto type = light["type"].text();
+  if (type != "directional" && type != "spot" && type != "point") return c_.diag().report(Diag::gltf_bad_value, c_.file.where(light), "light of type '" + std::string(type) + "'"), NodeId{};
   NodeId n = c_.add(type == "directional" ? nodes::DirectionalLight : type == "spot" ? nodes::SpotLight : nodes::PointLight, node);
   lights_[index].push_back(n);
   if (c_.file.is_own()) return light_fields(n, {}, place), n;

@@ -107,12 +107,14 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
         (type == "TextureTransform" ? transform : picture) = n;
       }
   NodeId material = material_node(m, s, look);
+  const bool multiplied = picture && material && is_multiplied(m, s, material);
+  if (multiplied) c_.scene.set(material, c_.scene.make(FieldType::SFNode, c_.scene.is(material, nodes::Material) ? nodes::material::diffuseTexture.slot : nodes::unlit_material::emissiveTexture.slot, picture));
   const Json name = c_.file.is_whole() ? extras["Appearance"]["DEF"] : m["name"];
   if (material && c_.file.is_whole() && name.text() != m["name"].text()) c_.set_name(material, m["name"]), material = same_named(material, nodes::Material);
   if (!material && !picture && !name) return look;
   look.appearance = c_.add(nodes::Appearance, m);
   if (material) c_.scene.set(look.appearance, nodes::appearance::material, material);
-  if (picture) c_.scene.set(look.appearance, nodes::appearance::texture, picture);
+  if (picture && !multiplied) c_.scene.set(look.appearance, nodes::appearance::texture, picture);
   if (transform) c_.scene.set(look.appearance, nodes::appearance::textureTransform, transform);
   c_.set_name(look.appearance, name);
   look.appearance = same_named(look.appearance, nodes::Appearance);
@@ -122,6 +124,14 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
   extras_.define(look.appearance);
   if (!c_.file.is_own()) report_lost(m);
   return look;
+}
+
+/// glTF multiplies a picture by the colour, VRML97 shows the picture: then it is one of the material, as in X3D 4.0.
+bool Materials::is_multiplied(Json m, SurfaceKind s, NodeId material) const {
+  const bool unlit = c_.scene.is(material, nodes::UnlitMaterial);
+  if (c_.file.is_whole()) return unlit || vrml97(m)["multiplied"].boolean();
+  const auto factor = vector<4>(m["pbrMetallicRoughness"]["baseColorFactor"], {1, 1, 1, 1});
+  return (s.color && !c_.file.is_own()) || unlit || Vec3{factor[0], factor[1], factor[2]} != white;
 }
 
 /// One node for a name where several materials of glTF are one of VRML, on different kinds of surfaces.
@@ -143,8 +153,10 @@ NodeId Materials::material_node(Json m, SurfaceKind s, Look& look) {
   // Unlit and white, of its Color, or of its picture: that is a Shape without a Material (tables 4.5 and 4.6).
   const bool plain = rgb == white || s.color || look.textured;
   if ((unlit || !s.faces) && plain && factor[3] >= 1 && !extras) {
-    if (look.textured && rgb != white) c_.lost.add("baseColorFactor with a picture", c_.file.where(m));
-    return {};
+    if (!look.textured || (rgb == white && (own || !s.color))) return {};
+    const NodeId n = c_.add(nodes::UnlitMaterial, m);
+    set(c_.scene, n, nodes::unlit_material::emissiveColor, s.color ? white : display_color(rgb));
+    return n;
   }
   NodeId n = c_.add(nodes::Material, m);
   set_color(n, m, s, look);
@@ -306,7 +318,7 @@ void Materials::report_lost(Json m) {
   const Json pbr = m["pbrMetallicRoughness"];
   if (pbr["metallicRoughnessTexture"]) c_.lost.add("metallicRoughnessTexture", where);
   if (pbr["metallicFactor"].number(1) > 0 && !m["extensions"]["KHR_materials_unlit"]) c_.lost.add("metallicFactor", where);
-  if (pbr["baseColorTexture"] && pbr["baseColorFactor"]) c_.lost.add("baseColorFactor with a picture", where);
+  if (pbr["baseColorTexture"] && vector<4>(pbr["baseColorFactor"], {1, 1, 1, 1})[3] < 1 && m["alphaMode"].text() == "BLEND") c_.lost.add("alpha of baseColorFactor with a picture", where);
   if (m["alphaMode"].text() == "MASK") c_.lost.add("alphaMode MASK", where);
   c_.lost.keep(c_.file, m);
 }

@@ -57,6 +57,7 @@ class Materials {
   std::vector<std::string> urls(Json texture, std::uint32_t image);
   NodeId texture_transform(Json info, SurfaceKind, Look&);
   void report_lost(Json);
+  bool is_multiplied(Json, SurfaceKind, NodeId material) const;
   NodeId same_named(NodeId, TypeId);
 
   Context c_;

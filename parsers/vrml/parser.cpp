@@ -21,7 +21,7 @@ bool begins_head(std::string_view word) { return word == "PROFILE" || word == "C
 void Parser::vrml_scene() {
   statements(Kind::end);
   scene_.main = build_.close_scope();
-  apply(units_, scene_);
+  apply(units_, scene_, diag_);
 }
 
 bool Parser::node_follows(Token name) {

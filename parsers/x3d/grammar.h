@@ -30,6 +30,8 @@ class Parser : private AttributeValues {
     std::string_view name;
     std::map<std::string_view, FieldDef> own;
     std::map<std::string_view, std::vector<NodeId>> extra;
+    std::string program;  // of a Script, as far as it is read
+    Span program_at;
   };
 
   // The document.
@@ -52,7 +54,7 @@ class Parser : private AttributeValues {
   bool put_into_slot(std::uint16_t slot, NodeId, Span);
   std::optional<std::uint16_t> slot_by_kind(NodeId) const;
   std::string_view container_of(NodeId) const;
-  void program(std::string_view text, Span);
+  void program(const Element&);
   void extras(Element&);
 
   // Declarations.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "parsers/x3d/grammar.h"
+#include "parsers/x3d/page.h"
 #include "scenegraph/blanks.h"
 #include "scenegraph/nodes.h"
 
@@ -11,6 +12,7 @@ namespace wrlkit::x3d {
 // ---- the document --------------------------------------------------------------------------------------------------
 
 void Parser::document() {
+  for (auto& n : tree_.nodes) n.name.remove_prefix(n.name.find(':') + 1);  // of a namespace
   if (auto declared = whole_.substr(0, whole_.find("?>")); declared.starts_with("<?xml"))
     for (auto name : {"ISO-8859-1", "iso-8859-1", "Latin-1", "latin1", "windows-1252", "Windows-1252"}) latin1_ |= declared.find(name) != declared.npos;
   const XmlNode& top = tree_.nodes[0];
@@ -43,7 +45,7 @@ void Parser::document() {
   if (!tree_.fault.empty())
     diag_.report(Diag::xml_syntax, span_of(whole_.substr(std::min(tree_.fault_at, whole_.size()), 1)), tree_.fault + "; what stands behind is not read");
   scene_.main = build_.close_scope();
-  apply(units_, scene_);
+  apply(units_, scene_, diag_);
 }
 
 void Parser::comment(const XmlNode& n) {
@@ -97,8 +99,7 @@ bool Parser::statement(const XmlNode& n) {
 
 TypeId Parser::type_of(const XmlNode& n) {
   if (n.name == "ProtoInstance") return build_.type(scene_.keep(get(n, "name")), where(n, "name"));
-  auto name = verbatim_text(n.name);
-  return build_.type(name.substr(name.find(':') + 1), where(n));  // without the prefix of a namespace
+  return build_.type(verbatim_text(n.name), where(n));
 }
 
 NodeId Parser::node(const XmlNode& n) {
@@ -106,9 +107,10 @@ NodeId Parser::node(const XmlNode& n) {
   if (depth_ >= limits_.depth || scene_.node_count() >= limits_.nodes) return diag_.report(Diag::too_deep, where(n), limits_.depth), NodeId{};
   ++depth_;
   NodeId id = build_.open(type_of(n), name_of(raw(n, "DEF").value_or("")), where(n));
-  Element e{n.name, {}, {}};
+  Element e{n.name, {}, {}, {}, {}};
   if (n.name != "ProtoInstance") attributes(n, e);
   for_each_child(n, [&](const XmlNode& c) { child(c, e); });
+  program(e);
   extras(e);
   build_.close();
   --depth_;
@@ -140,8 +142,10 @@ void Parser::child(const XmlNode& c, Element& e) {
   const bool script = build_.current_type().name == "Script";
   if (c.kind == XmlNode::Kind::text) {
     auto text = c.cdata ? verbatim_text(c.content) : plain(c.content, false);
-    if (script && !trim(text).empty()) program(text, span_of(c.content));
-    else if (!trim(text).empty()) diag_.report(Diag::stray_token, span_of(c.content), "'" + std::string(trim(text).substr(0, 60)) + "'");
+    if (script && (!e.program.empty() || !trim(text).empty())) {
+      if (e.program.empty()) e.program_at = span_of(c.content), text.remove_prefix(text.find_first_not_of(" \t\r\n"));
+      e.program += text;
+    } else if (!trim(text).empty()) diag_.report(Diag::stray_token, span_of(c.content), "'" + std::string(trim(text).substr(0, 60)) + "'");
   }
   if (c.kind != XmlNode::Kind::element) return;
   if (statement(c)) return;
@@ -152,10 +156,10 @@ void Parser::child(const XmlNode& c, Element& e) {
   child_node(c, e);
 }
 
-// The program of a Script in the text of the file, as an url of its own.
-void Parser::program(std::string_view text, Span where) {
-  text.remove_prefix(text.find_first_not_of(" \t\r\n"));
-  build_.field(scene_.make(FieldType::MFString, nodes::script::url.slot, std::vector<std::string_view>{text}), where);
+// The program of a Script in the text of the file, which may be in several pieces, as an url of its own.
+void Parser::program(const Element& e) {
+  if (e.program.empty()) return;
+  build_.field(scene_.make(FieldType::MFString, nodes::script::url.slot, std::vector<std::string_view>{e.program}), e.program_at);
 }
 
 void Parser::child_node(const XmlNode& c, Element& e) {
@@ -266,6 +270,8 @@ int version_number(std::string_view s) {
 }
 
 void parse(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
+  const auto page = world_of_page(text);
+  if (page) text = scene.keep(page->xml), base += static_cast<std::uint32_t>(page->begin);
   Parser(text, base, limits, scene, diag).document();
 }
 

@@ -1,5 +1,6 @@
 // UNIT statements of X3D (ISO/IEC 19775-1, 7.2.5.10): a file may count in inches and degrees. A scene is always in metres and radians.
 #pragma once
+#include "scenegraph/diagnostics.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::x3d {
@@ -11,8 +12,9 @@ struct Units {
   bool set(std::string_view category, double factor);
 };
 
-/// Multiplies the written values of all fields that have such a unit in the node table. Values without one, as those of
-/// interpolators and of prototypes' own fields, stay: nothing says what they measure. O(scene) when there is a unit.
-void apply(const Units&, Scene&);
+/// Multiplies the written values of all fields that have such a unit in the node table. The key values of an interpolator count in the unit
+/// of what its ROUTEs lead to, fields of prototypes and their defaults in that of the fields that they stand for (IS), also through several
+/// of them. What leads to different units stays as it is, and is reported; what leads nowhere stays. O(scene) when there is a unit.
+void apply(const Units&, Scene&, Diagnostics&);
 
 }  // namespace wrlkit::x3d

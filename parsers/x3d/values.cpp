@@ -98,6 +98,8 @@ bool AttributeValues::numbers_of(FieldType type, std::uint16_t slot, std::string
   numbers_.clear();
   integers_.clear();
   bool bracket = take(vrml::Kind::open_bracket);  // of the other encoding
+  // No comment, as in the other encoding: x3dom's pages write colours so.
+  if (const auto at = attribute.find('#'); at != attribute.npos) diag_.report(Diag::bad_value, span_of(attribute.substr(at)), "'" + std::string(attribute.substr(at, 60)) + "'", t.name);
   read_numbers(type, 0);
   if (bracket && take(vrml::Kind::close_bracket)) diag_.report(Diag::extra_bracket, span_of(attribute), field);
   at_end(t.name);

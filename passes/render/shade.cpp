@@ -100,14 +100,40 @@ Texel Shader::shade_face(const Ray& ray, const Hit& hit, const Surface& s) const
   }
   if (!s.lit) return base;
   LitPoint lit{at.position, at.normal, -ray.direction};
-  return {light(s, base.color, lit, drawing_.stage.uses[hit.use].lights), base.alpha};
+  Further further{s.material.ambient, s.emissive};
+  if (s.has_further_pictures()) further_pictures(s, m, hit, {area, facing}, lit.normal, further);
+  return {light(s, base.color, further, lit, drawing_.stage.uses[hit.use].lights), base.alpha};
+}
+
+/// Occlusion dims ambient light, as in glTF; normals lean along the picture's sides.
+void Shader::further_pictures(const Surface& s, const PooledMesh& m, const Hit& hit, const Seen& seen, V3& normal, Further& to) const {
+  const MeshPool& pool = drawing_.meshes;
+  const auto place = place_of(pool, m, hit, pool.texcoords, m.texcoords, s.texcoords, seen.area);
+  if (!place) return;
+  auto sample = [&](const Layer& l) { return l.sample(place->at, place->detail(*l.texture, hit, camera_, seen.facing)); };
+  if (s.glow.texture) to.emissive = s.emissive * sample(s.glow).color;
+  if (s.shadow.texture) to.ambient *= 1 - s.shadow_strength * (1 - sample(s.shadow).color.x);
+  if (!s.bumps.texture) return;
+  std::array<double, 2> uv[3];
+  for (int k = 0; k < 3; ++k) {
+    const float* c = pool.value(pool.texcoords, m, m.texcoords, hit.element, k);
+    uv[k] = s.texcoords(c[0], c[1]);
+  }
+  const double u1 = uv[1][0] - uv[0][0], v1 = uv[1][1] - uv[0][1], u2 = uv[2][0] - uv[0][0], v2 = uv[2][1] - uv[0][1], d = u1 * v2 - u2 * v1;
+  if (!(std::fabs(d) > 0)) return;
+  const Affine& frame = drawing_.stage.frames[drawing_.stage.uses[hit.use].frame];
+  const V3 a = pool.position(m, hit.element, 0), e1 = pool.position(m, hit.element, 1) - a, e2 = pool.position(m, hit.element, 2) - a;
+  auto along = [&](const V3& direction) { const V3 w = frame.vector((1 / d) * direction); return unit(w - dot(w, normal) * normal); };
+  const V3 t = along(v2 * e1 - v1 * e2), b = along(u1 * e2 - u2 * e1), n = 2.0 * sample(s.bumps).color - V3(1);
+  normal = unit((s.bump_scale * n.x) * t + (s.bump_scale * n.y) * b + n.z * normal);
 }
 
 /// The sum of 4.14.4, without fog.
-V3 Shader::light(const Surface& s, const V3& base, const LitPoint& at, std::uint32_t scope) const {
+V3 Shader::light(const Surface& s, const V3& base, const Further& further, const LitPoint& at, std::uint32_t scope) const {
   Lit material = s.material;
   material.diffuse = base;
-  V3 sum = s.emissive;
+  material.ambient = further.ambient;
+  V3 sum = further.emissive;
   if (headlight_) sum += contribution(*headlight_, at, material);
   for (const Light& l : everywhere_) sum += contribution(l, at, material);
   for (; scope; scope = drawing_.stage.scopes[scope].parent)

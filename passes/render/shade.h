@@ -46,7 +46,13 @@ class Shader {
  private:
   Texel shade(const Ray& ray, const Hit& hit) const;
   Texel shade_face(const Ray& ray, const Hit& hit, const Surface& surface) const;
-  V3 light(const Surface& surface, const V3& base, const LitPoint& at, std::uint32_t scope) const;
+  /// What the further pictures of a material change.
+  struct Further {
+    double ambient;
+    V3 emissive;
+  };
+  void further_pictures(const Surface&, const PooledMesh&, const Hit&, const Seen&, V3& normal, Further&) const;
+  V3 light(const Surface& surface, const V3& base, const Further&, const LitPoint& at, std::uint32_t scope) const;
 
   const Drawing& drawing_;
   const Tracer& tracer_;

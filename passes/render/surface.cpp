@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "passes/x3d/appearance.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/picture_color.h"
 
 namespace wrlkit::drawing {
 namespace {
@@ -22,7 +22,7 @@ void read_material(Surface& s, const Scene& scene, NodeId n) {
 /// Metals are as dull as all else; their colour is what they reflect.
 void read_physical(Surface& s, const Scene& scene, NodeId n) {
   namespace f = nodes::physical_material;
-  s.lit = s.modulates = true;
+  s.lit = true;
   s.material.diffuse = scene.get(n, f::baseColor);
   s.material.specular = {};
   s.emissive = scene.get(n, f::emissiveColor);
@@ -31,7 +31,7 @@ void read_physical(Surface& s, const Scene& scene, NodeId n) {
 
 void read_unlit(Surface& s, const Scene& scene, NodeId n) {
   namespace f = nodes::unlit_material;
-  s.shines = s.modulates = true;
+  s.shines = true;
   s.material.diffuse = scene.get(n, f::emissiveColor);
   s.alpha = 1 - std::clamp(scene.get(n, f::transparency), 0.0, 1.0);
 }
@@ -57,10 +57,15 @@ V3 BakedLight::at(const std::array<double, 2>& place, double detail) const {
 Texel Surface::base(const std::optional<Texel>& vertex, const std::optional<Texel>& texel) const {
   Texel out{lit || shines ? material.diffuse : V3(1), alpha};
   if (vertex) out.color = vertex->color, out.alpha *= vertex->alpha;
-  if (!texel) return out;
-  out.color = modulates || picture.texture->is_grey() ? texel->color * out.color : texel->color;
-  if (picture.texture->has_alpha()) out.alpha = texel->alpha;
+  if (texel) add(out, *texel);
+  if (opaque) out.alpha = 1;
+  if (cutoff) out.alpha = out.alpha >= *cutoff ? 1 : 0;
   return out;
+}
+
+void Surface::add(Texel& out, const Texel& texel) const {
+  out.color = modulates || picture.texture->is_grey() ? texel.color * out.color : texel.color;
+  if (picture.texture->has_alpha()) out.alpha = texel.alpha;
 }
 
 Surfaces::Surfaces(const Scene& scene, Resources* resources, Diagnostics& diag)
@@ -80,15 +85,32 @@ Surface Surfaces::make(NodeId appearance) {
   namespace f = nodes::appearance;
   Surface s;
   NodeId material = scene_.get(appearance, f::material), map = scene_.get(appearance, f::textureTransform);
-  s.modulates = scene_.dialect() == Dialect::x3d && scene_.x3d.version >= 40;
+  s.modulates = multiplies_picture(scene_, appearance);
   if (scene_.is(material, nodes::Material)) read_material(s, scene_, material);
   if (scene_.is(material, nodes::PhysicalMaterial)) read_physical(s, scene_, material);
   if (scene_.is(material, nodes::UnlitMaterial)) read_unlit(s, scene_, material);
   if (scene_.is(map, nodes::TextureTransform)) s.texcoords = texcoord_map(scene_, map);
   const NodeId texture = scene_.get(appearance, f::texture);
-  s.picture = layer(texture ? texture : x3d::picture_of(scene_, material));
+  s.picture = layer(texture ? texture : own_picture(scene_, material));
+  if (scene_.is(material, nodes::Material)) further_pictures(s, material);
+  read_alpha_mode(s, appearance);
   s.baked = baked_light(appearance);
   return s;
+}
+
+void Surfaces::further_pictures(Surface& s, NodeId n) {
+  namespace f = nodes::material;
+  s.glow = layer(scene_.get(n, f::emissiveTexture));
+  s.shadow = layer(scene_.get(n, f::occlusionTexture));
+  s.bumps = layer(scene_.get(n, f::normalTexture));
+  s.bump_scale = scene_.get(n, f::normalScale);
+  s.shadow_strength = std::clamp(scene_.get(n, f::occlusionStrength), 0.0, 1.0);
+}
+
+void Surfaces::read_alpha_mode(Surface& s, NodeId appearance) const {
+  const auto mode = scene_.get(appearance, nodes::appearance::alphaMode);
+  s.opaque = mode == "OPAQUE";
+  if (mode == "MASK") s.cutoff = scene_.get(appearance, nodes::appearance::alphaCutoff);
 }
 
 BakedLight Surfaces::baked_light(NodeId appearance) {

@@ -44,17 +44,25 @@ struct BakedLight {
 struct Surface {
   bool lit = false;                  // it has a Material or PhysicalMaterial
   bool shines = false;               // it has an UnlitMaterial: its colour is light of its own
-  bool modulates = false;            // the picture multiplies the colour (ISO/IEC 19775-1 since 4.0) and does not replace it
+  bool modulates = false;            // the picture multiplies the colour and does not replace it (picture_color.h)
   Lit material;
   V3 emissive;
   double alpha = 1;                  // 1 - transparency
   Layer picture;
+  // Further pictures of a material of X3D 4.0 (ISO/IEC 19775-1:2023, 12.4), at the places of `picture`.
+  Layer glow, shadow, bumps;         // emission, occlusion of ambient light, normals
+  double bump_scale = 1, shadow_strength = 1;
+  std::optional<double> cutoff;      // alphaMode MASK: what is less is not there
+  bool opaque = false;               // alphaMode OPAQUE
   TexcoordMap texcoords;
   BakedLight baked;
 
   /// The colour before lighting (ODrgb where there is light, ICrgb where not) and the alpha there. `vertex` is the colour
   /// that the geometry gives, RGB or RGBA; none: the Material's.
   Texel base(const std::optional<Texel>& vertex, const std::optional<Texel>& texel) const;
+  /// A texel on top of a colour.
+  void add(Texel& out, const Texel& texel) const;
+  bool has_further_pictures() const { return glow.texture || shadow.texture || bumps.texture; }
 };
 
 /// The surfaces of a scene, each made once.
@@ -71,6 +79,8 @@ class Surfaces {
   Layer layer(NodeId texture);
   Layer make_layer(NodeId texture);
   BakedLight baked_light(NodeId appearance);
+  void further_pictures(Surface&, NodeId material);
+  void read_alpha_mode(Surface&, NodeId appearance) const;
   std::shared_ptr<const Texture> picture(const std::shared_ptr<const Image>& image);
 
   const Scene& scene_;

@@ -95,15 +95,17 @@ NodeId Looks::color_node(const State& s) {
   return n;
 }
 
-NodeId Looks::material_node(const State& s, std::size_t k, bool colored, bool strokes) {
+/// `picture`: one that is multiplied by the colour.
+NodeId Looks::material_node(const State& s, std::size_t k, bool colored, bool strokes, NodeId picture) {
   const auto& p = palette(s);
-  auto& n = materials_[{s.material, s.color, s.lit, k, colored, strokes}];
+  auto& n = materials_[{s.material, s.color, s.lit, k, colored, strokes, picture}];
   if (n) return n;
   std::vector<double> unpacked, alpha;
   if (s.color && !scene_.is(s.color, v1::BaseColor))
     unpack(scene_.is(s.color, v1::PackedColor) ? scene_.get(s.color, v1::packed_color::orderedRGBA) : scene_.get(s.color, v1::vertex_property::orderedRGBA), unpacked, alpha);
   const double transparency = at(alpha.empty() ? list(s.material, m::transparency.slot) : alpha, k, 1)[0];
   const bool unlit = p.unlit || strokes;
+  if (unlit && picture) return n = unlit_node(s, k, colored, transparency, picture);
   if (unlit && colored) {
     if (transparency > 0) diag_.report(Diag::no_vrml97_value, scene_.where(s.material ? s.material : s.color), "Material", "transparency");
     return NodeId{};
@@ -129,21 +131,34 @@ NodeId Looks::material_node(const State& s, std::size_t k, bool colored, bool st
   scene_.set(n, nodes::material::specularColor, vec(m::specularColor.slot));
   scene_.set(n, nodes::material::emissiveColor, vec(m::emissiveColor.slot));
   scene_.set(n, nodes::material::shininess, at(list(s.material, m::shininess.slot), k, 1)[0]);
+  if (picture) scene_.set(n, nodes::material::diffuseTexture, picture);
+  return n;
+}
+
+/// VRML97 has nothing that is not lit and has a colour and a picture.
+NodeId Looks::unlit_node(const State& s, std::size_t k, bool colored, double transparency, NodeId picture) {
+  namespace u = nodes::unlit_material;
+  const NodeId source = s.material ? s.material : s.color;
+  const NodeId n = scene_.add(nodes::UnlitMaterial, source ? scene_.where(source) : Span{});
+  if (!colored) scene_.set(n, u::emissiveColor, palette(s).color(k));
+  scene_.set(n, u::emissiveTexture, picture);
+  if (transparency > 0) scene_.set(n, u::transparency, transparency);
   return n;
 }
 
 NodeId Looks::appearance(const State& s, std::size_t k, bool colored, bool strokes, bool baked) {
-  const NodeId material = material_node(s, k % palette(s).size, colored, strokes), texture = texture_node(s.texture);
+  const NodeId texture = texture_node(s.texture);
+  // A picture is multiplied by the colour, as one of a material is in X3D 4.0; that of an Appearance takes its place (picture_color.h).
+  const auto model = texture ? scene_.get(s.texture, v1::texture2::model) : std::string_view{};
+  const bool mixes = texture && !strokes && (colored || palette(s).color(k) != Vec3{1, 1, 1}), product = mixes && model == "MODULATE";
+  const NodeId material = material_node(s, k % palette(s).size, colored, strokes, product ? texture : NodeId{});
   const auto map = texture && !baked ? s.texture_transform : 0;
   auto& n = appearances_[{material, texture, map}];
   if (n) return n;
-  // A picture in colour is multiplied by the material here, and takes its place in VRML97.
-  const Vec3 c = palette(s).color(k);
-  if (texture && (c[0] != c[1] || c[1] != c[2] || scene_.get(s.texture, v1::texture2::model) != "MODULATE"))
-    diag_.report(Diag::no_vrml97_value, scene_.where(s.texture), "Texture2", "model");
+  if ((mixes && !product) || model == "BLEND") diag_.report(Diag::no_vrml97_value, scene_.where(s.texture), "Texture2", "model");
   n = scene_.add(nodes::Appearance, material ? scene_.where(material) : Span{});
   if (material) scene_.set(n, nodes::appearance::material, material);
-  if (texture) scene_.set(n, nodes::appearance::texture, texture);
+  if (texture && !product) scene_.set(n, nodes::appearance::texture, texture);
   if (const NodeId t = texture_transform(map)) scene_.set(n, nodes::appearance::textureTransform, t);
   return n;
 }

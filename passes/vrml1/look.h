@@ -53,7 +53,8 @@ class Looks {
  private:
   std::span<const double> list(NodeId material, std::uint16_t slot) const;
   Palette make_palette(const State&) const;
-  NodeId material_node(const State&, std::size_t k, bool colored, bool strokes);
+  NodeId material_node(const State&, std::size_t k, bool colored, bool strokes, NodeId picture);
+  NodeId unlit_node(const State&, std::size_t k, bool colored, double transparency, NodeId picture);
   NodeId texture_node(NodeId texture2);
   NodeId texture_transform(std::uint32_t map);
 
@@ -61,7 +62,7 @@ class Looks {
   Diagnostics& diag_;
   std::map<std::tuple<NodeId, NodeId, bool>, Palette> palettes_;
   std::map<std::tuple<NodeId, NodeId, bool>, NodeId> colors_;
-  std::map<std::tuple<NodeId, NodeId, bool, std::size_t, bool, bool>, NodeId> materials_;
+  std::map<std::tuple<NodeId, NodeId, bool, std::size_t, bool, bool, NodeId>, NodeId> materials_;
   std::map<std::tuple<NodeId, NodeId, std::uint32_t>, NodeId> appearances_;
   std::map<NodeId, NodeId> textures_;
   std::map<std::uint32_t, NodeId> transforms_;

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "passes/axis_angle.h"
+
 namespace wrlkit::vrml1 {
 namespace {
 
@@ -71,20 +73,10 @@ void square_columns(Rows& a, Rows& v) {
 }
 
 Vec4 axis_angle(const Rows& r) {
-  const Vec3 twice{r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]};
-  const double sine = std::sqrt(dot(twice, twice)) / 2, cosine = (r[0][0] + r[1][1] + r[2][2] - 1) / 2;
-  const double angle = std::atan2(sine, cosine);
-  if (angle < 1e-14) return {0, 0, 1, 0};
-  if (sine > 1e-6) return {twice[0] / (2 * sine), twice[1] / (2 * sine), twice[2] / (2 * sine), angle};
-  // Half a turn: the axis is the longest column of R + 1.
-  Vec3 axis{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    Vec3 column{r[0][k], r[1][k], r[2][k]};
-    column[k] += 1;
-    if (dot(column, column) > dot(axis, axis)) axis = column;
-  }
-  axis = scaled(axis, 1 / std::sqrt(dot(axis, axis)));
-  return {axis[0], axis[1], axis[2], angle};
+  Matrix m;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) m(i, k) = r[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+  return wrlkit::axis_angle(m);
 }
 
 /// Columns of unit length, one of them may be none: then it stands on the others.

@@ -3,6 +3,7 @@
 #include "passes/x3d/geometry.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/picture_color.h"
 
 namespace wrlkit::x3d {
 namespace {
@@ -69,20 +70,13 @@ bool take_picture(Scene& scene, NodeId n, Diagnostics& diag) {
     scene.unset(n, a::backMaterial.slot);
     changed = true;
   }
-  const NodeId picture = first_of(scene, picture_of(scene, scene.get(n, a::material)), diag);
+  const NodeId picture = first_of(scene, own_picture(scene, scene.get(n, a::material)), diag);
   if (!picture || scene.get(n, a::texture)) return changed;
   scene.set(n, a::texture, picture);
   return true;
 }
 
 }  // namespace
-
-NodeId picture_of(const Scene& scene, NodeId material) {
-  if (scene.is(material, nodes::Material)) return scene.get(material, nodes::material::diffuseTexture);
-  if (scene.is(material, nodes::PhysicalMaterial)) return scene.get(material, nodes::physical_material::baseTexture);
-  if (scene.is(material, nodes::UnlitMaterial)) return scene.get(material, nodes::unlit_material::emissiveTexture);
-  return {};
-}
 
 bool lower_appearance(Scene& scene, NodeId n, Diagnostics& diag) {
   const bool side = one_side(scene, n, diag), first = first_only(scene, n, diag);

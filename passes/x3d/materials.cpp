@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "passes/x3d/geometry.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/picture_color.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit::x3d {
@@ -13,7 +15,7 @@ namespace {
 
 class Lowering {
  public:
-  Lowering(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
+  Lowering(Scene& scene, bool vrml97, Diagnostics& diag) : scene_(scene), vrml97_(vrml97), diag_(diag) {}
 
   bool run() {
     for (NodeId n : all_nodes(scene_)) note_colors(n);
@@ -37,7 +39,7 @@ class Lowering {
 
   void material(NodeId n) {
     if (scene_.is(n, nodes::PhysicalMaterial)) physical(n);
-    if (scene_.is(n, nodes::UnlitMaterial)) unlit(n);
+    if (scene_.is(n, nodes::UnlitMaterial) && !kept_.contains(n.value)) unlit(n);
   }
 
   void physical(NodeId n) {
@@ -52,6 +54,7 @@ class Lowering {
     fields.push_back(scene_.make(FieldType::SFColor, m::diffuseColor.slot, diffuse));
     fields.push_back(scene_.make(FieldType::SFColor, m::specularColor.slot, specular));
     fields.push_back(scene_.make(FieldType::SFFloat, m::shininess.slot, shininess));
+    if (const NodeId picture = own_picture(scene_, n)) fields.push_back(scene_.make(FieldType::SFNode, m::diffuseTexture.slot, picture));
     become(n, nodes::Material, fields);
   }
 
@@ -66,13 +69,15 @@ class Lowering {
     become(n, nodes::Material, fields);
   }
 
-  /// A white one is none (14772-1, 4.14.2).
+  /// A white one, and one that a picture takes the place of, is none (14772-1, 4.14.2).
   void unlit_is_none(NodeId appearance) {
     if (!scene_.is(appearance, nodes::Appearance)) return;
     namespace u = nodes::unlit_material;
     NodeId n = scene_.get(appearance, nodes::appearance::material);
     auto known = colored_.find(appearance.value);
-    const bool white = (known != colored_.end() && known->second) || (scene_.is(n, nodes::UnlitMaterial) && scene_.get(n, u::emissiveColor) == Vec3{1, 1, 1});
+    const bool pictured = scene_.is(n, nodes::UnlitMaterial) && scene_.get(appearance, nodes::appearance::texture);
+    if (pictured && !vrml97_) kept_.insert(n.value);
+    const bool white = (pictured && vrml97_) || (known != colored_.end() && known->second) || (scene_.is(n, nodes::UnlitMaterial) && scene_.get(n, u::emissiveColor) == Vec3{1, 1, 1});
     if (!scene_.is(n, nodes::UnlitMaterial) || !white || scene_.get(n, u::transparency) != 0) return;
     scene_.unset(appearance, nodes::appearance::material.slot);
     changed_ = true;
@@ -99,13 +104,15 @@ class Lowering {
   }
 
   Scene& scene_;
+  bool vrml97_;
   Diagnostics& diag_;
   std::unordered_map<std::uint32_t, bool> colored_;  // by appearance
+  std::unordered_set<std::uint32_t> kept_;           // materials
   bool changed_ = false;
 };
 
 }  // namespace
 
-bool lower_materials(Scene& scene, Diagnostics& diag) { return Lowering(scene, diag).run(); }
+bool lower_materials(Scene& scene, bool vrml97, Diagnostics& diag) { return Lowering(scene, vrml97, diag).run(); }
 
 }  // namespace wrlkit::x3d
