@@ -76,15 +76,6 @@ std::string line(const ChartSeries& s, std::size_t k, const Axis& x, const Axis&
 
 }  // namespace
 
-const std::string_view chart_style =
-    "svg text{font:12px system-ui,sans-serif;fill:var(--soft)}"
-    "svg .grid{stroke:var(--rule);fill:none}svg .axis{stroke:var(--soft);fill:none}"
-    "svg .line{fill:none;stroke-width:2;stroke-linejoin:round}svg .mark{stroke:var(--page);stroke-width:1.5}"
-    ".s0{--c:var(--c0)}.s1{--c:var(--c1)}.s2{--c:var(--c2)}.s3{--c:var(--c3)}.s4{--c:var(--c4)}"
-    "svg .line{stroke:var(--c)}svg .mark{fill:var(--c)}"
-    ":root{--c0:#0072b2;--c1:#c04a00;--c2:#00805a;--c3:#a8447d;--c4:#7a6a00}"
-    "@media(prefers-color-scheme:dark){:root{--c0:#56b4e9;--c1:#ff9346;--c2:#2ecc9a;--c3:#e58fc0;--c4:#e6d14a}}";
-
 std::string log_chart(std::string_view title, std::string_view unit, const std::vector<ChartSeries>& series) {
   const Axis x = axis_over(series, &ChartPoint::x, left + 8, right - 8), y = axis_over(series, &ChartPoint::y, bottom - 8, top + 8);
   std::string out = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}\n", width, height, html_text(title), grid(x, y));

@@ -1,6 +1,6 @@
 // Line charts as SVG text, to stand in an HTML page: both axes logarithmic, as errors over numbers of triangles want it.
 //
-// Colours, lines and letters are the page's business: the parts have the classes of `chart_style`. Series k of every chart
+// Colours, lines and letters are the page's business: their style is in tools/pages/report.css. Series k of every chart
 // has the class `s<k>`, and a shape of its own at its points, for eyes that cannot tell the colours. Each point says its
 // numbers when it is pointed at.
 #pragma once
@@ -25,9 +25,6 @@ std::string log_chart(std::string_view title, std::string_view unit, const std::
 
 /// The mark of series k as a small <svg> element: for a legend.
 std::string chart_mark(std::size_t k);
-
-/// Style sheet for both.
-extern const std::string_view chart_style;
 
 /// Text for HTML and SVG: & < > " are escaped.
 std::string html_text(std::string_view text);

@@ -8,23 +8,10 @@
 #include "scenegraph/base64.h"
 #include "tools/chart.h"
 #include "tools/comparison.h"
+#include "tools/pages/report_frame.h"
 
 namespace wrlkit {
 namespace {
-
-constexpr std::string_view page_style =
-    ":root{--page:#fff;--ink:#1b1f24;--soft:#59636e;--rule:#dde2e7}"
-    "@media(prefers-color-scheme:dark){:root{--page:#14181d;--ink:#e8ecf0;--soft:#9aa5b1;--rule:#2d343c}}"
-    "body{background:var(--page);color:var(--ink);font:16px/1.5 system-ui,sans-serif;max-width:1060px;margin:0 auto;padding:16px}"
-    "h1{font-size:1.5rem;overflow-wrap:anywhere}h2{font-size:1.15rem;margin-top:2rem}p{max-width:46em}"
-    ".charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,420px),1fr));gap:20px}"
-    ".pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(150px,1fr));gap:12px}"
-    "figure{margin:0;min-width:0}figcaption{color:var(--soft);font-size:.85rem}figure b{color:var(--ink);font-weight:600}"
-    "img{width:100%;height:auto;display:block;border:1px solid var(--rule);box-sizing:border-box}.model{max-width:420px}"
-    ".keys{list-style:none;padding:0;display:flex;flex-wrap:wrap;gap:4px 18px}.key{width:.8em;margin-right:.4em}"
-    ".scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}"
-    "td,th{padding:3px 14px 3px 0;text-align:right;white-space:nowrap;border-bottom:1px solid var(--rule)}td:first-child,th:first-child{text-align:left}"
-    "th{font-weight:600;color:var(--soft)}";
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
@@ -37,7 +24,7 @@ class Page {
     charts();
     pictures();
     figures();
-    out_ += "</body></html>\n";
+    out_ += report_end();
     why = why_;
     return why_.empty() ? std::optional(std::move(out_)) : std::nullopt;
   }
@@ -47,10 +34,8 @@ class Page {
   void put(fmt::format_string<T...> format, T&&... values) { fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...); }
 
   void head() {
-    const auto model = html_text(c_.model);
-    put("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
-        "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{} simplified</title>\n<style>{}{}</style></head>\n<body>\n", model, page_style, chart_style);
-    put("<h1>{} simplified</h1>\n<p>{} triangles, fewer and fewer by each criterion.</p>\n", model, c_.n_faces);
+    out_ += report_begin(fmt::format("{} simplified", c_.model));
+    put("<p>{} triangles, fewer and fewer by each criterion.</p>\n", c_.n_faces);
     picture(c_.picture, "model", fmt::format("<b>the model</b>, {} triangles", c_.n_faces));
   }
 
@@ -95,11 +80,11 @@ class Page {
   }
 
   void figures() {
-    put("<h2>Figures</h2>\n<div class=\"scroll\"><table>\n<tr><th>criterion</th><th>triangles</th><th>rms</th><th>max</th><th>normals, degrees</th><th>seconds</th></tr>\n");
+    put("<h2>Figures</h2>\n{}<tr><th class=\"text\">criterion</th><th>triangles</th><th>rms</th><th>max</th><th>normals, degrees</th><th>seconds</th></tr>\n", table_begin("Figures"));
     for (const auto& criterion : c_.criteria)
       for (const auto& p : criterion.points)
-        put("<tr><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.2g}</td><td>{:.3f}</td></tr>\n", html_text(criterion.name), p.n_faces, p.rms, p.error, degrees(p.normals), p.seconds);
-    put("</table></div>\n");
+        put("<tr><td class=\"text\">{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.2g}</td><td>{:.3f}</td></tr>\n", html_text(criterion.name), p.n_faces, p.rms, p.error, degrees(p.normals), p.seconds);
+    out_ += table_end();
   }
 
   const Comparison& c_;

@@ -7,12 +7,16 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
+#include <semaphore>
 #include <system_error>
+#include <thread>
 
 namespace wrlkit {
 namespace {
 
+/// Closes itself.
 class Socket {
  public:
   explicit Socket(int fd) : fd_(fd) {}
@@ -35,20 +39,27 @@ void send_all(int to, std::string_view bytes) {
   }
 }
 
-/// The head of a request, as far as it comes in one second and is no longer than it should be.
+/// The head of a request, as far as it comes in one or two seconds and is no longer than it should be.
 std::string head_of_request(int from) {
-  const timeval patience{1, 0};
-  setsockopt(from, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::seconds(1);
   constexpr std::size_t most = 16 * 1024;
   std::string head;
   char piece[2048];
-  while (head.size() < most && head.find("\r\n\r\n") == head.npos) {
+  while (head.size() < most && head.find("\r\n\r\n") == head.npos && Clock::now() < end) {
     const auto n = ::recv(from, piece, sizeof piece, 0);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) break;
     head.append(piece, static_cast<std::size_t>(n));
   }
   return head;
+}
+
+/// Whoever says nothing, or does not read, is left.
+void set_patience(int client) {
+  const timeval to_say{1, 0}, to_read{10, 0};
+  setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &to_say, sizeof to_say);
+  setsockopt(client, SOL_SOCKET, SO_SNDTIMEO, &to_read, sizeof to_read);
 }
 
 /// Only what asks for this address by its number or as localhost: a page of another site may give its name to 127.0.0.1.
@@ -58,6 +69,7 @@ bool is_meant(std::string_view head, std::uint16_t port) {
 }
 
 void answer(int to, std::uint16_t port, std::string_view html) {
+  set_patience(to);
   const auto head = head_of_request(to);
   const bool known = is_meant(head, port) && (head.starts_with("GET / ") || head.starts_with("HEAD / "));
   const auto body = known ? html : std::string_view("not found\n");
@@ -71,20 +83,32 @@ std::string reason() { return std::generic_category().message(errno); }
 }  // namespace
 
 std::string serve_page(std::string_view html) {
+  constexpr int most_clients = 32;  // at one time
   const Socket listener(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_in here{};
   here.sin_family = AF_INET;
   here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof here;
   auto* address = reinterpret_cast<sockaddr*>(&here);
-  if (listener < 0 || ::bind(listener, address, size) != 0 || ::listen(listener, 8) != 0 || ::getsockname(listener, address, &size) != 0) return reason();
+  if (listener < 0 || ::bind(listener, address, size) != 0 || ::listen(listener, most_clients) != 0 || ::getsockname(listener, address, &size) != 0) return reason();
   const auto port = ntohs(here.sin_port);
   fmt::print("http://127.0.0.1:{}/\n", port);
   std::fflush(stdout);
+  // The page outlives the threads: nothing but the end of the process ends this loop as long as the listener is there.
+  static std::counting_semaphore<most_clients> places(most_clients);
   for (;;) {
-    const Socket client(::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC));
-    if (client >= 0) answer(client, port, html);
-    else if (errno != EINTR && errno != ECONNABORTED) return reason();
+    places.acquire();
+    const int client = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
+    if (client >= 0) {
+      std::thread([client, port, html] {
+        answer(client, port, html);
+        ::close(client);
+        places.release();
+      }).detach();
+      continue;
+    }
+    places.release();
+    if (errno != EINTR && errno != ECONNABORTED) return reason();
   }
 }
 

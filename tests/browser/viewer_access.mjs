@@ -3,25 +3,15 @@
 //   node viewer_access.mjs WRLKIT FOLDER
 import assert from 'node:assert';
 import fs from 'node:fs';
-import {createRequire} from 'node:module';
 import path from 'node:path';
-import {open_page, start_chromium, wrlkit} from './viewer_page.mjs';
+import {judge, open_page, start_chromium, wrlkit} from './viewer_page.mjs';
 import {file_of} from './worlds.mjs';
 
 const [program, folder] = process.argv.slice(2);
 fs.mkdirSync(folder, {recursive: true});
-const axe = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const model = file_of('corpus/paper/ellipsoid_hole.wrl'), one = path.join(folder, 'one.html'), two = path.join(folder, 'two.html');
 wrlkit(program, 'view', '-q', model, '-o', one, '-p', 'weld,lod');
 wrlkit(program, 'view', '-q', model, file_of('corpus/features/lightmap.wrl'), '-o', two);
-
-async function judge(page, what) {
-  await page.evaluate(axe);
-  const {violations} = await page.evaluate(() => window.axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'best-practice']}));
-  const serious = violations.filter(v => ['serious', 'critical'].includes(v.impact));
-  assert.deepEqual(serious.map(v => `${v.id}: ${v.nodes.map(n => `${n.html.slice(0, 160)} ${n.failureSummary}`).join(' | ')}`), [], what);
-  return violations.length;
-}
 
 const browser = await start_chromium();
 const all_faults = [];

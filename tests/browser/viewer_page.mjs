@@ -1,5 +1,8 @@
 // A page of `wrlkit view` in Chromium, opened from disk. Whatever it says on the console or asks of a network is a fault.
+import assert from 'node:assert';
 import {spawnSync} from 'node:child_process';
+import fs from 'node:fs';
+import {createRequire} from 'node:module';
 import path from 'node:path';
 import {pathToFileURL} from 'node:url';
 import {chromium} from 'playwright-core';
@@ -17,24 +20,44 @@ export function wrlkit(program, ...args) {
 }
 
 /// {page, faults}: the page when all of it is there; faults fills while it lives.
-export async function open_page(browser, file, {width = 1000, height = 640, fragment = '', dark = false, touch = false} = {}) {
+export async function open_page(browser, file, {width = 1000, height = 640, fragment = '', dark = false, touch = false, ready = 'html[data-ready]'} = {}) {
   const context = await browser.newContext({viewport: {width, height}, colorScheme: dark ? 'dark' : 'light', hasTouch: touch});
   const page = await context.newPage();
   const faults = [];
   page.on('console', message => { if (['error', 'warning'].includes(message.type()) && !of_the_machine.test(message.text())) faults.push(`${message.type()}: ${message.text()}`); });
   page.on('pageerror', error => faults.push(`exception: ${error.stack ?? error}`));
   page.on('request', request => { if (!/^(file|data|blob):/.test(request.url())) faults.push(`asks for ${request.url()}`); });
-  await page.goto(pathToFileURL(path.resolve(file)).href + fragment);
+  await page.goto(pathToFileURL(path.resolve(file)).href + fragment, {timeout: 120_000});
   try {
-    await page.waitForSelector('html[data-ready]', {timeout: 30_000, state: 'attached'});
+    await page.waitForSelector(ready, {timeout: 120_000, state: 'attached'});
   } catch (error) {
     throw new Error(`${file} does not get ready: ${faults.join('\n')} ${error}`);
   }
   return {page, faults, close: () => context.close()};
 }
 
+const axe = () => fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/// axe-core finds no serious fault; the number of lesser ones.
+export async function judge(page, what) {
+  await page.evaluate(axe());
+  const {violations} = await page.evaluate(() => window.axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'best-practice']}));
+  const serious = violations.filter(v => ['serious', 'critical'].includes(v.impact));
+  assert.deepEqual(serious.map(v => `${v.id}: ${v.nodes.map(n => `${n.html.slice(0, 160)} ${n.failureSummary}`).join(' | ')}`), [], what);
+  return violations.length;
+}
+
 // What Chromium says about drawing without a graphics card, in headless tests only.
 const of_the_machine = /GL Driver Message|GPU stall due to ReadPixels|Automatic fallback to software WebGL/;
+
+/// What the canvas shows, anew.
+export const picture_of = page => page.evaluate(async () => {
+  const next = () => new Promise(done => requestAnimationFrame(done));
+  window.viewer.mode.stage.invalidate();
+  await next();
+  await next();
+  return document.querySelector('.view canvas').toDataURL();
+});
 
 /// A number as the page writes it.
 export const number_of = text => Number(text.replaceAll(',', ''));

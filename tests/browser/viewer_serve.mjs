@@ -4,11 +4,20 @@
 import assert from 'node:assert';
 import {spawn} from 'node:child_process';
 import http from 'node:http';
+import net from 'node:net';
 import os from 'node:os';
 import {file_of} from './worlds.mjs';
 
 const [program] = process.argv.slice(2);
-const server = spawn(program, ['view', '-q', file_of('corpus/features/syntax.wrl'), '--serve'], {stdio: ['ignore', 'pipe', 'inherit']});
+const serve = ['view', '-q', file_of('corpus/features/syntax.wrl'), '--serve'];
+const server = spawn(program, serve, {stdio: ['ignore', 'pipe', 'inherit']});
+
+/// A client that says just this, and then nothing; its socket.
+function say(address, bytes) {
+  const socket = net.connect(Number(address.port), address.hostname, () => socket.write(bytes));
+  socket.on('error', () => undefined);
+  return socket;
+}
 
 function ask(address, {path = '/', host} = {}) {
   return new Promise((resolve, reject) => {
@@ -29,12 +38,24 @@ try {
   const page = await ask(address);
   assert.equal(page.code, 200);
   assert(page.text.startsWith('<!doctype html>') && page.text.includes('syntax.wrl'));
-  assert.equal((await ask(address, {path: '/../../etc/passwd'})).code, 404);
+  for (const way of ['/../../etc/passwd', '/%2e%2e/%2e%2e/etc/passwd', '//etc/passwd', '/index.html/../../x', '/?/etc/passwd']) assert.equal((await ask(address, {path: way})).code, 404, way);
   assert.equal((await ask(address, {host: `evil.example:${address.port}`})).code, 404);
   assert.equal((await ask(address, {host: `localhost:${address.port}`})).code, 200);
   for (const {address: own, family, internal} of Object.values(os.networkInterfaces()).flat()) {
     if (family === 'IPv4' && !internal) await assert.rejects(ask({hostname: own, port: address.port}), `${own} answers`);
   }
+  // Clients that say nothing, nonsense, or too much, and one that does not read, are in nobody's way.
+  const idle = ['', 'GET', '\0\r\n\xff'.repeat(100), `GET / HTTP/1.1\r\n${'X: y\r\n'.repeat(1e5)}`, `GET / HTTP/1.1\r\nHost: 127.0.0.1:${address.port}\r\n\r\n`].map(bytes => say(address, bytes));
+  idle.at(-1).pause();
+  const answers = await Promise.all(Array.from({length: 100}, () => ask(address)));
+  assert(answers.every(a => a.code === 200 && a.text === page.text), 'a hundred at once');
+  for (const socket of idle) socket.destroy();
+  // Another one takes another port.
+  const other = spawn(program, serve, {stdio: ['ignore', 'pipe', 'inherit']});
+  const second = new URL(await new Promise(resolve => other.stdout.setEncoding('utf8').once('data', resolve)));
+  assert.notEqual(second.port, address.port);
+  assert.equal((await ask(second)).code, 200);
+  other.kill();
   console.log(String(address));
 } finally {
   server.kill();

@@ -9,24 +9,13 @@
 #include "parsers/read_file.h"
 #include "tools/chart.h"
 #include "tools/corpus/report.h"
+#include "tools/pages/report_frame.h"
 #include "writers/json.h"
 
 namespace wrlkit {
 namespace {
 
 constexpr std::size_t most_listed = 60, most_failed = 1000;
-
-constexpr std::string_view style =
-    ":root{--page:#fff;--ink:#1b1f24;--soft:#59636e;--rule:#dde2e7;--bad:#b3261e}"
-    "@media(prefers-color-scheme:dark){:root{--page:#14181d;--ink:#e8ecf0;--soft:#9aa5b1;--rule:#2d343c;--bad:#ff8a80}}"
-    "body{background:var(--page);color:var(--ink);font:15px/1.5 system-ui,sans-serif;max-width:1240px;margin:0 auto;padding:16px}"
-    "h1{font-size:1.5rem;overflow-wrap:anywhere}h2{font-size:1.15rem;margin-top:2rem}p{max-width:48em}.soft{color:var(--soft)}.bad{color:var(--bad)}"
-    ".figures{display:flex;flex-wrap:wrap;gap:8px 28px;list-style:none;padding:0}.figures b{font-size:1.3rem;display:block}"
-    ".scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.88rem;width:100%}"
-    "td,th{padding:3px 12px 3px 0;text-align:right;border-bottom:1px solid var(--rule);vertical-align:top}"
-    "td.t,th.t{text-align:left;overflow-wrap:anywhere;min-width:5.5em}th{font-weight:600;color:var(--soft);white-space:nowrap}th button{font:inherit;color:inherit;background:none;border:0;padding:0;cursor:pointer}"
-    ".looks{display:grid;grid-template-columns:repeat(auto-fill,minmax(340px,1fr));gap:16px}figure{margin:0}figcaption{font-size:.85rem;overflow-wrap:anywhere}"
-    "img{width:160px;height:120px;border:1px solid var(--rule)}td img{width:80px;height:60px}input,select,.leaf button{font:inherit;padding:4px 8px}";
 
 constexpr std::string_view script = R"JS(
 const names=["input","state","seconds","cpu","memory","input_bytes","output_bytes","errors","warnings","lost","rms","max"];
@@ -38,12 +27,13 @@ const metres=v=>v===null?"":v===0?"0":v.toPrecision(3);
 function shown(){const q=$("q").value.toLowerCase(),s=$("s").value;
  return rows.filter(r=>(!q||(r[0]+r[13]).toLowerCase().includes(q))&&(s===""||states[r[1]]===s))
   .sort((a,b)=>{let x=a[by],y=b[by];if(x===null)return y===null?0:1;if(y===null)return -1;return (x<y?-1:x>y?1:0)*(down?-1:1)})}
-function draw(){const all=shown(),last=Math.max(0,Math.ceil(all.length/size)-1);page=Math.min(page,last);
+function draw(){for(const b of document.querySelectorAll("#head button"))b.parentNode.ariaSort=b.dataset.i!=by?"none":down?"descending":"ascending";
+ const all=shown(),last=Math.max(0,Math.ceil(all.length/size)-1);page=Math.min(page,last);
  $("n").textContent=all.length+" files, page "+(page+1)+" of "+(last+1);
- $("rows").innerHTML=all.slice(page*size,page*size+size).map(r=>"<tr><td class=t>"+text(r[0])+(r[13]?"<br><span class=bad>"+text(r[13])+"</span>":"")+"</td><td class=t>"+states[r[1]]+"</td><td>"+r[2].toFixed(3)+"</td><td>"+r[3].toFixed(3)+"</td><td>"+bytes(r[4])+"</td><td>"+bytes(r[5])+"</td><td>"+bytes(r[6])+"</td><td>"+r[7]+"</td><td>"+r[8]+"</td><td>"+r[9]+"</td><td>"+metres(r[10])+"</td><td>"+metres(r[11])+"</td><td>"+(r[12]===null?"":picture(r[12]))+"</td></tr>").join("")}
+ $("rows").innerHTML=all.slice(page*size,page*size+size).map(r=>"<tr><td class=text>"+text(r[0])+(r[13]?"<br><span class=bad>"+text(r[13])+"</span>":"")+"</td><td class=text>"+states[r[1]]+"</td><td>"+r[2].toFixed(3)+"</td><td>"+r[3].toFixed(3)+"</td><td>"+bytes(r[4])+"</td><td>"+bytes(r[5])+"</td><td>"+bytes(r[6])+"</td><td>"+r[7]+"</td><td>"+r[8]+"</td><td>"+r[9]+"</td><td>"+metres(r[10])+"</td><td>"+metres(r[11])+"</td><td>"+(r[12]===null?"":picture(r[12]))+"</td></tr>").join("")}
 const one=b=>b?'<img loading="lazy" alt="" src="data:image/jpeg;base64,'+b+'">':"";
-const picture=i=>one(looks[i][0])+" "+one(looks[i][1]);
-$("head").innerHTML=names.map((n,i)=>'<th'+(i<2?' class=t':'')+'><button data-i="'+i+'">'+n.replace("_"," ")+'</button></th>').join("")+"<th>before, after</th>";
+const picture=i=>"<div class=look>"+one(looks[i][0])+one(looks[i][1])+"</div>";
+$("head").innerHTML=names.map((n,i)=>'<th'+(i<2?' class=text':'')+'><button type="button" data-i="'+i+'">'+n.replace("_"," ")+'</button></th>').join("")+"<th class=text>before, after</th>";
 $("head").onclick=e=>{const i=e.target.dataset.i;if(i===undefined)return;down=by==i?!down:i>1;by=+i;page=0;draw()};
 $("q").oninput=$("s").onchange=()=>{page=0;draw()};$("back").onclick=()=>{page=Math.max(0,page-1);draw()};$("next").onclick=()=>{page++;draw()};
 for(const s of states)$("s").add(new Option(s,s));
@@ -56,8 +46,7 @@ class Page {
   explicit Page(const CorpusReport& r) : r_(r) {}
 
   std::string write() {
-    put("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
-        "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n", html_text(r_.out), style);
+    out_ += report_begin(r_.out);
     figures();
     changes();
     failures();
@@ -66,7 +55,7 @@ class Page {
     outliers("Most processor time", [](const ReportRow& r) { return r.cpu; }, [](const ReportRow& r) { return fmt::format("{:.2f} s", r.cpu); });
     outliers("Most memory", [](const ReportRow& r) { return static_cast<double>(r.memory); }, [](const ReportRow& r) { return readable_size(r.memory); });
     files();
-    put("</body></html>\n");
+    out_ += report_end();
     return std::move(out_);
   }
 
@@ -76,7 +65,7 @@ class Page {
 
   void figures() {
     const auto sum = [&](auto value) { return std::accumulate(r_.rows.begin(), r_.rows.end(), 0.0, [&](double s, const ReportRow& r) { return s + static_cast<double>(value(r)); }); };
-    put("<ul class=\"figures\"><li><b>{}</b>files</li>", r_.rows.size());
+    put("<ul class=\"summary\"><li><b>{}</b>files</li>", r_.rows.size());
     for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout, JobState::no_memory})
       if (r_.n(s)) put("<li><b{}>{}</b>{}</li>", is_made(s) ? "" : " class=\"bad\"", r_.n(s), to_string(s));
     put("<li><b>{}</b>read</li><li><b>{}</b>written</li><li><b>{:.1f} s</b>of processor time</li></ul>\n", readable_size(static_cast<std::uint64_t>(sum([](const ReportRow& r) { return r.input_bytes; }))),
@@ -86,20 +75,20 @@ class Page {
   void changes() {
     if (r_.compared.empty()) return;
     const auto worse = std::ranges::count_if(r_.changes, &Change::worse);
-    put("<h2>Compared with {}</h2>\n<p>{} changes, {} of them for the worse.</p>\n<div class=\"scroll\"><table>\n", html_text(r_.compared), r_.changes.size(), worse);
+    put("<h2>Compared with {}</h2>\n<p>{} changes, {} of them for the worse.</p>\n{}", html_text(r_.compared), r_.changes.size(), worse, table_begin("Changes"));
     for (std::size_t i = 0; i < std::min(most_failed, r_.changes.size()); ++i)
-      put("<tr><td class=\"t\">{}</td><td class=\"t{}\">{}</td></tr>\n", html_text(r_.changes[i].output), r_.changes[i].worse ? " bad" : "", html_text(r_.changes[i].what));
-    put("</table></div>\n");
+      put("<tr><td class=\"text\">{}</td><td class=\"text{}\">{}</td></tr>\n", html_text(r_.changes[i].output), r_.changes[i].worse ? " bad" : "", html_text(r_.changes[i].what));
+    out_ += table_end();
   }
 
   void failures() {
     std::size_t n = 0;
     for (const auto& r : r_.rows) {
       if (is_made(r.state) || n == most_failed) continue;
-      if (n++ == 0) put("<h2>Nothing could be made of</h2>\n<div class=\"scroll\"><table>\n");
-      put("<tr><td class=\"t\">{}</td><td class=\"t bad\">{}</td><td class=\"t\">{}</td></tr>\n", html_text(r.input), to_string(r.state), html_text(r.cause));
+      if (n++ == 0) put("<h2>Nothing could be made of</h2>\n{}", table_begin("Failures"));
+      put("<tr><td class=\"text\">{}</td><td class=\"text bad\">{}</td><td class=\"text\">{}</td></tr>\n", html_text(r.input), to_string(r.state), html_text(r.cause));
     }
-    if (n) put("</table></div>\n");
+    if (n) out_ += table_end();
   }
 
   /// Rows by falling value, of those that have one above nothing.
@@ -127,13 +116,13 @@ class Page {
 
   void kinds() {
     if (r_.kinds.empty()) return;
-    put("<h2>What was lost, repaired or wrong</h2>\n<div class=\"scroll\"><table>\n<tr><th class=\"t\">message</th><th class=\"t\">kind</th><th>files</th><th>times</th><th class=\"t\">for example</th></tr>\n");
+    put("<h2>What was lost, repaired or wrong</h2>\n{}<tr><th class=\"text\">message</th><th class=\"text\">kind</th><th>files</th><th>times</th><th class=\"text\">for example</th></tr>\n", table_begin("Messages"));
     std::vector<std::pair<std::string_view, const ReportedKind*>> sorted;
     for (const auto& [name, kind] : r_.kinds) sorted.emplace_back(name, &kind);
     const auto rank = [](const ReportedKind& k) { return k.severity == "error" ? 0 : k.severity == "lost" ? 1 : 2; };
     std::ranges::stable_sort(sorted, {}, [&](const auto& k) { return std::tuple(rank(*k.second), -static_cast<double>(k.second->files)); });
-    for (const auto& [name, k] : sorted) put("<tr><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{}</td><td>{}</td><td class=\"t\">{}</td></tr>\n", name, k->severity, k->files, k->times, html_text(k->example));
-    put("</table></div>\n");
+    for (const auto& [name, k] : sorted) put("<tr><td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n", name, k->severity, k->files, k->times, html_text(k->example));
+    out_ += table_end();
   }
 
   void outliers(std::string_view title, auto value, auto text) {
@@ -145,14 +134,14 @@ class Page {
     if (all.empty()) return;
     std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
     const double median = all[all.size() / 2];
-    put("<h2>{}</h2>\n<div class=\"scroll\"><table>\n", title);
-    for (const auto* r : rows) put("<tr><td class=\"t\">{}</td><td>{}</td><td class=\"soft\">{:.0f} times the median</td><td>{}</td></tr>\n", html_text(r->input), text(*r), median > 0 ? value(*r) / median : 0.0, readable_size(r->input_bytes));
-    put("</table></div>\n");
+    put("<h2>{}</h2>\n{}", title, table_begin(title));
+    for (const auto* r : rows) put("<tr><td class=\"text\">{}</td><td>{}</td><td class=\"soft\">{:.0f} times the median</td><td>{}</td></tr>\n", html_text(r->input), text(*r), median > 0 ? value(*r) / median : 0.0, readable_size(r->input_bytes));
+    out_ += table_end();
   }
 
   void files() {
-    put("<h2>All files</h2>\n<p class=\"leaf\"><input id=\"q\" type=\"search\" placeholder=\"name or cause\" aria-label=\"search\"> <select id=\"s\" aria-label=\"state\"><option value=\"\">all states</option></select> "
-        "<button id=\"back\">back</button> <button id=\"next\">next</button> <span id=\"n\" class=\"soft\"></span></p>\n<div class=\"scroll\"><table><thead><tr id=\"head\"></tr></thead><tbody id=\"rows\"></tbody></table></div>\n<script>\nconst states=[");
+    put("<h2>All files</h2>\n<p class=\"line\"><input id=\"q\" type=\"search\" placeholder=\"Name or cause\" aria-label=\"Search\"> <select id=\"s\" aria-label=\"State\"><option value=\"\">All states</option></select> "
+        "<button type=\"button\" id=\"back\">Back</button> <button type=\"button\" id=\"next\">Next</button> <span id=\"n\" class=\"soft\" role=\"status\"></span></p>\n{}<thead><tr id=\"head\"></tr></thead><tbody id=\"rows\"></tbody>{}<script>\nconst states=[", table_begin("All files"), table_end());
     for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout, JobState::no_memory}) put("\"{}\",", to_string(s));
     std::string rows, looks;
     JsonOut json(rows), json_looks(looks);

@@ -1,0 +1,18 @@
+// What is around every report: head, style and the choice of light or dark, as in the viewer page. The page stands alone and asks
+// for nothing of a network.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace wrlkit {
+
+/// The page up to where its content begins.
+std::string report_begin(std::string_view title);
+/// What ends it.
+std::string_view report_end();
+
+/// A table that is wide may be scrolled in a frame of its own, by keyboard too; `name` is read out.
+std::string table_begin(std::string_view name);
+std::string_view table_end();
+
+}  // namespace wrlkit
