@@ -57,6 +57,24 @@ try {
     assert.equal(await shown(), level, `at ${distance} m of ranges ${range}`);
     if (level > 0) assert(number_of((await page.textContent('#pixel-error')).split(' ')[0]) < 1.05, 'no more than a pixel is seen');
   }
+  // Popping: of each switch some pixels change, and none when nothing is switched.
+  await page.getByRole('button', {name: 'Measure all switches'}).click();
+  await page.waitForSelector('#pop-pixels', {timeout: 120_000});
+  const [changed, covered] = (await page.textContent('#pop-pixels')).match(/[\d,]+/g).map(number_of);
+  assert(changed > 0 && changed < covered, `${changed} of ${covered} pixels`);
+  assert.equal(await page.locator('.pops canvas').count(), 3);
+  const pops = await page.evaluate(n => Array.from({length: n - 1}, (_, level) => {
+    const {mode, world} = window.viewer, object = world.levels[0];
+    const pop = mode.popping({object, level}), coarser = object.levels[level + 1];
+    object.levels[level + 1] = object.levels[level];
+    const same = mode.popping({object, level});
+    object.levels[level + 1] = coarser;
+    return [pop.changed, pop.covered, pop.distance, same.changed, same.largest];
+  }), n);
+  pops.forEach(([some, all, distance, same, largest], level) => {
+    assert(some > 0 && some < all && same === 0 && largest === 0, `level ${level}: ${some} of ${all}, ${same}`);
+    assert(Math.abs(distance - range[level]) < 1e-3 * range[level], `it switches at ${distance}, not at ${range[level]}`);
+  });
   await page.getByLabel('Tint by level').check();
   await frame();
   assert.deepEqual(faults, []);

@@ -8,7 +8,7 @@ import {followAddress} from './state';
 import {CollapsePanel} from './ui/collapse_panel';
 import {ComparePanel} from './ui/compare_panel';
 import {h} from './ui/dom';
-import {count} from './ui/format';
+import {count, significant} from './ui/format';
 import {listenToKeys} from './ui/keys';
 import {Shell, type ModeView} from './ui/shell';
 import {Tree} from './ui/tree';
@@ -24,7 +24,8 @@ function worldView(mode: WorldMode, shell: Shell, key: string, title: string): M
   mode.stage.onFrame(() => {
     if (shell.mode !== key) return;
     const f = mode.stage.figures;
-    shell.say(`${count(f.triangles)} triangles · ${count(f.draws)} draws · ${f.milliseconds.toFixed(1)} ms`);
+    const wrong = mode.levels && Number.isFinite(mode.levels.figures.pixels) ? ` · error ≤ ${significant(mode.levels.figures.pixels, 2)} px` : '';
+    shell.say(`${count(f.triangles)} triangles · ${count(f.draws)} draws · ${f.milliseconds.toFixed(1)} ms${wrong}`);
   });
   return {key, title, left: tree.element, right: panel.element, over: null, enter: () => mode.enter()};
 }
@@ -63,7 +64,7 @@ async function start(contents: Contents): Promise<void> {
   const second = contents.worlds[1];
   let compare: CompareMode | null = null;
   if (second) {
-    const other = new WorldMode(await loadWorld(second.name, await readFile(second.file)), stage, 'select2');
+    const other = new WorldMode(await loadWorld(second.name, await readFile(second.file)), stage, '2');
     compare = new CompareMode(stage, [mode, other], contents.deviation ?? null);
     views.unshift(compareView(compare, shell));
     views.push(worldView(other, shell, 'world2', 'Second'));

@@ -62,7 +62,7 @@ export class Run {
     const edge = edgeOf(surface.record, stepper.done - 1, stepper.positions, stepper.corners);
     for (const p of [edge.from, edge.to, edge.result]) p.applyMatrix4(place);
     const {scale} = surface;
-    return {...edge, surface: surface.name, length: edge.length * scale, lengthNormal: edge.lengthNormal * scale, melax: edge.melax * scale};
+    return {...edge, surface: surface.name, length: edge.length * scale, lengthNormal: edge.lengthNormal * scale, melax: edge.melax * scale, planes: edge.planes * scale ** 4};
   }
 
   flush(): void { for (const s of this.steppers) s.flush(); }

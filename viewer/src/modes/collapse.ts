@@ -60,6 +60,8 @@ export class CollapseMode implements Mode {
   private readonly changed: (() => void)[] = [];
 
   constructor(readonly stage: Stage, private readonly files: {criterion: string; file: number}[]) {
+    const [x, y] = (state.get('lens') ?? '').split(' ').map(Number);
+    if (Number.isFinite(x) && Number.isFinite(y)) Object.assign(this.lens, {x, y});
     stage.canvas.addEventListener('pointermove', e => this.moveLens(e.offsetX, e.offsetY));
   }
 
@@ -130,6 +132,7 @@ export class CollapseMode implements Mode {
     if (this.detail !== 'lens' || !r) return;
     this.lens.x = (x - r.left) / r.width;
     this.lens.y = (y - r.top) / r.height;
+    state.set('lens', `${this.lens.x.toFixed(3)} ${this.lens.y.toFixed(3)}`);
     this.stage.invalidate();
   }
 

@@ -32,6 +32,10 @@ export class CompareMode implements Mode {
     this.heatScene.add(this.worst);
     const wanted = state.get('layout') as Layout | null;
     if (wanted && layouts.includes(wanted)) this.layout = wanted;
+    this.side = state.get('side') === '1' ? 1 : 0;
+    if (apart && state.get('worst')) this.markWorst(apart.where);
+    this.scale *= state.number('scale') ?? 1;
+    this.divider = state.number('divider') ?? this.divider;
   }
 
   onChange(call: () => void): void { this.changed.push(call); }
@@ -51,17 +55,20 @@ export class CompareMode implements Mode {
 
   async setSide(side: 0 | 1): Promise<void> {
     this.side = side;
+    state.set('side', side === 1 ? 1 : null);
     await this.loadHeat();
     this.update();
   }
 
   setScale(metres: number): void {
     this.scale = metres;
+    if (this.apart && this.apart.max > 0) state.set('scale', Number((metres / this.apart.max).toPrecision(4)));
     this.update();
   }
 
   setDivider(part: number): void {
     this.divider = Math.max(0.02, Math.min(0.98, part));
+    state.set('divider', Number(this.divider.toFixed(4)));
     this.update();
   }
 
@@ -77,10 +84,16 @@ export class CompareMode implements Mode {
     if (!this.apart) return;
     const {max, where, sides} = this.apart, place = new Vector3(...where);
     this.side = sides[1].max > sides[0].max ? 1 : 0;
-    this.worst.geometry.setAttribute('position', new Float32BufferAttribute(where, 3));
-    this.worst.visible = true;
+    state.set('side', this.side === 1 ? 1 : null);
+    state.set('worst', 1);
+    this.markWorst(where);
     await this.setLayout('deviation');
     this.stage.navigator.frame(place, Math.max(4 * max, this.box.getSize(new Vector3()).length() / 60));
+  }
+
+  private markWorst(where: readonly number[]): void {
+    this.worst.geometry.setAttribute('position', new Float32BufferAttribute(where, 3));
+    this.worst.visible = true;
   }
 
   private async loadHeat(): Promise<void> {

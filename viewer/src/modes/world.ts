@@ -4,10 +4,13 @@ import {state} from '../state';
 import {Boxes, edgeMaterial, Flashes, Highlight} from '../view/overlay';
 import type {Mode, Stage} from '../view/stage';
 import {Batches, batchedLayer} from '../world/batches';
-import {LevelControl} from '../world/levels';
+import {fieldOfView, LevelControl} from '../world/levels';
 import {Lights, type Lighting} from '../world/lights';
+import {PopMeter, type Pop, type Switch} from '../world/popping';
 import {Looks, type Look} from '../world/looks';
 import {boxOf, isShown, partOf, type Part, type Viewpoint, type World} from '../world/world';
+
+const mostHidden = 300;  // parts that the address keeps
 
 export class WorldMode implements Mode {
   readonly scene = new Scene();
@@ -15,6 +18,8 @@ export class WorldMode implements Mode {
   readonly looks = new Looks();
   private readonly batches: Batches;
   look: Look = 'full';
+  private lighting: Lighting = 'world';
+  private tinted = false;
   edges = false;
   playing = false;
   manner: 'orbit' | 'walk' = 'orbit';
@@ -28,8 +33,11 @@ export class WorldMode implements Mode {
   flash = false;          // boxes around objects whose level changes
   private readonly flashes: Flashes;
 
-  /// `key` is what the address calls the part that is selected.
-  constructor(readonly world: World, readonly stage: Stage, private readonly key = 'select') {
+  private meter: PopMeter | null = null;
+  private readonly hidden = new Set<Part>();
+
+  /// `suffix` is what the address adds to the names of what it keeps of this world.
+  constructor(readonly world: World, readonly stage: Stage, readonly suffix = '') {
     this.scene.add(world.root);
     this.batches = new Batches(this.scene, world);
     this.lights = new Lights(this.scene, world);
@@ -86,31 +94,57 @@ export class WorldMode implements Mode {
 
   setLook(look: Look): void {
     this.look = look;
-    this.looks.apply(this.world.root, look);
+    this.paint();
+  }
+
+  setTint(on: boolean): void {
+    this.tinted = on;
+    this.paint();
+  }
+
+  /// Without light, what needs some is shown as its colour alone.
+  private paint(): void {
+    const unlit: Partial<Record<Look, Look>> = this.lighting === 'off' ? {full: 'albedo', grey: 'flat'} : {};
+    const look = this.tinted ? 'grey' : unlit[this.look] ?? this.look;
+    if (this.tinted) this.levels?.tint(this.looks);
+    else this.looks.apply(this.world.root, look);
     this.batches.setLook(this.looks, look);
     this.stage.invalidate();
   }
 
-  setTint(on: boolean): void {
-    if (!on) return this.setLook(this.look);
-    this.levels?.tint(this.looks);
-    this.batches.setLook(this.looks, 'grey');
+  /// What is seen of a switch from where the eye is, but at the distance where it happens; in the colours of the world.
+  popping(what: Switch): Pop {
+    const {renderer, camera} = this.stage, tinted = this.tinted;
+    if (tinted) this.setTint(false);
+    const pop = (this.meter ??= new PopMeter(this.scene)).measure(what, renderer, camera.position, eye => this.lights.follow(eye));
+    if (tinted) this.setTint(true);
     this.stage.invalidate();
+    return pop;
+  }
+
+  /// Looks at an object from the distance where it switches.
+  goToSwitch({object}: Switch, distance: number): void {
+    const {camera, navigator} = this.stage, middle = object.box.getCenter(new Vector3());
+    this.stage.fieldOfView = fieldOfView;
+    navigator.take(middle.clone().add(new Vector3(0, 0, distance).applyQuaternion(camera.quaternion)), camera.quaternion.clone(), distance);
   }
 
   /// Hidden parts stay so when levels are switched.
   setHidden(part: Part, hidden: boolean): void {
     part.object.userData['hidden'] = hidden;
     part.object.visible = !hidden;
+    if (hidden) this.hidden.add(part);
+    else this.hidden.delete(part);
+    const few = this.hidden.size > 0 && this.hidden.size <= mostHidden;
+    state.set(`hidden${this.suffix}`, few ? [...this.hidden].map(p => p.node).join('.') : null);
     this.batches.visibilityChanged();
     this.stage.invalidate();
   }
 
   setLighting(lighting: Lighting): void {
+    this.lighting = lighting;
     this.lights.set(lighting);
-    if (lighting === 'off' && this.look === 'full') this.setLook('albedo');
-    else if (lighting !== 'off' && this.look === 'albedo') this.setLook('full');
-    this.stage.invalidate();
+    this.paint();
   }
 
   setEdges(on: boolean): void {
@@ -136,8 +170,13 @@ export class WorldMode implements Mode {
 
   /// The part of the address.
   recall(): void {
-    const wanted = state.number(this.key);
-    if (wanted !== null) this.select(this.world.parts.find(p => p.node === wanted) ?? null);
+    const byNode = new Map(this.world.parts.map(p => [p.node, p]));
+    for (const node of state.get(`hidden${this.suffix}`)?.split('.') ?? []) {
+      const part = byNode.get(Number(node));
+      if (part) this.setHidden(part, true);
+    }
+    const wanted = state.number(`select${this.suffix}`);
+    if (wanted !== null) this.select(byNode.get(wanted) ?? null);
   }
 
   onSelect(call: (part: Part | null) => void): void { this.selectedBy.push(call); }
@@ -145,7 +184,7 @@ export class WorldMode implements Mode {
   select(part: Part | null, closer = false): void {
     this.selected = part;
     this.highlight.show(part);
-    state.set(this.key, part ? part.node : null);
+    state.set(`select${this.suffix}`, part ? part.node : null);
     for (const call of this.selectedBy) call(part);
     if (closer && part) this.lookAt(part);
     this.stage.invalidate();

@@ -2,8 +2,9 @@
 import type {CollapseMode, Lane} from '../modes/collapse';
 import {state} from '../state';
 import type {Detail, Shading} from '../collapse/run';
-import {button, check, choice, h, section, slider, table} from './dom';
+import {button, check, h, section, slider, table} from './dom';
 import {count, length, significant} from './format';
+import {keptCheck, keptChoice} from './kept';
 
 const titles: Record<string, string> = {
   'length-normal': 'Formula 1',
@@ -18,6 +19,7 @@ function costOf({run, edge}: Lane): string {
   if (!edge) return 'no edge may go any more';
   if (run.criterion === 'length-normal') return `next edge costs ${significant(edge.lengthNormal)}`;
   if (run.criterion === 'melax') return `next edge costs ${significant(edge.melax)}`;
+  if (run.criterion === 'lindstrom-turk') return `next edge costs ${significant(edge.planes)} (planes)`;
   return `next edge is ${length(edge.length)} long`;
 }
 
@@ -66,9 +68,9 @@ export class CollapsePanel {
       section('At this moment', this.figures),
       section('Interaction points', h('label', {class: 'line'}, 'Every', every, 'faces'), this.bookmarks),
       section('Criteria', ...mode.lanes.map(({run}) => check(titleOf(run.criterion), mode.shown.some(l => l.run === run), on => this.choose(run.criterion, on)))),
-      section('Display', choice<Shading>('Faces', [['greys', 'Three greys'], ['shaded', 'Shaded']], 'greys', value => mode.shade(value)).element,
-        choice<Detail['kind']>('Detail', [['even', 'Everywhere'], ['lens', 'In a lens'], ['near', 'Near the eye']], 'even', value => mode.setDetail(value)).element,
-        check('Mark the next edge', true, on => mode.mark(on)), h('div', {class: 'buttons'}, button('All of it', () => mode.stage.overview(mode.box)), button('Look at the edge', () => this.lookAtEdge()))));
+      section('Display', keptChoice<Shading>('faces-as', 'Faces', [['greys', 'Three greys'], ['shaded', 'Shaded']], 'greys', value => mode.shade(value)).element,
+        keptChoice<Detail['kind']>('detail', 'Detail', [['even', 'Everywhere'], ['lens', 'In a lens'], ['near', 'Near the eye']], 'even', value => mode.setDetail(value)).element,
+        keptCheck('mark', 'Mark the next edge', true, on => mode.mark(on)), h('div', {class: 'buttons'}, button('All of it', () => mode.stage.overview(mode.box)), button('Look at the edge', () => this.lookAtEdge()))));
     this.fillBookmarks();
     this.update();
   }

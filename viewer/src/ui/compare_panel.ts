@@ -2,9 +2,13 @@
 // names, divider, legend.
 import {heatColors} from '../compare/heat';
 import type {CompareMode, Layout} from '../modes/compare';
+import {state} from '../state';
 import type {World} from '../world/world';
-import {button, check, choice, facts, h, section, slider, table, type Choice} from './dom';
+import {button, choice, facts, h, section, slider, table, type Choice} from './dom';
 import {bytes, count, length, millimetres, significant} from './format';
+import {keptCheck} from './kept';
+
+const usualGain = 2;  // as a power of two
 
 export class ComparePanel {
   readonly element: HTMLElement;
@@ -15,7 +19,7 @@ export class ComparePanel {
   private readonly layout: Choice<Layout>;
   private readonly side: Choice<'0' | '1'> | null;
   private readonly scale = slider('End of the scale', {min: -3, max: 0, step: 0.02, value: 0}, value => this.mode.setScale((this.mode.apart?.max ?? 1) * 10 ** value));
-  private readonly gain = slider('Difference, times', {min: 0, max: 6, step: 0.5, value: 2}, value => this.setGain(value));
+  private readonly gain = slider('Difference, times', {min: 0, max: 6, step: 0.5, value: usualGain}, value => this.setGain(value));
 
   constructor(private readonly mode: CompareMode) {
     const [a, b] = mode.worlds.map(w => w.world) as [World, World];
@@ -27,16 +31,17 @@ export class ComparePanel {
     this.divider = this.makeDivider();
     this.over = h('div', {class: 'labels'}, ...this.names, this.divider, this.legend);
     this.element = h('div', {class: 'panel'},
-      section('Display', this.layout.element, this.gain.element, check('Edges (hidden lines removed)', false, on => mode.setEdges(on), 'x'), h('div', {class: 'buttons'}, button('All of it', () => mode.stage.overview(mode.box)))),
+      section('Display', this.layout.element, this.gain.element, keptCheck('compare-edges', 'Edges (hidden lines removed)', false, on => mode.setEdges(on), 'x'), h('div', {class: 'buttons'}, button('All of it', () => mode.stage.overview(mode.box)))),
       ...(mode.apart ? [this.deviation()] : [section('Deviation', h('p', {}, 'Nothing was measured: one of the worlds shows no surface.'))]),
       section('Figures', this.figures(a, b)));
     mode.onChange(() => this.update());
     mode.stage.onFrame(() => this.place());
-    this.setGain(2);
+    this.setGain(Math.max(0, Math.min(6, state.number('gain') ?? usualGain)));
   }
 
   private setGain(value: number): void {
     this.mode.setGain(2 ** value);
+    state.set('gain', value === usualGain ? null : value);
     this.gain.set(value, significant(2 ** value, 2));
   }
 

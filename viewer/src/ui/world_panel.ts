@@ -10,8 +10,11 @@ import {densityScale} from '../world/texels';
 import {boxOf, labelOf, meshesBelow, type Part} from '../world/world';
 import {button, check, choice, facts, h, section, slider, table} from './dom';
 import {bytes, count, length, share, significant} from './format';
+import {keptCheck, keptChoice} from './kept';
 import {levelsPanel} from './levels_panel';
 import {Tabs, type Tab} from './tabs';
+
+const mostMaterials = 500;  // that are listed
 
 export class WorldPanel {
   readonly element: HTMLElement;
@@ -106,18 +109,14 @@ export class WorldPanel {
       mode.move(value);
       stage.canvas.focus();
     });
-    const lighting = choice<Lighting>('Light', [['world', 'World’s'], ['headlight', 'Headlight'], ['off', 'Off']], 'world', value => mode.setLighting(value));
+    const lighting = keptChoice<Lighting>(`light${mode.suffix}`, 'Light', [['world', 'World’s'], ['headlight', 'Headlight'], ['off', 'Off']], 'world', value => mode.setLighting(value));
     lighting.element.dataset['key'] = 'l';
     const parts: HTMLElement[] = [manner.element, lighting.element];
     if (world.parts.some(p => p.meshes.some(m => lightOf(mode.looks.original(m))))) parts.push(this.bakedLight());
-    else parts.push(choice<Look>('Surface', [['full', 'As it is'], ['grey', 'Grey']], 'full', value => mode.setLook(value)).element);
-    const kept = (label: string, name: string, key: string, set: (on: boolean) => void): HTMLElement => {
-      const on = state.get(name) === '1';
-      if (on) set(true);
-      return check(label, on, value => { set(value); state.set(name, value ? 1 : null); }, key);
-    };
-    parts.push(kept('Edges (hidden lines removed)', 'edges', 'x', on => mode.setEdges(on)), kept('Bounding boxes', 'boxes', 'b', on => mode.setBoxes(on)));
-    if (world.sky) parts.push(kept('Sky of the world', 'sky', '', on => mode.setSky(on)));
+    else parts.push(keptChoice<Look>(`look${mode.suffix}`, 'Surface', [['full', 'As it is'], ['grey', 'Grey']], 'full', value => mode.setLook(value)).element);
+    parts.push(keptCheck(`edges${mode.suffix}`, 'Edges (hidden lines removed)', false, on => mode.setEdges(on), 'x'));
+    parts.push(keptCheck(`boxes${mode.suffix}`, 'Bounding boxes', false, on => mode.setBoxes(on), 'b'));
+    if (world.sky) parts.push(keptCheck(`sky${mode.suffix}`, 'Sky of the world', false, on => mode.setSky(on)));
     const sections = [section('Display', ...parts)];
     const places = world.viewpoints.map(v => button(v.name, () => mode.goTo(v)));
     sections.push(section('Viewpoints', h('div', {class: 'buttons'}, button('All of it', () => stage.overview(world.box)), ...places)));
@@ -134,7 +133,7 @@ export class WorldPanel {
 
   private bakedLight(): HTMLElement {
     const legend = h('ul', {class: 'legend', hidden: true}, ...densityScale.map(([n, color]) => h('li', {}, h('i', {style: `background:${color}`}), `${n} texels a metre`)));
-    const looks = choice<Look>('Surface', [['full', 'Both'], ['light', 'Baked light'], ['albedo', 'Colour'], ['checker', 'Texels'], ['density', 'Density']], 'full', value => {
+    const looks = keptChoice<Look>(`look${this.mode.suffix}`, 'Surface', [['full', 'Both'], ['light', 'Baked light'], ['albedo', 'Colour'], ['checker', 'Texels'], ['density', 'Density']], 'full', value => {
       this.mode.setLook(value);
       legend.hidden = value !== 'density';
     });
@@ -146,11 +145,14 @@ export class WorldPanel {
     for (const part of this.mode.world.parts) {
       for (const mesh of part.meshes) {
         const m = this.mode.looks.original(mesh) as MeshStandardMaterial;
-        users.set(m, [...(users.get(m) ?? []), part]);
+        const parts = users.get(m);
+        if (parts) parts.push(part);
+        else users.set(m, [part]);
       }
     }
-    const entries = [...users].map(([m, parts]) => this.material(m, parts));
-    return h('div', {class: 'panel'}, section(`Materials`, ...(entries.length > 0 ? entries : [h('p', {}, 'There are none.')])));
+    const entries = [...users].slice(0, mostMaterials).map(([m, parts]) => this.material(m, parts));
+    if (users.size > mostMaterials) entries.push(h('p', {class: 'hint'}, `and ${count(users.size - mostMaterials)} more`));
+    return h('div', {class: 'panel'}, section('Materials', ...(entries.length > 0 ? entries : [h('p', {}, 'There are none.')])));
   }
 
   private material(m: MeshStandardMaterial, parts: Part[]): HTMLElement {

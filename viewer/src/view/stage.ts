@@ -2,7 +2,6 @@
 // mode that is on: the world, the comparison, the collapse.
 import {Color, MathUtils, PerspectiveCamera, Quaternion, Sphere, Vector2, Vector3, WebGLRenderer, type Box3} from 'three';
 import {state} from '../state';
-import {significant} from '../ui/format';
 import {Navigator} from './navigate';
 
 export interface Mode {
@@ -155,17 +154,18 @@ export class Stage {
 
   private remember(): void {
     const {position: p, quaternion: q} = this.camera;
-    const numbers = [p.x, p.y, p.z, q.x, q.y, q.z, q.w, this.navigator.distance];
-    state.set('camera', numbers.map(n => significant(n, 6).replaceAll(',', '')).join(' '));
+    const numbers = [p.x, p.y, p.z, q.x, q.y, q.z, q.w, this.navigator.distance, this.fieldOfView];
+    state.set('camera', numbers.map(n => Number(n.toPrecision(10))).join(' '));
   }
 
   /// The camera of the address, if it has one.
   rememberedCamera(): number[] | null {
     const n = (state.get('camera') ?? '').split(' ').map(Number);
-    return n.length === 8 && n.every(Number.isFinite) ? n : null;
+    return n.length === 9 && n.every(Number.isFinite) ? n : null;
   }
 
   take(n: number[]): void {
+    this.fieldOfView = MathUtils.clamp(n[8]!, 1, 170);
     this.navigator.take(new Vector3(n[0], n[1], n[2]), new Quaternion(n[3], n[4], n[5], n[6]).normalize(), n[7]!);
   }
 }

@@ -25,7 +25,11 @@ export class Batches {
     const meshes = still(world);
     if (meshes.length <= few) return;
     const groups = new Map<string, Mesh[]>();
-    for (const mesh of meshes) groups.set(keyOf(mesh), [...(groups.get(keyOf(mesh)) ?? []), mesh]);
+    for (const mesh of meshes) {
+      const key = keyOf(mesh), together = groups.get(key);
+      if (together) together.push(mesh);
+      else groups.set(key, [mesh]);
+    }
     for (const together of groups.values()) if (together.length > 1) this.add(together);
   }
 

@@ -3,10 +3,11 @@ import {MathUtils, MeshLambertMaterial, Vector3, type Box3, type Mesh, type Obje
 import type {Looks} from './looks';
 import type {Levels, World} from './world';
 
-/// VRML's standard field of view, for which coverage is written (writers/gltf_hierarchy.h).
+/// VRML's standard field of view, in degrees, for which coverage is written (writers/gltf_hierarchy.h).
+export const fieldOfView = MathUtils.radToDeg(0.785398);
 const tangent = Math.tan(0.785398 / 2);
 /// Height of the screen for which `wrlkit` chooses the ranges of levels: a level begins where it is wrong by a pixel of it.
-const screen = 1080;
+export const screen = 1080;
 
 export const levelColors = ['#4c78a8', '#59a14f', '#edc948', '#f28e2b', '#e15759', '#b07aa1', '#9c755f', '#7f7f7f'] as const;
 
@@ -53,7 +54,13 @@ export class LevelControl {
   }
 }
 
-const radiusOf = (l: Levels): number => l.box.isEmpty() ? 0 : l.box.getSize(new Vector3()).length() / 2;
+export const radiusOf = (l: Levels): number => l.box.isEmpty() ? 0 : l.box.getSize(new Vector3()).length() / 2;
+
+/// From the eye to the middle, in metres, where the level behind this one takes its place; 0 when that is not said.
+export function switchDistance(l: Levels, level: number): number {
+  const least = l.coverage[level];
+  return least ? radiusOf(l) / (least * tangent) : 0;
+}
 
 function byDistance(l: Levels, coverage: number): number {
   const level = l.coverage.findIndex(least => coverage >= least);
@@ -62,9 +69,8 @@ function byDistance(l: Levels, coverage: number): number {
 
 /// At the near side of the ball, a level is as wrong as one pixel where it begins.
 function pixelError(l: Levels, level: number, radius: number, distance: number): number {
-  const coverage = l.coverage[level - 1];
-  if (level === 0 || !coverage) return 0;
-  const begins = radius / (coverage * tangent);
+  const begins = level > 0 ? switchDistance(l, level - 1) : 0;
+  if (begins === 0) return 0;
   return distance > radius ? Math.max(0, begins - radius) / (distance - radius) : Infinity;
 }
 

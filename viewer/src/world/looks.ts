@@ -4,7 +4,7 @@ import {Color, DoubleSide, MeshBasicMaterial, MeshLambertMaterial, type Material
 import {lightOf} from './lightmaps';
 import {checkered, densities} from './texels';
 
-export type Look = 'full' | 'albedo' | 'light' | 'grey' | 'checker' | 'density';
+export type Look = 'full' | 'albedo' | 'light' | 'grey' | 'flat' | 'checker' | 'density';
 
 /// Of baked light, and of its texels: only for worlds that have it.
 export const lightLooks = ['light', 'checker', 'density'] as const;
@@ -26,6 +26,7 @@ function make(m: Material, look: Look): Material {
     case 'light': return light ? new MeshBasicMaterial({lightMap: light, lightMapIntensity: (m as MeshBasicMaterial).lightMapIntensity, side: m.side}) : new MeshBasicMaterial({color: 0x000000, side: m.side});
     case 'checker': return light ? checkered(light, m.side) : new MeshLambertMaterial({color: paper, side: m.side});
     case 'density': return light ? densities(light, m.side) : new MeshLambertMaterial({color: paper, side: m.side});
+    case 'flat': return new MeshBasicMaterial({color: paper, side: DoubleSide});
     case 'grey': return new MeshLambertMaterial({color: paper, side: DoubleSide});
   }
 }
