@@ -44,20 +44,6 @@ const views = {
   texels: [baked, async page => { await tab(page, 'View'); await radio(page, 'Texels'); }, ['look']],
   difference: [two, async page => { await radio(page, 'Difference'); await slide(page, 'Difference, times', 5); }, ['layout', 'gain']],
   divider: [two, async page => { await page.evaluate(() => window.viewer.compare.setDivider(0.3)); }, ['divider']],
-  deviation: [two, async page => {
-    await page.getByRole('button', {name: 'Go to the worst place'}).click();
-    await page.waitForFunction(() => window.viewer.compare.heat.some(heat => heat));
-    await slide(page, 'End of the scale', -0.5);
-  }, ['layout', 'scale', 'worst']],
-  lens: [levels, async page => {
-    await page.getByRole('button', {name: 'Collapse', exact: true}).click();
-    await page.waitForSelector('html[data-collapse]', {state: 'attached'});
-    await page.evaluate(() => window.viewer.collapse.jump(300));
-    await radio(page, 'In a lens');
-    await radio(page, 'Shaded');
-    await page.getByLabel('Mark the next edge').uncheck();
-    await page.mouse.move(500, 300);
-  }, ['faces', 'detail', 'lens', 'faces-as', 'mark']],
 };
 
 const browser = await start_chromium();
@@ -72,8 +58,6 @@ try {
     assert(wanted !== plain, `${name}: nothing is seen of it`);
     for (const key of keys) assert(new URLSearchParams(fragment.slice(1)).has(key), `${name}: '${key}' is not in ${fragment}`);
     const again = await open_page(browser, file, {fragment});
-    if (fragment.includes('mode=collapse')) await again.page.waitForSelector('html[data-collapse]', {state: 'attached'});
-    if (fragment.includes('layout=deviation')) await again.page.waitForFunction(() => window.viewer.compare.heat.some(heat => heat));
     assert(await picture_of(again.page) === wanted, `${name}: another picture by ${fragment}`);
     assert.deepEqual([...first.faults, ...again.faults], [], name);
     await first.close();
