@@ -1,5 +1,6 @@
 #include "writers/gltf_packing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -9,12 +10,19 @@ namespace wrlkit::gltf {
 namespace {
 
 constexpr double usual_tolerance = 1e-3, usual_part_of_world = 8192;
+constexpr double least_steps = 16;  // along the longest side of a mesh: what is smaller than the tolerance is still to be seen
 constexpr int more_light_bits = 2;  // a lightmap's texels are small, and those of other charts lie beside them
 
 double tolerance_for(const GltfCompression& options, const Box& world) {
   if (options.tolerance > 0) return options.tolerance;
   const double extent = world.extent();
   return extent > 0 && std::isfinite(extent) ? std::min(usual_tolerance, extent / usual_part_of_world) : usual_tolerance;
+}
+
+/// Whether 24 bits with a sign count the steps to all of them; further out floats themselves say more.
+bool fits_grid(std::span<const float> values, double step) {
+  constexpr double most = (1 << 23) - 1;
+  return std::ranges::all_of(values, [&](float v) { return std::abs(double{v}) <= most * step; });
 }
 
 Streams streams_of(const Geometry& g, const MeshRecord& m) {
@@ -89,6 +97,7 @@ Streams Packing::draco(const Streams& s) {
   if (!is_new) return known->second;
   if (s.features != none) return ++summary_.kept, known->second = copied(s);  // ids of parts must not be mixed up
   const double grid = step(s.positions), scale = std::max(scale_[s.positions], 0.0);
+  if (!fits_grid(floats(s.positions), grid)) return ++summary_.kept, known->second = copied(s);
   double error = 0;
   const auto xyz = snapped(floats(s.positions), 3, grid, error);
   std::vector<std::vector<float>> values;
@@ -160,8 +169,8 @@ double Packing::step(std::uint32_t accessor) const {
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, double{b.high[k]} - b.low[k]);
   if (options_.position_bits > 0 && extent > 0) return std::exp2(std::ceil(std::log2(extent / ((1 << options_.position_bits) - 1))));
-  const double scale = scale_[accessor];
-  return grid_step(summary_.tolerance / (scale > 0 && std::isfinite(scale) ? scale : 1));
+  const double scale = scale_[accessor], s = grid_step(summary_.tolerance / (scale > 0 && std::isfinite(scale) ? scale : 1));
+  return extent > 0 && s * least_steps > extent ? std::exp2(std::floor(std::log2(extent / least_steps))) : s;
 }
 
 std::uint32_t Packing::positions(std::uint32_t accessor) {
@@ -169,6 +178,7 @@ std::uint32_t Packing::positions(std::uint32_t accessor) {
     const auto xyz = floats(accessor);
     const double s = step(accessor), scale = std::max(scale_[accessor], 0.0);
     auto note = [&](const Quantized& q) { summary_.position = std::max(summary_.position, q.error * scale); };
+    if (options_.method == Method::meshopt && !fits_grid(xyz, s)) return ++summary_.kept, own_.raw(View::position, from_.bytes(accessor), &from_.bounds_of(accessor));
     if (options_.method == Method::meshopt) {
       const auto q = on_grid(xyz, 3, s);
       note(q);

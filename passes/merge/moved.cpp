@@ -28,7 +28,7 @@ void append_moved(Mesh& all, const Mesh& m, const Matrix& frame, StampedMap& map
   auto take = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to, auto&& make) {
     for (std::size_t f = 0; f < m.n_faces(); ++f)
       for (std::size_t begin = m.begin_of(f), end = m.end_of(f), c = begin; c < end; ++c) {
-        const auto v = from[reversed ? begin + end - 1 - c : c];
+        const auto v = from[reversed && c > begin ? begin + end - c : c];  // from the same corner on, so that it is cut in the same way
         if (!map.contains(v)) map.set(v, make(v));
         to.push_back(map[v]);
       }
