@@ -4,6 +4,7 @@
 // (black) are shown and not judged: the under side of what stands on a floor is dark, and so is the back of a world with one lamp.
 //   node baked_worlds.mjs WRLKIT FOLDER [PART-OF-A-NAME] [SECONDS-A-WORLD]
 // A PART is plant/ or worlds/; without one both are baked, and corpus/plant and corpus/paper. For people: it takes long.
+import {spawnSync} from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import validator from 'gltf-validator';
@@ -43,9 +44,15 @@ const chosen = world => !world.broken && /(^|\/)(plant|worlds|paper)\//.test(wor
 const worlds = [...own_worlds(every_format), ...found_worlds(every_format)].filter(chosen);
 let n_faulty = 0, n_lit = 0, all_seconds = 0;
 
+/// A world without lamps stands in the open under a white sky: what little glows in it would tell nothing of dark specks.
+function sky(world) {
+  const {stdout} = spawnSync(wrlkit, ['info', world.file, '--json'], {encoding: 'utf8', timeout: Number(seconds) * 1000});
+  return stdout && JSON.parse(stdout).lights ? '' : ',sky=1:1:1';
+}
+
 async function bake(world, number) {
   const out = path.join(folder, `${number}.glb`);
-  const result = await run(wrlkit, ['convert', world.file, out, '-p', 'lightmap{quality=draft}', '--stats'], Number(seconds));
+  const result = await run(wrlkit, ['convert', world.file, out, '-p', `lightmap{quality=draft${sky(world)}}`, '--stats'], Number(seconds));
   const faults = await judge(world, result, out);
   const f = figures(result.text), s = shares(f);
   const percent = name => (100 * s[name]).toFixed(2).padStart(6);
