@@ -26,10 +26,11 @@ struct Studio {
   Statistics stats;
   Pictures pictures;
   RenderOptions options;
+  std::string header = "#VRML V2.0 utf8\n";
 
   Studio() { options.width = options.height = 101; }
   Image render(const std::string& body) {
-    auto world = parse_world("#VRML V2.0 utf8\n" + body, "test.wrl", {}, diag);
+    auto world = parse_world(header + body, "test.wrl", {}, diag);
     REQUIRE(world);
     std::string why;
     auto pipeline = Pipeline::parse("picture", why);

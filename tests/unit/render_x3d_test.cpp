@@ -1,0 +1,46 @@
+// What materials of X3D 4.0 have beside a colour and a picture of it (ISO/IEC 19775-1:2023, 12.4).
+#include "tests/unit/render_fixture.h"
+
+using namespace wrlkit;
+using namespace wrlkit::render_tests;
+
+namespace {
+
+/// The middle of a square that fills the view, under the headlight or none.
+Rgb seen(const std::string& material, const std::string& more = "", const std::string& around = "") {
+  Studio s;
+  s.header = "#X3D V4.0 utf8\nPROFILE Full\n";
+  const std::string square = quad(-4, -4, 4, 4, 0, "texCoord TextureCoordinate { point [ 0 0, 1 0, 1 1, 0 1 ] }");
+  return middle(s.render(view + around + shape(square, material, more)));
+}
+
+std::string picture(const std::string& field, const std::string& pixel) { return field + " PixelTexture { image 1 1 3 " + pixel + " } "; }
+
+}  // namespace
+
+TEST_CASE("render: a picture of emission is multiplied by emissiveColor") {
+  CHECK(seen("diffuseColor 0 0 0 emissiveColor 1 1 0 " + picture("emissiveTexture", "0x804020")) == Rgb{128, 64, 0});
+}
+
+TEST_CASE("render: occlusion dims the ambient light by its strength") {
+  const std::string lamp = dark + "DirectionalLight { intensity 0 ambientIntensity 0.5 } ", white = "diffuseColor 1 1 1 ambientIntensity 1 ";
+  CHECK(seen(white, "", lamp) == Rgb{128, 128, 128});
+  CHECK(seen(white + picture("occlusionTexture", "0x000000"), "", lamp) == Rgb{0, 0, 0});
+  CHECK(seen(white + "occlusionStrength 0.5 " + picture("occlusionTexture", "0x000000"), "", lamp) == Rgb{64, 64, 64});
+}
+
+TEST_CASE("render: a normal map leans the normal along the sides of the picture") {
+  auto grey = [](const std::string& pixel, const std::string& more = "") { return seen("diffuseColor 1 1 1 " + more + picture("normalTexture", pixel))[0]; };
+  CHECK(std::abs(grey("0x8080ff") - 255) <= 1);
+  CHECK(std::abs(grey("0xda80da") - 180) <= 3);  // 45 degrees to the side
+  CHECK(std::abs(grey("0xda80da", "normalScale 0 ") - 255) <= 1);
+}
+
+TEST_CASE("render: alphaMode") {
+  const std::string faint = "diffuseColor 1 1 1 transparency 0.6", strong = "diffuseColor 1 1 1 transparency 0.4";
+  CHECK(seen(strong) == Rgb{153, 153, 153});
+  CHECK(seen(faint, "alphaMode \"OPAQUE\"") == Rgb{255, 255, 255});
+  CHECK(seen(faint, "alphaMode \"MASK\"") == Rgb{0, 0, 0});
+  CHECK(seen(strong, "alphaMode \"MASK\"") == Rgb{255, 255, 255});
+  CHECK(seen(strong, "alphaMode \"MASK\" alphaCutoff 0.7") == Rgb{0, 0, 0});
+}
