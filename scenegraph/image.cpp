@@ -173,6 +173,13 @@ std::optional<std::string> encode_exr(const FloatImage& image, std::string& erro
   return encode_with(image, error, [&](const ImageModule& module, std::string& bytes) { return module.encode_exr(image, bytes, error); });
 }
 
+std::unique_ptr<PictureAnimation> begin_webp_animation(int milliseconds, std::string& error) {
+  auto& opened = image_module();
+  if (!opened.module) return error = opened.error, nullptr;
+  if (!opened.module->begin_webp_animation) return error = "this program was built without libwebpmux, which writes animations", nullptr;
+  return opened.module->begin_webp_animation(milliseconds, unseen_losses);
+}
+
 std::optional<std::string> encode_as(std::string_view name, const Image& image, std::string& error) {
   auto* e = extension_of(name);
   return e ? e->encode(image, error) : std::nullopt;

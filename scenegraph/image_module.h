@@ -1,9 +1,10 @@
-// What the module with the picture codecs (writers/image_oiio.cpp) offers to scenegraph/image.cpp, which opens it.
+// What the module with the picture codecs (writers/image_oiio.cpp, image_webp_animation.cpp) offers to scenegraph/image.cpp, which opens it.
 #pragma once
 #include <string>
 #include <string_view>
 
 #include "scenegraph/image.h"
+#include "scenegraph/image_animation.h"
 
 namespace wrlkit {
 
@@ -18,8 +19,11 @@ struct ImageModule {
   bool (*decode)(const DecodeRequest&, Image&, std::string& error);
   bool (*encode)(const Image&, const char* codec, int quality, std::string& bytes, std::string& error);
   bool (*encode_exr)(const FloatImage&, std::string& bytes, std::string& error);
+  std::unique_ptr<PictureAnimation> (*begin_webp_animation)(int milliseconds, int quality);  // null without libwebpmux
 };
 
 }  // namespace wrlkit
 
 extern "C" const wrlkit::ImageModule* wrlkit_images();
+/// Within the module (writers/image_webp_animation.cpp).
+std::unique_ptr<wrlkit::PictureAnimation> wrlkit_begin_webp_animation(int milliseconds, int quality);

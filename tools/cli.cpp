@@ -174,13 +174,13 @@ const Verb verbs[] = {
      },
      run_diff},
     {"render", "a picture of the world, without a display; of two worlds and how they differ; of many worlds",
-     "wrlkit render plant.wrl plant.png --viewpoint Overview\n  wrlkit render plant.wrl apart.png --compare simpler.wrl\n  wrlkit render valve.wrl valve.png --turntable 36\n  wrlkit render old/ new/pump.wrl sheet.png",
+     "wrlkit render plant.wrl plant.png --viewpoint Overview\n  wrlkit render plant.wrl apart.png --compare simpler.wrl\n  wrlkit render valve.wrl valve.webp --turntable 36\n  wrlkit render old/ new/pump.wrl sheet.png",
      [](CLI::App& v, Flags& f) {
        v.add_option_function<std::vector<std::string>>("IN", [&f](const std::vector<std::string>& files) { f.inputs.assign(files.begin(), files.end() - 1), f.output = files.back(); },
                     "the world, and the picture: file.png, .jpg or .webp; of several worlds, folders of worlds, globs or @FILE, a list of worlds, it is a contact sheet with a picture each")
            ->required()->expected(2, 1'000'000)->type_name("... OUT");
        v.add_option("--compare", f.compare, "another world: both from where the first is seen, and how the pictures differ, brighter than it is")->type_name("FILE");
-       v.add_option("--turntable", f.turntable, "so many pictures around the middle of the world: OUT_000.png, OUT_001.png, ...")->check(CLI::Range(1, 3600))->type_name("N");
+       v.add_option("--turntable", f.turntable, "so many pictures around the middle of the world: OUT_000.png, OUT_001.png, ..., or of OUT.webp one animation")->check(CLI::Range(1, 3600))->type_name("N");
        v.add_option("--width", f.width, "pixels; in a contact sheet 320 when it is not said")->check(CLI::Range(1, 16384))->capture_default_str();
        v.add_option("--height", f.height, "pixels; in a contact sheet 240 when it is not said")->check(CLI::Range(1, 16384))->capture_default_str();
        v.add_option("--samples", f.samples, "samples a pixel, along each side; beyond 16 for --mode path only")->check(CLI::Range(1, 64))->capture_default_str();

@@ -107,7 +107,11 @@ extern "C" const wrlkit::ImageModule* wrlkit_images() {
   static const wrlkit::ImageModule module = [] {
     OIIO::attribute("threads", 1);  // pictures are decoded in parallel by the caller, if at all
     OIIO::attribute("exr_threads", -1);
-    return wrlkit::ImageModule{decode, encode, encode_exr};
+#ifdef WRLKIT_WEBPMUX
+    return wrlkit::ImageModule{decode, encode, encode_exr, wrlkit_begin_webp_animation};
+#else
+    return wrlkit::ImageModule{decode, encode, encode_exr, nullptr};
+#endif
   }();
   return &module;
 }
