@@ -25,7 +25,7 @@ function worldView(mode: WorldMode, shell: Shell, key: string, title: string): M
     if (shell.mode !== key) return;
     const f = mode.stage.figures;
     const wrong = mode.levels && Number.isFinite(mode.levels.figures.pixels) ? ` · error ≤ ${significant(mode.levels.figures.pixels, 2)} px` : '';
-    shell.say(`${count(f.triangles)} triangles · ${count(f.draws)} draws · ${f.milliseconds.toFixed(1)} ms${wrong}`);
+    shell.say(mode.world.empty ? 'This world has nothing that could be seen.' : `${count(f.triangles)} triangles · ${count(f.draws)} draws · ${f.milliseconds.toFixed(1)} ms${wrong}`);
   });
   return {key, title, left: tree.element, right: panel.element, over: null, enter: () => mode.enter()};
 }

@@ -179,6 +179,8 @@ export class CollapseMode implements Mode {
     return this.shown.map((_, i) => wide ? {left: i * width / n, top: 0, width: width / n, height} : {left: 0, top: i * height / n, width, height: height / n});
   }
 
+  picture(): Rectangle | Stage { return this.rectangles()[0] ?? this.stage; }
+
   draw(stage: Stage): void {
     const rectangles = this.rectangles();
     this.shown.forEach((lane, i) => {

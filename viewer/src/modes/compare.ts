@@ -114,6 +114,11 @@ export class CompareMode implements Mode {
     this.stage.invalidate();
   }
 
+  picture(): {width: number; height: number} {
+    const {width, height} = this.stage, wide = width > height;
+    return this.layout !== 'side' ? this.stage : {width: wide ? width / 2 : width, height: wide ? height : height / 2};
+  }
+
   draw(stage: Stage): void {
     const {width, height} = stage, [a, b] = this.worlds;
     if (this.layout === 'deviation') return stage.renderer.render(this.heatScene, stage.camera);

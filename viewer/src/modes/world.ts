@@ -33,6 +33,7 @@ export class WorldMode implements Mode {
   flash = false;          // boxes around objects whose level changes
   private readonly flashes: Flashes;
 
+  private viewpoint: Viewpoint | null = null;  // that was gone to
   private meter: PopMeter | null = null;
   private readonly hidden = new Set<Part>();
 
@@ -196,12 +197,21 @@ export class WorldMode implements Mode {
     this.stage.frameBox(box);
   }
 
+  /// The next Viewpoint, or the one before.
+  goToNext(by: 1 | -1): void {
+    const {viewpoints} = this.world, n = viewpoints.length;
+    if (n === 0 || !this.stage.shows(this)) return;
+    const at = this.viewpoint ? viewpoints.indexOf(this.viewpoint) : by > 0 ? -1 : 0;
+    this.goTo(viewpoints[(at + by + n) % n]!);
+  }
+
   goTo(viewpoint: Viewpoint): void {
+    this.viewpoint = viewpoint;
     const {position, quaternion, fov} = viewpoint.camera;
     this.stage.fieldOfView = fov;
     const center = this.box.getCenter(new Vector3());
     const ahead = new Vector3(0, 0, -1).applyQuaternion(quaternion);
-    const distance = Math.max(center.clone().sub(position).dot(ahead), this.box.getSize(new Vector3()).length() * 0.05);
+    const distance = Math.max(center.clone().sub(position).dot(ahead), this.box.getSize(new Vector3()).length() * 0.05) || 1;
     this.stage.navigator.take(position, quaternion, distance);
   }
 

@@ -14,10 +14,12 @@ export function listenToKeys(shell: Shell, world: () => WorldMode): void {
     '/': () => document.querySelector<HTMLInputElement>('.search input')?.focus(),
     t: () => shell.toggleTheme(),
     f: () => {
-      const {selected, stage, box} = world();
-      if (selected) world().lookAt(selected);
-      else stage.frameBox(box);
+      const {selected, stage} = world();
+      if (selected && stage.shows(world())) world().lookAt(selected);
+      else stage.frameAll();
     },
+    v: () => world().goToNext(1),
+    V: () => world().goToNext(-1),
     Escape: () => world().select(null),
     x: () => press('[data-key=x]'),
     b: () => press('[data-key=b]'),
@@ -26,13 +28,13 @@ export function listenToKeys(shell: Shell, world: () => WorldMode): void {
     ' ': () => press('[data-key=space]'),
     Backspace: () => press('[data-key=back]'),
   };
-  for (const n of [1, 2, 3]) keys[n] = () => press(`.modes button:nth-child(${n})`);
+  for (const n of [1, 2, 3, 4]) keys[n] = () => press(`.modes button:nth-child(${n})`);
   document.addEventListener('keydown', e => {
     const target = e.target as HTMLElement;
     const takesText = target instanceof HTMLInputElement && ['search', 'number', 'text'].includes(target.type);
     const takesSpace = e.key === ' ' && (target instanceof HTMLButtonElement || target instanceof HTMLInputElement);
     if (e.ctrlKey || e.metaKey || e.altKey || takesText || takesSpace || document.querySelector('dialog[open]')) return;
-    const act = keys[e.key.length === 1 ? e.key.toLowerCase() : e.key];
+    const act = keys[e.key] ?? keys[e.key.toLowerCase()];
     if (!act) return;
     act();
     e.preventDefault();

@@ -18,11 +18,12 @@ export class Tree {
   private readonly list: HTMLElement;
   private readonly space = h('div', {class: 'space', role: 'presentation'});
   private readonly open = new Set<Part>();
+  private readonly texts = new Map<Part, string>();
   private rows: Row[] = [];
   private selected: Part | null = null;
 
   constructor(private readonly world: World, private readonly pick: (part: Part, closer: boolean) => void) {
-    this.search = h('input', {type: 'search', placeholder: 'Search names and types', 'aria-label': 'Search parts', input: () => this.fill(), keydown: (e: KeyboardEvent) => this.searchKey(e)});
+    this.search = h('input', {type: 'search', placeholder: 'Search names, types, extras', 'aria-label': 'Search parts', input: () => this.fill(), keydown: (e: KeyboardEvent) => this.searchKey(e)});
     this.list = h('div', {class: 'rows', role: 'tree', tabindex: 0, 'aria-label': 'Parts', scroll: () => this.draw(), keydown: (e: KeyboardEvent) => this.key(e)}, this.space);
     this.element = h('div', {class: 'tree'}, h('div', {class: 'search'}, this.search, this.found), this.list);
     for (const part of world.roots) if (world.roots.length < 4) this.open.add(part);
@@ -44,7 +45,14 @@ export class Tree {
 
   private matches(part: Part): boolean {
     const wanted = this.search.value.trim().toLowerCase();
-    return !wanted || part.name.toLowerCase().includes(wanted) || part.type.toLowerCase() === wanted;
+    return !wanted || part.type.toLowerCase().startsWith(wanted) || this.textOf(part).includes(wanted);
+  }
+
+  /// Its name, and what is said in its extras: titles, addresses, metadata.
+  private textOf(part: Part): string {
+    let text = this.texts.get(part);
+    if (text === undefined) this.texts.set(part, text = [part.name, ...wordsOf(part.extras)].join('\n').toLowerCase());
+    return text;
   }
 
   private fill(): void {
@@ -115,4 +123,9 @@ export class Tree {
     e.preventDefault();
     e.stopPropagation();
   }
+}
+
+function wordsOf(value: unknown): string[] {
+  if (typeof value === 'string') return [value];
+  return value && typeof value === 'object' ? Object.values(value).flatMap(wordsOf) : [];
 }

@@ -54,7 +54,7 @@ export class WorldPanel {
       section('World', facts([
         ['Triangles', h('output', {id: 'world-triangles'}, count(world.triangles))], ['Parts', count(world.parts.length)], ['Shapes', count(meshes)],
         ['Materials', count(world.file.materials?.length ?? 0)], ['Pictures', count(world.file.images?.length ?? 0)],
-        ['Size', `${length(size.x)} × ${length(size.y)} × ${length(size.z)}`], ['As GLB', bytes(world.size)]])),
+        ['Size', world.empty ? 'nothing is seen' : `${length(size.x)} × ${length(size.y)} × ${length(size.z)}`], ['As GLB', bytes(world.size)]])),
       section('Heaviest parts', heavy.length > 0
         ? h('div', {class: 'scroll'}, table('Heaviest parts', [{title: 'Part'}, {title: 'Places', number: true}, {title: 'Triangles', number: true}, {title: 'Bytes', number: true}], rows))
         : h('p', {}, 'There are no triangles.')),
@@ -119,7 +119,7 @@ export class WorldPanel {
     if (world.sky) parts.push(keptCheck(`sky${mode.suffix}`, 'Sky of the world', false, on => mode.setSky(on)));
     const sections = [section('Display', ...parts)];
     const places = world.viewpoints.map(v => button(v.name, () => mode.goTo(v)));
-    sections.push(section('Viewpoints', h('div', {class: 'buttons'}, button('All of it', () => stage.overview(world.box)), ...places)));
+    sections.push(section('Viewpoints', h('div', {class: 'buttons places'}, button('All of it', () => stage.overview(world.box)), ...places)));
     if (world.clips.length > 0) sections.push(section('Animations', h('p', {}, world.clips.map(c => c.name || 'unnamed').join(', ')), check('Play', false, on => mode.play(on), 'p')));
     const speed = slider('Walking speed', {min: -2, max: 2, step: 0.1, value: 0}, value => setSpeed(value));
     const setSpeed = (value: number): void => {

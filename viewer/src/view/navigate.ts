@@ -1,10 +1,12 @@
 // Moving the camera by mouse, touch and keys. Orbit: around a pivot, up stays up. Free: the same, any way round. Walk: at the
 // world's own speed, looking around; through walls.
-import {MathUtils, Matrix4, Quaternion, Spherical, Vector3, type PerspectiveCamera} from 'three';
+import {MathUtils, Matrix4, Quaternion, Spherical, Vector3, type Box3, type PerspectiveCamera} from 'three';
 
 export type Manner = 'orbit' | 'free' | 'walk';
 
 const up = new Vector3(0, 1, 0);
+const filled = 0.94;  // of the picture, by a box that is framed
+const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(i => [i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1] as const);
 
 export class Navigator {
   manner: Manner = 'orbit';
@@ -35,15 +37,29 @@ export class Navigator {
     const half = Math.min(MathUtils.degToRad(this.camera.fov) / 2, Math.atan(Math.tan(MathUtils.degToRad(this.camera.fov) / 2) * this.camera.aspect));
     const back = new Vector3(0, 0, 1).applyQuaternion(this.camera.quaternion);
     this.pivot.copy(center);
-    this.camera.position.copy(center).addScaledVector(back, Math.max(radius, 1e-6) / Math.sin(half));
+    this.camera.position.copy(center).addScaledVector(back, radius / Math.sin(half));
     this.changed();
   }
 
-  /// From in front and above, where all of a ball is seen.
-  overview(center: Vector3, radius: number): void {
-    const from = new Vector3(0.55, 0.5, 1).normalize();
-    this.camera.quaternion.setFromRotationMatrix(new Matrix4().lookAt(from, new Vector3(), up));
-    this.frame(center, radius);
+  /// Looks at a box from the direction that the camera has; all of it is just seen. A point is seen from a metre away.
+  frameBox(box: Box3): void {
+    const toCamera = this.camera.quaternion.clone().invert();
+    const tall = Math.tan(MathUtils.degToRad(this.camera.fov) / 2) * filled, wide = tall * this.camera.aspect;
+    const center = box.getCenter(new Vector3()), half = box.getSize(new Vector3()).multiplyScalar(0.5);
+    let distance = half.length() || 1;
+    for (const [x, y, z] of corners) {
+      const p = new Vector3(x, y, z).multiply(half).applyQuaternion(toCamera);
+      distance = Math.max(distance, p.z + Math.abs(p.x) / wide, p.z + Math.abs(p.y) / tall);
+    }
+    this.pivot.copy(center);
+    this.camera.position.set(0, 0, distance).applyQuaternion(this.camera.quaternion).add(center);
+    this.changed();
+  }
+
+  /// From in front and above.
+  overview(box: Box3): void {
+    this.camera.quaternion.setFromRotationMatrix(new Matrix4().lookAt(new Vector3(0.55, 0.5, 1), new Vector3(), up));
+    this.frameBox(box);
   }
 
   /// Where another camera is; what lies ahead at that distance becomes the pivot.

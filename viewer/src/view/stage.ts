@@ -7,6 +7,8 @@ import {Navigator} from './navigate';
 export interface Mode {
   /// What is looked at.
   readonly box: Box3;
+  /// Its size on the canvas, when it is not all of it.
+  picture?(): {width: number; height: number};
   draw(stage: Stage): void;
   /// Time goes on; true as long as another picture is wanted.
   tick?(seconds: number): boolean;
@@ -53,6 +55,8 @@ export class Stage {
     this.mode = mode;
     this.invalidate();
   }
+
+  shows(mode: Mode): boolean { return this.mode === mode; }
 
   /// Calls back after each picture.
   onFrame(call: () => void): void { this.after.push(call); }
@@ -131,15 +135,22 @@ export class Stage {
   /// Looks at all of a box, from the direction that the camera has.
   frameBox(box: Box3): void {
     if (box.isEmpty()) return;
-    this.fit();
-    const ball = box.getBoundingSphere(new Sphere());
-    this.navigator.frame(ball.center, ball.radius);
+    this.fitMode();
+    this.navigator.frameBox(box);
   }
 
+  /// All that the mode shows.
+  frameAll(): void { if (this.mode) this.frameBox(this.mode.box); }
+
   overview(box: Box3): void {
-    this.fit();
-    const ball = box.getBoundingSphere(new Sphere());
-    this.navigator.overview(ball.center, ball.radius * 0.9);
+    this.fitMode();
+    this.navigator.overview(box);
+  }
+
+  /// As one picture of the mode, which may have several side by side.
+  private fitMode(): void {
+    const {width, height} = this.mode?.picture?.() ?? this;
+    this.fit(width, height);
   }
 
   /// Where the page is on the canvas, as three.js counts: -1 to 1.
@@ -155,7 +166,7 @@ export class Stage {
   private remember(): void {
     const {position: p, quaternion: q} = this.camera;
     const numbers = [p.x, p.y, p.z, q.x, q.y, q.z, q.w, this.navigator.distance, this.fieldOfView];
-    state.set('camera', numbers.map(n => Number(n.toPrecision(10))).join(' '));
+    state.set('camera', numbers.join(' '));  // all digits: the picture comes back to the pixel
   }
 
   /// The camera of the address, if it has one.
@@ -166,6 +177,11 @@ export class Stage {
 
   take(n: number[]): void {
     this.fieldOfView = MathUtils.clamp(n[8]!, 1, 170);
-    this.navigator.take(new Vector3(n[0], n[1], n[2]), new Quaternion(n[3], n[4], n[5], n[6]).normalize(), n[7]!);
+    this.navigator.take(new Vector3(n[0], n[1], n[2]), unit(new Quaternion(n[3], n[4], n[5], n[6])), n[7]!);
   }
+}
+
+/// Of length one; what has it but for rounding stays as it is.
+function unit(q: Quaternion): Quaternion {
+  return Math.abs(q.lengthSq() - 1) < 1e-9 ? q : q.lengthSq() > 0 ? q.normalize() : q.identity();
 }

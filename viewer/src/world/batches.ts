@@ -1,6 +1,6 @@
-// A plant is thousands of small meshes of few materials. Those that stand still are drawn by material, in one call each; the
-// meshes themselves stay in the tree, unseen, for everything else: picking, boxes, selection.
-import {BatchedMesh, Group, type BufferAttribute, type BufferGeometry, type Material, type Mesh, type Object3D, type Scene} from 'three';
+// A plant is thousands of small meshes. Those that stand still are drawn by material, in one call each; materials that differ in nothing
+// but their colour are one. The meshes themselves stay in the tree, unseen, for everything else: picking, boxes, selection.
+import {BatchedMesh, Color, Group, Matrix4, type BufferAttribute, type BufferGeometry, type Material, type Mesh, type MeshBasicMaterial, type MeshStandardMaterial, type Object3D, type Scene} from 'three';
 import type {Look, Looks} from './looks';
 import {isShown, type World} from './world';
 
@@ -10,17 +10,24 @@ const few = 200;  // meshes that are drawn one by one
 
 interface Batch {
   drawn: BatchedMesh;
-  material: Material;  // of the file
+  material: Material;  // as in the file; white, when there are colours
+  colors: Color[];     // by instance; empty: the material has it
   meshes: Mesh[];      // by instance
 }
+
+const white = new Color(1, 1, 1);
 
 export class Batches {
   private readonly group = new Group();
   private readonly batches: Batch[] = [];
+  private readonly toGroup = new Matrix4();
   private stale = false;
 
   constructor(scene: Scene, world: World) {
     scene.add(this.group);
+    // The card has the places as singles: of a plant in the coordinates of its country they would be wrong by half a metre.
+    world.box.getCenter(this.group.position);
+    this.toGroup.makeTranslation(this.group.position.clone().negate());
     world.root.updateMatrixWorld(true);
     const meshes = still(world);
     if (meshes.length <= few) return;
@@ -44,23 +51,32 @@ export class Batches {
   }
 
   setLook(looks: Looks, look: Look): void {
-    for (const batch of this.batches) batch.drawn.material = looks.variant(batch.material, look);
+    const colored = look === 'full' || look === 'albedo';
+    for (const {drawn, material, colors} of this.batches) {
+      drawn.material = looks.variant(material, look);
+      colors.forEach((color, i) => drawn.setColorAt(i, colored ? color : white));
+    }
   }
 
   private add(meshes: Mesh[]): void {
     const geometries = [...new Set(meshes.map(mesh => mesh.geometry))];
     const size = (count: (g: BufferGeometry) => number): number => geometries.reduce((n, g) => n + count(g), 0);
-    const material = meshes[0]!.material as Material;
+    const first = meshes[0]!.material as Material;
+    const colored = meshes.some(mesh => mesh.material !== first);
+    const colors = colored ? meshes.map(mesh => (mesh.material as MeshBasicMaterial).color) : [];
+    const material = colored ? whitened(first) : first;
     const drawn = new BatchedMesh(meshes.length, size(g => g.getAttribute('position').count), size(g => g.index?.count ?? 0), material);
     drawn.sortObjects = false;
     drawn.frustumCulled = false;  // each of its objects is
     const ids = new Map(geometries.map(g => [g, drawn.addGeometry(g)]));
+    const placed = new Matrix4();
     for (const mesh of meshes) {
-      drawn.setMatrixAt(drawn.addInstance(ids.get(mesh.geometry)!), mesh.matrixWorld);
+      drawn.setMatrixAt(drawn.addInstance(ids.get(mesh.geometry)!), placed.multiplyMatrices(this.toGroup, mesh.matrixWorld));
       mesh.layers.set(batchedLayer);
     }
+    colors.forEach((color, i) => drawn.setColorAt(i, color));
     this.group.add(drawn);
-    this.batches.push({drawn, material, meshes});
+    this.batches.push({drawn, material, colors, meshes});
   }
 }
 
@@ -82,5 +98,20 @@ function still(world: World): Mesh[] {
 /// Meshes of one key fit into one batch.
 function keyOf(mesh: Mesh): string {
   const attributes = Object.entries(mesh.geometry.attributes).map(([name, a]) => `${name} ${a.itemSize} ${a.normalized} ${(a as BufferAttribute).array.constructor.name}`).sort();
-  return [(mesh.material as Material).uuid, mesh.geometry.index !== null, ...attributes].join();
+  return [materialKey(mesh.material as Material), mesh.geometry.index !== null, ...attributes].join();
+}
+
+/// The same for plain materials that differ in their colour only.
+function materialKey(m: Material): string {
+  const {type, uuid, side, alphaTest, vertexColors} = m;
+  const {map, lightMap, lightMapIntensity, roughness, metalness, flatShading, emissive, emissiveMap, normalMap, roughnessMap, metalnessMap, aoMap, color} = m as MeshStandardMaterial;
+  const plain = color && !emissiveMap && !normalMap && !roughnessMap && !metalnessMap && !aoMap && !(emissive && emissive.getHex() !== 0);
+  if (!plain || (type !== 'MeshStandardMaterial' && type !== 'MeshBasicMaterial')) return uuid;
+  return [type, side, alphaTest, vertexColors, map?.uuid, lightMap?.uuid, lightMapIntensity, roughness, metalness, flatShading].join();
+}
+
+function whitened(m: Material): Material {
+  const made = m.clone() as MeshBasicMaterial;
+  made.color.copy(white);
+  return made;
 }

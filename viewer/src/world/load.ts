@@ -1,11 +1,12 @@
 // Bytes of a .glb to a World.
-import {Box3, type Mesh, type Light, type Object3D, PerspectiveCamera, Vector3} from 'three';
+import {Box3, type Light, type Line, type Mesh, type Object3D, PerspectiveCamera, type Points, Vector3} from 'three';
 import {GLTFLoader, type GLTF} from 'three/addons/loaders/GLTFLoader.js';
 import {accessorBytes, accessorsOf, trianglesOf, typeOf, vrmlOf, type GltfFile} from './file';
 import {bakedLight} from './lightmaps';
 import type {Levels, Navigation, Part, Viewpoint, World} from './world';
 
-const isMesh = (o: Object3D): o is Mesh => (o as Mesh).isMesh;
+/// Triangles, lines or points.
+const isDrawn = (o: Object3D): o is Mesh => (o as Mesh).isMesh || (o as Line).isLine || (o as Points).isPoints;
 
 /// The node of the file that an object is; undefined for a primitive of a mesh.
 function nodeOf(gltf: GLTF, o: Object3D): number | undefined {
@@ -26,7 +27,7 @@ class Builder {
     if (node === undefined) return o.children.flatMap(child => this.build(child, parent));
     const part = this.part(o, node, parent);
     for (const child of o.children) {
-      if (isMesh(child) && nodeOf(this.gltf, child) === undefined) part.meshes.push(child);
+      if (isDrawn(child) && nodeOf(this.gltf, child) === undefined) part.meshes.push(child);
       else part.children.push(...this.build(child, part));
     }
     part.triangles += part.children.reduce((n, p) => n + p.triangles, 0);
@@ -37,17 +38,18 @@ class Builder {
     const said = this.file.nodes?.[node] ?? {};
     const mesh = said.mesh ?? null;
     const part: Part = {
-      node, object, parent, mesh, name: said.name ?? '', type: this.typeOf(said.extras, mesh, object), extras: said.extras ?? {},
-      children: [], meshes: isMesh(object) ? [object] : [], triangles: mesh === null ? 0 : trianglesOf(this.file, mesh), bytes: 0,
+      node, object, parent, mesh, name: said.name ?? '', type: this.typeOf(said.extras, node, object), extras: said.extras ?? {},
+      children: [], meshes: isDrawn(object) ? [object] : [], triangles: mesh === null ? 0 : trianglesOf(this.file, mesh), bytes: 0,
     };
     this.parts.push(part);
     return part;
   }
 
-  private typeOf(extras: Record<string, unknown> | undefined, mesh: number | null, object: Object3D): string {
-    const said = typeOf(extras);
+  private typeOf(extras: Record<string, unknown> | undefined, node: number, object: Object3D): string {
+    const said = typeOf(extras), mesh = this.file.nodes?.[node]?.mesh;
     if (said) return said;
-    if (mesh !== null) return typeOf(this.file.meshes?.[mesh]?.extras) ?? 'Shape';
+    if (mesh !== undefined) return typeOf(this.file.meshes?.[mesh]?.extras) ?? 'Shape';
+    if (this.file.nodes?.[node]?.camera !== undefined) return 'Viewpoint';
     if ((object as Light).isLight || object.children.some(c => (c as Light).isLight)) return 'Light';
     return object.children.length > 0 ? 'Group' : 'Node';
   }
@@ -144,10 +146,11 @@ export async function loadWorld(name: string, bytes: ArrayBuffer): Promise<World
   for (const l of levels) l.box.setFromObject(l.part.object);
   const box = new Box3();
   for (const part of builder.parts) for (const mesh of part.meshes) box.expandByObject(mesh);
-  if (box.isEmpty()) box.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
+  const empty = box.isEmpty();
+  if (empty) box.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
   return {
     name, size: bytes.byteLength, file, root: gltf.scene, parts: builder.parts, roots, levels, viewpoints: cameras, navigation: navigation(file),
-    sky: sky(file), lights: allLights(gltf.scene), clips: gltf.animations, box, triangles: roots.reduce((n, p) => n + p.triangles, 0),
+    sky: sky(file), lights: allLights(gltf.scene), clips: gltf.animations, box, empty, triangles: roots.reduce((n, p) => n + p.triangles, 0),
   };
 }
 

@@ -7,11 +7,12 @@ export const densityScale = [[1, '#30509b'], [10, '#2f9a72'], [100, '#e8cf49'], 
 function shaded(light: Texture, side: Side, color: string): MeshBasicMaterial {
   const material = new MeshBasicMaterial({lightMap: light, side});
   const {width, height} = light.image as {width: number; height: number};
+  // Places as the eye has them: they are small however far away the world is, and know the matrices of batches.
   material.onBeforeCompile = shader => {
     shader.uniforms['texels'] = {value: [width, height]};
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', '#include <common>\nvarying vec3 vPlace;')
-      .replace('#include <project_vertex>', '#include <project_vertex>\nvPlace = (modelMatrix * vec4(transformed, 1.0)).xyz;');
+      .replace('#include <project_vertex>', '#include <project_vertex>\nvPlace = mvPosition.xyz;');
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', '#include <common>\nuniform vec2 texels; varying vec3 vPlace;')
       .replace('#include <opaque_fragment>', `vec2 t = vLightMapUv * texels;\n${color}\n#include <opaque_fragment>`);

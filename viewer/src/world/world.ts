@@ -11,7 +11,7 @@ export interface Part {
   extras: Record<string, unknown>;
   parent: Part | null;
   children: Part[];
-  meshes: Mesh[];      // its own
+  meshes: Mesh[];      // its own: triangles, lines, points
   mesh: number | null; // in the glTF file
   triangles: number;   // its own and those below, finest level
   bytes: number;       // of the meshes, its own and those below, each once
@@ -50,7 +50,8 @@ export interface World {
   sky: number[] | null; // red, green, blue at the horizon
   lights: Light[];
   clips: AnimationClip[];
-  box: Box3;
+  box: Box3;            // of a world that shows nothing: some metres around the origin
+  empty: boolean;
   triangles: number;    // as shown: finest level
 }
 
