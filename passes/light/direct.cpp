@@ -72,7 +72,7 @@ void DirectLight::emitters(const Receiver& at, const Lattice<3>& places, std::ui
 
 /// None when the place is turned away.
 std::optional<DirectLight::Sight> DirectLight::look(const Receiver& at, const Emitter& e, double b1, double b2) const {
-  V3 target = e.at(b1, b2), across = cross(e.edge1, e.edge2);
+  V3 target = e.at(b1, b2), across = e.across();
   V3 way = target - at.start;
   Sight s;
   s.distance2 = dot(way, way), s.leaving = -dot(across, way);
@@ -105,7 +105,7 @@ void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint3
   for (std::size_t i = 0; i < emitters.size(); ++i) {
     const Emitter& e = emitters[i];
     const V3 corner[] = {e.corner - at.start, e.corner + e.edge1 - at.start, e.corner + e.edge2 - at.start};
-    const bool faces = e.both_sides || dot(cross(e.edge1, e.edge2), corner[0]) < 0;
+    const bool faces = e.both_sides || dot(e.across(), corner[0]) < 0;
     sum += strength[i] = faces && mean(e.radiance) > 0 ? mean(e.radiance) * irradiance_of(corner, at) : 0;
   }
   if (!(sum > 0)) return;
@@ -164,7 +164,7 @@ double DirectLight::gather_weight(const Receiver& from, const Ray& ray, const Hi
   auto id = world_.emitter_of(hit.use, hit.element);
   if (!id) return 1;
   const Emitter& e = world_.emitters()[*id];
-  double leaving = std::fabs(dot(cross(e.edge1, e.edge2), ray.direction));  // cosine * twice the area
+  double leaving = std::fabs(dot(e.across(), ray.direction));  // cosine * twice the area
   double arriving = dot(from.normal, ray.direction) / pi;
   if (!(leaving > 0) || !(arriving > 0)) return 1;
   double density = tree_.probability(from, *id) * 2 * hit.distance * hit.distance / leaving;

@@ -28,7 +28,7 @@ EmitterTree::EmitterTree(std::span<const Emitter> emitters) : leaf_of_(emitters.
 
 EmitterTree::Node EmitterTree::leaf(const Emitter& e) const {
   Node n;
-  V3 across = cross(e.edge1, e.edge2);
+  const V3 across = e.across();
   n.middle = middle_of(e);
   for (const V3& p : {e.corner, e.corner + e.edge1, e.corner + e.edge2}) n.radius = std::max(n.radius, length(p - n.middle));
   n.axis = unit(across);

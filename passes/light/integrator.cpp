@@ -76,6 +76,7 @@ class Estimate {
     for (int k = 0; k < 3; ++k) out.along[k] = rgb(lamps_.along[k] + each * (emitters_.along[k] + gathered_.along[k]));
     out.inside = static_cast<float>(n_inside_ * each);
     out.rays = n_;
+    out.by_lamp = mean(lamps_.sum) > 0;
     return out;
   }
 

@@ -42,6 +42,7 @@ struct Irradiance {
   Rgb along[3]{};
   float inside = 0;                  // share of the rays that met the back of a solid face: the point lies within something
   std::uint32_t rays = 0;
+  bool by_lamp = false;              // a PointLight, SpotLight or DirectionalLight reaches it
 };
 
 class Integrator {

@@ -1,5 +1,7 @@
 #include "passes/light/transport.h"
 
+#include <utility>
+
 namespace wrlkit::light {
 namespace {
 
@@ -12,8 +14,10 @@ constexpr int lamp_rays = 2;
 
 Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, int depth, bool all_emitters) const {
   Arriving out;
+  bool first = true;
   double open = each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
-    out.from_inside |= s.inside;
+    // Behind a pane of glass, too, there are backs; they do not say where the ray starts.
+    out.from_inside |= std::exchange(first, false) && s.inside;
     if (mean(s.emission) > 0 && !(all_emitters && direct_.is_emitter(hit))) out.direct += part * direct_.gather_weight(at, ray, hit) * s.emission;
     if (mean(s.albedo) > 0) out.reflected += (part / pi) * (s.albedo * irradiance(ray, hit, s, random, depth + 1));
   });

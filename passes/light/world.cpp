@@ -95,9 +95,19 @@ void LightWorld::make_emitters() {
     for (std::uint32_t e = 0; e < m.n_elements; ++e) {
       V3 p[3];
       for (int k = 0; k < 3; ++k) p[k] = frame.point(pool_.position(m, e, k) + m.origin);
-      emitters_.push_back({p[0], p[1] - p[0], p[2] - p[0], {}, u, e, f.inner == Inner::neither});
+      emitters_.push_back({p[0], p[1] - p[0], p[2] - p[0], {}, u, e, f.inner == Inner::neither, frame.determinant() < 0});
       emitters_.back().radiance = radiance(emitters_.back(), 1. / 3, 1. / 3);
     }
+  }
+}
+
+void LightWorld::seal(std::uint32_t use, bool inside_out) {
+  UseFacts& f = facts_[use];
+  f.inner = inside_out ? Inner::front : Inner::back, f.sealed = true;
+  if (f.first_emitter == no_emitter) return;
+  for (Emitter& e : std::span(emitters_).subspan(f.first_emitter, pool_[mesh_of_[use]].n_elements)) {
+    e.both_sides = false;
+    if (inside_out) e.turned = !e.turned;
   }
 }
 

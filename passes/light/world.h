@@ -57,9 +57,12 @@ struct Emitter {
   V3 radiance;                       // at its middle
   std::uint32_t use, element;
   bool both_sides;
+  bool turned;                       // it shines to the side where its corners run clockwise
 
   V3 at(double u, double v) const { return corner + u * edge1 + v * edge2; }
-  double area() const { return 0.5 * length(cross(edge1, edge2)); }
+  /// Its normal, on the side that shines; as long as twice its area.
+  V3 across() const { return turned ? cross(edge2, edge1) : cross(edge1, edge2); }
+  double area() const { return 0.5 * length(across()); }
 };
 
 class LightWorld {
@@ -87,7 +90,8 @@ class LightWorld {
   }
   /// A use is a closed surface around some room whose inner side nobody sees: it counts as `solid` TRUE from then on, and who
   /// sees its back is within it even where it touches the front of another one. `inside_out`: its fronts are the inner side.
-  void seal(std::uint32_t use, bool inside_out) { facts_[use].inner = inside_out ? Inner::front : Inner::back, facts_[use].sealed = true; }
+  /// What it emits goes outwards only.
+  void seal(std::uint32_t use, bool inside_out);
   /// Whether a place lies within sealed surfaces: a ray from there leaves more of them than it enters. As many nearest() as
   /// there are surfaces on its way, 64 at the most.
   bool encloses(const Ray& from) const;

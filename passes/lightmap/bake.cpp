@@ -9,6 +9,7 @@
 #include "passes/lightmap/denoise.h"
 #include "passes/lightmap/fill.h"
 #include "passes/lightmap/page.h"
+#include "passes/lightmap/specks.h"
 
 namespace wrlkit::bake {
 namespace {
@@ -95,7 +96,7 @@ class PageBaker {
 
   static Site site_of(std::span<const Irradiance> points) {
     if (std::ranges::any_of(points, [](const Irradiance& p) { return p.inside <= within; })) return Site::open;
-    const bool leaks = std::ranges::any_of(points, [](const Irradiance& p) { return p.inside == 1 && luminance(rgb(p.direct)) > 0; });
+    const bool leaks = std::ranges::any_of(points, [](const Irradiance& p) { return p.inside == 1 && p.by_lamp; });
     return leaks ? Site::pierced : Site::within;
   }
 
@@ -214,35 +215,19 @@ void make_directions(Page& page) {
   }
 }
 
-/// Texels without light amid others of their chart that have some: nothing in the world is so small that only they are in its shadow.
-std::uint64_t count_holes(const Page& page) {
-  constexpr int amid = 6;  // of eight neighbours
-  auto is_lit = [](const Rgb& c) { return c.r + c.g + c.b > 0; };
-  std::uint64_t n = 0;
-  for (int y = 1; y + 1 < page.height; ++y)
-    for (int x = 1; x + 1 < page.width; ++x) {
-      const std::size_t i = page.at(x, y);
-      if (!page.covered(i) || is_lit(page.light()[i])) continue;
-      int n_lit = 0;
-      for (int k = 0; k < 9; ++k) {
-        const std::size_t j = page.at(x + k % 3 - 1, y + k / 3 - 1);
-        n_lit += page.places[j].chart == page.places[i].chart && is_lit(page.light()[j]);
-      }
-      n += n_lit >= amid;
-    }
-  return n;
-}
-
 BakedPage finish(Page page, const std::vector<char>& inside, const BakeOptions& options, Statistics& stats) {
-  const auto known = known_texels(page, inside);
+  auto known = known_texels(page, inside);
+  std::vector<std::uint32_t> chart;
+  for (const Place& p : page.places) chart.push_back(p.chart);
   for (std::size_t i = 0; i < page.size(); ++i)
     if (!known[i]) page.places[i].chart = Place::nowhere;
-  stats["lightmap.holes"] += count_holes(page);
   if (options.denoise) denoise(page);
+  stats["lightmap.holes"] += count_specks(page);
   if (page.layers.size() > 1) make_directions(page);
+  fill_charts(page.layers, known, chart, Place::nowhere, page.width, page.height);
   for (auto& layer : page.layers) fill(layer, known, page.width, page.height);
-  BakedPage out{{page.width, page.height, std::move(page.layers[0])}, {}};
-  for (std::size_t l = 1; l < page.layers.size(); ++l) out.direction.push_back({page.width, page.height, std::move(page.layers[l])});
+  BakedPage out{{page.width, page.height, std::move(page.layers[0]), inside}, {}};
+  for (std::size_t l = 1; l < page.layers.size(); ++l) out.direction.push_back({page.width, page.height, std::move(page.layers[l]), {}});
   return out;
 }
 

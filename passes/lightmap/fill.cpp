@@ -30,7 +30,43 @@ Layer half(const Layer& from) {
   return to;
 }
 
+/// Calls f(j) for each texel of the same chart around texel i.
+template <class F>
+void each_neighbour(std::size_t i, std::span<const std::uint32_t> chart, int width, int height, F&& f) {
+  const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
+  for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u)
+      if (const std::size_t j = std::size_t(v) * width + u; j != i && chart[j] == chart[i]) f(j);
+}
+
 }  // namespace
+
+void fill_charts(std::span<std::vector<Rgb>> layers, std::vector<char>& known, std::span<const std::uint32_t> chart, std::uint32_t no_chart, int width, int height) {
+  enum : char { unknown, is_known, waits };
+  std::vector<std::size_t> border, next;
+  auto add_around = [&](std::size_t i) {
+    each_neighbour(i, chart, width, height, [&](std::size_t j) {
+      if (known[j] == unknown) known[j] = waits, next.push_back(j);
+    });
+  };
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (known[i] == is_known && chart[i] != no_chart) add_around(i);
+  while (!next.empty()) {
+    border.swap(next);
+    next.clear();
+    for (std::size_t i : border)
+      for (auto& layer : layers) {
+        Rgb sum;
+        int n = 0;
+        each_neighbour(i, chart, width, height, [&](std::size_t j) {
+          if (known[j] == is_known) sum += layer[j], ++n;
+        });
+        layer[i] = (1.0f / static_cast<float>(n)) * sum;
+      }
+    for (std::size_t i : border) known[i] = is_known;
+    for (std::size_t i : border) add_around(i);
+  }
+}
 
 void fill(std::vector<Rgb>& texels, const std::vector<char>& known, int width, int height) {
   std::vector<Layer> layers{{width, height, std::move(texels), known}};

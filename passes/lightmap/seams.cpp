@@ -31,6 +31,7 @@ class System {
     const int n = std::clamp(static_cast<int>(std::ceil(2 * std::max(length(s.a), length(s.b)))), 1, 1 << 16);
     for (int i = 0; i < n; ++i) {
       const float t = (i + 0.5f) / n;
+      if (is_inside(s.a, t) || is_inside(s.b, t)) continue;
       agreements_.push_back({tap(s.a, t), tap(s.b, t)});
     }
   }
@@ -70,17 +71,31 @@ class System {
   }
 
  private:
-  Tap tap(const SeamSide& e, float t) {
+  /// Calls f(k, texel, weight) for the four texels that a bilinear filter mixes at a place of a seam.
+  template <class F>
+  void each_tap(const SeamSide& e, float t, F&& f) const {
     const Canvas& page = pages_[e.page];
     const float x = e.end[0].x + t * (e.end[1].x - e.end[0].x) - 0.5f, y = e.end[0].y + t * (e.end[1].y - e.end[0].y) - 0.5f;
     const float fx = x - std::floor(x), fy = y - std::floor(y);
-    Tap out;
     for (int k = 0; k < 4; ++k) {
       const int u = std::clamp(static_cast<int>(std::floor(x)) + (k & 1), 0, page.width - 1);
       const int v = std::clamp(static_cast<int>(std::floor(y)) + (k >> 1), 0, page.height - 1);
-      out.unknown[k] = number_of(std::uint64_t{e.page} << 32 | (std::uint64_t(v) * page.width + u));
-      out.weight[k] = (k & 1 ? fx : 1 - fx) * (k >> 1 ? fy : 1 - fy);
+      f(k, std::uint64_t(v) * page.width + u, (k & 1 ? fx : 1 - fx) * (k >> 1 ? fy : 1 - fy));
     }
+  }
+
+  /// Half or more of what is shown there.
+  bool is_inside(const SeamSide& e, float t) const {
+    const auto& inside = pages_[e.page].inside;
+    if (inside.empty()) return false;
+    float sum = 0;
+    each_tap(e, t, [&](int, std::uint64_t texel, float weight) { sum += inside[texel] ? weight : 0; });
+    return sum >= 0.5f;
+  }
+
+  Tap tap(const SeamSide& e, float t) {
+    Tap out;
+    each_tap(e, t, [&](int k, std::uint64_t texel, float weight) { out.unknown[k] = number_of(std::uint64_t{e.page} << 32 | texel), out.weight[k] = weight; });
     return out;
   }
 

@@ -24,6 +24,8 @@ struct Seam {
 struct Canvas {
   int width = 0, height = 0;
   std::vector<Rgb> texels;
+  /// By texel: it lies within something, and its light is made up. Empty: none does.
+  std::vector<char> inside{};
 };
 
 /// How well both sides of the seams agree.
@@ -33,7 +35,8 @@ struct SeamReport {
 };
 
 /// Changes the texels along the seams by as little as makes what a bilinear filter shows on both sides the same: least
-/// squares over the texels that the filter reaches, solved by conjugate gradients. Texels elsewhere stay as they are.
+/// squares over the texels that the filter reaches, solved by conjugate gradients. Texels elsewhere stay as they are. Places that lie
+/// within something on either side do not count: nobody sees that side, and the light of the other one may end there.
 /// O(texels along the seams * iterations).
 SeamReport close_seams(std::span<Canvas> pages, std::span<const Seam> seams, int iterations = 30);
 

@@ -223,6 +223,22 @@ TEST_CASE("bake: a closed room of which both sides are to be seen has light on b
   CHECK(Light(lamp, "Room").mesh.corners.size() == 72);
 }
 
+TEST_CASE("bake: what shines into a closed thing that it touches is no leak, and shines outwards only") {
+  // The lower end of the cap lies in the upper end of the post.
+  auto block = [](const char* name, double y, double half, const std::string& surface, const char* solid) {
+    return "Transform { translation 0 " + std::to_string(y) + " 0 children DEF " + name + " Shape { " + surface + " geometry IndexedFaceSet { " + solid + " " + box(false, half).substr(17) + " } } ";
+  };
+  const std::string plate = "DEF Plate Transform { translation 0 -0.9 0 children Shape { " + material(0.5) + " geometry Box { size 3 0.1 3 } } } ";
+  Baked b(block("Post", 0, 1, material(0.5), "") + block("Cap", 2, 1, material(0, 1), "") + plate, "quality=draft,max-size=64");
+  CHECK(b.stats["lightmap.inside"] > 0);
+  CHECK(b.stats["lightmap.leaks"] == 0);
+  // A closed lamp of which nobody sees the inner side, and something in it.
+  Baked lamp(block("Lamp", 0, 1, material(0, 1), "solid FALSE") + "DEF In Transform { scale 0.3 0.3 0.3 children DEF Core Shape { " + material(0.5) + " geometry " + box(false, 1) + " } }",
+             "quality=draft,max-size=64");
+  Light core(lamp, "Core");
+  for (std::size_t i = 0; i < core.mesh.corners.size() / 3; ++i) CHECK(core.at(i, 0.3, 0.3) == 0);
+}
+
 TEST_CASE("bake: a large face hides nothing from itself where it goes through the middle of the world", "[bake]") {
   Baked b("DEF Plate Shape { " + material(0.5) + " geometry IndexedFaceSet { coord Coordinate { point [ -1.1 -0.6 0.53, 1.1 -0.6 -0.53, 1.1 0.67 -0.53, -1.1 0.67 0.53 ] } "
           "coordIndex [ 0 1 2 3 -1 ] } } DirectionalLight { direction 0 0 -1 }", "quality=draft,max-size=128");

@@ -345,6 +345,22 @@ TEST_CASE("light: the back of a solid face is black, of another one not") {
   CHECK(total(emits.irradiance(up, {.rays = 1024})) == Approx(pi).epsilon(0.01));
 }
 
+TEST_CASE("light: behind a pane of glass nobody is within it") {
+  const std::string glass = "appearance Appearance { material Material { transparency 0.5 diffuseColor 0 0 0 } } ";
+  Room pane("Transform { translation 0 0 1 children Shape { " + glass + "geometry Box { size 1000 1000 0.1 } } }", {.sky = LightOptions::Sky::constant});
+  Irradiance e = pane.irradiance(up, {.rays = 256});
+  CHECK(e.inside == 0);
+  CHECK(total(e) == Approx(0.25 * pi).epsilon(0.02));
+}
+
+TEST_CASE("light: what is mirrored emits to the front, as it does elsewhere") {
+  const std::string lamp = quad({-50, -50, 1}, {0, 100, 0}, {100, 0, 0}, emitting), body = "Transform { scale -1 1 1 children " + lamp + "}";
+  CHECK(total(Room(body).irradiance(up, {.rays = 256})) == Approx(pi).epsilon(0.01));
+  CHECK(total(Room(lamp).irradiance(up, {.rays = 256})) == Approx(pi).epsilon(0.01));
+  const std::string turned = "Transform { scale -1 1 1 children " + quad({-50, -50, 1}, {100, 0, 0}, {0, 100, 0}, emitting) + "}";
+  CHECK(total(Room(turned).irradiance(up, {.rays = 256})) == 0);
+}
+
 TEST_CASE("light: Shapes without Material") {
   std::string plain = quad({-50, -50, 1}, {0, 100, 0}, {100, 0, 0}, ""), body = plain + "DirectionalLight { direction 0 0 1 }";
   Room reflects(body), emits(body, {.emission = 0.5, .unlit_emits = true});

@@ -7,6 +7,7 @@
 #include "passes/lightmap/denoise.h"
 #include "passes/lightmap/fill.h"
 #include "passes/lightmap/seams.h"
+#include "passes/lightmap/specks.h"
 #include "passes/lightmap/texels.h"
 
 using namespace wrlkit::bake;
@@ -174,6 +175,59 @@ TEST_CASE("fill: unknown texels take the light around them, known ones stay") {
   std::vector<Rgb> none(4, Rgb{1, 1, 1});
   fill(none, {0, 0, 0, 0}, 2, 2);
   CHECK(none[0].r == 0);
+}
+
+TEST_CASE("fill: charts go on with their own light before that of others comes in") {
+  constexpr std::uint32_t none = 99;
+  // Of two rows that touch the lower one is chart 0, of which the left half is known, and the upper one chart 1, of which all is.
+  std::vector<std::uint32_t> chart(2 * 12);
+  std::vector<std::vector<Rgb>> layers(2, std::vector<Rgb>(chart.size()));
+  std::vector<char> known(chart.size());
+  for (int x = 0; x < 12; ++x) {
+    chart[12 + x] = 1, known[12 + x] = 1, layers[0][12 + x] = {9, 9, 9};
+    if (x < 6) known[x] = 1, layers[0][x] = {0.25f, 0.5f, 1}, layers[1][x] = {-1, 0, 0};
+  }
+  chart[11] = none, known[11] = 0;
+  fill_charts(layers, known, chart, none, 12, 2);
+  for (int x = 0; x < 11; ++x) {
+    CHECK(layers[0][x].g == Approx(0.5f));
+    CHECK(layers[1][x].r == Approx(-1));
+    CHECK(known[x] == 1);
+  }
+  CHECK(known[11] == 0);
+}
+
+TEST_CASE("specks: one that is darker than all around, and no shadow's edge") {
+  auto page = noisy_page(16, 0);
+  CHECK(count_specks(page) == 0);
+  for (int y = 0; y < 16; ++y) page.light()[page.at(4, y)] = {};
+  CHECK(count_specks(page) == 0);
+  page.light()[page.at(10, 8)] = {0.3f, 0.3f, 0.3f};
+  CHECK(count_specks(page) == 1);
+  page.light()[page.at(10, 8)] = {0.6f, 0.6f, 0.6f};
+  CHECK(count_specks(page) == 0);
+  // What is dark all around is not seen.
+  for (Rgb& c : page.light()) c = {0.002f, 0.002f, 0.002f};
+  page.light()[page.at(10, 8)] = {};
+  CHECK(count_specks(page) == 0);
+}
+
+TEST_CASE("seams: a side that lies within something draws nothing") {
+  const int n = 16;
+  std::vector<Rgb> texels(n * n);
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < 8; ++x) texels[y * n + x] = {1, 1, 1};
+  const std::vector<Seam> seams{{{0, {{4, 2}, {4, 14}}}, {0, {{12, 2}, {12, 14}}}}};
+  Canvas page{n, n, texels};
+  CHECK(close_seams({&page, 1}, seams).places == 24);
+  CHECK(page.texels[8 * n + 4].r < 0.9f);
+  page = {n, n, texels, std::vector<char>(n * n)};
+  for (int y = 0; y < 8; ++y)
+    for (int x = 8; x < n; ++x) page.inside[y * n + x] = 1;
+  const SeamReport report = close_seams({&page, 1}, seams);
+  CHECK(report.places == 12);
+  CHECK(page.texels[5 * n + 4].r == 1);
+  CHECK(page.texels[11 * n + 4].r < 0.9f);
 }
 
 TEST_CASE("seams: both sides show the same, by small changes, and nothing else moves") {
