@@ -224,12 +224,15 @@ def killed_in_python(tmp):
     killed(tmp / 'sets', tmp / 'sets.toml', (ROOT / 'corpus/nodes', '--include', '*[m-z].wrl', '--exclude', '*Texture*'))
 
 
-POISON = '''import ctypes, os, pathlib, time, wrlkit
+POISON = '''import ctypes, os, pathlib, subprocess, time, wrlkit
 
 @wrlkit.pass_
 def poison(world, table: pathlib.Path = pathlib.Path('table.txt')):
     """Do to the worker what the world is called."""
     what = world.roots[0].name
+    if what in ('loops', 'fine'):
+        other = subprocess.Popen(['sleep', '1000'])
+        pathlib.Path(table.parent, what + '.pid').write_text(str(other.pid))
     if what == 'loops':
         while True:
             time.sleep(0.01)
@@ -246,6 +249,15 @@ def poison(world, table: pathlib.Path = pathlib.Path('table.txt')):
         raise ValueError('no pump')
     world.roots[0].name = table.read_text().strip()
 '''
+
+
+def alive(pid_file):
+    """Whether the process of that number is more than an entry that nobody has asked for."""
+    stat = pathlib.Path('/proc', pid_file.read_text(), 'stat')
+    try:
+        return stat.read_text().rpartition(')')[2].split()[0] not in 'ZX'
+    except OSError:
+        return False
 
 
 def poisoned(tmp):
@@ -268,6 +280,7 @@ def poisoned(tmp):
     made = tree(out)
     check('and the rest is done', code == 1 and set(made) == {'good.wrl', 'fine.wrl', 'well.wrl'} and 'DEF P-101' in (out / 'good.wrl').read_text(), code, made, err)
     corpus(*words)
+    check('what workers have started has ended with them', not any(alive(tmp / f'{name}.pid') for name in ('loops', 'fine')))
     check('nothing of it is done twice', len(journal(out)) == len(lines), len(journal(out)))
     words = (recipe, a, '-o', out, '--include', '*[ld].wrl')
     for path, old, new in ((tmp / 'table.txt', 'P-101', 'P-102'), (tmp / 'poison.py', 'strip()', 'strip() + "A"')):
@@ -279,6 +292,13 @@ def poisoned(tmp):
     check('which is done', 'DEF P-102A' in (out / 'good.wrl').read_text())
     code, _, err = corpus(out, '--looks', 0, '--json', verb='report')
     check('a report needs no passes', code == 0, code, err)
+    (tmp / 'loops.pid').unlink()
+    run = subprocess.Popen([WRLKIT, 'corpus', 'run', recipe, a, '-o', tmp / 'interrupted'], stderr=subprocess.PIPE)
+    while not (tmp / 'loops.pid').exists() or not alive(tmp / 'loops.pid'):
+        time.sleep(0.05)
+    run.send_signal(signal.SIGINT)
+    err = run.communicate(timeout=60)[1]
+    check('a run that is interrupted ends by that, with all that was at work', run.returncode == -signal.SIGINT and not alive(tmp / 'loops.pid'), run.returncode, err)
 
 
 def report(tmp):

@@ -109,7 +109,7 @@ class Run {
         ++next;
       }
     };
-    while (good_ && (next < todo_.size() || workers_.running() || !alone_.empty())) {
+    while (good_ && !Workers::interrupted() && (next < todo_.size() || workers_.running() || !alone_.empty())) {
       start_some();
       // Those that need all of the memory wait until everybody else is done.
       if (next == todo_.size() && !workers_.running() && !alone_.empty() && start(alone_.back(), memory_)) alone_.pop_back();

@@ -21,6 +21,8 @@ namespace wrlkit {
 namespace {
 
 constexpr std::size_t most_printed = 4096;
+constexpr int ending_signals[] = {SIGHUP, SIGINT, SIGTERM};
+volatile std::sig_atomic_t ending = 0;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 double clock_time() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
@@ -49,6 +51,8 @@ void limit(int what, std::uint64_t value) {
 [[noreturn]] void work_and_exit(pid_t parent, std::uint64_t memory, int result_fd, int printed_fd, const Workers::Work& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);
+  setpgid(0, 0);  // with what it starts itself
+  for (const int s : ending_signals) signal(s, SIG_DFL);
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(printed_fd, STDOUT_FILENO);
@@ -74,9 +78,20 @@ bool make_pipe(int (&ends)[2]) { return pipe2(ends, O_CLOEXEC) == 0; }
 
 }  // namespace
 
+Workers::Workers() {
+  ending = 0;
+  for (const int s : ending_signals)
+    if (signal(s, [](int which) { ending = which; }) == SIG_IGN) signal(s, SIG_IGN);  // of nohup
+}
+
+bool Workers::interrupted() { return ending != 0; }
+
 Workers::~Workers() {
   for (auto& w : running_) kill(w.pid, SIGKILL);
   for (auto& w : running_) finish(w);
+  for (const int s : ending_signals)
+    if (signal(s, SIG_DFL) == SIG_IGN) signal(s, SIG_IGN);
+  if (ending) raise(ending);
 }
 
 std::vector<std::size_t> Workers::jobs() const {
@@ -121,6 +136,9 @@ void Workers::read_some(Worker& w) {
 WorkerEnd Workers::finish(Worker& w) {
   int status = 0;
   rusage usage{};
+  siginfo_t ended{};
+  while (waitid(P_PID, static_cast<id_t>(w.pid), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {}
+  kill(-w.pid, SIGKILL);  // while the worker's number is still its own
   while (wait4(w.pid, &status, 0, &usage) < 0 && errno == EINTR) {}
   for (int fd : {w.result, w.printed})
     if (fd >= 0) close(fd);
@@ -159,7 +177,7 @@ std::optional<WorkerEnd> Workers::wait(double seconds) {
       running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
       return end;
     }
-    if (now() >= until) return std::nullopt;
+    if (now() >= until || interrupted()) return std::nullopt;
   }
 }
 

@@ -30,8 +30,9 @@ class Workers {
   /// Of a worker that has run out of memory and knows it.
   static constexpr int no_memory = 100;
 
-  Workers() = default;
-  /// Those still at work are ended.
+  /// From now on SIGHUP, SIGINT and SIGTERM wait for the end of this object.
+  Workers();
+  /// Those still at work are ended, with all that they have started; then this process, if it was interrupted.
   ~Workers();
   Workers(const Workers&) = delete;
 
@@ -41,7 +42,9 @@ class Workers {
   /// Begins a job, with `memory` bytes beyond what this process has and so many seconds. False when the system has no more
   /// processes.
   bool start(std::size_t job, std::uint64_t memory, double timeout, const Work& work);
-  /// The next that ends, or nothing after so many seconds.
+  /// Whether a signal is to end this process.
+  static bool interrupted();
+  /// The next that ends, or nothing after so many seconds or when this process is interrupted.
   std::optional<WorkerEnd> wait(double seconds);
 
  private:
