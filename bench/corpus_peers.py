@@ -33,7 +33,9 @@ def plain(path):
 def peers(wrlkit, tmp):
     """Name to command, what converts the files of a list into a folder."""
     (tmp / 'plain.toml').write_text('summary = "a plain conversion"\n')
-    found = {'wrlkit': lambda listed, out: run([wrlkit, 'corpus', 'run', tmp / 'plain.toml', f'@{listed}', '-o', out, '--base', '/', '--jobs', '2', '-q'])}
+    def ours(*more):
+        return lambda listed, out: run([wrlkit, 'corpus', 'run', tmp / 'plain.toml', f'@{listed}', '-o', out, '--base', '/', '--jobs', '2', '-q', *more])
+    found = {'wrlkit': ours(), 'wrlkit --bundle 16': ours('--bundle', '16')}
     browser = ROOT / 'tests/browser'
     if shutil.which('node') and (browser / 'node_modules/three').exists():
         found['three.js'] = lambda listed, out: run(['node', '--input-type=module', '-e', (ROOT / 'bench/peer_three.mjs').read_text().replace('slice(2)', 'slice(1)'), listed, out], cwd=browser)
@@ -59,7 +61,7 @@ def main():
                 text, seconds = text + more, seconds + used
                 begun = [line.removeprefix('begun ') for line in more.splitlines() if line.startswith('begun ')]
                 left = left[left.index(begun[-1]) + 1:] if begun else []  # a file on which a peer has crashed
-            made = {str(p).removesuffix('.glb') + '.wrl' for p in ('/' / q.relative_to(out) for q in out.rglob('*.glb'))} if name == 'wrlkit' else {line.removeprefix('made ') for line in text.splitlines()}
+            made = {str(p).removesuffix('.glb') + '.wrl' for p in ('/' / q.relative_to(out) for q in out.rglob('*.glb'))} if name.startswith('wrlkit') else {line.removeprefix('made ') for line in text.splitlines()}
             return made & set(map(str, files)), seconds
         commands = peers(wrlkit, tmp)
         common = set(map(str, files))

@@ -182,7 +182,7 @@ def killed(tmp, recipe=RECIPE, words=(ROOT / 'corpus/nodes', ROOT / 'corpus/pape
         run.wait()
         part = tree(tmp / 'killed') if (tmp / 'killed').exists() else {}
         check(f'after kill {i + 1} there is no half file ({len(part)} outputs)', all(whole.get(n) == h for n, h in part.items()))
-    code, _, err = corpus(*words, '-o', tmp / 'killed', '--jobs', 2)
+    code, _, err = corpus(*words, '-o', tmp / 'killed', '--jobs', 2, '--bundle', 7)
     check('three times killed and resumed, two jobs: the same bytes', code == 0 and tree(tmp / 'killed') == whole, code, err)
     inputs = [l['input'] for l in journal(tmp / 'killed')]
     check('finished work is not done twice', len(inputs) == len(set(inputs)), len(inputs), len(set(inputs)))
@@ -280,6 +280,10 @@ def poisoned(tmp):
     made = tree(out)
     check('and the rest is done', code == 1 and set(made) == {'good.wrl', 'fine.wrl', 'well.wrl'} and 'DEF P-101' in (out / 'good.wrl').read_text(), code, made, err)
     corpus(*words)
+    code, _, err = corpus(recipe, a, '-o', tmp / 'bundled', '--memory', '300M', '--jobs', 1, '--bundle', 9, '--exclude', 'loops.wrl')
+    bundled = {l['output'].removesuffix('.wrl'): (l['state'], l.get('cause', '').split('\n')[0]) for l in journal(tmp / 'bundled')}
+    alone = {n: (l['state'], l.get('cause', '').split('\n')[0]) for n, l in lines.items() if n != 'loops'}
+    check('who shares a worker with them is done all the same, and nobody else is blamed', code == 1 and bundled == alone and tree(tmp / 'bundled') == made, bundled, err)
     check('what workers have started has ended with them', not any(alive(tmp / f'{name}.pid') for name in ('loops', 'fine')))
     check('nothing of it is done twice', len(journal(out)) == len(lines), len(journal(out)))
     words = (recipe, a, '-o', out, '--include', '*[ld].wrl')

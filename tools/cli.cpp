@@ -254,6 +254,7 @@ const Verb verbs[] = {
        corpus_inputs(v, f);
        v.add_option("--timeout", f.timeout, "a file that takes longer is given up: 90s, 10m, 2h")->type_name("TIME")->capture_default_str()->check([](const std::string& s) { return seconds_of(s) > 0 ? "" : "'" + s + "' is no time; 90s, 10m, 2h"; }, "", "");
        v.add_option("--joblog", f.joblog, "a line for each file as GNU parallel writes them, behind what is there")->type_name("FILE");
+       v.add_option("--bundle", f.bundle, "so many small files share a worker, one after the other, which takes a third of the time; 1: each has one of its own")->check(CLI::Range(1, 1000));
        v.add_flag("--retry", f.retry, "files of which nothing could be made are tried again");
      },
      run_corpus_run},

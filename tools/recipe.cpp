@@ -22,7 +22,7 @@ constexpr std::uint64_t most_bytes = 1 << 20;
 
 // How a run is watched is not a matter of the recipe.
 constexpr std::string_view not_in_recipes[] = {"help", "recipe", "python", "pipeline", "print-pipeline", "print-recipe", "verify-each", "print-after", "time-passes", "stats",
-                                               "output", "quiet", "verbose", "json", "report", "jobs", "base", "shard", "joblog", "retry"};
+                                               "output", "quiet", "verbose", "json", "report", "jobs", "base", "shard", "joblog", "retry", "bundle"};
 constexpr std::string_view of_input[] = {"unit", "up", "allow-path", "include", "exclude"};
 constexpr std::string_view of_limits[] = {"memory", "timeout"};
 constexpr std::string_view of_messages[] = {"strict"};

@@ -7,7 +7,6 @@
 
 #include <charconv>
 #include <memory>
-#include <vector>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -31,9 +30,10 @@ std::optional<ContentHash> hash_of_file(const std::string& path) {
   if (fstat(fd, &there) == 0 && S_ISREG(there.st_mode)) {
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
     XXH3_128bits_reset(state.get());
-    std::vector<char> piece(256 * 1024);
+    constexpr std::size_t size = 256 * 1024;
+    const auto piece = std::make_unique_for_overwrite<char[]>(size);  // a worker that clears it would spend more on that than on most files
     ssize_t got = 0;
-    while ((got = read(fd, piece.data(), piece.size())) > 0) XXH3_128bits_update(state.get(), piece.data(), static_cast<std::size_t>(got));
+    while ((got = read(fd, piece.get(), size)) > 0) XXH3_128bits_update(state.get(), piece.get(), static_cast<std::size_t>(got));
     if (got == 0) hash = of(XXH3_128bits_digest(state.get()));
   }
   close(fd);

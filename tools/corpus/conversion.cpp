@@ -109,7 +109,7 @@ bool write_run_recipe(const CorpusWork& work, const CorpusPlan& plan) {
   return write_text_file(run_recipe(work.out), recipe_text(options, work.flags.warnings, s.pipeline()));
 }
 
-int do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, JournalLine& line) {
+void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, JournalLine& line) {
   const auto target = (fs::path(work.out) / job.output).string();
   std::error_code none;
   fs::create_directories(fs::path(target).parent_path(), none);
@@ -125,7 +125,6 @@ int do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job,
     convert(flags, flags.keep_urls ? [&](Scene& scene) { name_written_files(scene, plan, job, flags.allow_paths); } : std::function<void(Scene&)>(), line);
   }
   if (is_made(line.state)) line.output_bytes = fs::file_size(target, none), line.output_hash = hash_of_file(target).value_or(ContentHash{});
-  return line.state == JobState::made ? done : line.state == JobState::made_partly ? partly : nothing;
 }
 
 DoneBefore::DoneBefore(const CorpusWork& work, const CorpusPlan& plan) : work_(work), plan_(plan) {

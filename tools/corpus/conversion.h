@@ -25,8 +25,8 @@ bool write_run_recipe(const CorpusWork& work, const CorpusPlan& plan);
 /// Nothing, and why, when the recipe is none.
 std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& why);
 
-/// Does a job and fills in what the journal wants to know of it. Returns an exit code of convert.
-int do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, JournalLine& line);
+/// Does a job and fills in what the journal wants to know of it.
+void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, JournalLine& line);
 
 /// Knows what was done before, by the journals.
 class DoneBefore {

@@ -58,7 +58,7 @@ void look(const Flags& flags, std::size_t most) {
   for (std::size_t next = 0, ended = 0; ended < lines.size() && !Workers::interrupted();) {
     while (next < lines.size() && workers.running() < jobs) {
       const auto& line = lines[next];
-      const bool begun = workers.start(next, memory / jobs, most_seconds, [&](std::string&) { return make_look(conversion, out, line) ? 0 : 1; });
+      const bool begun = workers.start(next, memory / jobs, most_seconds, [&](const Workers::Tell&) { return make_look(conversion, out, line) ? 0 : 1; });
       if (!begun && !workers.running()) return;
       if (!begun) break;
       ++next;

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <thread>
+#include <unordered_set>
 #include <utility>
 
 #include <unistd.h>
@@ -90,6 +91,7 @@ class Run {
     for (std::uint32_t i = 0; i < plan_.jobs.size(); ++i)
       if (flags.shard.empty() || plan_.jobs[i].shard == planned.shard.index) todo_.push_back(i), cost_ += plan_.jobs[i].cost;
     memory_ = flags.memory.empty() ? free_memory() / 10 * 8 : size_of(flags.memory);
+    bundle_size_ = static_cast<std::size_t>(flags.bundle);
     jobs_ = flags.jobs > 0 ? static_cast<std::size_t>(flags.jobs) : std::max(1u, std::thread::hardware_concurrency());
     timeout_ = seconds_of(flags.timeout);
   }
@@ -100,24 +102,15 @@ class Run {
     if (!flags_.joblog.empty() && !open_joblog()) return usage;
     if (!flags_.quiet)
       for (const auto& [input, output] : plan_.kept) fmt::print(stderr, "{}: several inputs would become '{}'; this one keeps its ending in the name of the output\n", input, output);
-    std::size_t next = 0;
-    const auto start_some = [&] {
-      while (next < todo_.size() && workers_.running() < jobs_) {
-        const auto at = todo_[next];
-        if (was_done(at)) { ++next; continue; }
-        if (!start(at, share(at))) break;
-        ++next;
-      }
-    };
-    while (good_ && !Workers::interrupted() && (next < todo_.size() || workers_.running() || !alone_.empty())) {
+    while (good_ && !Workers::interrupted() && (next_ < todo_.size() || !bundle_.empty() || workers_.running() || !alone_.empty())) {
       start_some();
       // Those that need all of the memory wait until everybody else is done.
-      if (next == todo_.size() && !workers_.running() && !alone_.empty() && start(alone_.back(), memory_)) alone_.pop_back();
+      if (all_begun() && !workers_.running() && !alone_.empty() && start({alone_.back()}, memory_)) alone_.pop_back();
       if (workers_.running()) {
         if (auto end = workers_.wait(0.2)) {
-          const auto memory = release(*end);
+          const auto work = release(*end);
           start_some();  // before the journal has it, so that no core waits for that
-          take(std::move(*end), memory);
+          take(std::move(*end), work);
         }
       }
       status.show(at_work());
@@ -129,8 +122,41 @@ class Run {
   }
 
  private:
-  /// What a job may have of the memory: its part, or what it is likely to need, but never more than there is.
-  std::uint64_t share(std::uint32_t at) const { return std::min(memory_, std::max(memory_ / jobs_, 2 * plan_.jobs[at].memory)); }
+  /// Files at work in one worker, and the memory that it has.
+  struct Granted {
+    std::vector<std::uint32_t> files;
+    std::uint64_t memory = 0;
+  };
+
+  /// What files may have of the memory: their part, or what they are likely to need, but never more than there is.
+  std::uint64_t share(const std::vector<std::uint32_t>& files) const {
+    std::uint64_t likely = 0;
+    for (const auto at : files) likely = std::max(likely, plan_.jobs[at].memory);
+    return std::min(memory_, std::max(memory_ / jobs_, 2 * likely));
+  }
+
+  bool all_begun() const { return next_ == todo_.size() && bundle_.empty(); }
+  /// Whether its worker may do others, too.
+  bool may_share(std::uint32_t at) const { return bundle_size_ > 1 && plan_.jobs[at].cost < small_cost && !own_process_.contains(at); }
+
+  /// Takes the next file that is not done, and small ones behind it; not so many that other workers would have none.
+  void fill_bundle() {
+    const auto most = std::clamp<std::size_t>((todo_.size() - next_) / (2 * jobs_), 1, bundle_size_);
+    while (next_ < todo_.size() && bundle_.size() < most) {
+      const auto at = todo_[next_];
+      if (!bundle_.empty() && !(may_share(bundle_.back()) && may_share(at))) return;
+      ++next_;
+      if (!was_done(at)) bundle_.push_back(at);
+    }
+  }
+
+  void start_some() {
+    while (workers_.running() < jobs_) {
+      if (bundle_.empty()) fill_bundle();
+      if (bundle_.empty() || !start(bundle_, share(bundle_))) return;
+      bundle_.clear();
+    }
+  }
 
   bool was_done(std::uint32_t at) {
     const auto& job = plan_.jobs[at];
@@ -140,39 +166,65 @@ class Run {
     return true;
   }
 
-  /// False when there is no room for it now.
-  bool start(std::uint32_t at, std::uint64_t memory) {
+  /// False when there is no room for them now.
+  bool start(const std::vector<std::uint32_t>& files, std::uint64_t memory) {
     if (workers_.running() && granted_ + memory > memory_) return false;
-    const auto& job = plan_.jobs[at];
-    const bool begun = workers_.start(at, memory, timeout_, [&](std::string& result) {
-      JournalLine line;
-      const bool had_codecs = image_codecs_are_loaded();
-      const int code = do_job(work_, plan_, job, line);
-      line.codecs = !had_codecs && image_codecs_are_loaded();
-      result = to_json(line);
-      return code;
+    const bool begun = workers_.start(files.front(), memory, timeout_, [&](const Workers::Tell& tell) {
+      for (const auto at : files) tell(to_json(measured(at)) + "\n");
+      return done;
     });
     if (!begun) return std::this_thread::sleep_for(std::chrono::milliseconds(workers_.running() ? 0 : 100)), false;
-    grants_[at] = memory;
+    grants_[files.front()] = {files, memory};
     granted_ += memory;
     return true;
   }
 
-  /// Takes the memory back that a worker had; how much that was.
-  std::uint64_t release(const WorkerEnd& end) {
-    const auto at = grants_.find(static_cast<std::uint32_t>(end.job));
-    const auto memory = at->second;
-    grants_.erase(at);
-    granted_ -= memory;
-    return memory;
+  /// In a worker: does a file.
+  JournalLine measured(std::uint32_t at) const {
+    JournalLine line;
+    const bool had_codecs = image_codecs_are_loaded();
+    const Usage before;
+    do_job(work_, plan_, plan_.jobs[at], line);
+    const Usage after;
+    line.codecs = !had_codecs && image_codecs_are_loaded();
+    line.started = before.time, line.seconds = after.time - before.time, line.cpu = after.cpu - before.cpu, line.memory = after.memory;
+    return line;
   }
 
-  void take(WorkerEnd end, std::uint64_t grant) {
-    const auto at = static_cast<std::uint32_t>(end.job);
+  /// Takes the memory back that a worker had.
+  Granted release(const WorkerEnd& end) {
+    const auto at = grants_.find(static_cast<std::uint32_t>(end.job));
+    auto work = std::move(at->second);
+    grants_.erase(at);
+    granted_ -= work.memory;
+    return work;
+  }
+
+  void take(WorkerEnd end, const Granted& work) {
+    std::string_view told = end.told;
+    const bool alone = work.files.size() == 1;
+    for (const auto at : work.files) {
+      const auto length = told.find('\n');
+      auto line = length == told.npos ? std::nullopt : journal_line(told.substr(0, length));
+      if (line) {
+        told.remove_prefix(length + 1);
+        if (alone) measure(*line, end);
+        take(at, std::move(*line));
+      } else if (!alone) {  // whichever of them has ended the worker: the next one will say
+        own_process_.insert(at), todo_.push_back(at);
+      } else if (!end.timed_out && (end.exit_code == Workers::no_memory || end.signal == SIGKILL) && work.memory < memory_) {
+        alone_.push_back(at);
+      } else {
+        auto failed = failure(at, end);
+        measure(failed, end);
+        take(at, std::move(failed), end.exit_code, end.signal);
+      }
+    }
+  }
+
+  void take(std::uint32_t at, JournalLine line, int exit_code = 0, int signal = 0) {
     const auto& job = plan_.jobs[at];
-    const bool too_little = !end.timed_out && (end.exit_code == Workers::no_memory || end.signal == SIGKILL);
-    if (too_little && grant < memory_) return alone_.push_back(at);
-    auto line = line_of(job, end);
+    line.input = job.input.path, line.output = job.output, line.work = work_.hash, line.input_bytes = job.input.bytes;
     // The codecs take longer to load than most files to convert: when they are wanted again and again, the workers to come have them.
     if (std::exchange(line.codecs, false) && ++with_codecs_ == few) load_image_codecs();
     if (!is_made(line.state)) {
@@ -182,17 +234,17 @@ class Run {
     }
     if (!journal_.append(line)) good_ = false, journal_fault_ = std::strerror(errno);
     if (const auto now = std::chrono::steady_clock::now(); now - settled_ > std::chrono::seconds(5)) journal_.settle(), settled_ = now;
-    log(line, end);
+    const int code = line.state == JobState::made ? done : line.state == JobState::made_partly ? partly : line.state == JobState::failed ? nothing : exit_code;
+    log(line, code, signal);
     status_->add(line.state, job.cost, false);
   }
 
-  JournalLine line_of(const CorpusJob& job, const WorkerEnd& end) const {
-    auto told = end.signal ? std::nullopt : journal_line(end.result);
-    JournalLine line = told.value_or(JournalLine{});
-    line.input = job.input.path, line.output = job.output, line.work = work_.hash, line.input_bytes = job.input.bytes;
-    line.started = end.started, line.seconds = end.seconds, line.cpu = end.cpu, line.memory = end.memory;
-    if (told) return line;
-    line.input_hash = hash_of_file(job.input.path).value_or(ContentHash{});
+  static void measure(JournalLine& line, const WorkerEnd& end) { line.started = end.started, line.seconds = end.seconds, line.cpu = end.cpu, line.memory = end.memory; }
+
+  /// Of a worker that could not say it itself.
+  JournalLine failure(std::uint32_t at, const WorkerEnd& end) const {
+    JournalLine line;
+    line.input_hash = hash_of_file(plan_.jobs[at].input.path).value_or(ContentHash{});
     const auto printed = end.printed.empty() ? "" : ": " + end.printed.substr(0, end.printed.find_last_not_of('\n') + 1);
     if (end.timed_out) line.state = JobState::timeout, line.cause = fmt::format("it took longer than {}", flags_.timeout);
     else if (end.exit_code == Workers::no_memory) line.state = JobState::no_memory, line.cause = fmt::format("it needs more than {} of memory", readable_size(memory_));
@@ -209,9 +261,9 @@ class Run {
     return true;
   }
 
-  void log(const JournalLine& l, const WorkerEnd& end) {
+  void log(const JournalLine& l, int exit_code, int signal) {
     if (!joblog_.is_open()) return;
-    joblog_ << fmt::format("{}\t{}\t{:.3f}\t{:10.3f}\t{}\t{}\t{}\t{}\twrlkit convert {} {} --recipe {}\n", ++logged_, host_, l.started, l.seconds, l.input_bytes, l.output_bytes, end.exit_code, end.signal,
+    joblog_ << fmt::format("{}\t{}\t{:.3f}\t{:10.3f}\t{}\t{}\t{}\t{}\twrlkit convert {} {} --recipe {}\n", ++logged_, host_, l.started, l.seconds, l.input_bytes, l.output_bytes, exit_code, signal,
                            shell_word(l.input), shell_word((fs::path(work_.out) / l.output).string()), shell_word(flags_.recipe))
             << std::flush;
   }
@@ -228,11 +280,14 @@ class Run {
   Journal journal_;
   DoneBefore before_;
   std::string host_;
-  std::vector<std::uint32_t> todo_, alone_;
-  std::unordered_map<std::uint32_t, std::uint64_t> grants_;
+  std::vector<std::uint32_t> todo_, bundle_, alone_;  // bundle_: taken from todo_, not begun
+  std::unordered_set<std::uint32_t> own_process_;
+  std::unordered_map<std::uint32_t, Granted> grants_;  // by the first file
+  std::size_t next_ = 0, bundle_size_ = 1;
   double cost_ = 0, timeout_ = 0;
   std::uint64_t memory_ = 0, granted_ = 0;
   static constexpr int few = 3;
+  static constexpr double small_cost = 0.005;  // a process costs more than a tenth of that
   int with_codecs_ = 0;
   std::size_t jobs_ = 1, logged_ = 0;
   std::ofstream joblog_;

@@ -48,7 +48,7 @@ void limit(int what, std::uint64_t value) {
 }
 
 /// In the child: never returns.
-[[noreturn]] void work_and_exit(pid_t parent, std::uint64_t memory, int result_fd, int printed_fd, const Workers::Work& work) {
+[[noreturn]] void work_and_exit(pid_t parent, std::uint64_t memory, int told_fd, int printed_fd, const Workers::Work& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);
   setpgid(0, 0);  // with what it starts itself
@@ -61,9 +61,7 @@ void limit(int what, std::uint64_t value) {
   limit(RLIMIT_AS, address_space() + memory);
   int code = Workers::no_memory;
   try {
-    std::string result;
-    code = work(result);
-    write_all(result_fd, result);
+    code = work([&](std::string_view text) { write_all(told_fd, text); });
   } catch (const std::bad_alloc&) {
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
@@ -73,6 +71,13 @@ void limit(int what, std::uint64_t value) {
   std::fflush(stderr);
   _exit(code);  // what is not written yet is not to be written; the memory goes all at once
 }
+
+double cpu_of(const rusage& usage) {
+  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6; };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::uint64_t memory_of(const rusage& usage) { return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; }
 
 bool make_pipe(int (&ends)[2]) { return pipe2(ends, O_CLOEXEC) == 0; }
 
@@ -101,28 +106,28 @@ std::vector<std::size_t> Workers::jobs() const {
 }
 
 bool Workers::start(std::size_t job, std::uint64_t memory, double timeout, const Work& work) {
-  int result[2], printed[2];
-  if (!make_pipe(result)) return false;
-  if (!make_pipe(printed)) return close(result[0]), close(result[1]), false;
+  int told[2], printed[2];
+  if (!make_pipe(told)) return false;
+  if (!make_pipe(printed)) return close(told[0]), close(told[1]), false;
   std::fflush(nullptr);  // or the child would print it, too
   const pid_t self = getpid();
   fork_hooks.before();
   const pid_t pid = fork();
   if (pid == 0) {
     fork_hooks.child();
-    work_and_exit(self, memory, result[1], printed[1], work);
+    work_and_exit(self, memory, told[1], printed[1], work);
   }
   fork_hooks.parent();
-  close(result[1]), close(printed[1]);
-  if (pid < 0) return close(result[0]), close(printed[0]), false;
-  for (int fd : {result[0], printed[0]}) fcntl(fd, F_SETFL, O_NONBLOCK);
-  running_.push_back({job, pid, result[0], printed[0], clock_time(), now(), now() + timeout, false, {}});
+  close(told[1]), close(printed[1]);
+  if (pid < 0) return close(told[0]), close(printed[0]), false;
+  for (int fd : {told[0], printed[0]}) fcntl(fd, F_SETFL, O_NONBLOCK);
+  running_.push_back({job, pid, told[0], printed[0], clock_time(), now(), now() + timeout, false, {}});
   return true;
 }
 
 void Workers::read_some(Worker& w) {
   char piece[65536];
-  for (auto [fd, text] : {std::pair(&w.result, &w.end.result), std::pair(&w.printed, &w.end.printed)}) {
+  for (auto [fd, text] : {std::pair(&w.told, &w.end.told), std::pair(&w.printed, &w.end.printed)}) {
     while (*fd >= 0) {
       const auto n = read(*fd, piece, sizeof piece);
       if (n > 0) text->append(piece, static_cast<std::size_t>(n));
@@ -140,7 +145,7 @@ WorkerEnd Workers::finish(Worker& w) {
   while (waitid(P_PID, static_cast<id_t>(w.pid), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {}
   kill(-w.pid, SIGKILL);  // while the worker's number is still its own
   while (wait4(w.pid, &status, 0, &usage) < 0 && errno == EINTR) {}
-  for (int fd : {w.result, w.printed})
+  for (int fd : {w.told, w.printed})
     if (fd >= 0) close(fd);
   auto& e = w.end;
   e.job = w.job;
@@ -149,9 +154,8 @@ WorkerEnd Workers::finish(Worker& w) {
   e.timed_out = w.timed_out;
   e.started = w.started;
   e.seconds = now() - w.began;
-  auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6; };
-  e.cpu = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  e.memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  e.cpu = cpu_of(usage);
+  e.memory = memory_of(usage);
   if (e.printed.size() > most_printed) e.printed.erase(0, e.printed.size() - most_printed);
   return std::move(e);
 }
@@ -164,7 +168,7 @@ std::optional<WorkerEnd> Workers::wait(double seconds) {
     for (auto& w : running_) {
       if (!w.timed_out && now() >= w.deadline) kill(w.pid, SIGKILL), w.timed_out = true;
       if (!w.timed_out) next = std::min(next, w.deadline);
-      fds.push_back({w.result, POLLIN, 0});
+      fds.push_back({w.told, POLLIN, 0});
       fds.push_back({w.printed, POLLIN, 0});
     }
     const int ms = static_cast<int>(std::clamp((next - now()) * 1000 + 1, 0.0, 60'000.0));
@@ -172,13 +176,19 @@ std::optional<WorkerEnd> Workers::wait(double seconds) {
     for (std::size_t i = 0; i < running_.size(); ++i) {
       auto& w = running_[i];
       read_some(w);
-      if (w.result >= 0) continue;  // what a worker has started itself may hold the other pipe longer
+      if (w.told >= 0) continue;  // what a worker has started itself may hold the other pipe longer
       auto end = finish(w);
       running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
       return end;
     }
     if (now() >= until || interrupted()) return std::nullopt;
   }
+}
+
+Usage::Usage() : time(clock_time()) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  cpu = cpu_of(usage), memory = memory_of(usage);
 }
 
 std::uint64_t free_memory() {

@@ -1,4 +1,4 @@
-// Processes that each do one thing and are gone: what one of them does to itself it does to no other. They are forks of this
+// Processes that do their work and are gone: what one of them does to itself it does to no other. They are forks of this
 // process, so that nothing has to be loaded or read again; this process must have a single thread.
 #pragma once
 #include <sys/types.h>
@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wrlkit {
@@ -19,14 +20,16 @@ struct WorkerEnd {
   bool timed_out = false;
   double started = 0, seconds = 0, cpu = 0;  // Unix time; wall clock; processor
   std::uint64_t memory = 0;                  // most at a time, bytes
-  std::string result;     // what it said of its work
+  std::string told;       // what it said of its work, as far as it came
   std::string printed;    // the end of what it printed
 };
 
 class Workers {
  public:
-  /// Gives what is to be said of the work, and an exit code.
-  using Work = std::function<int(std::string& result)>;
+  /// Takes something to be said of the work, at once: it stays said however the worker ends.
+  using Tell = std::function<void(std::string_view)>;
+  /// Gives an exit code.
+  using Work = std::function<int(const Tell& tell)>;
   /// Of a worker that has run out of memory and knows it.
   static constexpr int no_memory = 100;
 
@@ -51,7 +54,7 @@ class Workers {
   struct Worker {
     std::size_t job;
     pid_t pid;
-    int result, printed;  // pipes
+    int told, printed;  // pipes
     double started, began, deadline;
     bool timed_out = false;
     WorkerEnd end;
@@ -59,6 +62,13 @@ class Workers {
   void read_some(Worker&);
   WorkerEnd finish(Worker&);
   std::vector<Worker> running_;
+};
+
+/// What this process has used up to now.
+struct Usage {
+  Usage();
+  double time, cpu;      // Unix time; processor seconds
+  std::uint64_t memory;  // most at a time, bytes
 };
 
 /// To be called around a fork, by a language that runs in this process as well.
