@@ -18,7 +18,6 @@
 #include "passes/representatives.h"
 #include "passes/simplify/places.h"
 #include "passes/tessellate.h"
-#include "passes/text_list.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -26,11 +25,26 @@
 namespace wrlkit {
 namespace {
 
+// Of compressed glTF, about: of each point and corner that is written once more; of a mesh with its table of places, and of a place in it.
+// A mesh by itself shares indices and normals with others, which halves it.
+constexpr double point_bytes = 8, corner_bytes = 0.7, place_bytes = 10, table_bytes = 600, own_share = 0.4;
+constexpr double large_cell = 50'000;                                     // corners
+
+/// EXT_mesh_gpu_instancing knows translation, rotation and scale, and no mirror images.
+bool can_be_instance(const Matrix& m) {
+  double squares = 0, dots = 0;
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) squares += m(r, c) * m(r, c);
+  for (int c = 0; c < 3; ++c) dots = std::max(dots, std::abs(m(0, c) * m(0, (c + 1) % 3) + m(1, c) * m(1, (c + 1) % 3) + m(2, c) * m(2, (c + 1) % 3)));
+  return m.determinant() > 0 && dots <= 1e-9 * squares;
+}
+
 /// What is known of a geometry without its mesh.
 struct Outline {
   bool known = false;
   std::uint64_t kind = 0;  // what has to agree; 0: nothing to draw
   std::size_t corners = 0;
+  double bytes = 0;  // merged, for each place
   Vec3 centre{};
 };
 
@@ -41,18 +55,20 @@ class Merging {
 
   Outcome run() {
     const auto before = figures_of(scene_);
-    if (still_.too_many() || before.draws <= static_cast<std::size_t>(std::max(options_.max_draws, 0))) return Outcome::unchanged;
+    if (still_.too_many() || (!options_.instanced && before.draws <= static_cast<std::size_t>(std::max(options_.max_draws, 0)))) return Outcome::unchanged;
     names_before_ = names();
     name_parts();
     divide();
     for (const auto& cell : cells_) merge_cell(cell);
-    if (made_.empty()) return Outcome::unchanged;
+    if (made_.empty()) return report_draws_left(before), Outcome::unchanged;
     put_into_zones();
     remove_merged();
-    report_lost_names();
+    keep_lost_names();
     write_csv();
     ctx_.stats["merge.shapes"] += n_made_;
-    count_figures(ctx_, "merge", before, figures_of(scene_));
+    const auto after = figures_of(scene_);
+    report_draws_left(after);
+    count_figures(ctx_, "merge", before, after);
     return Outcome::changed;
   }
 
@@ -61,11 +77,13 @@ class Merging {
   const Outline& outline(NodeId geometry);
   void name_parts();
   void divide();
+  void keep_instances(std::vector<CellItem>& items, std::size_t budget);
   void merge_cell(std::vector<std::uint32_t> cell);
   void put_into_zones();
   void remove_merged();
   std::set<std::string_view> names() const;
-  void report_lost_names();
+  void keep_lost_names();
+  void report_draws_left(const SceneFigures&);
   void write_csv() const;
   const StillPlace& place(std::uint32_t i) const { return still_.places()[i]; }
   NodeId geometry(std::uint32_t i) const { return scene_.get(place(i).shape, nodes::shape::geometry); }
@@ -82,7 +100,8 @@ class Merging {
   std::vector<std::uint32_t> items_;     // places that are drawn
   std::vector<char> merged_;             // by node: Shapes that are not needed any more
   std::map<std::uint32_t, std::vector<NodeId>> made_;  // by zone
-  std::size_t n_made_ = 0;
+  std::size_t n_shared_ = 0;             // draws that figures count, and tables of places save
+  std::size_t n_made_ = 0, n_empty_ = 0;  // n_empty_: places of Shapes that draw nothing
   std::set<std::string_view> names_before_;
   std::set<std::string> merged_parts_;
   Mesh mesh_, all_;
@@ -107,6 +126,7 @@ const Outline& Merging::outline(NodeId g) {
   if (m.corners.empty() || m.kind == Mesh::Kind::none) return o;
   o.kind = static_cast<std::uint64_t>(m.kind) * 64 + m.solid * 32 + m.color.present() * (m.color.width == 4 ? 16 : 8) + m.normal.present() * 2 + m.texcoord.present();
   o.corners = m.corners.size();
+  o.bytes = point_bytes * static_cast<double>(std::min(m.n_positions(), o.corners)) + corner_bytes * static_cast<double>(o.corners);
   Vec3 low{}, high{};
   for (std::size_t i = 0; i < m.corners.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -138,19 +158,20 @@ void Merging::divide() {
   const Representatives same(scene_, usage_, nodes, false);
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>, std::uint32_t> kinds;
   std::vector<CellItem> items;
-  std::size_t n_empty = 0;
   for (std::uint32_t i = 0; i < still_.places().size(); ++i) {
     const Outline& o = outline(geometry(i));
-    n_empty += o.kind == 0;
+    n_empty_ += o.kind == 0;
     if (o.kind == 0) continue;
     const auto appearance = same.of(scene_.get(place(i).shape, nodes::shape::appearance));
     const auto kind = kinds.try_emplace({place(i).zone, appearance.value, o.kind}, static_cast<std::uint32_t>(kinds.size())).first->second;
-    items.push_back({kind, still_.zones()[place(i).zone].times, place(i).frame.point(o.centre), static_cast<double>(o.corners)});
+    items.push_back({kind, still_.zones()[place(i).zone].times, place(i).frame.point(o.centre), static_cast<double>(o.corners), appearance.value});
     items_.push_back(i);
   }
   const auto budget = static_cast<std::size_t>(std::max(options_.max_draws, 0));
-  const auto fixed = still_.n_fixed() + n_empty;
-  cells_ = cells_of(items, budget > fixed ? budget - fixed : 0);
+  const auto fixed = still_.n_fixed() + n_empty_;
+  const auto left = budget > fixed ? budget - fixed : 0;
+  if (options_.instanced) keep_instances(items, left);
+  cells_ = cells_of(items, left, options_.instanced ? large_cell : 0);
   for (auto& cell : cells_)
     for (auto& i : cell) i = items_[i];
   // A Shape whose places all are by themselves stays what it is.
@@ -158,6 +179,47 @@ void Merging::divide() {
   for (const auto& cell : cells_)
     if (cell.size() > 1)
       for (auto i : cell) merged_[place(i).shape.value] = 1;
+}
+
+/// Takes what is drawn by tables of places out of the items.
+void Merging::keep_instances(std::vector<CellItem>& items, std::size_t budget) {
+  struct Sharing {
+    std::vector<std::size_t> items;
+    std::map<std::uint32_t, std::size_t> in_zone;  // places
+    bool fits = true;
+    double saved = 0;
+  };
+  std::map<std::pair<std::uint32_t, NodeId>, Sharing> known;
+  std::map<std::uint32_t, std::size_t> kinds;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const StillPlace& p = place(items_[i]);
+    Sharing& s = known[{items[i].look, geometry(items_[i])}];
+    s.items.push_back(i);
+    ++s.in_zone[p.zone];
+    s.fits &= can_be_instance(p.frame);
+    kinds[items[i].kind] = items[i].cost;
+  }
+  std::size_t draws = 0;
+  for (const auto& [kind, cost] : kinds) draws += cost;
+  std::vector<Sharing*> best;
+  for (auto& [key, s] : known) {
+    const double n = static_cast<double>(s.items.size());
+    s.saved = (n - own_share) * outline(geometry(items_[s.items[0]])).bytes - table_bytes * static_cast<double>(s.in_zone.size()) - place_bytes * n;
+    if (s.fits && s.saved > 0) best.push_back(&s);
+  }
+  std::ranges::stable_sort(best, std::greater{}, &Sharing::saved);
+  std::vector<char> kept(items.size());
+  for (const Sharing* s : best) {
+    std::size_t cost = 0, saved = 0;
+    for (const auto& [zone, n] : s->in_zone) cost += still_.zones()[zone].times, saved += (n - 1) * still_.zones()[zone].times;
+    if (draws + cost > budget) continue;
+    draws += cost, n_shared_ += saved;
+    for (auto i : s->items) kept[i] = 1;
+  }
+  std::size_t to = 0;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (!kept[i]) items[to] = items[i], items_[to++] = items_[i];
+  items.resize(to), items_.resize(to);
 }
 
 void Merging::merge_cell(std::vector<std::uint32_t> cell) {
@@ -236,8 +298,8 @@ std::set<std::string_view> Merging::names() const {
   return out;
 }
 
-/// Those of nodes that are neither there any more nor on the way to a part.
-void Merging::report_lost_names() {
+/// Those of nodes that are neither there any more nor on the way to a part (Coordinates and the like) stay as parts without faces.
+void Merging::keep_lost_names() {
   const auto now = names();
   std::set<std::string_view> in_table;
   for (const auto& path : merged_parts_)
@@ -248,10 +310,21 @@ void Merging::report_lost_names() {
       in_table.insert(step.substr(0, step.find('#')));
       from = to + 1;
     }
-  TextList lost;
+  const NodeId geometry = scene_.get(made_.begin()->second[0], nodes::shape::geometry);
+  const auto parts = features_of(scene_, geometry);
+  if (!parts) return;
+  std::vector<std::string_view> all(parts->names.begin(), parts->names.end());
+  std::vector<std::int32_t> faces(parts->faces.begin(), parts->faces.end());
   for (auto n : names_before_)
-    if (!now.contains(n) && !in_table.contains(n)) lost.add(n);
-  if (!lost.empty()) ctx_.diag.report(Diag::names_lost, {}, "merge", lost.count(), lost.text());
+    if (!now.contains(n) && !in_table.contains(n)) all.push_back(n), faces.push_back(0);
+  if (all.size() > parts->names.size()) set_features(scene_, geometry, {all, faces});
+}
+
+/// One draw for each appearance and place of its own is the least there can be.
+void Merging::report_draws_left(const SceneFigures& left) {
+  const auto draws = left.draws - n_empty_ - n_shared_, fixed = still_.n_fixed();
+  if (draws <= static_cast<std::size_t>(options_.max_draws)) return;
+  ctx_.diag.report(Diag::draws_left, {}, draws, options_.max_draws, std::to_string(draws - std::min(fixed, draws)) + " do not look alike or move by themselves, " + std::to_string(fixed) + " have to stay as they are");
 }
 
 void Merging::write_csv() const {
@@ -271,9 +344,10 @@ void Merging::write_csv() const {
     const NodeId g = scene_.get(shape, nodes::shape::geometry), appearance = scene_.get(shape, nodes::shape::appearance);
     const auto parts = g ? features_of(scene_, g) : std::nullopt;
     if (!parts) return;
-    for (auto name : parts->names) {
+    for (std::size_t i = 0; i < parts->names.size(); ++i) {
+      const auto name = parts->names[i];
       const auto id = ids.try_emplace(name, ids.size()).first->second;
-      if (said.emplace(id, appearance).second) out << id << ',' << quoted(name) << ',' << quoted(appearance ? scene_.name(appearance) : std::string_view()) << '\n';
+      if (parts->faces[i] > 0 && said.emplace(id, appearance).second) out << id << ',' << quoted(name) << ',' << quoted(appearance ? scene_.name(appearance) : std::string_view()) << '\n';
     }
   });
   if (!out.flush()) ctx_.diag.report(Diag::cannot_write, {}, options_.csv, std::generic_category().message(errno ? errno : EIO));

@@ -100,7 +100,12 @@ void Triangulation::drop_flat_triangles() {
   if (i == n) return;
   sources_.resize(3 * n);
   out_ = sources_.data();
-  for (std::size_t f = 0; f < n; ++f) cut_triangle(static_cast<std::uint32_t>(3 * f));
+  mesh_.cut.resize(n);  // parts of merged meshes are counted by the faces that there were
+  for (std::size_t f = 0; f < n; ++f) {
+    const auto* before = out_;
+    cut_triangle(static_cast<std::uint32_t>(3 * f));
+    mesh_.cut[f] = out_ != before;
+  }
   gather();
 }
 

@@ -89,6 +89,8 @@ void small_gltf(CLI::App& verb, Flags& f) {
   verb.add_option("--texture-quality", f.texture_quality, "of JPEG and WebP")->check(CLI::Range(1, 100))->capture_default_str();
   verb.add_option("--texture-size", f.texture_size, "pictures in glTF have so many pixels along their longer side, at most; 0: as they are")->check(CLI::Range(0, static_cast<int>(max_image_side)))->type_name("PIXELS")->capture_default_str();
   verb.add_flag("--gpu-instancing", f.gpu_instancing, "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call (EXT_mesh_gpu_instancing; not every viewer knows it)");
+  verb.add_option("--names", f.names, "names of parts in glTF: nodes, each part is one; table, a table of names and groups that places and merged meshes refer to (EXT_structural_metadata, EXT_mesh_gpu_instancing; with --extras facts)")
+      ->check(CLI::IsMember({"nodes", "table"}))->capture_default_str();
   verb.add_option("--profile", f.profile, "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")->check(CLI::IsMember(profile_names()));
   verb.add_option("--color-bits", f.color_bits, "of each component, in linear light")->check(CLI::Range(1, 16))->capture_default_str();
 }

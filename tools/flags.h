@@ -34,6 +34,7 @@ struct Flags {
   bool print_recipe = false;
   std::vector<std::pair<std::string, std::vector<std::string>>> given;  // every option that was given, by name
   bool animation_pointer = false, gpu_instancing = false;
+  std::string names = "nodes";
   std::string lightmap_as = "base-color";  // what becomes of baked light in glTF
 
   // glTF that is to be small

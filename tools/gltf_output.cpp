@@ -78,15 +78,17 @@ void apply_profile(Flags& f) {
   if (!given("compress")) f.compress = profile->compress;
   if (!given("extras")) f.extras = profile->extras;
   if (!given("texture-format")) f.texture_format = profile->texture_format;
+  if (!given("names")) f.names = profile->names;
 }
 
 std::optional<GltfOptions> gltf_options(const Flags& f) {
   GltfCompression c{.method = method_of(f.compress), .position_bits = f.position_bits, .normal_bits = f.normal_bits, .texcoord_bits = f.texcoord_bits, .color_bits = f.color_bits, .level = f.draco_level};
   if (!f.tolerance.empty()) c.tolerance = length_of(f.tolerance);
   if (!f.tolerance.empty() && !(c.tolerance > 0)) return fmt::print(stderr, "wrlkit: --tolerance: '{}' is no length\n", f.tolerance), std::nullopt;
+  const bool table = f.names == "table";
   std::string name = f.output;
   std::ranges::transform(name, name.begin(), [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
-  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .textures = {format_of(f.texture_format), f.texture_quality, f.texture_size}, .animation_pointer = f.animation_pointer, .gpu_instancing = f.gpu_instancing, .extras = f.extras != "none", .facts_only = f.extras != "all"};
+  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .textures = {format_of(f.texture_format), f.texture_quality, f.texture_size}, .animation_pointer = f.animation_pointer, .names = table ? GltfOptions::Names::table : GltfOptions::Names::nodes, .gpu_instancing = f.gpu_instancing, .extras = f.extras != "none", .facts_only = table || f.extras != "all"};
 }
 
 std::string_view gltf_pipeline(const Flags& f) { return light_of(f.lightmap_as)->pipeline; }

@@ -1,9 +1,14 @@
 // wrlkit optimize: share what is equal, write it small, and say what that did.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
+#include <utility>
 
+#include "parsers/gltf/names.h"
+#include "passes/text_list.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "tools/gltf_output.h"
@@ -14,25 +19,64 @@
 namespace wrlkit {
 namespace {
 
-/// DEF names of what is drawn or holds it: those that a plant's tags are.
-std::set<std::string> names_of(const Scene& scene) {
-  std::set<std::string> out;
+/// All DEF names of the world, and those of what no Switch shows: glTF shows one of its children, and has no place for the others.
+struct Names {
+  std::set<std::string> all, shown;
+};
+
+Names names_of(const Scene& scene) {
+  Names out;
+  std::vector<char> seen(scene.node_count());
+  std::vector<NodeId> open = scene.main.roots;
+  while (!open.empty()) {
+    const NodeId n = open.back();
+    open.pop_back();
+    if (!n || std::exchange(seen[n.value], 1)) continue;
+    if (!scene.name(n).empty()) out.shown.emplace(scene.name(n));
+    const bool chooses = scene.is(n, nodes::Switch);
+    const auto shown = chooses ? shown_children(scene, n) : std::vector<NodeId>();
+    for_each_child(scene, n, [&](NodeId c) {
+      if (!chooses || std::ranges::find(shown, c) != shown.end()) open.push_back(c);
+    });
+  }
   for (NodeId n : reachable(scene, scene.main))
-    if (!scene.name(n).empty() && (scene.is(n, nodes::Shape) || scene.type(n).is_a("X3DGroupingNode"))) out.emplace(scene.name(n));
+    if (!scene.name(n).empty()) out.all.emplace(scene.name(n));
   return out;
 }
 
 struct Before {
   std::uint64_t bytes = 0;
-  std::set<std::string> names;
+  Names names;
 };
 
-std::string text(const Session& s, const Before& before, const std::set<std::string>& lost, const GltfSummary& made) {
-  return fmt::format("{} ({} bytes) -> {} ({} bytes)\n{}  names: {} of {} kept\n", s.flags().inputs[0], before.bytes, s.flags().output, made.bytes(), summary_text(made),
-                     before.names.size() - lost.size(), before.names.size());
+/// Names that the file does not have.
+struct Lost {
+  std::vector<std::string> names;      // of what is shown
+  std::vector<std::string> not_shown;
+};
+
+Lost lost_of(const Names& names, const std::string& path) {
+  Lost out;
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  Diagnostics diag;
+  const auto kept = names_in_gltf(bytes, path, diag);
+  for (const auto& name : names.all)
+    if (!kept.contains(name)) (names.shown.contains(name) ? out.names : out.not_shown).push_back(name);
+  return out;
 }
 
-std::string json_text(const Session& s, const Before& before, const std::set<std::string>& lost, const GltfSummary& made) {
+std::string names_text(const Before& before, const Lost& lost) {
+  std::string out = fmt::format("  names: {} of {} kept", before.names.all.size() - lost.names.size() - lost.not_shown.size(), before.names.all.size());
+  if (!lost.not_shown.empty()) out += fmt::format("; {} are only of nodes that no Switch shows", lost.not_shown.size());
+  return out + '\n';
+}
+
+std::string text(const Session& s, const Before& before, const Lost& lost, const GltfSummary& made) {
+  return fmt::format("{} ({} bytes) -> {} ({} bytes)\n{}{}", s.flags().inputs[0], before.bytes, s.flags().output, made.bytes(), summary_text(made), names_text(before, lost));
+}
+
+std::string json_text(const Session& s, const Before& before, const Lost& lost, const GltfSummary& made) {
   std::string out;
   JsonOut json(out);
   json.begin_object();
@@ -41,11 +85,9 @@ std::string json_text(const Session& s, const Before& before, const std::set<std
   json.member("profile", s.flags().profile);
   json.member("bytes_before", before.bytes);
   json.member("bytes_after", made.bytes());
-  json.member("names_before", before.names.size());
-  json.key("names_lost");
-  json.begin_array();
-  for (const auto& name : lost) json.value(name);
-  json.end_array();
+  json.member("names_before", before.names.all.size());
+  json.member("names_lost", std::span<const std::string>(lost.names));
+  json.member("names_not_shown", std::span<const std::string>(lost.not_shown));
   json.key("gltf");
   json.raw(summary_json(made));
   json.end_object();
@@ -73,9 +115,13 @@ int run_optimize(const Flags& given) {
   options->measure_gzip = !flags.quiet;
   GltfSummary made;
   if (!write_gltf_file(s, *options, made)) return s.end(false);
-  const auto after = names_of(s.world().scene);
-  std::set<std::string> lost;
-  std::ranges::set_difference(before.names, after, std::inserter(lost, lost.end()));
+  // Standard output cannot be read again.
+  const Lost lost = flags.output == "-" ? Lost{} : lost_of(before.names, flags.output);
+  if (!lost.names.empty()) {
+    TextList list;
+    for (const auto& name : lost.names) list.add(name);
+    s.diag().report(Diag::names_lost, {}, "optimize", list.count(), list.text());
+  }
   if (flags.json) fmt::print("{}", json_text(s, before, lost, made));
   else if (!flags.quiet) fmt::print(stderr, "{}", text(s, before, lost, made));
   return s.end(true);

@@ -12,6 +12,7 @@ struct Profile {
   std::string_view compress;  // as --compress says
   std::string_view extras;    // as --extras says
   std::string_view texture_format;  // as --texture-format says
+  std::string_view names;           // as --names says
   std::string_view pipeline;  // what optimize runs in front of what glTF needs
   std::string_view why;
 };

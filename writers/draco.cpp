@@ -14,7 +14,7 @@ namespace wrlkit::gltf {
 namespace {
 
 draco::GeometryAttribute::Type type_of(DracoValues::Kind kind) {
-  constexpr draco::GeometryAttribute::Type types[] = {draco::GeometryAttribute::POSITION, draco::GeometryAttribute::NORMAL, draco::GeometryAttribute::COLOR, draco::GeometryAttribute::TEX_COORD};
+  constexpr draco::GeometryAttribute::Type types[] = {draco::GeometryAttribute::POSITION, draco::GeometryAttribute::NORMAL, draco::GeometryAttribute::COLOR, draco::GeometryAttribute::TEX_COORD, draco::GeometryAttribute::GENERIC};
   return types[static_cast<std::size_t>(kind)];
 }
 
@@ -29,10 +29,15 @@ void add(draco::Mesh& mesh, const DracoValues& v) {
     if (is_new) first.push_back(i);
     of_vertex[i] = at->second;
   }
+  const bool whole = v.kind == DracoValues::Kind::feature;
   draco::GeometryAttribute a;
-  a.Init(type_of(v.kind), nullptr, static_cast<std::int8_t>(v.width), draco::DT_FLOAT32, false, static_cast<std::int64_t>(bytes), 0);
+  a.Init(type_of(v.kind), nullptr, static_cast<std::int8_t>(v.width), whole ? draco::DT_UINT16 : draco::DT_FLOAT32, false, static_cast<std::int64_t>(whole ? sizeof(std::uint16_t) : bytes), 0);
   auto* to = mesh.attribute(mesh.AddAttribute(a, false, static_cast<std::uint32_t>(first.size())));
-  for (std::uint32_t i = 0; i < first.size(); ++i) to->SetAttributeValue(draco::AttributeValueIndex(i), v.values.data() + std::size_t{first[i]} * v.width);
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    const float* value = v.values.data() + std::size_t{first[i]} * v.width;
+    const auto number = static_cast<std::uint16_t>(*value);
+    to->SetAttributeValue(draco::AttributeValueIndex(i), whole ? static_cast<const void*>(&number) : value);
+  }
   for (std::uint32_t i = 0; i < n; ++i) to->SetPointMapEntry(draco::PointIndex(i), draco::AttributeValueIndex(of_vertex[i]));
 }
 
@@ -60,7 +65,7 @@ std::optional<DracoMesh> draco_pack(std::span<const DracoValues> all, std::span<
   draco::Encoder encoder;
   for (const DracoValues& v : all) {
     add(mesh, v);
-    if (v.kind != DracoValues::Kind::position) encoder.SetAttributeQuantization(type_of(v.kind), v.bits);
+    if (v.kind != DracoValues::Kind::position && v.kind != DracoValues::Kind::feature) encoder.SetAttributeQuantization(type_of(v.kind), v.bits);
   }
   set_grid(encoder, all[0].values, step);
   encoder.SetSpeedOptions(10 - level, 10 - level);

@@ -8,11 +8,11 @@
 namespace wrlkit::gltf {
 
 struct DracoValues {
-  enum class Kind : std::uint8_t { position, normal, color, texcoord };
+  enum class Kind : std::uint8_t { position, normal, color, texcoord, feature };
   Kind kind;
   std::uint32_t width;           // components of each value
   std::span<const float> values;  // one for each vertex
-  int bits;                      // not of positions: those lie on their grid
+  int bits;                      // not of positions: those lie on their grid; nor of features, which are whole numbers up to 65535
 };
 
 struct DracoMesh {

@@ -87,9 +87,10 @@ class Writer {
         extras_(scene, diag),
         animations_(scene, reach(options), diag),
         materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
-        meshes_(scene, source, animations_.motion(), store_, options.lightmaps != GltfOptions::Lightmaps::base_color,
+        parts_(options.names == GltfOptions::Names::table),
+        meshes_(scene, source, animations_.motion(), store_, parts_, options.lightmaps != GltfOptions::Lightmaps::base_color,
                 options.compression.method == GltfCompression::Method::meshopt, diag),
-        hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag) {}
+        hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, parts_, diag) {}
 
   bool write() {
     Files files(diag_);
@@ -139,11 +140,21 @@ class Writer {
     if (store_.full()) return report_too_large(store_.bytes(), diag_);
     static const std::vector<Picture> no_pictures;
     Packing packing(options_.compression, store_, meshes_, hierarchy_);
-    Layout layout(packing.store(), packing.blobs(), pictures_inside() ? textures_.pictures() : no_pictures, packing.uses_meshopt());
+    const auto columns = table(packing.uses_meshopt());
+    Layout layout(packing.store(), packing.blobs(), columns, pictures_inside() ? textures_.pictures() : no_pictures, packing.uses_meshopt());
     Parts parts{scene_,     hierarchy_, meshes_, packing,
-                materials_, textures_,  layout,  animations_, options_.extras ? &extras_ : nullptr,
+                materials_, textures_,  layout,  animations_, parts_, options_.extras ? &extras_ : nullptr,
                 options_.facts_only, {}, {}};
     return put(parts);
+  }
+
+  /// In the order in which gltf_json names them.
+  std::vector<Column> table(bool packed) const {
+    std::vector<Column> out;
+    if (!parts_.columns() || parts_.rows().empty()) return out;
+    out = {parts_.texts(), parts_.offsets(packed)};
+    if (parts_.any_parent()) out.push_back(parts_.parents(packed));
+    return out;
   }
 
   std::filesystem::path beside(const std::string& name) const {
@@ -171,7 +182,8 @@ class Writer {
     for (const Node& n : hierarchy_.nodes()) {
       s.named += n.source && !scene_.name(n.source).empty();
       const Instances* table = n.instances == none ? nullptr : &hierarchy_.instances()[n.instances];
-      if (table) s.instances += table->places.size(), s.named += static_cast<std::size_t>(std::ranges::count_if(table->sources, [&](NodeId i) { return !scene_.name(i).empty(); }));
+      if (table && !table->rows.empty()) s.instances += table->places.size();
+      else if (table) s.instances += table->places.size(), s.named += static_cast<std::size_t>(std::ranges::count_if(table->sources, [&](NodeId i) { return !scene_.name(i).empty(); }));
       if (n.attachment != Attachment::mesh) continue;
       ++s.draws;
       const Streams& streams = parts.packing.streams(n.attached);
@@ -179,6 +191,7 @@ class Writer {
       if (meshes_.geometries()[meshes_.meshes()[n.attached].geometry].mode == Mode::triangles)
         s.triangles += accessors[streams.indices == none ? streams.positions : streams.indices].count / 3 * (table ? table->places.size() : 1);
     }
+    for (const auto& row : parts_.rows()) s.named += parts_.columns() && !row.name.empty();
     std::vector<std::string_view> text, pictures, geometry;
     json.pieces(text);
     parts.layout.pieces(geometry, false);
@@ -237,6 +250,7 @@ class Writer {
   Store store_;
   Animations animations_;
   Materials materials_;
+  PartTable parts_;
   Meshes meshes_;
   Hierarchy hierarchy_;
 };

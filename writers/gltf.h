@@ -79,6 +79,10 @@ struct GltfOptions {
   bool measure_gzip = false;  // for the summary
   bool lights = true, cameras = true, animations = true;
   bool animation_pointer = false;      // animations of colours and the like, by KHR_animation_pointer
+  /// Where names of parts stand. table: in a property table (EXT_structural_metadata), with places of equal meshes as tables, too;
+  /// groups that only hold parts are rows then (gltf_parts.h).
+  enum class Names : std::uint8_t { nodes, table };
+  Names names = Names::nodes;
   bool gpu_instancing = false;         // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (gltf_instances.h)
   bool extras = true;                  // what glTF cannot say is kept
   bool facts_only = false;             // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make

@@ -186,6 +186,43 @@ void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> po
   json.end_object();
 }
 
+bool Extras::is_named_child(const Value& v) const {
+  return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && !name(v.node).empty();
+}
+
+bool Extras::has_names_in_geometry(NodeId n) const {
+  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return is_named_child(v); });
+}
+
+void Extras::names_in_geometry(JsonOut& json, NodeId n) {
+  json.key(scene_.type(n).name);
+  json.begin_object();
+  for (const Value& v : scene_.fields(n))
+    if (is_named_child(v)) geometry_field(json, n, v);
+  json.end_object();
+}
+
+bool Extras::has_named_geometry(NodeId shape) const {
+  const NodeId g = scene_.get(shape, nodes::shape::geometry);
+  return g && !shown(shape) && (!name(g).empty() || has_names_in_geometry(g));
+}
+
+void Extras::named_geometry(JsonOut& json, NodeId shape) {
+  const NodeId g = scene_.get(shape, nodes::shape::geometry);
+  json.key("vrml97");
+  json.begin_object();
+  json.key("Shape");
+  json.begin_object();
+  json.key("geometry");
+  json.begin_object();
+  json.key(scene_.type(g).name);
+  json.begin_object();
+  if (!name(g).empty()) json.member("DEF", name(g));
+  for (const Value& v : scene_.fields(g))
+    if (is_named_child(v)) geometry_field(json, g, v);
+  for (int i = 0; i < 4; ++i) json.end_object();
+}
+
 void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {
   json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
   if (scene_.is_extra(v) || info(v.type).element != Element::node || info(v.type).multiple) return value(json, scene_.content(v), 0);

@@ -69,6 +69,11 @@ class Extras {
   void geometry(JsonOut&, NodeId, std::span<const std::uint32_t> polygons, double step);
   /// Is there anything of that?
   bool geometry_says_more(NodeId) const;
+  /// The same with nothing but names: of Coordinates and the like; and of the geometry of a Shape that shows none.
+  void names_in_geometry(JsonOut&, NodeId);
+  bool has_names_in_geometry(NodeId) const;
+  void named_geometry(JsonOut&, NodeId shape);
+  bool has_named_geometry(NodeId shape) const;
   /// The member protos of an object: declarations, and those in their bodies behind them. Each is {PROTO: name, in,
   /// interface, body, routes} or {EXTERNPROTO: name, in, interface, url}.
   void protos(JsonOut&, std::span<const ProtoId>);
@@ -90,6 +95,7 @@ class Extras {
   void name_what_is_referred_to();
   Said said_by_vertices(NodeId geometry) const;
   bool adds_to_vertices(NodeId geometry, const Value&) const;
+  bool is_named_child(const Value&) const;
   void geometry_field(JsonOut&, NodeId, const Value&);
   bool speaks(NodeId, const Value&, Said) const;
   void fields(JsonOut&, NodeId, Said, std::size_t depth, bool only_short = false);

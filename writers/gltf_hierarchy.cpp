@@ -38,13 +38,14 @@ std::vector<double> screen_coverage(std::span<const double> range, double radius
 }  // namespace
 
 Hierarchy::Hierarchy(const Scene& scene, const GltfOptions& options, Meshes& meshes, Materials& materials,
-                     Animations& animations, Extras* extras, Diagnostics& diag)
+                     Animations& animations, Extras* extras, PartTable& parts, Diagnostics& diag)
     : scene_(scene),
       options_(options),
       meshes_(meshes),
       materials_(materials),
       animations_(animations),
       extras_(extras),
+      parts_(parts),
       diag_(diag),
       visited_(scene.node_count(), 0) {}
 
@@ -59,7 +60,8 @@ void Hierarchy::build() {
   }
   add_headlight();
   move_to_origin();
-  if (options_.gpu_instancing) make_instances();
+  if (options_.names == GltfOptions::Names::table) make_part_rows();
+  else if (options_.gpu_instancing) make_instances();
   report_lost();
 }
 
@@ -245,6 +247,7 @@ std::uint32_t Hierarchy::fold(const Frame& f) {
 /// A group and the one thing in it, when only one of them has a name and their transforms are one.
 std::uint32_t Hierarchy::fold_into(const Frame& f, Node& child) {
   const bool drawn = child.attachment == Attachment::mesh || child.attachment == Attachment::nothing;
+  if (child.source && child.attachment == Attachment::nothing && extras_ && scene_.is(child.source, nodes::Shape) && extras_->has_named_geometry(child.source)) return none;
   if (!drawn || child.lod || !child.source || animations_.moves(child.source) || animations_.moves(f.node)) return none;
   if (!scene_.name(child.source).empty() && !scene_.name(f.node).empty()) return none;
   const bool only_groups = scene_.is(child.source, nodes::Transform) || scene_.is(child.source, nodes::Group) || scene_.is(child.source, nodes::Shape);
@@ -262,6 +265,7 @@ std::uint32_t Hierarchy::fold_into(const Frame& f, Node& child) {
 /// Nobody would miss it: no name, nothing in it.
 bool Hierarchy::says_nothing(const Node& n) const {
   const bool group = n.source && scene_.name(n.source).empty() && (scene_.type(n.source).is_a("X3DGroupingNode") || scene_.is(n.source, nodes::Shape));
+  if (group && extras_ && scene_.is(n.source, nodes::Shape) && extras_->has_named_geometry(n.source)) return false;
   return options_.facts_only && group && n.n_children == 0 && n.attachment == Attachment::nothing && !does_something(scene_, n.source);
 }
 
@@ -411,20 +415,33 @@ double decimal(double v, int digits) {
   return std::round(v * per_unit) / per_unit;
 }
 
+double stretch(const Trs& t) { return std::max({std::abs(t.scale[0]), std::abs(t.scale[1]), std::abs(t.scale[2])}); }
+
 }  // namespace
 
-double Hierarchy::round_transforms(double tolerance) {
-  // From the roots down: every node behind its parent, levels of detail beside the first.
-  std::vector<std::uint32_t> order = roots_, parent(nodes_.size(), none);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Node& n = nodes_[order[i]];
-    auto below = [&](std::uint32_t c, std::uint32_t p) { parent[c] = p, order.push_back(c); };
-    for (auto c : children(n)) below(c, order[i]);
+Hierarchy::Family Hierarchy::family() const {
+  Family f{roots_, std::vector<std::uint32_t>(nodes_.size(), none)};
+  for (std::size_t i = 0; i < f.order.size(); ++i) {
+    const auto id = f.order[i];
+    const Node& n = nodes_[id];
+    auto below = [&](std::uint32_t c, std::uint32_t p) { f.parent[c] = p, f.order.push_back(c); };
+    for (auto c : children(n)) below(c, id);
     if (n.lod)
-      for (auto l : lods_.at(order[i]).levels) below(l, parent[order[i]]);
+      for (auto l : lods_.at(id).levels) below(l, f.parent[id]);
   }
+  return f;
+}
+
+std::vector<double> Hierarchy::growth(const Family& f) const {
+  std::vector<double> out(nodes_.size(), 1);
+  for (auto id : f.order)
+    if (const auto p = f.parent[id]; p != none) out[id] = out[p] * (nodes_[p].transform == none ? 1 : stretch(transforms_[nodes_[p].transform]));
+  return out;
+}
+
+double Hierarchy::round_transforms(double tolerance) {
+  const auto [order, parent] = family();
   auto trs = [&](std::uint32_t id) { return nodes_[id].transform == none ? Trs{} : transforms_[nodes_[id].transform]; };
-  auto stretch = [](const Trs& t) { return std::max({std::abs(t.scale[0]), std::abs(t.scale[1]), std::abs(t.scale[2])}); };
   std::vector<double> reach(nodes_.size(), 0);  // of what is in a node, in its frame
   for (std::size_t i = order.size(); i-- > 0;) {
     const std::uint32_t id = order[i];

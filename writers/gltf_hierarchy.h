@@ -43,7 +43,7 @@ struct Lod {
 
 class Hierarchy {
  public:
-  Hierarchy(const Scene&, const GltfOptions&, Meshes&, Materials&, Animations&, Extras*, Diagnostics&);
+  Hierarchy(const Scene&, const GltfOptions&, Meshes&, Materials&, Animations&, Extras*, PartTable&, Diagnostics&);
 
   /// Everything below the roots of the scene.
   void build();
@@ -54,6 +54,14 @@ class Hierarchy {
   double round_transforms(double tolerance);
   /// Gives nodes of meshes the transform that makes metres of whole numbers; null: a mesh needs none.
   void dequantize(const std::function<const Dequantization*(std::uint32_t mesh)>&);
+
+  /// Every node from the roots down, behind its parent; levels of detail beside the first.
+  struct Family {
+    std::vector<std::uint32_t> order, parent;
+  };
+  Family family() const;
+  /// How much lengths grow on the way to the frame that each node is in, at most.
+  std::vector<double> growth(const Family&) const;
 
   const std::vector<Node>& nodes() const { return nodes_; }
   std::span<const std::uint32_t> children(const Node& n) const {
@@ -116,7 +124,10 @@ class Hierarchy {
   void move_to_origin();
   void move(std::uint32_t node, const Vec3& by, std::vector<std::uint32_t>& further);
   void report_lost();
-  bool only_places_a_mesh(const Node&) const;
+  bool only_places_a_mesh(const Node&, const Trs& place) const;
+  bool stays_a_node(const Node&) const;
+  bool find_nodes_that_stay(const Family&, std::vector<char>& stays, std::vector<Matrix>& frame) const;
+  void make_part_rows();
   void make_instances();
   /// Is another node the same once more, so that it has to stay; has it become a row of a table?
   enum class Mark : std::uint8_t { nothing, referred, row };
@@ -129,6 +140,7 @@ class Hierarchy {
   Materials& materials_;
   Animations& animations_;
   Extras* extras_;
+  PartTable& parts_;
   Diagnostics& diag_;
 
   std::vector<Node> nodes_;

@@ -19,12 +19,11 @@ bool is_plain_group(const Scene& scene, NodeId n) { return !n || scene.is(n, nod
 }  // namespace
 
 /// Nothing is lost when it is a row of a table. Mirror images stay: renderers take which side is the front from the node.
-bool Hierarchy::only_places_a_mesh(const Node& n) const {
+bool Hierarchy::only_places_a_mesh(const Node& n, const Trs& t) const {
   if (n.attachment != Attachment::mesh || n.n_children > 0 || n.lod || !n.source || animations_.moves(n.source)) return false;
   if (!is_plain_group(scene_, n.source) && !scene_.is(n.source, nodes::Shape)) return false;
   const Geometry& g = meshes_.geometries()[meshes_.meshes()[n.attached].geometry];
   if (g.morph != none || g.features != none) return false;
-  const Trs t = n.transform == none ? Trs{} : transforms_[n.transform];
   if (!fits(t.translation) || !fits(t.scale) || !(t.scale[0] * t.scale[1] * t.scale[2] > 0)) return false;
   if (!extras_ || options_.facts_only) return true;
   return n.same_as == none && !extras_->is_routed(n.source) && !extras_->says_more(n.source, t.identity() ? nodes::Shape : nodes::Transform, n.plain);
@@ -35,7 +34,7 @@ std::size_t Hierarchy::share_places(std::span<std::uint32_t> siblings, std::vect
   if (siblings.size() < least_instances) return siblings.size();
   std::map<std::uint32_t, std::vector<std::uint32_t>> by_mesh;
   for (auto id : siblings)
-    if (marks[id] == Mark::nothing && only_places_a_mesh(nodes_[id])) by_mesh[nodes_[id].attached].push_back(id);
+    if (marks[id] == Mark::nothing && only_places_a_mesh(nodes_[id], nodes_[id].transform == none ? Trs{} : transforms_[nodes_[id].transform])) by_mesh[nodes_[id].attached].push_back(id);
   for (const auto& [mesh, all] : by_mesh) {
     if (all.size() < least_instances) continue;
     Instances table;
@@ -103,6 +102,9 @@ void Hierarchy::store_instances(Store& store) {
     if (moved || !(turned || scaled)) all.translations = store.vertices(View::moving3, t);
     if (turned) all.rotations = store.vertices(View::moving4, r);
     if (scaled) all.scales = store.vertices(View::moving3, s);
+    std::vector<float> ids;
+    for (auto row : all.rows) ids.push_back(static_cast<float>(row == none ? no_part : row));
+    if (std::ranges::any_of(all.rows, [](auto row) { return row != none; })) all.features = store.vertices(View::part, ids);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "writers/gltf_json.h"
 
+#include <set>
+
 #include "scenegraph/walk.h"
 
 namespace wrlkit::gltf {
@@ -80,11 +82,12 @@ class Writer {
     json_.begin_object();
     json_.member("version", "2.0");
     json_.member("generator", "wrlkit");
-    const auto& parts = p_.meshes.feature_names();
-    if (p_.extras || !parts.empty()) {
+    const auto& parts = p_.names.rows();
+    const bool listed = !p_.names.columns() && !parts.empty();
+    if (p_.extras || listed) {
       json_.key("extras");
       json_.begin_object();
-      list("features", parts.size(), [&](std::size_t i) { json_.value(parts[i]); });
+      if (listed) list("features", parts.size(), [&](std::size_t i) { json_.value(parts[i].name); });
     }
     if (p_.extras) {
       json_.key("vrml97");
@@ -94,7 +97,7 @@ class Writer {
       if (h_.world_info()) p_.extras->node(json_, h_.world_info(), {});
       json_.end_object();
     }
-    if (p_.extras || !parts.empty()) json_.end_object();
+    if (p_.extras || listed) json_.end_object();
     json_.end_object();
   }
 
@@ -105,7 +108,9 @@ class Writer {
     if (p_.materials.uses_unlit()) used.push_back("KHR_materials_unlit");
     if (p_.materials.uses_texture_transform()) used.push_back("KHR_texture_transform");
     if (p_.materials.uses_moz_lightmap()) used.push_back("MOZ_lightmap");
-    if (!p_.meshes.feature_names().empty()) used.push_back("EXT_mesh_features");
+    if (std::ranges::any_of(h_.instances(), [](const Instances& i) { return i.features != none; })) used.push_back("EXT_instance_features");
+    if (p_.meshes.any_features()) used.push_back("EXT_mesh_features");
+    if (has_table()) used.push_back("EXT_structural_metadata");
     if (h_.uses_lod()) used.push_back("MSFT_lod");
     const auto needed = required();
     used.insert(used.end(), needed.begin(), needed.end());
@@ -129,15 +134,56 @@ class Writer {
   }
 
   void extensions() {
-    if (h_.lights().empty()) return;
+    if (h_.lights().empty() && !has_table()) return;
     json_.key("extensions");
     json_.begin_object();
-    json_.key("KHR_lights_punctual");
-    json_.begin_object();
-    list("lights", h_.lights().size(),
-         [&](std::size_t i) { write_light(json_, p_.scene, h_.lights()[i], h_.world()); });
+    if (has_table()) table();
+    if (!h_.lights().empty()) {
+      json_.key("KHR_lights_punctual");
+      json_.begin_object();
+      list("lights", h_.lights().size(), [&](std::size_t i) { write_light(json_, p_.scene, h_.lights()[i], h_.world()); });
+      json_.end_object();
+    }
     json_.end_object();
-    json_.end_object();
+  }
+
+  bool has_table() const { return p_.names.columns() && !p_.names.rows().empty(); }
+
+  /// EXT_structural_metadata: a row for each part and group.
+  void table() {
+    const bool packed = p_.packing.uses_meshopt(), parents = p_.names.any_parent();
+    const std::size_t n = p_.names.rows().size();
+    const auto no_parent = PartTable::no_parent(packed, n);
+    auto object = [&](std::string_view name, auto members) { json_.key(name), json_.begin_object(), members(), json_.end_object(); };
+    auto schema = [&] {
+      json_.member("id", "parts");
+      object("classes", [&] { object("part", [&] { object("properties", [&] {
+        json_.key("name"), json_.raw(R"({"type":"STRING","semantic":"NAME","required":true})");
+        if (parents) object("parent", [&] {
+          json_.member("type", "SCALAR");
+          json_.member("componentType", no_parent == none ? "UINT32" : "UINT16");
+          json_.member("noData", no_parent);
+        });
+      }); }); });
+    };
+    auto columns = [&] {
+      object("name", [&] {
+        json_.member("values", p_.layout.of_column(0));
+        json_.member("stringOffsets", p_.layout.of_column(1));
+        if (p_.layout.stride_of_column(1) != 4) json_.member("stringOffsetType", "UINT16");
+      });
+      if (parents) object("parent", [&] { json_.member("values", p_.layout.of_column(2)); });
+    };
+    object("EXT_structural_metadata", [&] {
+      object("schema", schema);
+      list("propertyTables", 1, [&](std::size_t) {
+        json_.begin_object();
+        json_.member("class", "part");
+        json_.member("count", n);
+        object("properties", columns);
+        json_.end_object();
+      });
+    });
   }
 
   void scene() {
@@ -163,7 +209,11 @@ class Writer {
     if (!main.protos.empty()) p_.extras->protos(json_, main.protos);
     list("imports", main.imports.size(), [&](std::size_t i) { p_.extras->import(json_, main.imports[i]); });
     list("exports", main.exports.size(), [&](std::size_t i) { p_.extras->export_(json_, main.exports[i]); });
-    list("routes", main.routes.size(), [&](std::size_t i) { p_.extras->route(json_, main.routes[i]); });
+    // Facts are of what is in the file: a ROUTE to what no Switch shows leads nowhere.
+    std::vector<const Route*> routes;
+    for (const Route& r : main.routes)
+      if (!p_.facts_only || (p_.extras->is_placed(r.from) && p_.extras->is_placed(r.to))) routes.push_back(&r);
+    list("routes", routes.size(), [&](std::size_t i) { p_.extras->route(json_, *routes[i]); });
     json_.end_object();
     json_.end_object();
   }
@@ -227,13 +277,30 @@ class Writer {
     if (all.translations != none) json_.member("TRANSLATION", p_.packing.of(all.translations));
     if (all.rotations != none) json_.member("ROTATION", p_.packing.of(all.rotations));
     if (all.scales != none) json_.member("SCALE", p_.packing.of(all.scales));
+    if (all.features != none) json_.member("_FEATURE_ID_0", p_.packing.of(all.features));
     json_.end_object();
     json_.end_object();
+    if (all.features != none) instance_features(all);
     json_.end_object();
-    if (std::ranges::all_of(all.sources, [&](NodeId n) { return name_of(n).empty(); })) return;
+    if (!all.rows.empty() || std::ranges::all_of(all.sources, [&](NodeId n) { return name_of(n).empty(); })) return;
     json_.key("extras");
     json_.begin_object();
     list("names", all.sources.size(), [&](std::size_t i) { json_.value(name_of(all.sources[i])); });
+    json_.end_object();
+  }
+
+  void instance_features(const Instances& all) {
+    const std::set<std::uint32_t> ids(all.rows.begin(), all.rows.end());
+    json_.key("EXT_instance_features");
+    json_.begin_object();
+    list("featureIds", 1, [&](std::size_t) {
+      json_.begin_object();
+      json_.member("featureCount", ids.size() - ids.count(none));
+      if (ids.contains(none)) json_.member("nullFeatureId", no_part);
+      json_.member("attribute", 0);
+      json_.member("propertyTable", 0);
+      json_.end_object();
+    });
     json_.end_object();
   }
 
@@ -252,10 +319,12 @@ class Writer {
   void node_extras(const Node& n, std::uint32_t id) {
     bool vrml97 = p_.extras && (p_.facts_only ? is_fact(n) : !n.source || n.same_as != none || p_.extras->says_more(n.source, implied(n), n.plain) || named_as_described(n));
     bool coverage = n.lod && !h_.lod(id).coverage.empty();
-    if (!vrml97 && !coverage) return;
+    const bool unseen = p_.extras && p_.facts_only && !vrml97 && n.source && n.attachment == Attachment::nothing && p_.scene.is(n.source, nodes::Shape) && p_.extras->has_named_geometry(n.source);
+    if (!vrml97 && !coverage && !unseen) return;
     json_.key("extras");
     json_.begin_object();
     if (coverage) numbers("MSFT_screencoverage", std::span(h_.lod(id).coverage));
+    if (unseen) p_.extras->named_geometry(json_, n.source);
     if (vrml97 && (!n.source || n.same_as != none)) {
       json_.key("vrml97");
       json_.begin_object();
@@ -301,7 +370,18 @@ class Writer {
     if (g.features != none) mesh_features(g);
     json_.end_object();
     json_.end_array();
+    if (p_.extras && p_.facts_only && p_.extras->has_names_in_geometry(g.source)) mesh_names(g.source);
     if (p_.extras && !p_.facts_only) mesh_extras(g, s.draco == none, p_.packing.dequantization(m));
+    json_.end_object();
+  }
+
+  void mesh_names(NodeId geometry) {
+    json_.key("extras");
+    json_.begin_object();
+    json_.key("vrml97");
+    json_.begin_object();
+    p_.extras->names_in_geometry(json_, geometry);
+    json_.end_object();
     json_.end_object();
   }
 
@@ -315,6 +395,7 @@ class Writer {
       json_.begin_object();
       json_.member("featureCount", g.n_features);
       json_.member("attribute", 0);
+      if (has_table()) json_.member("propertyTable", 0);
       json_.end_object();
     });
     json_.end_object();
@@ -345,7 +426,7 @@ class Writer {
   void draco(const MeshRecord& m, const Streams& s) {
     Streams ids;
     std::uint32_t next = 0;
-    for (auto part : {&Streams::positions, &Streams::normals, &Streams::colors, &Streams::texcoords, &Streams::lightcoords})
+    for (auto part : {&Streams::positions, &Streams::normals, &Streams::colors, &Streams::texcoords, &Streams::lightcoords, &Streams::features})
       if (s.*part != none) ids.*part = next++;
     json_.key("extensions");
     json_.begin_object();
@@ -442,7 +523,7 @@ class Writer {
     json_.member("buffer", packed ? 1 : 0);
     if (offset > 0) json_.member("byteOffset", offset);
     json_.member("byteLength", packed ? v.unpacked : v.length);
-    if (v.picture == none && v.blob == none) {
+    if (v.picture == none && v.blob == none && v.column == none) {
       const auto& type = info(v.view);
       if (type.vertices) json_.member("byteStride", type.element);
       if (type.vertices || type.indices) json_.member("target", type.vertices ? array_buffer : element_array_buffer);
@@ -453,8 +534,8 @@ class Writer {
 
   void packed_view(const Layout::BufferView& v) {
     constexpr std::string_view filters[] = {"", "OCTAHEDRAL", "EXPONENTIAL"};
-    const auto& type = info(v.view);
-    const bool triangles = v.view == View::index16 || v.view == View::index32;
+    const auto& type = v.column == none ? info(v.view) : info(View::part);  // columns that are packed have elements of four bytes
+    const bool triangles = v.column == none && (v.view == View::index16 || v.view == View::index32);
     json_.key("extensions");
     json_.begin_object();
     json_.key("EXT_meshopt_compression");

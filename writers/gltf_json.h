@@ -19,6 +19,7 @@ struct Parts {
   const Textures& textures;
   const Layout& layout;
   const Animations& animations;
+  const PartTable& names;
   Extras* extras;                         // none: without
   bool facts_only;                        // see GltfOptions
   std::string buffer_uri;                 // none: the buffer is that of a GLB

@@ -97,6 +97,7 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   if (v.index.empty()) return g;
   if (!ordered_ && scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size()) g.polygons = runs(mesh);
   g.origin = move_near_origin(mesh, texcoords);
+  report_coarse(n, mesh);
   std::uint32_t positions = store_.positions(v.position, {v.min, v.max});
   if (!v.normal.empty()) g.normals = store_.vertices(View::normal, v.normal);
   g.opacity = v.color_width == 4;
@@ -134,11 +135,11 @@ bool Meshes::number_parts(NodeId n, const Mesh& mesh) {
   if (parts->n_faces() != (cut.empty() ? mesh.n_faces() : cut.size())) return false;
   std::size_t face = 0;
   for (std::size_t p = 0; p < parts->names.size(); ++p) {
-    auto [at, is_new] = feature_of_.try_emplace(std::string(parts->names[p]), static_cast<std::uint32_t>(feature_names_.size()));
-    if (is_new) feature_names_.push_back(at->first);
+    const auto row = parts_.of_path(parts->names[p]);
+    any_features_ = true;
     for (std::int32_t i = 0; i < parts->faces[p]; ++i, ++face) {
       const std::size_t corners = cut.empty() ? mesh.end_of(face) - mesh.begin_of(face) : cut[face] * std::size_t{3};
-      feature_of_corner_.insert(feature_of_corner_.end(), corners, static_cast<float>(at->second));
+      feature_of_corner_.insert(feature_of_corner_.end(), corners, static_cast<float>(row));
     }
   }
   return true;
@@ -152,6 +153,22 @@ std::uint32_t Meshes::move_near_origin(const Mesh& mesh, bool texcoords) {
   split(mesh, texcoords, *origin);
   origins_.push_back(*origin);
   return static_cast<std::uint32_t>(origins_.size() - 1);
+}
+
+/// A mesh that reaches too far for an origin of its own to help, with details that are no larger than the last digit.
+void Meshes::report_coarse(NodeId n, const Mesh& mesh) {
+  constexpr double least_reach = 1 << 14;  // up to there single precision says millimetres
+  double reach = 0, worst = 0;
+  for (std::size_t i = 0; i < 3; ++i) reach = std::max({reach, std::abs(double{vertices_.min[i]}), std::abs(double{vertices_.max[i]})});
+  if (reach < least_reach) return;
+  auto at = [&](std::size_t corner, std::size_t i) { return mesh.positions[mesh.corners[corner] * std::size_t{3} + i] - vertices_.origin[i]; };
+  for (std::size_t f = 0; f < mesh.n_faces(); ++f) {
+    double moved = 0, size = 0;
+    for (auto c = mesh.begin_of(f); c < mesh.end_of(f); ++c)
+      for (std::size_t i = 0; i < 3; ++i) moved = std::max(moved, std::abs(at(c, i) - static_cast<float>(at(c, i)))), size = std::max(size, std::abs(at(c, i) - at(mesh.begin_of(f), i)));
+    if (moved > size / 4) worst = std::max(worst, moved);
+  }
+  if (worst > 0) diag_.report(Diag::coarse_positions, scene_.where(n), scene_.type(n).name, worst);
 }
 
 std::uint32_t Meshes::mesh(std::uint32_t geometry, const MaterialUse& use) {

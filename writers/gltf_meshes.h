@@ -10,6 +10,7 @@
 #include "writers/gltf_box.h"
 #include "writers/gltf_materials.h"
 #include "writers/gltf_morphs.h"
+#include "writers/gltf_parts.h"
 #include "writers/gltf_store.h"
 #include "writers/gltf_transform.h"
 
@@ -49,8 +50,8 @@ struct MeshRecord {
 class Meshes {
  public:
   /// `light`: places in lightmaps are kept. `ordered`: triangles and vertices come in the order in which they are drawn best.
-  Meshes(const Scene& scene, const MeshSource& source, const Motion& motion, Store& store, bool light, bool ordered, Diagnostics& diag)
-      : scene_(scene), source_(source), store_(store), light_(light), ordered_(ordered), diag_(diag), morphs_(scene, motion, store, diag), by_node_(scene.node_count(), none) {}
+  Meshes(const Scene& scene, const MeshSource& source, const Motion& motion, Store& store, PartTable& parts, bool light, bool ordered, Diagnostics& diag)
+      : scene_(scene), source_(source), store_(store), parts_(parts), light_(light), ordered_(ordered), diag_(diag), morphs_(scene, motion, store, diag), by_node_(scene.node_count(), none) {}
 
   /// Index into geometries() of the data of a geometry node. Texture coordinates that the file does not give are there
   /// only for who has a picture.
@@ -66,8 +67,8 @@ class Meshes {
   const std::vector<Geometry>& geometries() const { return geometries_; }
   const std::vector<MeshRecord>& meshes() const { return meshes_; }
   const std::vector<Vec3>& origins() const { return origins_; }
-  /// Names of parts; the number of a part is its place here.
-  const std::vector<std::string>& feature_names() const { return feature_names_; }
+  /// Rows of the table of parts are in a mesh.
+  bool any_features() const { return any_features_; }
   /// How far a mesh goes from its origin.
   double reach(std::uint32_t mesh) const { return bounds(geometries_[meshes_[mesh].geometry], {}).reach() * std::sqrt(3.0); }
   const Morphs& morphs() const { return morphs_; }
@@ -80,12 +81,14 @@ class Meshes {
   void split(const Mesh&, bool texcoords, const Vec3& origin = {});
   bool number_parts(NodeId, const Mesh&);
   bool gives_texcoords(NodeId) const;
+  void report_coarse(NodeId, const Mesh&);
   std::uint32_t move_near_origin(const Mesh&, bool texcoords);
   std::uint32_t baked(const Geometry&, NodeId texture_transform, std::vector<float> Vertices::*places);
 
   const Scene& scene_;
   const MeshSource& source_;
   Store& store_;
+  PartTable& parts_;
   bool light_, ordered_;
   Diagnostics& diag_;
   Morphs morphs_;
@@ -93,8 +96,7 @@ class Meshes {
   std::vector<Geometry> geometries_;
   std::vector<MeshRecord> meshes_;
   std::vector<Vec3> origins_;
-  std::vector<std::string> feature_names_;
-  std::unordered_map<std::string, std::uint32_t> feature_of_;
+  bool any_features_ = false;
   std::vector<float> feature_of_corner_;  // of the mesh that is being made; empty: it has no parts
   SplitScratch scratch_;
   Mesh faceted_;

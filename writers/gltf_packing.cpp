@@ -5,12 +5,14 @@
 #include <cstring>
 
 #include "writers/draco.h"
+#include "writers/gltf_flat_faces.h"
 
 namespace wrlkit::gltf {
 namespace {
 
 constexpr double usual_tolerance = 1e-3, usual_part_of_world = 8192;
 constexpr double least_steps = 16;  // along the longest side of a mesh: what is smaller than the tolerance is still to be seen
+constexpr int most_halvings = 4;        // of a step on which faces would vanish
 constexpr int more_light_bits = 2;  // a lightmap's texels are small, and those of other charts lie beside them
 
 double tolerance_for(const GltfCompression& options, const Box& world) {
@@ -47,8 +49,10 @@ Packing::Packing(const GltfCompression& options, const Store& from, const Meshes
     const bool still = g.mode == Mode::triangles && g.morph == none;
     streams_[i] = options_.method != Method::draco ? packed(streams_[i]) : still ? draco(streams_[i]) : copied(streams_[i]);
   }
+  double rest = summary_.tolerance - summary_.position;
+  if (options_.method == Method::meshopt && !hierarchy.instances().empty() && rest > 0) rest -= summary_.placement = pack_places(hierarchy, rest / 2);
   pack_others();
-  if (const double rest = summary_.tolerance - summary_.position; rest > 0) summary_.placement = hierarchy.round_transforms(rest);
+  if (rest > 0) summary_.placement += hierarchy.round_transforms(rest);
   hierarchy.dequantize([&](std::uint32_t mesh) { return dequantization(records[mesh]); });
 }
 
@@ -62,6 +66,7 @@ void Packing::note_uses(const Hierarchy& hierarchy) {
     if (g.empty()) continue;
     scale_[g.positions] = std::max(scale_[g.positions], g.scale);
     if (g.morph != none) keep_floats(g);
+    if (g.mode == Mode::triangles) faces_[g.positions].push_back(g.indices);
     if (g.indices != none && g.mode != Mode::triangles) lines_[g.indices] = 1;
   }
   for (const MeshRecord& m : meshes_.meshes())
@@ -95,7 +100,6 @@ Streams Packing::draco(const Streams& s) {
   constexpr std::size_t json_of_view = 160;  // what a view and the extension take, about
   auto [known, is_new] = by_draco_.try_emplace(s);
   if (!is_new) return known->second;
-  if (s.features != none) return ++summary_.kept, known->second = copied(s);  // ids of parts must not be mixed up
   const double grid = step(s.positions), scale = std::max(scale_[s.positions], 0.0);
   if (!fits_grid(floats(s.positions), grid)) return ++summary_.kept, known->second = copied(s);
   double error = 0;
@@ -103,7 +107,7 @@ Streams Packing::draco(const Streams& s) {
   std::vector<std::vector<float>> values;
   std::vector<DracoValues> all{{DracoValues::Kind::position, 3, xyz, 0}};
   std::size_t raw = xyz.size() * sizeof(float) + (s.indices == none ? 0 : from_.bytes(s.indices).size());
-  values.reserve(4);
+  values.reserve(5);
   auto add = [&](std::uint32_t a, DracoValues::Kind kind, int bits) {
     if (a == none) return;
     values.push_back(floats(a));
@@ -115,13 +119,12 @@ Streams Packing::draco(const Streams& s) {
   const int uv_bits = std::min(options_.texcoord_bits + (s.lightcoords != none ? more_light_bits : 0), 16);
   add(s.texcoords, DracoValues::Kind::texcoord, uv_bits);
   add(s.lightcoords, DracoValues::Kind::texcoord, uv_bits);
-  std::vector<std::uint32_t> index(s.indices == none ? xyz.size() / 3 : from_.accessors()[s.indices].count);
-  for (std::uint32_t i = 0; i < index.size(); ++i) index[i] = i;
-  if (s.indices != none) {
-    const std::string bytes = from_.bytes(s.indices);
-    const std::size_t width = bytes.size() / index.size();
-    for (std::size_t i = 0; i < index.size(); ++i) index[i] = 0, std::memcpy(&index[i], bytes.data() + i * width, width);
+  constexpr float most_features = 65535;
+  if (s.features != none) {
+    add(s.features, DracoValues::Kind::feature, 0);
+    if (std::ranges::max(values.back()) > most_features) return ++summary_.kept, known->second = copied(s);
   }
+  const auto index = corners(s.indices, xyz.size() / 3);
   auto mesh = draco_pack(all, index, grid, options_.level);
   if (!mesh || mesh->n_corners == 0 || mesh->bytes.size() + json_of_view >= raw) return ++summary_.kept, known->second = copied(s);
   summary_.position = std::max(summary_.position, error * scale);
@@ -129,10 +132,37 @@ Streams Packing::draco(const Streams& s) {
   for (std::size_t i = 0; i < xyz.size(); ++i) box.low[i % 3] = std::min(box.low[i % 3], xyz[i]), box.high[i % 3] = std::max(box.high[i % 3], xyz[i]);
   auto described = [&](std::uint32_t a) { return a == none ? none : own_.described(from_.accessors()[a].view, mesh->n_vertices); };
   Streams out{own_.described(View::position, mesh->n_vertices, &box), described(s.normals), described(s.colors), described(s.texcoords), described(s.lightcoords)};
+  if (s.features != none) out.features = own_.described(View::short_feature, mesh->n_vertices);
   out.indices = own_.described(mesh->n_vertices <= 65535 ? View::index16 : View::index32, mesh->n_corners);
   out.draco = static_cast<std::uint32_t>(blobs_.size());
   blobs_.push_back(std::move(mesh->bytes));
   return known->second = out;
+}
+
+/// Half of it for translations, a quarter each for rotations and scales.
+double Packing::pack_places(const Hierarchy& hierarchy, double tolerance) {
+  const auto growth = hierarchy.growth(hierarchy.family());
+  std::map<std::uint32_t, double> steps;  // by accessor
+  auto note = [&](std::uint32_t accessor, double step) {
+    if (accessor != none) steps[accessor] = std::min(steps.try_emplace(accessor, step).first->second, step);
+  };
+  for (std::uint32_t id = 0; id < hierarchy.nodes().size(); ++id) {
+    const Node& n = hierarchy.nodes()[id];
+    if (n.instances == none) continue;
+    const Instances& all = hierarchy.instances()[n.instances];
+    double stretch = 0;
+    for (const Trs& t : all.places) stretch = std::max({stretch, std::abs(t.scale[0]), std::abs(t.scale[1]), std::abs(t.scale[2])});
+    const double reach = std::max(meshes_.reach(n.attached) * growth[id], 1e-9);
+    note(all.translations, grid_step(tolerance / 2 / std::max(growth[id], 1e-9)));
+    // A turn by four numbers that are each wrong by half a step moves a point by at most two steps of its distance.
+    note(all.rotations, grid_step(tolerance / 4 / (reach * std::max(stretch, 1e-9)) / 2));
+    note(all.scales, grid_step(tolerance / 4 / reach));
+  }
+  for (const auto& [accessor, step] : steps) {
+    const bool turns = from_.accessors()[accessor].view == View::moving4;
+    once(accessor, [&, view = turns ? View::place4 : View::place3, width = turns ? 4u : 3u] { return own_.raw(view, on_grid(floats(accessor), width, step).bytes); });
+  }
+  return tolerance;
 }
 
 /// What animations have.
@@ -163,6 +193,16 @@ std::uint32_t Packing::copied(std::uint32_t accessor, View view) {
   });
 }
 
+std::vector<std::uint32_t> Packing::corners(std::uint32_t indices, std::size_t n_vertices) const {
+  std::vector<std::uint32_t> index(indices == none ? n_vertices : from_.accessors()[indices].count);
+  for (std::uint32_t i = 0; i < index.size(); ++i) index[i] = i;
+  if (indices == none || index.empty()) return index;
+  const std::string bytes = from_.bytes(indices);
+  const std::size_t width = bytes.size() / index.size();
+  for (std::size_t i = 0; i < index.size(); ++i) index[i] = 0, std::memcpy(&index[i], bytes.data() + i * width, width);
+  return index;
+}
+
 /// Of the grid of some positions, in their own frame.
 double Packing::step(std::uint32_t accessor) const {
   const Bounds& b = from_.bounds_of(accessor);
@@ -170,7 +210,15 @@ double Packing::step(std::uint32_t accessor) const {
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, double{b.high[k]} - b.low[k]);
   if (options_.position_bits > 0 && extent > 0) return std::exp2(std::ceil(std::log2(extent / ((1 << options_.position_bits) - 1))));
   const double scale = scale_[accessor], s = grid_step(summary_.tolerance / (scale > 0 && std::isfinite(scale) ? scale : 1));
-  return extent > 0 && s * least_steps > extent ? std::exp2(std::floor(std::log2(extent / least_steps))) : s;
+  double fine = extent > 0 && s * least_steps > extent ? std::exp2(std::floor(std::log2(extent / least_steps))) : s;
+  const auto faces = faces_.find(accessor);
+  if (faces == faces_.end()) return fine;
+  const auto xyz = floats(accessor);
+  for (auto indices : faces->second) {
+    const auto index = corners(indices, xyz.size() / 3);
+    for (int more = 0; more < most_halvings && loses_faces(xyz, index, fine, summary_.tolerance / (scale > 0 && std::isfinite(scale) ? scale : 1)); ++more) fine /= 2;
+  }
+  return fine;
 }
 
 std::uint32_t Packing::positions(std::uint32_t accessor) {

@@ -42,8 +42,11 @@ class Packing {
   Streams packed(const Streams&);
   Streams copied(const Streams&);
   Streams draco(const Streams&);
+  /// Tables of places on grids, so that nothing moves by more than the tolerance; how far it may.
+  double pack_places(const Hierarchy&, double tolerance);
   void pack_others();
   double step(std::uint32_t positions) const;
+  std::vector<std::uint32_t> corners(std::uint32_t indices, std::size_t n_vertices) const;
   template <class Pack>
   std::uint32_t once(std::uint32_t accessor, Pack);
   std::uint32_t copied(std::uint32_t accessor, View);
@@ -64,6 +67,7 @@ class Packing {
   std::vector<Streams> streams_;
   std::vector<std::uint32_t> to_;
   std::vector<double> scale_;          // of accessors of positions: how much larger they are in the world
+  std::map<std::uint32_t, std::vector<std::uint32_t>> faces_;  // by accessor of positions: of indices of triangles; none: as they stand
   std::vector<std::uint8_t> lines_, light_;  // accessors of indices that are not triangles; of places in lightmaps
   std::unordered_map<std::uint32_t, Dequantization> short_;  // of accessors of positions
   std::vector<std::string> blobs_;

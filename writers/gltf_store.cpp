@@ -37,7 +37,11 @@ const ViewInfo& info(View v) {
       {8, float_, yes, no, no, "VEC2", exponential, "texcoords"},
       {2, unsigned_short, no, yes, no, "SCALAR", none, "indices"},
       {4, unsigned_int, no, yes, no, "SCALAR", none, "indices"},
-      {4, float_, yes, no, no, "SCALAR", none, "features"}};
+      {4, float_, yes, no, no, "SCALAR", none, "features"},
+      {4, float_, no, no, no, "SCALAR", none, "features"},
+      {12, float_, no, no, no, "VEC3", exponential, "places"},
+      {16, float_, no, no, no, "VEC4", exponential, "places"},
+      {4, unsigned_short, yes, no, no, "SCALAR", none, "features"}};
   return table[static_cast<std::size_t>(v)];
 }
 

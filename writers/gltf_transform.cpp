@@ -76,6 +76,35 @@ Matrix matrix(const Trs& t) {
   return out;
 }
 
+std::optional<Trs> trs_of(const Matrix& m) {
+  constexpr double square = 1e-9;
+  Trs t;
+  Matrix r = m;
+  for (int c = 0; c < 3; ++c) {
+    const double length = std::hypot(m(0, c), m(1, c), m(2, c));
+    if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
+    for (int k = 0; k < 3; ++k) r(k, c) /= length;
+    t.scale[static_cast<std::size_t>(c)] = std::abs(length - 1) < square ? 1 : length;
+    t.translation[static_cast<std::size_t>(c)] = m(c, 3);
+  }
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(r(0, c) * r(0, (c + 1) % 3) + r(1, c) * r(1, (c + 1) % 3) + r(2, c) * r(2, (c + 1) % 3)) > square) return std::nullopt;
+  if (!(r.determinant() > 0)) return std::nullopt;
+  // The largest of the four is found first, so that nothing is divided by a small number.
+  const double xx = r(0, 0), yy = r(1, 1), zz = r(2, 2);
+  const std::array<double, 4> quarter{xx + yy + zz, xx - yy - zz, yy - xx - zz, zz - xx - yy};
+  const auto most = std::ranges::max_element(quarter) - quarter.begin();
+  const double s = 2 * std::sqrt(std::max(quarter[static_cast<std::size_t>(most)] + 1, 0.0));
+  const double wx = (r(2, 1) - r(1, 2)) / s, wy = (r(0, 2) - r(2, 0)) / s, wz = (r(1, 0) - r(0, 1)) / s;
+  const double xy = (r(0, 1) + r(1, 0)) / s, xz = (r(0, 2) + r(2, 0)) / s, yz = (r(1, 2) + r(2, 1)) / s;
+  const std::array<Quaternion, 4> all{{{wx, wy, wz, s / 4}, {s / 4, xy, xz, wx}, {xy, s / 4, yz, wy}, {xz, yz, s / 4, wz}}};
+  t.rotation = all[static_cast<std::size_t>(most)];
+  for (double* v : {&t.rotation.x, &t.rotation.y, &t.rotation.z, &t.rotation.w})
+    if (std::abs(*v) < square) *v = 0;
+  if (t.rotation.w < 0) t.rotation = {-t.rotation.x, -t.rotation.y, -t.rotation.z, -t.rotation.w};
+  return t;
+}
+
 double mean_scale(const Matrix& m) { return std::cbrt(std::abs(m.determinant())); }
 
 double largest_scale(const Matrix& m) {

@@ -31,6 +31,8 @@ struct Trs {
 /// At the origin when the position is too large for glTF, or no number.
 Trs placed_at(const Vec3& position, const Quaternion& rotation);
 Matrix matrix(const Trs&);
+/// Nothing when the axes are not at right angles, or make a mirror image, or one has no length.
+std::optional<Trs> trs_of(const Matrix&);
 /// How much lengths grow, on average: cube root of the volume of what was a unit cube.
 double mean_scale(const Matrix&);
 /// How much any length grows, at most; exact where axes stay at right angles, otherwise not below it.

@@ -138,26 +138,28 @@ std::vector<std::pair<std::uint32_t, NodeId>> take_apart(Scene& scene, NodeId ge
   return Parting(scene, geometry, part_of_face).run();
 }
 
-NodeId PartGroups::group(Scene& scene, const std::string& name, std::vector<NodeId>& out) {
-  NodeId& known = groups_[name];
-  if (known) return known;
-  const auto slash = name.rfind('/');
-  const NodeId made = scene.add(nodes::Group);
-  scene.set_name(made, slash == name.npos ? name : name.substr(slash + 1));
-  known = made;
-  if (slash == name.npos) {
-    out.push_back(made);
-    return made;
-  }
-  const NodeId above = group(scene, name.substr(0, slash), out);
-  children_[above].push_back(made);
+NodeId PartGroups::group(Scene& scene, PartRows& table, std::uint32_t row, std::vector<NodeId>& out) {
+  const auto [known, is_new] = groups_.try_emplace(row);
+  if (!is_new) return known->second;
+  const NodeId made = known->second = scene.add(nodes::Group);
+  const auto& rows = table.rows();
+  table.set_made(row);
+  const bool number = rows[row].name.starts_with('#');  // merge has called it so
+  if (!rows[row].name.empty() && !number) scene.set_name(made, rows[row].name);
+  if (rows[row].parent == none) out.push_back(made);
+  else children_[group(scene, table, rows[row].parent, out)].push_back(made);
   return made;
 }
 
-void PartGroups::put(Scene& scene, const std::string& name, NodeId shape, std::vector<NodeId>& out) {
-  if (name.empty()) return out.push_back(shape);
-  const NodeId g = group(scene, name, out);
-  children_[g].push_back(shape);
+void PartGroups::put(Scene& scene, PartRows& rows, std::uint32_t row, NodeId node, std::vector<NodeId>& out) {
+  if (row >= rows.rows().size()) return out.push_back(node);
+  const NodeId g = group(scene, rows, row, out);
+  children_[g].push_back(node);
+}
+
+void PartGroups::put_empty(Scene& scene, PartRows& rows, std::vector<NodeId>& out) {
+  for (std::uint32_t row = 0; row < rows.rows().size(); ++row)
+    if (!rows.is_made(row)) group(scene, rows, row, out);
 }
 
 void PartGroups::finish(Scene& scene) const {

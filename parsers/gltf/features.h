@@ -2,9 +2,9 @@
 // put together, each below the groups that its name tells of.
 #pragma once
 #include <map>
-#include <string>
 #include <vector>
 
+#include "parsers/gltf/part_rows.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::gltf_reader {
@@ -14,17 +14,19 @@ namespace wrlkit::gltf_reader {
 /// that the part uses, in nodes of its own. Linear.
 std::vector<std::pair<std::uint32_t, NodeId>> take_apart(Scene& scene, NodeId geometry, const std::vector<std::uint32_t>& part_of_face);
 
-/// Groups by the names on the way to a part: "Unit/Pump" is a Group Pump in a Group Unit.
+/// Groups of the rows of a table of parts.
 class PartGroups {
  public:
-  /// Puts a Shape into the group of its name. The outermost one is appended to `out` when it is new.
-  void put(Scene& scene, const std::string& name, NodeId shape, std::vector<NodeId>& out);
+  /// Puts a node into the group of a row; `none`: into no group. The outermost one is appended to `out` when it is new.
+  void put(Scene& scene, PartRows& rows, std::uint32_t row, NodeId node, std::vector<NodeId>& out);
+  /// Groups of rows that have become nothing.
+  void put_empty(Scene& scene, PartRows& rows, std::vector<NodeId>& out);
   /// Gives the groups what was put into them.
   void finish(Scene& scene) const;
 
  private:
-  NodeId group(Scene& scene, const std::string& name, std::vector<NodeId>& out);
-  std::map<std::string, NodeId, std::less<>> groups_;
+  NodeId group(Scene& scene, PartRows& rows, std::uint32_t row, std::vector<NodeId>& out);
+  std::map<std::uint32_t, NodeId> groups_;
   std::map<NodeId, std::vector<NodeId>> children_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view understood[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",
                                            "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit", "EXT_mesh_gpu_instancing", "MSFT_lod",
-                                           "EXT_texture_webp", "KHR_materials_emissive_strength"};
+                                           "EXT_texture_webp", "KHR_materials_emissive_strength", "EXT_instance_features", "EXT_mesh_features", "EXT_structural_metadata"};
 
 void check_required(File& file) {
   for (Json e : file.root()["extensionsRequired"].elements())
@@ -48,8 +48,9 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
   Lost lost;
   Context context{file, buffers, accessors, scene, lost};
   Extras extras(context);
-  Meshes meshes(context, extras);
-  Hierarchy hierarchy(context, extras, meshes, limits, file.is_own() ? std::set<std::uint32_t>() : moved_nodes(file));
+  PartRows rows(context);
+  Meshes meshes(context, extras, rows);
+  Hierarchy hierarchy(context, extras, meshes, rows, limits, file.is_own() ? std::set<std::uint32_t>() : moved_nodes(file));
   const Json kept = vrml97(file.at(Table::scenes, file.root()["scene"].whole().value_or(0)));
   scene.comment = std::string(vrml97(file.root()["asset"])["comment"].text());
   extras.protos(kept["protos"]);

@@ -32,8 +32,8 @@ bool has_matrix(const Json& fields) { return fields["center"] || (fields["scaleO
 
 }  // namespace
 
-Hierarchy::Hierarchy(const Context& c, Extras& extras, Meshes& meshes, const ParseLimits& limits, std::set<std::uint32_t> moved)
-    : c_(c), extras_(extras), meshes_(meshes), limits_(limits), moved_(std::move(moved)), parent_(c.file.count(Table::nodes), none), state_(parent_.size()), made_(parent_.size()) {}
+Hierarchy::Hierarchy(const Context& c, Extras& extras, Meshes& meshes, PartRows& rows, const ParseLimits& limits, std::set<std::uint32_t> moved)
+    : c_(c), extras_(extras), meshes_(meshes), rows_(rows), limits_(limits), moved_(std::move(moved)), parent_(c.file.count(Table::nodes), none), state_(parent_.size()), made_(parent_.size()) {}
 
 void Hierarchy::find_parents() {
   for (std::uint32_t n = 0; n < parent_.size(); ++n)
@@ -54,6 +54,7 @@ void Hierarchy::build() {
     part_groups_ = &groups;
     for (Json n : scene["nodes"].elements())
       if (auto i = c_.file.index(Table::nodes, n); i != none) visit(i, 0, origin, all);
+    if (c_.file.is_own()) groups.put_empty(c_.scene, rows_, all);
     groups.finish(c_.scene);
     part_groups_ = nullptr;
     c_.lost.keep(c_.file, scene);
@@ -124,8 +125,7 @@ void Hierarchy::make(std::uint32_t n, std::size_t depth, Vec3 origin, Nodes& out
   const Json json = c_.file.at(Table::nodes, n), extras = vrml97(json);
   Place place = place_of(json);
   if (c_.file.is_own() && instancing(json) && c_.file.index(Table::meshes, json["mesh"]) != none) {
-    auto all = own_instances(n, origin);
-    return void(out.insert(out.end(), all.begin(), all.end()));
+    return own_instances(n, origin, out);
   }
   const bool passes_on = place.translation == Vec3{0, 0, 0} && !place.scaled() && place.rotation[3] == 0 && !json["mesh"] && !json["camera"] && !light_of(json);
   if (!passes_on) {
@@ -275,7 +275,7 @@ Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const Place& place) {
   Nodes out;
   PartGroups apart;
   auto& groups = place.identity() && part_groups_ ? *part_groups_ : apart;
-  for (const auto& part : meshes_.parts(mesh, p)) groups.put(c_.scene, part.name, shape(part, json), out);
+  for (const auto& part : meshes_.parts(mesh, p)) groups.put(c_.scene, rows_, part.row, shape(part, json), out);
   apart.finish(c_.scene);
   if (auto m = meshes_.take_morphs(); !m.empty()) morphs_[n] = std::move(m);
   if (instancing(json)) instances(json, out);
@@ -310,22 +310,34 @@ void Hierarchy::instances(Json node, Nodes& shapes) {
   shapes = std::move(all);
 }
 
-/// Each is what a node with the mesh would be.
-Hierarchy::Nodes Hierarchy::own_instances(std::uint32_t n, const Vec3& origin) {
+/// Each is what a node with the mesh would be, in the group that its row of the table of parts is in.
+void Hierarchy::own_instances(std::uint32_t n, const Vec3& origin, Nodes& out) {
   const Json json = c_.file.at(Table::nodes, n), at = instancing(json);
+  const auto names = json["extras"]["names"].elements(), sets = json["extensions"]["EXT_instance_features"]["featureIds"].elements();
+  const auto ids = sets.empty() ? std::vector<std::uint32_t>() : rows_.ids(sets[0], at);
   const auto mesh = c_.file.index(Table::meshes, json["mesh"]);
-  const auto names = json["extras"]["names"].elements();
-  auto name = names.begin();
-  Nodes out;
+  PartGroups apart;
+  auto& groups = part_groups_ ? *part_groups_ : apart;
+  std::size_t i = 0;
   for (Place p : places(at)) {
-    for (std::size_t i = 0; i < 3; ++i) p.translation[i] += origin[i];
+    for (std::size_t k = 0; k < 3; ++k) p.translation[k] += origin[k];
     Nodes own;
     for (const auto& part : meshes_.parts(mesh, pose(n))) own.push_back(shape(part, json));
-    out.push_back(p.identity() && own.size() == 1 ? own[0] : transform(at, p, own));
-    if (name != names.end()) c_.set_name(out.back(), *name), ++name;
-    extras_.define(out.back());
+    const NodeId made = p.identity() && own.size() == 1 ? own[0] : transform(at, p, own);
+    std::uint32_t row = i < ids.size() && ids[i] < rows_.rows().size() ? ids[i] : none;
+    if (row != none && !rows_.is_group(row)) {
+      const PartRow& part = rows_.rows()[row];
+      rows_.set_made(row);
+      if (!part.name.empty()) c_.scene.set_name(made, part.name);
+      row = part.parent;
+    } else if (i < names.size()) {
+      c_.set_name(made, names[i]);
+    }
+    groups.put(c_.scene, rows_, row, made, out);
+    extras_.define(made);
+    ++i;
   }
-  return out;
+  apart.finish(c_.scene);
 }
 
 // ---- skins ---------------------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ class Hierarchy {
   static constexpr std::size_t max_instances = 1'000'000;  // of EXT_mesh_gpu_instancing
 
   /// `moved`: nodes that must be Transforms.
-  Hierarchy(const Context&, Extras&, Meshes&, const ParseLimits&, std::set<std::uint32_t> moved);
+  Hierarchy(const Context&, Extras&, Meshes&, PartRows&, const ParseLimits&, std::set<std::uint32_t> moved);
 
   /// All scenes; what the default one shows are the scene's roots, the others stand in a Switch that shows none.
   void build();
@@ -50,7 +50,7 @@ class Hierarchy {
   /// Of EXT_mesh_gpu_instancing.
   std::vector<Place> places(Json attributes);
   void instances(Json node, Nodes& shapes);
-  Nodes own_instances(std::uint32_t node, const Vec3& origin);
+  void own_instances(std::uint32_t node, const Vec3& origin, Nodes& out);
   NodeId transform(Json at, const Place&, const Nodes& children, bool moved = false);
   NodeId camera(Json node, const Place&);
   NodeId light(Json node, const Place&, const Matrix& world);
@@ -63,6 +63,7 @@ class Hierarchy {
   Context c_;
   Extras& extras_;
   Meshes& meshes_;
+  PartRows& rows_;
   ParseLimits limits_;
   std::set<std::uint32_t> moved_;
   std::vector<std::uint32_t> parent_;

@@ -109,8 +109,10 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
   NodeId material = material_node(m, s, look);
   const bool multiplied = picture && material && is_multiplied(m, s, material);
   if (multiplied) c_.scene.set(material, c_.scene.make(FieldType::SFNode, c_.scene.is(material, nodes::Material) ? nodes::material::diffuseTexture.slot : nodes::unlit_material::emissiveTexture.slot, picture));
-  const Json name = c_.file.is_whole() ? extras["Appearance"]["DEF"] : m["name"];
-  if (material && c_.file.is_whole() && name.text() != m["name"].text()) c_.set_name(material, m["name"]), material = same_named(material, nodes::Material);
+  // What has no name of its own is called by that of the Material, or of the Appearance; wrlkit says which.
+  const bool apart = c_.file.is_own() && (material || c_.file.is_whole());
+  const Json name = apart ? extras["Appearance"]["DEF"] : m["name"];
+  if (material && apart && name.text() != m["name"].text()) c_.set_name(material, m["name"]), material = same_named(material, nodes::Material);
   if (!material && !picture && !name) return look;
   look.appearance = c_.add(nodes::Appearance, m);
   if (material) c_.scene.set(look.appearance, nodes::appearance::material, material);

@@ -1,6 +1,7 @@
 #include "parsers/gltf/meshes.h"
 
 #include <algorithm>
+#include <utility>
 #include <cmath>
 
 #include "parsers/gltf/draco.h"
@@ -59,6 +60,7 @@ bool is_identity_factor(const Vec3& f) { return f == Vec3{1, 1, 1}; }
 std::vector<Meshes::Part> Meshes::parts(std::uint32_t index, const Pose& pose) {
   std::vector<Part> out;
   morphs_.clear();
+  unpacked_ids_.clear();
   const Json mesh = c_.file.at(Table::meshes, index);
   std::uint32_t k = 0;
   for (Json json : mesh["primitives"].elements()) {
@@ -107,6 +109,7 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
     if (!load(p, how, texcoord, s)) return std::nullopt;
     geometry = foreign(p, s, look);
     if (!geometry) return std::nullopt;
+    if (c_.file.is_own()) name_attributes(geometry, kept);
     if (!c_.file.is_own()) report_lost(p, texcoord);
   }
   if (p.mesh["primitives"].elements().size() == 1) c_.set_name(geometry, p.mesh["name"]);
@@ -130,20 +133,14 @@ std::vector<Meshes::Part> Meshes::features(const Primitive& p, const Part& whole
   const Json set = p.json["extensions"]["EXT_mesh_features"];
   const auto first = first_vertex_.find(whole.geometry.value);
   if (!c_.file.is_own() || !set || first == first_vertex_.end()) return out;
-  const auto ids = c_.accessors.numbers(c_.file.index(Table::accessors, p.json["attributes"]["_FEATURE_ID_0"]), {1});
-  if (!ids) return out;
+  const auto sets = set["featureIds"].elements();
+  const Json ids_of = sets.empty() ? Json() : sets[0];
+  const bool packed = bool(p.json["extensions"]["KHR_draco_mesh_compression"]);
+  const auto ids = packed ? rows_.ids(ids_of, std::exchange(unpacked_ids_, {})) : rows_.ids(ids_of, p.json["attributes"]);
+  if (ids.empty()) return out;
   std::vector<std::uint32_t> of_face;
-  for (auto v : first->second) {
-    const double id = v < ids->count() ? ids->values[v] : -1;
-    if (!(id >= 0 && id < 16777216)) return c_.diag().report(Diag::gltf_bad_value, c_.file.where(set), "_FEATURE_ID_0"), out;
-    of_face.push_back(static_cast<std::uint32_t>(id));
-  }
-  if (!feature_names_) {
-    feature_names_.emplace();
-    for (Json n : c_.file.root()["asset"]["extras"]["features"].elements()) feature_names_->push_back(n.text());
-  }
-  for (auto [id, geometry] : take_apart(c_.scene, whole.geometry, of_face))
-    out.push_back({whole.appearance, geometry, id < feature_names_->size() ? std::string((*feature_names_)[id]) : std::string()});
+  for (auto v : first->second) of_face.push_back(v < ids.size() ? ids[v] : none);
+  for (auto [row, geometry] : take_apart(c_.scene, whole.geometry, of_face)) out.push_back({whole.appearance, geometry, row});
   return out;
 }
 
@@ -220,7 +217,7 @@ bool Meshes::load_draco(const Primitive& p, const std::string& texcoord, Streams
   if (!bytes) return false;
   struct Row { const char* name; Stream* to; std::size_t width; };
   const std::string color_type(c_.file.at(Table::accessors, p.json["attributes"]["COLOR_0"].whole().value_or(none))["type"].text());
-  const Row rows[] = {{"POSITION", &s.position, 3}, {"NORMAL", &s.normal, 3}, {"COLOR_0", &s.color, color_type == "VEC4" ? 4u : 3u}, {texcoord.c_str(), &s.texcoord, 2}};
+  const Row rows[] = {{"POSITION", &s.position, 3}, {"NORMAL", &s.normal, 3}, {"COLOR_0", &s.color, color_type == "VEC4" ? 4u : 3u}, {texcoord.c_str(), &s.texcoord, 2}, {"_FEATURE_ID_0", &s.feature, 1}};
   std::vector<DracoAttribute> wanted;
   std::vector<const Row*> used;
   for (const Row& r : rows)
@@ -234,6 +231,7 @@ bool Meshes::load_draco(const Primitive& p, const std::string& texcoord, Streams
   }
   if (s.position.values.empty()) return c_.diag().report(Diag::gltf_bad_value, c_.file.where(p.json), "primitive without POSITION"), false;
   s.n = s.position.values.size() / 3;
+  unpacked_ids_ = std::move(s.feature.values);
   s.index = std::move(*index);
   s.indexed = s.loose = true;
   return true;
@@ -481,6 +479,13 @@ std::vector<std::uint32_t> Meshes::first_vertices(const Primitive& p, const std:
   std::vector<std::uint32_t> out;
   for (std::size_t f = 0; f < faces.size(); ++f) out.push_back(faces.corners[faces.begin[f]]);
   return out;
+}
+
+/// Of files that keep facts: the names are all that is said of them.
+void Meshes::name_attributes(NodeId n, Json kept) {
+  const Json fields = kept[c_.scene.type(n).name];
+  for (Json f : fields.is_object() ? fields : Json())
+    if (auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97); slot && info(c_.scene.type(n).fields[*slot].type).element == Element::node) name_attribute(c_.scene.value(n, *slot).node, f);
 }
 
 void Meshes::name_attribute(NodeId n, Json kept) {

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "parsers/gltf/materials.h"
+#include "parsers/gltf/part_rows.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit::gltf_reader {
@@ -34,11 +35,11 @@ class Meshes {
  public:
   static constexpr std::uint64_t max_posed = 20'000'000;  // vertices of skinned and morphed meshes
 
-  Meshes(const Context& c, Extras& extras) : c_(c), extras_(extras), materials_(c, extras), reported_(c.file.count(Table::meshes)) {}
+  Meshes(const Context& c, Extras& extras, PartRows& rows) : c_(c), extras_(extras), rows_(rows), materials_(c, extras), reported_(c.file.count(Table::meshes)) {}
 
   struct Part {
     NodeId appearance, geometry;
-    std::string name{};  // of a part of a merged mesh: the names on the way to it
+    std::uint32_t row = none;  // of a part of a merged mesh, in the table of parts
   };
   /// One for each primitive that can be had.
   std::vector<Part> parts(std::uint32_t mesh, const Pose&);
@@ -58,7 +59,7 @@ class Meshes {
     explicit operator bool() const { return accessor != none || !values.empty(); }
   };
   struct Streams {
-    Stream position, normal, color, texcoord;
+    Stream position, normal, color, texcoord, feature;  // feature: of Draco only
     std::size_t n = 0;  // vertices
     std::vector<std::uint32_t> index;
     std::uint32_t index_accessor = none;
@@ -91,17 +92,19 @@ class Meshes {
   void own_lines(NodeId, const Streams&, const std::vector<std::uint32_t>& segments);
   NodeId attribute(TypeId, std::uint16_t slot, FieldType, Stream&, int variant, bool loose, const std::function<void(std::vector<double>&)>& change);
   void name_attribute(NodeId, Json kept);
+  void name_attributes(NodeId, Json kept);
   void report_lost(const Primitive&, const std::string& texcoord);
 
   Context c_;
   Extras& extras_;
+  PartRows& rows_;
   Materials materials_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Part>> parts_;  // by mesh and primitive
   std::map<std::tuple<std::uint32_t, std::uint32_t, int>, NodeId> attributes_;    // by type, accessor and variant
   std::map<std::tuple<int, std::uint32_t, std::size_t>, Value> coord_index_;      // by mode, accessor and vertices
   std::map<std::string, NodeId> own_;                                             // by what they are made of
   std::map<std::uint32_t, std::vector<std::uint32_t>> first_vertex_;  // by geometry node: of each face
-  std::optional<std::vector<std::string_view>> feature_names_;
+  std::vector<double> unpacked_ids_;  // of the primitive at hand
   std::vector<Morph> morphs_;
   std::vector<char> reported_;
   std::uint64_t n_posed_ = 0;

@@ -11,7 +11,7 @@ using Cell = std::vector<std::uint32_t>;
 
 class Halving {
  public:
-  Halving(std::span<const CellItem> items, std::size_t budget) : items_(items), budget_(budget) {}
+  Halving(std::span<const CellItem> items, std::size_t budget, double least) : items_(items), budget_(budget), least_(least) {}
 
   std::vector<Cell> run() {
     std::map<std::uint32_t, Cell> kinds;
@@ -43,7 +43,7 @@ class Halving {
     if (cells_[c].size() < 2) return;
     double weight = 0;
     for (auto i : cells_[c]) weight += items_[i].weight;
-    heaviest_.push({{weight, -static_cast<std::int64_t>(c)}, c});
+    if (weight >= least_) heaviest_.push({{weight, -static_cast<std::int64_t>(c)}, c});
   }
 
   void halve(std::size_t c) {
@@ -66,12 +66,13 @@ class Halving {
 
   std::span<const CellItem> items_;
   std::size_t budget_;
+  double least_;
   std::vector<Cell> cells_;
   std::priority_queue<std::pair<std::pair<double, std::int64_t>, std::size_t>> heaviest_;
 };
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> cells_of(std::span<const CellItem> items, std::size_t budget) { return Halving(items, budget).run(); }
+std::vector<std::vector<std::uint32_t>> cells_of(std::span<const CellItem> items, std::size_t budget, double least) { return Halving(items, budget, least).run(); }
 
 }  // namespace wrlkit

@@ -2,6 +2,7 @@
 // no warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
 // missing, a message.
 //   node validate_gltf.mjs WRLKIT FOLDER [PART-OF-A-NAME] [PIPELINE] [FLAGS-OF-CONVERT...]
+//   node validate_gltf.mjs WRLKIT FOLDER [PART-OF-A-NAME] optimize [FLAGS-OF-OPTIMIZE...]
 import fs from 'node:fs';
 import path from 'node:path';
 import validator from 'gltf-validator';
@@ -46,7 +47,7 @@ function check_end(world, result, out) {
 
 async function check(world) {
   const out = path.join(folder, `${counts.worlds++}.glb`);
-  const result = await run(wrlkit, ['convert', world.file, out, ...(pipeline ? ['-p', pipeline] : []), ...flags], 60);
+  const result = await run(wrlkit, pipeline === 'optimize' ? ['optimize', world.file, out, ...flags] : ['convert', world.file, out, ...(pipeline ? ['-p', pipeline] : []), ...flags], 60);
   if (world.broken) ++counts.broken;
   if (check_end(world, result, out)) await check_result(world, result, out);
   fs.rmSync(out, {force: true});
