@@ -40,7 +40,7 @@ struct Irradiance {
   /// Integrals of radiance * cosine * direction, world axes: along[0] goes with x. Together with direct + indirect the
   /// irradiance-weighted spherical harmonics of degree 0 and 1: c00 = 0.282095 E, c1(axis) = 0.488603 along[axis].
   Rgb along[3]{};
-  float inside = 0;                  // share of the rays that met the back of a solid face: the point lies within something
+  float inside = 0;                  // share of the rays that met the back of an opaque solid face: the point lies within something
   std::uint32_t rays = 0;
   bool by_lamp = false;              // a PointLight, SpotLight or DirectionalLight reaches it
 };

@@ -10,7 +10,7 @@ namespace wrlkit::light {
 struct Arriving {
   V3 direct;                         // from emitters and the sky
   V3 reflected;
-  bool from_inside = false;          // the ray met the back of a solid face: its start is within something
+  bool from_inside = false;          // the ray met the back of an opaque solid face: its start is within something
 };
 
 class Transport {

@@ -136,7 +136,7 @@ SurfacePoint LightWorld::surface(const Hit& hit) const {
   SurfacePoint s;
   s.face = unit(hit.back ? -hit.across : hit.across);
   s.inside = use.inner == (hit.back ? Inner::back : Inner::front);
-  if (hit.leaves != Hit::none && facts_[hit.leaves].sealed && facts_[hit.leaves].inner == Inner::back) s.inside = true;
+  if (hit.leaves != Hit::none && hides(hit.leaves) && facts_[hit.leaves].inner == Inner::back) s.inside = true;
   if (!s.inside) paint(use, hit, s);
   else if (use.clear) s.alpha = std::clamp(base(use, hit).alpha, 0.0, 1.0);
   return s;
@@ -166,8 +166,8 @@ bool LightWorld::encloses(const Ray& from) const {
   Hit hit;
   for (int i = 0; i < most && nearest(from, after, hit); ++i, after = hit.distance) {
     const UseFacts& use = facts_[hit.use];
-    if (use.sealed) left += use.inner == (hit.back ? Inner::back : Inner::front) ? 1 : -1;
-    if (hit.leaves != Hit::none && facts_[hit.leaves].sealed) left += facts_[hit.leaves].inner == Inner::back ? 1 : -1;
+    if (hides(hit.use)) left += use.inner == (hit.back ? Inner::back : Inner::front) ? 1 : -1;
+    if (hit.leaves != Hit::none && hides(hit.leaves)) left += facts_[hit.leaves].inner == Inner::back ? 1 : -1;
   }
   return left > 0;
 }

@@ -92,7 +92,9 @@ class LightWorld {
   /// sees its back is within it even where it touches the front of another one. `inside_out`: its fronts are the inner side.
   /// What it emits goes outwards only.
   void seal(std::uint32_t use, bool inside_out);
-  /// Whether a place lies within sealed surfaces: a ray from there leaves more of them than it enters. As many nearest() as
+  /// Some of a use may be transparent.
+  bool is_clear(std::uint32_t use) const { return facts_[use].clear; }
+  /// Whether a place lies within sealed surfaces that hide it: a ray from there leaves more of them than it enters. As many nearest() as
   /// there are surfaces on its way, 64 at the most.
   bool encloses(const Ray& from) const;
   /// What of the light passes along so much of a ray: 0 when something opaque stands there.
@@ -132,6 +134,7 @@ class LightWorld {
 
  private:
   static constexpr std::uint32_t no_emitter = 0xffffffff;
+  bool hides(std::uint32_t use) const { return facts_[use].sealed && !facts_[use].clear; }
   enum class Inner : std::uint8_t { neither, back, front };  // the side of a face that is black, as nobody sees it
   struct UseFacts {
     std::uint32_t surface = 0;

@@ -66,7 +66,7 @@ class PageBaker {
       if (is_dark(light[i]) && is_enclosed(points_[i])) light[i].inside = 1;
     for (const auto& t : texels_.texels) {
       const std::span all(&light[t.first], t.count);
-      TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, site_of(all), {}, {}, 0, {}, {}};
+      TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, site_of(all, t.first), {}, {}, 0, {}, {}};
       float weight = 0;  // of a point that lies within something, as far as it sees out; such light counts where there is no other
       for (const Irradiance& l : all) {
         if (texel.site == Site::open && l.inside > within) continue;
@@ -94,10 +94,12 @@ class PageBaker {
     return world_.encloses({world_.off_surface(p.position, p.face, p.extent), unit(askew)});
   }
 
-  static Site site_of(std::span<const Irradiance> points) {
-    if (std::ranges::any_of(points, [](const Irradiance& p) { return p.inside <= within; })) return Site::open;
-    const bool leaks = std::ranges::any_of(points, [](const Irradiance& p) { return p.inside == 1 && p.by_lamp; });
-    return leaks ? Site::pierced : Site::within;
+  /// Of the points from `first` on. Few rays may all meet backs of what is open; it is a leak only where closed things are all around.
+  Site site_of(std::span<const Irradiance> light, std::size_t first) const {
+    if (std::ranges::any_of(light, [](const Irradiance& p) { return p.inside <= within; })) return Site::open;
+    for (std::size_t i = 0; i < light.size(); ++i)
+      if (light[i].inside == 1 && light[i].by_lamp && is_enclosed(points_[first + i])) return Site::pierced;
+    return Site::within;
   }
 
   static void add(const Irradiance& from, TexelLight& to) {

@@ -104,7 +104,7 @@ class Backs {
 class Finder {
  public:
   Finder(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx)
-      : scene_(scene), stage_(world.stage()), witnesses_(scene, world), sides_(sides), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
+      : scene_(scene), world_(world), stage_(world.stage()), witnesses_(scene, world), sides_(sides), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
     for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take)) lit_.emplace(s.geometry.value, s);
   }
 
@@ -142,12 +142,14 @@ class Finder {
     const double volume = is_closed(points_of(p.mesh, joiner)) ? signed_volume(p) : 0;
     const bool was_solid = p.mesh.solid;
     p.mesh.solid = true;
-    p.sealed = was_solid ? volume > 0 : volume != 0 && !has_witness(p);
+    p.sealed = was_solid ? volume > 0 : volume != 0 && !is_clear(p) && !has_witness(p);
     if (was_solid) return;
     if (!p.sealed) return Backs(p).append();
     p.inside_out = volume < 0;
     if (p.inside_out) Backs(p).turn();
   }
+
+  bool is_clear(const Part& p) const { return std::ranges::any_of(p.uses, [&](std::uint32_t u) { return world_.is_clear(u); }); }
 
   bool has_witness(const Part& p) const {
     return std::ranges::any_of(p.uses, [&](std::uint32_t u) {
@@ -182,6 +184,7 @@ class Finder {
   }
 
   const Scene& scene_;
+  const light::LightWorld& world_;
   const Stage& stage_;
   Witnesses witnesses_;
   Sides sides_;

@@ -37,7 +37,7 @@ enum class Sides : std::uint8_t { apart, as_they_are };
 /// that events can change. O(triangles).
 ///
 /// Sides apart: a face of `solid` FALSE is seen from both sides, which have light of their own. Where the surface is closed, and
-/// neither a Viewpoint nor anything that shines stands in its box, nobody sees the inner side: it is sealed, and only the outer
+/// opaque, and neither a Viewpoint nor anything that shines stands in its box, nobody sees the inner side: it is sealed, and only the outer
 /// one is lit; one that is wound inside out is turned. Any other surface of `solid` FALSE gets a back for each face, and `solid` TRUE.
 std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx);
 

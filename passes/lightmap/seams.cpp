@@ -9,7 +9,7 @@ namespace {
 
 constexpr float unlike = 0.1f;    // difference that is a jump, relative to the brighter side
 constexpr float unseen = 0.004f;  // in a display-referred picture less than 14 of 255, in the dark
-constexpr float stay = 0.1f;  // what moving a texel costs, against a difference across the seam
+constexpr float stay = 0.02f;  // what moving a texel costs, against a difference across the seam
 
 /// What a bilinear filter shows at a place: four texels and their weights.
 struct Tap {

@@ -38,6 +38,6 @@ struct SeamReport {
 /// squares over the texels that the filter reaches, solved by conjugate gradients. Texels elsewhere stay as they are. Places that lie
 /// within something on either side do not count: nobody sees that side, and the light of the other one may end there.
 /// O(texels along the seams * iterations).
-SeamReport close_seams(std::span<Canvas> pages, std::span<const Seam> seams, int iterations = 30);
+SeamReport close_seams(std::span<Canvas> pages, std::span<const Seam> seams, int iterations = 60);
 
 }  // namespace wrlkit::bake

@@ -223,6 +223,13 @@ TEST_CASE("bake: a closed room of which both sides are to be seen has light on b
   CHECK(Light(lamp, "Room").mesh.corners.size() == 72);
 }
 
+TEST_CASE("bake: what stands in a glass has light of its own, and the glass has it on both sides") {
+  const std::string glass = "appearance Appearance { material Material { transparency 0.5 } } geometry IndexedFaceSet { solid FALSE " + box(false, 2).substr(17);
+  Baked b("DEF In Shape { " + material(0.5) + " geometry " + box(false, 1) + " } DEF Glass Shape { " + glass + " } PointLight { location 0 5 0 attenuation 0 0 1 }", "quality=draft,max-size=128,sky=0:0:0");
+  CHECK(b.stats["lightmap.inside"] == 0);
+  CHECK(Light(b, "Glass").mesh.corners.size() == 72);
+}
+
 TEST_CASE("bake: what shines into a closed thing that it touches is no leak, and shines outwards only") {
   // The lower end of the cap lies in the upper end of the post.
   auto block = [](const char* name, double y, double half, const std::string& surface, const char* solid) {

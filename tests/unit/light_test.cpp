@@ -351,6 +351,10 @@ TEST_CASE("light: behind a pane of glass nobody is within it") {
   Irradiance e = pane.irradiance(up, {.rays = 256});
   CHECK(e.inside == 0);
   CHECK(total(e) == Approx(0.25 * pi).epsilon(0.02));
+  Room jar("Shape { " + glass + "geometry Sphere { radius 3 } }", {.sky = LightOptions::Sky::constant});
+  e = jar.irradiance(up, {.rays = 256});
+  CHECK(e.inside == 0);
+  CHECK(total(e) == Approx(0.5 * pi).epsilon(0.02));
 }
 
 TEST_CASE("light: what is mirrored emits to the front, as it does elsewhere") {
