@@ -13,6 +13,7 @@
 #include "passes/geometry.h"
 #include "passes/merge/cells.h"
 #include "passes/merge/moved.h"
+#include "passes/merge/part_cells.h"
 #include "passes/merge/still_places.h"
 #include "passes/normals.h"
 #include "passes/representatives.h"
@@ -51,23 +52,24 @@ struct Outline {
 class Merging {
  public:
   Merging(Scene& scene, const MergeOptions& options, PassContext& ctx)
-      : scene_(scene), options_(options), ctx_(ctx), usage_(scene), textured_(textured_geometry(scene)), still_(scene, usage_) {}
+      : scene_(scene), options_(options), ctx_(ctx), usage_(scene), textured_(textured_geometry(scene)), still_(scene, usage_, options.parts) {}
 
   Outcome run() {
     const auto before = figures_of(scene_);
-    if (still_.too_many() || (!options_.instanced && before.draws <= static_cast<std::size_t>(std::max(options_.max_draws, 0)))) return Outcome::unchanged;
+    if (still_.too_many() || (!options_.instanced && !options_.parts && before.draws <= static_cast<std::size_t>(std::max(options_.max_draws, 0)))) return Outcome::unchanged;
     names_before_ = names();
     name_parts();
-    divide();
+    if (options_.parts) divide_parts();
+    else divide();
     for (const auto& cell : cells_) merge_cell(cell);
-    if (made_.empty()) return report_draws_left(before), Outcome::unchanged;
+    if (made_.empty()) return options_.parts ? void() : report_draws_left(before), Outcome::unchanged;
     put_into_zones();
     remove_merged();
-    keep_lost_names();
+    if (!options_.parts) keep_lost_names();
     write_csv();
     ctx_.stats["merge.shapes"] += n_made_;
     const auto after = figures_of(scene_);
-    report_draws_left(after);
+    if (!options_.parts) report_draws_left(after);
     count_figures(ctx_, "merge", before, after);
     return Outcome::changed;
   }
@@ -77,8 +79,12 @@ class Merging {
   const Outline& outline(NodeId geometry);
   void name_parts();
   void divide();
+  void divide_parts();
+  void remove_from_groups();
+  std::optional<std::string> names_in_geometry(std::uint32_t place) const;
   void keep_instances(std::vector<CellItem>& items, std::size_t budget);
   void merge_cell(std::vector<std::uint32_t> cell);
+  void take_names(NodeId geometry, NodeId from);
   void put_into_zones();
   void remove_merged();
   std::set<std::string_view> names() const;
@@ -174,11 +180,50 @@ void Merging::divide() {
   cells_ = cells_of(items, left, options_.instanced ? large_cell : 0);
   for (auto& cell : cells_)
     for (auto& i : cell) i = items_[i];
-  // A Shape whose places all are by themselves stays what it is.
+  remove_from_groups();
+}
+
+/// A Shape whose places all are by themselves stays what it is.
+void Merging::remove_from_groups() {
   merged_.resize(scene_.node_count());
   for (const auto& cell : cells_)
     if (cell.size() > 1)
       for (auto i : cell) merged_[place(i).shape.value] = 1;
+}
+
+/// Of a geometry and its Coordinate, as one text; nothing when other names would be lost.
+std::optional<std::string> Merging::names_in_geometry(std::uint32_t i) const {
+  const NodeId g = geometry(i);
+  if (!scene_.name(place(i).shape).empty()) return std::nullopt;
+  std::string out(scene_.name(g));
+  bool others = false;
+  for_each_child(scene_, g, [&](NodeId c) {
+    if (scene_.is(c, nodes::Coordinate)) (out += '\n') += scene_.name(c);
+    else others |= !scene_.name(c).empty();
+  });
+  return others ? std::nullopt : std::optional(out);
+}
+
+void Merging::divide_parts() {
+  std::vector<char> seen;
+  std::vector<NodeId> nodes;
+  reach(scene_, scene_.main.roots, seen, nodes);
+  const Representatives same(scene_, usage_, nodes, false);
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::string>, std::uint32_t> groups;
+  std::vector<PartItem> items;
+  for (std::uint32_t i = 0; i < still_.places().size(); ++i) {
+    const auto own_names = names_in_geometry(i);
+    const Outline& o = outline(geometry(i));
+    if (!own_names || o.kind == 0) continue;
+    const auto appearance = same.of(scene_.get(place(i).shape, nodes::shape::appearance));
+    const auto group = groups.try_emplace({place(i).zone, appearance.value, o.kind, *own_names}, static_cast<std::uint32_t>(groups.size())).first->second;
+    items.push_back({group, geometry(i).value, place(i).shape.value, std::max(still_.zones()[place(i).zone].times, 1u), o.bytes});
+    items_.push_back(i);
+  }
+  cells_ = part_cells(items);
+  for (auto& cell : cells_)
+    for (auto& i : cell) i = items_[i];
+  remove_from_groups();
 }
 
 /// Takes what is drawn by tables of places out of the items.
@@ -246,13 +291,28 @@ void Merging::merge_cell(std::vector<std::uint32_t> cell) {
   }
   const NodeId geometry = scene_.add(all_.kind == Mesh::Kind::lines ? nodes::IndexedLineSet : all_.kind == Mesh::Kind::points ? nodes::PointSet : nodes::IndexedFaceSet);
   store_mesh(scene_, geometry, all_);
-  set_features(scene_, geometry, {names, faces});
+  if (!options_.parts) set_features(scene_, geometry, {names, faces});
+  else take_names(geometry, this->geometry(cell[0]));
   const NodeId shape = scene_.add(nodes::Shape, scene_.where(place(cell[0]).shape));
   if (appearance) scene_.set(shape, nodes::shape::appearance, appearance);
   scene_.set(shape, nodes::shape::geometry, geometry);
   made_[place(cell[0]).zone].push_back(shape);
   ctx_.stats["merge.parts"] += names.size();
   ++n_made_;
+}
+
+/// What is merged has the same names.
+void Merging::take_names(NodeId made, NodeId from) {
+  auto coordinate = [&](NodeId g) {
+    NodeId out{};
+    for_each_child(scene_, g, [&](NodeId c) { out = scene_.is(c, nodes::Coordinate) ? c : out; });
+    return out;
+  };
+  auto take = [&](NodeId to, NodeId of) {
+    if (to && of && !scene_.name(of).empty()) scene_.set_name(to, std::string(scene_.name(of)));
+  };
+  take(made, from);
+  take(coordinate(made), coordinate(from));
 }
 
 void Merging::put_into_zones() {

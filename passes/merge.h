@@ -15,12 +15,13 @@ namespace wrlkit {
 
 struct MergeOptions {
   int max_draws = 500;
-  bool instanced = false;
+  bool instanced = false, parts = false;
   std::string csv;
 
   void fields(auto&& f) {
     f("max-draws", max_draws, "Shapes that are left to be drawn, at most, if there are not more appearances and places of their own", at_least(1));
     f("instanced", instanced, "Shapes that show one geometry often enough stay, because a table of places draws them as one (--names table, --gpu-instancing)");
+    f("parts", parts, "instead: Shapes of one part, without names below one name, that look alike become one where that makes compressed glTF smaller");
     f("csv", csv, "file for a table of the parts: id, name, appearance");
   }
 };
@@ -35,6 +36,9 @@ struct MergeOptions {
 ///   leaves Shapes of one geometry and appearance as they are if that takes less space: some 600 bytes and 10 a place, against 8 for each
 ///   point and 0.7 for each corner of each copy. All of them are one draw then. The rest is merged however few there are, and cells are only halved
 ///   above 50,000 corners: each one takes space, too.
+/// - `parts` asks for something else: no Shape with a name is merged, nothing is taken out of a group with a name, and there are no
+///   feature ids. What is merged are Shapes that nobody could tell apart by name, where their nodes and meshes would take more space than
+///   their vertices do once more: 65 bytes a node, 280 a mesh. Geometries go together that have the same name, or none, as their Coordinates do.
 /// - Each part keeps its name: the DEF names from the root to the Shape, and to its geometry if the Shape has none or is the first with it,
 ///   as in "Unit/Pump". Where two
 ///   parts have one name they are numbered ("Bolt#2"). glTF has a feature id for each corner (EXT_mesh_features) and the

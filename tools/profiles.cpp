@@ -8,10 +8,12 @@ namespace wrlkit {
 namespace {
 
 #define WRLKIT_SHARING "dedup,instance"
+// Where vertices are packed, what has no name is better one mesh than many nodes.
+#define WRLKIT_PACKED WRLKIT_SHARING ",merge{parts=true}"
 constexpr Profile all[] = {
     {"portable", "every viewer of glTF 2.0", "none", "facts", "keep", "nodes", WRLKIT_SHARING, "core glTF: no extension that a viewer must know; equal parts share a mesh, each has a node"},
-    {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", "meshopt", "facts", "webp", "nodes", WRLKIT_SHARING, "their decoder of meshopt is small and fast; it must be given to the loader (GLTFLoader.setMeshoptDecoder)"},
-    {"cesium", "CesiumJS", "meshopt", "facts", "webp", "table", WRLKIT_SHARING ",merge{instanced=true}", "meshopt, quantised numbers and WebP are decoded without being asked for; names in a table are what it picks by: few draws, every part still found"},
+    {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", "meshopt", "facts", "webp", "nodes", WRLKIT_PACKED, "their decoder of meshopt is small and fast; it must be given to the loader (GLTFLoader.setMeshoptDecoder)"},
+    {"cesium", "CesiumJS", "meshopt", "facts", "webp", "table", WRLKIT_PACKED ",merge{instanced=true}", "meshopt, quantised numbers and WebP are decoded without being asked for; names in a table are what it picks by: few draws, every part still found"},
     {"unity", "Unity by glTFast", "quantize", "facts", "keep", "nodes", WRLKIT_SHARING, "quantised numbers need no further package; meshopt and Draco do"},
     {"godot", "Godot 4", "none", "facts", "webp", "nodes", WRLKIT_SHARING, "its importer knows WebP, but neither quantised numbers nor a decoder of meshopt or Draco"},
 };

@@ -186,8 +186,9 @@ void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> po
   json.end_object();
 }
 
+/// A name that another mesh has said already need not be said again.
 bool Extras::is_named_child(const Value& v) const {
-  return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && !name(v.node).empty();
+  return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && !name(v.node).empty() && !said_names_.contains(std::string(name(v.node)));
 }
 
 bool Extras::has_names_in_geometry(NodeId n) const {
@@ -198,29 +199,42 @@ void Extras::names_in_geometry(JsonOut& json, NodeId n) {
   json.key(scene_.type(n).name);
   json.begin_object();
   for (const Value& v : scene_.fields(n))
-    if (is_named_child(v)) geometry_field(json, n, v);
+    if (is_named_child(v)) geometry_field(json, n, v), said_names_.emplace(name(v.node));
   json.end_object();
 }
 
-bool Extras::has_named_geometry(NodeId shape) const {
-  const NodeId g = scene_.get(shape, nodes::shape::geometry);
-  return g && !shown(shape) && (!name(g).empty() || has_names_in_geometry(g));
+bool Extras::has_names_below(NodeId n, std::size_t depth) const {
+  return depth > 0 && std::ranges::any_of(scene_.fields(n), [&](const Value& v) {
+    return is_named_child(v) || (!scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && has_names_below(v.node, depth - 1));
+  });
 }
 
-void Extras::named_geometry(JsonOut& json, NodeId shape) {
-  const NodeId g = scene_.get(shape, nodes::shape::geometry);
+void Extras::names_below(JsonOut& json, NodeId n, std::size_t depth) {
+  for (const Value& v : scene_.fields(n)) {
+    if (scene_.is_extra(v) || v.is || v.type != FieldType::SFNode || !v.node) continue;
+    const bool named = is_named_child(v);
+    if (!named && !has_names_below(v.node, depth - 1)) continue;
+    json.key(scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
+    json.begin_object();
+    json.key(scene_.type(v.node).name);
+    json.begin_object();
+    if (named) json.member("DEF", name(v.node)), said_names_.emplace(name(v.node));
+    if (depth > 1) names_below(json, v.node, depth - 1);
+    json.end_object();
+    json.end_object();
+  }
+}
+
+bool Extras::has_unseen_names(NodeId shape) const { return !shown(shape) && has_names_below(shape, depth_of_names); }
+
+void Extras::unseen_names(JsonOut& json, NodeId shape) {
   json.key("vrml97");
   json.begin_object();
   json.key("Shape");
   json.begin_object();
-  json.key("geometry");
-  json.begin_object();
-  json.key(scene_.type(g).name);
-  json.begin_object();
-  if (!name(g).empty()) json.member("DEF", name(g));
-  for (const Value& v : scene_.fields(g))
-    if (is_named_child(v)) geometry_field(json, g, v);
-  for (int i = 0; i < 4; ++i) json.end_object();
+  names_below(json, shape, depth_of_names);
+  json.end_object();
+  json.end_object();
 }
 
 void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {

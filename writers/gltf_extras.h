@@ -69,11 +69,11 @@ class Extras {
   void geometry(JsonOut&, NodeId, std::span<const std::uint32_t> polygons, double step);
   /// Is there anything of that?
   bool geometry_says_more(NodeId) const;
-  /// The same with nothing but names: of Coordinates and the like; and of the geometry of a Shape that shows none.
+  /// The same with nothing but names: of Coordinates and the like; and of all that is in a Shape that shows nothing.
   void names_in_geometry(JsonOut&, NodeId);
   bool has_names_in_geometry(NodeId) const;
-  void named_geometry(JsonOut&, NodeId shape);
-  bool has_named_geometry(NodeId shape) const;
+  void unseen_names(JsonOut&, NodeId shape);
+  bool has_unseen_names(NodeId shape) const;
   /// The member protos of an object: declarations, and those in their bodies behind them. Each is {PROTO: name, in,
   /// interface, body, routes} or {EXTERNPROTO: name, in, interface, url}.
   void protos(JsonOut&, std::span<const ProtoId>);
@@ -95,7 +95,10 @@ class Extras {
   void name_what_is_referred_to();
   Said said_by_vertices(NodeId geometry) const;
   bool adds_to_vertices(NodeId geometry, const Value&) const;
+  static constexpr std::size_t depth_of_names = 3;  // of a Material in an Appearance in a Shape
   bool is_named_child(const Value&) const;
+  bool has_names_below(NodeId, std::size_t depth) const;
+  void names_below(JsonOut&, NodeId, std::size_t depth);
   void geometry_field(JsonOut&, NodeId, const Value&);
   bool speaks(NodeId, const Value&, Said) const;
   void fields(JsonOut&, NodeId, Said, std::size_t depth, bool only_short = false);
@@ -111,6 +114,7 @@ class Extras {
   std::vector<std::uint8_t> marks_;
   std::unordered_map<std::uint32_t, std::string> given_;
   std::size_t n_written_ = 0;
+  std::unordered_set<std::string> said_names_;  // of Coordinates and the like, alone
   std::optional<std::unordered_set<std::uint32_t>> body_;  // nodes of the prototype that is written: names are its own there
 };
 

@@ -247,7 +247,7 @@ std::uint32_t Hierarchy::fold(const Frame& f) {
 /// A group and the one thing in it, when only one of them has a name and their transforms are one.
 std::uint32_t Hierarchy::fold_into(const Frame& f, Node& child) {
   const bool drawn = child.attachment == Attachment::mesh || child.attachment == Attachment::nothing;
-  if (child.source && child.attachment == Attachment::nothing && extras_ && scene_.is(child.source, nodes::Shape) && extras_->has_named_geometry(child.source)) return none;
+  if (child.source && child.attachment == Attachment::nothing && extras_ && scene_.is(child.source, nodes::Shape) && extras_->has_unseen_names(child.source)) return none;
   if (!drawn || child.lod || !child.source || animations_.moves(child.source) || animations_.moves(f.node)) return none;
   if (!scene_.name(child.source).empty() && !scene_.name(f.node).empty()) return none;
   const bool only_groups = scene_.is(child.source, nodes::Transform) || scene_.is(child.source, nodes::Group) || scene_.is(child.source, nodes::Shape);
@@ -265,7 +265,7 @@ std::uint32_t Hierarchy::fold_into(const Frame& f, Node& child) {
 /// Nobody would miss it: no name, nothing in it.
 bool Hierarchy::says_nothing(const Node& n) const {
   const bool group = n.source && scene_.name(n.source).empty() && (scene_.type(n.source).is_a("X3DGroupingNode") || scene_.is(n.source, nodes::Shape));
-  if (group && extras_ && scene_.is(n.source, nodes::Shape) && extras_->has_named_geometry(n.source)) return false;
+  if (group && extras_ && scene_.is(n.source, nodes::Shape) && extras_->has_unseen_names(n.source)) return false;
   return options_.facts_only && group && n.n_children == 0 && n.attachment == Attachment::nothing && !does_something(scene_, n.source);
 }
 

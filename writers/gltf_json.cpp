@@ -319,12 +319,12 @@ class Writer {
   void node_extras(const Node& n, std::uint32_t id) {
     bool vrml97 = p_.extras && (p_.facts_only ? is_fact(n) : !n.source || n.same_as != none || p_.extras->says_more(n.source, implied(n), n.plain) || named_as_described(n));
     bool coverage = n.lod && !h_.lod(id).coverage.empty();
-    const bool unseen = p_.extras && p_.facts_only && !vrml97 && n.source && n.attachment == Attachment::nothing && p_.scene.is(n.source, nodes::Shape) && p_.extras->has_named_geometry(n.source);
+    const bool unseen = p_.extras && p_.facts_only && !vrml97 && n.source && n.attachment == Attachment::nothing && p_.scene.is(n.source, nodes::Shape) && p_.extras->has_unseen_names(n.source);
     if (!vrml97 && !coverage && !unseen) return;
     json_.key("extras");
     json_.begin_object();
     if (coverage) numbers("MSFT_screencoverage", std::span(h_.lod(id).coverage));
-    if (unseen) p_.extras->named_geometry(json_, n.source);
+    if (unseen) p_.extras->unseen_names(json_, n.source);
     if (vrml97 && (!n.source || n.same_as != none)) {
       json_.key("vrml97");
       json_.begin_object();

@@ -14,8 +14,8 @@ constexpr std::uint32_t no_zone = 0xffffffff;
 
 }  // namespace
 
-StillPlaces::StillPlaces(const Scene& scene, const Usage& usage)
-    : scene_(scene), usage_(usage), bound_(scene.node_count()), takers_(scene.node_count()), zone_at_(scene.node_count()), listed_(scene.node_count()), fixed_(scene.node_count()), named_(scene.node_count()) {
+StillPlaces::StillPlaces(const Scene& scene, const Usage& usage, bool by_name)
+    : scene_(scene), usage_(usage), by_name_(by_name), bound_(scene.node_count()), takers_(scene.node_count()), zone_at_(scene.node_count()), listed_(scene.node_count()), fixed_(scene.node_count()), named_(scene.node_count()) {
   find_bound();
   walk();
   // A Shape that has to stay somewhere stays everywhere.
@@ -52,7 +52,7 @@ bool StillPlaces::is_plain(NodeId n) const {
 /// Something in it or of it goes for what is below, and for nothing else.
 bool StillPlaces::is_apart(NodeId n) const {
   if (!scene_.is(n, nodes::Group) && !scene_.is(n, nodes::Transform) && !scene_.is(n, nodes::StaticGroup)) return true;
-  if (!is_plain(n)) return true;
+  if (!is_plain(n) || (by_name_ && !scene_.name(n).empty())) return true;
   bool apart = false;
   for_each_child(scene_, n, [&](NodeId c) {
     const auto& t = scene_.type(c);

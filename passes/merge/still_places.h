@@ -23,8 +23,8 @@ struct StillPlace {
 
 class StillPlaces {
  public:
-  /// Of the main scope. O(nodes and places).
-  StillPlaces(const Scene& scene, const Usage& usage);
+  /// Of the main scope. `by_name`: nothing is taken out of a group with a name. O(nodes and places).
+  StillPlaces(const Scene& scene, const Usage& usage, bool by_name = false);
 
   /// More places than anybody wants to see: nothing can be said.
   bool too_many() const { return too_many_; }
@@ -62,6 +62,7 @@ class StillPlaces {
 
   const Scene& scene_;
   const Usage& usage_;
+  bool by_name_;
   std::vector<char> bound_;              // by node: of a prototype, or below what is not known
   std::vector<std::uint32_t> takers_;    // by node: lists out of which it may be taken
   std::vector<std::uint32_t> zone_at_;   // by node, plus one
