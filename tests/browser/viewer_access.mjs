@@ -75,6 +75,22 @@ try {
     await page.emulateMedia({media: 'print'});
     assert(!await page.getByRole('button', {name: 'Print'}).isVisible());
     assert(await page.locator('.view canvas').isVisible() && await page.locator('#world-triangles').isVisible());
+    assert(!await page.getByLabel('Search parts').isVisible());
+  });
+  // As it is on the screen, in the light colours; then the screen is as before.
+  await with_page(one, {dark: true, fragment: '#mode=collapse&faces=200'}, async page => {
+    await page.waitForSelector('html[data-collapse]', {state: 'attached'});
+    const shape = () => page.evaluate(() => { const {canvas} = window.viewer.mode.stage, {width, height} = canvas.getBoundingClientRect(); return [canvas.width, canvas.height, Math.round(100 * width / height)]; });
+    const before = await shape();
+    await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
+    await page.emulateMedia({media: 'print'});
+    assert.deepEqual(await shape(), before);
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'light');
+    assert(await page.getByText('At this moment').first().isVisible() && !await page.getByLabel('Three greys').isVisible());
+    await page.emulateMedia({media: 'screen'});
+    await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
+    assert.deepEqual(await shape(), before);
   });
   assert.deepEqual(all_faults, []);
   console.log(`no serious fault; ${lesser} lesser ones`);

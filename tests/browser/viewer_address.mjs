@@ -23,7 +23,10 @@ const radio = (page, name, within = '') => page.locator(`${within} label`).filte
 const tab = (page, name) => page.getByRole('tab', {name}).click();
 const slide = (page, name, value) => page.getByRole('slider', {name}).fill(String(value));
 
-/// What is done to a page; which page; keys that the address has to have then.
+const collapses = page => page.waitForSelector('html[data-collapse]', {state: 'attached'});
+const deviation = page => page.waitForFunction(() => window.viewer.compare.heat[window.viewer.compare.side]);
+
+/// The page; what is done to it; keys that the address has to have then; what is waited for when it is opened again.
 const views = {
   camera: [one, async page => {
     await tab(page, 'View');
@@ -43,12 +46,23 @@ const views = {
   level: [levels, async page => { await tab(page, 'Levels'); await slide(page, 'Level', 2); await page.getByLabel('Tint by level').check(); }, ['level', 'tint']],
   texels: [baked, async page => { await tab(page, 'View'); await radio(page, 'Texels'); }, ['look']],
   difference: [two, async page => { await radio(page, 'Difference'); await slide(page, 'Difference, times', 5); }, ['layout', 'gain']],
+  worst: [two, async page => { await page.getByRole('button', {name: 'Go to the worst place'}).click(); await deviation(page); await page.getByLabel('Edges').check(); }, ['layout', 'side', 'worst'], deviation],
+  other: [two, async page => { await radio(page, 'Deviation'); await deviation(page); await radio(page, 'first'); await slide(page, 'End of the scale', -0.5); await deviation(page); }, ['layout', 'side', 'scale'], deviation],
+  lens: [levels, async page => {
+    await page.getByRole('button', {name: 'Collapse', exact: true}).click();
+    await collapses(page);
+    await page.getByRole('button', {name: 'All of it', exact: true}).click();
+    await page.getByRole('button', {name: '100', exact: true}).click();
+    await radio(page, 'In a lens');
+    const {x, y, width, height} = await page.locator('.view canvas').boundingBox();
+    await page.mouse.move(x + 0.4 * width, y + 0.55 * height);
+  }, ['mode', 'faces', 'detail', 'lens'], collapses],
   divider: [two, async page => { await page.evaluate(() => window.viewer.compare.setDivider(0.3)); }, ['divider']],
 };
 
 const browser = await start_chromium();
 try {
-  for (const [name, [file, act, keys]] of Object.entries(views)) {
+  for (const [name, [file, act, keys, opened = () => undefined]] of Object.entries(views)) {
     const first = await open_page(browser, file);
     const plain = await picture_of(first.page);
     await act(first.page);
@@ -58,6 +72,7 @@ try {
     assert(wanted !== plain, `${name}: nothing is seen of it`);
     for (const key of keys) assert(new URLSearchParams(fragment.slice(1)).has(key), `${name}: '${key}' is not in ${fragment}`);
     const again = await open_page(browser, file, {fragment});
+    await opened(again.page);
     assert(await picture_of(again.page) === wanted, `${name}: another picture by ${fragment}`);
     assert.deepEqual([...first.faults, ...again.faults], [], name);
     await first.close();

@@ -10,7 +10,7 @@ import {file_of} from './worlds.mjs';
 const [program, folder] = process.argv.slice(2);
 fs.mkdirSync(folder, {recursive: true});
 const model = file_of('corpus/paper/ellipsoid_hole_fine.wrl'), html = path.join(folder, 'collapse.html');
-const criteria = ['length-normal', 'melax', 'lindstrom-turk'], points = [5000, 1000, 200, 100];
+const criteria = ['length-normal', 'melax', 'lindstrom-turk'];
 wrlkit(program, 'view', '-q', model, '-o', html);
 
 /// Nine numbers a triangle, of the one IndexedFaceSet of triangles in a file.
@@ -64,22 +64,76 @@ try {
   assert.equal(await faces(), all);
   assert(await picture() === begin, 'the picture after three steps and back');
 
-  // Interaction points against the files of simplify.
+  // Every interaction point against the files of simplify: reached by single steps from above and, from 40 steps below, back.
+  const points = (await page.getByRole('group', {name: 'Interaction points'}).getByRole('button').allTextContents()).map(number_of);
+  assert(points.length > 15);
+  const shown = (i, step) => page.evaluate(([i, step]) => {
+    const {lanes} = window.viewer.collapse, {run} = lanes[i];
+    while (run.at !== Math.min(step, run.steps)) run.goTo(run.at + Math.sign(step - run.at));
+    return Array.from(run.shown());
+  }, [i, step]);
+  const step_of = (i, faces) => page.evaluate(([i, faces]) => window.viewer.collapse.lanes[i].run.stepOf(faces), [i, faces]);
+  let compared = 0;
   for (const [i, criterion] of criteria.entries()) {
-    wrlkit(program, 'simplify', '-q', model, '--counts', points.join(), '--criterion', criterion, '-o', path.join(folder, criterion));
+    const out = path.join(folder, criterion);
+    fs.rmSync(out, {recursive: true, force: true});
+    wrlkit(program, 'simplify', '-q', model, '--counts', points.join(), '--criterion', criterion, '-o', out);
+    const files = fs.readdirSync(out);
     for (const n of points) {
-      await page.getByLabel('Faces', {exact: true}).and(page.locator('input[type=number]')).fill(String(n));
-      await page.keyboard.press('Enter');
-      const shown = await page.evaluate(i => Array.from(window.viewer.collapse.lanes[i].run.shown()), i);
-      const file = fs.readdirSync(path.join(folder, criterion)).find(name => Number(name.match(/_(\d+)\.wrl$/)?.[1]) === shown.length / 9);
-      assert(file, `${criterion}: no file of ${shown.length / 9} faces`);
-      const expected = triangles_of(path.join(folder, criterion, file));
-      assert.equal(shown.length, expected.length);
+      const step = await step_of(i, n), down = await shown(i, step);
+      await shown(i, step + 40);
+      assert.deepEqual(await shown(i, step), down, `${criterion}: ${n} faces on the way back`);
+      const file = files.find(name => Number(name.match(/_(\d+)\.wrl$/)?.[1]) === down.length / 9);
+      assert(file, `${criterion}: no file of ${down.length / 9} faces`);
+      const expected = triangles_of(path.join(out, file));
+      assert.equal(down.length, expected.length);
       // The formulas leave vertices where they were measured; positions in between are rounded to the digits of the file, here four.
-      const wrong = differing(shown, expected, criterion === 'lindstrom-turk' ? 1e-4 : 1e-7);
+      const wrong = differing(down, expected, criterion === 'lindstrom-turk' ? 1e-4 : 1e-7);
       assert.equal(wrong, 0, `${criterion} at ${n} faces: ${wrong} triangles differ`);
+      ++compared;
     }
   }
+
+  // The picture, too: shaded, with the triangles of the page and with those of the file.
+  await page.getByLabel('Shaded').check({force: true});
+  await page.getByLabel('Mark the next edge').uncheck();
+  for (const n of [1000, 200, 50]) {
+    await page.getByRole('button', {name: n.toLocaleString('en'), exact: true}).click();
+    const files = criteria.map(criterion => path.join(folder, criterion, `ellipsoid_hole_fine_${n}.wrl`)).map(triangles_of);
+    const differ = await page.evaluate(async files => {
+      const {collapse} = window.viewer, {renderer, canvas} = collapse.stage, gl = renderer.getContext();
+      const picture = async () => {
+        collapse.stage.invalidate();
+        for (let i = 0; i < 2; ++i) await new Promise(done => requestAnimationFrame(done));
+        const bytes = new Uint8Array(4 * canvas.width * canvas.height);
+        gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+        return bytes;
+      };
+      const own = await picture(), blank = own.slice(0, 3), kept = [];
+      collapse.lanes.forEach(({run}, i) => {
+        const {geometry, center} = run.steppers[0], place = geometry.getAttribute('position'), middle = center.toArray();
+        kept.push(place.array.slice());
+        files[i].forEach((x, k) => { place.array[k] = x - middle[k % 3]; });
+        place.clearUpdateRanges();
+        place.needsUpdate = true;
+      });
+      const other = await picture();
+      collapse.lanes.forEach(({run}, i) => {
+        const place = run.steppers[0].geometry.getAttribute('position');
+        place.array.set(kept[i]);
+        place.needsUpdate = true;
+      });
+      await picture();
+      const apart = (a, b) => { let n = 0; for (let i = 0; i < a.length; i += 4) n += [0, 1, 2].some(k => Math.abs(a[i + k] - b[i + k]) > 8); return n; };
+      let seen = 0;
+      for (let i = 0; i < own.length; i += 4) seen += [0, 1, 2].some(k => own[i + k] !== blank[k]);
+      return {seen, apart: apart(own, other)};
+    }, files);
+    assert(differ.seen > 10_000, 'the picture is empty');
+    assert(differ.apart < differ.seen * 0.0005, `${n} faces: ${differ.apart} of ${differ.seen} pixels differ from the picture of the file`);
+  }
+  await page.getByLabel('Three greys').check({force: true});
+  await page.getByLabel('Mark the next edge').check();
 
   // View-dependent: what the clock says where the lens is not, more in it; near the eye more than far away.
   await page.getByRole('button', {name: '200', exact: true}).click();
@@ -107,7 +161,7 @@ try {
   await page.getByRole('button', {name: 'Original'}).click();
   assert.equal(await faces(), all);
   assert.deepEqual(faults, []);
-  console.log(`${criteria.length} criteria, ${points.length} points: the same triangles as wrlkit simplify`);
+  console.log(`${criteria.length} criteria, ${compared} interaction points, down and back: the same triangles and pictures as those of wrlkit simplify`);
 } finally {
   await browser.close();
 }

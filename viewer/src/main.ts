@@ -8,7 +8,7 @@ import {followAddress} from './state';
 import {CollapsePanel} from './ui/collapse_panel';
 import {ComparePanel} from './ui/compare_panel';
 import {h} from './ui/dom';
-import {count, significant} from './ui/format';
+import {counted, significant} from './ui/format';
 import {listenToKeys} from './ui/keys';
 import {Shell, type ModeView} from './ui/shell';
 import {Tree} from './ui/tree';
@@ -25,7 +25,7 @@ function worldView(mode: WorldMode, shell: Shell, key: string, title: string): M
     if (shell.mode !== key) return;
     const f = mode.stage.figures;
     const wrong = mode.levels && Number.isFinite(mode.levels.figures.pixels) ? ` · error ≤ ${significant(mode.levels.figures.pixels, 2)} px` : '';
-    shell.say(mode.world.empty ? 'This world has nothing that could be seen.' : `${count(f.triangles)} triangles · ${count(f.draws)} draws · ${f.milliseconds.toFixed(1)} ms${wrong}`);
+    shell.say(mode.world.empty ? 'This world has nothing that could be seen.' : `${counted(f.triangles, 'triangle')} · ${counted(f.draws, 'draw')} · ${f.milliseconds.toFixed(1)} ms${wrong}`);
   });
   return {key, title, left: tree.element, right: panel.element, over: null, enter: () => mode.enter()};
 }
@@ -54,6 +54,7 @@ async function start(contents: Contents): Promise<void> {
   const stage = new Stage(shell.canvas);
   shell.onTheme = () => stage.setBackground(new Color(shell.dark ? 0x1a1e23 : 0xf1f3f5));
   shell.onTheme();
+  shell.onPrint = () => stage.drawNow();
   const first = contents.worlds[0]!;
   const world = await loadWorld(first.name, await readFile(first.file));
   const mode = new WorldMode(world, stage);

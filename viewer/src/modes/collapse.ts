@@ -13,7 +13,7 @@ import type {Mode, Stage} from '../view/stage';
 /// What is seen of the next collapse: the edge, and where its vertex will be.
 class NextEdge {
   private readonly line = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({color: 0xe0162b, linewidth: 5, depthTest: false}));
-  private readonly dot = new Points(new BufferGeometry(), new PointsMaterial({color: 0xe0162b, size: 11, sizeAttenuation: false, depthTest: false}));
+  private readonly dot = new Points(new BufferGeometry(), new PointsMaterial({color: 0xe0162b, size: 8, sizeAttenuation: false, depthTest: false}));
 
   constructor(scene: Scene) {
     this.line.renderOrder = this.dot.renderOrder = 1;
@@ -132,7 +132,7 @@ export class CollapseMode implements Mode {
     if (this.detail !== 'lens' || !r) return;
     this.lens.x = (x - r.left) / r.width;
     this.lens.y = (y - r.top) / r.height;
-    state.set('lens', `${this.lens.x.toFixed(3)} ${this.lens.y.toFixed(3)}`);
+    state.set('lens', `${this.lens.x} ${this.lens.y}`);
     this.stage.invalidate();
   }
 

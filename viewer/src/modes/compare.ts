@@ -5,6 +5,7 @@ import {Difference} from '../compare/difference';
 import {Heat, heatColors} from '../compare/heat';
 import {readFile, type Apart} from '../data';
 import {state} from '../state';
+import {drawEdges} from '../view/overlay';
 import type {Mode, Stage} from '../view/stage';
 import type {WorldMode} from './world';
 
@@ -16,6 +17,7 @@ export class CompareMode implements Mode {
   layout: Layout = 'divider';
   divider = 0.5;     // part of the width that shows the first world
   side: 0 | 1 = 0;   // of the deviation: of the first world from the second, or the other way
+  edges = false;
   scale: number;     // metres at the end of the scale
   private readonly difference = new Difference();
   private readonly heat: (Heat | null)[] = [null, null];
@@ -32,11 +34,15 @@ export class CompareMode implements Mode {
     this.heatScene.add(this.worst);
     const wanted = state.get('layout') as Layout | null;
     if (wanted && layouts.includes(wanted)) this.layout = wanted;
-    this.side = state.get('side') === '1' ? 1 : 0;
+    const said = state.get('side');
+    this.side = said ? said === '1' ? 1 : 0 : this.worse;
     if (apart && state.get('worst')) this.markWorst(apart.where);
     this.scale *= state.number('scale') ?? 1;
     this.divider = state.number('divider') ?? this.divider;
   }
+
+  /// The world on which the larger deviation was measured.
+  private get worse(): 0 | 1 { return this.apart && this.apart.sides[1].max > this.apart.sides[0].max ? 1 : 0; }
 
   onChange(call: () => void): void { this.changed.push(call); }
 
@@ -55,20 +61,20 @@ export class CompareMode implements Mode {
 
   async setSide(side: 0 | 1): Promise<void> {
     this.side = side;
-    state.set('side', side === 1 ? 1 : null);
+    state.set('side', side);
     await this.loadHeat();
     this.update();
   }
 
   setScale(metres: number): void {
     this.scale = metres;
-    if (this.apart && this.apart.max > 0) state.set('scale', Number((metres / this.apart.max).toPrecision(4)));
+    if (this.apart && this.apart.max > 0) state.set('scale', metres / this.apart.max);
     this.update();
   }
 
   setDivider(part: number): void {
     this.divider = Math.max(0.02, Math.min(0.98, part));
-    state.set('divider', Number(this.divider.toFixed(4)));
+    state.set('divider', this.divider);
     this.update();
   }
 
@@ -77,14 +83,17 @@ export class CompareMode implements Mode {
     this.stage.invalidate();
   }
 
-  setEdges(on: boolean): void { for (const world of this.worlds) world.setEdges(on); }
+  setEdges(on: boolean): void {
+    this.edges = on;
+    for (const world of this.worlds) world.setEdges(on);
+  }
 
   /// Looks at the place where the surfaces are farthest apart, on the side that has it.
   async goToWorst(): Promise<void> {
     if (!this.apart) return;
-    const {max, where, sides} = this.apart, place = new Vector3(...where);
-    this.side = sides[1].max > sides[0].max ? 1 : 0;
-    state.set('side', this.side === 1 ? 1 : null);
+    const {max, where} = this.apart, place = new Vector3(...where);
+    this.side = this.worse;
+    state.set('side', this.side);
     state.set('worst', 1);
     this.markWorst(where);
     await this.setLayout('deviation');
@@ -114,6 +123,16 @@ export class CompareMode implements Mode {
     this.stage.invalidate();
   }
 
+  private drawDeviation({renderer, camera}: Stage): void {
+    const {worst, heatScene} = this;
+    renderer.render(heatScene, camera);
+    if (!this.edges) return;
+    const marked = worst.visible;
+    worst.visible = false;
+    drawEdges(renderer, heatScene, camera);
+    worst.visible = marked;
+  }
+
   picture(): {width: number; height: number} {
     const {width, height} = this.stage, wide = width > height;
     return this.layout !== 'side' ? this.stage : {width: wide ? width / 2 : width, height: wide ? height : height / 2};
@@ -121,7 +140,7 @@ export class CompareMode implements Mode {
 
   draw(stage: Stage): void {
     const {width, height} = stage, [a, b] = this.worlds;
-    if (this.layout === 'deviation') return stage.renderer.render(this.heatScene, stage.camera);
+    if (this.layout === 'deviation') return this.drawDeviation(stage);
     if (this.layout === 'difference') return this.difference.draw(stage.renderer, width, height, [() => a.draw(stage), () => b.draw(stage)]);
     if (this.layout === 'side') {
       const wide = width > height;

@@ -1,7 +1,7 @@
 // The mode in which one world is looked at.
 import {AnimationMixer, Color, Raycaster, Scene, Vector3, type AnimationAction} from 'three';
 import {state} from '../state';
-import {Boxes, edgeMaterial, Flashes, Highlight} from '../view/overlay';
+import {Boxes, drawEdges, Flashes, Highlight} from '../view/overlay';
 import type {Mode, Stage} from '../view/stage';
 import {Batches, batchedLayer} from '../world/batches';
 import {fieldOfView, LevelControl} from '../world/levels';
@@ -64,15 +64,8 @@ export class WorldMode implements Mode {
     this.batches.update();
     renderer.render(this.scene, camera);
     if (!this.edges) return;
-    this.scene.overrideMaterial = edgeMaterial;
     this.setOverlays(false);
-    renderer.autoClearColor = renderer.autoClearDepth = false;
-    const background = this.scene.background;
-    this.scene.background = null;
-    renderer.render(this.scene, camera);
-    this.scene.background = background;
-    renderer.autoClearColor = renderer.autoClearDepth = true;
-    this.scene.overrideMaterial = null;
+    drawEdges(renderer, this.scene, camera);
     this.setOverlays(true);
   }
 

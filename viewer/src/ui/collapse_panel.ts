@@ -99,7 +99,7 @@ export class CollapsePanel {
     const most = run.faces[0]!, least = run.faces[run.steps]!, points: number[] = [];
     for (let n = Math.floor((most - 1) / this.every) * this.every; n >= Math.max(1, least) && points.length < 60; n -= this.every) points.push(n);
     for (let power = 10 ** Math.floor(Math.log10(this.every)); power >= 1; power /= 10) for (const n of [5 * power, 2 * power, power]) if (n < this.every && n >= Math.max(10, least)) points.push(n);
-    this.bookmarks.replaceChildren(...points.map(n => button(count(n), () => this.mode.jump(n))));
+    this.bookmarks.replaceChildren(...points.map(n => button(count(n), () => this.mode.jump(n), {value: n})));
   }
 
   private update(): void {
@@ -109,11 +109,12 @@ export class CollapsePanel {
     this.position.set(most > least ? 1000 * Math.log(run.count / least) / Math.log(most / least) : 0, count(run.count));
     if (document.activeElement !== this.faces) this.faces.value = String(run.count);
     this.playButton.textContent = this.mode.playing ? 'Stop' : 'Play';
-    const rows = this.mode.shown.map(({run: r}) => [titleOf(r.criterion), count(r.count), length(r.error)]);
-    this.figures.replaceChildren(table('At this moment', [{title: 'Criterion'}, {title: 'Faces', number: true}, {title: 'Deviation, at most about', number: true}], rows));
+    const rows = this.mode.shown.map(lane => [titleOf(lane.run.criterion), count(lane.run.count), length(lane.run.error), costOf(lane).replace(/^next edge (costs|is) | \(planes\)$/g, '')]);
+    this.figures.replaceChildren(table('At this moment', [{title: 'Criterion'}, {title: 'Faces', number: true}, {title: 'Deviation up to', number: true}, {title: 'Next edge', number: true}], rows));
+    for (const b of this.bookmarks.querySelectorAll('button')) b.setAttribute('aria-pressed', String(Number(b.value) === run.count));
     this.parts = this.mode.shown.map(lane => {
       const faces = h('output');
-      const label = h('div', {class: 'label', 'data-criterion': lane.run.criterion}, h('strong', {}, titleOf(lane.run.criterion)), faces, h('span', {}, costOf(lane)));
+      const label = h('div', {class: 'label', 'data-criterion': lane.run.criterion}, h('strong', {}, titleOf(lane.run.criterion)), faces, h('span', {class: 'cost'}, costOf(lane)));
       return {label, faces, lens: h('div', {class: 'lens', hidden: true})};
     });
     this.labels.replaceChildren(...this.parts.flatMap(({label, lens}) => [label, lens]));
@@ -126,6 +127,7 @@ export class CollapsePanel {
       const r = rectangles[i], lane = this.mode.shown[i];
       if (!r || !lane) return;
       label.style.cssText = `left:${r.left}px;top:${r.top}px;max-width:${r.width}px`;
+      label.classList.toggle('narrow', r.width < 240);
       faces.textContent = `${count(lane.run.count)} faces` + (this.mode.detail === 'even' ? '' : `, ${count(lane.drawn)} drawn`);
       const radius = this.mode.lensRadius(r);
       lens.hidden = this.mode.detail !== 'lens';

@@ -57,7 +57,7 @@ export class ComparePanel {
   private figures(a: World, b: World): HTMLElement {
     const row = (name: string, of: (w: World) => number, text: (n: number) => string = count): string[] => {
       const [x, y] = [of(a), of(b)];
-      return [name, text(x), text(y), x > 0 ? `${y >= x ? '+' : '−'}${Math.abs(100 * (y - x) / x).toFixed(1)} %` : ''];
+      return [name, text(x), text(y), x === y ? 'same' : x > 0 ? `${y >= x ? '+' : '−'}${Math.abs(100 * (y - x) / x).toFixed(1)} %` : ''];
     };
     return h('div', {class: 'scroll'}, table('Figures of both', [{title: ''}, {title: 'First', number: true}, {title: 'Second', number: true}, {title: 'Change', number: true}], [
       row('Triangles', w => w.triangles), row('Parts', w => w.parts.length), row('Shapes', w => w.parts.filter(p => p.mesh !== null).length),
@@ -95,8 +95,9 @@ export class ComparePanel {
     const {mode} = this, {width, height} = mode.stage, [first, second] = this.names;
     const wide = width > height, side = mode.layout === 'side';
     first.hidden = second.hidden = mode.layout === 'difference' || mode.layout === 'deviation';
-    first.style.cssText = 'left:0;top:0';
-    second.style.cssText = side ? wide ? 'left:50%;top:0' : 'left:0;top:50%' : 'right:0;top:0';
+    const widest = side && !wide ? '' : ';max-width:50%';
+    first.style.cssText = `left:0;top:0${widest}`;
+    second.style.cssText = (side ? wide ? 'left:50%;top:0' : 'left:0;top:50%' : 'right:0;top:0') + widest;
     this.divider.style.left = `${100 * mode.divider}%`;
   }
 }

@@ -24,8 +24,15 @@ export const millimetres = (metres: number): string => `${significant(metres * 1
 
 export function significant(x: number, digits = 3): string {
   if (x === 0) return '0';
-  const text = Math.abs(x) >= 1000 ? whole.format(Math.round(x)) : x.toPrecision(digits);
-  return text.includes('e') ? Number(text).toString() : text;
+  if (Math.abs(x) >= 1000) return whole.format(Math.round(x));
+  if (Math.abs(x) >= 1e-4) return x.toPrecision(digits);
+  const [mantissa, power] = x.toExponential(digits - 1).split('e') as [string, string];
+  return `${mantissa} × 10${[...power].map(c => superscripts[c] ?? '').join('')}`;
 }
+
+const superscripts: Record<string, string> = {'-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹'};
+
+/// 1 draw, 2 draws.
+export const counted = (n: number, what: string): string => `${count(n)} ${what}${n === 1 ? '' : 's'}`;
 
 export const share = (part: number, all: number): string => `${(all > 0 ? 100 * part / all : 0).toFixed(1)} %`;

@@ -23,7 +23,7 @@ const keys: readonly (readonly [string, string])[] = [
 
 export function makeHelp(): HTMLDialogElement {
   const dialog: HTMLDialogElement = h('dialog', {class: 'help', 'aria-labelledby': 'help-title'},
-    h('h2', {id: 'help-title'}, 'Help'),
+    h('h2', {id: 'help-title', tabindex: -1, autofocus: true}, 'Help'),
     h('p', {}, 'The address of the page keeps what you see: copy it to share a view.'),
     h('dl', {}, ...keys.flatMap(([key, what]) => [h('dt', {}, key), h('dd', {}, what)])),
     h('div', {class: 'buttons'}, button('Close', () => dialog.close())));

@@ -13,6 +13,8 @@ export interface ModeView {
   enter(): void;
 }
 
+const paper = {width: 680, height: 620};  // that a picture may take of A4 and Letter, in pixels of style sheets
+
 export class Shell {
   readonly canvas = h('canvas', {tabindex: 0, 'aria-label': 'Picture of the world. Arrow keys turn it.'});
   private readonly left = h('aside', {class: 'left', 'aria-label': 'Tree of parts'});
@@ -25,7 +27,10 @@ export class Shell {
   private views: ModeView[] = [];
   private readonly buttons = new Map<string, HTMLButtonElement>();
   private current = '';
+  private readonly view: HTMLElement;
+  private themeOnScreen = '';
   onTheme: () => void = () => undefined;
+  onPrint: () => void = () => undefined;  // the picture is wanted at once
 
   constructor(title: string, root: HTMLElement) {
     document.title = `${title}: wrlkit`;
@@ -34,13 +39,15 @@ export class Shell {
       button('Dark', () => this.toggleTheme(), {class: 'theme'}),
       button('Help', () => this.help.showModal(), {'aria-keyshortcuts': '?'}));
     const head = h('header', {class: 'head'}, h('h1', {}, title), this.modes, tools);
-    const view = h('main', {class: 'view'}, this.canvas, this.over, this.status);
-    root.append(head, this.left, view, this.right, this.sheets, this.help);
+    this.view = h('main', {class: 'view'}, this.canvas, this.over, this.status);
+    root.append(head, this.left, this.view, this.right, this.sheets, this.help);
     this.setTheme(state.get('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
     for (const [key, text] of [['left', 'Parts'], ['none', 'Picture'], ['right', 'Panel']] as const) {
       this.sheets.append(button(text, () => this.sheet(key), {'data-sheet': key}));
     }
     this.sheet('none');
+    window.addEventListener('beforeprint', () => this.toPaper());
+    window.addEventListener('afterprint', () => this.fromPaper());
   }
 
   get mode(): string { return this.current; }
@@ -84,6 +91,20 @@ export class Shell {
   toggleTheme(): void {
     this.setTheme(this.dark ? 'light' : 'dark');
     state.set('theme', this.dark ? 'dark' : 'light');
+  }
+
+  /// The picture goes onto paper as it is on the screen, as wide as the paper, and is light.
+  private toPaper(): void {
+    this.themeOnScreen = this.dark ? 'dark' : 'light';
+    this.setTheme('light');
+    const {clientWidth: width, clientHeight: height} = this.view;
+    Object.assign(this.view.style, {width: `${width}px`, height: `${height}px`, zoom: String(Math.min(paper.width / width, paper.height / height))});
+    this.onPrint();
+  }
+
+  private fromPaper(): void {
+    this.view.removeAttribute('style');
+    this.setTheme(this.themeOnScreen);
   }
 
   private setTheme(theme: string): void {

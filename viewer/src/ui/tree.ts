@@ -2,7 +2,7 @@
 // parts scrolls.
 import {count} from './format';
 import {h} from './dom';
-import type {Part, World} from '../world/world';
+import {namedAbove, type Part, type World} from '../world/world';
 
 const rowHeight = 24;
 
@@ -85,9 +85,15 @@ export class Tree {
       ...(branch ? {'aria-expanded': String(this.open.has(part))} : {}), style: `top:${index * rowHeight}px;padding-left:${6 + Math.min(depth, 14) * 13}px`,
       click: (e: MouseEvent) => e.target === twist && branch ? this.toggle(part) : this.pick(part, false),
       dblclick: () => this.pick(part, true),
-    }, twist, h('span', {class: part.name ? 'name' : 'name nameless'}, part.name || part.type), h('span', {class: 'type'}, part.name ? part.type : ''));
+    }, twist, h('span', {class: part.name ? 'name' : 'name nameless'}, part.name || part.type), h('span', {class: 'type'}, this.about(part)));
     if (part.triangles > 0) row.append(h('span', {class: 'figure'}, count(part.triangles)));
     return row;
+  }
+
+  /// What is said beside a name: the type, and of what was found where it is.
+  private about(part: Part): string {
+    const type = part.name ? part.type : '', above = this.search.value.trim() ? namedAbove(part) : '';
+    return above ? `${type} in ${above}`.trim() : type;
   }
 
   private toggle(part: Part): void {

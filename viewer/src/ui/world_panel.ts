@@ -9,7 +9,7 @@ import {bytesByKind, heaviest} from '../world/statistics';
 import {densityScale} from '../world/texels';
 import {boxOf, labelOf, meshesBelow, type Part} from '../world/world';
 import {button, check, choice, facts, h, section, slider, table} from './dom';
-import {bytes, count, length, share, significant} from './format';
+import {bytes, count, counted, length, share, significant} from './format';
 import {keptCheck, keptChoice} from './kept';
 import {levelsPanel} from './levels_panel';
 import {Tabs, type Tab} from './tabs';
@@ -157,7 +157,7 @@ export class WorldPanel {
 
   private material(m: MeshStandardMaterial, parts: Part[]): HTMLElement {
     const swatch = h('i', {class: 'swatch', style: `background:${m.color ? `#${m.color.getHexString()}` : 'none'}`});
-    const words = [`${count(parts.length)} ${parts.length === 1 ? 'part' : 'parts'}`];
+    const words = [counted(parts.length, 'part')];
     if (m.opacity < 1) words.push(`opacity ${significant(m.opacity, 2)}`);
     if (m.roughness !== undefined) words.push(`roughness ${significant(m.roughness, 2)}`);
     else words.push(lightOf(m) ? 'baked light' : 'unlit');
@@ -171,7 +171,7 @@ function thumbnail(texture: Texture, what: string): HTMLElement {
   if (!image?.width) return h('span');
   const canvas = h('canvas', {class: 'thumb', width: 64, height: Math.max(1, Math.round(64 * Math.min(2, image.height / image.width))), role: 'img', 'aria-label': what});
   canvas.getContext('2d')?.drawImage(image, 0, 0, canvas.width, canvas.height);
-  return h('div', {class: 'soft'}, canvas, `${what}: ${texture.name ? `${texture.name}, ` : ''}${image.width} × ${image.height}`);
+  return h('div', {class: 'soft picture'}, canvas, `${what}: ${texture.name ? `${texture.name}, ` : ''}${image.width} × ${image.height}`);
 }
 
 const countBelow = (part: Part): number => part.children.reduce((n, p) => n + 1 + countBelow(p), 0);

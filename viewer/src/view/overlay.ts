@@ -1,5 +1,5 @@
 // What is drawn over a world: edges with hidden lines removed, the selected part, bounding boxes.
-import {Box3, Box3Helper, Color, Group, Mesh, MeshBasicMaterial, Object3D, type Material, type Scene} from 'three';
+import {Box3, Box3Helper, Color, Group, Mesh, MeshBasicMaterial, Object3D, type Material, type PerspectiveCamera, type Scene, type WebGLRenderer} from 'three';
 import {boxOf, meshesBelow, type Part, type World} from '../world/world';
 
 /// Drawn in front of surfaces at the same place: a little nearer to the eye on the same ray.
@@ -10,9 +10,21 @@ function nearer<T extends Material>(material: T): T {
   return material;
 }
 
-export const edgeMaterial = nearer(new MeshBasicMaterial({wireframe: true, color: 0x14181d, transparent: true, opacity: 0.4}));
+const edgeMaterial = nearer(new MeshBasicMaterial({wireframe: true, color: 0x14181d, transparent: true, opacity: 0.4}));
 const glow = nearer(new MeshBasicMaterial({color: 0x2f7bff, transparent: true, opacity: 0.28, depthWrite: false}));
 const glowEdges = nearer(new MeshBasicMaterial({color: 0x1e62e0, wireframe: true, transparent: true, opacity: 0.5}));
+
+/// Over the picture of a scene.
+export function drawEdges(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
+  const {background} = scene;
+  scene.overrideMaterial = edgeMaterial;
+  scene.background = null;
+  renderer.autoClearColor = renderer.autoClearDepth = false;
+  renderer.render(scene, camera);
+  renderer.autoClearColor = renderer.autoClearDepth = true;
+  scene.background = background;
+  scene.overrideMaterial = null;
+}
 
 function marked<T extends Object3D>(o: T): T {
   o.userData['overlay'] = true;

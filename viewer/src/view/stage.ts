@@ -65,6 +65,11 @@ export class Stage {
     this.due ||= requestAnimationFrame(time => this.frame(time));
   }
 
+  drawNow(): void {
+    cancelAnimationFrame(this.due);
+    this.frame(performance.now());
+  }
+
   setBackground(color: Color): void {
     this.renderer.setClearColor(color);
     this.invalidate();

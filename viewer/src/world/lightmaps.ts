@@ -1,26 +1,70 @@
 // Baked light (MOZ_lightmap): a texture of what arrives at a surface. Such surfaces are shown without the world's lamps,
-// whose light is in the texture already.
-import {MeshBasicMaterial, SRGBColorSpace, type Material, type Mesh, type MeshStandardMaterial, type Texture} from 'three';
+// whose light is in the texture already. Every part has its place on a page, which glTF says by a transform in a material of its own; here
+// the transform goes into texture coordinates, so that a page is one texture and what it lights can be drawn in one call.
+import {BufferAttribute, BufferGeometry, MeshBasicMaterial, SRGBColorSpace, type Material, type Mesh, type MeshStandardMaterial, type Texture} from 'three';
 import type {GLTF} from 'three/addons/loaders/GLTFLoader.js';
+
+const channel = 3;  // of texture coordinates
+
+interface Transform {
+  offset?: [number, number];
+  rotation?: number;
+  scale?: [number, number];
+  texCoord?: number;
+}
 
 interface LightmapInfo {
   index: number;
   texCoord?: number;
   intensity?: number;
+  extensions?: {KHR_texture_transform?: Transform};
 }
 
-/// The light of a material that was baked; undefined when it has none.
+/// The light of a material that was baked; null when it has none.
 export function lightOf(material: Material): Texture | null {
   return (material as MeshBasicMaterial).lightMap ?? null;
 }
 
-async function baked(gltf: GLTF, material: MeshStandardMaterial, info: LightmapInfo): Promise<MeshBasicMaterial> {
+/// Geometries with their places on the pages; the rest of them is shared.
+class Places {
+  private readonly made = new Map<BufferGeometry, Map<string, BufferGeometry>>();
+
+  of(geometry: BufferGeometry, info: LightmapInfo): BufferGeometry {
+    const key = JSON.stringify([info.texCoord, info.extensions]);
+    let known = this.made.get(geometry);
+    if (!known) this.made.set(geometry, known = new Map());
+    let placed = known.get(key);
+    if (!placed) known.set(key, placed = place(geometry, info));
+    return placed;
+  }
+}
+
+function place(geometry: BufferGeometry, info: LightmapInfo): BufferGeometry {
+  const {offset = [0, 0], rotation = 0, scale = [1, 1], texCoord = info.texCoord ?? 0} = info.extensions?.KHR_texture_transform ?? {};
+  const from = geometry.getAttribute(texCoord === 0 ? 'uv' : `uv${texCoord}`) as BufferAttribute | undefined;
+  const made = new BufferGeometry();
+  made.setIndex(geometry.index);
+  for (const [name, attribute] of Object.entries(geometry.attributes)) made.setAttribute(name, attribute);
+  Object.assign(made.morphAttributes, geometry.morphAttributes);
+  made.morphTargetsRelative = geometry.morphTargetsRelative;
+  made.boundingBox = geometry.boundingBox;
+  made.boundingSphere = geometry.boundingSphere;
+  if (!from) return made;
+  const out = new Float32Array(2 * from.count), c = Math.cos(rotation), s = Math.sin(rotation);
+  for (let i = 0; i < from.count; ++i) {
+    const x = from.getX(i) * scale[0], y = from.getY(i) * scale[1];
+    out[2 * i] = offset[0] + c * x + s * y;
+    out[2 * i + 1] = offset[1] - s * x + c * y;
+  }
+  return made.setAttribute(`uv${channel}`, new BufferAttribute(out, 2));
+}
+
+/// The material with its light; `page` gives a texture of a file.
+async function baked(material: MeshStandardMaterial, info: LightmapInfo, page: (index: number) => Promise<Texture | null>): Promise<MeshBasicMaterial> {
   const {name, color, map, transparent, opacity, side, alphaTest, vertexColors, userData} = material;
   const made = new MeshBasicMaterial({name, color, map, transparent, opacity, side, alphaTest, vertexColors});
   made.userData = userData;
-  const transform = (info as {extensions?: unknown}).extensions;
-  const definition = {index: info.index, texCoord: info.texCoord ?? 0, ...(transform ? {extensions: transform} : {})};
-  await gltf.parser.assignTexture(made as unknown as Material, 'lightMap', definition as never, SRGBColorSpace);
+  made.lightMap = await page(info.index);
   // three.js takes the map for irradiance, of which a white surface reflects 1 / pi.
   made.lightMapIntensity = (info.intensity ?? 1) * Math.PI;
   return made;
@@ -28,15 +72,29 @@ async function baked(gltf: GLTF, material: MeshStandardMaterial, info: LightmapI
 
 /// Gives the materials of a file their baked light.
 export async function bakedLight(gltf: GLTF): Promise<void> {
-  const made = new Map<Material, Promise<MeshBasicMaterial>>();
+  const made = new Map<Material, Promise<MeshBasicMaterial>>(), pages = new Map<number, Promise<Texture | null>>(), places = new Places();
+  const page = (index: number): Promise<Texture | null> => {
+    const known = pages.get(index) ?? loadPage(gltf, index);
+    pages.set(index, known);
+    return known;
+  };
   const waiting: Promise<void>[] = [];
   gltf.scene.traverse(o => {
     const mesh = o as Mesh;
     const material = mesh.material as MeshStandardMaterial | undefined;
     const info = material?.userData['gltfExtensions']?.['MOZ_lightmap'] as LightmapInfo | undefined;
     if (!material || !info) return;
-    if (!made.has(material)) made.set(material, baked(gltf, material, info));
+    if (!made.has(material)) made.set(material, baked(material, info, page));
+    mesh.geometry = places.of(mesh.geometry, info);
     waiting.push(made.get(material)!.then(m => { mesh.material = m; }));
   });
   await Promise.all(waiting);
+}
+
+async function loadPage(gltf: GLTF, index: number): Promise<Texture | null> {
+  const texture = ((await gltf.parser.getDependency('texture', index)) as Texture | null)?.clone() ?? null;
+  if (!texture) return null;
+  texture.channel = channel;
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
 }

@@ -1,5 +1,5 @@
 // Bytes of a .glb to a World.
-import {Box3, type Light, type Line, type Mesh, type Object3D, PerspectiveCamera, type Points, Vector3} from 'three';
+import {Box3, type Light, type Line, type Mesh, type Object3D, PerspectiveCamera, type Points, type PointsMaterial, Vector3} from 'three';
 import {GLTFLoader, type GLTF} from 'three/addons/loaders/GLTFLoader.js';
 import {accessorBytes, accessorsOf, trianglesOf, typeOf, vrmlOf, type GltfFile} from './file';
 import {bakedLight} from './lightmaps';
@@ -146,6 +146,7 @@ export async function loadWorld(name: string, bytes: ArrayBuffer): Promise<World
   for (const l of levels) l.box.setFromObject(l.part.object);
   const box = new Box3();
   for (const part of builder.parts) for (const mesh of part.meshes) box.expandByObject(mesh);
+  gltf.scene.traverse(o => { if ((o as Points).isPoints) ((o as Points).material as PointsMaterial).size = 3; });  // pixels: one is hardly seen
   const empty = box.isEmpty();
   if (empty) box.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
   return {

@@ -4,6 +4,9 @@ import {MeshBasicMaterial, type Side, type Texture} from 'three';
 /// Blue, green, yellow, red for 1, 10, 100, 1000 texels a metre.
 export const densityScale = [[1, '#30509b'], [10, '#2f9a72'], [100, '#e8cf49'], [1000, '#c83a2c']] as const;
 
+/// Faces that are seen from the side are darker, so that shapes are seen.
+const shading = 'outgoingLight *= 0.45 + 0.55 * abs(normalize(cross(dFdx(vPlace), dFdy(vPlace))).z);';
+
 function shaded(light: Texture, side: Side, color: string): MeshBasicMaterial {
   const material = new MeshBasicMaterial({lightMap: light, side});
   const {width, height} = light.image as {width: number; height: number};
@@ -15,7 +18,7 @@ function shaded(light: Texture, side: Side, color: string): MeshBasicMaterial {
       .replace('#include <project_vertex>', '#include <project_vertex>\nvPlace = mvPosition.xyz;');
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', '#include <common>\nuniform vec2 texels; varying vec3 vPlace;')
-      .replace('#include <opaque_fragment>', `vec2 t = vLightMapUv * texels;\n${color}\n#include <opaque_fragment>`);
+      .replace('#include <opaque_fragment>', `vec2 t = vLightMapUv * texels;\n${color}\n${shading}\n#include <opaque_fragment>`);
   };
   material.customProgramCacheKey = () => color;
   return material;

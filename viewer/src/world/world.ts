@@ -58,8 +58,14 @@ export interface World {
 /// What a part is called where it has no name itself: by the nearest part above that has one.
 export function labelOf(part: Part): string {
   if (part.name) return part.name;
-  for (let above = part.parent; above; above = above.parent) if (above.name) return `${part.type} in ${above.name}`;
-  return part.type;
+  const above = namedAbove(part);
+  return above ? `${part.type} in ${above}` : part.type;
+}
+
+/// The name of the nearest part above that has one; empty when there is none.
+export function namedAbove(part: Part): string {
+  for (let above = part.parent; above; above = above.parent) if (above.name) return above.name;
+  return '';
 }
 
 /// The part to which an object of the scene belongs.
