@@ -51,6 +51,11 @@ class Animations {
 
   /// A node of glTF that has a property of a node of VRML.
   void add_target(NodeId source, Path, std::uint32_t node);
+  /// Marks the nodes of glTF that are moved.
+  void mark_targets(std::vector<char>& marks) const {
+    for (const auto& [property, nodes] : moved_)
+      for (auto node : nodes) marks[node] = 1;
+  }
   /// Nodes have moved up, from index i to became[i].
   void renumber(std::span<const std::uint32_t> became);
   void add(Property p) { properties_.push_back(std::move(p)); }

@@ -191,15 +191,15 @@ bool Extras::is_named_child(const Value& v) const {
   return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && !name(v.node).empty() && !said_names_.contains(std::string(name(v.node)));
 }
 
-bool Extras::has_names_in_geometry(NodeId n) const {
-  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return is_named_child(v); });
+bool Extras::has_names_in_geometry(NodeId n, std::span<const std::string_view> without) const {
+  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end(); });
 }
 
-void Extras::names_in_geometry(JsonOut& json, NodeId n) {
+void Extras::names_in_geometry(JsonOut& json, NodeId n, std::span<const std::string_view> without) {
   json.key(scene_.type(n).name);
   json.begin_object();
   for (const Value& v : scene_.fields(n))
-    if (is_named_child(v)) geometry_field(json, n, v), said_names_.emplace(name(v.node));
+    if (is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end()) geometry_field(json, n, v), said_names_.emplace(name(v.node));
   json.end_object();
 }
 

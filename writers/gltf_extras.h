@@ -69,9 +69,9 @@ class Extras {
   void geometry(JsonOut&, NodeId, std::span<const std::uint32_t> polygons, double step);
   /// Is there anything of that?
   bool geometry_says_more(NodeId) const;
-  /// The same with nothing but names: of Coordinates and the like; and of all that is in a Shape that shows nothing.
-  void names_in_geometry(JsonOut&, NodeId);
-  bool has_names_in_geometry(NodeId) const;
+  /// The same with nothing but names: of Coordinates and the like, but for some fields; and of all that is in a Shape that shows nothing.
+  void names_in_geometry(JsonOut&, NodeId, std::span<const std::string_view> without);
+  bool has_names_in_geometry(NodeId, std::span<const std::string_view> without) const;
   void unseen_names(JsonOut&, NodeId shape);
   bool has_unseen_names(NodeId shape) const;
   /// The member protos of an object: declarations, and those in their bodies behind them. Each is {PROTO: name, in,

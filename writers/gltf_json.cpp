@@ -370,17 +370,26 @@ class Writer {
     if (g.features != none) mesh_features(g);
     json_.end_object();
     json_.end_array();
-    if (p_.extras && p_.facts_only && p_.extras->has_names_in_geometry(g.source)) mesh_names(g.source);
+    if (p_.extras && p_.facts_only && p_.extras->has_names_in_geometry(g.source, names_without(m, s))) mesh_names(g.source, names_without(m, s));
     if (p_.extras && !p_.facts_only) mesh_extras(g, s.draco == none, p_.packing.dequantization(m));
     json_.end_object();
   }
 
-  void mesh_names(NodeId geometry) {
+  /// Fields whose values no accessor has, so that a name would be that of nothing.
+  std::vector<std::string_view> names_without(const MeshRecord& m, const Streams& s) const {
+    std::vector<std::string_view> out;
+    if (s.texcoords == none) out.push_back("texCoord");
+    if (s.normals == none) out.push_back("normal");
+    if (s.colors == none || !m.shows_color) out.push_back("color");
+    return out;
+  }
+
+  void mesh_names(NodeId geometry, const std::vector<std::string_view>& without) {
     json_.key("extras");
     json_.begin_object();
     json_.key("vrml97");
     json_.begin_object();
-    p_.extras->names_in_geometry(json_, geometry);
+    p_.extras->names_in_geometry(json_, geometry, without);
     json_.end_object();
     json_.end_object();
   }

@@ -27,6 +27,7 @@ bool Hierarchy::stays_a_node(const Node& n) const {
 /// stays is none that a table can say. `frame` has that place.
 bool Hierarchy::find_nodes_that_stay(const Family& family, std::vector<char>& stays, std::vector<Matrix>& frame) const {
   for (std::uint32_t id = 0; id < nodes_.size(); ++id) stays[id] = stays_a_node(nodes_[id]);
+  animations_.mark_targets(stays);
   for (const auto& [id, lod] : lods_)
     for (auto level : lod.levels) stays[level] = 1;
   for (int round = 0; round < most_rounds; ++round) {

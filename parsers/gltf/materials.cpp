@@ -98,7 +98,7 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
   NodeId transform = picture ? texture_transform(info, s, look) : NodeId{};
   look.textured = bool(picture);
   look.texcoord = texcoord_set(index).value_or(0);
-  if (c_.file.is_whole() && !picture)  // one that could not be shown
+  if (c_.file.is_own() && !picture)  // one that could not be shown
     for (std::string_view type : {"ImageTexture", "PixelTexture", "MovieTexture", "TextureTransform"})
       if (extras[type]) {
         NodeId n = c_.add(find_builtin(type, Dialect::vrml97), extras[type]);

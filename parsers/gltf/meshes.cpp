@@ -485,7 +485,20 @@ std::vector<std::uint32_t> Meshes::first_vertices(const Primitive& p, const std:
 void Meshes::name_attributes(NodeId n, Json kept) {
   const Json fields = kept[c_.scene.type(n).name];
   for (Json f : fields.is_object() ? fields : Json())
-    if (auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97); slot && info(c_.scene.type(n).fields[*slot].type).element == Element::node) name_attribute(c_.scene.value(n, *slot).node, f);
+    if (auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97); slot && info(c_.scene.type(n).fields[*slot].type).element == Element::node) {
+      NodeId a = c_.scene.value(n, *slot).node;
+      const auto name = f.is_object() && f.begin() != f.end() ? (*f.begin())["DEF"].text() : std::string_view();
+      if (!a || name.empty()) continue;
+      // Equal values are one node here, but two names are two.
+      if (const auto other = c_.scene.name(a); !other.empty() && other != name) {
+        const std::vector<Value> values(c_.scene.fields(a).begin(), c_.scene.fields(a).end());
+        const NodeId own = c_.add(c_.scene.type_id(a), f);
+        c_.scene.set_fields(own, values);
+        c_.scene.set(n, c_.scene.make(FieldType::SFNode, *slot, own));
+        a = own;
+      }
+      name_attribute(a, f);
+    }
 }
 
 void Meshes::name_attribute(NodeId n, Json kept) {

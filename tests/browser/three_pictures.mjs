@@ -20,6 +20,7 @@ const [wrlkit, folder, part = '', ...flags] = process.argv.slice(2);
 const size = {width: 320, height: 240};
 const key = [0.85, 0.25, 0.65];
 const skipped = 77;
+const webp = ['webp', 'cesium', 'three'].some(word => flags.includes(word));  // these profiles store pictures so
 
 /// Worlds of which three.js draws what `wrlkit simplify` makes of them, with all levels: the finest must show.
 const with_levels = ['corpus/paper/ellipsoid_hole.wrl']
@@ -50,13 +51,13 @@ async function prepare(world, number) {
   const bad = [converted, drawn].find(r => r.code !== 0 && r.code !== 1);
   if (bad) return console.log(`${world.name}: exit code ${bad.code}: ${bad.text.trim()}`), null;
   return {name: world.name, glb: `/out/${number}.glb`, camera: view.camera, ...size, background: key, key,
-    reach: expected(world.name).reach, reference: [{label: 'wrlkit render', url: `/out/${number}.png`}]};
+    reach: expected(world.name, webp).reach, reference: [{label: 'wrlkit render', url: `/out/${number}.png`}]};
 }
 
 /// What is wrong with a pair of pictures; empty when nothing is.
 function judge({name, lighting, overlap, difference, coverage, error}) {
   if (error) return `failed: ${error}`;
-  const {least_overlap, most, least_coverage} = expected(name);
+  const {least_overlap, most, least_coverage} = expected(name, webp);
   const faults = [];
   if (overlap < least_overlap) faults.push(`overlap ${overlap.toFixed(4)} < ${least_overlap}`);
   if (difference > most[lighting]) faults.push(`difference ${difference.toFixed(4)} > ${most[lighting]} (lit by ${lighting})`);
