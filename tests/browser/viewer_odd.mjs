@@ -90,6 +90,12 @@ async function little() {
       assert.match(await page.textContent('.status'), /nothing that could be seen/);
     });
   }
+  // A Viewpoint from which nothing is seen is no place to begin.
+  await with_page([world('away', `Viewpoint { position 0 0 5 orientation 0 1 0 3.14159 }\n${shape('Box { }')}`)], async page => {
+    assert((await drawn(page)).pixels > 1000);
+    await page.keyboard.press('v');
+    assert.equal((await drawn(page)).pixels, 0);
+  });
   const line = shape('IndexedLineSet { coord Coordinate { point [ 10 10 10, 12 13 10, 14 10 10 ] } coordIndex [ 0 1 2 -1 ] }').replace('diffuseColor', 'emissiveColor');
   const point = placed('5 6 7', shape('PointSet { coord Coordinate { point [ 3 4 5 ] } }').replace('diffuseColor', 'emissiveColor'));
   for (const [name, text] of [['line', line], ['point', point]]) {

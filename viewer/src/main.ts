@@ -1,5 +1,5 @@
 // The page begins here: what wrlkit has put into it is read, and shown.
-import {Color} from 'three';
+import {Box3, Color} from 'three';
 import {readContents, readFile, type Contents} from './data';
 import {CollapseMode} from './modes/collapse';
 import {CompareMode} from './modes/compare';
@@ -61,6 +61,7 @@ async function start(contents: Contents): Promise<void> {
   stage.overview(world.box);
   const begin = world.viewpoints[0];
   if (begin) mode.goTo(begin);
+  if (!stage.sees(world.parts.flatMap(part => part.meshes).map(mesh => new Box3().setFromObject(mesh)))) stage.overview(world.box);
   const views = [worldView(mode, shell, 'world', contents.worlds.length > 1 ? 'First' : 'World')];
   const second = contents.worlds[1];
   let compare: CompareMode | null = null;

@@ -18,6 +18,7 @@ export class Tabs {
       tab.content.id ||= `panel-${tab.key}`;
       const b = h('button', {type: 'button', role: 'tab', id: `tab-${tab.key}`, 'aria-controls': tab.content.id, click: () => this.show(tab.key)}, tab.title);
       tab.content.setAttribute('role', 'tabpanel');
+      tab.content.tabIndex = 0;  // it may have to be scrolled
       tab.content.setAttribute('aria-labelledby', b.id);
       this.buttons.set(tab.key, b);
       this.bar.append(b);

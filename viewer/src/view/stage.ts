@@ -1,6 +1,6 @@
 // The canvas and its camera. It is drawn when something has changed, not all the time. What is drawn is the matter of the
 // mode that is on: the world, the comparison, the collapse.
-import {Color, MathUtils, PerspectiveCamera, Quaternion, Sphere, Vector2, Vector3, WebGLRenderer, type Box3} from 'three';
+import {Color, Frustum, MathUtils, Matrix4, PerspectiveCamera, Quaternion, Sphere, Vector2, Vector3, WebGLRenderer, type Box3, type Plane} from 'three';
 import {state} from '../state';
 import {Navigator} from './navigate';
 
@@ -147,6 +147,18 @@ export class Stage {
   /// All that the mode shows.
   frameAll(): void { if (this.mode) this.frameBox(this.mode.box); }
 
+  /// Whether any of the boxes lies in the picture, however far away.
+  sees(boxes: readonly Box3[]): boolean {
+    this.fitMode();
+    const {camera} = this, {near, far} = camera;
+    Object.assign(camera, {near: 1e-9, far: 1e12});
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+    const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+    Object.assign(camera, {near, far});
+    return boxes.some(box => frustum.planes.slice(0, 4).every(plane => reaches(plane, box)));
+  }
+
   overview(box: Box3): void {
     this.fitMode();
     this.navigator.overview(box);
@@ -189,4 +201,10 @@ export class Stage {
 /// Of length one; what has it but for rounding stays as it is.
 function unit(q: Quaternion): Quaternion {
   return Math.abs(q.lengthSq() - 1) < 1e-9 ? q : q.lengthSq() > 0 ? q.normalize() : q.identity();
+}
+
+/// Whether a part of a box is on the inner side of a plane.
+function reaches(plane: Plane, {min, max}: Box3): boolean {
+  const {x, y, z} = plane.normal;
+  return plane.distanceToPoint(new Vector3(x > 0 ? max.x : min.x, y > 0 ? max.y : min.y, z > 0 ? max.z : min.z)) >= 0;
 }
