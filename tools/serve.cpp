@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -63,16 +64,18 @@ void set_patience(int client) {
 }
 
 /// Only what asks for this address by its number or as localhost: a page of another site may give its name to 127.0.0.1.
-bool is_meant(std::string_view head, std::uint16_t port) {
-  return head.find(fmt::format("\r\nHost: 127.0.0.1:{}\r\n", port)) != head.npos ||
-         head.find(fmt::format("\r\nHost: localhost:{}\r\n", port)) != head.npos;
+bool is_meant(std::string head, std::uint16_t port) {
+  std::ranges::transform(head, head.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return head.find(fmt::format("\r\nhost: 127.0.0.1:{}\r\n", port)) != head.npos ||
+         head.find(fmt::format("\r\nhost: localhost:{}\r\n", port)) != head.npos;
 }
 
-void answer(int to, std::uint16_t port, std::string_view html) {
+void answer(int to, std::uint16_t port, const PageSource& page) {
   set_patience(to);
   const auto head = head_of_request(to);
   const bool known = is_meant(head, port) && (head.starts_with("GET / ") || head.starts_with("HEAD / "));
-  const auto body = known ? html : std::string_view("not found\n");
+  const auto html = known ? page() : nullptr;
+  const std::string_view body = html ? *html : std::string_view("not found\n");
   send_all(to, fmt::format("HTTP/1.1 {}\r\nContent-Type: {}; charset=utf-8\r\nContent-Length: {}\r\nCache-Control: no-store\r\nConnection: close\r\n\r\n",
                            known ? "200 OK" : "404 Not Found", known ? "text/html" : "text/plain", body.size()));
   if (!head.starts_with("HEAD ")) send_all(to, body);
@@ -82,7 +85,7 @@ std::string reason() { return std::generic_category().message(errno); }
 
 }  // namespace
 
-std::string serve_page(std::string_view html) {
+std::string serve_page(const PageSource& page) {
   constexpr int most_clients = 32;  // at one time
   const Socket listener(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_in here{};
@@ -94,14 +97,14 @@ std::string serve_page(std::string_view html) {
   const auto port = ntohs(here.sin_port);
   fmt::print("http://127.0.0.1:{}/\n", port);
   std::fflush(stdout);
-  // The page outlives the threads: nothing but the end of the process ends this loop as long as the listener is there.
+  // The source outlives the threads: nothing but the end of the process ends this loop as long as the listener is there.
   static std::counting_semaphore<most_clients> places(most_clients);
   for (;;) {
     places.acquire();
     const int client = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
     if (client >= 0) {
-      std::thread([client, port, html] {
-        answer(client, port, html);
+      std::thread([client, port, &page] {
+        answer(client, port, page);
         ::close(client);
         places.release();
       }).detach();

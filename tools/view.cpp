@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <mutex>
 
 #include "passes/simplify/progressive_world.h"
 #include "tools/deviation_map.h"
@@ -131,6 +133,45 @@ bool write_page(Session& s, const ViewerPage& page) {
   return true;
 }
 
+/// The page that --serve shows. When a file of the worlds has changed it is made again; as long as that fails the last one is shown.
+class LivePage {
+ public:
+  LivePage(const Flags& flags, const ViewerPage& first) : flags_(flags), times_(times()), html_(text_of(first)) {}
+
+  std::shared_ptr<const std::string> get() {
+    const std::lock_guard lock(one_);
+    if (auto now = times(); now != times_) {
+      times_ = std::move(now);
+      Session s(flags_);
+      Viewer viewer(s);
+      const bool made = s.good() && s.choose_pipeline(world_pipeline) && viewer.fill();
+      s.end(made);
+      if (made) html_ = text_of(viewer.page());
+    }
+    return html_;
+  }
+
+ private:
+  std::vector<std::filesystem::file_time_type> times() const {
+    std::vector<std::filesystem::file_time_type> out;
+    std::error_code ec;
+    for (const auto& input : flags_.inputs)
+      if (input != "-") out.push_back(std::filesystem::last_write_time(input, ec));
+    return out;
+  }
+
+  static std::shared_ptr<const std::string> text_of(const ViewerPage& page) {
+    auto html = std::make_shared<std::string>();
+    write_viewer_page(page, [&](std::string_view bytes) { *html += bytes; });
+    return html;
+  }
+
+  const Flags& flags_;
+  std::mutex one_;
+  std::vector<std::filesystem::file_time_type> times_;
+  std::shared_ptr<const std::string> html_;
+};
+
 }  // namespace
 
 int run_view(const Flags& flags) {
@@ -143,9 +184,8 @@ int run_view(const Flags& flags) {
   if (!flags.output.empty() && !write_page(s, viewer.page())) return s.end(false);
   const int code = s.end(true);
   if (!flags.serve) return code;
-  std::string html;
-  write_viewer_page(viewer.page(), [&](std::string_view bytes) { html += bytes; });
-  return fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_page(html)), nothing;
+  LivePage live(flags, viewer.page());
+  return fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_page([&] { return live.get(); })), nothing;
 }
 
 }  // namespace wrlkit

@@ -3,13 +3,18 @@
 //   node viewer_serve.mjs WRLKIT FOLDER
 import assert from 'node:assert';
 import {spawn} from 'node:child_process';
+import fs from 'node:fs';
 import http from 'node:http';
 import net from 'node:net';
 import os from 'node:os';
+import path from 'node:path';
 import {file_of} from './worlds.mjs';
 
-const [program] = process.argv.slice(2);
-const serve = ['view', '-q', file_of('corpus/features/syntax.wrl'), '--serve'];
+const [program, folder] = process.argv.slice(2);
+fs.mkdirSync(folder, {recursive: true});
+const world = path.join(folder, 'syntax.wrl');
+fs.copyFileSync(file_of('corpus/features/syntax.wrl'), world);
+const serve = ['view', '-q', world, '--serve'];
 const server = spawn(program, serve, {stdio: ['ignore', 'pipe', 'inherit']});
 
 /// A client that says just this, and then nothing; its socket.
@@ -50,6 +55,16 @@ try {
   const answers = await Promise.all(Array.from({length: 100}, () => ask(address)));
   assert(answers.every(a => a.code === 200 && a.text === page.text), 'a hundred at once');
   for (const socket of idle) socket.destroy();
+  // A world that has changed is read again by whoever comes next; one that is gone, or is none any more, leaves the last page.
+  fs.writeFileSync(world, '#VRML V2.0 utf8\nShape { geometry Box { } }\n');
+  const changed = await Promise.all(Array.from({length: 10}, () => ask(address)));
+  assert(changed.every(a => a.code === 200 && a.text === changed[0].text) && changed[0].text !== page.text, 'the world has changed');
+  fs.writeFileSync(world, 'no world');
+  assert.equal((await ask(address)).text, changed[0].text);
+  fs.rmSync(world);
+  assert.equal((await ask(address)).text, changed[0].text);
+  fs.copyFileSync(file_of('corpus/features/syntax.wrl'), world);
+  assert.equal((await ask(address)).text, page.text);
   // Another one takes another port.
   const other = spawn(program, serve, {stdio: ['ignore', 'pipe', 'inherit']});
   const second = new URL(await new Promise(resolve => other.stdout.setEncoding('utf8').once('data', resolve)));
