@@ -199,14 +199,15 @@ class Writer {
 
   void scene_extras() {
     const auto& main = p_.scene.main;
-    if (!h_.navigation_info() && !h_.origin() && main.routes.empty() && main.protos.empty() && main.imports.empty() && main.exports.empty()) return;
+    const bool protos = !main.protos.empty() && !p_.facts_only;  // what they made is there
+    if (!h_.navigation_info() && !h_.origin() && main.routes.empty() && !protos && main.imports.empty() && main.exports.empty()) return;
     json_.key("extras");
     json_.begin_object();
     json_.key("vrml97");
     json_.begin_object();
     if (h_.origin()) numbers("origin", std::span<const double>(*h_.origin()));
     if (h_.navigation_info()) p_.extras->node(json_, h_.navigation_info(), {});
-    if (!main.protos.empty()) p_.extras->protos(json_, main.protos);
+    if (protos) p_.extras->protos(json_, main.protos);
     list("imports", main.imports.size(), [&](std::size_t i) { p_.extras->import(json_, main.imports[i]); });
     list("exports", main.exports.size(), [&](std::size_t i) { p_.extras->export_(json_, main.exports[i]); });
     // Facts are of what is in the file: a ROUTE to what no Switch shows leads nowhere.
