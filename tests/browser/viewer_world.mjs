@@ -88,6 +88,29 @@ async function phone() {
   await page.getByRole('treeitem', {name: /Building/}).tap();
   await page.getByRole('button', {name: 'Panel', exact: true}).tap();
   assert.equal(await page.locator('#panel-part h2').first().textContent(), 'Building');
+
+  // Fingers: one turns, two come nearer and do not select; a tap does, and the picture says what.
+  await page.getByRole('button', {name: 'Picture', exact: true}).tap();
+  const cdp = await page.context().newCDPSession(page);
+  const touch = (type, ...at) => cdp.send('Input.dispatchTouchEvent', {type, touchPoints: at.map(([x, y], id) => ({x, y, id}))});
+  const place = () => page.evaluate(() => { const {camera, navigator} = window.viewer.mode.stage; return {eye: camera.position.toArray(), distance: navigator.distance}; });
+  const before = await place();
+  await touch('touchStart', [200, 400]);
+  for (let i = 1; i < 6; ++i) await touch('touchMove', [200 + 20 * i, 400]);
+  await touch('touchEnd');
+  const turned = await place();
+  assert(Math.abs(turned.distance - before.distance) < 1e-9 && Math.abs(turned.eye[0] - before.eye[0]) > 0.1);
+  await touch('touchStart', [150, 400], [250, 400]);
+  for (let i = 1; i < 6; ++i) await touch('touchMove', [150 - 10 * i, 400], [250 + 10 * i, 400]);
+  await touch('touchEnd');
+  assert(Math.abs((await place()).distance / turned.distance - 0.5) < 0.01);
+  await page.evaluate(() => window.viewer.mode.select(null));
+  await touch('touchStart', [150, 400], [250, 400]);
+  await touch('touchEnd');
+  assert.equal(await page.evaluate(() => window.viewer.mode.selected), null);
+  await page.touchscreen.tap(200, 420);
+  const name = await page.evaluate(() => window.viewer.mode.selected.name);
+  await page.waitForFunction(name => document.querySelector('.status').textContent.startsWith(`${name} · `), name);
   assert.deepEqual(faults, []);
   await close();
 }

@@ -15,6 +15,7 @@ import {Tree} from './ui/tree';
 import {WorldPanel} from './ui/world_panel';
 import {Stage} from './view/stage';
 import {loadWorld} from './world/load';
+import {labelOf} from './world/world';
 import './ui/style.css';
 
 function worldView(mode: WorldMode, shell: Shell, key: string, title: string): ModeView {
@@ -25,7 +26,8 @@ function worldView(mode: WorldMode, shell: Shell, key: string, title: string): M
     if (shell.mode !== key) return;
     const f = mode.stage.figures;
     const wrong = mode.levels && Number.isFinite(mode.levels.figures.pixels) ? ` · error ≤ ${significant(mode.levels.figures.pixels, 2)} px` : '';
-    shell.say(mode.world.empty ? 'This world has nothing that could be seen.' : `${counted(f.triangles, 'triangle')} · ${counted(f.draws, 'draw')} · ${f.milliseconds.toFixed(1)} ms${wrong}`);
+    const chosen = mode.selected ? `${labelOf(mode.selected)} · ` : '';
+    shell.say(mode.world.empty ? 'This world has nothing that could be seen.' : `${chosen}${counted(f.triangles, 'triangle')} · ${counted(f.draws, 'draw')} · ${f.milliseconds.toFixed(1)} ms${wrong}`);
   });
   return {key, title, left: tree.element, right: panel.element, over: null, enter: () => mode.enter()};
 }

@@ -4,7 +4,7 @@ import {button, h} from './dom';
 const keys: readonly (readonly [string, string])[] = [
   ['Drag, one finger', 'turn; in Walk: look around'],
   ['Right or Shift drag, two fingers', 'move sideways'],
-  ['Wheel, pinch', 'nearer, farther'],
+  ['Wheel, pinch', 'nearer, farther; in Walk: go'],
   ['Arrow keys', 'turn; in Walk: go'],
   ['W A S D, Q E', 'in Walk: go, sink, rise; Shift is faster'],
   ['Click, double click in the tree', 'select, look at'],

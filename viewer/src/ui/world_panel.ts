@@ -5,7 +5,7 @@ import {state} from '../state';
 import {lightOf} from '../world/lightmaps';
 import type {Lighting} from '../world/lights';
 import type {Look} from '../world/looks';
-import {bytesByKind, heaviest} from '../world/statistics';
+import {bytesByKind, heaviest, unpackedBytes} from '../world/statistics';
 import {densityScale} from '../world/texels';
 import {boxOf, labelOf, meshesBelow, type Part} from '../world/world';
 import {button, check, choice, facts, h, section, slider, table} from './dom';
@@ -21,8 +21,11 @@ export class WorldPanel {
   private readonly tabs: Tabs;
   private readonly part = h('div', {class: 'panel'});
   private readonly live = h('div', {class: 'live'});
+  private readonly memory: number;
+  private readonly opened = performance.now();  // since the page was asked for
 
   constructor(private readonly mode: WorldMode) {
+    this.memory = unpackedBytes(mode.world);
     const levels: Tab[] = mode.levels ? [{key: 'levels', title: 'Levels', content: levelsPanel(mode, mode.levels)}] : [];
     this.tabs = new Tabs('World', [
       {key: 'figures', title: 'Figures', content: this.figures()},
@@ -41,7 +44,8 @@ export class WorldPanel {
 
   private drawn(): void {
     const f = this.mode.stage.figures;
-    this.live.replaceChildren(facts([['Draws', count(f.draws)], ['Triangles drawn', count(f.triangles)], ['Time to draw', `${f.milliseconds.toFixed(1)} ms`]]));
+    this.live.replaceChildren(facts([['Draws', count(f.draws)], ['Triangles drawn', count(f.triangles)], ['Time to draw', `${f.milliseconds.toFixed(1)} ms`],
+      ['Memory, about', bytes(this.memory)], ['Opened in', `${significant(this.opened / 1000, 2)} s`]]));
   }
 
   private figures(): HTMLElement {

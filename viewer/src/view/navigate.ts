@@ -15,6 +15,7 @@ export class Navigator {
   private readonly pointers = new Map<number, {x: number; y: number; button: number}>();
   private readonly keys = new Set<string>();
   private moved = 0;              // pixels since the first pointer went down
+  private fingers = 0;            // pointers that were down at one time since then
 
   constructor(private readonly camera: PerspectiveCamera, private readonly element: HTMLElement, private readonly changed: () => void) {
     element.addEventListener('pointerdown', e => this.down(e));
@@ -27,8 +28,8 @@ export class Navigator {
     element.addEventListener('blur', () => this.keys.clear());
   }
 
-  /// A press that did not move: it is meant as a click.
-  get wasClick(): boolean { return this.moved < 5; }
+  /// A press of one finger that did not move: it is meant as a click.
+  get wasClick(): boolean { return this.moved < 5 && this.fingers === 1; }
 
   get distance(): number { return this.camera.position.distanceTo(this.pivot); }
 
@@ -95,8 +96,9 @@ export class Navigator {
   }
 
   private down(e: PointerEvent): void {
-    if (this.pointers.size === 0) this.moved = 0;
+    if (this.pointers.size === 0) this.moved = this.fingers = 0;
     this.pointers.set(e.pointerId, {x: e.clientX, y: e.clientY, button: e.shiftKey ? 2 : e.button});
+    this.fingers = Math.max(this.fingers, this.pointers.size);
     this.element.setPointerCapture(e.pointerId);
   }
 
@@ -111,7 +113,9 @@ export class Navigator {
     const after = this.gesture();
     if (before && after) {
       this.pan(after.x - before.x, after.y - before.y);
-      if (after.spread > 0) this.dolly(before.spread / after.spread);
+      const apart = after.spread > 0 && before.spread > 0 ? after.spread / before.spread : 1;
+      if (this.manner === 'walk') this.walk(Math.log(apart), 0, 0, this.speed * 3);
+      else this.dolly(1 / apart);
     } else if (this.manner === 'walk') {
       this.look(dx, dy);
     } else if (pointer.button === 0) {

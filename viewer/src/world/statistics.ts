@@ -1,4 +1,5 @@
 // Where the bytes and the triangles of a file are.
+import type {BufferAttribute, Material, Mesh, MeshStandardMaterial, Texture} from 'three';
 import {accessorBytes, accessorsOf, type GltfFile} from './file';
 import {labelOf, type Part, type World} from './world';
 
@@ -48,4 +49,24 @@ const below = (part: Part): number => part.children.reduce((n, p) => n + p.trian
 
 function meshBytes(file: GltfFile, mesh: number): number {
   return [...accessorsOf(file, mesh).keys()].reduce((n, a) => n + accessorBytes(file, a), 0);
+}
+
+/// Bytes that the graphics card needs for geometry and textures, each once and unpacked; textures with their smaller copies.
+export function unpackedBytes(world: World): number {
+  const sizes = new Map<unknown, number>();
+  world.root.traverse(o => {
+    const {geometry, material} = o as Mesh;
+    if (!geometry) return;
+    for (const a of [...Object.values(geometry.attributes), geometry.index]) if (a) sizes.set((a as BufferAttribute).array, (a as BufferAttribute).array.byteLength);
+    for (const t of texturesOf(material as Material)) {
+      const image = t.image as {width?: number; height?: number} | undefined;
+      if (image?.width && image.height) sizes.set(t.source, image.width * image.height * 4 * 4 / 3);
+    }
+  });
+  return [...sizes.values()].reduce((n, bytes) => n + bytes, 0);
+}
+
+function texturesOf(material: Material): Texture[] {
+  const {map, emissiveMap, normalMap, aoMap, lightMap, roughnessMap, metalnessMap} = material as MeshStandardMaterial;
+  return [map, emissiveMap, normalMap, aoMap, lightMap, roughnessMap, metalnessMap].filter(t => t instanceof Object) as Texture[];
 }
