@@ -185,7 +185,7 @@ std::optional<std::string> read_bytes(const std::string& path, std::uint64_t lim
 std::string readable_size(std::uint64_t bytes) {
   constexpr std::string_view units[] = {" bytes", " KiB", " MiB", " GiB"};
   std::size_t unit = 0;
-  while (unit < 3 && bytes >= 1024 && (bytes % 1024 == 0 || bytes >= 100 * 1024)) bytes = (bytes + 512) / 1024, ++unit;
+  while (unit < 3 && bytes >= 1024 && (bytes % 1024 == 0 || bytes >= 10 * 1024)) bytes = (bytes + 512) / 1024, ++unit;
   return std::to_string(bytes) + std::string(units[unit]);
 }
 

@@ -317,6 +317,12 @@ def report(tmp):
     check('what was lost, by kind', any(k['severity'] == 'lost' and 'Sound' in k['example'] for k in data['messages']), data['messages'])
     check('how far the surface has moved', 0 <= files['ball.glb']['max'] < 1e-3, files)
     csv = (tmp / 'r.csv').read_text().splitlines()
+    write(tmp / 'two/whole/whole.wrl', '#VRML V2.0 utf8\nInline { url "../parts/part.wrl" }\n')
+    write(tmp / 'two/parts/part.wrl', BOX)
+    write(tmp / 'same.toml', '[output]\nformat = "wrl"\n')
+    corpus(tmp / 'same.toml', tmp / 'two', '-o', tmp / 'same')
+    same = {f['output']: f for f in json.loads(corpus(tmp / 'same', '--json', verb='report')[1])['files']}
+    check('and of what stands in another folder of the run', same['whole/whole.wrl']['max'] == 0, same)
     check('a table', len(csv) == 3 and csv[0].startswith('input,output,state,cause') and all(l.count(',') >= 14 for l in csv), csv)
     page = (tmp / 'r.html').read_text()
     check('a page with pictures and nothing from elsewhere', page.count('/9j/') == 2 and 'http' not in page.replace('http-equiv', '') and 'bad &lt;b&gt;.wrl' in page, len(page))

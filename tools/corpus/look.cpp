@@ -49,7 +49,9 @@ std::string look_file(const std::string& out, const JournalLine& line) {
 
 bool make_look(const Flags& flags, const std::string& out, const JournalLine& line) {
   const auto output = (fs::path(out) / line.output).string();
-  const Flags of_input = flags_to_read(flags, line.input, true), of_output = flags_to_read(flags, output, false);
+  const Flags of_input = flags_to_read(flags, line.input, true);
+  Flags of_output = flags_to_read(flags, output, false);
+  of_output.allow_paths.push_back(out);
   Session a(of_input), b(of_output);
   auto facts_a = facts_of(a, line.input), facts_b = facts_of(b, output);
   if (!facts_a || !facts_b) return false;
