@@ -258,7 +258,9 @@ std::vector<Value> fields_for(const Scene& scene, NodeId n, TypeId type) {
   std::vector<Value> out;
   const auto& target = scene.type(type);
   for (Value v : scene.fields(n)) {
-    if (!scene.is_extra(v)) {
+    if (scene.is_extra(v)) {
+      if (target.find(v.extra->name, Dialect::x3d)) continue;  // what meant nothing may not begin to mean something
+    } else {
       auto slot = target.find(scene.type(n).fields[v.slot].name, Dialect::x3d);
       if (!slot || target.fields[*slot].type != v.type) continue;
       v.slot = *slot;
