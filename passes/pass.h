@@ -74,6 +74,7 @@ struct MeshJob {
   MeshScratch& scratch;
   PassContext& ctx;
   bool textured = false;  // some Shape puts a texture on it
+  bool driven = false;    // its points and their order belong to somebody else (driven.h)
 };
 
 }  // namespace wrlkit

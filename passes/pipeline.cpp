@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "passes/driven.h"
 #include "passes/geometry.h"
 #include "scenegraph/blanks.h"
 #include "scenegraph/nodes.h"
@@ -41,8 +42,6 @@ bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
 }
 
 std::string no_such_pass(std::string_view name) { return "there is no pass '" + std::string(name) + "'" + pass_question(name); }
-
-bool is_geometry(const Scene& scene, NodeId n) { return scene.type(n).kind == NodeKind::builtin && scene.type(n).is_a("X3DGeometryNode"); }
 
 class Timer {
  public:
@@ -179,8 +178,9 @@ bool Pipeline::run_mesh_steps(std::size_t begin, std::size_t end, Scene& scene, 
   Mesh mesh;
   MeshScratch scratch;
   const auto textured = textured_geometry(scene);
+  const auto driven = driven_geometry(scene);
   for (NodeId n : all_nodes(scene)) {
-    if (!is_geometry(scene, n)) continue;
+    if (!is_geometry(scene, n) || driven[n.value]) continue;
     MeshJob job{scene, n, mesh, scratch, ctx, textured[n.value] != 0};
     read_mesh(job);
     bool changed = false;
@@ -209,12 +209,14 @@ MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOp
   struct State {
     Mesh mesh;
     MeshScratch scratch;
-    std::vector<char> textured;
+    std::vector<char> textured, driven;
   };
   auto state = std::make_shared<State>();
   state->textured = textured_geometry(scene);
+  state->driven = driven_geometry(scene);
   return [this, tail, &scene, &ctx, state](NodeId n) -> const Mesh& {
-    MeshJob job{scene, n, state->mesh, state->scratch, ctx, n.value < state->textured.size() && state->textured[n.value] != 0};
+    const bool known = n.value < state->textured.size();
+    MeshJob job{scene, n, state->mesh, state->scratch, ctx, known && state->textured[n.value] != 0, known && state->driven[n.value] != 0};
     read_mesh(job);
     for (std::size_t i = tail; i < steps_.size(); ++i) state->mesh.cut.clear(), steps_[i].pass->run(job);
     return state->mesh;

@@ -206,7 +206,7 @@ std::string WeldTolerance::print() const {
 }
 
 Outcome weld(MeshJob& job, const WeldOptions& options) {
-  if (job.mesh.kind != Mesh::Kind::faces || job.mesh.corners.empty()) return Outcome::unchanged;
+  if (job.driven || job.mesh.kind != Mesh::Kind::faces || job.mesh.corners.empty()) return Outcome::unchanged;
   return Welding(job, options).run();
 }
 

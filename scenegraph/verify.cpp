@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "scenegraph/bit_mask.h"
 #include "scenegraph/nodes.h"
@@ -97,6 +98,7 @@ class Invariants {
   bool run() {
     for (NodeId n : all_nodes(s_)) ids(n);
     if (!good_) return false;
+    for (const auto& r : s_.main.routes) events_.insert(r.to.value);
     if (level_ != Level::authored)
       for (NodeId n : reachable(s_, s_.main)) expanded(n);
     return good_;
@@ -121,13 +123,14 @@ class Invariants {
     for (auto& v : s_.fields(n))
       if (s_.content(v).is) breach(n, "IS outside of a prototype");
     if (s_.type(n).kind == NodeKind::proto && !s_.proto(s_.type(n).proto).external) breach(n, "a prototype instance");
-    if (level_ == Level::mesh && s_.type(n).is_a("X3DGeometryNode") && !s_.is(n, nodes::IndexedFaceSet) && !s_.is(n, nodes::IndexedLineSet) && !s_.is(n, nodes::PointSet))
+    if (level_ == Level::mesh && !events_.contains(n.value) && s_.type(n).is_a("X3DGeometryNode") && !s_.is(n, nodes::IndexedFaceSet) && !s_.is(n, nodes::IndexedLineSet) && !s_.is(n, nodes::PointSet))
       breach(n, "geometry that is no mesh");
   }
 
   const Scene& s_;
   Level level_;
   Diagnostics& diag_;
+  std::unordered_set<std::uint32_t> events_;  // nodes that get some: geometry among them stays what takes them
   bool good_ = true;
 };
 

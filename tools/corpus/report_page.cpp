@@ -16,6 +16,7 @@ namespace wrlkit {
 namespace {
 
 constexpr std::size_t most_listed = 60, most_failed = 1000;
+constexpr double rounding = 1e-9;  // of the diagonal: nobody has moved that far
 
 constexpr std::string_view script = R"JS(
 const names=["input","state","seconds","cpu","memory","input_bytes","output_bytes","errors","warnings","lost","rms","max"];
@@ -106,7 +107,7 @@ class Page {
     const auto looked = std::ranges::count_if(r_.rows, [](const ReportRow& r) { return r.look.has_value(); });
     if (!looked) return;
     put("<h2>Farthest from what they were</h2>\n<p>{} worlds were measured and drawn, before and after: the distance of their surfaces as the root of the mean square, in metres and as a share of the diagonal.</p>\n<div class=\"looks\">\n", looked);
-    for (const auto* r : largest([](const ReportRow& r) { return r.look ? r.look->of_diagonal : 0; }))
+    for (const auto* r : largest([](const ReportRow& r) { return r.look && r.look->of_diagonal > rounding ? r.look->of_diagonal : 0; }))
       put("<figure><div data-look=\"{}\"></div><figcaption>{}<br><span class=\"soft\">{}</span></figcaption></figure>\n", look_index(*r), html_text(r->input),
           std::isfinite(r->look->rms) ? fmt::format("{:.3g} m rms, {:.3g} m at most; {:.2g} of the diagonal", r->look->rms, r->look->max, r->look->of_diagonal) : "one of the worlds shows no surface, or too large a one");
     put("</div>\n");
