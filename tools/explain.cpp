@@ -43,10 +43,10 @@ int run_passes(const Flags& flags) {
     return fmt::print(stderr, "wrlkit: there is no pass '{}'{}\n", flags.name, pass_question(flags.name)), usage;
   }
   if (flags.json) return fmt::print("{}\n", passes_json()), done;
-  for (auto& p : passes()) fmt::print("{:<16}{}\n", p.name, p.summary);
-  for (auto* p : added_passes()) fmt::print("{:<16}{}\n", p->name, p->summary);
+  for (auto& p : passes()) fmt::print("{:<18}{}\n", p.name, p.summary);
+  for (auto* p : added_passes()) fmt::print("{:<18}{}\n", p->name, p->summary);
   fmt::print("\nPipelines with a name:\n");
-  for (auto& n : named_pipelines()) fmt::print("{:<16}{}\n                {}\n", n.name, n.summary, n.text);
+  for (auto& n : named_pipelines()) fmt::print("{:<18}{}\n                  {}\n", n.name, n.summary, n.text);
   return done;
 }
 
