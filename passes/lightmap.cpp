@@ -57,8 +57,8 @@ BakeOptions bake_options(const LightmapOptions& o) {
   out.samples = work.samples;
   out.integrator.rays = work.rays;
   out.integrator.seed = static_cast<std::uint64_t>(o.seed);
-  // A texel is the mean of its points.
-  if (o.error > 0) out.integrator.error = o.error * std::sqrt(double(work.samples));
+  out.error = o.error;
+  if (o.error > 0) out.integrator.rays = std::max(work_of[BakeQuality::normal].rays, work.rays);  // the cache must be as good as what is asked for
   out.directional = o.directional;
   out.denoise = o.denoise;
   out.checkpoint = o.checkpoint;

@@ -62,7 +62,7 @@ struct LightmapOptions {
 
   void fields(auto&& f) {
     f("quality", quality, "how many rays, and how many texels unless a density is given");
-    f("error", error, "relative standard error that is wanted of a texel, such as 0.01; 0: as the quality has it", between(0, 1));
+    f("error", error, "relative standard error that is wanted of what is shown, such as 0.01; 0: as the quality has it", between(0, 1));
     f("density", density, "texels per metre; 0: as many as fit on one page", at_least(0));
     f("densities", densities, "by name, times the density of the rest");
     f("max-size", max_size, "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given", between(0, 32768));

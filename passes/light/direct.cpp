@@ -99,7 +99,7 @@ void DirectLight::emitter(const Receiver& at, const EmitterTree::Choice& choice,
   to.add(s->through * weight * world_.radiance(e, b1, b2), s->ray.direction);
 }
 
-void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint32_t n, Flux& to, V3& noise) const {
+void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint32_t first, std::uint32_t n, Flux& to, V3& noise) const {
   const auto emitters = world_.emitters();
   double strength[few], sum = 0;
   for (std::size_t i = 0; i < emitters.size(); ++i) {
@@ -112,15 +112,16 @@ void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint3
   // Rays by strength, two at least, so that they tell how they scatter. Emitters of less are drawn, by equal steps along the
   // sum of their strengths; those scatter from one another.
   const double step = 2 * sum / n;
-  double next = fraction(key_of(key, emitters.size())) * step, n_drawn = 0;
+  double next = fraction(key_of(key, emitters.size(), first)) * step, n_drawn = 0;
   V3 drawn, drawn_squares, drawn_noise;
   for (std::size_t i = 0; i < emitters.size(); ++i) {
     const V3 full((n / mean(emitters[i].radiance)) * strength[i]);
     if (strength[i] >= step) {
-      add_seen(at, emitters[i], full, key_of(key, i), static_cast<std::uint32_t>(std::lround(2 * strength[i] / step)), to, noise);
+      const auto rays = [&](std::uint32_t of) { return static_cast<std::uint32_t>(std::lround(of * (strength[i] / sum))); };
+      add_seen(at, emitters[i], full, Lattice<2>(key_of(key, i)), rays(first), rays(n), to, noise);
     } else if (strength[i] > 0 && (next -= strength[i]) < 0) {
       next += step;
-      const V3 e = add_seen(at, emitters[i], (step / strength[i]) * full, key_of(key, i), 2, to, drawn_noise);
+      const V3 e = add_seen(at, emitters[i], (step / strength[i]) * full, Lattice<2>(key_of(key, i, first)), 0, 2, to, drawn_noise);
       drawn += e, drawn_squares += e * e, ++n_drawn;
     }
   }
@@ -128,18 +129,17 @@ void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint3
 }
 
 /// `strength` is the irradiance by radiance 1 when nothing stands between. Returns what was added.
-V3 DirectLight::add_seen(const Receiver& at, const Emitter& e, const V3& strength, std::uint64_t key, std::uint32_t n, Flux& to, V3& noise) const {
+V3 DirectLight::add_seen(const Receiver& at, const Emitter& e, const V3& strength, const Lattice<2>& places, std::uint32_t first, std::uint32_t n, Flux& to, V3& noise) const {
   struct Seen {
     V3 light, direction;
     double weight;
   };
   thread_local std::vector<Seen> seen;
   seen.clear();
-  const Lattice<2> places(key);
   double weights = 0;
   V3 sum;
   for (std::uint32_t i = 0; i < n; ++i) {
-    auto [u, v] = places[i];
+    auto [u, v] = places[first + i];
     double root = std::sqrt(u), b1 = root * (1 - v), b2 = root * v;
     auto s = look(at, e, b1, b2);
     if (!s) continue;

@@ -29,7 +29,8 @@ class DirectLight {
   /// Adds `n` times the irradiance of all emitters, so that no other ray has to find them: of each what it would give if
   /// nothing stood between, exactly, times the share of it that some `n` rays find open (a ratio estimator; Heitz, Hill and
   /// McGuire 2018). Where all or nothing is seen there is no noise. `noise` gets the variance of what was added.
-  void all_emitters(const Receiver& at, std::uint64_t key, std::uint32_t n, Flux& to, V3& noise) const;
+  /// `first` rays by the same key were asked for before: these go on with the same lattices.
+  void all_emitters(const Receiver& at, std::uint64_t key, std::uint32_t first, std::uint32_t n, Flux& to, V3& noise) const;
 
   /// A ray in a cosine direction met an emitter: the share of its light that counts beside emitters() (the balance
   /// heuristic of Veach and Guibas). 1 when the triangle is no emitter.
@@ -46,7 +47,7 @@ class DirectLight {
     double through;                    // of its light
   };
   std::optional<Sight> look(const Receiver& at, const Emitter& e, double b1, double b2) const;
-  V3 add_seen(const Receiver& at, const Emitter& e, const V3& strength, std::uint64_t key, std::uint32_t n, Flux& to, V3& noise) const;
+  V3 add_seen(const Receiver& at, const Emitter& e, const V3& strength, const Lattice<2>& places, std::uint32_t first, std::uint32_t n, Flux& to, V3& noise) const;
   void emitter(const Receiver& at, const EmitterTree::Choice& choice, double u, double v, Flux& to) const;
 
   const LightWorld& world_;

@@ -9,19 +9,12 @@ namespace wrlkit::light {
 namespace {
 
 constexpr std::size_t block = 64;    // points that are done in one piece
-constexpr double dark = 0.1;         // an error of what is darker than so much of the mean is not worth many rays
 constexpr int lamp_rays = 16;
 constexpr double largest_cell = 0.1; // of the cache, by the radius of the world
 
 Receiver receiver(const LightWorld& world, const Point& p) {
   std::uint32_t scope = p.use == Point::nowhere ? 0 : world.stage().uses[p.use].lights;
   return {world.off_surface(p.position, p.face, p.extent), p.face, p.normal, scope};
-}
-
-double mean_irradiance(const IrradianceCache& cache) {
-  double sum = 0, n = 0;
-  for (const auto& c : cache.cells()) sum += c.n_met * mean(c.irradiance()), n += c.n_met;
-  return n > 0 ? sum / n : 0;
 }
 
 Rgb rgb(const V3& c) { return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)}; }
@@ -34,7 +27,6 @@ struct Integrator::State {
   DirectLight direct;
   IrradianceCache cache;
   Transport transport;
-  double floor = 0;                  // irradiance below which errors are measured as if it were so bright
 
   State(const LightWorld& w, const IntegratorOptions& o)
       : world(w), options(o), direct(w), cache(w.centre(), o.cell > 0 ? o.cell : w.radius() * largest_cell),
@@ -43,23 +35,22 @@ struct Integrator::State {
 
 namespace {
 
-/// The rays of one point, in rounds.
+/// The rays of one point.
 class Estimate {
  public:
-  Estimate(const DirectLight& direct, const Transport& transport, bool all_emitters, const Receiver& at, std::uint64_t key)
-      : direct_(direct), transport_(transport), at_(at), all_emitters_(all_emitters), key_(key), random_(key), directions_(key_of(key, 1)),
+  Estimate(const DirectLight& direct, const Transport& transport, bool all_emitters, const Receiver& at, std::uint64_t key, std::uint32_t first)
+      : direct_(direct), transport_(transport), at_(at), all_emitters_(all_emitters), key_(key), first_(first), random_(first ? key_of(key, 4, first) : key), directions_(key_of(key, 1)),
         places_(key_of(key, 2)) {
     direct_.lamps(at_, lamp_rays, random_, lamps_);
   }
 
   void trace(std::uint32_t n) {
-    if (all_emitters_) direct_.all_emitters(at_, key_of(key_, 3, n_), n, emitters_, emitter_noise_);
-    else direct_.emitters(at_, places_, n_, n, emitters_);
+    if (all_emitters_) direct_.all_emitters(at_, key_of(key_, 3), first_ + n_, n, emitters_, emitter_noise_);
+    else direct_.emitters(at_, places_, first_ + n_, n, emitters_);
     for (std::uint32_t i = n_; i < n_ + n; ++i) gather(i);
     n_ += n;
   }
 
-  std::uint32_t n() const { return n_; }
   V3 total() const { return lamps_.sum + (1.0 / n_) * (emitters_.sum + gathered_.sum); }
   V3 variance() const {
     const V3 of_emitters = all_emitters_ ? (1.0 / n_ / n_) * emitter_noise_ : emitters_.variance(n_);
@@ -82,7 +73,7 @@ class Estimate {
 
  private:
   void gather(std::uint32_t i) {
-    auto [u, v] = directions_[i];
+    auto [u, v] = directions_[first_ + i];
     V3 direction = cosine_direction(at_.normal, u, v);
     if (!(dot(direction, at_.face) > 0)) return;
     Arriving a = transport_.gather(at_, {at_.start, direction}, random_, all_emitters_);
@@ -96,6 +87,7 @@ class Estimate {
   Receiver at_;
   bool all_emitters_;                // each is looked at, so that rays leave them out
   std::uint64_t key_;
+  std::uint32_t first_;              // rays that others have
   Stream random_;
   Lattice<2> directions_;
   Lattice<3> places_;
@@ -112,24 +104,21 @@ Integrator::Integrator(const LightWorld& world, std::span<const Point> points, c
   std::vector<Receiver> from;
   for (const Point& p : points) from.push_back(receiver(world, p));
   if (options.mode != IntegratorOptions::Mode::cached) return;
-  fill(s.cache, world, s.direct, from, options.error > 0 ? options.most_rays : options.rays, options.seed);
-  s.floor = dark * mean_irradiance(s.cache);
+  fill(s.cache, world, s.direct, from, options.rays, options.seed);
 }
 
 Integrator::~Integrator() = default;
 
-std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, std::size_t first) const {
+int Integrator::rays() const { return state_->options.rays; }
+
+std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, std::size_t first, const Round& round) const {
   const State& s = *state_;
-  const auto rays = static_cast<std::uint32_t>(std::max(1, s.options.rays));
-  const auto most = static_cast<std::uint32_t>(std::max(s.options.rays, s.options.most_rays));
   const bool all_emitters = s.options.mode == IntegratorOptions::Mode::cached && s.direct.has_few_emitters();
   std::vector<Irradiance> out(points.size());
   parallel_for((points.size() + block - 1) / block, [&](std::size_t b) {
     for (std::size_t i = b * block; i < std::min(points.size(), (b + 1) * block); ++i) {
-      Estimate e(s.direct, s.transport, all_emitters, receiver(s.world, points[i]), key_of(s.options.seed, 6, first + i));
-      e.trace(rays);
-      auto precise = [&] { return std::sqrt(mean(e.variance())) <= s.options.error * std::max(mean(e.total()), s.floor); };
-      while (s.options.error > 0 && e.n() < most && !precise()) e.trace(std::min(e.n(), most - e.n()));
+      Estimate e(s.direct, s.transport, all_emitters, receiver(s.world, points[i]), key_of(s.options.seed, 6, first + (round.numbers.empty() ? i : round.numbers[i])), round.first);
+      e.trace(static_cast<std::uint32_t>(std::max(1, round.rays)));
       out[i] = e.result();
     }
   });

@@ -16,8 +16,6 @@ struct IntegratorOptions {
 
   Mode mode = Mode::cached;
   int rays = 64;                     // a point, and as many to emitters where there are any
-  double error = 0;                  // relative standard error that is wanted; points that have it not yet get more rays
-  int most_rays = 1024;              // a point; only with error
   double cell = 0;                   // largest cell of the cache, world units; 0: a tenth of LightWorld::radius()
   std::uint64_t seed = 1;
 };
@@ -54,9 +52,18 @@ class Integrator {
 
   /// out[i] belongs to points[i]; the same bits for any number of threads. `first` is the number of the first point: asking in
   /// pieces gives what asking for all at once gives. Neighbouring points should follow one another.
-  std::vector<Irradiance> irradiance(std::span<const Point> points, std::size_t first = 0) const;
+  std::vector<Irradiance> irradiance(std::span<const Point> points, std::size_t first = 0) const { return irradiance(points, first, {0, rays()}); }
+
+  /// Rays of a point: `rays` of them, after `first` that were asked for before and with which they share a lattice.
+  struct Round {
+    std::uint32_t first;
+    int rays;
+    std::span<const std::uint32_t> numbers{};  // of the points, from the first on; empty: 0, 1, 2, ...
+  };
+  std::vector<Irradiance> irradiance(std::span<const Point> points, std::size_t first, const Round& round) const;
 
  private:
+  int rays() const;
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -9,137 +9,17 @@
 #include "passes/lightmap/denoise.h"
 #include "passes/lightmap/fill.h"
 #include "passes/lightmap/page.h"
+#include "passes/lightmap/page_baker.h"
+#include "passes/lightmap/refine.h"
 #include "passes/lightmap/specks.h"
 
 namespace wrlkit::bake {
 namespace {
 
-using drawing::Affine;
 using drawing::V3;
-using light::Irradiance;
 using light::Point;
 
-constexpr double pi = 3.14159265358979323846;
-constexpr int grid = 4;                      // points along each side of a texel that may be lit
 constexpr std::size_t most_cache_points = 100'000;
-constexpr float within = 0.5f;               // share of rays that meet backs, from which on a point lies inside something
-
-Vec vec(const V3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-Rgb rgb(const light::Rgb& c) { return {c[0], c[1], c[2]}; }
-
-/// Where the points of a texel lie.
-enum class Site : std::uint32_t {
-  open,
-  within,                                    // something: what few rays see is not the light there
-  pierced,                                   // within something on all sides, and yet a lamp shines there: a leak
-};
-
-/// What is kept of a texel: what the checkpoint holds.
-struct TexelLight {
-  std::int32_t x, y;
-  std::uint32_t chart;
-  Site site;
-  Rgb light, along[3];
-  float variance;
-  Vec position, normal;
-};
-
-class PageBaker {
- public:
-  PageBaker(const std::vector<Part>& parts, const PageLayout& page, const light::LightWorld& world, bool flat)
-      : parts_(parts), page_(page), world_(world), flat_(flat), grid_(page.triangles, page.width, page.height) {}
-
-  std::size_t n_tiles() const { return grid_.n_tiles(); }
-
-  /// Points of the surface for a tile's samples, in their order; of a grid with so many along each side of a texel.
-  const std::vector<Point>& points(std::size_t tile, int samples, int side = grid) {
-    grid_.texels_of(tile, side, samples, texels_);
-    points_.clear();
-    for (const auto& s : texels_.samples) points_.push_back(point(s));
-    return points_;
-  }
-
-  /// The light of each texel of the tile whose points were asked for last.
-  std::vector<TexelLight> gather(std::vector<Irradiance> light) const {
-    std::vector<TexelLight> out;
-    for (std::size_t i = 0; i < light.size(); ++i)
-      if (is_dark(light[i]) && is_enclosed(points_[i])) light[i].inside = 1;
-    for (const auto& t : texels_.texels) {
-      const std::span all(&light[t.first], t.count);
-      TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, site_of(all, t.first), {}, {}, 0, {}, {}};
-      float weight = 0;  // of a point that lies within something, as far as it sees out; such light counts where there is no other
-      for (const Irradiance& l : all) {
-        if (texel.site == Site::open && l.inside > within) continue;
-        add(l, texel);
-        weight += texel.site == Site::open ? 1 : 1 - l.inside;
-      }
-      const auto scale = weight > 0 ? static_cast<float>(1 / (pi * weight)) : 0;
-      texel.light = scale * texel.light;
-      for (Rgb& a : texel.along) a = scale * a;
-      texel.variance *= scale * scale;
-      const Point& middle = points_[t.first + t.count / 2];
-      texel.position = vec(middle.position - world_.centre());
-      texel.normal = vec(middle.normal);
-      out.push_back(texel);
-    }
-    return out;
-  }
-
- private:
-  static bool is_dark(const Irradiance& p) { return !(luminance(rgb(p.direct)) + luminance(rgb(p.indirect)) > 0); }
-
-  /// Where closed things touch, a ray may meet the front of the one before the back of the other: it sees no back then.
-  bool is_enclosed(const Point& p) const {
-    const V3 askew = p.face + V3(0.0137, 0.0271, 0.0419);
-    return world_.encloses({world_.off_surface(p.position, p.face, p.extent), unit(askew)});
-  }
-
-  /// Of the points from `first` on. Few rays may all meet backs of what is open; it is a leak only where closed things are all around.
-  Site site_of(std::span<const Irradiance> light, std::size_t first) const {
-    if (std::ranges::any_of(light, [](const Irradiance& p) { return p.inside <= within; })) return Site::open;
-    for (std::size_t i = 0; i < light.size(); ++i)
-      if (light[i].inside == 1 && light[i].by_lamp && is_enclosed(points_[first + i])) return Site::pierced;
-    return Site::within;
-  }
-
-  static void add(const Irradiance& from, TexelLight& to) {
-    to.light += rgb(from.direct) + rgb(from.indirect);
-    for (int k = 0; k < 3; ++k) to.along[k] += rgb(from.along[k]);
-    to.variance += luminance(rgb(from.variance));
-  }
-
-  Point point(const SurfaceSample& s) const {
-    const FacetRef& ref = page_.refs[s.triangle];
-    const Part& part = parts_[ref.part];
-    const auto& use = world_.stage().uses[ref.use];
-    const Affine& frame = world_.stage().frames[use.frame];
-    const std::size_t c = 3 * std::size_t{ref.triangle};
-    const V3 corner[3] = {part.position(c), part.position(c + 1), part.position(c + 2)};
-    V3 position, normal;
-    for (int k = 0; k < 3; ++k) {
-      position += double{s.weight[k]} * corner[k];
-      normal += double{s.weight[k]} * part.normal(c + k);
-    }
-    Point p;
-    p.position = frame.point(position);
-    p.face = unit(frame.normal(cross(corner[1] - corner[0], corner[2] - corner[0])));
-    p.normal = unit(frame.normal(normal));
-    if (!(dot(p.face, p.face) > 0.5)) p.face = p.normal;
-    // Who has directions corrects for the normal himself (passes/render/baked.h).
-    if (flat_ || !(dot(p.normal, p.face) > 0)) p.normal = p.face;
-    p.use = ref.use;
-    p.extent = std::max(length(frame.vector(corner[1] - corner[0])), length(frame.vector(corner[2] - corner[0])));
-    return p;
-  }
-
-  const std::vector<Part>& parts_;
-  const PageLayout& page_;
-  const light::LightWorld& world_;
-  bool flat_;                                // by the normal of the face, not by that of shading
-  TexelGrid grid_;
-  TileTexels texels_;
-  std::vector<Point> points_;
-};
 
 /// A fair choice of the points that will be lit, for the cache of reflected light.
 std::vector<Point> choose_points(std::vector<PageBaker>& pages) {
@@ -157,8 +37,7 @@ std::vector<Point> choose_points(std::vector<PageBaker>& pages) {
 
 /// Of all that the light of a tile depends on.
 std::uint64_t key_of(const Layout& layout, const light::LightWorld& world, const BakeOptions& o) {
-  const double numbers[] = {double(o.samples), double(o.integrator.mode), double(o.integrator.rays), o.integrator.error, double(o.integrator.most_rays),
-                            o.integrator.cell, double(o.integrator.seed), world.radius(), world.centre().x, world.centre().y, world.centre().z};
+  const double numbers[] = {double(o.samples), double(o.integrator.mode), double(o.integrator.rays), o.error, o.integrator.cell, double(o.integrator.seed), world.radius(), world.centre().x, world.centre().y, world.centre().z};
   std::uint64_t h = hash_bytes(numbers, sizeof numbers);
   for (const auto& p : layout.pages()) {
     h = hash_bytes(p.triangles.data(), p.triangles.size() * sizeof(PlacedTriangle), h);
@@ -218,6 +97,11 @@ void make_directions(Page& page) {
 }
 
 BakedPage finish(Page page, const std::vector<char>& inside, const BakeOptions& options, Statistics& stats) {
+  for (std::size_t i = 0; i < page.size(); ++i) {
+    stats["lightmap.texels"] += page.covered(i);
+    stats["lightmap.inside"] += inside[i];
+    stats["lightmap.black"] += page.covered(i) && !inside[i] && !(page.light()[i].r + page.light()[i].g + page.light()[i].b > 0);
+  }
   auto known = known_texels(page, inside);
   std::vector<std::uint32_t> chart;
   for (const Place& p : page.places) chart.push_back(p.chart);
@@ -233,6 +117,90 @@ BakedPage finish(Page page, const std::vector<char>& inside, const BakeOptions& 
   return out;
 }
 
+/// Light comes in rounds: one for all texels or, where an error is asked for, as many as it takes, each with as many rays as those before it.
+class Rounds {
+ public:
+  Rounds(const light::Integrator& integrator, Checkpoint& checkpoint, const BakeOptions& options, std::uint64_t n_tiles, PassContext& ctx)
+      : integrator_(integrator), checkpoint_(checkpoint), options_(options), n_tiles_(n_tiles), ctx_(ctx) {}
+
+  /// `first` is the number of the page's first tile.
+  BakedPage bake(PageBaker& from, std::uint64_t first, int width, int height) {
+    Page page(width, height, options_.directional ? 4 : 1);
+    std::vector<char> inside(page.size()), chosen;
+    std::vector<Rgb> difference(options_.error > 0 ? page.size() : 0);
+    const bool once = difference.empty();
+    const int rays = once ? options_.integrator.rays : std::max(fewest_rays, options_.integrator.rays / 2);
+    run(from, first, 0, {0, rays}, chosen, [&](const TexelLight& t) { take(t, page, inside); });
+    for (std::uint32_t round = 1; !once && rays << round <= most_rays; ++round) {
+      run(from, first, round, {static_cast<std::uint32_t>(rays << (round - 1)), rays << (round - 1)}, chosen, [&](const TexelLight& t) { add(t, page, inside, difference); });
+      auto next = unsettled(in_the_open(page, inside), difference, options_.error, options_.denoise);
+      for (std::size_t i = 0; i < chosen.size(); ++i) next[i] &= chosen[i];
+      chosen = std::move(next);
+      if (std::ranges::find(chosen, 1) == chosen.end()) break;
+    }
+    return finish(std::move(page), inside, options_, ctx_.stats);
+  }
+
+ private:
+  static constexpr int fewest_rays = 8, most_rays = 2048;  // a point
+
+  /// Calls f(texel) for the chosen texels of all tiles of a page.
+  template <class F>
+  void run(PageBaker& from, std::uint64_t first, std::uint32_t number_of_round, const light::Integrator::Round& round, const std::vector<char>& chosen, F&& f) {
+    if (ctx_.monitor) ctx_.monitor->begin(number_of_round ? "baking, round " + std::to_string(number_of_round + 1) : "baking", from.n_tiles(), "tiles");
+    for (std::size_t tile = 0; tile < from.n_tiles(); ++tile) {
+      const std::uint64_t number = number_of_round * n_tiles_ + first + tile;
+      std::vector<TexelLight> texels;
+      if (auto* saved = checkpoint_.find(number)) {
+        texels = unpack(*saved);
+      } else if (const auto& points = from.points(tile, options_.samples, PageBaker::grid, chosen); !points.empty()) {
+        const auto light = integrator_.irradiance(points, (first + tile) * TexelGrid::tile * TexelGrid::tile * options_.samples, {round.first, round.rays, from.numbers()});
+        texels = from.gather(light);
+        ctx_.stats["lightmap.samples"] += number_of_round ? 0 : points.size();
+        for (const auto& l : light) ctx_.stats["lightmap.rays"] += l.rays;
+        checkpoint_.save(number, packed(texels));
+      }
+      for (const auto& t : texels) f(t);
+      if (ctx_.monitor) ctx_.monitor->step();
+    }
+  }
+
+  void take(const TexelLight& t, Page& page, std::vector<char>& inside) {
+    const auto i = page.at(t.x, t.y);
+    page.light()[i] = t.light;
+    for (std::size_t l = 1; l < page.layers.size(); ++l) page.layers[l][i] = t.along[l - 1];
+    page.variance[i] = t.variance;
+    page.places[i] = {t.chart, t.position, t.normal};
+    inside[i] = t.site != Site::open;
+    ctx_.stats["lightmap.leaks"] += t.site == Site::pierced;
+  }
+
+  /// A second estimate, as good as the first.
+  static void add(const TexelLight& t, Page& page, std::vector<char>& inside, std::vector<Rgb>& difference) {
+    const auto i = page.at(t.x, t.y);
+    const bool open = t.site == Site::open;
+    if (!open && !inside[i]) return;
+    const float share = open && inside[i] ? 1 : 0.5f;  // what was within something as far as few rays told may be in the open
+    difference[i] = (1 - share) * (page.light()[i] - t.light);
+    page.light()[i] = (1 - share) * page.light()[i] + share * t.light;
+    for (std::size_t l = 1; l < page.layers.size(); ++l) page.layers[l][i] = (1 - share) * page.layers[l][i] + share * t.along[l - 1];
+    page.variance[i] = (1 - share) * (1 - share) * page.variance[i] + share * share * t.variance;
+    inside[i] = !open;
+  }
+
+  static Page in_the_open(Page page, const std::vector<char>& inside) {
+    for (std::size_t i = 0; i < page.size(); ++i)
+      if (inside[i]) page.places[i].chart = Place::nowhere;
+    return page;
+  }
+
+  const light::Integrator& integrator_;
+  Checkpoint& checkpoint_;
+  const BakeOptions& options_;
+  std::uint64_t n_tiles_;
+  PassContext& ctx_;
+};
+
 }  // namespace
 
 std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world, const BakeOptions& options, PassContext& ctx) {
@@ -241,40 +209,12 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   for (const auto& p : layout.pages()) n_tiles += bakers.emplace_back(parts, p, world, options.directional).n_tiles();
   const light::Integrator integrator(world, choose_points(bakers), options.integrator);
   Checkpoint checkpoint(options.checkpoint, key_of(layout, world, options));
-  if (ctx.monitor) ctx.monitor->begin("baking", n_tiles, "tiles");
+  Rounds rounds(integrator, checkpoint, options, n_tiles, ctx);
 
   std::vector<BakedPage> out;
-  std::uint64_t number = 0;  // of the tile, over all pages
-  for (std::size_t p = 0; p < bakers.size(); ++p) {
-    Page page(layout.pages()[p].width, layout.pages()[p].height, options.directional ? 4 : 1);
-    std::vector<char> inside(page.size());
-    for (std::size_t tile = 0; tile < bakers[p].n_tiles(); ++tile, ++number) {
-      std::vector<TexelLight> texels;
-      if (auto* saved = checkpoint.find(number)) {
-        texels = unpack(*saved);
-      } else if (const auto& points = bakers[p].points(tile, options.samples); !points.empty()) {
-        const auto light = integrator.irradiance(points, number * TexelGrid::tile * TexelGrid::tile * options.samples);
-        texels = bakers[p].gather(light);
-        ctx.stats["lightmap.samples"] += points.size();
-        for (const auto& l : light) ctx.stats["lightmap.rays"] += l.rays;
-        checkpoint.save(number, packed(texels));
-      }
-      for (const auto& t : texels) {
-        const auto i = page.at(t.x, t.y);
-        page.light()[i] = t.light;
-        for (std::size_t l = 1; l < page.layers.size(); ++l) page.layers[l][i] = t.along[l - 1];
-        page.variance[i] = t.variance;
-        page.places[i] = {t.chart, t.position, t.normal};
-        inside[i] = t.site != Site::open;
-        ctx.stats["lightmap.inside"] += inside[i];
-        ctx.stats["lightmap.leaks"] += t.site == Site::pierced;
-        ctx.stats["lightmap.black"] += t.site == Site::open && !(t.light.r + t.light.g + t.light.b > 0);
-      }
-      ctx.stats["lightmap.texels"] += texels.size();
-      if (ctx.monitor) ctx.monitor->step();
-    }
-    out.push_back(finish(std::move(page), inside, options, ctx.stats));
-  }
+  std::uint64_t first = 0;
+  for (std::size_t p = 0; p < bakers.size(); first += bakers[p++].n_tiles())
+    out.push_back(rounds.bake(bakers[p], first, layout.pages()[p].width, layout.pages()[p].height));
 
   std::vector<Canvas> light;
   for (auto& p : out) light.push_back(std::move(p.light));

@@ -11,6 +11,7 @@ namespace wrlkit::bake {
 struct BakeOptions {
   int samples = 4;                       // points a texel
   light::IntegratorOptions integrator;   // of each point
+  double error = 0;                      // relative standard error that is wanted of what is shown, after denoising; 0: integrator.rays for all
   bool directional = false;
   bool denoise = true;
   std::string checkpoint;                // file in which finished tiles are kept; empty: none

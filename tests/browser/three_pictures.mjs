@@ -29,8 +29,12 @@ const with_levels = ['corpus/paper/ellipsoid_hole.wrl']
 /// Worlds whose light is baked: three.js draws the glTF that the pass makes, wrlkit the VRML.
 const bake = ['-p', 'lightmap{quality=draft,max-size=128}'];
 const with_light = ['corpus/paper/stairs_room.wrl', 'corpus/paper/pipes.wrl', 'corpus/features/light_spot.wrl', 'corpus/features/use_nested.wrl',
-  'corpus/features/transparency.wrl', 'corpus/features/material_texture.wrl', 'corpus/vrml1/PointLight.wrl']
-  .map(name => ({name: `${name} with light`, file: file_of(name), baked: true}));
+  'corpus/features/transparency.wrl', 'corpus/features/material_texture.wrl', 'corpus/vrml1/PointLight.wrl',
+  'plant/openhrp3/mockup/hand_railing_pole.wrl', 'plant/openhrp3/mockup/scaffolding_pole_short.wrl', 'plant/openhrp3/mockup/catwalk.wrl',
+  'plant/choreonoid/Labo1/resource/rack1.wrl', 'plant/choreonoid/Labo1/resource/rack2.wrl', 'plant/choreonoid/Labo1/resource/rack3.wrl',
+  'plant/choreonoid/Tank/resource/tank.wrl', 'worlds/openhrp3/house/table.wrl', 'worlds/openhrp3/house/floor.wrl', 'worlds/openhrp3/house/Cassette.wrl',
+  'worlds/castle-demo-models/castle/old/vrml_1/castle.wrl', 'worlds/castle-game/levels/gate_background/gate.wrl']
+  .map(name => ({name: `${name} with light`, file: file_of(name), baked: true})).filter(w => w.file);
 
 /// The file that is drawn: the world, or the one with its levels of detail or its light.
 async function source_of({file, levels, baked}, to) {

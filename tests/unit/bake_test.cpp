@@ -223,6 +223,22 @@ TEST_CASE("bake: a closed room of which both sides are to be seen has light on b
   CHECK(Light(lamp, "Room").mesh.corners.size() == 72);
 }
 
+TEST_CASE("bake: an error that is asked for costs rays, where they are needed, and the same bytes come from any number of threads") {
+  const std::string body = "DEF Room Shape { " + material(0.5) + " geometry " + box(true, 1) + " } DEF Block Shape { " + material(0.5) + " geometry " + box(false, 0.3) +
+                           " } Transform { translation 0 0.95 0 rotation 1 0 0 3.14159265 scale 0.2 0.2 0.2 children Shape { " + material(0, 1) + " geometry " + floor_of_4 + " } }";
+  auto rays = [&](const std::string& error) { return Baked(body, "quality=draft,max-size=64" + error).stats["lightmap.rays"]; };
+  const auto coarse = rays(",error=0.5"), fine = rays(",error=0.005");
+  CHECK(coarse < 2 * rays(""));
+  CHECK(fine > 3 * coarse);
+  std::vector<std::string> pictures;
+  for (int threads : {1, 2}) {
+    ThreadLimit limit(threads);
+    Baked b(body, "quality=draft,max-size=64,error=0.02");
+    pictures.push_back(*b.resources.made()[0].bytes);
+  }
+  CHECK(pictures[0] == pictures[1]);
+}
+
 TEST_CASE("bake: what stands in a glass has light of its own, and the glass has it on both sides") {
   const std::string glass = "appearance Appearance { material Material { transparency 0.5 } } geometry IndexedFaceSet { solid FALSE " + box(false, 2).substr(17);
   Baked b("DEF In Shape { " + material(0.5) + " geometry " + box(false, 1) + " } DEF Glass Shape { " + glass + " } PointLight { location 0 5 0 attenuation 0 0 1 }", "quality=draft,max-size=128,sky=0:0:0");
