@@ -28,7 +28,7 @@ namespace {
 
 // Of compressed glTF, about: of each point and corner that is written once more; of a mesh with its table of places, and of a place in it.
 // A mesh by itself shares indices and normals with others, which halves it.
-constexpr double point_bytes = 8, corner_bytes = 0.7, place_bytes = 10, table_bytes = 600, own_share = 0.4;
+constexpr double point_bytes = 8, corner_bytes = 0.7, place_bytes = 10, node_bytes = 120, table_bytes = 600, own_share = 0.4;
 constexpr double large_cell = 50'000;                                     // corners
 
 /// EXT_mesh_gpu_instancing knows translation, rotation and scale, and no mirror images.
@@ -230,8 +230,8 @@ void Merging::divide_parts() {
 void Merging::keep_instances(std::vector<CellItem>& items, std::size_t budget) {
   struct Sharing {
     std::vector<std::size_t> items;
-    std::map<std::uint32_t, std::size_t> in_zone;  // places
-    bool fits = true;
+    std::map<std::uint32_t, std::size_t> in_zone;  // places of a table
+    std::size_t odd = 0, odd_draws = 0;            // places that no table can say, and stay nodes
     double saved = 0;
   };
   std::map<std::pair<std::uint32_t, NodeId>, Sharing> known;
@@ -240,8 +240,8 @@ void Merging::keep_instances(std::vector<CellItem>& items, std::size_t budget) {
     const StillPlace& p = place(items_[i]);
     Sharing& s = known[{items[i].look, geometry(items_[i])}];
     s.items.push_back(i);
-    ++s.in_zone[p.zone];
-    s.fits &= can_be_instance(p.frame);
+    if (can_be_instance(p.frame)) ++s.in_zone[p.zone];
+    else ++s.odd, s.odd_draws += items[i].cost;
     kinds[items[i].kind] = items[i].cost;
   }
   std::size_t draws = 0;
@@ -249,13 +249,13 @@ void Merging::keep_instances(std::vector<CellItem>& items, std::size_t budget) {
   std::vector<Sharing*> best;
   for (auto& [key, s] : known) {
     const double n = static_cast<double>(s.items.size());
-    s.saved = (n - own_share) * outline(geometry(items_[s.items[0]])).bytes - table_bytes * static_cast<double>(s.in_zone.size()) - place_bytes * n;
-    if (s.fits && s.saved > 0) best.push_back(&s);
+    s.saved = (n - own_share) * outline(geometry(items_[s.items[0]])).bytes - table_bytes * static_cast<double>(s.in_zone.size()) - place_bytes * (n - static_cast<double>(s.odd)) - node_bytes * static_cast<double>(s.odd);
+    if (s.saved > 0) best.push_back(&s);
   }
   std::ranges::stable_sort(best, std::greater{}, &Sharing::saved);
   std::vector<char> kept(items.size());
   for (const Sharing* s : best) {
-    std::size_t cost = 0, saved = 0;
+    std::size_t cost = s->odd_draws, saved = 0;
     for (const auto& [zone, n] : s->in_zone) cost += still_.zones()[zone].times, saved += (n - 1) * still_.zones()[zone].times;
     if (draws + cost > budget) continue;
     draws += cost, n_shared_ += saved;

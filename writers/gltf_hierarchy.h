@@ -124,7 +124,8 @@ class Hierarchy {
   void move_to_origin();
   void move(std::uint32_t node, const Vec3& by, std::vector<std::uint32_t>& further);
   void report_lost();
-  bool only_places_a_mesh(const Node&, const Trs& place) const;
+  /// `growth`: how much lengths of the frame of the place grow in the world.
+  bool only_places_a_mesh(const Node&, const Trs& place, double growth = 1) const;
   bool stays_a_node(const Node&) const;
   bool find_nodes_that_stay(const Family&, std::vector<char>& stays, std::vector<Matrix>& frame) const;
   void make_part_rows();

@@ -10,8 +10,8 @@ namespace wrlkit::gltf {
 namespace {
 
 /// Single precision says it to a tenth of a millimetre.
-bool fits(const Vec3& v) {
-  return std::ranges::all_of(v, [](double x) { return std::abs(static_cast<double>(static_cast<float>(x)) - x) <= 1e-4; });
+bool fits(const Vec3& v, double growth) {
+  return std::ranges::all_of(v, [&](double x) { return std::abs(static_cast<double>(static_cast<float>(x)) - x) * growth <= 1e-4; });
 }
 
 bool is_plain_group(const Scene& scene, NodeId n) { return !n || scene.is(n, nodes::Transform) || scene.is(n, nodes::Group); }
@@ -19,12 +19,12 @@ bool is_plain_group(const Scene& scene, NodeId n) { return !n || scene.is(n, nod
 }  // namespace
 
 /// Nothing is lost when it is a row of a table. Mirror images stay: renderers take which side is the front from the node.
-bool Hierarchy::only_places_a_mesh(const Node& n, const Trs& t) const {
+bool Hierarchy::only_places_a_mesh(const Node& n, const Trs& t, double growth) const {
   if (n.attachment != Attachment::mesh || n.n_children > 0 || n.lod || !n.source || animations_.moves(n.source)) return false;
   if (!is_plain_group(scene_, n.source) && !scene_.is(n.source, nodes::Shape)) return false;
   const Geometry& g = meshes_.geometries()[meshes_.meshes()[n.attached].geometry];
   if (g.morph != none || g.features != none) return false;
-  if (!fits(t.translation) || !fits(t.scale) || !(t.scale[0] * t.scale[1] * t.scale[2] > 0)) return false;
+  if (!fits(t.translation, growth) || !fits(t.scale, 1) || !(t.scale[0] * t.scale[1] * t.scale[2] > 0)) return false;
   if (!extras_ || options_.facts_only) return true;
   return n.same_as == none && !extras_->is_routed(n.source) && !extras_->says_more(n.source, t.identity() ? nodes::Shape : nodes::Transform, n.plain);
 }

@@ -20,7 +20,7 @@ bool Hierarchy::stays_a_node(const Node& n) const {
   if (n.lod || (n.source && animations_.moves(n.source))) return true;
   const Trs t = n.transform == none ? Trs{} : transforms_[n.transform];
   if (n.attachment == Attachment::nothing) return mirrors(t) || !(!n.source || scene_.is(n.source, nodes::Transform) || scene_.is(n.source, nodes::Group));
-  return !only_places_a_mesh(n, {});
+  return !only_places_a_mesh(n, {});  // where it is comes later
 }
 
 /// Marks what has to be a node: what is one for itself, what holds such a node, and parts whose place in the nearest node that
@@ -30,6 +30,8 @@ bool Hierarchy::find_nodes_that_stay(const Family& family, std::vector<char>& st
   animations_.mark_targets(stays);
   for (const auto& [id, lod] : lods_)
     for (auto level : lod.levels) stays[level] = 1;
+  const auto growth = this->growth(family);
+  std::vector<double> of_frame(nodes_.size());  // growth of the frame that `frame` leads to
   for (int round = 0; round < most_rounds; ++round) {
     for (std::size_t i = family.order.size(); i-- > 0;)
       if (const auto id = family.order[i]; stays[id] && family.parent[id] != none) stays[family.parent[id]] = 1;
@@ -38,11 +40,13 @@ bool Hierarchy::find_nodes_that_stay(const Family& family, std::vector<char>& st
       frame[id] = {};
       if (stays[id]) continue;
       const Node& n = nodes_[id];
-      if (family.parent[id] != none) frame[id] = frame[family.parent[id]];
+      const auto above = family.parent[id];
+      of_frame[id] = above == none || stays[above] ? growth[id] : of_frame[above];
+      if (above != none) frame[id] = frame[above];
       if (n.transform != none) frame[id] = frame[id] * matrix(transforms_[n.transform]);
       if (n.attachment != Attachment::mesh) continue;
       const auto place = trs_of(frame[id]);
-      if (place && only_places_a_mesh(n, *place)) continue;
+      if (place && only_places_a_mesh(n, *place, of_frame[id])) continue;
       stays[id] = 1;
       all_fit = false;
     }
