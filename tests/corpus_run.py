@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """wrlkit corpus run: the mirrored tree, exit codes, the journal, kill -9 and resume, shards, limits of workers."""
-import argparse, hashlib, json, os, pathlib, random, shutil, signal, subprocess, sys, tempfile, time
+import argparse, hashlib, json, os, pathlib, pty, random, shutil, signal, subprocess, sys, tempfile, termios, time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 parser = argparse.ArgumentParser()
@@ -239,6 +239,8 @@ def poison(world, table: pathlib.Path = pathlib.Path('table.txt')):
     kept = []
     while what == 'eats':
         kept.append(bytearray(1 << 20))
+    if what == 'sleeps':
+        time.sleep(2.5)
     if what == 'aborts':
         os.abort()
     if what == 'faults':
@@ -258,6 +260,23 @@ def alive(pid_file):
         return stat.read_text().rpartition(')')[2].split()[0] not in 'ZX'
     except OSError:
         return False
+
+
+def on_a_terminal(*words):
+    """What is shown there, 60 columns wide."""
+    ours, theirs = pty.openpty()
+    termios.tcsetwinsize(theirs, (24, 60))
+    with subprocess.Popen([WRLKIT, 'corpus', 'run', *map(str, words)], stderr=theirs) as run:
+        os.close(theirs)
+        shown = b''
+        while True:
+            try:
+                shown += os.read(ours, 65536)
+            except OSError:  # nobody has it any more
+                break
+        run.wait()
+    os.close(ours)
+    return shown.decode()
 
 
 def gone(pid_file):
@@ -305,6 +324,11 @@ def poisoned(tmp):
     check('which is done', 'DEF P-102A' in (out / 'good.wrl').read_text())
     code, _, err = corpus(out, '--looks', 0, '--json', verb='report')
     check('a report needs no passes', code == 0, code, err)
+    write(tmp / 'long/sleeps.wrl', BOX.replace('Shape', 'DEF sleeps Shape', 1))
+    write(tmp / f'long/{"long" * 30}.wrl', BOX.replace('Shape', 'DEF sleeps Shape', 1))
+    shown = on_a_terminal(recipe, tmp / 'long', '-o', tmp / 'long-out', '--jobs', 2)
+    lines = shown.split('\r')
+    check('on a terminal one line is written over, and the last one stays', len(lines) > 2 and all(len(l) < 60 + len('\x1b[K') for l in lines) and lines[-2].startswith('\x1b[K2 files: 2 made'), shown)
     (tmp / 'loops.pid').unlink()
     run = subprocess.Popen([WRLKIT, 'corpus', 'run', recipe, a, '-o', tmp / 'interrupted'], stderr=subprocess.PIPE)
     while not (tmp / 'loops.pid').exists() or not alive(tmp / 'loops.pid'):

@@ -117,7 +117,7 @@ class Run {
     }
     if (!good_) return fmt::print(stderr, "wrlkit: the journal in '{}' cannot be written: {}\n", corpus_folder(work_.out), journal_fault_), nothing;
     journal_.settle();
-    if (!flags_.quiet) fmt::print(stderr, "{}", status.summary());
+    if (!Workers::interrupted()) status.end();
     return status.n_made() == 0 && status.n_done() > 0 ? nothing : status.n(JobState::made) == status.n_done() ? done : partly;
   }
 

@@ -1,6 +1,7 @@
 #include "tools/corpus/status.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -12,6 +13,19 @@ namespace {
 std::string time_text(double seconds) {
   const auto s = static_cast<long long>(seconds + 0.5);
   return s < 100 ? fmt::format("{} s", s) : s < 6000 ? fmt::format("{} min", (s + 30) / 60) : fmt::format("{}:{:02} h", s / 3600, s % 3600 / 60);
+}
+
+/// Of the terminal, less the place of the cursor.
+std::size_t width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
+}
+
+/// To so many bytes, or a few less: the next character begins behind them.
+void cut(std::string& line, std::size_t n) {
+  if (line.size() <= n) return;
+  while (n > 0 && (static_cast<unsigned char>(line[n]) & 0xc0) == 0x80) --n;
+  line.resize(n);
 }
 
 }  // namespace
@@ -47,10 +61,17 @@ void CorpusStatus::show(const std::vector<std::string>& now) {
   if (cost_now_ > 0) line += fmt::format(", {:.0f}/s, {} left", static_cast<double>(done_ - before_) / elapsed, time_text(elapsed * (cost_ - done_cost_) / cost_now_));
   for (std::size_t i = 0; i < now.size() && i < 3; ++i) line += (i ? ", " : "; now ") + now[i];
   if (now.size() > 3) line += ", ...";
-  if (terminal_) line = line.substr(0, 160);
+  if (terminal_) cut(line, width());  // what is on two lines cannot be overwritten
   fmt::print(stderr, "{}{}", line, terminal_ ? "" : "\n");
   std::fflush(stderr);
   shown_ = true;
+}
+
+CorpusStatus::~CorpusStatus() { clear(); }
+
+void CorpusStatus::end() {
+  clear();
+  if (!quiet_) fmt::print(stderr, "{}", summary());
 }
 
 std::string CorpusStatus::summary() const {

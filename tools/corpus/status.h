@@ -12,13 +12,15 @@ class CorpusStatus {
  public:
   /// Of so many files, which cost so much; `quiet`: only what fails is said.
   CorpusStatus(std::size_t files, double cost, bool quiet);
+  ~CorpusStatus();
+  CorpusStatus(const CorpusStatus&) = delete;
 
   void add(JobState state, double cost, bool again);
   void failed(const std::string& input, const std::string& cause);
   /// Says how far it is when it is time to.
   void show(const std::vector<std::string>& now);
   /// The last line: what became of all files.
-  std::string summary() const;
+  void end();
 
   std::size_t n(JobState s) const { return states_[static_cast<std::size_t>(s)]; }
   std::size_t n_made() const { return n(JobState::made) + n(JobState::made_partly); }
@@ -27,6 +29,7 @@ class CorpusStatus {
  private:
   using Clock = std::chrono::steady_clock;
   void clear();
+  std::string summary() const;
 
   std::size_t files_, done_ = 0, before_ = 0, states_[6] = {};
   double cost_, done_cost_ = 0, cost_now_ = 0;  // now: without what was done before
