@@ -1,15 +1,15 @@
 // Converts every world of VRML97, VRML 1.0 and X3D to glTF and has the official Khronos validator look at each result: it must find no error and
 // no warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
 // missing, a message.
-//   node validate_gltf.mjs WRLKIT FOLDER [PART-OF-A-NAME] [PIPELINE] [FLAGS-OF-CONVERT...]
-//   node validate_gltf.mjs WRLKIT FOLDER [PART-OF-A-NAME] optimize [FLAGS-OF-OPTIMIZE...]
+//   node validate_gltf.mjs WRLKIT FOLDER [NAMES] [PIPELINE] [FLAGS-OF-CONVERT...]
+//   node validate_gltf.mjs WRLKIT FOLDER [NAMES] optimize [FLAGS-OF-OPTIMIZE...]      NAMES: a regular expression
 import fs from 'node:fs';
 import path from 'node:path';
 import validator from 'gltf-validator';
 import {in_lanes, run} from './program.mjs';
 import {found_to_draw, found_worlds, has_shared, own_worlds, every_format} from './worlds.mjs';
 
-const [wrlkit, folder, part = '', pipeline = '', ...flags] = process.argv.slice(2);
+const [wrlkit, folder, names = '', pipeline = '', ...flags] = process.argv.slice(2);
 const lanes = 2;
 const to_draw = found_to_draw();
 const faults = [];
@@ -68,8 +68,8 @@ function print_kind(kind, all) {
 fs.rmSync(folder, {recursive: true, force: true});
 fs.mkdirSync(folder, {recursive: true});
 if (!has_shared) console.log('skipped: the found corpus is not there (WRLKIT_SHARED)');
-const worlds = [...own_worlds(every_format), ...found_worlds(every_format)].filter(w => w.name.includes(part));
+const worlds = [...own_worlds(every_format), ...found_worlds(every_format)].filter(w => new RegExp(names).test(w.name));
 await in_lanes(worlds, lanes, check);
 print_faults();
 console.log(`${counts.worlds} worlds, ${counts.broken} of them damaged; ${counts.valid} results without error or warning, ${(counts.bytes / 1e6).toFixed(1)} MB`);
-process.exitCode = faults.length ? 1 : 0;
+process.exitCode = faults.length || counts.worlds === 0 ? 1 : 0;
