@@ -115,7 +115,7 @@ std::string summary_text(const GltfSummary& s) {
   size_line(out, "geometry", s.geometry, s.geometry_gzip, s.geometry_shares);
   if (s.pictures > 0) size_line(out, "textures", s.pictures, s.pictures_gzip);
   size_line(out, "together", s.bytes(), s.json_gzip + s.geometry_gzip + s.pictures_gzip);
-  out += fmt::format("  {} nodes, {} of them with a name; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named), grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
+  out += fmt::format("  {} nodes, {} names; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named), grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
   if (s.instances > 0) out += fmt::format("  {} instances in tables (EXT_mesh_gpu_instancing)\n", grouped(s.instances));
   if (const auto& r = s.recoding; r.pictures > 0) {
     out += fmt::format("  pictures: {} written anew, {} of them at another size; {} bytes became {}", grouped(r.pictures), grouped(r.resized), grouped(r.before), grouped(r.after));
