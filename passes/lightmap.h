@@ -92,7 +92,7 @@ struct LightmapOptions {
 ///   and `format` count. Backs share the picture of their fronts.
 /// - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `inline` and `expand-protos` before.
 /// - There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach (density-limit).
-/// - A world without any light is lit by a white sky, which is reported (no-light).
+/// - A world without any light, or with too little to see it by, is lit by a white sky, which is reported (no-light).
 ///
 /// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays, and for judging the
 /// result .inside, .leaks, .black, .holes, .seam-places, .jumps (lightmap/bake.h).

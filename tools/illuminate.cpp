@@ -117,6 +117,7 @@ int run_illuminate(const Flags& flags) {
   write_patches(set, file->sink());
   if (!file->commit(s.diag())) return s.end(false);
   if (!flags.pictures.empty() && !write_pictures(s, set, world)) return s.end(false);
+  if (!world.has_sky_of_its_own()) s.diag().report(Diag::no_light, {});
   print(s, set, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   return s.end(true);
 }

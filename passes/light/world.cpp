@@ -1,6 +1,7 @@
 #include "passes/light/world.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "passes/render/attributes.h"
 #include "passes/render/gather.h"
@@ -14,6 +15,8 @@ using namespace drawing;
 constexpr double most_reflected = 0.99;       // a closed room of more would never come to an end
 constexpr std::size_t most_emitters = 1'000'000;
 constexpr int most_layers = 32;               // of transparent things, one behind the other
+constexpr double least_of_lamp = 0.2140;      // radiance: lin(0.5); CAD programs give a surface emission of a tenth or two for its looks
+constexpr double least_light = 1.0 / 256;     // radiance that a display hardly tells from black
 constexpr double pi = 3.14159265358979323846;
 
 V3 reflectance(const V3& display) { return min(linear(display), V3(most_reflected)); }
@@ -23,6 +26,20 @@ std::optional<Lamp> lamp_of(const std::optional<Light>& light) {
   Lamp l{*light, pi * linear(light->intensity * light->color)};
   if (!(mean(l.irradiance) > 0)) return {};
   return l;
+}
+
+double strongest(const V3& c) { return std::max({c.x, c.y, c.z}); }
+
+/// Radiance in the mean of all directions, of which those along a spiral stand for all.
+double mean_radiance(const Sky& sky) {
+  constexpr int n = 256;
+  constexpr double golden_angle = pi * (3 - 2.23606797749978969641);
+  V3 sum;
+  for (int k = 0; k < n; ++k) {
+    const double y = 1 - (2 * k + 1.0) / n, r = std::sqrt(1 - y * y);
+    sum += linear(sky.color({r * std::cos(k * golden_angle), y, r * std::sin(k * golden_angle)}, 0));
+  }
+  return strongest(sum) / n;
 }
 
 bool may_be_clear(const Surface& s, const PooledMesh& m) {
@@ -73,13 +90,39 @@ void LightWorld::make_lamps(const Scene& scene) {
 }
 
 void LightWorld::make_sky(const Scene& scene, Resources* resources, Diagnostics& diag) {
-  bool lit = emits_ || !lamps_.empty() || std::any_of(scoped_.begin(), scoped_.end(), [](auto& l) { return l.has_value(); });
-  sky_stands_in_ = options_.sky == LightOptions::Sky::background && !stage_.background && !lit;
-  if (sky_stands_in_) constant_sky_ = V3(1);
-  if (options_.sky == LightOptions::Sky::constant) constant_sky_ = options_.sky_color;
-  if (options_.sky == LightOptions::Sky::background && stage_.background)
+  using Option = LightOptions::Sky;
+  if (options_.sky == Option::constant) constant_sky_ = options_.sky_color;
+  if (options_.sky == Option::background && stage_.background)
     background_.emplace(scene, stage_.background->node, stage_.frames[stage_.background->frame], resources, diag);
+  const bool lit = !lamps_.empty() || std::any_of(scoped_.begin(), scoped_.end(), [](auto& l) { return l.has_value(); });
+  sky_stands_in_ = options_.sky == Option::background && !lit && !(background_ && mean_radiance(*background_) >= least_light) && !glow_is_light();
+  if (sky_stands_in_) background_.reset(), constant_sky_ = V3(1);
   has_sky_ = background_ || mean(constant_sky_) > 0;
+}
+
+bool LightWorld::glow_is_light() const {
+  if (!emits_) return false;
+  double all = 0, shed = 0;
+  for (std::uint32_t u = 0; u < facts_.size(); ++u) {
+    const double area = area_of(u), radiance = strongest(facts_[u].emission);
+    if (!std::isfinite(area)) continue;
+    all += area;
+    if (radiance >= least_of_lamp) shed += area * radiance;
+  }
+  return shed > 0 && shed >= least_light * all;
+}
+
+/// Of faces, in the world.
+double LightWorld::area_of(std::uint32_t use) const {
+  const PooledMesh& m = pool_[mesh_of_[use]];
+  const Affine& frame = stage_.frames[stage_.uses[use].frame];
+  if (m.kind != Mesh::Kind::faces) return 0;
+  double twice = 0;
+  for (std::uint32_t e = 0; e < m.n_elements; ++e) {
+    const V3 a = pool_.position(m, e, 0);
+    twice += length(cross(frame.vector(pool_.position(m, e, 1) - a), frame.vector(pool_.position(m, e, 2) - a)));
+  }
+  return twice / 2;
 }
 
 void LightWorld::make_emitters() {

@@ -102,7 +102,7 @@ class LightWorld {
   /// Radiance of the sky in a direction of the world.
   V3 sky(const V3& direction) const;
   bool has_sky() const { return has_sky_; }
-  /// The world has no light, no emissive surface and no Background: a white sky of radiance 1 stands in for them.
+  /// Or nothing shines, or too little to see the world by: a white sky of radiance 1 stands in (docs/lighting.md, "No light at all").
   bool has_sky_of_its_own() const { return !sky_stands_in_; }
 
   /// Where a ray that leaves a surface starts: off the face by more than the rounding of coordinates there, and of the corners of
@@ -154,6 +154,9 @@ class LightWorld {
   void make_facts(const Scene& scene, Resources* resources, Diagnostics& diag);
   void make_lamps(const Scene& scene);
   void make_sky(const Scene& scene, Resources* resources, Diagnostics& diag);
+  /// Whether surfaces that shine as lamps do are light enough for all others.
+  bool glow_is_light() const;
+  double area_of(std::uint32_t use) const;
   void make_emitters();
   /// Its own colour is light.
   bool glows(const drawing::Surface& s) const { return s.shines || (!s.lit && options_.unlit_emits); }

@@ -399,6 +399,29 @@ TEST_CASE("light: a sky from Background, or of its own") {
   CHECK_FALSE(lit.world->has_sky());
 }
 
+TEST_CASE("light: a white sky stands in for light that is too little to see by") {
+  const std::string floor = quad({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, material(0.5));  // 16 square metres
+  auto glow = [&](double side, const std::string& color, const LightOptions& options = {}) {
+    const std::string surface = "appearance Appearance { material Material { emissiveColor " + color + " } } ";
+    return !Room(floor + quad({1, 1, 1}, {0, side, 0}, {side, 0, 0}, surface), options).world->has_sky_of_its_own();
+  };
+  CHECK(glow(2, "0.49 0.49 0.49"));                      // as CAD programs make paint glow
+  CHECK_FALSE(glow(2, "0.51 0.51 0.51"));
+  CHECK_FALSE(glow(2, "0.51 0 0"));
+  CHECK_FALSE(glow(2, "0.1 0.1 0.1", {.emission = 30}));
+  CHECK(glow(2, "1 1 1", {.emission = 0.1}));
+  CHECK_FALSE(glow(0.26, "1 1 1"));                      // 1/237 of the area; a bulb that lights little but itself is less
+  CHECK(glow(0.24, "1 1 1"));                            // 1/279
+  CHECK_FALSE(glow(0.24, "1 1 1", {.emission = 2}));
+  CHECK_FALSE(glow(2, "0.1 0.1 0.1", {.sky = LightOptions::Sky::none}));
+
+  Room night("Background { }"), dusk("Background { skyColor 0.1 0.1 0.2 }"), top("Background { skyColor [ 1 1 1, 0 0 0 ] skyAngle 0.01 }");
+  CHECK_FALSE(night.world->has_sky_of_its_own());
+  CHECK(total(night.irradiance(up, {.rays = 64})) == Approx(pi));
+  CHECK(dusk.world->has_sky_of_its_own());
+  CHECK_FALSE(top.world->has_sky_of_its_own());
+}
+
 // ---- walls ---------------------------------------------------------------------------------------------------------
 
 TEST_CASE("light: none gets through closed walls") {
