@@ -25,7 +25,7 @@ using namespace drawing;
 class Culling {
  public:
   Culling(Scene& scene, const CullOptions& options, PassContext& ctx)
-      : scene_(scene), options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, usage_(scene), stage_(set_stage(scene, nullptr, unheard_)) {}
+      : scene_(scene), options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, usage_(scene), stage_(set_stage(scene, unheard_)) {}
 
   Outcome run() {
     const auto before = figures_of(scene_);

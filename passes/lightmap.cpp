@@ -33,17 +33,18 @@ struct Work {
 constexpr Work work_of[] = {{512, 1, 10}, {1024, 4, 16}, {4096, 4, 64}};
 constexpr int side_for_density = 4096, smallest_side = 64;
 
-/// A level that is seen from further away needs half the texels.
-LayoutOptions layout_options(const LightmapOptions& o, std::size_t level) {
+/// What is seen from further away needs half the texels, down to a hundredth of the first.
+LayoutOptions layout_options(const LightmapOptions& o, std::size_t depth) {
   const int usual = o.density > 0 ? side_for_density : work_of[o.quality.value].side;
-  const int side = o.max_size > 0 ? o.max_size : usual;
-  if (o.density > 0) return {.density = std::ldexp(o.density, -static_cast<int>(level)), .side = side};
-  return {.side = std::max(side >> level, std::min(side, smallest_side))};
+  const int side = o.max_size > 0 ? o.max_size : usual, halvings = static_cast<int>(std::min<std::size_t>(depth, 7));
+  if (o.density > 0) return {.density = std::ldexp(o.density, -halvings), .side = side};
+  return {.side = std::max(side >> halvings, std::min(side, smallest_side))};
 }
 
-light::LightOptions light_options(const LightmapOptions& o) {
+light::LightOptions light_options(const LightmapOptions& o, const Levels& levels) {
   using Sky = light::LightOptions::Sky;
   light::LightOptions out;
+  out.level_of = levels.level_of();
   out.emission = o.emission;
   out.sky = o.sky.background ? Sky::background : Sky::constant;
   out.sky_color = {o.sky.color[0], o.sky.color[1], o.sky.color[2]};
@@ -112,19 +113,19 @@ void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& wo
   std::erase_if(parts, [](const Part& p) { return p.uses.empty(); });
 }
 
-/// Lights what is shown now.
-Outcome bake_level(Scene& scene, std::size_t level, Levels& levels, const LightmapOptions& options, PassContext& ctx) {
-  own_shapes(scene, ctx.diag);
+/// Lights what the view shows.
+Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, PassContext& ctx) {
   levels.own_what_is_lit();
   Meshes meshes(scene, ctx);
-  light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options), ctx.diag);
+  light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options, levels), ctx.diag);
   if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
+  if (!levels.depth()) levels.find_shades(world);
   auto parts = find_parts(scene, world, Sides::apart, ctx);
   prepare(parts, scene, world, levels, options);
   if (parts.empty()) return Outcome::unchanged;
-  if (!world.has_sky_of_its_own() && !level) ctx.diag.report(Diag::no_light, {});
+  if (!world.has_sky_of_its_own() && !levels.depth()) ctx.diag.report(Diag::no_light, {});
   unfold_parts(parts, world.stage());
-  const LayoutOptions wanted = layout_options(options, level);
+  const LayoutOptions wanted = layout_options(options, levels.depth());
   const Layout layout(parts, wanted);
   if (const auto coarse = layout.coarse(); coarse.n_shapes) ctx.diag.report(Diag::density_limit, {}, wanted.density, coarse.n_shapes, coarse.least * wanted.density);
   auto pages = bake::bake(parts, layout, world, bake_options(options), ctx);
@@ -139,12 +140,14 @@ Outcome bake_level(Scene& scene, std::size_t level, Levels& levels, const Lightm
 
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
   if (const auto n = closed_nodes(scene)) ctx.diag.report(Diag::not_lit, {}, n);
+  own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
   Levels levels(scene);
   Outcome all = Outcome::unchanged;
-  for (std::size_t level = 0; level < (options.patches.empty() ? levels.count() : 1) && all != Outcome::failed; ++level) {
-    levels.show(level);
-    if (const Outcome one = bake_level(scene, level, levels, options, ctx); one != Outcome::unchanged) all = one;
+  while (all != Outcome::failed && levels.next()) {
+    if (const Outcome one = bake_view(scene, levels, options, ctx); one != Outcome::unchanged) all = one;
+    if (!options.patches.empty()) return all;
   }
+  if (levels.n_unseen()) ctx.diag.report(Diag::expansion_limit, {}, Levels::most, "levels of detail one behind the other");
   return all;
 }
 

@@ -85,8 +85,9 @@ struct LightmapOptions {
 /// - Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays shared
 ///   (lightmap/own_shapes.h). What events can reach is not copied: it has the light of its first place.
 /// - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get faces.
-/// - Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels a level. The first
-///   eight are looked at, and of LODs within levels those that such a view shows (lightmap/levels.h).
+/// - Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels a level. LODs within
+///   levels have light at all of theirs, too: as many views are lit as there are levels one behind the other (lightmap/levels.h), 64 at
+///   the most.
 /// - Left alone: Shapes without a Material, text, lines, points, other choices of a Switch.
 /// - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only `smooth`
 ///   and `format` count. Backs share the picture of their fronts.

@@ -1,5 +1,7 @@
 #include "scenegraph/walk.h"
 
+#include <algorithm>
+
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
@@ -51,14 +53,14 @@ std::vector<NodeId> hierarchy_children(const Scene& scene, NodeId n) {
   return out;
 }
 
-std::vector<NodeId> shown_children(const Scene& scene, NodeId n) {
+std::vector<NodeId> shown_children(const Scene& scene, NodeId n, std::size_t level) {
   auto all = hierarchy_children(scene, n);
   if (scene.is(n, nodes::Switch)) {
     auto which = scene.get(n, nodes::switch_::whichChoice);
     if (which < 0 || static_cast<std::size_t>(which) >= all.size()) return {};
     return {all[static_cast<std::size_t>(which)]};
   }
-  if (scene.is(n, nodes::LOD) && all.size() > 1) all.resize(1);
+  if (scene.is(n, nodes::LOD) && all.size() > 1) return {all[std::min(level, all.size() - 1)]};
   return all;
 }
 

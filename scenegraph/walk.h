@@ -25,7 +25,7 @@ std::vector<NodeId> all_nodes(const Scene&);
 /// Fields that hold children in the sense of the transformation hierarchy (ISO/IEC 14772-1, 4.3.4): `children` of grouping
 /// nodes, choice, level; for unknown nodes every field with nodes. Script and Sensor references do not count.
 std::vector<NodeId> hierarchy_children(const Scene&, NodeId);
-/// Those of them that a browser would show: the chosen child of Switch, the first level of LOD, not the proxy of Collision.
-std::vector<NodeId> shown_children(const Scene&, NodeId);
+/// Those of them that a browser would show: the chosen child of Switch, of LOD that level or its last, not the proxy of Collision.
+std::vector<NodeId> shown_children(const Scene&, NodeId, std::size_t level = 0);
 
 }  // namespace wrlkit

@@ -95,6 +95,10 @@ void small_gltf(CLI::App& verb, Flags& f) {
   verb.add_option("--color-bits", f.color_bits, "of each component, in linear light")->check(CLI::Range(1, 16))->capture_default_str();
 }
 
+bool is_level(const std::string& s) {
+  return s == "auto" || (!s.empty() && s.size() <= 3 && s.find_first_not_of("0123456789") == std::string::npos);
+}
+
 void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint");
   verb.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
@@ -186,6 +190,7 @@ const Verb verbs[] = {
        v.add_option("--width", f.width, "pixels; in a contact sheet 320 when it is not said")->check(CLI::Range(1, 16384))->capture_default_str();
        v.add_option("--height", f.height, "pixels; in a contact sheet 240 when it is not said")->check(CLI::Range(1, 16384))->capture_default_str();
        v.add_option("--samples", f.samples, "samples a pixel, along each side; beyond 16 for --mode path only")->check(CLI::Range(1, 64))->capture_default_str();
+       v.add_option("--level", f.level, "of each LOD: that level, from 0, or its last; auto, by the distance, as browsers choose")->check([](const std::string& s) { return is_level(s) ? "" : "'" + s + "' is neither a number from 0 to 999 nor auto"; }, "", "")->type_name("N|auto")->capture_default_str();
        pictures(v, f);
        pipeline(v, f);
        placing(v, f);
@@ -217,6 +222,7 @@ const Verb verbs[] = {
        v.add_option("--criteria", f.criteria, "which; as a rule all")->delimiter(',')->check(CLI::IsMember(criterion_names()));
        v.add_flag("--bare", f.bare, "the criterion alone decides: creases and borders are edges like others");
        v.add_option("--size", f.picture_size, "pixels along each side of a picture")->check(CLI::Range(16, 2048))->capture_default_str();
+       v.add_option("--level", f.level, "of each LOD: that level, from 0, or its last; auto, by the distance, as browsers choose")->check([](const std::string& s) { return is_level(s) ? "" : "'" + s + "' is neither a number from 0 to 999 nor auto"; }, "", "")->type_name("N|auto")->capture_default_str();
        pictures(v, f);
        pipeline(v, f);
      },

@@ -62,7 +62,7 @@ struct Flags {
 
   // render
   int width = 1280, height = 960, samples = 4;
-  std::string viewpoint, mode = "preview";
+  std::string viewpoint, mode = "preview", level = "0";
   std::vector<double> look_at;             // eye, target, up
   bool fit = false;
   std::vector<double> background;          // r, g, b; empty: the world's

@@ -1,6 +1,7 @@
 #include "tools/render_options.h"
 
 #include <numbers>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +17,8 @@ RenderOptions render_options(const Flags& f) {
                                                          {"checker", Mode::checker}, {"density", Mode::density},     {"albedo", Mode::albedo},   {"path", Mode::path}};
   for (auto [name, mode] : modes)
     if (f.mode == name) o.mode = mode;
+  if (f.level == "auto") o.level.reset();
+  else o.level = std::stoul(f.level);
   o.viewpoint = f.viewpoint;
   o.fit = f.fit;
   o.field_of_view = f.field_of_view * std::numbers::pi / 180;

@@ -45,7 +45,7 @@ class Painter {
 }  // namespace
 
 Image path_picture(const Scene& scene, const MeshSource& source, const drawing::Camera& camera, const PathOptions& options, Resources* resources, Diagnostics& diag) {
-  const LightWorld world(scene, source, resources, {.viewer = camera.pose()}, diag);
+  const LightWorld world(scene, source, resources, {.viewer = camera.pose(), .level_of = options.level_of}, diag);
   report(world, diag);
   const Painter painter(world, camera, options);
   const auto width = static_cast<std::size_t>(camera.width), n = width * static_cast<std::size_t>(camera.height);

@@ -5,6 +5,7 @@
 
 #include "passes/light/color.h"
 #include "passes/render/camera.h"
+#include "passes/render/stage.h"
 #include "scenegraph/diagnostics.h"
 #include "scenegraph/mesh.h"
 #include "scenegraph/resources.h"
@@ -15,6 +16,7 @@ namespace wrlkit::light {
 struct PathOptions {
   int samples = 4;                   // paths along each side of a pixel
   std::optional<V3> background;      // linear; seen instead of the Background, which lights the world all the same
+  drawing::LevelOf level_of;         // of LODs; may be empty
   std::function<void(double)> done;  // told now and then how much of the picture is there, up to 1; may be empty
 };
 

@@ -49,7 +49,7 @@ bool may_be_clear(const Surface& s, const PooledMesh& m) {
 }  // namespace
 
 LightWorld::LightWorld(const Scene& scene, const MeshSource& source, Resources* resources, const LightOptions& options, Diagnostics& diag)
-    : options_(options), stage_(set_stage(scene, options.viewer ? &*options.viewer : nullptr, diag)) {
+    : options_(options), stage_(set_stage(scene, diag, {.viewer = options.viewer, .level_of = options.level_of})) {
   mesh_of_ = Gatherer(scene, source, pool_).meshes_of(stage_, diag);
   make_facts(scene, resources, diag);
   make_lamps(scene);

@@ -34,6 +34,7 @@ struct LightOptions {
   Sky sky = Sky::background;
   V3 sky_color{1};                   // constant: radiance, linear
   std::optional<drawing::Pose> viewer{};  // Billboards turn there; none: they stand as they are
+  drawing::LevelOf level_of{};       // of LODs; none: the first
   std::size_t all_flat = 2'000'000;  // up to so many triangles nothing is instanced: some 100 bytes each, and faster rays
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "passes/render/stage.h"
+#include "passes/lightmap/holders.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -11,34 +11,72 @@ namespace wrlkit::bake {
 
 namespace {
 
-/// The child in front goes to place `to`, or comes back from there.
-void turn(Scene& scene, NodeId lod, std::size_t to, bool back) {
-  const auto all = scene.get(lod, nodes::lod::children);
-  std::vector<NodeId> children(all.begin(), all.end());
-  const auto first = children.begin(), end = first + static_cast<std::ptrdiff_t>(std::min(to, children.size() - 1)) + 1;
-  std::rotate(first, back ? first + 1 : end - 1, end);
-  scene.set(lod, nodes::lod::children, children);
+/// What some view can show: all levels of a LOD, else what is shown.
+std::vector<NodeId> children_of_all_views(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::LOD) ? hierarchy_children(scene, n) : shown_children(scene, n);
 }
 
 }  // namespace
 
-Levels::Levels(Scene& scene) : scene_(scene) {
-  for (NodeId n : reachable(scene, scene.main)) {
-    if (!scene.is(n, nodes::LOD)) continue;
-    const std::size_t size = scene.get(n, nodes::lod::children).size();
-    if (size < 2) continue;
-    lods_.push_back(n);
-    count_ = std::max(count_, std::min(size, most));
-  }
+bool Levels::next() {
+  if (n_views_ > 0 && !choose_unseen()) return false;
+  return ++n_views_, true;
 }
 
-void Levels::show(std::size_t level) {
-  if (level == shown_) return;
-  for (NodeId n : lods_) {
-    if (shown_) turn(scene_, n, shown_, true);
-    if (level) turn(scene_, n, level, false);
+/// By node: it holds a Shape that no view has shown and whose turn may come.
+std::vector<char> Levels::holders_of_unseen() {
+  n_unseen_ = 0;
+  return holders(
+      scene_, [&](NodeId n) { return is_shade(n) && !in_shades_ ? shown_children(scene_, n) : children_of_all_views(scene_, n); },
+      [&](NodeId n) {
+        const bool unseen = scene_.is(n, nodes::Shape) && scene_.get(n, nodes::shape::geometry) && !seen_.contains(n.value);
+        return n_unseen_ += unseen, unseen;
+      });
+}
+
+bool Levels::choose_unseen() {
+  auto holds = holders_of_unseen();
+  if (!n_unseen_ && !in_shades_) {
+    in_shades_ = true, depth_ = 0;
+    holds = holders_of_unseen();
   }
-  shown_ = level;
+  if (!n_unseen_ || !saw_more_ || n_views_ == most) return false;
+  ++depth_;
+  for (std::uint32_t n = 0; n < shown_.size(); ++n)
+    if (scene_.is(NodeId{n}, nodes::LOD)) shown_[n] = choose(NodeId{n}, holds);
+  return true;
+}
+
+std::uint32_t Levels::choose(NodeId lod, const std::vector<char>& holds) const {
+  if (is_shade(lod) && !in_shades_) return 0;
+  const auto levels = hierarchy_children(scene_, lod);
+  const auto at = std::ranges::find_if(levels, [&](NodeId c) { return c && holds[c.value]; });
+  if (at != levels.end()) return static_cast<std::uint32_t>(at - levels.begin());
+  return in_shades_ || levels.empty() ? 0 : static_cast<std::uint32_t>(levels.size() - 1);
+}
+
+void Levels::find_shades(const light::LightWorld& world) {
+  constexpr double margin = 0.05, small = 0.2;  // of its box, and of the world's radius
+  std::vector<char> around(scene_.node_count());
+  const auto& stage = world.stage();
+  for (std::size_t u = 0; u < stage.uses.size() && !world.lamps().empty(); ++u) {
+    drawing::Box box;
+    for (int k = 0; k < 8; ++k) box.add(stage.frames[stage.uses[u].frame].point(world.meshes()[world.mesh_of()[u]].box.corner(k)));
+    const double size = length(box.size());
+    if (!(size < small * world.radius())) continue;
+    const drawing::V3 room(margin * size);
+    auto holds = [&](const light::Lamp& lamp) {
+      const drawing::V3 above = lamp.light.location - (box.low - room), below = box.high + room - lamp.light.location;
+      return std::min({above.x, above.y, above.z, below.x, below.y, below.z}) >= 0;
+    };
+    around[stage.uses[u].shape.value] |= std::ranges::any_of(world.lamps(), holds);
+  }
+  shades_ = holders(
+      scene_, [&](NodeId n) { return shown_children(scene_, n); }, [&](NodeId n) { return around[n.value]; });
+}
+
+drawing::LevelOf Levels::level_of() const {
+  return [this](NodeId lod, const drawing::Affine&) -> std::size_t { return lod.value < shown_.size() ? shown_[lod.value] : 0; };
 }
 
 void Levels::add(NodeId shape) {
@@ -61,11 +99,14 @@ void Levels::own_what_is_lit() {
     }
     scene_.set(shape, field, copy);
   };
-  for (const auto& use : drawing::set_stage(scene_, nullptr, unheard).uses) {
+  const std::size_t before = seen_.size();
+  for (const auto& use : drawing::set_stage(scene_, unheard, {.level_of = level_of()}).uses) {
+    seen_.insert(use.shape.value);
     if (is_lit(use.shape)) continue;
     own(use.shape, nodes::shape::appearance);
     own(use.shape, nodes::shape::geometry);
   }
+  saw_more_ = seen_.size() > before;
 }
 
 }  // namespace wrlkit::bake

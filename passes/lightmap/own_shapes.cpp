@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "passes/lightmap/holders.h"
 #include "passes/own_nodes.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -11,30 +12,20 @@
 namespace wrlkit::bake {
 namespace {
 
-/// By node: a Shape or something that holds one.
-std::vector<char> holders_of_shapes(const Scene& scene) {
-  std::vector<char> state(scene.node_count()), holds(scene.node_count());  // state 1: its children are being seen to
-  std::vector<NodeId> stack(scene.main.roots.begin(), scene.main.roots.end());
-  while (!stack.empty()) {
-    NodeId n = stack.back();
-    if (!n || state[n.value] == 2) { stack.pop_back(); continue; }
-    const auto children = shown_children(scene, n);
-    if (state[n.value] == 0) {
-      state[n.value] = 1;
-      for (NodeId c : children)
-        if (c && !state[c.value]) stack.push_back(c);
-      continue;
-    }
-    holds[n.value] = scene.is(n, nodes::Shape) || std::ranges::any_of(children, [&](NodeId c) { return c && holds[c.value]; });
-    state[n.value] = 2;
-    stack.pop_back();
-  }
-  return holds;
+std::vector<NodeId> children_of(const Scene& scene, NodeId n, OfLod of_lod) {
+  return of_lod == OfLod::all && scene.is(n, nodes::LOD) ? hierarchy_children(scene, n) : shown_children(scene, n);
+}
+
+/// By node: a Shape, or something that holds one.
+std::vector<char> holders_of_shapes(const Scene& scene, OfLod of_lod) {
+  return holders(
+      scene, [&](NodeId n) { return children_of(scene, n, of_lod); }, [&](NodeId n) { return scene.is(n, nodes::Shape); });
 }
 
 class Unsharer {
  public:
-  Unsharer(Scene& scene, Diagnostics& diag, std::size_t most) : scene_(scene), diag_(diag), most_(most), holds_(holders_of_shapes(scene)), met_(scene.node_count()) {
+  Unsharer(Scene& scene, Diagnostics& diag, OfLod of_lod, std::size_t most)
+      : scene_(scene), diag_(diag), of_lod_(of_lod), most_(most), holds_(holders_of_shapes(scene, of_lod)), met_(scene.node_count()) {
     moving_.mark(scene, scene.main, {}, [](NodeId) { return false; });
     for (NodeId n : all_nodes(scene))
       if (auto name = scene.name(n); !name.empty()) names_.emplace(name);
@@ -68,7 +59,7 @@ class Unsharer {
   }
 
   void own_children(NodeId n) {
-    const auto shown = shown_children(scene_, n);
+    const auto shown = children_of(scene_, n, of_lod_);
     const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
     for (const Value& v : fields) {
       if (scene_.is_extra(v) || v.is || info(v.type).element != Element::node) continue;
@@ -108,6 +99,7 @@ class Unsharer {
 
   Scene& scene_;
   Diagnostics& diag_;
+  OfLod of_lod_;
   std::size_t most_, n_copies_ = 0;
   std::vector<char> holds_, met_;
   OwnNodes moving_;
@@ -118,6 +110,6 @@ class Unsharer {
 
 }  // namespace
 
-std::size_t own_shapes(Scene& scene, Diagnostics& diag, std::size_t most) { return Unsharer(scene, diag, most).run(); }
+std::size_t own_shapes(Scene& scene, Diagnostics& diag, OfLod of_lod, std::size_t most) { return Unsharer(scene, diag, of_lod, most).run(); }
 
 }  // namespace wrlkit::bake

@@ -7,6 +7,7 @@
 #include "passes/light/path_picture.h"
 #include "passes/render/gather.h"
 #include "passes/render/inspect.h"
+#include "passes/render/level.h"
 #include "passes/render/sampling.h"
 #include "passes/render/shade.h"
 #include "passes/render/wireframe.h"
@@ -56,12 +57,15 @@ bool choose_headlight(const Scene& scene, const Stage& stage, const RenderOption
   return !stage.navigation || scene.get(stage.navigation->node, nodes::navigation_info::headlight);
 }
 
-/// Billboards stand as the viewer sees them: the stage is set again for him.
-void turn_billboards(const Scene& scene, const Camera& camera, Stage& stage) {
-  if (!stage.billboards) return;
+LevelOf choose_levels(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  if (!options.level) return levels_by_distance(scene, camera.eye);
+  return [level = *options.level](NodeId, const Affine&) { return level; };
+}
+
+/// The stage as the viewer sees it: Billboards turn to him, and LODs show their levels.
+Stage seen_stage(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   Diagnostics said_already;
-  Pose viewer = camera.pose();
-  stage = set_stage(scene, &viewer, said_already);
+  return set_stage(scene, said_already, {.viewer = camera.pose(), .level_of = choose_levels(scene, camera, options)});
 }
 
 Box bounds_of(const Scene& scene, const Stage& stage, const MeshSource& source, Diagnostics& diag) {
@@ -92,12 +96,12 @@ Box room_to_turn(const Box& box) {
 }  // namespace
 
 RenderOptions with_camera(const Scene& scene, const MeshSource& source, RenderOptions options, Diagnostics& diag) {
-  const Stage stage = set_stage(scene, nullptr, diag);
+  const Stage stage = set_stage(scene, diag);
   return seen_by(choose_camera(scene, stage, options, diag, [&] { return bounds_of(scene, stage, source, diag); }), options);
 }
 
 std::vector<RenderOptions> turntable(const Scene& scene, const MeshSource& source, RenderOptions options, int n, Diagnostics& diag) {
-  const Stage stage = set_stage(scene, nullptr, diag);
+  const Stage stage = set_stage(scene, diag);
   const Box box = bounds_of(scene, stage, source, diag);
   if (options.viewpoint.empty()) options.fit = true;
   const Camera first = choose_camera(scene, stage, options, diag, [&] { return room_to_turn(box); });
@@ -115,17 +119,21 @@ std::vector<RenderOptions> turntable(const Scene& scene, const MeshSource& sourc
 }
 
 Image render(const Scene& scene, const MeshSource& source, const RenderOptions& options, Resources* resources, Diagnostics& diag) {
-  Stage stage = set_stage(scene, nullptr, diag);
+  Stage stage = set_stage(scene, diag);
+  const auto box_of_all = [&] { return bounds_of(scene, stage, source, diag); };
   if (options.mode == RenderOptions::Mode::path) {
-    const Camera seen_from = choose_camera(scene, stage, options, diag, [&] { return bounds_of(scene, stage, source, diag); });
-    light::PathOptions how{.samples = std::clamp(options.samples, 1, 64), .done = options.done};
+    const Camera seen_from = choose_camera(scene, stage, options, diag, box_of_all);
+    light::PathOptions how{.samples = std::clamp(options.samples, 1, 64), .level_of = choose_levels(scene, seen_from, options), .done = options.done};
     if (options.background) how.background = light::linear(V3(*options.background));
     return light::path_picture(scene, source, seen_from, how, resources, diag);
   }
   MeshPool pool;
-  auto mesh_of = Gatherer(scene, source, pool).meshes_of(stage, diag);
-  Camera camera = choose_camera(scene, stage, options, diag, [&] { return bounds(stage, pool, mesh_of); });
-  turn_billboards(scene, camera, stage);
+  std::vector<std::uint32_t> mesh_of;
+  const bool shows_all = options.level == 0;  // what the camera is to see is what is drawn
+  if (shows_all) mesh_of = Gatherer(scene, source, pool).meshes_of(stage, diag);
+  Camera camera = choose_camera(scene, stage, options, diag, [&] { return shows_all ? bounds(stage, pool, mesh_of) : box_of_all(); });
+  if (stage.billboards || !shows_all) stage = seen_stage(scene, camera, options);
+  if (!shows_all) mesh_of = Gatherer(scene, source, pool).meshes_of(stage, diag);
   Raster raster{camera.width, camera.height, std::clamp(options.samples, 1, 16)};
   camera.sample_span = raster.span();
 

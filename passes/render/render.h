@@ -1,8 +1,8 @@
 // A picture of a world as a VRML browser shows it: the lighting model of ISO/IEC 14772-1, 4.14, in the colours of the
 // display, ray traced through Embree so that it needs no window, no driver and no graphics card.
 //
-// The scene is an expanded one (no prototypes, no Inlines). Of Switch and LOD it shows what shown_children() says, and
-// Billboards turn to the viewer. There are no shadows: VRML has none. The same scene gives the same bytes on any number of
+// The scene is an expanded one (no prototypes, no Inlines). Of Switch it shows what shown_children() says, of LOD the level that is
+// asked for, and Billboards turn to the viewer. There are no shadows: VRML has none. The same scene gives the same bytes on any number of
 // threads.
 #pragma once
 #include <functional>
@@ -43,6 +43,9 @@ struct RenderOptions {
   std::string viewpoint;
   double field_of_view = 0;          // radians, of the shorter side of the picture; 0: the Viewpoint's, or 0.785398
 
+  // Of each LOD that level, from 0, or its last; none: by the distance of the viewer (6.26). Where the picture is taken from does not
+  // depend on it: `fit` looks at the first levels.
+  std::optional<std::size_t> level = 0;
   std::optional<Vec3> background;    // instead of the world's Background
   std::optional<bool> headlight;     // instead of what NavigationInfo says
   std::function<void(double)> done;  // path: told now and then how much of the picture is there, up to 1

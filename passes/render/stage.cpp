@@ -34,8 +34,8 @@ Affine turned_to(const Pose& viewer, const V3& axis, const Affine& frame) {
 
 class Walk {
  public:
-  Walk(const Scene& scene, const Pose* viewer, Diagnostics& diag, const StageLimits& limits)
-      : scene_(scene), viewer_(viewer), diag_(diag), limits_(limits), n_uses_(scene.node_count()) {
+  Walk(const Scene& scene, Diagnostics& diag, const StageOptions& options)
+      : scene_(scene), viewer_(options.viewer), level_of_(options.level_of), diag_(diag), limits_(options.limits), n_uses_(scene.node_count()) {
     limits_.visits += scene.node_count();
     limits_.shapes += scene.node_count();
   }
@@ -76,7 +76,7 @@ class Walk {
     else if (t == nodes::Background) bind(stage_.background, here);
     else if (t == nodes::Fog) bind(stage_.fog, here);
     else if (t == nodes::NavigationInfo) bind(stage_.navigation, here);
-    else push_children(shown_children(scene_, i.node), frame_below(i), i.lights, name);
+    else push_children(shown_children(scene_, i.node, level(i)), frame_below(i), i.lights, name);
     return true;
   }
 
@@ -103,6 +103,8 @@ class Walk {
     stage_.names.push_back({i.node, i.name});
     return static_cast<std::uint32_t>(stage_.names.size() - 1);
   }
+
+  std::size_t level(const Item& i) const { return level_of_ && scene_.is(i.node, nodes::LOD) ? level_of_(i.node, stage_.frames[i.frame]) : 0; }
 
   /// The frame of the children of a node.
   std::uint32_t frame_below(const Item& i) {
@@ -136,7 +138,8 @@ class Walk {
   }
 
   const Scene& scene_;
-  const Pose* viewer_;
+  const std::optional<Pose>& viewer_;
+  const LevelOf& level_of_;
   Diagnostics& diag_;
   StageLimits limits_;
   Stage stage_;
@@ -147,8 +150,8 @@ class Walk {
 
 }  // namespace
 
-Stage set_stage(const Scene& scene, const Pose* viewer, Diagnostics& diag, const StageLimits& limits) {
-  return Walk(scene, viewer, diag, limits).run();
+Stage set_stage(const Scene& scene, Diagnostics& diag, const StageOptions& options) {
+  return Walk(scene, diag, options).run();
 }
 
 std::string full_name(const Scene& scene, const Stage& stage, const Use& use) {

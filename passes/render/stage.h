@@ -3,6 +3,7 @@
 // walk has a budget.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,9 +66,18 @@ struct StageLimits {
   std::uint32_t scope_depth = 64;  // DirectionalLights on one Shape
 };
 
-/// Walks the scene in the order of the file. Without a viewer Billboards are not turned; a second walk with one gives the
-/// same entries in other frames.
-Stage set_stage(const Scene& scene, const Pose* viewer, Diagnostics& diag, const StageLimits& limits = {});
+/// Which level of a LOD that stands in `frame` is shown, from 0; beyond its last level it is that one.
+using LevelOf = std::function<std::size_t(NodeId lod, const Affine& frame)>;
+
+struct StageOptions {
+  std::optional<Pose> viewer{};      // Billboards turn there; none: they stand as they are
+  LevelOf level_of{};                // none: the first
+  StageLimits limits{};
+};
+
+/// Walks the scene in the order of the file. A second walk with another viewer, but the same levels, gives the same entries in other
+/// frames.
+Stage set_stage(const Scene& scene, Diagnostics& diag, const StageOptions& options = {});
 
 /// The DEF names from the root to a Shape, with '/' between them.
 std::string full_name(const Scene& scene, const Stage& stage, const Use& use);

@@ -44,14 +44,14 @@ struct Baked {
   }
 };
 
-/// The lightmap of one Shape without lightmapTransform.
+/// The lightmap of one Shape.
 class Light {
  public:
   Light(Baked& b, std::string_view name) {
     const Scene& scene = b.world->scene;
     const NodeId shape = b.shape(name), appearance = scene.get(shape, nodes::shape::appearance), map = scene.get(appearance, nodes::appearance::lightmap);
     REQUIRE(map);
-    REQUIRE(!scene.get(appearance, nodes::appearance::lightmapTransform));
+    if (const NodeId t = scene.get(appearance, nodes::appearance::lightmapTransform)) read_transform(scene, t);
     picture_ = b.resources.image(scene.get(map, nodes::image_texture::url), scene.where(map), b.diag);
     REQUIRE(picture_);
     scale_ = scene.get(appearance, nodes::appearance::lightmapScale);
@@ -81,7 +81,7 @@ class Light {
       const float* c = mesh.lightcoord.at(mesh.lightcoord.index[3 * triangle + k]);
       s += w[k] * c[0], t += w[k] * c[1];
     }
-    return at(s, t);
+    return at(a_ * s + b_ * t + c_, d_ * s + e_ * t + f_);
   }
   /// At a place of the local frame that lies in a triangle of the plane y = 0.
   double on_floor(double x, double z) const {
@@ -100,13 +100,21 @@ class Light {
   Mesh mesh;
 
  private:
+  /// ISO/IEC 14772-1, 6.49, without a center.
+  void read_transform(const Scene& scene, NodeId n) {
+    namespace f = nodes::texture_transform;
+    const auto scale = scene.get(n, f::scale), shift = scene.get(n, f::translation);
+    const double c = std::cos(scene.get(n, f::rotation)), s = std::sin(scene.get(n, f::rotation));
+    a_ = scale[0] * c, b_ = -scale[0] * s, d_ = scale[1] * s, e_ = scale[1] * c;
+    c_ = a_ * shift[0] + b_ * shift[1], f_ = d_ * shift[0] + e_ * shift[1];
+  }
   int texel(int x, int y) const {
     x = std::clamp(x, 0, picture_->width - 1), y = std::clamp(y, 0, picture_->height - 1);
     return picture_->pixels[(std::size_t(y) * picture_->width + x) * picture_->channels + 1];
   }
 
   std::shared_ptr<const Image> picture_;
-  double scale_ = 1;
+  double scale_ = 1, a_ = 1, b_ = 0, c_ = 0, d_ = 0, e_ = 1, f_ = 0;  // the last six: lightmapTransform
 };
 
 /// A box of 2 m; its faces look inward or outward.
@@ -285,6 +293,78 @@ TEST_CASE("bake: a polygon in one chart is a polygon again, and all levels of a 
   const auto lod = std::ranges::find_if(lods, [&](NodeId n) { return scene.is(n, nodes::LOD); });
   REQUIRE(lod != lods.end());
   CHECK(scene.get(*lod, nodes::lod::children)[0] == b.shape("Near"));
+}
+
+namespace {
+
+/// The floor at y = 0, as a Shape of a name.
+std::string floor_named(const std::string& name) {
+  return "DEF " + name + " Shape { " + material(0.5) + " geometry " + floor_of_4 + " } ";
+}
+
+std::size_t n_lit(Baked& b) {
+  const auto all = all_nodes(b.world->scene);
+  return static_cast<std::size_t>(std::ranges::count_if(all, [&](NodeId n) {
+    if (!b.world->scene.is(n, nodes::Shape)) return false;
+    const NodeId look = b.world->scene.get(n, nodes::shape::appearance);
+    return look && b.world->scene.get(look, nodes::appearance::lightmap);
+  }));
+}
+
+}  // namespace
+
+TEST_CASE("bake: LODs within levels have light at all of theirs, whichever level they stand in", "[bake]") {
+  const std::string inner = "Group { children LOD { range 1 level [ " + floor_named("C") + floor_named("D") + "Group { children LOD { range 1 level [ " + floor_named("E") + floor_named("F") + " ] } } ] } }";
+  Baked b("LOD { range [ 10 20 ] level [ " + floor_named("A") + inner + floor_named("B") + " ] } PointLight { location 0 2 0 attenuation 0 0 1 }", "quality=draft,max-size=128");
+  for (const char* name : {"A", "B", "C", "D", "E", "F"}) {
+    INFO(name);
+    CHECK(Light(b, name).on_floor(0.01, 0.01) == Approx(0.25).epsilon(0.05));
+  }
+  CHECK(n_lit(b) == 6);
+  CHECK(b.stats["lightmap.shapes"] == 6);
+}
+
+TEST_CASE("bake: a LOD that is shown twice has light of its own in each place, at each level, and its levels in their order", "[bake]") {
+  // The second place is 4 m below the lamp instead of 2 m.
+  Baked b("DEF L LOD { range 10 level [ " + floor_named("Near") + floor_named("Far") + " Group { children DEF M LOD { range 10 level [ " + floor_named("X") + floor_named("Y") +
+          " ] } } ] } Transform { translation 9 -2 0 children USE L } Transform { translation 99 0 0 children USE M } "
+          "PointLight { location 0 2 0 attenuation 0 0 1 radius 6 } PointLight { location 9 2 0 attenuation 0 0 1 radius 6 } PointLight { location 99 1 0 attenuation 0 0 1 radius 6 } ", "quality=draft,max-size=256");
+  CHECK(b.stats["lightmap.shapes"] == 10);
+  CHECK(n_lit(b) == 10);
+  for (const char* name : {"Near", "Far"}) {
+    INFO(name);
+    CHECK(Light(b, name).on_floor(0.01, 0.01) == Approx(0.25).epsilon(0.05));
+    CHECK(Light(b, name + std::string("_2")).on_floor(0.01, 0.01) == Approx(1. / 16).epsilon(0.05));
+  }
+  const Scene& scene = b.world->scene;
+  const auto all = all_nodes(scene);
+  for (NodeId n : all) {
+    if (!scene.is(n, nodes::LOD)) continue;
+    const auto levels = scene.get(n, nodes::lod::children);
+    CHECK(scene.name(levels[0]).substr(0, 1) == (scene.name(n).substr(0, 1) == "L" ? "N" : "X"));
+  }
+}
+
+TEST_CASE("bake: a shade that lets out more light at a further level does not change the light of the world", "[bake]") {
+  // The lamp stands in a closed box, and just below the plate that is its second level.
+  const std::string box = "Shape { " + material(0.5) + " geometry Box { size 0.4 0.4 0.4 } } ", plate = "DEF Plate Shape { " + material(0.5) + " geometry Box { size 0.4 0.01 0.4 } } ";
+  Baked b("LOD { range 10 level [ " + floor_named("Near") + floor_named("Far") + " ] } LOD { range 10 level [ Transform { translation 0 2 0 children " + box + "} Transform { translation 0 2.1 0 children " + plate +
+          " } ] } PointLight { location 0 2 0 attenuation 0 0 1 } DirectionalLight { direction 0 -1 0 intensity 0.5 } DEF Far_away Transform { translation 0 -50 0 children " + box + "}", "quality=draft,max-size=256");
+  const double sun = srgb_to_linear(0.5);
+  for (const char* name : {"Near", "Far"}) {
+    INFO(name);
+    CHECK(Light(b, name).on_floor(1.5, 1.5) == Approx(sun).epsilon(0.06));
+  }
+  CHECK(n_lit(b) == 5);
+  CHECK(b.stats["lightmap.pages"] == 3);
+}
+
+TEST_CASE("bake: levels that come to no end are lit as far as there is a view of them, which is said", "[bake]") {
+  std::string levels;
+  for (int i = 0; i < 66; ++i) levels += "DEF S" + std::to_string(i) + " Shape { " + material(0.5) + " geometry " + floor_of_4 + " } ";
+  Baked b("LOD { level [ " + levels + " ] } PointLight { location 0 2 0 }", "quality=draft,max-size=64");
+  CHECK(n_lit(b) == 64);
+  CHECK(b.diag.count(Severity::error) == 1);
 }
 
 TEST_CASE("bake: materials of X3D 4.0 take light, and those that are unlit give it", "[bake]") {

@@ -36,19 +36,19 @@ struct TestWorld {
 TEST_CASE("own shapes: each place has its own, and the geometry is shared") {
   TestWorld w(R"(DEF Bolt Transform { children DEF S Shape { geometry DEF G Box {} } }
              Transform { translation 3 0 0 children [ USE Bolt USE S ] })");
-  auto places = drawing::set_stage(w.scene, nullptr, w.diag).uses.size();
+  auto places = drawing::set_stage(w.scene, w.diag).uses.size();
   CHECK(bake::own_shapes(w.scene, w.diag) == 3);
   CHECK(w.names(nodes::Shape) == std::multiset<std::string>{"S", "S_2", "S_3"});
   CHECK(w.names(nodes::Transform) == std::multiset<std::string>{"", "Bolt", "Bolt_2"});
   CHECK(w.count(nodes::Box) == 1);
-  CHECK(drawing::set_stage(w.scene, nullptr, w.diag).uses.size() == places);
+  CHECK(drawing::set_stage(w.scene, w.diag).uses.size() == places);
   CHECK(bake::own_shapes(w.scene, w.diag) == 0);
 }
 
 TEST_CASE("own shapes: a copy of what has copies has copies of its own") {
   TestWorld w(R"(DEF A Transform { children [ DEF S Shape { geometry Box {} } USE S USE S ] }
                  Transform { children [ USE A USE A ] } Group { children USE A })");
-  auto places = drawing::set_stage(w.scene, nullptr, w.diag).uses.size();
+  auto places = drawing::set_stage(w.scene, w.diag).uses.size();
   bake::own_shapes(w.scene, w.diag);
   CHECK(w.count(nodes::Shape) == places);
 }
@@ -72,6 +72,7 @@ TEST_CASE("own shapes: what is not shown is not copied") {
              Switch { whichChoice 0 choice [ Group {} USE S ] }
              LOD { level [ Group {} USE S ] })");
   CHECK(bake::own_shapes(w.scene, w.diag) == 0);
+  CHECK(bake::own_shapes(w.scene, w.diag, bake::OfLod::all) == 1);
 }
 
 TEST_CASE("own shapes: lights and empty groups stay shared") {
@@ -83,6 +84,6 @@ TEST_CASE("own shapes: a world that doubles itself ends at the limit, and says s
   std::string text = "DEF G0 Shape { geometry Box {} }\n";
   for (int i = 1; i <= 30; ++i) text += "DEF G" + std::to_string(i) + " Group { children [ USE G" + std::to_string(i - 1) + " USE G" + std::to_string(i - 1) + " ] }\n";
   TestWorld w(text);
-  CHECK(bake::own_shapes(w.scene, w.diag, 1000) >= 1000);
+  CHECK(bake::own_shapes(w.scene, w.diag, bake::OfLod::first, 1000) >= 1000);
   CHECK(w.diag.count(Severity::error) + w.diag.count(Severity::warning) > 0);
 }

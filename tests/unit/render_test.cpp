@@ -349,7 +349,7 @@ TEST_CASE("render: a world that doubles itself forty times ends") {
   world += "Transform { translation 9 0 0 children Shape { geometry Box { } } } ";
   Diagnostics diag;
   auto parsed = parse_world("#VRML V2.0 utf8\n" + world, "bomb.wrl", {}, diag);
-  auto stage_within = [&](const drawing::StageLimits& limits) { return drawing::set_stage(parsed->scene, nullptr, diag, limits); };
+  auto stage_within = [&](const drawing::StageLimits& limits) { return drawing::set_stage(parsed->scene, diag, {.limits = limits}); };
   const std::size_t nodes = parsed->scene.node_count();
   auto stage = stage_within({.visits = 100'000, .shapes = 1000});
   CHECK(stage.uses.size() == 1000 + nodes);
@@ -372,6 +372,47 @@ TEST_CASE("render: Billboards turn to the viewer") {
   CHECK(area(render(from_side + "Billboard { children " + sign + " }")) == Approx(40.4 * 40.4).epsilon(0.01));
   CHECK(area(render(from_side + "Billboard { axisOfRotation 0 0 0 children " + sign + " }")) == Approx(40.4 * 40.4).epsilon(0.01));
   CHECK(area(render(from_side + "Billboard { axisOfRotation 1 0 0 children " + sign + " }")) == 0);
+}
+
+TEST_CASE("render: LODs show the level that is asked for, or the one for their distance") {
+  auto seen = [](std::optional<std::size_t> level, const std::string& fields, RenderOptions::Mode mode = RenderOptions::Mode::preview) {
+    std::string levels;
+    for (const char* color : {"1 0 0", "0 1 0", "0 0 1", "1 1 1"}) levels += shape("Sphere { }", emitting(color));
+    Studio s;
+    s.options.level = level;
+    s.options.mode = mode;
+    return middle(s.render(view + transform("scale 2 2 2", "LOD { " + fields + " level [ " + levels + "] } ")));
+  };
+  const Rgb red{255, 0, 0}, green{0, 255, 0}, blue{0, 0, 255}, white{255, 255, 255};
+  const std::string near = "range [ 5.1 8 ]";
+  CHECK(seen(0, near) == red);
+  CHECK(seen(2, near) == blue);
+  CHECK(seen(3, near) == white);
+  CHECK(seen(99, near) == white);
+  // The eye is 10 m away, 5 in the coordinates of the LOD.
+  CHECK(seen({}, near) == red);
+  CHECK(seen({}, "range [ 5 8 ]") == green);
+  CHECK(seen({}, "range [ 4.9 5.1 ]") == green);
+  CHECK(seen({}, "range [ 1 2 ]") == blue);  // the fourth level is one too many
+  CHECK(seen({}, "range [ 1 2 3 4 4.5 ]") == white);
+  CHECK(seen({}, "range [ 1 2 3 4 5.1 ]") == white);
+  CHECK(seen({}, "") == red);
+  CHECK(seen({}, "center 0 0 3 range 4 ") == red);
+  CHECK(seen({}, "center 0 0 -3 range 6 ") == green);
+  CHECK(seen({}, "range [ 1 2 ]", RenderOptions::Mode::path) == blue);
+  CHECK(seen(1, "", RenderOptions::Mode::path) == green);
+}
+
+TEST_CASE("render: the level does not change where the picture is taken from, and LODs within levels have theirs") {
+  Studio s;
+  const std::string small = shape("Box { size 1 1 1 }", emitting("1 1 1")), large = shape("Box { size 4 4 4 }", emitting("1 1 1"));
+  s.options.fit = true;
+  const double all = area(s.render("LOD { range 1 level [ " + large + small + " ] }"));
+  s.options.level = 1;
+  CHECK(area(s.render("LOD { range 1 level [ " + large + small + " ] }")) == Approx(all / 16).epsilon(0.3));
+  const std::string red = shape("Box { }", emitting("1 0 0")), green = shape("Box { }", emitting("0 1 0")), blue = shape("Box { }", emitting("0 0 1"));
+  s.options.level.reset();
+  CHECK(middle(s.render("LOD { range 1 level [ " + red + "Group { children LOD { range 1000 level [ " + green + blue + "] } } ] }")) == Rgb{0, 255, 0});
 }
 
 TEST_CASE("render: wireframe shows edges, and only those in front") {
@@ -410,7 +451,7 @@ TEST_CASE("render: instances look like copies") {
   auto pipeline = Pipeline::parse("picture", why);
   PassContext ctx{s.diag, s.stats, nullptr};
   auto source = pipeline->run_lazily(world->scene, ctx);
-  Stage stage = set_stage(world->scene, nullptr, s.diag);
+  Stage stage = set_stage(world->scene, s.diag);
   MeshPool pool;
   std::vector<std::uint32_t> mesh_of(3, pool.add(source(stage.uses[0].geometry))), surface_of(3);
   Camera camera = camera_in(translation({0, 0, 10}), {101, 101, 0.927});
