@@ -6,6 +6,7 @@
 #include <span>
 
 #include "passes/lightmap/checkpoint.h"
+#include "passes/lightmap/cut_off.h"
 #include "passes/lightmap/denoise.h"
 #include "passes/lightmap/fill.h"
 #include "passes/lightmap/page.h"
@@ -96,7 +97,8 @@ void make_directions(Page& page) {
   }
 }
 
-BakedPage finish(Page page, const std::vector<char>& inside, const BakeOptions& options, Statistics& stats) {
+BakedPage finish(Page page, const std::vector<char>& inside, const light::LightWorld& world, const BakeOptions& options, Statistics& stats) {
+  lighten_cut_off(page, inside, world);
   for (std::size_t i = 0; i < page.size(); ++i) {
     stats["lightmap.texels"] += page.covered(i);
     stats["lightmap.inside"] += inside[i];
@@ -138,7 +140,7 @@ class Rounds {
       chosen = std::move(next);
       if (std::ranges::find(chosen, 1) == chosen.end()) break;
     }
-    return finish(std::move(page), inside, options_, ctx_.stats);
+    return finish(std::move(page), inside, from.world(), options_, ctx_.stats);
   }
 
  private:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/lightmap/cut_off.h"
+
 namespace wrlkit::bake {
 namespace {
 
@@ -17,7 +19,8 @@ constexpr float within = 0.5f;               // share of rays that meet backs, f
 Vec vec(const V3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Rgb rgb(const light::Rgb& c) { return {c[0], c[1], c[2]}; }
 
-bool is_dark(const Irradiance& p) { return !(luminance(rgb(p.direct)) + luminance(rgb(p.indirect)) > 0); }
+float luminance_of(const Irradiance& p) { return luminance(rgb(p.direct)) + luminance(rgb(p.indirect)); }
+bool is_dark(const Irradiance& p) { return !(luminance_of(p) > 0); }
 
 void add(const Irradiance& from, TexelLight& to) {
   to.light += rgb(from.direct) + rgb(from.indirect);
@@ -60,7 +63,7 @@ std::vector<TexelLight> PageBaker::gather(std::vector<Irradiance> light) const {
     TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, site_of(all, t.first), {}, {}, 0, {}, {}};
     float weight = 0;  // of a point that lies within something, as far as it sees out; such light counts where there is no other
     for (const Irradiance& l : all) {
-      if (texel.site == Site::open && l.inside > within) continue;
+      if (texel.site == Site::open && (l.inside > within || is_cut_off(light, t, l))) continue;
       add(l, texel);
       weight += texel.site == Site::open ? 1 : 1 - l.inside;
     }
@@ -74,6 +77,15 @@ std::vector<TexelLight> PageBaker::gather(std::vector<Irradiance> light) const {
     out.push_back(texel);
   }
   return out;
+}
+
+/// A point of a texel that lies in the dark beyond a surface which crosses the texel.
+bool PageBaker::is_cut_off(std::span<const Irradiance> light, const TexelSamples& t, const Irradiance& own) const {
+  const auto all = light.subspan(t.first, t.count);
+  const auto brightest = std::ranges::max_element(all, {}, [](const Irradiance& p) { return p.inside > within ? -1 : luminance_of(p); });
+  if (!is_dark_beside(luminance_of(own), luminance_of(*brightest))) return false;
+  const Point &from = points_[static_cast<std::size_t>(&*brightest - light.data())], &to = points_[static_cast<std::size_t>(&own - light.data())];
+  return bake::is_cut_off(world_, from.position, to.position, from.normal, to.normal);
 }
 
 /// Where closed things touch, a ray may meet the front of the one before the back of the other: it sees no back then.

@@ -35,6 +35,7 @@ class PageBaker {
   PageBaker(const std::vector<Part>& parts, const PageLayout& page, const light::LightWorld& world, bool flat)
       : parts_(parts), page_(page), world_(world), flat_(flat), grid_(page.triangles, page.width, page.height) {}
 
+  const light::LightWorld& world() const { return world_; }
   std::size_t n_tiles() const { return grid_.n_tiles(); }
 
   /// Points of the surface for a tile's samples, in their order; of a grid with so many along each side of a texel. `chosen`, by texel of
@@ -48,6 +49,7 @@ class PageBaker {
   std::vector<TexelLight> gather(std::vector<light::Irradiance> light) const;
 
  private:
+  bool is_cut_off(std::span<const light::Irradiance> light, const TexelSamples& t, const light::Irradiance& own) const;
   bool is_enclosed(const light::Point& p) const;
   Site site_of(std::span<const light::Irradiance> light, std::size_t first) const;
   light::Point point(const SurfaceSample& s) const;

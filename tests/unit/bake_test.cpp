@@ -222,6 +222,26 @@ TEST_CASE("bake: under what is closed the floor takes the light around, though b
   CHECK(b.stats["lightmap.jumps"] == 0);
 }
 
+TEST_CASE("bake: the dark below a hood of single sheets makes no seam along its foot", "[bake]") {
+  // Its walls meet the texels of the floor at a slant. Outside half of the sky is seen there.
+  const std::string hood = "IndexedFaceSet { solid FALSE coord Coordinate { point [ -1 -1 -1, 1 -1 -1, 1 -1 1, -1 -1 1, 0 1 0 ] } coordIndex [ 0 1 4 -1 1 2 4 -1 2 3 4 -1 3 0 4 -1 ] }";
+  const std::string world = "DEF Floor Shape { " + material(0.5) + " geometry " + floor_of_4 + " } Transform { translation 0 1 0 rotation 0 1 0 0.4 children Shape { " + material(0.5) + " geometry " + hood + " } }";
+  for (const std::string quality : {"draft", "normal"}) {
+    Baked b(world, "sky=1:1:1,max-size=128,denoise=false,quality=" + quality);
+    Light floor(b, "Floor");
+    double least = 1, most_within = 0;
+    for (int k = 1; k < 100; ++k) {
+      const double along = -1 + k / 50.0, c = std::cos(0.4), s = std::sin(0.4);
+      auto at = [&](double x, double z) { return floor.on_floor(c * x + s * z, c * z - s * x); };
+      for (double side : {-1.001, 1.001}) least = std::min({least, at(side, along), at(along, side)});
+      for (double side : {-0.8, 0.8}) most_within = std::max({most_within, at(side, 0.8 * along), at(0.8 * along, side)});
+    }
+    INFO(quality);
+    CHECK(least > 0.25);
+    CHECK(most_within < 0.01);
+  }
+}
+
 TEST_CASE("bake: a closed room of which both sides are to be seen has light on both when somebody stands in it", "[bake]") {
   const std::string room = "DEF Room Shape { " + material(0.5, 0.1) + " geometry IndexedFaceSet { solid FALSE " + box(true, 1).substr(17) + " } ";
   Baked nobody(room, "quality=draft,max-size=128"), viewer(room + "Viewpoint { position 0 0 0.5 }", "quality=draft,max-size=128"),
