@@ -88,7 +88,8 @@ struct LightmapOptions {
 /// - Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels a level. LODs within
 ///   levels have light at all of theirs, too: as many views are lit as there are levels one behind the other (lightmap/levels.h), 64 at
 ///   the most.
-/// - Left alone: Shapes without a Material, text, lines, points, other choices of a Switch.
+/// - Text becomes faces, too, unless events, a Script or a prototype may write it.
+/// - Left alone: Shapes without a Material, lines, points, other choices of a Switch.
 /// - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only `smooth`
 ///   and `format` count. Backs share the picture of their fronts.
 /// - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `inline` and `expand-protos` before.

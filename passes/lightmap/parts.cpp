@@ -1,9 +1,12 @@
 #include "passes/lightmap/parts.h"
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 
+#include "passes/driven.h"
 #include "passes/lightmap/witnesses.h"
 #include "passes/normals.h"
 #include "passes/parallel.h"
@@ -105,7 +108,9 @@ class Finder {
  public:
   Finder(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx)
       : scene_(scene), world_(world), stage_(world.stage()), witnesses_(scene, world), sides_(sides), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
-    for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take)) lit_.emplace(s.geometry.value, s);
+    const auto driven = driven_geometry(scene);  // a Script may write what it likes
+    for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take, sides == Sides::apart ? OfText::take : OfText::leave))
+      if (!scene.is(s.geometry, nodes::Text) || !driven[s.geometry.value]) lit_.emplace(s.geometry.value, s);
   }
 
   std::vector<Part> run() {
@@ -116,7 +121,7 @@ class Finder {
       const auto& use = stage_.uses[u];
       if (!lit_.contains(use.geometry.value) || !has_material(use.appearance)) continue;
       auto [at, added] = number.try_emplace(use.geometry.value, parts.size());
-      if (added) parts.push_back({.geometry = use.geometry});
+      if (added) parts.push_back({.geometry = use.geometry, .letters = scene_.is(use.geometry, nodes::Text)});
       if (finite(stage_.frames[use.frame]) && shapes.insert(use.shape.value).second) parts[at->second].uses.push_back(u);
     }
     for (Part& p : parts) read(p);
@@ -197,8 +202,38 @@ class Finder {
   MeshScratch scratch_;
 };
 
+/// As one sees them from the front, and their backs from behind.
+unwrap::Charts charts_of_letters(const Part& p, const Affine& frame) {
+  const V3 x = unit(frame.vector({1, 0, 0})), y = cross(unit(frame.normal({0, 0, 1})), x), origin = frame.point({0, 0, 0});
+  const auto n = static_cast<std::uint32_t>(p.n_triangles()), n_fronts = static_cast<std::uint32_t>(p.n_fronts);
+  unwrap::Charts charts;
+  for (const auto& [first, last, way] : {std::tuple{0u, n_fronts, 1.0}, std::tuple{n_fronts, n, -1.0}}) {
+    if (first == last) continue;
+    drawing::Box box;
+    const auto begin = charts.places.size();
+    std::vector<V3> places;
+    for (std::size_t c = 3 * std::size_t{first}; c < 3 * std::size_t{last}; ++c) {
+      const V3 at = frame.point(p.position(c)) - origin;
+      places.push_back({way * dot(at, x), dot(at, y), 0});
+      box.add(places.back());
+    }
+    for (const V3& v : places) charts.places.push_back({static_cast<float>(v.x - box.low.x), static_cast<float>(v.y - box.low.y)});
+    charts.chart_of.resize(charts.places.size() / 3, static_cast<std::uint32_t>(charts.sizes.size()));
+    charts.begin.push_back(static_cast<std::uint32_t>(begin / 3));
+    charts.sizes.push_back({static_cast<float>(box.size().x), static_cast<float>(box.size().y)});
+  }
+  charts.begin.push_back(n);
+  charts.triangles.resize(n);
+  std::iota(charts.triangles.begin(), charts.triangles.end(), 0u);
+  return charts;
+}
+
 void unfold(Part& p, const Stage& stage) {
   const Affine& frame = stage.frames[stage.uses[p.uses[0]].frame];
+  if (p.letters) {
+    p.charts = charts_of_letters(p, frame);
+    return;
+  }
   PointJoiner joiner;
   auto corners = points_of(p.mesh, joiner);
   std::vector<double> world(joiner.points.size());

@@ -19,6 +19,7 @@ struct Part {
   std::vector<float> normals;        // unit, of each corner, in the frame of the geometry
   std::size_t n_fronts = 0;          // triangles that are not backs
   bool sealed = false, inside_out = false;  // closed around some room: nobody sees the inner side, which the fronts were
+  bool letters = false;              // of a Text: they lie in the plane z = 0
   double density = 1;                // texels a metre, relative to those of other parts
   unwrap::Charts charts;             // in metres of the world, as the first use has it
 
@@ -33,15 +34,16 @@ struct Part {
 /// What becomes of the backs of faces that are seen from both sides.
 enum class Sides : std::uint8_t { apart, as_they_are };
 
-/// The parts of a world, in its order. Left out: what has no Material or PhysicalMaterial, as it is not lit; text, lines and points; geometry
-/// that events can change. O(triangles).
+/// The parts of a world, in its order. Left out: what has no Material or PhysicalMaterial, as it is not lit; lines and points; geometry
+/// that events can change; with sides as they are, text. O(triangles).
 ///
 /// Sides apart: a face of `solid` FALSE is seen from both sides, which have light of their own. Where the surface is closed, and
 /// opaque, and neither a Viewpoint nor anything that shines stands in its box, nobody sees the inner side: it is sealed, and only the outer
 /// one is lit; one that is wound inside out is turned. Any other surface of `solid` FALSE gets a back for each face, and `solid` TRUE.
 std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx);
 
-/// Unfolds each part into charts; in parallel.
+/// Unfolds each part into charts; in parallel. Letters of a Text are one chart, and their backs another one, so that what they take does not
+/// grow with their number.
 void unfold_parts(std::vector<Part>& parts, const drawing::Stage& stage);
 
 }  // namespace wrlkit::bake

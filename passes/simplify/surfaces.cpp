@@ -13,7 +13,7 @@ namespace {
 
 class Choice {
  public:
-  Choice(const Scene& scene, Diagnostics* diag, BelowLod below) : scene_(scene), diag_(diag), below_(below), order_(all_nodes(scene)), kept_(scene.node_count()) {}
+  Choice(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text) : scene_(scene), diag_(diag), below_(below), text_(text), order_(all_nodes(scene)), kept_(scene.node_count()) {}
 
   std::vector<ShapeSurface> run() {
     keep_routed();
@@ -74,7 +74,7 @@ class Choice {
     constexpr const char* by_is = "the Shape of a prototype that gets its values by IS";
     if (const char* why = reason(kept_[shape.value])) return why;
     if (geometry.is) return by_is;
-    if (scene_.is(geometry.node, nodes::Text)) return "text";
+    if (text_ == OfText::leave && scene_.is(geometry.node, nodes::Text)) return "text";
     const char* why = has_is(geometry.node) ? by_is : reason(kept_[geometry.node.value]);
     for_each_child(scene_, geometry.node, [&](NodeId c) {
       if (c && !why) why = has_is(c) ? by_is : scene_.type(c).kind != NodeKind::builtin ? "a Shape with nodes that are not known" : reason(kept_[c.value]);
@@ -90,13 +90,14 @@ class Choice {
   const Scene& scene_;
   Diagnostics* diag_;
   BelowLod below_;
+  OfText text_;
   std::vector<NodeId> order_;
   std::vector<Kept> kept_;  // by node: whether it must not change
 };
 
 }  // namespace
 
-std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag, BelowLod below) { return Choice(scene, diag, below).run(); }
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text) { return Choice(scene, diag, below, text).run(); }
 
 SurfaceReader::SurfaceReader(const Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
 

@@ -387,6 +387,31 @@ TEST_CASE("bake: levels that come to no end are lit as far as there is a view of
   CHECK(b.diag.count(Severity::error) == 1);
 }
 
+TEST_CASE("bake: letters have light, in one chart for each side, and text that events write stays text", "[bake]") {
+  auto text = [](const std::string& name, const std::string& place, const std::string& style = "") {
+    return "Transform { " + place + " children DEF " + name + " Shape { " + material(0.5) + " geometry DEF " + name + "_text Text { string [ \"II II\" \"II II\" ] fontStyle " + style + " FontStyle { size 2 justify [ \"MIDDLE\" \"MIDDLE\" ] } } } } ";
+  };
+  Baked b(text("Plain", "") + text("Mirrored", "translation 20 0 0 scale -1 1 1") + text("Routed", "translation 40 0 0") + text("Styled", "translation 60 0 0", "DEF Style") + text("Written", "translation 80 0 0") +
+          "DEF S Script { field SFNode sign USE Written_text eventOut MFString s eventOut MFString t } ROUTE S.s TO Routed_text.set_string ROUTE S.t TO Style.set_justify "
+          "DirectionalLight { direction 0 0 -1 } DirectionalLight { direction 0 0 1 color 0 0 1 }", "quality=draft,max-size=256");
+  const Scene& scene = b.world->scene;
+  for (const char* name : {"Routed", "Styled", "Written"}) {
+    INFO(name);
+    const NodeId shape = b.shape(name);
+    CHECK(scene.is(scene.get(shape, nodes::shape::geometry), nodes::Text));
+    CHECK(!scene.get(scene.get(shape, nodes::shape::appearance), nodes::appearance::lightmap));
+  }
+  for (const char* name : {"Plain", "Mirrored"}) {
+    INFO(name);
+    Light light(b, name);
+    const std::size_t n = light.mesh.corners.size() / 3, in_front = n / 2;
+    REQUIRE(n > 0);
+    CHECK(!scene.is(scene.get(b.shape(name), nodes::shape::geometry), nodes::Text));
+    for (std::size_t i = 0; i < n; ++i) CHECK(light.at(i, 0.3, 0.3) == Approx(i < in_front ? 1 : 0).margin(0.03));  // the light from behind has no green
+  }
+  CHECK(b.stats["lightmap.charts"] == 4);
+}
+
 TEST_CASE("bake: materials of X3D 4.0 take light, and those that are unlit give it", "[bake]") {
   const std::string lamp = "Transform { translation 0 1 0 rotation 1 0 0 3.14159265 children Shape { appearance Appearance { material UnlitMaterial { emissiveColor 1 0.5 1 } } geometry " + floor_of_4 + " } } ";
   Baked b("DEF Floor Shape { appearance Appearance { material PhysicalMaterial { baseColor 0.5 0.5 0.5 metallic 1 } } geometry " + floor_of_4 + " } " + lamp, "quality=draft,max-size=128,sky=none",
