@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 #include <unordered_map>
 
 #include "passes/geometry.h"
@@ -52,9 +54,15 @@ light::LightOptions light_options(const LightmapOptions& o, const Levels& levels
   return out;
 }
 
-BakeOptions bake_options(const LightmapOptions& o) {
+/// Each view has a file of its own: those that are done are there until all are.
+std::string checkpoint_of(const LightmapOptions& o, std::size_t view) {
+  return o.checkpoint.empty() || !view ? o.checkpoint : o.checkpoint + "." + std::to_string(view + 1);
+}
+
+BakeOptions bake_options(const LightmapOptions& o, std::size_t view, std::string title) {
   const Work& work = work_of[o.quality.value];
   BakeOptions out;
+  out.title = std::move(title);
   out.samples = work.samples;
   out.integrator.rays = work.rays;
   out.integrator.seed = static_cast<std::uint64_t>(o.seed);
@@ -62,7 +70,7 @@ BakeOptions bake_options(const LightmapOptions& o) {
   if (o.error > 0) out.integrator.rays = std::max(work_of[BakeQuality::normal].rays, work.rays);  // the cache must be as good as what is asked for
   out.directional = o.directional;
   out.denoise = o.denoise;
-  out.checkpoint = o.checkpoint;
+  out.checkpoint = checkpoint_of(o, view);
   return out;
 }
 
@@ -115,6 +123,11 @@ void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& wo
 
 /// Lights what the view shows.
 Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, PassContext& ctx) {
+  const std::string title = levels.view() ? "lightmap, view " + std::to_string(levels.view() + 1) : "lightmap";
+  auto say = [&](const char* what) {
+    if (ctx.monitor) ctx.monitor->begin(title + what, 0, "");
+  };
+  say(": surfaces");
   levels.own_what_is_lit();
   Meshes meshes(scene, ctx);
   light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options, levels), ctx.diag);
@@ -124,11 +137,13 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
   prepare(parts, scene, world, levels, options);
   if (parts.empty()) return Outcome::unchanged;
   if (!world.has_sky_of_its_own() && !levels.depth()) ctx.diag.report(Diag::no_light, {});
+  say(": charts");
   unfold_parts(parts, world.stage());
   const LayoutOptions wanted = layout_options(options, levels.depth());
   const Layout layout(parts, wanted);
   if (const auto coarse = layout.coarse(); coarse.n_shapes) ctx.diag.report(Diag::density_limit, {}, wanted.density, coarse.n_shapes, coarse.least * wanted.density);
-  auto pages = bake::bake(parts, layout, world, bake_options(options), ctx);
+  auto pages = bake::bake(parts, layout, world, bake_options(options, levels.view(), title), ctx);
+  say(": pictures");
   store(scene, parts, layout, world.stage(), pages, {options.format.value, options.exr}, ctx);
   for (const Part& p : parts) {
     for (std::uint32_t u : p.uses) levels.add(world.stage().uses[u].shape);
@@ -147,6 +162,8 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
     if (const Outcome one = bake_view(scene, levels, options, ctx); one != Outcome::unchanged) all = one;
     if (!options.patches.empty()) return all;
   }
+  std::error_code none_there;
+  for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view) std::filesystem::remove(checkpoint_of(options, view), none_there);
   if (levels.n_unseen()) ctx.diag.report(Diag::expansion_limit, {}, Levels::most, "levels of detail one behind the other");
   return all;
 }

@@ -163,6 +163,7 @@ bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassC
       while (next < end && steps_[next].pass->is_mesh_pass()) ++next;
     {
       Timer timer(options.times, std::string(steps_[i].info->name));
+      if (ctx.monitor) ctx.monitor->begin(std::string(steps_[i].info->name), 0, "");
       bool good = steps_[i].pass->is_mesh_pass() ? run_mesh_steps(i, next, scene, ctx) : steps_[i].pass->run(scene, ctx) != Outcome::failed;
       if (!good) return false;
     }

@@ -7,33 +7,37 @@ Bakes corpus/paper/stairs_room.wrl three times: undisturbed; with a checkpoint, 
 call again. Then once more after the end of the checkpoint's file was cut off and its last tile damaged, as a full disk or a crash of
 the machine leaves it. Each time the world and its pictures must be the same, the second call must have traced fewer rays than the
 first, and no checkpoint may be left.
+
+Then corpus/paper/pipes.wrl with levels of detail, of which each is baked with a checkpoint of its own: killed in the second one, no light
+of the first is traced again.
 """
 import argparse, pathlib, re, signal, subprocess, sys, tempfile, time
 
 project = pathlib.Path(__file__).resolve().parents[1]
-world = project / 'corpus/paper/stairs_room.wrl'
+room, pipes = project / 'corpus/paper/stairs_room.wrl', project / 'corpus/paper/pipes.wrl'
 
 
-def command(wrlkit, folder, checkpoint):
+def command(wrlkit, world, folder, checkpoint):
     options = 'quality=draft,max-size=256' + (f',checkpoint={checkpoint}' if checkpoint else '')
-    return [wrlkit, 'convert', world, folder / 'lit.wrl', '-p', f'lightmap{{{options}}}', '--stats']
+    return [wrlkit, 'convert', world, folder / 'lit.wrl', '-p', ('lod,' if world == pipes else '') + f'lightmap{{{options}}}', '--stats']
 
 
-def bake(wrlkit, folder, checkpoint=None):
+def bake(wrlkit, folder, checkpoint=None, world=room):
     """The bytes of all files that it wrote, and the rays that it traced."""
     folder.mkdir(exist_ok=True)
-    r = subprocess.run(command(wrlkit, folder, checkpoint), capture_output=True, text=True, timeout=300)
+    r = subprocess.run(command(wrlkit, world, folder, checkpoint), capture_output=True, text=True, timeout=300)
     if r.returncode != 0:
         sys.exit(f'bake-resume: exit code {r.returncode}: {r.stderr[-500:]}')
     rays = re.search(r'(\d+)\s+lightmap\.rays', r.stdout + r.stderr)
     return {p.name: p.read_bytes() for p in sorted(folder.iterdir())}, int(rays[1]) if rays else 0
 
 
-def interrupted(wrlkit, folder, checkpoint, size):
-    """Kills a bake once that much is kept. False when it was done before."""
+def interrupted(wrlkit, folder, checkpoint, size, world=room, of_view=''):
+    """Kills a bake once that much is kept, of a view. False when it was done before."""
+    kept = checkpoint.with_name(checkpoint.name + of_view)
     folder.mkdir(exist_ok=True)
-    p = subprocess.Popen(command(wrlkit, folder, checkpoint), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while p.poll() is None and not (checkpoint.exists() and checkpoint.stat().st_size > size):
+    p = subprocess.Popen(command(wrlkit, world, folder, checkpoint), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while p.poll() is None and not (kept.exists() and kept.stat().st_size > size):
         time.sleep(0.002)
     p.send_signal(signal.SIGKILL)
     p.wait()
@@ -65,6 +69,13 @@ def main():
                 kept = checkpoint.read_bytes()
                 checkpoint.write_bytes(kept[:-1000] + bytes(b ^ 0x55 for b in kept[-1000:-500]))
             check('damaged' if damaged else 'killed', bake(wrlkit, folder / 'part', checkpoint))
+        whole, rays = bake(wrlkit, folder / 'whole_pipes', world=pipes)
+        if not interrupted(wrlkit, folder / 'part_pipes', checkpoint, 0, pipes, '.2'):
+            sys.exit('bake-resume: the levels were done before they could be killed')
+        rays //= 2  # of the first view are more
+        check('killed in the second view', bake(wrlkit, folder / 'part_pipes', checkpoint, pipes))
+        if left := sorted(p.name for p in folder.glob('kept*')):
+            faults.append(f'left: {left}')
     print('\n'.join(faults) or f'a killed bake goes on: {len(whole)} files alike')
     sys.exit(bool(faults))
 

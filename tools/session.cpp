@@ -91,6 +91,7 @@ PipelineOptions Session::pipeline_options() {
   o.print_after = flags_.print_after;
   if (!o.print_after.empty())
     o.print = [this](const std::string& pass, const Scene& scene) {
+      progress_.clear();
       fmt::print(stderr, "# after {}\n", pass);
       write_vrml(scene, {.own_fields = true}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag_);
     };

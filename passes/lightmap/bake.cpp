@@ -119,6 +119,10 @@ BakedPage finish(Page page, const std::vector<char>& inside, const light::LightW
   return out;
 }
 
+std::string title_of_page(const std::string& title, std::size_t page, std::size_t n_pages) {
+  return n_pages == 1 ? title : title + ", page " + std::to_string(page + 1) + " of " + std::to_string(n_pages);
+}
+
 /// Light comes in rounds: one for all texels or, where an error is asked for, as many as it takes, each with as many rays as those before it.
 class Rounds {
  public:
@@ -126,7 +130,8 @@ class Rounds {
       : integrator_(integrator), checkpoint_(checkpoint), options_(options), n_tiles_(n_tiles), ctx_(ctx) {}
 
   /// `first` is the number of the page's first tile.
-  BakedPage bake(PageBaker& from, std::uint64_t first, int width, int height) {
+  BakedPage bake(PageBaker& from, std::uint64_t first, int width, int height, const std::string& name) {
+    name_ = name;
     Page page(width, height, options_.directional ? 4 : 1);
     std::vector<char> inside(page.size()), chosen;
     std::vector<Rgb> difference(options_.error > 0 ? page.size() : 0);
@@ -149,7 +154,7 @@ class Rounds {
   /// Calls f(texel) for the chosen texels of all tiles of a page.
   template <class F>
   void run(PageBaker& from, std::uint64_t first, std::uint32_t number_of_round, const light::Integrator::Round& round, const std::vector<char>& chosen, F&& f) {
-    if (ctx_.monitor) ctx_.monitor->begin(number_of_round ? "baking, round " + std::to_string(number_of_round + 1) : "baking", from.n_tiles(), "tiles");
+    if (ctx_.monitor) ctx_.monitor->begin(number_of_round ? name_ + ", round " + std::to_string(number_of_round + 1) : name_, from.n_tiles(), "tiles");
     for (std::size_t tile = 0; tile < from.n_tiles(); ++tile) {
       const std::uint64_t number = number_of_round * n_tiles_ + first + tile;
       std::vector<TexelLight> texels;
@@ -201,6 +206,7 @@ class Rounds {
   const BakeOptions& options_;
   std::uint64_t n_tiles_;
   PassContext& ctx_;
+  std::string name_;                 // of the page
 };
 
 }  // namespace
@@ -209,6 +215,7 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   std::vector<PageBaker> bakers;
   std::uint64_t n_tiles = 0;
   for (const auto& p : layout.pages()) n_tiles += bakers.emplace_back(parts, p, world, options.directional).n_tiles();
+  if (ctx.monitor) ctx.monitor->begin(options.title + ": reflected light", 0, "");
   const light::Integrator integrator(world, choose_points(bakers), options.integrator);
   Checkpoint checkpoint(options.checkpoint, key_of(layout, world, options));
   Rounds rounds(integrator, checkpoint, options, n_tiles, ctx);
@@ -216,7 +223,7 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   std::vector<BakedPage> out;
   std::uint64_t first = 0;
   for (std::size_t p = 0; p < bakers.size(); first += bakers[p++].n_tiles())
-    out.push_back(rounds.bake(bakers[p], first, layout.pages()[p].width, layout.pages()[p].height));
+    out.push_back(rounds.bake(bakers[p], first, layout.pages()[p].width, layout.pages()[p].height, title_of_page(options.title, p, bakers.size())));
 
   std::vector<Canvas> light;
   for (auto& p : out) light.push_back(std::move(p.light));
@@ -224,7 +231,6 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   ctx.stats["lightmap.seam-places"] += seams.places;
   ctx.stats["lightmap.jumps"] += seams.jumps;
   for (std::size_t p = 0; p < out.size(); ++p) out[p].light = std::move(light[p]);
-  checkpoint.finish();
   return out;
 }
 

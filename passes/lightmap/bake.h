@@ -14,7 +14,8 @@ struct BakeOptions {
   double error = 0;                      // relative standard error that is wanted of what is shown, after denoising; 0: integrator.rays for all
   bool directional = false;
   bool denoise = true;
-  std::string checkpoint;                // file in which finished tiles are kept; empty: none
+  std::string title = "lightmap";        // of what a Monitor is told
+  std::string checkpoint;                // file in which finished tiles are kept, and stay; empty: none
 };
 
 /// Pictures of a page, linear, row 0 the lowest.

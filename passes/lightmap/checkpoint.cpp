@@ -69,10 +69,4 @@ void Checkpoint::save(std::uint64_t tile, const std::vector<char>& bytes) {
   out_.flush();
 }
 
-void Checkpoint::finish() {
-  if (path_.empty()) return;
-  out_.close();
-  std::filesystem::remove(path_);
-}
-
 }  // namespace wrlkit::bake

@@ -25,8 +25,6 @@ class Checkpoint {
   std::size_t n_found() const { return found_.size(); }
   /// Any number of threads may save.
   void save(std::uint64_t tile, const std::vector<char>& bytes);
-  /// The work is done: the file goes.
-  void finish();
 
  private:
   void read(std::istream& in, std::uint64_t& end);

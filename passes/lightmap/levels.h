@@ -25,6 +25,8 @@ class Levels {
   /// first level until all else is through; then it is the other way round. False when there is no view that shows more, or there have
   /// been enough of them. O(nodes).
   bool next();
+  /// The number of the view, from 0.
+  std::size_t view() const { return n_views_ - 1; }
   /// How far from the first levels those are that have their turn in this view.
   std::size_t depth() const { return depth_; }
   /// Small things around the PointLights and SpotLights of the first view. A lamp often stands just below the glass of its bulb, or where a
