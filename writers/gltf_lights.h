@@ -12,6 +12,7 @@
 // camera.
 #pragma once
 #include "scenegraph/diagnostics.h"
+#include "scenegraph/light_node.h"
 #include "writers/gltf_box.h"
 #include "writers/gltf_motion.h"
 #include "writers/gltf_transform.h"
@@ -25,9 +26,6 @@ struct Light {
   double scale = 1;  // world units in one of the light's
 };
 
-bool is_light(const Scene&, NodeId);
-/// It reaches more than its siblings and what is below them.
-bool is_global(const Scene&, NodeId);
 /// On, and of some effect, now or at times.
 bool shines(const Scene&, NodeId light, const Motion&);
 /// Location and direction as those of a node.

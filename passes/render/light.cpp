@@ -2,50 +2,8 @@
 
 #include <algorithm>
 
-#include "scenegraph/nodes.h"
-
 namespace wrlkit::drawing {
 namespace {
-
-template <class Node>
-void read_common(Light& l, const Scene& scene, NodeId n, Node color, auto intensity, auto ambient) {
-  l.color = scene.get(n, color);
-  l.intensity = scene.get(n, intensity);
-  l.ambient_intensity = scene.get(n, ambient);
-}
-
-void read_directional(Light& l, const Scene& scene, NodeId n) {
-  namespace f = nodes::directional_light;
-  read_common(l, scene, n, f::color, f::intensity, f::ambientIntensity);
-  l.direction = scene.get(n, f::direction);
-}
-
-void read_point(Light& l, const Scene& scene, NodeId n) {
-  namespace f = nodes::point_light;
-  read_common(l, scene, n, f::color, f::intensity, f::ambientIntensity);
-  l.kind = Light::Kind::point;
-  l.location = scene.get(n, f::location);
-  l.attenuation = scene.get(n, f::attenuation);
-  l.radius = scene.get(n, f::radius);
-}
-
-void read_spot(Light& l, const Scene& scene, NodeId n) {
-  namespace f = nodes::spot_light;
-  read_common(l, scene, n, f::color, f::intensity, f::ambientIntensity);
-  l.kind = Light::Kind::spot;
-  l.location = scene.get(n, f::location);
-  l.direction = scene.get(n, f::direction);
-  l.attenuation = scene.get(n, f::attenuation);
-  l.radius = scene.get(n, f::radius);
-  l.beam_width = scene.get(n, f::beamWidth);
-  l.cut_off_angle = scene.get(n, f::cutOffAngle);
-}
-
-bool is_on(const Scene& scene, NodeId n) {
-  if (scene.is(n, nodes::PointLight)) return scene.get(n, nodes::point_light::on);
-  if (scene.is(n, nodes::SpotLight)) return scene.get(n, nodes::spot_light::on);
-  return scene.get(n, nodes::directional_light::on);
-}
 
 double attenuation(const Light& l, double distance) {
   double fall = l.attenuation.x + distance * (l.attenuation.y + distance * l.attenuation.z);
@@ -63,11 +21,10 @@ double spot(const Light& l, const V3& to_light) {
 }  // namespace
 
 std::optional<Light> make_light(const Scene& scene, const Placed& placed, const Stage& stage) {
-  if (!is_on(scene, placed.node)) return {};
-  Light l;
-  if (scene.is(placed.node, nodes::PointLight)) read_point(l, scene, placed.node);
-  else if (scene.is(placed.node, nodes::SpotLight)) read_spot(l, scene, placed.node);
-  else read_directional(l, scene, placed.node);
+  const LightNode n = read_light(scene, placed.node);
+  if (!n.on) return {};
+  Light l{.kind = n.kind, .color = n.color, .intensity = n.intensity, .ambient_intensity = n.ambient_intensity, .direction = n.direction, .location = n.location,
+          .attenuation = n.attenuation, .radius = n.radius, .beam_width = n.beam_width, .cut_off_angle = n.cut_off_angle};
   const Affine& frame = stage.frames[placed.frame];
   l.location = frame.point(l.location);
   l.direction = unit(frame.vector(l.direction));

@@ -3,11 +3,12 @@
 #include <optional>
 
 #include "passes/render/stage.h"
+#include "scenegraph/light_node.h"
 
 namespace wrlkit::drawing {
 
 struct Light {
-  enum class Kind : std::uint8_t { directional, point, spot };
+  using Kind = LightNode::Kind;
 
   Kind kind = Kind::directional;
   V3 color{1};

@@ -8,33 +8,32 @@
 namespace wrlkit::drawing {
 namespace {
 
-void read_material(Surface& s, const Scene& scene, NodeId n) {
-  namespace f = nodes::material;
-  s.lit = true;
-  s.material.diffuse = scene.get(n, f::diffuseColor);
-  s.material.specular = scene.get(n, f::specularColor);
-  s.material.ambient = scene.get(n, f::ambientIntensity);
-  s.material.shininess = std::clamp(scene.get(n, f::shininess), 0.0, 1.0);
-  s.emissive = scene.get(n, f::emissiveColor);
-  s.alpha = 1 - std::clamp(scene.get(n, f::transparency), 0.0, 1.0);
-}
-
 /// Metals are as dull as all else; their colour is what they reflect.
-void read_physical(Surface& s, const Scene& scene, NodeId n) {
-  namespace f = nodes::physical_material;
+void read_material(Surface& s, const Scene& scene, NodeId n) {
+  auto read = [&](auto color, auto transparency) {
+    s.material.diffuse = scene.get(n, color);
+    s.alpha = 1 - std::clamp(scene.get(n, transparency), 0.0, 1.0);
+  };
+  namespace m = nodes::material;
+  namespace p = nodes::physical_material;
+  namespace u = nodes::unlit_material;
+  s.shines = scene.is(n, nodes::UnlitMaterial);
+  if (s.shines) return read(u::emissiveColor, u::transparency);
   s.lit = true;
-  s.material.diffuse = scene.get(n, f::baseColor);
-  s.material.specular = {};
-  s.emissive = scene.get(n, f::emissiveColor);
-  s.alpha = 1 - std::clamp(scene.get(n, f::transparency), 0.0, 1.0);
+  if (scene.is(n, nodes::PhysicalMaterial)) {
+    read(p::baseColor, p::transparency);
+    s.material.specular = {};
+    s.emissive = scene.get(n, p::emissiveColor);
+    return;
+  }
+  read(m::diffuseColor, m::transparency);
+  s.material.specular = scene.get(n, m::specularColor);
+  s.material.ambient = scene.get(n, m::ambientIntensity);
+  s.material.shininess = std::clamp(scene.get(n, m::shininess), 0.0, 1.0);
+  s.emissive = scene.get(n, m::emissiveColor);
 }
 
-void read_unlit(Surface& s, const Scene& scene, NodeId n) {
-  namespace f = nodes::unlit_material;
-  s.shines = true;
-  s.material.diffuse = scene.get(n, f::emissiveColor);
-  s.alpha = 1 - std::clamp(scene.get(n, f::transparency), 0.0, 1.0);
-}
+bool is_material(const Scene& scene, NodeId n) { return scene.is(n, nodes::Material) || scene.is(n, nodes::PhysicalMaterial) || scene.is(n, nodes::UnlitMaterial); }
 
 /// TextureTransform (6.49): Tc' = -C S R C T Tc.
 TexcoordMap texcoord_map(const Scene& scene, NodeId n) {
@@ -86,9 +85,7 @@ Surface Surfaces::make(NodeId appearance) {
   Surface s;
   NodeId material = scene_.get(appearance, f::material), map = scene_.get(appearance, f::textureTransform);
   s.modulates = multiplies_picture(scene_, appearance);
-  if (scene_.is(material, nodes::Material)) read_material(s, scene_, material);
-  if (scene_.is(material, nodes::PhysicalMaterial)) read_physical(s, scene_, material);
-  if (scene_.is(material, nodes::UnlitMaterial)) read_unlit(s, scene_, material);
+  if (is_material(scene_, material)) read_material(s, scene_, material);
   if (scene_.is(map, nodes::TextureTransform)) s.texcoords = texcoord_map(scene_, map);
   const NodeId texture = scene_.get(appearance, f::texture);
   s.picture = layer(texture ? texture : own_picture(scene_, material));
