@@ -6,20 +6,21 @@
 // because physically based light is another than VRML's, and lit as VRML does, where colours are the same but for a few
 // levels. Where a bound cannot hold, expectations.mjs says why.
 //   node three_pictures.mjs WRLKIT FOLDER [PART-OF-A-NAME | --all] [FLAGS-OF-CONVERT...]
-// PART-OF-A-NAME is a regular expression.
-// Pictures of worlds that fail are left in FOLDER. --all: the whole found corpus, too; for people, no bounds are known there.
+// PART-OF-A-NAME is a regular expression. Without one all worlds are compared, but of found plants and worlds with baked light some: " with light"
+// compares all of those (for people: ten minutes). Pictures of worlds that fail are left in FOLDER.
+// --all: the whole found corpus, too; for people, no bounds are known there.
 import fs from 'node:fs';
 import path from 'node:path';
 import {has_chromium, take_pictures} from './browser.mjs';
 import {expected, found_worlds_to_compare, is_compared} from './expectations.mjs';
 import {in_lanes, run} from './program.mjs';
 import {view_of} from './view.mjs';
-import {file_of, found_worlds, has_shared, own_worlds} from './worlds.mjs';
+import {file_of, found_worlds, has_shared, own_worlds, plants_and_worlds} from './worlds.mjs';
 
 const [wrlkit, folder, part = '', ...flags] = process.argv.slice(2);
 const size = {width: 320, height: 240};
 const key = [0.85, 0.25, 0.65];
-const skipped = 77;
+const skipped = 77, patience = 200;
 const webp = ['webp', 'cesium', 'three'].some(word => flags.includes(word));  // these profiles store pictures so
 
 /// Worlds of which three.js draws what `wrlkit simplify` makes of them, with all levels: the finest must show.
@@ -27,31 +28,34 @@ const with_levels = ['corpus/paper/ellipsoid_hole.wrl']
   .map(name => ({name: `${name} with levels`, file: file_of(name), levels: true}));
 
 /// Worlds whose light is baked: three.js draws the glTF that the pass makes, wrlkit the VRML.
-const bake = ['-p', 'lightmap{quality=draft,max-size=128}'];
-const with_light = ['corpus/paper/stairs_room.wrl', 'corpus/paper/pipes.wrl', 'corpus/features/light_spot.wrl', 'corpus/features/use_nested.wrl',
-  'corpus/features/transparency.wrl', 'corpus/features/material_texture.wrl', 'corpus/vrml1/PointLight.wrl',
-  'plant/openhrp3/mockup/hand_railing_pole.wrl', 'plant/openhrp3/mockup/scaffolding_pole_short.wrl', 'plant/openhrp3/mockup/catwalk.wrl',
-  'plant/choreonoid/Labo1/resource/rack1.wrl', 'plant/choreonoid/Labo1/resource/rack2.wrl', 'plant/choreonoid/Labo1/resource/rack3.wrl',
-  'plant/choreonoid/Tank/resource/tank.wrl', 'worlds/openhrp3/house/table.wrl', 'worlds/openhrp3/house/floor.wrl', 'worlds/openhrp3/house/Cassette.wrl',
-  'worlds/castle-demo-models/castle/old/vrml_1/castle.wrl', 'worlds/castle-game/levels/gate_background/gate.wrl']
-  .map(name => ({name: `${name} with light`, file: file_of(name), baked: true})).filter(w => w.file);
+const bake = ['-p', 'lightmap{quality=draft,max-size=128}'], bake_all_of_it = ['-p', 'inline,expand-protos,inline,lightmap{quality=draft,max-size=128}'];
+const baked = ({name, file}) => ({name: `${name} with light`, file, baked: true});
+const own_with_light = ['paper/stairs_room', 'paper/pipes', 'features/light_spot', 'features/use_nested', 'features/transparency', 'features/material_texture',
+  'vrml1/PointLight'].map(name => `corpus/${name}.wrl`).map(name => baked({name, file: file_of(name)}));
+const found_with_light = plants_and_worlds().map(baked);
+
+/// Pictures of found worlds lie beside the folder of the world.
+const beside = file => ['--allow-path', path.dirname(path.dirname(file))];
 
 /// The file that is drawn: the world, or the one with its levels of detail or its light.
 async function source_of({file, levels, baked}, to) {
-  if (baked) return await run(wrlkit, ['convert', '-q', file, `${to}.wrl`, ...bake]), `${to}.wrl`;
+  if (baked) return await run(wrlkit, ['convert', '-q', file, `${to}.wrl`, ...beside(file), ...bake_all_of_it], patience), `${to}.wrl`;
   if (!levels) return file;
   await run(wrlkit, ['simplify', '-q', file, '--ratios', '0.5,0.25', '-o', to]);
   return path.join(to, `${path.basename(file, '.wrl')}_lod.wrl`);
 }
 
+/// One of ten, so that the test takes a minute; all when worlds are asked for by name.
+const some_of = list => part ? list : list.filter((_, i) => i % 10 === 0);
+
 /// Converts a world, draws it, and says what the page has to do; null when nothing was made.
 async function prepare(world, number) {
   const out = name => path.join(folder, `${number}${name}`);
   const source = await source_of(world, out(''));
-  const converted = await run(wrlkit, ['convert', '-q', world.baked ? world.file : source, out('.glb'), ...flags, ...world.baked ? bake : []]);
+  const converted = await run(wrlkit, ['convert', '-q', world.baked ? world.file : source, out('.glb'), ...flags, ...beside(world.file), ...world.baked ? bake : []], patience);
   const view = view_of(wrlkit, world.file, out('.glb'), world.name.startsWith('corpus/'));
   const drawn = await run(wrlkit, ['render', '-q', world.baked ? source : world.file, out('.png'), '--width', size.width, '--height', size.height,
-    '--samples', 1, '--background', key, ...view.flags]);
+    '--samples', 1, '--background', key, ...beside(world.file), ...view.flags]);
   const bad = [converted, drawn].find(r => r.code !== 0 && r.code !== 1);
   if (bad) return console.log(`${world.name}: exit code ${bad.code}: ${bad.text.trim()}`), null;
   return {name: world.name, glb: `/out/${number}.glb`, camera: view.camera, ...size, background: key, key,
@@ -88,7 +92,7 @@ function keep_picture({name, lighting, sheet}) {
 function worlds() {
   if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)];
   const found = found_worlds_to_compare.map(name => ({name, file: file_of(name)})).filter(w => w.file);
-  return [...own_worlds(), ...with_levels, ...with_light, ...found].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
+  return [...own_worlds(), ...with_levels, ...own_with_light, ...some_of(found_with_light.filter(w => is_compared(w.name))), ...found].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
 }
 
 async function main() {

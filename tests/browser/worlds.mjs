@@ -43,3 +43,9 @@ export function file_of(name) {
   const file = name.startsWith('corpus/') ? path.join(project, name) : path.join(shared, name);
   return fs.existsSync(file) ? file : null;
 }
+
+/// Found plants and worlds in which there is something to draw, by name.
+export function plants_and_worlds() {
+  const drawn = found_to_draw();
+  return found_worlds(every_format).filter(w => /^(plant|worlds)\//.test(w.name) && drawn.has(w.name)).sort((a, b) => a.name < b.name ? -1 : 1);
+}
