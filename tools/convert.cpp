@@ -39,6 +39,7 @@ bool write_as_text(Session& s, bool gzip, Target target, const std::function<voi
 bool write_as_gltf(Session& s) {
   GltfSummary summary;
   if (!write_gltf_file(s, *gltf_options(s.flags()), summary)) return false;
+  s.progress().clear();
   if (s.flags().verbose) fmt::print(stderr, "{}", summary_text(summary));
   return true;
 }
@@ -89,6 +90,7 @@ int run_convert(const Flags& given) {
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (flags.print_recipe) return fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline())), done;
   const bool made = convert_world(s);
+  s.progress().clear();
   if (made && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);
   return s.end(made);
 }

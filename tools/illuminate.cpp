@@ -75,7 +75,8 @@ bool write_pictures(Session& s, const PatchSet& set, const light::LightWorld& wo
   return true;
 }
 
-void print(const Session& s, const PatchSet& set, double seconds) {
+void print(Session& s, const PatchSet& set, double seconds) {
+  s.progress().clear();
   if (s.flags().json && s.flags().output != "-") {
     std::string text;
     JsonOut json(text);

@@ -122,6 +122,7 @@ int run_optimize(const Flags& given) {
     for (const auto& name : lost.names) list.add(name);
     s.diag().report(Diag::names_lost, {}, "optimize", list.count(), list.text());
   }
+  s.progress().clear();
   if (flags.json) fmt::print("{}", json_text(s, before, lost, made));
   else if (!flags.quiet) fmt::print(stderr, "{}", text(s, before, lost, made));
   return s.end(true);

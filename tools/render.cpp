@@ -112,6 +112,7 @@ int run_render(const Flags& flags) {
   if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
   if (sheet) return render_sheet(s);
   const bool made = !flags.compare.empty() ? render_comparison(s) : flags.turntable > 0 ? Turntable(s).make() : render_one(s);
+  s.progress().clear();
   if (made && flags.verbose && flags.mode == "density") fmt::print(stderr, "texels a metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n", most_texels_per_metre);
   return s.end(made);
 }

@@ -59,6 +59,7 @@ int write_progressive_file(Session& s, Criterion criterion, const std::string& p
   const auto bytes = write_progressive_world(surfaces);
   file->write(bytes);
   if (!file->commit(s.diag())) return s.end(false);
+  s.progress().clear();
   if (s.flags().json) {
     std::string text;
     JsonOut json(text);
@@ -79,7 +80,8 @@ struct Written {
   InteractionPoint point;
 };
 
-void print(const Session& s, std::size_t n_faces, const std::vector<Written>& files, const std::string& lod_file) {
+void print(Session& s, std::size_t n_faces, const std::vector<Written>& files, const std::string& lod_file) {
+  s.progress().clear();
   if (s.flags().json) {
     std::string text;
     JsonOut json(text);

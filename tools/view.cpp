@@ -128,6 +128,7 @@ bool write_page(Session& s, const ViewerPage& page) {
   write_viewer_page(page, [&](std::string_view bytes) { n_bytes += bytes.size(), file->write(bytes); });
   if (!file->commit(s.diag())) return false;
   const auto contents = contents_json(page, s.flags().output, n_bytes);
+  s.progress().clear();
   if (s.flags().json && s.flags().output != "-") fmt::print("{}\n", contents);
   s.fact("page", contents);
   return true;

@@ -12,6 +12,8 @@ template <class Options>
 bool write_text_file(Session& s, const Scene& scene, const std::string& path, bool gzip, void (*write)(const Scene&, const Options&, const Sink&, Diagnostics&)) {
   auto file = OutputFile::open(path, {.gzip = gzip}, s.diag());
   if (!file) return false;
+  if (path == "-") s.progress().clear();
+  else s.progress().begin("writing " + path, 0, "");
   MadeFiles made(scene, s.resources(), path, s.diag());
   const auto place = [&](std::string_view url) { return made.place(url); };
   write(scene, {.precision = s.flags().precision, .own_fields = s.flags().dump, .file = path == "-" || s.flags().keep_urls ? "" : path, .place = place}, file->sink(), s.diag());
