@@ -180,7 +180,7 @@ double relative_rmse(const std::vector<Irradiance>& a, const std::vector<Irradia
   double square = 0, mean = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
     for (int c = 0; c < 3; ++c) {
-      double x = a[i].direct[c] + a[i].indirect[c], y = b[i].direct[c] + b[i].indirect[c];
+      double x = a[i].direct[c] + a[i].gathered[c], y = b[i].direct[c] + b[i].gathered[c];
       square += (x - y) * (x - y);
       mean += y;
     }

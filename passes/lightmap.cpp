@@ -32,7 +32,7 @@ using namespace bake;
 struct Work {
   int side, samples, rays;  // of a page; points a texel; rays a point
 };
-constexpr Work work_of[] = {{512, 1, 10}, {1024, 4, 16}, {4096, 4, 64}};
+constexpr Work work_of[] = {{512, 1, 6}, {1024, 4, 16}, {4096, 4, 64}};
 constexpr int side_for_density = 4096, smallest_side = 64;
 
 /// What is seen from further away needs half the texels, down to a hundredth of the first.
@@ -64,10 +64,10 @@ BakeOptions bake_options(const LightmapOptions& o, std::size_t view, std::string
   BakeOptions out;
   out.title = std::move(title);
   out.samples = work.samples;
-  out.integrator.rays = work.rays;
+  out.rays = out.integrator.rays = work.rays;
   out.integrator.seed = static_cast<std::uint64_t>(o.seed);
   out.error = o.error;
-  if (o.error > 0) out.integrator.rays = std::max(work_of[BakeQuality::normal].rays, work.rays);  // the cache must be as good as what is asked for
+  if (o.error > 0) out.integrator.rays = std::max(work_of[BakeQuality::normal].rays, work.rays);
   out.directional = o.directional;
   out.denoise = o.denoise;
   out.checkpoint = checkpoint_of(o, view);

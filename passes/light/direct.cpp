@@ -109,20 +109,25 @@ void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint3
     sum += strength[i] = faces && mean(e.radiance) > 0 ? mean(e.radiance) * irradiance_of(corner, at) : 0;
   }
   if (!(sum > 0)) return;
-  // Rays by strength, two at least, so that they tell how they scatter. Emitters of less are drawn, by equal steps along the
-  // sum of their strengths; those scatter from one another.
-  const double step = 2 * sum / n;
+  // Rays by strength, two at least, so that they tell how they scatter. Emitters of less are drawn for a ray each, by equal steps along the
+  // sum of their strengths; those scatter from one another. A whole number of steps, so that where all are seen there is no noise.
+  const double enough = 2 * sum / n;
+  double faint = 0;
+  for (std::size_t i = 0; i < emitters.size(); ++i) faint += strength[i] < enough ? strength[i] : 0;
+  const double step = faint / std::max(1.0, std::round(faint * n / sum));
   double next = fraction(key_of(key, emitters.size(), first)) * step, n_drawn = 0;
   V3 drawn, drawn_squares, drawn_noise;
   for (std::size_t i = 0; i < emitters.size(); ++i) {
     const V3 full((n / mean(emitters[i].radiance)) * strength[i]);
-    if (strength[i] >= step) {
+    if (strength[i] >= enough) {
       const auto rays = [&](std::uint32_t of) { return static_cast<std::uint32_t>(std::lround(of * (strength[i] / sum))); };
       add_seen(at, emitters[i], full, Lattice<2>(key_of(key, i)), rays(first), rays(n), to, noise);
-    } else if (strength[i] > 0 && (next -= strength[i]) < 0) {
-      next += step;
-      const V3 e = add_seen(at, emitters[i], (step / strength[i]) * full, Lattice<2>(key_of(key, i, first)), 0, 2, to, drawn_noise);
-      drawn += e, drawn_squares += e * e, ++n_drawn;
+    } else if (strength[i] > 0) {
+      std::uint32_t rays_here = 0;
+      for (next -= strength[i]; next < 0; next += step) ++rays_here;
+      if (!rays_here) continue;
+      const V3 e = add_seen(at, emitters[i], (rays_here * step / strength[i]) * full, Lattice<2>(key_of(key, i, first)), 0, rays_here, to, drawn_noise);
+      drawn += e, drawn_squares += (1.0 / rays_here) * (e * e), n_drawn += rays_here;
     }
   }
   noise += n_drawn < 2 ? drawn_noise : max(V3(), (n_drawn / (n_drawn - 1)) * (drawn_squares - (1 / n_drawn) * (drawn * drawn)));

@@ -51,19 +51,14 @@ class Estimate {
     n_ += n;
   }
 
-  V3 total() const { return lamps_.sum + (1.0 / n_) * (emitters_.sum + gathered_.sum); }
-  V3 variance() const {
-    const V3 of_emitters = all_emitters_ ? (1.0 / n_ / n_) * emitter_noise_ : emitters_.variance(n_);
-    return of_emitters + gathered_.variance(n_);
-  }
 
   Irradiance result() const {
     Irradiance out;
     double each = 1.0 / n_;
-    V3 indirect = each * reflected_;
-    out.direct = rgb(total() - indirect);
-    out.indirect = rgb(indirect);
-    out.variance = rgb(variance());
+    out.direct = rgb(lamps_.sum + each * emitters_.sum);
+    out.gathered = rgb(each * gathered_.sum);
+    out.direct_variance = rgb(all_emitters_ ? each * each * emitter_noise_ : emitters_.variance(n_));
+    out.gathered_variance = rgb(gathered_.variance(n_));
     for (int k = 0; k < 3; ++k) out.along[k] = rgb(lamps_.along[k] + each * (emitters_.along[k] + gathered_.along[k]));
     out.inside = static_cast<float>(n_inside_ * each);
     out.rays = n_;
@@ -78,7 +73,6 @@ class Estimate {
     if (!(dot(direction, at_.face) > 0)) return;
     Arriving a = transport_.gather(at_, {at_.start, direction}, random_, all_emitters_);
     gathered_.add(pi * (a.direct + a.reflected), direction);
-    reflected_ += pi * a.reflected;
     n_inside_ += a.from_inside;
   }
 
@@ -92,7 +86,7 @@ class Estimate {
   Lattice<2> directions_;
   Lattice<3> places_;
   Flux lamps_, emitters_, gathered_;
-  V3 emitter_noise_, reflected_;
+  V3 emitter_noise_;
   std::uint32_t n_ = 0, n_inside_ = 0;
 };
 

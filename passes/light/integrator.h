@@ -33,9 +33,9 @@ using Rgb = std::array<float, 3>;
 
 /// Linear RGB. The radiance that a white surface reflects is irradiance / pi.
 struct Irradiance {
-  Rgb direct{}, indirect{};          // from lamps, emitters and sky; reflected
-  Rgb variance{};                    // of the estimate of direct + indirect; an upper bound
-  /// Integrals of radiance * cosine * direction, world axes: along[0] goes with x. Together with direct + indirect the
+  Rgb direct{}, gathered{};          // by rays to lamps and emitters; by rays in all directions: reflected, from the sky, what of emitters is left
+  Rgb direct_variance{}, gathered_variance{};  // of these estimates; upper bounds
+  /// Integrals of radiance * cosine * direction, world axes: along[0] goes with x. Together with direct + gathered the
   /// irradiance-weighted spherical harmonics of degree 0 and 1: c00 = 0.282095 E, c1(axis) = 0.488603 along[axis].
   Rgb along[3]{};
   float inside = 0;                  // share of the rays that met the back of an opaque solid face: the point lies within something

@@ -38,7 +38,7 @@ std::vector<Point> choose_points(std::vector<PageBaker>& pages) {
 
 /// Of all that the light of a tile depends on.
 std::uint64_t key_of(const Layout& layout, const light::LightWorld& world, const BakeOptions& o) {
-  const double numbers[] = {double(o.samples), double(o.integrator.mode), double(o.integrator.rays), o.error, o.integrator.cell, double(o.integrator.seed), world.radius(), world.centre().x, world.centre().y, world.centre().z};
+  const double numbers[] = {double(o.samples), double(o.rays), double(o.integrator.mode), double(o.integrator.rays), o.error, o.integrator.cell, double(o.integrator.seed), world.radius(), world.centre().x, world.centre().y, world.centre().z};
   std::uint64_t h = hash_bytes(numbers, sizeof numbers);
   for (const auto& p : layout.pages()) {
     h = hash_bytes(p.triangles.data(), p.triangles.size() * sizeof(PlacedTriangle), h);
@@ -82,40 +82,64 @@ std::vector<char> known_texels(const Page& page, const std::vector<char>& inside
 /// From what was summed, radiance times cosine times direction, to the mean direction of radiance that lightmapDirection is.
 /// Light from one direction has the same of both; light from all of a hemisphere 2/3 of its normal against 1/2. Between
 /// them we go straight. Means can be mixed with those of texels of other brightness.
-void make_directions(Page& page) {
+void make_directions(Estimate& whole) {
   auto mean = [](float x, float y, float z, float all, float out[3]) {
     const float length = all > 0 ? std::min(1.0f, std::sqrt(x * x + y * y + z * z) / all) : 0;
     const float scale = all > 0 ? (0.75f + 0.75f * std::max(0.0f, length - 2.0f / 3)) / all : 0;
     out[0] = x * scale, out[1] = y * scale, out[2] = z * scale;
   };
-  for (std::size_t i = 0; i < page.size(); ++i) {
-    Rgb &x = page.layers[1][i], &y = page.layers[2][i], &z = page.layers[3][i];
-    const Rgb& all = page.light()[i];
+  for (std::size_t i = 0; i < whole.light().size(); ++i) {
+    Rgb &x = whole.layers[1][i], &y = whole.layers[2][i], &z = whole.layers[3][i];
+    const Rgb& all = whole.light()[i];
     float r[3], g[3], b[3];
     mean(x.r, y.r, z.r, all.r, r), mean(x.g, y.g, z.g, all.g, g), mean(x.b, y.b, z.b, all.b, b);
     x = {r[0], g[0], b[0]}, y = {r[1], g[1], b[1]}, z = {r[2], g[2], b[2]};
   }
 }
 
-BakedPage finish(Page page, const std::vector<char>& inside, const light::LightWorld& world, const BakeOptions& options, Statistics& stats) {
-  lighten_cut_off(page, inside, world);
+/// Directions are of all light, so they are filtered with the whole of it.
+std::vector<std::vector<Rgb>> directions(const Page& page, PageLight light, bool denoised) {
+  if (light.along.empty()) return {};
+  Estimate whole = std::move(light.direct);
+  for (std::size_t i = 0; i < page.size(); ++i) whole.light()[i] += light.gathered.light()[i], whole.variance[i] += light.gathered.variance[i];
+  std::ranges::move(light.along, std::back_inserter(whole.layers));
+  if (denoised) denoise(page, whole);
+  make_directions(whole);
+  return {std::make_move_iterator(whole.layers.begin() + 1), std::make_move_iterator(whole.layers.end())};
+}
+
+BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, const light::LightWorld& world, const BakeOptions& options, Statistics& stats) {
+  lighten_cut_off(page, light, inside, world);
   for (std::size_t i = 0; i < page.size(); ++i) {
     stats["lightmap.texels"] += page.covered(i);
     stats["lightmap.inside"] += inside[i];
-    stats["lightmap.black"] += page.covered(i) && !inside[i] && !(page.light()[i].r + page.light()[i].g + page.light()[i].b > 0);
+    const Rgb all = light.at(i);
+    stats["lightmap.black"] += page.covered(i) && !inside[i] && !(all.r + all.g + all.b > 0);
   }
   auto known = known_texels(page, inside);
   std::vector<std::uint32_t> chart;
   for (const Place& p : page.places) chart.push_back(p.chart);
   for (std::size_t i = 0; i < page.size(); ++i)
     if (!known[i]) page.places[i].chart = Place::nowhere;
-  if (options.denoise) denoise(page);
-  stats["lightmap.holes"] += count_specks(page);
-  if (page.layers.size() > 1) make_directions(page);
-  fill_charts(page.layers, known, chart, Place::nowhere, page.width, page.height);
-  for (auto& layer : page.layers) fill(layer, known, page.width, page.height);
-  BakedPage out{{page.width, page.height, std::move(page.layers[0]), inside}, {}};
-  for (std::size_t l = 1; l < page.layers.size(); ++l) out.direction.push_back({page.width, page.height, std::move(page.layers[l]), {}});
+  auto layers = directions(page, light, options.denoise);
+  layers.insert(layers.begin(), shown_light(page, std::move(light.direct), std::move(light.gathered), options.denoise));
+  stats["lightmap.holes"] += count_specks(page, layers[0]);
+  fill_charts(layers, known, chart, Place::nowhere, page.width, page.height);
+  for (auto& layer : layers) fill(layer, known, page.width, page.height);
+  BakedPage out{{page.width, page.height, std::move(layers[0]), inside}, {}};
+  for (std::size_t l = 1; l < layers.size(); ++l) out.direction.push_back({page.width, page.height, std::move(layers[l]), {}});
+  return out;
+}
+
+/// Of two estimates that are equally good. What is within something as far as few rays tell may be in the open.
+TexelLight mean(const TexelLight& a, const TexelLight& b) {
+  if (a.site != b.site) return a.site == Site::open || (a.site == Site::pierced && b.site != Site::open) ? a : b;
+  TexelLight out = a;
+  auto mix = [](Rgb& x, const Rgb& y) { x = 0.5f * (x + y); };
+  mix(out.direct, b.direct), mix(out.gathered, b.gathered);
+  for (int k = 0; k < 3; ++k) mix(out.along[k], b.along[k]);
+  out.direct_variance = 0.25f * (a.direct_variance + b.direct_variance), out.gathered_variance = 0.25f * (a.gathered_variance + b.gathered_variance);
+  out.direct_apart = 0.5f * (a.direct - b.direct), out.gathered_apart = 0.5f * (a.gathered - b.gathered);
   return out;
 }
 
@@ -132,24 +156,25 @@ class Rounds {
   /// `first` is the number of the page's first tile.
   BakedPage bake(PageBaker& from, std::uint64_t first, int width, int height, const std::string& name) {
     name_ = name;
-    Page page(width, height, options_.directional ? 4 : 1);
+    Page page(width, height);
+    PageLight light(page, options_.directional);
     std::vector<char> inside(page.size()), chosen;
-    std::vector<Rgb> difference(options_.error > 0 ? page.size() : 0);
-    const bool once = difference.empty();
-    const int rays = once ? options_.integrator.rays : std::max(fewest_rays, options_.integrator.rays / 2);
-    run(from, first, 0, {0, rays}, chosen, [&](const TexelLight& t) { take(t, page, inside); });
+    const bool once = !(options_.error > 0);
+    Halves halves(once ? 0 : page.size());
+    const int rays = options_.rays;
+    run(from, first, 0, {0, rays}, chosen, [&](const TexelLight& t) { take(t, page, light, inside, halves); });
     for (std::uint32_t round = 1; !once && rays << round <= most_rays; ++round) {
-      run(from, first, round, {static_cast<std::uint32_t>(rays << (round - 1)), rays << (round - 1)}, chosen, [&](const TexelLight& t) { add(t, page, inside, difference); });
-      auto next = unsettled(in_the_open(page, inside), difference, options_.error, options_.denoise);
+      auto next = unsettled(in_the_open(page, inside), light, halves, options_.error, options_.denoise);
       for (std::size_t i = 0; i < chosen.size(); ++i) next[i] &= chosen[i];
       chosen = std::move(next);
       if (std::ranges::find(chosen, 1) == chosen.end()) break;
+      run(from, first, round, {static_cast<std::uint32_t>(rays << (round - 1)), rays << (round - 1)}, chosen, [&](const TexelLight& t) { add(t, page, light, inside, halves); });
     }
-    return finish(std::move(page), inside, from.world(), options_, ctx_.stats);
+    return finish(std::move(page), std::move(light), inside, from.world(), options_, ctx_.stats);
   }
 
  private:
-  static constexpr int fewest_rays = 8, most_rays = 2048;  // a point
+  static constexpr int most_rays = 2048;  // a point
 
   /// Calls f(texel) for the chosen texels of all tiles of a page.
   template <class F>
@@ -161,10 +186,8 @@ class Rounds {
       if (auto* saved = checkpoint_.find(number)) {
         texels = unpack(*saved);
       } else if (const auto& points = from.points(tile, options_.samples, PageBaker::grid, chosen); !points.empty()) {
-        const auto light = integrator_.irradiance(points, (first + tile) * TexelGrid::tile * TexelGrid::tile * options_.samples, {round.first, round.rays, from.numbers()});
-        texels = from.gather(light);
+        texels = gather(from, points, (first + tile) * TexelGrid::tile * TexelGrid::tile * options_.samples, round);
         ctx_.stats["lightmap.samples"] += number_of_round ? 0 : points.size();
-        for (const auto& l : light) ctx_.stats["lightmap.rays"] += l.rays;
         checkpoint_.save(number, packed(texels));
       }
       for (const auto& t : texels) f(t);
@@ -172,26 +195,46 @@ class Rounds {
     }
   }
 
-  void take(const TexelLight& t, Page& page, std::vector<char>& inside) {
+  /// Two estimates, each with half of the rays, tell of an error that is asked for.
+  std::vector<TexelLight> gather(const PageBaker& from, const std::vector<Point>& points, std::uint64_t number, const light::Integrator::Round& round) {
+    auto ask = [&](std::uint64_t half, std::uint32_t share) {
+      const auto light = integrator_.irradiance(points, number + (half << 48), {round.first / share, round.rays / int(share), from.numbers()});
+      for (const auto& l : light) ctx_.stats["lightmap.rays"] += l.rays;
+      return from.gather(light);
+    };
+    if (!(options_.error > 0)) return ask(0, 1);
+    auto texels = ask(0, 2);
+    const auto others = ask(1, 2);
+    for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = mean(texels[i], others[i]);
+    return texels;
+  }
+
+  void take(const TexelLight& t, Page& page, PageLight& light, std::vector<char>& inside, Halves& halves) {
     const auto i = page.at(t.x, t.y);
-    page.light()[i] = t.light;
-    for (std::size_t l = 1; l < page.layers.size(); ++l) page.layers[l][i] = t.along[l - 1];
-    page.variance[i] = t.variance;
+    light.direct.light()[i] = t.direct, light.direct.variance[i] = t.direct_variance;
+    light.gathered.light()[i] = t.gathered, light.gathered.variance[i] = t.gathered_variance;
+    for (std::size_t l = 0; l < light.along.size(); ++l) light.along[l][i] = t.along[l];
+    if (!halves.direct.empty()) halves.direct[i] = t.direct_apart, halves.gathered[i] = t.gathered_apart;
     page.places[i] = {t.chart, t.position, t.normal};
     inside[i] = t.site != Site::open;
     ctx_.stats["lightmap.leaks"] += t.site == Site::pierced;
   }
 
   /// A second estimate, as good as the first.
-  static void add(const TexelLight& t, Page& page, std::vector<char>& inside, std::vector<Rgb>& difference) {
+  static void add(const TexelLight& t, const Page& page, PageLight& light, std::vector<char>& inside, Halves& halves) {
     const auto i = page.at(t.x, t.y);
     const bool open = t.site == Site::open;
     if (!open && !inside[i]) return;
     const float share = open && inside[i] ? 1 : 0.5f;  // what was within something as far as few rays told may be in the open
-    difference[i] = (1 - share) * (page.light()[i] - t.light);
-    page.light()[i] = (1 - share) * page.light()[i] + share * t.light;
-    for (std::size_t l = 1; l < page.layers.size(); ++l) page.layers[l][i] = (1 - share) * page.layers[l][i] + share * t.along[l - 1];
-    page.variance[i] = (1 - share) * (1 - share) * page.variance[i] + share * share * t.variance;
+    auto mix = [&](Rgb& mean, const Rgb& more) { mean = (1 - share) * mean + share * more; };
+    auto join = [&](Estimate& mean, const Rgb& more, float variance) {
+      mix(mean.light()[i], more);
+      mean.variance[i] = (1 - share) * (1 - share) * mean.variance[i] + share * share * variance;
+    };
+    join(light.direct, t.direct, t.direct_variance);
+    join(light.gathered, t.gathered, t.gathered_variance);
+    mix(halves.direct[i], t.direct_apart), mix(halves.gathered[i], t.gathered_apart);
+    for (std::size_t l = 0; l < light.along.size(); ++l) mix(light.along[l][i], t.along[l]);
     inside[i] = !open;
   }
 

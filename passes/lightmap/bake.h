@@ -10,8 +10,9 @@ namespace wrlkit::bake {
 
 struct BakeOptions {
   int samples = 4;                       // points a texel
-  light::IntegratorOptions integrator;   // of each point
-  double error = 0;                      // relative standard error that is wanted of what is shown, after denoising; 0: integrator.rays for all
+  int rays = 16;                         // a point, even; where an error is asked for, for a start
+  light::IntegratorOptions integrator;   // its rays tell how good the cache must be
+  double error = 0;                      // relative standard error that is wanted of what is shown, after denoising; 0: none
   bool directional = false;
   bool denoise = true;
   std::string title = "lightmap";        // of what a Monitor is told

@@ -19,6 +19,25 @@ void each_beside(const Page& page, const std::vector<char>& inside, int x, int y
       if (const auto j = page.at(u, v); page.places[j].chart == chart && !inside[j]) f(j);
 }
 
+/// A texel in the dark and one that is lit.
+struct Pair {
+  std::size_t dark, lit;
+};
+
+/// Those in the dark take the mean of what the lit ones had. Pairs of one stand together.
+template <class T>
+void take_means(const std::vector<Pair>& pairs, std::vector<T>& values) {
+  std::vector<T> means;
+  for (auto first = pairs.begin(), last = first; first != pairs.end(); first = last) {
+    T sum{};
+    for (; last != pairs.end() && last->dark == first->dark; ++last) sum += values[last->lit];
+    means.push_back((1.0f / static_cast<float>(last - first)) * sum);
+  }
+  auto mean = means.begin();
+  for (auto p = pairs.begin(); p != pairs.end(); ++p)
+    if (p == pairs.begin() || p->dark != (p - 1)->dark) values[p->dark] = *mean++;
+}
+
 }  // namespace
 
 bool is_cut_off(const light::LightWorld& world, const V3& a, const V3& b, const V3& normal_a, const V3& normal_b) {
@@ -42,24 +61,23 @@ bool is_dark_beside(float light, float other) {
   return other > 0 && light <= share * other;
 }
 
-void lighten_cut_off(Page& page, const std::vector<char>& inside, const light::LightWorld& world) {
-  const Page before = page;
+void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>& inside, const light::LightWorld& world) {
+  std::vector<Pair> pairs;
   const V3 centre = world.centre();
   for (int y = 0; y < page.height; ++y)
     for (int x = 0; x < page.width; ++x) {
       const auto i = page.at(x, y);
       if (!page.covered(i) || inside[i]) continue;
-      const Place& own = before.places[i];
-      std::vector<Rgb> sum(page.layers.size());
-      int n = 0;
+      const Place& own = page.places[i];
       each_beside(page, inside, x, y, [&](std::size_t j) {
-        const Place& other = before.places[j];
-        if (!is_dark_beside(luminance(before.light()[i]), luminance(before.light()[j])) || !is_cut_off(world, centre + v3(other.position), centre + v3(own.position), v3(other.normal), v3(own.normal))) return;
-        for (std::size_t l = 0; l < sum.size(); ++l) sum[l] += before.layers[l][j];
-        page.variance[i] = std::max(page.variance[i], before.variance[j]), ++n;
+        const Place& other = page.places[j];
+        if (!is_dark_beside(luminance(light.at(i)), luminance(light.at(j)))) return;
+        if (is_cut_off(world, centre + v3(other.position), centre + v3(own.position), v3(other.normal), v3(own.normal))) pairs.push_back({i, j});
       });
-      for (std::size_t l = 0; l < sum.size() && n; ++l) page.layers[l][i] = (1.0f / static_cast<float>(n)) * sum[l];
     }
+  if (pairs.empty()) return;
+  for (Estimate* e : {&light.direct, &light.gathered}) take_means(pairs, e->light()), take_means(pairs, e->variance);
+  for (auto& layer : light.along) take_means(pairs, layer);
 }
 
 }  // namespace wrlkit::bake

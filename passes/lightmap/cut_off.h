@@ -17,6 +17,6 @@ bool is_dark_beside(float light, float other);
 
 /// Texels in the dark that are cut off from lit ones beside them take the mean of those, in all layers. One texel deep: further in nothing
 /// mixes. Those with `inside[i]` neither give nor take. O(texels), and a ray for each such pair.
-void lighten_cut_off(Page& page, const std::vector<char>& inside, const light::LightWorld& world);
+void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>& inside, const light::LightWorld& world);
 
 }  // namespace wrlkit::bake

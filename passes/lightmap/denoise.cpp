@@ -8,6 +8,7 @@
 namespace wrlkit::bake {
 namespace {
 
+constexpr float nothing = 1e-6f;  // of noise. Numbers so small that some threads take them for 0 are far below
 constexpr float spline[3] = {3.0f / 8, 1.0f / 4, 1.0f / 16};  // the B3 spline, from its middle
 
 float power(float base, int doublings) {
@@ -15,15 +16,52 @@ float power(float base, int doublings) {
   return base;
 }
 
+/// 1 for neighbours on a plane, falling to 0 at creases and steps; 0 between charts.
+float likeness(const Place& a, const Place& b) {
+  if (a.chart != b.chart) return 0;
+  const Vec d = b.position - a.position;
+  const float height = std::fabs(dot(d, a.normal)), distance2 = dot(d, d);
+  const float facing = std::max(0.0f, dot(a.normal, b.normal));
+  const float slope = distance2 > 0 ? height * height / distance2 : 0;  // sine squared of the way out of the plane
+  return power(facing, 5) * std::exp(-8 * slope);
+}
+
+/// What tells noise from light: means over the texels around, as those of one texel are guesses.
+struct Guide {
+  float light = 0, noise = 0;  // luminance; its standard deviation
+};
+
+std::vector<Guide> guide(const Page& page, const Estimate& estimate) {
+  std::vector<Guide> out(page.size());
+  parallel_for(static_cast<std::size_t>(page.height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < page.width; ++x) {
+      const std::size_t i = page.at(x, y);
+      if (!page.covered(i)) continue;
+      float light = 0, variance = 0, weights = 0;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int u = std::clamp(x + dx, 0, page.width - 1), v = std::clamp(y + dy, 0, page.height - 1);
+          const std::size_t j = page.at(u, v);
+          const float w = (dx ? 0.25f : 0.5f) * (dy ? 0.25f : 0.5f) * likeness(page.places[i], page.places[j]);
+          light += w * luminance(estimate.light()[j]), variance += w * estimate.variance[j], weights += w;
+        }
+      out[i] = {light / weights, std::sqrt(variance / weights)};
+    }
+  });
+  return out;
+}
+
 class Filter {
  public:
-  Filter(const Page& page, int step, float contrast) : page_(page), step_(step), contrast_(contrast) {}
+  Filter(const Page& page, const Estimate& estimate, int step, float contrast) : page_(page), estimate_(estimate), guide_(guide(page, estimate)), step_(step), contrast_(contrast) {}
 
   /// Weighted means around a texel, and the variance that is left of the light.
   void at(int x, int y, std::vector<std::vector<Rgb>>& layers, float& variance) const {
     const std::size_t i = page_.at(x, y);
-    const float noise = contrast_ * std::sqrt(smooth_variance(x, y)) + 1e-6f;
-    const float own = luminance(page_.light()[i]);
+    if (!(guide_[i].noise > nothing)) return keep(i, layers, variance);
+    const float noise = contrast_ * guide_[i].noise;
+    const float own = guide_[i].light;
     for (auto& l : layers) l[i] = {};
     float weights = 0, noise_left = 0;
     for (int dy = -2; dy <= 2; ++dy)
@@ -33,63 +71,50 @@ class Filter {
         const std::size_t j = page_.at(u, v);
         float w = spline[std::abs(dx)] * spline[std::abs(dy)] * likeness(page_.places[i], page_.places[j]);
         if (!(w > 0)) continue;
-        w *= std::exp(-std::fabs(luminance(page_.light()[j]) - own) / noise);
-        for (std::size_t l = 0; l < layers.size(); ++l) layers[l][i] += w * page_.layers[l][j];
+        w *= std::exp(-std::fabs(guide_[j].light - own) / noise);
+        for (std::size_t l = 0; l < layers.size(); ++l) layers[l][i] += w * estimate_.layers[l][j];
         weights += w;
-        noise_left += w * w * page_.variance[j];
+        noise_left += w * w * estimate_.variance[j];
       }
     for (auto& l : layers) l[i] = (1 / weights) * l[i];
     variance = noise_left / (weights * weights);
   }
 
  private:
-  /// 1 for neighbours on a plane, falling to 0 at creases and steps; 0 between charts.
-  static float likeness(const Place& a, const Place& b) {
-    if (a.chart != b.chart) return 0;
-    const Vec d = b.position - a.position;
-    const float height = std::fabs(dot(d, a.normal)), distance2 = dot(d, d);
-    const float facing = std::max(0.0f, dot(a.normal, b.normal));
-    const float slope = distance2 > 0 ? height * height / distance2 : 0;  // sine squared of the way out of the plane
-    return power(facing, 5) * std::exp(-8 * slope);
-  }
-
-  /// The noise of one texel is itself a guess: the mean of its neighbours is a better one.
-  float smooth_variance(int x, int y) const {
-    const std::uint32_t chart = page_.places[page_.at(x, y)].chart;
-    float sum = 0, weights = 0;
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int u = std::clamp(x + dx, 0, page_.width - 1), v = std::clamp(y + dy, 0, page_.height - 1);
-        const std::size_t j = page_.at(u, v);
-        if (page_.places[j].chart != chart) continue;
-        const float w = (dx ? 0.25f : 0.5f) * (dy ? 0.25f : 0.5f);
-        sum += w * page_.variance[j];
-        weights += w;
-      }
-    return sum / weights;
+  void keep(std::size_t i, std::vector<std::vector<Rgb>>& layers, float& variance) const {
+    for (std::size_t l = 0; l < layers.size(); ++l) layers[l][i] = estimate_.layers[l][i];
+    variance = estimate_.variance[i];
   }
 
   const Page& page_;
+  const Estimate& estimate_;
+  std::vector<Guide> guide_;
   int step_;
   float contrast_;
 };
 
 }  // namespace
 
-void denoise(Page& page, const DenoiseOptions& options) {
-  auto layers = page.layers;
+void denoise(const Page& page, Estimate& estimate, const DenoiseOptions& options) {
+  auto layers = estimate.layers;
   std::vector<float> variance(page.size());
   for (int pass = 0; pass < options.passes; ++pass) {
-    const Filter filter(page, 1 << pass, options.contrast);
+    const Filter filter(page, estimate, 1 << pass, options.contrast);
     parallel_for(static_cast<std::size_t>(page.height), [&](std::size_t y) {
       for (int x = 0; x < page.width; ++x) {
         const std::size_t i = page.at(x, static_cast<int>(y));
         if (page.covered(i)) filter.at(x, static_cast<int>(y), layers, variance[i]);
       }
     });
-    page.layers.swap(layers);
-    page.variance.swap(variance);
+    estimate.layers.swap(layers);
+    estimate.variance.swap(variance);
   }
+}
+
+std::vector<Rgb> shown_light(const Page& page, Estimate direct, Estimate gathered, bool denoised) {
+  if (denoised) denoise(page, direct), denoise(page, gathered);
+  for (std::size_t i = 0; i < page.size(); ++i) direct.light()[i] += gathered.light()[i];
+  return std::move(direct.light());
 }
 
 }  // namespace wrlkit::bake

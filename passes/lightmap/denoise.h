@@ -7,12 +7,15 @@ namespace wrlkit::bake {
 
 struct DenoiseOptions {
   int passes = 3;             // the widest reaches 2 ^ passes texels to each side
-  float contrast = 2;         // standard deviations of luminance that count as noise
+  float contrast = 1.5;         // standard deviations of luminance that count as noise
 };
 
-/// Changes the layers and the variance of covered texels. Light is mixed within a chart, between texels that face the
+/// Changes layers and variance of the covered texels. Light is mixed within a chart, between texels that face the
 /// same way and lie in one plane, and as far as it differs by no more than its noise explains: what is exact stays as it
 /// is. O(texels * passes), the same for any number of threads.
-void denoise(Page& page, const DenoiseOptions& options = {});
+void denoise(const Page& page, Estimate& estimate, const DenoiseOptions& options = {});
+
+/// Both estimates together, each filtered by its own noise unless `denoised` is false.
+std::vector<Rgb> shown_light(const Page& page, Estimate direct, Estimate gathered, bool denoised);
 
 }  // namespace wrlkit::bake

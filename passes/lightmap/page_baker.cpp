@@ -19,13 +19,13 @@ constexpr float within = 0.5f;               // share of rays that meet backs, f
 Vec vec(const V3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Rgb rgb(const light::Rgb& c) { return {c[0], c[1], c[2]}; }
 
-float luminance_of(const Irradiance& p) { return luminance(rgb(p.direct)) + luminance(rgb(p.indirect)); }
+float luminance_of(const Irradiance& p) { return luminance(rgb(p.direct)) + luminance(rgb(p.gathered)); }
 bool is_dark(const Irradiance& p) { return !(luminance_of(p) > 0); }
 
 void add(const Irradiance& from, TexelLight& to) {
-  to.light += rgb(from.direct) + rgb(from.indirect);
+  to.direct += rgb(from.direct), to.gathered += rgb(from.gathered);
   for (int k = 0; k < 3; ++k) to.along[k] += rgb(from.along[k]);
-  to.variance += luminance(rgb(from.variance));
+  to.direct_variance += luminance(rgb(from.direct_variance)), to.gathered_variance += luminance(rgb(from.gathered_variance));
 }
 
 /// Leaves those of some texels; the numbers of their samples.
@@ -60,7 +60,7 @@ std::vector<TexelLight> PageBaker::gather(std::vector<Irradiance> light) const {
     if (is_dark(light[i]) && is_enclosed(points_[i])) light[i].inside = 1;
   for (const auto& t : texels_.texels) {
     const std::span all(&light[t.first], t.count);
-    TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, site_of(all, t.first), {}, {}, 0, {}, {}};
+    TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, site_of(all, t.first), {}, {}, {}, 0, 0, {}, {}, {}, {}};
     float weight = 0;  // of a point that lies within something, as far as it sees out; such light counts where there is no other
     for (const Irradiance& l : all) {
       if (texel.site == Site::open && (l.inside > within || is_cut_off(light, t, l))) continue;
@@ -68,9 +68,9 @@ std::vector<TexelLight> PageBaker::gather(std::vector<Irradiance> light) const {
       weight += texel.site == Site::open ? 1 : 1 - l.inside;
     }
     const auto scale = weight > 0 ? static_cast<float>(1 / (pi * weight)) : 0;
-    texel.light = scale * texel.light;
+    texel.direct = scale * texel.direct, texel.gathered = scale * texel.gathered;
     for (Rgb& a : texel.along) a = scale * a;
-    texel.variance *= scale * scale;
+    texel.direct_variance *= scale * scale, texel.gathered_variance *= scale * scale;
     const Point& middle = points_[t.first + t.count / 2];
     texel.position = vec(middle.position - world_.centre());
     texel.normal = vec(middle.normal);

@@ -22,8 +22,9 @@ struct TexelLight {
   std::int32_t x, y;
   std::uint32_t chart;
   Site site;
-  Rgb light, along[3];
-  float variance;
+  Rgb direct, gathered, along[3];
+  float direct_variance, gathered_variance;
+  Rgb direct_apart, gathered_apart;  // half of what two estimates of these differ by, where there are two
   Vec position, normal;
 };
 

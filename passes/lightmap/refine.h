@@ -1,8 +1,9 @@
 // Which texels need more rays, where an error is asked for.
 //
-// Each texel has two estimates of its light, by both halves of a lattice of low discrepancy. Half of their difference is an image of the error
-// of their mean; a little too large a one, as the halves make up for one another. Filtered as the light is, it is that of what is shown;
-// a little too small a one, as the filter prefers texels that err alike.
+// Each texel has two estimates of its light, A and B, by two halves of its rays, whose noise has nothing in common. What
+// the filter makes of A differs from B by its own error and by the noise of B; and the noise of B is half of what A and B differ by, squared. So
+// is the error found of the filtered half, noise that is left and detail that is blurred, though nobody knows the light itself. What is shown has
+// twice the rays, and half of that error, squared.
 #pragma once
 #include <vector>
 
@@ -10,8 +11,15 @@
 
 namespace wrlkit::bake {
 
-/// By texel of the page: whether it needs more rays. None does where the error of all, root mean square, is below that, relative to their mean
-/// light; else those do that stand among texels of which more than a quarter of it comes. `difference`: half of what the two estimates differ by. O(texels).
-std::vector<char> unsettled(Page page, const std::vector<Rgb>& difference, double error, bool denoised);
+/// Half of what the two estimates differ by, by texel of a page.
+struct Halves {
+  std::vector<Rgb> direct, gathered;
+  explicit Halves(std::size_t n) : direct(n), gathered(n) {}
+};
+
+/// By texel of the page: whether it needs more rays. None does where the error of all, root mean square and relative to their mean light, is below
+/// that, and surely so: one standard error of it is added. Else those do that stand among texels of which more than a quarter of it comes.
+/// O(texels).
+std::vector<char> unsettled(const Page& page, const PageLight& light, const Halves& halves, double error, bool denoised);
 
 }  // namespace wrlkit::bake

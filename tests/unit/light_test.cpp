@@ -43,8 +43,12 @@ struct Room {
   double mean_irradiance(const V3& corner, const V3& a, const V3& b, const V3& normal, const IntegratorOptions& options) const;
 };
 
-double total(const Irradiance& e) { return (e.direct[0] + e.direct[1] + e.direct[2] + e.indirect[0] + e.indirect[1] + e.indirect[2]) / 3; }
-double deviation(const Irradiance& e) { return std::sqrt((e.variance[0] + e.variance[1] + e.variance[2]) / 3); }
+double total(const Irradiance& e) { return (e.direct[0] + e.direct[1] + e.direct[2] + e.gathered[0] + e.gathered[1] + e.gathered[2]) / 3; }
+double deviation(const Irradiance& e) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) sum += e.direct_variance[k] + e.gathered_variance[k];
+  return std::sqrt(sum / 3);
+}
 
 double Room::mean_irradiance(const V3& corner, const V3& a, const V3& b, const V3& normal, const IntegratorOptions& options) const {
   std::vector<Point> points;
@@ -299,6 +303,32 @@ TEST_CASE("light: many lamps, of which few get a ray") {
   CHECK(sum == Approx(expected).epsilon(0.005));
 }
 
+TEST_CASE("light: what few emitters give where nothing stands between has no noise, strong ones and faint ones together") {
+  std::string lights;
+  for (int i = 0; i < 6; ++i) lights += quad({2.0 * i - 0.5, -0.5, 1}, {0, 1, 0}, {1, 0, 0}, emitting);
+  Room room(lights);
+  const double exact = total(room.irradiance(up, {.rays = 4096}));
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    for (int rays : {2, 3, 6, 10}) CHECK(total(room.irradiance(up, {.rays = rays, .seed = seed})) == Approx(exact).epsilon(1e-6));
+}
+
+TEST_CASE("light: of faint emitters behind a wall the noise is told, and the mean is right") {
+  std::string lights = quad({-0.8, -0.5, 0.5}, {0, 1, 0}, {0.9, 0, 0}, material(0));  // hides some of them
+  for (int i = 0; i < 9; ++i) lights += quad({-4 + i - 0.2, -0.2, 2}, {0, 0.4, 0}, {0.4, 0, 0}, emitting);
+  Room room(lights);
+  const double expected = total(room.irradiance(up, {.rays = 8192}));
+  double sum = 0, squares = 0, told = 0;
+  constexpr int n = 2000;
+  for (int seed = 1; seed <= n; ++seed) {
+    const Irradiance e = room.irradiance(up, {.rays = 6, .seed = static_cast<std::uint64_t>(seed)});
+    sum += total(e), squares += total(e) * total(e), told += deviation(e) * deviation(e);
+  }
+  const double mean = sum / n, variance = squares / n - mean * mean;
+  CHECK(mean == Approx(expected).margin(4 * std::sqrt(variance / n)));
+  CHECK(variance > 0);
+  CHECK(told / n > 0.7 * variance);
+}
+
 TEST_CASE("light: many emitters, chosen by what they give") {
   std::string lights;
   for (int i = 0; i < 20; ++i)
@@ -390,8 +420,8 @@ TEST_CASE("light: reflectance is read from the texture, not from its mean") {
 TEST_CASE("light: a sky from Background, or of its own") {
   Room blue("Background { skyColor 0 0 1 }"), bare(""), none("", {.sky = LightOptions::Sky::none}), lit("PointLight { }");
   Irradiance e = blue.irradiance(up, {.rays = 64});
-  CHECK(e.direct[2] == Approx(pi));
-  CHECK(e.direct[0] == 0);
+  CHECK(e.gathered[2] == Approx(pi));
+  CHECK(e.gathered[0] == 0);
   CHECK_FALSE(bare.world->has_sky_of_its_own());
   CHECK(total(bare.irradiance(up, {.rays = 64})) == Approx(pi));
   CHECK(total(none.irradiance(up, {.rays = 64})) == 0);
@@ -480,13 +510,13 @@ TEST_CASE("light: the same bits on any number of threads, and in pieces") {
   };
   auto one = on(1), four = on(4);
   bool same = true;
-  for (std::size_t i = 0; i < one.size(); ++i) same &= one[i].direct == four[i].direct && one[i].indirect == four[i].indirect && one[i].variance == four[i].variance;
+  for (std::size_t i = 0; i < one.size(); ++i) same &= one[i].direct == four[i].direct && one[i].gathered == four[i].gathered && one[i].gathered_variance == four[i].gathered_variance;
   CHECK(same);
   Room room(furnished);
   auto points = floor_points();
   Integrator integrator(*room.world, points, {.rays = 8});
   auto whole = integrator.irradiance(points), part = integrator.irradiance(std::span(points).subspan(130, 7), 130);
-  for (std::size_t i = 0; i < part.size(); ++i) CHECK(part[i].indirect == whole[130 + i].indirect);
+  for (std::size_t i = 0; i < part.size(); ++i) CHECK(part[i].gathered == whole[130 + i].gathered);
 }
 
 TEST_CASE("light: instances are lit as copies are") {

@@ -6,6 +6,7 @@
 
 #include "passes/lightmap/denoise.h"
 #include "passes/lightmap/fill.h"
+#include "passes/lightmap/refine.h"
 #include "passes/lightmap/seams.h"
 #include "passes/lightmap/specks.h"
 #include "passes/lightmap/texels.h"
@@ -32,9 +33,14 @@ std::vector<PlacedTriangle> square(float x0, float y0, float x1, float y1, std::
 }
 
 /// A flat page of light 1 with noise of a known size on it.
-Page noisy_page(int side, float deviation) {
-  Page page(side, side);
-  std::mt19937 random(7);
+struct Noisy : Page, Estimate {
+  using Estimate::light;
+  explicit Noisy(int side) : Page(side, side), Estimate(static_cast<const Page&>(*this)) {}
+};
+
+Noisy noisy_page(int side, float deviation, unsigned seed = 7) {
+  Noisy page(side);
+  std::mt19937 random(seed);
   std::normal_distribution<float> noise(0, deviation);
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
@@ -47,7 +53,7 @@ Page noisy_page(int side, float deviation) {
   return page;
 }
 
-double deviation_from(const Page& page, int x0, int x1, float mean) {
+double deviation_from(const Noisy& page, int x0, int x1, float mean) {
   double sum = 0;
   int n = 0;
   for (int y = 4; y < page.height - 4; ++y)
@@ -121,7 +127,7 @@ TEST_CASE("texels: no more samples than are asked for, spread over the texel") {
 
 TEST_CASE("denoise: noise on a plane falls to a quarter, and the mean stays") {
   auto page = noisy_page(64, 0.1f);
-  denoise(page);
+  denoise(page, page);
   CHECK(deviation_from(page, 4, 60, 1) < 0.025);
   double mean = 0;
   for (auto& c : page.light()) mean += c.g;
@@ -132,7 +138,7 @@ TEST_CASE("denoise: a step that is larger than the noise stays sharp") {
   auto page = noisy_page(64, 0.02f);
   for (int y = 0; y < 64; ++y)
     for (int x = 32; x < 64; ++x) page.light()[page.at(x, y)] = page.light()[page.at(x, y)] + Rgb{2, 2, 2};
-  denoise(page);
+  denoise(page, page);
   CHECK(deviation_from(page, 24, 32, 1) < 0.01);
   CHECK(deviation_from(page, 32, 40, 3) < 0.01);
 }
@@ -142,23 +148,68 @@ TEST_CASE("denoise: light is not mixed between charts, around a crease or withou
     auto page = noisy_page(32, 0.5f);
     for (std::size_t i = 0; i < page.size(); ++i)
       if (i % 32 >= 16) page.places[i].chart = 1, page.light()[i] = {0, 0, 0};
-    denoise(page);
+    denoise(page, page);
     CHECK(deviation_from(page, 16, 32, 0) == 0);
   }
   SECTION("a crease") {
     auto page = noisy_page(32, 0.5f);
     for (std::size_t i = 0; i < page.size(); ++i)
       if (i % 32 >= 16) page.places[i].normal = {1, 0, 0}, page.light()[i] = {0, 0, 0};
-    denoise(page);
+    denoise(page, page);
     CHECK(deviation_from(page, 16, 32, 0) == 0);
   }
   SECTION("no noise") {
     auto page = noisy_page(32, 0.1f);
     auto before = page.light();
     std::ranges::fill(page.variance, 0.0f);
-    denoise(page);
+    denoise(page, page);
     for (std::size_t i = 0; i < page.size(); ++i) CHECK(page.light()[i].r == Approx(before[i].r).epsilon(1e-3));
   }
+}
+
+TEST_CASE("denoise: two estimates, of which the one has an edge and the other noise, keep the edge and lose the noise") {
+  const auto noisy = noisy_page(64, 0.1f);
+  Estimate edge(static_cast<const Page&>(noisy));
+  for (std::size_t i = 0; i < noisy.size(); ++i) edge.light()[i] = i % 64 < 32 ? Rgb{} : Rgb{0.1f, 0.1f, 0.1f};
+  const auto shown = shown_light(noisy, edge, noisy, true);
+  double left = 0, right = 0, off = 0;
+  for (int y = 4; y < 60; ++y) {
+    left += shown[noisy.at(31, y)].g / 56, right += shown[noisy.at(32, y)].g / 56;
+    for (int x = 4; x < 60; ++x) off += std::pow(shown[noisy.at(x, y)].g - (x < 32 ? 1 : 1.1), 2);
+  }
+  CHECK(right - left == Approx(0.1).margin(0.005));
+  CHECK(std::sqrt(off / (56 * 56)) < 0.025);
+  const auto plain = shown_light(noisy, edge, noisy, false);
+  CHECK(plain[40].g == noisy.light()[40].g + 0.1f);
+}
+
+TEST_CASE("refine: the error of what is shown is known without knowing the light, blurred detail and noise alike") {
+  // Stripes of that contrast below noise of that size, in each half of the rays.
+  for (auto [stripes, noise] : {std::pair(0.0f, 0.2f), {0.1f, 0.2f}, {0.1f, 0.05f}, {0.3f, 0.1f}})
+    for (bool denoised : {true, false}) {
+      CAPTURE(stripes, noise, denoised);
+      constexpr int side = 128;
+      const auto one = noisy_page(side, noise, 1), other = noisy_page(side, noise, 2);
+      PageLight light(one, false);
+      Halves halves(one.size());
+      std::vector<float> truth(one.size());
+      double all = 0;
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        truth[i] = 1 + (i % side / 3 % 2 ? stripes : 0);
+        const Rgb detail = (truth[i] - 1) * Rgb{1, 1, 1};
+        light.gathered.light()[i] = 0.5f * (one.light()[i] + other.light()[i]) + detail;
+        light.gathered.variance[i] = 0.5f * noise * noise;
+        halves.gathered[i] = 0.5f * (one.light()[i] - other.light()[i]);
+        all += truth[i] / double(one.size());
+      }
+      const auto shown = shown_light(one, light.direct, light.gathered, denoised);
+      double off = 0;
+      for (std::size_t i = 0; i < one.size(); ++i) off += std::pow(shown[i].g - truth[i], 2) / double(one.size());
+      const double error = std::sqrt(off) / all;
+      auto wanting = [&](double wanted) { return std::ranges::count(unsettled(one, light, halves, wanted, denoised), 1); };
+      CHECK(wanting(0.75 * error) > 0);
+      CHECK(wanting(1.75 * error) == 0);
+    }
 }
 
 TEST_CASE("fill: unknown texels take the light around them, known ones stay") {
@@ -199,17 +250,17 @@ TEST_CASE("fill: charts go on with their own light before that of others comes i
 
 TEST_CASE("specks: one that is darker than all around, and no shadow's edge") {
   auto page = noisy_page(16, 0);
-  CHECK(count_specks(page) == 0);
+  CHECK(count_specks(page, page.light()) == 0);
   for (int y = 0; y < 16; ++y) page.light()[page.at(4, y)] = {};
-  CHECK(count_specks(page) == 0);
+  CHECK(count_specks(page, page.light()) == 0);
   page.light()[page.at(10, 8)] = {0.3f, 0.3f, 0.3f};
-  CHECK(count_specks(page) == 1);
+  CHECK(count_specks(page, page.light()) == 1);
   page.light()[page.at(10, 8)] = {0.6f, 0.6f, 0.6f};
-  CHECK(count_specks(page) == 0);
+  CHECK(count_specks(page, page.light()) == 0);
   // What is dark all around is not seen.
   for (Rgb& c : page.light()) c = {0.002f, 0.002f, 0.002f};
   page.light()[page.at(10, 8)] = {};
-  CHECK(count_specks(page) == 0);
+  CHECK(count_specks(page, page.light()) == 0);
 }
 
 TEST_CASE("seams: a side that lies within something draws nothing") {
