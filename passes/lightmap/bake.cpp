@@ -51,6 +51,11 @@ std::uint64_t key_of(const Layout& layout, const light::LightWorld& world, const
     const V3 v[] = {l.irradiance, l.light.location, l.light.direction, l.light.attenuation};
     h = hash_bytes(v, sizeof v, h);
   }
+  if (world.has_sky())
+    for (const V3& d : {V3(1, 0, 0), V3(-1, 0, 0), V3(0, 1, 0), V3(0, -1, 0), V3(0, 0, 1), V3(0, 0, -1), unit(V3(1, 2, 3))}) {
+      const V3 radiance = world.sky(d);
+      h = hash_bytes(&radiance, sizeof radiance, h);
+    }
   for (const auto& e : world.emitters()) h = hash_bytes(&e.radiance, sizeof e.radiance, h);
   return h;
 }
