@@ -3,7 +3,7 @@
 
   tests/bake_resume.py --wrlkit build/release/wrlkit
 
-Bakes corpus/paper/stairs_room.wrl three times: undisturbed; with a checkpoint, killed when a tenth of the work is kept; and the same
+Bakes corpus/paper/stairs_room.wrl three times: undisturbed; with a checkpoint, killed when a tenth of the work, some tiles, is kept; and the same
 call again. Then once more after the end of the checkpoint's file was cut off and its last tile damaged, as a full disk or a crash of
 the machine leaves it. Each time the world and its pictures must be the same, the second call must have traced fewer rays than the
 first, and no checkpoint may be left.
@@ -18,7 +18,7 @@ room, pipes = project / 'corpus/paper/stairs_room.wrl', project / 'corpus/paper/
 
 
 def command(wrlkit, world, folder, checkpoint):
-    options = 'quality=draft,max-size=256' + (f',checkpoint={checkpoint}' if checkpoint else '')
+    options = 'quality=draft,max-size=512' + (f',checkpoint={checkpoint}' if checkpoint else '')
     return [wrlkit, 'convert', world, folder / 'lit.wrl', '-p', ('lod,' if world == pipes else '') + f'lightmap{{{options}}}', '--stats']
 
 
@@ -63,7 +63,7 @@ def main():
                 faults.append(f'{what}: the checkpoint is left')
 
         for damaged in (False, True):
-            if not any(interrupted(wrlkit, folder / 'part', checkpoint, size) for size in (400_000, 100_000, 1000)):
+            if not any(interrupted(wrlkit, folder / 'part', checkpoint, size) for size in (4_000_000, 1_500_000)):
                 sys.exit('bake-resume: the bake was done before it could be killed')
             if damaged:
                 kept = checkpoint.read_bytes()
