@@ -9,6 +9,8 @@ namespace wrlkit::bake {
 namespace {
 
 constexpr float nothing = 1e-6f;  // of noise. Numbers so small that some threads take them for 0 are far below
+/// Few rays to lamps may all miss what stands between, and tell of no noise. So much of the variance of the rest is believed of them, too.
+constexpr float untold = 0.25f;
 constexpr float spline[3] = {3.0f / 8, 1.0f / 4, 1.0f / 16};  // the B3 spline, from its middle
 
 float power(float base, int doublings) {
@@ -112,7 +114,10 @@ void denoise(const Page& page, Estimate& estimate, const DenoiseOptions& options
 }
 
 std::vector<Rgb> shown_light(const Page& page, Estimate direct, Estimate gathered, bool denoised) {
-  if (denoised) denoise(page, direct), denoise(page, gathered);
+  if (denoised) {
+    for (std::size_t i = 0; i < page.size(); ++i) direct.variance[i] += untold * gathered.variance[i];
+    denoise(page, direct), denoise(page, gathered);
+  }
   for (std::size_t i = 0; i < page.size(); ++i) direct.light()[i] += gathered.light()[i];
   return std::move(direct.light());
 }
