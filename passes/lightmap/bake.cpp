@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <span>
 
 #include "passes/lightmap/checkpoint.h"
@@ -103,11 +104,11 @@ void make_directions(Estimate& whole) {
 }
 
 /// Directions are of all light, so they are filtered with the whole of it.
-std::vector<std::vector<Rgb>> directions(const Page& page, PageLight light, bool denoised) {
+std::vector<std::vector<Rgb>> directions(const Page& page, const PageLight& light, bool denoised) {
   if (light.along.empty()) return {};
-  Estimate whole = std::move(light.direct);
+  Estimate whole = light.direct;
   for (std::size_t i = 0; i < page.size(); ++i) whole.light()[i] += light.gathered.light()[i], whole.variance[i] += light.gathered.variance[i];
-  std::ranges::move(light.along, std::back_inserter(whole.layers));
+  std::ranges::copy(light.along, std::back_inserter(whole.layers));
   if (denoised) denoise(page, whole);
   make_directions(whole);
   return {std::make_move_iterator(whole.layers.begin() + 1), std::make_move_iterator(whole.layers.end())};
