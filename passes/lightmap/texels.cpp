@@ -14,10 +14,11 @@ struct Weights {
 
 float area2(const Spot2& a, const Spot2& b, const Spot2& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
+/// Negative ones where there is no area: no point lies in it.
 Weights weights_at(const PlacedTriangle& t, const Spot2& p) {
   const auto& c = t.corner;
   float whole = area2(c[0], c[1], c[2]);
-  if (!(whole > 0)) return {{1, 0, 0}};
+  if (!(std::abs(whole) > 0)) return {{-1, -1, -1}};
   float a = area2(p, c[1], c[2]) / whole, b = area2(p, c[2], c[0]) / whole;
   return {{a, b, 1 - a - b}};
 }

@@ -15,7 +15,7 @@ struct Spot2 {
   float x, y;  // texels
 };
 
-/// A triangle on a page; corners counter-clockwise.
+/// A triangle on a page; its corners run clockwise where its Shape is mirrored.
 struct PlacedTriangle {
   Spot2 corner[3];
   std::uint32_t chart;

@@ -115,7 +115,7 @@ Point2 Grower::unfold_corner(std::uint32_t corner, std::uint32_t opposite) const
   Point2 p = s[next_corner(opposite) % 3], q = s[previous_corner(opposite) % 3], o = s[opposite % 3];
   Point2 edge = q - p;
   double l2 = dot(edge, edge), length = std::sqrt(l2), laid = std::sqrt(dot(a - b, a - b));
-  if (!(laid > 0)) return a;
+  if (!(laid > 0 && l2 > 0)) return a;
   double along = dot(o - p, edge) / l2 - 0.5, height = cross(edge, o - p) / length;
   Point2 u = (1 / laid) * (a - b);
   return 0.5 * (a + b) + along * length * u + height * Point2{-u.y, u.x};

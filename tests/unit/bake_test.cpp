@@ -149,6 +149,12 @@ TEST_CASE("bake: a lamp over a floor, by the inverse square", "[bake]") {
   for (double r : {0.0, 0.5, 1.0, 1.5}) CHECK(floor.on_floor(r, 0.01) == Approx(2 / std::pow(4 + r * r, 1.5)).epsilon(0.02));
 }
 
+TEST_CASE("bake: light lies where it does though a scale mirrors the surface", "[bake]") {
+  Baked b("Transform { scale -1 1 1 children DEF Floor Shape { " + material(0.5) + " geometry " + floor_of_4 + " } } PointLight { location 1 2 0 attenuation 0 0 1 }", "quality=draft,max-size=128");
+  Light floor(b, "Floor");
+  for (double r : {0.0, 0.5, 1.0, 1.5}) CHECK(floor.on_floor(-1 + r, 0.01) == Approx(2 / std::pow(4 + r * r, 1.5)).epsilon(0.02));
+}
+
 TEST_CASE("bake: no light comes into a closed room", "[bake]") {
   Baked b("DEF In Shape { " + material(0.8) + " geometry " + box(true, 1) + " } DEF Out Shape { " + material(0.8) + " geometry " + box(false, 1.1) + " }",
           "quality=draft,max-size=128,sky=1:1:1");

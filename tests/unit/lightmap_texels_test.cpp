@@ -116,6 +116,22 @@ TEST_CASE("texels: a triangle smaller than a texel has one") {
   CHECK(std::ranges::any_of(texels, [](auto& t) { return t.first.x == 5 && t.first.y == 5; }));
 }
 
+TEST_CASE("texels: a triangle that runs clockwise, as those of a mirrored Shape do, has the samples of the other") {
+  const PlacedTriangle one{{{1, 1}, {7, 2}, {3, 6}}, 0}, turned{{{1, 1}, {3, 6}, {7, 2}}, 0};
+  const auto a = all_texels({one}, 8, 8, 4), b = all_texels({turned}, 8, 8, 4);
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    REQUIRE(a[i].second.size() == b[i].second.size());
+    for (std::size_t k = 0; k < a[i].second.size(); ++k) CHECK(a[i].second[k].weight[1] == Approx(b[i].second[k].weight[2]).margin(1e-5));
+  }
+}
+
+TEST_CASE("texels: a triangle without area takes no texel of what lies beside it") {
+  const auto texels = all_texels({{{{0, 0}, {4, 4}, {8, 8}}, 0}, {{{5, 0}, {8, 0}, {8, 3}}, 1}}, 8, 8, 4);
+  for (auto& [t, samples] : texels)
+    if (t.x == 7 && t.y == 0) CHECK(samples[0].triangle == 1);
+}
+
 TEST_CASE("texels: no more samples than are asked for, spread over the texel") {
   for (auto& [t, samples] : all_texels(square(0, 0, 8, 8), 8, 8, 4, 4)) {
     CHECK(samples.size() == 4);

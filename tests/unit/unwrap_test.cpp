@@ -410,6 +410,16 @@ TEST_CASE("unwrap: broken triangles have harmless places") {
   check({&item, 1}, pack({&item, 1}, {.side = 64}), 2);
 }
 
+TEST_CASE("unwrap: what a scale has made flat has harmless places") {
+  for (int axis = 0; axis < 3; ++axis) {
+    Solid s = cube();
+    for (std::size_t i = static_cast<std::size_t>(axis); i < s.positions.size(); i += 3) s.positions[i] = 0;
+    Charts c = s.charts();
+    check(s, c);
+    for (Point2f p : c.places) CHECK((std::isfinite(p.x) && std::isfinite(p.y)));
+  }
+}
+
 TEST_CASE("unwrap: a disc of very many needles") {
   Solid s;
   std::uint32_t n = 10000, middle = s.point(0, 0, 0);
