@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "passes/combine/page.h"
+#include "passes/lightmap/copy_node.h"
 #include "passes/render/baked.h"
 #include "passes/render/surface.h"
 #include "passes/tessellate.h"
@@ -285,10 +286,7 @@ NodeId Combining::writable(NodeId node, std::unordered_map<std::uint32_t, NodeId
   if (!unlit_uses_[node.value]) return node;
   NodeId& copy = copies.try_emplace(node.value).first->second;
   if (copy) return copy;
-  copy = scene_.add(scene_.type_id(node), scene_.where(node));
-  const std::vector<Value> fields(scene_.fields(node).begin(), scene_.fields(node).end());
-  scene_.set_fields(copy, fields);
-  return copy;
+  return copy = bake::copy_of(scene_, node);
 }
 
 bool has_lightmaps(const Scene& scene) {

@@ -17,6 +17,7 @@
 #include "passes/lightmap/levels.h"
 #include "passes/lightmap/own_shapes.h"
 #include "passes/lightmap/parts.h"
+#include "passes/lightmap/sizes.h"
 #include "passes/lightmap/store.h"
 #include "passes/normals.h"
 #include "passes/render/stage.h"
@@ -108,17 +109,16 @@ Outcome take_patches(Scene& scene, const light::LightWorld& world, const Lightma
   return light_from_patches(scene, world, *patches, {options.smooth, options.format.value}, ctx) ? Outcome::changed : Outcome::unchanged;
 }
 
-/// What nobody sees from within is sealed; what has light already stays as it is.
+/// What nobody sees from within is sealed; what has light already stays as it is; each density and size is a part of its own.
 void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& world, const Levels& levels, const LightmapOptions& options) {
   const auto& uses = world.stage().uses;
   for (Part& p : parts) {
     for (std::uint32_t u : p.uses)
       if (p.sealed) world.seal(u, p.inside_out);
     std::erase_if(p.uses, [&](std::uint32_t u) { return levels.is_lit(uses[u].shape); });
-    p.density = 0;
-    for (std::uint32_t u : p.uses) p.density = std::max(p.density, density_of(options.densities, scene, world.stage(), u));
   }
   std::erase_if(parts, [](const Part& p) { return p.uses.empty(); });
+  split_by_size(parts, world.stage(), [&](std::uint32_t u) { return density_of(options.densities, scene, world.stage(), u); });
 }
 
 /// Lights what the view shows.

@@ -83,7 +83,8 @@ struct LightmapOptions {
 ///
 /// - The world as light sees it, in which units, is in docs/lighting.md.
 /// - Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays shared
-///   (lightmap/own_shapes.h). What events can reach is not copied: it has the light of its first place.
+///   (lightmap/own_shapes.h) among those that show it in one size and density (lightmap/sizes.h). What events can reach is not
+///   copied: it has the light of its first place.
 /// - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get faces.
 /// - Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels a level. LODs within
 ///   levels have light at all of theirs, too: as many views are lit as there are levels one behind the other (lightmap/levels.h), 64 at

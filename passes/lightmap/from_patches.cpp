@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "passes/geometry.h"
+#include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/parts.h"
 #include "passes/lightmap/store.h"
 #include "passes/patches/patch_lightmap.h"
@@ -43,13 +44,6 @@ std::vector<float> coords_of(const Part& part, const ShapePicture& shape, const 
       out.insert(out.end(), place.begin(), place.end());
     }
   return out;
-}
-
-NodeId copy_of(Scene& scene, NodeId n) {
-  const NodeId copy = scene.add(scene.type_id(n), scene.where(n));
-  const std::vector<Value> fields(scene.fields(n).begin(), scene.fields(n).end());
-  scene.set_fields(copy, fields);
-  return copy;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/holders.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -92,11 +93,7 @@ void Levels::own_what_is_lit() {
     const NodeId n = scene_.get(shape, field);
     if (!n || !taken_.contains(n.value)) return;
     NodeId& copy = copies[n.value];
-    if (!copy) {
-      copy = scene_.add(scene_.type_id(n), scene_.where(n));
-      const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
-      scene_.set_fields(copy, fields);
-    }
+    if (!copy) copy = copy_of(scene_, n);
     scene_.set(shape, field, copy);
   };
   const std::size_t before = seen_.size();

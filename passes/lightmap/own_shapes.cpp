@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/holders.h"
 #include "passes/own_nodes.h"
 #include "scenegraph/nodes.h"
@@ -74,9 +75,7 @@ class Unsharer {
   bool is_holder(NodeId n) const { return n.value >= holds_.size() || holds_[n.value]; }
 
   NodeId copy(NodeId n) {
-    const NodeId to = scene_.add(scene_.type_id(n), scene_.where(n));
-    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
-    scene_.set_fields(to, fields);
+    const NodeId to = copy_of(scene_, n);
     if (auto name = scene_.name(n); !name.empty()) scene_.set_name(to, unique(name));
     ++n_copies_;
     open_.push_back(to);

@@ -11,7 +11,7 @@
 
 namespace wrlkit::bake {
 
-/// A geometry node, and the Shapes that show it.
+/// A geometry node, and Shapes that show it: once they are split (sizes.h), those that do so in one size.
 struct Part {
   NodeId geometry;
   std::vector<std::uint32_t> uses;   // into Stage::uses; one for each Shape

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <unordered_set>
 
 #include "passes/geometry.h"
+#include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/polygons.h"
 #include "passes/weld/value_table.h"
 #include "scenegraph/image.h"
@@ -77,11 +79,7 @@ NodeId Storing::own_appearance(NodeId shape, const ShapePlace& place) {
   auto known = of_.find({there.value, place.page});
   if (place.own_coords && known != of_.end()) return known->second;
   NodeId mine = there;
-  if (!taken_.insert(there.value).second) {
-    mine = scene_.add(nodes::Appearance, scene_.where(there));
-    const std::vector<Value> fields(scene_.fields(there).begin(), scene_.fields(there).end());
-    scene_.set_fields(mine, fields);
-  }
+  if (!taken_.insert(there.value).second) mine = copy_of(scene_, there);
   if (place.own_coords) of_[{there.value, place.page}] = mine;
   return mine;
 }
@@ -143,11 +141,15 @@ NodeId Storing::transform(const ShapePlace& p, const PageLayout& page) {
 void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const drawing::Stage& stage, const std::vector<BakedPage>& pages,
            const StoreOptions& options, PassContext& ctx) {
   Storing storing(scene, pages, options, ctx);
+  std::unordered_set<std::uint32_t> taken;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    storing.place(parts[i], layout.coords(i), parts[i].geometry);
+    const NodeId shared = parts[i].geometry, geometry = taken.insert(shared.value).second ? shared : copy_of(scene, shared);
+    storing.place(parts[i], layout.coords(i), geometry);
     for (std::size_t k = 0; k < parts[i].uses.size(); ++k) {
+      const NodeId shape = stage.uses[parts[i].uses[k]].shape;
       const ShapePlace place = layout.place(i, k);
-      storing.light(stage.uses[parts[i].uses[k]].shape, place, layout.pages()[place.page]);
+      if (geometry != shared) scene.set(shape, nodes::shape::geometry, geometry);
+      storing.light(shape, place, layout.pages()[place.page]);
     }
   }
 }

@@ -97,6 +97,13 @@ class Light {
     return 0;
   }
 
+  /// How far two corners are from one another on the page.
+  double texels(std::size_t corner, std::size_t other) const {
+    const float *p = mesh.lightcoord.at(mesh.lightcoord.index[corner]), *q = mesh.lightcoord.at(mesh.lightcoord.index[other]);
+    const double s = double{p[0]} - q[0], t = double{p[1]} - q[1];
+    return std::hypot((a_ * s + b_ * t) * picture_->width, (d_ * s + e_ * t) * picture_->height);
+  }
+
   Mesh mesh;
 
  private:
@@ -427,6 +434,27 @@ TEST_CASE("bake: materials of X3D 4.0 take light, and those that are unlit give 
   CHECK(b.stats["lightmap.shapes"] == 1);
 }
 
+TEST_CASE("bake: shared geometry has as many texels a metre in each of its sizes, and is shared where they are alike", "[bake]") {
+  auto at = [](const std::string& name, const std::string& transform) { return "Transform { " + transform + " children DEF " + name + " Shape { appearance USE Paint geometry USE G } } "; };
+  Baked b("DEF One Shape { appearance DEF Paint Appearance { material Material {} } geometry DEF G " + floor_of_4 + " } " + at("Large", "translation 0 20 0 scale 4 4 4") +
+                    at("Long", "translation 0 40 0 scale 1 1 9") + at("Flat", "translation 0 60 0 scale 1 0 1") + at("Turned", "translation 9 0 0 rotation 1 2 3 1 scale 1.01 1 1") + at("Mirrored", "translation 18 0 0 scale -1 1 1"),
+                "density=4,quality=draft");
+  auto density = [&](const char* name, double x, double z) {
+    const Light l(b, name);
+    for (std::size_t c = 0; c < l.mesh.corners.size(); c += 3)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t from = c + k, to = c + (k + 1) % 3;
+        const double *p = &l.mesh.positions[3 * l.mesh.corners[from]], *q = &l.mesh.positions[3 * l.mesh.corners[to]];
+        CHECK(l.texels(from, to) == Approx(4 * std::hypot(x * (p[0] - q[0]), z * (p[2] - q[2]))).epsilon(0.02));
+      }
+    return b.world->scene.get(b.shape(name), nodes::shape::geometry);
+  };
+  const NodeId one = density("One", 1, 1), large = density("Large", 4, 4), length = density("Long", 1, 9);
+  CHECK((one != large && one != length && large != length));
+  for (const char* alike : {"Turned", "Mirrored"}) CHECK(density(alike, 1, 1) == one);
+  density("Flat", 1, 1);
+}
+
 TEST_CASE("bake: what has a name gets as many texels as it is said to", "[bake]") {
   const std::string two = "DEF Floor Shape { " + material(0.5) + " geometry " + floor_of_4 + " } DEF Signs Group { children Transform { translation 0 1 0 children DEF Board Shape { " +
                           material(0.5) + " geometry " + floor_of_4 + " } } }";
@@ -443,6 +471,10 @@ TEST_CASE("bake: what has a name gets as many texels as it is said to", "[bake]"
   CHECK(sides("") == Approx(1).epsilon(0.05));
   CHECK(sides(",densities=Board=0.25") == Approx(0.25).epsilon(0.05));
   CHECK(sides(",densities=Wall*=3:Sig*=0.5:Floor=1") == Approx(0.5).epsilon(0.05));
+  // The boards share their geometry.
+  Baked b("DEF A Shape { appearance DEF Paint Appearance { material Material {} } geometry DEF G Box {} } Transform { translation 3 0 0 children DEF B Shape { appearance USE Paint geometry USE G } }",
+                "quality=draft,max-size=128,densities=B=3");
+  CHECK(Light(b, "B").texels(0, 1) == Approx(3 * Light(b, "A").texels(0, 1)).epsilon(0.05));
   NamedDensities d;
   for (const char* wrong : {"Floor", "=2", "Floor=x", "Floor=0", "Floor=1:Wall"}) CHECK(!d.read(wrong));
   REQUIRE(d.read("A*=2:B=0.5"));
