@@ -1,4 +1,4 @@
-// Path tracing: see methods.h. Places on a patch and directions come from lattices, so a patch is sampled evenly.
+// Path tracing: see methods.h. Places on a patch and directions come from one lattice, so a patch is sampled evenly.
 #include <algorithm>
 
 #include "passes/light/transport.h"
@@ -14,12 +14,11 @@ V3 irradiance_of(const PatchedWorld& world, const DirectLight& direct, const Tra
   if (!(world.area(side) > 0)) return {};
   const auto key = key_of(o.seed, 10, side);
   Stream random(key);
-  const Lattice<2> places(key_of(key, 1)), directions(key_of(key, 2));
+  const Lattice<4> ways(key_of(key, 1));
   const Lattice<3> targets(key_of(key, 3));
   V3 sum;
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.samples); ++i) {
-    const auto [pu, pv] = places[i];
-    const auto [du, dv] = directions[i];
+    const auto [pu, pv, du, dv] = ways[i];
     const Receiver at = world.receiver(side, pu, pv);
     Flux f;
     direct.lamps(at, lamp_rays, random, f);

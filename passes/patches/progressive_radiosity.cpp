@@ -44,15 +44,14 @@ class Shooting {
     for_sides(0, static_cast<std::uint32_t>(world_.n_sides()), [&](std::uint32_t s) {
       if (!(world_.area(s) > 0)) return;
       const auto key = key_of(options_.seed, 30, s);
-      const Lattice<2> places(key_of(key, 1)), directions(key_of(key, 2));
+      const Lattice<4> ways(key_of(key, 1));
       Stream random(key);
       Flux f;
       for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(options_.samples); ++i) {
-        const auto [u, v] = places[i];
-        const Receiver at = world_.receiver(s, u, v);
+        const auto [pu, pv, du, dv] = ways[i];
+        const Receiver at = world_.receiver(s, pu, pv);
         direct_.lamps(at, lamp_rays, random, f);
         if (!world_.world().has_sky()) continue;
-        const auto [du, dv] = directions[i];
         const Ray ray{at.start, cosine_direction(at.normal, du, dv)};
         f.sum += (pi * transport_.each_layer(ray, [](auto&&...) {})) * world_.world().sky(ray.direction);
       }
@@ -93,13 +92,12 @@ class Shooting {
 
   void shoot_from(std::uint32_t s, double a_ray, std::uint32_t round, std::vector<Deposit>& out) {
     const auto key = key_of(options_.seed, 31, s);
-    const Lattice<2> places(key_of(key, 1)), directions(key_of(key, 2));
+    const Lattice<4> ways(key_of(key, 1));
     const double worth = mean(unshot_[s]) / a_ray;
     const auto n = static_cast<std::uint32_t>(worth + Stream(key_of(key, 3, round)).next());
     const V3 power = (1 / worth) * unshot_[s];
     for (std::uint32_t i = shot_[s]; i < shot_[s] + n; ++i) {
-      const auto [pu, pv] = places[i];
-      const auto [du, dv] = directions[i];
+      const auto [pu, pv, du, dv] = ways[i];
       const Receiver at = world_.receiver(s, pu, pv);
       const Ray ray{at.start, cosine_direction(at.normal, du, dv)};
       transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& p, double part) {

@@ -5,7 +5,9 @@
 // times a reflectance, it cannot run away.
 //
 // Emitted light is not waited for: each step sends rays to lamps and emitters as well, and L is what is reflected.
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "passes/light/transport.h"
 #include "passes/patches/methods.h"
@@ -14,7 +16,8 @@ namespace wrlkit::light {
 namespace {
 
 constexpr int lamp_rays = 2;
-constexpr int most_unheard = 32;     // steps before the mean is taken: light must have got around
+constexpr double not_around = 1e-3;  // share of the light that may be on its way still when the mean begins to be taken
+constexpr int most_unheard = 1024;   // steps before that
 
 /// A permutation of 0 to n - 1. Steps of one side that follow each other must be independent, which points of a lattice in
 /// their order are not.
@@ -34,56 +37,92 @@ class Iteration {
  public:
   Iteration(const PatchedWorld& world, const MethodOptions& options)
       : world_(world), options_(options), direct_(world.world()), transport_(world.world(), direct_, nullptr),
-        n_unheard_(std::min(most_unheard, options.samples)), reflected_(world.n_sides()), next_(world.n_sides()), sum_(world.n_sides()) {}
+        reflected_(world.n_sides()), next_(world.n_sides()) {}
 
   std::vector<V3> run() {
-    const auto n_sides = static_cast<std::uint32_t>(world_.n_sides());
-    const int n_steps = n_unheard_ + options_.samples;
-    for (int n = 0; n < n_steps; ++n) {
-      for_sides(0, n_sides, [&](std::uint32_t s) { step(s, static_cast<std::uint32_t>(n)); });
-      reflected_.swap(next_);
-      options_.done(static_cast<double>(n + 1) / n_steps);
+    const int n_unheard = spread();
+    const auto n = static_cast<std::uint32_t>(options_.samples);
+    std::vector<V3> sum(world_.n_sides());
+    for (std::uint32_t i = 0; i < n; ++i) {
+      step([&](std::uint32_t s) {
+        const auto key = key_of(options_.seed, 20, s);
+        const Gathered g = gather(s, key, shuffled(i, n, key));
+        sum[s] += g.made + g.reflected;
+        return g;
+      });
+      options_.done((n_unheard + i + 1.0) / (n_unheard + options_.samples));
     }
-    for (auto& e : sum_) e = (1.0 / options_.samples) * e;
-    return std::move(sum_);
+    for (auto& e : sum) e = (1.0 / n) * e;
+    return sum;
   }
 
  private:
-  void step(std::uint32_t s, std::uint32_t n) {
-    if (!(world_.area(s) > 0)) return;
-    const auto n_unheard = static_cast<std::uint32_t>(n_unheard_);
-    const bool heard = n >= n_unheard;
-    const auto key = key_of(options_.seed, heard ? 20 : 21, s);
-    const auto i = heard ? shuffled(n - n_unheard, static_cast<std::uint32_t>(options_.samples), key) : n;
-    const auto [pu, pv] = Lattice<2>(key_of(key, 1))[i];
-    const auto [du, dv] = Lattice<2>(key_of(key, 2))[i];
+  /// Irradiance along a ray of each kind: from lamps, emitters and the sky, and what sides reflect.
+  struct Gathered {
+    V3 made, reflected;
+  };
+
+  /// Steps until light has got around; returns how many. A step adds one reflection, so what is lacking after n of them is a share of
+  /// r^n when a reflection keeps r of the light.
+  int spread() {
+    std::vector<V3> again(world_.n_sides());  // reflected before, and now once more
+    V3 before, after;
+    for (int n = 0; n < most_unheard; ++n) {
+      for (std::uint32_t s = 0; s < reflected_.size(); ++s) before += world_.area(s) * reflected_[s];
+      step([&](std::uint32_t s) {
+        const Gathered g = gather(s, key_of(options_.seed, 21, s), static_cast<std::uint32_t>(n));
+        again[s] = (1 / pi) * (world_.albedo(s) * g.reflected);
+        return g;
+      });
+      for (std::uint32_t s = 0; s < again.size(); ++s) after += world_.area(s) * again[s];
+      auto kept = [](double now, double was) { return was > 0 ? now / was : 0; };
+      const double r = std::max({kept(after.x, before.x), kept(after.y, before.y), kept(after.z, before.z)});
+      if (n > 0 && std::pow(r, n) < not_around) return n + 1;
+      options_.done(n / (n + 1.0 + options_.samples));
+    }
+    return most_unheard;
+  }
+
+  /// `f(s)` is what a side gathers now.
+  template <class F>
+  void step(F&& f) {
+    for_sides(0, static_cast<std::uint32_t>(world_.n_sides()), [&](std::uint32_t s) {
+      if (!(world_.area(s) > 0)) return;
+      const Gathered g = f(s);
+      next_[s] = (1 / pi) * (world_.albedo(s) * (g.made + g.reflected));
+    });
+    reflected_.swap(next_);
+  }
+
+  Gathered gather(std::uint32_t s, std::uint64_t key, std::uint32_t i) const {
+    const auto [pu, pv, du, dv] = Lattice<4>(key_of(key, 1))[i];
     Stream random(key_of(key, 3, i));
     const Receiver at = world_.receiver(s, pu, pv);
     Flux f;
     direct_.lamps(at, lamp_rays, random, f);
     direct_.emitters(at, Lattice<3>(key_of(key, 4)), i, 1, f);
-    const V3 e = f.sum + pi * along(at, {at.start, cosine_direction(at.normal, du, dv)});
-    next_[s] = (1 / pi) * (world_.albedo(s) * e);
-    if (heard) sum_[s] += e;
+    Gathered g = along(at, {at.start, cosine_direction(at.normal, du, dv)});
+    g.made += f.sum;
+    return g;
   }
 
-  V3 along(const Receiver& at, const Ray& ray) const {
-    V3 sum;
+  Gathered along(const Receiver& at, const Ray& ray) const {
+    Gathered g;
     const double open = transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& p, double part) {
-      if (mean(p.emission) > 0) sum += part * direct_.gather_weight(at, ray, hit) * p.emission;
+      if (mean(p.emission) > 0) g.made += (pi * part * direct_.gather_weight(at, ray, hit)) * p.emission;
       const auto side = world_.side_at(hit, ray.at(hit.distance));
       // What a side reflects has its alpha in it, as `part` has.
-      if (side != PatchedWorld::none && part > 0) sum += (part / p.alpha) * reflected_[side];
+      if (side != PatchedWorld::none && part > 0) g.reflected += (pi * part / p.alpha) * reflected_[side];
     });
-    return open > 0 && world_.world().has_sky() ? sum + open * world_.world().sky(ray.direction) : sum;
+    if (open > 0 && world_.world().has_sky()) g.made += (pi * open) * world_.world().sky(ray.direction);
+    return g;
   }
 
   const PatchedWorld& world_;
   const MethodOptions& options_;
   DirectLight direct_;
   Transport transport_;
-  int n_unheard_;
-  std::vector<V3> reflected_, next_, sum_;  // radiance before and after a step; irradiance of all steps
+  std::vector<V3> reflected_, next_;  // radiance before and after a step
 };
 
 }  // namespace

@@ -97,6 +97,29 @@ TEST_CASE("where everything shines alike, everything is lit alike") {
   }
 }
 
+TEST_CASE("light that is reflected very often is there, too") {
+  const Lit room(cube(0.95, 1));
+  for (auto method : methods) {
+    CAPTURE(static_cast<int>(method));
+    for (double e : room.irradiance(method, 0.3, 64)) CHECK(e == Approx(1 / (1 - 0.95)).epsilon(0.03));
+  }
+}
+
+TEST_CASE("more samples err less, however large patches are") {
+  const Lit room(cube(0.5, 1));
+  Diagnostics none;
+  const PatchedWorld patched(*room.light, {.max_edge = 2}, none);
+  for (auto method : methods) {
+    CAPTURE(static_cast<int>(method));
+    auto error = [&](int samples) {
+      double sum = 0;
+      for (const V3& e : illuminate(patched, method, {.samples = samples, .seed = 3})) sum += (e.x - 2) * (e.x - 2);
+      return std::sqrt(sum / static_cast<double>(patched.n_sides()));
+    };
+    CHECK(error(4096) < error(64) / 5);
+  }
+}
+
 TEST_CASE("two opposed squares in the open") {
   const Lit squares(surface(0.5, 1, "0 0 0, 1 0 0, 1 1 0, 0 1 0") + surface(0.5, 0, "0 0 1, 0 1 1, 1 1 1, 1 0 1"));
   for (auto method : methods) {
