@@ -100,7 +100,7 @@ void print(Session& s, const PatchSet& set, double seconds) {
 int run_illuminate(const Flags& flags) {
   Session s(flags);
   light::IlluminateOptions options;
-  if (!s.good() || !read_options(flags, options) || !s.choose_pipeline("lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate")) return usage;
+  if (!s.good() || !read_options(flags, options) || !s.choose_pipeline("lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{texcoords=true}")) return usage;
   if (!s.read(flags.inputs[0])) return s.end(false);
   const auto meshes = s.pipeline().run_lazily(s.world().scene, s.context(), s.pipeline_options());
   if (!meshes) return s.end(false);

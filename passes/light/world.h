@@ -93,6 +93,8 @@ class LightWorld {
   /// sees its back is within it even where it touches the front of another one. `inside_out`: its fronts are the inner side.
   /// What it emits goes outwards only.
   void seal(std::uint32_t use, bool inside_out);
+  /// All of a use reflects, emits and lets through alike.
+  bool is_plain(std::uint32_t use) const { return facts_[use].plain; }
   /// Some of a use may be transparent.
   bool is_clear(std::uint32_t use) const { return facts_[use].clear; }
   /// Whether a place lies within sealed surfaces that hide it: a ray from there leaves more of them than it enters. As many nearest() as

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "passes/light/random.h"
+
 namespace wrlkit::light {
 namespace {
 

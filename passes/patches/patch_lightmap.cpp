@@ -94,15 +94,18 @@ class ShapeDrawing {
   }
 
   V3 color(const PlacedPatch& p) const {
-    constexpr double darkest = 0.02;  // reflectance by which light is divided
     const auto& patch = set_.patches[p.patch];
     const V3 rgb(patch.rgb[0], patch.rgb[1], patch.rgb[2]);
     if (!options_.without_color) return rgb;
-    const V3 middle = (1.0 / 3) * (V3(patch.corners[0]) + V3(patch.corners[1]) + V3(patch.corners[2]));
-    const auto w = weights_in(triangles_[p.element], middle);
-    const auto s = world_.surface({.use = use_, .element = p.element, .back = p.back, .weights = {w[0], w[1], w[2]}});
-    const V3 light = max(V3(), rgb - s.alpha * s.emission), albedo = max(V3(darkest), s.alpha * s.albedo);
-    return {light.x / albedo.x, light.y / albedo.y, light.z / albedo.z};
+    const auto own = color_of(world_, p.use, p.element, p.back, {V3(patch.corners[0]), V3(patch.corners[1]), V3(patch.corners[2])});
+    return {light_on(rgb.x, own.albedo.x, own.emission.x), light_on(rgb.y, own.albedo.y, own.emission.y), light_on(rgb.z, own.albedo.z, own.emission.z)};
+  }
+
+  /// Where nothing can be seen of it, there is none: the digits of what is emitted, or of nothing, would be taken for light.
+  static double light_on(double radiance, double albedo, double emission) {
+    constexpr double darkest = 0.001, digits = 1e-5;
+    const double reflected = radiance - emission;
+    return albedo < darkest || reflected < digits * emission ? 0 : reflected / albedo;
   }
 
   void choose_texel() {

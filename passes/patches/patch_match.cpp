@@ -1,6 +1,9 @@
 #include "passes/patches/patch_match.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "passes/light/random.h"
 
 namespace wrlkit::light {
 namespace {
@@ -66,6 +69,23 @@ std::array<V3, 3> triangle_of(const LightWorld& world, std::uint32_t use, std::u
   const auto& frame = world.stage().frames[world.stage().uses[use].frame];
   std::array<V3, 3> out;
   for (int k = 0; k < 3; ++k) out[static_cast<std::size_t>(k)] = frame.point(world.meshes().position(m, element, k) + m.origin);
+  return out;
+}
+
+PatchColor color_of(const LightWorld& world, std::uint32_t use, std::uint32_t element, bool back, const std::array<V3, 3>& patch) {
+  // The same places whoever asks: what is divided by this mean later must have been multiplied by it.
+  static const Lattice<2> places(0);
+  const std::uint32_t n = world.is_plain(use) ? 1 : 64;
+  const auto triangle = triangle_of(world, use, element);
+  PatchColor out;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const auto [u, v] = places[i];
+    const double root = std::sqrt(u);
+    const auto w = weights_in(triangle, patch[0] + (root * (1 - v)) * (patch[1] - patch[0]) + (root * v) * (patch[2] - patch[0]));
+    const auto p = world.surface({.use = use, .element = element, .back = back, .weights = {w[0], w[1], w[2]}});
+    out.albedo += (p.alpha / n) * p.albedo;
+    out.emission += (p.alpha / n) * p.emission;
+  }
   return out;
 }
 

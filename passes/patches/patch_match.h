@@ -29,6 +29,12 @@ PatchMatch match_patches(const PatchSet& set, const LightWorld& world);
 /// The corners of a triangle of the world, in its own order.
 std::array<V3, 3> triangle_of(const LightWorld& world, std::uint32_t use, std::uint32_t element);
 
+/// What a patch on a triangle reflects and emits: means over it.
+struct PatchColor {
+  V3 albedo, emission;
+};
+PatchColor color_of(const LightWorld& world, std::uint32_t use, std::uint32_t element, bool back, const std::array<V3, 3>& patch);
+
 /// The weights of the corners of a triangle at a place in its plane.
 std::array<double, 3> weights_in(const std::array<V3, 3>& triangle, const V3& place);
 

@@ -87,23 +87,12 @@ void PatchedWorld::number_sides() {
 }
 
 void PatchedWorld::paint(std::uint32_t s) {
-  constexpr std::uint32_t n_places = 8;
   const Side& side = sides_[s];
   const PatchMesh& m = mesh(side.use);
   areas_[s] = m.area(side.face);
-  const auto element = m.faces()[side.face].triangle;
-  const auto t = triangle_of(world_, side.use, element);
-  const Lattice<2> places(key_of(0, s));
-  V3 albedo, emission;
-  for (std::uint32_t i = 0; i < n_places; ++i) {
-    const auto [u, v] = places[i];
-    const auto w = weights_in(t, receiver(s, u, v).start);
-    const auto p = world_.surface({.use = side.use, .element = element, .back = side.back, .weights = {w[0], w[1], w[2]}});
-    albedo += p.alpha * p.albedo;
-    emission += p.alpha * p.emission;
-  }
-  albedo_[s] = (1.0 / n_places) * albedo;
-  emission_[s] = (1.0 / n_places) * emission;
+  const auto color = color_of(world_, side.use, m.faces()[side.face].triangle, side.back, m.corners(side.face));
+  albedo_[s] = color.albedo;
+  emission_[s] = color.emission;
 }
 
 Receiver PatchedWorld::receiver(std::uint32_t s, double u, double v) const {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "passes/light/flux.h"
-#include "passes/light/random.h"
 #include "passes/light/world.h"
 #include "passes/patches/patch_mesh.h"
 
