@@ -8,6 +8,9 @@ call again. Then once more after the end of the checkpoint's file was cut off an
 the machine leaves it. Each time the world and its pictures must be the same, the second call must have traced fewer rays than the
 first, and no checkpoint may be left.
 
+What is kept is of no use to another world of the same shape, nor to other options: after a change of a colour, of a lamp's
+cutOffAngle or of `directional` the bytes are those of a bake without a checkpoint.
+
 Then corpus/paper/pipes.wrl with levels of detail, of which each is baked with a checkpoint of its own: killed in the second one, no light
 of the first is traced again.
 """
@@ -17,15 +20,15 @@ project = pathlib.Path(__file__).resolve().parents[1]
 room, pipes = project / 'corpus/paper/stairs_room.wrl', project / 'corpus/paper/pipes.wrl'
 
 
-def command(wrlkit, world, folder, checkpoint):
-    options = 'quality=draft,max-size=512' + (f',checkpoint={checkpoint}' if checkpoint else '')
+def command(wrlkit, world, folder, checkpoint, more=''):
+    options = 'quality=draft,max-size=512' + more + (f',checkpoint={checkpoint}' if checkpoint else '')
     return [wrlkit, 'convert', world, folder / 'lit.wrl', '-p', ('lod,' if world == pipes else '') + f'lightmap{{{options}}}', '--stats']
 
 
-def bake(wrlkit, folder, checkpoint=None, world=room):
+def bake(wrlkit, folder, checkpoint=None, world=room, more=''):
     """The bytes of all files that it wrote, and the rays that it traced."""
     folder.mkdir(exist_ok=True)
-    r = subprocess.run(command(wrlkit, world, folder, checkpoint), capture_output=True, text=True, timeout=300)
+    r = subprocess.run(command(wrlkit, world, folder, checkpoint, more), capture_output=True, text=True, timeout=300)
     if r.returncode != 0:
         sys.exit(f'bake-resume: exit code {r.returncode}: {r.stderr[-500:]}')
     rays = re.search(r'(\d+)\s+lightmap\.rays', r.stdout + r.stderr)
@@ -69,6 +72,16 @@ def main():
                 kept = checkpoint.read_bytes()
                 checkpoint.write_bytes(kept[:-1000] + bytes(b ^ 0x55 for b in kept[-1000:-500]))
             check('damaged' if damaged else 'killed', bake(wrlkit, folder / 'part', checkpoint))
+        spot = folder / 'spot.wrl'
+        spot.write_text(room.read_text() + 'SpotLight { location 0 3 0 direction 0 -1 0 radius 20 cutOffAngle 0.5 }')
+        for change in (('0.52 0.42 0.32', '0.9 0.1 0.1'), ('cutOffAngle 0.5', 'cutOffAngle 0.7'), ('', '')):
+            if not interrupted(wrlkit, folder / 'part', checkpoint, 1_500_000, spot):
+                sys.exit('bake-resume: the bake was done before it could be killed')
+            other, more = folder / 'spot' / 'spot.wrl', '' if change[0] else ',directional=true'
+            other.parent.mkdir(exist_ok=True)
+            other.write_text(spot.read_text().replace(*change))
+            if bake(wrlkit, folder / 'after_another', checkpoint, other, more)[0] != bake(wrlkit, folder / 'of_its_own', None, other, more)[0]:
+                faults.append(f'changed {change[0] or "directional"}: tiles of another bake were taken')
         whole, rays = bake(wrlkit, folder / 'whole_pipes', world=pipes)
         if not interrupted(wrlkit, folder / 'part_pipes', checkpoint, 0, pipes, '.2'):
             sys.exit('bake-resume: the levels were done before they could be killed')

@@ -14,6 +14,7 @@
 #include "passes/lightmap/page_baker.h"
 #include "passes/lightmap/refine.h"
 #include "passes/lightmap/specks.h"
+#include "passes/lightmap/work_key.h"
 
 namespace wrlkit::bake {
 namespace {
@@ -35,30 +36,6 @@ std::vector<Point> choose_points(std::vector<PageBaker>& pages) {
   std::vector<Point> some;
   for (std::size_t i = 0; i < most_cache_points; ++i) some.push_back(all[i * all.size() / most_cache_points]);
   return some;
-}
-
-/// Of all that the light of a tile depends on.
-std::uint64_t key_of(const Layout& layout, const light::LightWorld& world, const BakeOptions& o) {
-  const double numbers[] = {double(o.samples), double(o.rays), double(o.integrator.mode), double(o.integrator.rays), o.error, o.integrator.cell, double(o.integrator.seed), world.radius(), world.centre().x, world.centre().y, world.centre().z};
-  std::uint64_t h = hash_bytes(numbers, sizeof numbers);
-  for (const auto& p : layout.pages()) {
-    h = hash_bytes(p.triangles.data(), p.triangles.size() * sizeof(PlacedTriangle), h);
-    h = hash_bytes(p.refs.data(), p.refs.size() * sizeof(FacetRef), h);
-  }
-  const auto& points = world.meshes().points;
-  h = hash_bytes(points.data(), points.size() * sizeof points[0], h);
-  for (const auto& f : world.stage().frames) h = hash_bytes(&f, sizeof f, h);
-  for (const auto& l : world.lamps()) {
-    const V3 v[] = {l.irradiance, l.light.location, l.light.direction, l.light.attenuation};
-    h = hash_bytes(v, sizeof v, h);
-  }
-  if (world.has_sky())
-    for (const V3& d : {V3(1, 0, 0), V3(-1, 0, 0), V3(0, 1, 0), V3(0, -1, 0), V3(0, 0, 1), V3(0, 0, -1), unit(V3(1, 2, 3))}) {
-      const V3 radiance = world.sky(d);
-      h = hash_bytes(&radiance, sizeof radiance, h);
-    }
-  for (const auto& e : world.emitters()) h = hash_bytes(&e.radiance, sizeof e.radiance, h);
-  return h;
 }
 
 std::vector<TexelLight> unpack(const std::vector<char>& bytes) {
@@ -266,7 +243,7 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   for (const auto& p : layout.pages()) n_tiles += bakers.emplace_back(parts, p, world, options.directional).n_tiles();
   if (ctx.monitor) ctx.monitor->begin(options.title + ": reflected light", 0, "");
   const light::Integrator integrator(world, choose_points(bakers), options.integrator);
-  Checkpoint checkpoint(options.checkpoint, key_of(layout, world, options));
+  Checkpoint checkpoint(options.checkpoint, options.checkpoint.empty() ? 0 : work_key(parts, layout, world, options));
   Rounds rounds(integrator, checkpoint, options, n_tiles, ctx);
 
   std::vector<BakedPage> out;
