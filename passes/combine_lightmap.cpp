@@ -88,6 +88,7 @@ class Combining {
   void find_shapes();
   std::optional<LitShape> lit_shape(NodeId shape);
   bool combine(Group& group);
+  std::string format_of(const Group& group) const;
   bool hand_in(Group& group, const Image& image);
   void read_meshes(const Group& group);
   int factor(const Group& group);
@@ -211,9 +212,21 @@ bool Combining::combine(Group& group) {
   return hand_in(group, page.image(group.transparent ? 4 : 3));
 }
 
+/// Of a group's picture: the extension of its name.
+std::string Combining::format_of(const Group& group) const {
+  std::string format = options_.format.value;
+  const NodeId light = scene_.get(group.shapes[0].appearance, ap::lightmap);
+  if (format.empty() && scene_.is(light, nodes::ImageTexture)) {
+    PictureFormat of_light;
+    const auto urls = scene_.get(light, nodes::image_texture::url);
+    if (!urls.empty() && of_light.read(urls[0].substr(urls[0].rfind('.') + 1))) format = of_light.value;
+  }
+  const bool needs_alpha = group.transparent && format == "jpg";
+  return format.empty() || needs_alpha ? "png" : format;
+}
+
 bool Combining::hand_in(Group& group, const Image& image) {
-  const bool no_alpha = options_.format.value == "jpg";
-  const std::string name = "baked_" + std::to_string(&group - groups_.data()) + "." + (group.transparent && no_alpha ? "png" : options_.format.value);
+  const std::string name = "baked_" + std::to_string(&group - groups_.data()) + "." + format_of(group);
   std::string error;
   auto bytes = encode_as(name, image, error);
   if (!bytes) return ctx_.diag.report(Diag::cannot_write, {}, name, error), false;
@@ -305,6 +318,11 @@ bool TexelFactor::read(std::string_view text) {
 
 bool CombineTarget::read(std::string_view text) { return lightmap = text == "lightmap", lightmap || text == "texture"; }
 
+bool CombinedFormat::read(std::string_view text) {
+  PictureFormat chosen;
+  if (text == "auto") return value.clear(), true;
+  return chosen.read(text) ? (value = chosen.value, true) : false;
+}
 
 Outcome combine_lightmap(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx) {
   if (!ctx.resources || !has_lightmaps(scene)) return Outcome::unchanged;

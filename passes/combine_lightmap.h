@@ -42,17 +42,25 @@ struct CombineTarget {
   std::string print() const { return lightmap ? "lightmap" : "texture"; }
 };
 
+/// Empty: that of the light.
+struct CombinedFormat {
+  static constexpr std::string_view type = "auto, png, jpg or webp";
+  std::string value;
+  bool read(std::string_view text);
+  std::string print() const { return value.empty() ? "auto" : value; }
+};
+
 struct CombineLightmapOptions {
   TexelFactor scale;
   int max_size = 4096;
   CombineTarget into;
-  PictureFormat format;
+  CombinedFormat format;
 
   void fields(auto&& f) {
     f("scale", scale, "texels for each texel of the light, along each side; auto: as many as the textures have");
     f("max-size", max_size, "pixels along each side of a picture; a larger page of light keeps its size", between(1, 32768));
     f("into", into, "texture: VRML's one texture; lightmap: all stays as it is, and the lightmap shows the combined colours");
-    f("format", format, "of the pictures; JPEG only where there is no alpha");
+    f("format", format, "of the pictures; auto: as those of the light; JPEG only where there is no alpha");
   }
 };
 

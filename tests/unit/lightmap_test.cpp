@@ -1,5 +1,6 @@
 // Baked light on its way: in meshes, in pictures that passes make, in one texture with the surface's colour, in renderings.
 #include <catch2/catch.hpp>
+#include <set>
 #include <cmath>
 
 #include "parsers/parsers.h"
@@ -231,6 +232,24 @@ TEST_CASE("combine-lightmap: the texture is colour times light, and nothing is l
   const double grey = srgb_to_linear(128 / 255.0);
   CHECK(pixel(*image, 1, 1) == Rgb{shown(grey), shown(srgb_to_linear(0.5) * grey), 0});
   CHECK(w.diag.messages().empty());
+}
+
+TEST_CASE("combine-lightmap: the pictures are of the format that those of the light have, if no other is asked for", "[lightmap]") {
+  auto formats = [](const std::string& bake, const std::string& combine) {
+    Lit w("DEF A Shape { appearance Appearance { material Material {} } geometry Box {} } Transform { translation 5 0 0 children Shape { appearance Appearance { material Material { transparency 0.5 } } geometry Box {} } }");
+    w.run("lightmap{quality=draft,max-size=64" + bake + "},combine-lightmap" + combine);
+    std::set<std::string> out;
+    for (NodeId t : w.of(nodes::ImageTexture)) {
+      const std::string_view url = w.scene().get(t, nodes::image_texture::url)[0];
+      out.emplace(url.substr(url.rfind('.')));
+    }
+    return out;
+  };
+  using Names = std::set<std::string>;
+  CHECK(formats("", "") == Names{".png"});
+  CHECK(formats(",format=jpg", "") == Names{".jpg", ".png"});  // alpha
+  CHECK(formats(",format=jpg", "{format=png}") == Names{".png"});
+  CHECK(formats("", "{format=jpg}") == Names{".jpg", ".png"});
 }
 
 TEST_CASE("combine-lightmap: emission, scale, vertex colours, and a grey texture count as in 4.14", "[lightmap]") {
