@@ -98,6 +98,7 @@ bool encode(const Image& image, const char* codec, int quality, std::string& byt
 bool encode_exr(const wrlkit::FloatImage& image, std::string& bytes, std::string& error) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeHalf);
   spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "1970:01:01 00:00:00");  // else it is now, and the same picture has other bytes
   return write("openexr", spec, OIIO::TypeFloat, image.pixels.data(), bytes, error);
 }
 

@@ -64,11 +64,13 @@ std::vector<char> known_texels(const Page& page, const std::vector<char>& inside
 
 /// From what was summed, radiance times cosine times direction, to the mean direction of radiance that lightmapDirection is.
 /// Light from one direction has the same of both; light from all of a hemisphere 2/3 of its normal against 1/2. Between
-/// them we go straight. Means can be mixed with those of texels of other brightness.
+/// them we go straight. Means can be mixed with those of texels of other brightness. Light that no picture shows has none: processors
+/// may be set to take the smallest numbers for 0, and not all threads are alike in that.
 void make_directions(Estimate& whole) {
+  constexpr float faint = 1e-6f;
   auto mean = [](float x, float y, float z, float all, float out[3]) {
-    const float length = all > 0 ? std::min(1.0f, std::sqrt(x * x + y * y + z * z) / all) : 0;
-    const float scale = all > 0 ? (0.75f + 0.75f * std::max(0.0f, length - 2.0f / 3)) / all : 0;
+    const float length = all > faint ? std::min(1.0f, std::sqrt(x * x + y * y + z * z) / all) : 0;
+    const float scale = all > faint ? (0.75f + 0.75f * std::max(0.0f, length - 2.0f / 3)) / all : 0;
     out[0] = x * scale, out[1] = y * scale, out[2] = z * scale;
   };
   for (std::size_t i = 0; i < whole.light().size(); ++i) {

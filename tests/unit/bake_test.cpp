@@ -223,6 +223,21 @@ TEST_CASE("bake: shared geometry has light of its own at each place, and the sam
   CHECK(pictures[0] == pictures[1]);
 }
 
+TEST_CASE("bake: directions are the same bytes on any number of threads, in the dark, too", "[bake]") {
+  // Behind the wall next to nothing arrives, and numbers near the smallest there are decide where from.
+  const std::string world = "PointLight { location 0 3 5 } Transform { translation 4 -2 0 children Shape { appearance Appearance { material Material { transparency 0.5 "
+                            "diffuseColor 1 0.5 0 emissiveColor 0 0 0.3 } } geometry Sphere { radius 1.5 } } } Transform { translation 0 0 -3 children Shape { " + material(0.6) + " geometry Box { size 14 10 0.1 } } }";
+  std::vector<std::vector<std::string>> pictures;
+  for (int threads : {1, 2}) {
+    ThreadLimit limit(threads);
+    Baked b(world, "quality=draft,max-size=128,directional=true");
+    REQUIRE(b.resources.made().size() == 4);
+    auto& all = pictures.emplace_back();
+    for (const auto& m : b.resources.made()) all.push_back(*m.bytes);
+  }
+  CHECK(pictures[0] == pictures[1]);
+}
+
 TEST_CASE("bake: under what is closed the floor takes the light around, though both sides of it were to be seen", "[bake]") {
   const std::string block = "Transform { translation 0 1 0 children DEF Block Shape { " + material(0.5) + " geometry IndexedFaceSet { solid FALSE " + box(false, 1).substr(17) + " } }";
   Baked b("DEF Floor Shape { " + material(0.5) + " geometry " + floor_of_4 + " } " + block, "quality=draft,max-size=128,sky=1:1:1");

@@ -178,6 +178,7 @@ TEST_CASE("pictures: EXR keeps light beyond 1, WebP its colours, and both the sa
   REQUIRE(exr);
   CHECK(sniff_mime(*exr) == "image/x-exr");
   CHECK(*exr == *encode_exr(hdr, error));
+  CHECK(exr->find("1970:01:01") != std::string::npos);  // and at another time
   auto seen = decode_image(*exr, "", error);
   REQUIRE(seen);
   CHECK(pixel(*seen, 0, 0) == Rgb{shown(0.25), shown(0.5), 255});
