@@ -8,6 +8,7 @@
 #include "writers/gltf_pointers.h"
 #include "writers/gzip.h"
 #include "writers/output.h"
+#include "writers/uri.h"
 
 namespace wrlkit {
 namespace gltf {
@@ -26,20 +27,6 @@ std::string four_bytes(std::uint64_t v) {
   std::string s;
   for (int i = 0; i < 4; ++i) s += static_cast<char>(v >> 8 * i & 0xff);
   return s;
-}
-
-/// What a URI may hold as it is (RFC 3986, 2.3); everything else is written as %XX.
-std::string uri_of(std::string_view file_name) {
-  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~",
-                             hex = "0123456789ABCDEF";
-  std::string uri;
-  for (unsigned char c : file_name) {
-    if (plain.find(static_cast<char>(c)) != plain.npos)
-      uri += static_cast<char>(c);
-    else
-      ((uri += '%') += hex[c >> 4]) += hex[c & 15];
-  }
-  return uri;
 }
 
 /// As part of a file name. A DEF name may have a slash.

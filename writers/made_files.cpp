@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "writers/uri.h"
+
 namespace wrlkit {
 namespace {
 
@@ -42,14 +44,15 @@ const std::string& MadeFiles::name_of(const MadeFile& file) {
   const std::string stem = stem_of(output_).filename().string() + ".";
   const fs::path own(file.name);
   std::string name = stem + file.name;
-  for (int k = 2; !taken_.insert(name).second; ++k) name = stem + own.stem().string() + "_" + std::to_string(k) + own.extension().string();
+  for (int k = 2; taken_.contains(name) || taken_.contains(uri_of(name)); ++k) name = stem + own.stem().string() + "_" + std::to_string(k) + own.extension().string();
+  taken_.insert(name);
   return placed_.emplace_back(Placed{name, &file, {}}).name;
 }
 
 std::string MadeFiles::place(std::string_view url) {
   const MadeFile* file = resources_.find_made(url);
   if (!file) return std::string(url);
-  if (output_ != "-") return name_of(*file);
+  if (output_ != "-") return uri_of(name_of(*file));
   diag_.report(Diag::picture_not_written, {}, file->name);
   return std::string(url);
 }

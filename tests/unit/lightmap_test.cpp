@@ -170,6 +170,16 @@ TEST_CASE("made files: they are written beside the world, under names that it ha
   CHECK(w.diag.count(Diag::file_replaced) == 1);
 }
 
+TEST_CASE("made files: urls name files with characters that mean something in a url", "[lightmap]") {
+  TempFolder folder;
+  Lit w("Shape { appearance Appearance { texture ImageTexture { url \"at%20100%25.a.png\" } } }");
+  const auto a = w.resources.add_made({"a.png", std::make_shared<const std::string>("A")});
+  MadeFiles files(w.scene(), w.resources, folder / "at 100%.wrl", w.diag);
+  CHECK(files.place(a) == "at%20100%25.a_2.png");
+  REQUIRE((files.write() && files.commit()));
+  CHECK(folder.read("at 100%.a_2.png") == "A");
+}
+
 TEST_CASE("pictures: EXR keeps light beyond 1, WebP its colours, and both the same bytes twice", "[lightmap]") {
   std::string error;
   FloatImage hdr{2, 1, 3, {0.25f, 0.5f, 1, 4, 0, 1000}};
