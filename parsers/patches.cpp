@@ -1,6 +1,7 @@
 #include "parsers/patches.h"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 
 #include "parsers/vrml/number.h"
@@ -16,7 +17,7 @@ std::string_view without_bom(std::string_view s) { return s.starts_with("\xef\xb
 
 class PatchParser {
  public:
-  PatchParser(std::string_view text, std::uint32_t base, Diagnostics& diag) : xml_(text, base, diag), diag_(diag) {}
+  PatchParser(std::string_view text, std::uint32_t base, Diagnostics& diag) : xml_(text, base, diag), diag_(diag) { set_.printed = {0, 0, 1}; }
 
   std::optional<PatchSet> parse() {
     const XmlTag* tag = &xml_.next();
@@ -112,7 +113,7 @@ class PatchParser {
     if (auto* a = tag.find(word::version); a && a->value != "1") say(Diag::patch_version, a->where, a->value);
     if (auto* a = tag.find(word::source)) set_.source = a->value;
     if (auto* a = tag.find(word::method)) set_.method = a->value;
-    if (auto* a = tag.find(word::unit)) unit_ = metres_of(*a);
+    if (auto* a = tag.find(word::unit)) set_.printed.unit = metres_of(*a);
     if (auto n = count(tag, word::samples); n != PatchSet::unknown) set_.samples = n;
   }
 
@@ -165,14 +166,32 @@ class PatchParser {
   bool corners(const XmlTag& tag, Corners& out) {
     double v[9];
     const auto* a = tag.find(word::v);
-    if (!a || numbers(*a, v) < 9) return say(Diag::bad_patch, a ? a->where : tag.where, word::v), false;
-    for (std::size_t i = 0; i < 9; ++i) out[i / 3][i % 3] = v[i] * unit_;
+    if (!a || numbers(*a, v, true) < 9) return say(Diag::bad_patch, a ? a->where : tag.where, word::v), false;
+    for (std::size_t i = 0; i < 9; ++i) out[i / 3][i % 3] = v[i] * set_.printed.unit;
     return true;
+  }
+
+  /// Of a number of a coordinate.
+  void note_digits(std::string_view number) {
+    auto& most = set_.printed;
+    int decimals = 0, digits = 0, exponent = 0;
+    bool behind_point = false;
+    for (std::size_t i = 0; i < number.size(); ++i) {
+      const char c = number[i];
+      if (c == '.') behind_point = true;
+      else if (c == 'e' || c == 'E') {
+        auto from = number.data() + i + 1, end = number.data() + number.size();
+        std::from_chars(from + (from < end && *from == '+'), end, exponent);
+        break;
+      } else if (c >= '0' && c <= '9') decimals += behind_point, digits += digits > 0 || c != '0';
+    }
+    most.decimals = std::max(most.decimals, std::min(decimals - exponent, 17));
+    most.digits = std::max(most.digits, std::min(digits, 17));
   }
 
   /// Reads up to N numbers and returns how many there were; what comes behind them is reported.
   template <std::size_t N>
-  std::size_t numbers(const XmlTag::Attribute& a, double (&out)[N]) {
+  std::size_t numbers(const XmlTag::Attribute& a, double (&out)[N], bool is_place = false) {
     const char *p = a.value.data(), *end = p + a.value.size();
     for (std::size_t n = 0;; ++n) {
       while (p < end && (static_cast<unsigned char>(*p) <= ' ' || *p == ',')) ++p;
@@ -183,6 +202,7 @@ class PatchParser {
       const auto result = vrml::read_double(p, end, out[n]);
       if (result == vrml::NumberResult::none) return say(Diag::bad_value, rest, "'" + std::string(from, end) + "'", "number"), n;
       if (result == vrml::NumberResult::repaired) say(Diag::number_repaired, rest, std::string(from, p), out[n]);
+      if (is_place) note_digits({from, p});
     }
   }
 
@@ -214,7 +234,6 @@ class PatchParser {
   XmlReader xml_;
   Diagnostics& diag_;
   PatchSet set_;
-  double unit_ = 1;
   Level levels_[3];
   std::size_t depth_ = 0, skipping_ = 0;
   bool in_shape_ = false, in_triangle_ = false;

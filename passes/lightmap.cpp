@@ -45,13 +45,10 @@ LayoutOptions layout_options(const LightmapOptions& o, std::size_t depth) {
 }
 
 light::LightOptions light_options(const LightmapOptions& o, const Levels& levels) {
-  using Sky = light::LightOptions::Sky;
   light::LightOptions out;
   out.level_of = levels.level_of();
   out.emission = o.emission;
-  out.sky = o.sky.background ? Sky::background : Sky::constant;
-  out.sky_color = {o.sky.color[0], o.sky.color[1], o.sky.color[2]};
-  if (!o.sky.background && !(o.sky.color[0] + o.sky.color[1] + o.sky.color[2] > 0)) out.sky = Sky::none;
+  set_sky(out, o.sky);
   return out;
 }
 
@@ -133,7 +130,7 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
   light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options, levels), ctx.diag);
   if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
   if (!levels.depth()) levels.find_shades(world);
-  auto parts = find_parts(scene, world, Sides::apart, ctx);
+  auto parts = find_parts(scene, world, ctx);
   prepare(parts, scene, world, levels, options);
   if (parts.empty()) return Outcome::unchanged;
   if (!world.has_sky_of_its_own() && !levels.depth()) ctx.diag.report(Diag::no_light, {});
@@ -155,9 +152,9 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
 
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
   if (const auto n = closed_nodes(scene)) ctx.diag.report(Diag::not_lit, {}, n);
-  own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
+  const auto n_copies = own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
   Levels levels(scene);
-  Outcome all = Outcome::unchanged;
+  Outcome all = n_copies ? Outcome::changed : Outcome::unchanged;
   while (all != Outcome::failed && levels.next()) {
     if (const Outcome one = bake_view(scene, levels, options, ctx); one != Outcome::unchanged) all = one;
     if (!options.patches.empty()) return all;
@@ -177,15 +174,6 @@ bool BakeQuality::read(std::string_view text) {
 }
 
 std::string BakeQuality::print() const { return value == draft ? "draft" : value == normal ? "normal" : "high"; }
-
-bool SkyLight::read(std::string_view text) {
-  background = text == "background";
-  for (double& c : color) c = 0;
-  if (background || text == "none") return true;
-  char rest;
-  const std::string all(text);
-  return std::sscanf(all.c_str(), "%lf:%lf:%lf%c", &color[0], &color[1], &color[2], &rest) == 3 && color[0] >= 0 && color[1] >= 0 && color[2] >= 0;
-}
 
 bool NamedDensities::read(std::string_view text) {
   all.clear();
@@ -219,14 +207,6 @@ double NamedDensities::of(std::string_view name) const {
     if (open ? name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1)) : name == pattern) return factor;
   }
   return 0;
-}
-
-std::string SkyLight::print() const {
-  if (background) return "background";
-  if (!(color[0] + color[1] + color[2] > 0)) return "none";
-  char text[100];
-  std::snprintf(text, sizeof text, "%.9g:%.9g:%.9g", color[0], color[1], color[2]);
-  return text;
 }
 
 Outcome lightmap(Scene& scene, const LightmapOptions& options, PassContext& ctx) {

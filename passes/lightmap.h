@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "passes/light/sky_light.h"
 #include "passes/option_range.h"
 #include "passes/pass.h"
 #include "passes/picture_format.h"
@@ -23,15 +24,6 @@ struct BakeQuality {
   enum Value : std::uint8_t { draft, normal, high };
 
   Value value = normal;
-  bool read(std::string_view text);
-  std::string print() const;
-};
-
-/// What shines from beyond the world.
-struct SkyLight {
-  static constexpr std::string_view type = "background, none or r:g:b";
-  bool background = true;
-  double color[3] = {0, 0, 0};  // radiance, linear
   bool read(std::string_view text);
   std::string print() const;
 };
@@ -92,7 +84,7 @@ struct LightmapOptions {
 /// - Text becomes faces, too, unless events, a Script or a prototype may write it.
 /// - Left alone: Shapes without a Material, lines, points, other choices of a Switch.
 /// - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only `smooth`
-///   and `format` count. Backs share the picture of their fronts.
+///   and `format` count. Shapes show their first level of detail only; further ones stay without light.
 /// - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `inline` and `expand-protos` before.
 /// - There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach (density-limit).
 /// - A world without any light, or with too little to see it by, is lit by a white sky, which is reported (no-light).

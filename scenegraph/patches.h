@@ -10,7 +10,9 @@
 // v: three corners, world; unit: of v (m, cm, mm, in, ft); rgb: linear radiance, emitted and reflected. Patches may also
 // stand directly below the shape or the root; side="back" is the radiance of the side from which the corners run clockwise.
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -27,6 +29,18 @@ struct Patch {
   Corners corners{};          // metres of the world, counter-clockwise seen from the front
   std::array<float, 3> rgb{}; // linear radiance
   bool back = false;          // of the other side
+};
+
+/// How a file prints coordinates. By as many decimals or as many digits each, nobody knows which; so the coarser counts.
+struct PrintedDigits {
+  int decimals = 17, digits = 17;  // the most of any coordinate
+  double unit = 1;                 // metres
+
+  /// What the last digit of a coordinate of that size counts, metres.
+  double step(double metres) const {
+    const double v = std::fabs(metres) / unit;
+    return unit * std::max(std::pow(10.0, -decimals), v > 0 ? std::pow(10.0, std::floor(std::log10(v)) + 1 - digits) : 0);
+  }
 };
 
 /// Three flat lists; what belongs to an entry ends where the next one's begins. 88 bytes a patch.
@@ -48,6 +62,7 @@ struct PatchSet {
 
   std::string source, method;      // the world's file, what has computed the light
   std::uint32_t samples = 0;
+  PrintedDigits printed;           // of the file that it was read from
   std::vector<Shape> shapes;
   std::vector<Triangle> triangles;
   std::vector<Patch> patches;

@@ -228,18 +228,19 @@ const Verb verbs[] = {
      },
      run_compare_lod},
     {"illuminate", "the light of a world by global illumination, as patches with a colour each",
-     "wrlkit illuminate room.wrl patches.xml\n  wrlkit illuminate room.wrl patches.xml --method stochastic-iteration --max-edge 5cm --samples 64\n  wrlkit illuminate room.wrl.gz - --gradient 0.2 | gzip > patches.xml.gz\n  wrlkit illuminate room.wrl patches.xml --pictures textures/ --smooth",
+     "wrlkit illuminate room.wrl patches.xml\n  wrlkit illuminate room.wrl patches.xml --method stochastic-iteration --max-edge 5cm --samples 64\n  wrlkit illuminate room.wrl.gz patches.xml.gz --gradient 0.2\n  wrlkit illuminate room.wrl patches.xml --pictures textures/ --smooth",
      [](CLI::App& v, Flags& f) {
        input(v, f);
-       v.add_option("OUT", f.output, "file.xml; - is standard output")->required();
+       v.add_option("OUT", f.output, "file.xml or file.xml.gz; - is standard output")->required();
        v.add_option("--method", f.method, "how: path, stochastic-iteration or progressive-radiosity")->check(CLI::IsMember({"path", "stochastic-iteration", "progressive-radiosity"}))->capture_default_str();
        v.add_option("--samples", f.light_samples, "rays a patch: the error falls with their square root or faster")->check(CLI::Range(1, 1'000'000))->capture_default_str();
        v.add_option("--max-edge", f.max_edge, "longest edge of a patch: 5cm, 0.05; as a rule what makes some twenty thousand patches")->type_name("LENGTH");
        v.add_option("--max-area", f.max_area, "largest area of a patch, in square metres")->check(CLI::PositiveNumber);
        v.add_option("--gradient", f.gradient, "smaller patches, down to an eighth, where neighbours differ by more than this share of the world's mean radiance: 0.2")->check(CLI::PositiveNumber);
-       v.add_option("--max-patches", f.max_patches, "when there would be more, all are made larger; a patch takes some 260 bytes")->check(CLI::Range(1, 100'000'000))->capture_default_str();
+       v.add_option("--max-patches", f.max_patches, "when there would be more, all are made larger, and --gradient ends; a patch takes some 260 bytes")->check(CLI::Range(1, 100'000'000))->capture_default_str();
        auto* pictures = v.add_option("--pictures", f.pictures, "folder for the textures as well: a .png for each Shape with its flat polygons as they are lit")->type_name("DIR");
        v.add_flag("--smooth", f.smooth, "the textures with three colours a patch, so that its edges are not seen")->needs(pictures);
+       v.add_option("--sky", f.sky, "what shines from beyond the world: its Background, none, or one radiance, as 0.5:0.5:1")->type_name("background|none|R:G:B")->capture_default_str();
        v.add_option("--emission", f.emission, "emissiveColor shines so many times as bright as it looks")->check(CLI::NonNegativeNumber)->capture_default_str();
        v.add_option("--seed", f.seed, "of the random numbers: the same seed gives the same file")->capture_default_str();
        placing(v, f);

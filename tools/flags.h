@@ -88,6 +88,7 @@ struct Flags {
   std::string pictures;                    // folder
   bool smooth = false;
   double emission = 1;
+  std::string sky = "background";
 
   bool serve = false;                      // view
 

@@ -8,8 +8,11 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <set>
+#include <system_error>
 
+#include "passes/light/sky_light.h"
 #include "passes/patches/patch_lightmap.h"
 #include "scenegraph/image.h"
 #include "scenegraph/srgb.h"
@@ -40,6 +43,31 @@ bool read_options(const Flags& f, light::IlluminateOptions& o) {
   return fmt::print(stderr, "wrlkit illuminate: --max-edge: '{}' is no length\n", f.max_edge), false;
 }
 
+std::optional<light::LightOptions> light_options(const Flags& f) {
+  light::LightOptions out{.emission = f.emission};
+  SkyLight sky;
+  if (!sky.read(f.sky)) return fmt::print(stderr, "wrlkit illuminate: --sky: '{}' is neither background nor none nor a radiance R:G:B\n", f.sky), std::nullopt;
+  set_sky(out, sky);
+  return out;
+}
+
+/// A world that is its own patch file would be gone.
+bool is_safe(const Flags& f) {
+  std::error_code none_there;
+  if (!std::filesystem::equivalent(f.inputs[0], f.output, none_there)) return true;
+  return fmt::print(stderr, "wrlkit illuminate: '{}' is the world itself\n", f.output), false;
+}
+
+/// The folder for the pictures; found out before the work is done.
+bool make_folder(Session& s) {
+  const auto& folder = s.flags().pictures;
+  if (folder.empty()) return true;
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  if (trouble) s.diag().report(Diag::cannot_write, {}, folder, trouble.message());
+  return !trouble;
+}
+
 Image as_seen(const light::FloatPicture& picture) {
   Image image{picture.width, picture.height, 3, {}};
   for (const auto& p : picture.pixels)
@@ -56,23 +84,20 @@ std::string picture_name(const Scene& scene, const light::LightWorld& world, std
   return name + ".png";
 }
 
-/// A picture for each Shape; false when one cannot be written, which was reported.
-bool write_pictures(Session& s, const PatchSet& set, const light::LightWorld& world) {
+/// A picture for each Shape, until one cannot be written, which is reported.
+void write_pictures(Session& s, const PatchSet& set, const light::LightWorld& world) {
   const std::filesystem::path folder = s.flags().pictures;
-  std::error_code trouble;
-  std::filesystem::create_directories(folder, trouble);
   std::set<std::string> taken;
-  for (const auto& shape : light::patch_lightmap(set, world, {.picture = {.texel = 0, .smooth = s.flags().smooth}}).shapes) {
+  for (const auto& shape : light::patch_lightmap(set, world, {.smooth = s.flags().smooth}).shapes) {
     const auto path = (folder / picture_name(s.world().scene, world, shape.use, taken)).string();
     std::string why;
     const auto png = encode_png(as_seen(shape.picture), why);
-    if (!png) return s.diag().report(Diag::cannot_write, {}, path, why), false;
+    if (!png) return s.diag().report(Diag::cannot_write, {}, path, why);
     auto file = OutputFile::open(path, {}, s.diag());
-    if (!file) return false;
+    if (!file) return;
     file->write(*png);
-    if (!file->commit(s.diag())) return false;
+    if (!file->commit(s.diag())) return;
   }
-  return true;
 }
 
 void print(Session& s, const PatchSet& set, double seconds) {
@@ -100,12 +125,15 @@ void print(Session& s, const PatchSet& set, double seconds) {
 int run_illuminate(const Flags& flags) {
   Session s(flags);
   light::IlluminateOptions options;
-  if (!s.good() || !read_options(flags, options) || !s.choose_pipeline("lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{texcoords=true}")) return usage;
+  const auto light = light_options(flags);
+  if (!s.good() || !light || !read_options(flags, options) || !is_safe(flags) || !s.choose_pipeline("lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{texcoords=true}")) return usage;
   if (!s.read(flags.inputs[0])) return s.end(false);
+  auto file = OutputFile::open(flags.output, {.gzip = flags.output.ends_with(".gz")}, s.diag());
+  if (!file || !make_folder(s)) return s.end(false);
   const auto meshes = s.pipeline().run_lazily(s.world().scene, s.context(), s.pipeline_options());
   if (!meshes) return s.end(false);
   const auto begin = std::clock();
-  const light::LightWorld world(s.world().scene, meshes, &s.resources(), {.emission = flags.emission}, s.diag());
+  const light::LightWorld world(s.world().scene, meshes, &s.resources(), *light, s.diag());
   constexpr int parts = 1000;
   s.progress().begin(flags.method, parts, "parts");
   options.how.done = [&](double share) { s.progress().set(static_cast<std::uint64_t>(share * parts)); };
@@ -113,11 +141,9 @@ int run_illuminate(const Flags& flags) {
   if (set.patches.empty()) return s.diag().report(Diag::no_surface, {}), s.end(false);
   set.source = flags.inputs[0] == standard_input ? "" : std::filesystem::path(flags.inputs[0]).filename().string();
   set.method = flags.method;
-  auto file = OutputFile::open(flags.output, {}, s.diag());
-  if (!file) return s.end(false);
   write_patches(set, file->sink());
   if (!file->commit(s.diag())) return s.end(false);
-  if (!flags.pictures.empty() && !write_pictures(s, set, world)) return s.end(false);
+  if (!flags.pictures.empty()) write_pictures(s, set, world);
   if (!world.has_sky_of_its_own()) s.diag().report(Diag::no_light, {});
   print(s, set, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   return s.end(true);

@@ -33,16 +33,19 @@ Canvas canvas_of(const light::FloatPicture& p) {
 std::vector<float> coords_of(const Part& part, const ShapePicture& shape, const light::LightWorld& world) {
   const auto& pool = world.meshes();
   const auto& mesh = pool[world.mesh_of()[shape.use]];
-  if (shape.texcoords.size() != part.n_triangles() || mesh.n_elements != part.n_triangles()) return {};
+  if (shape.front.size() != part.n_fronts || mesh.n_elements != part.n_fronts) return {};
   std::vector<float> out;
-  for (std::size_t t = 0; t < part.n_triangles(); ++t)
+  for (std::size_t t = 0; t < part.n_triangles(); ++t) {
+    const bool back = t >= part.n_fronts || part.inside_out;
+    const std::size_t of = t % part.n_fronts;
     for (std::size_t k = 0; k < 3; ++k) {
       const V3 p = part.position(3 * t + k);
-      auto distance = [&](int c) { return length(pool.position(mesh, t, c) + mesh.origin - p); };
+      auto distance = [&](int c) { return length(pool.position(mesh, of, c) + mesh.origin - p); };
       const int corners[] = {0, 1, 2};
-      const auto& place = shape.texcoords[t][static_cast<std::size_t>(*std::ranges::min_element(corners, {}, distance))];
+      const auto& place = (back ? shape.back : shape.front)[of][static_cast<std::size_t>(*std::ranges::min_element(corners, {}, distance))];
       out.insert(out.end(), place.begin(), place.end());
     }
+  }
   return out;
 }
 
@@ -50,18 +53,22 @@ std::vector<float> coords_of(const Part& part, const ShapePicture& shape, const 
 
 bool light_from_patches(Scene& scene, const light::LightWorld& world, const PatchSet& patches, const FromPatchesOptions& options, PassContext& ctx) {
   light::PatchLightmapOptions how;
-  how.picture.smooth = options.smooth;
+  how.smooth = options.smooth;
   how.without_color = true;
   auto made = light::patch_lightmap(patches, world, how);
   ctx.stats["lightmap.patches"] += made.n_patches;
   ctx.stats["lightmap.orphans"] += made.n_orphans;
+  ctx.stats["lightmap.bare-triangles"] += made.n_bare;
   if (made.n_orphans) ctx.diag.report(Diag::orphan_patches, {}, made.n_orphans);
 
   std::vector<BakedPage> pages;
-  for (const auto& s : made.shapes) pages.push_back({canvas_of(s.picture), {}});
+  for (auto& s : made.shapes) {
+    pages.push_back({canvas_of(s.picture), {}});
+    s.picture.pixels = {};
+  }
   Storing storing(scene, pages, {options.extension}, ctx);
   std::unordered_set<std::uint32_t> taken;
-  for (Part& part : find_parts(scene, world, Sides::as_they_are, ctx))
+  for (Part& part : find_parts(scene, world, ctx))
     for (std::uint32_t use : part.uses) {
       const auto shape = std::ranges::lower_bound(made.shapes, use, {}, &ShapePicture::use);
       if (shape == made.shapes.end() || shape->use != use) continue;

@@ -106,10 +106,10 @@ class Backs {
 
 class Finder {
  public:
-  Finder(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx)
-      : scene_(scene), world_(world), stage_(world.stage()), witnesses_(scene, world), sides_(sides), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
+  Finder(const Scene& scene, const light::LightWorld& world, PassContext& ctx)
+      : scene_(scene), world_(world), stage_(world.stage()), witnesses_(scene, world), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
     const auto driven = driven_geometry(scene);  // a Script may write what it likes
-    for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take, sides == Sides::apart ? OfText::take : OfText::leave))
+    for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take, OfText::take))
       if (!scene.is(s.geometry, nodes::Text) || !driven[s.geometry.value]) lit_.emplace(s.geometry.value, s);
   }
 
@@ -142,7 +142,6 @@ class Finder {
     resolve_order(p.mesh);
     add_normals(p);
     p.n_fronts = p.n_triangles();
-    if (sides_ == Sides::as_they_are) return;
     PointJoiner joiner;
     const double volume = is_closed(points_of(p.mesh, joiner)) ? signed_volume(p) : 0;
     const bool was_solid = p.mesh.solid;
@@ -192,7 +191,6 @@ class Finder {
   const light::LightWorld& world_;
   const Stage& stage_;
   Witnesses witnesses_;
-  Sides sides_;
   Diagnostics unheard_;  // whoever draws the geometry says what is wrong with it
   Statistics unheard_counts_;
   PassContext reading_;
@@ -257,7 +255,7 @@ void unfold(Part& p, const Stage& stage) {
 
 }  // namespace
 
-std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx) { return Finder(scene, world, sides, ctx).run(); }
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, PassContext& ctx) { return Finder(scene, world, ctx).run(); }
 
 void unfold_parts(std::vector<Part>& parts, const Stage& stage) {
   parallel_for(parts.size(), [&](std::size_t i) { unfold(parts[i], stage); });

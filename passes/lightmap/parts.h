@@ -31,16 +31,13 @@ struct Part {
   drawing::V3 normal(std::size_t corner) const { return {normals[3 * corner], normals[3 * corner + 1], normals[3 * corner + 2]}; }
 };
 
-/// What becomes of the backs of faces that are seen from both sides.
-enum class Sides : std::uint8_t { apart, as_they_are };
-
 /// The parts of a world, in its order. Left out: what has no Material or PhysicalMaterial, as it is not lit; lines and points; geometry
-/// that events can change; with sides as they are, text. O(triangles).
+/// that events can change. O(triangles).
 ///
-/// Sides apart: a face of `solid` FALSE is seen from both sides, which have light of their own. Where the surface is closed, and
+/// A face of `solid` FALSE is seen from both sides, which have light of their own. Where the surface is closed, and
 /// opaque, and neither a Viewpoint nor anything that shines stands in its box, nobody sees the inner side: it is sealed, and only the outer
 /// one is lit; one that is wound inside out is turned. Any other surface of `solid` FALSE gets a back for each face, and `solid` TRUE.
-std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, Sides sides, PassContext& ctx);
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, PassContext& ctx);
 
 /// Unfolds each part into charts; in parallel. Letters of a Text are one chart, and their backs another one, so that what they take does not
 /// grow with their number.

@@ -1,7 +1,7 @@
-// A flat polygon and the patches on it, turned to face the camera and drawn: Lazanyi's "snapshot" (3.2). In smooth pictures
-// a patch has three colours, one a corner: those of the patches that meet there, weighted by their angles.
+// A flat polygon and the patches on it, turned to face the camera and drawn: Lazanyi's "snapshot" (3.2).
 #pragma once
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -21,31 +21,36 @@ struct PictureFrame {
   Place place(const V3& p) const { return {dot(p - origin, right), dot(p - origin, up)}; }
 };
 
+/// What a picture shows of a plane, metres.
+struct PlaneBox {
+  Place low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+
+  void add(const Place& p);
+};
+
 struct FlatPatch {
   std::array<Place, 3> corners;      // in a PictureFrame, metres
-  V3 color;
+  std::array<V3, 3> colors;          // of the corners
 };
 
 struct PictureOptions {
   double texel = 0.01;               // metres
   int samples = 4;                   // places a texel along each side
-  int border = 2;                    // texels around the polygon that go on with its colours
-  bool smooth = false;
+  int border = 2;                    // texels around the box that go on with its colours
 };
 
 /// Linear colours, the top row first.
 struct FloatPicture {
   int width = 0, height = 0;
   std::vector<V3> pixels;
-  Place low{};                       // where the lower left corner of the picture lies, metres
 
   V3& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
 };
 
-/// Texels that no patch covers have the mean colour, but for the border. O(patches + texels * samples^2).
-FloatPicture draw(std::span<const FlatPatch> patches, const PictureOptions& options);
+/// Texels that no patch covers go on as those around them. O(patches + texels * samples^2).
+FloatPicture draw(std::span<const FlatPatch> patches, const PlaneBox& box, const PictureOptions& options);
 
-/// The size of that picture.
-std::array<int, 2> picture_size(std::span<const FlatPatch> patches, const PictureOptions& options);
+/// The size of that picture. Its lower left corner is that of the box, less the border.
+std::array<int, 2> picture_size(const PlaneBox& box, const PictureOptions& options);
 
 }  // namespace wrlkit::light

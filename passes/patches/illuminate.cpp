@@ -34,7 +34,8 @@ class Refinement {
       MethodOptions pilot{.samples = pilot_samples, .seed = key_of(options_.how.seed, 40, static_cast<std::uint64_t>(round))};
       irradiance_ = iterate_stochastically(world_, pilot);
       const auto chosen = where_it_changes();
-      if (chosen.empty() || world_.n_sides() + 2 * chosen.size() > 2 * world_.sizes().most_patches) return;
+      constexpr std::size_t added = 4;  // sides by each, about: neighbours are cut, too
+      if (chosen.empty() || world_.n_sides() + added * chosen.size() > world_.sizes().most_patches) return;
       world_.refine(chosen);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "passes/light/random.h"
 
@@ -31,7 +32,15 @@ class Matcher {
   }
 
  private:
-  double tolerance(const std::array<V3, 3>& t) const { return 1e-3 * std::sqrt(length(across(t))) + 2e-6 * world_.radius(); }
+  double tolerance(const std::array<V3, 3>& t) const {
+    double largest = 0, longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (double v : {t[i].x, t[i].y, t[i].z}) largest = std::max(largest, std::fabs(v));
+      longest = std::max(longest, length(t[i] - t[(i + 1) % 3]));
+    }
+    const double rounding = std::min(std::sqrt(3.0) * set_.printed.step(largest), 0.5 * longest);
+    return 1e-3 * std::sqrt(length(across(t))) + 2e-6 * world_.radius() + rounding;
+  }
 
   /// Is the triangle of the file that one of the world?
   bool is_right(const PatchSet::Shape& shape, const PatchSet::Triangle& triangle) const {
@@ -45,15 +54,27 @@ class Matcher {
     return std::ranges::all_of(std::array{0, 1, 2}, [&](int i) { return length(ours[i] - theirs[i]) <= most; });
   }
 
-  /// Looks at the patch's middle from just above it.
+  /// Looks at the patch's middle from just above it. Of what lies there about as the patch does the nearest counts, and black backs of
+  /// solid faces only where there is nothing else.
   void look_for(std::uint32_t p) {
+    constexpr int most_layers = 16;
+    constexpr double least_cosine = 0.5;  // coarse digits turn small patches
     const auto t = points(set_.patches[p].corners);
     const V3 normal = unit(across(t));
     const double above = 2 * tolerance(t);
+    const Ray ray{centre(t) + above * normal, -normal};
+    std::optional<Hit> best;
+    double least = HUGE_VAL, after = 0;
     Hit hit;
-    if (!(dot(normal, normal) > 0) || !world_.nearest({centre(t) + above * normal, -normal}, 0, hit) || hit.distance > 2 * above) return void(++out_.n_orphans);
-    out_.placed.push_back({p, hit.use, hit.element, hit.back != set_.patches[p].back});
+    for (int i = 0; dot(normal, normal) > 0 && i < most_layers && world_.nearest(ray, after, hit) && hit.distance <= 2 * above; ++i, after = hit.distance) {
+      const double off = std::fabs(hit.distance - above) + (is_black(hit, set_.patches[p].back) ? 2 * above : 0);
+      if (off < least && std::fabs(dot(unit(hit.across), normal)) > least_cosine) least = off, best = hit;
+    }
+    if (!best) return void(++out_.n_orphans);
+    out_.placed.push_back({p, best->use, best->element, best->back != set_.patches[p].back});
   }
+
+  bool is_black(const Hit& hit, bool back) const { return hit.back != back && world_.meshes()[world_.mesh_of()[hit.use]].solid; }
 
   const PatchSet& set_;
   const LightWorld& world_;

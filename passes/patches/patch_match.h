@@ -22,8 +22,8 @@ struct PatchMatch {
   std::size_t n_orphans = 0;         // patches that lie on no surface, or have no area
 };
 
-/// Coordinates may be off by a thousandth of a patch and two millionths of the world: what six printed digits do to them.
-/// O(patches), and a ray for each that its triangle does not tell the place of.
+/// Coordinates may be off by a thousandth of a patch and two millionths of the world, and by what the digits of the file have rounded,
+/// up to half an edge. O(patches), and a ray for each that its triangle does not tell the place of.
 PatchMatch match_patches(const PatchSet& set, const LightWorld& world);
 
 /// The corners of a triangle of the world, in its own order.

@@ -37,21 +37,35 @@ double PatchedWorld::total_area() const {
   double sum = 0;
   for (std::uint32_t u = 0; u < world_.stage().uses.size(); ++u) {
     if (world_.meshes()[world_.mesh_of()[u]].kind != Mesh::Kind::faces) continue;
-    for (const auto& t : triangles_of(u)) sum += 0.5 * length(cross(t[1] - t[0], t[2] - t[0]));
+    const double n_sides = world_.meshes()[world_.mesh_of()[u]].solid ? 1 : 2;
+    for (const auto& t : triangles_of(u)) sum += n_sides * 0.5 * length(cross(t[1] - t[0], t[2] - t[0]));
   }
   return sum;
 }
 
 void PatchedWorld::cut(Diagnostics& diag) {
   const PatchSizes asked = sizes_;
+  if (const double least = least_patches(), most = static_cast<double>(sizes_.most_patches); least > most) enlarge(std::sqrt(least / most));
   while (!try_to_cut()) {
-    sizes_.max_edge *= 1.5;
-    sizes_.max_area *= 1.5 * 1.5;
+    enlarge(1.5);
     // A world of more triangles than that is taken as it is.
     if (!std::isfinite(sizes_.max_edge + sizes_.max_area)) break;
   }
   if (sizes_.max_edge > asked.max_edge || sizes_.max_area > asked.max_area)
     diag.report(Diag::patch_limit, {}, sizes_.most_patches, sizes_.max_edge > 0 ? sizes_.max_edge / asked.max_edge : std::sqrt(sizes_.max_area / asked.max_area));
+}
+
+void PatchedWorld::enlarge(double factor) {
+  sizes_.max_edge *= factor;
+  sizes_.max_area *= factor * factor;
+}
+
+/// So many there are at least, if all have the largest area that they may have.
+double PatchedWorld::least_patches() const {
+  constexpr double equilateral = 0.43301270189221932;  // area of a triangle of edges of 1
+  double largest = sizes_.max_area > 0 ? sizes_.max_area : HUGE_VAL;
+  if (sizes_.max_edge > 0) largest = std::min(largest, equilateral * sizes_.max_edge * sizes_.max_edge);
+  return total_area() / largest;
 }
 
 bool PatchedWorld::try_to_cut() {
@@ -63,8 +77,9 @@ bool PatchedWorld::try_to_cut() {
     if (m.kind != Mesh::Kind::faces || m.n_elements == 0) continue;
     uses_[u].mesh = std::make_unique<PatchMesh>(triangles_of(u));
     uses_[u].both_sides = !m.solid;
-    if (!uses_[u].mesh->split_to(sizes_.max_edge, sizes_.max_area, sizes_.most_patches - std::min(n, sizes_.most_patches))) return false;
-    n += uses_[u].mesh->faces().size();
+    const std::size_t n_sides = 1 + !m.solid;
+    if (!uses_[u].mesh->split_to(sizes_.max_edge, sizes_.max_area, (sizes_.most_patches - std::min(n, sizes_.most_patches)) / n_sides)) return false;
+    n += n_sides * uses_[u].mesh->faces().size();
   }
   return true;
 }

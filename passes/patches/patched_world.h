@@ -13,7 +13,7 @@ namespace wrlkit::light {
 
 struct PatchSizes {
   double max_edge = 0, max_area = 0;  // metres, square metres; none of both: some twenty thousand patches
-  std::size_t most_patches = 10'000'000;
+  std::size_t most_patches = 10'000'000;  // a side is one
 };
 
 class PatchedWorld {
@@ -63,7 +63,9 @@ class PatchedWorld {
   void cut(Diagnostics& diag);
   bool try_to_cut();
   std::vector<std::array<V3, 3>> triangles_of(std::uint32_t use) const;
-  double total_area() const;
+  double total_area() const;         // of all sides
+  double least_patches() const;
+  void enlarge(double factor);
   void number_sides();
   void paint(std::uint32_t s);
 

@@ -6,6 +6,7 @@
 
 #include "parsers/parsers.h"
 #include "passes/light/flux.h"
+#include "passes/patches/smooth_patches.h"
 #include "passes/pipeline.h"
 
 using namespace wrlkit;
@@ -22,10 +23,10 @@ DEF Floor Shape { appearance Appearance { material Material { } }
 
 struct Room {
   Diagnostics diag;
-  std::unique_ptr<World> world = parse_world(room, "room.wrl", {}, diag);
+  std::unique_ptr<World> world;
   std::unique_ptr<LightWorld> light;
 
-  Room() {
+  explicit Room(std::string_view text = room) : world(parse_world(text, "room.wrl", {}, diag)) {
     Statistics stats;
     PassContext ctx{diag, stats};
     std::string why;
@@ -84,6 +85,78 @@ TEST_CASE("a file's triangles are believed when they are right, and looked for w
   }
 }
 
+TEST_CASE("patches lie off their surface by as much as their digits have rounded them") {
+  const Room r;
+  auto set = halves(0.03);
+  CHECK(match_patches(set, *r.light).n_orphans > 0);
+  set.printed = {.decimals = 1, .digits = 2};
+  const auto match = match_patches(set, *r.light);
+  CHECK(match.n_orphans == 0);
+  for (const auto& p : match.placed) CHECK(p.use == 0);
+}
+
+TEST_CASE("of two surfaces within reach the nearest counts") {
+  // A board that hangs 5 mm in front of the wall.
+  const Room r(std::string(room) + "Transform { translation 0 0 0.005 children Shape { geometry IndexedFaceSet { coord Coordinate { point [0 0 0, 2 0 0, 2 1 0] } coordIndex [0 1 2 -1] } } }");
+  auto set = halves();
+  set.printed = {.decimals = 2, .digits = 3};
+  for (const auto& p : match_patches(set, *r.light).placed) CHECK(p.use == 0);
+}
+
+TEST_CASE("both sides of a sheet have places of their own, and a side without patches shows the other one") {
+  const Room r("#VRML V2.0 utf8\nShape { appearance Appearance { material Material { } } geometry IndexedFaceSet { solid FALSE coord Coordinate { "
+               "point [0 0 0, 2 0 0, 2 1 0, 0 1 0] } coordIndex [0 1 2 3 -1] } }");
+  auto set = halves();
+  const auto fronts = patch_lightmap(set, *r.light, {}).shapes.at(0);
+  CHECK(fronts.n_polygons == 1);
+  CHECK(fronts.back == fronts.front);
+  const auto n = set.patches.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    Patch p = set.patches[i];
+    p.back = true;
+    for (float& c : p.rgb) c = 1 - c / 2;
+    set.patches.push_back(p);
+  }
+  const auto both = patch_lightmap(set, *r.light, {.picture = {.texel = 0.05}}).shapes.at(0);
+  CHECK(both.n_polygons == 2);
+  // The lower left corner of the wall, from either side.
+  auto color = [&](const std::array<float, 2>& place) { return at(both, place[0], place[1]); };
+  CHECK(color(both.front[0][0]) == Approx(0.25));
+  CHECK(color(both.back[0][0]) == Approx(1 - 0.25 / 2));
+  CHECK(both.front[0][0][0] < both.front[0][1][0]);
+  CHECK(both.back[0][0][0] > both.back[0][1][0]);  // seen from behind it is on the right
+}
+
+TEST_CASE("what has no patch: in a polygon as those around it, elsewhere the mean") {
+  const Room r(std::string(room) + "Shape { geometry IndexedFaceSet { coord Coordinate { point [5 0 0, 6 0 0, 6 1 0, 5 1 0, 5 0 1, 6 0 1, 6 0 0] } coordIndex [0 1 2 3 -1 4 5 6 -1] } }");
+  PatchSet set;
+  set.add_shape("", PatchSet::unknown);
+  set.add_loose_triangle();
+  set.patches.push_back({{Vec3{5, 0, 0}, Vec3{5.2, 0, 0}, Vec3{5, 1, 0}}, {0.25, 0.25, 0.25}});
+  set.patches.push_back({{Vec3{5, 0.8, 0}, Vec3{5.2, 0.8, 0}, Vec3{5, 1, 0}}, {0.75, 0.75, 0.75}});
+  const auto lightmap = patch_lightmap(set, *r.light, {.picture = {.texel = 0.02}});
+  CHECK(lightmap.n_bare == 1);
+  const auto& s = lightmap.shapes.at(0);
+  REQUIRE(s.front.size() == 3);
+  auto color = [&](const std::array<float, 2>& place) { return at(s, place[0], place[1]); };
+  CHECK(color(s.front[0][1]) == Approx(0.25).margin(0.1));  // the lower right corner of the wall
+  for (const auto& place : s.front[2]) CHECK(color(place) == Approx(0.5).margin(1e-6));
+}
+
+TEST_CASE("colours of corners go over smooth edges and end at sharp ones") {
+  auto patch = [](double tilt, double color) {
+    const V3 n = unit(V3(std::sin(tilt), 0, std::cos(tilt)));
+    return MeetingPatch{{V3(0, 0, 0), V3(std::cos(tilt), 0, -std::sin(tilt)), V3(0, 1, 0)}, {n, n, n}, V3(color)};
+  };
+  const std::vector<MeetingPatch> smooth = {patch(0, 1), patch(0.1, 3)}, sharp = {patch(0, 1), patch(1.5, 3)};
+  CHECK(smooth_colors(smooth)[0][0].x == Approx(2));
+  CHECK(smooth_colors(smooth)[0][1].x == Approx(1));
+  CHECK(smooth_colors(sharp)[0][0].x == Approx(1));
+  // No area, no colour but its own.
+  const std::vector<MeetingPatch> none = {{{V3(1), V3(1), V3(1)}, {}, V3(0.5)}};
+  CHECK(smooth_colors(none)[0][2].x == 0.5);
+}
+
 TEST_CASE("patches that lie on nothing are counted") {
   const Room r;
   auto set = halves();
@@ -110,15 +183,15 @@ TEST_CASE("a flat polygon is one picture, upright, with its corners in the corne
   for (std::uint32_t e = 0; e < 2; ++e) {
     const auto t = triangle_of(*r.light, 0, e);
     for (std::size_t k = 0; k < 3; ++k) {
-      CHECK(s.texcoords[e][k][0] == Approx((2 + t[k].x / 0.05) / 44));
-      CHECK(s.texcoords[e][k][1] == Approx((2 + t[k].y / 0.05) / 24));
+      CHECK(s.front[e][k][0] == Approx((2 + t[k].x / 0.05) / 44));
+      CHECK(s.front[e][k][1] == Approx((2 + t[k].y / 0.05) / 24));
     }
   }
 }
 
 TEST_CASE("a smooth picture has at each corner the patches' colours by their angles") {
   const Room r;
-  const auto lightmap = patch_lightmap(halves(), *r.light, {.picture = {.texel = 0.005, .smooth = true}});
+  const auto lightmap = patch_lightmap(halves(), *r.light, {.picture = {.texel = 0.005}, .smooth = true});
   const auto& s = lightmap.shapes.at(0);
   // At the foot of the middle the left half has a right angle, the right half has two of 45 degrees: as much.
   CHECK(at(s, 0.5, 0.01) == Approx(0.5).margin(0.02));

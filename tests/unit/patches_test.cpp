@@ -134,6 +134,20 @@ TEST_CASE("what is wrong costs the patch it is in, and is told with its place") 
   CHECK(column.column == 11);
 }
 
+TEST_CASE("the digits of a file say how far its coordinates were rounded") {
+  auto step = [](const std::string& v, double at, const std::string& unit = "m") {
+    Diagnostics diag;
+    return read("<patches unit='" + unit + "'><patch v='" + v + "' rgb='0.123456 1 1'/></patches>", diag)->printed.step(at);
+  };
+  CHECK(step("12.345 0.300 0 1 0 0 0 1 0", 12) == Approx(1e-3));
+  CHECK(step("12.345 0.300 0 1 0 0 0 1 0", 0.3) == Approx(1e-3));
+  CHECK(step("12.3 0.0012 0 1 0 0 0 1 0", 12) == Approx(0.1));
+  CHECK(step("12.3 0.0012 0 1 0 0 0 1 0", 0.3) == Approx(1e-3));
+  CHECK(step("1.25e1 -2.5E-03 0 1 0 0 0 1 0", 12.5) == Approx(0.1));
+  CHECK(step("1250 30 0 1 0 0 0 1 0", 1.25, "mm") == Approx(1e-3));
+  CHECK(PatchSet().printed.step(100) < 1e-13);
+}
+
 TEST_CASE("entities are not expanded, document types are passed over") {
   Diagnostics diag;
   const auto set = read("<!DOCTYPE patches [<!ENTITY a \"&b;&b;\"> <!ENTITY b \"]>\">]><!-- <patches> --><patches>"
