@@ -123,8 +123,9 @@ TexelLight mean(const TexelLight& a, const TexelLight& b) {
   auto mix = [](Rgb& x, const Rgb& y) { x = 0.5f * (x + y); };
   mix(out.direct, b.direct), mix(out.gathered, b.gathered);
   for (int k = 0; k < 3; ++k) mix(out.along[k], b.along[k]);
-  out.direct_variance = 0.25f * (a.direct_variance + b.direct_variance), out.gathered_variance = 0.25f * (a.gathered_variance + b.gathered_variance);
   out.direct_apart = 0.5f * (a.direct - b.direct), out.gathered_apart = 0.5f * (a.gathered - b.gathered);
+  auto square = [](float v) { return v * v; };  // it knows what a lattice saves, and what lies between the points of a texel
+  out.direct_variance = square(luminance(out.direct_apart)), out.gathered_variance = square(luminance(out.gathered_apart));
   return out;
 }
 

@@ -28,30 +28,40 @@ float likeness(const Place& a, const Place& b) {
   return power(facing, 5) * std::exp(-8 * slope);
 }
 
-/// What tells noise from light: means over the texels around, as those of one texel are guesses.
-struct Guide {
-  float light = 0, noise = 0;  // luminance; its standard deviation
+/// Of a texel, or the mean of several.
+struct Pair {
+  float light = 0, noise = 0;
 };
 
-std::vector<Guide> guide(const Page& page, const Estimate& estimate) {
-  std::vector<Guide> out(page.size());
+/// Means over a texel and the eight around it that are `step` away, as far as they lie in one plane.
+std::vector<Pair> means(const Page& page, const std::vector<Pair>& of, int step) {
+  std::vector<Pair> out(page.size());
   parallel_for(static_cast<std::size_t>(page.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < page.width; ++x) {
       const std::size_t i = page.at(x, y);
       if (!page.covered(i)) continue;
-      float light = 0, variance = 0, weights = 0;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
+      float light = 0, noise = 0, weights = 0;
+      for (int dy = -step; dy <= step; dy += step)
+        for (int dx = -step; dx <= step; dx += step) {
           const int u = std::clamp(x + dx, 0, page.width - 1), v = std::clamp(y + dy, 0, page.height - 1);
           const std::size_t j = page.at(u, v);
           const float w = (dx ? 0.25f : 0.5f) * (dy ? 0.25f : 0.5f) * likeness(page.places[i], page.places[j]);
-          light += w * luminance(estimate.light()[j]), variance += w * estimate.variance[j], weights += w;
+          light += w * of[j].light, noise += w * of[j].noise, weights += w;
         }
-      out[i] = {light / weights, std::sqrt(variance / weights)};
+      out[i] = {light / weights, noise / weights};
     }
   });
   return out;
+}
+
+/// What tells noise from light: luminance and the standard deviation of it, over the texels around, as those of one texel are guesses.
+std::vector<Pair> guide(const Page& page, const Estimate& estimate) {
+  std::vector<Pair> own(page.size());
+  for (std::size_t i = 0; i < page.size(); ++i) own[i] = {luminance(estimate.light()[i]), estimate.variance[i]};
+  own = means(page, own, 1);
+  for (Pair& p : own) p.noise = std::sqrt(p.noise);
+  return own;
 }
 
 class Filter {
@@ -90,14 +100,31 @@ class Filter {
 
   const Page& page_;
   const Estimate& estimate_;
-  std::vector<Guide> guide_;
+  std::vector<Pair> guide_;
   int step_;
   float contrast_;
 };
 
+/// What was taken out is noise, or light that changes from texel to texel, such as the edge of a shadow. Noise is as much as the variance says,
+/// and the share that is more than that comes back (the filter of Wiener).
+void give_back(const Page& page, const Estimate& noisy, Estimate& filtered) {
+  std::vector<Pair> taken(page.size());
+  for (std::size_t i = 0; i < page.size(); ++i) {
+    const float d = luminance(noisy.light()[i]) - luminance(filtered.light()[i]);
+    taken[i] = {d * d, noisy.variance[i]};
+  }
+  for (int step : {1, 2, 4}) taken = means(page, taken, step);
+  for (std::size_t i = 0; i < page.size(); ++i) {
+    if (!(taken[i].light > std::max(taken[i].noise, nothing * nothing))) continue;
+    const float back = 1 - taken[i].noise / taken[i].light;
+    for (std::size_t l = 0; l < filtered.layers.size(); ++l) filtered.layers[l][i] = (1 - back) * filtered.layers[l][i] + back * noisy.layers[l][i];
+  }
+}
+
 }  // namespace
 
 void denoise(const Page& page, Estimate& estimate, const DenoiseOptions& options) {
+  const Estimate noisy = estimate;
   auto layers = estimate.layers;
   std::vector<float> variance(page.size());
   for (int pass = 0; pass < options.passes; ++pass) {
@@ -111,6 +138,7 @@ void denoise(const Page& page, Estimate& estimate, const DenoiseOptions& options
     estimate.layers.swap(layers);
     estimate.variance.swap(variance);
   }
+  give_back(page, noisy, estimate);
 }
 
 std::vector<Rgb> shown_light(const Page& page, Estimate direct, Estimate gathered, bool denoised) {

@@ -159,6 +159,18 @@ TEST_CASE("denoise: a step that is larger than the noise stays sharp") {
   CHECK(deviation_from(page, 32, 40, 3) < 0.01);
 }
 
+TEST_CASE("denoise: detail of one texel that is more than the noise stays") {
+  constexpr float noise = 0.02f;
+  auto page = noisy_page(64, noise);
+  double off = 0;
+  auto detail = [](std::size_t i) { return i % 64 % 2 ? 0.1f : -0.1f; };
+  for (std::size_t i = 0; i < page.size(); ++i) page.light()[i] += detail(i) * Rgb{1, 1, 1};
+  denoise(page, page);
+  for (int y = 4; y < 60; ++y)
+    for (int x = 4; x < 60; ++x) off += std::pow(page.light()[page.at(x, y)].g - 1 - detail(page.at(x, y)), 2) / (56 * 56);
+  CHECK(std::sqrt(off) < 1.2 * noise);
+}
+
 TEST_CASE("denoise: light is not mixed between charts, around a crease or without noise") {
   SECTION("charts") {
     auto page = noisy_page(32, 0.5f);
