@@ -44,9 +44,10 @@ Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx
     changed |= x3d::lower_appearance(scene, n, ctx.diag);
     changed |= x3d::lower_group(scene, n);
   }
-  if (options.vrml97) changed |= x3d::lower_products(scene, ctx);
-  if (options.materials || options.vrml97) changed |= x3d::lower_materials(scene, options.vrml97, ctx.diag);
-  if (options.vrml97) changed |= x3d::lower_to_vrml97(scene, ctx.diag);
+  const bool all = options.vrml97 && !options.defer_colors;
+  if (all) changed |= x3d::lower_products(scene, ctx);
+  if (options.materials || all) changed |= x3d::lower_materials(scene, all, ctx.diag);
+  if (all) changed |= x3d::lower_to_vrml97(scene, ctx.diag);
   return changed ? Outcome::changed : Outcome::unchanged;
 }
 

@@ -19,6 +19,10 @@
 //                           geometry has colours
 //   OrthoViewpoint     ->   Viewpoint that sees the same height at centerOfRotation
 //   ColorRGBA          ->   Color
+//
+// Light is computed from the colours of X3D: a picture times a colour, which VRML97 cannot say, a baked picture can. So `vrml97` with
+// `defer-colors` stops before materials, fields and nodes that VRML97 does not have; a second lower-x3d{vrml97=true} behind
+// combine-lightmap does the rest.
 #pragma once
 #include "passes/option_range.h"
 #include "passes/pass.h"
@@ -28,10 +32,12 @@ namespace wrlkit {
 struct LowerX3dOptions {
   bool materials = false;
   bool vrml97 = false;
+  bool defer_colors = false;
   double tolerance = 0;
   void fields(auto&& f) {
     f("materials", materials, "also the materials and the OrthoViewpoint, which glTF can say");
     f("vrml97", vrml97, "everything that VRML97 cannot say");
+    f("defer-colors", defer_colors, "with vrml97: only geometry and groups; the rest is left to a second lower-x3d behind the light");
     f("tolerance", tolerance, "largest distance of triangles and lines from NURBS, in metres; 0: a thousandth of their size", at_least(0));
   }
 };

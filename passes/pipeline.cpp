@@ -91,35 +91,29 @@ bool Pipeline::add(std::string_view name, const std::vector<std::pair<std::strin
 void Pipeline::complete(std::string_view named) {
   std::string why;
   auto standard = parse(named, why);
-  auto name = [](const Step& s) { return s.info->name; };
-  auto combine = std::ranges::find(standard->steps_, "combine-lightmap", name);
-  if (combine != standard->steps_.end()) {
-    if (std::ranges::find(steps_, combine->info, &Step::info) == steps_.end()) {
-      auto last = std::find_if(steps_.rbegin(), steps_.rend(), [](const Step& s) { return !s.pass->is_mesh_pass(); });
-      steps_.insert(last.base(), std::move(*combine));
-    }
-    standard->steps_.erase(combine);
-  }
-  auto split = std::ranges::find(standard->steps_, "tessellate", name);
-  std::vector<Step> all;
-  auto add_missing = [&](auto from, auto to) {
+  auto at = [&](std::string_view name) { return std::ranges::find(standard->steps_, name, [](const Step& s) { return s.info->name; }); };
+  const auto split = at("tessellate"), combine = std::min(at("combine-lightmap"), split);
+  std::vector<const PassInfo*> chosen;
+  for (const Step& s : steps_) chosen.push_back(s.info);
+  auto missing = [&](auto from, auto to) {
+    std::vector<Step> out;
     for (; from != to; ++from)
-      if (std::ranges::find(steps_, from->info, &Step::info) == steps_.end()) all.push_back(std::move(*from));
+      if (std::ranges::find(chosen, from->info) == chosen.end()) out.push_back(std::move(*from));
+    return out;
   };
-  add_missing(standard->steps_.begin(), split);
+  auto insert = [&](auto where, std::vector<Step>&& all) { steps_.insert(where, std::make_move_iterator(all.begin()), std::make_move_iterator(all.end())); };
+  auto front = missing(standard->steps_.begin(), combine);
+  auto last_over_scene = std::ranges::find_if(steps_.rbegin(), steps_.rend(), [](const Step& s) { return !s.pass->is_mesh_pass(); });
+  insert(last_over_scene.base(), missing(combine, split));
   // Where nothing is drawn, what the standard pipeline does to a world is done to those that Inlines bring in as well, and to the metadata
   // that `merge` makes.
   auto brings_in = [](const Step& s) { return s.info->name == "inline" || s.info->name == "expand-protos" || s.info->name == "merge"; };
   if (split == standard->steps_.end() && std::ranges::any_of(steps_, brings_in)) {
-    if (!all.empty() && all[0].info->name == "lower-vrml1") steps_.insert(steps_.begin(), std::move(all[0])), all.erase(all.begin());  // Inlines are found behind it
-    auto last = std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base();
-    steps_.insert(last, std::make_move_iterator(all.begin()), std::make_move_iterator(all.end()));
-    return;
+    if (!front.empty() && front[0].info->name == "lower-vrml1") steps_.insert(steps_.begin(), std::move(front[0])), front.erase(front.begin());  // Inlines are found behind it
+    return insert(std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base(), std::move(front));
   }
-  const auto in_front = all.size();
-  add_missing(split, standard->steps_.end());
-  all.insert(all.begin() + static_cast<std::ptrdiff_t>(in_front), std::make_move_iterator(steps_.begin()), std::make_move_iterator(steps_.end()));
-  steps_ = std::move(all);
+  insert(steps_.begin(), std::move(front));
+  insert(steps_.end(), missing(split, standard->steps_.end()));
 }
 
 std::vector<Pipeline::StepInfo> Pipeline::steps() const {

@@ -84,7 +84,8 @@ class Pipeline {
   bool add(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options, std::string& why);
   /// Adds the passes of a named pipeline that this one lacks, by name: those before `tessellate` in front, the others at
   /// the end. So a writer has what it needs whatever was chosen: `weld` for glTF is `inline,...,weld,tessellate,...`.
-  /// `combine-lightmap` comes behind the last pass over the scene, which may be the one that makes the light.
+  /// `combine-lightmap` comes behind the last pass over the scene, which may be the one that makes the light; what the named one
+  /// has over the scene behind it stays behind it.
   void complete(std::string_view named);
   /// The whole text, every option spelled out; parse(text()) is this pipeline again.
   std::string text() const;

@@ -55,7 +55,7 @@ constexpr NamedPipeline named[] = {
     {"gltf", WRLKIT_GLTF_FRONT "combine-lightmap," WRLKIT_GLTF_END, "what convert does for glTF"},
     {"gltf-emissive", WRLKIT_GLTF_FRONT "combine-lightmap{into=lightmap}," WRLKIT_GLTF_END, "the same for --lightmap-as emissive"},
     {"gltf-light", WRLKIT_GLTF_FRONT WRLKIT_GLTF_END, "the same for --lightmap-as occlusion, moz and extras"},
-    {"vrml", "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap", "what convert and cat do for VRML97"},
+    {"vrml", "lower-vrml1,lower-x3d{vrml97=true,defer-colors=true},combine-lightmap,lower-x3d{vrml97=true}", "what convert and cat do for VRML97"},
     {"x3d", "lower-vrml1,combine-lightmap,keep-colors", "what convert does for X3D"},
     {"picture", "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{triangles=false,texcoords=true},normals,triangulate", "what render does"},
     {"expand", "lower-vrml1,inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},

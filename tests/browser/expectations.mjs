@@ -27,7 +27,6 @@ const exceptions = [
     worlds: /vzome.*(80|heptahedron|compound_of|bookball|icosahedron).* with light|model_goal.* with light/},
   {why: 'bars of a pixel', least_overlap: 0.98, least_coverage: 0.004, worlds: /(hand_railing|fix_wall).* with light/},
   {why: 'two faces in one place: who of them is seen is another by each program', most: {vrml: 0.03}, worlds: /(great_dodecahemi|Lusail\/main|model_field).* with light/},
-  {why: 'VRML 1.0 multiplies a picture by the colour, which VRML97 cannot say (no-vrml97-product), though glTF can', most: {vrml: 0.22, three: 0.22}, worlds: /vrml_1\/castle.* with light/},
   {why: 'glass: three.js draws its faces in the order of the file, not from far to near', most: {vrml: 0.08}, worlds: /house\/vase.* with light/},
 ];
 

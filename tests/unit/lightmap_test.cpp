@@ -30,7 +30,7 @@ struct Lit {
   PassContext ctx{diag, stats, &resources};
   std::unique_ptr<World> world;
 
-  explicit Lit(const std::string& body) : world(parse_world("#VRML V2.0 utf8\n" + body, "test.wrl", {}, diag)) { REQUIRE(world); }
+  explicit Lit(const std::string& body, const std::string& header = "#VRML V2.0 utf8\n") : world(parse_world(header + body, "test.wrl", {}, diag)) { REQUIRE(world); }
   Scene& scene() { return world->scene; }
   void run(const std::string& pipeline) {
     std::string why;
@@ -329,6 +329,38 @@ TEST_CASE("combine-lightmap: into the lightmap, all else stays", "[lightmap]") {
   CHECK(pixel(*w.picture(w.scene().get(a, nodes::appearance::lightmap)), 1, 1) == Rgb{0, shown(2 * srgb_to_linear(128 / 255.0)), 0});
 }
 
+TEST_CASE("combine-lightmap: on the way to VRML97 the picture has what X3D and VRML 1.0 multiply", "[lightmap]") {
+  const std::string look = "Texture2 { filename \"wrlkit:two.png\" } ", points = "point [ -1 -1 0, 1 -1 0, 1 1 0, -1 1 0 ]", lamp = "DirectionalLight { direction 0 0 -1 } ";
+  const std::string faces = "geometry IndexedFaceSet { coordIndex [ 0 1 2 3 -1 ] coord Coordinate { " + points + " } ", x3d = "#X3D V4.0 utf8\nPROFILE Full\n";
+  auto in_x3d = [&](const std::string& material) { return lamp + "Shape { appearance Appearance { material " + material + " } " + faces + "} }"; };
+  const std::string picture = "ImageTexture { url \"wrlkit:two.png\" } ", orange = "1 0.5 0.25 ";
+  struct { const char* name; std::string header, body; } const cases[] = {
+      {"VRML 1.0", "#VRML V1.0 ascii\n", "Separator { " + lamp + "Material { diffuseColor " + orange + "} " + look + "Coordinate3 { " + points + " } IndexedFaceSet { coordIndex [ 0, 1, 2, 3, -1 ] } }"},
+      {"Material", x3d, in_x3d("Material { diffuseColor " + orange + "diffuseTexture " + picture + "}")},
+      {"PhysicalMaterial", x3d, in_x3d("PhysicalMaterial { metallic 0 baseColor " + orange + "baseTexture " + picture + "}")},
+      {"colours of vertices", x3d, lamp + "Shape { appearance Appearance { material Material { } texture " + picture + "} " + faces + "color Color { color [ " + orange + orange + orange + orange + "] } } }"},
+  };
+  for (const auto& c : cases) {
+    INFO(c.name);
+    Lit w(c.body, c.header);
+    std::string error;
+    const Image half{8, 8, 3, std::vector<std::uint8_t>(192, 200)};
+    REQUIRE(w.resources.add_made({"two.png", std::make_shared<const std::string>(*encode_as("two.png", half, error))}) == "wrlkit:two.png");
+    std::string why;
+    auto pipeline = Pipeline::parse("lightmap{quality=draft,max-size=64,denoise=false}", why);
+    pipeline->complete("vrml");
+    REQUIRE(pipeline->run(w.scene(), w.ctx));
+    CHECK(w.diag.count(Diag::no_vrml97_product) == 0);
+    CHECK(w.of(nodes::Material).size() + w.of(nodes::PhysicalMaterial).size() == 0);
+    const auto page = w.picture(w.scene().get(w.of(nodes::Appearance)[0], nodes::appearance::texture));
+    REQUIRE(page);
+    Rgb brightest{};
+    for (int y = 0; y < page->height; ++y)
+      for (int x = 0; x < page->width; ++x) brightest = std::max(brightest, pixel(*page, x, y));
+    CHECK(brightest == Rgb{200, 100, 50});
+  }
+}
+
 TEST_CASE("combine-lightmap: a pipeline has it behind the last pass over the scene", "[lightmap]") {
   auto completed = [](const char* text, const char* standard) {
     std::string why;
@@ -347,9 +379,9 @@ TEST_CASE("combine-lightmap: a pipeline has it behind the last pass over the sce
   CHECK(completed("weld,lod", "gltf") == front + "weld,lod,combine-lightmap" + end);
   CHECK(completed("lod,weld", "gltf") == front + "lod,combine-lightmap,weld" + end);
   CHECK(completed("lod", "gltf-light") == front + "lod" + end);
-  CHECK(completed("prune", "vrml") == "lower-vrml1,lower-x3d,prune,combine-lightmap");
-  CHECK(completed("combine-lightmap,prune", "vrml") == "lower-vrml1,lower-x3d,combine-lightmap,prune");
-  CHECK(completed("inline", "vrml") == "lower-vrml1,inline,lower-x3d,combine-lightmap");
+  CHECK(completed("prune", "vrml") == "lower-vrml1,lower-x3d,prune,combine-lightmap,lower-x3d");
+  CHECK(completed("combine-lightmap,prune", "vrml") == "lower-vrml1,lower-x3d,combine-lightmap,prune,lower-x3d");
+  CHECK(completed("inline", "vrml") == "lower-vrml1,inline,lower-x3d,combine-lightmap,lower-x3d");
 }
 
 TEST_CASE("render: baked light is shown, and not lit again", "[lightmap]") {
