@@ -30,7 +30,7 @@ class Page {
 
   Page(int width, int height, double reach);
 
-  /// So many times the texels of the page are painted at the most.
+  /// So many times the texels of the page are looked at, at the most.
   static constexpr std::uint64_t most_layers = 64;
 
   /// Paints all triangles; of several at a texel's middle the first one. False when they overlap so much that the work was
@@ -40,12 +40,7 @@ class Page {
   Image image(int channels) const;
 
  private:
-  struct Band {
-    int begin, end;  // rows
-    std::uint64_t budget;
-  };
-  bool paint_band(std::span<const PageTriangle> triangles, const Paint& paint, Band band);
-  void paint_triangle(const PageTriangle& t, std::size_t number, const Paint& paint, Band& band);
+  class Band;
 
   int width_, height_;
   double reach_;
