@@ -11,7 +11,6 @@
 #include "passes/geometry.h"
 #include "passes/light/world.h"
 #include "passes/lightmap/bake.h"
-#include "passes/lightmap/closed_nodes.h"
 #include "passes/lightmap/from_patches.h"
 #include "passes/lightmap/layout.h"
 #include "passes/lightmap/levels.h"
@@ -19,6 +18,7 @@
 #include "passes/lightmap/parts.h"
 #include "passes/lightmap/sizes.h"
 #include "passes/lightmap/store.h"
+#include "passes/lightmap/unlit_nodes.h"
 #include "passes/normals.h"
 #include "passes/render/stage.h"
 #include "passes/tessellate.h"
@@ -100,6 +100,13 @@ double density_of(const NamedDensities& densities, const Scene& scene, const dra
   return 1;
 }
 
+/// Of the nearest node on the way to its first Shape that has one; else the type of the geometry.
+std::string_view name_of(const Part& p, const Scene& scene, const drawing::Stage& stage) {
+  for (std::uint32_t n = stage.uses[p.uses[0]].name; n; n = stage.names[n].parent)
+    if (const auto name = scene.name(stage.names[n].node); !name.empty()) return name;
+  return scene.type(p.geometry).name;
+}
+
 Outcome take_patches(Scene& scene, const light::LightWorld& world, const LightmapOptions& options, PassContext& ctx) {
   const auto patches = ctx.resources->patches(options.patches, ctx.diag);
   if (!patches) return Outcome::failed;
@@ -107,7 +114,7 @@ Outcome take_patches(Scene& scene, const light::LightWorld& world, const Lightma
 }
 
 /// What nobody sees from within is sealed; what has light already stays as it is; each density and size is a part of its own.
-void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& world, const Levels& levels, const LightmapOptions& options) {
+void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& world, const Levels& levels, const LightmapOptions& options, Diagnostics& diag) {
   const auto& uses = world.stage().uses;
   for (Part& p : parts) {
     for (std::uint32_t u : p.uses)
@@ -115,7 +122,22 @@ void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& wo
     std::erase_if(p.uses, [&](std::uint32_t u) { return levels.is_lit(uses[u].shape); });
   }
   std::erase_if(parts, [](const Part& p) { return p.uses.empty(); });
+  for (const Part& p : parts)
+    if (p.faces_in) diag.report(Diag::inside_out, scene.where(p.geometry), name_of(p, scene, world.stage()));
   split_by_size(parts, world.stage(), [&](std::uint32_t u) { return density_of(options.densities, scene, world.stage(), u); });
+}
+
+/// Where they are a part of what is seen, not only bolts that something hides.
+void report_dark(const std::vector<BakedPage>& pages, const std::vector<Part>& parts, const Scene& scene, const drawing::Stage& stage, Diagnostics& diag) {
+  constexpr std::size_t some = 100;  // one in so many texels
+  std::size_t n_texels = 0, n_dark_texels = 0, n_dark = 0, n_shapes = 0;
+  std::uint32_t first = 0xffffffff;
+  for (const BakedPage& page : pages) {
+    n_texels += page.n_texels, n_dark += page.dark.size();
+    for (const DarkUse& d : page.dark) n_dark_texels += d.n_texels, first = std::min(first, d.use);
+  }
+  for (const Part& p : parts) n_shapes += p.uses.size();
+  if (n_dark && some * n_dark_texels >= n_texels) diag.report(Diag::dark_shapes, scene.where(stage.uses[first].shape), n_dark, n_shapes);
 }
 
 /// Lights what the view shows.
@@ -131,7 +153,7 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
   if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
   if (!levels.depth()) levels.find_shades(world);
   auto parts = find_parts(scene, world, ctx);
-  prepare(parts, scene, world, levels, options);
+  prepare(parts, scene, world, levels, options, ctx.diag);
   if (parts.empty()) return Outcome::unchanged;
   if (!world.has_sky_of_its_own() && !levels.depth()) ctx.diag.report(Diag::no_light, {});
   say(": charts");
@@ -140,6 +162,7 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
   const Layout layout(parts, wanted);
   if (const auto coarse = layout.coarse(); coarse.n_shapes) ctx.diag.report(Diag::density_limit, {}, wanted.density, coarse.n_shapes, coarse.least * wanted.density);
   auto pages = bake::bake(parts, layout, world, bake_options(options, levels.view(), title), ctx);
+  report_dark(pages, parts, scene, world.stage(), ctx.diag);
   say(": pictures");
   store(scene, parts, layout, world.stage(), pages, {options.format.value, options.exr}, ctx);
   for (const Part& p : parts) {
@@ -152,6 +175,7 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
 
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
   if (const auto n = closed_nodes(scene)) ctx.diag.report(Diag::not_lit, {}, n);
+  if (const auto n = foreign_surfaces(scene)) ctx.diag.report(Diag::not_lowered, {}, n);
   const auto n_copies = own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
   Levels levels(scene);
   Outcome all = n_copies ? Outcome::changed : Outcome::unchanged;

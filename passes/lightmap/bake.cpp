@@ -93,10 +93,11 @@ std::vector<std::vector<Rgb>> directions(const Page& page, const PageLight& ligh
   return {std::make_move_iterator(whole.layers.begin() + 1), std::make_move_iterator(whole.layers.end())};
 }
 
-BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, const light::LightWorld& world, const BakeOptions& options, Statistics& stats) {
-  lighten_cut_off(page, light, inside, world);
+BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, const PageBaker& from, const BakeOptions& options, Statistics& stats) {
+  lighten_cut_off(page, light, inside, from.world());
+  const auto n_texels = static_cast<std::size_t>(std::ranges::count_if(page.places, [](const Place& p) { return p.chart != Place::nowhere; }));
+  stats["lightmap.texels"] += n_texels;
   for (std::size_t i = 0; i < page.size(); ++i) {
-    stats["lightmap.texels"] += page.covered(i);
     stats["lightmap.inside"] += inside[i];
     const Rgb all = light.at(i);
     stats["lightmap.black"] += page.covered(i) && !inside[i] && !(all.r + all.g + all.b > 0);
@@ -110,8 +111,9 @@ BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, co
   layers.insert(layers.begin(), shown_light(page, std::move(light.direct), std::move(light.gathered), options.denoise));
   stats["lightmap.holes"] += count_specks(page, layers[0]);
   fill_charts(layers, known, chart, Place::nowhere, page.width, page.height);
+  auto dark = dark_uses(from.page(), chart, layers[0]);
   for (auto& layer : layers) fill(layer, known, page.width, page.height);
-  BakedPage out{{page.width, page.height, std::move(layers[0]), inside}, {}};
+  BakedPage out{{page.width, page.height, std::move(layers[0]), inside}, {}, n_texels, std::move(dark)};
   for (std::size_t l = 1; l < layers.size(); ++l) out.direction.push_back({page.width, page.height, std::move(layers[l]), {}});
   return out;
 }
@@ -156,7 +158,7 @@ class Rounds {
       if (std::ranges::find(chosen, 1) == chosen.end()) break;
       run(from, first, round, {static_cast<std::uint32_t>(rays << (round - 1)), rays << (round - 1)}, chosen, [&](const TexelLight& t) { add(t, page, light, inside, halves); });
     }
-    return finish(std::move(page), std::move(light), inside, from.world(), options_, ctx_.stats);
+    return finish(std::move(page), std::move(light), inside, from, options_, ctx_.stats);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "passes/light/integrator.h"
+#include "passes/lightmap/darkness.h"
 #include "passes/lightmap/layout.h"
 
 namespace wrlkit::bake {
@@ -23,11 +24,13 @@ struct BakeOptions {
 struct BakedPage {
   Canvas light;                          // irradiance / pi
   std::vector<Canvas> direction;         // mean direction of the light: X, Y and Z, each from -1 to 1 for red, green and blue
+  std::size_t n_texels = 0;              // that lie on faces
+  std::vector<DarkUse> dark;
 };
 
 /// One for each page of the layout. `world` must have been made of the stage that the layout's uses refer to. Statistics:
 /// lightmap.texels (covered), .samples, .rays, .inside (texels whose points lie within something, filled from their
-/// neighbours), .leaks (those of them on which a lamp shines though backs are all around), .black (texels in the open that no
+/// neighbours), .leaks (those of them on which a lamp shines, or a surface outside, though backs are all around), .black (texels in the open that no
 /// light reaches), .holes (those of them amid lit ones), .seam-places and .jumps (SeamReport). The same for any number of threads, and after an interruption.
 std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world, const BakeOptions& options, PassContext& ctx);
 

@@ -19,12 +19,12 @@ void each_beside(const Page& page, const std::vector<char>& inside, int x, int y
       if (const auto j = page.at(u, v); page.places[j].chart == chart && !inside[j]) f(j);
 }
 
-/// A texel in the dark and one that is lit.
+/// A texel in the shade and one that is lit.
 struct Pair {
   std::size_t dark, lit;
 };
 
-/// Those in the dark take the mean of what the lit ones had. Pairs of one stand together.
+/// Those in the shade take the mean of what the lit ones had. Pairs of one stand together.
 template <class T>
 void take_means(const std::vector<Pair>& pairs, std::vector<T>& values) {
   std::vector<T> means;
@@ -40,25 +40,26 @@ void take_means(const std::vector<Pair>& pairs, std::vector<T>& values) {
 
 }  // namespace
 
-bool is_cut_off(const light::LightWorld& world, const V3& a, const V3& b, const V3& normal_a, const V3& normal_b) {
+bool is_cut_off(const light::LightWorld& world, Shade shade, const V3& a, const V3& b, const V3& normal_a, const V3& normal_b) {
   constexpr double lift = 0.002;       // of the way: above what few bits of a coordinate make of a plane
   constexpr double least_slope = 0.1;  // sine of the angle between what crosses and the way
   constexpr int most = 8;
   const double way = length(b - a);
-  if (!(way > 0)) return false;
+  if (shade == Shade::none || !(way > 0)) return false;
   auto lifted = [&](const V3& p, const V3& n) { return world.off_surface(p, n, 0) + (lift * way) * n; };
   const V3 from = lifted(a, normal_a), along = lifted(b, normal_b) - from;
   const drawing::Ray ray{from, unit(along)};
   drawing::Hit hit;
   double after = 0;
   for (int i = 0; i < most && world.nearest(ray, after, hit) && hit.distance < length(along); ++i, after = hit.distance)
-    if (!world.is_clear(hit.use) && std::fabs(dot(unit(hit.across), ray.direction)) > least_slope) return true;
+    if (world.is_clear(hit.use) == (shade == Shade::dim) && std::fabs(dot(unit(hit.across), ray.direction)) > least_slope) return true;
   return false;
 }
 
-bool is_dark_beside(float light, float other) {
-  constexpr float share = 1.0f / 32;
-  return other > 0 && light <= share * other;
+Shade shade_beside(float light, float other) {
+  constexpr float dark = 1.0f / 32, dim = 0.5f;
+  if (!(other > 0) || light > dim * other) return Shade::none;
+  return light <= dark * other ? Shade::dark : Shade::dim;
 }
 
 void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>& inside, const light::LightWorld& world) {
@@ -71,8 +72,8 @@ void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>
       const Place& own = page.places[i];
       each_beside(page, inside, x, y, [&](std::size_t j) {
         const Place& other = page.places[j];
-        if (!is_dark_beside(luminance(light.at(i)), luminance(light.at(j)))) return;
-        if (is_cut_off(world, centre + v3(other.position), centre + v3(own.position), v3(other.normal), v3(own.normal))) pairs.push_back({i, j});
+        const Shade shade = shade_beside(luminance(light.at(i)), luminance(light.at(j)));
+        if (shade != Shade::none && is_cut_off(world, shade, centre + v3(other.position), centre + v3(own.position), v3(other.normal), v3(own.normal))) pairs.push_back({i, j});
       });
     }
   if (pairs.empty()) return;

@@ -68,7 +68,9 @@ bool light_from_patches(Scene& scene, const light::LightWorld& world, const Patc
   }
   Storing storing(scene, pages, {options.extension}, ctx);
   std::unordered_set<std::uint32_t> taken;
-  for (Part& part : find_parts(scene, world, ctx))
+  for (Part& part : find_parts(scene, world, ctx)) {
+    std::vector<float> no_coords;
+    face_in(part, no_coords);  // patches lie on the faces that the world has
     for (std::uint32_t use : part.uses) {
       const auto shape = std::ranges::lower_bound(made.shapes, use, {}, &ShapePicture::use);
       if (shape == made.shapes.end() || shape->use != use) continue;
@@ -81,6 +83,7 @@ bool light_from_patches(Scene& scene, const light::LightWorld& world, const Patc
       storing.light(node, {static_cast<std::uint32_t>(shape - made.shapes.begin())}, {});
       ++ctx.stats["lightmap.shapes"];
     }
+  }
   return !made.shapes.empty();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "passes/lightmap/cut_off.h"
+#include "passes/lightmap/leaks.h"
 
 namespace wrlkit::bake {
 namespace {
@@ -79,13 +80,14 @@ std::vector<TexelLight> PageBaker::gather(std::vector<Irradiance> light) const {
   return out;
 }
 
-/// A point of a texel that lies in the dark beyond a surface which crosses the texel.
+/// A point of a texel that lies in the shade beyond a surface which crosses the texel.
 bool PageBaker::is_cut_off(std::span<const Irradiance> light, const TexelSamples& t, const Irradiance& own) const {
   const auto all = light.subspan(t.first, t.count);
   const auto brightest = std::ranges::max_element(all, {}, [](const Irradiance& p) { return p.inside > within ? -1 : luminance_of(p); });
-  if (!is_dark_beside(luminance_of(own), luminance_of(*brightest))) return false;
+  const Shade shade = shade_beside(luminance_of(own), luminance_of(*brightest));
+  if (shade == Shade::none) return false;
   const Point &from = points_[static_cast<std::size_t>(&*brightest - light.data())], &to = points_[static_cast<std::size_t>(&own - light.data())];
-  return bake::is_cut_off(world_, from.position, to.position, from.normal, to.normal);
+  return bake::is_cut_off(world_, shade, from.position, to.position, from.normal, to.normal);
 }
 
 /// Where closed things touch, a ray may meet the front of the one before the back of the other: it sees no back then.
@@ -97,8 +99,11 @@ bool PageBaker::is_enclosed(const Point& p) const {
 /// Of the points from `first` on. Few rays may all meet backs of what is open; it is a leak only where closed things are all around.
 Site PageBaker::site_of(std::span<const Irradiance> light, std::size_t first) const {
   if (std::ranges::any_of(light, [](const Irradiance& p) { return p.inside <= within; })) return Site::open;
-  for (std::size_t i = 0; i < light.size(); ++i)
-    if (light[i].inside == 1 && light[i].by_lamp && is_enclosed(points_[first + i])) return Site::pierced;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const Point& p = points_[first + i];
+    if (light[i].inside < 1 || is_dark(light[i]) || !is_enclosed(p)) continue;
+    if (light[i].by_lamp || is_lit_from_outside(world_, p)) return Site::pierced;
+  }
   return Site::within;
 }
 

@@ -14,7 +14,7 @@ namespace wrlkit::bake {
 enum class Site : std::uint32_t {
   open,
   within,                                    // something: what few rays see is not the light there
-  pierced,                                   // within something on all sides, and yet a lamp shines there: a leak
+  pierced,                                   // within something on all sides, and yet a lamp shines there, or a surface that is outside: a leak
 };
 
 /// What is kept of a texel: what the checkpoint holds.
@@ -37,6 +37,7 @@ class PageBaker {
       : parts_(parts), page_(page), world_(world), flat_(flat), grid_(page.triangles, page.width, page.height) {}
 
   const light::LightWorld& world() const { return world_; }
+  const PageLayout& page() const { return page_; }
   std::size_t n_tiles() const { return grid_.n_tiles(); }
 
   /// Points of the surface for a tile's samples, in their order; of a grid with so many along each side of a texel. `chosen`, by texel of

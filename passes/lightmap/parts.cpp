@@ -30,29 +30,76 @@ std::vector<std::uint32_t> points_of(const Mesh& mesh, PointJoiner& joiner) {
   return index;
 }
 
-/// Whether each edge of the surface is gone along once in each direction.
-bool is_closed(const std::vector<std::uint32_t>& corners) {
-  std::vector<std::uint64_t> edges;
-  edges.reserve(corners.size());
+/// How faces go along the edges of a surface.
+enum class Edges : std::uint8_t {
+  open,
+  balanced,                          // each as often in one direction as in the other: outlines may touch themselves
+  closed,                            // each once in each direction
+};
+
+Edges edges_of(const std::vector<std::uint32_t>& corners) {
+  std::vector<std::uint64_t> there, back;
+  there.reserve(corners.size()), back.reserve(corners.size());
   for (std::size_t t = 0; t < corners.size(); t += 3)
-    for (int k = 0; k < 3; ++k) edges.push_back(std::uint64_t{corners[t + k]} << 32 | corners[t + (k + 1) % 3]);
-  std::ranges::sort(edges);
-  if (std::ranges::adjacent_find(edges) != edges.end()) return false;
-  return std::ranges::all_of(edges, [&](std::uint64_t e) { return std::ranges::binary_search(edges, e << 32 | e >> 32); });
+    for (int k = 0; k < 3; ++k) {
+      const std::uint64_t from = corners[t + k], to = corners[t + (k + 1) % 3];
+      there.push_back(from << 32 | to), back.push_back(to << 32 | from);
+    }
+  std::ranges::sort(there);
+  std::ranges::sort(back);
+  if (there != back) return Edges::open;
+  return std::ranges::adjacent_find(there) == there.end() ? Edges::closed : Edges::balanced;
 }
 
-/// 0 for a plate of which both sides lie in one place.
-double signed_volume(const Part& p) {
+/// Signed volumes of what a closed surface consists of; 0 for a plate of which both sides lie in one place.
+struct Volumes {
+  double all = 0;
+  bool one_way = true;               // none is wound against another
+};
+
+/// By point: the least point of those that faces connect with it.
+std::vector<std::uint32_t> connected(const std::vector<std::uint32_t>& points) {
+  std::vector<std::uint32_t> root(points.empty() ? 0 : *std::ranges::max_element(points) + 1);
+  std::iota(root.begin(), root.end(), 0u);
+  auto find = [&](std::uint32_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (std::size_t c = 0; c < points.size(); c += 3)
+    for (std::size_t k = 1; k < 3; ++k) {
+      const auto a = find(points[c]), b = find(points[c + k]);
+      root[std::max(a, b)] = std::min(a, b);
+    }
+  for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = find(i);
+  return root;
+}
+
+Volumes signed_volumes(const Part& p, const std::vector<std::uint32_t>& points) {
   constexpr double nothing = 1e-9;
+  struct Piece {
+    double six = 0;
+    drawing::Box box;
+  };
+  const auto root = connected(points);
+  std::vector<Piece> pieces(root.size());
+  Piece all;
   const V3 from = p.position(0);
-  double six = 0;
-  drawing::Box box;
-  for (std::size_t c = 0; c < p.mesh.corners.size(); c += 3) {
-    six += dot(p.position(c) - from, cross(p.position(c + 1) - from, p.position(c + 2) - from));
-    for (std::size_t k = 0; k < 3; ++k) box.add(p.position(c + k));
+  for (std::size_t c = 0; c < points.size(); c += 3) {
+    const double six = dot(p.position(c) - from, cross(p.position(c + 1) - from, p.position(c + 2) - from));
+    Piece& piece = pieces[root[points[c]]];
+    for (Piece* to : {&piece, &all}) {
+      to->six += six;
+      for (std::size_t k = 0; k < 3; ++k) to->box.add(p.position(c + k));
+    }
   }
-  const double size = length(box.size());
-  return std::fabs(six) > nothing * size * size * size ? six / 6 : 0;
+  auto volume = [](const Piece& piece) {
+    const double size = length(piece.box.size());
+    return std::fabs(piece.six) > nothing * size * size * size ? piece.six / 6 : 0;
+  };
+  Volumes out{volume(all), true};
+  for (const Piece& piece : pieces)
+    if (!piece.box.empty() && volume(piece) * out.all < 0) out.one_way = false;
+  return out;
 }
 
 /// Appends a triangle's corners in the other order, with all that they have.
@@ -143,24 +190,36 @@ class Finder {
     add_normals(p);
     p.n_fronts = p.n_triangles();
     PointJoiner joiner;
-    const double volume = is_closed(points_of(p.mesh, joiner)) ? signed_volume(p) : 0;
+    const auto points = points_of(p.mesh, joiner);
+    const Edges edges = edges_of(points);
     const bool was_solid = p.mesh.solid;
+    const Volumes volumes = edges == Edges::closed || (edges == Edges::balanced && was_solid) ? signed_volumes(p, points) : Volumes();
     p.mesh.solid = true;
-    p.sealed = was_solid ? volume > 0 : volume != 0 && !is_clear(p) && !has_witness(p);
-    if (was_solid) return;
-    if (!p.sealed) return Backs(p).append();
-    p.inside_out = volume < 0;
-    if (p.inside_out) Backs(p).turn();
+    if (edges == Edges::balanced && volumes.all > 0) return;
+    const bool outward = was_solid && volumes.all > 0;
+    p.sealed = outward || (volumes.all != 0 && volumes.one_way && !is_clear(p) && !has_witness(p) && !(was_solid && is_room(p)));
+    if (!p.sealed) return was_solid ? void() : Backs(p).append();
+    p.inside_out = volumes.all < 0;
+    if (!p.inside_out) return;
+    Backs(p).turn();
+    p.faces_in = was_solid;
   }
 
   bool is_clear(const Part& p) const { return std::ranges::any_of(p.uses, [&](std::uint32_t u) { return world_.is_clear(u); }); }
 
   bool has_witness(const Part& p) const {
-    return std::ranges::any_of(p.uses, [&](std::uint32_t u) {
-      drawing::Box box;
-      for (std::size_t c = 0; c < p.mesh.corners.size(); ++c) box.add(stage_.frames[stage_.uses[u].frame].point(p.position(c)));
-      return witnesses_.within(box, u);
-    });
+    return std::ranges::any_of(p.uses, [&](std::uint32_t u) { return witnesses_.within(box_of(p, u), u); });
+  }
+
+  /// Something stands in it, or it shines itself.
+  bool is_room(const Part& p) const {
+    return std::ranges::any_of(p.uses, [&](std::uint32_t u) { return world_.emitter_of(u, 0) || witnesses_.holds_another(box_of(p, u), u); });
+  }
+
+  drawing::Box box_of(const Part& p, std::uint32_t use) const {
+    drawing::Box box;
+    for (std::size_t c = 0; c < p.mesh.corners.size(); ++c) box.add(stage_.frames[stage_.uses[use].frame].point(p.position(c)));
+    return box;
   }
 
   /// `ccw` FALSE: corners and all that they have turn round, so that the front is where they run counter-clockwise.
@@ -256,6 +315,12 @@ void unfold(Part& p, const Stage& stage) {
 }  // namespace
 
 std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, PassContext& ctx) { return Finder(scene, world, ctx).run(); }
+
+void face_in(Part& part, std::vector<float>& coords) {
+  if (!part.faces_in) return;
+  Backs(part).turn();
+  for (std::size_t c = 0; c + 5 < coords.size(); c += 6) std::swap_ranges(&coords[c + 2], &coords[c + 4], &coords[c + 4]);
+}
 
 void unfold_parts(std::vector<Part>& parts, const Stage& stage) {
   parallel_for(parts.size(), [&](std::size_t i) { unfold(parts[i], stage); });

@@ -144,7 +144,9 @@ void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const d
   std::unordered_set<std::uint32_t> taken;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const NodeId shared = parts[i].geometry, geometry = taken.insert(shared.value).second ? shared : copy_of(scene, shared);
-    storing.place(parts[i], layout.coords(i), geometry);
+    auto coords = layout.coords(i);
+    face_in(parts[i], coords);
+    storing.place(parts[i], coords, geometry);
     for (std::size_t k = 0; k < parts[i].uses.size(); ++k) {
       const NodeId shape = stage.uses[parts[i].uses[k]].shape;
       const ShapePlace place = layout.place(i, k);

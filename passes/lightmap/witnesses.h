@@ -1,4 +1,5 @@
-// Who would see the inner side of a closed surface, or light it: a viewer who stands in there, a lamp, something that shines.
+// Who would see the inner side of a closed surface, or light it: a viewer who stands in there, a lamp, something that shines; and what stands
+// in there as in a room.
 #pragma once
 #include <vector>
 
@@ -8,18 +9,25 @@ namespace wrlkit::bake {
 
 class Witnesses {
  public:
-  /// Viewpoints, PointLights and SpotLights, and the middles of emitters. n log n.
+  /// Viewpoints, PointLights and SpotLights, the middles of emitters, and the boxes of all that is drawn. n log n. The world must live on.
   Witnesses(const Scene& scene, const light::LightWorld& world);
 
   /// Whether any of them stands within the box; those that belong to `use` do not count.
   bool within(const drawing::Box& box, std::uint32_t use) const;
+  /// Whether the box holds the whole box of another use.
+  bool holds_another(const drawing::Box& box, std::uint32_t use) const;
 
  private:
   struct Witness {
     drawing::V3 at;
     std::uint32_t use;
   };
+  struct Thing {
+    drawing::Box box;
+    std::uint32_t use;
+  };
   std::vector<Witness> all_;         // by x
+  std::vector<Thing> things_;        // by the lowest x
 };
 
 }  // namespace wrlkit::bake

@@ -10,6 +10,7 @@
 #include "passes/lightmap.h"
 #include "passes/parallel.h"
 #include "passes/pipeline.h"
+#include "passes/render/linear.h"
 #include "passes/triangulate.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/srgb.h"
@@ -136,6 +137,11 @@ std::string box(bool inward, double half) {
 std::string material(double diffuse, double emissive = 0) {
   auto c = [](double linear) { auto v = std::to_string(linear_to_srgb(linear)); return v + " " + v + " " + v; };
   return "appearance Appearance { material Material { diffuseColor " + c(diffuse) + " emissiveColor " + c(emissive) + " } }";
+}
+
+drawing::V3 corner(const Mesh& m, std::size_t c) {
+  const double* p = m.positions.data() + std::size_t{3} * m.corners[c];
+  return {p[0], p[1], p[2]};
 }
 
 const std::string floor_of_4 = "IndexedFaceSet { coord Coordinate { point [ -2 0 -2, -2 0 2, 2 0 2, 2 0 -2 ] } coordIndex [ 0 1 2 3 -1 ] }";
@@ -293,6 +299,53 @@ TEST_CASE("bake: an error that is asked for costs rays, where they are needed, a
     pictures.push_back(*b.resources.made()[0].bytes);
   }
   CHECK(pictures[0] == pictures[1]);
+}
+
+TEST_CASE("bake: a solid thing that is wound inside out has the light of its outside where viewers see it") {
+  const std::string thing = "DEF Thing Shape { " + material(0.5) + " geometry " + box(true, 1) + " } ", white = "quality=draft,max-size=128,sky=1:1:1";
+  Baked b(thing, white);
+  Light light(b, "Thing");
+  REQUIRE(light.mesh.corners.size() == 36);
+  for (std::size_t i = 0; i < 12; ++i) CHECK(light.at(i, 0.3, 0.4) == Approx(1).epsilon(0.02));
+  CHECK(b.diag.count(Diag::inside_out) == 1);
+  // It looks inward as before.
+  CHECK(light.mesh.solid);
+  double volume = 0;
+  for (std::size_t c = 0; c < 36; c += 3) volume += dot(corner(light.mesh, c), cross(corner(light.mesh, c + 1), corner(light.mesh, c + 2)));
+  CHECK(volume * (light.mesh.ccw ? 1 : -1) == Approx(-48));
+  // One to stand in is a room, and dark.
+  for (const char* within : {"Viewpoint { position 0 0 0.5 }", "Shape { appearance Appearance { material Material { } } geometry Sphere { radius 0.1 } }"}) {
+    Baked room(thing + within, white);
+    CHECK(Light(room, "Thing").at(0, 0.3, 0.4) == 0);
+    CHECK(room.diag.count(Diag::inside_out) == 0);
+  }
+}
+
+TEST_CASE("bake: of closed things in one geometry that are wound against one another each has light on its outside") {
+  const std::string cube = "-1 -1 -1, 1 -1 -1, -1 1 -1, 1 1 -1, -1 -1 1, 1 -1 1, -1 1 1, 1 1 1, ", other = "4 4 4, 5 4 4, 4 5 4, 5 5 4, 4 4 5, 5 4 5, 4 5 5, 5 5 5";
+  const std::string outward = "0 2 3 1 -1 4 5 7 6 -1 0 1 5 4 -1 2 6 7 3 -1 0 4 6 2 -1 1 3 7 5 -1 ", inward = "9 11 10 8 -1 14 15 13 12 -1 12 13 9 8 -1 11 15 14 10 -1 10 14 12 8 -1 13 15 11 9 -1";
+  Baked b("DEF Two Shape { " + material(0.5) + " geometry IndexedFaceSet { solid FALSE coord Coordinate { point [ " + cube + other + " ] } coordIndex [ " + outward + inward + " ] } }",
+          "quality=draft,max-size=128,sky=1:1:1");
+  Light light(b, "Two");
+  REQUIRE(light.mesh.corners.size() == 2 * 72);
+  const auto& m = light.mesh;
+  for (std::size_t i = 0; i < 48; ++i) {
+    const auto a = corner(m, 3 * i), from = a - drawing::V3(a.x > 3 ? 4.5 : 0), across = cross(corner(m, 3 * i + 1) - a, corner(m, 3 * i + 2) - a);
+    CHECK(light.at(i, 0.3, 0.4) == Approx(dot(from, across) * (m.ccw ? 1 : -1) > 0 ? 1 : 0).margin(0.05));
+  }
+}
+
+TEST_CASE("bake: dim ground under water makes no fringe along the shore") {
+  const std::string water = "Shape { appearance Appearance { material Material { diffuseColor 0 0 0 transparency 0.2 } } geometry IndexedFaceSet { solid FALSE coord Coordinate { point [ -9 0 -9, -9 0 9, 9 0 9, 9 0 -9 ] } coordIndex [ 0 1 2 3 -1 ] } } ";
+  Baked b(water + "Transform { rotation 0 1 0 0.3 children Transform { rotation 0 0 1 0.4 children DEF Ground Shape { " + material(0) + " geometry " + floor_of_4 + " } } }", "quality=draft,max-size=128,sky=1:1:1,denoise=false");
+  Light ground(b, "Ground");
+  double dry = 0, shore = 10;
+  for (int k = 0; k < 100; ++k) {
+    const double z = -1.5 + 0.03 * k;
+    dry += ground.on_floor(1, z) / 100, shore = std::min(shore, ground.on_floor(0.005, z));
+  }
+  CHECK(ground.on_floor(-1, 0) < 0.4 * dry);
+  CHECK(shore > 0.6 * dry);
 }
 
 TEST_CASE("bake: what stands in a glass has light of its own, and the glass has it on both sides") {

@@ -1,4 +1,4 @@
-#include "passes/lightmap/closed_nodes.h"
+#include "passes/lightmap/unlit_nodes.h"
 
 #include <algorithm>
 #include <string_view>
@@ -42,6 +42,12 @@ std::vector<char> with_surfaces(const Scene& scene) {
   return has;
 }
 
+bool is_foreign_surface(const NodeType& type) {
+  constexpr std::string_view without_area[] = {"IndexedLineSet", "LineSet", "PointSet", "IndexedMarkerSet", "MarkerSet", "NurbsCurve", "Polyline2D", "Polypoint2D", "Arc2D", "Circle2D"};
+  if (type.kind != NodeKind::builtin || (type.dialects & static_cast<DialectSet>(Dialect::vrml97))) return false;
+  return (type.is_a("Vrml1ShapeNode") || type.is_a("X3DGeometryNode")) && std::ranges::find(without_area, type.name) == std::end(without_area);
+}
+
 }  // namespace
 
 std::size_t closed_nodes(const Scene& scene) {
@@ -49,6 +55,10 @@ std::size_t closed_nodes(const Scene& scene) {
   return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) {
     return is_proto(scene, n) ? has[scene.type(n).proto.value] != 0 : scene.is(n, nodes::Inline) && makes_surface(scene, n);
   }));
+}
+
+std::size_t foreign_surfaces(const Scene& scene) {
+  return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return is_foreign_surface(scene.type(n)); }));
 }
 
 }  // namespace wrlkit::bake
