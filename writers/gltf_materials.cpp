@@ -294,7 +294,7 @@ void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::
   json.end_object();
 }
 
-/// {index, texCoord, ..., scale, directions: [{index}, {index}, {index}]}.
+/// {index, texCoord, ..., scale, directions: [3, 4, 5]}, the latter textures as index is.
 void Materials::light_extras(JsonOut& json, const Look& l) {
   namespace a = nodes::appearance;
   json.key("lightmap");

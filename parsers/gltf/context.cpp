@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view known_extensions[] = {
     "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization", "KHR_texture_transform",
-    "KHR_lights_punctual", "KHR_materials_unlit", "EXT_mesh_gpu_instancing", "MSFT_lod", "KHR_animation_pointer", "KHR_materials_emissive_strength",
+    "KHR_lights_punctual", "KHR_materials_unlit", "MOZ_lightmap", "EXT_mesh_gpu_instancing", "MSFT_lod", "KHR_animation_pointer", "KHR_materials_emissive_strength",
     "EXT_texture_webp"};
 
 /// ISO/IEC 14772-1, A.3: characters of a name; the first is no digit or sign either.

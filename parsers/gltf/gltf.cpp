@@ -10,7 +10,7 @@ namespace wrlkit::gltf_reader {
 namespace {
 
 constexpr std::string_view understood[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",
-                                           "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit", "EXT_mesh_gpu_instancing", "MSFT_lod",
+                                           "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit", "MOZ_lightmap", "EXT_mesh_gpu_instancing", "MSFT_lod",
                                            "EXT_texture_webp", "KHR_materials_emissive_strength", "EXT_instance_features", "EXT_mesh_features", "EXT_structural_metadata"};
 
 void check_required(File& file) {

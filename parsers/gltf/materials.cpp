@@ -63,13 +63,25 @@ UvAffine affine_of(Json transform) {
   return {xx, -xy, -yx, yy, xy + offset[0], 1 - yy - offset[1]};
 }
 
-}  // namespace
-
-std::optional<std::uint32_t> Materials::texcoord_set(std::uint32_t material) const {
-  const Json info = c_.file.at(Table::materials, material)["pbrMetallicRoughness"]["baseColorTexture"];
+/// Index n of the TEXCOORD_n that a textureInfo means.
+std::optional<std::uint32_t> set_of(Json info) {
   if (!info) return std::nullopt;
   const Json moved = info["extensions"]["KHR_texture_transform"]["texCoord"];
   return static_cast<std::uint32_t>(std::min<std::uint64_t>((moved ? moved : info["texCoord"]).whole().value_or(0), 99));
+}
+
+Json light_of(Json material) {
+  const Json moz = material["extensions"]["MOZ_lightmap"];
+  return moz ? moz : material["extras"]["lightmap"];
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> Materials::texcoord_set(std::uint32_t material) const { return set_of(c_.file.at(Table::materials, material)["pbrMetallicRoughness"]["baseColorTexture"]); }
+
+std::optional<std::uint32_t> Materials::light_set(std::uint32_t material) const {
+  const Json light = light_of(c_.file.at(Table::materials, material));
+  return light["index"] ? set_of(light) : std::nullopt;
 }
 
 const Look& Materials::get(std::uint32_t material, SurfaceKind s) {
@@ -118,6 +130,7 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
   if (material) c_.scene.set(look.appearance, nodes::appearance::material, material);
   if (picture && !multiplied) c_.scene.set(look.appearance, nodes::appearance::texture, picture);
   if (transform) c_.scene.set(look.appearance, nodes::appearance::textureTransform, transform);
+  if (s.light) set_light(look.appearance, m);
   c_.set_name(look.appearance, name);
   look.appearance = same_named(look.appearance, nodes::Appearance);
   if (material) extras_.define(material);
@@ -299,9 +312,17 @@ NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {
   }
   const UvAffine a = affine_of(said);
   if (!said || a == UvAffine{}) return {};
+  const NodeId n = transform_node(a, said);
+  if (!n) look.bake = a;
+  return n;
+}
+
+/// Null where VRML cannot say it.
+NodeId Materials::transform_node(const UvAffine& a, Json said) {
+  namespace f = nodes::texture_transform;
   const double sx = std::hypot(a.xx, a.xy), sy = std::hypot(a.yx, a.yy);
   // VRML turns before it scales, so the rows must be at right angles.
-  if (!(sx > 0 && sy > 0) || std::abs(a.xx * a.yx + a.xy * a.yy) > 1e-9 * sx * sy || !std::isfinite(sx + sy + a.x + a.y)) return look.bake = a, NodeId{};
+  if (!(sx > 0 && sy > 0) || std::abs(a.xx * a.yx + a.xy * a.yy) > 1e-9 * sx * sy || !std::isfinite(sx + sy + a.x + a.y)) return {};
   const double r = std::atan2(-a.xy, a.xx), c = std::cos(r), sn = std::sin(r), signed_sy = a.yx * sn + a.yy * c;
   const double x = a.x / sx, y = a.y / signed_sy;
   NodeId n = c_.add(nodes::TextureTransform, said);
@@ -310,6 +331,29 @@ NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {
   set(c_.scene, n, f::rotation, rounded(r));
   set(c_.scene, n, f::translation, Vec2{rounded(c * x + sn * y), rounded(c * y - sn * x)});
   return n;
+}
+
+/// `intensity` of MOZ_lightmap and `scale` of extras.lightmap are lightmapScale.
+void Materials::set_light(NodeId appearance, Json m) {
+  namespace a = nodes::appearance;
+  const Json light = light_of(m), said = light["extensions"]["KHR_texture_transform"];
+  auto picture = [&](Json number) {
+    const auto index = c_.file.index(Table::textures, number);
+    return index == none ? NodeId{} : texture(index);
+  };
+  const NodeId map = picture(light["index"]);
+  if (!map) return;
+  c_.scene.set(appearance, a::lightmap, map);
+  set(c_.scene, appearance, a::lightmapScale, (light["intensity"] ? light["intensity"] : light["scale"]).number(1));
+  std::vector<NodeId> directions;
+  for (Json d : light["directions"].elements())
+    if (const NodeId n = picture(d)) directions.push_back(n);
+  if (directions.size() == 3) c_.scene.set(appearance, a::lightmapDirection, directions);
+  if (const UvAffine moved = affine_of(said); said && moved != UvAffine{}) {
+    const NodeId n = transform_node(moved, said);
+    if (n) c_.scene.set(appearance, a::lightmapTransform, n);
+    else c_.lost.add("KHR_texture_transform of a lightmap", c_.file.where(said));
+  }
 }
 
 void Materials::report_lost(Json m) {

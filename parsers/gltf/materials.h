@@ -4,6 +4,8 @@
 // channels replaces it (ISO/IEC 14772-1, table 4.6). roughness r is a highlight of shininess (2 / r^4 - 2) / 128 and
 // specularColor 0.01 / r^4, both up to 1; as rough as can be is black. Of metal, the highlight has the base colour. What
 // wrlkit wrote has the very fields in extras.
+//
+// Baked light, of MOZ_lightmap or extras.lightmap, is the lightmap of the Appearance (docs/lighting.md).
 #pragma once
 #include <map>
 #include <optional>
@@ -24,6 +26,7 @@ struct SurfaceKind {
   bool faces = true;  // not lines or points
   bool color = false;
   bool given_texcoord = false;  // coordinates that stay; others are made from the bounding box
+  bool light = false;           // places in the lightmap of its material
   auto operator<=>(const SurfaceKind&) const = default;
 };
 
@@ -45,6 +48,8 @@ class Materials {
   std::vector<std::pair<NodeId, bool>> nodes_of(std::uint32_t material) const;
   /// Index n of the TEXCOORD_n of a material's picture; nothing when it has none.
   std::optional<std::uint32_t> texcoord_set(std::uint32_t material) const;
+  /// The same of its lightmap.
+  std::optional<std::uint32_t> light_set(std::uint32_t material) const;
 
  private:
   Look make(std::uint32_t material, SurfaceKind);
@@ -56,6 +61,8 @@ class Materials {
   NodeId pixel_texture(Json texture, Json image);
   std::vector<std::string> urls(Json texture, std::uint32_t image);
   NodeId texture_transform(Json info, SurfaceKind, Look&);
+  NodeId transform_node(const UvAffine&, Json said);
+  void set_light(NodeId appearance, Json material);
   void report_lost(Json);
   bool is_multiplied(Json, SurfaceKind, NodeId material) const;
   NodeId same_named(NodeId, TypeId);

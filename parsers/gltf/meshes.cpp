@@ -88,9 +88,10 @@ std::vector<Meshes::Part> Meshes::parts(std::uint32_t index, const Pose& pose) {
 std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
   const bool is_whole = c_.file.is_whole();
   const Json attributes = p.json["attributes"];
-  const std::string texcoord = "TEXCOORD_" + std::to_string(is_whole ? 0 : materials_.texcoord_set(p.material).value_or(0));
+  Sets sets{"TEXCOORD_" + std::to_string(is_whole ? 0 : materials_.texcoord_set(p.material).value_or(0)), {}};
+  if (const auto light = materials_.light_set(p.material); light && p.faces()) sets.light = "TEXCOORD_" + std::to_string(*light);
   const Json kept = vrml97(p.mesh);
-  SurfaceKind kind{p.faces(), bool(attributes["COLOR_0"]) || (is_whole && attributes["_COLOR"]), bool(attributes[texcoord])};
+  SurfaceKind kind{p.faces(), bool(attributes["COLOR_0"]) || (is_whole && attributes["_COLOR"]), bool(attributes[sets.texcoord]), !sets.light.empty() && attributes[sets.light]};
   if (is_whole) kind.given_texcoord = bool(kept["IndexedFaceSet"]["texCoord"]);
   const Look& look = materials_.get(p.material, kind);
   NodeId geometry;
@@ -101,16 +102,16 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
     if (known && how.shared()) return Part{look.appearance, known};
     if (NodeId whole = kept_whole(p)) return Part{look.appearance, known = whole};
     Streams s;
-    if (!load(p, how, texcoord, s)) return std::nullopt;
+    if (!load(p, how, sets, s)) return std::nullopt;
     geometry = own(p, s, look);
     if (how.shared()) known = geometry;
   } else {
     Streams s;
-    if (!load(p, how, texcoord, s)) return std::nullopt;
+    if (!load(p, how, sets, s)) return std::nullopt;
     geometry = foreign(p, s, look);
     if (!geometry) return std::nullopt;
     if (c_.file.is_own()) name_attributes(geometry, kept);
-    if (!c_.file.is_own()) report_lost(p, texcoord);
+    if (!c_.file.is_own()) report_lost(p, sets);
   }
   if (p.mesh["primitives"].elements().size() == 1) c_.set_name(geometry, p.mesh["name"]);
   extras_.define(geometry);
@@ -185,9 +186,9 @@ Meshes::Stream Meshes::stream(const Primitive& p, std::string_view name, std::si
   return s;
 }
 
-bool Meshes::load(const Primitive& p, const Pose& how, const std::string& texcoord, Streams& s) {
+bool Meshes::load(const Primitive& p, const Pose& how, const Sets& sets, Streams& s) {
   if (p.json["extensions"]["KHR_draco_mesh_compression"]) {
-    if (!load_draco(p, texcoord, s)) return false;
+    if (!load_draco(p, sets, s)) return false;
   } else {
     const Json position = p.json["attributes"]["POSITION"];
     auto accessor = c_.file.index(Table::accessors, position);
@@ -196,7 +197,8 @@ bool Meshes::load(const Primitive& p, const Pose& how, const std::string& texcoo
     s.position = {accessor, 3, {}};
     s.normal = stream(p, "NORMAL", s.n, three);
     s.color = stream(p, p.json["attributes"]["COLOR_0"] || !c_.file.is_whole() ? "COLOR_0" : "_COLOR", s.n, color_widths);
-    s.texcoord = stream(p, texcoord, s.n, two);
+    s.texcoord = stream(p, sets.texcoord, s.n, two);
+    if (!sets.light.empty()) s.light = stream(p, sets.light, s.n, two);
     if (p.json["indices"]) {
       s.index_accessor = c_.file.index(Table::accessors, p.json["indices"]);
       s.indexed = true;
@@ -210,14 +212,14 @@ bool Meshes::load(const Primitive& p, const Pose& how, const std::string& texcoo
   return !moved || pose(p, how, s);
 }
 
-bool Meshes::load_draco(const Primitive& p, const std::string& texcoord, Streams& s) {
+bool Meshes::load_draco(const Primitive& p, const Sets& sets, Streams& s) {
   const Json ext = p.json["extensions"]["KHR_draco_mesh_compression"];
   auto view = c_.file.index(Table::bufferViews, ext["bufferView"]);
   auto bytes = view == none ? std::nullopt : c_.buffers.view(view);
   if (!bytes) return false;
   struct Row { const char* name; Stream* to; std::size_t width; };
   const std::string color_type(c_.file.at(Table::accessors, p.json["attributes"]["COLOR_0"].whole().value_or(none))["type"].text());
-  const Row rows[] = {{"POSITION", &s.position, 3}, {"NORMAL", &s.normal, 3}, {"COLOR_0", &s.color, color_type == "VEC4" ? 4u : 3u}, {texcoord.c_str(), &s.texcoord, 2}, {"_FEATURE_ID_0", &s.feature, 1}};
+  const Row rows[] = {{"POSITION", &s.position, 3}, {"NORMAL", &s.normal, 3}, {"COLOR_0", &s.color, color_type == "VEC4" ? 4u : 3u}, {sets.texcoord.c_str(), &s.texcoord, 2}, {sets.light.c_str(), &s.light, 2}, {"_FEATURE_ID_0", &s.feature, 1}};
   std::vector<DracoAttribute> wanted;
   std::vector<const Row*> used;
   for (const Row& r : rows)
@@ -365,6 +367,11 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
         v[i + 1] = look.bake ? a.yx * u + a.yy * t + a.y : t;
       }
     });
+  NodeId light;
+  if (s.light)
+    light = attribute(nodes::TextureCoordinate, nodes::texture_coordinate::point.slot, FieldType::MFVec2f, s.light, -1, s.loose, [](std::vector<double>& v) {
+      for (std::size_t i = 1; i < v.size(); i += 2) v[i] = std::round((1 - v[i]) * 1e9) / 1e9;
+    });
   const auto corners = elements(p, s);
   Scene& scene = c_.scene;
   if (p.mode == points) {
@@ -404,17 +411,18 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
   if (normal) scene.set(n, f::normal, normal);
   if (color) scene.set(n, f::color, color);
   if (texcoord) scene.set(n, f::texCoord, texcoord);
+  if (light) scene.set(n, f::lightCoord, light);
   if (look.double_sided) scene.set(n, f::solid, false);
   index.slot = f::coordIndex.slot;
   scene.set(n, index);
   return n;
 }
 
-void Meshes::report_lost(const Primitive& p, const std::string& texcoord) {
+void Meshes::report_lost(const Primitive& p, const Sets& sets) {
   for (Json a : p.json["attributes"]) {
     const auto name = a.key();
     if (name == "POSITION" || name == "NORMAL" || name == "COLOR_0" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) continue;
-    if (name != texcoord || !materials_.texcoord_set(p.material)) c_.lost.add(name, c_.file.where(a));
+    if (name != sets.light && (name != sets.texcoord || !materials_.texcoord_set(p.material))) c_.lost.add(name, c_.file.where(a));
   }
   c_.lost.keep(c_.file, p.json);
 }
@@ -434,6 +442,7 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
     s.texcoord.values[i] = rounded(a.xx * u + a.xy * v + a.x);
     t = rounded(a.yx * u + a.yy * v + a.y);
   }
+  for (std::size_t i = 1; i < s.light.values.size(); i += 2) s.light.values[i] = decimal(static_cast<float>(1 - s.light.values[i]));
   if (s.color.width == 4) without_alpha(s.color.values);
   for (double& v : s.color.values) v = display(static_cast<float>(v));
   const TypeId type = p.faces() ? nodes::IndexedFaceSet : p.mode == points ? nodes::PointSet : nodes::IndexedLineSet;
@@ -527,6 +536,7 @@ void Meshes::own_faces(NodeId n, const Primitive& p, const Streams& s, const std
   if (s.color) add(nodes::Color, FieldType::MFColor, nodes::color::color.slot, f::color.slot, f::colorIndex.slot, join(s.color.values, 3), kept["colorPerVertex"].boolean(true));
   if (s.normal && kept["normal"]) add(nodes::Normal, FieldType::MFVec3f, nodes::normal::vector.slot, f::normal.slot, f::normalIndex.slot, join(s.normal.values, 3), kept["normalPerVertex"].boolean(true));
   if (s.texcoord && kept["texCoord"]) add(nodes::TextureCoordinate, FieldType::MFVec2f, nodes::texture_coordinate::point.slot, f::texCoord.slot, f::texCoordIndex.slot, join(s.texcoord.values, 2), true);
+  if (s.light) add(nodes::TextureCoordinate, FieldType::MFVec2f, nodes::texture_coordinate::point.slot, f::lightCoord.slot, f::lightCoordIndex.slot, join(s.light.values, 2), true);
   scene.set(n, f::coordIndex, coord_index);
 }
 

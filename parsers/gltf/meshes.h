@@ -59,11 +59,15 @@ class Meshes {
     explicit operator bool() const { return accessor != none || !values.empty(); }
   };
   struct Streams {
-    Stream position, normal, color, texcoord, feature;  // feature: of Draco only
+    Stream position, normal, color, texcoord, light, feature;  // feature: of Draco only
     std::size_t n = 0;  // vertices
     std::vector<std::uint32_t> index;
     std::uint32_t index_accessor = none;
     bool indexed = false, loose = false;  // loose: the values are not those of the accessors
+  };
+  /// Names of attributes: places in the picture and in the lightmap.
+  struct Sets {
+    std::string texcoord, light;
   };
   struct Primitive {
     Json json, mesh;
@@ -75,8 +79,8 @@ class Meshes {
   /// Of a mesh with feature ids the parts; none if it has no good ones.
   std::vector<Part> features(const Primitive&, const Part& whole);
   NodeId kept_whole(const Primitive&);
-  bool load(const Primitive&, const Pose&, const std::string& texcoord, Streams&);
-  bool load_draco(const Primitive&, const std::string& texcoord, Streams&);
+  bool load(const Primitive&, const Pose&, const Sets&, Streams&);
+  bool load_draco(const Primitive&, const Sets&, Streams&);
   Stream stream(const Primitive&, std::string_view name, std::size_t n, std::initializer_list<std::size_t> widths);
   bool fill(Stream&, std::initializer_list<std::size_t> widths);
   bool pose(const Primitive&, const Pose&, Streams&);
@@ -93,7 +97,7 @@ class Meshes {
   NodeId attribute(TypeId, std::uint16_t slot, FieldType, Stream&, int variant, bool loose, const std::function<void(std::vector<double>&)>& change);
   void name_attribute(NodeId, Json kept);
   void name_attributes(NodeId, Json kept);
-  void report_lost(const Primitive&, const std::string& texcoord);
+  void report_lost(const Primitive&, const Sets&);
 
   Context c_;
   Extras& extras_;
