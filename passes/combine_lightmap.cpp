@@ -67,6 +67,16 @@ bool is_near(const PageTriangle& t) {
   return std::ranges::all_of(t.x, near) && std::ranges::all_of(t.y, near);
 }
 
+/// Colours of its own let light through.
+bool has_clear_colors(const Scene& scene, NodeId geometry) {
+  const NodeId n = scene.get(geometry, ifs::color);
+  if (!scene.is(n, nodes::ColorRGBA)) return false;
+  const auto rgba = scene.get(n, nodes::color_rgba::color);
+  for (std::size_t i = 3; i < rgba.size(); i += 4)
+    if (rgba[i] < 1) return true;
+  return false;
+}
+
 class Combining {
  public:
   Combining(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx)
@@ -142,7 +152,7 @@ std::optional<LitShape> Combining::lit_shape(NodeId shape) {
   lit.surface = surfaces_.of(lit.appearance);
   const auto& s = surfaces_[lit.surface];
   if (!s.baked) return {};
-  lit.transparent = !options_.into.lightmap && (s.alpha < 1 || (s.picture.texture && s.picture.texture->has_alpha()));
+  lit.transparent = !options_.into.lightmap && (s.alpha < 1 || (s.picture.texture && s.picture.texture->has_alpha()) || has_clear_colors(scene_, lit.geometry));
   return lit;
 }
 
@@ -202,8 +212,8 @@ bool Combining::combine(Group& group) {
   const int k = factor(group), width = k * group.light->width(), height = k * group.light->height();
   triangles_.clear(), painted_.clear();
   for (std::uint32_t i = 0; i < meshes_.size(); ++i) list_triangles(group, i, width, height);
-  constexpr double reach = 2;  // texels of the light
-  Page page(width, height, reach * k);
+  constexpr double reach = 2, most = 8;  // texels of the light, and of the picture: all triangles take as long as it is wide
+  Page page(width, height, std::min(reach * k, most));
   bool whole = page.paint(triangles_, [&](std::size_t i, const std::array<double, 3>& weights, double x, double y) {
     return color(painted_[i], weights, {x / width, 1 - y / height}, group.transparent);
   });
@@ -245,8 +255,9 @@ Texel4 Combining::color(const Painted& t, const std::array<double, 3>& weights, 
   std::optional<drawing::Texel> vertex, texel;
   if (mesh.color.present()) {
     auto c = mixed<3>(mesh.color, t.corner, weights);
+    const double opacity = mesh.color.width == 4 ? mixed<4>(mesh.color, t.corner, weights)[3] : 1;
     for (double& x : c) x = std::clamp(x, 0.0, 1.0);  // weights may lie outside
-    vertex = drawing::Texel{{c[0], c[1], c[2]}, 1};
+    vertex = drawing::Texel{{c[0], c[1], c[2]}, std::clamp(opacity, 0.0, 1.0)};
   }
   if (s.picture.texture && mesh.texcoord.present()) {
     auto at = mixed<2>(mesh.texcoord, t.corner, weights);

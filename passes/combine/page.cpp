@@ -65,6 +65,45 @@ Position position(const PageTriangle& t, double area, double x, double y) {
   return p;
 }
 
+/// The page, or a smaller version of it.
+struct Level {
+  int width, height;
+  std::vector<Texel4> texels;
+  std::vector<char> known;
+};
+
+/// A texel is the mean of those of its four that are known.
+Level half(const Level& from) {
+  Level to{(from.width + 1) / 2, (from.height + 1) / 2, {}, {}};
+  to.texels.resize(std::size_t(to.width) * to.height);
+  to.known.resize(to.texels.size());
+  parallel_for(static_cast<std::size_t>(to.height), [&](std::size_t y) {
+    for (std::size_t x = 0; x < static_cast<std::size_t>(to.width); ++x) {
+      std::array<int, 4> sum{};
+      int n = 0;
+      for (std::size_t v = 2 * y; v < std::min<std::size_t>(2 * y + 2, from.height); ++v)
+        for (std::size_t u = 2 * x; u < std::min<std::size_t>(2 * x + 2, from.width); ++u) {
+          const std::size_t i = v * from.width + u;
+          if (!from.known[i]) continue;
+          for (std::size_t c = 0; c < 4; ++c) sum[c] += from.texels[i].rgba[c];
+          ++n;
+        }
+      const std::size_t at = y * to.width + x;
+      to.known[at] = n > 0;
+      for (std::size_t c = 0; c < 4 && n; ++c) to.texels[at].rgba[c] = static_cast<std::uint8_t>((sum[c] + n / 2) / n);
+    }
+  });
+  return to;
+}
+
+/// Texels that are not known take those of the smaller version (pull and push; Gortler et al. 1996).
+void fill(Level& fine, const Level& coarse) {
+  parallel_for(static_cast<std::size_t>(fine.height), [&](std::size_t y) {
+    for (std::size_t x = 0; x < static_cast<std::size_t>(fine.width); ++x)
+      if (const std::size_t i = y * fine.width + x; !fine.known[i]) fine.texels[i] = coarse.texels[y / 2 * coarse.width + x / 2];
+  });
+}
+
 }  // namespace
 
 Page::Page(int width, int height, double reach)
@@ -162,21 +201,15 @@ bool Page::paint(std::span<const PageTriangle> triangles, const Paint& paint) {
 }
 
 Image Page::image(int channels) const {
-  std::array<std::uint64_t, 3> sum{};
-  std::uint64_t n = 0;
-  for (std::size_t i = 0; i < texels_.size(); ++i) {
-    if (distance_[i] == nobody) continue;
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += texels_[i].rgba[c];
-    ++n;
-  }
-  Texel4 mean{{0, 0, 0, 255}};
-  for (std::size_t c = 0; c < 3 && n; ++c) mean.rgba[c] = static_cast<std::uint8_t>(sum[c] / n);
+  std::vector<char> known(distance_.size());
+  for (std::size_t i = 0; i < known.size(); ++i) known[i] = distance_[i] != nobody;
+  std::vector<Level> levels{{width_, height_, texels_, std::move(known)}};
+  while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(half(levels.back()));
+  if (!levels.back().known[0]) levels.back().texels[0] = {{0, 0, 0, 255}};
+  for (std::size_t l = levels.size() - 1; l-- > 0;) fill(levels[l], levels[l + 1]);
   Image out{width_, height_, channels, {}};
   out.pixels.reserve(texels_.size() * channels);
-  for (std::size_t i = 0; i < texels_.size(); ++i) {
-    const auto& from = distance_[i] == nobody ? mean : texels_[i];
-    out.pixels.insert(out.pixels.end(), from.rgba.begin(), from.rgba.begin() + channels);
-  }
+  for (const Texel4& t : levels[0].texels) out.pixels.insert(out.pixels.end(), t.rgba.begin(), t.rgba.begin() + channels);
   return out;
 }
 
