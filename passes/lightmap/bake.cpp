@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iterator>
 #include <span>
+#include <system_error>
 
 #include "passes/lightmap/checkpoint.h"
 #include "passes/lightmap/cut_off.h"
@@ -256,6 +257,7 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   for (std::size_t p = 0; p < bakers.size(); first += bakers[p++].n_tiles())
     out.push_back(rounds.bake(bakers[p], first, layout.pages()[p].width, layout.pages()[p].height, title_of_page(options.title, p, bakers.size())));
 
+  if (checkpoint.error()) ctx.diag.report(Diag::cannot_write, {}, options.checkpoint, std::generic_category().message(checkpoint.error()));
   std::vector<Canvas> light;
   for (auto& p : out) light.push_back(std::move(p.light));
   const SeamReport seams = close_seams(light, layout.seams());

@@ -64,9 +64,12 @@ void Checkpoint::save(std::uint64_t tile, const std::vector<char>& bytes) {
   put(head, bytes.size());
   put(head, hash_bytes(bytes.data(), bytes.size()));
   std::lock_guard lock(mutex_);
+  if (error_) return;
+  errno = 0;
   out_.write(head.data(), static_cast<std::streamsize>(head.size()));
   out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out_.flush();
+  if (!out_) error_ = errno ? errno : EIO;
 }
 
 }  // namespace wrlkit::bake

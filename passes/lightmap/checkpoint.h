@@ -25,12 +25,15 @@ class Checkpoint {
   std::size_t n_found() const { return found_.size(); }
   /// Any number of threads may save.
   void save(std::uint64_t tile, const std::vector<char>& bytes);
+  /// Why tiles could not be saved, and nothing is kept since: the number of a system error. 0: all were.
+  int error() const { return error_; }
 
  private:
   void read(std::istream& in, std::uint64_t& end);
 
   std::string path_;
   std::ofstream out_;
+  int error_ = 0;
   std::mutex mutex_;
   std::unordered_map<std::uint64_t, std::vector<char>> found_;
 };

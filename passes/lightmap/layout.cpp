@@ -100,7 +100,7 @@ void Layout::pack_all() {
   }
 }
 
-/// A part that has more charts than a page has texels gets a larger page.
+/// A part that has more charts than a page has texels, or than fit on one in a piece of which there are copies, gets a larger page.
 int Layout::larger(int side) const {
   constexpr int most_side = 32768;
   if (side >= most_side) throw std::length_error("a surface has more charts than the largest page has texels");
@@ -114,7 +114,7 @@ void Layout::pack(std::size_t begin, std::size_t end, int side) {
   for (std::size_t i = begin; i < end; ++i) items.push_back(item(i));
   auto atlas = unwrap::pack(items, {options_.padding, std::max(options_.side, side), side});
   auto whole = [](const unwrap::PackedItem& i) {
-    return std::ranges::all_of(i.charts, [&](const Placement& c) { return c.page == i.charts[0].page; });
+    return !i.crowded && std::ranges::all_of(i.charts, [&](const Placement& c) { return c.page == i.charts[0].page; });
   };
   if (!std::ranges::all_of(atlas.items, whole)) {
     if (end - begin == 1) return pack(begin, end, larger(side));

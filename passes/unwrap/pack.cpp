@@ -211,7 +211,7 @@ void Packer::make_unit(std::uint32_t item, double factor, int side) {
 }
 
 void Packer::add_to_unit(const Piece& p, Spotted s, Bitmap& unit) {
-  if (s.at.y >= unit.height()) s.at = {};
+  if (s.at.y >= unit.height()) s.at = {}, atlas_.items[p.item].crowded = true;
   draw(p, bitmap_);
   Bitmap turned;
   for (int q = 0; q < s.quarters; ++q) turn_quarter(bitmap_, turned), std::swap(bitmap_, turned);
@@ -224,6 +224,7 @@ std::vector<Piece> Packer::make_pieces(double factor, int side) {
   for (std::uint32_t i = 0; i < items_.size(); ++i) {
     auto n = static_cast<std::uint32_t>(items_[i].charts->size());
     atlas_.items[i].charts.resize(n);
+    atlas_.items[i].crowded = false;
     if (items_[i].copies > 1) {
       make_unit(i, factor, side);
       atlas_.items[i].copies.resize(items_[i].copies);

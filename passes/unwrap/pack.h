@@ -35,6 +35,7 @@ struct Placement {
 struct PackedItem {
   std::vector<Placement> charts;  // of each chart: in its page or, when there are copies, in the piece
   std::vector<Placement> copies;  // of each copy: where the piece lies, in texels. Empty when there is only one
+  bool crowded = false;           // charts of a piece share a texel
 };
 
 struct Page {
@@ -52,7 +53,7 @@ struct Atlas {
 ///
 /// - Each chart, however small, touches at least one texel that no other touches, and the middle of its box is the
 ///   middle of a texel if it is less than one. (But when an item that has copies has so many charts that a page has not a
-///   texel for each, those beyond share one.)
+///   texel for each, those beyond share one, and the item is `crowded`.)
 /// - Without `side`, pages are squares; sides are powers of two up to `max_side`. The last may be lower. What is too large
 ///   for a page is scaled down.
 /// - With `side`, more pages of that side are opened only if there is not a texel for each chart.

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "parsers/parsers.h"
 #include "parsers/resources.h"
@@ -521,6 +522,25 @@ TEST_CASE("bake: shared geometry has as many texels a metre in each of its sizes
   CHECK((one != large && one != length && large != length));
   for (const char* alike : {"Turned", "Mirrored"}) CHECK(density(alike, 1, 1) == one);
   density("Flat", 1, 1);
+}
+
+TEST_CASE("bake: each of very many leaves has a texel, also of a tree that is shown twice", "[bake]") {
+  std::string points, faces;
+  for (int i = 0; i < 300; ++i) {
+    const std::string x = std::to_string(i % 20), z = std::to_string(i / 20);
+    points += x + " 0 " + z + ", " + x + ".1 0 " + z + ", " + x + " 0.1 " + z + ", ";
+    for (int k = 0; k < 3; ++k) faces += std::to_string(3 * i + k) + " ";
+    faces += "-1 ";
+  }
+  Baked b("DEF Tree Shape { " + material(0.5) + " geometry IndexedFaceSet { coord Coordinate { point [ " + points + " ] } coordIndex [ " + faces + " ] } } Transform { translation 50 0 0 children USE Tree }",
+          "quality=draft,max-size=32,sky=1:1:1");
+  const Light tree(b, "Tree");
+  std::set<std::pair<float, float>> places;
+  for (std::size_t c = 0; c < tree.mesh.corners.size(); c += 3) {
+    const float* p = tree.mesh.lightcoord.at(tree.mesh.lightcoord.index[c]);
+    places.emplace(p[0], p[1]);
+  }
+  CHECK(places.size() == 300);
 }
 
 TEST_CASE("bake: what has a name gets as many texels as it is said to", "[bake]") {

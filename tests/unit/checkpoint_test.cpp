@@ -1,7 +1,11 @@
 // Tiles that were saved are found again, whatever happened to the end of the file.
 #include "passes/lightmap/checkpoint.h"
 
+#include <sys/resource.h>
+
 #include <catch2/catch.hpp>
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -45,4 +49,20 @@ TEST_CASE("checkpoint: without a path nothing is kept; a path that cannot be wri
   none.save(1, {'a'});
   CHECK(!none.find(1));
   CHECK_THROWS(Checkpoint("/nonexistent/folder/file", 1));
+}
+
+TEST_CASE("checkpoint: what cannot be kept is known") {
+  TempFolder folder;
+  rlimit before;
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1000, before.rlim_max};
+  Checkpoint c((folder.path() / "bake").string(), 7);
+  c.save(1, std::vector<char>(100));
+  CHECK(c.error() == 0);
+  setrlimit(RLIMIT_FSIZE, &small);
+  c.save(2, std::vector<char>(5000));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  CHECK(c.error() == EFBIG);
 }

@@ -537,7 +537,9 @@ TEST_CASE("unwrap: more charts in a copy than a page has texels") {
     Atlas atlas = pack({&item, 1}, options);
     CHECK(texels({&item, 1}, atlas, 0).outside == 0);
     CHECK(atlas.pages.size() == 3);
+    CHECK(atlas.items[0].crowded);
   }
+  CHECK_FALSE(pack({&item, 1}, {.max_side = 256}).items[0].crowded);
 }
 
 TEST_CASE("unwrap: nothing to pack") {
