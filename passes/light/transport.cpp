@@ -15,12 +15,13 @@ constexpr int lamp_rays = 2;
 Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, int depth, bool all_emitters) const {
   Arriving out;
   bool first = true;
-  double open = each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
+  auto meet = [&](const Hit& hit, const SurfacePoint& s, double part) {
     // Behind a pane of glass, too, there are backs; they do not say where the ray starts. And in a glass nobody is hidden.
     out.from_inside |= std::exchange(first, false) && s.inside && s.alpha >= 1;
     if (mean(s.emission) > 0 && !(all_emitters && direct_.is_emitter(hit))) out.direct += part * direct_.gather_weight(at, ray, hit) * s.emission;
     if (mean(s.albedo) > 0) out.reflected += (part / pi) * (s.albedo * irradiance(ray, hit, s, random, depth + 1));
-  });
+  };
+  const double open = depth == 0 ? each_layer(ray, meet) : one_layer(ray, random, meet);
   if (open > 0 && world_.has_sky()) out.direct += open * world_.sky(ray.direction);
   return out;
 }

@@ -30,7 +30,6 @@ class Transport {
   /// comes from there. An f that sets surface.alpha to 0 lets the ray pass. Returns the part that comes from the sky.
   template <class F>
   double each_layer(const Ray& ray, F&& f) const {
-    constexpr int most_layers = 32;
     constexpr double hidden = 1.0 / 512;
     double through = 1, after = 0;
     Hit hit;
@@ -44,12 +43,30 @@ class Transport {
     return 0;
   }
 
+  /// The same through one layer only, by chance: the part of each is how often it is the one. For rays whose light nobody sees by itself; if
+  /// these went on from all layers, there would be many times as many after each reflection.
+  template <class F>
+  double one_layer(const Ray& ray, Stream& random, F&& f) const {
+    double after = 0;
+    Hit hit;
+    for (int layer = 0; layer < most_layers; ++layer, after = hit.distance) {
+      if (!world_.nearest(ray, after, hit)) return 1;
+      SurfacePoint s = world_.surface(hit);
+      if (s.alpha < 1 && random.next() >= s.alpha) continue;
+      f(hit, s, 1);
+      break;
+    }
+    return 0;
+  }
+
   /// The receiver of the light at a place that a ray met.
   Receiver receiver_at(const Hit& hit, const SurfacePoint& s) const {
     return {world_.off_surface(hit, s.face), s.face, world_.normal(hit, s.face), world_.stage().uses[hit.use].lights};
   }
 
  private:
+  static constexpr int most_layers = 32;
+
   Arriving along(const Receiver& at, const Ray& ray, Stream& random, int depth, bool all_emitters = false) const;
   V3 irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const;
   V3 followed(const Receiver& at, const V3& albedo, Stream& random, int depth) const;

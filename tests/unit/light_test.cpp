@@ -359,6 +359,17 @@ TEST_CASE("light: what is transparent lets light through") {
   CHECK(total(shut.irradiance(up, {.rays = 1})) == 0);
 }
 
+TEST_CASE("light: among many panes of white glass under a white sky it is white everywhere") {
+  // Each reflection meets eight panes, each of which reflects: were all followed, there would be no end.
+  std::string panes;
+  for (int k = 1; k <= 8; ++k)
+    panes += quad({-1, -1, 0.1 * k}, {2, 0, 0}, {0, 2, 0}, "appearance Appearance { material Material { transparency 0.7 diffuseColor 1 1 1 } } ", "solid FALSE");
+  for (auto mode : {Mode::cached, Mode::path}) {
+    Room room(panes, {.sky = LightOptions::Sky::constant});
+    CHECK(total(room.irradiance(up, {.mode = mode, .rays = 4096})) == Approx(pi).epsilon(0.02));
+  }
+}
+
 TEST_CASE("light: the back of a solid face is black, of another one not") {
   // A ceiling seen from below, lit from below by reflection of a floor that emits.
   for (bool solid : {true, false}) {
