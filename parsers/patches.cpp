@@ -13,6 +13,8 @@ namespace {
 
 namespace word = patch_words;
 
+bool is_utf16(std::string_view s) { return s.starts_with("\xff\xfe") || s.starts_with("\xfe\xff"); }
+
 std::string_view without_bom(std::string_view s) { return s.starts_with("\xef\xbb\xbf") ? s.substr(3) : s; }
 
 class PatchParser {
@@ -103,23 +105,34 @@ class PatchParser {
   void check_attributes(Element e, const XmlTag& tag) {
     using Words = std::initializer_list<std::string_view>;
     static const Words known[] = {{word::version, word::source, word::unit, word::method, word::samples}, {word::name, word::index}, {word::index, word::v}, {word::v, word::rgb, word::side}};
+    std::uint32_t met = 0;  // of these words
     for (auto& a : tag.attributes) {
-      if (std::ranges::find(known[e], a.name) == known[e].end()) say(Diag::unknown_attribute, a.where, name_of(e), a.name);
-      else if (tag.find(a.name) != &a) say(Diag::duplicate_field, a.where, a.name, "the first one is taken");
+      const auto word = std::ranges::find(known[e], a.name);
+      const std::uint32_t bit = 1u << (word - known[e].begin());
+      if (word == known[e].end()) say(Diag::unknown_attribute, a.where, name_of(e), a.name);
+      else if (met & bit) say(Diag::duplicate_field, a.where, a.name, "the first one is taken");
+      met |= bit;
     }
+  }
+
+  /// A value that is read by people.
+  std::string text(const XmlTag::Attribute& a) {
+    if (vrml::is_utf8(a.value)) return std::string(a.value);
+    say(Diag::encoding_repaired, a.where, "Latin-1");
+    return vrml::latin1_to_utf8(a.value);
   }
 
   void begin_patches(const XmlTag& tag) {
     if (auto* a = tag.find(word::version); a && a->value != "1") say(Diag::patch_version, a->where, a->value);
-    if (auto* a = tag.find(word::source)) set_.source = a->value;
-    if (auto* a = tag.find(word::method)) set_.method = a->value;
+    if (auto* a = tag.find(word::source)) set_.source = text(*a);
+    if (auto* a = tag.find(word::method)) set_.method = text(*a);
     if (auto* a = tag.find(word::unit)) set_.printed.unit = metres_of(*a);
     if (auto n = count(tag, word::samples); n != PatchSet::unknown) set_.samples = n;
   }
 
   void begin_shape(const XmlTag& tag) {
     auto* name = tag.find(word::name);
-    set_.add_shape(name ? std::string(name->value) : std::string(), count(tag, word::index));
+    set_.add_shape(name ? text(*name) : std::string(), count(tag, word::index));
     in_shape_ = true;
     in_triangle_ = false;
   }
@@ -242,7 +255,7 @@ class PatchParser {
 
 std::optional<PatchSet> parse_text(std::string_view text, std::uint32_t base, Diagnostics& diag) {
   std::string converted;
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+  if (is_utf16(text)) {
     diag.report(Diag::encoding_repaired, Span{base, 0}, "UTF-16");
     text = converted = vrml::utf16_to_utf8(text);
   }
@@ -252,7 +265,11 @@ std::optional<PatchSet> parse_text(std::string_view text, std::uint32_t base, Di
 
 }  // namespace
 
-bool is_patch_file(std::string_view text) { return first_element(text) == patch_words::patches; }
+bool is_patch_file(std::string_view text) {
+  constexpr std::size_t enough = 1 << 16;  // for a declaration and comments
+  if (is_utf16(text)) return first_element(vrml::utf16_to_utf8(text.substr(0, enough))) == patch_words::patches;
+  return first_element(text) == patch_words::patches;
+}
 
 std::optional<PatchSet> parse_patches(const FileText& file, Diagnostics& diag) { return parse_text(file.view(), file.base, diag); }
 

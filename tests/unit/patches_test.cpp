@@ -169,6 +169,32 @@ TEST_CASE("other files are no patch files") {
   CHECK(is_patch_file("\xef\xbb\xbf <?xml version='1.0'?><!-- > --><!DOCTYPE a [ > ]><patches>"));
 }
 
+TEST_CASE("files in other encodings") {
+  Diagnostics diag;
+  const auto latin = read("<?xml version='1.0' encoding='ISO-8859-1'?><patches source='K\xfchlung.wrl'><shape name='\xe4'/></patches>", diag);
+  REQUIRE(latin);
+  CHECK(latin->source == "K\xc3\xbchlung.wrl");
+  CHECK(latin->shapes[0].name == "\xc3\xa4");
+  CHECK(diag.count(Diag::encoding_repaired) == 2);
+  std::string wide = "\xff\xfe";
+  for (char c : example) wide += c, wide += '\0';
+  CHECK(is_patch_file(wide));
+  Diagnostics again;
+  REQUIRE(read(wide, again));
+  CHECK(again.count(Diag::encoding_repaired) == 1);
+}
+
+TEST_CASE("a tag of very many attributes takes no longer than many tags") {
+  std::string text = "<patches><patch";
+  for (int i = 0; i < 100'000; ++i) text += " a" + std::to_string(i) + "='1'";
+  for (int i = 0; i < 100'000; ++i) text += " v='0 0 0 1 0 0 0 1 0'";
+  Diagnostics diag;
+  const auto set = read(text + " rgb='1 1 1'/></patches>", diag);
+  REQUIRE(set);
+  CHECK(set->patches.size() == 1);
+  CHECK(diag.count(Diag::duplicate_field) == 99'999);
+}
+
 TEST_CASE("depth takes no memory and no stack") {
   std::string text = "<patches>";
   for (int i = 0; i < 200000; ++i) text += "<a>";
