@@ -23,16 +23,16 @@ struct ByTriangle {
   }
 };
 
-/// Splits patches where the light changes, by what a few steps of stochastic iteration say of it.
+/// Splits patches where the light changes, by what a few steps of stochastic iteration say of it. Two runs have to say so, as
+/// neighbours differ by noise as well.
 class Refinement {
  public:
   Refinement(PatchedWorld& world, const IlluminateOptions& options) : world_(world), options_(options) {}
 
   void run() {
     constexpr int rounds = 6;  // each halves the area; two halve the edges
-    for (int round = 0; round < rounds; ++round) {
-      MethodOptions pilot{.samples = pilot_samples, .seed = key_of(options_.how.seed, 40, static_cast<std::uint64_t>(round))};
-      irradiance_ = iterate_stochastically(world_, pilot);
+    for (std::uint64_t round = 0; round < rounds; ++round) {
+      for (std::uint64_t i = 0; i < 2; ++i) look(pilot_[i], key_of(options_.how.seed, 40 + i, round));
       const auto chosen = where_it_changes();
       constexpr std::size_t added = 4;  // sides by each, about: neighbours are cut, too
       if (chosen.empty() || world_.n_sides() + added * chosen.size() > world_.sizes().most_patches) return;
@@ -41,16 +41,19 @@ class Refinement {
   }
 
  private:
-  static constexpr int pilot_samples = 64;
-
-  double brightness(std::uint32_t s) const { return mean(radiance(world_, s, irradiance_[s])); }
+  void look(std::vector<double>& brightness, std::uint64_t seed) const {
+    constexpr int samples = 64;
+    const auto irradiance = iterate_stochastically(world_, {.samples = samples, .seed = seed});
+    brightness.resize(irradiance.size());
+    for (std::uint32_t s = 0; s < irradiance.size(); ++s) brightness[s] = mean(radiance(world_, s, irradiance[s]));
+  }
 
   /// The largest that an edge may be, or is about when only the area is limited.
   double edge() const { return world_.sizes().max_edge > 0 ? world_.sizes().max_edge : 2 * std::sqrt(world_.sizes().max_area); }
 
   double threshold() const {
     double sum = 0, area = 0;
-    for (std::uint32_t s = 0; s < world_.n_sides(); ++s) sum += world_.area(s) * (brightness(s) - mean(world_.emission(s))), area += world_.area(s);
+    for (std::uint32_t s = 0; s < world_.n_sides(); ++s) sum += world_.area(s) * (pilot_[0][s] - mean(world_.emission(s))), area += world_.area(s);
     return area > 0 ? options_.gradient * sum / area : 0;
   }
 
@@ -63,7 +66,11 @@ class Refinement {
       if (mesh.longest(face) <= shortest) continue;
       const auto first = s - face;
       // Around a fold light changes at once, however small patches are.
-      auto differs = [&](std::uint32_t n) { return n != PatchMesh::none && mesh.flat(face, n) && std::fabs(brightness(first + n) - brightness(s)) > most; };
+      auto differs = [&](std::uint32_t n) {
+        if (n == PatchMesh::none || !mesh.flat(face, n)) return false;
+        const double a = pilot_[0][first + n] - pilot_[0][s], b = pilot_[1][first + n] - pilot_[1][s];
+        return std::min(a, b) > most || std::max(a, b) < -most;
+      };
       if (std::ranges::any_of(mesh.faces()[face].neighbours, differs)) out.push_back(s);
     }
     return out;
@@ -71,7 +78,7 @@ class Refinement {
 
   PatchedWorld& world_;
   const IlluminateOptions& options_;
-  std::vector<V3> irradiance_;
+  std::vector<double> pilot_[2];     // radiance of each side
 };
 
 class Gathering {

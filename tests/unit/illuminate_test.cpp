@@ -192,6 +192,18 @@ TEST_CASE("a patch set of a room is the same for any number of threads and both 
   CHECK(texts[0] == texts[1]);
 }
 
+TEST_CASE("patches become smaller where light changes, and not by noise") {
+  auto n_patches = [](const std::string& text, double gradient) {
+    const Lit lit(text);
+    Diagnostics none;
+    return illuminate(lit.world->scene, *lit.light, {.method = Method::stochastic_iteration, .sizes = {.max_edge = 0.25}, .gradient = gradient, .how = {.samples = 1}}, none).patches.size();
+  };
+  const std::string floor = surface(0.5, 0, "0 0 0, 2 0 0, 2 2 0, 0 2 0"), lamp = "PointLight { location 1 1 1 attenuation 0 0 1 } ";
+  const auto board = surface(0, 0, "0.5 0.5 0.3, 0.5 1.5 0.3, 1.5 1.5 0.3, 1.5 0.5 0.3");
+  CHECK(n_patches(lamp + floor + board, 0.2) > 2 * n_patches(lamp + floor + board, 0));
+  CHECK(n_patches(cube(0.8, 1), 0.02) < 3 * n_patches(cube(0.8, 1), 0));
+}
+
 TEST_CASE("a hit finds the patch that it is in") {
   const Lit lit(surface(0.5, 0, "0 0 0, 3 0 0, 3 2 0, 0.2 1 0"));
   Diagnostics none;
