@@ -163,3 +163,16 @@ def test_a_million_triangles_in_a_pass_cost_no_copy(tmp_path):
                              capture_output=True, text=True, check=True)
         return int(run.stderr.split()[0])
     assert peak('true') - peak('false') < 6000, 'one copy of the points is 11,800 kB, of the indices 15,700 kB'
+
+
+def test_light_of_a_patch_file(tmp_path):
+    text = '#VRML V2.0 utf8\nPointLight { location 0 3 0 } Shape { appearance Appearance { material Material { } } geometry Box { } }'
+    path = tmp_path / 'room.wrl'
+    path.write_text(text)
+    patches = str(tmp_path / 'room.xml')
+    assert wrlkit.main(['illuminate', str(path), patches, '--samples', '4', '--max-edge', '0.5']) == 0
+    world = wrlkit.load(str(path))
+    counted = world.apply('lightmap', patches=patches, smooth=True)
+    assert counted['lightmap.patches'] == 384 and counted['lightmap.orphans'] == 0
+    with pytest.raises(wrlkit.Error, match='no patch file'):
+        wrlkit.load(str(path)).apply('lightmap', patches=str(path))
