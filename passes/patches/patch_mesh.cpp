@@ -54,9 +54,9 @@ void PatchMesh::link() {
   std::vector<Side> sides;
   sides.reserve(faces_.size() * 3);
   for (std::uint32_t f = 0; f < faces_.size(); ++f)
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3 && !is_collapsed(f); ++i) {
       const auto [low, high] = std::minmax(faces_[f].corners[i], faces_[f].corners[next(i)]);
-      if (low != high) sides.push_back({std::uint64_t{low} << 32 | high, f, i});
+      sides.push_back({std::uint64_t{low} << 32 | high, f, i});
     }
   std::ranges::stable_sort(sides, {}, &Side::key);
   for (std::size_t i = 0, end; i < sides.size(); i = end) {
@@ -66,6 +66,16 @@ void PatchMesh::link() {
     faces_[a.face].neighbours[a.side] = b.face;
     faces_[b.face].neighbours[b.side] = a.face;
   }
+}
+
+bool PatchMesh::is_collapsed(std::size_t face) const {
+  const auto& c = faces_[face].corners;
+  return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+}
+
+double PatchMesh::longest(std::size_t face) const {
+  const auto f = static_cast<std::uint32_t>(face);
+  return is_collapsed(face) ? 0 : std::sqrt(edge(f, longest_edge(f)).square);
 }
 
 std::array<V3, 3> PatchMesh::triangle(std::uint32_t t) const {

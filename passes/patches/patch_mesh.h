@@ -36,8 +36,8 @@ class PatchMesh {
   double area(std::size_t face) const;
   /// Do two faces lie in planes that hardly differ, the same side up?
   bool flat(std::size_t a, std::size_t b) const;
-  /// Length of its longest edge.
-  double longest(std::size_t face) const { return std::sqrt(edge(static_cast<std::uint32_t>(face), longest_edge(static_cast<std::uint32_t>(face))).square); }
+  /// Length of its longest edge; 0 of a triangle with two corners in one place. Such a one is never split, as two of its edges are one.
+  double longest(std::size_t face) const;
 
   /// Halves a face at its longest edge, after those neighbours that have a longer one there. The face keeps its number as one
   /// of the halves; new faces come behind the last. The same calls give the same mesh.
@@ -63,6 +63,7 @@ class PatchMesh {
   Edge edge(std::uint32_t face, int i) const;
   int longest_edge(std::uint32_t face) const;
   int side_of(std::uint32_t face, const Edge& e) const;
+  bool is_collapsed(std::size_t face) const;
   void link();
   void bisect(std::uint32_t face, int side);
   std::uint32_t halve(std::uint32_t face, int side, std::uint32_t middle);

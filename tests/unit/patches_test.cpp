@@ -246,6 +246,16 @@ TEST_CASE("what is split here and there stays conforming, also where sheets lie 
   }
 }
 
+TEST_CASE("triangles with two corners in one place stay whole") {
+  const V3 a{0, 0, 0}, b{1, 0, 0}, c{0.5, 0, 0};
+  for (const auto& triangles : {std::vector<Triangle>{{a, a, b}, {a, b, b}}, std::vector<Triangle>{{a, b, c}, {a, b, a}}, std::vector<Triangle>{{a, a, a}}}) {
+    PatchMesh mesh(triangles);
+    CHECK(mesh.split_to(0.1, 0, 10'000));
+    CHECK(mesh.faces().size() < 100);
+    require_conforming(mesh);
+  }
+}
+
 TEST_CASE("splitting ends at the limit") {
   PatchMesh mesh(std::vector<Triangle>{{V3{0, 0, 0}, V3{1, 0, 0}, V3{0, 1, 0}}});
   CHECK(!mesh.split_to(1e-300, 0, 1000));
