@@ -1,8 +1,9 @@
-// Baked light (MOZ_lightmap): a texture of what arrives at a surface. Such surfaces are shown without the world's lamps,
+// Baked light (extras.lightmap of a material): a texture of what arrives at a surface, and maybe three that say from where. Such surfaces are shown without the world's lamps,
 // whose light is in the texture already. Every part has its place on a page, which glTF says by a transform in a material of its own; here
 // the transform goes into texture coordinates, so that a page is one texture and what it lights can be drawn in one call.
-import {BufferAttribute, BufferGeometry, MeshBasicMaterial, SRGBColorSpace, type Material, type Mesh, type MeshStandardMaterial, type Texture} from 'three';
+import {BufferAttribute, BufferGeometry, Color, MeshBasicMaterial, NoColorSpace, SRGBColorSpace, type ColorSpace, type Material, type Mesh, type MeshStandardMaterial, type Texture} from 'three';
 import type {GLTF} from 'three/addons/loaders/GLTFLoader.js';
+import {DirectedMaterial, type Directions} from './directed_light';
 
 const channel = 3;  // of texture coordinates
 
@@ -16,7 +17,8 @@ interface Transform {
 interface LightmapInfo {
   index: number;
   texCoord?: number;
-  intensity?: number;
+  scale?: number;
+  directions?: [number, number, number];
   extensions?: {KHR_texture_transform?: Transform};
 }
 
@@ -59,22 +61,38 @@ function place(geometry: BufferGeometry, info: LightmapInfo): BufferGeometry {
   return made.setAttribute(`uv${channel}`, new BufferAttribute(out, 2));
 }
 
+type Page = (index: number, meaning: ColorSpace) => Promise<Texture | null>;
+
+interface Vrml97 {
+  Material?: {specularColor?: [number, number, number]; shininess?: number};
+}
+
+async function directions(material: Material, info: LightmapInfo, page: Page): Promise<Directions | null> {
+  if (info.directions?.length !== 3) return null;
+  const [x, y, z] = await Promise.all(info.directions.map(index => page(index, NoColorSpace)));
+  if (!x || !y || !z) return null;
+  const {specularColor = [0, 0, 0], shininess = 0.2} = (material.userData['vrml97'] as Vrml97 | undefined)?.Material ?? {};
+  return {x, y, z, specular: new Color().setRGB(...specularColor, SRGBColorSpace), shininess};
+}
+
 /// The material with its light; `page` gives a texture of a file.
-async function baked(material: MeshStandardMaterial, info: LightmapInfo, page: (index: number) => Promise<Texture | null>): Promise<MeshBasicMaterial> {
+async function baked(material: MeshStandardMaterial, info: LightmapInfo, page: Page): Promise<MeshBasicMaterial> {
   const {name, color, map, transparent, opacity, side, alphaTest, vertexColors, userData} = material;
-  const made = new MeshBasicMaterial({name, color, map, transparent, opacity, side, alphaTest, vertexColors});
+  const from = await directions(material, info, page);
+  const made = new (from ? DirectedMaterial : MeshBasicMaterial)({name, color, map, transparent, opacity, side, alphaTest, vertexColors});
+  if (from) (made as DirectedMaterial).directions = from;
   made.userData = userData;
-  made.lightMap = await page(info.index);
+  made.lightMap = await page(info.index, SRGBColorSpace);
   // three.js takes the map for irradiance, of which a white surface reflects 1 / pi.
-  made.lightMapIntensity = (info.intensity ?? 1) * Math.PI;
+  made.lightMapIntensity = (info.scale ?? 1) * Math.PI;
   return made;
 }
 
 /// Gives the materials of a file their baked light.
 export async function bakedLight(gltf: GLTF): Promise<void> {
   const made = new Map<Material, Promise<MeshBasicMaterial>>(), pages = new Map<number, Promise<Texture | null>>(), places = new Places();
-  const page = (index: number): Promise<Texture | null> => {
-    const known = pages.get(index) ?? loadPage(gltf, index);
+  const page: Page = (index, meaning) => {
+    const known = pages.get(index) ?? loadPage(gltf, index, meaning);
     pages.set(index, known);
     return known;
   };
@@ -82,7 +100,7 @@ export async function bakedLight(gltf: GLTF): Promise<void> {
   gltf.scene.traverse(o => {
     const mesh = o as Mesh;
     const material = mesh.material as MeshStandardMaterial | undefined;
-    const info = material?.userData['gltfExtensions']?.['MOZ_lightmap'] as LightmapInfo | undefined;
+    const info = material?.userData['lightmap'] as LightmapInfo | undefined;
     if (!material || !info) return;
     if (!made.has(material)) made.set(material, baked(material, info, page));
     mesh.geometry = places.of(mesh.geometry, info);
@@ -91,10 +109,10 @@ export async function bakedLight(gltf: GLTF): Promise<void> {
   await Promise.all(waiting);
 }
 
-async function loadPage(gltf: GLTF, index: number): Promise<Texture | null> {
+async function loadPage(gltf: GLTF, index: number, meaning: ColorSpace): Promise<Texture | null> {
   const texture = ((await gltf.parser.getDependency('texture', index)) as Texture | null)?.clone() ?? null;
   if (!texture) return null;
   texture.channel = channel;
-  texture.colorSpace = SRGBColorSpace;
+  texture.colorSpace = meaning;
   return texture;
 }

@@ -1,4 +1,5 @@
 // Where the bytes and the triangles of a file are.
+import type {DirectedMaterial} from './directed_light';
 import type {BufferAttribute, Material, Mesh, MeshStandardMaterial, Texture} from 'three';
 import {accessorBytes, accessorsOf, type GltfFile} from './file';
 import {labelOf, type Part, type World} from './world';
@@ -68,5 +69,6 @@ export function unpackedBytes(world: World): number {
 
 function texturesOf(material: Material): Texture[] {
   const {map, emissiveMap, normalMap, aoMap, lightMap, roughnessMap, metalnessMap} = material as MeshStandardMaterial;
-  return [map, emissiveMap, normalMap, aoMap, lightMap, roughnessMap, metalnessMap].filter(t => t instanceof Object) as Texture[];
+  const {x, y, z} = (material as DirectedMaterial).directions ?? {};
+  return [map, emissiveMap, normalMap, aoMap, lightMap, roughnessMap, metalnessMap, x, y, z].filter(t => t instanceof Object) as Texture[];
 }
