@@ -113,7 +113,7 @@ std::optional<Curve> follow(const Scene& scene, NodeId n, const Ramp& ramp, std:
     const auto [f1, v1] = ramp.points[i + 1];
     if (!(f1 > f0)) continue;
     const bool up = v1 >= v0;
-    auto time_of = [&](double k) { return std::clamp(f0 + (f1 - f0) * (k - v0) / (v1 - v0), f0, f1); };
+    auto time_of = [&, f0 = f0, v0 = v0, f1 = f1, v1 = v1](double k) { return std::clamp(f0 + (f1 - f0) * (k - v0) / (v1 - v0), f0, f1); };
     add(f0, place_of(key, v0, up));
     if (v0 != v1) {
       auto low = static_cast<std::size_t>(std::ranges::upper_bound(key, std::min(v0, v1)) - key.begin());

@@ -47,8 +47,8 @@ std::size_t Hierarchy::share_places(std::span<std::uint32_t> siblings, std::vect
     nodes_[all[0]] = {.attached = mesh, .attachment = Attachment::mesh, .instances = static_cast<std::uint32_t>(instances_.size())};
     instances_.push_back(std::move(table));
   }
-  auto rest = std::ranges::remove_if(siblings, [&](auto id) { return marks[id] == Mark::row; });
-  return siblings.size() - rest.size();
+  const auto rest = std::remove_if(siblings.begin(), siblings.end(), [&](auto id) { return marks[id] == Mark::row; });
+  return static_cast<std::size_t>(rest - siblings.begin());
 }
 
 void Hierarchy::make_instances() {

@@ -36,7 +36,7 @@ std::vector<std::uint32_t> runs(const Mesh& mesh) {
 
 std::uint32_t n_different(std::vector<float> v) {
   std::ranges::sort(v);
-  return static_cast<std::uint32_t>(std::ranges::unique(v).begin() - v.begin());
+  return static_cast<std::uint32_t>(std::unique(v.begin(), v.end()) - v.begin());
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ double Packing::pack_places(const Hierarchy& hierarchy, double tolerance) {
   }
   for (const auto& [accessor, step] : steps) {
     const bool turns = from_.accessors()[accessor].view == View::moving4;
-    once(accessor, [&, view = turns ? View::place4 : View::place3, width = turns ? 4u : 3u] { return own_.raw(view, on_grid(floats(accessor), width, step).bytes); });
+    once(accessor, [&, accessor = accessor, step = step, view = turns ? View::place4 : View::place3, width = turns ? 4u : 3u] { return own_.raw(view, on_grid(floats(accessor), width, step).bytes); });
   }
   return tolerance;
 }

@@ -116,8 +116,7 @@ void PartRows::count() {
       for (Json set : p["extensions"]["EXT_mesh_features"]["featureIds"].elements()) {
         auto all = ids(set, p["attributes"]);
         std::ranges::sort(all);
-        const auto rest = std::ranges::unique(all);
-        all.erase(rest.begin(), rest.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
         for (auto row : all) add(row, 2);
       }
     }

@@ -66,7 +66,7 @@ class Refinement {
       if (mesh.longest(face) <= shortest) continue;
       const auto first = s - face;
       // Around a fold light changes at once, however small patches are.
-      auto differs = [&](std::uint32_t n) {
+      auto differs = [&, face = face](std::uint32_t n) {
         if (n == PatchMesh::none || !mesh.flat(face, n)) return false;
         const double a = pilot_[0][first + n] - pilot_[0][s], b = pilot_[1][first + n] - pilot_[1][s];
         return std::min(a, b) > most || std::max(a, b) < -most;

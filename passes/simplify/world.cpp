@@ -84,7 +84,7 @@ std::vector<std::size_t> counts_of(const WorldSimplifyOptions& options, std::siz
   for (double r : options.ratios) out.push_back(static_cast<std::size_t>(r * static_cast<double>(n_faces)));
   std::erase_if(out, [&](std::size_t n) { return n >= n_faces; });
   std::ranges::sort(out, std::greater{});
-  out.erase(std::ranges::unique(out).begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 
