@@ -106,7 +106,7 @@ Animations::Track Animations::spline(const Numbers& in, const Numbers& out, std:
       const double a = part(i, 1, k), b = part(i + 1, 1, k), m = span * part(i, 2, k), n = span * part(i + 1, 0, k);
       bend = std::max({bend, std::abs(-6 * a + 6 * b - 4 * m - 2 * n), std::abs(6 * a - 6 * b + 2 * m + 4 * n)});
     }
-    const int pieces = std::clamp(static_cast<int>(std::ceil(std::sqrt(bend / (8 * tolerance * largest)))), 1, most_pieces);
+    const auto pieces = static_cast<int>(std::ceil(std::fmin(std::fmax(std::sqrt(bend / (8 * tolerance * largest)), 1), most_pieces)));
     for (int p = 0; p < pieces; ++p) t.time.push_back(in.values[i] + span * p / pieces), t.value.push_back(at(i, double(p) / pieces));
   }
   if (in.count() > 0) {
