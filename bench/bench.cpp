@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "parsers/parsers.h"
-#include "passes/geometry.h"
-#include "passes/pipeline.h"
-#include "passes/weld.h"
-#include "writers/gltf.h"
-#include "writers/vrml.h"
+#include "geometry/geometry.h"
+#include "passes/pipeline/pipeline.h"
+#include "passes/weld/weld.h"
+#include "writers/gltf/gltf.h"
+#include "writers/vrml/vrml.h"
 
 namespace {
 

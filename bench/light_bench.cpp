@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "parsers/parsers.h"
-#include "passes/light/flux.h"
-#include "passes/light/integrator.h"
-#include "passes/light/random.h"
-#include "passes/parallel.h"
-#include "passes/pipeline.h"
+#include "light/flux.h"
+#include "light/integrator.h"
+#include "light/random.h"
+#include "base/parallel.h"
+#include "passes/pipeline/pipeline.h"
 
 namespace {
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
-#include "passes/simplify/collapse.h"
+#include "passes/pipeline/pipeline.h"
+#include "geometry/simplify/collapse.h"
 
 namespace {
 

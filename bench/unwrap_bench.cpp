@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
-#include "passes/unwrap/pack.h"
-#include "passes/unwrap/rows.h"
-#include "passes/unwrap/unfold.h"
-#include "scenegraph/image.h"
+#include "passes/pipeline/pipeline.h"
+#include "geometry/unwrap/pack.h"
+#include "geometry/unwrap/rows.h"
+#include "geometry/unwrap/unfold.h"
+#include "base/image/image.h"
 
 namespace {
 

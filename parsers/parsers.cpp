@@ -4,15 +4,15 @@
 #include <cctype>
 
 #include "parsers/gltf/gltf.h"
-#include "parsers/patches.h"
-#include "parsers/patches_scene.h"
+#include "parsers/patches/patches.h"
+#include "parsers/patches/patches_scene.h"
 #include "parsers/vrml/parser.h"
 #include "parsers/vrml/text_encoding.h"
 #include "parsers/vrml/vrml1.h"
 #include "parsers/x3d/parser.h"
-#include "parsers/xml.h"
-#include "scenegraph/blanks.h"
-#include "scenegraph/image.h"
+#include "parsers/x3d/xml.h"
+#include "base/text/blanks.h"
+#include "base/image/image.h"
 
 namespace wrlkit {
 namespace {

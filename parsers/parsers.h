@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "parsers/allowed_files.h"
-#include "parsers/read_file.h"
+#include "base/io/allowed_files.h"
+#include "base/io/read_file.h"
 #include "scenegraph/builder.h"
-#include "scenegraph/diagnostics.h"
+#include "base/diagnostics.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {

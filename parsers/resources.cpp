@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "parsers/patches.h"
-#include "parsers/url.h"
-#include "scenegraph/image.h"
+#include "parsers/patches/patches.h"
+#include "base/io/url.h"
+#include "base/image/image.h"
 
 namespace wrlkit {
 namespace {

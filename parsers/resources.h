@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "parsers/allowed_files.h"
-#include "parsers/read_file.h"
+#include "base/io/allowed_files.h"
+#include "base/io/read_file.h"
 #include "scenegraph/resources.h"
 
 namespace wrlkit {

@@ -1,6 +1,6 @@
 // The Python module wrlkit._wrlkit: worlds, their nodes with the fields of the node table as attributes, meshes and arrays of
 // numbers as NumPy arrays that are the scene's own memory, passes by the text of a pipeline, conversions as the command line does them.
-#include "passes/geometry.h"
+#include "geometry/geometry.h"
 #include "python/world.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"

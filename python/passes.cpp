@@ -6,10 +6,10 @@
 #include <unordered_map>
 
 #include "python/world.h"
-#include "scenegraph/nearest_name.h"
-#include "tools/cli.h"
+#include "base/text/nearest_name.h"
+#include "tools/cli/cli.h"
 #include "tools/corpus/workers.h"
-#include "tools/python_passes.h"
+#include "tools/cli/python_passes.h"
 
 namespace wrlkit::python {
 namespace {

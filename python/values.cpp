@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "python/world.h"
-#include "scenegraph/nearest_name.h"
+#include "base/text/nearest_name.h"
 
 namespace wrlkit::python {
 namespace {

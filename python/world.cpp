@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/lower_vrml1.h"
-#include "scenegraph/nearest_name.h"
-#include "tools/cli.h"
-#include "tools/convert.h"
+#include "passes/lower_vrml1/lower_vrml1.h"
+#include "base/text/nearest_name.h"
+#include "tools/cli/cli.h"
+#include "tools/verbs/convert.h"
 #include "tools/gltf_output.h"
-#include "tools/info.h"
-#include "tools/lengths.h"
-#include "tools/python_passes.h"
+#include "tools/verbs/info.h"
+#include "tools/cli/lengths.h"
+#include "tools/cli/python_passes.h"
 
 namespace wrlkit::python {
 namespace {

@@ -16,8 +16,8 @@
 
 #include "parsers/parsers.h"
 #include "parsers/resources.h"
-#include "passes/pipeline.h"
-#include "tools/recipe.h"
+#include "passes/pipeline/pipeline.h"
+#include "tools/cli/recipe.h"
 
 namespace wrlkit::python {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenegraph/diagnostics.h"
+#include "base/diagnostics.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scenegraph/diagnostics.h"
-#include "scenegraph/image.h"
+#include "base/diagnostics.h"
+#include "base/image/image.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {

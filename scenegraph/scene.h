@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "scenegraph/arena.h"
+#include "base/arena.h"
 #include "scenegraph/node_table.h"
-#include "scenegraph/source.h"
+#include "base/source.h"
 
 namespace wrlkit {
 

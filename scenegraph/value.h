@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/math/vec.h"
 #include "scenegraph/ids.h"
 
 namespace wrlkit {
@@ -89,9 +90,5 @@ struct ExtraField {
   std::string_view name;
   Value value;
 };
-
-using Vec2 = std::array<double, 2>;
-using Vec3 = std::array<double, 3>;
-using Vec4 = std::array<double, 4>;
 
 }  // namespace wrlkit

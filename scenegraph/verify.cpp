@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "scenegraph/bit_mask.h"
+#include "base/text/bit_mask.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 

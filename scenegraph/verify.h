@@ -1,6 +1,6 @@
 // Checks of a whole scene against the node table and against what a level promises.
 #pragma once
-#include "scenegraph/diagnostics.h"
+#include "base/diagnostics.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {

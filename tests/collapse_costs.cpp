@@ -8,7 +8,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "passes/simplify/collapse.h"
+#include "geometry/simplify/collapse.h"
 
 using namespace wrlkit;
 

@@ -3,7 +3,7 @@
 
   tests/diag_coverage.py
 
-Prints each name of scenegraph/diagnostics.def without a file tests/text/diag/NAME.wrl, .x3d, .x3dv or .test that expects it, and
+Prints each name of base/diagnostics.def without a file tests/text/diag/NAME.wrl, .x3d, .x3dv or .test that expects it, and
 each such file that no message has. The exit code is 1 when there is any.
 """
 from pathlib import Path
@@ -23,7 +23,7 @@ BY_UNIT_TESTS = {
 
 
 def names():
-    rows = re.findall(r'^DIAG\(\w+,\s*(\w+),', (ROOT / 'scenegraph/diagnostics.def').read_text('utf-8'), re.MULTILINE)
+    rows = re.findall(r'^DIAG\(\w+,\s*(\w+),', (ROOT / 'base/diagnostics.def').read_text('utf-8'), re.MULTILINE)
     return [row.replace('_', '-') for row in rows]
 
 

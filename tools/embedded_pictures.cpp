@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "parsers/url.h"
-#include "scenegraph/image.h"
+#include "base/io/url.h"
+#include "base/image/image.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scenegraph/mesh.h"
+#include "geometry/mesh.h"
 #include "scenegraph/scene.h"
 #include "scenegraph/transform.h"
 

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "scenegraph/walk.h"
-#include "tools/lengths.h"
+#include "tools/cli/lengths.h"
 #include "tools/profiles.h"
-#include "writers/json.h"
+#include "base/text/json.h"
 #include "writers/made_files.h"
 
 namespace wrlkit {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "tools/session.h"
-#include "writers/gltf.h"
+#include "tools/cli/session.h"
+#include "writers/gltf/gltf.h"
 
 namespace wrlkit {
 

@@ -1,6 +1,6 @@
 // The command line. Which words it knows is in cli.cpp, what a verb does is in its own file.
-#include "tools/cli.h"
-#include "tools/python_passes.h"
+#include "tools/cli/cli.h"
+#include "tools/cli/python_passes.h"
 
 int main(int argc, char** argv) {
   try {

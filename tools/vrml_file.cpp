@@ -1,9 +1,9 @@
 #include "tools/vrml_file.h"
 
 #include "writers/made_files.h"
-#include "writers/output.h"
-#include "writers/vrml.h"
-#include "writers/x3d.h"
+#include "base/io/output.h"
+#include "writers/vrml/vrml.h"
+#include "writers/x3d/x3d.h"
 
 namespace wrlkit {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "tools/session.h"
+#include "tools/cli/session.h"
 
 namespace wrlkit {
 

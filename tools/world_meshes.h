@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "tools/session.h"
+#include "tools/cli/session.h"
 
 namespace wrlkit {
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "writers/uri.h"
+#include "base/io/uri.h"
 
 namespace wrlkit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
-#include "writers/output.h"
+#include "base/io/output.h"
 
 namespace wrlkit {
 

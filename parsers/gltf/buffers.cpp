@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "parsers/gltf/meshopt.h"
-#include "parsers/read_file.h"
-#include "parsers/url.h"
+#include "base/io/read_file.h"
+#include "base/io/url.h"
 
 namespace wrlkit::gltf_reader {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 #include <optional>
 
-#include "parsers/allowed_files.h"
+#include "base/io/allowed_files.h"
 #include "parsers/gltf/file.h"
 
 namespace wrlkit::gltf_reader {

@@ -1,4 +1,4 @@
-// What wrlkit's glTF writer keeps below extras.vrml97, back to nodes (the form is described in writers/gltf_extras.h).
+// What wrlkit's glTF writer keeps below extras.vrml97, back to nodes (the form is described in writers/gltf/extras.h).
 // Names are those of a scope: {"Shape": {"USE": name}} means the node that got this name last, or else one that gets it
 // later. A node gets its name when it is whole, so only those can make a node contain itself: that is refused, but for
 // Scripts, which may hold what they are in.

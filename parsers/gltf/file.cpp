@@ -1,6 +1,6 @@
 #include "parsers/gltf/file.h"
 
-#include "scenegraph/blanks.h"
+#include "base/text/blanks.h"
 
 namespace wrlkit::gltf_reader {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "parsers/gltf/json.h"
-#include "scenegraph/diagnostics.h"
+#include "base/diagnostics.h"
 
 namespace wrlkit::gltf_reader {
 

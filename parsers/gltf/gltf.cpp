@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "parsers/gltf/animations.h"
-#include "scenegraph/blanks.h"
+#include "base/text/blanks.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf_reader {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "parsers/allowed_files.h"
+#include "base/io/allowed_files.h"
 #include "scenegraph/builder.h"
 
 namespace wrlkit::gltf_reader {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parsers/url.h"
-#include "scenegraph/base64.h"
+#include "base/io/url.h"
+#include "base/text/base64.h"
 #include "scenegraph/equal.h"
-#include "scenegraph/image.h"
+#include "base/image/image.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf_reader {

@@ -1,4 +1,4 @@
-// Materials of glTF as Appearance nodes: the inverse of what the glTF writer does (writers/gltf_materials.h).
+// Materials of glTF as Appearance nodes: the inverse of what the glTF writer does (writers/gltf/materials.h).
 //
 // Colour. baseColorFactor is diffuseColor, or emissiveColor where KHR_materials_unlit says so; a picture of three or four
 // channels replaces it (ISO/IEC 14772-1, table 4.6). roughness r is a highlight of shininess (2 / r^4 - 2) / 128 and

@@ -1,4 +1,4 @@
-// The table that feature ids of wrlkit's own files lead to: names of parts and groups (writers/gltf_parts.h). A property table of
+// The table that feature ids of wrlkit's own files lead to: names of parts and groups (writers/gltf/parts.h). A property table of
 // EXT_structural_metadata with the columns "name" and "parent", or a list of paths in the extras of the asset.
 #pragma once
 #include <string>

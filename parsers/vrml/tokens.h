@@ -4,7 +4,7 @@
 #include <string>
 
 #include "parsers/vrml/lexer.h"
-#include "scenegraph/diagnostics.h"
+#include "base/diagnostics.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::vrml {

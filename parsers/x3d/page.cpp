@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "parsers/xml.h"
+#include "parsers/x3d/xml.h"
 #include "scenegraph/node_table.h"
 
 namespace wrlkit::x3d {

@@ -4,7 +4,7 @@
 
 #include "parsers/x3d/grammar.h"
 #include "parsers/x3d/page.h"
-#include "scenegraph/blanks.h"
+#include "base/text/blanks.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::x3d {

@@ -1,6 +1,6 @@
 // UNIT statements of X3D (ISO/IEC 19775-1, 7.2.5.10): a file may count in inches and degrees. A scene is always in metres and radians.
 #pragma once
-#include "scenegraph/diagnostics.h"
+#include "base/diagnostics.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::x3d {

@@ -3,7 +3,7 @@
 #include <charconv>
 
 #include "parsers/vrml/text_encoding.h"
-#include "scenegraph/blanks.h"
+#include "base/text/blanks.h"
 
 namespace wrlkit::x3d {
 namespace {

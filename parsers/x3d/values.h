@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "parsers/vrml/values.h"
-#include "parsers/xml.h"
+#include "parsers/x3d/xml.h"
 
 namespace wrlkit::x3d {
 

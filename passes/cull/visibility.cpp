@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "passes/light/random.h"
-#include "passes/parallel.h"
-#include "passes/render/ray_scene.h"
+#include "light/random.h"
+#include "base/parallel.h"
+#include "light/render/ray_scene.h"
 
 namespace wrlkit {
 namespace {

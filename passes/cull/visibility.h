@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "passes/render/mesh_pool.h"
-#include "passes/render/stage.h"
-#include "scenegraph/diagnostics.h"
+#include "light/render/mesh_pool.h"
+#include "light/render/stage.h"
+#include "base/diagnostics.h"
 
 namespace wrlkit {
 

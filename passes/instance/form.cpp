@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "passes/hashing.h"
+#include "base/hashing.h"
 
 namespace wrlkit::instancing {
 

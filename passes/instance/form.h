@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scenegraph/mesh.h"
+#include "geometry/mesh.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit::instancing {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "passes/vrml1/placement.h"
+#include "passes/lower_vrml1/placement.h"
 
 namespace wrlkit::instancing {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/light/integrator.h"
+#include "light/integrator.h"
 #include "passes/lightmap/darkness.h"
 #include "passes/lightmap/layout.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/light/world.h"
+#include "light/world.h"
 #include "passes/lightmap/page.h"
 
 namespace wrlkit::bake {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/parallel.h"
+#include "base/parallel.h"
 
 namespace wrlkit::bake {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "passes/geometry.h"
+#include "geometry/geometry.h"
 #include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/parts.h"
 #include "passes/lightmap/store.h"
-#include "passes/patches/patch_lightmap.h"
+#include "light/patches/patch_lightmap.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::bake {

@@ -1,8 +1,8 @@
 // Light from a patch file onto the Shapes of a world: the pipeline of the seed paper (Lazanyi, 3.2). Each Shape gets a
 // picture of its own.
 #pragma once
-#include "passes/light/world.h"
-#include "passes/pass.h"
+#include "light/world.h"
+#include "passes/pipeline/pass.h"
 #include "scenegraph/patches.h"
 
 namespace wrlkit::bake {

@@ -7,7 +7,7 @@
 #include "passes/lightmap/parts.h"
 #include "passes/lightmap/seams.h"
 #include "passes/lightmap/texels.h"
-#include "passes/unwrap/pack.h"
+#include "geometry/unwrap/pack.h"
 
 namespace wrlkit::bake {
 

@@ -1,6 +1,6 @@
 // Light that came through a wall, where nothing but surfaces that shine gives any.
 #pragma once
-#include "passes/light/integrator.h"
+#include "light/integrator.h"
 
 namespace wrlkit::bake {
 

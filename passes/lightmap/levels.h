@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "passes/light/world.h"
+#include "light/world.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/scene.h"
 

@@ -6,7 +6,7 @@
 
 #include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/holders.h"
-#include "passes/own_nodes.h"
+#include "passes/analysis/own_nodes.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 

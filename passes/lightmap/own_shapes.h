@@ -7,7 +7,7 @@
 #pragma once
 #include <cstdint>
 
-#include "scenegraph/diagnostics.h"
+#include "base/diagnostics.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::bake {

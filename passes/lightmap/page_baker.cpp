@@ -124,7 +124,7 @@ Point PageBaker::point(const SurfaceSample& s) const {
   p.face = unit(frame.normal(cross(corner[1] - corner[0], corner[2] - corner[0])));
   p.normal = unit(frame.normal(normal));
   if (!(dot(p.face, p.face) > 0.5)) p.face = p.normal;
-  // Who has directions corrects for the normal himself (passes/render/baked.h).
+  // Who has directions corrects for the normal himself (light/render/baked.h).
   if (flat_ || !(dot(p.normal, p.face) > 0)) p.normal = p.face;
   p.use = ref.use;
   p.extent = std::max(length(frame.vector(corner[1] - corner[0])), length(frame.vector(corner[2] - corner[0])));

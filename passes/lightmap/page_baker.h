@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "passes/light/integrator.h"
+#include "light/integrator.h"
 #include "passes/lightmap/layout.h"
 #include "passes/lightmap/page.h"
 #include "passes/lightmap/texels.h"

@@ -6,12 +6,12 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "passes/driven.h"
+#include "passes/analysis/driven.h"
 #include "passes/lightmap/witnesses.h"
-#include "passes/normals.h"
-#include "passes/parallel.h"
-#include "passes/simplify/surfaces.h"
-#include "passes/unwrap/unfold.h"
+#include "passes/normals/normals.h"
+#include "base/parallel.h"
+#include "geometry/simplify/surfaces.h"
+#include "geometry/unwrap/unfold.h"
 #include "passes/weld/points.h"
 #include "scenegraph/nodes.h"
 

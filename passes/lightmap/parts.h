@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "passes/light/world.h"
-#include "passes/pass.h"
-#include "passes/render/stage.h"
-#include "passes/unwrap/charts.h"
+#include "light/world.h"
+#include "passes/pipeline/pass.h"
+#include "light/render/stage.h"
+#include "geometry/unwrap/charts.h"
 
 namespace wrlkit::bake {
 

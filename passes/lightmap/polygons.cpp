@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "passes/shapes/vector.h"
+#include "geometry/shapes/vector.h"
 
 namespace wrlkit::bake {
 namespace {

@@ -1,6 +1,6 @@
 // The polygons of a mesh that was cut into triangles, as far as they still are whole.
 #pragma once
-#include "scenegraph/mesh.h"
+#include "geometry/mesh.h"
 
 namespace wrlkit::bake {
 

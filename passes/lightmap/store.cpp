@@ -5,13 +5,13 @@
 #include <stdexcept>
 #include <unordered_set>
 
-#include "passes/geometry.h"
+#include "geometry/geometry.h"
 #include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/polygons.h"
 #include "passes/weld/value_table.h"
-#include "scenegraph/image.h"
+#include "base/image/image.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/srgb_table.h"
+#include "base/image/srgb_table.h"
 
 namespace wrlkit::bake {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "passes/lightmap/bake.h"
-#include "scenegraph/image.h"
+#include "base/image/image.h"
 
 namespace wrlkit::bake {
 

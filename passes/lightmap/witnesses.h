@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "passes/light/world.h"
+#include "light/world.h"
 
 namespace wrlkit::bake {
 

@@ -1,6 +1,6 @@
 // A mesh as it stands in another frame.
 #pragma once
-#include "scenegraph/mesh.h"
+#include "geometry/mesh.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "passes/simplify/places.h"
+#include "geometry/simplify/places.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/usage.h"
+#include "passes/analysis/usage.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit {

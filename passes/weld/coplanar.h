@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/polygon.h"
+#include "geometry/polygon.h"
 #include "passes/weld/edges.h"
 #include "passes/weld/surface.h"
 

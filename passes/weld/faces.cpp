@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "passes/triangulate.h"
+#include "geometry/triangulation.h"
 #include "passes/weld/value_table.h"
 
 namespace wrlkit {

@@ -6,7 +6,7 @@
 
 #include "passes/weld/cell_grid.h"
 #include "passes/weld/value_table.h"
-#include "scenegraph/mesh.h"
+#include "geometry/mesh.h"
 
 namespace wrlkit {
 

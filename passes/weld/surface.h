@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "passes/shapes/vector.h"
-#include "scenegraph/mesh.h"
+#include "geometry/shapes/vector.h"
+#include "geometry/mesh.h"
 
 namespace wrlkit {
 

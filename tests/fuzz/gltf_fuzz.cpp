@@ -6,9 +6,9 @@
 #include <string>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/verify.h"
-#include "writers/vrml.h"
+#include "writers/vrml/vrml.h"
 
 using namespace wrlkit;
 

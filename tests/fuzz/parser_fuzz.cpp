@@ -11,11 +11,11 @@
 #include <string>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
-#include "writers/vrml.h"
+#include "writers/vrml/vrml.h"
 
 using namespace wrlkit;
 

@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "parsers/patches.h"
-#include "parsers/patches_scene.h"
+#include "parsers/patches/patches.h"
+#include "parsers/patches/patches_scene.h"
 #include "scenegraph/verify.h"
-#include "writers/patches.h"
+#include "writers/patches/patches.h"
 
 using namespace wrlkit;
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "passes/simplify/progressive_world.h"
+#include "geometry/progressive/progressive_world.h"
 
 using namespace wrlkit;
 

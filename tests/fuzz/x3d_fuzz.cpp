@@ -7,10 +7,10 @@
 #include <string>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/verify.h"
-#include "writers/vrml.h"
-#include "writers/x3d.h"
+#include "writers/vrml/vrml.h"
+#include "writers/x3d/x3d.h"
 
 using namespace wrlkit;
 

@@ -23,16 +23,16 @@
 
 #include "parsers/parsers.h"
 #include "parsers/resources.h"
-#include "passes/lower_vrml1.h"
-#include "passes/lower_x3d.h"
-#include "passes/pipeline.h"
+#include "passes/lower_vrml1/lower_vrml1.h"
+#include "passes/lower_x3d/lower_x3d.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/transform.h"
 #include "scenegraph/walk.h"
-#include "writers/gltf.h"
-#include "writers/vrml.h"
-#include "writers/x3d.h"
+#include "writers/gltf/gltf.h"
+#include "writers/vrml/vrml.h"
+#include "writers/x3d/x3d.h"
 
 using namespace wrlkit;
 

@@ -12,7 +12,7 @@
 
 #include "parsers/parsers.h"
 #include "scenegraph/equal.h"
-#include "writers/vrml.h"
+#include "writers/vrml/vrml.h"
 
 using namespace wrlkit;
 

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "parsers/parsers.h"
-#include "passes/lower_x3d.h"
+#include "passes/lower_x3d/lower_x3d.h"
 #include "scenegraph/walk.h"
-#include "writers/vrml.h"
-#include "writers/x3d.h"
-#include "writers/xml_text.h"
+#include "writers/vrml/vrml.h"
+#include "writers/x3d/x3d.h"
+#include "base/text/xml_text.h"
 
 using namespace wrlkit;
 

@@ -7,14 +7,14 @@
 
 #include "parsers/parsers.h"
 #include "parsers/resources.h"
-#include "passes/geometry.h"
-#include "passes/lightmap.h"
-#include "passes/parallel.h"
-#include "passes/pipeline.h"
-#include "passes/render/linear.h"
-#include "passes/triangulate.h"
+#include "geometry/geometry.h"
+#include "passes/lightmap/lightmap.h"
+#include "base/parallel.h"
+#include "passes/pipeline/pipeline.h"
+#include "light/render/linear.h"
+#include "passes/triangulate/triangulate.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/srgb.h"
+#include "base/image/srgb.h"
 #include "scenegraph/walk.h"
 
 using namespace wrlkit;

@@ -1,4 +1,4 @@
-#include "passes/simplify/collapse.h"
+#include "geometry/simplify/collapse.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // Surfaces whose distance is known without measuring it.
-#include "passes/deviation.h"
+#include "geometry/deviation.h"
 
 #include <tbb/global_control.h>
 

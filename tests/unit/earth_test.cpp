@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "passes/x3d/earth.h"
+#include "passes/lower_x3d/earth.h"
 
 using namespace wrlkit;
 using namespace wrlkit::x3d;

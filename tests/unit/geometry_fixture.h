@@ -9,8 +9,8 @@
 #include <string>
 
 #include "parsers/vrml/parser.h"
-#include "passes/geometry.h"
-#include "passes/tessellate.h"
+#include "geometry/geometry.h"
+#include "passes/tessellate/tessellate.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::geometry_tests {

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/transform.h"
 #include "tests/unit/temp_folder.h"
-#include "writers/gltf.h"
+#include "writers/gltf/gltf.h"
 
 using namespace wrlkit;
 using json = nlohmann::json;

@@ -8,12 +8,12 @@
 #include <numbers>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/transform.h"
 #include "tests/unit/temp_folder.h"
-#include "writers/gltf.h"
-#include "writers/gltf_color.h"
+#include "writers/gltf/gltf.h"
+#include "writers/gltf/color.h"
 
 namespace wrlkit::gltf_tests {
 

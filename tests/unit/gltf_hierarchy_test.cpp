@@ -3,7 +3,7 @@
 #include <random>
 
 #include "tests/unit/gltf_fixture.h"
-#include "writers/gltf_transform.h"
+#include "writers/gltf/transform.h"
 
 using namespace wrlkit;
 using namespace wrlkit::gltf_tests;

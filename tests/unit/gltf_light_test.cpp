@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/unit/gltf_fixture.h"
-#include "writers/gltf_cameras.h"
+#include "writers/gltf/cameras.h"
 
 using namespace wrlkit;
 using namespace wrlkit::gltf_tests;

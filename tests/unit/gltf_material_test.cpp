@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "tests/unit/gltf_fixture.h"
-#include "writers/gltf_images.h"
-#include "writers/gltf_materials.h"
-#include "writers/gltf_texture_transform.h"
+#include "writers/gltf/images.h"
+#include "writers/gltf/materials.h"
+#include "writers/gltf/texture_transform.h"
 
 using namespace wrlkit;
 using namespace wrlkit::gltf_tests;

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "tests/unit/gltf_fixture.h"
-#include "writers/gltf_origin.h"
-#include "writers/gltf_store.h"
+#include "writers/gltf/origin.h"
+#include "writers/gltf/store.h"
 
 using namespace wrlkit;
 using namespace wrlkit::gltf_tests;

@@ -1,5 +1,5 @@
 // Numbers with fewer bits, and what becomes of them in a file.
-#include "writers/gltf_packing.h"
+#include "writers/gltf/packing.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include <set>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "tests/unit/temp_folder.h"
-#include "writers/meshopt.h"
+#include "writers/gltf/meshopt.h"
 
 using namespace wrlkit;
 using namespace wrlkit::gltf;

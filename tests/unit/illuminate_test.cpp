@@ -1,16 +1,16 @@
 // The three methods of `wrlkit illuminate` against scenes whose solution is known: form factors of squares, the closed room
 // that shines everywhere, the sphere. The seed is fixed; over eight seeds the worst values deviate by 0.5 % (standard deviation)
 // in the cube.
-#include "passes/patches/illuminate.h"
+#include "light/patches/illuminate.h"
 
 #include <catch2/catch.hpp>
 #include <memory>
 #include <string>
 
 #include "parsers/parsers.h"
-#include "passes/parallel.h"
-#include "passes/pipeline.h"
-#include "writers/patches.h"
+#include "base/parallel.h"
+#include "passes/pipeline/pipeline.h"
+#include "writers/patches/patches.h"
 
 using namespace wrlkit;
 using namespace wrlkit::light;

@@ -1,4 +1,4 @@
-#include "scenegraph/image_resize.h"
+#include "base/image/image_resize.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "scenegraph/image.h"
+#include "base/image/image.h"
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "passes/geometry.h"
+#include "geometry/geometry.h"
 #include "passes/instance/match.h"
-#include "passes/light/random.h"
+#include "light/random.h"
 
 using namespace wrlkit;
 using namespace wrlkit::instancing;

@@ -4,7 +4,7 @@
 
 #include "parsers/parsers.h"
 #include "passes/lightmap/bake.h"
-#include "passes/pipeline.h"
+#include "passes/pipeline/pipeline.h"
 
 using namespace wrlkit;
 using namespace wrlkit::bake;

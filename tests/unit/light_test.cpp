@@ -8,9 +8,9 @@
 #include <tbb/global_control.h>
 
 #include "parsers/parsers.h"
-#include "passes/light/integrator.h"
-#include "passes/light/random.h"
-#include "passes/pipeline.h"
+#include "light/integrator.h"
+#include "light/random.h"
+#include "passes/pipeline/pipeline.h"
 
 using namespace wrlkit;
 using namespace wrlkit::light;

@@ -6,11 +6,11 @@
 #include <sstream>
 
 #include "parsers/parsers.h"
-#include "passes/closest_point.h"
-#include "passes/lod.h"
-#include "passes/simplify/lod_nodes.h"
-#include "passes/simplify/shared_borders.h"
-#include "passes/simplify/world.h"
+#include "geometry/closest_point.h"
+#include "passes/lod/lod.h"
+#include "geometry/simplify/lod_nodes.h"
+#include "geometry/simplify/shared_borders.h"
+#include "geometry/simplify/world.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"

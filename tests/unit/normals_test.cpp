@@ -1,4 +1,4 @@
-#include "passes/normals.h"
+#include "passes/normals/normals.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "passes/x3d/nurbs.h"
+#include "passes/lower_x3d/nurbs.h"
 
 using namespace wrlkit;
 using namespace wrlkit::x3d;

@@ -1,4 +1,4 @@
-#include "writers/output.h"
+#include "base/io/output.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "parsers/read_file.h"
+#include "base/io/read_file.h"
 #include "tests/unit/temp_folder.h"
 
 using namespace wrlkit;

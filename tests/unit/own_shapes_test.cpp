@@ -5,7 +5,7 @@
 #include <set>
 
 #include "parsers/parsers.h"
-#include "passes/render/stage.h"
+#include "light/render/stage.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 

@@ -1,13 +1,13 @@
 // From patches to textures: which triangle a patch belongs to, how it is drawn, and where corners lie in the picture.
-#include "passes/patches/patch_lightmap.h"
+#include "light/patches/patch_lightmap.h"
 
 #include <catch2/catch.hpp>
 #include <memory>
 
 #include "parsers/parsers.h"
-#include "passes/light/flux.h"
-#include "passes/patches/smooth_patches.h"
-#include "passes/pipeline.h"
+#include "light/flux.h"
+#include "light/patches/smooth_patches.h"
+#include "passes/pipeline/pipeline.h"
 
 using namespace wrlkit;
 using namespace wrlkit::light;

@@ -1,5 +1,5 @@
 // Patch files and patches: reading, writing, cutting.
-#include "parsers/patches.h"
+#include "parsers/patches/patches.h"
 
 #include <catch2/catch.hpp>
 #include <map>
@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
-#include "passes/patches/patch_mesh.h"
-#include "writers/patches.h"
+#include "light/patches/patch_mesh.h"
+#include "writers/patches/patches.h"
 
 using namespace wrlkit;
 using namespace wrlkit::light;

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include "scenegraph/srgb.h"
+#include "base/image/srgb.h"
 #include "tests/unit/render_fixture.h"
 
 using namespace wrlkit;

@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
-#include "writers/vrml.h"
+#include "writers/vrml/vrml.h"
 
 using namespace wrlkit;
 

@@ -1,7 +1,7 @@
 // Cutting polygons: every simple polygon must come out as n - 2 triangles that fit together, turn the right way and
 // have exactly its area. With each directed edge used once, and the polygon as their boundary, triangles that all turn
 // the same way and whose areas sum up to that of the polygon can neither overlap nor stick out.
-#include "passes/polygon.h"
+#include "geometry/polygon.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Progressive meshes: the original comes back, every state on the way is the simplifier's, and bytes are not trusted.
-#include "passes/simplify/progressive.h"
+#include "geometry/progressive/progressive.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,8 +11,8 @@
 #include <set>
 
 #include "parsers/parsers.h"
-#include "passes/simplify/position_code.h"
-#include "passes/simplify/progressive_world.h"
+#include "geometry/progressive/position_code.h"
+#include "geometry/progressive/progressive_world.h"
 
 using namespace wrlkit;
 

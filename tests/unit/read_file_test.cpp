@@ -1,4 +1,4 @@
-#include "parsers/read_file.h"
+#include "base/io/read_file.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "tests/unit/temp_folder.h"
-#include "writers/output.h"
+#include "base/io/output.h"
 
 using namespace wrlkit;
 using namespace std::string_literals;

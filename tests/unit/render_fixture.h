@@ -4,8 +4,8 @@
 #include <map>
 
 #include "parsers/parsers.h"
-#include "passes/pipeline.h"
-#include "passes/render/render.h"
+#include "passes/pipeline/pipeline.h"
+#include "light/render/render.h"
 
 namespace wrlkit::render_tests {
 

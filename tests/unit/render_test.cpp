@@ -2,9 +2,9 @@
 // be equal.
 #include <tbb/global_control.h>
 
-#include "passes/render/camera.h"
-#include "passes/render/light.h"
-#include "passes/render/shade.h"
+#include "light/render/camera.h"
+#include "light/render/light.h"
+#include "light/render/shade.h"
 #include "tests/unit/render_fixture.h"
 
 using namespace wrlkit;

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
-#include "scenegraph/image.h"
+#include "base/image/image.h"
 #include "tests/unit/temp_folder.h"
 
 using namespace wrlkit;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "passes/shapes/spine.h"
+#include "geometry/shapes/spine.h"
 #include "tests/unit/geometry_fixture.h"
 
 using namespace wrlkit;

@@ -1,13 +1,13 @@
 // Text: the layout against the tables of ISO/IEC 14772-1, 6.20, the glyphs against what is known of their shapes. Needs
 // the DejaVu fonts, whose typewriter font has one advance for all characters.
-#include "passes/text.h"
+#include "geometry/text.h"
 
 #include <catch2/catch.hpp>
 #include <random>
 #include <thread>
 
-#include "passes/outline.h"
-#include "passes/triangulate.h"
+#include "geometry/outline.h"
+#include "passes/triangulate/triangulate.h"
 #include "scenegraph/nodes.h"
 #include "tests/unit/temp_folder.h"
 

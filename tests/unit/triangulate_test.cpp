@@ -1,5 +1,5 @@
 // Pass `triangulate`: faces become triangles, with their attributes, and what cannot is counted.
-#include "passes/triangulate.h"
+#include "passes/triangulate/triangulate.h"
 
 #include <catch2/catch.hpp>
 #include <set>

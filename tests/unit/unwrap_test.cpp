@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "parsers/parsers.h"
-#include "passes/parallel.h"
-#include "passes/pipeline.h"
-#include "passes/unwrap/pack.h"
-#include "passes/unwrap/rows.h"
-#include "passes/unwrap/unfold.h"
+#include "base/parallel.h"
+#include "passes/pipeline/pipeline.h"
+#include "geometry/unwrap/pack.h"
+#include "geometry/unwrap/rows.h"
+#include "geometry/unwrap/unfold.h"
 
 using namespace wrlkit;
 using namespace wrlkit::unwrap;

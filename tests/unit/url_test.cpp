@@ -1,4 +1,4 @@
-#include "parsers/url.h"
+#include "base/io/url.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "scenegraph/vertices.h"
+#include "geometry/vertices.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

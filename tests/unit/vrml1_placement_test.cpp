@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "passes/vrml1/placement.h"
+#include "passes/lower_vrml1/placement.h"
 
 using namespace wrlkit;
 using namespace wrlkit::vrml1;

@@ -1,4 +1,4 @@
-#include "passes/weld.h"
+#include "passes/weld/weld.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "passes/triangulate.h"
+#include "passes/triangulate/triangulate.h"
 #include "passes/weld/points.h"
 #include "scenegraph/nodes.h"
 

@@ -8,11 +8,11 @@
 #include <string>
 
 #include "parsers/parsers.h"
-#include "passes/geometry.h"
-#include "passes/pipeline.h"
-#include "passes/shapes/vector.h"
-#include "passes/triangulate.h"
-#include "passes/weld.h"
+#include "geometry/geometry.h"
+#include "passes/pipeline/pipeline.h"
+#include "geometry/shapes/vector.h"
+#include "passes/triangulate/triangulate.h"
+#include "passes/weld/weld.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "tests/unit/temp_folder.h"

@@ -5,13 +5,13 @@
 
 #include <filesystem>
 
-#include "tools/cli.h"
-#include "tools/convert.h"
+#include "tools/cli/cli.h"
+#include "tools/verbs/convert.h"
 #include "tools/gltf_output.h"
-#include "tools/print_diagnostics.h"
+#include "tools/cli/print_diagnostics.h"
 #include "tools/corpus/written_names.h"
-#include "tools/recipe.h"
-#include "writers/output.h"
+#include "tools/cli/recipe.h"
+#include "base/io/output.h"
 
 namespace wrlkit {
 namespace {

@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "tools/corpus/journal.h"
-#include "tools/flags.h"
+#include "tools/cli/flags.h"
 
 namespace wrlkit {
 

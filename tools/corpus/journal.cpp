@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "parsers/gltf/json.h"
-#include "writers/json.h"
+#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {

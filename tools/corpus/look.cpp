@@ -4,12 +4,12 @@
 #include <limits>
 
 #include "parsers/gltf/json.h"
-#include "parsers/read_file.h"
-#include "passes/render/render.h"
-#include "scenegraph/base64.h"
-#include "scenegraph/image.h"
-#include "tools/diff.h"
-#include "writers/json.h"
+#include "base/io/read_file.h"
+#include "light/render/render.h"
+#include "base/text/base64.h"
+#include "base/image/image.h"
+#include "tools/verbs/diff.h"
+#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {

@@ -8,7 +8,7 @@
 #include <unordered_map>
 
 #include "parsers/gltf/json.h"
-#include "writers/json.h"
+#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {

@@ -6,11 +6,11 @@
 #include <iterator>
 #include <numeric>
 
-#include "parsers/read_file.h"
-#include "tools/chart.h"
+#include "base/io/read_file.h"
+#include "tools/report/chart.h"
 #include "tools/corpus/report.h"
-#include "tools/pages/report_frame.h"
-#include "writers/json.h"
+#include "tools/report/report_frame.h"
+#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <thread>
 
-#include "scenegraph/image_codecs.h"
-#include "tools/cli.h"
+#include "base/image/image_codecs.h"
+#include "tools/cli/cli.h"
 #include "tools/corpus/conversion.h"
 #include "tools/corpus/report.h"
 #include "tools/corpus/workers.h"
-#include "tools/progress.h"
-#include "tools/session.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/session.h"
 
 namespace wrlkit {
 namespace {

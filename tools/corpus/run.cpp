@@ -16,13 +16,13 @@
 
 #include <unistd.h>
 
-#include "scenegraph/image_codecs.h"
-#include "tools/cli.h"
+#include "base/image/image_codecs.h"
+#include "tools/cli/cli.h"
 #include "tools/corpus/conversion.h"
 #include "tools/corpus/status.h"
 #include "tools/corpus/workers.h"
-#include "tools/session.h"
-#include "writers/json.h"
+#include "tools/cli/session.h"
+#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {

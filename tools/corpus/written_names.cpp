@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "parsers/allowed_files.h"
+#include "base/io/allowed_files.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {

@@ -1,4 +1,4 @@
-// What wrlkit has put into the page: a table of contents, and files packed by gzip as base64 (tools/viewer_page.cpp).
+// What wrlkit has put into the page: a table of contents, and files packed by gzip as base64 (tools/verbs/viewer_page.cpp).
 
 /// How far two worlds are apart, in metres; `where` the distance is largest.
 export interface OneSide {

@@ -1,7 +1,7 @@
 // A glTF file drawn by three.js, as its users see it, or lit as a VRML browser does.
 //
 // Light. wrlkit writes lights for three.js's physical units: a white face that looks at a light of intensity 1 returns 1
-// (writers/gltf_lights.h). A file without lights gets what viewers give it, here VRML's headlight: white, along the view,
+// (writers/gltf/lights.h). A file without lights gets what viewers give it, here VRML's headlight: white, along the view,
 // pi lux; none when the file keeps a NavigationInfo that says so.
 //
 // lighting 'three': GLTFLoader's materials as they are, what people get. 'vrml': see vrml_light.mjs; close enough to a VRML

@@ -1,4 +1,4 @@
-// The surface of a world in colours of its distance from another, measured by wrlkit (tools/deviation_map.h).
+// The surface of a world in colours of its distance from another, measured by wrlkit (tools/report/deviation_map.h).
 import {BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial, type Color} from 'three';
 
 /// From no distance to the end of the scale.

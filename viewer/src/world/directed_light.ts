@@ -1,6 +1,6 @@
 // Baked light that knows where it comes from: for each texel the mean direction v of its light, longer the more of it comes from there
 // (docs/lighting.md). Radiance is taken as linear over the sphere of directions, so that a surface of normal n gets 1 + 2 v.n of it, and the part
-// |v| shines as a lamp: highlights move with the viewer. The program does the same (passes/render/baked.cpp).
+// |v| shines as a lamp: highlights move with the viewer. The program does the same (light/render/baked.cpp).
 import {Color, MeshBasicMaterial, type Texture, type WebGLProgramParametersWithUniforms} from 'three';
 
 export interface Directions {

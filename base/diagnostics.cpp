@@ -1,0 +1,80 @@
+#include "base/diagnostics.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace wrlkit {
+namespace {
+
+const std::vector<DiagInfo>& table() {
+  static const auto rows = [] {
+    std::vector<DiagInfo> v{
+#define DIAG(severity, name, text) {#name, Severity::severity, text},
+#include "base/diagnostics.def"
+#undef DIAG
+    };
+    for (auto& d : v) std::ranges::replace(d.name, '_', '-');
+    return v;
+  }();
+  return rows;
+}
+
+}  // namespace
+
+const DiagInfo& info(Diag d) { return table()[static_cast<std::size_t>(d)]; }
+
+bool find_diag(std::string_view name, Diag& out) {
+  for (std::size_t i = 0; i < table().size(); ++i)
+    if (table()[i].name == name) return out = static_cast<Diag>(i), true;
+  return false;
+}
+
+std::string_view to_string(Severity s) {
+  constexpr std::string_view names[] = {"ignored", "note", "lost", "warning", "error"};
+  return names[static_cast<std::size_t>(s)];
+}
+
+std::string Message::text() const {
+  std::string out;
+  std::size_t next = 0;
+  std::string_view t = info(id).text;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (t.substr(i, 2) == "{}") {
+      if (next < args.size()) out += args[next];
+      ++next, ++i;
+    } else out += t[i];
+  return out;
+}
+
+// Arguments are shown to people: long ones are cut, control characters blanked.
+std::string Diagnostics::argument(std::string_view s) {
+  constexpr std::size_t longest = 120;
+  std::string out(s.substr(0, longest));
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
+  if (s.size() > longest) out += "...";
+  return out;
+}
+
+std::string Diagnostics::argument(double v) {
+  char b[32];
+  auto r = std::to_chars(b, b + sizeof b, v, std::chars_format::general, 6);
+  return {b, r.ptr};
+}
+
+void Diagnostics::warnings_are_errors() {
+  for (auto& s : severity_)
+    if (s == Severity::warning) s = Severity::error;
+}
+
+void Diagnostics::add(Diag id, Span where, std::vector<std::string> args) {
+  auto s = severity_[static_cast<std::size_t>(id)];
+  if (s == Severity::ignored) return;
+  // A pass that runs twice says the same thing of the same place once.
+  auto same = [&](const Message& m) { return m.id == id && m.where.begin == where.begin && m.args == args; };
+  if (where && std::ranges::any_of(messages_, same)) return;
+  ++by_severity_[static_cast<std::size_t>(s)];
+  if (++by_name_[static_cast<std::size_t>(id)] <= kept_per_name) messages_.push_back({id, s, where, std::move(args)});
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,205 @@
+#include "base/image/image.h"
+
+#include <dlfcn.h>
+#include <link.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+
+#include "base/image/image_codecs.h"
+#include "base/image/image_module.h"
+#include "base/image/png.h"
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folder of the program or shared library that this code is in.
+fs::path own_folder() {
+  std::error_code ec;
+  Dl_info self{};
+  link_map* object = nullptr;
+  auto address = reinterpret_cast<const void*>(&own_folder);
+  // The name of a program would be argv[0], which may be anything; the map leaves it empty.
+  bool known = dladdr1(address, &self, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
+  bool library = known && object && object->l_name && object->l_name[0] == '/';
+  return fs::canonical(library ? object->l_name : "/proc/self/exe", ec).parent_path();
+}
+
+/// Where the module may be: in the build tree beside the program or above it, installed in a folder of libraries.
+std::vector<fs::path> module_paths() {
+  const fs::path folder = own_folder(), name = "wrlkit_images.so", lib = folder / ".." / "lib";
+  std::vector<fs::path> paths{folder / name, folder / ".." / name, folder / ".." / ".." / name, folder / "wrlkit" / name, lib / "wrlkit" / name};
+  std::error_code ec;
+  for (fs::directory_iterator i(lib, ec), end; !ec && i != end; i.increment(ec))  // lib/x86_64-linux-gnu
+    if (auto path = i->path() / "wrlkit" / name; fs::exists(path, ec)) paths.push_back(path);
+  return paths;
+}
+
+struct Opened {
+  const ImageModule* module = nullptr;
+  std::string error = "the module wrlkit_images.so, which decodes and encodes pictures, is not installed";
+};
+
+Opened open_module() {
+  Opened opened;
+  std::error_code ec;
+  for (auto& path : module_paths()) {
+    if (!fs::exists(path, ec)) continue;
+    void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    auto entry = handle ? reinterpret_cast<decltype(&wrlkit_images)>(dlsym(handle, "wrlkit_images")) : nullptr;
+    if (entry) return {entry(), {}};
+    opened.error = "wrlkit_images.so cannot be loaded: " + std::string(dlerror());
+  }
+  return opened;
+}
+
+std::atomic<bool> loaded = false;
+
+const Opened& image_module() {
+  static const Opened opened = (loaded = true, open_module());
+  return opened;
+}
+
+struct Codec {
+  std::string_view mime;
+  const char* name;
+};
+
+constexpr Codec codecs[] = {
+    {"image/png", "png"},   {"image/jpeg", "jpeg"},     {"image/gif", "gif"},
+    {"image/bmp", "bmp"},   {"image/x-tga", "targa"},   {"image/tiff", "tiff"},
+    {"image/webp", "webp"}, {"image/x-exr", "openexr"}, {"image/vnd.radiance", "hdr"},
+};
+
+bool alpha_is_nothing(const Image& image) {
+  for (std::size_t i = image.channels - 1; i < image.pixels.size(); i += image.channels)
+    if (image.pixels[i] != 0) return false;
+  return true;
+}
+
+bool decode(std::string_view bytes, std::string_view mime, Image& image, std::string& error) {
+  auto codec = std::ranges::find(codecs, mime, &Codec::mime);
+  if (codec == std::end(codecs)) return error = "it is no picture of a known type", false;
+  std::optional<std::string> png;
+  if (mime == "image/png") {
+    png = essential_png(bytes);
+    if (!png) return error = "its data are damaged", false;
+    bytes = *png;
+  }
+  auto& opened = image_module();
+  if (!opened.module) return error = opened.error, false;
+  return opened.module->decode({bytes, codec->name, &image_size_fault}, image, error);
+}
+
+template <class Picture>
+bool has_pixels(const Picture& image) {
+  auto pixels = std::uint64_t(image.width) * std::uint64_t(image.height) * std::uint64_t(image.channels);
+  return image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4 && image.pixels.size() == pixels;
+}
+
+/// The bytes that `write(module, bytes)` makes of a picture that has all its pixels.
+template <class Picture, class Write>
+std::optional<std::string> encode_with(const Picture& image, std::string& error, Write write) {
+  if (!has_pixels(image)) return error = "it has no pixels", std::nullopt;
+  auto& opened = image_module();
+  if (!opened.module) return error = opened.error, std::nullopt;
+  std::string bytes;
+  if (!write(*opened.module, bytes)) return std::nullopt;
+  return bytes;
+}
+
+std::optional<std::string> encode(const Image& image, const char* codec, int quality, std::string& error) {
+  return encode_with(image, error, [&](const ImageModule& module, std::string& bytes) {
+    return module.encode(image, codec, quality, bytes, error);
+  });
+}
+
+constexpr int unseen_losses = 92;  // quality
+
+std::optional<std::string> jpeg_of(const Image& image, std::string& error) { return encode_jpeg(image, unseen_losses, error); }
+std::optional<std::string> webp_of(const Image& image, std::string& error) { return encode_webp(image, unseen_losses, error); }
+
+struct Extension {
+  std::string_view end;
+  std::optional<std::string> (*encode)(const Image&, std::string& error);
+};
+constexpr Extension extensions[] = {{".png", encode_png}, {".jpg", jpeg_of}, {".jpeg", jpeg_of}, {".webp", webp_of}};
+
+const Extension* extension_of(std::string_view name) {
+  auto i = std::ranges::find_if(extensions, [&](const Extension& e) { return name.ends_with(e.end); });
+  return i == std::end(extensions) ? nullptr : i;
+}
+
+}  // namespace
+
+std::optional<Image> decode_image(std::string_view bytes, std::string_view name, std::string& error) {
+  auto mime = sniff_mime(bytes, name);
+  auto header = read_image_header(bytes, name);
+  if (header) {
+    error = image_size_fault(header->width, header->height, bytes.size());
+    if (!error.empty()) return std::nullopt;
+  }
+  Image image;
+  if (!decode(bytes, mime, image, error)) return std::nullopt;
+  if (header) image = with_channels(std::move(image), header->channels);
+  // Many programs that write BMP and TGA leave the fourth byte 0; a picture of nothing is never meant.
+  if (header && header->alpha && (mime == "image/bmp" || mime == "image/x-tga") && alpha_is_nothing(image))
+    image = with_channels(with_channels(std::move(image), header->channels - 1), header->channels);
+  return image;
+}
+
+void load_image_codecs() { image_module(); }
+bool image_codecs_are_loaded() { return loaded; }
+
+std::optional<std::string> encode_png(const Image& image, std::string& error) {
+  if (!has_pixels(image)) return error = "it has no pixels", std::nullopt;
+  return png_of(image);
+}
+
+std::optional<std::string> encode_jpeg(const Image& image, int quality, std::string& error) {
+  bool alpha = image.channels % 2 == 0;
+  return encode(alpha ? with_channels(image, image.channels - 1) : image, "jpeg", std::clamp(quality, 1, 100), error);
+}
+
+std::optional<std::string> encode_webp(const Image& image, int quality, std::string& error) {
+  int channels = image.channels % 2 == 0 ? 4 : 3;
+  return encode(image.channels == channels ? image : with_channels(image, channels), "webp", std::clamp(quality, 1, 100), error);
+}
+
+std::optional<std::string> encode_exr(const FloatImage& image, std::string& error) {
+  return encode_with(image, error, [&](const ImageModule& module, std::string& bytes) { return module.encode_exr(image, bytes, error); });
+}
+
+std::unique_ptr<PictureAnimation> begin_webp_animation(int milliseconds, std::string& error) {
+  auto& opened = image_module();
+  if (!opened.module) return error = opened.error, nullptr;
+  if (!opened.module->begin_webp_animation) return error = "this program was built without libwebpmux, which writes animations", nullptr;
+  return opened.module->begin_webp_animation(milliseconds, unseen_losses);
+}
+
+std::optional<std::string> encode_as(std::string_view name, const Image& image, std::string& error) {
+  auto* e = extension_of(name);
+  return e ? e->encode(image, error) : std::nullopt;
+}
+
+bool can_encode_as(std::string_view name) { return extension_of(name) != nullptr; }
+
+Image with_channels(Image from, int channels) {
+  if (from.channels == channels) return from;
+  Image to{from.width, from.height, channels, {}};
+  const std::size_t n = from.pixels.size() / from.channels;
+  const int colours = channels < 3 ? 1 : 3, step = from.channels < 3 ? 0 : 1;  // step: grey is every colour
+  to.pixels.resize(n * channels);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint8_t* p = &from.pixels[i * from.channels];
+    std::uint8_t* q = &to.pixels[i * channels];
+    for (int c = 0; c < colours; ++c) q[c] = p[c * step];
+    if (channels > colours) q[colours] = from.channels % 2 == 0 ? p[from.channels - 1] : 255;
+  }
+  return to;
+}
+
+}  // namespace wrlkit

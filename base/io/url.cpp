@@ -1,0 +1,122 @@
+#include "base/io/url.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+
+#include "base/text/blanks.h"
+
+namespace wrlkit {
+namespace {
+
+/// The scheme in lower case; empty when there is none. One letter is a drive.
+std::string scheme(std::string_view url) {
+  auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '.' || c == '-'; };
+  std::string s(url.substr(0, std::min(url.size(), url.find(':'))));
+  if (s.size() < 2 || s.size() == url.size() || !std::isalpha(static_cast<unsigned char>(s[0])) ||
+      !std::ranges::all_of(s, allowed))
+    return {};
+  std::ranges::transform(s, s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return s;
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  c = static_cast<char>(c | 0x20);
+  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+/// A '%' that no two hexadecimal digits follow is itself.
+std::string percent_decode(std::string_view s) {
+  std::string out;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    int high = s[i] == '%' && i + 2 < s.size() ? hex_digit(s[i + 1]) : -1;
+    int low = high >= 0 ? hex_digit(s[i + 2]) : -1;
+    if (low < 0)
+      out += s[i];
+    else
+      out += static_cast<char>(high << 4 | low), i += 2;
+  }
+  return out;
+}
+
+constexpr auto base64_digits = [] {
+  std::array<signed char, 256> table{};
+  table.fill(-1);
+  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (std::size_t i = 0; i < alphabet.size(); ++i)
+    table[static_cast<unsigned char>(alphabet[i])] = static_cast<signed char>(i);
+  table['-'] = 62, table['_'] = 63;
+  return table;
+}();
+
+/// RFC 4648, both alphabets; blanks are skipped, padding may be missing.
+std::optional<std::string> base64_decode(std::string_view s) {
+  std::string out;
+  std::uint32_t bits = 0;
+  int n_bits = 0;
+  for (unsigned char c : s) {
+    if (c <= ' ') continue;
+    if (c == '=') break;
+    if (base64_digits[c] < 0) return std::nullopt;
+    bits = bits << 6 | static_cast<std::uint32_t>(base64_digits[c]);
+    n_bits += 6;
+    if (n_bits >= 8) out += static_cast<char>(bits >> (n_bits -= 8) & 0xff);
+  }
+  return out;
+}
+
+/// The path in "file:..." (RFC 8089), whose forms on other systems are "file:///C:/x", "file:///C|/x" and
+/// "file://C:/x".
+std::string_view path_of_file_url(std::string_view s) {
+  s.remove_prefix(5);
+  if (s.starts_with("//localhost/")) return s.substr(11);
+  if (s.starts_with("///")) return s.substr(2);
+  if (s.starts_with("//") && has_drive(s.substr(2))) return s.substr(2);
+  return s;
+}
+
+std::string with_slashes(std::string s) {
+  std::ranges::replace(s, '\\', '/');
+  if (s.starts_with('/') && has_drive(std::string_view(s).substr(1))) s.erase(0, 1);
+  if (has_drive(s)) s[1] = ':';
+  return s;
+}
+
+}  // namespace
+
+UrlKind url_kind(std::string_view url) {
+  auto s = scheme(trim(url));
+  if (s.empty() || s == "file") return UrlKind::file;
+  if (s == "data") return UrlKind::data;
+  return s == "javascript" || s == "vrmlscript" || s == "ecmascript" ? UrlKind::script : UrlKind::remote;
+}
+
+bool has_drive(std::string_view p) {
+  return p.size() >= 2 && std::isalpha(static_cast<unsigned char>(p[0])) && (p[1] == ':' || p[1] == '|') &&
+         (p.size() == 2 || p[2] == '/' || p[2] == '\\');
+}
+
+std::vector<std::string> url_paths(std::string_view url) {
+  url = trim(url);
+  std::string slashed(url);
+  std::ranges::replace(slashed, '\\', '/');  // file:\\\C:\x
+  std::string_view path = scheme(url) == "file" ? path_of_file_url(slashed) : slashed;
+  auto bare = path.substr(0, std::min(path.size(), path.find_first_of("#?")));
+  std::vector<std::string> paths{with_slashes(percent_decode(bare))};
+  for (auto other : {with_slashes(std::string(bare)), with_slashes(std::string(path)), std::string(url)})
+    if (std::ranges::find(paths, other) == paths.end()) paths.push_back(std::move(other));
+  return paths;
+}
+
+std::optional<std::string> decode_data_url(std::string_view url) {
+  url = trim(url);
+  auto comma = url.find(',');
+  if (comma == url.npos) return std::nullopt;
+  auto about = url.substr(0, comma), content = url.substr(comma + 1);
+  auto decoded = percent_decode(content);
+  return about.ends_with(";base64") ? base64_decode(decoded) : decoded;
+}
+
+}  // namespace wrlkit

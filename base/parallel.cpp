@@ -1,0 +1,36 @@
+#include "base/parallel.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+
+namespace wrlkit {
+namespace {
+
+std::atomic<int> limits_of_one = 0;
+
+}  // namespace
+
+bool only_one_thread() { return limits_of_one > 0; }
+
+void parallel_for(std::size_t n, const std::function<void(std::size_t)>& f) {
+  if (!only_one_thread()) return tbb::parallel_for(std::size_t{0}, n, f);
+  for (std::size_t i = 0; i < n; ++i) f(i);
+}
+
+struct ThreadLimit::Control {
+  tbb::global_control limit;
+};
+
+// One thread needs no oneTBB, which looks through 80 places for a library when it is first used: in a process that converts one
+// small file that is a good part of its time.
+ThreadLimit::ThreadLimit(int threads) : one_(threads == 1) {
+  if (one_) ++limits_of_one;
+  else if (threads > 0) control_.reset(new Control{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
+}
+ThreadLimit::~ThreadLimit() {
+  if (one_) --limits_of_one;
+}
+
+}  // namespace wrlkit

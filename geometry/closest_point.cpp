@@ -1,0 +1,267 @@
+// The tree is split by the surface area heuristic over a few bins along the longest side of the centres. Boxes are
+// single precision, rounded outwards and relative to the middle of the surface; all distances are double.
+#include "geometry/closest_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/shapes/vector.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr std::uint32_t leaf_size = 4;
+constexpr int n_bins = 12;
+constexpr int balanced_below = 40;  // depth from which triangles are halved by number, so that the tree ends
+constexpr int most_depth = balanced_below + 32;
+constexpr int most_equal = 32;  // triangles compared for where they face; there may be thousands in one place
+constexpr double largest = 1e18;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double flat = 1e-24;  // squared sine below which a triangle is its edges
+
+double squared(const Vec3& v) { return dot(v, v); }
+
+/// Squared distance of the origin to the segment from a to b.
+double to_segment(const Vec3& a, const Vec3& b) {
+  Vec3 ab = b - a;
+  double along = -dot(a, ab), all = squared(ab);
+  if (!(along > 0)) return squared(a);
+  return along < all ? squared(a + (along / all) * ab) : squared(b);
+}
+
+/// Squared distance of the origin to a triangle with this area normal. Whoever is beyond an edge is nearest to one of
+/// the edges that he is beyond. The foot is a mean of the corners, so it is on the triangle however thin that is.
+double to_triangle(const std::array<Vec3, 3>& t, const Vec3& n) {
+  Vec3 ab = t[1] - t[0], ac = t[2] - t[0];
+  double nn = squared(n), least = infinity;
+  if (!(nn > flat * squared(ab) * squared(ac)))
+    return std::min({to_segment(t[0], t[1]), to_segment(t[1], t[2]), to_segment(t[2], t[0])});
+  double weight[3];
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &b = t[static_cast<std::size_t>((i + 1) % 3)], &c = t[static_cast<std::size_t>((i + 2) % 3)];
+    weight[i] = dot(cross(b, c), n);
+    if (weight[i] < 0) least = std::min(least, to_segment(b, c));
+  }
+  if (least < infinity) return least;
+  return squared((1 / (weight[0] + weight[1] + weight[2])) * (weight[0] * t[0] + weight[1] * t[1] + weight[2] * t[2]));
+}
+
+struct Range {
+  std::array<float, 3> low{inf, inf, inf}, high{-inf, -inf, -inf};
+  static constexpr float inf = std::numeric_limits<float>::infinity();
+
+  void add(const Range& r) {
+    for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], r.low[i]), high[i] = std::max(high[i], r.high[i]);
+  }
+  double half_area() const {
+    double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+    return x * y + y * z + z * x;
+  }
+};
+
+}  // namespace
+
+Triangles triangles_of(const Mesh& mesh) {
+  if (!mesh.is_triangles()) return {};
+  return {mesh.positions.span(), mesh.corners};
+}
+
+Vec3 area_normal(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
+double squared_distance(const Vec3& p, const std::array<Vec3, 3>& corners) {
+  const std::array<Vec3, 3> t{corners[0] - p, corners[1] - p, corners[2] - p};
+  return to_triangle(t, area_normal(t));
+}
+
+bool is_usable(const std::array<Vec3, 3>& corners) {
+  for (const Vec3& p : corners)
+    for (double v : p)
+      if (!(std::fabs(v) < largest)) return false;
+  return true;
+}
+
+/// Makes the tree; what it needs beside the result.
+struct ClosestPoint::Builder {
+  struct Item {
+    Range range;
+    std::uint32_t triangle;
+    float middle(std::size_t axis) const { return range.low[axis] + range.high[axis]; }  // doubled
+  };
+  struct Bin {
+    Range range;
+    std::uint32_t n = 0;
+  };
+
+  ClosestPoint& tree;
+  std::vector<Item> items;
+
+  void run() {
+    list_items();
+    tree.order_.reserve(items.size());
+    tree.boxes_.reserve(items.size() / 2 + 1);
+    if (!items.empty()) split(0, static_cast<std::uint32_t>(items.size()), 0);
+  }
+
+  void list_items() {
+    Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    for (std::size_t t = 0; t < tree.surface_.size(); ++t) {
+      auto corners = tree.surface_[t];
+      if (!is_usable(corners)) continue;
+      items.push_back({{}, static_cast<std::uint32_t>(t)});
+      for (auto& p : corners)
+        for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+    }
+    if (items.empty()) return;
+    tree.centre_ = 0.5 * (low + high);
+    tree.same_ = 1e-10 * length(high - low);
+    for (Item& item : items)
+      for (auto& p : tree.surface_[item.triangle]) item.range.add(around(p - tree.centre_));
+  }
+
+  static Range around(const Vec3& p) {
+    Range r;
+    for (std::size_t i = 0; i < 3; ++i) {
+      auto v = static_cast<float>(p[i]);
+      float rounding = std::fabs(v) * 2e-7f + 1e-37f;
+      r.low[i] = v - rounding, r.high[i] = v + rounding;
+    }
+    return r;
+  }
+
+  void split(std::uint32_t begin, std::uint32_t end, int depth) {
+    Range all, middles;
+    for (auto i = begin; i < end; ++i) {
+      all.add(items[i].range);
+      std::array<float, 3> m{items[i].middle(0), items[i].middle(1), items[i].middle(2)};
+      middles.add({m, m});
+    }
+    std::size_t here = tree.boxes_.size();
+    tree.boxes_.push_back({all.low, all.high, static_cast<std::uint32_t>(tree.order_.size()), end - begin});
+    if (end - begin <= leaf_size) {
+      for (auto i = begin; i < end; ++i) tree.order_.push_back(items[i].triangle);
+      return;
+    }
+    std::uint32_t middle = partition(begin, end, middles, depth);
+    split(begin, middle, depth + 1);
+    tree.boxes_[here].next = static_cast<std::uint32_t>(tree.boxes_.size());
+    tree.boxes_[here].n_triangles = 0;
+    split(middle, end, depth + 1);
+  }
+
+  /// Where the second half begins; both have something.
+  std::uint32_t partition(std::uint32_t begin, std::uint32_t end, const Range& middles, int depth) {
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+      if (middles.high[i] - middles.low[i] > middles.high[axis] - middles.low[axis]) axis = i;
+    const float low = middles.low[axis], extent = middles.high[axis] - low;
+    auto halfway = begin + (end - begin) / 2;
+    auto first = items.begin() + begin, last = items.begin() + end;
+    if (!(extent > 0)) return halfway;
+    if (depth >= balanced_below) {
+      std::nth_element(first, items.begin() + halfway, last,
+                       [&](auto& a, auto& b) { return a.middle(axis) < b.middle(axis); });
+      return halfway;
+    }
+    auto bin_of = [&](const Item& i) {
+      return std::min(n_bins - 1, static_cast<int>((i.middle(axis) - low) / extent * n_bins));
+    };
+    Bin bins[n_bins];
+    for (auto i = first; i != last; ++i) {
+      Bin& b = bins[bin_of(*i)];
+      b.range.add(i->range);
+      ++b.n;
+    }
+    int cut = cheapest_cut(bins);
+    return static_cast<std::uint32_t>(std::partition(first, last, [&](auto& i) { return bin_of(i) < cut; }) -
+                                      items.begin());
+  }
+
+  /// The first bin of the second half: the least sum of area times number. The first bin and the last are never empty.
+  static int cheapest_cut(const Bin (&bins)[n_bins]) {
+    double cost[n_bins] = {};
+    Range before, after;
+    std::uint32_t n_before = 0, n_after = 0;
+    for (int i = 1; i < n_bins; ++i) {
+      before.add(bins[i - 1].range), n_before += bins[i - 1].n;
+      after.add(bins[n_bins - i].range), n_after += bins[n_bins - i].n;
+      cost[i] += before.half_area() * n_before;
+      cost[n_bins - i] += after.half_area() * n_after;
+    }
+    return static_cast<int>(std::min_element(cost + 1, cost + n_bins) - cost);
+  }
+};
+
+ClosestPoint::ClosestPoint(Triangles surface) : surface_(surface) { Builder{*this, {}}.run(); }
+
+/// One question on its way down the tree.
+struct ClosestPoint::Search {
+  const ClosestPoint& tree;
+  const Vec3& p;
+  const Vec3& facing;
+  Nearest best{infinity, no_guess};
+  double reach = infinity;  // squared distance up to which a triangle may be the answer
+  double best_facing = -infinity;
+  int n_equal = 0;
+
+  void try_triangle(std::uint32_t triangle) {
+    ++best.n_tried;
+    auto t = tree.surface_[triangle];
+    for (auto& corner : t) corner = corner - p;
+    Vec3 n = area_normal(t);
+    double d2 = to_triangle(t, n);
+    if (!(d2 <= reach)) return;
+    double d = std::sqrt(d2), size = length(n), front = size > 0 ? dot(n, facing) / size : -infinity;
+    n_equal = d < best.distance - tree.same_ ? 0 : n_equal + 1;
+    if (!n_equal || front > best_facing) best.triangle = triangle, best_facing = front;
+    best.distance = std::min(best.distance, d);
+    double limit = best.distance + (n_equal < most_equal ? tree.same_ : -tree.same_);
+    reach = limit < 0 ? -1 : limit * limit;
+  }
+
+  /// Squared distance to a box.
+  double to(const Box& box, const Vec3& q) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      double d = std::max({box.low[i] - q[i], q[i] - box.high[i], 0.0});
+      sum += d * d;
+    }
+    return sum;
+  }
+
+  void run() {
+    struct Open {
+      std::uint32_t box;
+      double distance;
+    } open[most_depth];
+    int n_open = 0;
+    const Vec3 q = p - tree.centre_;
+    std::uint32_t at = 0;
+    for (double distance = to(tree.boxes_[0], q);;) {
+      const Box& box = tree.boxes_[at];
+      if (distance <= reach && !box.n_triangles) {
+        std::uint32_t near = at + 1, far = box.next;
+        double to_near = to(tree.boxes_[near], q), to_far = to(tree.boxes_[far], q);
+        if (to_far < to_near) std::swap(near, far), std::swap(to_near, to_far);
+        if (to_far <= reach) open[n_open++] = {far, to_far};
+        at = near, distance = to_near;
+        continue;
+      }
+      if (distance <= reach)
+        for (auto i = box.next; i < box.next + box.n_triangles; ++i) try_triangle(tree.order_[i]);
+      if (!n_open) return;
+      --n_open;
+      at = open[n_open].box, distance = open[n_open].distance;
+    }
+  }
+};
+
+ClosestPoint::Nearest ClosestPoint::nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess) const {
+  Search search{*this, p, facing};
+  if (boxes_.empty()) return search.best;
+  if (guess != no_guess) search.try_triangle(guess);
+  search.run();
+  return search.best;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,110 @@
+#include "geometry/simplify/lod_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/geometry.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+struct Sphere {
+  Vec3 center{};
+  double radius = 0;
+};
+
+/// The next number above `v` of four digits, for texts that people read.
+double round_up(double v) {
+  if (!(v > 0)) return 0;
+  const double exponent = std::floor(std::log10(v)) - 3, step = std::pow(10.0, std::abs(exponent));
+  return exponent < 0 ? std::ceil(v * step) / step : std::ceil(v / step) * step;
+}
+
+/// Around the middle of the bounds of the positions that the corners use.
+Sphere bounding_sphere(const Mesh& mesh) {
+  Vec3 low{}, high{};
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = mesh.positions[mesh.corners[i] * std::size_t{3} + k];
+      low[k] = i ? std::min(low[k], x) : x;
+      high[k] = i ? std::max(high[k], x) : x;
+    }
+  Sphere s;
+  for (std::size_t k = 0; k < 3; ++k) s.center[k] = static_cast<float>((low[k] + high[k]) / 2);
+  for (auto c : mesh.corners) {
+    double d = 0;
+    for (std::size_t k = 0; k < 3; ++k) d += std::pow(mesh.positions[c * std::size_t{3} + k] - s.center[k], 2);
+    s.radius = std::max(s.radius, d);
+  }
+  s.radius = std::sqrt(s.radius);
+  return s;
+}
+
+/// Each the distance from which on the error of the next level is not seen on the near side of the bounding sphere.
+std::vector<double> ranges(const Sphere& sphere, std::span<const MeshLevel> levels, const ScreenBudget& budget) {
+  std::vector<double> out;
+  for (const auto& level : levels) out.push_back(sphere.radius + level.error / budget.pixels * budget.per_pixel());
+  if (budget.vanish > 0) out.push_back(sphere.radius + 2 * sphere.radius / budget.vanish * budget.per_pixel());
+  double least = 0;
+  for (auto& r : out) least = r = round_up(std::max(r, least * 1.001));
+  return out;
+}
+
+}  // namespace
+
+double ScreenBudget::per_pixel() const { return screen_height / (2 * std::tan(field_of_view / 2)); }
+
+std::size_t LodNodes::add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels, const ScreenBudget& budget) {
+  const auto sphere = bounding_sphere(mesh);
+  const auto range = ranges(sphere, levels, budget);
+  if (range.empty()) return 0;
+  std::vector<NodeId> geometries;
+  for (const auto& level : levels) {
+    geometries.push_back(scene_.add(nodes::IndexedFaceSet, scene_.where(surface.geometry)));
+    store_mesh(scene_, geometries.back(), level.mesh);
+  }
+  for (NodeId shape : surface.shapes) {
+    std::vector<NodeId> children{shape};
+    for (NodeId g : geometries) children.push_back(shape_like(shape, g));
+    if (budget.vanish > 0) children.push_back(scene_.add(nodes::Group, scene_.where(shape)));
+    NodeId n = scene_.add(nodes::LOD, scene_.where(shape));
+    scene_.set(n, nodes::lod::children, children);
+    scene_.set(n, nodes::lod::center, sphere.center);
+    scene_.set(n, nodes::lod::range, range);
+    if (lod_of_.size() <= shape.value) lod_of_.resize(shape.value + std::size_t{1});
+    lod_of_[shape.value] = n;
+  }
+  return surface.shapes.size();
+}
+
+/// The same Shape with another geometry.
+NodeId LodNodes::shape_like(NodeId shape, NodeId geometry) {
+  const std::vector<Value> fields(scene_.fields(shape).begin(), scene_.fields(shape).end());
+  NodeId n = scene_.add(nodes::Shape, scene_.where(shape));
+  scene_.set_fields(n, fields);
+  scene_.set(n, nodes::shape::geometry, geometry);
+  return n;
+}
+
+void LodNodes::replace(std::vector<NodeId>& list) const {
+  for (auto& n : list)
+    if (n && n.value < lod_of_.size() && lod_of_[n.value]) n = lod_of_[n.value];
+}
+
+void LodNodes::replace_shapes() {
+  for (NodeId n : all_nodes(scene_)) {
+    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
+    for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+      if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
+      std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
+      replace(list);
+      if (!std::ranges::equal(list, v.node_span())) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));
+    }
+  }
+  replace(scene_.main.roots);
+  for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) replace(scene_.proto(ProtoId{i}).body.roots);
+}
+
+}  // namespace wrlkit

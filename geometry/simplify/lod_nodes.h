@@ -1,0 +1,38 @@
+// LOD nodes around Shapes: how simplified meshes come into a world (ISO/IEC 14772-1, 6.26).
+#pragma once
+#include <span>
+#include <vector>
+
+#include "geometry/simplify/levels.h"
+#include "geometry/simplify/surfaces.h"
+
+namespace wrlkit {
+
+/// From which distance on an error is not seen.
+struct ScreenBudget {
+  double pixels = 1, screen_height = 1080, field_of_view = 0.785398;  // the last in radians, of the height
+  double vanish = 0;  // pixels below which a part may be left out altogether; 0: never
+
+  /// Distance at which a length covers one pixel, by that length.
+  double per_pixel() const;
+};
+
+class LodNodes {
+ public:
+  explicit LodNodes(Scene& scene) : scene_(scene) {}
+
+  /// Makes a LOD of each Shape that holds the surface, with the Shape as its first level. `mesh` is the surface; nothing is
+  /// made when there are no levels and it is not to vanish. Returns the number of LODs.
+  std::size_t add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels, const ScreenBudget& budget);
+  /// Puts the LODs where their Shapes were: into grouping nodes, and among the roots of scopes. O(nodes).
+  void replace_shapes();
+
+ private:
+  NodeId shape_like(NodeId shape, NodeId geometry);
+  void replace(std::vector<NodeId>& list) const;
+
+  Scene& scene_;
+  std::vector<NodeId> lod_of_;  // by Shape
+};
+
+}  // namespace wrlkit

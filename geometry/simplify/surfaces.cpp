@@ -1,0 +1,113 @@
+#include "geometry/simplify/surfaces.h"
+
+#include <algorithm>
+
+#include "geometry/geometry.h"
+#include "geometry/simplify/collapse.h"
+#include "geometry/tessellation.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+class Choice {
+ public:
+  Choice(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text) : scene_(scene), diag_(diag), below_(below), text_(text), order_(all_nodes(scene)), kept_(scene.node_count()) {}
+
+  std::vector<ShapeSurface> run() {
+    keep_routed();
+    if (below_ == BelowLod::leave) keep_below_levels();
+    std::vector<ShapeSurface> out;
+    constexpr std::uint32_t none = 0xffffffff;
+    std::vector<std::uint32_t> number(scene_.node_count(), none);
+    for (NodeId n : order_) {
+      if (!scene_.is(n, nodes::Shape)) continue;
+      const Value* v = scene_.find(n, nodes::shape::geometry.slot);
+      if (!v || (!v->is && !is_surface(v->node))) continue;
+      if (const char* why = reason_to_leave(n, *v)) {
+        if (diag_) diag_->report(Diag::not_simplified, scene_.where(n), why);
+        continue;
+      }
+      auto& i = number[v->node.value];
+      if (i == none) {
+        i = static_cast<std::uint32_t>(out.size());
+        out.push_back({v->node, {}});
+      }
+      out[i].shapes.push_back(n);
+    }
+    return out;
+  }
+
+ private:
+  void keep_routed() {
+    auto keep = [&](const Scope& s) { for (const auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = Kept::routed; };
+    keep(scene_.main);
+    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) keep(scene_.proto(ProtoId{i}).body);
+  }
+
+  void keep_below_levels() {
+    std::vector<NodeId> open;
+    std::ranges::copy_if(order_, std::back_inserter(open), [&](NodeId n) { return scene_.is(n, nodes::LOD); });
+    std::vector<char> seen(scene_.node_count());
+    while (!open.empty()) {
+      NodeId n = open.back();
+      open.pop_back();
+      for_each_child(scene_, n, [&](NodeId c) {
+        if (!c || seen[c.value]) return;
+        seen[c.value] = 1, kept_[c.value] = Kept::has_levels;
+        open.push_back(c);
+      });
+    }
+  }
+
+  bool has_is(NodeId n) const {
+    return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return scene_.content(v).is; });
+  }
+  bool is_surface(NodeId g) const {
+    return g && scene_.type(g).kind == NodeKind::builtin && scene_.type(g).is_a("X3DGeometryNode") &&
+           !scene_.is(g, nodes::IndexedLineSet) && !scene_.is(g, nodes::PointSet);
+  }
+
+  /// Null for a Shape whose surface is known now and stays as it is.
+  const char* reason_to_leave(NodeId shape, const Value& geometry) const {
+    constexpr const char* by_is = "the Shape of a prototype that gets its values by IS";
+    if (const char* why = reason(kept_[shape.value])) return why;
+    if (geometry.is) return by_is;
+    if (text_ == OfText::leave && scene_.is(geometry.node, nodes::Text)) return "text";
+    const char* why = has_is(geometry.node) ? by_is : reason(kept_[geometry.node.value]);
+    for_each_child(scene_, geometry.node, [&](NodeId c) {
+      if (c && !why) why = has_is(c) ? by_is : scene_.type(c).kind != NodeKind::builtin ? "a Shape with nodes that are not known" : reason(kept_[c.value]);
+    });
+    return why;
+  }
+
+  enum class Kept : std::uint8_t { no, routed, has_levels };
+  static const char* reason(Kept kept) {
+    return kept == Kept::routed ? "a Shape that a ROUTE changes" : kept == Kept::has_levels ? "a Shape below a LOD, which has its levels" : nullptr;
+  }
+
+  const Scene& scene_;
+  Diagnostics* diag_;
+  BelowLod below_;
+  OfText text_;
+  std::vector<NodeId> order_;
+  std::vector<Kept> kept_;  // by node: whether it must not change
+};
+
+}  // namespace
+
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text) { return Choice(scene, diag, below, text).run(); }
+
+SurfaceReader::SurfaceReader(const Scene& scene, Task& ctx) : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
+
+void SurfaceReader::read(const ShapeSurface& surface, Mesh& mesh) {
+  mesh.clear();
+  MeshJob job{scene_, surface.geometry, mesh, scratch_, ctx_, textured_[surface.geometry.value] != 0};
+  make_mesh(job, {.texcoords = true});
+  if (!mesh.is_triangles()) return mesh.clear();
+  if (!job.textured) mesh.texcoord.clear();
+  if (mesh.primitive) mesh.normal.clear(), mesh.crease_angle = CollapseOptions{}.crease_angle;
+}
+
+}  // namespace wrlkit

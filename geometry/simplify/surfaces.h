@@ -1,0 +1,42 @@
+// The surfaces of a scene that may be simplified: which geometry nodes, in which Shapes, and their meshes.
+#pragma once
+#include <vector>
+
+#include "geometry/mesh_job.h"
+
+namespace wrlkit {
+
+/// A geometry node with a surface, and the Shapes that hold it.
+struct ShapeSurface {
+  NodeId geometry;
+  std::vector<NodeId> shapes;
+};
+
+/// What becomes of Shapes below a LOD, which have their levels already.
+enum class BelowLod : std::uint8_t { leave, take };
+
+enum class OfText : std::uint8_t { leave, take };
+
+/// In the order of the scene, the bodies of prototypes too. Left out: text unless taken, lines and points; geometry that is the end of a
+/// ROUTE or an IS or has such nodes; Shapes that are the end of a ROUTE or, unless taken, lie below a LOD. What is left out of
+/// surfaces and text is said to `diag` (not-simplified), if there is one. O(nodes).
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag = nullptr, BelowLod below = BelowLod::leave, OfText text = OfText::leave);
+
+/// Makes triangles of them. One object for many surfaces, one after the other.
+class SurfaceReader {
+ public:
+  /// `scene` must outlive it; nodes may be added.
+  SurfaceReader(const Scene& scene, Task& ctx);
+
+  /// A mesh of triangles, or an empty one. What nobody sees and would hold a simplification back is left out: texture
+  /// coordinates without a texture, and the exact normals of Box, Cone, Cylinder and Sphere, whose edges tell the same.
+  void read(const ShapeSurface& surface, Mesh& mesh);
+
+ private:
+  const Scene& scene_;
+  Task& ctx_;
+  std::vector<char> textured_;
+  MeshScratch scratch_;
+};
+
+}  // namespace wrlkit

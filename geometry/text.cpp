@@ -1,0 +1,290 @@
+#include "geometry/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/geometry_attributes.h"
+#include "scenegraph/nodes.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr std::size_t most_characters = 100'000;
+
+enum class Justify : std::uint8_t { first, begin, middle, end };
+
+struct Style {
+  double size = 1, spacing = 1;
+  Justify major = Justify::begin, minor = Justify::first;
+  bool horizontal = true, left_to_right = true, top_to_bottom = true;
+  FontFamily family = FontFamily::serif;
+  bool bold = false, italic = false;
+
+  // Major: along a string. Minor: from string to string. Which way the coordinate changes.
+  double major_way() const { return horizontal ? (left_to_right ? 1 : -1) : (top_to_bottom ? -1 : 1); }
+  double minor_way() const { return horizontal ? (top_to_bottom ? -1 : 1) : (left_to_right ? 1 : -1); }
+};
+
+std::string upper(std::string_view s) {
+  std::string out(s);
+  for (auto& c : out)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return out;
+}
+
+Justify read_justify(std::string_view word, Justify otherwise) {
+  if (word == "FIRST") return Justify::first;
+  if (word == "BEGIN") return Justify::begin;
+  if (word == "MIDDLE") return Justify::middle;
+  if (word == "END") return Justify::end;
+  return otherwise;
+}
+
+/// The first family of the list that is known: the three of the standard, and names that browsers take for one of them.
+FontFamily read_family(std::span<const std::string_view> list) {
+  static constexpr struct {
+    const char* part;
+    FontFamily family;
+  } names[] = {
+      {"TYPEWRITER", FontFamily::typewriter},
+      {"COURIER", FontFamily::typewriter},
+      {"MONO", FontFamily::typewriter},
+      {"SANS", FontFamily::sans},
+      {"ARIAL", FontFamily::sans},
+      {"HELVETICA", FontFamily::sans},
+      {"VERDANA", FontFamily::sans},
+      {"SERIF", FontFamily::serif},
+      {"TIMES", FontFamily::serif},
+  };
+  for (auto name : list) {
+    if (name.empty()) break;  // the same as SERIF
+    for (auto& n : names)
+      if (upper(name).find(n.part) != std::string::npos) return n.family;
+  }
+  return FontFamily::serif;
+}
+
+double not_negative(double v, double otherwise) { return std::isfinite(v) ? std::abs(v) : otherwise; }
+
+Style read_style(const Scene& scene, NodeId text) {
+  Style out;
+  NodeId n = scene.get(text, nodes::text::fontStyle);
+  if (!scene.is(n, nodes::FontStyle)) return out;
+  namespace fields = nodes::font_style;
+  out.size = not_negative(scene.get(n, fields::size), 0);
+  out.spacing = not_negative(scene.get(n, fields::spacing), 1);
+  auto justify = scene.get(n, fields::justify);
+  if (justify.size() > 0) out.major = read_justify(justify[0], out.major);
+  if (justify.size() > 1) out.minor = read_justify(justify[1], out.minor);
+  out.horizontal = scene.get(n, fields::horizontal);
+  out.left_to_right = scene.get(n, fields::leftToRight);
+  out.top_to_bottom = scene.get(n, fields::topToBottom);
+  out.family = read_family(scene.get(n, fields::family));
+  auto style = upper(scene.get(n, fields::style));
+  out.bold = style.find("BOLD") != std::string::npos;
+  out.italic = style.find("ITALIC") != std::string::npos;
+  return out;
+}
+
+/// Takes one character off UTF-8 text. A byte that begins none is U+FFFD.
+char32_t take_character(std::string_view& s) {
+  static constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  auto first = static_cast<unsigned char>(s[0]);
+  std::size_t n = first < 0x80 ? 1 : first < 0xc0 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf8 ? 4 : 0;
+  char32_t c = n <= 1 ? first : first & (0x7fu >> n);
+  bool good = n >= 1 && n <= s.size();
+  for (std::size_t i = 1; good && i < n; ++i) {
+    good = (static_cast<unsigned char>(s[i]) & 0xc0u) == 0x80;
+    c = c << 6 | (static_cast<unsigned char>(s[i]) & 0x3fu);
+  }
+  good = good && c >= least[n] && c <= 0x10ffff && !(c >= 0xd800 && c < 0xe000);
+  s.remove_prefix(good ? n : 1);
+  return good ? c : 0xfffd;
+}
+
+bool is_control(char32_t c) { return c < 0x20 || (c >= 0x7f && c < 0xa0); }
+
+class TextMaker {
+ public:
+  TextMaker(MeshJob& job, Fonts& fonts) : job_(job), fonts_(fonts), style_(read_style(job.scene, job.geometry)) {}
+
+  void make() {
+    start_mesh();
+    if (!(style_.size > 0))
+      return job_.ctx.diag.report(Diag::degenerate_geometry, where(), title(job_), "the size of its font is 0");
+    auto strings = job_.scene.get(job_.geometry, nodes::text::string);
+    if (std::ranges::all_of(strings, &std::string_view::empty)) return;
+    if (!find_fonts()) return;
+    for (auto s : strings) add_line(s);
+    if (cut_off_) job_.ctx.diag.report(Diag::expansion_limit, where(), most_characters, "characters in one Text node");
+    report_missing();
+    set_lengths();
+    place();
+  }
+
+ private:
+  struct Line {
+    std::size_t first, last;  // into glyphs_
+    double length, scale;
+  };
+  struct Box {
+    double left, bottom, x_scale, y_scale;
+  };
+
+  Span where() const { return job_.scene.where(job_.geometry); }
+  void start_mesh();
+  bool find_fonts();
+  const Glyph& glyph(char32_t);
+  void report_missing();
+  void add_line(std::string_view);
+  double advance(const Glyph& g) const { return style_.horizontal ? g.advance * style_.size : style_.size; }
+  void set_lengths();
+  double major_start(const Line&) const;
+  double minor_start() const;
+  void place();
+  void place(const Line&, double minor);
+  void add(const Glyph&, const Box&);
+
+  MeshJob& job_;
+  Fonts& fonts_;
+  Style style_;
+  Font *font_ = nullptr, *second_ = nullptr;
+  std::vector<const Glyph*> glyphs_;
+  std::vector<Line> lines_;
+  bool cut_off_ = false;
+  std::size_t n_missing_ = 0;
+  char32_t first_missing_ = 0;
+  Vec2 origin_{};  // of the texture
+};
+
+void TextMaker::start_mesh() {
+  Mesh& mesh = job_.mesh;
+  mesh.clear();
+  mesh.kind = Mesh::Kind::faces;
+  mesh.primitive = true;
+  mesh.solid = false;
+}
+
+bool TextMaker::find_fonts() {
+  font_ = fonts_.find(style_.family, style_.bold, style_.italic);
+  second_ = fonts_.find(FontFamily::sans, style_.bold, style_.italic);
+  if (font_) return true;
+  static constexpr const char* names[] = {"SERIF", "SANS", "TYPEWRITER"};
+  job_.ctx.diag.report(Diag::no_font, where(), names[static_cast<std::size_t>(style_.family)],
+                       "neither the DejaVu nor the Liberation fonts are installed; WRLKIT_FONTS may name folders");
+  return false;
+}
+
+// -- strings
+
+const Glyph& TextMaker::glyph(char32_t c) {
+  if (auto* g = font_->glyph(c)) return *g;
+  if (auto* g = second_->glyph(c)) return *g;
+  if (n_missing_++ == 0) first_missing_ = c;
+  return font_->missing();
+}
+
+void TextMaker::report_missing() {
+  if (n_missing_) job_.ctx.diag.report(Diag::missing_glyph, where(), title(job_), n_missing_, fmt::format("{:04X}", static_cast<std::uint32_t>(first_missing_)));
+}
+
+void TextMaker::add_line(std::string_view s) {
+  Line line{glyphs_.size(), glyphs_.size(), 0, 1};
+  while (!s.empty() && !cut_off_) {
+    char32_t c = take_character(s);
+    if (c == '\t') c = ' ';
+    if (is_control(c)) continue;
+    cut_off_ = glyphs_.size() == most_characters;
+    if (cut_off_) break;
+    glyphs_.push_back(&glyph(c));
+    line.length += advance(*glyphs_.back());
+  }
+  line.last = glyphs_.size();
+  lines_.push_back(line);
+}
+
+/// The lengths that the node asks for: `length` of each string, then maxExtent of the longest.
+void TextMaker::set_lengths() {
+  auto stretch = [](Line& line, double by) {
+    line.length *= by;
+    line.scale *= by;
+  };
+  auto lengths = job_.scene.get(job_.geometry, nodes::text::length);
+  double longest = 0;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    Line& line = lines_[i];
+    if (i < lengths.size() && lengths[i] > 0 && std::isfinite(lengths[i]) && line.length > 0)
+      stretch(line, lengths[i] / line.length);
+    longest = std::max(longest, line.length);
+  }
+  double extent = job_.scene.get(job_.geometry, nodes::text::maxExtent);
+  if (extent > 0 && longest > extent)
+    for (auto& line : lines_) stretch(line, extent / longest);
+}
+
+// -- layout
+
+/// Where the string begins, so that it is justified at 0.
+double TextMaker::major_start(const Line& line) const {
+  double before = style_.major == Justify::middle ? line.length / 2 : style_.major == Justify::end ? line.length : 0;
+  return -style_.major_way() * before;
+}
+
+/// Where the first line is, so that all are justified at 0: its baseline, or the left side of its column.
+double TextMaker::minor_start() const {
+  if (style_.horizontal && style_.minor == Justify::first) return 0;
+  double way = style_.minor_way(), up = font_->ascent() * style_.size;
+  double low = style_.horizontal ? up - style_.size : 0, high = low + style_.size;
+  double begin = -(way < 0 ? high : low);
+  double end = -(way < 0 ? low : high) - way * style_.spacing * style_.size * static_cast<double>(lines_.size() - 1);
+  if (style_.minor == Justify::middle) return (begin + end) / 2;
+  return style_.minor == Justify::end ? end : begin;
+}
+
+void TextMaker::place() {
+  double minor = minor_start(), major = major_start(lines_[0]);
+  origin_ = style_.horizontal ? Vec2{major, minor} : Vec2{minor, major};
+  job_.mesh.normal.values = {0, 0, 1};
+  for (auto& line : lines_) {
+    place(line, minor);
+    minor += style_.minor_way() * style_.spacing * style_.size;
+  }
+  job_.mesh.normal.index.assign(job_.mesh.corners.size(), 0);
+  job_.mesh.texcoord.index = job_.mesh.corners;
+}
+
+void TextMaker::place(const Line& line, double minor) {
+  double size = style_.size, stretched = size * line.scale, pen = major_start(line), way = style_.major_way();
+  for (auto i = line.first; i < line.last; ++i) {
+    const Glyph& g = *glyphs_[i];
+    double step = advance(g) * line.scale, low = way > 0 ? pen : pen - step;
+    if (style_.horizontal)
+      add(g, {low, minor, stretched, size});
+    else
+      add(g, {minor + (1 - g.advance) / 2 * size, low + (1 - font_->ascent()) * stretched, size, stretched});
+    pen += way * step;
+  }
+}
+
+void TextMaker::add(const Glyph& g, const Box& box) {
+  Mesh& mesh = job_.mesh;
+  auto& positions = mesh.positions.edit();
+  auto first = static_cast<std::uint32_t>(positions.size() / 3);
+  for (auto [x, y] : g.points) {
+    double px = box.left + box.x_scale * x, py = box.bottom + box.y_scale * y;
+    positions.insert(positions.end(), {px, py, 0});
+    mesh.texcoord.values.push_back(static_cast<float>((px - origin_[0]) / style_.size));
+    mesh.texcoord.values.push_back(static_cast<float>((py - origin_[1]) / style_.size));
+  }
+  for (auto c : g.triangles) mesh.corners.push_back(first + c);
+}
+
+}  // namespace
+
+void text_mesh(MeshJob& job) { text_mesh(job, Fonts::installed()); }
+
+void text_mesh(MeshJob& job, Fonts& fonts) { TextMaker(job, fonts).make(); }
+
+}  // namespace wrlkit

@@ -1,0 +1,95 @@
+// An Appearance, ready to be asked for colours: its Material, its texture and the rules how they mix (ISO/IEC 14772-1,
+// tables 4.5 and 4.6).
+#pragma once
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "light/render/light.h"
+#include "light/render/texture.h"
+#include "scenegraph/resources.h"
+
+namespace wrlkit::drawing {
+
+/// TextureTransform as a map of the plane: s' = a s + b t + c; t' = d s + e t + f.
+struct TexcoordMap {
+  double a = 1, b = 0, c = 0, d = 0, e = 1, f = 0;
+
+  std::array<double, 2> operator()(double s, double t) const { return {a * s + b * t + c, d * s + e * t + f}; }
+  double determinant() const { return a * e - b * d; }
+};
+
+/// A picture that is laid over a surface.
+struct Layer {
+  std::shared_ptr<const Texture> texture;  // null: none
+  bool repeat_s = true, repeat_t = true;
+
+  Texel sample(const std::array<double, 2>& at, double detail) const { return texture->sample(at[0], at[1], detail, repeat_s, repeat_t); }
+};
+
+/// Light that was computed before (docs/lighting.md), by place in a lightmap.
+struct BakedLight {
+  Layer light;                     // texel: irradiance / pi on the face, display-referred; null: none
+  std::array<Layer, 3> direction;  // its mean direction, X, Y and Z; all or none
+  TexcoordMap places;
+  double scale = 1;
+
+  explicit operator bool() const { return light.texture != nullptr; }
+  /// What a white surface reflects there, linear.
+  V3 at(const std::array<double, 2>& place, double detail) const;
+};
+
+struct Surface {
+  bool lit = false;                  // it has a Material or PhysicalMaterial
+  bool shines = false;               // it has an UnlitMaterial: its colour is light of its own
+  bool modulates = false;            // the picture multiplies the colour and does not replace it (picture_color.h)
+  Lit material;
+  V3 emissive;
+  double alpha = 1;                  // 1 - transparency
+  Layer picture;
+  // Further pictures of a material of X3D 4.0 (ISO/IEC 19775-1:2023, 12.4), at the places of `picture`.
+  Layer glow, shadow, bumps;         // emission, occlusion of ambient light, normals
+  double bump_scale = 1, shadow_strength = 1;
+  std::optional<double> cutoff;      // alphaMode MASK: what is less is not there
+  bool opaque = false;               // alphaMode OPAQUE
+  TexcoordMap texcoords;
+  BakedLight baked;
+
+  /// The colour before lighting (ODrgb where there is light, ICrgb where not) and the alpha there. `vertex` is the colour
+  /// that the geometry gives, RGB or RGBA; none: the Material's.
+  Texel base(const std::optional<Texel>& vertex, const std::optional<Texel>& texel) const;
+  /// A texel on top of a colour.
+  void add(Texel& out, const Texel& texel) const;
+  bool has_further_pictures() const { return glow.texture || shadow.texture || bumps.texture; }
+};
+
+/// The surfaces of a scene, each made once.
+class Surfaces {
+ public:
+  Surfaces(const Scene& scene, Resources* resources, Diagnostics& diag);
+
+  /// Index of the surface of an Appearance; of no Appearance, too.
+  std::uint32_t of(NodeId appearance);
+  const Surface& operator[](std::uint32_t i) const { return surfaces_[i]; }
+
+ private:
+  Surface make(NodeId appearance);
+  Layer layer(NodeId texture);
+  Layer make_layer(NodeId texture);
+  BakedLight baked_light(NodeId appearance);
+  void further_pictures(Surface&, NodeId material);
+  void read_alpha_mode(Surface&, NodeId appearance) const;
+  std::shared_ptr<const Texture> picture(const std::shared_ptr<const Image>& image);
+
+  const Scene& scene_;
+  Resources* resources_;
+  Diagnostics& diag_;
+  std::vector<Surface> surfaces_;
+  std::vector<std::uint32_t> index_;  // by NodeId; 0: not made yet
+  std::map<std::uint32_t, Layer> layers_;  // by NodeId
+  std::map<std::shared_ptr<const Image>, std::shared_ptr<const Texture>> textures_;
+};
+
+}  // namespace wrlkit::drawing

@@ -1,0 +1,88 @@
+#include "light/render/texture.h"
+
+#include <algorithm>
+
+namespace wrlkit::drawing {
+namespace {
+
+/// Into [0, n): going round, or stopping at the border.
+int wrapped(std::int64_t i, int n, bool repeat) {
+  if (!repeat) return static_cast<int>(std::clamp<std::int64_t>(i, 0, n - 1));
+  std::int64_t r = i % n;
+  return static_cast<int>(r < 0 ? r + n : r);
+}
+
+/// Coordinates far outside say no more than their fraction; what is no number says nothing.
+double reduced(double v, bool repeat) {
+  if (!std::isfinite(v)) return 0;
+  return repeat ? v - std::floor(v) : std::clamp(v, 0.0, 1.0);
+}
+
+}  // namespace
+
+std::shared_ptr<const Texture> Texture::make(const Image& image) {
+  if (image.width <= 0 || image.height <= 0 || image.channels < 1 || image.channels > 4) return nullptr;
+  if (image.pixels.size() < std::size_t(image.width) * image.height * image.channels) return nullptr;
+  auto t = std::make_shared<Texture>();
+  t->channels_ = image.channels;
+  t->levels_.push_back({image.width, image.height, image.pixels});
+  while (t->levels_.back().width > 1 || t->levels_.back().height > 1) t->levels_.push_back(t->half(t->levels_.back()));
+  return t;
+}
+
+Texture::Level Texture::half(const Level& from) const {
+  Level to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
+  to.pixels.resize(std::size_t(to.width) * to.height * channels_);
+  auto pixel = [&](int x, int y, int c) {
+    return from.pixels[(std::size_t(std::min(y, from.height - 1)) * from.width + std::min(x, from.width - 1)) * channels_ + c];
+  };
+  std::size_t at = 0;
+  for (int y = 0; y < to.height; ++y)
+    for (int x = 0; x < to.width; ++x)
+      for (int c = 0; c < channels_; ++c) {
+        int sum = pixel(2 * x, 2 * y, c) + pixel(2 * x + 1, 2 * y, c) + pixel(2 * x, 2 * y + 1, c) + pixel(2 * x + 1, 2 * y + 1, c);
+        to.pixels[at++] = static_cast<std::uint8_t>((sum + 2) / 4);
+      }
+  return to;
+}
+
+void Texture::blend(const Level& level, double s, double t, Wrap wrap, double weight, double out[4]) const {
+  double x = s * level.width - 0.5, y = (1 - t) * level.height - 0.5;
+  double fx = x - std::floor(x), fy = y - std::floor(y);
+  auto ix = static_cast<std::int64_t>(std::floor(x)), iy = static_cast<std::int64_t>(std::floor(y));
+  for (int k = 0; k < 4; ++k) {
+    int dx = k & 1, dy = k >> 1;
+    double w = weight * (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy) / 255;
+    std::size_t at = std::size_t(wrapped(iy + dy, level.height, wrap.t)) * level.width + wrapped(ix + dx, level.width, wrap.s);
+    for (int c = 0; c < channels_; ++c) out[c] += w * level.pixels[at * channels_ + c];
+  }
+}
+
+Texel Texture::sample(double s, double t, double detail, bool repeat_s, bool repeat_t) const {
+  double v[4] = {};
+  s = reduced(s, repeat_s);
+  t = reduced(t, repeat_t);
+  double last = static_cast<double>(levels_.size() - 1);
+  double level = detail > 1 ? std::min(std::log2(detail), last) : 0;
+  auto fine = static_cast<std::size_t>(level);
+  double coarse = level - static_cast<double>(fine);
+  blend(levels_[fine], s, t, {repeat_s, repeat_t}, 1 - coarse, v);
+  if (coarse > 0) blend(levels_[fine + 1], s, t, {repeat_s, repeat_t}, coarse, v);
+  return {is_grey() ? V3(v[0]) : V3(v[0], v[1], v[2]), has_alpha() ? v[channels_ - 1] : 1};
+}
+
+Image image_of(std::span<const std::int32_t> sfimage) {
+  if (sfimage.size() < 3) return {};
+  std::int64_t width = sfimage[0], height = sfimage[1], channels = sfimage[2];
+  if (width <= 0 || height <= 0 || channels < 1 || channels > 4) return {};
+  if (width > static_cast<std::int64_t>(sfimage.size() - 3) / height) return {};
+  Image image{static_cast<int>(width), static_cast<int>(height), static_cast<int>(channels), {}};
+  for (std::int64_t y = height; y-- > 0;)
+    for (std::int64_t x = 0; x < width; ++x) {
+      auto pixel = static_cast<std::uint32_t>(sfimage[static_cast<std::size_t>(3 + y * width + x)]);
+      for (std::int64_t c = channels; c-- > 0;) image.pixels.push_back(static_cast<std::uint8_t>(pixel >> (8 * c)));
+    }
+  return image;
+}
+
+}  // namespace wrlkit::drawing

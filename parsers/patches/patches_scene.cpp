@@ -1,0 +1,59 @@
+#include "parsers/patches/patches_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenegraph/nodes.h"
+
+namespace wrlkit {
+namespace {
+
+/// IEC 61966-2-1.
+double display(double linear) {
+  const double v = std::clamp(linear, 0.0, 1.0);
+  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+
+struct Faces {
+  std::vector<double> points, colors;
+  std::vector<std::int32_t> indices;
+
+  void add(const Patch& p) {
+    const auto first = static_cast<std::int32_t>(points.size() / 3);
+    for (std::size_t k : {0, 1, 2}) {
+      const auto& corner = p.corners[p.back ? 2 - k : k];
+      points.insert(points.end(), corner.begin(), corner.end());
+      indices.push_back(first + static_cast<std::int32_t>(k));
+    }
+    indices.push_back(-1);
+    for (float c : p.rgb) colors.push_back(display(c));
+  }
+};
+
+NodeId face_set(Scene& scene, const Faces& faces) {
+  namespace f = nodes::indexed_face_set;
+  const NodeId coord = scene.add(nodes::Coordinate), color = scene.add(nodes::Color), set = scene.add(nodes::IndexedFaceSet);
+  scene.set(coord, nodes::coordinate::point, faces.points);
+  scene.set(color, nodes::color::color, faces.colors);
+  scene.set(set, f::coord, coord);
+  scene.set(set, f::color, color);
+  scene.set(set, f::colorPerVertex, false);
+  scene.set(set, f::coordIndex, faces.indices);
+  return set;
+}
+
+}  // namespace
+
+void add_patches(const PatchSet& set, Scene& scene) {
+  for (std::size_t s = 0; s < set.shapes.size(); ++s) {
+    Faces faces;
+    for (auto t = set.shapes[s].first_triangle; t < set.end_of_shape(s); ++t)
+      for (const auto& p : set.patches_of(t)) faces.add(p);
+    if (faces.indices.empty()) continue;
+    const NodeId shape = scene.add(nodes::Shape);
+    scene.set(shape, nodes::shape::geometry, face_set(scene, faces));
+    scene.main.roots.push_back(shape);
+  }
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,243 @@
+#include "passes/cull/cull.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <unordered_map>
+#include <utility>
+
+#include "passes/cull/visibility.h"
+#include "passes/analysis/figures.h"
+#include "geometry/geometry.h"
+#include "light/render/gather.h"
+#include "geometry/tessellation.h"
+#include "passes/analysis/text_list.h"
+#include "passes/analysis/usage.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+using namespace drawing;
+
+class Culling {
+ public:
+  Culling(Scene& scene, const CullOptions& options, PassContext& ctx)
+      : scene_(scene), options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, usage_(scene), stage_(set_stage(scene, unheard_)) {}
+
+  Outcome run() {
+    const auto before = figures_of(scene_);
+    mesh_of_ = Gatherer(scene_, [this](NodeId n) -> const Mesh& { return triangles(n); }, pool_).meshes_of(stage_, unheard_);
+    find_fixed();
+    gone_.resize(stage_.uses.size());
+    if (options_.smaller.metres > 0) {
+      find_small();
+      leave_out("cull.small", "smaller than " + options_.smaller.print() + " m");
+    }
+    if (options_.hidden) {
+      find_hidden();
+      leave_out("cull.hidden", "hidden");
+    }
+    if (left_out_.empty()) return Outcome::unchanged;
+    remove_shapes();
+    write_list();
+    count_figures(ctx_, "cull", before, figures_of(scene_));
+    return Outcome::changed;
+  }
+
+ private:
+  const Mesh& triangles(NodeId geometry);
+  void find_fixed();
+  void find_small();
+  void join_parts();
+  std::uint32_t root(std::uint32_t use);
+  double extent(std::uint32_t use, const Box& box) const;
+  void find_hidden();
+  bool may_be_clear(const Use& use) const;
+  void leave_out(const char* counter, const std::string& why);
+  void remove_shapes();
+  void write_list() const;
+
+  Scene& scene_;
+  const CullOptions& options_;
+  PassContext& ctx_;
+  Diagnostics unheard_;
+  Statistics unheard_counts_;
+  PassContext reading_;
+  Usage usage_;
+  Stage stage_;
+  MeshPool pool_;
+  std::vector<std::uint32_t> mesh_of_;
+  Mesh mesh_;
+  MeshScratch scratch_;
+  std::vector<char> fixed_, moving_;    // by node: stays; may be elsewhere at another time
+  std::vector<char> gone_;              // by use
+  std::vector<std::uint32_t> part_;     // by use: another one of the same part
+  std::vector<char> shape_gone_;        // by node
+  std::vector<std::string> left_out_;   // names
+};
+
+const Mesh& Culling::triangles(NodeId geometry) {
+  mesh_.clear();
+  MeshJob job{scene_, geometry, mesh_, scratch_, reading_};
+  make_mesh(job, {});
+  return mesh_;
+}
+
+void Culling::find_fixed() {
+  fixed_.resize(scene_.node_count()), moving_.resize(scene_.node_count());
+  std::vector<std::uint32_t> held(scene_.node_count());
+  for (NodeId n : scene_.main.roots)
+    if (n) ++held[n.value];
+  auto below = [&](NodeId top, std::vector<char>& mark) {
+    std::vector<NodeId> open{top};
+    while (!open.empty()) {
+      const NodeId n = open.back();
+      open.pop_back();
+      for_each_child(scene_, n, [&](NodeId c) {
+        if (!std::exchange(mark[c.value], 1)) open.push_back(c);
+      });
+    }
+  };
+  for (NodeId n : all_nodes(scene_)) {
+    const NodeType& t = scene_.type(n);
+    const bool bound = usage_.touched(n) || std::ranges::any_of(scene_.fields(n), [](const Value& v) { return v.is; });
+    if (bound) fixed_[n.value] = 1, below(n, moving_);
+    if (scene_.is(n, nodes::Billboard)) below(n, moving_);
+    if (t.kind != NodeKind::builtin || scene_.is(n, nodes::LOD) || scene_.is(n, nodes::Switch)) below(n, fixed_);
+    if (t.kind != NodeKind::builtin || !t.is_a("X3DGroupingNode")) continue;
+    for (const Value& v : scene_.fields(n))
+      if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode)
+        for (NodeId c : v.node_span()) ++held[c.value];
+  }
+  for (const Use& u : stage_.uses)
+    if (held[u.shape.value] != usage_.uses(u.shape) || usage_.touched(u.geometry)) fixed_[u.shape.value] = 1;
+}
+
+/// The longest diagonal of a box in a frame.
+double Culling::extent(std::uint32_t use, const Box& box) const {
+  if (box.empty()) return 0;
+  const Affine& frame = stage_.frames[stage_.uses[use].frame];
+  double longest = 0;
+  for (int k = 0; k < 4; ++k) longest = std::max(longest, length(frame.vector(box.corner(k) - box.corner(7 - k))));
+  return longest;
+}
+
+std::uint32_t Culling::root(std::uint32_t use) {
+  while (part_[use] != use) use = part_[use] = part_[part_[use]];
+  return use;
+}
+
+/// Shapes without a name of one frame that have a point in common.
+void Culling::join_parts() {
+  struct Key {
+    std::uint32_t frame;
+    std::array<double, 3> at;
+    bool operator==(const Key&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Key& k) const {
+      std::size_t h = k.frame;
+      for (double v : k.at) h = (h ^ std::hash<double>()(v)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
+      return h;
+    }
+  };
+  std::vector<std::uint32_t> in_frame(stage_.frames.size());
+  for (const Use& u : stage_.uses)
+    if (scene_.name(u.shape).empty()) ++in_frame[u.frame];
+  std::unordered_map<Key, std::uint32_t, Hash> owner;
+  for (std::uint32_t u = 0; u < stage_.uses.size(); ++u) {
+    const Use& use = stage_.uses[u];
+    if (!scene_.name(use.shape).empty() || in_frame[use.frame] < 2) continue;
+    const Mesh& m = triangles(use.geometry);
+    for (auto c : m.corners) {
+      const double* p = m.positions.data() + std::size_t{c} * 3;
+      auto [at, fresh] = owner.try_emplace({use.frame, {p[0], p[1], p[2]}}, u);
+      if (!fresh) part_[root(u)] = root(at->second);
+    }
+  }
+}
+
+void Culling::find_small() {
+  part_.resize(stage_.uses.size());
+  for (std::uint32_t u = 0; u < part_.size(); ++u) part_[u] = u;
+  auto is_small = [&](std::uint32_t u, const Box& box) { return extent(u, box) < options_.smaller.metres; };
+  bool any = false;
+  for (std::uint32_t u = 0; u < part_.size(); ++u) any |= is_small(u, pool_[mesh_of_[u]].box);
+  if (!any) return;
+  join_parts();
+  std::vector<Box> boxes(part_.size());
+  for (std::uint32_t u = 0; u < part_.size(); ++u) {
+    const Box& b = pool_[mesh_of_[u]].box;
+    if (!b.empty()) boxes[root(u)].add(b.low), boxes[root(u)].add(b.high);
+  }
+  for (std::uint32_t u = 0; u < part_.size(); ++u) gone_[u] = pool_[mesh_of_[u]].n_elements > 0 && is_small(u, boxes[root(u)]);
+}
+
+/// Something may be seen through it. Pictures are not looked at.
+bool Culling::may_be_clear(const Use& use) const {
+  if (!use.appearance) return false;
+  if (!scene_.is(use.appearance, nodes::Appearance) || scene_.get(use.appearance, nodes::appearance::texture)) return true;
+  const NodeId material = scene_.get(use.appearance, nodes::appearance::material);
+  return material && (!scene_.is(material, nodes::Material) || scene_.get(material, nodes::material::transparency) > 0);
+}
+
+void Culling::find_hidden() {
+  std::vector<char> clear, wanted;
+  for (std::size_t u = 0; u < stage_.uses.size(); ++u) {
+    const Use& use = stage_.uses[u];
+    clear.push_back(may_be_clear(use) || moving_[use.shape.value] || pool_[mesh_of_[u]].color_width == 4);
+    wanted.push_back(!gone_[u] && !fixed_[use.shape.value] && !moving_[use.shape.value]);
+  }
+  std::vector<V3> eyes;
+  for (const Placed& p : stage_.viewpoints) eyes.push_back(stage_.frames[p.frame].point(scene_.get(p.node, nodes::viewpoint::position)));
+  gone_ = hidden_uses(stage_, pool_, mesh_of_, eyes, {options_.walkways, options_.rays, static_cast<std::uint64_t>(options_.seed), clear, wanted}, ctx_.diag);
+}
+
+/// Shapes of which every place is gone.
+void Culling::leave_out(const char* counter, const std::string& why) {
+  shape_gone_.resize(scene_.node_count());
+  TextList names;
+  std::vector<char> stays(scene_.node_count());
+  for (std::size_t u = 0; u < gone_.size(); ++u)
+    if (!gone_[u]) stays[stage_.uses[u].shape.value] = 1;
+  for (std::size_t u = 0; u < gone_.size(); ++u) {
+    const Use& use = stage_.uses[u];
+    if (!gone_[u] || stays[use.shape.value] || fixed_[use.shape.value] || moving_[use.shape.value]) continue;
+    ctx_.stats["cull.triangles"] += pool_[mesh_of_[u]].n_elements;
+    if (std::exchange(shape_gone_[use.shape.value], 1)) continue;
+    ++ctx_.stats[counter];
+    left_out_.push_back(full_name(scene_, stage_, use));
+    names.add(left_out_.back().empty() ? "(no name)" : left_out_.back());
+  }
+  if (!names.empty()) ctx_.diag.report(Diag::culled, {}, names.count(), why, names.text());
+}
+
+void Culling::remove_shapes() {
+  auto is_gone = [&](NodeId n) { return n && shape_gone_[n.value]; };
+  for (NodeId n : all_nodes(scene_)) {
+    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
+    for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+      if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
+      std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
+      if (std::erase_if(list, is_gone) > 0) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));
+    }
+  }
+  std::erase_if(scene_.main.roots, is_gone);
+}
+
+void Culling::write_list() const {
+  if (options_.list.empty()) return;
+  errno = 0;
+  std::ofstream out(options_.list, std::ios::binary);
+  for (const auto& name : left_out_) out << name << '\n';
+  if (!out.flush()) ctx_.diag.report(Diag::cannot_write, {}, options_.list, std::generic_category().message(errno ? errno : EIO));
+}
+
+}  // namespace
+
+Outcome cull(Scene& scene, const CullOptions& options, PassContext& ctx) { return Culling(scene, options, ctx).run(); }
+
+}  // namespace wrlkit

@@ -1,0 +1,115 @@
+#include "passes/flatten/flatten.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "passes/analysis/figures.h"
+#include "geometry/geometry.h"
+#include "passes/lightmap/own_shapes.h"
+#include "passes/merge/moved.h"
+#include "passes/normals/normals.h"
+#include "geometry/tessellation.h"
+#include "passes/analysis/usage.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+class Flattening {
+ public:
+  Flattening(Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), usage_(scene), textured_(textured_geometry(scene)), state_(scene.node_count(), State::unknown) {}
+
+  bool run() {
+    std::vector<std::pair<NodeId, Matrix>> open;
+    for (NodeId n : scene_.main.roots)
+      if (n) open.push_back({n, {}});
+    std::vector<char> seen(scene_.node_count());
+    while (!open.empty()) {
+      const auto [n, frame] = open.back();
+      open.pop_back();
+      if (std::exchange(seen[n.value], 1)) continue;
+      const bool all = is_still(n);
+      const Matrix below = all ? frame * local_matrix(scene_, n) : Matrix{};
+      if (all && scene_.is(n, nodes::Shape) && frame != Matrix{}) move(n, frame);
+      for (NodeId c : hierarchy_children(scene_, n)) open.push_back({c, below});
+      if (all && local_matrix(scene_, n) != Matrix{}) become_group(n);
+    }
+    return n_transforms_ > 0;
+  }
+
+ private:
+  enum class State : std::uint8_t { unknown, still, not_still };
+
+  bool is_plain(NodeId n) const {
+    return scene_.type(n).kind == NodeKind::builtin && !usage_.touched(n) &&
+           std::ranges::none_of(scene_.fields(n), [&](const Value& v) { return v.is || scene_.is_extra(v); });
+  }
+
+  /// Of a node that stands in one place: nothing below it has a place of its own but Shapes. Nesting is bounded (nesting.h).
+  bool is_still(NodeId n) {
+    auto& s = state_[n.value];
+    if (s == State::unknown) s = find_still(n) ? State::still : State::not_still;
+    return s == State::still;
+  }
+  bool find_still(NodeId n) {
+    if (!is_plain(n) || !usage_.once(n)) return false;
+    if (scene_.is(n, nodes::Shape)) {
+      const NodeId g = scene_.get(n, nodes::shape::geometry);
+      if (!g) return true;
+      bool plain = is_plain(g) && scene_.type(g).is_a("X3DGeometryNode");
+      for_each_child(scene_, g, [&](NodeId c) { plain &= is_plain(c) && !scene_.is(c, nodes::TextureCoordinateGenerator); });
+      return plain && !(scene_.is(g, nodes::IndexedFaceSet) && scene_.get(g, nodes::indexed_face_set::lightCoord));
+    }
+    if (!scene_.is(n, nodes::Group) && !scene_.is(n, nodes::Transform)) return false;
+    return std::ranges::all_of(hierarchy_children(scene_, n), [&](NodeId c) { return is_still(c); });
+  }
+
+  void move(NodeId shape, const Matrix& frame) {
+    const NodeId g = scene_.get(shape, nodes::shape::geometry);
+    if (!g) return;
+    mesh_.clear();
+    MeshJob job{scene_, g, mesh_, scratch_, ctx_, textured_[g.value] != 0};
+    make_mesh(job, {.triangles = false, .texcoords = true});
+    normals(job, {});
+    if (mesh_.kind == Mesh::Kind::none || mesh_.corners.empty()) return;
+    moved_.clear();
+    append_moved(moved_, mesh_, frame, scratch_.map);
+    const NodeId to = scene_.add(moved_.kind == Mesh::Kind::lines ? nodes::IndexedLineSet : moved_.kind == Mesh::Kind::points ? nodes::PointSet : nodes::IndexedFaceSet, scene_.where(g));
+    store_mesh(scene_, to, moved_);
+    scene_.set_name(to, scene_.name(g));
+    scene_.set(shape, nodes::shape::geometry, to);
+    ++ctx_.stats["flatten.shapes"];
+  }
+
+  void become_group(NodeId n) {
+    const auto list = scene_.get(n, nodes::transform::children);
+    const std::vector<NodeId> children(list.begin(), list.end());
+    std::vector<Value> fields;
+    if (!children.empty()) fields.push_back(scene_.make(FieldType::MFNode, nodes::group::children.slot, children));
+    scene_.become(n, nodes::Group, fields);
+    ++n_transforms_;
+    ++ctx_.stats["flatten.transforms"];
+  }
+
+  Scene& scene_;
+  PassContext& ctx_;
+  Usage usage_;
+  std::vector<char> textured_;
+  std::vector<State> state_;
+  Mesh mesh_, moved_;
+  MeshScratch scratch_;
+  std::size_t n_transforms_ = 0;
+};
+
+}  // namespace
+
+Outcome flatten(Scene& scene, const FlattenOptions&, PassContext& ctx) {
+  const auto before = figures_of(scene);
+  const bool copied = bake::own_shapes(scene, ctx.diag) > 0;
+  if (!Flattening(scene, ctx).run()) return copied ? Outcome::changed : Outcome::unchanged;
+  count_figures(ctx, "flatten", before, figures_of(scene));
+  return Outcome::changed;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,26 @@
+// inline: the worlds that Inline nodes name become part of this one.
+//
+//   Inline { url "pump.wrl" }   ->   Group { children [ ...nodes of pump.wrl... ] }
+//
+// Each file is read once and its nodes are shared by all Inlines that name it, but for those that events can reach: each
+// Inline has its own. An Inline that cannot be loaded stays. The names, prototypes and ROUTEs of the file come along; they
+// cannot be reached by name from outside (ISO/IEC 14772-1, 6.25), but for what X3D exports: ROUTEs to imported names
+// (ISO/IEC 19775-1, 4.4.6) lead to the nodes themselves. Cost: n log n in the nodes of the files and in the copies,
+// which are limited; beyond the limit they are shared.
+#pragma once
+#include "passes/pipeline/option_range.h"
+#include "passes/pipeline/pass.h"
+
+namespace wrlkit {
+
+struct InlineOptions {
+  int depth = 16;
+  int limit = 500'000;
+  void fields(auto&& f) {
+    f("depth", depth, "how deep Inlines may be nested", at_least(0));
+    f("limit", limit, "how many nodes and ROUTEs may be copied for files that are inlined several times", at_least(0));
+  }
+};
+Outcome inline_worlds(Scene&, const InlineOptions&, PassContext&);
+
+}  // namespace wrlkit

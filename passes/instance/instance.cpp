@@ -1,0 +1,275 @@
+#include "passes/instance/instance.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "passes/analysis/figures.h"
+#include "geometry/geometry.h"
+#include "base/hashing.h"
+#include "passes/instance/match.h"
+#include "geometry/simplify/places.h"
+#include "passes/analysis/text_list.h"
+#include "passes/analysis/usage.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+using namespace instancing;
+
+constexpr std::size_t most_compared = 16;  // groups of equal invariants that a mesh is compared with
+
+class Instancing {
+ public:
+  Instancing(Scene& scene, const InstanceOptions& options, PassContext& ctx)
+      : scene_(scene), options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, usage_(scene), textured_(textured_geometry(scene)) {}
+
+  Outcome run() {
+    const auto before = figures_of(scene_);
+    choose();
+    scale_ = largest_scales(scene_, surfaces_);
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) sort_in(i);
+    for (const auto& g : groups_)
+      if (is_worth(g)) share(g);
+    if (dropped_.empty()) return Outcome::unchanged;
+    replace_shapes();
+    ctx_.stats["instance.copies"] += dropped_.size();
+    report_lost_names();
+    count_figures(ctx_, "instance", before, figures_of(scene_));
+    return Outcome::changed;
+  }
+
+ private:
+  struct Copy {
+    std::uint32_t surface;
+    TransformFields where;
+  };
+  struct Group {
+    std::uint32_t surface;  // of the first
+    std::size_t bytes = 0;
+    Vec3 centre{};
+    double reach = 0;
+    std::vector<Copy> copies;
+  };
+
+  void choose();
+  bool is_plain(NodeId n) const;
+  bool may_share(NodeId geometry) const;
+  bool read(std::uint32_t surface, Mesh& mesh, Form& form);
+  void sort_in(std::size_t surface);
+  std::vector<std::uint64_t> cells(const Form& form, double tolerance, bool all) const;
+  bool is_worth(const Group& g) const;
+  void share(const Group& g);
+  void report_lost_names();
+  void put(const ShapeSurface& surface, const TransformFields& where, std::string_view name);
+  void replace_shapes();
+  bool replace(std::span<NodeId> list) const;
+
+  Scene& scene_;
+  const InstanceOptions& options_;
+  PassContext& ctx_;
+  Diagnostics unheard_;  // whoever draws a mesh will say what is wrong with it
+  Statistics unheard_counts_;
+  PassContext reading_;
+  Usage usage_;
+  std::vector<char> textured_;
+  std::vector<ShapeSurface> surfaces_;
+  std::vector<double> scale_;
+  std::vector<Group> groups_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> by_cell_;
+  std::unordered_map<std::uint32_t, NodeId> instead_;  // of Shapes
+  MeshScratch scratch_;
+  Mesh mesh_, first_mesh_;
+  Form form_, first_form_;
+  std::vector<NodeId> dropped_;
+};
+
+bool Instancing::is_plain(NodeId n) const {
+  return scene_.type(n).kind == NodeKind::builtin && !usage_.touched(n) &&
+         std::ranges::none_of(scene_.fields(n), [&](const Value& v) { return v.is || scene_.is_extra(v); });
+}
+
+bool Instancing::may_share(NodeId g) const {
+  namespace ifs = nodes::indexed_face_set;
+  const bool faces = scene_.is(g, nodes::IndexedFaceSet);
+  if ((!faces && !scene_.is(g, nodes::IndexedLineSet) && !scene_.is(g, nodes::PointSet)) || !is_plain(g)) return false;
+  bool plain = true;
+  for_each_child(scene_, g, [&](NodeId c) { plain &= is_plain(c) && (options_.named || scene_.name(c).empty()); });
+  if (!plain || !faces) return plain;
+  if (scene_.get(g, ifs::lightCoord) || (textured_[g.value] && !scene_.get(g, ifs::texCoord))) return false;
+  return options_.scaling.value != Scaling::axis || scene_.get(g, ifs::normal) || scene_.get(g, ifs::creaseAngle) == 0;
+}
+
+/// Geometry of the main world whose Shapes all stand where a Transform can stand, too.
+void Instancing::choose() {
+  const auto nodes = reachable(scene_, scene_.main);
+  std::vector<std::uint32_t> held(scene_.node_count()), number(scene_.node_count()), shapes(scene_.node_count());
+  auto hold = [&](std::span<const NodeId> list) {
+    for (NodeId n : list)
+      if (n) ++held[n.value];
+  };
+  hold(scene_.main.roots);
+  for (NodeId n : nodes)
+    if (scene_.type(n).kind == NodeKind::builtin && scene_.type(n).is_a("X3DGroupingNode"))
+      for (const Value& v : scene_.fields(n))
+        if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode) hold(v.node_span());
+  for (NodeId n : nodes) {
+    if (!scene_.is(n, nodes::Shape) || !is_plain(n) || held[n.value] != usage_.uses(n)) continue;
+    const NodeId g = scene_.get(n, nodes::shape::geometry);
+    if (!g || !may_share(g)) continue;
+    auto& i = number[g.value];
+    if (!i) surfaces_.push_back({g, {}}), i = static_cast<std::uint32_t>(surfaces_.size());
+    surfaces_[i - 1].shapes.push_back(n);
+  }
+  std::erase_if(surfaces_, [&](const ShapeSurface& s) { return s.shapes.size() != usage_.uses(s.geometry); });
+}
+
+bool Instancing::read(std::uint32_t surface, Mesh& mesh, Form& form) {
+  mesh.clear();
+  MeshJob job{scene_, surfaces_[surface].geometry, mesh, scratch_, reading_};
+  read_mesh(job);
+  if (mesh.kind == Mesh::Kind::none || mesh.corners.empty()) return false;
+  form.take(mesh);
+  return std::isfinite(form.size);
+}
+
+/// Where a form is looked for: its own cell, and with `all` also the nearer neighbours in each direction.
+std::vector<std::uint64_t> Instancing::cells(const Form& form, double tolerance, bool all) const {
+  std::vector<std::uint64_t> out{form.exact_key()};
+  for (double v : invariants(form, options_.scaling.value, tolerance)) {
+    const double down = std::floor(v);
+    const std::size_t n = out.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (all) out.push_back(mixed(out[i], static_cast<std::uint64_t>(static_cast<std::int64_t>(v - down < 0.5 ? down - 1 : down + 1))));
+      out[i] = mixed(out[i], static_cast<std::uint64_t>(static_cast<std::int64_t>(down)));
+    }
+  }
+  return out;
+}
+
+void Instancing::sort_in(std::size_t surface) {
+  const auto s = static_cast<std::uint32_t>(surface);
+  if (!read(s, mesh_, form_)) return;
+  const double tolerance = options_.tolerance / scale_[surface];
+  Matcher matcher({options_.scaling.value, options_.mirror, tolerance});
+  const auto where = cells(form_, tolerance, true);
+  std::size_t compared = 0;
+  for (auto cell : where) {
+    auto found = by_cell_.find(cell);
+    if (found == by_cell_.end()) continue;
+    for (auto g : found->second) {
+      if (++compared > most_compared) break;
+      if (!read(groups_[g].surface, first_mesh_, first_form_)) continue;
+      if (auto fields = matcher.match(first_form_, form_)) return groups_[g].copies.push_back({s, *fields});
+    }
+  }
+  const std::size_t vertex = mesh_.normal.present() || mesh_.kind == Mesh::Kind::faces ? 24 : 12;
+  // Vertices are split at creases: something between points and corners.
+  const std::size_t vertices = (mesh_.corners.size() + std::min(mesh_.corners.size(), mesh_.n_positions())) / 2;
+  groups_.push_back({s, vertices * vertex + mesh_.corners.size() * 2, form_.centre, form_.reach, {}});
+  by_cell_[cells(form_, tolerance, false)[0]].push_back(static_cast<std::uint32_t>(groups_.size() - 1));
+}
+
+bool Instancing::is_worth(const Group& g) const {
+  constexpr double transform = 150;
+  double saved = 0;
+  for (const Copy& c : g.copies)
+    saved += static_cast<double>(g.bytes) - (c.where == TransformFields{} ? 0 : transform * static_cast<double>(surfaces_[c.surface].shapes.size()));
+  return !g.copies.empty() && saved >= options_.min_saving;
+}
+
+void Instancing::share(const Group& g) {
+  const ShapeSurface& first = surfaces_[g.surface];
+  const double coarse = std::hypot(g.centre[0], g.centre[1], g.centre[2]) * 0x1p-22 * scale_[g.surface];
+  const bool far = coarse > options_.tolerance && options_.tolerance > 0;
+  Vec3 by{};
+  if (far)
+    for (std::size_t k = 0; k < 3; ++k) by[k] = std::round(g.centre[k]);
+  for (const Copy& c : g.copies) {
+    const ShapeSurface& copy = surfaces_[c.surface];
+    TransformFields where = c.where;
+    if (far) {
+      const Vec3 moved = matrix_of(where).point(by);
+      where.translation = moved;
+    }
+    const auto name = scene_.name(copy.geometry);
+    if (where == TransformFields{} && !name.empty() && name != scene_.name(first.geometry)) continue;
+    dropped_.push_back(copy.geometry);
+    if (where != TransformFields{}) put(copy, where, name);
+    for (NodeId shape : copy.shapes) scene_.set(shape, nodes::shape::geometry, first.geometry);
+  }
+  ctx_.stats["instance.groups"] += 1;
+  if (!far) return;
+  read(g.surface, first_mesh_, first_form_);
+  auto& p = first_mesh_.positions.edit();
+  constexpr double decimals = 1e12;
+  for (std::size_t i = 0; i < p.size(); ++i) p[i] = std::round((p[i] - by[i % 3]) * decimals) / decimals + 0.0;
+  store_mesh(scene_, first.geometry, first_mesh_);
+  put(first, {.translation = by}, {});
+}
+
+/// Each Shape of a geometry into a Transform, the first of which gets a name.
+void Instancing::put(const ShapeSurface& surface, const TransformFields& where, std::string_view name) {
+  namespace f = nodes::transform;
+  const TransformFields none;
+  for (NodeId shape : surface.shapes) {
+    const NodeId t = scene_.add(nodes::Transform, scene_.where(shape));
+    if (where.translation != none.translation) scene_.set(t, f::translation, where.translation);
+    if (where.rotation != none.rotation) scene_.set(t, f::rotation, where.rotation);
+    if (where.scale != none.scale) scene_.set(t, f::scale, where.scale);
+    if (where.scale_orientation != none.scale_orientation) scene_.set(t, f::scaleOrientation, where.scale_orientation);
+    scene_.set(t, f::children, std::vector<NodeId>{shape});
+    scene_.set_name(t, std::exchange(name, {}));
+    instead_[shape.value] = t;
+  }
+}
+
+bool Instancing::replace(std::span<NodeId> list) const {
+  bool any = false;
+  for (NodeId& n : list)
+    if (auto t = n ? instead_.find(n.value) : instead_.end(); t != instead_.end()) n = t->second, any = true;
+  return any;
+}
+
+void Instancing::replace_shapes() {
+  for (NodeId n : reachable(scene_, scene_.main)) {
+    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
+    for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+      if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
+      std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
+      if (replace(list)) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));
+    }
+  }
+  replace(scene_.main.roots);
+}
+
+/// Of Coordinates and the like that nobody holds any more.
+void Instancing::report_lost_names() {
+  std::vector<char> seen;
+  std::vector<NodeId> left;
+  reach(scene_, scene_.main.roots, seen, left);
+  TextList lost;
+  for (NodeId g : dropped_)
+    for_each_child(scene_, g, [&](NodeId n) {
+      if (!seen[n.value] && !scene_.name(n).empty()) lost.add(scene_.name(n));
+    });
+  if (!lost.empty()) ctx_.diag.report(Diag::names_lost, {}, "instance", lost.count(), lost.text());
+}
+
+}  // namespace
+
+bool ScalingName::read(std::string_view text) {
+  for (auto s : {Scaling::none, Scaling::uniform, Scaling::axis}) {
+    value = s;
+    if (print() == text) return true;
+  }
+  return false;
+}
+
+std::string ScalingName::print() const { return value == Scaling::none ? "none" : value == Scaling::uniform ? "uniform" : "axis"; }
+
+Outcome instance(Scene& scene, const InstanceOptions& options, PassContext& ctx) { return Instancing(scene, options, ctx).run(); }
+
+}  // namespace wrlkit

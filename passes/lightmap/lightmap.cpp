@@ -1,0 +1,241 @@
+#include "passes/lightmap/lightmap.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <unordered_map>
+
+#include "geometry/geometry.h"
+#include "light/world.h"
+#include "passes/lightmap/bake.h"
+#include "passes/lightmap/from_patches.h"
+#include "passes/lightmap/layout.h"
+#include "passes/lightmap/levels.h"
+#include "passes/lightmap/own_shapes.h"
+#include "passes/lightmap/parts.h"
+#include "passes/lightmap/sizes.h"
+#include "passes/lightmap/store.h"
+#include "passes/lightmap/unlit_nodes.h"
+#include "passes/normals/normals.h"
+#include "light/render/stage.h"
+#include "geometry/tessellation.h"
+#include "base/image/image.h"
+
+namespace wrlkit {
+namespace {
+
+using namespace bake;
+
+/// What a quality stands for.
+struct Work {
+  int side, samples, rays;  // of a page; points a texel; rays a point
+};
+constexpr Work work_of[] = {{512, 1, 6}, {1024, 4, 16}, {4096, 4, 64}};
+constexpr int side_for_density = 4096, smallest_side = 64;
+
+/// What is seen from further away needs half the texels, down to a hundredth of the first.
+LayoutOptions layout_options(const LightmapOptions& o, std::size_t depth) {
+  const int usual = o.density > 0 ? side_for_density : work_of[o.quality.value].side;
+  const int side = o.max_size > 0 ? o.max_size : usual, halvings = static_cast<int>(std::min<std::size_t>(depth, 7));
+  if (o.density > 0) return {.density = std::ldexp(o.density, -halvings), .side = side};
+  return {.side = std::max(side >> halvings, std::min(side, smallest_side))};
+}
+
+light::LightOptions light_options(const LightmapOptions& o, const Levels& levels) {
+  light::LightOptions out;
+  out.level_of = levels.level_of();
+  out.emission = o.emission;
+  set_sky(out, o.sky);
+  return out;
+}
+
+/// Each view has a file of its own: those that are done are there until all are.
+std::string checkpoint_of(const LightmapOptions& o, std::size_t view) {
+  return o.checkpoint.empty() || !view ? o.checkpoint : o.checkpoint + "." + std::to_string(view + 1);
+}
+
+BakeOptions bake_options(const LightmapOptions& o, std::size_t view, std::string title) {
+  const Work& work = work_of[o.quality.value];
+  BakeOptions out;
+  out.title = std::move(title);
+  out.samples = work.samples;
+  out.rays = out.integrator.rays = work.rays;
+  out.integrator.seed = static_cast<std::uint64_t>(o.seed);
+  out.error = o.error;
+  if (o.error > 0) out.integrator.rays = std::max(work_of[BakeQuality::normal].rays, work.rays);
+  out.directional = o.directional;
+  out.denoise = o.denoise;
+  out.checkpoint = checkpoint_of(o, view);
+  return out;
+}
+
+/// Geometry as light meets it: with normals, for shading.
+class Meshes {
+ public:
+  Meshes(const Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
+
+  const Mesh& operator()(NodeId geometry) {
+    MeshJob job{scene_, geometry, mesh_, scratch_, ctx_, textured_[geometry.value] != 0};
+    mesh_.clear();
+    make_mesh(job, {.texcoords = true});
+    normals(job, {});
+    return mesh_;
+  }
+
+ private:
+  const Scene& scene_;
+  PassContext& ctx_;
+  std::vector<char> textured_;
+  Mesh mesh_;
+  MeshScratch scratch_;
+};
+
+/// Of the names on the way to a Shape the nearest one that fits counts.
+double density_of(const NamedDensities& densities, const Scene& scene, const drawing::Stage& stage, std::uint32_t use) {
+  for (std::uint32_t n = stage.uses[use].name; n; n = stage.names[n].parent)
+    if (const double factor = densities.of(scene.name(stage.names[n].node))) return factor;
+  return 1;
+}
+
+/// Of the nearest node on the way to its first Shape that has one; else the type of the geometry.
+std::string_view name_of(const Part& p, const Scene& scene, const drawing::Stage& stage) {
+  for (std::uint32_t n = stage.uses[p.uses[0]].name; n; n = stage.names[n].parent)
+    if (const auto name = scene.name(stage.names[n].node); !name.empty()) return name;
+  return scene.type(p.geometry).name;
+}
+
+Outcome take_patches(Scene& scene, const light::LightWorld& world, const LightmapOptions& options, PassContext& ctx) {
+  const auto patches = ctx.resources->patches(options.patches, ctx.diag);
+  if (!patches) return Outcome::failed;
+  return light_from_patches(scene, world, *patches, {options.smooth, options.format.value}, ctx) ? Outcome::changed : Outcome::unchanged;
+}
+
+/// What nobody sees from within is sealed; what has light already stays as it is; each density and size is a part of its own.
+void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& world, const Levels& levels, const LightmapOptions& options, Diagnostics& diag) {
+  const auto& uses = world.stage().uses;
+  for (Part& p : parts) {
+    for (std::uint32_t u : p.uses)
+      if (p.sealed) world.seal(u, p.inside_out);
+    std::erase_if(p.uses, [&](std::uint32_t u) { return levels.is_lit(uses[u].shape); });
+  }
+  std::erase_if(parts, [](const Part& p) { return p.uses.empty(); });
+  for (const Part& p : parts)
+    if (p.faces_in) diag.report(Diag::inside_out, scene.where(p.geometry), name_of(p, scene, world.stage()));
+  split_by_size(parts, world.stage(), [&](std::uint32_t u) { return density_of(options.densities, scene, world.stage(), u); });
+}
+
+/// Where they are a part of what is seen, not only bolts that something hides.
+void report_dark(const std::vector<BakedPage>& pages, const std::vector<Part>& parts, const Scene& scene, const drawing::Stage& stage, Diagnostics& diag) {
+  constexpr std::size_t some = 100;  // one in so many texels
+  std::size_t n_texels = 0, n_dark_texels = 0, n_dark = 0, n_shapes = 0;
+  std::uint32_t first = 0xffffffff;
+  for (const BakedPage& page : pages) {
+    n_texels += page.n_texels, n_dark += page.dark.size();
+    for (const DarkUse& d : page.dark) n_dark_texels += d.n_texels, first = std::min(first, d.use);
+  }
+  for (const Part& p : parts) n_shapes += p.uses.size();
+  if (n_dark && some * n_dark_texels >= n_texels) diag.report(Diag::dark_shapes, scene.where(stage.uses[first].shape), n_dark, n_shapes);
+}
+
+/// Lights what the view shows.
+Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, PassContext& ctx) {
+  const std::string title = levels.view() ? "lightmap, view " + std::to_string(levels.view() + 1) : "lightmap";
+  auto say = [&](const char* what) {
+    if (ctx.monitor) ctx.monitor->begin(title + what, 0, "");
+  };
+  say(": surfaces");
+  levels.own_what_is_lit();
+  Meshes meshes(scene, ctx);
+  light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options, levels), ctx.diag);
+  if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
+  if (!levels.depth()) levels.find_shades(world);
+  auto parts = find_parts(scene, world, ctx);
+  prepare(parts, scene, world, levels, options, ctx.diag);
+  if (parts.empty()) return Outcome::unchanged;
+  if (!world.has_sky_of_its_own() && !levels.depth()) ctx.diag.report(Diag::no_light, {});
+  say(": charts");
+  unfold_parts(parts, world.stage());
+  const LayoutOptions wanted = layout_options(options, levels.depth());
+  const Layout layout(parts, wanted);
+  if (const auto coarse = layout.coarse(); coarse.n_shapes) ctx.diag.report(Diag::density_limit, {}, wanted.density, coarse.n_shapes, coarse.least * wanted.density);
+  auto pages = bake::bake(parts, layout, world, bake_options(options, levels.view(), title), ctx);
+  report_dark(pages, parts, scene, world.stage(), ctx.diag);
+  say(": pictures");
+  store(scene, parts, layout, world.stage(), pages, {options.format.value, options.exr}, ctx);
+  for (const Part& p : parts) {
+    for (std::uint32_t u : p.uses) levels.add(world.stage().uses[u].shape);
+    ctx.stats["lightmap.shapes"] += p.uses.size(), ctx.stats["lightmap.charts"] += p.charts.size() * p.uses.size();
+  }
+  ctx.stats["lightmap.pages"] += pages.size();
+  return Outcome::changed;
+}
+
+Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
+  if (const auto n = closed_nodes(scene)) ctx.diag.report(Diag::not_lit, {}, n);
+  if (const auto n = foreign_surfaces(scene)) ctx.diag.report(Diag::not_lowered, {}, n);
+  const auto n_copies = own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
+  Levels levels(scene);
+  Outcome all = n_copies ? Outcome::changed : Outcome::unchanged;
+  while (all != Outcome::failed && levels.next()) {
+    if (const Outcome one = bake_view(scene, levels, options, ctx); one != Outcome::unchanged) all = one;
+    if (!options.patches.empty()) return all;
+  }
+  std::error_code none_there;
+  for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view) std::filesystem::remove(checkpoint_of(options, view), none_there);
+  if (levels.n_unseen()) ctx.diag.report(Diag::expansion_limit, {}, Levels::most, "levels of detail one behind the other");
+  return all;
+}
+
+}  // namespace
+
+bool BakeQuality::read(std::string_view text) {
+  for (auto v : {draft, normal, high})
+    if (BakeQuality q{v}; q.print() == text) return *this = q, true;
+  return false;
+}
+
+std::string BakeQuality::print() const { return value == draft ? "draft" : value == normal ? "normal" : "high"; }
+
+bool NamedDensities::read(std::string_view text) {
+  all.clear();
+  while (!text.empty()) {
+    const std::string_view one = text.substr(0, text.find(':'));
+    const auto sign = one.rfind('=');
+    if (sign == std::string_view::npos || sign == 0) return false;
+    double factor = 0;
+    const char* end = one.data() + one.size();
+    const auto r = std::from_chars(one.data() + sign + 1, end, factor);
+    if (r.ec != std::errc{} || r.ptr != end || !(factor >= 1e-3 && factor <= 1e3)) return false;
+    all.emplace_back(one.substr(0, sign), factor);
+    text.remove_prefix(std::min(text.size(), one.size() + 1));
+  }
+  return true;
+}
+
+std::string NamedDensities::print() const {
+  std::string text;
+  for (const auto& [name, factor] : all) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.9g", factor);
+    text += (text.empty() ? "" : ":") + name + "=" + number;
+  }
+  return text;
+}
+
+double NamedDensities::of(std::string_view name) const {
+  for (const auto& [pattern, factor] : all) {
+    const bool open = pattern.back() == '*';
+    if (open ? name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1)) : name == pattern) return factor;
+  }
+  return 0;
+}
+
+Outcome lightmap(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
+  if (!ctx.resources) return Outcome::unchanged;
+  return bake_into(scene, options, ctx);
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,137 @@
+#include "passes/lod/lod.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "geometry/simplify/lod_nodes.h"
+#include "geometry/simplify/shared_borders.h"
+
+namespace wrlkit {
+namespace {
+
+/// A surface on its way: read, simplified, stored.
+struct Part {
+  Mesh mesh;
+  std::vector<MeshLevel> levels;
+};
+
+class Lod {
+ public:
+  Lod(Scene& scene, const LodOptions& options, PassContext& ctx)
+      : scene_(scene), options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, surfaces_(surfaces_of(scene)),
+        reader_(scene, reading_), nodes_(scene) {}
+
+  Outcome run() {
+    std::size_t n_lods = 0;
+    look_around();
+    for (std::size_t i = 0; i < surfaces_.size();) {
+      auto& parts = read_batch(i);
+      simplify(i, parts);
+      for (std::size_t k = 0; k < parts.size(); ++k) n_lods += store(surfaces_[i + k], parts[k]);
+      i += parts.size();
+    }
+    if (n_lods == 0) return Outcome::unchanged;
+    nodes_.replace_shapes();
+    return Outcome::changed;
+  }
+
+ private:
+  /// What neighbours share, and how large they stand in the world, is known before the first is simplified.
+  void look_around() {
+    SharedBorders borders;
+    Mesh mesh;
+    bool any = false;
+    for (const auto& surface : surfaces_) {
+      reader_.read(surface, mesh);
+      borders.add(mesh);
+      any |= is_large(mesh);
+    }
+    fixed_.resize(surfaces_.size()), scale_.resize(surfaces_.size(), 1);
+    if (any) fixed_ = borders.find(scene_, surfaces_);
+    if (any && !options_.errors.values.empty()) scale_ = largest_scales(scene_, surfaces_);
+  }
+
+  bool is_large(const Mesh& mesh) const { return static_cast<int>(mesh.n_faces()) >= options_.min_faces; }
+
+  /// The meshes of some surfaces from `first` on: as many as may lie in memory together.
+  std::vector<Part>& read_batch(std::size_t first) {
+    constexpr std::size_t most_corners = 3'000'000;
+    batch_.clear();
+    for (std::size_t corners = 0; first + batch_.size() < surfaces_.size() && corners < most_corners;) {
+      auto& p = batch_.emplace_back();
+      reader_.read(surfaces_[first + batch_.size() - 1], p.mesh);
+      corners += p.mesh.corners.size();
+    }
+    return batch_;
+  }
+
+  void simplify(std::size_t first, std::vector<Part>& parts) const {
+    parallel_for(parts.size(), [&](std::size_t i) {
+      auto& p = parts[i];
+      if (is_large(p.mesh)) p.levels = make_levels(p.mesh, levels_of(first + i));
+    });
+  }
+
+  LevelOptions levels_of(std::size_t surface) const {
+    LevelOptions levels{{.criterion = options_.criterion.value, .fixed = fixed_[surface]}, options_.ratios.values,
+                        options_.errors.values, options_.min_saving};
+    for (double& e : levels.errors) e /= scale_[surface];
+    return levels;
+  }
+
+  std::size_t store(const ShapeSurface& surface, const Part& part) {
+    if (part.mesh.n_faces() == 0) return 0;
+    const auto n = nodes_.add(surface, part.mesh, part.levels, {options_.pixels, options_.screen_height, options_.field_of_view, options_.vanish});
+    ctx_.stats[n ? "lod.shapes" : "lod.too-small"] += surface.shapes.size();
+    ctx_.stats["lod.levels"] += n * part.levels.size();
+    for (const auto& level : part.levels) ctx_.stats["lod.triangles"] += level.mesh.n_faces();
+    return n;
+  }
+
+  const Scene& scene_;
+  const LodOptions& options_;
+  PassContext& ctx_;
+  // The first level stays as it is: whoever draws it will say what is wrong with it.
+  Diagnostics unheard_;
+  Statistics unheard_counts_;
+  PassContext reading_;
+  std::vector<ShapeSurface> surfaces_;
+  SurfaceReader reader_;
+  LodNodes nodes_;
+  // Of each surface: what is held fast, and metres of the world for its unit.
+  std::vector<std::vector<std::uint32_t>> fixed_;
+  std::vector<double> scale_;
+  std::vector<Part> batch_;
+};
+
+}  // namespace
+
+bool NumberList::read(std::string_view text) {
+  values.clear();
+  while (!text.empty()) {
+    double v;
+    auto r = std::from_chars(text.data(), text.data() + text.size(), v);
+    if (r.ec != std::errc{} || !std::isfinite(v) || v <= 0) return false;
+    values.push_back(v);
+    text.remove_prefix(static_cast<std::size_t>(r.ptr - text.data()));
+    if (text.empty()) break;
+    if (text[0] != ':') return false;
+    text.remove_prefix(1);
+  }
+  return true;
+}
+
+std::string NumberList::print() const {
+  std::string out;
+  for (double v : values) {
+    char number[40];
+    if (!out.empty()) out += ':';
+    out.append(number, std::to_chars(number, number + sizeof number, v).ptr);
+  }
+  return out;
+}
+
+Outcome lod(Scene& scene, const LodOptions& options, PassContext& ctx) { return Lod(scene, options, ctx).run(); }
+
+}  // namespace wrlkit

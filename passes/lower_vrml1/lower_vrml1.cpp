@@ -1,0 +1,424 @@
+#include "passes/lower_vrml1/lower_vrml1.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "passes/analysis/nesting.h"
+#include "passes/lower_vrml1/frame.h"
+#include "passes/lower_vrml1/shapes.h"
+#include "passes/lower_vrml1/singles.h"
+#include "scenegraph/nodes.h"
+
+namespace wrlkit {
+namespace vrml1 {
+namespace {
+
+namespace v1 = nodes::vrml1;
+
+/// What a node that was met before in the same state did: what it drew, and what it left.
+struct Effect {
+  NodeId drawn;
+  State state;
+  Placement at;
+  std::vector<Frame::Light> lights;
+};
+
+class Lowering {
+ public:
+  Lowering(Scene& scene, const LowerVrml1Options& options, PassContext& ctx)
+      : scene_(scene), diag_(ctx.diag), looks_(scene, diag_), shapes_(scene, looks_, diag_, default_crease_angle()),
+        steps_left_(static_cast<std::size_t>(options.limit) + steps_a_node * scene.node_count()), limit_(options.limit) {}
+
+  void run() {
+    legal_names();
+    Frame frame;
+    State state;
+    for (NodeId n : scene_.main.roots) visit(n, state, frame);
+    scene_.main.roots = children(scene_, frame);
+    scene_.format = Format::vrml97;
+    scene_.header.clear();
+    limit_nesting(scene_, diag_);
+  }
+
+ private:
+  static constexpr std::size_t steps_a_node = 16, deepest = 2000;
+
+  // What Inventor puts behind a '+' tells nodes of one name apart. Other characters have no place in names of VRML97.
+  void legal_names() {
+    for (std::uint32_t i = 0; i < scene_.node_count(); ++i) {
+      const auto old = scene_.name(NodeId{i});
+      if (old.find_first_of("+.-'\\0123456789") == old.npos) continue;
+      std::string name(old.substr(0, old.find('+')));
+      std::ranges::replace_if(name, [](char c) { return c == '.' || c == '\'' || c == '\\'; }, '_');
+      if (!name.empty() && (name[0] == '-' || (name[0] >= '0' && name[0] <= '9'))) name.insert(0, 1, '_');
+      if (name != old) scene_.set_name(NodeId{i}, name);
+    }
+  }
+
+  // Inventor 2.1 made 0 of it.
+  double default_crease_angle() const { return scene_.header.starts_with("#Inventor V2.1") ? 0 : 0.5; }
+  bool is(NodeId n, TypeId t) const { return scene_.is(n, t); }
+
+  /// False when there is too much that comes again, which is reported once. What comes for the first time is always done.
+  bool step(NodeId n) {
+    if (n.value >= met_.size()) met_.resize(n.value + std::size_t{1});
+    if (!std::exchange(met_[n.value], 1)) return true;
+    if (steps_left_ > 0) return --steps_left_, true;
+    if (!std::exchange(full_, true)) diag_.report(Diag::expansion_limit, scene_.where(n), limit_, "nodes visited again in other states");
+    return false;
+  }
+
+  void visit(NodeId n, State&, Frame&);
+  bool property(NodeId n, State&);
+  NodeId first_equal(NodeId n);
+  void visit_group(NodeId n, std::span<const NodeId> children, State&, Frame&);
+  void visit_separator(NodeId n, State, Frame&);
+  void visit_transform(NodeId n, State&, Frame&);
+  void visit_light(NodeId n, Frame&);
+  void visit_switch(NodeId n, State&, Frame&);
+  void visit_lod(NodeId n, const State&, Frame&);
+  void visit_copies(NodeId n, const State&, Frame&);
+  void visit_unknown(NodeId n, State&, Frame&);
+  void visit_vrml97(NodeId n, const State&, Frame&);
+  void visit_shape(NodeId n, const State&, Frame&);
+
+  /// `children`, which VRML97 calls `choice` and `level` in some.
+  const Value* child_field(NodeId n) const {
+    auto fields = scene_.type(n).fields;
+    auto f = std::ranges::find(fields, "children", &FieldDef::name);
+    return f == fields.end() ? nullptr : &scene_.value(n, static_cast<std::uint16_t>(f - fields.begin()));
+  }
+  std::span<const NodeId> children_of(NodeId n) const {
+    auto field = child_field(n);
+    return field ? field->node_span() : std::span<const NodeId>{};
+  }
+  /// The contents of a group in a state of their own.
+  Frame contents(std::span<const NodeId> nodes, State s) {
+    Frame frame;
+    for (NodeId c : nodes) visit(c, s, frame);
+    return frame;
+  }
+  /// A child of Switch or LOD as a node: there must be one for each.
+  NodeId choice(NodeId child, State& s, Frame& frame) {
+    visit(child, s, frame);
+    if (frame.runs.size() == 1 && frame.runs[0].at.identity() && frame.runs[0].nodes.size() == 1) return frame.runs[0].nodes[0];
+    NodeId n = group(scene_, frame, scene_.where(child), {});
+    return n ? n : scene_.add(nodes::Group, scene_.where(child));
+  }
+  void leave(Frame& outer, const std::vector<Frame::Light>& lights) {
+    for (auto& l : lights)
+      if (step(l.source)) shine(outer, l.source, outer.at.matrix() * l.at);
+  }
+  void shine(Frame& frame, NodeId source, const Matrix& at) {
+    frame.add_light(light(scene_, source, at, diag_));
+    frame.lights.push_back({source, at});
+  }
+  NodeId known_base(NodeId unknown);
+
+  Scene& scene_;
+  Diagnostics& diag_;
+  Looks looks_;
+  Shapes shapes_;
+  std::map<std::pair<NodeId, State>, Effect> effects_;
+  std::map<NodeId, NodeId> singles_;  // what is the same in every state
+  std::map<NodeId, NodeId> bases_;
+  std::unordered_map<std::string, NodeId> equals_;
+  std::vector<char> met_;
+  std::size_t steps_left_, depth_ = 0;
+  int limit_;
+  bool full_ = false;
+};
+
+void Lowering::visit(NodeId n, State& s, Frame& frame) {
+  if (!n || !step(n)) return;
+  if (depth_ >= deepest) return diag_.report(Diag::too_deep, scene_.where(n), deepest);
+  ++depth_;
+  const auto& type = scene_.type(n);
+  auto single = [&](auto make) {
+    auto& made = singles_[n];
+    if (!made) made = make();
+    if (made) frame.add(made);
+  };
+  if (type.kind != NodeKind::builtin) visit_unknown(n, s, frame);
+  else if (!(type.dialects & static_cast<DialectSet>(Dialect::vrml1))) visit_vrml97(n, s, frame);
+  else if (is(n, v1::Environment)) single([&] { return fog_of(scene_, n, diag_); });
+  else if (property(n, s)) {}
+  else if (type.is_a("Vrml1TransformNode")) visit_transform(n, s, frame);
+  else if (type.is_a("Vrml1ShapeNode")) visit_shape(n, s, frame);
+  else if (type.is_a("Vrml1LightNode")) visit_light(n, frame);
+  else if (type.is_a("Vrml1CameraNode")) single([&] { return viewpoint(scene_, n, diag_); });
+  else if (type.is_a("Vrml1InfoNode")) single([&] { return info_of(scene_, n); });
+  else if (is(n, v1::WWWInline) || is(n, v1::File)) single([&] { return inline_of(scene_, n); });
+  else if (type.is_a("Vrml1SeparatorNode")) visit_separator(n, s, frame);
+  else if (is(n, v1::Switch) || is(n, v1::Blinker)) visit_switch(n, s, frame);
+  else if (is(n, v1::LOD) || is(n, v1::LevelOfDetail)) visit_lod(n, s, frame);
+  else if (is(n, v1::Array) || is(n, v1::MultipleCopy)) visit_copies(n, s, frame);
+  else if (type.is_a("Vrml1GroupNode")) visit_group(n, children_of(n), s, frame);
+  --depth_;
+}
+
+// ---- state ---------------------------------------------------------------------------------------------------------
+
+/// The first node without a name that says the same in a few words: exporters write one Material over and over.
+NodeId Lowering::first_equal(NodeId n) {
+  constexpr std::size_t few = 64;
+  if (!scene_.name(n).empty()) return n;
+  auto bytes = [](const auto& span) { return std::string_view(reinterpret_cast<const char*>(span.data()), span.size_bytes()); };
+  std::string all = std::to_string(scene_.type_id(n).value);
+  for (const Value& v : scene_.fields(n)) {
+    const Element element = info(v.type).element;
+    if (scene_.is_extra(v) || v.count > few || element == Element::node || v.type == FieldType::MFString) return n;
+    all += '/' + std::to_string(v.slot) + ' ' + std::to_string(v.count) + ' ';
+    all += element == Element::number ? bytes(v.number_span()) : element == Element::text ? v.text() : bytes(v.integer_span());
+  }
+  return equals_.emplace(std::move(all), n).first->second;
+}
+
+bool Lowering::property(NodeId n, State& s) {
+  const TypeId t = scene_.type_id(n);
+  if (t == v1::Coordinate3 || t == v1::Coordinate4) s.coord = n;
+  else if (t == v1::Normal) s.normal = n;
+  else if (t == v1::NormalBinding) s.normal_binding = read_binding(scene_.get(n, v1::normal_binding::value));
+  else if (t == v1::Material) s.material = first_equal(n), s.color = {};
+  else if (t == v1::BaseColor || t == v1::PackedColor) s.color = first_equal(n);
+  else if (t == v1::MaterialBinding) s.material_binding = read_binding(scene_.get(n, v1::material_binding::value));
+  else if (t == v1::Texture2) s.texture = first_equal(n);
+  else if (t == v1::Texture2Transform) s.texture_transform = looks_.then(s.texture_transform, n);
+  else if (t == v1::TextureCoordinate2 || t == v1::TextureCoordinatePlane || t == v1::TextureCoordinateEnvironment) s.texture_coord = n;
+  else if (t == v1::TextureCoordinateDefault) s.texture_coord = {};
+  else if (t == v1::TextureCoordinateBinding) s.texture_binding = read_binding(scene_.get(n, v1::texture_coordinate_binding::value));
+  else if (t == v1::ShapeHints) s.hints = first_equal(n);
+  else if (t == v1::FontStyle || t == v1::Font) s.font = first_equal(n);
+  else if (t == v1::LightModel) s.lit = scene_.get(n, v1::light_model::model) != "BASE_COLOR";
+  else if (t == v1::DrawStyle) {
+    const auto style = scene_.get(n, v1::draw_style::style);
+    s.drawing = style == "LINES" ? Drawing::lines : style == "POINTS" ? Drawing::points : style == "INVISIBLE" ? Drawing::invisible : Drawing::filled;
+  } else if (t == v1::ClipPlane || t == v1::ProfileCoordinate2 || t == v1::ProfileCoordinate3 || t == v1::LinearProfile || t == v1::NurbsProfile) {
+    diag_.report(Diag::no_vrml97_node, scene_.where(n), scene_.type(n).name);
+  } else return scene_.type(n).is_a("Vrml1PropertyNode");  // of no effect on what is there: Complexity, PickStyle
+  return true;
+}
+
+void Lowering::visit_transform(NodeId n, State& s, Frame& frame) {
+  if (is(n, v1::MatrixTransform)) {
+    frame.at.then(matrix_of_rows(scene_.get(n, v1::matrix_transform::matrix), scene_.where(n), diag_));
+  } else if (is(n, v1::Units)) {
+    const double before = metres(s.unit), k = metres(scene_.get(n, v1::units::units), s.unit) / before;
+    frame.at.then(TransformFields{.scale = {k, k, k}});
+  } else frame.at.then(transform_of(scene_, n, diag_));
+}
+
+void Lowering::visit_shape(NodeId n, const State& s, Frame& frame) {
+  const auto& shapes = shapes_.of(n, s);
+  if (s.drawing != Drawing::invisible) {
+    for (NodeId shape : shapes) frame.add(shape);
+  } else if (!shapes.empty()) {  // kept, and not seen
+    NodeId hidden = scene_.add(nodes::Switch, scene_.where(n));
+    scene_.set(hidden, nodes::switch_::children, shapes);
+    frame.add(hidden);
+  }
+}
+
+void Lowering::visit_light(NodeId n, Frame& frame) {
+  if (is(n, v1::DirectionalLight)) return shine(frame, n, frame.at.matrix());
+  if (frame.drawn || depth_ > 2) diag_.report(Diag::no_vrml97_light_scope, scene_.where(n), scene_.type(n).name);
+  auto& made = singles_[n];
+  if (!made) made = light(scene_, n, {}, diag_);
+  const bool drawn = frame.drawn;
+  frame.add(made);
+  frame.drawn = drawn;
+}
+
+// ---- groups --------------------------------------------------------------------------------------------------------
+
+// What is in a Group stays in force behind it; behind a TransformSeparator all but the transformation does.
+void Lowering::visit_group(NodeId n, std::span<const NodeId> nodes, State& s, Frame& frame) {
+  auto known = effects_.find({n, s});
+  if (known == effects_.end()) {
+    const State before = s;
+    Frame inner;
+    for (NodeId c : nodes) visit(c, s, inner);
+    known = effects_.emplace(std::pair{n, before}, Effect{group(scene_, inner, scene_.where(n), scene_.name(n)), s, inner.at, inner.lights}).first;
+  }
+  const Effect& e = known->second;
+  if (e.drawn) frame.add(e.drawn);
+  leave(frame, e.lights);
+  s = e.state;
+  if (!is(n, v1::TransformSeparator)) frame.at.then(e.at);
+}
+
+void Lowering::visit_separator(NodeId n, State s, Frame& frame) {
+  auto known = effects_.find({n, s});
+  if (known == effects_.end()) {
+    const Frame inner = contents(children_of(n), s);
+    NodeId made;
+    if (is(n, v1::WWWAnchor)) {
+      made = scene_.add(nodes::Anchor, scene_.where(n));
+      scene_.set_name(made, scene_.name(n));
+      if (auto url = scene_.get(n, v1::www_anchor::name); !url.empty()) scene_.set(made, nodes::anchor::url, std::vector<std::string_view>{url});
+      scene_.set(made, nodes::anchor::description, scene_.get(n, v1::www_anchor::description));
+      scene_.set(made, nodes::anchor::children, children(scene_, inner));
+      if (scene_.get(n, v1::www_anchor::map) == "POINT") diag_.report(Diag::no_vrml97_value, scene_.where(n), "WWWAnchor", "map");
+    } else made = group(scene_, inner, scene_.where(n), scene_.name(n));
+    known = effects_.emplace(std::pair{n, s}, Effect{made, {}, {}, {}}).first;
+  }
+  if (known->second.drawn) frame.add(known->second.drawn);
+}
+
+// The chosen child acts like one of a Group; the others are drawn apart from everything, so that they can be chosen later.
+void Lowering::visit_switch(NodeId n, State& s, Frame& frame) {
+  const auto nodes = children_of(n);
+  const auto chosen = is(n, v1::Switch) ? scene_.get(n, v1::switch_::whichChild) : scene_.get(n, v1::blinker::whichChild);
+  if (chosen == -3) return visit_group(n, nodes, s, frame);
+  if (scene_.name(n) == "Cameras") {  // the viewpoints of the world; the chosen one comes first
+    std::vector<NodeId> order(nodes.begin(), nodes.end());
+    if (chosen > 0 && static_cast<std::size_t>(chosen) < order.size()) std::swap(order[0], order[static_cast<std::size_t>(chosen)]);
+    for (NodeId c : order) {
+      const Placement before = frame.at;
+      State own = s;
+      visit(c, own, frame);
+      frame.at = before;
+    }
+    return;
+  }
+  std::vector<NodeId> choices;
+  State after = s;
+  Frame taken;
+  bool any = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    State own = s;
+    Frame inner;
+    choices.push_back(choice(nodes[i], own, inner));
+    any |= !inner.runs.empty();
+    if (chosen == static_cast<int>(i)) after = own, taken = std::move(inner);
+  }
+  if (any) {
+    NodeId made = scene_.add(nodes::Switch, scene_.where(n));
+    scene_.set_name(made, scene_.name(n));
+    scene_.set(made, nodes::switch_::children, choices);
+    scene_.set(made, nodes::switch_::whichChoice, chosen >= 0 && static_cast<std::size_t>(chosen) < nodes.size() ? chosen : -1);
+    frame.add(made);
+  }
+  s = after;
+  leave(frame, taken.lights);
+  frame.at.then(taken.at);
+}
+
+void Lowering::visit_lod(NodeId n, const State& s, Frame& frame) {
+  std::vector<NodeId> levels;
+  for (NodeId c : children_of(n)) {
+    State own = s;
+    Frame inner;
+    levels.push_back(choice(c, own, inner));
+  }
+  if (levels.empty()) return;
+  NodeId made = scene_.add(nodes::LOD, scene_.where(n));
+  scene_.set_name(made, scene_.name(n));
+  scene_.set(made, nodes::lod::children, levels);
+  if (is(n, v1::LOD)) {
+    scene_.set(made, nodes::lod::center, scene_.get(n, v1::lod::center));
+    scene_.set(made, nodes::lod::range, scene_.get(n, v1::lod::range));
+  } else diag_.report(Diag::no_vrml97_value, scene_.where(n), "LevelOfDetail", "screenArea");
+  frame.add(made);
+}
+
+// Array and MultipleCopy: one node at many places.
+void Lowering::visit_copies(NodeId n, const State& s, Frame& frame) {
+  const Frame inner = contents(children_of(n), s);
+  const NodeId one = group(scene_, inner, scene_.where(n), scene_.name(n));
+  if (!one) return;
+  auto put = [&](const auto& where) {
+    if (!step(n)) return;
+    const Placement before = frame.at;
+    frame.at.then(where);
+    frame.add(one);
+    frame.at = before;
+  };
+  if (is(n, v1::MultipleCopy)) {
+    for (auto m = scene_.get(n, v1::multiple_copy::matrix); m.size() >= 16; m = m.subspan(16)) put(matrix_of_rows(m.first(16), scene_.where(n), diag_));
+    return;
+  }
+  namespace a = v1::array;
+  const int count[] = {scene_.get(n, a::numElements1), scene_.get(n, a::numElements2), scene_.get(n, a::numElements3)};
+  const Vec3 apart[] = {scene_.get(n, a::separation1), scene_.get(n, a::separation2), scene_.get(n, a::separation3)};
+  const double origin = scene_.get(n, a::origin) == "CENTER" ? 0.5 : scene_.get(n, a::origin) == "LAST" ? 1 : 0;
+  for (int k = 0; k < count[2] && !full_; ++k)
+    for (int j = 0; j < count[1] && !full_; ++j)
+      for (int i = 0; i < count[0] && !full_; ++i) {
+        TransformFields t;
+        const int at[] = {i, j, k};
+        for (std::size_t c = 0; c < 3; ++c)
+          for (std::size_t d = 0; d < 3; ++d) t.translation[c] += (at[d] - origin * (count[d] - 1)) * apart[d][c];
+        put(t);
+      }
+}
+
+// ---- nodes of others -----------------------------------------------------------------------------------------------
+
+/// A node of the first known type among `isA`, with the fields that it shares with that.
+NodeId Lowering::known_base(NodeId n) {
+  auto& made = bases_[n];
+  if (made) return made;
+  const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+  for (const Value& v : fields) {
+    if (!scene_.is_extra(v) || v.extra->name != "isA" || v.extra->value.type != FieldType::MFString) continue;
+    for (auto base : v.extra->value.text_span()) {
+      const TypeId type = find_builtin(base, Dialect::vrml1);
+      if (!type) continue;
+      made = scene_.add(type, scene_.where(n));
+      scene_.set_name(made, scene_.name(n));
+      for (const Value& own : fields) {
+        auto slot = scene_.is_extra(own) ? scene_.type(type).find(own.extra->name, Dialect::vrml1) : std::nullopt;
+        if (!slot || scene_.type(type).fields[*slot].type != own.extra->value.type) continue;
+        Value same = own.extra->value;
+        same.slot = *slot;
+        scene_.set(made, same);
+      }
+      return made;
+    }
+  }
+  return {};
+}
+
+void Lowering::visit_unknown(NodeId n, State& s, Frame& frame) {
+  if (NodeId base = known_base(n)) return visit(base, s, frame);
+  std::vector<NodeId> nodes;
+  for (const Value& v : scene_.fields(n))
+    for (NodeId c : scene_.content(v).node_span()) nodes.push_back(c);
+  if (nodes.empty()) return frame.add(n);
+  const Frame inner = contents(nodes, s);
+  if (NodeId g = group(scene_, inner, scene_.where(n), scene_.name(n))) frame.add(g);
+}
+
+// Nodes of VRML97 stand for themselves; in their children the state is that around them.
+void Lowering::visit_vrml97(NodeId n, const State& s, Frame& frame) {
+  if (scene_.type(n).is_a("X3DGeometryNode")) return visit_shape(n, s, frame);
+  if (!scene_.type(n).is_a("X3DGroupingNode")) return frame.add(n);
+  auto known = effects_.find({n, s});
+  if (known == effects_.end()) {
+    const Frame inner = contents(children_of(n), s);
+    const auto below = children(scene_, inner);
+    NodeId made = scene_.add(scene_.type_id(n), scene_.where(n));
+    scene_.set_name(made, scene_.name(n));
+    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    scene_.set_fields(made, fields);
+    if (auto field = child_field(n)) scene_.set(made, scene_.make(FieldType::MFNode, field->slot, below));
+    known = effects_.emplace(std::pair{n, s}, Effect{made, {}, {}, {}}).first;
+  }
+  frame.add(known->second.drawn);
+}
+
+}  // namespace
+}  // namespace vrml1
+
+Outcome lower_vrml1(Scene& scene, const LowerVrml1Options& options, PassContext& ctx) {
+  if (scene.format != Format::vrml1) return Outcome::unchanged;
+  vrml1::Lowering(scene, options, ctx).run();
+  return Outcome::changed;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,86 @@
+#include "passes/lower_x3d/appearance.h"
+
+#include "passes/lower_x3d/geometry.h"
+#include "scenegraph/equal.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/picture_color.h"
+
+namespace wrlkit::x3d {
+namespace {
+
+namespace tsm = nodes::two_sided_material;
+
+bool back_differs(const Scene& scene, NodeId n) {
+  if (!scene.get(n, tsm::separateBackColor)) return false;
+  return scene.get(n, tsm::diffuseColor) != scene.get(n, tsm::backDiffuseColor) || scene.get(n, tsm::emissiveColor) != scene.get(n, tsm::backEmissiveColor) ||
+         scene.get(n, tsm::specularColor) != scene.get(n, tsm::backSpecularColor) || scene.get(n, tsm::shininess) != scene.get(n, tsm::backShininess) ||
+         scene.get(n, tsm::transparency) != scene.get(n, tsm::backTransparency) || scene.get(n, tsm::ambientIntensity) != scene.get(n, tsm::backAmbientIntensity);
+}
+
+bool one_side(Scene& scene, NodeId n, Diagnostics& diag) {
+  if (!scene.is(n, nodes::TwoSidedMaterial)) return false;
+  if (back_differs(scene, n)) diag.report(Diag::no_back_material, scene.where(n), "the back of TwoSidedMaterial");
+  scene.become(n, nodes::Material, fields_for(scene, n, nodes::Material));
+  return true;
+}
+
+struct Multiple {
+  TypeId type;
+  std::uint16_t list;
+};
+constexpr Multiple multiples[] = {
+    {nodes::MultiTexture, nodes::multi_texture::texture.slot},
+    {nodes::MultiTextureCoordinate, nodes::multi_texture_coordinate::texCoord.slot},
+    {nodes::MultiTextureTransform, nodes::multi_texture_transform::textureTransform.slot},
+};
+
+/// What stands for the child of a field: the first of several.
+NodeId first_of(const Scene& scene, NodeId n, Diagnostics& diag) {
+  for (int depth = 0; n && depth < 8; ++depth) {
+    const Multiple* m = nullptr;
+    for (const auto& row : multiples)
+      if (scene.is(n, row.type)) m = &row;
+    if (!m) return n;
+    const auto all = scene.value(n, m->list).node_span();
+    if (scene.is(n, nodes::MultiTexture) && all.size() > 1) diag.report(Diag::only_first_texture, scene.where(n));
+    n = all.empty() ? NodeId{} : all[0];
+  }
+  return n;
+}
+
+bool first_only(Scene& scene, NodeId n, Diagnostics& diag) {
+  bool changed = false;
+  const auto& rows = scene.type(n).fields;
+  for (const Value& v : std::vector<Value>(scene.fields(n).begin(), scene.fields(n).end())) {
+    if (scene.is_extra(v) || v.is || v.type != FieldType::SFNode || !v.node || !rows[v.slot].has_value()) continue;
+    NodeId first = first_of(scene, v.node, diag);
+    if (first == v.node) continue;
+    scene.set(n, scene.make(FieldType::SFNode, v.slot, first));
+    changed = true;
+  }
+  return changed;
+}
+
+bool take_picture(Scene& scene, NodeId n, Diagnostics& diag) {
+  namespace a = nodes::appearance;
+  if (!scene.is(n, nodes::Appearance)) return false;
+  bool changed = false;
+  if (scene.get(n, a::backMaterial)) {
+    if (scene.get(n, a::backMaterial) != scene.get(n, a::material)) diag.report(Diag::no_back_material, scene.where(n), "Appearance.backMaterial");
+    scene.unset(n, a::backMaterial.slot);
+    changed = true;
+  }
+  const NodeId picture = first_of(scene, own_picture(scene, scene.get(n, a::material)), diag);
+  if (!picture || scene.get(n, a::texture)) return changed;
+  scene.set(n, a::texture, picture);
+  return true;
+}
+
+}  // namespace
+
+bool lower_appearance(Scene& scene, NodeId n, Diagnostics& diag) {
+  const bool side = one_side(scene, n, diag), first = first_only(scene, n, diag);
+  return take_picture(scene, n, diag) || side || first;
+}
+
+}  // namespace wrlkit::x3d

@@ -1,0 +1,101 @@
+#include "passes/lower_x3d/groups.h"
+
+#include <algorithm>
+
+#include "passes/lower_x3d/geometry.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit::x3d {
+namespace {
+
+struct GroupRow {
+  TypeId from, to;
+  std::uint16_t children;  // slot of `from`
+};
+
+constexpr GroupRow groups[] = {
+    {nodes::StaticGroup, nodes::Group, nodes::static_group::children.slot},
+    {nodes::CADAssembly, nodes::Group, nodes::cad_assembly::children.slot},
+    {nodes::CADLayer, nodes::Group, nodes::cad_layer::children.slot},
+    {nodes::CADPart, nodes::Transform, nodes::cad_part::children.slot},
+    {nodes::CADFace, nodes::Group, nodes::cad_face::shape.slot},
+    {nodes::ViewpointGroup, nodes::Group, nodes::viewpoint_group::children.slot},
+    {nodes::LayerSet, nodes::Group, nodes::layer_set::layers.slot},
+    {nodes::Layer, nodes::Group, nodes::layer::children.slot},
+    {nodes::Viewport, nodes::Group, nodes::viewport::children.slot},
+};
+
+/// A name that VRML can have, of one that a CAD program gave.
+std::string legal_name(std::string_view s) {
+  std::string out;
+  for (char c : s) {
+    const bool bad = static_cast<unsigned char>(c) <= ' ' || std::string_view("\"'#,.[\\]{}").find(c) != std::string_view::npos;
+    out += bad ? '_' : c;
+  }
+  if (!out.empty() && ((out[0] >= '0' && out[0] <= '9') || out[0] == '+' || out[0] == '-')) out.insert(0, 1, '_');
+  return out;
+}
+
+void take_name(Scene& scene, NodeId n) {
+  auto slot = scene.type(n).find("name", Dialect::x3d);
+  if (!slot || !scene.name(n).empty() || scene.value(n, *slot).is) return;
+  if (auto name = legal_name(scene.value(n, *slot).text()); !name.empty()) scene.set_name(n, name);
+}
+
+/// A Switch that shows none of them.
+NodeId hidden(Scene& scene, NodeId at, std::span<const NodeId> children) {
+  NodeId s = scene.add(nodes::Switch, scene.where(at));
+  scene.set(s, nodes::switch_::children, children);
+  return s;
+}
+
+std::vector<NodeId> children_of(Scene& scene, NodeId n, const GroupRow& row) {
+  const Value& v = scene.value(n, row.children);
+  std::vector<NodeId> all(v.is ? nullptr : v.node_span().data(), v.is ? nullptr : v.node_span().data() + v.node_span().size());
+  if (row.from != nodes::CADLayer) return all;
+  const auto visible = scene.get(n, nodes::cad_layer::visible);
+  for (std::size_t i = 0; i < std::min(all.size(), visible.size()); ++i)
+    if (!visible[i]) all[i] = hidden(scene, n, std::span(&all[i], 1));
+  return all;
+}
+
+bool rename_group(Scene& scene, NodeId n) {
+  auto row = std::ranges::find(groups, scene.type_id(n), &GroupRow::from);
+  if (row == std::end(groups)) return false;
+  take_name(scene, n);
+  auto children = children_of(scene, n, *row);
+  const auto slot = row->to == nodes::Transform ? nodes::transform::children.slot : nodes::group::children.slot;
+  auto fields = fields_for(scene, n, row->to);
+  std::erase_if(fields, [&](const Value& v) { return v.slot == slot && !v.is; });
+  if (!children.empty()) fields.push_back(scene.make(FieldType::MFNode, slot, children));
+  scene.become(n, row->to, fields);
+  return true;
+}
+
+bool hide(Scene& scene, NodeId n) {
+  const auto& t = scene.type(n);
+  auto slot = t.find("visible", Dialect::x3d);
+  if (!slot || t.fields[*slot].type != FieldType::SFBool) return false;
+  const Value* v = scene.find(n, *slot);
+  if (!v || v->is || v->integer) return false;
+  scene.unset(n, *slot);
+  if (auto children = t.find("children", Dialect::x3d)) {
+    const auto all = hierarchy_children(scene, n);
+    scene.set(n, scene.make(FieldType::MFNode, *children, std::vector<NodeId>{hidden(scene, n, all)}));
+    return true;
+  }
+  NodeId copy = scene.add(scene.type_id(n), scene.where(n));  // a Shape or an Inline
+  scene.set_fields(copy, std::vector<Value>(scene.fields(n).begin(), scene.fields(n).end()));
+  scene.become(n, nodes::Switch, std::vector<Value>{scene.make(FieldType::MFNode, nodes::switch_::children.slot, std::vector<NodeId>{copy})});
+  return true;
+}
+
+}  // namespace
+
+bool lower_group(Scene& scene, NodeId n) {
+  const bool renamed = rename_group(scene, n);
+  return hide(scene, n) || renamed;
+}
+
+}  // namespace wrlkit::x3d

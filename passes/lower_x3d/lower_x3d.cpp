@@ -1,0 +1,54 @@
+#include "passes/lower_x3d/lower_x3d.h"
+
+#include "passes/lower_x3d/appearance.h"
+#include "passes/lower_x3d/geo.h"
+#include "passes/lower_x3d/geometry.h"
+#include "passes/lower_x3d/groups.h"
+#include "passes/lower_x3d/hanim.h"
+#include "passes/lower_x3d/interpolators.h"
+#include "passes/lower_x3d/materials.h"
+#include "passes/lower_x3d/nurbs_geometry.h"
+#include "passes/lower_x3d/product.h"
+#include "passes/lower_x3d/vrml97.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+/// Curves last: surfaces and interpolators are made with them.
+bool lower_curves(Scene& scene, const LowerX3dOptions& options, Diagnostics& diag) {
+  bool changed = false;
+  for (bool last : {false, true})
+    for (NodeId n : all_nodes(scene)) {
+      const auto& type = scene.type(n);
+      const bool curve = scene.is(n, nodes::NurbsCurve) || scene.is(n, nodes::CoordinateDouble);
+      if (type.kind != NodeKind::builtin || curve != last) continue;
+      if (!x3d::lower_nurbs(scene, n, options.tolerance, diag) && !x3d::lower_nurbs_interpolator(scene, n, options.tolerance, diag)) continue;
+      if (options.vrml97 && type.name != "CoordinateDouble") diag.report(Diag::no_vrml97_curve, scene.where(n), type.name);
+      changed = true;
+    }
+  return changed;
+}
+
+}  // namespace
+
+Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx) {
+  bool changed = x3d::place_on_earth(scene, ctx.diag);
+  changed |= lower_curves(scene, options, ctx.diag);
+  changed |= x3d::lower_interpolators(scene, options.vrml97, ctx.diag);
+  for (NodeId n : all_nodes(scene)) {
+    if (!options.vrml97) changed |= x3d::lower_humanoid(scene, n, ctx.diag);  // text keeps them
+    if (scene.type(n).kind != NodeKind::builtin) continue;
+    changed |= x3d::lower_geometry(scene, n);
+    changed |= x3d::lower_appearance(scene, n, ctx.diag);
+    changed |= x3d::lower_group(scene, n);
+  }
+  const bool all = options.vrml97 && !options.defer_colors;
+  if (all) changed |= x3d::lower_products(scene, ctx);
+  if (options.materials || all) changed |= x3d::lower_materials(scene, all, ctx.diag);
+  if (all) changed |= x3d::lower_to_vrml97(scene, ctx.diag);
+  return changed ? Outcome::changed : Outcome::unchanged;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,174 @@
+#include "passes/lower_x3d/vrml97.h"
+
+#include <algorithm>
+#include <map>
+
+#include "passes/lower_x3d/geometry.h"
+#include "scenegraph/equal.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit::x3d {
+namespace {
+
+constexpr auto in_vrml97 = static_cast<DialectSet>(Dialect::vrml97);
+
+bool equals_default(const Value& v, const FieldDef& f) {
+  if (info(f.type).element == Element::node) return v.node_span().empty();
+  return equal_plain(v, f.default_value);
+}
+
+class Lowering {
+ public:
+  Lowering(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
+
+  bool run() {
+    const auto all = all_nodes(scene_);
+    for (NodeId n : all) color(n);
+    for (NodeId n : all) foreign_children(n);
+    for (NodeId n : all) foreign_fields(n);
+    for (NodeId n : all) foreign_node(n);
+    routes(scene_.main);
+    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) interface(ProtoId{i}), routes(scene_.proto(ProtoId{i}).body);
+    report();
+    return head() || changed_;
+  }
+
+ private:
+  bool builtin(NodeId n) const { return scene_.type(n).kind == NodeKind::builtin; }
+  bool foreign(NodeId n) const { return n && builtin(n) && !(scene_.type(n).dialects & in_vrml97); }
+
+  void color(NodeId n) {
+    if (!scene_.is(n, nodes::ColorRGBA)) return;
+    std::vector<double> rgb;
+    const auto rgba = scene_.get(n, nodes::color_rgba::color);
+    bool opaque = true;
+    for (std::size_t i = 0; i < rgba.size(); ++i) {
+      if (i % 4 < 3) rgb.push_back(rgba[i]);
+      else opaque &= rgba[i] == 1;
+    }
+    if (!opaque) diag_.report(Diag::no_vrml97_value, scene_.where(n), "ColorRGBA", "color (opacity)");
+    auto fields = fields_for(scene_, n, nodes::Color);
+    fields.push_back(scene_.make(FieldType::MFColor, nodes::color::color.slot, rgb));
+    scene_.become(n, nodes::Color, fields);
+    changed_ = true;
+  }
+
+  // ---- what has none ----
+  void lose(NodeId n) { lose(n, scene_.type(n).name); }
+  void lose(NodeId n, std::string_view what) { if (lost_.empty()) first_lost_ = scene_.where(n); ++lost_[what]; }
+
+  /// Nodes that VRML97 does not have, in fields that it has.
+  void foreign_children(NodeId n) {
+    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    for (const Value& v : fields) {
+      if (scene_.is_extra(v) || v.is || info(v.type).element != Element::node) continue;
+      auto stays = [&](NodeId c) { return !foreign(c) || scene_.type(c).is_a("X3DChildNode"); };
+      const auto held = v.node_span();
+      if (std::ranges::all_of(held, stays)) continue;
+      std::vector<NodeId> kept;
+      for (NodeId c : held) stays(c) ? kept.push_back(c) : lose(c);
+      if (v.type == FieldType::SFNode || kept.empty()) scene_.unset(n, v.slot);
+      else scene_.set(n, scene_.make(v.type, v.slot, kept));
+      changed_ = true;
+    }
+  }
+
+  void foreign_fields(NodeId n) {
+    const auto& t = scene_.type(n);
+    if (t.kind != NodeKind::builtin && t.kind != NodeKind::script) return;
+    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    for (const Value& v : fields) {
+      if (scene_.is_extra(v) || t.fields[v.slot].is_own() || (t.fields[v.slot].dialects & in_vrml97)) continue;
+      const auto& f = t.fields[v.slot];
+      if (v.is || !equals_default(v, f)) diag_.report(Diag::no_vrml97_value, scene_.where(n), t.name, f.name);
+      scene_.unset(n, v.slot);
+      changed_ = true;
+    }
+  }
+
+  /// Children of groups: an empty Group of that name, so that USE still finds something.
+  void foreign_node(NodeId n) {
+    if (!foreign(n) || !scene_.type(n).is_a("X3DChildNode")) return;
+    lose(n);
+    dropped_.resize(scene_.node_count());
+    dropped_[n.value] = 1;
+    scene_.become(n, nodes::Group, {});
+    changed_ = true;
+  }
+
+  void interface(ProtoId p) {
+    const auto& t = scene_.type(scene_.proto(p).type);
+    constexpr FieldType known[] = {FieldType::SFBool, FieldType::SFInt32, FieldType::MFInt32, FieldType::SFFloat, FieldType::MFFloat, FieldType::SFTime, FieldType::MFTime, FieldType::SFVec2f, FieldType::MFVec2f, FieldType::SFVec3f, FieldType::MFVec3f, FieldType::SFColor, FieldType::MFColor, FieldType::SFRotation, FieldType::MFRotation, FieldType::SFString, FieldType::MFString, FieldType::SFNode, FieldType::MFNode, FieldType::SFImage};
+    for (const auto& f : t.fields)
+      if (std::ranges::find(known, f.type) == std::end(known)) diag_.report(Diag::no_vrml97_value, scene_.proto(p).where, t.name, std::string(f.name) + " (" + std::string(info(f.type).name) + ")");
+  }
+
+  // ---- ROUTEs ----
+  void links(Scope& s) {
+    dropped_.resize(scene_.node_count());
+    for (const Import& i : s.imports) lose(i.node), dropped_[i.node.value] = 1;
+    for (const Export& e : s.exports) lose(e.node, "EXPORT");
+    changed_ |= !s.imports.empty() || !s.exports.empty();
+    s.imports.clear(), s.exports.clear();
+  }
+
+  bool is_dropped(NodeId n) const { return n.value < dropped_.size() && dropped_[n.value]; }
+
+  /// The event under its VRML97 name; empty: VRML97 has none.
+  std::string_view event(NodeId n, std::string_view name) {
+    const auto& t = scene_.type(n);
+    if (t.kind != NodeKind::builtin) return name;
+    auto slot = t.find(name, scene_.dialect(), true);
+    if (!slot) return name;
+    const auto& f = t.fields[*slot];
+    if (!(f.dialects & in_vrml97)) return {};
+    if (f.vrml97_name.empty() || scene_.dialect() == Dialect::vrml97) return name;
+    std::string s(name);
+    s.replace(s.find(f.name), f.name.size(), f.vrml97_name);
+    return scene_.keep(s);
+  }
+
+  void routes(Scope& s) {
+    links(s);
+    std::vector<Route> kept;
+    for (Route r : s.routes) {
+      const Route old = r;
+      r.event_out = event(r.from, r.event_out), r.event_in = event(r.to, r.event_in);
+      if (is_dropped(r.from) || is_dropped(r.to)) { ++lost_["ROUTE"]; continue; }
+      if (r.event_out.empty()) { diag_.report(Diag::no_vrml97_value, scene_.where(r.from), scene_.type(r.from).name, old.event_out); continue; }
+      if (r.event_in.empty()) { diag_.report(Diag::no_vrml97_value, scene_.where(r.to), scene_.type(r.to).name, old.event_in); continue; }
+      kept.push_back(r);
+    }
+    changed_ |= kept != s.routes;
+    s.routes = std::move(kept);
+  }
+
+  void report() {
+    std::string types;
+    for (const auto& [type, n] : lost_) (types += types.empty() ? "" : ", ") += std::string(type) + (n > 1 ? " (" + std::to_string(n) + ")" : "");
+    if (!lost_.empty()) diag_.report(Diag::no_vrml97_node, first_lost_, types);
+  }
+
+  bool head() {
+    if (scene_.format != Format::x3d_xml && scene_.format != Format::x3d_classic) return false;
+    auto line = [](std::string s) { std::ranges::replace_if(s, [](char c) { return c == '\n' || c == '\r'; }, ' '); return s; };
+    for (const auto& [name, content] : scene_.x3d.meta) scene_.comment += "# " + line(name) + ": " + line(content) + "\n";
+    scene_.x3d = {};
+    scene_.format = Format::vrml97;
+    return true;
+  }
+
+  Scene& scene_;
+  Diagnostics& diag_;
+  std::map<std::string_view, std::size_t> lost_;
+  Span first_lost_;
+  std::vector<char> dropped_;
+  bool changed_ = false;
+};
+
+}  // namespace
+
+bool lower_to_vrml97(Scene& scene, Diagnostics& diag) { return Lowering(scene, diag).run(); }
+
+}  // namespace wrlkit::x3d

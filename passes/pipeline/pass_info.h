@@ -1,0 +1,114 @@
+// Makes a registry line out of a pass: pass<weld, WeldOptions>("weld", "join equal vertices", ...). The options describe
+// themselves through fields(); everything else is derived here.
+#pragma once
+#include <charconv>
+#include <type_traits>
+
+#include "passes/pipeline/option_range.h"
+#include "passes/pipeline/pipeline.h"
+#include "base/text/nearest_name.h"
+
+namespace wrlkit {
+namespace option_text {
+
+inline std::string_view type_name(const bool&) { return "bool"; }
+inline std::string_view type_name(const int&) { return "integer"; }
+inline std::string_view type_name(const double&) { return "number"; }
+inline std::string_view type_name(const std::string&) { return "text"; }
+
+inline std::string print(bool v) { return v ? "true" : "false"; }
+inline std::string print(const std::string& v) { return v; }
+template <class N>
+  requires std::is_arithmetic_v<N>
+std::string print(N v) {
+  char b[40];
+  return {b, std::to_chars(b, b + sizeof b, v).ptr};
+}
+
+inline bool read(std::string_view s, bool& v) {
+  if (s == "true" || s == "false") return v = s == "true", true;
+  return false;
+}
+inline bool read(std::string_view s, std::string& v) { return v = s, true; }
+template <class N>
+  requires std::is_arithmetic_v<N>
+bool read(std::string_view s, N& v) {
+  auto r = std::from_chars(s.data(), s.data() + s.size(), v);
+  return r.ec == std::errc{} && r.ptr == s.data() + s.size();
+}
+
+/// "0 to 1", "at least 0"; empty when every number will do.
+inline std::string print(OptionRange r) {
+  if (r.most != OptionRange::none) return print(r.least) + " to " + print(r.most);
+  return r.least != -OptionRange::none ? "at least " + print(r.least) : std::string();
+}
+template <class T>
+bool in_range(const T& v, OptionRange r) {
+  if constexpr (std::is_arithmetic_v<T>) return r.contains(v);
+  else return true;
+}
+
+/// A type made for options says these itself: weld.h has one.
+template <class T>
+std::string_view type_name(const T&) { return T::type; }
+template <class T>
+  requires requires(const T& v) { v.print(); }
+std::string print(const T& v) { return v.print(); }
+template <class T>
+  requires requires(T& v) { v.read(std::string_view{}); }
+bool read(std::string_view s, T& v) { return v.read(s); }
+
+template <class T>
+OptionInfo describe(std::string_view name, const T& value, std::string_view help, OptionRange range) {
+  return {std::string(name), std::string(type_name(value)), print(value), std::string(help), print(range)};
+}
+
+}  // namespace option_text
+
+template <auto Function, class Options>
+class PassOf final : public PassInstance {
+  static constexpr bool mesh = std::is_invocable_v<decltype(Function), MeshJob&, const Options&>;
+
+ public:
+  bool is_mesh_pass() const override { return mesh; }
+  Outcome run([[maybe_unused]] Scene& scene, [[maybe_unused]] PassContext& ctx) const override {
+    if constexpr (mesh) return Outcome::failed;
+    else return Function(scene, options_, ctx);
+  }
+  Outcome run([[maybe_unused]] MeshJob& job) const override {
+    if constexpr (mesh) return Function(job, options_);
+    else return Outcome::failed;
+  }
+  bool set(std::string_view option, std::string_view value, std::string& why) override {
+    bool found = false;
+    NearestName nearest(option);
+    options_.fields([&](std::string_view name, auto& field, std::string_view help, OptionRange range = {}) {
+      nearest.consider(name);
+      if (name != option) return;
+      found = true;
+      auto given = field;
+      if (option_text::read(value, given) && option_text::in_range(given, range)) return why.clear(), void(field = std::move(given));
+      why = "option '" + std::string(option) + "': '" + std::string(value) + "' is no value for it: " + option_text::describe(name, field, help, range).type_and_range();
+    });
+    if (!found) why = "has no option '" + std::string(option) + "'" + nearest.question();
+    return why.empty();
+  }
+  std::vector<OptionInfo> options() const override {
+    std::vector<OptionInfo> out;
+    Options copy = options_;
+    copy.fields([&](std::string_view name, auto& field, std::string_view help, OptionRange range = {}) {
+      out.push_back(option_text::describe(name, field, help, range));
+    });
+    return out;
+  }
+
+ private:
+  Options options_;
+};
+
+template <auto Function, class Options>
+constexpr PassInfo pass(std::string_view name, std::string_view summary, Level needs, Level leaves) {
+  return {name, summary, needs, leaves, [](const PassInfo&) -> std::unique_ptr<PassInstance> { return std::make_unique<PassOf<Function, Options>>(); }};
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,77 @@
+#include "passes/prune/prune.h"
+
+#include <algorithm>
+
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+class Pruning {
+ public:
+  explicit Pruning(Scene& scene) : scene_(scene), order_(all_nodes(scene)), kept_(scene.node_count(), 0) {}
+
+  Outcome run() {
+    auto routes = [&](const Scope& s) {
+      for (auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = 1;
+      for (auto& e : s.exports) kept_[e.node.value] = 1;
+    };
+    routes(scene_.main);
+    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) routes(scene_.proto(ProtoId{i}).body);
+    // Children first, so that a group of empty groups goes as a whole.
+    for (auto n = order_.rbegin(); n != order_.rend(); ++n) prune_children(*n);
+    auto before = scene_.main.roots.size();
+    std::erase_if(scene_.main.roots, [&](NodeId n) { return useless(n); });
+    changed_ |= before != scene_.main.roots.size();
+    std::vector<char> here(scene_.node_count());
+    for (NodeId n : all_nodes(scene_)) here[n.value] = 1;
+    Scope& main = scene_.main;
+    for (const Import& i : main.imports) here[i.node.value] = here[i.inline_node.value];
+    changed_ |= std::erase_if(main.imports, [&](const Import& i) { return !here[i.node.value]; }) > 0;
+    changed_ |= std::erase_if(main.exports, [&](const Export& e) { return !here[e.node.value]; }) > 0;
+    changed_ |= std::erase_if(main.routes, [&](const Route& r) { return !here[r.from.value] || !here[r.to.value]; }) > 0;
+    return changed_ ? Outcome::changed : Outcome::unchanged;
+  }
+
+ private:
+  bool useless(NodeId n) const {
+    if (!n || kept_[n.value] || !scene_.name(n).empty()) return false;
+    for (auto& v : scene_.fields(n)) if (scene_.content(v).is || scene_.is_extra(v)) return false;
+    if (scene_.is(n, nodes::Shape)) return !scene_.get(n, nodes::shape::geometry);
+    if (scene_.is(n, nodes::Collision) && scene_.get(n, nodes::collision::proxy)) return false;  // not seen, but in the way
+    return is_group(n) && hierarchy_children(scene_, n).empty();
+  }
+
+  bool is_group(NodeId n) const {
+    constexpr TypeId groups[] = {nodes::Anchor, nodes::Billboard, nodes::Collision, nodes::Group, nodes::LOD, nodes::Switch, nodes::Transform};
+    return std::ranges::find(groups, scene_.type_id(n)) != std::end(groups);
+  }
+
+  void prune_children(NodeId n) {
+    const auto& t = scene_.type(n);
+    if (t.kind != NodeKind::builtin || scene_.is(n, nodes::Switch) || scene_.is(n, nodes::LOD)) return;
+    std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    bool any = false;
+    for (auto& v : fields) {
+      if (scene_.is_extra(v) || v.is || v.type != FieldType::MFNode) continue;
+      std::vector<NodeId> left;
+      std::ranges::copy_if(v.node_span(), std::back_inserter(left), [&](NodeId c) { return !useless(c); });
+      if (left.size() == v.count) continue;
+      v = scene_.make(FieldType::MFNode, v.slot, left);
+      any = true;
+    }
+    if (any) scene_.set_fields(n, fields), changed_ = true;
+  }
+
+  Scene& scene_;
+  std::vector<NodeId> order_;
+  std::vector<char> kept_;
+  bool changed_ = false;
+};
+
+}  // namespace
+
+Outcome prune(Scene& scene, const PruneOptions&, PassContext&) { return Pruning(scene).run(); }
+
+}  // namespace wrlkit

@@ -1,0 +1,17 @@
+// Polygons to triangles, before a mesh goes where there is nothing else.
+//
+//   before   coordIndex [ 0 1 2 3 -1  4 5 6 -1 ]
+//   after    coordIndex [ 0 1 2 -1  0 2 3 -1  4 5 6 -1 ]
+#pragma once
+#include "passes/pipeline/pass.h"
+
+namespace wrlkit {
+
+struct TriangulateOptions {
+  void fields(auto&&) {}
+};
+
+/// Cuts the faces of job.mesh into triangles: geometry/triangulation.h.
+Outcome triangulate(MeshJob& job, const TriangulateOptions& options);
+
+}  // namespace wrlkit

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/cli/flags.h"
+#include "tools/cli/recipe.h"
+
+namespace wrlkit {
+
+/// Reads the words of a command line, runs the verb and returns the exit code.
+int run_command_line(int argc, char** argv);
+/// The same as a whole program: what is thrown is said, and what could not be printed. Throws NeedsPython alone.
+int run_program(int argc, char** argv);
+
+inline constexpr std::string_view flag_type = "true or false";
+struct OptionHelp {
+  std::string name;  // the long one, without "--"
+  std::string type;  // "FILE", "{m,cm,mm}", "UINT in [0 - 17]", flag_type
+  std::string help;
+};
+/// The options of a verb, in the order of its help.
+std::vector<OptionHelp> options_of(std::string_view verb);
+/// Whether that option of a verb may be given so; else why not.
+bool check_option(std::string_view verb, std::string_view option, const std::vector<std::string>& values, std::string& why);
+
+/// The flags of a convert that does what a recipe says. The recipe has been read, so it says what convert understands.
+Flags conversion_flags(const Recipe& recipe);
+
+std::string_view program_version();
+
+/// "8G", "800M" to bytes; 0 when it is no size.
+std::uint64_t size_of(const std::string& text);
+/// "90s", "10m", "2h" in seconds; 0 when it is no time.
+double seconds_of(const std::string& text);
+
+}  // namespace wrlkit

@@ -1,0 +1,170 @@
+#include "tools/verbs/documentation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/text/json.h"
+
+namespace wrlkit {
+namespace {
+
+std::string_view access_word(Access a) {
+  constexpr std::string_view words[] = {"field", "exposedField", "eventIn", "eventOut"};
+  return words[static_cast<int>(a)];
+}
+
+std::string level_word(Level l) { return l == Level::authored ? "authored" : l == Level::expanded ? "expanded" : "mesh"; }
+
+std::string range_text(const Range& r) {
+  if (!r.bounded()) return "";
+  auto end = [](double v) { return std::isinf(v) ? std::string(v < 0 ? "-inf" : "inf") : fmt::format("{:g}", v); };
+  return fmt::format("{}{},{}{}", r.low_open ? "(" : "[", end(r.low), end(r.high), r.high_open ? ")" : "]");
+}
+
+std::string kinds_text(const FieldDef& f) {
+  std::string out;
+  for (auto k : f.kinds) out += (out.empty() ? "" : ", ") + std::string(k);
+  return out;
+}
+
+/// Range, unit, kinds: what limits a value; and whether it is a field of wrlkit's own.
+std::string limits_text(const FieldDef& f) {
+  std::string out = range_text(f.range);
+  for (const auto& part : {std::string(f.unit), kinds_text(f), std::string(f.is_own() ? "(wrlkit's own)" : "")})
+    if (!part.empty()) out += (out.empty() ? "" : " ") + part;
+  return out;
+}
+
+/// What the field says, and in which dialect it is otherwise.
+std::string doc_text(const NodeType& t, const FieldDef& f) {
+  constexpr auto vrml97 = static_cast<DialectSet>(Dialect::vrml97);
+  std::string out(f.doc);
+  if ((t.dialects & vrml97) && !(f.dialects & vrml97)) out = "X3D: " + out;
+  if (f.since) out += fmt::format(" (X3D {}.{})", f.since / 10, f.since % 10);
+  if (!f.vrml97_name.empty()) out += fmt::format("; in X3D {}", f.name);
+  if (f.x3d_from) out += fmt::format("; another default in X3D {}.{}", f.x3d_from / 10, f.x3d_from % 10);
+  return out;
+}
+
+struct FormatRow {
+  std::string_view name, extensions, read, write;
+};
+constexpr FormatRow formats[] = {
+    {"VRML97", ".wrl .wrz .wrl.gz .vrml", "yes, gzip by its first bytes", "yes, --gzip"},
+    {"VRML 1.0", ".wrl .wrz .wrl.gz .iv", "yes, Inventor 2 ASCII too", "no"},
+    {"X3D XML", ".x3d .x3dz", "yes, versions 3.0 to 4.0, gzip", "yes, 3.3 or 4.0, --gzip"},
+    {"X3D VRML", ".x3dv .x3dvz", "yes, versions 3.0 to 4.0, gzip", "no"},
+    {"glTF 2.0", ".gltf", "yes, by its asset", "yes, --compress, optimize"},
+    {"GLB", ".glb", "yes, by its first bytes", "yes, --compress, optimize"},
+    {"patches", ".xml", "yes", "illuminate"},
+    {"pictures", "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR", "as textures", "PNG, JPEG, WebP, EXR"},
+};
+
+}  // namespace
+
+std::string type_text(const NodeType& t) {
+  std::string out = fmt::format("{}  ({})\n  {}\n", t.name, t.clauses, t.doc);
+  std::string bases;
+  for (auto b : t.bases) bases += (bases.empty() ? "" : ", ") + std::string(b);
+  out += fmt::format("  is a {}\n\n", bases);
+  for (auto& f : t.fields) {
+    auto name = f.name_in(Dialect::vrml97);
+    out += fmt::format("  {:<13}{:<11}{:<18}{:<14} {:<16} {}\n", access_word(f.access), info(f.type).name, name, f.default_text, limits_text(f), doc_text(t, f));
+  }
+  return out;
+}
+
+std::string pass_text(const PassInfo& p) {
+  std::string out = fmt::format("{}: {}\n  needs level {}, leaves level {}\n", p.name, p.summary, level_word(p.needs), level_word(p.leaves));
+  for (auto& o : p.make()->options()) out += fmt::format("  {:<18} {:<28} {:<14} {}\n", o.name, o.type_and_range(), o.value, o.help);
+  if (!p.doc.empty()) out += fmt::format("\n{}\n", p.doc);
+  return out;
+}
+
+std::string diagnostic_text(Diag d) {
+  return fmt::format("{} [{}]: {}\n  -Wno-{} drops it, -Werror={} makes it an error.\n", to_string(info(d).severity), info(d).name, info(d).text, info(d).name, info(d).name);
+}
+
+std::string formats_text() {
+  std::string out = fmt::format("{:<10}{:<40}{:<32}{}\n", "format", "extensions", "read", "write");
+  for (auto& f : formats) out += fmt::format("{:<10}{:<40}{:<32}{}\n", f.name, f.extensions, f.read, f.write);
+  return out;
+}
+
+std::string formats_json() {
+  std::string out;
+  JsonOut json(out);
+  json.begin_array();
+  for (auto& f : formats) {
+    json.begin_object();
+    json.member("name", f.name);
+    json.member("extensions", f.extensions);
+    json.member("read", f.read);
+    json.member("write", f.write);
+    json.end_object();
+  }
+  json.end_array();
+  return out;
+}
+
+std::string passes_json() {
+  std::string out;
+  JsonOut json(out);
+  json.begin_array();
+  for (auto& p : passes()) {
+    json.begin_object();
+    json.member("name", p.name);
+    json.member("summary", p.summary);
+    json.member("needs", level_word(p.needs));
+    json.member("leaves", level_word(p.leaves));
+    json.key("options");
+    json.begin_array();
+    for (auto& o : p.make()->options()) {
+      json.begin_object();
+      json.member("name", o.name);
+      json.member("type", o.type);
+      if (!o.range.empty()) json.member("range", o.range);
+      json.member("default", o.value);
+      json.member("help", o.help);
+      json.end_object();
+    }
+    json.end_array();
+    json.end_object();
+  }
+  json.end_array();
+  return out;
+}
+
+std::string nodes_page() {
+  std::string out = "# Node types\n\nGenerated from `scenegraph/nodes/*.nodes` by `script/docs`; do not edit.\n";
+  for (auto& t : builtin_nodes()) {
+    out += fmt::format("\n## {}\n\n{} ({})\n\n| access | type | name | default | range, unit, kinds | |\n|---|---|---|---|---|---|\n", t.name, t.doc, t.clauses);
+    for (auto& f : t.fields) out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", access_word(f.access), info(f.type).name, f.name_in(Dialect::vrml97), f.default_text, limits_text(f), doc_text(t, f));
+  }
+  return out;
+}
+
+std::string passes_page() {
+  std::string out = "# Passes\n\nGenerated from the registry by `script/docs`; do not edit. Each header in `passes/` says more, with an example.\n";
+  for (auto& p : passes()) {
+    out += fmt::format("\n## {}\n\n{}. Needs level *{}*, leaves level *{}*.\n", p.name, p.summary, level_word(p.needs), level_word(p.leaves));
+    auto options = p.make()->options();
+    if (!options.empty()) out += "\n| option | type | default | |\n|---|---|---|---|\n";
+    for (auto& o : options) out += fmt::format("| {} | {} | {} | {} |\n", o.name, o.type_and_range(), o.value, o.help);
+  }
+  out += "\n## Pipelines with a name\n\n| name | passes | |\n|---|---|---|\n";
+  for (auto& n : named_pipelines()) out += fmt::format("| {} | `{}` | {} |\n", n.name, n.text, n.summary);
+  return out;
+}
+
+std::string diagnostics_page() {
+  std::string out = "# Messages\n\nGenerated from `base/diagnostics.def` by `script/docs`; do not edit.\n\n| name | severity | text |\n|---|---|---|\n";
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i) {
+    auto& d = info(static_cast<Diag>(i));
+    out += fmt::format("| {} | {} | {} |\n", d.name, to_string(d.severity), d.text);
+  }
+  return out;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,79 @@
+#include "tools/verbs/patches_info.h"
+
+#include <fmt/format.h>
+
+#include "parsers/patches/patches.h"
+#include "light/render/linear.h"
+#include "tools/geometry_census.h"
+#include "base/text/json.h"
+
+namespace wrlkit {
+namespace {
+
+using drawing::V3;
+
+struct PatchesInfo {
+  Bounds bounds;
+  double area = 0;
+  Vec3 radiance{};  // mean over the area
+  std::size_t n_back = 0;
+};
+
+PatchesInfo measure(const PatchSet& set) {
+  PatchesInfo o;
+  V3 sum;
+  for (const auto& p : set.patches) {
+    const V3 a = p.corners[0], b = p.corners[1], c = p.corners[2];
+    const double area = 0.5 * length(cross(b - a, c - a));
+    for (const auto& v : p.corners) o.bounds.add(v);
+    o.area += area;
+    o.n_back += p.back;
+    sum += area * V3(p.rgb[0], p.rgb[1], p.rgb[2]);
+  }
+  if (o.area > 0) o.radiance = {sum.x / o.area, sum.y / o.area, sum.z / o.area};
+  return o;
+}
+
+std::string as_json(const std::string& path, const FileText& file, const PatchSet& set, const PatchesInfo& o) {
+  std::string out;
+  JsonOut json(out);
+  json.begin_object();
+  json.member("file", path);
+  json.member("format", "patches");
+  json.member("bytes", file.bytes_on_disk);
+  json.member("source", set.source);
+  json.member("method", set.method);
+  json.member("samples", set.samples);
+  json.member("shapes", set.shapes.size());
+  json.member("triangles", set.triangles.size());
+  json.member("patches", set.patches.size());
+  json.member("back", o.n_back);
+  json.member("area", o.area);
+  json.member("radiance", std::span<const double>(o.radiance));
+  json.end_object();
+  return out;
+}
+
+std::string as_text(const std::string& path, const FileText& file, const PatchSet& set, const PatchesInfo& o) {
+  std::string out = fmt::format("{}: patches, {} bytes\n", path, file.bytes_on_disk);
+  if (!set.source.empty()) out += fmt::format("  of {}{}{}{}\n", set.source, set.method.empty() ? "" : ", by ", set.method, set.samples ? fmt::format(", {} samples", set.samples) : "");
+  out += fmt::format("  shapes {}, triangles {}, patches {}", set.shapes.size(), set.triangles.size(), set.patches.size());
+  if (o.n_back) out += fmt::format(", of them {} on back sides", o.n_back);
+  const auto& b = o.bounds;
+  if (!b.empty()) out += fmt::format("\n  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}", b.min[0], b.min[1], b.min[2], b.max[0], b.max[1], b.max[2]);
+  return out + fmt::format("\n  area {:.6g} m2, mean radiance {:.4g} {:.4g} {:.4g}\n", o.area, o.radiance[0], o.radiance[1], o.radiance[2]);
+}
+
+}  // namespace
+
+int print_patches_info(Session& s, const FileText& file) {
+  const auto set = parse_patches(file, s.diag());
+  if (!set) return s.end(false);
+  const auto& path = s.flags().inputs[0];
+  const auto measured = measure(*set);
+  if (s.flags().json) fmt::print("{}\n", as_json(path, file, *set, measured));
+  else fmt::print("{}", as_text(path, file, *set, measured));
+  return s.end(true);
+}
+
+}  // namespace wrlkit

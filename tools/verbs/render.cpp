@@ -1,0 +1,120 @@
+// wrlkit render: a picture of a world; of a world from all sides; of two worlds and how they differ; of many worlds.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "base/image/image_animation.h"
+#include "tools/verbs/render_sheets.h"
+#include "base/io/output.h"
+
+namespace wrlkit {
+
+MeshSource open_world(Session& s, const std::string& input) {
+  if (!s.read(input)) return {};
+  return s.pipeline().run_lazily(s.world().scene, s.context(), s.pipeline_options());
+}
+
+Image draw(Session& s, const MeshSource& meshes, RenderOptions options, std::string name, Diagnostics* diag) {
+  const bool path = options.mode == RenderOptions::Mode::path;
+  const auto pixels = static_cast<double>(options.width) * options.height;
+  s.progress().begin(std::move(name), path ? static_cast<std::uint64_t>(pixels) : 0, path ? "pixels" : "");
+  if (path) options.done = [&](double share) { s.progress().set(static_cast<std::uint64_t>(share * pixels)); };
+  return render(s.world().scene, meshes, options, &s.resources(), diag ? *diag : s.diag());
+}
+
+namespace {
+
+bool write_bytes(Session& s, std::string_view bytes, const std::string& name) {
+  auto file = OutputFile::open(name, {}, s.diag());
+  if (!file) return false;
+  file->write(bytes);
+  return file->commit(s.diag());
+}
+
+}  // namespace
+
+bool write_picture(Session& s, const Image& picture, const std::string& name) {
+  std::string why;
+  auto bytes = encode_as(name == "-" ? ".png" : name, picture, why);
+  if (!bytes) return s.diag().report(Diag::cannot_write, {}, name, why), false;
+  return write_bytes(s, *bytes, name);
+}
+
+namespace {
+
+bool render_one(Session& s) {
+  const auto meshes = open_world(s, s.flags().inputs[0]);
+  if (!meshes) return false;
+  return write_picture(s, draw(s, meshes, render_options(s.flags()), "picture"), s.flags().output);
+}
+
+/// "pump.png", 7: "pump_007.png".
+std::string numbered(const std::string& name, int i) {
+  const std::filesystem::path path(name);
+  return (path.parent_path() / fmt::format("{}_{:03}{}", path.stem().string(), i, path.extension().string())).string();
+}
+
+/// Pictures of a round, in a file each or as one animation.
+class Turntable {
+ public:
+  explicit Turntable(Session& s) : s_(s), name_(s.flags().output) {}
+
+  bool make() {
+    const auto meshes = open_world(s_, s_.flags().inputs[0]);
+    if (!meshes) return false;
+    // What is to be said about the world is said with the first picture.
+    Diagnostics unheard(s_.diag().shared_sources());
+    int i = 0;
+    for (const auto& options : turntable(s_.world().scene, meshes, render_options(s_.flags()), s_.flags().turntable, s_.diag())) {
+      if (!take(draw(s_, meshes, options, fmt::format("picture {}", i), i == 0 ? nullptr : &unheard), i)) return false;
+      ++i;
+    }
+    return !animation_ || end();
+  }
+
+ private:
+  static constexpr int milliseconds = 80;  // of each picture: 36 of them go round in 2.9 s
+
+  bool take(const Image& picture, int i) {
+    if (!name_.ends_with(".webp")) return write_picture(s_, picture, numbered(name_, i));
+    std::string why;
+    if (!animation_) animation_ = begin_webp_animation(milliseconds, why);
+    if (animation_ && animation_->add(picture, why)) return true;
+    return s_.diag().report(Diag::cannot_write, {}, name_, why), false;
+  }
+
+  bool end() {
+    std::string why;
+    const auto bytes = animation_->finish(why);
+    if (!bytes) return s_.diag().report(Diag::cannot_write, {}, name_, why), false;
+    return write_bytes(s_, *bytes, name_);
+  }
+
+  Session& s_;
+  const std::string& name_;
+  std::unique_ptr<PictureAnimation> animation_;
+};
+
+bool is_usable(const Flags& f, bool sheet) {
+  auto fault = [](std::string_view why) { return fmt::print(stderr, "wrlkit render: {}\n", why), false; };
+  if (!can_encode_as(f.output) && f.output != "-") return fmt::print(stderr, "wrlkit: '{}': pictures are written as .png, .jpg or .webp\n", f.output), false;
+  if (sheet + !f.compare.empty() + (f.turntable > 0) > 1) return fault("several worlds, --compare or --turntable, one of them");
+  if (f.turntable > 0 && f.output == "-") return fault("--turntable: pictures in a series need a name");
+  return true;
+}
+
+}  // namespace
+
+int run_render(const Flags& flags) {
+  Session s(flags);
+  const bool sheet = is_sheet(flags);
+  if (!is_usable(flags, sheet) || !s.good() || !s.choose_pipeline("picture")) return usage;
+  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
+  if (sheet) return render_sheet(s);
+  const bool made = !flags.compare.empty() ? render_comparison(s) : flags.turntable > 0 ? Turntable(s).make() : render_one(s);
+  s.progress().clear();
+  if (made && flags.verbose && flags.mode == "density") fmt::print(stderr, "texels a metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n", most_texels_per_metre);
+  return s.end(made);
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,25 @@
+// What render does with more than one world.
+#pragma once
+#include <string>
+
+#include "tools/verbs/render_options.h"
+#include "tools/cli/session.h"
+
+namespace wrlkit {
+
+/// Reads a world, in place of the one before, and runs the pipeline; null when nothing can be had.
+MeshSource open_world(Session&, const std::string& input);
+/// A picture of the world that is open; --mode path says how far it is, as `name`. `diag`: where messages go, if not to the session's.
+Image draw(Session&, const MeshSource&, RenderOptions, std::string name, Diagnostics* diag = nullptr);
+/// In the format of its name; false when not, which is reported.
+bool write_picture(Session&, const Image&, const std::string& name);
+
+/// The inputs are several worlds.
+bool is_sheet(const Flags&);
+/// A picture of each, with its name. What cannot be read has its place, too. Returns the exit code.
+int render_sheet(Session&);
+
+/// Both worlds of --compare and the difference of their pictures.
+bool render_comparison(Session&);
+
+}  // namespace wrlkit

@@ -1,0 +1,192 @@
+// wrlkit view: a page that shows a world, or two beside each other. The worlds go into it as glTF, with everything that
+// glTF cannot say in extras; what a simplification does goes into it as progressive meshes.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+
+#include "geometry/progressive/progressive_world.h"
+#include "tools/report/deviation_map.h"
+#include "tools/verbs/serve.h"
+#include "tools/cli/session.h"
+#include "tools/shown_surface.h"
+#include "tools/verbs/viewer_page.h"
+#include "writers/gltf/gltf.h"
+#include "base/text/json.h"
+#include "base/io/output.h"
+
+namespace wrlkit {
+namespace {
+
+/// Surfaces without loose faces, as `simplify --progressive` makes them.
+constexpr std::string_view surfaces_pipeline = "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
+/// Baked light stays apart from the colours, so that each can be looked at alone.
+constexpr std::string_view world_pipeline = "gltf-light";
+
+std::vector<std::string> usual_criteria() { return {"length-normal", "melax", "lindstrom-turk"}; }
+constexpr std::size_t usual_most_triangles = 300'000;  // of the usual criteria: seconds, and a few megabytes each
+
+class Viewer {
+ public:
+  explicit Viewer(Session& s) : s_(s) {}
+
+  /// False when a world cannot be had.
+  bool fill() {
+    for (const auto& input : s_.flags().inputs)
+      if (!s_.read(input) || !add_world(input)) return false;
+    if (surfaces_.size() == 2) compare();
+    return true;
+  }
+  ViewerPage& page() { return page_; }
+
+ private:
+  bool add_world(const std::string& input) {
+    const Scene authored = s_.world().scene;
+    auto& world = page_.worlds.emplace_back();
+    world.name = std::filesystem::path(input).filename().string();
+    Scene& scene = s_.world().scene;
+    const auto meshes = s_.pipeline().run_lazily(scene, s_.context(), s_.pipeline_options());
+    if (!meshes) return false;
+    std::size_t n_triangles = 0;
+    const bool compared = s_.flags().inputs.size() == 2;
+    if (compared) surfaces_.push_back(std::make_unique<ShownSurface>(scene, s_.diag()));
+    auto counted = [&](NodeId n) -> const Mesh& {
+      const Mesh& mesh = meshes(n);
+      n_triangles += mesh.is_triangles() ? mesh.n_faces() : 0;
+      if (compared) surfaces_.back()->add(n, mesh);
+      return mesh;
+    };
+    const GltfOptions options{.lightmaps = GltfOptions::Lightmaps::extras};
+    auto take = [&](std::string_view bytes) { world.glb += bytes; };
+    if (!write_glb(scene, counted, options, &s_.resources(), take, s_.diag())) return false;
+    const bool usual = s_.flags().criteria.empty();
+    if (!usual || (!compared && n_triangles <= usual_most_triangles))
+      for (const auto& criterion : usual ? usual_criteria() : s_.flags().criteria) add_collapse(authored, criterion);
+    return true;
+  }
+
+  void add_collapse(Scene scene, const std::string& name) {
+    CriterionName criterion;
+    criterion.read(name);
+    if (criterion.value == Criterion::meshopt || page_.worlds.size() > 1) return;
+    s_.progress().begin("collapsing by " + name, 0, "");
+    Diagnostics unheard(s_.diag().shared_sources());
+    PassContext silent{unheard, s_.context().stats, &s_.resources()};
+    std::string why;
+    if (!Pipeline::parse(surfaces_pipeline, why)->run(scene, silent)) return;
+    const auto surfaces = progressive_surfaces(scene, criterion.value, silent);
+    if (!surfaces.empty()) page_.collapses.push_back({name, write_progressive_world(surfaces)});
+  }
+
+  /// Nothing is measured when there is no surface in one of them, or too much.
+  void compare() {
+    const auto &a = *surfaces_[0], &b = *surfaces_[1];
+    if (!a.complete() || !b.complete() || a.triangles().size() == 0 || b.triangles().size() == 0) return;
+    s_.progress().begin("comparing", 0, "");
+    page_.apart = ViewerPage::Apart{measure_deviation(a.triangles(), b.triangles()),
+                                    {deviation_map(a.triangles(), b.triangles()), deviation_map(b.triangles(), a.triangles())}};
+  }
+
+  Session& s_;
+  ViewerPage page_;
+  std::vector<std::unique_ptr<ShownSurface>> surfaces_;  // when two are compared
+};
+
+bool is_usable(const Flags& f) {
+  if (f.output.empty() && !f.serve) return fmt::print(stderr, "wrlkit view: -o FILE or --serve is needed\n"), false;
+  for (const auto& name : f.criteria)
+    if (name == "meshopt") return fmt::print(stderr, "wrlkit view: --criteria: meshopt keeps no record of its steps\n"), false;
+  return true;
+}
+
+/// What went into a page; the keys are stable.
+std::string contents_json(const ViewerPage& page, const std::string& file, std::size_t bytes) {
+  std::string text;
+  JsonOut json(text);
+  json.begin_object();
+  json.member("file", file);
+  json.member("bytes", bytes);
+  json.key("worlds");
+  json.begin_array();
+  for (const auto& world : page.worlds) json.value(world.name);
+  json.end_array();
+  json.key("criteria");
+  json.begin_array();
+  for (const auto& collapse : page.collapses) json.value(collapse.criterion);
+  json.end_array();
+  json.member("deviation", page.apart ? page.apart->deviation.max : HUGE_VAL);
+  json.end_object();
+  return text;
+}
+
+bool write_page(Session& s, const ViewerPage& page) {
+  auto file = OutputFile::open(s.flags().output, {}, s.diag());
+  if (!file) return false;
+  std::size_t n_bytes = 0;
+  write_viewer_page(page, [&](std::string_view bytes) { n_bytes += bytes.size(), file->write(bytes); });
+  if (!file->commit(s.diag())) return false;
+  const auto contents = contents_json(page, s.flags().output, n_bytes);
+  s.progress().clear();
+  if (s.flags().json && s.flags().output != "-") fmt::print("{}\n", contents);
+  s.fact("page", contents);
+  return true;
+}
+
+/// The page that --serve shows. When a file of the worlds has changed it is made again; as long as that fails the last one is shown.
+class LivePage {
+ public:
+  LivePage(const Flags& flags, const ViewerPage& first) : flags_(flags), times_(times()), html_(text_of(first)) {}
+
+  std::shared_ptr<const std::string> get() {
+    const std::lock_guard lock(one_);
+    if (auto now = times(); now != times_) {
+      times_ = std::move(now);
+      Session s(flags_);
+      Viewer viewer(s);
+      const bool made = s.good() && s.choose_pipeline(world_pipeline) && viewer.fill();
+      s.end(made);
+      if (made) html_ = text_of(viewer.page());
+    }
+    return html_;
+  }
+
+ private:
+  std::vector<std::filesystem::file_time_type> times() const {
+    std::vector<std::filesystem::file_time_type> out;
+    std::error_code ec;
+    for (const auto& input : flags_.inputs)
+      if (input != "-") out.push_back(std::filesystem::last_write_time(input, ec));
+    return out;
+  }
+
+  static std::shared_ptr<const std::string> text_of(const ViewerPage& page) {
+    auto html = std::make_shared<std::string>();
+    write_viewer_page(page, [&](std::string_view bytes) { *html += bytes; });
+    return html;
+  }
+
+  const Flags& flags_;
+  std::mutex one_;
+  std::vector<std::filesystem::file_time_type> times_;
+  std::shared_ptr<const std::string> html_;
+};
+
+}  // namespace
+
+int run_view(const Flags& flags) {
+  Session s(flags);
+  if (!is_usable(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;
+  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
+  if (!has_viewer()) return fmt::print(stderr, "wrlkit view: the page was not built into this program: that needs Node.js and npm packages (script/bootstrap)\n"), nothing;
+  Viewer viewer(s);
+  if (!viewer.fill()) return s.end(false);
+  if (!flags.output.empty() && !write_page(s, viewer.page())) return s.end(false);
+  const int code = s.end(true);
+  if (!flags.serve) return code;
+  LivePage live(flags, viewer.page());
+  return fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_page([&] { return live.get(); })), nothing;
+}
+
+}  // namespace wrlkit

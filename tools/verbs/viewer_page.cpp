@@ -1,0 +1,114 @@
+#include "tools/verbs/viewer_page.h"
+
+#include <fmt/format.h>
+
+#include "base/text/base64.h"
+#include "base/io/gzip.h"
+#include "base/text/json.h"
+
+#ifdef WRLKIT_VIEWER
+extern "C" const char wrlkit_viewer_begin[], wrlkit_viewer_end[];  // tools/verbs/viewer_template.S
+#endif
+
+namespace wrlkit {
+namespace {
+
+/// The viewer without worlds.
+std::string_view page_template() {
+#ifdef WRLKIT_VIEWER
+  return {wrlkit_viewer_begin, static_cast<std::size_t>(wrlkit_viewer_end - wrlkit_viewer_begin)};
+#else
+  return {};
+#endif
+}
+
+constexpr std::string_view mark = "<!--wrlkit-->";  // where the worlds go
+
+class Files {
+ public:
+  explicit Files(const Sink& sink) : sink_(sink) {}
+
+  /// The number by which the page finds it.
+  std::size_t add(std::string_view bytes) {
+    sink_(fmt::format("<script type=\"text/plain\" id=\"file-{}\">", n_));
+    sink_(base64(gzipped(bytes)));
+    sink_("</script>\n");
+    return n_++;
+  }
+
+ private:
+  const Sink& sink_;
+  std::size_t n_ = 0;
+};
+
+/// In a script element nothing may look like its end.
+std::string without_tags(std::string json) {
+  for (std::size_t i = 0; (i = json.find('<', i)) != json.npos;) json.replace(i, 1, "\\u003c");
+  return json;
+}
+
+void write_apart(const ViewerPage::Apart& apart, Files& files, JsonOut& json) {
+  const auto& d = apart.deviation;
+  json.key("deviation");
+  json.begin_object();
+  json.member("rms", d.rms);
+  json.member("max", d.max);
+  json.member("where", std::span(d.where));
+  json.key("sides");
+  json.begin_array();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto& one = side == 0 ? d.forward : d.backward;
+    json.begin_object();
+    json.member("rms", one.rms);
+    json.member("max", one.max);
+    json.member("where", std::span(one.where));
+    json.member("file", files.add(apart.maps[side]));
+    json.end_object();
+  }
+  json.end_array();
+  json.end_object();
+}
+
+void write_data(const ViewerPage& page, const Sink& sink) {
+  Files files(sink);
+  std::string text;
+  JsonOut json(text);
+  json.begin_object();
+  json.key("worlds");
+  json.begin_array();
+  for (const auto& world : page.worlds) {
+    json.begin_object();
+    json.member("name", world.name);
+    json.member("file", files.add(world.glb));
+    json.end_object();
+  }
+  json.end_array();
+  json.key("collapses");
+  json.begin_array();
+  for (const auto& collapse : page.collapses) {
+    json.begin_object();
+    json.member("criterion", collapse.criterion);
+    json.member("file", files.add(collapse.wpm));
+    json.end_object();
+  }
+  json.end_array();
+  if (page.apart) write_apart(*page.apart, files, json);
+  json.end_object();
+  sink("<script type=\"application/json\" id=\"contents\">");
+  sink(without_tags(std::move(text)));
+  sink("</script>\n");
+}
+
+}  // namespace
+
+bool has_viewer() { return !page_template().empty(); }
+
+void write_viewer_page(const ViewerPage& page, const Sink& sink) {
+  const auto html = page_template();
+  const auto at = html.find(mark);
+  sink(html.substr(0, at));
+  write_data(page, sink);
+  sink(html.substr(at + mark.size()));
+}
+
+}  // namespace wrlkit

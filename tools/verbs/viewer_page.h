@@ -1,0 +1,39 @@
+// The page that `view` writes: the viewer (viewer/, built by Vite and linked into the program as one HTML text) with the
+// worlds that it shows. What stands in the page is read by viewer/src/data.ts.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/deviation.h"
+#include "base/io/sink.h"
+
+namespace wrlkit {
+
+struct ViewerPage {
+  struct World {
+    std::string name;  // of the file
+    std::string glb;
+  };
+  /// A progressive world (docs/progressive.md).
+  struct Collapse {
+    std::string criterion, wpm;
+  };
+
+  std::vector<World> worlds;  // one, or two to be compared
+  std::vector<Collapse> collapses;
+  /// Of the two worlds; the maps of each from the other (tools/report/deviation_map.h).
+  struct Apart {
+    Deviation deviation;
+    std::string maps[2];
+  };
+  std::optional<Apart> apart;
+};
+
+/// False when this program was built without Node.js; pages cannot be written then.
+bool has_viewer();
+
+/// One HTML file. The data are packed (gzip) and written as base64.
+void write_viewer_page(const ViewerPage&, const Sink&);
+
+}  // namespace wrlkit

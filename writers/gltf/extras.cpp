@@ -1,0 +1,404 @@
+#include "writers/gltf/extras.h"
+
+#include <algorithm>
+#include <array>
+
+#include "scenegraph/equal.h"
+#include "scenegraph/features.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+std::string_view word(Access a) {
+  constexpr std::string_view words[] = {"field", "exposedField", "eventIn", "eventOut"};
+  return words[static_cast<std::size_t>(a)];
+}
+
+/// The fields that the type has in the node table; those behind them were declared by the node itself.
+std::size_t n_table_fields(const NodeType& t) {
+  TypeId built_in = t.kind == NodeKind::script ? find_builtin(t.name, Dialect::vrml97) : TypeId{};
+  if (t.kind == NodeKind::proto) return 0;
+  return built_in ? builtin_nodes()[built_in.value].fields.size() : t.fields.size();
+}
+
+bool equals_default(const Value& v, const FieldDef& f) {
+  if (info(f.type).element == Element::node) return v.node_span().empty();
+  return equal_plain(v, f.default_value);
+}
+
+bool is_long(const Value& v) {
+  constexpr std::size_t most = 128;  // characters, about
+  std::size_t n = 0;
+  switch (info(v.type).element) {
+    case Element::node:
+      return !v.node_span().empty();
+    case Element::text:
+      if (!info(v.type).multiple) return v.text().size() > most;
+      for (auto s : v.text_span()) n += s.size() + 3;
+      return n > most;
+    case Element::integer:
+    case Element::image:
+      return v.integer_span().size() * 4 > most;
+    case Element::number:
+      return v.number_span().size() * 4 > most;
+  }
+  return false;
+}
+
+template <class T>
+void array(JsonOut& json, std::span<const T> values) {
+  json.begin_array();
+  for (const auto& v : values) json.value(v);
+  json.end_array();
+}
+
+}  // namespace
+
+Extras::Extras(const Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag), marks_(scene.node_count(), 0) {
+  name_what_is_referred_to();
+}
+
+/// Names that a ROUTE or a Script uses must be unique in the file, as there are no scopes left.
+void Extras::name_what_is_referred_to() {
+  std::vector<NodeId> referred;
+  for (const Route& r : scene_.main.routes) {
+    for (NodeId n : {r.from, r.to}) marks_[n.value] |= routed, referred.push_back(n);
+  }
+  for (const Import& i : scene_.main.imports) referred.push_back(i.inline_node);
+  for (const Export& e : scene_.main.exports) referred.push_back(e.node);
+  for (NodeId n : all_nodes(scene_))
+    if (scene_.type(n).kind == NodeKind::script) for_each_child(scene_, n, [&](NodeId held) { referred.push_back(held); });
+  if (referred.empty()) return;
+  std::unordered_map<std::string, std::size_t> times;
+  for (NodeId n : reachable(scene_, scene_.main)) ++times[std::string(scene_.name(n))];
+  for (const Import& i : scene_.main.imports) ++times[std::string(scene_.name(i.node))];
+  std::size_t count = 0;
+  for (NodeId n : referred) {
+    std::string name(scene_.name(n));
+    if ((!name.empty() && times[name] <= 1) || given_.contains(n.value)) continue;
+    std::string fresh;
+    do fresh = (name.empty() ? "_" : name + "_") + std::to_string(++count);
+    while (times.contains(fresh));
+    given_[n.value] = fresh;
+  }
+}
+
+std::string_view Extras::name(NodeId n) const {
+  auto i = body_ ? given_.end() : given_.find(n.value);
+  return i == given_.end() ? scene_.name(n) : std::string_view(i->second);
+}
+
+Extras::Said Extras::said_by_node(NodeId n, bool plain_transform) const {
+  using namespace nodes;
+  static constexpr std::uint16_t transform_slots[] = {transform::children.slot, transform::translation.slot,
+                                                      transform::rotation.slot, transform::scale.slot};
+  struct Row {
+    TypeId type;
+    std::array<std::uint16_t, 3> slots;
+    std::size_t n;
+  };
+  static constexpr Row rows[] = {
+      {Anchor, {anchor::children.slot}, 1},
+      {Billboard, {billboard::children.slot}, 1},
+      {Collision, {collision::children.slot}, 1},
+      {Group, {group::children.slot}, 1},
+      {LOD, {lod::children.slot}, 1},
+      {Shape, {shape::appearance.slot, shape::geometry.slot}, 2},
+      {OrthoViewpoint, {ortho_viewpoint::position.slot, ortho_viewpoint::orientation.slot, ortho_viewpoint::fieldOfView.slot}, 3},
+      {Viewpoint, {viewpoint::position.slot, viewpoint::orientation.slot, viewpoint::fieldOfView.slot}, 3},
+      {DirectionalLight, {directional_light::direction.slot}, 1},
+      {PointLight, {point_light::location.slot}, 1},
+      {SpotLight, {spot_light::location.slot, spot_light::direction.slot}, 2},
+  };
+  if (scene_.is(n, Transform)) return Said(transform_slots, plain_transform ? 4 : 1);
+  if (scene_.is(n, Shape) && !shown(n)) return {};
+  for (const Row& r : rows)
+    if (scene_.is(n, r.type)) return Said(r.slots).first(r.n);
+  return {};
+}
+
+bool Extras::speaks(NodeId n, const Value& v, Said said) const {
+  if (scene_.is_extra(v)) return true;
+  if (std::ranges::find(said, v.slot) != said.end()) return false;
+  const auto& t = scene_.type(n);
+  if (t.fields[v.slot].is_own()) return false;
+  return v.slot < n_table_fields(t) && (v.is || !equals_default(v, t.fields[v.slot]));
+}
+
+bool Extras::anything(NodeId n, Said said) const {
+  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return speaks(n, v, said); });
+}
+
+void Extras::member(JsonOut& json, NodeId n, Said said) {
+  json.key("extras");
+  json.begin_object();
+  vrml97(json, n, said);
+  json.end_object();
+}
+
+void Extras::vrml97(JsonOut& json, NodeId n, Said said, bool with_name) {
+  json.key("vrml97");
+  json.begin_object();
+  node(json, n, said, with_name);
+  json.end_object();
+}
+
+/// Slots of a geometry whose values its vertices, indices and material say.
+Extras::Said Extras::said_by_vertices(NodeId n) const {
+  using namespace nodes;
+  static constexpr std::uint16_t faces[] = {indexed_face_set::colorIndex.slot, indexed_face_set::coordIndex.slot, indexed_face_set::normalIndex.slot,
+                                            indexed_face_set::texCoordIndex.slot, indexed_face_set::ccw.slot, indexed_face_set::solid.slot};
+  static constexpr std::uint16_t lines[] = {indexed_line_set::colorIndex.slot, indexed_line_set::coordIndex.slot, indexed_line_set::colorPerVertex.slot};
+  return scene_.is(n, IndexedFaceSet) ? Said(faces) : scene_.is(n, IndexedLineSet) ? Said(lines) : Said();
+}
+
+/// Points and colours are in the vertices whether or not the file gave them a name; normals and texture coordinates of the
+/// vertices may be made from creaseAngle and the bounding box.
+bool Extras::adds_to_vertices(NodeId n, const Value& v) const {
+  if (!speaks(n, v, said_by_vertices(n))) return false;
+  if (scene_.is_extra(v) || info(v.type).element != Element::node) return true;
+  const auto field = scene_.type(n).fields[v.slot].name;
+  if (field == "metadata" && features_of(scene_, n)) return false;  // feature ids say it
+  return !v.node_span().empty() && ((field != "coord" && field != "color") || !name(v.node).empty());
+}
+
+bool Extras::geometry_says_more(NodeId n) const {
+  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return adds_to_vertices(n, v); });
+}
+
+void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> polygons, double step) {
+  json.key("extras");
+  json.begin_object();
+  json.key("vrml97");
+  json.begin_object();
+  if (geometry_says_more(n)) {
+    json.key(scene_.type(n).name);
+    json.begin_object();
+    for (const Value& v : scene_.fields(n))
+      if (adds_to_vertices(n, v)) geometry_field(json, n, v);
+    json.end_object();
+  }
+  if (!polygons.empty()) json.member("polygons", polygons);
+  if (step != 1) json.member("step", step);
+  json.end_object();
+  json.end_object();
+}
+
+/// A name that another mesh has said already need not be said again.
+bool Extras::is_named_child(const Value& v) const {
+  return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && !name(v.node).empty() && !said_names_.contains(std::string(name(v.node)));
+}
+
+bool Extras::has_names_in_geometry(NodeId n, std::span<const std::string_view> without) const {
+  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end(); });
+}
+
+void Extras::names_in_geometry(JsonOut& json, NodeId n, std::span<const std::string_view> without) {
+  json.key(scene_.type(n).name);
+  json.begin_object();
+  for (const Value& v : scene_.fields(n))
+    if (is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end()) geometry_field(json, n, v), said_names_.emplace(name(v.node));
+  json.end_object();
+}
+
+bool Extras::has_names_below(NodeId n, std::size_t depth) const {
+  return depth > 0 && std::ranges::any_of(scene_.fields(n), [&](const Value& v) {
+    return is_named_child(v) || (!scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && has_names_below(v.node, depth - 1));
+  });
+}
+
+void Extras::names_below(JsonOut& json, NodeId n, std::size_t depth) {
+  for (const Value& v : scene_.fields(n)) {
+    if (scene_.is_extra(v) || v.is || v.type != FieldType::SFNode || !v.node) continue;
+    const bool named = is_named_child(v);
+    if (!named && !has_names_below(v.node, depth - 1)) continue;
+    json.key(scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
+    json.begin_object();
+    json.key(scene_.type(v.node).name);
+    json.begin_object();
+    if (named) json.member("DEF", name(v.node)), said_names_.emplace(name(v.node));
+    if (depth > 1) names_below(json, v.node, depth - 1);
+    json.end_object();
+    json.end_object();
+  }
+}
+
+bool Extras::has_unseen_names(NodeId shape) const { return !shown(shape) && has_names_below(shape, depth_of_names); }
+
+void Extras::unseen_names(JsonOut& json, NodeId shape) {
+  json.key("vrml97");
+  json.begin_object();
+  json.key("Shape");
+  json.begin_object();
+  names_below(json, shape, depth_of_names);
+  json.end_object();
+  json.end_object();
+}
+
+void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {
+  json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
+  if (scene_.is_extra(v) || info(v.type).element != Element::node || info(v.type).multiple) return value(json, scene_.content(v), 0);
+  json.begin_object();
+  json.key(scene_.type(v.node).name);
+  json.begin_object();
+  if (auto def = name(v.node); !def.empty()) json.member("DEF", def);
+  json.end_object();
+  json.end_object();
+}
+
+void Extras::node(JsonOut& json, NodeId n, Said said, bool with_name) {
+  bool again = marks_[n.value] & told;
+  marks_[n.value] |= told;
+  json.key(scene_.type(n).name);
+  json.begin_object();
+  if (with_name) json.member("DEF", name(n));
+  fields(json, n, said, 0, again);
+  json.end_object();
+}
+
+void Extras::fields(JsonOut& json, NodeId n, Said said, std::size_t depth, bool only_short) {
+  const auto& t = scene_.type(n);
+  for (const Value& v : scene_.fields(n)) {
+    if (!speaks(n, v, said) || (only_short && is_long(scene_.content(v)))) continue;
+    json.key(scene_.is_extra(v) ? v.extra->name : t.fields[v.slot].name_in(Dialect::vrml97));
+    value(json, scene_.content(v), depth);
+  }
+  if (only_short || n_table_fields(t) == t.fields.size()) return;
+  json.key("interface");
+  interface(json, t, n, depth);
+}
+
+/// With the values of a node, or else with the defaults of a declaration.
+void Extras::interface(JsonOut& json, const NodeType& t, NodeId n, std::size_t depth) {
+  json.begin_array();
+  for (std::size_t i = n_table_fields(t); i < t.fields.size(); ++i) {
+    const auto& f = t.fields[i];
+    json.begin_array();
+    json.value(word(f.access));
+    json.value(info(f.type).name);
+    json.value(f.name_in(Dialect::vrml97));
+    const Value* given = n ? scene_.find(n, static_cast<std::uint16_t>(i)) : nullptr;
+    if (f.has_value() || (given && given->is)) value(json, given ? *given : f.default_value, depth);
+    json.end_array();
+  }
+  json.end_array();
+}
+
+void Extras::protos(JsonOut& json, std::span<const ProtoId> declared) {
+  struct Item {
+    ProtoId proto;
+    std::optional<std::size_t> in;
+  };
+  std::vector<Item> list;
+  for (ProtoId p : declared) list.push_back({p, {}});
+  json.key("protos");
+  json.begin_array();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Proto& p = scene_.proto(list[i].proto);
+    proto(json, p, list[i].in);
+    for (ProtoId inner : p.body.protos) list.push_back({inner, i});
+  }
+  json.end_array();
+}
+
+void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in) {
+  const auto& type = scene_.type(p.type);
+  body_.emplace();
+  json.begin_object();
+  json.member(p.external ? "EXTERNPROTO" : "PROTO", type.name);
+  if (in) json.member("in", *in);
+  json.key("interface");
+  interface(json, type, {}, 0);
+  if (p.external) json.key("url"), array(json, std::span<const std::string_view>(p.urls));
+  auto list = [&](std::string_view name, const auto& items, auto write) {
+    if (items.empty()) return;
+    json.key(name);
+    json.begin_array();
+    for (const auto& i : items) write(i);
+    json.end_array();
+  };
+  list("body", p.body.roots, [&](NodeId n) { reference(json, n, 0); });
+  list("imports", p.body.imports, [&](const Import& i) { import(json, i); });
+  list("exports", p.body.exports, [&](const Export& e) { export_(json, e); });
+  list("routes", p.body.routes, [&](const Route& r) { route(json, r); });
+  json.end_object();
+  body_.reset();
+}
+
+void Extras::route(JsonOut& json, const Route& r) const {
+  std::string s;
+  (s += name(r.from)) += '.';
+  (s += r.event_out) += " TO ";
+  (s += name(r.to)) += '.';
+  json.value(s += r.event_in);
+}
+
+void Extras::import(JsonOut& json, const Import& i) const {
+  std::string s;
+  (s += name(i.inline_node)) += '.';
+  (s += i.exported) += " AS ";
+  json.value(s += name(i.node));
+}
+
+void Extras::export_(JsonOut& json, const Export& e) const {
+  std::string s(name(e.node));
+  json.value((s += " AS ") += e.name);
+}
+
+void Extras::value(JsonOut& json, const Value& v, std::size_t depth) {
+  const auto& t = info(v.type);
+  if (v.type == FieldType::verbatim || v.is) {
+    json.begin_object();
+    json.member(v.is ? "IS" : "verbatim", v.text());
+    return json.end_object();
+  }
+  switch (t.element) {
+    case Element::node:
+      if (!t.multiple) return reference(json, v.node, depth);
+      json.begin_array();
+      for (NodeId n : v.node_span()) reference(json, n, depth);
+      return json.end_array();
+    case Element::text:
+      return t.multiple ? array(json, v.text_span()) : json.value(v.text());
+    case Element::integer:
+      if (v.type == FieldType::SFBool) return json.value(v.integer != 0);
+      return t.multiple ? array(json, v.integer_span()) : json.value(v.integer);
+    case Element::image:
+      return array(json, v.integer_span());
+    case Element::number:
+      return t.multiple || t.arity > 1 ? array(json, v.number_span()) : json.value(v.number);
+  }
+}
+
+void Extras::reference(JsonOut& json, NodeId n, std::size_t depth) {
+  bool nameless_child = n && !body_ && is_placed(n) && name(n).empty();
+  if (!n || nameless_child || too_much(n, depth)) return json.raw("null");
+  json.begin_object();
+  json.key(scene_.type(n).name);
+  json.begin_object();
+  content(json, n, depth);
+  json.end_object();
+  json.end_object();
+}
+
+void Extras::content(JsonOut& json, NodeId n, std::size_t depth) {
+  auto def = name(n);
+  const bool known = body_ ? !body_->insert(n.value).second : (marks_[n.value] & (placed | written)) != 0;
+  if (!def.empty() && known) return json.member("USE", def);
+  if (!def.empty()) json.member("DEF", def);
+  if (!body_) marks_[n.value] |= written;
+  ++n_written_;
+  fields(json, n, {}, depth + 1);
+}
+
+// Nodes without a name can be shared, too, by instances of prototypes: those are written again and again.
+bool Extras::too_much(NodeId n, std::size_t depth) {
+  if (depth >= max_depth) return diag_.report(Diag::no_gltf_depth, scene_.where(n), max_depth), true;
+  if (n_written_ == max_nodes)
+    diag_.report(Diag::expansion_limit, scene_.where(n), max_nodes, "nodes in extras"), ++n_written_;
+  return n_written_ > max_nodes;
+}
+
+}  // namespace wrlkit::gltf

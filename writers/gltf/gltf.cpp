@@ -1,0 +1,261 @@
+#include "writers/gltf/gltf.h"
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+
+#include "writers/gltf/json.h"
+#include "writers/gltf/pointers.h"
+#include "base/io/gzip.h"
+#include "base/io/output.h"
+#include "base/io/uri.h"
+
+namespace wrlkit {
+namespace gltf {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "vertex data is written as it lies in memory");
+
+constexpr std::uint64_t glb_limit = std::numeric_limits<std::uint32_t>::max();
+
+bool report_too_large(std::uint64_t bytes, Diagnostics& diag) {
+  diag.report(Diag::too_large, {}, "the glTF data", "4 GiB", bytes);
+  return false;
+}
+
+std::string four_bytes(std::uint64_t v) {
+  std::string s;
+  for (int i = 0; i < 4; ++i) s += static_cast<char>(v >> 8 * i & 0xff);
+  return s;
+}
+
+/// As part of a file name. A DEF name may have a slash.
+std::string without_folders(std::string name) {
+  std::ranges::replace_if(
+      name, [](char c) { return c == '/' || c == '\\' || (c >= 0 && c < ' '); }, '_');
+  return name;
+}
+
+/// Files that take their places together, the first one last, because it refers to the others.
+class Files {
+ public:
+  explicit Files(Diagnostics& diag) : diag_(diag) {}
+
+  bool open(const std::filesystem::path& path) {
+    auto file = OutputFile::open(path.string(), {}, diag_);
+    if (file) files_.push_back(std::move(*file));
+    return file.has_value();
+  }
+  OutputFile& first() { return files_.front(); }
+  bool write(const std::filesystem::path& path, const std::vector<std::string_view>& pieces) {
+    if (!open(path)) return false;
+    files_.back().write(pieces);
+    return true;
+  }
+  bool commit() {
+    return std::all_of(files_.rbegin(), files_.rend(), [&](OutputFile& f) { return f.commit(diag_); });
+  }
+
+ private:
+  Diagnostics& diag_;
+  std::vector<OutputFile> files_;
+};
+
+class Writer {
+ public:
+  Writer(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,
+         const std::string& path, Diagnostics& diag, GltfSummary* summary = nullptr)
+      : scene_(scene),
+        options_(options),
+        path_(path),
+        diag_(diag),
+        summary_(summary),
+        textures_(scene, resources, options.textures, diag),
+        extras_(scene, diag),
+        animations_(scene, reach(options), diag),
+        materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
+        parts_(options.names == GltfOptions::Names::table),
+        meshes_(scene, source, animations_.motion(), store_, parts_, options.lightmaps != GltfOptions::Lightmaps::base_color,
+                options.compression.method == GltfCompression::Method::meshopt, diag),
+        hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, parts_, diag) {}
+
+  bool write() {
+    Files files(diag_);
+    if (!files.open(path_)) return false;
+    return build([&](Parts& parts) {
+      if (!pictures_inside() && !pictures_beside(parts, files)) return false;
+      bool written = options_.binary ? glb(parts, [&](auto& pieces) { files.first().write(pieces); }) : gltf(parts, files);
+      return written && files.commit();
+    });
+  }
+
+  bool write_glb_to(const Sink& sink) {
+    return build([&](Parts& parts) {
+      return glb(parts, [&](auto& pieces) { for (auto piece : pieces) sink(piece); });
+    });
+  }
+
+ private:
+  static Motion::Reach reach(const GltfOptions& o) {
+    return !o.animations ? Motion::Reach::nothing : o.animation_pointer ? Motion::Reach::pointers : Motion::Reach::core;
+  }
+
+  /// The nodes that show a geometry with morph targets have the weights.
+  void add_morphs() {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> nodes;
+    for (std::uint32_t i = 0; i < hierarchy_.nodes().size(); ++i) {
+      const Node& n = hierarchy_.nodes()[i];
+      if (n.attachment != Attachment::mesh) continue;
+      const auto morph = meshes_.geometries()[meshes_.meshes()[n.attached].geometry].morph;
+      if (morph != none) nodes[morph].push_back(i);
+    }
+    for (auto& [morph, list] : nodes) animations_.add(meshes_.morphs().weights(morph, std::move(list)));
+  }
+
+  bool pictures_inside() const {
+    return options_.images == GltfOptions::Images::embedded ||
+           (options_.images == GltfOptions::Images::automatic && options_.binary);
+  }
+
+  /// Makes what a file is written from and gives it to `put`.
+  bool build(auto&& put) {
+    hierarchy_.build();
+    hierarchy_.store_instances(store_);
+    add_morphs();
+    add_pointers(animations_, scene_, materials_, hierarchy_);
+    animations_.store(store_, [&](std::uint32_t node) { return hierarchy_.offset(node); });
+    if (store_.full()) return report_too_large(store_.bytes(), diag_);
+    static const std::vector<Picture> no_pictures;
+    Packing packing(options_.compression, store_, meshes_, hierarchy_);
+    const auto columns = table(packing.uses_meshopt());
+    Layout layout(packing.store(), packing.blobs(), columns, pictures_inside() ? textures_.pictures() : no_pictures, packing.uses_meshopt());
+    Parts parts{scene_,     hierarchy_, meshes_, packing,
+                materials_, textures_,  layout,  animations_, parts_, options_.extras ? &extras_ : nullptr,
+                options_.facts_only, {}, {}};
+    return put(parts);
+  }
+
+  /// In the order in which gltf_json names them.
+  std::vector<Column> table(bool packed) const {
+    std::vector<Column> out;
+    if (!parts_.columns() || parts_.rows().empty()) return out;
+    out = {parts_.texts(), parts_.offsets(packed)};
+    if (parts_.any_parent()) out.push_back(parts_.parents(packed));
+    return out;
+  }
+
+  std::filesystem::path beside(const std::string& name) const {
+    return std::filesystem::path(path_).parent_path() / name;
+  }
+  std::string stem() const { return path_ == "-" ? "world" : std::filesystem::path(path_).stem().string(); }
+
+  bool pictures_beside(Parts& parts, Files& files) {
+    std::unordered_map<std::string, int> taken;
+    for (const auto& picture : textures_.pictures()) {
+      const std::string own = without_folders(picture.name);
+      std::string name = stem() + "_" + own;
+      while (taken[name]++ > 0) name = stem() + "_" + std::to_string(taken[name]) + "_" + own;
+      parts.picture_uris.push_back(uri_of(name));
+      if (!files.write(beside(name), {picture.bytes})) return false;
+    }
+    return true;
+  }
+
+  void summarize(const Parts& parts, const Blocks& json, std::vector<GltfSummary::Share> json_shares) const {
+    GltfSummary& s = *summary_ = {};
+    s.json_shares = std::move(json_shares), s.geometry_shares = parts.layout.shares();
+    for (auto* shares : {&s.json_shares, &s.geometry_shares}) std::ranges::stable_sort(*shares, std::greater{}, &GltfSummary::Share::second);
+    s.nodes = hierarchy_.nodes().size(), s.meshes = meshes_.meshes().size();
+    for (const Node& n : hierarchy_.nodes()) {
+      s.named += n.source && !scene_.name(n.source).empty();
+      const Instances* table = n.instances == none ? nullptr : &hierarchy_.instances()[n.instances];
+      if (table && !table->rows.empty()) s.instances += table->places.size();
+      else if (table) s.instances += table->places.size(), s.named += static_cast<std::size_t>(std::ranges::count_if(table->sources, [&](NodeId i) { return !scene_.name(i).empty(); }));
+      if (n.attachment != Attachment::mesh) continue;
+      ++s.draws;
+      const Streams& streams = parts.packing.streams(n.attached);
+      const auto& accessors = parts.packing.store().accessors();
+      if (meshes_.geometries()[meshes_.meshes()[n.attached].geometry].mode == Mode::triangles)
+        s.triangles += accessors[streams.indices == none ? streams.positions : streams.indices].count / 3 * (table ? table->places.size() : 1);
+    }
+    for (const auto& row : parts_.rows()) s.named += parts_.columns() && !row.name.empty();
+    std::vector<std::string_view> text, pictures, geometry;
+    json.pieces(text);
+    parts.layout.pieces(geometry, false);
+    for (const Picture& p : textures_.pictures()) pictures.push_back(p.bytes), s.pictures += p.bytes.size();
+    s.json = json.size(), s.geometry = parts.layout.geometry_size();
+    s.quantization = parts.packing.quantization(), s.recoding = textures_.recoding();
+    if (options_.measure_gzip) s.json_gzip = gzipped_size(text), s.geometry_gzip = gzipped_size(geometry), s.pictures_gzip = gzipped_size(pictures);
+  }
+
+  bool glb(const Parts& parts, auto&& put) {
+    Blocks json = json_of(parts);
+    while (json.size() % 4 != 0) json.append(" ");
+    constexpr std::uint64_t header = 12, chunk = 8;
+    std::uint64_t bin = parts.layout.size(), size = header + chunk + json.size() + (bin > 0 ? chunk + bin : 0);
+    if (size > glb_limit) return report_too_large(size, diag_);
+    std::string start = "glTF" + four_bytes(2) + four_bytes(size) + four_bytes(json.size()) + "JSON";
+    std::string between = four_bytes(bin) + std::string("BIN\0", 4);
+    std::vector<std::string_view> pieces{start};
+    json.pieces(pieces);
+    if (bin > 0) pieces.push_back(between);
+    parts.layout.pieces(pieces);
+    put(pieces);
+    return true;
+  }
+
+  bool gltf(Parts& parts, Files& files) {
+    if (parts.layout.size() > 0) {
+      auto name = stem() + ".bin";
+      parts.buffer_uri = uri_of(name);
+      std::vector<std::string_view> pieces;
+      parts.layout.pieces(pieces);
+      if (!files.write(beside(name), pieces)) return false;
+    }
+    Blocks json = json_of(parts);
+    std::vector<std::string_view> pieces;
+    json.pieces(pieces);
+    pieces.push_back("\n");
+    files.first().write(pieces);
+    return true;
+  }
+
+  Blocks json_of(const Parts& parts) const {
+    Blocks json;
+    auto shares = write_json(parts, [&](std::string_view s) { json.append(s); });
+    if (summary_) summarize(parts, json, std::move(shares));
+    return json;
+  }
+
+  const Scene& scene_;
+  const GltfOptions& options_;
+  std::string path_;
+  Diagnostics& diag_;
+  GltfSummary* summary_;
+  Textures textures_;
+  Extras extras_;
+  Store store_;
+  Animations animations_;
+  Materials materials_;
+  PartTable parts_;
+  Meshes meshes_;
+  Hierarchy hierarchy_;
+};
+
+}  // namespace
+}  // namespace gltf
+
+bool write_gltf(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,
+                const std::string& path, Diagnostics& diag, GltfSummary* summary) {
+  return gltf::Writer(scene, source, options, resources, path, diag, summary).write();
+}
+
+bool write_glb(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,
+               const Sink& sink, Diagnostics& diag) {
+  GltfOptions whole = options;
+  whole.binary = true;
+  whole.images = GltfOptions::Images::embedded;
+  return gltf::Writer(scene, source, whole, resources, {}, diag).write_glb_to(sink);
+}
+
+}  // namespace wrlkit

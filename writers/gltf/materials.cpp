@@ -1,0 +1,361 @@
+#include "writers/gltf/materials.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scenegraph/nodes.h"
+#include "scenegraph/picture_color.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+namespace m = nodes::material;
+
+constexpr Vec3 black{0, 0, 0}, white{1, 1, 1};
+
+}  // namespace
+
+double roughness(double shininess, const Vec3& specular) {
+  constexpr double peak = 0.01;  // of the highlight of a surface of alpha 1
+  double wide = 2 / (128 * unit_range(shininess) + 2);
+  double bright = unit_range(std::max({specular[0], specular[1], specular[2]}));
+  return bright <= peak ? 1 : std::pow(std::max(wide, peak / bright), 0.25);
+}
+
+/// An appearance on a kind of surface, once the tables of 4.14 are applied.
+struct Materials::Look {
+  NodeId appearance, material, texture_node, transform_node;
+  TextureUse texture;
+  UvAffine uv;
+  SurfaceKind surface;
+  TextureUse light;
+  NodeId light_transform;
+  UvAffine light_uv;
+  bool lit = false, shows_color = false, shows_alpha = true;
+  std::string_view base_field;  // of the material
+  Vec3 base = white, emissive = black;  // display-referred
+  double alpha = 1, metallic = 0, rough = 1, cutoff = 0.5;
+  Alpha mode = Alpha::opaque;
+  std::uint32_t normal = none, occlusion = none, glow = none, metal_rough = none;  // further pictures
+  double normal_scale = 1, occlusion_strength = 1;
+};
+
+namespace {
+
+bool is_material(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::Material) || scene.is(n, nodes::PhysicalMaterial) || scene.is(n, nodes::UnlitMaterial);
+}
+
+/// The picture of a material in a field that all materials of X3D 4.0 call the same; none where it has no such field.
+NodeId picture(const Scene& scene, NodeId material, std::string_view field) {
+  auto slot = scene.type(material).find(field, Dialect::x3d);
+  const Value* v = slot ? scene.find(material, *slot) : nullptr;
+  return v && !v->is && v->type == FieldType::SFNode ? v->node : NodeId{};
+}
+
+struct FurtherPicture {
+  std::string_view field;
+  PixelMeaning meaning;
+};
+constexpr FurtherPicture further[] = {{"normalTexture", PixelMeaning::data}, {"occlusionTexture", PixelMeaning::data}, {"emissiveTexture", PixelMeaning::color}, {"metallicRoughnessTexture", PixelMeaning::data}};
+
+/// Of an UnlitMaterial it is the colour itself.
+NodeId further_picture(const Scene& scene, NodeId material, std::string_view field) {
+  if (field == "emissiveTexture" && scene.is(material, nodes::UnlitMaterial)) return {};
+  return picture(scene, material, field);
+}
+
+}  // namespace
+
+bool Materials::has_picture(NodeId appearance) {
+  if (!scene_.is(appearance, nodes::Appearance)) return false;
+  if (textures_.get(scene_.get(appearance, nodes::appearance::texture)).texture != none) return true;
+  const NodeId m = scene_.get(appearance, nodes::appearance::material);
+  return is_material(scene_, m) && std::ranges::any_of(further, [&](auto f) { return textures_.get(further_picture(scene_, m, f.field), f.meaning).texture != none; });
+}
+
+MaterialUse Materials::get(NodeId appearance, SurfaceKind s) {
+  std::uint64_t key = appearance.value;
+  for (bool b : {s.faces, s.color, s.texcoord, s.light, s.double_sided, s.opacity}) key = key << 1 | b;
+  auto [i, is_new] = uses_.try_emplace(key);
+  if (is_new) i->second = make(appearance, s);
+  return i->second;
+}
+
+MaterialUse Materials::make(NodeId appearance, SurfaceKind s) {
+  Look l = look(appearance, s);
+  bool bake = l.texture.texture != none && !uv_transform(l.uv);
+  const std::string text = json(l);
+  const bool moving = moves(l), moving_picture = moves_picture(l);
+  const std::string source = (moving ? std::to_string(l.material.value) : "") + (moving_picture ? "/" + std::to_string(l.transform_node.value) : "");
+  auto [i, is_new] = by_json_.try_emplace(text + source, static_cast<std::uint32_t>(materials_.size()));
+  if (is_new) materials_.push_back(text);
+  if (is_new && (moving || moving_picture))
+    moved_.push_back({i->second, l.material, l.base, l.emissive, l.alpha, l.base_field, l.shows_alpha, l.surface.faces && l.lit && !replaced_by_light(l), l.lit, moving_picture ? l.transform_node : NodeId{}, mapped(l)});
+  bool light = l.light.texture != none, bake_light = light && !uv_transform(l.light_uv);
+  return {i->second, bake ? l.transform_node : NodeId{}, light, bake_light ? l.light_transform : NodeId{}, l.shows_color};
+}
+
+Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
+  Look l;
+  l.surface = s;
+  if (scene_.is(appearance, nodes::Appearance)) {
+    namespace a = nodes::appearance;
+    l.appearance = appearance;
+    l.material = scene_.get(appearance, a::material);
+    l.texture_node = scene_.get(appearance, a::texture);
+    l.transform_node = scene_.get(appearance, a::textureTransform);
+  }
+  if (!is_material(scene_, l.material)) l.material = {};
+  if (!scene_.is(l.transform_node, nodes::TextureTransform)) l.transform_node = {};
+  if (s.faces && s.texcoord) l.texture = textures_.get(l.texture_node), further_pictures(l);
+  if (s.faces && s.texcoord) l.uv = uv_affine(scene_, l.transform_node);
+  read_material(l);
+  if (l.alpha < 1 || (s.color && s.opacity) || moves(l, "transparency")) l.mode = Alpha::blend;
+  if (l.texture.channels % 2 == 0 && l.texture.channels > 0) l.alpha = 1, l.mode = l.texture.alpha, l.shows_alpha = false;
+  read_alpha_mode(l);
+  if (l.appearance && s.faces && s.light) look_at_light(l);
+  return l;
+}
+
+void Materials::read_material(Look& l) {
+  const SurfaceKind& s = l.surface;
+  const bool physical = scene_.is(l.material, nodes::PhysicalMaterial), unlit = scene_.is(l.material, nodes::UnlitMaterial);
+  const bool replaced = l.texture.channels >= 3 && !(l.appearance && multiplies_picture(scene_, l.appearance));
+  l.lit = l.material && s.faces && !unlit;
+  l.shows_color = s.color && !replaced;
+  if (!l.material) return;
+  namespace p = nodes::physical_material;
+  namespace u = nodes::unlit_material;
+  const Vec3 emissive = physical ? scene_.get(l.material, p::emissiveColor) : unlit ? scene_.get(l.material, u::emissiveColor) : scene_.get(l.material, m::emissiveColor);
+  const Vec3 diffuse = physical ? scene_.get(l.material, p::baseColor) : unlit ? emissive : scene_.get(l.material, m::diffuseColor);
+  if (!s.color && !replaced) l.base = s.faces ? diffuse : emissive;
+  if (!s.color && !replaced) l.base_field = unlit || (!s.faces && !physical) ? "emissiveColor" : physical ? "baseColor" : "diffuseColor";
+  if (s.faces && !unlit) l.emissive = emissive;
+  l.alpha = 1 - unit_range(physical ? scene_.get(l.material, p::transparency) : unlit ? scene_.get(l.material, u::transparency) : scene_.get(l.material, m::transparency));
+  if (physical) l.metallic = unit_range(scene_.get(l.material, p::metallic)), l.rough = unit_range(scene_.get(l.material, p::roughness));
+  else if (l.lit) l.rough = roughness(scene_.get(l.material, m::shininess), scene_.get(l.material, m::specularColor));
+}
+
+void Materials::read_alpha_mode(Look& l) {
+  if (!l.appearance) return;
+  const auto mode = scene_.get(l.appearance, nodes::appearance::alphaMode);
+  if (mode == "OPAQUE") l.mode = Alpha::opaque, l.alpha = 1, l.shows_alpha = false;
+  if (mode == "BLEND") l.mode = Alpha::blend;
+  if (mode == "MASK") l.mode = Alpha::mask, l.cutoff = unit_range(scene_.get(l.appearance, nodes::appearance::alphaCutoff));
+}
+
+void Materials::further_pictures(Look& l) {
+  if (!l.material) return;
+  std::uint32_t* to[] = {&l.normal, &l.occlusion, &l.glow, &l.metal_rough};
+  for (std::size_t i = 0; i < std::size(further); ++i) *to[i] = textures_.get(further_picture(scene_, l.material, further[i].field), further[i].meaning).texture;
+  auto number = [&](std::string_view field) {
+    auto slot = scene_.type(l.material).find(field, Dialect::x3d);
+    return slot ? scene_.value(l.material, *slot).number : 1;
+  };
+  l.normal_scale = number("normalScale");
+  l.occlusion_strength = unit_range(number("occlusionStrength"));
+}
+
+void Materials::look_at_light(Look& l) {
+  using As = GltfOptions::Lightmaps;
+  namespace a = nodes::appearance;
+  NodeId lightmap = scene_.get(l.appearance, a::lightmap);
+  l.light = lightmaps_ == As::occlusion ? textures_.brightness(lightmap, scene_.get(l.appearance, a::lightmapScale)) : textures_.get(lightmap);
+  if (l.light.texture == none) return;
+  l.light_transform = scene_.get(l.appearance, a::lightmapTransform);
+  if (!scene_.is(l.light_transform, nodes::TextureTransform)) l.light_transform = {};
+  l.light_uv = uv_affine(scene_, l.light_transform);
+  if (lightmaps_ == As::occlusion) l.occlusion = none;
+  if (lightmaps_ != As::emissive) return;
+  l.base = black, l.emissive = white, l.shows_color = false, l.glow = none, l.base_field = {};
+  if (l.texture.channels % 2 == 1) l.texture = {};
+}
+
+bool Materials::moves(const Look& l, std::string_view field) const {
+  auto slot = l.material && !field.empty() ? scene_.type(l.material).find(field, Dialect::x3d) : std::nullopt;
+  return slot && motion_.moves(l.material, *slot);
+}
+
+bool Materials::moves(const Look& l) const {
+  constexpr std::string_view fields[] = {"emissiveColor", "specularColor", "shininess", "metallic", "roughness"};
+  return moves(l, l.base_field) || (l.shows_alpha && moves(l, "transparency")) || (l.lit && std::ranges::any_of(fields, [&](auto f) { return moves(l, f); }));
+}
+
+bool Materials::moves_picture(const Look& l) const {
+  namespace t = nodes::texture_transform;
+  return l.transform_node && l.texture.texture != none && uv_transform(l.uv) &&
+         std::ranges::any_of(std::array{t::center.slot, t::scale.slot, t::rotation.slot, t::translation.slot}, [&](auto slot) { return motion_.moves(l.transform_node, slot); });
+}
+
+/// The pictures that have the TextureTransform.
+std::vector<std::string_view> Materials::mapped(const Look& l) {
+  std::vector<std::string_view> out{"pbrMetallicRoughness/baseColorTexture"};
+  if (!l.lit) return out;
+  if (l.metal_rough != none) out.push_back("pbrMetallicRoughness/metallicRoughnessTexture");
+  if (l.normal != none) out.push_back("normalTexture");
+  if (l.occlusion != none) out.push_back("occlusionTexture");
+  if (l.glow != none) out.push_back("emissiveTexture");
+  return out;
+}
+
+bool Materials::replaced_by_light(const Look& l) const {
+  return l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::emissive;
+}
+
+std::string Materials::json(const Look& l) {
+  std::string text;
+  JsonOut json(text);
+  json.begin_object();
+  auto name_of = [&](NodeId n) { return !n ? std::string_view{} : extras_ ? extras_->name(n) : scene_.name(n); };
+  auto name = name_of(l.material).empty() ? name_of(l.appearance) : name_of(l.material);
+  if (!name.empty()) json.member("name", name);
+  pbr(json, l);
+  if (l.normal != none && l.lit) texture_info(json, l, "normalTexture", l.normal, "scale", l.normal_scale);
+  if (l.occlusion != none && l.lit) texture_info(json, l, "occlusionTexture", l.occlusion, "strength", l.occlusion_strength);
+  using As = GltfOptions::Lightmaps;
+  if (replaced_by_light(l)) json.key("emissiveTexture"), light_info(json, l);
+  if (l.light.texture != none && lightmaps_ == As::occlusion) json.key("occlusionTexture"), light_info(json, l);
+  if (l.emissive != black || (l.lit && moves(l, "emissiveColor"))) json.member("emissiveFactor", std::span<const float>(linear_color(l.emissive)));
+  if (l.glow != none && l.lit) texture_info(json, l, "emissiveTexture", l.glow);
+  if (l.mode != Alpha::opaque) json.member("alphaMode", l.mode == Alpha::mask ? "MASK" : "BLEND");
+  if (l.mode == Alpha::mask && l.cutoff != 0.5) json.member("alphaCutoff", static_cast<float>(l.cutoff));
+  if (l.surface.double_sided) json.member("doubleSided", true);
+  extensions(json, l);
+  extras(json, l);
+  json.end_object();
+  return text;
+}
+
+void Materials::extensions(JsonOut& json, const Look& l) {
+  const bool moz = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::moz;
+  const bool unlit = !l.lit && !replaced_by_light(l);
+  if (!unlit && !moz) return;
+  json.key("extensions");
+  json.begin_object();
+  if (unlit) json.key("KHR_materials_unlit"), json.raw("{}"), unlit_ = true;
+  if (moz) json.key("MOZ_lightmap"), light_info(json, l), moz_lightmap_ = true;
+  json.end_object();
+}
+
+/// The lightmap as a textureInfo; MOZ_lightmap has a factor in it, too.
+void Materials::light_info(JsonOut& json, const Look& l) {
+  json.begin_object();
+  const double scale = scene_.get(l.appearance, nodes::appearance::lightmapScale);
+  if (lightmaps_ == GltfOptions::Lightmaps::moz && scale != 1) json.member("intensity", scale);
+  texture_info_members(json, l.light.texture, l.surface.texcoord, l.light_uv);
+  json.end_object();
+}
+
+// An unlit material has a fallback for viewers that do not know the extension: as rough as can be.
+void Materials::pbr(JsonOut& json, const Look& l) {
+  json.key("pbrMetallicRoughness");
+  json.begin_object();
+  auto base = linear_color(l.base);
+  if (l.base != white || l.alpha < 1 || moves(l, l.base_field) || moves(l, "transparency"))
+    json.member("baseColorFactor",
+                std::span<const float>(std::array{base[0], base[1], base[2], static_cast<float>(l.alpha)}));
+  if (l.texture.texture != none) texture_info(json, l, "baseColorTexture", l.texture.texture);
+  json.member("metallicFactor", static_cast<float>(l.lit ? l.metallic : 0));
+  if (l.lit && (l.rough < 1 || moves(l))) json.member("roughnessFactor", static_cast<float>(l.rough));
+  if (l.lit && l.metal_rough != none) texture_info(json, l, "metallicRoughnessTexture", l.metal_rough);
+  json.end_object();
+}
+
+void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name, std::uint32_t texture, const char* factor, double value) {
+  json.key(name);
+  json.begin_object();
+  texture_info_members(json, texture, 0, l.uv, moves_picture(l));
+  if (value != 1) json.member(factor, static_cast<float>(value));
+  if (extras_ && l.transform_node) {
+    json.key("extras");
+    json.begin_object();
+    extras_->vrml97(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());
+    json.end_object();
+  }
+  json.end_object();
+}
+
+void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::uint32_t set, const UvAffine& uv, bool moved) {
+  json.member("index", texture);
+  if (set > 0) json.member("texCoord", set);
+  auto t = uv_transform(uv);
+  if (!t || (uv == UvAffine{} && !moved)) return;
+  texture_transform_ = true;
+  json.key("extensions");
+  json.begin_object();
+  json.key("KHR_texture_transform");
+  json.begin_object();
+  if (moved || t->offset != Vec2{0, 0}) json.member("offset", std::span<const double>(t->offset));
+  if (moved || t->rotation != 0) json.member("rotation", t->rotation);
+  if (moved || t->scale != Vec2{1, 1}) json.member("scale", std::span<const double>(t->scale));
+  json.end_object();
+  json.end_object();
+}
+
+/// {index, texCoord, ..., scale, directions: [3, 4, 5]}, the latter textures as index is.
+void Materials::light_extras(JsonOut& json, const Look& l) {
+  namespace a = nodes::appearance;
+  json.key("lightmap");
+  json.begin_object();
+  texture_info_members(json, l.light.texture, l.surface.texcoord, l.light_uv);
+  json.member("scale", scene_.get(l.appearance, a::lightmapScale));
+  std::vector<std::uint32_t> directions;
+  for (NodeId n : scene_.get(l.appearance, a::lightmapDirection))
+    if (auto use = textures_.get(n, PixelMeaning::data); use.texture != none) directions.push_back(use.texture);
+  if (directions.size() == 3) json.member("directions", std::span<const std::uint32_t>(directions));
+  json.end_object();
+}
+
+/// What glTF has said of a Material.
+std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
+  std::vector<std::uint16_t> said{m::diffuseTexture.slot, m::normalTexture.slot, m::emissiveTexture.slot, m::occlusionTexture.slot, m::normalScale.slot, m::occlusionStrength.slot};
+  // White with a picture could be either: a white material, or one that the picture replaces.
+  const bool one_color = l.surface.faces && !l.surface.color && (l.texture.channels < 3 || own_picture(scene_, l.material)) && (l.texture.texture == none || l.base != white);
+  if (one_color && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
+  if (!replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
+  if (l.texture.channels % 2 == 1 || l.texture.channels == 0) said.push_back(m::transparency.slot);
+  return said;
+}
+
+/// What glTF has said of a material that only X3D has.
+std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
+  namespace p = nodes::physical_material;
+  namespace u = nodes::unlit_material;
+  if (scene_.is(l.material, nodes::UnlitMaterial)) return {u::emissiveColor.slot, u::transparency.slot, u::emissiveTexture.slot};
+  return {p::baseColor.slot, p::emissiveColor.slot, p::metallic.slot, p::roughness.slot, p::transparency.slot, p::normalScale.slot, p::occlusionStrength.slot, p::baseTexture.slot, p::emissiveTexture.slot, p::metallicRoughnessTexture.slot, p::normalTexture.slot, p::occlusionTexture.slot};
+}
+
+/// The fields of a material that the look does not show, a picture that is not shown at all, and the light.
+void Materials::extras(JsonOut& json, const Look& l) {
+  std::vector<std::uint16_t> said;
+  if (l.material) said = scene_.is(l.material, nodes::Material) ? said_by_vrml97(l) : said_by_x3d(l);
+  // White and unlit is what a Shape without a Material is, too.
+  bool material = extras_ && l.material && (extras_->anything(l.material, said) || (!l.lit && l.base == white && l.alpha == 1));
+  bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
+  bool picture = extras_ && l.texture_node && l.texture.texture == none;
+  bool transform = extras_ && l.transform_node && l.texture.texture == none;
+  // Of a Material alone: a picture that is multiplied, not one that takes the place of the colour.
+  bool multiplied = extras_ && l.texture.texture != none && scene_.is(l.material, nodes::Material) && own_picture(scene_, l.material);
+  bool light = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::extras;
+  for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
+    if (n && extras_) extras_->set_placed(n);
+  if (!material && !picture && !named && !transform && !multiplied && !light) return;
+  json.key("extras");
+  json.begin_object();
+  if (light) light_extras(json, l);
+  if (material || picture || named || transform || multiplied) {
+    json.key("vrml97");
+    json.begin_object();
+    if (named) json.key("Appearance"), json.begin_object(), json.member("DEF", extras_->name(l.appearance)), json.end_object();
+    if (multiplied) json.member("multiplied", true);
+    if (material) extras_->node(json, l.material, said);
+    if (picture) extras_->node(json, l.texture_node, {}, !extras_->name(l.texture_node).empty());
+    if (transform) extras_->node(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());
+    json.end_object();
+  }
+  json.end_object();
+}
+
+}  // namespace wrlkit::gltf

@@ -1,0 +1,107 @@
+// Meshes: one for each geometry and material that are used together. The vertex data of a geometry is made when it is
+// first met, and shared by all meshes with it.
+#pragma once
+#include <string>
+#include <unordered_map>
+
+#include "base/diagnostics.h"
+#include "scenegraph/transform.h"
+#include "geometry/vertices.h"
+#include "writers/gltf/box.h"
+#include "writers/gltf/materials.h"
+#include "writers/gltf/morphs.h"
+#include "writers/gltf/parts.h"
+#include "writers/gltf/store.h"
+#include "writers/gltf/transform.h"
+
+namespace wrlkit::gltf {
+
+enum class Mode : std::uint8_t { points = 0, lines = 1, triangles = 4 };
+
+/// The vertex data of a geometry: accessors. Nothing to draw: no positions.
+struct Geometry {
+  NodeId source;
+  std::uint32_t positions = none, normals = none, colors = none, texcoords = none, lightcoords = none, indices = none;
+  std::uint32_t features = none;    // for each vertex the number of the part that it is of (scenegraph/features.h)
+  std::uint32_t n_features = 0;     // different ones
+  std::uint32_t origin = none;      // into Meshes::origins: where the positions are relative to
+  std::uint32_t first_mesh = none;  // of those with it
+  std::uint32_t morph = none;       // into Meshes::morphs
+  std::uint32_t textured = none;    // the same geometry, with texture coordinates
+  Mode mode = Mode::triangles;
+  bool double_sided = false;
+  bool opacity = false;  // its colours have one
+  double scale = 0;      // how many times larger it is in the world, at most, where it is shown
+  std::vector<std::uint32_t> polygons;  // pairs: so many triangles were one face, so often; empty: all faces are triangles
+
+  bool empty() const { return positions == none; }
+  SurfaceKind surface() const { return {mode == Mode::triangles, colors != none, texcoords != none, lightcoords != none, double_sided, opacity}; }
+};
+
+struct MeshRecord {
+  std::uint32_t geometry, material;
+  std::uint32_t texcoords;    // those of the geometry, or baked ones
+  std::uint32_t lightcoords;  // the same; none: the material shows no light
+  std::uint32_t next = none;  // with the same geometry
+  NodeId bake, bake_light;
+  bool shows_color = true;
+};
+
+class Meshes {
+ public:
+  /// `light`: places in lightmaps are kept. `ordered`: triangles and vertices come in the order in which they are drawn best.
+  Meshes(const Scene& scene, const MeshSource& source, const Motion& motion, Store& store, PartTable& parts, bool light, bool ordered, Diagnostics& diag)
+      : scene_(scene), source_(source), store_(store), parts_(parts), light_(light), ordered_(ordered), diag_(diag), morphs_(scene, motion, store, diag), by_node_(scene.node_count(), none) {}
+
+  /// Index into geometries() of the data of a geometry node. Texture coordinates that the file does not give are there
+  /// only for who has a picture.
+  std::uint32_t geometry(NodeId, bool picture);
+  /// It is shown in this frame.
+  void note_use(std::uint32_t geometry, const Matrix& frame) {
+    Geometry& g = geometries_[geometry];
+    g.scale = std::max(g.scale, largest_scale(frame));
+  }
+  /// Index into meshes().
+  std::uint32_t mesh(std::uint32_t geometry, const MaterialUse&);
+
+  const std::vector<Geometry>& geometries() const { return geometries_; }
+  const std::vector<MeshRecord>& meshes() const { return meshes_; }
+  const std::vector<Vec3>& origins() const { return origins_; }
+  /// Rows of the table of parts are in a mesh.
+  bool any_features() const { return any_features_; }
+  /// How far a mesh goes from its origin.
+  double reach(std::uint32_t mesh) const { return bounds(geometries_[meshes_[mesh].geometry], {}).reach() * std::sqrt(3.0); }
+  const Morphs& morphs() const { return morphs_; }
+  /// Of a geometry that is not empty, in a frame.
+  Box bounds(const Geometry&, const Matrix&) const;
+
+ private:
+  Geometry make(NodeId, bool texcoords);
+  const Mesh& mesh_of(NodeId);
+  void split(const Mesh&, bool texcoords, const Vec3& origin = {});
+  bool number_parts(NodeId, const Mesh&);
+  bool gives_texcoords(NodeId) const;
+  void report_coarse(NodeId, const Mesh&);
+  std::uint32_t move_near_origin(const Mesh&, bool texcoords);
+  std::uint32_t baked(const Geometry&, NodeId texture_transform, std::vector<float> Vertices::*places);
+
+  const Scene& scene_;
+  const MeshSource& source_;
+  Store& store_;
+  PartTable& parts_;
+  bool light_, ordered_;
+  Diagnostics& diag_;
+  Morphs morphs_;
+  std::vector<std::uint32_t> by_node_;
+  std::vector<Geometry> geometries_;
+  std::vector<MeshRecord> meshes_;
+  std::vector<Vec3> origins_;
+  bool any_features_ = false;
+  std::vector<float> feature_of_corner_;  // of the mesh that is being made; empty: it has no parts
+  SplitScratch scratch_;
+  Mesh faceted_;
+  bool moving_ = false;  // the mesh at hand: its vertices stay those of the points
+  Vertices vertices_;
+};
+
+}  // namespace wrlkit::gltf

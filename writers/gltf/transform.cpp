@@ -1,0 +1,141 @@
+#include "writers/gltf/transform.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenegraph/nodes.h"
+#include "writers/gltf/number.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+Vec3 fitting_or(const Vec3& v, const Vec3& fallback) { return fits_float(v) ? v : fallback; }
+
+Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec3 operator*(const Vec3& a, const Vec3& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
+
+/// Rows of the rotation matrix.
+std::array<double, 9> rows(const Quaternion& q) {
+  double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
+  double wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+  return {1 - 2 * (yy + zz), 2 * (xy - wz),     2 * (xz + wy),  //
+          2 * (xy + wz),     1 - 2 * (xx + zz), 2 * (yz - wx),  //
+          2 * (xz - wy),     2 * (yz + wx),     1 - 2 * (xx + yy)};
+}
+
+/// SR S -SR when that is again a scale along the axes: when SR only swaps axes.
+std::optional<Vec3> axis_scale(const Quaternion& orientation, const Vec3& scale) {
+  constexpr double rounding = 1e-12;
+  auto r = rows(orientation);
+  double largest = std::max({std::abs(scale[0]), std::abs(scale[1]), std::abs(scale[2])});
+  auto entry = [&](std::size_t i, std::size_t j) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += r[i * 3 + k] * scale[k] * r[j * 3 + k];
+    return sum;
+  };
+  if (std::max({std::abs(entry(0, 1)), std::abs(entry(0, 2)), std::abs(entry(1, 2))}) > rounding * largest)
+    return std::nullopt;
+  return Vec3{entry(0, 0), entry(1, 1), entry(2, 2)};
+}
+
+}  // namespace
+
+Quaternion quaternion(const Vec4& r) {
+  double length = std::hypot(r[0], r[1], r[2]);
+  if (!(length > 0) || !fits_float(r)) return {};
+  double s = std::sin(r[3] / 2) / length;
+  return {r[0] * s, r[1] * s, r[2] * s, std::cos(r[3] / 2)};
+}
+
+Quaternion looking_along(const Vec3& direction) {
+  double length = std::hypot(direction[0], direction[1], direction[2]);
+  if (!(length > 0) || !fits_float(direction)) return {};
+  double x = direction[0] / length, y = direction[1] / length, z = direction[2] / length;
+  if (z == -1) return {};
+  // The half-way quaternion, (1 + a.b, a x b) of a = -Z; behind, any axis across Z will do.
+  double w = 1 - z, n = std::sqrt(w * w + x * x + y * y);
+  if (n < 1e-9) return {0, 1, 0, 0};
+  return {y / n, -x / n, 0, w / n};
+}
+
+Quaternion operator*(const Quaternion& a, const Quaternion& b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+Vec3 rotate(const Quaternion& q, const Vec3& v) { return matrix(Trs{{0, 0, 0}, q, {1, 1, 1}}).point(v); }
+
+Matrix matrix(const Trs& t) {
+  const auto r = rows(t.rotation);
+  Matrix out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) out.m[i * 4 + j] = r[i * 3 + j] * t.scale[j];
+    out.m[i * 4 + 3] = t.translation[i];
+  }
+  return out;
+}
+
+std::optional<Trs> trs_of(const Matrix& m) {
+  constexpr double square = 1e-9;
+  Trs t;
+  Matrix r = m;
+  for (int c = 0; c < 3; ++c) {
+    const double length = std::hypot(m(0, c), m(1, c), m(2, c));
+    if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
+    for (int k = 0; k < 3; ++k) r(k, c) /= length;
+    t.scale[static_cast<std::size_t>(c)] = std::abs(length - 1) < square ? 1 : length;
+    t.translation[static_cast<std::size_t>(c)] = m(c, 3);
+  }
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(r(0, c) * r(0, (c + 1) % 3) + r(1, c) * r(1, (c + 1) % 3) + r(2, c) * r(2, (c + 1) % 3)) > square) return std::nullopt;
+  if (!(r.determinant() > 0)) return std::nullopt;
+  // The largest of the four is found first, so that nothing is divided by a small number.
+  const double xx = r(0, 0), yy = r(1, 1), zz = r(2, 2);
+  const std::array<double, 4> quarter{xx + yy + zz, xx - yy - zz, yy - xx - zz, zz - xx - yy};
+  const auto most = std::ranges::max_element(quarter) - quarter.begin();
+  const double s = 2 * std::sqrt(std::max(quarter[static_cast<std::size_t>(most)] + 1, 0.0));
+  const double wx = (r(2, 1) - r(1, 2)) / s, wy = (r(0, 2) - r(2, 0)) / s, wz = (r(1, 0) - r(0, 1)) / s;
+  const double xy = (r(0, 1) + r(1, 0)) / s, xz = (r(0, 2) + r(2, 0)) / s, yz = (r(1, 2) + r(2, 1)) / s;
+  const std::array<Quaternion, 4> all{{{wx, wy, wz, s / 4}, {s / 4, xy, xz, wx}, {xy, s / 4, yz, wy}, {xz, yz, s / 4, wz}}};
+  t.rotation = all[static_cast<std::size_t>(most)];
+  for (double* v : {&t.rotation.x, &t.rotation.y, &t.rotation.z, &t.rotation.w})
+    if (std::abs(*v) < square) *v = 0;
+  if (t.rotation.w < 0) t.rotation = {-t.rotation.x, -t.rotation.y, -t.rotation.z, -t.rotation.w};
+  return t;
+}
+
+double mean_scale(const Matrix& m) { return std::cbrt(std::abs(m.determinant())); }
+
+double largest_scale(const Matrix& m) {
+  double largest = 0, sum = 0, dots = 0;
+  for (int c = 0; c < 3; ++c) {
+    double square = 0, dot = 0;
+    for (int r = 0; r < 3; ++r) square += m(r, c) * m(r, c), dot += m(r, c) * m(r, (c + 1) % 3);
+    largest = std::max(largest, square), sum += square, dots = std::max(dots, std::abs(dot));
+  }
+  return std::sqrt(dots <= 1e-9 * sum ? largest : sum);
+}
+
+Trs placed_at(const Vec3& position, const Quaternion& rotation) {
+  return {fitting_or(position, {0, 0, 0}), rotation, {1, 1, 1}};
+}
+
+NodeTransform node_transform(const Scene& scene, NodeId n) {
+  namespace f = nodes::transform;
+  constexpr Vec3 zero{0, 0, 0}, one{1, 1, 1};
+  const Vec3 t = fitting_or(scene.get(n, f::translation), zero), c = fitting_or(scene.get(n, f::center), zero);
+  const Vec3 s = fitting_or(scene.get(n, f::scale), one);
+  const Quaternion r = quaternion(scene.get(n, f::rotation));
+  const Quaternion sr = s[0] == s[1] && s[1] == s[2] ? Quaternion{} : quaternion(scene.get(n, f::scaleOrientation));
+  if (c == zero && sr.identity()) return {{t, r, s}, {}, true};
+  auto along_axes = sr.identity() ? s : axis_scale(sr, s);
+  if (along_axes) {
+    Vec3 moved = r.identity() && *along_axes == one ? t : t + c - rotate(r, *along_axes * c);
+    return {{fitting_or(moved, t), r, *along_axes}, {}, false};
+  }
+  Quaternion back = inverse(sr);
+  return {{fitting_or(t + c, t), r * sr, s}, placed_at(rotate(back, zero - c), back), false};
+}
+
+}  // namespace wrlkit::gltf

@@ -1,0 +1,429 @@
+#include "writers/x3d/x3d.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scenegraph/equal.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/x3d_version.h"
+#include "writers/vrml/def_names.h"
+#include "writers/x3d/x3d_profile.h"
+#include "base/text/xml_text.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr std::string_view access_words[] = {"initializeOnly", "inputOutput", "inputOnly", "outputOnly"};
+
+bool number_like(std::string_view s) { return s == "true" || s == "false" || s.find_first_not_of("+-.0123456789eE, ") == s.npos; }
+
+std::string_view trim_end(std::string_view s) {
+  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
+  return s;
+}
+
+class Writer {
+ public:
+  Writer(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag)
+      : scene_(scene), options_(options), diag_(diag), out_(sink), names_(scene, Dialect::x3d, options.own_fields), version_(x3d_version(scene)), printed_(scene.node_count(), 0) {}
+
+  void file() {
+    const auto profile = x3d_profile(scene_);
+    const std::string version = std::to_string(version_ / 10) + '.' + std::to_string(version_ % 10);
+    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE X3D PUBLIC \"ISO//Web3D//DTD X3D " << version
+         << "//EN\" \"https://www.web3d.org/specifications/x3d-" << version << ".dtd\">\n";
+    comment();
+    out_ << "<X3D profile='" << profile.name
+         << "' version='" << version << "' xmlns:xsd='http://www.w3.org/2001/XMLSchema-instance' "
+            "xsd:noNamespaceSchemaLocation='https://www.web3d.org/specifications/x3d-" << version << ".xsd'>";
+    head(profile);
+    ++depth_;
+    line() << "<Scene>";
+    names_.scope(scene_.main);
+    ++depth_;
+    scope(scene_.main);
+    --depth_;
+    line() << "</Scene>";
+    --depth_;
+    line() << "</X3D>\n";
+  }
+
+ private:
+  TextOut& line() {
+    out_ << '\n';
+    for (int i = 0; i < depth_; ++i) out_ << ' ';
+    return out_;
+  }
+
+  void attribute(std::string_view name, std::string_view text) {
+    out_ << ' ' << name << "='";
+    xml_attribute_text(out_, text);
+    out_ << '\'';
+  }
+
+  // ---- the document ----
+
+  /// The lines without their '#'.
+  void comment() {
+    std::string_view rest = scene_.comment;
+    if (rest.empty()) return;
+    std::string text;
+    for (; !rest.empty(); rest.remove_prefix(std::min(rest.size(), rest.find('\n') + 1))) {
+      auto l = rest.substr(0, rest.find('\n'));
+      text += l.substr(std::min<std::size_t>(l.size(), 1));
+      if (rest.find('\n') == rest.npos) break;
+      text += '\n';
+    }
+    for (std::size_t at; (at = text.find("--")) != text.npos;) text.insert(at + 1, " ");
+    out_ << "<!--\n" << text << "-->\n";
+  }
+
+  void head(const X3dProfile& profile) {
+    if (profile.beyond.empty() && scene_.x3d.meta.empty()) return;
+    ++depth_;
+    line() << "<head>";
+    ++depth_;
+    for (const auto& [name, level] : profile.beyond) {
+      line() << "<component";
+      attribute("name", name);
+      attribute("level", std::to_string(level));
+      out_ << "/>";
+    }
+    for (const auto& [name, content] : scene_.x3d.meta) {
+      line() << "<meta";
+      attribute("name", name);
+      attribute("content", content);
+      out_ << "/>";
+    }
+    --depth_;
+    line() << "</head>";
+    --depth_;
+  }
+
+  void scope(const Scope& s) {
+    for_each_statement(scene_, Dialect::x3d, names_.unknown(), s, [&](ProtoId p) { proto(scene_.proto(p)); }, [&](NodeId n) { node(n, {}); });
+    for (auto& i : s.imports) {
+      if (printed_[i.inline_node.value] != scope_) continue;
+      printed_[i.node.value] = scope_;
+      line() << "<IMPORT";
+      attribute("inlineDEF", names_[i.inline_node]);
+      attribute("importedDEF", i.exported);
+      attribute("AS", names_[i.node]);
+      out_ << "/>";
+    }
+    for (auto& r : s.routes) {
+      if (printed_[r.from.value] != scope_ || printed_[r.to.value] != scope_) continue;
+      line() << "<ROUTE";
+      attribute("fromNode", names_[r.from]);
+      attribute("fromField", event(r.from, r.event_out));
+      attribute("toNode", names_[r.to]);
+      attribute("toField", event(r.to, r.event_in));
+      out_ << "/>";
+    }
+    for (auto& e : s.exports) {
+      if (printed_[e.node.value] != scope_) continue;
+      line() << "<EXPORT";
+      attribute("localDEF", names_[e.node]);
+      attribute("AS", e.name);
+      out_ << "/>";
+    }
+  }
+
+  /// The name of an event of a node in X3D.
+  std::string event(NodeId n, std::string_view name) const {
+    std::string s(name);
+    const auto& t = scene_.type(n);
+    auto slot = t.find(name, scene_.dialect(), true);
+    if (!slot || t.kind != NodeKind::builtin) return s;
+    const auto& f = t.fields[*slot];
+    if (auto old = f.name_in(scene_.dialect()); old != f.name) s.replace(s.find(old), old.size(), f.name);
+    return s;
+  }
+
+  // ---- prototypes ----
+
+  void proto(const Proto& p) {
+    const auto& t = scene_.type(p.type);
+    line() << (p.external ? "<ExternProtoDeclare" : "<ProtoDeclare");
+    attribute("name", t.name);
+    if (p.external) out_ << " url='", urls(p.where, p.urls), out_ << '\'';
+    out_ << '>';
+    ++depth_;
+    if (!p.external && !t.fields.empty()) line() << "<ProtoInterface>", ++depth_;
+    for (const auto& f : t.fields) declaration(f, p.external ? nullptr : &f.default_value);
+    if (!p.external && !t.fields.empty()) --depth_, line() << "</ProtoInterface>";
+    if (!p.external) body(p.body);
+    --depth_;
+    line() << (p.external ? "</ExternProtoDeclare>" : "</ProtoDeclare>");
+  }
+
+  /// Knows nothing of what is printed around it, and leaves that known behind it.
+  void body(const Scope& s) {
+    line() << "<ProtoBody>";
+    ++depth_;
+    const auto around = std::exchange(scope_, ++scopes_);
+    const auto mark = again_.size();
+    scope(s);
+    for (; again_.size() > mark; again_.pop_back()) printed_[again_.back().first] = again_.back().second;
+    scope_ = around;
+    --depth_;
+    line() << "</ProtoBody>";
+  }
+
+  void declaration(const FieldDef& f, const Value* v) {
+    line() << "<field";
+    attribute("name", f.name);
+    attribute("type", info(f.type).name);
+    attribute("accessType", access_words[static_cast<int>(f.access)]);
+    end_with_value("field", f.has_value() ? v : nullptr);
+  }
+
+  /// The value of a field or fieldValue element, and its end.
+  void end_with_value(std::string_view element, const Value* v) {
+    const bool nodes = v && info(v->type).element == Element::node;
+    if (v && !nodes) out_ << " value='", value(*v), out_ << '\'';
+    if (!nodes || v->node_span().empty()) { out_ << "/>"; return; }
+    out_ << '>';
+    ++depth_;
+    for (NodeId n : v->node_span()) node(n, {});
+    --depth_;
+    line() << "</" << element << '>';
+  }
+
+  // ---- nodes ----
+
+  std::string_view container_of(NodeId n) const {
+    const NodeType* t = &scene_.type(n);
+    for (int i = 0; t->kind == NodeKind::proto && i < 100; ++i) {
+      const auto& p = scene_.proto(t->proto);
+      if (p.external || p.body.roots.empty()) return "children";
+      t = &scene_.type(p.body.roots[0]);
+    }
+    return t->container_field.empty() ? std::string_view("children") : t->container_field;
+  }
+
+  /// `field`: of the node around it; empty where no field needs to be named. Of metadata the default depends on the version.
+  void node(NodeId n, std::string_view field) {
+    if (!n) return;
+    const auto& t = scene_.type(n);
+    const bool instance = t.kind == NodeKind::proto;
+    const auto element = instance ? std::string_view("ProtoInstance") : element_name(n);
+    line() << '<' << element;
+    if (instance) attribute("name", t.name);
+    auto name = names_[n];
+    auto& printed = printed_[n.value];
+    const bool use = printed == scope_;
+    if (!name.empty()) attribute(use ? "USE" : "DEF", name);
+    if (!field.empty() && (field != container_of(n) || t.is_a("X3DMetadataObject"))) attribute("containerField", field);
+    if (use) { out_ << "/>"; return; }
+    if (printed) again_.emplace_back(n.value, printed);
+    printed = scope_;
+    if (!instance) attributes(n);
+    if (!has_content(n)) { out_ << "/>"; return; }
+    out_ << '>';
+    ++depth_;
+    instance ? field_values(n) : children(n);
+    --depth_;
+    line() << "</" << element << '>';
+  }
+
+  /// Anything that stands between the tags.
+  bool has_content(NodeId n) const {
+    const auto& t = scene_.type(n);
+    if (t.kind == NodeKind::proto) return !scene_.fields(n).empty();
+    return own_fields(t) < t.fields.size() || std::ranges::any_of(names_.printed_order(n), [&](const Value* v) {
+             const auto& c = scene_.content(*v);
+             return c.is || !c.node_span().empty() || program(n, *v);
+           });
+  }
+
+  std::string_view element_name(NodeId n) {
+    auto name = scene_.type(n).name;
+    if (is_xml_name(name)) return name;
+    diag_.report(Diag::no_x3d_value, scene_.where(n), "type name", name);
+    return "Group";
+  }
+
+  /// Where the fields that a Script declares itself begin.
+  static std::size_t own_fields(const NodeType& t) {
+    return t.kind == NodeKind::script ? builtin_nodes()[nodes::Script.value].fields.size() : t.fields.size();
+  }
+
+  bool says_default(const Value& v, const FieldDef& f) const {
+    if (info(v.type).element == Element::node) return v.node_span().empty();
+    return equal_plain(v, f.x3d_default_in(version_));
+  }
+
+  static bool is_url(const FieldDef& f) { return f.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url")); }
+
+  void attributes(NodeId n) {
+    const auto& t = scene_.type(n);
+    const auto own = own_fields(t);
+    for (const Value* v : names_.printed_order(n)) {
+      if (scene_.is_extra(*v)) { extra_attribute(n, *v); continue; }
+      const auto& f = t.fields[v->slot];
+      if (v->slot >= own || v->is || info(v->type).element == Element::node || says_default(*v, f) || program(n, *v)) continue;
+      field_attribute(n, f, *v);
+    }
+    if (t.kind != NodeKind::builtin) return;
+    for (const auto& f : t.fields)  // what the reader would take for another default
+      if (f.x3d_from && version_ >= f.x3d_from && !scene_.find(n, f.x3d_default.slot)) field_attribute(n, f, f.default_value);
+  }
+
+  void field_attribute(NodeId n, const FieldDef& f, const Value& v) {
+    out_ << ' ' << f.name << "='";
+    is_url(f) ? urls(scene_.where(n), v.text_span()) : value(v);
+    out_ << '\'';
+  }
+
+  /// A field that nobody knows.
+  void extra_attribute(NodeId n, const Value& v) {
+    const auto& c = v.extra->value;
+    if (c.is || (info(c.type).element == Element::node && is_xml_name(v.extra->name))) return;  // stands among the children
+    const auto name = v.extra->name;
+    const bool reserved = name == "DEF" || name == "USE" || name == "containerField" || name == "class" || name == "id" || name == "style";
+    if (!is_xml_name(name) || reserved || c.type != FieldType::verbatim) return diag_.report(Diag::no_x3d_value, scene_.where(n), name, scene_.type(n).name);
+    attribute(name, as_xml(c.text()));
+  }
+
+  /// A value whose type nobody knows, as VRML writes it: a single string needs no quotes here, and truth is written small.
+  static std::string_view as_xml(std::string_view s) {
+    if (s == "TRUE") return "true";
+    if (s == "FALSE") return "false";
+    const bool string = s.size() > 2 && s.front() == '"' && s.find_first_of("\"\\", 1) == s.size() - 1;
+    return string && s.find_first_of("[{\"", 1) == s.size() - 1 && s[1] > ' ' && s[s.size() - 2] > ' ' && !number_like(s.substr(1, s.size() - 2)) ? s.substr(1, s.size() - 2) : s;
+  }
+
+  void children(NodeId n) {
+    const auto& t = scene_.type(n);
+    const auto own = own_fields(t);
+    const auto written = names_.printed_order(n);
+    for (std::size_t i = own; i < t.fields.size(); ++i) {
+      const Value* v = scene_.find(n, static_cast<std::uint16_t>(i));
+      declaration(t.fields[i], v && v->is ? nullptr : v ? v : &t.fields[i].default_value);
+    }
+    connections(n, written);
+    for (const Value* v : written) {
+      const auto& c = scene_.content(*v);
+      const bool extra = scene_.is_extra(*v);
+      if (c.is || info(c.type).element != Element::node || (!extra && v->slot >= own) || (extra && !is_xml_name(v->extra->name))) continue;
+      for (NodeId m : c.node_span()) node(m, extra ? v->extra->name : t.fields[v->slot].name);
+    }
+    for (const Value* v : written)
+      if (program(n, *v)) line() << "<![CDATA[" << v->text_span()[0] << "]]>";
+  }
+
+  void connections(NodeId n, const std::vector<const Value*>& written) {
+    bool any = false;
+    for (const Value* v : written) {
+      const auto& c = scene_.content(*v);
+      if (!c.is) continue;
+      if (!std::exchange(any, true)) line() << "<IS>", ++depth_;
+      line() << "<connect";
+      attribute("nodeField", scene_.is_extra(*v) ? event(n, v->extra->name) : std::string(scene_.type(n).fields[v->slot].name));
+      attribute("protoField", c.text());
+      out_ << "/>";
+    }
+    if (any) --depth_, line() << "</IS>";
+  }
+
+  /// The program of a Script that can stand in the file as it is: nothing of it would be lost behind CDATA.
+  bool program(NodeId n, const Value& v) const {
+    if (scene_.type(n).name != "Script" || scene_.is_extra(v) || v.is || v.slot != nodes::script::url.slot || v.count != 1) return false;
+    const auto s = v.text_span()[0];
+    const bool inside = s.starts_with("javascript:") || s.starts_with("ecmascript:") || s.starts_with("vrmlscript:");
+    return inside && s.find("]]>") == s.npos && s.find('\r') == s.npos && !trim_end(s).empty();
+  }
+
+  void field_values(NodeId n) {
+    const auto& t = scene_.type(n);
+    const auto written = names_.printed_order(n);
+    connections(n, written);
+    for (const Value* v : written) {
+      const auto& c = scene_.content(*v);
+      if (c.is) continue;
+      if (scene_.is_extra(*v) && info(c.type).element != Element::node && c.type != FieldType::verbatim) continue;
+      line() << "<fieldValue";
+      attribute("name", scene_.is_extra(*v) ? v->extra->name : t.fields[v->slot].name);
+      end_with_value("fieldValue", &c);
+    }
+  }
+
+  // ---- values, between apostrophes ----
+
+  void value(const Value& v) {
+    const auto& t = info(v.type);
+    switch (t.element) {
+      case Element::node: return;
+      case Element::text:
+        if (t.multiple) strings(v.text_span());
+        else xml_attribute_text(out_, v.text());
+        return;
+      case Element::image: return list(v.integer_span(), 1, [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });
+      case Element::integer:
+        if (v.type == FieldType::SFBool) out_ << (v.integer ? "true" : "false");
+        else if (v.type == FieldType::MFBool) list(v.integer_span(), 1, [&](std::int32_t b) { out_ << (b ? "true" : "false"); });
+        else if (t.multiple) list(v.integer_span(), 1, [&](std::int32_t i) { out_.integer(i); });
+        else out_.integer(v.integer);
+        return;
+      case Element::number: list(v.number_span(), t.arity, [&](double d) { out_.number(d, options_.precision); });
+    }
+  }
+
+  template <class T, class Print>
+  void list(std::span<const T> values, std::size_t arity, Print print) {
+    constexpr std::uint64_t width = 110;
+    auto start = out_.size();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i) {
+        if (i % arity == 0 && out_.size() - start > width) { out_ << '\n'; start = out_.size(); }
+        else out_ << ' ';
+      }
+      print(values[i]);
+    }
+  }
+
+  /// Four components do not fit into a decimal int32.
+  void pixel(std::uint32_t p) {
+    if (p <= 0x7fffffffu) return void(out_.integer(p));
+    char b[16] = "0x";
+    *std::to_chars(b + 2, b + sizeof b, p, 16).ptr = 0;
+    out_ << std::string_view(b);
+  }
+
+  template <class S>
+  void strings(const S& list) {
+    bool first = true;
+    for (std::string_view s : list) {
+      if (!std::exchange(first, false)) out_ << ' ';
+      out_ << '"';
+      for (std::size_t from = 0;;) {
+        auto at = s.find_first_of("\"\\", from);
+        xml_attribute_text(out_, s.substr(from, at - from));
+        if (at == s.npos) break;
+        out_ << '\\' << s[at];
+        from = at + 1;
+      }
+      out_ << '"';
+    }
+  }
+
+  void urls(Span where, std::span<const std::string_view> list) { strings(led_urls(scene_, where, list, options_.file, options_.place)); }
+
+  const Scene& scene_;
+  const X3dOptions& options_;
+  Diagnostics& diag_;
+  TextOut out_;
+  Names names_;
+  int version_;
+  std::vector<std::uint32_t> printed_;                          // the scope that printed the node last, from 1
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> again_;  // nodes printed once more in a body, and where before
+  std::uint32_t scope_ = 1, scopes_ = 1;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+void write_x3d(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag) { Writer(scene, options, sink, diag).file(); }
+
+}  // namespace wrlkit
