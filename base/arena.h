@@ -1,5 +1,5 @@
-// Memory for the arrays of a scene: allocated once, never moved, never written again after the call that filled it, freed
-// all together. Because of that, scenes share arenas when they are copied or imported into each other.
+// Memory for the arrays of a scene: allocated once, never moved, never written again after the call that filled it,
+// freed all together. Because of that, scenes share arenas when they are copied or imported into each other.
 #pragma once
 #include <cstddef>
 #include <cstring>
@@ -35,7 +35,10 @@ class Arena {
 
   void* bytes(std::size_t n, std::size_t align) {
     std::size_t at = (used_ + align - 1) & ~(align - 1);
-    if (at + n <= size_) return used_ = at + n, current_ + at;
+    if (at + n <= size_) {
+      used_ = at + n;
+      return current_ + at;
+    }
     if (n > block / 2) {
       blocks_.push_back(std::unique_ptr<std::byte[]>(new std::byte[n]));
       return blocks_.back().get();

@@ -25,7 +25,10 @@ const DiagInfo& info(Diag d) { return table()[static_cast<std::size_t>(d)]; }
 
 bool find_diag(std::string_view name, Diag& out) {
   for (std::size_t i = 0; i < table().size(); ++i)
-    if (table()[i].name == name) return out = static_cast<Diag>(i), true;
+    if (table()[i].name == name) {
+      out = static_cast<Diag>(i);
+      return true;
+    }
   return false;
 }
 
@@ -41,8 +44,10 @@ std::string Message::text() const {
   for (std::size_t i = 0; i < t.size(); ++i)
     if (t.substr(i, 2) == "{}") {
       if (next < args.size()) out += args[next];
-      ++next, ++i;
-    } else out += t[i];
+      ++next;
+      ++i;
+    } else
+      out += t[i];
   return out;
 }
 

@@ -49,7 +49,9 @@ class Diagnostics {
   }
 
   template <class... A>
-  void report(Diag id, Span where, const A&... args) { add(id, where, {argument(args)...}); }
+  void report(Diag id, Span where, const A&... args) {
+    add(id, where, {argument(args)...});
+  }
 
   /// Severity of one message from now on (-Werror=NAME, -Wno-NAME).
   void set_severity(Diag id, Severity s) { severity_[static_cast<std::size_t>(id)] = s; }
@@ -70,7 +72,7 @@ class Diagnostics {
   static std::string argument(double v);
   static std::string argument(float v) { return argument(static_cast<double>(v)); }
   template <class I>
-    requires std::is_integral_v<I>
+  requires std::is_integral_v<I>
   static std::string argument(I v) { return std::to_string(v); }
   void add(Diag, Span, std::vector<std::string>);
 

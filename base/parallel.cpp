@@ -23,11 +23,13 @@ struct ThreadLimit::Control {
   tbb::global_control limit;
 };
 
-// One thread needs no oneTBB, which looks through 80 places for a library when it is first used: in a process that converts one
-// small file that is a good part of its time.
+// One thread needs no oneTBB, which looks through 80 places for a library when it is first used: in a process that
+// converts one small file that is a good part of its time.
 ThreadLimit::ThreadLimit(int threads) : one_(threads == 1) {
-  if (one_) ++limits_of_one;
-  else if (threads > 0) control_.reset(new Control{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
+  if (one_)
+    ++limits_of_one;
+  else if (threads > 0)
+    control_.reset(new Control{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
 }
 ThreadLimit::~ThreadLimit() {
   if (one_) --limits_of_one;

@@ -6,10 +6,14 @@ namespace wrlkit {
 namespace {
 
 // In the middle of a character of UTF-8.
-bool inside_character(std::string_view t, std::size_t i) { return i < t.size() && (static_cast<unsigned char>(t[i]) & 0xc0) == 0x80; }
+bool inside_character(std::string_view t, std::size_t i) {
+  return i < t.size() && (static_cast<unsigned char>(t[i]) & 0xc0) == 0x80;
+}
 
 // Lines end with LF, CR or CR LF.
-bool ends_line(std::string_view t, std::size_t i) { return t[i] == '\n' || (t[i] == '\r' && (i + 1 >= t.size() || t[i + 1] != '\n')); }
+bool ends_line(std::string_view t, std::size_t i) {
+  return t[i] == '\n' || (t[i] == '\r' && (i + 1 >= t.size() || t[i + 1] != '\n'));
+}
 
 }  // namespace
 
@@ -17,7 +21,8 @@ std::uint32_t Sources::add(std::string name, std::size_t size, Reload reload) {
   std::uint64_t begin = sources_.empty() ? 0 : std::uint64_t{sources_.back().begin} + sources_.back().size + 1;
   if (begin + size >= Span::nowhere) return Span::nowhere;
   loaded_from_ = nullptr;  // sources_ may move
-  sources_.push_back({std::move(name), static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(size), std::move(reload)});
+  sources_.push_back(
+      {std::move(name), static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(size), std::move(reload)});
   return static_cast<std::uint32_t>(begin);
 }
 
@@ -47,10 +52,15 @@ Place Sources::locate(Span span) const {
   std::size_t at = std::min<std::size_t>(span.begin - s->begin, text.size()), start = 0;
   p.line = 1;
   for (std::size_t i = 0; i < at; ++i)
-    if (ends_line(text, i)) ++p.line, start = i + 1;
+    if (ends_line(text, i)) {
+      ++p.line;
+      start = i + 1;
+    }
   p.column = at - start + 1;
   std::size_t end = at;
-  while (end < text.size() && text[end] != '\n' && text[end] != '\r' && end < at + std::max<std::size_t>(shown_after, span.length)) ++end;
+  while (end < text.size() && text[end] != '\n' && text[end] != '\r' &&
+         end < at + std::max<std::size_t>(shown_after, span.length))
+    ++end;
   std::size_t from = at - start > shown_before ? at - shown_before : start;
   end = std::min(end, at + shown_after * 2);
   while (from < at && inside_character(text, from)) ++from;

@@ -19,8 +19,8 @@ struct Span {
 
 struct Place {
   std::string_view file;
-  std::size_t line = 0, column = 0;  // from 1; column counts bytes; 0: the file as a whole
-  std::string line_text;             // the line, cut to what can be shown
+  std::size_t line = 0, column = 0;         // from 1; column counts bytes; 0: the file as a whole
+  std::string line_text;                    // the line, cut to what can be shown
   std::size_t caret = 0, caret_length = 0;  // where the span is in line_text
 };
 

@@ -1,4 +1,5 @@
-// What work that takes long is given besides its input: where it reports, what it counts, who watches it, who may stop it.
+// What work that takes long is given besides its input: where it reports, what it counts, who watches it, who may stop
+// it.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -1,5 +1,5 @@
-// The stages of the main road on one thread, in bytes of VRML text a CPU second, beside the floor: a bare fast_float loop
-// that finds the numbers of the same text and stores them.
+// The stages of the main road on one thread, in bytes of VRML text a CPU second, beside the floor: a bare fast_float
+// loop that finds the numbers of the same text and stores them.
 //   wrlkit_bench FILE.wrl [--benchmark_...]
 #include <benchmark/benchmark.h>
 #include <fast_float/fast_float.h>
@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "parsers/parsers.h"
 #include "geometry/geometry.h"
+#include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
 #include "passes/weld/weld.h"
 #include "writers/gltf/gltf.h"
@@ -21,7 +21,9 @@ using namespace wrlkit;
 
 std::string path, text;
 
-void count(benchmark::State& state) { state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * text.size())); }
+void count(benchmark::State& state) {
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * text.size()));
+}
 
 bool blank(char c) { return c == ' ' || c == ',' || c == '\n' || c == '\r' || c == '\t'; }
 
@@ -33,9 +35,12 @@ void floor_floats(benchmark::State& state) {
       while (p < end && blank(*p)) ++p;
       float f;
       bool number = p < end && ((*p >= '0' && *p <= '9') || *p == '-' || *p == '.');
-      auto r = number ? fast_float::from_chars(p, end, f) : fast_float::from_chars_result{p, std::errc::invalid_argument};
-      if (r.ec == std::errc{}) numbers.push_back(f), p = r.ptr;
-      else while (p < end && !blank(*p)) ++p;
+      auto r =
+          number ? fast_float::from_chars(p, end, f) : fast_float::from_chars_result{p, std::errc::invalid_argument};
+      if (r.ec == std::errc{})
+        numbers.push_back(f), p = r.ptr;
+      else
+        while (p < end && !blank(*p)) ++p;
     }
     benchmark::DoNotOptimize(numbers.data());
   }
@@ -58,7 +63,9 @@ void write_vrml_text(benchmark::State& state) {
   auto world = read();
   Diagnostics diag;
   std::size_t bytes = 0;
-  for (auto _ : state) write_vrml(world->scene, {}, [&](std::string_view s) { bytes += s.size(); }, diag);
+  for (auto _ : state)
+    write_vrml(
+        world->scene, {}, [&](std::string_view s) { bytes += s.size(); }, diag);
   benchmark::DoNotOptimize(bytes);
   count(state);
 }
@@ -112,7 +119,7 @@ void weld_points(benchmark::State& state, const char* tolerance) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * corners));
 }
 BENCHMARK_CAPTURE(weld_points, exact, "0")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(weld_points, auto, "auto")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(weld_points, auto, "auto") -> Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(weld_points, tolerance, "0.001")->Unit(benchmark::kMillisecond);
 
 void to_glb(benchmark::State& state) {
@@ -133,11 +140,17 @@ BENCHMARK(to_glb)->Unit(benchmark::kMillisecond);
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) return std::fprintf(stderr, "usage: wrlkit_bench FILE.wrl [--benchmark_...]\n"), 2;
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: wrlkit_bench FILE.wrl [--benchmark_...]\n");
+    return 2;
+  }
   path = argv[1];
   Diagnostics diag;
   auto file = read_file(path, {}, diag);
-  if (!file) return std::fprintf(stderr, "%s cannot be read\n", argv[1]), 1;
+  if (!file) {
+    std::fprintf(stderr, "%s cannot be read\n", argv[1]);
+    return 1;
+  }
   text = file->view();
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

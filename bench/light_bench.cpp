@@ -1,7 +1,9 @@
 // Rays and baking, in CPU seconds.
-//   light_bench rays IN.wrl [N]                     rays a second: nearest and occluded of the library beside Embree alone,
+//   light_bench rays IN.wrl [N]                     rays a second: nearest and occluded of the library beside Embree
+//   alone,
 //                                                   over the same triangles and the same rays, in one run
-//   light_bench bake IN.wrl TEXELS RAYS,... [SPP]   irradiance at about TEXELS points spread over all faces: CPU seconds and
+//   light_bench bake IN.wrl TEXELS RAYS,... [SPP]   irradiance at about TEXELS points spread over all faces: CPU
+//   seconds and
 //                                                   error against path tracing with SPP rays a point (default 8192)
 #include <embree3/rtcore.h>
 #include <sys/resource.h>
@@ -15,11 +17,11 @@
 #include <string>
 #include <vector>
 
-#include "parsers/parsers.h"
+#include "base/parallel.h"
 #include "light/flux.h"
 #include "light/integrator.h"
 #include "light/random.h"
-#include "base/parallel.h"
+#include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
 
 namespace {
@@ -54,7 +56,8 @@ struct Loaded {
     auto meshes = pipeline->run_lazily(file->scene, ctx);
     double t = cpu_seconds();
     world = std::make_unique<LightWorld>(file->scene, meshes, nullptr, options, diag);
-    std::printf("%s: %zu uses, world %.3f CPU s, peak %.0f MB\n", path, world->stage().uses.size(), cpu_seconds() - t, peak_megabytes());
+    std::printf("%s: %zu uses, world %.3f CPU s, peak %.0f MB\n", path, world->stage().uses.size(), cpu_seconds() - t,
+                peak_megabytes());
   }
 };
 
@@ -73,13 +76,16 @@ void each_triangle(const LightWorld& w, F&& f) {
   }
 }
 
-/// Points on all faces, on a grid in each triangle, as the texels of a lightmap of about so many lie; of triangles that are
-/// smaller than a texel some have one.
+/// Points on all faces, on a grid in each triangle, as the texels of a lightmap of about so many lie; of triangles that
+/// are smaller than a texel some have one.
 std::vector<Point> points_over(const LightWorld& w, double n) {
   double area = 0;
-  each_triangle(w, [&](std::uint32_t, const auto&, const V3* p) { area += 0.5 * length(cross(p[1] - p[0], p[2] - p[0])); });
+  each_triangle(
+      w, [&](std::uint32_t, const auto&, const V3* p) { area += 0.5 * length(cross(p[1] - p[0], p[2] - p[0])); });
   double step = std::sqrt(area / n);
-  auto point = [](const V3& at, const V3& face, std::uint32_t use, const V3* p) { return Point{at, face, face, use, std::max(length(p[1] - p[0]), length(p[2] - p[0]))}; };
+  auto point = [](const V3& at, const V3& face, std::uint32_t use, const V3* p) {
+    return Point{at, face, face, use, std::max(length(p[1] - p[0]), length(p[2] - p[0]))};
+  };
   double due = 0;
   std::vector<Point> out;
   each_triangle(w, [&](std::uint32_t use, const auto&, const V3* p) {
@@ -113,8 +119,10 @@ struct Bare {
       }
     });
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    std::memcpy(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, v.size() / 3), v.data(), v.size() * 4);
-    auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, v.size() / 9));
+    std::memcpy(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, v.size() / 3), v.data(),
+                v.size() * 4);
+    auto* index = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, v.size() / 9));
     for (std::uint32_t i = 0; i < v.size() / 3; ++i) index[i] = i;
     rtcCommitGeometry(g);
     rtcAttachGeometry(scene, g);
@@ -139,7 +147,8 @@ double measure(const char* what, std::size_t n, F&& f) {
   for (std::size_t i = 0; i < n; ++i) hits += f(i);
   t = cpu_seconds() - t;
   double rate = static_cast<double>(n) / t * 1e-6;
-  std::printf("  %-22s %6.2f million rays a CPU s, %.1f %% hit\n", what, rate, 100. * static_cast<double>(hits) / static_cast<double>(n));
+  std::printf("  %-22s %6.2f million rays a CPU s, %.1f %% hit\n", what, rate,
+              100. * static_cast<double>(hits) / static_cast<double>(n));
   return rate;
 }
 
@@ -163,8 +172,14 @@ void bench_rays(const char* path, std::size_t n) {
     rtcIntersect1(bare.scene, &c, &r);
     return r.hit.geomID != RTC_INVALID_GEOMETRY_ID;
   });
-  double b = measure("library, nearest", n, [&](std::size_t i) { Hit h; return w.nearest(rays[i], 0, h); });
-  double s = measure("library, with surface", n, [&](std::size_t i) { Hit h; return w.nearest(rays[i], 0, h) && w.surface(h).alpha > 0; });
+  double b = measure("library, nearest", n, [&](std::size_t i) {
+    Hit h;
+    return w.nearest(rays[i], 0, h);
+  });
+  double s = measure("library, with surface", n, [&](std::size_t i) {
+    Hit h;
+    return w.nearest(rays[i], 0, h) && w.surface(h).alpha > 0;
+  });
   double d = measure("Embree, occluded", n, [&](std::size_t i) {
     RTCRay r = bare_ray(rays[i].origin - w.centre(), rays[i].direction);
     rtcOccluded1(bare.scene, &c, &r);
@@ -193,7 +208,8 @@ void bench_bake(const char* path, double texels, const char* rays, int spp) {
   auto points = points_over(*l.world, texels);
   std::printf("  %zu points\n", points.size());
   double t = cpu_seconds();
-  auto reference = Integrator(*l.world, points, {.mode = IntegratorOptions::Mode::path, .rays = spp, .seed = 99}).irradiance(points);
+  auto reference =
+      Integrator(*l.world, points, {.mode = IntegratorOptions::Mode::path, .rays = spp, .seed = 99}).irradiance(points);
   std::printf("  path, %d rays: %.2f CPU s\n", spp, cpu_seconds() - t);
   std::istringstream in(rays);
   for (std::string r; std::getline(in, r, ',');)
@@ -202,15 +218,21 @@ void bench_bake(const char* path, double texels, const char* rays, int spp) {
       Integrator integrator(*l.world, points, {.mode = mode, .rays = std::atoi(r.c_str())});
       double prepared = cpu_seconds() - t;
       auto e = integrator.irradiance(points);
-      std::printf("  %s, %5s rays: %7.3f CPU s (%.3f cache), %.2f %% rRMSE\n", mode == IntegratorOptions::Mode::path ? "path  " : "cached", r.c_str(),
-                  cpu_seconds() - t, prepared, 100 * relative_rmse(e, reference));
+      std::printf("  %s, %5s rays: %7.3f CPU s (%.3f cache), %.2f %% rRMSE\n",
+                  mode == IntegratorOptions::Mode::path ? "path  " : "cached", r.c_str(), cpu_seconds() - t, prepared,
+                  100 * relative_rmse(e, reference));
     }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc >= 3 && !std::strcmp(argv[1], "rays")) bench_rays(argv[2], argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 1'000'000);
-  else if (argc >= 5 && !std::strcmp(argv[1], "bake")) bench_bake(argv[2], std::atof(argv[3]), argv[4], argc > 5 ? std::atoi(argv[5]) : 8192);
-  else return std::fprintf(stderr, "light_bench rays|bake ...: see the head of light_bench.cpp\n"), 2;
+  if (argc >= 3 && !std::strcmp(argv[1], "rays"))
+    bench_rays(argv[2], argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 1'000'000);
+  else if (argc >= 5 && !std::strcmp(argv[1], "bake"))
+    bench_bake(argv[2], std::atof(argv[3]), argv[4], argc > 5 ? std::atoi(argv[5]) : 8192);
+  else {
+    std::fprintf(stderr, "light_bench rays|bake ...: see the head of light_bench.cpp\n");
+    return 2;
+  }
 }

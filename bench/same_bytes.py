@@ -15,7 +15,7 @@ ways = {
     'lod': ['out.glb', '-p', 'join,weld,lod'],
     'small': ['out.glb', '-p', 'dedup,instance,merge', '--compress', 'meshopt'],
     'draco': ['out.glb', '-p', 'weld', '--compress', 'draco'],
-    'dump': ['out.wrl', '-p', 'expand,prune,flatten,weld', '--dump'],
+    'dump': ['out.wrl', '-p', 'inline,expand-protos,prune,flatten,weld', '--dump'],
 }
 
 

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "geometry/simplify/collapse.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
-#include "geometry/simplify/collapse.h"
 
 namespace {
 
@@ -127,7 +127,10 @@ void speed(const Mesh& mesh, Criterion by) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) return std::fprintf(stderr, "see the head of simplify_bench.cpp\n"), 2;
+  if (argc < 3) {
+    std::fprintf(stderr, "see the head of simplify_bench.cpp\n");
+    return 2;
+  }
   Mesh mesh = std::atof(argv[2]) > 0 ? bumpy_torus(std::atof(argv[2])) : read(argv[2]);
   if (!std::strcmp(argv[1], "levels") && argc == 6)
     levels(mesh, argv[3], criterion(argv[4]), argv[5]);

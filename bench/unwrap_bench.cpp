@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "parsers/parsers.h"
-#include "passes/pipeline/pipeline.h"
+#include "base/image/image.h"
 #include "geometry/unwrap/pack.h"
 #include "geometry/unwrap/rows.h"
 #include "geometry/unwrap/unfold.h"
-#include "base/image/image.h"
+#include "parsers/parsers.h"
+#include "passes/pipeline/pipeline.h"
 
 namespace {
 
@@ -118,7 +118,10 @@ void write_png(const std::vector<std::uint32_t>& owner, int side, const char* pa
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) return std::fprintf(stderr, "see the head of unwrap_bench.cpp\n"), 2;
+  if (argc < 3) {
+    std::fprintf(stderr, "see the head of unwrap_bench.cpp\n");
+    return 2;
+  }
   Soup s = read(argv[1]);
   int side = std::atoi(argv[2]), padding = 2;
   double t0 = cpu_seconds();

@@ -1,4 +1,5 @@
-// What nearly every source includes, compiled once (CMakeLists.txt). No source may lean on it: each includes what it uses.
+// What nearly every source includes, compiled once (CMakeLists.txt). No source may lean on it: each includes what it
+// uses.
 #include <algorithm>
 #include <array>
 #include <charconv>

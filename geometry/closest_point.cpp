@@ -52,7 +52,10 @@ struct Range {
   static constexpr float inf = std::numeric_limits<float>::infinity();
 
   void add(const Range& r) {
-    for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], r.low[i]), high[i] = std::max(high[i], r.high[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], r.low[i]);
+      high[i] = std::max(high[i], r.high[i]);
+    }
   }
   double half_area() const {
     double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
@@ -110,7 +113,10 @@ struct ClosestPoint::Builder {
       if (!is_usable(corners)) continue;
       items.push_back({{}, static_cast<std::uint32_t>(t)});
       for (auto& p : corners)
-        for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+        for (std::size_t i = 0; i < 3; ++i) {
+          low[i] = std::min(low[i], p[i]);
+          high[i] = std::max(high[i], p[i]);
+        }
     }
     if (items.empty()) return;
     tree.centre_ = 0.5 * (low + high);
@@ -124,7 +130,8 @@ struct ClosestPoint::Builder {
     for (std::size_t i = 0; i < 3; ++i) {
       auto v = static_cast<float>(p[i]);
       float rounding = std::fabs(v) * 2e-7f + 1e-37f;
-      r.low[i] = v - rounding, r.high[i] = v + rounding;
+      r.low[i] = v - rounding;
+      r.high[i] = v + rounding;
     }
     return r;
   }
@@ -183,8 +190,10 @@ struct ClosestPoint::Builder {
     Range before, after;
     std::uint32_t n_before = 0, n_after = 0;
     for (int i = 1; i < n_bins; ++i) {
-      before.add(bins[i - 1].range), n_before += bins[i - 1].n;
-      after.add(bins[n_bins - i].range), n_after += bins[n_bins - i].n;
+      before.add(bins[i - 1].range);
+      n_before += bins[i - 1].n;
+      after.add(bins[n_bins - i].range);
+      n_after += bins[n_bins - i].n;
       cost[i] += before.half_area() * n_before;
       cost[n_bins - i] += after.half_area() * n_after;
     }
@@ -213,7 +222,10 @@ struct ClosestPoint::Search {
     if (!(d2 <= reach)) return;
     double d = std::sqrt(d2), size = length(n), front = size > 0 ? dot(n, facing) / size : -infinity;
     n_equal = d < best.distance - tree.same_ ? 0 : n_equal + 1;
-    if (!n_equal || front > best_facing) best.triangle = triangle, best_facing = front;
+    if (!n_equal || front > best_facing) {
+      best.triangle = triangle;
+      best_facing = front;
+    }
     best.distance = std::min(best.distance, d);
     double limit = best.distance + (n_equal < most_equal ? tree.same_ : -tree.same_);
     reach = limit < 0 ? -1 : limit * limit;
@@ -242,16 +254,21 @@ struct ClosestPoint::Search {
       if (distance <= reach && !box.n_triangles) {
         std::uint32_t near = at + 1, far = box.next;
         double to_near = to(tree.boxes_[near], q), to_far = to(tree.boxes_[far], q);
-        if (to_far < to_near) std::swap(near, far), std::swap(to_near, to_far);
+        if (to_far < to_near) {
+          std::swap(near, far);
+          std::swap(to_near, to_far);
+        }
         if (to_far <= reach) open[n_open++] = {far, to_far};
-        at = near, distance = to_near;
+        at = near;
+        distance = to_near;
         continue;
       }
       if (distance <= reach)
         for (auto i = box.next; i < box.next + box.n_triangles; ++i) try_triangle(tree.order_[i]);
       if (!n_open) return;
       --n_open;
-      at = open[n_open].box, distance = open[n_open].distance;
+      at = open[n_open].box;
+      distance = open[n_open].distance;
     }
   }
 };

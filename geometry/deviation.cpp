@@ -71,7 +71,10 @@ struct Sums {
 
   void add_distance(const ClosestPoint::Nearest& found, const Vec3& p) {
     double d = found.distance;
-    if (!n++ || d > max) max = d, where = p;
+    if (!n++ || d > max) {
+      max = d;
+      where = p;
+    }
     squares += d * d;
     n_tried += found.n_tried;
   }
@@ -80,13 +83,20 @@ struct Sums {
   bool too_costly() const { return n_tried > run_length * tries_per_question; }
   void add_angle(double a) {
     ++n_normals;
-    angles += a, squared_angles += a * a;
+    angles += a;
+    squared_angles += a * a;
     max_angle = std::max(max_angle, a);
   }
   void add(const Sums& s) {
-    if (!n || s.max > max) max = s.max, where = s.where;
-    n += s.n, n_normals += s.n_normals;
-    squares += s.squares, angles += s.angles, squared_angles += s.squared_angles;
+    if (!n || s.max > max) {
+      max = s.max;
+      where = s.where;
+    }
+    n += s.n;
+    n_normals += s.n_normals;
+    squares += s.squares;
+    angles += s.angles;
+    squared_angles += s.squared_angles;
     max_angle = std::max(max_angle, s.max_angle);
   }
 };
@@ -96,7 +106,7 @@ Sums in_runs(std::size_t n, const std::function<Sums(std::size_t, std::size_t)>&
   if (n <= run_length) return sums_of(0, n);
   std::vector<Sums> parts((n + run_length - 1) / run_length);
   parallel_for(parts.size(),
-                    [&](std::size_t i) { parts[i] = sums_of(i * run_length, std::min(n, (i + 1) * run_length)); });
+               [&](std::size_t i) { parts[i] = sums_of(i * run_length, std::min(n, (i + 1) * run_length)); });
   Sums all;
   for (const Sums& s : parts) all.add(s);
   return all;
@@ -188,8 +198,12 @@ class Way {
     for (std::size_t k = begin; k < end; ++k) {
       while (slot + 1 < area_.size() && area_[slot] <= (k + 0.5) * spacing) ++slot;
       sample.triangle = changed_[slot];
-      sample.u = fraction(k * step_u), sample.v = fraction(k * step_v);
-      if (sample.u + sample.v > 1) sample.u = 1 - sample.u, sample.v = 1 - sample.v;
+      sample.u = fraction(k * step_u);
+      sample.v = fraction(k * step_v);
+      if (sample.u + sample.v > 1) {
+        sample.u = 1 - sample.u;
+        sample.v = 1 - sample.v;
+      }
       ask(sample, sums);
       if (sample.distance > worst.distance) worst = sample;
       if (sums.too_costly()) return sums;
@@ -202,7 +216,8 @@ class Way {
     auto t = from_[s.triangle];
     Vec3 normal = unit(area_normal(t)), p = point_at(t, s.u, s.v);
     auto found = nearest_->nearest(p, normal, s.nearest);
-    s.distance = found.distance, s.nearest = found.triangle;
+    s.distance = found.distance;
+    s.nearest = found.triangle;
     sums.add_distance(found, p);
     if (s.nearest == ClosestPoint::no_guess) return;
     Vec3 there = area_normal(to_[s.nearest]);
@@ -221,14 +236,24 @@ class Way {
         double u = at.u + step * w[0], v = at.v + step * w[1];
         if (u < 0 || v < 0 || u + v > 1) continue;
         double d = nearest_->nearest(point_at(t, u, v), {}, at.nearest).distance;
-        if (d > at.distance) at.u = u, at.v = v, at.distance = d, up = true;
+        if (d > at.distance) {
+          at.u = u;
+          at.v = v;
+          at.distance = d;
+          up = true;
+        }
       }
       if (up)
         ++moves;
-      else
-        ++halvings, step /= 2;
+      else {
+        ++halvings;
+        step /= 2;
+      }
     }
-    if (at.distance > sums.max) sums.max = at.distance, sums.where = point_at(t, at.u, at.v);
+    if (at.distance > sums.max) {
+      sums.max = at.distance;
+      sums.where = point_at(t, at.u, at.v);
+    }
   }
 
   const Triangles &from_, &to_;
@@ -253,7 +278,8 @@ Deviation both(const OneSidedDeviation& a, const OneSidedDeviation& b) {
                                           (a.normal_mean + b.normal_mean) / 2,
                                           root_mean(a.normal_rms, b.normal_rms),
                                           std::max(a.normal_max, b.normal_max)};
-  out.forward = a, out.backward = b;
+  out.forward = a;
+  out.backward = b;
   return out;
 }
 
@@ -263,7 +289,8 @@ Deviation measure_deviation(const Triangles& a, const Triangles& b, const Deviat
   Marks in_b, in_a;
   {
     auto keys_a = sorted_keys(a), keys_b = sorted_keys(b);
-    in_b = also_in(a, keys_a, b, keys_b), in_a = also_in(b, keys_b, a, keys_a);
+    in_b = also_in(a, keys_a, b, keys_b);
+    in_a = also_in(b, keys_b, a, keys_a);
   }
   const std::size_t n = number_of_samples(a, b, options);
   auto forward = Way(a, in_b, b).measure(n);

@@ -68,7 +68,10 @@ void repair_positions(MeshJob& job) {
   if (mesh.n_positions() > mesh.corners.size()) keep_used_positions(job);
   std::size_t n = 0;
   for (auto& v : mesh.positions.edit())
-    if (!std::isfinite(v)) v = 0, ++n;
+    if (!std::isfinite(v)) {
+      v = 0;
+      ++n;
+    }
   job.ctx.diag.report(Diag::not_finite, job.scene.where(job.geometry), title(job), n);
 }
 
@@ -112,8 +115,8 @@ void read_face_set(MeshJob& job) {
 
   auto runs = read_coord(job, scene.get(n, ifs::coord), scene.get(n, ifs::coordIndex));
   bind_attribute(job, mesh.color,
-                 {"color", colors_of(scene, scene.get(n, ifs::color), mesh.color),
-                  scene.get(n, ifs::colorIndex), scene.get(n, ifs::colorPerVertex)},
+                 {"color", colors_of(scene, scene.get(n, ifs::color), mesh.color), scene.get(n, ifs::colorIndex),
+                  scene.get(n, ifs::colorPerVertex)},
                  runs);
   bind_attribute(job, mesh.normal,
                  {"normal", values_of(scene, scene.get(n, ifs::normal), nodes::normal::vector),
@@ -137,8 +140,8 @@ void read_line_set(MeshJob& job) {
   job.mesh.kind = Mesh::Kind::lines;
   auto runs = read_coord(job, scene.get(n, ils::coord), scene.get(n, ils::coordIndex));
   bind_attribute(job, job.mesh.color,
-                 {"color", colors_of(scene, scene.get(n, ils::color), job.mesh.color),
-                  scene.get(n, ils::colorIndex), scene.get(n, ils::colorPerVertex)},
+                 {"color", colors_of(scene, scene.get(n, ils::color), job.mesh.color), scene.get(n, ils::colorIndex),
+                  scene.get(n, ils::colorPerVertex)},
                  runs);
   repair_positions(job);
 }
@@ -175,7 +178,10 @@ bool has_picture(const Scene& scene, NodeId appearance) {
   if (scene.get(appearance, nodes::appearance::texture)) return true;
   NodeId material = scene.get(appearance, nodes::appearance::material);
   if (!material) return false;
-  return std::ranges::any_of(scene.fields(material), [&](const Value& v) { return !scene.is_extra(v) && v.type == FieldType::SFNode && !v.is && v.node && scene.type(v.node).is_a("X3DTextureNode"); });
+  return std::ranges::any_of(scene.fields(material), [&](const Value& v) {
+    return !scene.is_extra(v) && v.type == FieldType::SFNode && !v.is && v.node &&
+           scene.type(v.node).is_a("X3DTextureNode");
+  });
 }
 
 }  // namespace
@@ -185,7 +191,8 @@ std::vector<char> textured_geometry(const Scene& scene) {
   for (NodeId n : all_nodes(scene)) {
     if (!scene.is(n, nodes::Shape)) continue;
     NodeId geometry = scene.get(n, nodes::shape::geometry), appearance = scene.get(n, nodes::shape::appearance);
-    if (geometry && scene.is(appearance, nodes::Appearance) && has_picture(scene, appearance)) textured[geometry.value] = 1;
+    if (geometry && scene.is(appearance, nodes::Appearance) && has_picture(scene, appearance))
+      textured[geometry.value] = 1;
   }
   return textured;
 }

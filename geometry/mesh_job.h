@@ -27,7 +27,7 @@ struct MeshScratch {
 /// A mesh on its way through mesh passes, and where it comes from.
 struct MeshJob {
   const Scene& scene;
-  NodeId geometry;   // the node it is made from
+  NodeId geometry;  // the node it is made from
   Mesh& mesh;
   MeshScratch& scratch;
   Task& ctx;

@@ -104,7 +104,8 @@ void Outline::cut(std::vector<Vec2>& points, std::vector<std::uint32_t>& triangl
   std::vector<std::uint32_t> ends;
   for (auto& outer : rings_) {
     if (!outer.is_outer()) continue;
-    part.clear(), ends.clear();
+    part.clear();
+    ends.clear();
     for (auto& ring : rings_)
       if (&ring == &outer || (ring.is_hole() && ring.inside_of == &outer)) {
         part.insert(part.end(), ring.points.begin(), ring.points.end());

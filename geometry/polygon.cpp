@@ -81,7 +81,10 @@ PolygonCutter::Result PolygonCutter::cut(const double* positions, std::span<cons
     polygon_[i] = {p[0], p[1], p[2]};
   }
   if (corners.size() < 3 || !project()) return result_;
-  if (strictly_convex()) return fan(), result_;
+  if (strictly_convex()) {
+    fan();
+    return result_;
+  }
   rings_.clear();
   auto ring = add_ring(0, static_cast<std::uint32_t>(points_.size()), false);
   result_.concave = has_reflex_corner();
@@ -203,7 +206,11 @@ void PolygonCutter::fan() {
   auto n = static_cast<std::uint32_t>(points_.size());
   corners_.resize(3 * std::size_t{n - 2});
   auto* out = corners_.data();
-  for (std::uint32_t i = 1; i + 1 < n; ++i, out += 3) out[0] = 0, out[1] = i, out[2] = i + 1;
+  for (std::uint32_t i = 1; i + 1 < n; ++i, out += 3) {
+    out[0] = 0;
+    out[1] = i;
+    out[2] = i + 1;
+  }
 }
 
 }  // namespace wrlkit

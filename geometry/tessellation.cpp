@@ -39,7 +39,8 @@ bool make_faces(MeshJob& job, const Tessellation& options) {
   make(job, options);
   // X3D can say of every surface whether its back is seen.
   auto solid = job.scene.type(job.geometry).find("solid", Dialect::x3d);
-  if (const Value* v = solid ? job.scene.find(job.geometry, *solid) : nullptr; v && !v->is) job.mesh.solid = v->integer != 0;
+  if (const Value* v = solid ? job.scene.find(job.geometry, *solid) : nullptr; v && !v->is)
+    job.mesh.solid = v->integer != 0;
   return true;
 }
 

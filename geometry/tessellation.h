@@ -1,5 +1,6 @@
 // Every geometry node as a mesh.
 #pragma once
+#include "base/option_range.h"
 #include "geometry/mesh_job.h"
 
 namespace wrlkit {
@@ -19,6 +20,14 @@ struct Tessellation {
   int segments = 0;      // around a circle, in [3, 1024], an even number for Sphere; 0: from the tolerance
   bool triangles = true;
   bool texcoords = false;  // for a job that is `textured`
+
+  void fields(auto&& f) {
+    f("tolerance", tolerance, "largest distance between a curved surface and its faces, in metres; 0: by the size",
+      at_least(0));
+    f("segments", segments, "faces around Cone, Cylinder and Sphere; 0: by the tolerance", between(0, 4096));
+    f("triangles", triangles, "cut all faces into triangles");
+    f("texcoords", texcoords, "make the default texture coordinates where a texture needs them and the file has none");
+  }
 };
 
 /// Makes job.mesh of any geometry node: reads it (geometry.h) unless it is there already, makes the faces of Box,

@@ -187,7 +187,9 @@ const Glyph& TextMaker::glyph(char32_t c) {
 }
 
 void TextMaker::report_missing() {
-  if (n_missing_) job_.ctx.diag.report(Diag::missing_glyph, where(), title(job_), n_missing_, fmt::format("{:04X}", static_cast<std::uint32_t>(first_missing_)));
+  if (n_missing_)
+    job_.ctx.diag.report(Diag::missing_glyph, where(), title(job_), n_missing_,
+                         fmt::format("{:04X}", static_cast<std::uint32_t>(first_missing_)));
 }
 
 void TextMaker::add_line(std::string_view s) {

@@ -68,7 +68,9 @@ class Triangulation {
 
   const double* at(std::size_t corner) const { return positions_ + std::size_t{3} * corners_[corner]; }
   void triangle(std::uint32_t begin, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    out_[0] = begin + a, out_[1] = begin + b, out_[2] = begin + c;
+    out_[0] = begin + a;
+    out_[1] = begin + b;
+    out_[2] = begin + c;
     out_ += 3;
   }
 
@@ -158,16 +160,22 @@ void Triangulation::cut_quad(std::uint32_t begin) {
     ++n_warped_;
     if (second && cosine(n0, n2) > cosine(n1, n3)) first = false;
   }
-  if (first)
-    triangle(begin, 0, 1, 2), triangle(begin, 0, 2, 3);
-  else
-    triangle(begin, 0, 1, 3), triangle(begin, 1, 2, 3);
+  if (first) {
+    triangle(begin, 0, 1, 2);
+    triangle(begin, 0, 2, 3);
+  } else {
+    triangle(begin, 0, 1, 3);
+    triangle(begin, 1, 2, 3);
+  }
 }
 
 void Triangulation::cut_polygon(std::uint32_t begin, std::uint32_t n) {
   auto& cutter = job_.scratch.cutter;
   auto result = cutter.cut(positions_, {corners_ + begin, n});
-  if (cutter.corners().empty()) return void(++n_flat_);
+  if (cutter.corners().empty()) {
+    ++n_flat_;
+    return;
+  }
   n_crossing_ += result.crossing;
   n_concave_ += result.concave && !result.crossing;
   n_warped_ += !result.planar;

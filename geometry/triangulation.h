@@ -15,8 +15,8 @@ namespace wrlkit {
 /// - Within a face no triangle is left without area, and none is dropped that would leave a corner in the middle of an
 ///   edge.
 /// - Concave faces are cut correctly whatever `convex` says; where it says TRUE they are counted (concave-face). Those
-///   that cross themselves are counted too (self-touching-face), and so are those that are not planar, in the statistics
-///   "triangulate.non-planar".
+///   that cross themselves are counted too (self-touching-face), and so are those that are not planar, in the
+///   statistics "triangulate.non-planar".
 ///
 /// Linear in the corners but for large concave faces, and free of allocations. Meshes of lines and points stay as they
 /// are. Positions in use must exist. True when the mesh changed.

@@ -87,7 +87,10 @@ std::uint32_t Splitter::look_up(const Vertex& v) {
   if (2 * scratch_.in_table.size() >= table.size()) rebuild_table(2 * table.size());
   for (std::size_t i = hash(v);; ++i) {
     std::uint32_t& slot = table[i & (table.size() - 1)];
-    if (slot == none) return scratch_.in_table.push_back(slot = add(v)), slot;
+    if (slot == none) {
+      scratch_.in_table.push_back(slot = add(v));
+      return slot;
+    }
     if (same(scratch_.vertices[slot], v)) return slot;
   }
 }
@@ -125,7 +128,10 @@ void fill_positions(const Mesh& mesh, const std::vector<Vertex>& vertices, Verti
       *to++ = x;
     }
   }
-  if (!vertices.empty()) out.min = min, out.max = max;
+  if (!vertices.empty()) {
+    out.min = min;
+    out.max = max;
+  }
 }
 
 /// Unit length; left alone where it is already, so that exact normals stay exact. All zero without a direction.
@@ -287,7 +293,13 @@ class Indices {
 }  // namespace
 
 void Vertices::clear() {
-  position.clear(), normal.clear(), color.clear(), texcoord.clear(), lightcoord.clear(), feature.clear(), index.clear();
+  position.clear();
+  normal.clear();
+  color.clear();
+  texcoord.clear();
+  lightcoord.clear();
+  feature.clear();
+  index.clear();
   color_width = 3;
   origin = {};
   min = max = {};

@@ -5,14 +5,15 @@
 namespace wrlkit::light {
 namespace {
 
-constexpr double angle = 0.5;       // that a cell spans at most, seen from where the ray comes
+constexpr double angle = 0.5;  // that a cell spans at most, seen from where the ray comes
 
 /// One of five steps along each axis. They end at 0.25 and 0.75, where the normals of few faces lie.
 std::int64_t direction_step(double v) { return static_cast<std::int64_t>(2 * v + 2.5) - 2; }
 
 }  // namespace
 
-IrradianceCache::IrradianceCache(const V3& centre, double largest) : centre_(centre), finest_(std::ldexp(largest / angle, 1 - levels)) {
+IrradianceCache::IrradianceCache(const V3& centre, double largest)
+    : centre_(centre), finest_(std::ldexp(largest / angle, 1 - levels)) {
   for (int level = 0; level < levels; ++level) per_unit_[level] = std::ldexp(1 / largest, level);
 }
 

@@ -1,8 +1,9 @@
 // Irradiance of the surfaces of the world, coarsely: what a final gather looks up where its rays end.
 //
-// A cell is a cube of space together with about one direction of faces, so thin plates have two, curved surfaces several,
-// and any number of tiny triangles share one. There are cells only where rays have ended. A ray that ends far away looks up
-// a large cell and one that ends near a small one, so that a cell spans about the same angle from wherever it is seen.
+// A cell is a cube of space together with about one direction of faces, so thin plates have two, curved surfaces
+// several, and any number of tiny triangles share one. There are cells only where rays have ended. A ray that ends far
+// away looks up a large cell and one that ends near a small one, so that a cell spans about the same angle from
+// wherever it is seen.
 #pragma once
 #include <optional>
 #include <span>
@@ -18,9 +19,9 @@ class IrradianceCache {
   using Key = std::uint64_t;
 
   struct Cell {
-    Receiver places[most_places];    // a fair choice of where rays ended in it
-    std::uint32_t n_met = 0;         // rays that ended in it
-    V3 direct, gathered;             // mean irradiance from lamps and emitters, and from all else
+    Receiver places[most_places];  // a fair choice of where rays ended in it
+    std::uint32_t n_met = 0;       // rays that ended in it
+    V3 direct, gathered;           // mean irradiance from lamps and emitters, and from all else
 
     int n_places() const { return n_met < most_places ? static_cast<int>(n_met) : most_places; }
     V3 irradiance() const { return direct + gathered; }
@@ -33,16 +34,16 @@ class IrradianceCache {
   struct Place {
     V3 position, face;
     std::uint32_t scope;
-    double distance;                 // how far the ray has come
+    double distance;  // how far the ray has come
   };
 
-  static constexpr int levels = 7;   // each half as large as the one before
+  static constexpr int levels = 7;  // each half as large as the one before
 
-  /// The cell for a place; none when it is too near for any cell. `larger`: one that is so many times twice as large, or the
-  /// largest.
+  /// The cell for a place; none when it is too near for any cell. `larger`: one that is so many times twice as large,
+  /// or the largest.
   std::optional<Key> key(const Place& place, int larger = 0) const;
-  /// The cell of a place or, when no ray has ended there, the smallest of those that are up to `larger` times twice as large.
-  /// Null when none of them is there.
+  /// The cell of a place or, when no ray has ended there, the smallest of those that are up to `larger` times twice as
+  /// large. Null when none of them is there.
   const Cell* find(const Place& place, int larger = 0) const;
   /// Makes the cell when it is new. `rank` is a random number for this meeting.
   void meet(Key key, const Receiver& place, std::uint64_t rank);
@@ -60,15 +61,15 @@ class IrradianceCache {
   void rebuild(std::size_t size);
 
   V3 centre_;
-  double finest_;                    // ratio of a distance to it: which cells are small enough
-  double per_unit_[levels];          // cells, by level
+  double finest_;            // ratio of a distance to it: which cells are small enough
+  double per_unit_[levels];  // cells, by level
   std::vector<Cell> cells_;
-  std::vector<Key> keys_;            // of the cells
+  std::vector<Key> keys_;  // of the cells
   struct Entry {
     Key key = 0;
-    std::uint32_t cell = 0;          // its number + 1; 0: free
+    std::uint32_t cell = 0;  // its number + 1; 0: free
   };
-  std::vector<Entry> table_;         // by key
+  std::vector<Entry> table_;  // by key
 };
 
 }  // namespace wrlkit::light

@@ -57,7 +57,8 @@ void DirectLight::lamps(const Receiver& at, int most, Stream& random, Flux& to) 
   }
 }
 
-void DirectLight::emitters(const Receiver& at, const Lattice<3>& places, std::uint32_t first, std::uint32_t n, Flux& to) const {
+void DirectLight::emitters(const Receiver& at, const Lattice<3>& places, std::uint32_t first, std::uint32_t n,
+                           Flux& to) const {
   if (tree_.empty()) return;
   thread_local std::vector<EmitterTree::Choice> choices;
   choices.clear();
@@ -75,16 +76,19 @@ std::optional<DirectLight::Sight> DirectLight::look(const Receiver& at, const Em
   V3 target = e.at(b1, b2), across = e.across();
   V3 way = target - at.start;
   Sight s;
-  s.distance2 = dot(way, way), s.leaving = -dot(across, way);
+  s.distance2 = dot(way, way);
+  s.leaving = -dot(across, way);
   if (e.both_sides) s.leaving = std::fabs(s.leaving);
   if (!(s.leaving > 0) || !(s.distance2 > 0)) return {};
-  s.distance = std::sqrt(s.distance2), s.arriving = dot(at.normal, way) / s.distance;
+  s.distance = std::sqrt(s.distance2);
+  s.arriving = dot(at.normal, way) / s.distance;
   if (!(s.arriving > 0) || !(dot(at.face, way) > 0)) return {};
   V3 side = unit(dot(across, way) < 0 ? across : -across);
   V3 end = world_.off_surface(target, side, length(e.edge1)) - at.start;
   double length_of_ray = length(end);
   s.ray = {at.start, (1 / length_of_ray) * end};
-  s.through = world_.transmittance(s.ray, length_of_ray * (1 - 0x1p-19));  // the emitter must not stand before itself by rounding
+  s.through = world_.transmittance(
+      s.ray, length_of_ray * (1 - 0x1p-19));  // the emitter must not stand before itself by rounding
   return s;
 }
 
@@ -99,7 +103,8 @@ void DirectLight::emitter(const Receiver& at, const EmitterTree::Choice& choice,
   to.add(s->through * weight * world_.radiance(e, b1, b2), s->ray.direction);
 }
 
-void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint32_t first, std::uint32_t n, Flux& to, V3& noise) const {
+void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint32_t first, std::uint32_t n, Flux& to,
+                               V3& noise) const {
   const auto emitters = world_.emitters();
   double strength[few], sum = 0;
   for (std::size_t i = 0; i < emitters.size(); ++i) {
@@ -109,8 +114,9 @@ void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint3
     sum += strength[i] = faces && mean(e.radiance) > 0 ? mean(e.radiance) * irradiance_of(corner, at) : 0;
   }
   if (!(sum > 0)) return;
-  // Rays by strength, two at least, so that they tell how they scatter. Emitters of less are drawn for a ray each, by equal steps along the
-  // sum of their strengths; those scatter from one another. A whole number of steps, so that where all are seen there is no noise.
+  // Rays by strength, two at least, so that they tell how they scatter. Emitters of less are drawn for a ray each, by
+  // equal steps along the sum of their strengths; those scatter from one another. A whole number of steps, so that
+  // where all are seen there is no noise.
   const double enough = 2 * sum / n;
   double faint = 0;
   for (std::size_t i = 0; i < emitters.size(); ++i) faint += strength[i] < enough ? strength[i] : 0;
@@ -120,21 +126,28 @@ void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint3
   for (std::size_t i = 0; i < emitters.size(); ++i) {
     const V3 full((n / mean(emitters[i].radiance)) * strength[i]);
     if (strength[i] >= enough) {
-      const auto rays = [&](std::uint32_t of) { return static_cast<std::uint32_t>(std::lround(of * (strength[i] / sum))); };
+      const auto rays = [&](std::uint32_t of) {
+        return static_cast<std::uint32_t>(std::lround(of * (strength[i] / sum)));
+      };
       add_seen(at, emitters[i], full, Lattice<2>(key_of(key, i)), rays(first), rays(n), to, noise);
     } else if (strength[i] > 0) {
       std::uint32_t rays_here = 0;
       for (next -= strength[i]; next < 0; next += step) ++rays_here;
       if (!rays_here) continue;
-      const V3 e = add_seen(at, emitters[i], (rays_here * step / strength[i]) * full, Lattice<2>(key_of(key, i, first)), 0, rays_here, to, drawn_noise);
-      drawn += e, drawn_squares += (1.0 / rays_here) * (e * e), n_drawn += rays_here;
+      const V3 e = add_seen(at, emitters[i], (rays_here * step / strength[i]) * full, Lattice<2>(key_of(key, i, first)),
+                            0, rays_here, to, drawn_noise);
+      drawn += e;
+      drawn_squares += (1.0 / rays_here) * (e * e);
+      n_drawn += rays_here;
     }
   }
-  noise += n_drawn < 2 ? drawn_noise : max(V3(), (n_drawn / (n_drawn - 1)) * (drawn_squares - (1 / n_drawn) * (drawn * drawn)));
+  noise += n_drawn < 2 ? drawn_noise
+                       : max(V3(), (n_drawn / (n_drawn - 1)) * (drawn_squares - (1 / n_drawn) * (drawn * drawn)));
 }
 
 /// `strength` is the irradiance by radiance 1 when nothing stands between. Returns what was added.
-V3 DirectLight::add_seen(const Receiver& at, const Emitter& e, const V3& strength, const Lattice<2>& places, std::uint32_t first, std::uint32_t n, Flux& to, V3& noise) const {
+V3 DirectLight::add_seen(const Receiver& at, const Emitter& e, const V3& strength, const Lattice<2>& places,
+                         std::uint32_t first, std::uint32_t n, Flux& to, V3& noise) const {
   struct Seen {
     V3 light, direction;
     double weight;

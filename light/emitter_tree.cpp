@@ -30,7 +30,8 @@ EmitterTree::Node EmitterTree::leaf(const Emitter& e) const {
   Node n;
   const V3 across = e.across();
   n.middle = middle_of(e);
-  for (const V3& p : {e.corner, e.corner + e.edge1, e.corner + e.edge2}) n.radius = std::max(n.radius, length(p - n.middle));
+  for (const V3& p : {e.corner, e.corner + e.edge1, e.corner + e.edge2})
+    n.radius = std::max(n.radius, length(p - n.middle));
   n.axis = unit(across);
   n.wide = e.both_sides;
   n.power = mean(e.radiance) * 0.5 * length(across);
@@ -57,7 +58,8 @@ EmitterTree::Node EmitterTree::join(const Node& a, const Node& b) {
   return n;
 }
 
-std::uint32_t EmitterTree::build(std::span<const Emitter> emitters, std::span<std::uint32_t> order, std::uint32_t parent) {
+std::uint32_t EmitterTree::build(std::span<const Emitter> emitters, std::span<std::uint32_t> order,
+                                 std::uint32_t parent) {
   auto id = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
   if (order.size() == 1) {
@@ -94,7 +96,8 @@ double EmitterTree::importance(const Node& n, const Receiver& at) {
   if (!(arriving > 0)) return 0;
   double leaving = 1;
   if (!n.wide) {
-    double cos_both = n.cos_spread * cos_u - n.sin_spread * sin_u, sin_both = n.sin_spread * cos_u + n.cos_spread * sin_u;
+    double cos_both = n.cos_spread * cos_u - n.sin_spread * sin_u,
+           sin_both = n.sin_spread * cos_u + n.cos_spread * sin_u;
     leaving = cos_of_rest(-dot(n.axis, way) / d, cos_both, sin_both);
     if (!(leaving > 0)) return 0;
   }
@@ -111,11 +114,15 @@ void EmitterTree::choose(const Receiver& at, std::span<Choice> choices) const {
   if (!empty()) choose_below(0, 1, at, choices);
 }
 
-void EmitterTree::choose_below(std::uint32_t node, double probability, const Receiver& at, std::span<Choice> choices) const {
+void EmitterTree::choose_below(std::uint32_t node, double probability, const Receiver& at,
+                               std::span<Choice> choices) const {
   while (!choices.empty()) {
     const Node& n = nodes_[node];
     if (n.emitter != none) {
-      for (Choice& c : choices) c.emitter = n.emitter, c.probability = probability;
+      for (Choice& c : choices) {
+        c.emitter = n.emitter;
+        c.probability = probability;
+      }
       return;
     }
     double left = share_of_left(n, at);

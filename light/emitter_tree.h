@@ -17,7 +17,7 @@ class EmitterTree {
     double u;
     std::uint32_t emitter = none;
     double probability = 0;
-    std::uint32_t index = 0;         // for the caller
+    std::uint32_t index = 0;  // for the caller
   };
   static constexpr std::uint32_t none = 0xffffffff;
 
@@ -35,7 +35,7 @@ class EmitterTree {
     V3 middle, axis;
     double radius = 0, cos_spread = 1, sin_spread = 0;  // all normals lie within the spread around the axis
     double power = 0;
-    bool wide = false;                                  // normals everywhere: the axis says nothing
+    bool wide = false;  // normals everywhere: the axis says nothing
     std::uint32_t parent = none, left = none, right = none, emitter = none;
   };
   std::uint32_t build(std::span<const Emitter> emitters, std::span<std::uint32_t> order, std::uint32_t parent);

@@ -10,15 +10,15 @@ constexpr double pi = 3.14159265358979323846;
 
 /// A place that light falls on.
 struct Receiver {
-  V3 start;                          // where its rays start: off the surface
-  V3 face, normal;                   // of the triangle and for shading; unit
-  std::uint32_t scope = 0;           // the DirectionalLights that light it: Use::lights
+  V3 start;                 // where its rays start: off the surface
+  V3 face, normal;          // of the triangle and for shading; unit
+  std::uint32_t scope = 0;  // the DirectionalLights that light it: Use::lights
 };
 
 /// A sum of samples with what their scatter and direction say.
 struct Flux {
   V3 sum, squares;
-  V3 along[3];                       // of sum: times x, y and z of the direction to where it comes from
+  V3 along[3];  // of sum: times x, y and z of the direction to where it comes from
 
   void add(const V3& e, const V3& from) {
     sum += e;

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-#include "light/radiosity.h"
 #include "base/parallel.h"
+#include "light/radiosity.h"
 
 namespace wrlkit::light {
 namespace {
 
-constexpr std::size_t block = 64;    // points that are done in one piece
+constexpr std::size_t block = 64;  // points that are done in one piece
 constexpr int lamp_rays = 16;
-constexpr double largest_cell = 0.1; // of the cache, by the radius of the world
+constexpr double largest_cell = 0.1;  // of the cache, by the radius of the world
 
 Receiver receiver(const LightWorld& world, const Point& p) {
   std::uint32_t scope = p.use == Point::nowhere ? 0 : world.stage().uses[p.use].lights;
@@ -29,7 +29,10 @@ struct Integrator::State {
   Transport transport;
 
   State(const LightWorld& w, const IntegratorOptions& o)
-      : world(w), options(o), direct(w), cache(w.centre(), o.cell > 0 ? o.cell : w.radius() * largest_cell),
+      : world(w),
+        options(o),
+        direct(w),
+        cache(w.centre(), o.cell > 0 ? o.cell : w.radius() * largest_cell),
         transport(w, direct, o.mode == IntegratorOptions::Mode::cached ? &cache : nullptr) {}
 };
 
@@ -38,19 +41,28 @@ namespace {
 /// The rays of one point.
 class Estimate {
  public:
-  Estimate(const DirectLight& direct, const Transport& transport, bool all_emitters, const Receiver& at, std::uint64_t key, std::uint32_t first)
-      : direct_(direct), transport_(transport), at_(at), all_emitters_(all_emitters), key_(key), first_(first), random_(first ? key_of(key, 4, first) : key), directions_(key_of(key, 1)),
+  Estimate(const DirectLight& direct, const Transport& transport, bool all_emitters, const Receiver& at,
+           std::uint64_t key, std::uint32_t first)
+      : direct_(direct),
+        transport_(transport),
+        at_(at),
+        all_emitters_(all_emitters),
+        key_(key),
+        first_(first),
+        random_(first ? key_of(key, 4, first) : key),
+        directions_(key_of(key, 1)),
         places_(key_of(key, 2)) {
     direct_.lamps(at_, lamp_rays, random_, lamps_);
   }
 
   void trace(std::uint32_t n) {
-    if (all_emitters_) direct_.all_emitters(at_, key_of(key_, 3), first_ + n_, n, emitters_, emitter_noise_);
-    else direct_.emitters(at_, places_, first_ + n_, n, emitters_);
+    if (all_emitters_)
+      direct_.all_emitters(at_, key_of(key_, 3), first_ + n_, n, emitters_, emitter_noise_);
+    else
+      direct_.emitters(at_, places_, first_ + n_, n, emitters_);
     for (std::uint32_t i = n_; i < n_ + n; ++i) gather(i);
     n_ += n;
   }
-
 
   Irradiance result() const {
     Irradiance out;
@@ -79,9 +91,9 @@ class Estimate {
   const DirectLight& direct_;
   const Transport& transport_;
   Receiver at_;
-  bool all_emitters_;                // each is looked at, so that rays leave them out
+  bool all_emitters_;  // each is looked at, so that rays leave them out
   std::uint64_t key_;
-  std::uint32_t first_;              // rays that others have
+  std::uint32_t first_;  // rays that others have
   Stream random_;
   Lattice<2> directions_;
   Lattice<3> places_;
@@ -105,13 +117,15 @@ Integrator::~Integrator() = default;
 
 int Integrator::rays() const { return state_->options.rays; }
 
-std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, std::size_t first, const Round& round) const {
+std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, std::size_t first,
+                                               const Round& round) const {
   const State& s = *state_;
   const bool all_emitters = s.options.mode == IntegratorOptions::Mode::cached && s.direct.has_few_emitters();
   std::vector<Irradiance> out(points.size());
   parallel_for((points.size() + block - 1) / block, [&](std::size_t b) {
     for (std::size_t i = b * block; i < std::min(points.size(), (b + 1) * block); ++i) {
-      Estimate e(s.direct, s.transport, all_emitters, receiver(s.world, points[i]), key_of(s.options.seed, 6, first + (round.numbers.empty() ? i : round.numbers[i])), round.first);
+      Estimate e(s.direct, s.transport, all_emitters, receiver(s.world, points[i]),
+                 key_of(s.options.seed, 6, first + (round.numbers.empty() ? i : round.numbers[i])), round.first);
       e.trace(static_cast<std::uint32_t>(std::max(1, round.rays)));
       out[i] = e.result();
     }

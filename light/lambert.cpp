@@ -27,7 +27,8 @@ Polygon above(const V3& normal, const Polygon& from) {
   return out;
 }
 
-/// angle / sin(angle) by the cosine. Few angles are large, and for the others a few terms of 2^k (k!)^2 / (2k + 1)! (1 - cos)^k do.
+/// angle / sin(angle) by the cosine. Few angles are large, and for the others a few terms of 2^k (k!)^2 / (2k + 1)! (1
+/// - cos)^k do.
 double angle_by_sine(double cosine) {
   const double d = 1 - cosine;
   if (d > 0.1) {
@@ -53,7 +54,8 @@ double irradiance_of(const V3 (&corner)[3], const Receiver& at) {
     p.corner[i] = (1 / distance) * p.corner[i];
   }
   double sum = 0;
-  for (int i = 0; i < p.n; ++i) sum += angle_by_sine(dot(p.corner[i], p.after(i))) * dot(cross(p.corner[i], p.after(i)), at.normal);
+  for (int i = 0; i < p.n; ++i)
+    sum += angle_by_sine(dot(p.corner[i], p.after(i))) * dot(cross(p.corner[i], p.after(i)), at.normal);
   return 0.5 * std::fabs(sum);
 }
 

@@ -1,13 +1,13 @@
 #include "light/path_picture.h"
 
-#include "light/transport.h"
 #include "base/parallel.h"
+#include "light/transport.h"
 
 namespace wrlkit::light {
 namespace {
 
 constexpr std::uint64_t seed = 1;
-constexpr std::size_t block = 64;    // pixels that are done in one piece
+constexpr std::size_t block = 64;  // pixels that are done in one piece
 constexpr std::size_t stretches = 100;
 
 void report(const LightWorld& world, Diagnostics& diag) {
@@ -29,7 +29,8 @@ class Painter {
     V3 sum;
     for (int v = 0; v < n; ++v)
       for (int u = 0; u < n; ++u) {
-        const double px = static_cast<double>(x) + (u + random.next()) / n, py = static_cast<double>(y) + (v + random.next()) / n;
+        const double px = static_cast<double>(x) + (u + random.next()) / n,
+                     py = static_cast<double>(y) + (v + random.next()) / n;
         sum += transport_.seen({camera_.eye, camera_.direction(px, py)}, random, options_.background);
       }
     return (1.0 / (n * n)) * sum;
@@ -44,7 +45,8 @@ class Painter {
 
 }  // namespace
 
-Image path_picture(const Scene& scene, const MeshSource& source, const drawing::Camera& camera, const PathOptions& options, Resources* resources, Diagnostics& diag) {
+Image path_picture(const Scene& scene, const MeshSource& source, const drawing::Camera& camera,
+                   const PathOptions& options, Resources* resources, Diagnostics& diag) {
   const LightWorld world(scene, source, resources, {.viewer = camera.pose(), .level_of = options.level_of}, diag);
   report(world, diag);
   const Painter painter(world, camera, options);
@@ -59,8 +61,10 @@ Image path_picture(const Scene& scene, const MeshSource& source, const drawing::
   };
   const std::size_t n_blocks = (n + block - 1) / block, stretch = (n_blocks + stretches - 1) / stretches;
   for (std::size_t b = 0; b < n_blocks; b += stretch) {
-    parallel_for(std::min(stretch, n_blocks - b), [&](std::size_t i) { paint((b + i) * block, std::min(n, (b + i + 1) * block)); });
-    if (options.done) options.done(static_cast<double>(std::min(b + stretch, n_blocks)) / static_cast<double>(n_blocks));
+    parallel_for(std::min(stretch, n_blocks - b),
+                 [&](std::size_t i) { paint((b + i) * block, std::min(n, (b + i + 1) * block)); });
+    if (options.done)
+      options.done(static_cast<double>(std::min(b + stretch, n_blocks)) / static_cast<double>(n_blocks));
   }
   return image;
 }

@@ -3,11 +3,11 @@
 #include <functional>
 #include <optional>
 
+#include "base/diagnostics.h"
+#include "geometry/mesh.h"
 #include "light/color.h"
 #include "light/render/camera.h"
 #include "light/render/stage.h"
-#include "base/diagnostics.h"
-#include "geometry/mesh.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
 
@@ -20,10 +20,12 @@ struct PathOptions {
   std::function<void(double)> done;  // told now and then how much of the picture is there, up to 1; may be empty
 };
 
-/// What the world's own lights, emissive surfaces and Background make of it (LightWorld), without a headlight, averaged in
-/// linear light and shown through the sRGB curve, cut at 1. The backs of `solid` faces are seen through. Lines and points
-/// are not there, which is reported, as is a world without light. The same bytes for any number of threads. O(pixels * samples^2
+/// What the world's own lights, emissive surfaces and Background make of it (LightWorld), without a headlight, averaged
+/// in linear light and shown through the sRGB curve, cut at 1. The backs of `solid` faces are seen through. Lines and
+/// points are not there, which is reported, as is a world without light. The same bytes for any number of threads.
+/// O(pixels * samples^2
 /// * reflections) rays.
-Image path_picture(const Scene& scene, const MeshSource& source, const drawing::Camera& camera, const PathOptions& options, Resources* resources, Diagnostics& diag);
+Image path_picture(const Scene& scene, const MeshSource& source, const drawing::Camera& camera,
+                   const PathOptions& options, Resources* resources, Diagnostics& diag);
 
 }  // namespace wrlkit::light

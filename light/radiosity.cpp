@@ -10,9 +10,9 @@ namespace {
 using Cell = IrradianceCache::Cell;
 
 constexpr std::size_t most_walks = 1 << 17;
-constexpr int walk_length = 4;       // rays
-constexpr std::size_t block = 256;   // walks or cells that are done in one piece
-constexpr int warm_up = 5;           // iterations of fewer rays, before those that are counted
+constexpr int walk_length = 4;      // rays
+constexpr std::size_t block = 256;  // walks or cells that are done in one piece
+constexpr int warm_up = 5;          // iterations of fewer rays, before those that are counted
 constexpr int fewer_rays = 8, rays_a_cell = 16;
 constexpr std::ptrdiff_t often = 4;  // meetings that make a cell known
 constexpr int deepest = 6;           // reflections outside of cells
@@ -20,10 +20,10 @@ constexpr int deepest = 6;           // reflections outside of cells
 /// How well the cells are known.
 struct Effort {
   std::size_t fewest_walks;
-  int counted;                       // iterations that give the mean
+  int counted;  // iterations that give the mean
 };
 constexpr Effort thorough{1 << 16, 7}, quick{1 << 15, 3};
-constexpr int few = 16;              // rays a point: below, the quick way will do
+constexpr int few = 16;  // rays a point: below, the quick way will do
 
 /// A place where a walk ended a ray.
 struct Meeting {
@@ -40,8 +40,14 @@ void in_blocks(std::size_t n, F&& f) {
 
 class Solver {
  public:
-  Solver(IrradianceCache& cache, const LightWorld& world, const DirectLight& direct, const Effort& effort, std::uint64_t seed)
-      : cache_(cache), world_(world), direct_(direct), transport_(world, direct, &cache), effort_(effort), seed_(seed) {}
+  Solver(IrradianceCache& cache, const LightWorld& world, const DirectLight& direct, const Effort& effort,
+         std::uint64_t seed)
+      : cache_(cache),
+        world_(world),
+        direct_(direct),
+        transport_(world, direct, &cache),
+        effort_(effort),
+        seed_(seed) {}
 
   void run(std::span<const Receiver> from) {
     discover(from);
@@ -73,7 +79,7 @@ class Solver {
   Transport transport_;
   Effort effort_;
   std::uint64_t seed_;
-  std::vector<V3> sum_;                // by cell: gathered after the warm-up
+  std::vector<V3> sum_;  // by cell: gathered after the warm-up
 };
 
 void Solver::discover(std::span<const Receiver> from) {
@@ -105,12 +111,13 @@ void Solver::keep_sound_cells() {
   cache_.keep_only(sound);
 }
 
-/// A cell on both sides of a wall would let light through: all its places must see one another. They look from above the
-/// surface, so that one that is bent a little does not stand in the way.
+/// A cell on both sides of a wall would let light through: all its places must see one another. They look from above
+/// the surface, so that one that is bent a little does not stand in the way.
 bool Solver::is_sound(const Cell& cell) const {
   for (int p = 1; p < cell.n_places(); ++p) {
     double height = 0.25 * length(cell.places[p].start - cell.places[0].start);
-    V3 from = cell.places[0].start + height * cell.places[0].face, way = cell.places[p].start + height * cell.places[p].face - from;
+    V3 from = cell.places[0].start + height * cell.places[0].face,
+       way = cell.places[p].start + height * cell.places[p].face - from;
     double distance = length(way);
     if (distance > 0 && world_.transmittance({from, (1 / distance) * way}, distance) == 0) return false;
   }
@@ -158,7 +165,8 @@ Solver::Gathered Solver::look(const Receiver& from, const Ray& ray, Stream& rand
     if (!(mean(s.albedo) > 0)) return;
     IrradianceCache::Place place{ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance};
     const Cell* cell = cache_.find(place, 2);
-    Gathered there = cell ? Gathered{cell->direct, cell->gathered} : follow(transport_.receiver_at(hit, s), random, depth + 1);
+    Gathered there =
+        cell ? Gathered{cell->direct, cell->gathered} : follow(transport_.receiver_at(hit, s), random, depth + 1);
     out.first += part * (s.albedo * there.first);
     out.further += part * (s.albedo * there.further);
   });
@@ -181,7 +189,8 @@ Solver::Gathered Solver::follow(const Receiver& at, Stream& random, int depth) c
 Solver::Gathered Solver::gather(std::size_t c, int iteration) {
   const Cell& cell = cache_.cells()[c];
   const int n = iteration < warm_up ? fewer_rays : rays_a_cell;
-  Stream random(key_of(seed_, 4, c * static_cast<std::size_t>(warm_up + effort_.counted) + static_cast<std::size_t>(iteration)));
+  Stream random(
+      key_of(seed_, 4, c * static_cast<std::size_t>(warm_up + effort_.counted) + static_cast<std::size_t>(iteration)));
   Lattice<2> directions(key_of(seed_, 5, c));
   Gathered sum;
   for (int i = 0; i < n; ++i) {
@@ -220,7 +229,8 @@ void Solver::iterate(int iteration) {
 
 }  // namespace
 
-void fill(IrradianceCache& cache, const LightWorld& world, const DirectLight& direct, std::span<const Receiver> from, int rays, std::uint64_t seed) {
+void fill(IrradianceCache& cache, const LightWorld& world, const DirectLight& direct, std::span<const Receiver> from,
+          int rays, std::uint64_t seed) {
   Solver(cache, world, direct, rays < few ? quick : thorough, seed).run(from);
 }
 

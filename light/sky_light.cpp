@@ -17,7 +17,8 @@ bool SkyLight::read(std::string_view text) {
   if (background || text == "none") return true;
   char rest;
   const std::string all(text);
-  return std::sscanf(all.c_str(), "%lf:%lf:%lf%c", &color[0], &color[1], &color[2], &rest) == 3 && color[0] >= 0 && color[1] >= 0 && color[2] >= 0;
+  return std::sscanf(all.c_str(), "%lf:%lf:%lf%c", &color[0], &color[1], &color[2], &rest) == 3 && color[0] >= 0 &&
+         color[1] >= 0 && color[2] >= 0;
 }
 
 std::string SkyLight::print() const {

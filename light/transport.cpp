@@ -5,9 +5,9 @@
 namespace wrlkit::light {
 namespace {
 
-constexpr int deepest = 512;         // reflections; what then is left out is less than 0.6 %
-constexpr int certain = 3;           // reflections that are followed whatever they bring
-constexpr double survivors = 0.5;    // of light beyond these, where there is no cell: narrow gaps would keep it for ever
+constexpr int deepest = 512;       // reflections; what then is left out is less than 0.6 %
+constexpr int certain = 3;         // reflections that are followed whatever they bring
+constexpr double survivors = 0.5;  // of light beyond these, where there is no cell: narrow gaps would keep it for ever
 constexpr int lamp_rays = 2;
 
 }  // namespace
@@ -16,9 +16,11 @@ Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, in
   Arriving out;
   bool first = true;
   auto meet = [&](const Hit& hit, const SurfacePoint& s, double part) {
-    // Behind a pane of glass, too, there are backs; they do not say where the ray starts. And in a glass nobody is hidden.
+    // Behind a pane of glass, too, there are backs; they do not say where the ray starts. And in a glass nobody is
+    // hidden.
     out.from_inside |= std::exchange(first, false) && s.inside && s.alpha >= 1;
-    if (mean(s.emission) > 0 && !(all_emitters && direct_.is_emitter(hit))) out.direct += part * direct_.gather_weight(at, ray, hit) * s.emission;
+    if (mean(s.emission) > 0 && !(all_emitters && direct_.is_emitter(hit)))
+      out.direct += part * direct_.gather_weight(at, ray, hit) * s.emission;
     if (mean(s.albedo) > 0) out.reflected += (part / pi) * (s.albedo * irradiance(ray, hit, s, random, depth + 1));
   };
   const double open = depth == 0 ? each_layer(ray, meet) : one_layer(ray, random, meet);
@@ -29,16 +31,25 @@ Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, in
 V3 Transport::seen(const Ray& ray, Stream& random, const std::optional<V3>& background) const {
   V3 sum;
   const double open = each_layer(ray, [&](const Hit& hit, SurfacePoint& s, double part) {
-    if (s.inside) s.alpha = 0;
-    else sum += part * (s.emission + (1 / pi) * (s.albedo * irradiance(ray, hit, s, random, 1)));
+    if (s.inside)
+      s.alpha = 0;
+    else
+      sum += part * (s.emission + (1 / pi) * (s.albedo * irradiance(ray, hit, s, random, 1)));
   });
-  return open > 0 ? sum + open * (background ? *background : world_.has_sky() ? world_.sky(ray.direction) : V3(0)) : sum;
+  return open > 0 ? sum + open * (background         ? *background
+                                  : world_.has_sky() ? world_.sky(ray.direction)
+                                                     : V3(0))
+                  : sum;
 }
 
 V3 Transport::irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const {
   if (cache_) {
-    const int larger = depth <= 1 ? 0 : depth <= certain ? 2 : IrradianceCache::levels;  // the further back, the less a cell's size is seen
-    const IrradianceCache::Cell* cell = cache_->find({ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance}, larger);
+    const int larger = depth <= 1 ? 0
+                       : depth <= certain
+                           ? 2
+                           : IrradianceCache::levels;  // the further back, the less a cell's size is seen
+    const IrradianceCache::Cell* cell =
+        cache_->find({ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance}, larger);
     if (cell) return cell->irradiance();
   }
   return followed(receiver_at(hit, s), s.albedo, random, depth);

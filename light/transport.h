@@ -1,5 +1,5 @@
-// What a ray brings back: light that is made where it ends, and light that is reflected there, by the cache where it has
-// a cell and by following the light further where not.
+// What a ray brings back: light that is made where it ends, and light that is reflected there, by the cache where it
+// has a cell and by following the light further where not.
 #pragma once
 #include "light/cache.h"
 #include "light/direct.h"
@@ -8,9 +8,9 @@ namespace wrlkit::light {
 
 /// Radiance that comes along a ray.
 struct Arriving {
-  V3 direct;                         // from emitters and the sky
+  V3 direct;  // from emitters and the sky
   V3 reflected;
-  bool from_inside = false;          // the ray met the back of an opaque solid face: its start is within something
+  bool from_inside = false;  // the ray met the back of an opaque solid face: its start is within something
 };
 
 class Transport {
@@ -19,15 +19,20 @@ class Transport {
   Transport(const LightWorld& world, const DirectLight& direct, const IrradianceCache* cache)
       : world_(world), direct_(direct), cache_(cache) {}
 
-  /// What comes to a receiver along a ray of its own that was drawn in a cosine direction. Light of emitters is weighted
-  /// for rays to emitters beside it (DirectLight::emitters), or left out (`all_emitters`: DirectLight::all_emitters).
-  Arriving gather(const Receiver& at, const Ray& ray, Stream& random, bool all_emitters = false) const { return along(at, ray, random, 0, all_emitters); }
+  /// What comes to a receiver along a ray of its own that was drawn in a cosine direction. Light of emitters is
+  /// weighted for rays to emitters beside it (DirectLight::emitters), or left out (`all_emitters`:
+  /// DirectLight::all_emitters).
+  Arriving gather(const Receiver& at, const Ray& ray, Stream& random, bool all_emitters = false) const {
+    return along(at, ray, random, 0, all_emitters);
+  }
 
-  /// Radiance that a camera sees along a ray; `background`: instead of the sky. The backs of solid faces let it through.
+  /// Radiance that a camera sees along a ray; `background`: instead of the sky. The backs of solid faces let it
+  /// through.
   V3 seen(const Ray& ray, Stream& random, const std::optional<V3>& background) const;
 
-  /// Calls f(hit, surface, part) for what a ray meets, through what is transparent; `part` is how much of the ray's light
-  /// comes from there. An f that sets surface.alpha to 0 lets the ray pass. Returns the part that comes from the sky.
+  /// Calls f(hit, surface, part) for what a ray meets, through what is transparent; `part` is how much of the ray's
+  /// light comes from there. An f that sets surface.alpha to 0 lets the ray pass. Returns the part that comes from the
+  /// sky.
   template <class F>
   double each_layer(const Ray& ray, F&& f) const {
     constexpr double hidden = 1.0 / 512;
@@ -43,8 +48,8 @@ class Transport {
     return 0;
   }
 
-  /// The same through one layer only, by chance: the part of each is how often it is the one. For rays whose light nobody sees by itself; if
-  /// these went on from all layers, there would be many times as many after each reflection.
+  /// The same through one layer only, by chance: the part of each is how often it is the one. For rays whose light
+  /// nobody sees by itself; if these went on from all layers, there would be many times as many after each reflection.
   template <class F>
   double one_layer(const Ray& ray, Stream& random, F&& f) const {
     double after = 0;

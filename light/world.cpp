@@ -12,11 +12,12 @@ namespace {
 
 using namespace drawing;
 
-constexpr double most_reflected = 0.99;       // a closed room of more would never come to an end
+constexpr double most_reflected = 0.99;  // a closed room of more would never come to an end
 constexpr std::size_t most_emitters = 1'000'000;
-constexpr int most_layers = 32;               // of transparent things, one behind the other
-constexpr double least_of_lamp = 0.2140;      // radiance: lin(0.5); CAD programs give a surface emission of a tenth or two for its looks
-constexpr double least_light = 1.0 / 256;     // radiance that a display hardly tells from black
+constexpr int most_layers = 32;  // of transparent things, one behind the other
+constexpr double least_of_lamp =
+    0.2140;  // radiance: lin(0.5); CAD programs give a surface emission of a tenth or two for its looks
+constexpr double least_light = 1.0 / 256;  // radiance that a display hardly tells from black
 constexpr double pi = 3.14159265358979323846;
 
 V3 reflectance(const V3& display) { return min(linear(display), V3(most_reflected)); }
@@ -43,12 +44,14 @@ double mean_radiance(const Sky& sky) {
 }
 
 bool may_be_clear(const Surface& s, const PooledMesh& m) {
-  return s.alpha < 1 || (s.picture.texture && s.picture.texture->has_alpha()) || (m.colors != PooledMesh::absent && m.color_width == 4);
+  return s.alpha < 1 || (s.picture.texture && s.picture.texture->has_alpha()) ||
+         (m.colors != PooledMesh::absent && m.color_width == 4);
 }
 
 }  // namespace
 
-LightWorld::LightWorld(const Scene& scene, const MeshSource& source, Resources* resources, const LightOptions& options, Diagnostics& diag)
+LightWorld::LightWorld(const Scene& scene, const MeshSource& source, Resources* resources, const LightOptions& options,
+                       Diagnostics& diag)
     : options_(options), stage_(set_stage(scene, diag, {.viewer = options.viewer, .level_of = options.level_of})) {
   mesh_of_ = Gatherer(scene, source, pool_).meshes_of(stage_, diag);
   make_facts(scene, resources, diag);
@@ -56,7 +59,8 @@ LightWorld::LightWorld(const Scene& scene, const MeshSource& source, Resources* 
   make_sky(scene, resources, diag);
   std::vector<char> clear;
   for (const UseFacts& f : facts_) clear.push_back(f.clear);
-  rays_.emplace(stage_, pool_, mesh_of_, RayOptions{.cull = false, .fronts_first = true, .all_flat = options.all_flat, .clear = clear}, diag);
+  rays_.emplace(stage_, pool_, mesh_of_,
+                RayOptions{.cull = false, .fronts_first = true, .all_flat = options.all_flat, .clear = clear}, diag);
   make_emitters();
 }
 
@@ -94,9 +98,14 @@ void LightWorld::make_sky(const Scene& scene, Resources* resources, Diagnostics&
   if (options_.sky == Option::constant) constant_sky_ = options_.sky_color;
   if (options_.sky == Option::background && stage_.background)
     background_.emplace(scene, stage_.background->node, stage_.frames[stage_.background->frame], resources, diag);
-  const bool lit = !lamps_.empty() || std::any_of(scoped_.begin(), scoped_.end(), [](auto& l) { return l.has_value(); });
-  sky_stands_in_ = options_.sky == Option::background && !lit && !(background_ && mean_radiance(*background_) >= least_light) && !glow_is_light();
-  if (sky_stands_in_) background_.reset(), constant_sky_ = V3(1);
+  const bool lit =
+      !lamps_.empty() || std::any_of(scoped_.begin(), scoped_.end(), [](auto& l) { return l.has_value(); });
+  sky_stands_in_ = options_.sky == Option::background && !lit &&
+                   !(background_ && mean_radiance(*background_) >= least_light) && !glow_is_light();
+  if (sky_stands_in_) {
+    background_.reset();
+    constant_sky_ = V3(1);
+  }
   has_sky_ = background_ || mean(constant_sky_) > 0;
 }
 
@@ -138,7 +147,8 @@ void LightWorld::make_emitters() {
     for (std::uint32_t e = 0; e < m.n_elements; ++e) {
       V3 p[3];
       for (int k = 0; k < 3; ++k) p[k] = frame.point(pool_.position(m, e, k) + m.origin);
-      emitters_.push_back({p[0], p[1] - p[0], p[2] - p[0], {}, u, e, f.inner == Inner::neither, frame.determinant() < 0});
+      emitters_.push_back(
+          {p[0], p[1] - p[0], p[2] - p[0], {}, u, e, f.inner == Inner::neither, frame.determinant() < 0});
       emitters_.back().radiance = radiance(emitters_.back(), 1. / 3, 1. / 3);
     }
   }
@@ -146,7 +156,8 @@ void LightWorld::make_emitters() {
 
 void LightWorld::seal(std::uint32_t use, bool inside_out) {
   UseFacts& f = facts_[use];
-  f.inner = inside_out ? Inner::front : Inner::back, f.sealed = true;
+  f.inner = inside_out ? Inner::front : Inner::back;
+  f.sealed = true;
   if (f.first_emitter == no_emitter) return;
   for (Emitter& e : std::span(emitters_).subspan(f.first_emitter, pool_[mesh_of_[use]].n_elements)) {
     e.both_sides = false;
@@ -180,8 +191,10 @@ SurfacePoint LightWorld::surface(const Hit& hit) const {
   s.face = unit(hit.back ? -hit.across : hit.across);
   s.inside = use.inner == (hit.back ? Inner::back : Inner::front);
   if (hit.leaves != Hit::none && hides(hit.leaves) && facts_[hit.leaves].inner == Inner::back) s.inside = true;
-  if (!s.inside) paint(use, hit, s);
-  else if (use.clear) s.alpha = std::clamp(base(use, hit).alpha, 0.0, 1.0);
+  if (!s.inside)
+    paint(use, hit, s);
+  else if (use.clear)
+    s.alpha = std::clamp(base(use, hit).alpha, 0.0, 1.0);
   return s;
 }
 
@@ -189,8 +202,10 @@ LightWorld::Place LightWorld::place(const Hit& hit) const {
   const PooledMesh& m = pool_[mesh_of_[hit.use]];
   const Affine& frame = stage_.frames[stage_.uses[hit.use].frame];
   const V3 a = pool_.position(m, hit.element, 0);
-  const V3 e1 = frame.vector(pool_.position(m, hit.element, 1) - a), e2 = frame.vector(pool_.position(m, hit.element, 2) - a);
-  return {frame.point(m.origin + a) + hit.weights[1] * e1 + hit.weights[2] * e2, std::sqrt(std::max(dot(e1, e1), dot(e2, e2)))};
+  const V3 e1 = frame.vector(pool_.position(m, hit.element, 1) - a),
+           e2 = frame.vector(pool_.position(m, hit.element, 2) - a);
+  return {frame.point(m.origin + a) + hit.weights[1] * e1 + hit.weights[2] * e2,
+          std::sqrt(std::max(dot(e1, e1), dot(e2, e2)))};
 }
 
 V3 LightWorld::normal(const Hit& hit, const V3& face) const {
@@ -227,10 +242,12 @@ double LightWorld::transmittance(const Ray& ray, double distance) const {
   return through;
 }
 
-V3 LightWorld::sky(const V3& direction) const { return background_ ? linear(background_->color(direction, 0)) : constant_sky_; }
+V3 LightWorld::sky(const V3& direction) const {
+  return background_ ? linear(background_->color(direction, 0)) : constant_sky_;
+}
 
-/// Coordinates are rounded to 24 bits around the centre, and a frame or two on the way round again. At the centre a large triangle is
-/// where its corners have been rounded to.
+/// Coordinates are rounded to 24 bits around the centre, and a frame or two on the way round again. At the centre a
+/// large triangle is where its corners have been rounded to.
 V3 LightWorld::off_surface(const V3& position, const V3& face, double extent) const {
   constexpr double roundings = 1.0 / (1 << 21);
   V3 p = position - centre();

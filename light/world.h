@@ -1,14 +1,16 @@
-// The world as light sees it: what surfaces reflect, let through and emit, the lights, the sky, and what a ray meets. All
-// in linear RGB; docs/lighting.md says how VRML's colours become radiance.
+// The world as light sees it: what surfaces reflect, let through and emit, the lights, the sky, and what a ray meets.
+// All in linear RGB; docs/lighting.md says how VRML's colours become radiance.
 //
-// Geometry that is used again is there once, so memory grows with the uses and the triangles of the file, not with their
-// product.
+// Geometry that is used again is there once, so memory grows with the uses and the triangles of the file, not with
+// their product.
 #pragma once
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "base/diagnostics.h"
+#include "geometry/mesh.h"
 #include "light/color.h"
 #include "light/render/background.h"
 #include "light/render/light.h"
@@ -16,8 +18,6 @@
 #include "light/render/ray_scene.h"
 #include "light/render/stage.h"
 #include "light/render/surface.h"
-#include "base/diagnostics.h"
-#include "geometry/mesh.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
 
@@ -29,36 +29,37 @@ using drawing::Ray;
 struct LightOptions {
   enum class Sky : std::uint8_t { background, constant, none };
 
-  double emission = 1;               // emissiveColor shines so many times as bright as it looks
-  bool unlit_emits = false;          // a Shape without Material emits its colour; else it reflects by it
+  double emission = 1;       // emissiveColor shines so many times as bright as it looks
+  bool unlit_emits = false;  // a Shape without Material emits its colour; else it reflects by it
   Sky sky = Sky::background;
-  V3 sky_color{1};                   // constant: radiance, linear
+  V3 sky_color{1};                        // constant: radiance, linear
   std::optional<drawing::Pose> viewer{};  // Billboards turn there; none: they stand as they are
-  drawing::LevelOf level_of{};       // of LODs; none: the first
-  std::size_t all_flat = 2'000'000;  // up to so many triangles nothing is instanced: some 100 bytes each, and faster rays
+  drawing::LevelOf level_of{};            // of LODs; none: the first
+  std::size_t all_flat =
+      2'000'000;  // up to so many triangles nothing is instanced: some 100 bytes each, and faster rays
 };
 
 /// A place on a surface, seen from one side.
 struct SurfacePoint {
-  V3 face;                           // normal of the triangle; world, unit, on the side that is seen
-  V3 albedo, emission;               // reflectance and radiance there
-  double alpha = 1;                  // how much of what comes is met; the rest passes
-  bool inside = false;               // it is the back of a `solid` face: who sees it is within something
+  V3 face;              // normal of the triangle; world, unit, on the side that is seen
+  V3 albedo, emission;  // reflectance and radiance there
+  double alpha = 1;     // how much of what comes is met; the rest passes
+  bool inside = false;  // it is the back of a `solid` face: who sees it is within something
 };
 
 /// A PointLight, SpotLight or DirectionalLight that shines.
 struct Lamp {
   drawing::Light light;
-  V3 irradiance;                     // where it falls perpendicularly with strength 1
+  V3 irradiance;  // where it falls perpendicularly with strength 1
 };
 
 /// A triangle that emits and is chosen as a target of rays.
 struct Emitter {
-  V3 corner, edge1, edge2;           // world
-  V3 radiance;                       // at its middle
+  V3 corner, edge1, edge2;  // world
+  V3 radiance;              // at its middle
   std::uint32_t use, element;
   bool both_sides;
-  bool turned;                       // it shines to the side where its corners run clockwise
+  bool turned;  // it shines to the side where its corners run clockwise
 
   V3 at(double u, double v) const { return corner + u * edge1 + v * edge2; }
   /// Its normal, on the side that shines; as long as twice its area.
@@ -70,7 +71,8 @@ class LightWorld {
  public:
   /// The scene is an expanded one; of Switch and LOD the shown children count. `resources` may be null. Costs O(its
   /// triangles), n log n for the hierarchy over them.
-  LightWorld(const Scene& scene, const MeshSource& source, Resources* resources, const LightOptions& options, Diagnostics& diag);
+  LightWorld(const Scene& scene, const MeshSource& source, Resources* resources, const LightOptions& options,
+             Diagnostics& diag);
   LightWorld(const LightWorld&) = delete;
 
   /// The entries stand as light/render/stage.h and mesh_pool.h have them: stage().uses[i] shows meshes()[mesh_of()[i]].
@@ -82,34 +84,36 @@ class LightWorld {
   bool nearest(const Ray& ray, double after, Hit& hit) const { return rays_->nearest(ray, after, hit); }
   /// The surface at a hit on the side that was hit. The back of a `solid` face is black.
   SurfacePoint surface(const Hit& hit) const;
-  /// Where a hit lies in the world, as exactly as the mesh has it, and the normal for shading on the side of `face`, which is the hit's.
+  /// Where a hit lies in the world, as exactly as the mesh has it, and the normal for shading on the side of `face`,
+  /// which is the hit's.
   V3 position(const Hit& hit) const { return place(hit).position; }
   V3 normal(const Hit& hit, const V3& face) const;
   V3 off_surface(const Hit& hit, const V3& face) const {
     const Place p = place(hit);
     return off_surface(p.position, face, p.extent);
   }
-  /// A use is a closed surface around some room whose inner side nobody sees: it counts as `solid` TRUE from then on, and who
-  /// sees its back is within it even where it touches the front of another one. `inside_out`: its fronts are the inner side.
-  /// What it emits goes outwards only.
+  /// A use is a closed surface around some room whose inner side nobody sees: it counts as `solid` TRUE from then on,
+  /// and who sees its back is within it even where it touches the front of another one. `inside_out`: its fronts are
+  /// the inner side. What it emits goes outwards only.
   void seal(std::uint32_t use, bool inside_out);
   /// All of a use reflects, emits and lets through alike.
   bool is_plain(std::uint32_t use) const { return facts_[use].plain; }
   /// Some of a use may be transparent.
   bool is_clear(std::uint32_t use) const { return facts_[use].clear; }
-  /// Whether a place lies within sealed surfaces that hide it: a ray from there leaves more of them than it enters. As many nearest() as
-  /// there are surfaces on its way, 64 at the most.
+  /// Whether a place lies within sealed surfaces that hide it: a ray from there leaves more of them than it enters. As
+  /// many nearest() as there are surfaces on its way, 64 at the most.
   bool encloses(const Ray& from) const;
   /// What of the light passes along so much of a ray: 0 when something opaque stands there.
   double transmittance(const Ray& ray, double distance) const;
   /// Radiance of the sky in a direction of the world.
   V3 sky(const V3& direction) const;
   bool has_sky() const { return has_sky_; }
-  /// Or nothing shines, or too little to see the world by: a white sky of radiance 1 stands in (docs/lighting.md, "No light at all").
+  /// Or nothing shines, or too little to see the world by: a white sky of radiance 1 stands in (docs/lighting.md, "No
+  /// light at all").
   bool has_sky_of_its_own() const { return !sky_stands_in_; }
 
-  /// Where a ray that leaves a surface starts: off the face by more than the rounding of coordinates there, and of the corners of
-  /// the triangle, of which `extent` is a long side.
+  /// Where a ray that leaves a surface starts: off the face by more than the rounding of coordinates there, and of the
+  /// corners of the triangle, of which `extent` is a long side.
   V3 off_surface(const V3& position, const V3& face, double extent) const;
 
   /// PointLights and SpotLights.
@@ -120,8 +124,8 @@ class LightWorld {
     for (; scope; scope = stage_.scopes[scope].parent)
       if (scoped_[scope]) f(*scoped_[scope]);
   }
-  /// Triangles that emit, in the order of the file, up to a million. Of further uses the emission is there, too, but rays
-  /// find it by chance only.
+  /// Triangles that emit, in the order of the file, up to a million. Of further uses the emission is there, too, but
+  /// rays find it by chance only.
   std::span<const Emitter> emitters() const { return emitters_; }
   /// The number of the emitter of a triangle; none when it is no emitter.
   std::optional<std::uint32_t> emitter_of(std::uint32_t use, std::uint32_t element) const {
@@ -144,9 +148,9 @@ class LightWorld {
     Inner inner = Inner::neither;
     bool sealed = false;
     std::uint32_t first_emitter = no_emitter;
-    bool clear = false;              // some of it may be transparent
-    bool plain = false;              // one colour everywhere
-    V3 albedo, emission;             // when it is plain
+    bool clear = false;   // some of it may be transparent
+    bool plain = false;   // one colour everywhere
+    V3 albedo, emission;  // when it is plain
   };
 
   struct Place {
@@ -173,7 +177,7 @@ class LightWorld {
   std::optional<drawing::Surfaces> surfaces_;
   std::vector<UseFacts> facts_;
   std::vector<Lamp> lamps_;
-  std::vector<std::optional<Lamp>> scoped_;   // by LightScope
+  std::vector<std::optional<Lamp>> scoped_;  // by LightScope
   std::vector<Emitter> emitters_;
   std::optional<drawing::Sky> background_;
   V3 constant_sky_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/image/image.h"
+#include "base/text/blanks.h"
 #include "parsers/gltf/gltf.h"
 #include "parsers/patches/patches.h"
 #include "parsers/patches/patches_scene.h"
@@ -11,8 +13,6 @@
 #include "parsers/vrml/vrml1.h"
 #include "parsers/x3d/parser.h"
 #include "parsers/x3d/xml.h"
-#include "base/text/blanks.h"
-#include "base/image/image.h"
 
 namespace wrlkit {
 namespace {
@@ -32,12 +32,15 @@ bool contains_nocase(std::string_view text, std::string_view lower) {
 Format guess_format(std::string_view s) {
   s = trim(s);
   while (s.starts_with('#')) s = trim(s.substr(first_line(s).size()));
-  auto word_end = std::ranges::find_if(s, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '_'; });
+  auto word_end =
+      std::ranges::find_if(s, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '_'; });
   auto word = s.substr(0, static_cast<std::size_t>(word_end - s.begin()));
   auto rest = trim(s.substr(word.size()));
   if (word == "DEF" || word == "PROTO" || word == "EXTERNPROTO" || word == "ROUTE") return Format::vrml97;
   if (!rest.starts_with('{')) return Format::none;
-  return find_builtin(word, Dialect::vrml97) ? Format::vrml97 : find_builtin(word, Dialect::vrml1) ? Format::vrml1 : Format::none;
+  return find_builtin(word, Dialect::vrml97)  ? Format::vrml97
+         : find_builtin(word, Dialect::vrml1) ? Format::vrml1
+                                              : Format::none;
 }
 
 /// The comment lines behind the header, each with its '#', without trailing blanks.
@@ -75,12 +78,14 @@ Header read_header(std::string_view text) {
   auto line = trim(first_line(trim(text)));
   if (line.starts_with('#')) {
     if (line.starts_with("#VRML V2.0 utf8")) return {Format::vrml97, true, false};
-    if (contains_nocase(line, "vrml") && line.find("1.0") != line.npos) return {Format::vrml1, line.starts_with("#VRML V1.0 ascii"), false};
+    if (contains_nocase(line, "vrml") && line.find("1.0") != line.npos)
+      return {Format::vrml1, line.starts_with("#VRML V1.0 ascii"), false};
     if (line.starts_with("#Inventor")) return {Format::vrml1, true, false};
     if (line.starts_with("#X3D")) return {Format::x3d_classic, true, false};
     if (contains_nocase(line.substr(0, 16), "vrml")) return {Format::vrml97, false, false};
   }
-  if (line.starts_with('<') && (contains_nocase(text.substr(0, 65536), "<x3d") || is_x3d_element(first_element(text)))) return {Format::x3d_xml, true, false};
+  if (line.starts_with('<') && (contains_nocase(text.substr(0, 65536), "<x3d") || is_x3d_element(first_element(text))))
+    return {Format::x3d_xml, true, false};
   if (gltf_reader::looks_like_gltf(text)) return {Format::gltf, true, false};
   return {guess_format(text), false, true};
 }
@@ -108,12 +113,15 @@ std::string describe_bytes(std::string_view text) {
 std::string_view unread_encoding(std::string_view body) {
   const auto line = first_line(trim(body));
   if (line.starts_with("#Inventor") && contains_nocase(line, "binary")) return "Inventor's binary form";
-  if (body.starts_with(std::string_view("\xe0\0\0\1", 4)) || (body.starts_with("<?xml") && contains_nocase(line, "encoding='finf'"))) return "X3D's binary encoding";
+  if (body.starts_with(std::string_view("\xe0\0\0\1", 4)) ||
+      (body.starts_with("<?xml") && contains_nocase(line, "encoding='finf'")))
+    return "X3D's binary encoding";
   const auto head = trim(body.substr(0, 4096));
   return head.starts_with('{') && trim(head.substr(1)).starts_with("\"X3D\"") ? "X3D's JSON encoding" : "";
 }
 
-std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, const std::string& path, const ReadOptions& options, Diagnostics& diag) {
+std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, const std::string& path,
+                                  const ReadOptions& options, Diagnostics& diag) {
   auto world = std::make_unique<World>();
   world->format = Format::gltf;
   world->scene.sources = diag.shared_sources();
@@ -121,7 +129,8 @@ std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, co
   return world;
 }
 
-std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, const std::string& path, const ReadOptions& options, Diagnostics& diag) {
+std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, const std::string& path,
+                                  const ReadOptions& options, Diagnostics& diag) {
   std::string converted;
   Span whole{base, 0}, first{base, static_cast<std::uint32_t>(std::min<std::size_t>(first_line(text).size(), 80))};
   if (has_utf16_bom(text)) {
@@ -131,17 +140,29 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   }
   auto body = without_bom(text);
   base += static_cast<std::uint32_t>(text.size() - body.size());
-  if (const auto encoding = unread_encoding(body); !encoding.empty()) return diag.report(Diag::unsupported_format, first, encoding), nullptr;
+  if (const auto encoding = unread_encoding(body); !encoding.empty()) {
+    diag.report(Diag::unsupported_format, first, encoding);
+    return nullptr;
+  }
   auto header = read_header(body);
-  if (header.format == Format::none) return diag.report(Diag::unknown_format, whole, describe_bytes(body)), nullptr;
+  if (header.format == Format::none) {
+    diag.report(Diag::unknown_format, whole, describe_bytes(body));
+    return nullptr;
+  }
   if (header.format == Format::gltf) return parse_gltf(body, base, path, options, diag);
-  const bool old = header.format == Format::vrml1, xml = header.format == Format::x3d_xml, classic = header.format == Format::x3d_classic;
-  if (header.missing) diag.report(Diag::header_missing, whole, old ? "VRML 1.0" : "VRML97");
-  else if (!header.exact) diag.report(Diag::header_repaired, first, trim(first_line(body)), old ? "#VRML V1.0 ascii" : "#VRML V2.0 utf8");
+  const bool old = header.format == Format::vrml1, xml = header.format == Format::x3d_xml,
+             classic = header.format == Format::x3d_classic;
+  if (header.missing)
+    diag.report(Diag::header_missing, whole, old ? "VRML 1.0" : "VRML97");
+  else if (!header.exact)
+    diag.report(Diag::header_repaired, first, trim(first_line(body)), old ? "#VRML V1.0 ascii" : "#VRML V2.0 utf8");
   auto world = std::make_unique<World>();
   world->format = world->scene.format = header.format;
   world->scene.sources = diag.shared_sources();
-  if (xml) return x3d::parse(body, base, options.parse, world->scene, diag), std::move(world);
+  if (xml) {
+    x3d::parse(body, base, options.parse, world->scene, diag);
+    return world;
+  }
   if (classic) world->scene.x3d.version = x3d_version(trim(first_line(trim(body))));
   auto after = header.missing ? body : trim(body).substr(first_line(trim(body)).size());
   world->scene.comment = leading_comment(after);
@@ -172,15 +193,25 @@ std::unique_ptr<World> world_of_patches(const FileText& file, Diagnostics& diag)
 }  // namespace
 
 std::unique_ptr<World> parse_world(const FileText& file, const ReadOptions& options, Diagnostics& diag) {
-  auto world = is_patch_file(file.view()) ? world_of_patches(file, diag) : parse_text(file.view(), file.base, file.name == standard_input_name ? std::string() : file.name, options, diag);
-  if (world) world->gzip = file.gzip, world->bytes = file.bytes_on_disk;
+  auto world = is_patch_file(file.view())
+                   ? world_of_patches(file, diag)
+                   : parse_text(file.view(), file.base, file.name == standard_input_name ? std::string() : file.name,
+                                options, diag);
+  if (world) {
+    world->gzip = file.gzip;
+    world->bytes = file.bytes_on_disk;
+  }
   return world;
 }
 
-std::unique_ptr<World> parse_world(std::string_view text, std::string name, const ReadOptions& options, Diagnostics& diag) {
+std::unique_ptr<World> parse_world(std::string_view text, std::string name, const ReadOptions& options,
+                                   Diagnostics& diag) {
   auto kept = std::make_shared<std::string>(text);
   auto base = diag.sources().add(std::move(name), text.size(), [kept] { return Sources::Loaded{*kept, kept}; });
-  if (base == Span::nowhere) return diag.report(Diag::too_large, {}, "the text", "4 GiB", text.size()), nullptr;
+  if (base == Span::nowhere) {
+    diag.report(Diag::too_large, {}, "the text", "4 GiB", text.size());
+    return nullptr;
+  }
   auto world = parse_text(*kept, base, {}, options, diag);
   if (world) world->bytes = text.size();
   return world;

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "base/io/allowed_files.h"
 #include "base/io/read_file.h"
 #include "scenegraph/builder.h"
-#include "base/diagnostics.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {
@@ -15,7 +15,7 @@ namespace wrlkit {
 struct ReadOptions {
   ReadLimits limits;
   ParseLimits parse;
-  std::vector<std::string> allowed = {};  // folders beside the world's own that its buffers may lie in (glTF)
+  std::vector<std::string> allowed = {};       // folders beside the world's own that its buffers may lie in (glTF)
   std::vector<FileLookup>* lookups = nullptr;  // is told of each buffer that is looked for
 };
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "parsers/patches/patches.h"
-#include "base/io/url.h"
 #include "base/image/image.h"
+#include "base/io/url.h"
+#include "parsers/patches/patches.h"
 
 namespace wrlkit {
 namespace {
@@ -148,7 +148,9 @@ std::shared_ptr<const Blob> FileResources::blob(const Target& target, std::strin
   return once(blobs_, target, why, [&](std::string& fault) -> std::shared_ptr<const Blob> {
     const MadeFile* made_here = find_made(target.key);
     bool is_data = target.path.empty() && !made_here;
-    auto bytes = made_here ? *made_here->bytes : is_data ? decode_data_url(target.key) : read_bytes(target.path, options_.max_bytes, fault);
+    auto bytes = made_here ? *made_here->bytes
+                 : is_data ? decode_data_url(target.key)
+                           : read_bytes(target.path, options_.max_bytes, fault);
     if (!bytes && is_data) fault = "the data in the url are damaged";
     if (!bytes) return nullptr;
     auto name = made_here ? made_here->name : is_data ? std::string("data") : fs::path(target.path).filename().string();
@@ -174,12 +176,17 @@ void FileResources::set_root(std::shared_ptr<const Scene> scene) {
 
 std::shared_ptr<const Scene> FileResources::parsed(const Target& target, std::string_view url, Span where,
                                                    Diagnostics& diag) {
-  if (target.path.empty())
-    return report_once(diag, Diag::url_not_found, where, url), nullptr;  // no worlds in data urls
+  if (target.path.empty()) {
+    report_once(diag, Diag::url_not_found, where, url);
+    return nullptr;
+  }  // no worlds in data urls
   std::lock_guard lock(mutex_);
   auto [at, is_new] = worlds_.try_emplace(target.key);
   auto& world = at->second;
-  if (world.parsing) return report_once(diag, Diag::url_cycle, where, url), nullptr;
+  if (world.parsing) {
+    report_once(diag, Diag::url_cycle, where, url);
+    return nullptr;
+  }
   if (!is_new) return world.scene;
   world.parsing = true;
   world.scene = parse_(target.path, diag);

@@ -41,7 +41,8 @@ class FileResources final : public Resources {
   LinkedWorld world(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
   std::shared_ptr<const PatchSet> patches(const std::string& path, Diagnostics&) override;
 
-  /// All that was asked for until now: what the result depends on beside the input. Who has no referrer was named by the user.
+  /// All that was asked for until now: what the result depends on beside the input. Who has no referrer was named by
+  /// the user.
   std::vector<FileLookup> lookups() const;
 
  private:

@@ -1,5 +1,6 @@
-// The Python module wrlkit._wrlkit: worlds, their nodes with the fields of the node table as attributes, meshes and arrays of
-// numbers as NumPy arrays that are the scene's own memory, passes by the text of a pipeline, conversions as the command line does them.
+// The Python module wrlkit._wrlkit: worlds, their nodes with the fields of the node table as attributes, meshes and
+// arrays of numbers as NumPy arrays that are the scene's own memory, passes by the text of a pipeline, conversions as
+// the command line does them.
 #include "geometry/geometry.h"
 #include "python/world.h"
 #include "scenegraph/nodes.h"
@@ -29,7 +30,8 @@ std::unique_ptr<PyMesh> mesh_of(const PyNode& node) {
 std::vector<PyNode> nodes_of(const std::shared_ptr<PyWorld>& world, const std::string& type) {
   std::vector<PyNode> out;
   for (NodeId n : reachable(world->scene(), world->scene().main))
-    if (type.empty() || world->scene().type(n).name == type || world->scene().type(n).is_a(type)) out.push_back({world, n});
+    if (type.empty() || world->scene().type(n).name == type || world->scene().type(n).is_a(type))
+      out.push_back({world, n});
   return out;
 }
 
@@ -51,7 +53,8 @@ PyNode add_node(const std::shared_ptr<PyWorld>& w, const std::string& type, cons
   if (!id) id = find_builtin(type, Dialect::x3d);
   if (!id) throw py::value_error("there is no node type '" + type + "'");
   PyNode node{w, w->scene().add(id)};
-  for (const auto& [name, value] : fields) set_field(node, name.cast<std::string>(), py::reinterpret_borrow<py::object>(value));
+  for (const auto& [name, value] : fields)
+    set_field(node, name.cast<std::string>(), py::reinterpret_borrow<py::object>(value));
   return node;
 }
 
@@ -63,7 +66,8 @@ std::vector<PyNode> roots_of(const std::shared_ptr<PyWorld>& w) {
 
 void set_roots(const std::shared_ptr<PyWorld>& w, const std::vector<PyNode>& nodes) {
   std::vector<NodeId> ids;
-  for (const auto& n : nodes) ids.push_back(n.world == w ? n.id : throw py::value_error("the node is of another world"));
+  for (const auto& n : nodes)
+    ids.push_back(n.world == w ? n.id : throw py::value_error("the node is of another world"));
   w->scene().main.roots = ids;
 }
 
@@ -100,52 +104,87 @@ void define_message(py::class_<MessageView>& type) {
 }
 
 void define_node(py::class_<PyNode>& type) {
-  type.def_property_readonly("type", [](const PyNode& n) { return std::string(n.type().name); }, "Its type: 'Material'.")
-      .def_property("name", [](const PyNode& n) { return std::string(n.scene().name(n.id)); }, [](const PyNode& n, const std::string& name) { n.scene().set_name(n.id, n.scene().keep(name)); }, "The DEF name, or ''.")
-      .def_property_readonly("world", [](const PyNode& n) { return n.world; }, "The World that it is of.")
+  type.def_property_readonly(
+          "type", [](const PyNode& n) { return std::string(n.type().name); }, "Its type: 'Material'.")
+      .def_property(
+          "name", [](const PyNode& n) { return std::string(n.scene().name(n.id)); },
+          [](const PyNode& n, const std::string& name) { n.scene().set_name(n.id, n.scene().keep(name)); },
+          "The DEF name, or ''.")
+      .def_property_readonly(
+          "world", [](const PyNode& n) { return n.world; }, "The World that it is of.")
       .def_property_readonly("fields", &fields_of, "Names of all fields that a node of this type has.")
-      .def("is_a", [](const PyNode& n, const std::string& base) { return n.type().name == base || n.type().is_a(base); }, py::arg("type"), "Whether it is of that type, or of a type that is one: X3DGeometryNode.")
-      .def("mesh", &mesh_of, "The mesh of a geometry node, as the passes see it. Empty before `tessellate` for Box and the like.")
+      .def(
+          "is_a", [](const PyNode& n, const std::string& base) { return n.type().name == base || n.type().is_a(base); },
+          py::arg("type"), "Whether it is of that type, or of a type that is one: X3DGeometryNode.")
+      .def("mesh", &mesh_of,
+           "The mesh of a geometry node, as the passes see it. Empty before `tessellate` for Box and the like.")
       .def("__getattr__", &get_field)
-      .def("__setattr__", [](const py::object& self, const std::string& name, const py::object& value) {
-        if (name == "name") self.get_type().attr("name").attr("__set__")(self, value);
-        else set_field(self.cast<const PyNode&>(), name, value);
-      })
+      .def("__setattr__",
+           [](const py::object& self, const std::string& name, const py::object& value) {
+             if (name == "name")
+               self.get_type().attr("name").attr("__set__")(self, value);
+             else
+               set_field(self.cast<const PyNode&>(), name, value);
+           })
       .def("__getitem__", &get_field, "Fields that are called as a property is: navigation['type'].")
       .def("__setitem__", &set_field)
-      .def("__dir__", [](const py::object& self) {
-        auto names = fields_of(self.cast<const PyNode&>());
-        for (auto name : py::list(self.get_type().attr("__dict__").attr("keys")())) names.push_back(name.cast<std::string>());
-        return names;
-      })
-      .def("__eq__", [](const PyNode& a, const PyNode& b) { return a == b; }, py::is_operator())
+      .def("__dir__",
+           [](const py::object& self) {
+             auto names = fields_of(self.cast<const PyNode&>());
+             for (auto name : py::list(self.get_type().attr("__dict__").attr("keys")()))
+               names.push_back(name.cast<std::string>());
+             return names;
+           })
+      .def(
+          "__eq__", [](const PyNode& a, const PyNode& b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const PyNode& n) { return std::hash<std::uint32_t>()(n.id.value); })
-      .def("__repr__", [](const PyNode& n) { return "<" + std::string(n.type().name) + (n.scene().name(n.id).empty() ? "" : " " + std::string(n.scene().name(n.id))) + ">"; });
+      .def("__repr__", [](const PyNode& n) {
+        return "<" + std::string(n.type().name) +
+               (n.scene().name(n.id).empty() ? "" : " " + std::string(n.scene().name(n.id))) + ">";
+      });
 }
 
 void define_mesh(py::class_<PyMesh>& type) {
   const auto mesh = [](const py::object& self) -> const Mesh& { return self.cast<PyMesh&>().mesh; };
-  type.def_property_readonly("positions", [mesh](const py::object& self) { return view(self, mesh(self).positions.span(), 3); }, "n x 3, float64, metres in the coordinates of the geometry")
-      .def_property_readonly("corners", [mesh](const py::object& self) { return view<std::uint32_t>(self, mesh(self).corners, 1); }, "the position of each corner, uint32")
-      .def_property_readonly("face_begin", [mesh](const py::object& self) { return view<std::uint32_t>(self, mesh(self).face_begin, 1); }, "first corner of each face, and the end; empty: all are triangles")
-      .def_property_readonly("n_faces", [](const PyMesh& p) { return p.mesh.n_faces(); }, "how many polygons");
+  type.def_property_readonly(
+          "positions", [mesh](const py::object& self) { return view(self, mesh(self).positions.span(), 3); },
+          "n x 3, float64, metres in the coordinates of the geometry")
+      .def_property_readonly(
+          "corners", [mesh](const py::object& self) { return view<std::uint32_t>(self, mesh(self).corners, 1); },
+          "the position of each corner, uint32")
+      .def_property_readonly(
+          "face_begin", [mesh](const py::object& self) { return view<std::uint32_t>(self, mesh(self).face_begin, 1); },
+          "first corner of each face, and the end; empty: all are triangles")
+      .def_property_readonly(
+          "n_faces", [](const PyMesh& p) { return p.mesh.n_faces(); }, "how many polygons");
 }
 
 using WorldClass = py::class_<PyWorld, std::shared_ptr<PyWorld>>;
 
 void define_world(WorldClass& type) {
   type.def_property("roots", &roots_of, &set_roots, "Its root nodes, as a list; write the list to change it.")
-      .def("nodes", &nodes_of, py::arg("type") = "", "Every node that can be reached, or those of a type or base ('Material', 'X3DGeometryNode'), parents before children.")
+      .def("nodes", &nodes_of, py::arg("type") = "",
+           "Every node that can be reached, or those of a type or base ('Material', 'X3DGeometryNode'), parents before "
+           "children.")
       .def("find", &find_node, py::arg("name"), "The first node of that DEF name, or None.")
       .def("add", &add_node, py::arg("type"), "A new node, which is nowhere yet, with fields by name.")
       .def("run", py::overload_cast<const std::string&>(&PyWorld::run), py::arg("pipeline"),
-           "Runs passes, as -p of the command line has them, and gives what they counted. Other threads go on meanwhile; the world is not theirs. Raises Error when one fails, ValueError when the text is no pipeline.")
-      .def("apply", &PyWorld::apply, py::arg("pass_name"), "Runs one pass with options by keyword, world.apply('lod', ratios=[0.3, 0.1], min_faces=200), and gives what it counted.")
+           "Runs passes, as -p of the command line has them, and gives what they counted. Other threads go on "
+           "meanwhile; the world is not theirs. Raises Error when one fails, ValueError when the text is no pipeline.")
+      .def("apply", &PyWorld::apply, py::arg("pass_name"),
+           "Runs one pass with options by keyword, world.apply('lod', ratios=[0.3, 0.1], min_faces=200), and gives "
+           "what it counted.")
       .def("save", &PyWorld::save, py::arg("path"),
-           "Writes .wrl, .wrz, .x3d, .x3dz, .gltf or .glb, whole or not at all; what stands below [output] in docs/recipes.md are keywords: compress='meshopt', tolerance='1mm'. The world stays as it is.")
-      .def("info", &PyWorld::info, "What is inside, as `wrlkit info --json` says it, as a dict. The world stays as it is.")
-      .def("report", &PyWorld::report, py::arg("severity"), py::arg("text"), py::arg("node") = py::none(), "Says something of the world, as 'error', 'warning' or 'lost', at the place of a node. It is among the messages, in --report and in the report of a corpus run.")
-      .def_property_readonly("messages", [](const PyWorld& w) { return views(w.diag()); }, "All that was said of it until now, as a list of Message.")
+           "Writes .wrl, .wrz, .x3d, .x3dz, .gltf or .glb, whole or not at all; what stands below [output] in "
+           "docs/recipes.md are keywords: compress='meshopt', tolerance='1mm'. The world stays as it is.")
+      .def("info", &PyWorld::info,
+           "What is inside, as `wrlkit info --json` says it, as a dict. The world stays as it is.")
+      .def("report", &PyWorld::report, py::arg("severity"), py::arg("text"), py::arg("node") = py::none(),
+           "Says something of the world, as 'error', 'warning' or 'lost', at the place of a node. It is among the "
+           "messages, in --report and in the report of a corpus run.")
+      .def_property_readonly(
+          "messages", [](const PyWorld& w) { return views(w.diag()); },
+          "All that was said of it until now, as a list of Message.")
       .def("__repr__", [](PyWorld& w) { return "<World of " + std::to_string(w.scene().node_count()) + " nodes>"; });
 }
 
@@ -157,19 +196,28 @@ PYBIND11_MODULE(_wrlkit, m) {
   m.doc() = "Worlds of VRML, X3D and glTF; see wrlkit.load.";
   define_error(m);
   // Classes first, so that the signatures of all functions name them.
-  py::class_<MessageView> message(m, "Message", "What was wrong, repaired or lost. line and column count from 1; 0: the file as a whole.");
-  py::class_<PyNode> node(m, "Node", "A node of a world. Its fields are attributes: node.diffuseColor = 1, 0, 0. Fields that were not written have their default.");
-  py::class_<PyMesh> mesh(m, "Mesh", "Polygons of corners. The arrays are read-only, are not copied, and hold what they lie in.");
+  py::class_<MessageView> message(
+      m, "Message", "What was wrong, repaired or lost. line and column count from 1; 0: the file as a whole.");
+  py::class_<PyNode> node(m, "Node",
+                          "A node of a world. Its fields are attributes: node.diffuseColor = 1, 0, 0. Fields that were "
+                          "not written have their default.");
+  py::class_<PyMesh> mesh(m, "Mesh",
+                          "Polygons of corners. The arrays are read-only, are not copied, and hold what they lie in.");
   WorldClass world(m, "World", "A world that was read, or that a pass is given.");
   define_message(message);
   define_node(node);
   define_mesh(mesh);
   define_world(world);
   define_passes(m);
-  m.def("load", &PyWorld::load, py::arg("path"), py::arg("allow") = std::vector<std::string>{}, py::arg("unit") = "", py::arg("up") = "",
-        "Reads a world. Files that it refers to are looked for beside it and below the folders in `allow`; `unit` and `up` are as --unit and --up of convert. Raises Error.");
-  m.def("convert", &convert, py::arg("source"), py::arg("target"), py::arg("recipe") = "", py::arg("pipeline") = py::none(),
-        "Converts a file as `wrlkit convert` does: by a recipe, a pipeline, and options by keyword, which come before what the recipe says. Gives what was said, as a list of Message; raises Error when nothing could be made.");
-  m.def("node_types", &node_types, "Every node type of VRML97 and X3D, by name: what it is for, and its fields with their types.");
+  m.def("load", &PyWorld::load, py::arg("path"), py::arg("allow") = std::vector<std::string>{}, py::arg("unit") = "",
+        py::arg("up") = "",
+        "Reads a world. Files that it refers to are looked for beside it and below the folders in `allow`; `unit` and "
+        "`up` are as --unit and --up of convert. Raises Error.");
+  m.def("convert", &convert, py::arg("source"), py::arg("target"), py::arg("recipe") = "",
+        py::arg("pipeline") = py::none(),
+        "Converts a file as `wrlkit convert` does: by a recipe, a pipeline, and options by keyword, which come before "
+        "what the recipe says. Gives what was said, as a list of Message; raises Error when nothing could be made.");
+  m.def("node_types", &node_types,
+        "Every node type of VRML97 and X3D, by name: what it is for, and its fields with their types.");
   m.def("passes", &pass_names, "Names of all passes, those of Python at the end.");
 }

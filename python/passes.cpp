@@ -1,15 +1,16 @@
-// Passes that are Python functions. wrlkit/definitions.py makes a definition of a function: its options with their types, what reads them
-// and what calls it. Here the definition becomes a pass among the others, which pipelines, recipes and the command line know by name.
+// Passes that are Python functions. wrlkit/definitions.py makes a definition of a function: its options with their
+// types, what reads them and what calls it. Here the definition becomes a pass among the others, which pipelines,
+// recipes and the command line know by name.
 #include <algorithm>
 #include <deque>
 #include <new>
 #include <unordered_map>
 
-#include "python/world.h"
 #include "base/text/nearest_name.h"
+#include "python/world.h"
 #include "tools/cli/cli.h"
-#include "tools/corpus/workers.h"
 #include "tools/cli/python_passes.h"
+#include "tools/corpus/workers.h"
 
 namespace wrlkit::python {
 namespace {
@@ -37,7 +38,9 @@ class PythonPass final : public PassInstance {
   Outcome run(Scene& scene, PassContext& ctx) const override {
     py::gil_scoped_acquire lock;
     auto world = std::make_shared<PyWorld>(scene, ctx);
-    const auto let_go = [&] { if (world.use_count() > 1) world->detach(); };
+    const auto let_go = [&] {
+      if (world.use_count() > 1) world->detach();
+    };
     bool good = false;
     try {
       good = call(world, ctx);
@@ -55,7 +58,8 @@ class PythonPass final : public PassInstance {
     if (at == options_.end()) {
       NearestName nearest(option);
       for (const auto& o : options_) nearest.consider(o.name);
-      return why = "has no option '" + std::string(option) + "'" + nearest.question(), false;
+      why = "has no option '" + std::string(option) + "'" + nearest.question();
+      return false;
     }
     try {
       at->value = definition_.python.attr("read")(std::string(option), std::string(value)).cast<std::string>();
@@ -63,7 +67,9 @@ class PythonPass final : public PassInstance {
     } catch (py::error_already_set& e) {
       if (!e.matches(PyExc_ValueError)) throw;
     }
-    return why = "option '" + std::string(option) + "': '" + std::string(value) + "' is no value for it: " + at->type_and_range(), false;
+    why = "option '" + std::string(option) + "': '" + std::string(value) +
+          "' is no value for it: " + at->type_and_range();
+    return false;
   }
 
   std::vector<OptionInfo> options() const override { return options_; }
@@ -83,15 +89,18 @@ class PythonPass final : public PassInstance {
   bool call(const std::shared_ptr<PyWorld>& world, PassContext& ctx) const {
     try {
       const py::dict counts = definition_.python.attr("call")(world, values());
-      for (const auto& [name, n] : counts) ctx.stats[definition_.name_text + "." + name.cast<std::string>()] += n.cast<std::uint64_t>();
+      for (const auto& [name, n] : counts)
+        ctx.stats[definition_.name_text + "." + name.cast<std::string>()] += n.cast<std::uint64_t>();
       return true;
     } catch (py::error_already_set& e) {
       if (e.matches(PyExc_MemoryError)) throw std::bad_alloc();
       const auto exception = exception_of(e);
-      ctx.diag.report(Diag::python_failed, Span{}, definition_.name_text, definition_.python.attr("describe")(exception).cast<std::string>());
+      ctx.diag.report(Diag::python_failed, Span{}, definition_.name_text,
+                      definition_.python.attr("describe")(exception).cast<std::string>());
       set_cause(exception);
     } catch (const py::cast_error&) {
-      ctx.diag.report(Diag::python_failed, Span{}, definition_.name_text, "what it returns is neither None nor a dict of counts");
+      ctx.diag.report(Diag::python_failed, Span{}, definition_.name_text,
+                      "what it returns is neither None nor a dict of counts");
     }
     return false;
   }
@@ -108,9 +117,16 @@ void define(const py::object& python) {
   d.name_text = python.attr("name").cast<std::string>();
   d.summary_text = python.attr("summary").cast<std::string>();
   d.doc_text = python.attr("doc").cast<std::string>();
-  for (const auto& o : python.attr("described")().cast<std::vector<std::array<std::string, 4>>>()) d.options.push_back({o[0], o[1], o[2], o[3], {}});
-  static_cast<PassInfo&>(d) = {d.name_text, d.summary_text, Level::authored, Level::authored,
-                               [](const PassInfo& info) -> std::unique_ptr<PassInstance> { return std::make_unique<PythonPass>(static_cast<const Definition&>(info)); }, d.doc_text};
+  for (const auto& o : python.attr("described")().cast<std::vector<std::array<std::string, 4>>>())
+    d.options.push_back({o[0], o[1], o[2], o[3], {}});
+  static_cast<PassInfo&>(d) = {d.name_text,
+                               d.summary_text,
+                               Level::authored,
+                               Level::authored,
+                               [](const PassInfo& info) -> std::unique_ptr<PassInstance> {
+                                 return std::make_unique<PythonPass>(static_cast<const Definition&>(info));
+                               },
+                               d.doc_text};
   if (!add_pass(d)) throw py::value_error("there is a pass '" + d.name_text + "' already; give this one another name");
 }
 
@@ -126,7 +142,8 @@ bool load_file(const std::string& path, std::string& why) {
   }
 }
 
-/// The verbs of the program. Python is held all the time: workers of a corpus run are forks, so no other thread may run.
+/// The verbs of the program. Python is held all the time: workers of a corpus run are forks, so no other thread may
+/// run.
 int run_verb(std::vector<std::string> words) {
   words.insert(words.begin(), "wrlkit");
   std::vector<char*> arguments;
@@ -141,7 +158,9 @@ void define_passes(py::module_& m) {
   load_python_file = &load_file;
   fork_hooks = {PyOS_BeforeFork, PyOS_AfterFork_Parent, PyOS_AfterFork_Child};
   m.def("_define", &define, py::arg("definition"), "Makes a pass of a definition.");
-  m.def("main", &run_verb, py::arg("words"), "Runs a command line of the program, ['convert', 'in.wrl', 'out.glb'], and gives its exit code. It prints as the program does.");
+  m.def("main", &run_verb, py::arg("words"),
+        "Runs a command line of the program, ['convert', 'in.wrl', 'out.glb'], and gives its exit code. It prints as "
+        "the program does.");
 }
 
 }  // namespace wrlkit::python

@@ -1,8 +1,8 @@
 // Fields of nodes as Python values, and back, with the types of the node table.
 #include <algorithm>
 
-#include "python/world.h"
 #include "base/text/nearest_name.h"
+#include "python/world.h"
 
 namespace wrlkit::python {
 namespace {
@@ -22,7 +22,8 @@ py::object to_python(const PyNode& node, const Value& v) {
     case Element::integer:
       if (t.multiple) return array(v.integer_span(), 1);
       return v.type == FieldType::SFBool ? py::object(py::bool_(v.integer != 0)) : py::object(py::int_(v.integer));
-    case Element::image: return array(v.integer_span(), 1);
+    case Element::image:
+      return array(v.integer_span(), 1);
     case Element::text:
       if (t.multiple) return py::cast(std::vector<std::string>(v.text_span().begin(), v.text_span().end()));
       return py::str(std::string(v.text()));
@@ -45,14 +46,18 @@ NodeId node_of(const PyNode& holder, const py::handle& value) {
 Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot, const py::object& value) {
   const auto& t = info(field.type);
   Scene& scene = node.scene();
-  const auto wrong = [&] { return py::type_error(std::string(node.type().name) + "." + std::string(field.name) + " is a " + std::string(t.name)); };
+  const auto wrong = [&] {
+    return py::type_error(std::string(node.type().name) + "." + std::string(field.name) + " is a " +
+                          std::string(t.name));
+  };
   try {
     switch (t.element) {
       case Element::number: {
         if (t.arity == 1 && !t.multiple) return scene.make(field.type, slot, value.cast<double>());
         const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
         if (!array || array.size() % t.arity != 0 || (!t.multiple && array.size() != t.arity)) throw wrong();
-        return scene.make(field.type, slot, std::span<const double>(array.data(), static_cast<std::size_t>(array.size())));
+        return scene.make(field.type, slot,
+                          std::span<const double>(array.data(), static_cast<std::size_t>(array.size())));
       }
       case Element::integer:
       case Element::image: {
@@ -60,11 +65,13 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
         if (field.type == FieldType::SFInt32) return scene.make(field.type, slot, value.cast<std::int32_t>());
         const auto array = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>::ensure(value);
         if (!array) throw wrong();
-        return scene.make(field.type, slot, std::span<const std::int32_t>(array.data(), static_cast<std::size_t>(array.size())));
+        return scene.make(field.type, slot,
+                          std::span<const std::int32_t>(array.data(), static_cast<std::size_t>(array.size())));
       }
       case Element::text: {
         if (!t.multiple) return scene.make(field.type, slot, value.cast<std::string>());
-        const auto texts = py::isinstance<py::str>(value) ? std::vector{value.cast<std::string>()} : value.cast<std::vector<std::string>>();
+        const auto texts = py::isinstance<py::str>(value) ? std::vector{value.cast<std::string>()}
+                                                          : value.cast<std::vector<std::string>>();
         const std::vector<std::string_view> kept(texts.begin(), texts.end());
         return scene.make(field.type, slot, kept);
       }
@@ -92,7 +99,9 @@ std::uint16_t slot_of(const PyNode& node, const std::string& name) {
 
 }  // namespace
 
-py::object get_field(const PyNode& node, const std::string& name) { return to_python(node, node.scene().value(node.id, slot_of(node, name))); }
+py::object get_field(const PyNode& node, const std::string& name) {
+  return to_python(node, node.scene().value(node.id, slot_of(node, name)));
+}
 
 void set_field(const PyNode& node, const std::string& name, const py::object& value) {
   const auto slot = slot_of(node, name);

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/lower_vrml1/lower_vrml1.h"
 #include "base/text/nearest_name.h"
+#include "passes/lower_vrml1/lower_vrml1.h"
 #include "tools/cli/cli.h"
-#include "tools/verbs/convert.h"
-#include "tools/gltf_output.h"
-#include "tools/verbs/info.h"
 #include "tools/cli/lengths.h"
 #include "tools/cli/python_passes.h"
+#include "tools/gltf_output.h"
+#include "tools/verbs/convert.h"
+#include "tools/verbs/info.h"
 
 namespace wrlkit::python {
 namespace {
@@ -34,13 +34,16 @@ std::string text_of(const py::handle& value) {
 /// Adds options of `convert`; those of the sections alone when there are some.
 void add_options(Recipe& recipe, const GivenOptions& options, std::initializer_list<std::string_view> sections) {
   const auto known = options_of("convert");
-  const auto fits = [&](std::string_view name) { return std::ranges::find(sections, recipe_section(name)) != sections.end(); };
+  const auto fits = [&](std::string_view name) {
+    return std::ranges::find(sections, recipe_section(name)) != sections.end();
+  };
   for (const auto& [name, values] : options) {
     std::string why;
     NearestName nearest(name);
     for (const auto& o : known)
       if (fits(o.name)) nearest.consider(o.name);
-    if (std::ranges::find(known, name, &OptionHelp::name) == known.end() || !fits(name)) throw py::type_error("there is no option '" + name + "'" + nearest.question());
+    if (std::ranges::find(known, name, &OptionHelp::name) == known.end() || !fits(name))
+      throw py::type_error("there is no option '" + name + "'" + nearest.question());
     if (!check_option("convert", name, values, why)) throw py::value_error(why);
     std::erase_if(recipe.options, [&](const auto& o) { return o.first == name; });
     recipe.options.emplace_back(name, values);
@@ -48,9 +51,11 @@ void add_options(Recipe& recipe, const GivenOptions& options, std::initializer_l
 }
 
 Flags flags_of(const Recipe& recipe, const std::string& target) {
-  if (!is_output_name(target)) throw py::value_error("'" + target + "': worlds are written as .wrl, .wrz, .x3d, .x3dz, .gltf or .glb");
+  if (!is_output_name(target))
+    throw py::value_error("'" + target + "': worlds are written as .wrl, .wrz, .x3d, .x3dz, .gltf or .glb");
   Flags flags = conversion_flags(recipe);
-  if (!flags.tolerance.empty() && !(length_of(flags.tolerance) > 0)) throw py::value_error("tolerance: '" + flags.tolerance + "' is no length");
+  if (!flags.tolerance.empty() && !(length_of(flags.tolerance) > 0))
+    throw py::value_error("tolerance: '" + flags.tolerance + "' is no length");
   flags.output = target;
   flags.quiet = true;
   apply_profile(flags);
@@ -59,20 +64,26 @@ Flags flags_of(const Recipe& recipe, const std::string& target) {
 
 }  // namespace
 
-std::string MessageView::str() const { return (file.empty() ? "" : file + (line ? ":" + std::to_string(line) + ":" + std::to_string(column) : "") + ": ") + severity + ": " + text + " [" + name + "]"; }
+std::string MessageView::str() const {
+  return (file.empty() ? "" : file + (line ? ":" + std::to_string(line) + ":" + std::to_string(column) : "") + ": ") +
+         severity + ": " + text + " [" + name + "]";
+}
 
 std::vector<MessageView> views(const Diagnostics& diag) {
   std::vector<MessageView> out;
   for (const auto& m : diag.messages()) {
     const Place p = diag.sources().locate(m.where);
     const bool exact = p.line && m.where.length;
-    out.push_back({std::string(to_string(m.severity)), info(m.id).name, m.text(), std::string(p.file), exact ? p.line : 0, exact ? p.column : 0});
+    out.push_back({std::string(to_string(m.severity)), info(m.id).name, m.text(), std::string(p.file),
+                   exact ? p.line : 0, exact ? p.column : 0});
   }
   return out;
 }
 
 void define_error(py::module_& module) {
-  error_type = PyErr_NewExceptionWithDoc("wrlkit.Error", "Nothing could be made of a world. messages: all that was said of it, as a list of Message.", PyExc_RuntimeError, nullptr);
+  error_type = PyErr_NewExceptionWithDoc(
+      "wrlkit.Error", "Nothing could be made of a world. messages: all that was said of it, as a list of Message.",
+      PyExc_RuntimeError, nullptr);
   module.attr("Error") = py::reinterpret_borrow<py::object>(error_type);
   cause = new py::object(py::none());
 }
@@ -101,7 +112,8 @@ GivenOptions options_of_keywords(const py::kwargs& keywords) {
     std::vector<std::string> values;
     if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
       for (auto item : value) values.push_back(text_of(item));
-    else values.push_back(text_of(value));
+    else
+      values.push_back(text_of(value));
     out.emplace_back(std::move(name), std::move(values));
   }
   return out;
@@ -114,7 +126,8 @@ void PyWorld::own(std::unique_ptr<World> world) {
   resources_ = own_resources_.get();
 }
 
-std::shared_ptr<PyWorld> PyWorld::load(const std::string& path, std::vector<std::string> allow, const std::string& unit, const std::string& up) {
+std::shared_ptr<PyWorld> PyWorld::load(const std::string& path, std::vector<std::string> allow, const std::string& unit,
+                                       const std::string& up) {
   for (const auto& [option, value] : {std::pair("unit", unit), std::pair("up", up)})
     if (std::string why; !value.empty() && !check_option("convert", option, {value}, why)) throw py::value_error(why);
   auto w = std::make_shared<PyWorld>();
@@ -122,7 +135,8 @@ std::shared_ptr<PyWorld> PyWorld::load(const std::string& path, std::vector<std:
   std::unique_ptr<World> world;
   {
     py::gil_scoped_release others;
-    w->own_resources_ = std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = allow}, parse_inlined);
+    w->own_resources_ =
+        std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = allow}, parse_inlined);
     world = read_world(path, {.allowed = std::move(allow)}, w->own_diag_);
     if (world) place_world(world->scene, unit, up);
   }
@@ -170,8 +184,10 @@ PyWorld::Counts PyWorld::apply(const std::string& pass, const py::kwargs& keywor
 
 std::unique_ptr<World> PyWorld::copy() const {
   auto world = std::make_unique<World>();
-  if (own_world_) *world = *own_world_;
-  else world->scene = *scene_;
+  if (own_world_)
+    *world = *own_world_;
+  else
+    world->scene = *scene_;
   return world;
 }
 
@@ -204,10 +220,14 @@ py::object PyWorld::info() {
 
 void PyWorld::report(const std::string& severity, const std::string& text, const py::object& node) {
   const Span where = node.is_none() ? Span{} : scene().where(node.cast<const PyNode&>().id);
-  if (severity == "error") diag_->report(Diag::python_error, where, text);
-  else if (severity == "warning") diag_->report(Diag::python_warning, where, text);
-  else if (severity == "lost") diag_->report(Diag::python_lost, where, text);
-  else throw py::value_error("'" + severity + "' is no severity: error, warning or lost");
+  if (severity == "error")
+    diag_->report(Diag::python_error, where, text);
+  else if (severity == "warning")
+    diag_->report(Diag::python_warning, where, text);
+  else if (severity == "lost")
+    diag_->report(Diag::python_lost, where, text);
+  else
+    throw py::value_error("'" + severity + "' is no severity: error, warning or lost");
 }
 
 void PyWorld::detach() {
@@ -218,7 +238,8 @@ void PyWorld::detach() {
   own(copy());
 }
 
-std::vector<MessageView> convert(const std::string& source, const std::string& target, const std::string& recipe_path, const std::optional<std::string>& pipeline, const py::kwargs& options) {
+std::vector<MessageView> convert(const std::string& source, const std::string& target, const std::string& recipe_path,
+                                 const std::optional<std::string>& pipeline, const py::kwargs& options) {
   std::string why;
   Recipe recipe;
   if (!recipe_path.empty()) {

@@ -1,8 +1,8 @@
 // Worlds and nodes as Python sees them. The headers of pybind11 are seen in this folder only.
 //
-// Lifetime: a Node and every array hold the World that they are of, so nothing that Python still has goes away under it. A world that
-// a pass was given is the scene of whoever runs the pass; when Python still has something of it behind the pass, that becomes a
-// world of its own, which shares its arrays.
+// Lifetime: a Node and every array hold the World that they are of, so nothing that Python still has goes away under
+// it. A world that a pass was given is the scene of whoever runs the pass; when Python still has something of it behind
+// the pass, that becomes a world of its own, which shares its arrays.
 #pragma once
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -35,7 +35,8 @@ std::vector<MessageView> views(const Diagnostics& diag);
 
 /// Makes wrlkit.Error.
 void define_error(py::module_& module);
-/// Raises it: its text is the first error with its place, and it has all messages. The exception that a pass has ended with is its cause.
+/// Raises it: its text is the first error with its place, and it has all messages. The exception that a pass has ended
+/// with is its cause.
 [[noreturn]] void fail(const std::string& otherwise, const std::vector<MessageView>& messages);
 /// What a pass has ended with, for the next `fail`.
 void set_cause(py::object exception);
@@ -51,7 +52,8 @@ class PyWorld : public std::enable_shared_from_this<PyWorld> {
   PyWorld(Scene& scene, PassContext& ctx) : scene_(&scene), diag_(&ctx.diag), resources_(ctx.resources) {}
   PyWorld(const PyWorld&) = delete;
 
-  static std::shared_ptr<PyWorld> load(const std::string& path, std::vector<std::string> allow, const std::string& unit, const std::string& up);
+  static std::shared_ptr<PyWorld> load(const std::string& path, std::vector<std::string> allow, const std::string& unit,
+                                       const std::string& up);
 
   Scene& scene() const { return *scene_; }
   Diagnostics& diag() const { return *diag_; }
@@ -104,7 +106,8 @@ py::object get_field(const PyNode& node, const std::string& name);
 void set_field(const PyNode& node, const std::string& name, const py::object& value);
 
 /// Converts a file as `wrlkit convert` does, by a recipe (empty: none), a pipeline and options; gives what was said.
-std::vector<MessageView> convert(const std::string& source, const std::string& target, const std::string& recipe, const std::optional<std::string>& pipeline, const py::kwargs& options);
+std::vector<MessageView> convert(const std::string& source, const std::string& target, const std::string& recipe,
+                                 const std::optional<std::string>& pipeline, const py::kwargs& options);
 
 /// Passes that are Python functions, and the command line in Python (passes.cpp).
 void define_passes(py::module_& module);

@@ -37,7 +37,8 @@ void SceneBuilder::close() {
 /// Defaults that are not those of the table are said in so many words, so that all scenes mean the same.
 void SceneBuilder::add_x3d_defaults(Open& o) {
   for (const auto& f : current_type().fields)
-    if (f.x3d_from && scene_.x3d.version >= f.x3d_from && !find_field(o, f.x3d_default.slot)) fields_.push_back(f.x3d_default);
+    if (f.x3d_from && scene_.x3d.version >= f.x3d_from && !find_field(o, f.x3d_default.slot))
+      fields_.push_back(f.x3d_default);
 }
 
 /// The field of that slot, or null. Where there are many, an index grows with them.
@@ -62,16 +63,21 @@ void SceneBuilder::field(Value v, Span where) {
       auto& own = open_.back().own;
       auto builtin = current_type().fields;
       const bool lists = v.type == FieldType::MFNode && old->type == FieldType::MFNode && !v.is && !old->is;
-      diag_.report(Diag::duplicate_field, where, v.slot < builtin.size() ? builtin[v.slot].name : own[v.slot - builtin.size()].name,
+      diag_.report(Diag::duplicate_field, where,
+                   v.slot < builtin.size() ? builtin[v.slot].name : own[v.slot - builtin.size()].name,
                    lists ? "all nodes count" : "the last one counts");
-      if (!lists) *old = v;
-      else for (NodeId n : v.node_span()) append_child(v.slot, n);
+      if (!lists)
+        *old = v;
+      else
+        for (NodeId n : v.node_span()) append_child(v.slot, n);
       return;
     }
-  if (fields_.size() - open_.back().first_field >= most_fields) return diag_.report(Diag::expansion_limit, where, most_fields, "fields");
+  if (fields_.size() - open_.back().first_field >= most_fields)
+    return diag_.report(Diag::expansion_limit, where, most_fields, "fields");
   // Nodes that came before this list outside of any field stand before those in it.
   auto& more = open_.back().more;
-  if (v.type == FieldType::MFNode && !v.is && std::ranges::any_of(more, [&](const auto& m) { return m.first == v.slot; }))
+  if (v.type == FieldType::MFNode && !v.is &&
+      std::ranges::any_of(more, [&](const auto& m) { return m.first == v.slot; }))
     for (NodeId n : v.node_span()) append_child(v.slot, n);
   else
     fields_.push_back(v);
@@ -87,14 +93,19 @@ void SceneBuilder::append_all(Open& o) {
     if (old) all.assign(old->node_span().begin(), old->node_span().end());
     for (; i != o.more.end() && i->first == slot; ++i) all.push_back(i->second);
     Value v = scene_.make(FieldType::MFNode, slot, all);
-    if (old) *old = v;
-    else fields_.push_back(v);
+    if (old)
+      *old = v;
+    else
+      fields_.push_back(v);
   }
 }
 
 std::optional<std::uint16_t> SceneBuilder::declare(FieldDef f, Span where) {
   auto& own = open_.back().own;
-  if (own.size() >= most_fields) return diag_.report(Diag::expansion_limit, where, most_fields, "fields"), std::nullopt;
+  if (own.size() >= most_fields) {
+    diag_.report(Diag::expansion_limit, where, most_fields, "fields");
+    return std::nullopt;
+  }
   own.push_back(f);
   return static_cast<std::uint16_t>(current_type().fields.size() + own.size() - 1);
 }
@@ -107,17 +118,25 @@ NodeId SceneBuilder::defined(std::string_view name) const {
 
 NodeId SceneBuilder::use(std::string_view name, Span where) {
   NodeId n = defined(name);
-  if (!n) return diag_.report(Diag::undefined_use, where, name), n;
+  if (!n) {
+    diag_.report(Diag::undefined_use, where, name);
+    return n;
+  }
   bool inside = std::ranges::binary_search(open_, n.value, {}, [](const Open& o) { return o.node.value; });
-  // A Script may hold the node it is in (4.12.8), and what a prototype does with a node is known only when it is expanded.
-  if (inside && current_type().kind != NodeKind::proto && current_type().name != "Script") return diag_.report(Diag::use_cycle, where, name), NodeId{};
+  // A Script may hold the node it is in (4.12.8), and what a prototype does with a node is known only when it is
+  // expanded.
+  if (inside && current_type().kind != NodeKind::proto && current_type().name != "Script") {
+    diag_.report(Diag::use_cycle, where, name);
+    return NodeId{};
+  }
   return n;
 }
 
 Scope SceneBuilder::close_scope() {
   const auto links = std::move(scopes_.back().links);
   for (auto& l : links)
-    if (!try_link(l)) diag_.report(Diag::undefined_import, l.where, l.import ? "IMPORT" : "EXPORT", l.node, "not defined");
+    if (!try_link(l))
+      diag_.report(Diag::undefined_import, l.where, l.import ? "IMPORT" : "EXPORT", l.node, "not defined");
   auto forward = std::move(scopes_.back().forward);
   for (auto& r : forward)
     if (!try_route(r)) diag_.report(Diag::undefined_route, r.where, routed(r.from) ? r.to : r.from);
@@ -126,7 +145,8 @@ Scope SceneBuilder::close_scope() {
   return s;
 }
 
-void SceneBuilder::route(std::string_view from, std::string_view event_out, std::string_view to, std::string_view event_in, Span where) {
+void SceneBuilder::route(std::string_view from, std::string_view event_out, std::string_view to,
+                         std::string_view event_in, Span where) {
   Pending r{scene_.keep(from), scene_.keep(event_out), scene_.keep(to), scene_.keep(event_in), where};
   if (!try_route(r)) scopes_.back().forward.push_back(r);
 }
@@ -147,7 +167,8 @@ NodeId SceneBuilder::routed(std::string_view name) const {
   return i == imported.end() ? NodeId{} : i->second;
 }
 
-void SceneBuilder::import_name(std::string_view inline_name, std::string_view exported, std::string_view name, Span where) {
+void SceneBuilder::import_name(std::string_view inline_name, std::string_view exported, std::string_view name,
+                               Span where) {
   link({true, scene_.keep(inline_name), scene_.keep(exported), scene_.keep(name), where});
 }
 
@@ -164,10 +185,14 @@ bool SceneBuilder::try_link(const Link& l) {
   const NodeId n = l.import ? defined(l.node) : routed(l.node);
   if (!n || l.name.empty() || (l.import && l.exported.empty())) return false;
   const auto* keyword = l.import ? "IMPORT" : "EXPORT";
-  if (l.import && !scene_.is(n, nodes::Inline)) diag_.report(Diag::undefined_import, l.where, keyword, l.node, "no Inline");
-  else if (l.import ? static_cast<bool>(routed(l.name)) : !s.exported.insert(l.name).second) diag_.report(Diag::duplicate_import, l.where, keyword, l.name);
-  else if (l.import) s.scope.imports.push_back({n, l.exported, s.imported[l.name] = scene_.add_stand_in(l.name, l.where)});
-  else s.scope.exports.push_back({n, l.name});
+  if (l.import && !scene_.is(n, nodes::Inline))
+    diag_.report(Diag::undefined_import, l.where, keyword, l.node, "no Inline");
+  else if (l.import ? static_cast<bool>(routed(l.name)) : !s.exported.insert(l.name).second)
+    diag_.report(Diag::duplicate_import, l.where, keyword, l.name);
+  else if (l.import)
+    s.scope.imports.push_back({n, l.exported, s.imported[l.name] = scene_.add_stand_in(l.name, l.where)});
+  else
+    s.scope.exports.push_back({n, l.name});
   return true;
 }
 
@@ -178,7 +203,9 @@ void SceneBuilder::check_event(NodeId n, std::string_view event, bool out, Span 
   auto slot = t.find(event, scene_.dialect(), true);
   if (slot) {
     auto a = t.fields[*slot].access;
-    if (a == Access::inout || a == (out ? Access::out : Access::in) || (a == Access::init && scene_.dialect() == Dialect::x3d)) return;
+    if (a == Access::inout || a == (out ? Access::out : Access::in) ||
+        (a == Access::init && scene_.dialect() == Dialect::x3d))
+      return;
   }
   diag_.report(Diag::unknown_event, where, t.name, event);
 }

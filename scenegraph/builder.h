@@ -1,6 +1,6 @@
-// The one door by which parsers make a scene. It knows types, scopes of names and limits; the parsers know their grammar.
-// Nodes are opened and closed like the braces of the file. The fields of open nodes wait on one stack, so that the pools
-// of the scene are written once, in order.
+// The one door by which parsers make a scene. It knows types, scopes of names and limits; the parsers know their
+// grammar. Nodes are opened and closed like the braces of the file. The fields of open nodes wait on one stack, so that
+// the pools of the scene are written once, in order.
 #pragma once
 #include <optional>
 #include <unordered_map>
@@ -14,7 +14,7 @@
 namespace wrlkit {
 
 struct ParseLimits {
-  std::size_t depth = 1000;             // of nested nodes
+  std::size_t depth = 1000;  // of nested nodes
   std::size_t nodes = 200'000'000;
 };
 
@@ -31,15 +31,15 @@ class SceneBuilder {
   /// The innermost open node.
   NodeId current() const { return open_.back().node; }
   const NodeType& current_type() const { return scene_.type(current()); }
-  /// Adds a field to the innermost open node. A second value for a slot is reported; it replaces the first, but a list of
-  /// nodes is joined to it.
+  /// Adds a field to the innermost open node. A second value for a slot is reported; it replaces the first, but a list
+  /// of nodes is joined to it.
   void field(Value v, Span where);
   /// Adds a node to a node-list field of the innermost open node (a child that stands outside of any field).
   void append_child(std::uint16_t slot, NodeId child) { open_.back().more.emplace_back(slot, child); }
   /// Fields of one interface: a slot is 16 bits.
   static constexpr std::size_t most_fields = 60'000;
-  /// Declares a field of the innermost open node, a Script: it gets a type of its own. Returns the slot; none when there
-  /// are too many, which is reported.
+  /// Declares a field of the innermost open node, a Script: it gets a type of its own. Returns the slot; none when
+  /// there are too many, which is reported.
   std::optional<std::uint16_t> declare(FieldDef f, Span where);
 
   /// The node that USE `name` means here; none if it is not defined or would contain itself, which is reported.
@@ -50,7 +50,8 @@ class SceneBuilder {
   /// Roots, resolved routes and prototypes of the innermost scope, which ends.
   Scope close_scope();
   void root(NodeId n) { scopes_.back().scope.roots.push_back(n); }
-  void route(std::string_view from, std::string_view event_out, std::string_view to, std::string_view event_in, Span where);
+  void route(std::string_view from, std::string_view event_out, std::string_view to, std::string_view event_in,
+             Span where);
   /// `IMPORT inline_name.exported AS name` and `EXPORT node AS name`, also of nodes that are defined later.
   void import_name(std::string_view inline_name, std::string_view exported, std::string_view name, Span where);
   void export_name(std::string_view node, std::string_view name, Span where);
@@ -70,7 +71,7 @@ class SceneBuilder {
   struct Open {
     NodeId node;
     std::size_t first_field;
-    std::vector<FieldDef> own;  // declared by a Script
+    std::vector<FieldDef> own;                           // declared by a Script
     std::vector<std::pair<std::uint16_t, NodeId>> more;  // slots and nodes that stand behind those of its fields
     std::vector<std::uint32_t> by_slot;  // one more than where the field of a slot is, once there are many
     std::size_t n_indexed = 0;           // fields that by_slot knows

@@ -19,7 +19,9 @@ class Comparison {
   }
 
  private:
-  struct Pair { NodeId a, b; };
+  struct Pair {
+    NodeId a, b;
+  };
 
   bool same(NodeId a, NodeId b) {
     if (!a || !b) return !a && !b;
@@ -33,11 +35,13 @@ class Comparison {
     if (a.is != b.is || a.type != b.type) return false;
     if (a.is || info(a.type).element != Element::node) return equal_plain(a, b);
     auto x = a.node_span(), y = b.node_span();
-    return x.size() == y.size() && std::equal(x.begin(), x.end(), y.begin(), [&](NodeId m, NodeId n) { return same(m, n); });
+    return x.size() == y.size() &&
+           std::equal(x.begin(), x.end(), y.begin(), [&](NodeId m, NodeId n) { return same(m, n); });
   }
 
   std::string at(NodeId n, const std::string& what) const {
-    return std::string(a_.type(n).name) + (a_.name(n).empty() ? "" : " '" + std::string(a_.name(n)) + "'") + ": " + what;
+    return std::string(a_.type(n).name) + (a_.name(n).empty() ? "" : " '" + std::string(a_.name(n)) + "'") + ": " +
+           what;
   }
 
   std::string node(NodeId a, NodeId b) {
@@ -47,11 +51,13 @@ class Comparison {
     if (ta.fields.size() != tb.fields.size()) return at(a, "other fields");
     for (std::uint16_t i = 0; i < ta.fields.size(); ++i) {
       const auto &fa = ta.fields[i], &fb = tb.fields[i];
-      if (fa.name != fb.name || fa.type != fb.type || fa.access != fb.access) return at(a, "interface of " + std::string(fa.name));
+      if (fa.name != fb.name || fa.type != fb.type || fa.access != fb.access)
+        return at(a, "interface of " + std::string(fa.name));
       auto *va = a_.find(a, i), *vb = b_.find(b, i);
       if (!va && !vb) continue;
       if (!fa.has_value() && (!va || !vb)) return at(a, "IS of " + std::string(fa.name));
-      if (!same(va ? *va : fa.default_value, vb ? *vb : fb.default_value)) return at(a, "field " + std::string(fa.name));
+      if (!same(va ? *va : fa.default_value, vb ? *vb : fb.default_value))
+        return at(a, "field " + std::string(fa.name));
     }
     return extras(a, b);
   }
@@ -59,13 +65,15 @@ class Comparison {
   std::string extras(NodeId a, NodeId b) {
     auto list = [](const Scene& s, NodeId n) {
       std::vector<const ExtraField*> v;
-      for (auto& f : s.fields(n)) if (s.is_extra(f)) v.push_back(f.extra);
+      for (auto& f : s.fields(n))
+        if (s.is_extra(f)) v.push_back(f.extra);
       return v;
     };
     auto x = list(a_, a), y = list(b_, b);
     if (x.size() != y.size()) return at(a, "number of unknown fields");
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (x[i]->name != y[i]->name || !same(x[i]->value, y[i]->value)) return at(a, "unknown field " + std::string(x[i]->name));
+      if (x[i]->name != y[i]->name || !same(x[i]->value, y[i]->value))
+        return at(a, "unknown field " + std::string(x[i]->name));
     return {};
   }
 
@@ -77,7 +85,9 @@ class Comparison {
     if (ta.fields.size() != tb.fields.size()) return where + "interface";
     for (std::size_t i = 0; i < ta.fields.size(); ++i) {
       const auto &fa = ta.fields[i], &fb = tb.fields[i];
-      if (fa.name != fb.name || fa.type != fb.type || fa.access != fb.access || !same(fa.default_value, fb.default_value)) return where + "field " + std::string(fa.name);
+      if (fa.name != fb.name || fa.type != fb.type || fa.access != fb.access ||
+          !same(fa.default_value, fb.default_value))
+        return where + "field " + std::string(fa.name);
     }
     return scope(pa.body, pb.body);
   }
@@ -86,7 +96,8 @@ class Comparison {
     if (a.protos.size() != b.protos.size()) return "number of prototypes";
     for (std::size_t i = 0; i < a.protos.size(); ++i)
       if (auto d = proto(a.protos[i], b.protos[i]); !d.empty()) return d;
-    if (a.roots.size() != b.roots.size()) return "number of root nodes: " + std::to_string(a.roots.size()) + " and " + std::to_string(b.roots.size());
+    if (a.roots.size() != b.roots.size())
+      return "number of root nodes: " + std::to_string(a.roots.size()) + " and " + std::to_string(b.roots.size());
     for (std::size_t i = 0; i < a.roots.size(); ++i)
       if (!same(a.roots[i], b.roots[i])) return "root node " + std::to_string(i);
     if (auto d = rest_of_nodes(); !d.empty()) return d;
@@ -95,7 +106,8 @@ class Comparison {
     if (x.size() != y.size()) return "number of ROUTEs";
     for (std::size_t i = 0; i < x.size(); ++i) {
       const auto &r = x[i], &s = y[i];
-      if (!same(r.from, s.from) || !same(r.to, s.to) || r.event_out != s.event_out || r.event_in != s.event_in) return "ROUTE " + std::to_string(i);
+      if (!same(r.from, s.from) || !same(r.to, s.to) || r.event_out != s.event_out || r.event_in != s.event_in)
+        return "ROUTE " + std::to_string(i);
     }
     return {};
   }
@@ -116,19 +128,25 @@ class Comparison {
       std::erase_if(out, [&](const auto& l) { return !nodes.count((l.*member).value); });
       return out;
     };
-    const auto imports = met(a.imports, &Import::inline_node, partner_), imports_b = met(b.imports, &Import::inline_node, partner_back_);
-    auto same_import = [&](const Import& x, const Import& y) { return same(x.inline_node, y.inline_node) && x.exported == y.exported && same(x.node, y.node); };
+    const auto imports = met(a.imports, &Import::inline_node, partner_),
+               imports_b = met(b.imports, &Import::inline_node, partner_back_);
+    auto same_import = [&](const Import& x, const Import& y) {
+      return same(x.inline_node, y.inline_node) && x.exported == y.exported && same(x.node, y.node);
+    };
     if (!std::ranges::equal(imports, imports_b, same_import)) return "IMPORTs";
     if (auto d = rest_of_nodes(); !d.empty()) return d;
-    const auto exports = met(a.exports, &Export::node, partner_), exports_b = met(b.exports, &Export::node, partner_back_);
+    const auto exports = met(a.exports, &Export::node, partner_),
+               exports_b = met(b.exports, &Export::node, partner_back_);
     auto same_export = [&](const Export& x, const Export& y) { return same(x.node, y.node) && x.name == y.name; };
     return std::ranges::equal(exports, exports_b, same_export) ? "" : "EXPORTs";
   }
 
   /// Those of them whose nodes are in the scene: a fault in the file may have cost the others.
-  static std::vector<Route> met(const std::vector<Route>& routes, const std::unordered_map<std::uint32_t, std::uint32_t>& nodes) {
+  static std::vector<Route> met(const std::vector<Route>& routes,
+                                const std::unordered_map<std::uint32_t, std::uint32_t>& nodes) {
     std::vector<Route> out;
-    std::ranges::copy_if(routes, std::back_inserter(out), [&](const Route& r) { return nodes.count(r.from.value) && nodes.count(r.to.value); });
+    std::ranges::copy_if(routes, std::back_inserter(out),
+                         [&](const Route& r) { return nodes.count(r.from.value) && nodes.count(r.to.value); });
     return out;
   }
 
@@ -144,11 +162,15 @@ bool equal_plain(const Value& a, const Value& b) {
   const auto& t = info(a.type);
   if (a.is || (t.element == Element::text && !t.multiple)) return a.text() == b.text();
   switch (t.element) {
-    case Element::text: return std::ranges::equal(a.text_span(), b.text_span());
-    case Element::number: return std::ranges::equal(a.number_span(), b.number_span());
+    case Element::text:
+      return std::ranges::equal(a.text_span(), b.text_span());
+    case Element::number:
+      return std::ranges::equal(a.number_span(), b.number_span());
     case Element::integer:
-    case Element::image: return std::ranges::equal(a.integer_span(), b.integer_span());
-    case Element::node: return std::ranges::equal(a.node_span(), b.node_span());
+    case Element::image:
+      return std::ranges::equal(a.integer_span(), b.integer_span());
+    case Element::node:
+      return std::ranges::equal(a.node_span(), b.node_span());
   }
   return false;
 }

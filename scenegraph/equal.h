@@ -6,9 +6,9 @@
 
 namespace wrlkit {
 
-/// Empty when the scenes say the same: nodes, DEF names, values (a written default equals one left out), sharing by USE,
-/// prototypes, ROUTEs between nodes of the scene, unknown nodes and fields, comment. Otherwise the first difference, in words. Ids, places and the
-/// order of fields do not count. O(scene).
+/// Empty when the scenes say the same: nodes, DEF names, values (a written default equals one left out), sharing by
+/// USE, prototypes, ROUTEs between nodes of the scene, unknown nodes and fields, comment. Otherwise the first
+/// difference, in words. Ids, places and the order of fields do not count. O(scene).
 std::string difference(const Scene& a, const Scene& b);
 
 /// Two values of one type hold the same; node references are compared by `same_node`.

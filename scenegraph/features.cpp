@@ -10,7 +10,9 @@ namespace {
 
 constexpr std::string_view parts = "parts", names = "names", faces = "faces";
 
-std::optional<std::uint16_t> metadata_slot(const Scene& scene, NodeId n) { return scene.type(n).find("metadata", Dialect::x3d); }
+std::optional<std::uint16_t> metadata_slot(const Scene& scene, NodeId n) {
+  return scene.type(n).find("metadata", Dialect::x3d);
+}
 
 }  // namespace
 
@@ -19,20 +21,26 @@ std::size_t Features::n_faces() const { return std::accumulate(faces.begin(), fa
 std::optional<Features> features_of(const Scene& scene, NodeId geometry) {
   const auto slot = metadata_slot(scene, geometry);
   const Value* v = slot ? scene.find(geometry, *slot) : nullptr;
-  if (!v || v->is || v->type != FieldType::SFNode || !scene.is(v->node, nodes::MetadataSet) || scene.get(v->node, nodes::metadata_set::name) != parts) return std::nullopt;
+  if (!v || v->is || v->type != FieldType::SFNode || !scene.is(v->node, nodes::MetadataSet) ||
+      scene.get(v->node, nodes::metadata_set::name) != parts)
+    return std::nullopt;
   Features f;
   for (NodeId n : scene.get(v->node, nodes::metadata_set::value)) {
-    if (scene.is(n, nodes::MetadataString) && scene.get(n, nodes::metadata_string::name) == names) f.names = scene.get(n, nodes::metadata_string::value);
-    if (scene.is(n, nodes::MetadataInteger) && scene.get(n, nodes::metadata_integer::name) == faces) f.faces = scene.get(n, nodes::metadata_integer::value);
+    if (scene.is(n, nodes::MetadataString) && scene.get(n, nodes::metadata_string::name) == names)
+      f.names = scene.get(n, nodes::metadata_string::value);
+    if (scene.is(n, nodes::MetadataInteger) && scene.get(n, nodes::metadata_integer::name) == faces)
+      f.faces = scene.get(n, nodes::metadata_integer::value);
   }
-  if (f.names.empty() || f.names.size() != f.faces.size() || std::ranges::any_of(f.faces, [](auto n) { return n < 0; })) return std::nullopt;
+  if (f.names.empty() || f.names.size() != f.faces.size() || std::ranges::any_of(f.faces, [](auto n) { return n < 0; }))
+    return std::nullopt;
   return f;
 }
 
 void set_features(Scene& scene, NodeId geometry, const Features& f) {
   const auto slot = metadata_slot(scene, geometry);
   if (!slot) return;
-  const NodeId texts = scene.add(nodes::MetadataString), numbers = scene.add(nodes::MetadataInteger), set = scene.add(nodes::MetadataSet);
+  const NodeId texts = scene.add(nodes::MetadataString), numbers = scene.add(nodes::MetadataInteger),
+               set = scene.add(nodes::MetadataSet);
   scene.set(texts, nodes::metadata_string::name, names);
   scene.set(texts, scene.make(FieldType::MFString, nodes::metadata_string::value.slot, f.names));
   scene.set(numbers, nodes::metadata_integer::name, faces);

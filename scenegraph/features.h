@@ -1,5 +1,5 @@
-// The parts that a geometry was merged of, so that each can still be found by its name: a MetadataSet of X3D on the geometry.
-// glTF has feature ids for it.
+// The parts that a geometry was merged of, so that each can still be found by its name: a MetadataSet of X3D on the
+// geometry. glTF has feature ids for it.
 //
 //   IndexedFaceSet { ... metadata MetadataSet { name "parts" value [
 //     MetadataString { name "names" value [ "Unit/Pump" "Unit/Valve" ] }

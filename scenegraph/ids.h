@@ -18,7 +18,7 @@ struct Id {
 };
 
 using NodeId = Id<struct NodeTag>;
-using TypeId = Id<struct TypeTag>;    // built-in node types first, then those a scene declares (PROTO, Script, unknown)
+using TypeId = Id<struct TypeTag>;  // built-in node types first, then those a scene declares (PROTO, Script, unknown)
 using ProtoId = Id<struct ProtoTag>;
 
 }  // namespace wrlkit

@@ -13,7 +13,7 @@ struct LightNode {
   Vec3 color{1, 1, 1};
   double intensity = 1, ambient_intensity = 0;
   Vec3 location{0, 0, 0};
-  Vec3 direction{0, 0, -1};          // in which the light travels; of any length
+  Vec3 direction{0, 0, -1};  // in which the light travels; of any length
   Vec3 attenuation{1, 0, 0};
   double radius = 100, beam_width = 0, cut_off_angle = 0;
 };

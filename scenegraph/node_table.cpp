@@ -5,15 +5,19 @@
 
 namespace wrlkit {
 
-bool NodeType::is_a(std::string_view base) const { return name == base || std::ranges::find(bases, base) != bases.end(); }
+bool NodeType::is_a(std::string_view base) const {
+  return name == base || std::ranges::find(bases, base) != bases.end();
+}
 
 std::optional<std::uint16_t> NodeType::find(std::string_view field, Dialect dialect, bool events) const {
   if (!by_name.empty()) {
     auto i = std::ranges::lower_bound(by_name, field, {}, [&](std::uint16_t slot) { return fields[slot].name; });
     if (i != by_name.end() && fields[*i].name == field) return *i;
-  } else for (std::size_t i = 0; i < fields.size(); ++i)
-    if (((fields[i].dialects & static_cast<DialectSet>(dialect)) || fields[i].is_own()) && fields[i].name_in(dialect) == field)
-      return static_cast<std::uint16_t>(i);
+  } else
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      if (((fields[i].dialects & static_cast<DialectSet>(dialect)) || fields[i].is_own()) &&
+          fields[i].name_in(dialect) == field)
+        return static_cast<std::uint16_t>(i);
   // Files of X3D that were VRML97 once (Xj3D's, castle's) still have choice, level and collide.
   if (dialect == Dialect::x3d && (field == "choice" || field == "level" || field == "collide"))
     for (std::size_t i = 0; i < fields.size(); ++i)
@@ -22,7 +26,8 @@ std::optional<std::uint16_t> NodeType::find(std::string_view field, Dialect dial
   auto exposed = [&](std::string_view stem) -> std::optional<std::uint16_t> {
     auto i = find(stem, dialect, false);
     // Which initializeOnly fields became inputOutput depends on the version of X3D.
-    bool events = i && (fields[*i].access == Access::inout || (dialect == Dialect::x3d && fields[*i].access == Access::init));
+    bool events =
+        i && (fields[*i].access == Access::inout || (dialect == Dialect::x3d && fields[*i].access == Access::init));
     return events ? i : std::nullopt;
   };
   if (field.starts_with("set_"))

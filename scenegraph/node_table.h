@@ -1,6 +1,6 @@
 // The table of node types: what the parser accepts, what the writers print, what `verify` checks and what `explain`
-// says all derive from it. The built-in rows are generated from scenegraph/nodes/*.nodes by tools/gen_nodes.cpp; a scene
-// adds rows of the same shape for its PROTOs, Scripts and unknown nodes.
+// says all derive from it. The built-in rows are generated from scenegraph/nodes/*.nodes by tools/gen_nodes.cpp; a
+// scene adds rows of the same shape for its PROTOs, Scripts and unknown nodes.
 #pragma once
 #include <limits>
 #include <optional>
@@ -15,16 +15,18 @@ namespace wrlkit {
 /// field, exposedField, eventIn, eventOut of VRML97; initializeOnly, inputOutput, inputOnly, outputOnly of X3D.
 enum class Access : std::uint8_t { init, inout, in, out };
 
-/// Dialects, as bits, so that one row can be valid in several. `wrlkit`: fields that no standard has, in which passes and
-/// writers tell each other of baked light. They are read in every dialect, and written on request only.
+/// Dialects, as bits, so that one row can be valid in several. `wrlkit`: fields that no standard has, in which passes
+/// and writers tell each other of baked light. They are read in every dialect, and written on request only.
 enum class Dialect : std::uint8_t { vrml1 = 1, vrml97 = 2, x3d = 4, wrlkit = 8 };
 using DialectSet = std::uint8_t;
 
-struct Range {
+struct FieldRange {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool low_open = false, high_open = false;
   bool contains(double v) const { return (low_open ? v > low : v >= low) && (high_open ? v < high : v <= high); }
-  bool bounded() const { return low != -std::numeric_limits<double>::infinity() || high != std::numeric_limits<double>::infinity(); }
+  bool bounded() const {
+    return low != -std::numeric_limits<double>::infinity() || high != std::numeric_limits<double>::infinity();
+  }
 };
 
 struct FieldDef {
@@ -33,21 +35,25 @@ struct FieldDef {
   FieldType type;
   Access access;
   DialectSet dialects;
-  Value default_value;           // of `type`; out and in fields have none
-  Range range;
+  Value default_value;  // of `type`; out and in fields have none
+  FieldRange range;
   std::span<const std::string_view> kinds;  // node types or bases a node field may hold; words an SFString may be
-  std::string_view unit;         // "length", "angle", ...; empty: none
+  std::string_view unit;                    // "length", "angle", ...; empty: none
   std::string_view doc;
-  std::string_view default_text; // as the table has it, for documentation
-  std::uint8_t since = 0;        // version of X3D that it came with, 40 for 4.0; 0: one that is not newer than 3.3
-  std::uint8_t x3d_from = 0;     // version of X3D, 33 for 3.3, from which the default is x3d_default; 0: it never differs
+  std::string_view default_text;  // as the table has it, for documentation
+  std::uint8_t since = 0;         // version of X3D that it came with, 40 for 4.0; 0: one that is not newer than 3.3
+  std::uint8_t x3d_from = 0;  // version of X3D, 33 for 3.3, from which the default is x3d_default; 0: it never differs
   Value x3d_default;
 
   bool is_own() const { return dialects == static_cast<DialectSet>(Dialect::wrlkit); }
   bool has_value() const { return access == Access::init || access == Access::inout; }
   /// The default by a version of X3D. Scenes are made so that a field that is not written has `default_value`.
-  const Value& x3d_default_in(int version) const { return x3d_from && version >= x3d_from ? x3d_default : default_value; }
-  std::string_view name_in(Dialect d) const { return d == Dialect::vrml97 && !vrml97_name.empty() ? vrml97_name : name; }
+  const Value& x3d_default_in(int version) const {
+    return x3d_from && version >= x3d_from ? x3d_default : default_value;
+  }
+  std::string_view name_in(Dialect d) const {
+    return d == Dialect::vrml97 && !vrml97_name.empty() ? vrml97_name : name;
+  }
 };
 
 /// What a node type is, where the passes must tell apart; everything else is in `bases`.
@@ -63,16 +69,16 @@ struct NodeType {
   std::string_view component;               // X3D component and level: "Geometry3D 1"
   std::string_view container_field;         // X3D XML
   std::string_view doc;
-  ProtoId proto;                            // of kind proto
-  std::span<const std::uint16_t> by_name;   // slots in the order of their names, of a type of a scene with many fields
+  ProtoId proto;                           // of kind proto
+  std::span<const std::uint16_t> by_name;  // slots in the order of their names, of a type of a scene with many fields
 
-  std::uint8_t since = 0;                   // as of a field
+  std::uint8_t since = 0;  // as of a field
 
   static constexpr std::size_t many_fields = 32;
 
   bool is_a(std::string_view base) const;
-  /// Index of the field of that name in that dialect, in O(log of many fields). Accepts `set_x` and `x_changed` for an inout field `x`, as ROUTE
-  /// and IS do, when `events` is set.
+  /// Index of the field of that name in that dialect, in O(log of many fields). Accepts `set_x` and `x_changed` for an
+  /// inout field `x`, as ROUTE and IS do, when `events` is set.
   std::optional<std::uint16_t> find(std::string_view field, Dialect, bool events = false) const;
 };
 

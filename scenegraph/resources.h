@@ -19,7 +19,7 @@ struct PatchSet;  // scenegraph/patches.h
 
 /// A file as it is: what glTF embeds without touching it.
 struct Blob {
-  std::string name;   // file name without folder
+  std::string name;  // file name without folder
   std::string bytes;
   std::string_view mime;  // "image/png", "image/jpeg", ... by magic bytes; empty: unknown
 };
@@ -46,8 +46,8 @@ class Resources {
  public:
   virtual ~Resources() = default;
 
-  /// The first of the urls that can be had, for a node that was read at `where` (relative urls are relative to that file).
-  /// Reports and returns null when none can. Each file is read once; later calls return the same object.
+  /// The first of the urls that can be had, for a node that was read at `where` (relative urls are relative to that
+  /// file). Reports and returns null when none can. Each file is read once; later calls return the same object.
   virtual std::shared_ptr<const Blob> bytes(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
   virtual std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
   virtual LinkedWorld world(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
@@ -55,8 +55,9 @@ class Resources {
   /// A patch file that the user names, relative to where he is; null, reported, when there is nothing of it to be had.
   virtual std::shared_ptr<const PatchSet> patches(const std::string&, Diagnostics&) { return nullptr; }
 
-  /// Hands in a file that a pass has made and returns its url, made_scheme + name: whoever asks for that gets these bytes.
-  /// A name that is taken gets a number. Writers put what is made inside their file, or beside it. Not while others ask.
+  /// Hands in a file that a pass has made and returns its url, made_scheme + name: whoever asks for that gets these
+  /// bytes. A name that is taken gets a number. Writers put what is made inside their file, or beside it. Not while
+  /// others ask.
   std::string add_made(MadeFile);
   /// In the order in which they were handed in.
   const std::deque<MadeFile>& made() const { return made_; }

@@ -31,14 +31,18 @@ const NodeType& Scene::type(TypeId t) const {
 }
 
 void Scene::set_name(NodeId n, std::string_view name) {
-  if (name.empty()) { nodes_[n.value].name = 0; return; }
+  if (name.empty()) {
+    nodes_[n.value].name = 0;
+    return;
+  }
   nodes_[n.value].name = static_cast<std::uint32_t>(names_.size());
   names_.push_back(arena_->copy(name));
 }
 
 const Value* Scene::find(NodeId n, std::uint16_t slot) const {
   auto all = fields(n);
-  auto i = all.size() < NodeType::many_fields ? std::ranges::find(all, slot, &Value::slot) : std::ranges::lower_bound(all, slot, {}, &Value::slot);
+  auto i = all.size() < NodeType::many_fields ? std::ranges::find(all, slot, &Value::slot)
+                                              : std::ranges::lower_bound(all, slot, {}, &Value::slot);
   return i != all.end() && i->slot == slot ? &*i : nullptr;
 }
 
@@ -71,7 +75,10 @@ void Scene::set_fields(NodeId n, std::span<const Value> fields) {
 
 void Scene::set(NodeId n, Value v) {
   if (v.slot != Value::extra_slot)
-    if (auto* old = find(n, v.slot)) { fields_[static_cast<std::size_t>(old - fields_.data())] = v; return; }
+    if (auto* old = find(n, v.slot)) {
+      fields_[static_cast<std::size_t>(old - fields_.data())] = v;
+      return;
+    }
   auto now = fields(n);
   std::vector<Value> next(now.begin(), now.end());
   next.push_back(v);
@@ -105,8 +112,10 @@ Value head(FieldType type, std::uint16_t slot, std::size_t count) {
 Value Scene::make(FieldType t, std::uint16_t slot, std::span<const double> a) {
   const auto& i = info(t);
   auto v = head(t, slot, a.size() / i.arity);
-  if (!i.multiple && i.arity == 1) v.number = a.empty() ? 0 : a[0];
-  else v.numbers = arena_->copy(a);
+  if (!i.multiple && i.arity == 1)
+    v.number = a.empty() ? 0 : a[0];
+  else
+    v.numbers = arena_->copy(a);
   return v;
 }
 
@@ -193,10 +202,18 @@ Scope Scene::import(const Scene& other) {
   auto node = [&](NodeId n) { return n ? NodeId{n.value + n0} : n; };
   auto type = [&](TypeId t) { return t.value < n_builtin ? t : TypeId{t.value + t0}; };
   auto value = [&](auto& self, Value v) -> Value {
-    if (v.slot == Value::extra_slot && v.extra && info(v.extra->value.type).element == Element::node && !v.extra->value.is)
-      return make_extra(v.extra->name, self(self, [&] { Value c = v.extra->value; c.slot = 0; return c; }()));
+    if (v.slot == Value::extra_slot && v.extra && info(v.extra->value.type).element == Element::node &&
+        !v.extra->value.is)
+      return make_extra(v.extra->name, self(self, [&] {
+                          Value c = v.extra->value;
+                          c.slot = 0;
+                          return c;
+                        }()));
     if (v.slot == Value::extra_slot || v.is || info(v.type).element != Element::node) return v;
-    if (!info(v.type).multiple) { v.node = node(v.node); return v; }
+    if (!info(v.type).multiple) {
+      v.node = node(v.node);
+      return v;
+    }
     NodeId* to = arena_->allocate<NodeId>(v.count);
     for (std::size_t i = 0; i < v.count; ++i) to[i] = node(v.nodes[i]);
     v.nodes = to;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/arena.h"
-#include "scenegraph/node_table.h"
 #include "base/source.h"
+#include "scenegraph/node_table.h"
 
 namespace wrlkit {
 
@@ -25,7 +25,7 @@ struct Route {
 struct Import {
   NodeId inline_node;
   std::string_view exported;  // the name in that world
-  NodeId node;                // stands for the one that is meant, in ROUTEs and exports alone; has the name of this scope
+  NodeId node;  // stands for the one that is meant, in ROUTEs and exports alone; has the name of this scope
 };
 
 /// EXPORT of X3D: what the worlds that inline this one may import.
@@ -44,11 +44,11 @@ struct Scope {
 };
 
 struct Proto {
-  TypeId type;                  // the interface, as a node type of this scene
+  TypeId type;  // the interface, as a node type of this scene
   bool external = false;
   std::vector<std::string_view> urls;  // of an EXTERNPROTO
-  Scope body;                   // of a PROTO
-  std::uint32_t roots_before = 0;  // root nodes of its scope that stand before it; a name may be declared again
+  Scope body;                          // of a PROTO
+  std::uint32_t roots_before = 0;      // root nodes of its scope that stand before it; a name may be declared again
   Span where;
 };
 
@@ -68,8 +68,8 @@ class Scene {
 
   // What the file says beside nodes.
   Format format = Format::vrml97;
-  std::string header;           // of VRML 1.0 and Inventor: the first line, for Inventor's version is in it
-  std::string comment;          // the comment lines that follow the header, with their '#'
+  std::string header;   // of VRML 1.0 and Inventor: the first line, for Inventor's version is in it
+  std::string comment;  // the comment lines that follow the header, with their '#'
   X3dHead x3d;
   Scope main;
   std::shared_ptr<Sources> sources;
@@ -89,10 +89,15 @@ class Scene {
   Span where(NodeId n) const { return {nodes_[n.value].offset, 1}; }
   /// Relative urls of a node are relative to the file that its place lies in.
   void set_where(NodeId n, Span where) { nodes_[n.value].offset = where.begin; }
-  Dialect dialect() const { return format == Format::vrml97 ? Dialect::vrml97 : format == Format::vrml1 ? Dialect::vrml1 : Dialect::x3d; }
+  Dialect dialect() const {
+    return format == Format::vrml97 ? Dialect::vrml97 : format == Format::vrml1 ? Dialect::vrml1 : Dialect::x3d;
+  }
 
-  /// Fields that were written, in the order they were written; of nodes with very many of them in the order of their slots.
-  std::span<const Value> fields(NodeId n) const { return {fields_.data() + nodes_[n.value].first_field, nodes_[n.value].n_fields}; }
+  /// Fields that were written, in the order they were written; of nodes with very many of them in the order of their
+  /// slots.
+  std::span<const Value> fields(NodeId n) const {
+    return {fields_.data() + nodes_[n.value].first_field, nodes_[n.value].n_fields};
+  }
   /// The written value of a slot, or null.
   const Value* find(NodeId, std::uint16_t slot) const;
   /// The value of a slot: written or default. Never null for fields that have values.
@@ -102,14 +107,16 @@ class Scene {
   const Value& content(const Value& v) const { return v.slot == Value::extra_slot && v.extra ? v.extra->value : v; }
   bool is_extra(const Value& v) const { return v.slot == Value::extra_slot; }
 
-  /// Typed access by the generated constants. Numbers of SF types with more than one come as Vec2/3/4, MF types as spans
-  /// over the flat array. An IS or a value of another type reads as the default.
+  /// Typed access by the generated constants. Numbers of SF types with more than one come as Vec2/3/4, MF types as
+  /// spans over the flat array. An IS or a value of another type reads as the default.
   template <FieldType T>
   auto get(NodeId n, FieldKey<T> key) const;
   /// Writes a field; arrays are copied into the arena.
   void set(NodeId n, Value v);
   template <FieldType T, class V>
-  void set(NodeId n, FieldKey<T> key, const V& v) { set(n, make(T, key.slot, v)); }
+  void set(NodeId n, FieldKey<T> key, const V& v) {
+    set(n, make(T, key.slot, v));
+  }
   void unset(NodeId n, std::uint16_t slot);
   /// All fields at once, replacing those that were there; what the builder and the passes that rewrite nodes use.
   void set_fields(NodeId n, std::span<const Value> fields);
@@ -121,12 +128,22 @@ class Scene {
   Value make(FieldType, std::uint16_t slot, std::span<const std::int32_t>);
   Value make(FieldType, std::uint16_t slot, std::span<const std::string_view>);
   Value make(FieldType, std::uint16_t slot, std::span<const NodeId>);
-  Value make(FieldType t, std::uint16_t slot, const std::vector<double>& v) { return make(t, slot, std::span<const double>(v)); }
-  Value make(FieldType t, std::uint16_t slot, const std::vector<std::int32_t>& v) { return make(t, slot, std::span<const std::int32_t>(v)); }
-  Value make(FieldType t, std::uint16_t slot, const std::vector<NodeId>& v) { return make(t, slot, std::span<const NodeId>(v)); }
-  Value make(FieldType t, std::uint16_t slot, const std::vector<std::string_view>& v) { return make(t, slot, std::span<const std::string_view>(v)); }
+  Value make(FieldType t, std::uint16_t slot, const std::vector<double>& v) {
+    return make(t, slot, std::span<const double>(v));
+  }
+  Value make(FieldType t, std::uint16_t slot, const std::vector<std::int32_t>& v) {
+    return make(t, slot, std::span<const std::int32_t>(v));
+  }
+  Value make(FieldType t, std::uint16_t slot, const std::vector<NodeId>& v) {
+    return make(t, slot, std::span<const NodeId>(v));
+  }
+  Value make(FieldType t, std::uint16_t slot, const std::vector<std::string_view>& v) {
+    return make(t, slot, std::span<const std::string_view>(v));
+  }
   template <std::size_t N>
-  Value make(FieldType t, std::uint16_t slot, const std::array<double, N>& v) { return make(t, slot, std::span<const double>(v)); }
+  Value make(FieldType t, std::uint16_t slot, const std::array<double, N>& v) {
+    return make(t, slot, std::span<const double>(v));
+  }
   Value make(FieldType, std::uint16_t slot, std::string_view);
   Value make(FieldType t, std::uint16_t slot, const char* v) { return make(t, slot, std::string_view(v)); }
   Value make(FieldType t, std::uint16_t slot, const std::string& v) { return make(t, slot, std::string_view(v)); }
@@ -157,7 +174,7 @@ class Scene {
  private:
   struct Node {
     TypeId type;
-    std::uint32_t name = 0;         // into names_; 0: none
+    std::uint32_t name = 0;  // into names_; 0: none
     std::uint32_t offset = Span::nowhere;
     std::uint32_t first_field = 0;
     std::uint16_t n_fields = 0;
@@ -167,9 +184,9 @@ class Scene {
   std::vector<Node> nodes_;
   std::vector<Value> fields_;
   std::vector<std::string_view> names_{std::string_view{}};
-  std::deque<NodeType> types_;             // of this scene; TypeId = builtin_nodes().size() + index
+  std::deque<NodeType> types_;  // of this scene; TypeId = builtin_nodes().size() + index
   std::deque<Proto> protos_;
-  TypeId stand_in_;                        // once there is one
+  TypeId stand_in_;  // once there is one
   std::shared_ptr<Arena> arena_;
   std::vector<std::shared_ptr<Arena>> shared_;  // of imported scenes
 };
@@ -178,18 +195,30 @@ template <FieldType T>
 auto Scene::get(NodeId n, FieldKey<T> key) const {
   const Value* v = &value(n, key.slot);
   if (v->is || v->type != T) v = &type(key.node).fields[key.slot].default_value;
-  if constexpr (T == FieldType::SFBool) return v->integer != 0;
-  else if constexpr (T == FieldType::SFInt32) return v->integer;
-  else if constexpr (T == FieldType::SFFloat || T == FieldType::SFTime || T == FieldType::SFDouble) return v->number;
-  else if constexpr (T == FieldType::SFVec2f || T == FieldType::SFVec2d) return Vec2{v->numbers[0], v->numbers[1]};
-  else if constexpr (T == FieldType::SFVec3f || T == FieldType::SFVec3d || T == FieldType::SFColor) return Vec3{v->numbers[0], v->numbers[1], v->numbers[2]};
-  else if constexpr (T == FieldType::SFRotation || T == FieldType::SFColorRGBA || T == FieldType::SFVec4f) return Vec4{v->numbers[0], v->numbers[1], v->numbers[2], v->numbers[3]};
-  else if constexpr (T == FieldType::SFString || T == FieldType::SFEnum || T == FieldType::SFBitMask) return v->text();
-  else if constexpr (T == FieldType::MFString) return v->text_span();
-  else if constexpr (T == FieldType::SFNode) return v->node;
-  else if constexpr (T == FieldType::MFNode) return v->node_span();
-  else if constexpr (T == FieldType::MFInt32 || T == FieldType::SFImage || T == FieldType::MFBool) return v->integer_span();
-  else return v->number_span();
+  if constexpr (T == FieldType::SFBool)
+    return v->integer != 0;
+  else if constexpr (T == FieldType::SFInt32)
+    return v->integer;
+  else if constexpr (T == FieldType::SFFloat || T == FieldType::SFTime || T == FieldType::SFDouble)
+    return v->number;
+  else if constexpr (T == FieldType::SFVec2f || T == FieldType::SFVec2d)
+    return Vec2{v->numbers[0], v->numbers[1]};
+  else if constexpr (T == FieldType::SFVec3f || T == FieldType::SFVec3d || T == FieldType::SFColor)
+    return Vec3{v->numbers[0], v->numbers[1], v->numbers[2]};
+  else if constexpr (T == FieldType::SFRotation || T == FieldType::SFColorRGBA || T == FieldType::SFVec4f)
+    return Vec4{v->numbers[0], v->numbers[1], v->numbers[2], v->numbers[3]};
+  else if constexpr (T == FieldType::SFString || T == FieldType::SFEnum || T == FieldType::SFBitMask)
+    return v->text();
+  else if constexpr (T == FieldType::MFString)
+    return v->text_span();
+  else if constexpr (T == FieldType::SFNode)
+    return v->node;
+  else if constexpr (T == FieldType::MFNode)
+    return v->node_span();
+  else if constexpr (T == FieldType::MFInt32 || T == FieldType::SFImage || T == FieldType::MFBool)
+    return v->integer_span();
+  else
+    return v->number_span();
 }
 
 }  // namespace wrlkit

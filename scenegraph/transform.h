@@ -21,16 +21,19 @@ inline Matrix matrix_of(const TransformFields& f) {
   const auto &t = f.translation, &c = f.center;
   const auto& o = f.scale_orientation;
   Matrix linear = rotation_matrix(f.rotation);
-  if (f.scale != Vec3{1, 1, 1}) linear = linear * rotation_matrix(o) * scale_matrix(f.scale) * rotation_matrix({o[0], o[1], o[2], -o[3]});
+  if (f.scale != Vec3{1, 1, 1})
+    linear = linear * rotation_matrix(o) * scale_matrix(f.scale) * rotation_matrix({o[0], o[1], o[2], -o[3]});
   if (c == Vec3{0, 0, 0}) return translation_matrix(t) * linear;
-  return translation_matrix({t[0] + c[0], t[1] + c[1], t[2] + c[2]}) * linear * translation_matrix({-c[0], -c[1], -c[2]});
+  return translation_matrix({t[0] + c[0], t[1] + c[1], t[2] + c[2]}) * linear *
+         translation_matrix({-c[0], -c[1], -c[2]});
 }
 
 /// Of a Transform node; identity for other nodes.
 inline Matrix local_matrix(const Scene& scene, NodeId n) {
   namespace f = nodes::transform;
   if (!scene.is(n, nodes::Transform)) return {};
-  return matrix_of({scene.get(n, f::translation), scene.get(n, f::rotation), scene.get(n, f::scale), scene.get(n, f::scaleOrientation), scene.get(n, f::center)});
+  return matrix_of({scene.get(n, f::translation), scene.get(n, f::rotation), scene.get(n, f::scale),
+                    scene.get(n, f::scaleOrientation), scene.get(n, f::center)});
 }
 
 }  // namespace wrlkit

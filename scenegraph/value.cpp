@@ -15,7 +15,10 @@ const FieldTypeInfo& info(FieldType t) { return infos[static_cast<std::size_t>(t
 
 bool find_field_type(std::string_view name, FieldType& out) {
   for (std::size_t i = 0; i < std::size(infos); ++i)
-    if (infos[i].name == name) return out = static_cast<FieldType>(i), true;
+    if (infos[i].name == name) {
+      out = static_cast<FieldType>(i);
+      return true;
+    }
   return false;
 }
 

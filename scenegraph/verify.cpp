@@ -12,7 +12,7 @@
 namespace wrlkit {
 namespace {
 
-std::string range_text(const Range& r) {
+std::string range_text(const FieldRange& r) {
   auto number = [](double v) {
     if (std::isinf(v)) return std::string(v < 0 ? "-inf" : "inf");
     auto s = std::to_string(v);
@@ -37,8 +37,10 @@ class ValueCheck {
       const auto& f = t.fields[v.slot];
       if (f.range.bounded()) range(n, f, v);
       if (f.kinds.empty()) continue;
-      if (info(f.type).element == Element::text) words(n, f, v);
-      else children(n, f, v);
+      if (info(f.type).element == Element::text)
+        words(n, f, v);
+      else
+        children(n, f, v);
     }
   }
 
@@ -47,19 +49,25 @@ class ValueCheck {
     // pi/2 is printed as 1.5708, which is a little more.
     const double rounded = f.unit == "angle" ? 5e-5 : 0;
     for (double d : v.number_span())
-      if (!f.range.contains(d) && !f.range.contains(d - rounded) && !f.range.contains(d + rounded)) return diag_.report(Diag::out_of_range, scene_.where(n), scene_.type(n).name, f.name, d, range_text(f.range));
+      if (!f.range.contains(d) && !f.range.contains(d - rounded) && !f.range.contains(d + rounded))
+        return diag_.report(Diag::out_of_range, scene_.where(n), scene_.type(n).name, f.name, d, range_text(f.range));
     if (info(f.type).element != Element::integer) return;
     for (auto i : v.integer_span())
-      if (!f.range.contains(i)) return diag_.report(Diag::out_of_range, scene_.where(n), scene_.type(n).name, f.name, i, range_text(f.range));
+      if (!f.range.contains(i))
+        return diag_.report(Diag::out_of_range, scene_.where(n), scene_.type(n).name, f.name, i, range_text(f.range));
   }
 
   void words(NodeId n, const FieldDef& f, const Value& v) {
     auto check = [&](std::string_view w) {
-      if (std::ranges::find(f.kinds, w) == f.kinds.end()) diag_.report(Diag::unknown_word, scene_.where(n), w, scene_.type(n).name, f.name);
+      if (std::ranges::find(f.kinds, w) == f.kinds.end())
+        diag_.report(Diag::unknown_word, scene_.where(n), w, scene_.type(n).name, f.name);
     };
-    if (info(v.type).multiple) std::ranges::for_each(v.text_span(), check);
-    else if (v.type == FieldType::SFBitMask) for_each_bit(v.text(), check);
-    else check(v.text());
+    if (info(v.type).multiple)
+      std::ranges::for_each(v.text_span(), check);
+    else if (v.type == FieldType::SFBitMask)
+      for_each_bit(v.text(), check);
+    else
+      check(v.text());
   }
 
   /// A prototype is what the first node of its body is; what an EXTERNPROTO or an unknown node is, nobody knows here.
@@ -112,8 +120,10 @@ class Invariants {
 
   void ids(NodeId n) {
     for (auto& v : s_.fields(n)) {
-      if (!s_.is_extra(v) && v.slot >= s_.type(n).fields.size()) breach(n, "a field that its type does not have");
-      else if (!s_.is_extra(v) && v.type != s_.type(n).fields[v.slot].type) breach(n, "field " + std::string(s_.field_name(n, v)) + " has another type");
+      if (!s_.is_extra(v) && v.slot >= s_.type(n).fields.size())
+        breach(n, "a field that its type does not have");
+      else if (!s_.is_extra(v) && v.type != s_.type(n).fields[v.slot].type)
+        breach(n, "field " + std::string(s_.field_name(n, v)) + " has another type");
       for (NodeId c : s_.content(v).node_span())
         if (c && c.value >= s_.node_count()) breach(n, "a child that is no node");
     }
@@ -123,7 +133,8 @@ class Invariants {
     for (auto& v : s_.fields(n))
       if (s_.content(v).is) breach(n, "IS outside of a prototype");
     if (s_.type(n).kind == NodeKind::proto && !s_.proto(s_.type(n).proto).external) breach(n, "a prototype instance");
-    if (level_ == Level::mesh && !events_.contains(n.value) && s_.type(n).is_a("X3DGeometryNode") && !s_.is(n, nodes::IndexedFaceSet) && !s_.is(n, nodes::IndexedLineSet) && !s_.is(n, nodes::PointSet))
+    if (level_ == Level::mesh && !events_.contains(n.value) && s_.type(n).is_a("X3DGeometryNode") &&
+        !s_.is(n, nodes::IndexedFaceSet) && !s_.is(n, nodes::IndexedLineSet) && !s_.is(n, nodes::PointSet))
       breach(n, "geometry that is no mesh");
   }
 
@@ -142,7 +153,8 @@ void check_values(const Scene& scene, Diagnostics& diag) {
   auto routes = [&](const Scope& s) {
     for (auto& r : s.routes) {
       auto a = event_type(scene, r.from, r.event_out), b = event_type(scene, r.to, r.event_in);
-      if (a != b && a != FieldType::verbatim && b != FieldType::verbatim) diag.report(Diag::route_types, scene.where(r.from), info(a).name, info(b).name);
+      if (a != b && a != FieldType::verbatim && b != FieldType::verbatim)
+        diag.report(Diag::route_types, scene.where(r.from), info(a).name, info(b).name);
     }
   };
   routes(scene.main);

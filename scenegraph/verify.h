@@ -6,11 +6,12 @@
 namespace wrlkit {
 
 /// Levels of a scene. authored: as the file says. expanded: no PROTO instance and no Inline that could be loaded. mesh:
-/// every geometry is IndexedFaceSet, IndexedLineSet or PointSet, but what gets events. A pass names the level it needs and the one it leaves.
+/// every geometry is IndexedFaceSet, IndexedLineSet or PointSet, but what gets events. A pass names the level it needs
+/// and the one it leaves.
 enum class Level : std::uint8_t { authored, expanded, mesh };
 
-/// What `check` says beside the parser: values out of their range, words that are none, nodes in places that cannot hold
-/// them, wrong ROUTE types. Warnings only: such files are read all the same. O(scene).
+/// What `check` says beside the parser: values out of their range, words that are none, nodes in places that cannot
+/// hold them, wrong ROUTE types. Warnings only: such files are read all the same. O(scene).
 void check_values(const Scene&, Diagnostics&);
 
 /// Invariants of a level; each breach is an error `verify`. True when there was none. O(scene).

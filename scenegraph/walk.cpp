@@ -16,7 +16,9 @@ void reach(const Scene& scene, std::span<const NodeId> roots, std::vector<char>&
     seen[n.value] = 1;
     out.push_back(n);
     auto mark = stack.size();
-    for_each_child(scene, n, [&](NodeId c) { if (!seen[c.value]) stack.push_back(c); });
+    for_each_child(scene, n, [&](NodeId c) {
+      if (!seen[c.value]) stack.push_back(c);
+    });
     std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(mark), stack.end());
   }
 }

@@ -16,16 +16,17 @@ void for_each_child(const Scene& scene, NodeId n, F&& f) {
 /// Appends every node that can be reached from `roots` and is not in `seen` yet, parents before children, and marks it
 /// there: who goes through one scope after another meets each node once. `seen` grows with the scene.
 void reach(const Scene&, std::span<const NodeId> roots, std::vector<char>& seen, std::vector<NodeId>& out);
-/// Every node that can be reached from a scope's roots, each once, parents before children (depth first, in the order of
-/// the file). The bodies of prototypes are scopes of their own. No recursion: any depth.
+/// Every node that can be reached from a scope's roots, each once, parents before children (depth first, in the order
+/// of the file). The bodies of prototypes are scopes of their own. No recursion: any depth.
 std::vector<NodeId> reachable(const Scene&, const Scope&);
 /// The same over all scopes of the scene: the main one, prototypes, and the defaults in their interfaces.
 std::vector<NodeId> all_nodes(const Scene&);
 
-/// Fields that hold children in the sense of the transformation hierarchy (ISO/IEC 14772-1, 4.3.4): `children` of grouping
-/// nodes, choice, level; for unknown nodes every field with nodes. Script and Sensor references do not count.
+/// Fields that hold children in the sense of the transformation hierarchy (ISO/IEC 14772-1, 4.3.4): `children` of
+/// grouping nodes, choice, level; for unknown nodes every field with nodes. Script and Sensor references do not count.
 std::vector<NodeId> hierarchy_children(const Scene&, NodeId);
-/// Those of them that a browser would show: the chosen child of Switch, of LOD that level or its last, not the proxy of Collision.
+/// Those of them that a browser would show: the chosen child of Switch, of LOD that level or its last, not the proxy of
+/// Collision.
 std::vector<NodeId> shown_children(const Scene&, NodeId, std::size_t level = 0);
 
 }  // namespace wrlkit

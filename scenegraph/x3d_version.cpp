@@ -17,7 +17,8 @@ int since(const Scene& scene, NodeId n) {
   const auto& t = scene.type(n);
   int version = t.since;
   for (const Value& v : scene.fields(n))
-    if (!scene.is_extra(v) && t.fields[v.slot].since > version && says_more_than_default(v, t.fields[v.slot])) version = t.fields[v.slot].since;
+    if (!scene.is_extra(v) && t.fields[v.slot].since > version && says_more_than_default(v, t.fields[v.slot]))
+      version = t.fields[v.slot].since;
   return version;
 }
 
@@ -28,7 +29,8 @@ int since(const Scene& scene, NodeId n, std::string_view event) {
 
 int since(const Scene& scene, const Scope& scope) {
   int version = 0;
-  for (const Route& r : scope.routes) version = std::max({version, since(scene, r.from, r.event_out), since(scene, r.to, r.event_in)});
+  for (const Route& r : scope.routes)
+    version = std::max({version, since(scene, r.from, r.event_out), since(scene, r.to, r.event_in)});
   return version;
 }
 
@@ -39,7 +41,8 @@ int x3d_version(const Scene& scene) {
   if (scene.dialect() == Dialect::x3d) version = std::max(version, scene.x3d.version);
   for (NodeId n : all_nodes(scene)) version = std::max(version, since(scene, n));
   version = std::max(version, since(scene, scene.main));
-  for (std::uint32_t i = 0; i < scene.proto_count(); ++i) version = std::max(version, since(scene, scene.proto(ProtoId{i}).body));
+  for (std::uint32_t i = 0; i < scene.proto_count(); ++i)
+    version = std::max(version, since(scene, scene.proto(ProtoId{i}).body));
   return std::min(version, 40);
 }
 

@@ -1,5 +1,5 @@
-// A closed surface with bumps as VRML, and what each of its collapses costs by each criterion: for the viewer page, which computes the
-// costs again from the stream (tests/browser/viewer_costs.mjs).
+// A closed surface with bumps as VRML, and what each of its collapses costs by each criterion: for the viewer page,
+// which computes the costs again from the stream (tests/browser/viewer_costs.mjs).
 //   collapse_costs FOLDER        writes bumps.wrl and costs.json
 #include <fmt/format.h>
 
@@ -25,7 +25,8 @@ Mesh bumps(std::uint32_t n, std::uint32_t m) {
       for (const double x : {(1 + r * std::cos(b)) * std::cos(a), (1 + r * std::cos(b)) * std::sin(a), r * std::sin(b)})
         mesh.positions.edit().push_back(std::round(x * 1e9) / 1e9);
       const std::uint32_t i1 = (i + 1) % n, j1 = (j + 1) % m;
-      for (const auto& [p, q, s] : {std::array{i * m + j, i1 * m + j, i1 * m + j1}, std::array{i * m + j, i1 * m + j1, i * m + j1}})
+      for (const auto& [p, q, s] :
+           {std::array{i * m + j, i1 * m + j, i1 * m + j1}, std::array{i * m + j, i1 * m + j1, i * m + j1}})
         mesh.corners.insert(mesh.corners.end(), {p, q, s});
     }
   }
@@ -33,11 +34,14 @@ Mesh bumps(std::uint32_t n, std::uint32_t m) {
 }
 
 std::string vrml(const Mesh& mesh) {
-  std::string text = "#VRML V2.0 utf8\nShape { appearance Appearance { material Material { } } geometry IndexedFaceSet { coord Coordinate { point [\n";
+  std::string text =
+      "#VRML V2.0 utf8\nShape { appearance Appearance { material Material { } } geometry IndexedFaceSet { coord "
+      "Coordinate { point [\n";
   const auto p = mesh.positions.span();
   for (std::size_t i = 0; i < p.size(); i += 3) text += fmt::format("{:.9f} {:.9f} {:.9f}\n", p[i], p[i + 1], p[i + 2]);
   text += "] } coordIndex [\n";
-  for (std::size_t c = 0; c < mesh.corners.size(); c += 3) text += fmt::format("{} {} {} -1\n", mesh.corners[c], mesh.corners[c + 1], mesh.corners[c + 2]);
+  for (std::size_t c = 0; c < mesh.corners.size(); c += 3)
+    text += fmt::format("{} {} {} -1\n", mesh.corners[c], mesh.corners[c + 1], mesh.corners[c + 2]);
   return text + "] } }\n";
 }
 
@@ -45,7 +49,8 @@ std::string costs(const Mesh& mesh, Criterion criterion) {
   Collapser collapser(mesh, {.criterion = criterion, .record = true});
   collapser.run_to(0);
   std::string text;
-  for (const auto& step : collapser.record().steps) text += fmt::format("{}{:.17g}", text.empty() ? "" : ",", step.cost);
+  for (const auto& step : collapser.record().steps)
+    text += fmt::format("{}{:.17g}", text.empty() ? "" : ",", step.cost);
   return text;
 }
 
@@ -57,6 +62,7 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder);
   const Mesh mesh = bumps(60, 24);
   std::ofstream(folder / "bumps.wrl") << vrml(mesh);
-  std::ofstream(folder / "costs.json") << fmt::format("{{\"length-normal\":[{}],\"melax\":[{}],\"lindstrom-turk\":[{}]}}", costs(mesh, Criterion::length_normal),
-                                                      costs(mesh, Criterion::melax), costs(mesh, Criterion::lindstrom_turk));
+  std::ofstream(folder / "costs.json") << fmt::format(
+      "{{\"length-normal\":[{}],\"melax\":[{}],\"lindstrom-turk\":[{}]}}", costs(mesh, Criterion::length_normal),
+      costs(mesh, Criterion::melax), costs(mesh, Criterion::lindstrom_turk));
 }

@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "base/io/url.h"
 #include "base/image/image.h"
+#include "base/io/url.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
@@ -32,7 +32,8 @@ void unpack_pictures(Scene& scene, Resources& resources) {
         auto bytes = decode_data_url(url);
         if (!bytes) continue;
         const std::string name = "picture_" + std::to_string(made.size()) + ending(*bytes);
-        known = made.emplace(url, resources.add_made({name, std::make_shared<const std::string>(std::move(*bytes))})).first;
+        known =
+            made.emplace(url, resources.add_made({name, std::make_shared<const std::string>(std::move(*bytes))})).first;
       }
       urls.back() = scene.keep(known->second);
       changed = true;

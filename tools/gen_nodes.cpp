@@ -27,7 +27,7 @@ struct Field {
   std::string access, type, name, vrml97, unit, doc, default_text, low = "-inf", high = "inf";
   bool low_open = false, high_open = false, ranged = false;
   std::vector<std::string> kinds;
-  std::vector<std::string> values;  // of the default: numbers, strings without quotes
+  std::vector<std::string> values;      // of the default: numbers, strings without quotes
   std::vector<std::string> x3d_values;  // of X3D's default, where it has another one
   int x3d_from = 30;                    // in version 3.0, or from this one on
   std::string only;
@@ -54,17 +54,28 @@ int line_number = 0;
 std::vector<std::string> words(const std::string& text) {
   std::vector<std::string> out;
   for (std::size_t i = 0; i < text.size();) {
-    if (std::isspace(static_cast<unsigned char>(text[i]))) { ++i; continue; }
+    if (std::isspace(static_cast<unsigned char>(text[i]))) {
+      ++i;
+      continue;
+    }
     std::size_t j = i;
-    auto until = [&](char c) { j = text.find(c, i + 1); if (j == std::string::npos) fail(std::string("missing ") + c); ++j; };
-    if (text[i] == '"') until('"');
-    else if (text[i] == '<') until('>');
-    else if (text[i] == '{') until('}');
+    auto until = [&](char c) {
+      j = text.find(c, i + 1);
+      if (j == std::string::npos) fail(std::string("missing ") + c);
+      ++j;
+    };
+    if (text[i] == '"')
+      until('"');
+    else if (text[i] == '<')
+      until('>');
+    else if (text[i] == '{')
+      until('}');
     else if (text[i] == '[' || text[i] == '(') {
       j = text.find_first_of("])", i);
       if (j == std::string::npos) fail("missing ]");
       ++j;
-    } else while (j < text.size() && !std::isspace(static_cast<unsigned char>(text[j]))) ++j;
+    } else
+      while (j < text.size() && !std::isspace(static_cast<unsigned char>(text[j]))) ++j;
     out.push_back(text.substr(i, j - i));
     i = j;
   }
@@ -75,8 +86,11 @@ std::vector<std::string> split(std::string s, const char* separators) {
   std::vector<std::string> out;
   std::string part;
   for (char c : s)
-    if (std::string_view(separators).find(c) != std::string_view::npos) { if (!part.empty()) out.push_back(part); part.clear(); }
-    else part += c;
+    if (std::string_view(separators).find(c) != std::string_view::npos) {
+      if (!part.empty()) out.push_back(part);
+      part.clear();
+    } else
+      part += c;
   if (!part.empty()) out.push_back(part);
   return out;
 }
@@ -97,8 +111,14 @@ int version(const std::string& s) { return std::stoi(s) * 10 + (s[1] == '.' ? s[
 
 void read_default(Field& f, const std::vector<std::string>& w, std::size_t& i) {
   const auto& t = wrlkit::info(type_of(f.type));
-  auto take = [&]() -> const std::string& { if (i >= w.size()) fail("default missing"); return w[i++]; };
-  auto unquote = [&](const std::string& s) { if (s.size() < 2 || s[0] != '"') fail("string expected: " + s); return s.substr(1, s.size() - 2); };
+  auto take = [&]() -> const std::string& {
+    if (i >= w.size()) fail("default missing");
+    return w[i++];
+  };
+  auto unquote = [&](const std::string& s) {
+    if (s.size() < 2 || s[0] != '"') fail("string expected: " + s);
+    return s.substr(1, s.size() - 2);
+  };
   if (t.multiple || t.element == Element::image) {
     f.default_text = take();
     if (f.default_text[0] != '[') {
@@ -108,14 +128,19 @@ void read_default(Field& f, const std::vector<std::string>& w, std::size_t& i) {
       return;
     }
     auto inner = f.default_text.substr(1, f.default_text.size() - 2);
-    if (t.element == Element::text) { for (auto& s : words(inner)) f.values.push_back(unquote(s)); }
-    else f.values = split(inner, " ,");
+    if (t.element == Element::text) {
+      for (auto& s : words(inner)) f.values.push_back(unquote(s));
+    } else
+      f.values = split(inner, " ,");
     if (f.values.size() % t.arity) fail("default is not a multiple of the arity");
   } else if (t.element == Element::text) {
     f.default_text = take();
     f.values = {f.default_text[0] == '"' ? unquote(f.default_text) : f.default_text};
   } else {
-    for (int k = 0; k < t.arity; ++k) { f.values.push_back(take()); f.default_text += (k ? " " : "") + f.values.back(); }
+    for (int k = 0; k < t.arity; ++k) {
+      f.values.push_back(take());
+      f.default_text += (k ? " " : "") + f.values.back();
+    }
   }
 }
 
@@ -124,7 +149,9 @@ Field read_field(const std::string& text, const std::string& doc) {
   f.doc = doc;
   auto w = words(text);
   if (w.size() < 3) fail("access, type and name expected");
-  f.access = w[0]; f.type = w[1]; f.name = w[2];
+  f.access = w[0];
+  f.type = w[1];
+  f.name = w[2];
   if (!std::set<std::string>{"init", "inout", "in", "out"}.count(f.access)) fail("no access " + f.access);
   type_of(f.type);
   std::size_t i = 3;
@@ -134,19 +161,28 @@ Field read_field(const std::string& text, const std::string& doc) {
     if (s[0] == '(' || s[0] == '[') {
       auto ends = split(s.substr(1, s.size() - 2), ",");
       if (ends.size() != 2) fail("range expected: " + s);
-      f.low = trim(ends[0]); f.high = trim(ends[1]); f.low_open = s[0] == '('; f.high_open = s.back() == ')'; f.ranged = true;
-    } else if (s[0] == '<' || s[0] == '{') f.kinds = split(s.substr(1, s.size() - 2), "| ");
-    else if (s.starts_with("unit=")) f.unit = s.substr(5);
-    else if (s.starts_with("vrml97=")) f.vrml97 = s.substr(7);
-    else if (s.starts_with("only=")) f.only = s.substr(5);
-    else if (s.starts_with("since=")) f.since = version(s.substr(6));
+      f.low = trim(ends[0]);
+      f.high = trim(ends[1]);
+      f.low_open = s[0] == '(';
+      f.high_open = s.back() == ')';
+      f.ranged = true;
+    } else if (s[0] == '<' || s[0] == '{')
+      f.kinds = split(s.substr(1, s.size() - 2), "| ");
+    else if (s.starts_with("unit="))
+      f.unit = s.substr(5);
+    else if (s.starts_with("vrml97="))
+      f.vrml97 = s.substr(7);
+    else if (s.starts_with("only="))
+      f.only = s.substr(5);
+    else if (s.starts_with("since="))
+      f.since = version(s.substr(6));
     else if (s.starts_with("x3d")) {
       auto equals = s.find('=');
       if (equals == std::string::npos) fail("not understood: " + s);
       if (equals > 3) f.x3d_from = version(s.substr(3));
       f.x3d_values = split(s.substr(equals + 1), "[]|\"");
-    }
-    else fail("not understood: " + s);
+    } else
+      fail("not understood: " + s);
   }
   return f;
 }
@@ -159,13 +195,23 @@ Node read_head(const std::string& text, bool abstract) {
   in >> w >> n.name;
   bool bases = false;
   while (in >> w) {
-    if (w == ":") { bases = true; continue; }
-    if (w.starts_with("component=")) n.component = w.substr(10);
-    else if (w.starts_with("since=")) n.since = version(w.substr(6));
-    else if (w.starts_with("container=")) n.container = w.substr(10);
-    else if (w == "vrml1" || w == "vrml97" || w == "x3d") { bases = false; clauses += (clauses.empty() ? "" : " ") + w; }
-    else if (bases) n.bases.push_back(w.back() == ',' ? w.substr(0, w.size() - 1) : w);
-    else clauses += (clauses.empty() ? "" : " ") + w;
+    if (w == ":") {
+      bases = true;
+      continue;
+    }
+    if (w.starts_with("component="))
+      n.component = w.substr(10);
+    else if (w.starts_with("since="))
+      n.since = version(w.substr(6));
+    else if (w.starts_with("container="))
+      n.container = w.substr(10);
+    else if (w == "vrml1" || w == "vrml97" || w == "x3d") {
+      bases = false;
+      clauses += (clauses.empty() ? "" : " ") + w;
+    } else if (bases)
+      n.bases.push_back(w.back() == ',' ? w.substr(0, w.size() - 1) : w);
+    else
+      clauses += (clauses.empty() ? "" : " ") + w;
   }
   while (!clauses.empty() && clauses.back() == ';') clauses.pop_back();
   n.clauses = clauses;
@@ -174,13 +220,17 @@ Node read_head(const std::string& text, bool abstract) {
 
 int dialects(const std::string& clauses) {
   int d = 0;
-  for (auto& w : split(clauses, " ;,")) d |= w == "vrml1" ? 1 : w == "vrml97" ? 2 : w == "x3d" ? 4 : w == "wrlkit" ? 8 : 0;
+  for (auto& w : split(clauses, " ;,"))
+    d |= w == "vrml1" ? 1 : w == "vrml97" ? 2 : w == "x3d" ? 4 : w == "wrlkit" ? 8 : 0;
   return d;
 }
 
 std::string quoted(const std::string& s) {
   std::string o = "\"";
-  for (char c : s) { if (c == '"' || c == '\\') o += '\\'; o += c; }
+  for (char c : s) {
+    if (c == '"' || c == '\\') o += '\\';
+    o += c;
+  }
   return o + "\"";
 }
 
@@ -195,7 +245,8 @@ std::string infinite(const std::string& s) {
 
 // Keywords and the macros of <cmath> that a lower-case node name could hit.
 std::string identifier(const std::string& name) {
-  static const std::set<std::string> taken{"switch", "inline", "double", "float", "namespace", "default", "operator", "export", "template"};
+  static const std::set<std::string> taken{"switch",  "inline",   "double", "float",   "namespace",
+                                           "default", "operator", "export", "template"};
   return taken.count(name) ? name + "_" : name;
 }
 
@@ -204,7 +255,8 @@ std::string snake(const std::string& name) {
   for (std::size_t i = 0; i < name.size(); ++i) {
     unsigned char c = name[i];
     bool lower_before = i && std::islower(static_cast<unsigned char>(name[i - 1]));
-    bool lower_after = i && i + 1 < name.size() && std::isupper(static_cast<unsigned char>(name[i - 1])) && std::islower(static_cast<unsigned char>(name[i + 1]));
+    bool lower_after = i && i + 1 < name.size() && std::isupper(static_cast<unsigned char>(name[i - 1])) &&
+                       std::islower(static_cast<unsigned char>(name[i + 1]));
     if (std::isupper(c) && (lower_before || lower_after)) o += '_';
     o += static_cast<char>(std::tolower(c));
   }
@@ -246,23 +298,35 @@ struct Generator {
     for (std::string text; std::getline(in, text);) {
       ++line_number;
       std::string doc;
-      if (auto p = text.find("--"); p != std::string::npos) { doc = trim(text.substr(p + 2)); text = text.substr(0, p); }
+      if (auto p = text.find("--"); p != std::string::npos) {
+        doc = trim(text.substr(p + 2));
+        text = text.substr(0, p);
+      }
       auto body = trim(text);
       if (body.starts_with('#') || (body.empty() && doc.empty())) continue;
-      if (body.empty()) { if (current) current->doc += (current->doc.empty() ? "" : " ") + doc; continue; }
+      if (body.empty()) {
+        if (current) current->doc += (current->doc.empty() ? "" : " ") + doc;
+        continue;
+      }
       bool abstract = body.starts_with("base ");
       if (!abstract && !body.starts_with("node ")) {
         if (!current) fail("field outside a node");
         current->fields.push_back(read_field(body, doc));
         for (std::size_t i = 0; i + 1 < current->fields.size(); ++i)
-          if (current->fields[i].name == current->fields.back().name) fail("field twice: " + current->fields.back().name);
+          if (current->fields[i].name == current->fields.back().name)
+            fail("field twice: " + current->fields.back().name);
         continue;
       }
       Node n = read_head(body, abstract);
       n.doc = doc;
-      if (!seen.insert(n.name + (abstract ? "" : "/" + std::to_string(dialects(n.clauses)))).second) fail("node twice: " + n.name);
-      for (auto& b : n.bases) if (!bases.count(b)) fail("no base " + b);
-      if (abstract) { current = &(bases[n.name] = n); continue; }
+      if (!seen.insert(n.name + (abstract ? "" : "/" + std::to_string(dialects(n.clauses)))).second)
+        fail("node twice: " + n.name);
+      for (auto& b : n.bases)
+        if (!bases.count(b)) fail("no base " + b);
+      if (abstract) {
+        current = &(bases[n.name] = n);
+        continue;
+      }
       if (!dialects(n.clauses)) fail("node in no dialect: " + n.name);
       nodes.push_back(n);
       current = &nodes.back();
@@ -277,7 +341,10 @@ struct Generator {
         auto e = wrlkit::info(type_of(f.type)).element;
         if (e != Element::node) continue;
         for (auto& k : f.kinds)
-          if (!names.count(k) && !bases.count(k)) { std::fprintf(stderr, "%s.%s: no node or base %s\n", n.name.c_str(), f.name.c_str(), k.c_str()); std::exit(1); }
+          if (!names.count(k) && !bases.count(k)) {
+            std::fprintf(stderr, "%s.%s: no node or base %s\n", n.name.c_str(), f.name.c_str(), k.c_str());
+            std::exit(1);
+          }
       }
   }
 
@@ -286,12 +353,14 @@ struct Generator {
   void write_keys(std::ostream& o, std::size_t i) const {
     o << "namespace " << snake(nodes[i].name) << " {\n";
     for (std::size_t k = 0; k < nodes[i].fields.size(); ++k)
-      o << "inline constexpr FieldKey<FieldType::" << nodes[i].fields[k].type << "> " << identifier(nodes[i].fields[k].name) << "{TypeId{" << i << "}, " << k << "};\n";
+      o << "inline constexpr FieldKey<FieldType::" << nodes[i].fields[k].type << "> "
+        << identifier(nodes[i].fields[k].name) << "{TypeId{" << i << "}, " << k << "};\n";
     o << "}\n";
   }
 
   void write_header(std::ostream& o) const {
-    o << "// Generated by tools/gen_nodes.cpp from scenegraph/nodes/*.nodes.\n#pragma once\n#include \"scenegraph/node_table.h\"\n\nnamespace wrlkit::nodes {\n\n";
+    o << "// Generated by tools/gen_nodes.cpp from scenegraph/nodes/*.nodes.\n#pragma once\n#include "
+         "\"scenegraph/node_table.h\"\n\nnamespace wrlkit::nodes {\n\n";
     for (bool old : {false, true}) {
       if (old) o << "\n// VRML 1.0 has other nodes of the same names.\nnamespace vrml1 {\n\n";
       for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -306,15 +375,23 @@ struct Generator {
 
   // The arrays behind the defaults, then the rows that point at them.
   void write_rows(std::ostream& o) const {
-    o << "// Generated by tools/gen_nodes.cpp from scenegraph/nodes/*.nodes.\n#include \"scenegraph/node_table.h\"\n\nnamespace wrlkit {\nnamespace {\n\nusing T = FieldType;\n"
+    o << "// Generated by tools/gen_nodes.cpp from scenegraph/nodes/*.nodes.\n#include "
+         "\"scenegraph/node_table.h\"\n\nnamespace wrlkit {\nnamespace {\n\nusing T = FieldType;\n"
          "constexpr double inf [[maybe_unused]] = std::numeric_limits<double>::infinity();\n"
-         "constexpr Value number(T t, std::uint16_t s, double v) { Value o; o.type = t; o.slot = s; o.count = 1; o.number = v; return o; }\n"
-         "constexpr Value integer(T t, std::uint16_t s, std::int32_t v) { Value o; o.type = t; o.slot = s; o.count = 1; o.integer = v; return o; }\n"
-         "constexpr Value numbers(T t, std::uint16_t s, std::uint32_t n, const double* v) { Value o; o.type = t; o.slot = s; o.count = n; o.numbers = v; return o; }\n"
-         "constexpr Value integers(T t, std::uint16_t s, std::uint32_t n, const std::int32_t* v) { Value o; o.type = t; o.slot = s; o.count = n; o.integers = v; return o; }\n"
-         "constexpr Value texts(T t, std::uint16_t s, std::uint32_t n, const std::string_view* v) { Value o; o.type = t; o.slot = s; o.count = n; o.texts = v; return o; }\n"
-         "constexpr Value chars(T t, std::uint16_t s, std::string_view v) { Value o; o.type = t; o.slot = s; o.count = static_cast<std::uint32_t>(v.size()); o.chars = v.data(); return o; }\n"
-         "constexpr Value node(T t, std::uint16_t s) { Value o; o.type = t; o.slot = s; o.node = NodeId{}; if (t == T::MFNode) { o.nodes = nullptr; o.count = 0; } else o.count = 1; return o; }\n\n";
+         "constexpr Value number(T t, std::uint16_t s, double v) { Value o; o.type = t; o.slot = s; o.count = 1; "
+         "o.number = v; return o; }\n"
+         "constexpr Value integer(T t, std::uint16_t s, std::int32_t v) { Value o; o.type = t; o.slot = s; o.count = "
+         "1; o.integer = v; return o; }\n"
+         "constexpr Value numbers(T t, std::uint16_t s, std::uint32_t n, const double* v) { Value o; o.type = t; "
+         "o.slot = s; o.count = n; o.numbers = v; return o; }\n"
+         "constexpr Value integers(T t, std::uint16_t s, std::uint32_t n, const std::int32_t* v) { Value o; o.type = "
+         "t; o.slot = s; o.count = n; o.integers = v; return o; }\n"
+         "constexpr Value texts(T t, std::uint16_t s, std::uint32_t n, const std::string_view* v) { Value o; o.type = "
+         "t; o.slot = s; o.count = n; o.texts = v; return o; }\n"
+         "constexpr Value chars(T t, std::uint16_t s, std::string_view v) { Value o; o.type = t; o.slot = s; o.count = "
+         "static_cast<std::uint32_t>(v.size()); o.chars = v.data(); return o; }\n"
+         "constexpr Value node(T t, std::uint16_t s) { Value o; o.type = t; o.slot = s; o.node = NodeId{}; if (t == "
+         "T::MFNode) { o.nodes = nullptr; o.count = 0; } else o.count = 1; return o; }\n\n";
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (std::size_t k = 0; k < nodes[i].fields.size(); ++k) write_arrays(o, i, k);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -329,13 +406,18 @@ struct Generator {
     o << "constexpr NodeType rows[] = {\n";
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto& n = nodes[i];
-      o << "    {" << quoted(n.name) << ", NodeKind::builtin, " << dialects(n.clauses) << ", " << (n.fields.empty() ? "{}" : "f" + std::to_string(i)) << ", "
-        << (n.bases.empty() ? "{}" : "b" + std::to_string(i)) << ", " << quoted(n.clauses) << ", " << quoted(n.component) << ", " << quoted(container(n)) << ", " << quoted(n.doc) << ", {}, {}, " << n.since << "},\n";
+      o << "    {" << quoted(n.name) << ", NodeKind::builtin, " << dialects(n.clauses) << ", "
+        << (n.fields.empty() ? "{}" : "f" + std::to_string(i)) << ", "
+        << (n.bases.empty() ? "{}" : "b" + std::to_string(i)) << ", " << quoted(n.clauses) << ", "
+        << quoted(n.component) << ", " << quoted(container(n)) << ", " << quoted(n.doc) << ", {}, {}, " << n.since
+        << "},\n";
     }
     o << "};\nconstexpr std::string_view base_names[] = {";
     std::vector<std::string> names;
     for (auto& [name, b] : bases) names.push_back(name);
-    o << list_of(names) << "};\n\n}  // namespace\n\nstd::span<const NodeType> builtin_nodes() { return rows; }\nstd::span<const std::string_view> builtin_bases() { return base_names; }\n\n}  // namespace wrlkit\n";
+    o << list_of(names)
+      << "};\n\n}  // namespace\n\nstd::span<const NodeType> builtin_nodes() { return rows; }\nstd::span<const "
+         "std::string_view> builtin_bases() { return base_names; }\n\n}  // namespace wrlkit\n";
   }
 
   void write_arrays(std::ostream& o, std::size_t i, std::size_t k) const {
@@ -354,32 +436,55 @@ struct Generator {
       o << "};\n";
     } else if (t.element == Element::text && t.multiple) {
       o << "constexpr std::string_view d" << id << "[] = {" << list_of(f.values) << "};\n";
-      if (!f.x3d_values.empty()) o << "constexpr std::string_view x" << id << "[] = {" << list_of(f.x3d_values) << "};\n";
+      if (!f.x3d_values.empty())
+        o << "constexpr std::string_view x" << id << "[] = {" << list_of(f.x3d_values) << "};\n";
     }
   }
 
   void write_field(std::ostream& o, std::size_t i, std::size_t k) const {
     const auto& f = nodes[i].fields[k];
     const auto& t = wrlkit::info(type_of(f.type));
-    std::string id = std::to_string(i) + "_" + std::to_string(k), head = "T::" + f.type + ", " + std::to_string(k), value;
-    auto array = [&](const char* fn, std::size_t n) { return std::string(fn) + "(" + head + ", " + std::to_string(n) + ", " + (f.values.empty() ? "nullptr" : "d" + id) + ")"; };
-    if (t.element == Element::node) value = "node(" + head + ")";
-    else if (t.element == Element::image || (t.element == Element::integer && t.multiple)) value = array("integers", f.values.size());
-    else if (t.element == Element::text && t.multiple) value = array("texts", f.values.size());
-    else if (t.element == Element::text) value = "chars(" + head + ", " + quoted(f.values.empty() ? "" : f.values[0]) + ")";
-    else if (t.element == Element::integer) value = "integer(" + head + ", " + (f.values.empty() ? "0" : f.values[0] == "TRUE" ? "1" : f.values[0] == "FALSE" ? "0" : f.values[0]) + ")";
-    else if (t.multiple || t.arity > 1) value = array("numbers", f.values.size() / t.arity);
-    else value = "number(" + head + ", " + (f.values.empty() ? "0" : infinite(f.values[0])) + ")";
+    std::string id = std::to_string(i) + "_" + std::to_string(k), head = "T::" + f.type + ", " + std::to_string(k),
+                value;
+    auto array = [&](const char* fn, std::size_t n) {
+      return std::string(fn) + "(" + head + ", " + std::to_string(n) + ", " +
+             (f.values.empty() ? "nullptr" : "d" + id) + ")";
+    };
+    if (t.element == Element::node)
+      value = "node(" + head + ")";
+    else if (t.element == Element::image || (t.element == Element::integer && t.multiple))
+      value = array("integers", f.values.size());
+    else if (t.element == Element::text && t.multiple)
+      value = array("texts", f.values.size());
+    else if (t.element == Element::text)
+      value = "chars(" + head + ", " + quoted(f.values.empty() ? "" : f.values[0]) + ")";
+    else if (t.element == Element::integer)
+      value = "integer(" + head + ", " +
+              (f.values.empty()         ? "0"
+               : f.values[0] == "TRUE"  ? "1"
+               : f.values[0] == "FALSE" ? "0"
+                                        : f.values[0]) +
+              ")";
+    else if (t.multiple || t.arity > 1)
+      value = array("numbers", f.values.size() / t.arity);
+    else
+      value = "number(" + head + ", " + (f.values.empty() ? "0" : infinite(f.values[0])) + ")";
     int d = f.only.empty() ? dialects(nodes[i].clauses) : dialects(f.only);
-    o << "    {" << quoted(f.name) << ", " << quoted(f.vrml97) << ", T::" << f.type << ", Access::" << f.access << ", " << d << ", " << value << ", {" << infinite(f.low) << ", " << infinite(f.high) << ", "
-      << (f.low_open ? "true" : "false") << ", " << (f.high_open ? "true" : "false") << "}, " << (f.kinds.empty() ? "{}" : "k" + id) << ", " << quoted(f.unit) << ", " << quoted(f.doc) << ", " << quoted(f.default_text) << ", " << f.since << x3d_default(f, head, id) << "},\n";
+    o << "    {" << quoted(f.name) << ", " << quoted(f.vrml97) << ", T::" << f.type << ", Access::" << f.access << ", "
+      << d << ", " << value << ", {" << infinite(f.low) << ", " << infinite(f.high) << ", "
+      << (f.low_open ? "true" : "false") << ", " << (f.high_open ? "true" : "false") << "}, "
+      << (f.kinds.empty() ? "{}" : "k" + id) << ", " << quoted(f.unit) << ", " << quoted(f.doc) << ", "
+      << quoted(f.default_text) << ", " << f.since << x3d_default(f, head, id) << "},\n";
   }
 
   static std::string x3d_default(const Field& f, const std::string& head, const std::string& id) {
     if (f.x3d_values.empty()) return {};
     const auto& t = wrlkit::info(type_of(f.type));
-    std::string value = t.element == Element::text && t.multiple ? "texts(" + head + ", " + std::to_string(f.x3d_values.size()) + ", x" + id + ")"
-                        : t.element == Element::number && !t.multiple && t.arity == 1 ? "number(" + head + ", " + f.x3d_values[0] + ")" : "";
+    std::string value = t.element == Element::text && t.multiple
+                            ? "texts(" + head + ", " + std::to_string(f.x3d_values.size()) + ", x" + id + ")"
+                        : t.element == Element::number && !t.multiple && t.arity == 1
+                            ? "number(" + head + ", " + f.x3d_values[0] + ")"
+                            : "";
     if (value.empty()) fail("no default of X3D's own for this type: " + f.name);
     return ", " + std::to_string(f.x3d_from) + ", " + value;
   }
@@ -388,7 +493,10 @@ struct Generator {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) return std::fprintf(stderr, "usage: gen_nodes OUT_DIR FILE.nodes...\n"), 2;
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: gen_nodes OUT_DIR FILE.nodes...\n");
+    return 2;
+  }
   Generator g;
   for (int i = 2; i < argc; ++i) g.read(argv[i]);
   g.check_kinds();

@@ -24,7 +24,10 @@ std::vector<NodeId> post_order(const Scene& scene) {
   while (!stack.empty()) {
     auto [n, done] = stack.back();
     stack.pop_back();
-    if (done) { out.push_back(n); continue; }
+    if (done) {
+      out.push_back(n);
+      continue;
+    }
     if (!n || std::exchange(state[n.value], 1)) continue;
     stack.emplace_back(n, true);
     for (NodeId c : shown_children(scene, n)) stack.emplace_back(c, false);
@@ -32,7 +35,9 @@ std::vector<NodeId> post_order(const Scene& scene) {
   return out;
 }
 
-NodeId geometry_of(const Scene& scene, NodeId n) { return scene.is(n, nodes::Shape) ? scene.get(n, nodes::shape::geometry) : NodeId{}; }
+NodeId geometry_of(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::Shape) ? scene.get(n, nodes::shape::geometry) : NodeId{};
+}
 
 /// How often each node is shown.
 std::vector<std::uint64_t> times_shown(const Scene& scene, const std::vector<NodeId>& order) {
@@ -40,12 +45,14 @@ std::vector<std::uint64_t> times_shown(const Scene& scene, const std::vector<Nod
   for (NodeId n : scene.main.roots)
     if (n) times[n.value] = add(times[n.value], 1);
   for (auto n = order.rbegin(); n != order.rend(); ++n)
-    for (NodeId c : shown_children(scene, *n)) if (c) times[c.value] = add(times[c.value], times[n->value]);
+    for (NodeId c : shown_children(scene, *n))
+      if (c) times[c.value] = add(times[c.value], times[n->value]);
   return times;
 }
 
 /// The corners that a mesh uses, or the corners of their box when there are too many places for that.
-void add_bounds(const Mesh& mesh, const std::vector<Matrix>& where, StampedMap& seen, std::uint64_t& budget, Bounds& bounds) {
+void add_bounds(const Mesh& mesh, const std::vector<Matrix>& where, StampedMap& seen, std::uint64_t& budget,
+                Bounds& bounds) {
   std::vector<Vec3> points;
   Bounds box;
   seen.reset(mesh.n_positions());
@@ -57,7 +64,9 @@ void add_bounds(const Mesh& mesh, const std::vector<Matrix>& where, StampedMap& 
   }
   if (multiply(points.size(), where.size()) > budget) {
     points.clear();
-    for (int i = 0; i < 8; ++i) points.push_back({i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1], i & 4 ? box.max[2] : box.min[2]});
+    for (int i = 0; i < 8; ++i)
+      points.push_back(
+          {i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1], i & 4 ? box.max[2] : box.min[2]});
   } else {
     budget -= points.size() * where.size();
   }
@@ -66,18 +75,22 @@ void add_bounds(const Mesh& mesh, const std::vector<Matrix>& where, StampedMap& 
 }
 
 /// Boxes from below upwards: loose where there is rotation, but linear in the nodes however often they are shown.
-Bounds box_of_boxes(const Scene& scene, const std::vector<NodeId>& order, const std::unordered_map<std::uint32_t, Bounds>& geometry) {
+Bounds box_of_boxes(const Scene& scene, const std::vector<NodeId>& order,
+                    const std::unordered_map<std::uint32_t, Bounds>& geometry) {
   std::vector<Bounds> box(scene.node_count());
   Bounds all;
   auto merge = [](Bounds& to, const Bounds& b, const Matrix& m) {
-    for (int i = 0; i < 8 && !b.empty(); ++i) to.add(m.point({i & 1 ? b.max[0] : b.min[0], i & 2 ? b.max[1] : b.min[1], i & 4 ? b.max[2] : b.min[2]}));
+    for (int i = 0; i < 8 && !b.empty(); ++i)
+      to.add(m.point({i & 1 ? b.max[0] : b.min[0], i & 2 ? b.max[1] : b.min[1], i & 4 ? b.max[2] : b.min[2]}));
   };
   for (NodeId n : order) {
     if (NodeId g = geometry_of(scene, n)) box[n.value] = geometry.at(g.value);
     Matrix m = local_matrix(scene, n);
-    for (NodeId c : shown_children(scene, n)) if (c) merge(box[n.value], box[c.value], m);
+    for (NodeId c : shown_children(scene, n))
+      if (c) merge(box[n.value], box[c.value], m);
   }
-  for (NodeId n : scene.main.roots) if (n) merge(all, box[n.value], {});
+  for (NodeId n : scene.main.roots)
+    if (n) merge(all, box[n.value], {});
   return all;
 }
 
@@ -125,8 +138,10 @@ GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, co
     // Faces without area are no triangles, but their corners count for the bounds, as other readers have it.
     const Mesh& p = polygons(g);
     if (p.kind == Mesh::Kind::faces) sum(census.polygons, p.n_faces());
-    if (exact) add_bounds(p, where[g.value], seen, budget, census.bounds);
-    else add_bounds(p, {Matrix{}}, seen, budget, boxes[g.value]);
+    if (exact)
+      add_bounds(p, where[g.value], seen, budget, census.bounds);
+    else
+      add_bounds(p, {Matrix{}}, seen, budget, boxes[g.value]);
     const Mesh& m = triangles(g);
     if (m.kind == Mesh::Kind::faces) sum(census.triangles, m.n_faces());
     if (m.kind == Mesh::Kind::points) sum(census.points, m.corners.size());

@@ -15,7 +15,10 @@ struct Bounds {
   Vec3 min{inf, inf, inf}, max{-inf, -inf, -inf};
   bool empty() const { return min[0] > max[0]; }
   void add(const Vec3& p) {
-    for (int i = 0; i < 3; ++i) min[i] = p[i] < min[i] ? p[i] : min[i], max[i] = p[i] > max[i] ? p[i] : max[i];
+    for (int i = 0; i < 3; ++i) {
+      min[i] = p[i] < min[i] ? p[i] : min[i];
+      max[i] = p[i] > max[i] ? p[i] : max[i];
+    }
   }
   static constexpr double inf = std::numeric_limits<double>::infinity();
 };
@@ -26,8 +29,8 @@ struct GeometryCensus {
 };
 
 /// Counts saturate instead of overflowing: a node may be shown 2^40 times. Each source is asked once for each geometry
-/// node: one gives its faces as authored, the other its triangles. O(nodes + points x places); when a world has millions
-/// of places the bounds are those of boxes in boxes.
+/// node: one gives its faces as authored, the other its triangles. O(nodes + points x places); when a world has
+/// millions of places the bounds are those of boxes in boxes.
 GeometryCensus count_geometry(const Scene&, const MeshSource& polygons, const MeshSource& triangles);
 
 /// The matrices of all places where a geometry is shown, by its NodeId; false when there are more than can be kept.

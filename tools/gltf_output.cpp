@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/text/json.h"
 #include "scenegraph/walk.h"
 #include "tools/cli/lengths.h"
 #include "tools/profiles.h"
-#include "base/text/json.h"
 #include "writers/made_files.h"
 
 namespace wrlkit {
@@ -33,7 +33,8 @@ std::string grouped(std::uint64_t n) {
   return s;
 }
 
-void size_line(std::string& out, std::string_view what, std::uint64_t bytes, std::uint64_t gzip, const std::vector<GltfSummary::Share>& shares = {}) {
+void size_line(std::string& out, std::string_view what, std::uint64_t bytes, std::uint64_t gzip,
+               const std::vector<GltfSummary::Share>& shares = {}) {
   out += fmt::format("  {:<10}{:>14} bytes", what, grouped(bytes));
   if (gzip > 0) out += fmt::format("{:>14} gzipped", grouped(gzip));
   std::string kinds;
@@ -59,14 +60,18 @@ const LightRow* light_of(std::string_view name) {
 }
 
 std::size_t count_geometries(const Scene& scene) {
-  return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return scene.type(n).is_a("X3DGeometryNode"); }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      reachable(scene, scene.main), [&](NodeId n) { return scene.type(n).is_a("X3DGeometryNode"); }));
 }
 
 /// A glTF without meshes is what some worlds deserve (lights, PROTO libraries), but nobody should find it out later.
 void say_why_empty(const Scene& scene, Diagnostics& diag) {
   const auto& roots = scene.main.roots;
-  if (diag.count(Diag::unknown_node) > 0) diag.report(Diag::nothing_drawn, roots.empty() ? Span{} : scene.where(roots[0]), "it has no geometry, but nodes that are not known");
-  else if (roots.empty() && scene.proto_count() == 0) diag.report(Diag::nothing_drawn, Span{.begin = 0}, "it holds no node");
+  if (diag.count(Diag::unknown_node) > 0)
+    diag.report(Diag::nothing_drawn, roots.empty() ? Span{} : scene.where(roots[0]),
+                "it has no geometry, but nodes that are not known");
+  else if (roots.empty() && scene.proto_count() == 0)
+    diag.report(Diag::nothing_drawn, Span{.begin = 0}, "it holds no node");
 }
 
 }  // namespace
@@ -74,7 +79,9 @@ void say_why_empty(const Scene& scene, Diagnostics& diag) {
 void apply_profile(Flags& f) {
   const Profile* profile = f.profile.empty() ? nullptr : find_profile(f.profile);
   if (!profile) return;
-  auto given = [&](std::string_view name) { return std::ranges::any_of(f.given, [&](const auto& g) { return g.first == name; }); };
+  auto given = [&](std::string_view name) {
+    return std::ranges::any_of(f.given, [&](const auto& g) { return g.first == name; });
+  };
   if (!given("compress")) f.compress = profile->compress;
   if (!given("extras")) f.extras = profile->extras;
   if (!given("texture-format")) f.texture_format = profile->texture_format;
@@ -82,13 +89,29 @@ void apply_profile(Flags& f) {
 }
 
 std::optional<GltfOptions> gltf_options(const Flags& f) {
-  GltfCompression c{.method = method_of(f.compress), .position_bits = f.position_bits, .normal_bits = f.normal_bits, .texcoord_bits = f.texcoord_bits, .color_bits = f.color_bits, .level = f.draco_level};
+  GltfCompression c{.method = method_of(f.compress),
+                    .position_bits = f.position_bits,
+                    .normal_bits = f.normal_bits,
+                    .texcoord_bits = f.texcoord_bits,
+                    .color_bits = f.color_bits,
+                    .level = f.draco_level};
   if (!f.tolerance.empty()) c.tolerance = length_of(f.tolerance);
-  if (!f.tolerance.empty() && !(c.tolerance > 0)) return fmt::print(stderr, "wrlkit: --tolerance: '{}' is no length\n", f.tolerance), std::nullopt;
+  if (!f.tolerance.empty() && !(c.tolerance > 0)) {
+    fmt::print(stderr, "wrlkit: --tolerance: '{}' is no length\n", f.tolerance);
+    return std::nullopt;
+  }
   const bool table = f.names == "table";
   std::string name = f.output;
   std::ranges::transform(name, name.begin(), [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
-  return GltfOptions{.binary = !name.ends_with(".gltf"), .lightmaps = light_of(f.lightmap_as)->as, .compression = c, .textures = {format_of(f.texture_format), f.texture_quality, f.texture_size}, .animation_pointer = f.animation_pointer, .names = table ? GltfOptions::Names::table : GltfOptions::Names::nodes, .gpu_instancing = f.gpu_instancing, .extras = f.extras != "none", .facts_only = table || f.extras != "all"};
+  return GltfOptions{.binary = !name.ends_with(".gltf"),
+                     .lightmaps = light_of(f.lightmap_as)->as,
+                     .compression = c,
+                     .textures = {format_of(f.texture_format), f.texture_quality, f.texture_size},
+                     .animation_pointer = f.animation_pointer,
+                     .names = table ? GltfOptions::Names::table : GltfOptions::Names::nodes,
+                     .gpu_instancing = f.gpu_instancing,
+                     .extras = f.extras != "none",
+                     .facts_only = table || f.extras != "all"};
 }
 
 std::string_view gltf_pipeline(const Flags& f) { return light_of(f.lightmap_as)->pipeline; }
@@ -100,11 +123,17 @@ bool write_gltf_file(Session& s, const GltfOptions& options, GltfSummary& summar
   const auto n_geometries = count_geometries(scene);
   if (n_geometries == 0) say_why_empty(scene, s.diag());
   s.progress().begin("writing " + s.flags().output, n_geometries, "shapes");
-  auto counted = [&](NodeId n) -> const Mesh& { return s.progress().step(), meshes(n); };
-  MadeFiles beside(scene, s.resources(), s.flags().output, s.diag());  // pictures are glTF's own matter; the rest is here
+  auto counted = [&](NodeId n) -> const Mesh& {
+    s.progress().step();
+    return meshes(n);
+  };
+  MadeFiles beside(scene, s.resources(), s.flags().output,
+                   s.diag());  // pictures are glTF's own matter; the rest is here
   GltfOptions measured = options;
   measured.measure_gzip |= s.flags().verbose || s.flags().json;
-  if (!beside.write() || !write_gltf(scene, counted, measured, &s.resources(), s.flags().output, s.diag(), &summary) || !beside.commit()) return false;
+  if (!beside.write() || !write_gltf(scene, counted, measured, &s.resources(), s.flags().output, s.diag(), &summary) ||
+      !beside.commit())
+    return false;
   s.fact("gltf", summary_json(summary));
   return true;
 }
@@ -115,15 +144,18 @@ std::string summary_text(const GltfSummary& s) {
   size_line(out, "geometry", s.geometry, s.geometry_gzip, s.geometry_shares);
   if (s.pictures > 0) size_line(out, "textures", s.pictures, s.pictures_gzip);
   size_line(out, "together", s.bytes(), s.json_gzip + s.geometry_gzip + s.pictures_gzip);
-  out += fmt::format("  {} nodes, {} names; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named), grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
+  out += fmt::format("  {} nodes, {} names; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named),
+                     grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
   if (s.instances > 0) out += fmt::format("  {} instances in tables (EXT_mesh_gpu_instancing)\n", grouped(s.instances));
   if (const auto& r = s.recoding; r.pictures > 0) {
-    out += fmt::format("  pictures: {} written anew, {} of them at another size; {} bytes became {}", grouped(r.pictures), grouped(r.resized), grouped(r.before), grouped(r.after));
+    out += fmt::format("  pictures: {} written anew, {} of them at another size; {} bytes became {}",
+                       grouped(r.pictures), grouped(r.resized), grouped(r.before), grouped(r.after));
     out += r.psnr > 0 ? fmt::format(", PSNR at least {:.1f} dB\n", r.psnr) : "\n";
   }
   const auto& q = s.quantization;
   if (q.tolerance <= 0) return out;
-  out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), places of nodes within {:.2g} mm", q.position * 1e3, q.tolerance * 1e3, q.placement * 1e3);
+  out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), places of nodes within {:.2g} mm",
+                     q.position * 1e3, q.tolerance * 1e3, q.placement * 1e3);
   if (q.normal > 0) out += fmt::format(", normals {:.2g} degrees", q.normal * degrees);
   if (q.texcoord > 0) out += fmt::format(", texture coordinates {:.2g}", q.texcoord);
   if (q.color > 0) out += fmt::format(", colours {:.2g}", q.color);

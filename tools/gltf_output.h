@@ -15,8 +15,8 @@ std::optional<GltfOptions> gltf_options(const Flags&);
 /// The pipeline that prepares a scene for glTF.
 std::string_view gltf_pipeline(const Flags&);
 
-/// Runs the pipeline and writes what comes out, and what lies beside it; the summary is part of the report. False: nothing
-/// was made, which was reported.
+/// Runs the pipeline and writes what comes out, and what lies beside it; the summary is part of the report. False:
+/// nothing was made, which was reported.
 bool write_gltf_file(Session&, const GltfOptions&, GltfSummary&);
 
 /// Some lines for people: sizes raw and gzipped by kind, draws and triangles, what quantisation has changed.

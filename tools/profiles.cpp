@@ -11,11 +11,17 @@ namespace {
 // Where vertices are packed, what has no name is better one mesh than many nodes.
 #define WRLKIT_PACKED WRLKIT_SHARING ",merge{parts=true}"
 constexpr Profile all[] = {
-    {"portable", "every viewer of glTF 2.0", "none", "facts", "keep", "nodes", WRLKIT_SHARING, "core glTF: no extension that a viewer must know; equal parts share a mesh, each has a node"},
-    {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", "meshopt", "facts", "webp", "nodes", WRLKIT_PACKED, "their decoder of meshopt is small and fast; it must be given to the loader (GLTFLoader.setMeshoptDecoder)"},
-    {"cesium", "CesiumJS", "meshopt", "facts", "webp", "table", WRLKIT_PACKED ",merge{instanced=true}", "meshopt, quantised numbers and WebP are decoded without being asked for; names in a table are what it picks by: few draws, every part still found"},
-    {"unity", "Unity by glTFast", "quantize", "facts", "keep", "nodes", WRLKIT_SHARING, "quantised numbers need no further package; meshopt and Draco do"},
-    {"godot", "Godot 4", "none", "facts", "webp", "nodes", WRLKIT_SHARING, "its importer knows WebP, but neither quantised numbers nor a decoder of meshopt or Draco"},
+    {"portable", "every viewer of glTF 2.0", "none", "facts", "keep", "nodes", WRLKIT_SHARING,
+     "core glTF: no extension that a viewer must know; equal parts share a mesh, each has a node"},
+    {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", "meshopt", "facts", "webp", "nodes", WRLKIT_PACKED,
+     "their decoder of meshopt is small and fast; it must be given to the loader (GLTFLoader.setMeshoptDecoder)"},
+    {"cesium", "CesiumJS", "meshopt", "facts", "webp", "table", WRLKIT_PACKED ",merge{instanced=true}",
+     "meshopt, quantised numbers and WebP are decoded without being asked for; names in a table are what it picks by: "
+     "few draws, every part still found"},
+    {"unity", "Unity by glTFast", "quantize", "facts", "keep", "nodes", WRLKIT_SHARING,
+     "quantised numbers need no further package; meshopt and Draco do"},
+    {"godot", "Godot 4", "none", "facts", "webp", "nodes", WRLKIT_SHARING,
+     "its importer knows WebP, but neither quantised numbers nor a decoder of meshopt or Draco"},
 };
 
 /// Where what the table says can be read, as Markdown.
@@ -23,11 +29,26 @@ struct Source {
   std::string_view profile, text;
 };
 constexpr Source sources[] = {
-    {"portable", "[the specification](https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html) has PNG and JPEG, and floats for positions"},
-    {"three", "[GLTFLoader](https://threejs.org/docs/pages/GLTFLoader.html) lists EXT_meshopt_compression, KHR_mesh_quantization, EXT_texture_webp, EXT_mesh_gpu_instancing"},
-    {"cesium", "`supportedExtensions` in [ModelUtility.js](https://github.com/CesiumGS/cesium/blob/main/packages/engine/Source/Scene/Model/ModelUtility.js) has EXT_meshopt_compression, KHR_mesh_quantization, EXT_texture_webp, EXT_mesh_gpu_instancing, EXT_mesh_features, EXT_instance_features, EXT_structural_metadata"},
-    {"unity", "[its installation](https://docs.unity3d.com/Packages/com.unity.cloud.gltfast@6.15/manual/installation.html) names a package each for meshopt and Draco; KHR_mesh_quantization is supported as [issue 354](https://github.com/atteneder/glTFast/issues/354) says"},
-    {"godot", "[pull request 120205](https://github.com/godotengine/godot/pull/120205), open in June 2026, would add Draco, meshopt and KHR_mesh_quantization, and [proposal 8787](https://github.com/godotengine/godot-proposals/issues/8787) EXT_mesh_gpu_instancing; WebP is in `modules/gltf/extensions/gltf_document_extension_texture_webp.cpp`"},
+    {"portable",
+     "[the specification](https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html) has PNG and JPEG, and floats for "
+     "positions"},
+    {"three",
+     "[GLTFLoader](https://threejs.org/docs/pages/GLTFLoader.html) lists EXT_meshopt_compression, "
+     "KHR_mesh_quantization, EXT_texture_webp, EXT_mesh_gpu_instancing"},
+    {"cesium",
+     "`supportedExtensions` in "
+     "[ModelUtility.js](https://github.com/CesiumGS/cesium/blob/main/packages/engine/Source/Scene/Model/"
+     "ModelUtility.js) has EXT_meshopt_compression, KHR_mesh_quantization, EXT_texture_webp, EXT_mesh_gpu_instancing, "
+     "EXT_mesh_features, EXT_instance_features, EXT_structural_metadata"},
+    {"unity",
+     "[its installation](https://docs.unity3d.com/Packages/com.unity.cloud.gltfast@6.15/manual/installation.html) "
+     "names a package each for meshopt and Draco; KHR_mesh_quantization is supported as [issue "
+     "354](https://github.com/atteneder/glTFast/issues/354) says"},
+    {"godot",
+     "[pull request 120205](https://github.com/godotengine/godot/pull/120205), open in June 2026, would add Draco, "
+     "meshopt and KHR_mesh_quantization, and [proposal "
+     "8787](https://github.com/godotengine/godot-proposals/issues/8787) EXT_mesh_gpu_instancing; WebP is in "
+     "`modules/gltf/extensions/gltf_document_extension_texture_webp.cpp`"},
 };
 
 }  // namespace
@@ -40,13 +61,20 @@ const Profile* find_profile(std::string_view name) {
 }
 
 std::string profile_text(const Profile& p) {
-  return fmt::format("{}: {}\n  --compress {} --extras {} --texture-format {} --names {}\n  optimize runs {}\n  {}\n", p.name, p.opens_in, p.compress, p.extras, p.texture_format, p.names, p.pipeline, p.why);
+  return fmt::format("{}: {}\n  --compress {} --extras {} --texture-format {} --names {}\n  optimize runs {}\n  {}\n",
+                     p.name, p.opens_in, p.compress, p.extras, p.texture_format, p.names, p.pipeline, p.why);
 }
 
 std::string profiles_page() {
-  std::string out = "# Profiles\n\nGenerated from `tools/profiles.cpp` by `script/docs`; do not edit. `wrlkit optimize --profile NAME --print-profile` prints one.\n"
-                    "What an option says otherwise holds; `convert --profile NAME` takes the first four and runs no pass of its own.\n\n| profile | opens in | `--compress` | `--extras` | `--texture-format` | `--names` | `optimize` runs | why |\n|---|---|---|---|---|---|---|---|\n";
-  for (const Profile& p : all) out += fmt::format("| {} | {} | {} | {} | {} | {} | `{}` | {} |\n", p.name, p.opens_in, p.compress, p.extras, p.texture_format, p.names, p.pipeline, p.why);
+  std::string out =
+      "# Profiles\n\nGenerated from `tools/profiles.cpp` by `script/docs`; do not edit. `wrlkit optimize --profile "
+      "NAME --print-profile` prints one.\n"
+      "What an option says otherwise holds; `convert --profile NAME` takes the first four and runs no pass of its "
+      "own.\n\n| profile | opens in | `--compress` | `--extras` | `--texture-format` | `--names` | `optimize` runs | "
+      "why |\n|---|---|---|---|---|---|---|---|\n";
+  for (const Profile& p : all)
+    out += fmt::format("| {} | {} | {} | {} | {} | {} | `{}` | {} |\n", p.name, p.opens_in, p.compress, p.extras,
+                       p.texture_format, p.names, p.pipeline, p.why);
   out += "\nWhere that can be read:\n\n";
   for (const Source& from : sources) out += fmt::format("- {}: {}.\n", from.profile, from.text);
   return out;

@@ -1,7 +1,7 @@
 // All triangles that a world shows, in world coordinates: what can be measured.
 #pragma once
-#include "geometry/closest_point.h"
 #include "base/diagnostics.h"
+#include "geometry/closest_point.h"
 #include "tools/geometry_census.h"
 
 namespace wrlkit {

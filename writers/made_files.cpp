@@ -44,7 +44,8 @@ const std::string& MadeFiles::name_of(const MadeFile& file) {
   const std::string stem = stem_of(output_).filename().string() + ".";
   const fs::path own(file.name);
   std::string name = stem + file.name;
-  for (int k = 2; taken_.contains(name) || taken_.contains(uri_of(name)); ++k) name = stem + own.stem().string() + "_" + std::to_string(k) + own.extension().string();
+  for (int k = 2; taken_.contains(name) || taken_.contains(uri_of(name)); ++k)
+    name = stem + own.stem().string() + "_" + std::to_string(k) + own.extension().string();
   taken_.insert(name);
   return placed_.emplace_back(Placed{name, &file, {}}).name;
 }

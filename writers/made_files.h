@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/io/output.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
-#include "base/io/output.h"
 
 namespace wrlkit {
 
@@ -16,13 +16,14 @@ class MadeFiles {
   /// Of the world that is written to `output`; "-": it has nothing beside it.
   MadeFiles(const Scene& scene, const Resources& resources, std::string output, Diagnostics& diag);
 
-  /// The url under which the world that is written finds a file that was made; it will be written. Other urls stay as they
-  /// are. A name that the world has for another file gets a number.
+  /// The url under which the world that is written finds a file that was made; it will be written. Other urls stay as
+  /// they are. A name that the world has for another file gets a number.
   std::string place(std::string_view url);
-  /// Writes those that were placed, and those that are always wanted, into temporary files. False, and a message, when one
-  /// cannot be written.
+  /// Writes those that were placed, and those that are always wanted, into temporary files. False, and a message, when
+  /// one cannot be written.
   bool write();
-  /// Puts them into their places; best before the world itself. A file with other contents that is replaced is reported.
+  /// Puts them into their places; best before the world itself. A file with other contents that is replaced is
+  /// reported.
   bool commit();
 
  private:

@@ -31,7 +31,8 @@ fs::path own_folder() {
 /// Where the module may be: in the build tree beside the program or above it, installed in a folder of libraries.
 std::vector<fs::path> module_paths() {
   const fs::path folder = own_folder(), name = "wrlkit_images.so", lib = folder / ".." / "lib";
-  std::vector<fs::path> paths{folder / name, folder / ".." / name, folder / ".." / ".." / name, folder / "wrlkit" / name, lib / "wrlkit" / name};
+  std::vector<fs::path> paths{folder / name, folder / ".." / name, folder / ".." / ".." / name,
+                              folder / "wrlkit" / name, lib / "wrlkit" / name};
   std::error_code ec;
   for (fs::directory_iterator i(lib, ec), end; !ec && i != end; i.increment(ec))  // lib/x86_64-linux-gnu
     if (auto path = i->path() / "wrlkit" / name; fs::exists(path, ec)) paths.push_back(path);
@@ -82,30 +83,46 @@ bool alpha_is_nothing(const Image& image) {
 
 bool decode(std::string_view bytes, std::string_view mime, Image& image, std::string& error) {
   auto codec = std::ranges::find(codecs, mime, &Codec::mime);
-  if (codec == std::end(codecs)) return error = "it is no picture of a known type", false;
+  if (codec == std::end(codecs)) {
+    error = "it is no picture of a known type";
+    return false;
+  }
   std::optional<std::string> png;
   if (mime == "image/png") {
     png = essential_png(bytes);
-    if (!png) return error = "its data are damaged", false;
+    if (!png) {
+      error = "its data are damaged";
+      return false;
+    }
     bytes = *png;
   }
   auto& opened = image_module();
-  if (!opened.module) return error = opened.error, false;
+  if (!opened.module) {
+    error = opened.error;
+    return false;
+  }
   return opened.module->decode({bytes, codec->name, &image_size_fault}, image, error);
 }
 
 template <class Picture>
 bool has_pixels(const Picture& image) {
   auto pixels = std::uint64_t(image.width) * std::uint64_t(image.height) * std::uint64_t(image.channels);
-  return image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4 && image.pixels.size() == pixels;
+  return image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4 &&
+         image.pixels.size() == pixels;
 }
 
 /// The bytes that `write(module, bytes)` makes of a picture that has all its pixels.
 template <class Picture, class Write>
 std::optional<std::string> encode_with(const Picture& image, std::string& error, Write write) {
-  if (!has_pixels(image)) return error = "it has no pixels", std::nullopt;
+  if (!has_pixels(image)) {
+    error = "it has no pixels";
+    return std::nullopt;
+  }
   auto& opened = image_module();
-  if (!opened.module) return error = opened.error, std::nullopt;
+  if (!opened.module) {
+    error = opened.error;
+    return std::nullopt;
+  }
   std::string bytes;
   if (!write(*opened.module, bytes)) return std::nullopt;
   return bytes;
@@ -119,8 +136,12 @@ std::optional<std::string> encode(const Image& image, const char* codec, int qua
 
 constexpr int unseen_losses = 92;  // quality
 
-std::optional<std::string> jpeg_of(const Image& image, std::string& error) { return encode_jpeg(image, unseen_losses, error); }
-std::optional<std::string> webp_of(const Image& image, std::string& error) { return encode_webp(image, unseen_losses, error); }
+std::optional<std::string> jpeg_of(const Image& image, std::string& error) {
+  return encode_jpeg(image, unseen_losses, error);
+}
+std::optional<std::string> webp_of(const Image& image, std::string& error) {
+  return encode_webp(image, unseen_losses, error);
+}
 
 struct Extension {
   std::string_view end;
@@ -155,7 +176,10 @@ void load_image_codecs() { image_module(); }
 bool image_codecs_are_loaded() { return loaded; }
 
 std::optional<std::string> encode_png(const Image& image, std::string& error) {
-  if (!has_pixels(image)) return error = "it has no pixels", std::nullopt;
+  if (!has_pixels(image)) {
+    error = "it has no pixels";
+    return std::nullopt;
+  }
   return png_of(image);
 }
 
@@ -166,17 +190,26 @@ std::optional<std::string> encode_jpeg(const Image& image, int quality, std::str
 
 std::optional<std::string> encode_webp(const Image& image, int quality, std::string& error) {
   int channels = image.channels % 2 == 0 ? 4 : 3;
-  return encode(image.channels == channels ? image : with_channels(image, channels), "webp", std::clamp(quality, 1, 100), error);
+  return encode(image.channels == channels ? image : with_channels(image, channels), "webp",
+                std::clamp(quality, 1, 100), error);
 }
 
 std::optional<std::string> encode_exr(const FloatImage& image, std::string& error) {
-  return encode_with(image, error, [&](const ImageModule& module, std::string& bytes) { return module.encode_exr(image, bytes, error); });
+  return encode_with(image, error, [&](const ImageModule& module, std::string& bytes) {
+    return module.encode_exr(image, bytes, error);
+  });
 }
 
 std::unique_ptr<PictureAnimation> begin_webp_animation(int milliseconds, std::string& error) {
   auto& opened = image_module();
-  if (!opened.module) return error = opened.error, nullptr;
-  if (!opened.module->begin_webp_animation) return error = "this program was built without libwebpmux, which writes animations", nullptr;
+  if (!opened.module) {
+    error = opened.error;
+    return nullptr;
+  }
+  if (!opened.module->begin_webp_animation) {
+    error = "this program was built without libwebpmux, which writes animations";
+    return nullptr;
+  }
   return opened.module->begin_webp_animation(milliseconds, unseen_losses);
 }
 

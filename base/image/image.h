@@ -56,8 +56,8 @@ std::optional<std::string> encode_jpeg(const Image&, int quality, std::string& e
 std::optional<std::string> encode_webp(const Image&, int quality, std::string& error);
 /// OpenEXR in half precision, which is 11 bits from 0.00006 to 65504, compressed without loss.
 std::optional<std::string> encode_exr(const FloatImage&, std::string& error);
-/// PNG, JPEG or WebP by the name's extension, the latter two at a quality at which no artefacts are seen. Null and no error
-/// when the extension is none of them.
+/// PNG, JPEG or WebP by the name's extension, the latter two at a quality at which no artefacts are seen. Null and no
+/// error when the extension is none of them.
 std::optional<std::string> encode_as(std::string_view name, const Image&, std::string& error);
 /// Whether encode_as knows the extension.
 bool can_encode_as(std::string_view name);

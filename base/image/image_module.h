@@ -1,4 +1,5 @@
-// What the module with the picture codecs (base/image/image_oiio.cpp, image_webp_animation.cpp) offers to base/image/image.cpp, which opens it.
+// What the module with the picture codecs (base/image/image_oiio.cpp, image_webp_animation.cpp) offers to
+// base/image/image.cpp, which opens it.
 #pragma once
 #include <string>
 #include <string_view>

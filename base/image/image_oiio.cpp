@@ -57,7 +57,10 @@ bool read_pixels(OIIO::ImageInput& in, const DecodeRequest& from, Image& image, 
 
 bool decode(const DecodeRequest& from, Image& image, std::string& error) try {
   auto in = OIIO::ImageInput::create(from.codec);
-  if (!in) return error = "OpenImageIO cannot read this type", false;
+  if (!in) {
+    error = "OpenImageIO cannot read this type";
+    return false;
+  }
   OIIO::Filesystem::IOMemReader memory(from.bytes.data(), from.bytes.size());
   OIIO::Filesystem::IOProxy* proxy = &memory;
   OIIO::ImageSpec config, spec;
@@ -70,12 +73,17 @@ bool decode(const DecodeRequest& from, Image& image, std::string& error) try {
   in->close();
   return done;
 } catch (const std::exception& e) {
-  return error = e.what(), false;
+  error = e.what();
+  return false;
 }
 
-bool write(const char* codec, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void* pixels, std::string& bytes, std::string& error) try {
+bool write(const char* codec, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void* pixels, std::string& bytes,
+           std::string& error) try {
   auto out = OIIO::ImageOutput::create(codec);
-  if (!out) return error = "OpenImageIO cannot write this type", false;
+  if (!out) {
+    error = "OpenImageIO cannot write this type";
+    return false;
+  }
   OIIO::Filesystem::IOVecOutput memory;
   OIIO::Filesystem::IOProxy* proxy = &memory;
   spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
@@ -85,7 +93,8 @@ bool write(const char* codec, OIIO::ImageSpec spec, OIIO::TypeDesc type, const v
   bytes.assign(memory.buffer().begin(), memory.buffer().end());
   return done;
 } catch (const std::exception& e) {
-  return error = e.what(), false;
+  error = e.what();
+  return false;
 }
 
 bool encode(const Image& image, const char* codec, int quality, std::string& bytes, std::string& error) {

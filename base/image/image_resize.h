@@ -6,8 +6,9 @@
 
 namespace wrlkit {
 
-/// What the numbers of a picture mean. color: display-referred colours, which are added in linear light and by their alpha, so that
-/// fine patterns stay as bright as they are and what is clear has no colour. data: normals and the like, added as they are.
+/// What the numbers of a picture mean. color: display-referred colours, which are added in linear light and by their
+/// alpha, so that fine patterns stay as bright as they are and what is clear has no colour. data: normals and the like,
+/// added as they are.
 enum class PixelMeaning : std::uint8_t { color, data };
 
 /// The size at which no side is longer than `largest`, with the same shape; its own when that is 0 or no side is.

@@ -17,7 +17,10 @@ class Animation final : public wrlkit::PictureAnimation {
     if (!encoder_ && !begin(image, error)) return false;
     WebPConfig config;
     WebPPicture picture;
-    if (!WebPConfigInit(&config) || !WebPPictureInit(&picture)) return error = "libwebp is of another version", false;
+    if (!WebPConfigInit(&config) || !WebPPictureInit(&picture)) {
+      error = "libwebp is of another version";
+      return false;
+    }
     config.quality = static_cast<float>(quality_);
     config.use_sharp_yuv = 1;  // edges keep their colours
     picture.use_argb = 1;
@@ -33,12 +36,19 @@ class Animation final : public wrlkit::PictureAnimation {
   }
 
   std::optional<std::string> finish(std::string& error) override {
-    if (!encoder_) return error = "there are no pictures", std::nullopt;
+    if (!encoder_) {
+      error = "there are no pictures";
+      return std::nullopt;
+    }
     WebPData data;
     WebPDataInit(&data);
     // The end of the last picture.
-    const bool done = WebPAnimEncoderAdd(encoder_, nullptr, n_ * milliseconds_, nullptr) && WebPAnimEncoderAssemble(encoder_, &data);
-    if (!done) return error = WebPAnimEncoderGetError(encoder_), std::nullopt;
+    const bool done =
+        WebPAnimEncoderAdd(encoder_, nullptr, n_ * milliseconds_, nullptr) && WebPAnimEncoderAssemble(encoder_, &data);
+    if (!done) {
+      error = WebPAnimEncoderGetError(encoder_);
+      return std::nullopt;
+    }
     std::string bytes(reinterpret_cast<const char*>(data.bytes), data.size);
     WebPDataClear(&data);
     return bytes;
@@ -46,9 +56,15 @@ class Animation final : public wrlkit::PictureAnimation {
 
  private:
   bool begin(const Image& first, std::string& error) {
-    if (first.width > WEBP_MAX_DIMENSION || first.height > WEBP_MAX_DIMENSION) return error = "WebP pictures have at most 16383 pixels a side", false;
+    if (first.width > WEBP_MAX_DIMENSION || first.height > WEBP_MAX_DIMENSION) {
+      error = "WebP pictures have at most 16383 pixels a side";
+      return false;
+    }
     WebPAnimEncoderOptions options;
-    if (!WebPAnimEncoderOptionsInit(&options)) return error = "libwebpmux is of another version", false;
+    if (!WebPAnimEncoderOptionsInit(&options)) {
+      error = "libwebpmux is of another version";
+      return false;
+    }
     options.allow_mixed = 1;  // of each picture the smaller one, with loss or without
     encoder_ = WebPAnimEncoderNew(first.width, first.height, &options);
     if (!encoder_) error = "out of memory";

@@ -58,7 +58,11 @@ class Rows {
 
   void append(const std::uint8_t* row, std::string& to) {
     best_ = -1;
-    attempt<0>(row), attempt<1>(row), attempt<2>(row), attempt<3>(row), attempt<4>(row);
+    attempt<0>(row);
+    attempt<1>(row);
+    attempt<2>(row);
+    attempt<3>(row);
+    attempt<4>(row);
     to += chosen_;
     std::copy_n(row, above_.size(), above_.begin());
   }
@@ -82,7 +86,7 @@ class Rows {
   std::size_t step_;
   std::vector<std::uint8_t> above_;
   std::string tried_, chosen_;
-  long best_ = -1;                   // sum of the chosen one
+  long best_ = -1;  // sum of the chosen one
 };
 
 }  // namespace
@@ -109,16 +113,21 @@ std::optional<std::string> essential_png(std::string_view png) {
 
 std::string png_of(const Image& image) {
   constexpr char color_type[] = {0, 4, 2, 6};  // grey, grey and alpha, RGB, RGBA
-  const auto channels = static_cast<std::size_t>(image.channels), width = channels * static_cast<std::size_t>(image.width);
+  const auto channels = static_cast<std::size_t>(image.channels),
+             width = channels * static_cast<std::size_t>(image.width);
   std::string rows;
   rows.reserve((width + 1) * static_cast<std::size_t>(image.height));
   Rows filter(width, channels);
-  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) filter.append(image.pixels.data() + y * width, rows);
-  const std::string head = four(static_cast<std::uint32_t>(image.width)) + four(static_cast<std::uint32_t>(image.height)) + std::string{8, color_type[channels - 1], 0, 0, 0};
+  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y)
+    filter.append(image.pixels.data() + y * width, rows);
+  const std::string head = four(static_cast<std::uint32_t>(image.width)) +
+                           four(static_cast<std::uint32_t>(image.height)) +
+                           std::string{8, color_type[channels - 1], 0, 0, 0};
   std::string out = "\x89PNG\r\n\x1a\n" + chunk("IHDR", head);
   const std::string packed = zlib_packed(rows);
   constexpr std::size_t largest = std::size_t{1} << 30;  // of a chunk
-  for (std::size_t at = 0; at < packed.size(); at += largest) out += chunk("IDAT", std::string_view(packed).substr(at, largest));
+  for (std::size_t at = 0; at < packed.size(); at += largest)
+    out += chunk("IDAT", std::string_view(packed).substr(at, largest));
   return out + chunk("IEND", {});
 }
 

@@ -13,8 +13,8 @@ namespace wrlkit {
 /// about when and by what it was made would make equal pictures differ.
 std::optional<std::string> essential_png(std::string_view png);
 
-/// A picture that has all its pixels, 1 to 4 channels of 8 bits: each row by the filter that leaves the smallest numbers, as the
-/// standard advises (12.8). Nothing but the pixels is written.
+/// A picture that has all its pixels, 1 to 4 channels of 8 bits: each row by the filter that leaves the smallest
+/// numbers, as the standard advises (12.8). Nothing but the pixels is written.
 std::string png_of(const Image& image);
 
 /// Bytes as zlib data (RFC 1950); defined where zlib is known (base/io/zlib_pack.cpp).

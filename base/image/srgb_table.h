@@ -37,11 +37,13 @@ class SrgbTable {
   SrgbTable() {
     for (std::size_t i = 0; i <= steps; ++i) linear_[i] = srgb_to_linear(static_cast<double>(i) / steps);
     for (std::size_t b = 0; b < 255; ++b) threshold_[b] = srgb_to_linear((static_cast<double>(b) + 0.5) / 255);
-    for (std::size_t i = 0; i < steps; ++i) guess_[i] = static_cast<std::uint8_t>(std::lower_bound(threshold_.begin(), threshold_.end(), static_cast<double>(i) / steps) - threshold_.begin());
+    for (std::size_t i = 0; i < steps; ++i)
+      guess_[i] = static_cast<std::uint8_t>(
+          std::lower_bound(threshold_.begin(), threshold_.end(), static_cast<double>(i) / steps) - threshold_.begin());
   }
 
   std::array<double, steps + 1> linear_;
-  std::array<double, 255> threshold_;     // from which on the byte is one more
+  std::array<double, 255> threshold_;      // from which on the byte is one more
   std::array<std::uint8_t, steps> guess_;  // of the lower end of each step
 };
 

@@ -19,7 +19,9 @@ class Blocks {
       if (size_ == blocks_.size() * block) blocks_.emplace_back(new char[block]);
       std::size_t now = std::min<std::size_t>(n, block - size_ % block);
       std::memcpy(blocks_.back().get() + size_ % block, from, now);
-      from += now, n -= now, size_ += now;
+      from += now;
+      n -= now;
+      size_ += now;
     }
   }
   void append(std::string_view s) { append(s.data(), s.size()); }
@@ -32,7 +34,9 @@ class Blocks {
     while (n > 0) {
       std::size_t now = std::min<std::size_t>(n, block - at % block);
       if (std::memcmp(blocks_[at / block].get() + at % block, other, now) != 0) return false;
-      other += now, n -= now, at += now;
+      other += now;
+      n -= now;
+      at += now;
     }
     return true;
   }
@@ -43,7 +47,9 @@ class Blocks {
     while (n > 0) {
       std::size_t now = std::min<std::size_t>(n, block - at % block);
       std::memcpy(out, blocks_[at / block].get() + at % block, now);
-      out += now, n -= now, at += now;
+      out += now;
+      n -= now;
+      at += now;
     }
   }
 

@@ -51,16 +51,27 @@ class Unpacker {
   /// One member; false when there is no going on after it.
   bool member() {
     for (int status = Z_OK; status != Z_STREAM_END;) {
-      if (!refill()) return finish(Gunzip::damaged, "it ends too early"), false;
-      if (out_.room() == 0 && !out_.grow()) return finish(Gunzip::no_memory), false;
+      if (!refill()) {
+        finish(Gunzip::damaged, "it ends too early");
+        return false;
+      }
+      if (out_.room() == 0 && !out_.grow()) {
+        finish(Gunzip::no_memory);
+        return false;
+      }
       auto room = static_cast<uInt>(std::min(out_.room(), step));
       z_.next_out = reinterpret_cast<Bytef*>(out_.end());
       z_.avail_out = room;
       status = inflate(&z_, Z_NO_FLUSH);
       out_.added(room - z_.avail_out);
-      if (status == Z_MEM_ERROR) return finish(Gunzip::no_memory), false;
-      if (status != Z_OK && status != Z_STREAM_END)
-        return finish(Gunzip::damaged, z_.msg ? z_.msg : "unknown method"), false;
+      if (status == Z_MEM_ERROR) {
+        finish(Gunzip::no_memory);
+        return false;
+      }
+      if (status != Z_OK && status != Z_STREAM_END) {
+        finish(Gunzip::damaged, z_.msg ? z_.msg : "unknown method");
+        return false;
+      }
       if (too_much()) return false;
     }
     return true;
@@ -70,18 +81,27 @@ class Unpacker {
 
   bool too_much() {
     auto unpacked = static_cast<double>(out_.size()), packed = static_cast<double>(consumed());
-    if (out_.size() > limits_.ratio_from && unpacked > limits_.ratio * packed)
-      return finish(Gunzip::too_high_ratio), true;
+    if (out_.size() > limits_.ratio_from && unpacked > limits_.ratio * packed) {
+      finish(Gunzip::too_high_ratio);
+      return true;
+    }
     if (out_.size() <= limits_.bytes) return false;
     out_.cut(limits_.bytes);
-    return finish(Gunzip::too_many_bytes), true;
+    finish(Gunzip::too_many_bytes);
+    return true;
   }
 
   /// Goes to the next member, over padding; false at the end, or when something else follows.
   bool next_member() {
-    while (refill() && *z_.next_in == 0) ++z_.next_in, --z_.avail_in;
+    while (refill() && *z_.next_in == 0) {
+      ++z_.next_in;
+      --z_.avail_in;
+    }
     if (z_.avail_in == 0) return false;
-    if (*z_.next_in != 0x1f) return finish(Gunzip::damaged, "something else follows it"), false;
+    if (*z_.next_in != 0x1f) {
+      finish(Gunzip::damaged, "something else follows it");
+      return false;
+    }
     return inflateReset(&z_) == Z_OK;
   }
 

@@ -51,13 +51,20 @@ int Gzip::pack(std::string_view piece, bool last, const Put& put) {
 
 std::string gzipped(std::string_view bytes) {
   std::string out;
-  if (Gzip().pack(bytes, true, [&](std::string_view s) { return out += s, 0; })) throw std::bad_alloc();
+  if (Gzip().pack(bytes, true, [&](std::string_view s) {
+        out += s;
+        return 0;
+      }))
+    throw std::bad_alloc();
   return out;
 }
 
 std::uint64_t gzipped_size(std::span<const std::string_view> pieces) {
   std::uint64_t size = 0;
-  const Gzip::Put count = [&](std::string_view packed) { return size += packed.size(), 0; };
+  const Gzip::Put count = [&](std::string_view packed) {
+    size += packed.size();
+    return 0;
+  };
   Gzip gzip;
   for (auto p : pieces) gzip.pack(p, false, count);
   gzip.pack({}, true, count);

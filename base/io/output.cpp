@@ -27,7 +27,10 @@ class Descriptor {
   explicit Descriptor(int fd = -1) : fd_(fd) {}
   ~Descriptor() { close(); }
   Descriptor(const Descriptor&) = delete;
-  void operator=(int fd) { close(), fd_ = fd; }
+  void operator=(int fd) {
+    close();
+    fd_ = fd;
+  }
   operator int() const { return fd_; }
   /// 0, or the error that the system kept until now.
   int close() {
@@ -123,12 +126,15 @@ struct OutputFile::State {
   void open_existing(const struct stat& there) {
     if (S_ISDIR(there.st_mode))
       error = EISDIR;
-    else if (!S_ISREG(there.st_mode))
-      kind = direct, take(::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
-    else if (access(target.c_str(), W_OK) != 0)
+    else if (!S_ISREG(there.st_mode)) {
+      kind = direct;
+      take(::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+    } else if (access(target.c_str(), W_OK) != 0)
       error = errno;
-    else
-      replaced = there, open_temporary();
+    else {
+      replaced = there;
+      open_temporary();
+    }
   }
 
   void open_temporary() {
@@ -197,7 +203,10 @@ struct OutputFile::State {
     auto size = lseek(fd, 0, SEEK_CUR);
     if (size <= 0) return;
     void* p = mmap(nullptr, static_cast<std::size_t>(size), PROT_READ, MAP_SHARED, fd, 0);
-    if (p == MAP_FAILED) return void(error = errno);
+    if (p == MAP_FAILED) {
+      error = errno;
+      return;
+    }
     std::string_view all(static_cast<char*>(p), static_cast<std::size_t>(size));
     error = write_all(STDOUT_FILENO, {&all, 1});
     munmap(p, all.size());
@@ -215,7 +224,10 @@ struct OutputFile::State {
         return;
       }
       temporary = temporary_name();
-      if (!link(temporary)) return error = errno, temporary.clear();
+      if (!link(temporary)) {
+        error = errno;
+        return temporary.clear();
+      }
     }
     // What comes late, such as a full quota, must come before the old file is gone.
     if ((error = fd.close())) return;

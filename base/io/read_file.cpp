@@ -83,7 +83,10 @@ class Reader {
     text_.added(file_.read(text_.end(), head_size));
     out_.gzip = is_gzip(text_.view());
     if (out_.gzip ? !unzip() : !read_rest(limit)) return std::nullopt;
-    if (text_.size() == 0) return report(Diag::empty_file), std::nullopt;
+    if (text_.size() == 0) {
+      report(Diag::empty_file);
+      return std::nullopt;
+    }
     out_.name = name_;
     out_.text = text_.finish();
     return std::move(out_);
@@ -110,14 +113,23 @@ class Reader {
 
   bool read_rest(std::uint64_t limit) {
     for (bool more = text_.size() == head_size; more;) {
-      if (text_.room() == 0 && !text_.grow()) return failed(ENOMEM), false;
+      if (text_.room() == 0 && !text_.grow()) {
+        failed(ENOMEM);
+        return false;
+      }
       auto room = text_.room();
       auto got = file_.read(text_.end(), std::min<std::uint64_t>(room, limit + 1 - text_.size()));
       text_.added(got);
-      if (text_.size() > limit) return too_large(limit, "it does not end"), false;
+      if (text_.size() > limit) {
+        too_large(limit, "it does not end");
+        return false;
+      }
       more = got == room;
     }
-    if (file_.error()) return failed(file_.error()), false;
+    if (file_.error()) {
+      failed(file_.error());
+      return false;
+    }
     out_.bytes_on_disk = text_.size();
     return true;
   }
@@ -127,13 +139,21 @@ class Reader {
     text_.cut(0);
     // What the file says about its length is believed as far as its own size makes it likely.
     auto likely = static_cast<std::uint64_t>(static_cast<double>(file_.size()) * limits_.max_ratio);
-    if (!text_.reserve(std::min({file_.gzip_size() + 1, likely, limits_.max_unpacked + 1})))
-      return failed(ENOMEM), false;
+    if (!text_.reserve(std::min({file_.gzip_size() + 1, likely, limits_.max_unpacked + 1}))) {
+      failed(ENOMEM);
+      return false;
+    }
     auto more = [this](std::span<char> to) { return file_.read(to.data(), to.size()); };
     auto result = gunzip(head, more, {limits_.max_unpacked, limits_.max_ratio, limits_.ratio_from}, text_);
     out_.bytes_on_disk = result.packed;
-    if (file_.error()) return failed(file_.error()), false;
-    if (result.state == Gunzip::no_memory) return failed(ENOMEM), false;
+    if (file_.error()) {
+      failed(file_.error());
+      return false;
+    }
+    if (result.state == Gunzip::no_memory) {
+      failed(ENOMEM);
+      return false;
+    }
     if (result.state == Gunzip::damaged) report(Diag::gzip_damaged, result.why);
     if (result.state == Gunzip::too_many_bytes) report(Diag::gzip_bomb, readable_size(limits_.max_unpacked));
     if (result.state == Gunzip::too_high_ratio)
@@ -173,19 +193,34 @@ std::optional<FileText> read_file(const std::string& path, const ReadLimits& lim
 
 std::optional<std::string> read_bytes(const std::string& path, std::uint64_t limit, std::string& why) {
   File file(path, O_NONBLOCK);  // a pipe would wait for somebody who writes to it
-  if (file.error()) return why = reason(file.error()), std::nullopt;
-  if (!file.is_regular()) return why = "it is no regular file", std::nullopt;
-  if (file.size() > limit) return why = "it is larger than " + readable_size(limit), std::nullopt;
+  if (file.error()) {
+    why = reason(file.error());
+    return std::nullopt;
+  }
+  if (!file.is_regular()) {
+    why = "it is no regular file";
+    return std::nullopt;
+  }
+  if (file.size() > limit) {
+    why = "it is larger than " + readable_size(limit);
+    return std::nullopt;
+  }
   std::string bytes(file.size(), '\0');
   bytes.resize(file.read(bytes.data(), bytes.size()));
-  if (file.error()) return why = reason(file.error()), std::nullopt;
+  if (file.error()) {
+    why = reason(file.error());
+    return std::nullopt;
+  }
   return bytes;
 }
 
 std::string readable_size(std::uint64_t bytes) {
   constexpr std::string_view units[] = {" bytes", " KiB", " MiB", " GiB"};
   std::size_t unit = 0;
-  while (unit < 3 && bytes >= 1024 && (bytes % 1024 == 0 || bytes >= 10 * 1024)) bytes = (bytes + 512) / 1024, ++unit;
+  while (unit < 3 && bytes >= 1024 && (bytes % 1024 == 0 || bytes >= 10 * 1024)) {
+    bytes = (bytes + 512) / 1024;
+    ++unit;
+  }
   return std::to_string(bytes) + std::string(units[unit]);
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "base/io/buffer.h"
 #include "base/diagnostics.h"
+#include "base/io/buffer.h"
 
 namespace wrlkit {
 

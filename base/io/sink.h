@@ -30,7 +30,8 @@ class TextOut {
   void number(double v, int precision = 0) {
     char b[40];
     v += 0.0;
-    auto r = precision > 0 ? std::to_chars(b, b + sizeof b, v, std::chars_format::general, precision) : std::to_chars(b, b + sizeof b, v);
+    auto r = precision > 0 ? std::to_chars(b, b + sizeof b, v, std::chars_format::general, precision)
+                           : std::to_chars(b, b + sizeof b, v);
     *this << std::string_view(b, static_cast<std::size_t>(r.ptr - b));
   }
   /// Shortest text that reads back as an equal float.

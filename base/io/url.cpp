@@ -35,8 +35,10 @@ std::string percent_decode(std::string_view s) {
     int low = high >= 0 ? hex_digit(s[i + 2]) : -1;
     if (low < 0)
       out += s[i];
-    else
-      out += static_cast<char>(high << 4 | low), i += 2;
+    else {
+      out += static_cast<char>(high << 4 | low);
+      i += 2;
+    }
   }
   return out;
 }
@@ -47,7 +49,8 @@ constexpr auto base64_digits = [] {
   constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (std::size_t i = 0; i < alphabet.size(); ++i)
     table[static_cast<unsigned char>(alphabet[i])] = static_cast<signed char>(i);
-  table['-'] = 62, table['_'] = 63;
+  table['-'] = 62;
+  table['_'] = 63;
   return table;
 }();
 

@@ -17,7 +17,8 @@ struct Matrix {
             m[8] * p[0] + m[9] * p[1] + m[10] * p[2] + m[11]};
   }
   double determinant() const {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]);
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+           m[2] * (m[4] * m[9] - m[5] * m[8]);
   }
   bool operator==(const Matrix&) const = default;
 };
@@ -25,7 +26,8 @@ struct Matrix {
 inline Matrix operator*(const Matrix& a, const Matrix& b) {
   Matrix o;
   for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 4; ++c) o(r, c) = a(r, 0) * b(0, c) + a(r, 1) * b(1, c) + a(r, 2) * b(2, c) + (c == 3 ? a(r, 3) : 0);
+    for (int c = 0; c < 4; ++c)
+      o(r, c) = a(r, 0) * b(0, c) + a(r, 1) * b(1, c) + a(r, 2) * b(2, c) + (c == 3 ? a(r, 3) : 0);
   return o;
 }
 
@@ -47,7 +49,9 @@ inline Matrix rotation_matrix(const Vec4& r) {
   if (!(length > 0) || !std::isfinite(length)) return {};
   double x = r[0] / length, y = r[1] / length, z = r[2] / length, c = std::cos(r[3]), s = std::sin(r[3]), d = 1 - c;
   Matrix o;
-  o.m = {x * x * d + c, x * y * d - z * s, x * z * d + y * s, 0, x * y * d + z * s, y * y * d + c, y * z * d - x * s, 0, x * z * d - y * s, y * z * d + x * s, z * z * d + c, 0};
+  o.m = {x * x * d + c,     x * y * d - z * s, x * z * d + y * s, 0,
+         x * y * d + z * s, y * y * d + c,     y * z * d - x * s, 0,
+         x * z * d - y * s, y * z * d + x * s, z * z * d + c,     0};
   return o;
 }
 

@@ -1,5 +1,5 @@
-// JSON text, written in order: objects, arrays, numbers as short as they can be, strings safe for any bytes. Appends to a
-// string of the caller; nothing is kept but how deep it is and whether a comma is due.
+// JSON text, written in order: objects, arrays, numbers as short as they can be, strings safe for any bytes. Appends to
+// a string of the caller; nothing is kept but how deep it is and whether a comma is due.
 #pragma once
 #include <charconv>
 #include <cmath>
@@ -26,13 +26,16 @@ class JsonOut {
     comma_ = false;
   }
 
-  void value(std::string_view s) { string(s); comma_ = true; }
+  void value(std::string_view s) {
+    string(s);
+    comma_ = true;
+  }
   void value(const char* s) { value(std::string_view(s)); }
   void value(const std::string& s) { value(std::string_view(s)); }
   void value(bool b) { raw(b ? "true" : "false"); }
   /// Shortest text that reads back as the same number. JSON has no NaN and no infinity: null.
   template <class N>
-    requires std::is_arithmetic_v<N>
+  requires std::is_arithmetic_v<N>
   void value(N v) {
     if constexpr (std::is_floating_point_v<N>)
       if (!std::isfinite(v)) return raw("null");

@@ -9,20 +9,37 @@ namespace wrlkit {
 /// Into an attribute between apostrophes. Control characters that XML cannot hold become blanks.
 inline void xml_attribute_text(TextOut& out, std::string_view s) {
   for (char c : s) switch (c) {
-      case '&': out << "&amp;"; break;
-      case '<': out << "&lt;"; break;
-      case '>': out << "&gt;"; break;
-      case '\'': out << "&apos;"; break;
-      case '\n': out << "&#10;"; break;
-      case '\r': out << "&#13;"; break;
-      case '\t': out << "&#9;"; break;
-      default: out << (static_cast<unsigned char>(c) < ' ' ? ' ' : c);
+      case '&':
+        out << "&amp;";
+        break;
+      case '<':
+        out << "&lt;";
+        break;
+      case '>':
+        out << "&gt;";
+        break;
+      case '\'':
+        out << "&apos;";
+        break;
+      case '\n':
+        out << "&#10;";
+        break;
+      case '\r':
+        out << "&#13;";
+        break;
+      case '\t':
+        out << "&#9;";
+        break;
+      default:
+        out << (static_cast<unsigned char>(c) < ' ' ? ' ' : c);
     }
 }
 
 /// A Name of XML without a colon, as far as ASCII goes.
 inline bool is_xml_name(std::string_view s) {
-  auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80; };
+  auto letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+  };
   if (s.empty() || !letter(s[0])) return false;
   for (char c : s)
     if (!letter(c) && !(c >= '0' && c <= '9') && c != '-' && c != '.') return false;

@@ -55,7 +55,9 @@ void EarClipper::begin(std::uint32_t start) {
 // -- the queue
 
 void EarClipper::enqueue_all() {
-  ready_.clear(), deferred_.clear(), round_.clear();
+  ready_.clear();
+  deferred_.clear();
+  round_.clear();
   next_ready_ = next_round_ = 0;
   in_round_ = false;
   auto node = start_;
@@ -71,7 +73,10 @@ void EarClipper::enqueue_all() {
 bool EarClipper::next(std::uint32_t& node) {
   auto take = [&](std::vector<std::uint32_t>& queue, std::size_t& at, State state) {
     while (at < queue.size())
-      if (node = queue[at++]; state_[node] == state) return state_[node] = State::idle, true;
+      if (node = queue[at++]; state_[node] == state) {
+        state_[node] = State::idle;
+        return true;
+      }
     queue.clear();
     at = 0;
     return false;

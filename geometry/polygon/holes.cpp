@@ -55,7 +55,10 @@ class Bridges {
     each(outline_, [&](std::uint32_t n) {
       const Vec2& q = rings_.at[n];
       if (n == end || q[0] < corner[0] || q[0] > p[0] || !in_triangle(q, p, hit, corner) || !opens_to(n, p)) return;
-      if (!best_open || closer(q, rings_.at[best], p)) best = n, best_open = true;
+      if (!best_open || closer(q, rings_.at[best], p)) {
+        best = n;
+        best_open = true;
+      }
     });
     return best;
   }

@@ -16,7 +16,10 @@ struct Rings {
   std::vector<Node> nodes;
   std::vector<Vec2> at;  // per node
 
-  void clear() { nodes.clear(), at.clear(); }
+  void clear() {
+    nodes.clear();
+    at.clear();
+  }
 
   std::uint32_t add(std::uint32_t point, const Vec2& where) {
     auto n = static_cast<std::uint32_t>(nodes.size());

@@ -40,13 +40,20 @@ class ByteReader {
   bool ended() const { return ended_; }
 
   std::uint8_t byte() {
-    if (bytes_.empty()) return ended_ = true, std::uint8_t{0};
+    if (bytes_.empty()) {
+      ended_ = true;
+      return std::uint8_t{0};
+    }
     const auto b = static_cast<std::uint8_t>(bytes_.front());
     bytes_.remove_prefix(1);
     return b;
   }
   std::string_view bytes(std::uint64_t n) {
-    if (n > bytes_.size()) return ended_ = true, bytes_ = {}, std::string_view();
+    if (n > bytes_.size()) {
+      ended_ = true;
+      bytes_ = {};
+      return std::string_view();
+    }
     const auto s = bytes_.substr(0, static_cast<std::size_t>(n));
     bytes_.remove_prefix(s.size());
     return s;

@@ -59,8 +59,10 @@ class Reversal {
       if (w != none) used_.push_back(in_.wedge_vertex[w]);
     std::ranges::sort(used_);
     used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
-    corner_.resize(n), next_.resize(n, none);
-    first_.resize(used_.size(), none), last_.resize(used_.size(), none);
+    corner_.resize(n);
+    next_.resize(n, none);
+    first_.resize(used_.size(), none);
+    last_.resize(used_.size(), none);
     for (std::uint32_t c = 0; c < n; ++c) {
       const std::uint32_t w = in_.wedge_of_corner[c];
       if (w == none) continue;
@@ -110,7 +112,9 @@ class Reversal {
   void set_flags() {
     Mesh& m = out_.flags;
     m.kind = mesh_.kind;
-    m.ccw = mesh_.ccw, m.solid = mesh_.solid, m.convex = mesh_.convex;
+    m.ccw = mesh_.ccw;
+    m.solid = mesh_.solid;
+    m.convex = mesh_.convex;
     m.crease_angle = mesh_.crease_angle;
     out_.n_normal = mesh_.normal.present() ? mesh_.normal.width : 0;
     out_.n_color = mesh_.color.present() ? mesh_.color.width : 0;
@@ -132,7 +136,8 @@ class Reversal {
       original_face_[f] = number++;
       if (!gone_[f]) write_face(f);
     }
-    out_.n_base_vertices = out_.vertices.size(), out_.n_base_wedges = out_.wedges.size(),
+    out_.n_base_vertices = out_.vertices.size();
+    out_.n_base_wedges = out_.wedges.size();
     out_.n_base_faces = out_.faces.size();
   }
 

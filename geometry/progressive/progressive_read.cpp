@@ -51,7 +51,9 @@ class Reader {
     require(flags < 128, "unknown flags");
     Mesh& m = out_.flags;
     m.kind = Mesh::Kind::faces;
-    m.ccw = flags & mesh_bits::ccw, m.solid = flags & mesh_bits::solid, m.convex = flags & mesh_bits::convex;
+    m.ccw = flags & mesh_bits::ccw;
+    m.solid = flags & mesh_bits::solid;
+    m.convex = flags & mesh_bits::convex;
     out_.n_normal = flags & mesh_bits::normal ? 3 : 0;
     out_.n_color = !(flags & mesh_bits::color) ? 0 : flags & mesh_bits::alpha ? 4 : 3;
     out_.n_texcoord = flags & mesh_bits::texcoord ? 2 : 0;
@@ -63,7 +65,10 @@ class Reader {
     in_.bytes(6 * sizeof(float));  // bounds
     error_ = out_.base_error = in_.fixed<float>();
     require(std::isfinite(error_) && !std::signbit(error_), "the error of the base is no length");
-    n_base_vertices_ = count(), n_base_wedges_ = count(), n_base_faces_ = count(), n_splits_ = count(),
+    n_base_vertices_ = count();
+    n_base_wedges_ = count();
+    n_base_faces_ = count();
+    n_splits_ = count();
     n_faces_ = count();
     require(n_base_vertices_ + n_splits_ <= most && n_base_faces_ <= n_faces_, "counts that contradict one another");
     require(out_.width() > 0 || n_base_wedges_ == 0, "wedges without attributes");
@@ -101,7 +106,8 @@ class Reader {
               "a face has a vertex twice");
       add_face(face);
     }
-    out_.n_base_vertices = out_.vertices.size(), out_.n_base_wedges = out_.wedges.size(),
+    out_.n_base_vertices = out_.vertices.size();
+    out_.n_base_wedges = out_.wedges.size();
     out_.n_base_faces = out_.faces.size();
     based_ = !in_.ended();
   }
@@ -181,8 +187,12 @@ class Reader {
       if (!in_.ended()) throw;
     }
     if (!in_.ended()) return true;
-    out_.vertices.resize(old_vertices), out_.wedges.resize(old_wedges), out_.faces.resize(old_faces);
-    out_.corners.resize(old_corners), out_.wedge_changes.resize(old_changes), out_.values.resize(old_values);
+    out_.vertices.resize(old_vertices);
+    out_.wedges.resize(old_wedges);
+    out_.faces.resize(old_faces);
+    out_.corners.resize(old_corners);
+    out_.wedge_changes.resize(old_changes);
+    out_.values.resize(old_values);
     return false;
   }
 
@@ -222,7 +232,8 @@ class Reader {
 
   void move_corners(std::uint32_t v, std::uint32_t born, bool one_by_one) {
     replay_.take_fan(v, fan_);
-    stay_.clear(), go_.clear();
+    stay_.clear();
+    go_.clear();
     std::uint8_t mask = 0;
     for (std::size_t i = 0; i < fan_.size(); ++i) {
       if (i % 8 == 0) mask = in_.byte();
@@ -275,7 +286,8 @@ class Reader {
     }
     const auto first = static_cast<std::uint32_t>(3 * out_.faces.size());
     add_face(face);
-    go_.push_back(first + born_at), stay_.push_back(first + 3 - turn - born_at);
+    go_.push_back(first + born_at);
+    stay_.push_back(first + 3 - turn - born_at);
   }
 
   std::uint32_t far_wedge() {

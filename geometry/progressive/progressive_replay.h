@@ -32,10 +32,15 @@ class Replay {
   using Point = ProgressiveRecord::Point;
   static constexpr std::uint32_t none = 0xffffffffu;
 
-  void add_vertex(const Point& p) { position.push_back(p), first_.push_back(none), last_.push_back(none); }
+  void add_vertex(const Point& p) {
+    position.push_back(p);
+    first_.push_back(none);
+    last_.push_back(none);
+  }
   void add_face(const std::array<Corner, 3>& corners) {
     for (const Corner& c : corners) {
-      corner.push_back(c), next_.push_back(none);
+      corner.push_back(c);
+      next_.push_back(none);
       append(c.vertex, static_cast<std::uint32_t>(corner.size() - 1));
     }
   }

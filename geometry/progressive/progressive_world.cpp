@@ -1,6 +1,5 @@
 #include "geometry/progressive/progressive_world.h"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -41,7 +40,10 @@ std::vector<Placed> places_of(const Scene& scene, Diagnostics& diag) {
     const NodeId geometry = scene.get(n, nodes::shape::geometry);
     if (!geometry) return;
     auto& i = number[geometry.value];
-    if (i == 0) out.push_back({geometry, {}}), i = static_cast<std::uint32_t>(out.size());
+    if (i == 0) {
+      out.push_back({geometry, {}});
+      i = static_cast<std::uint32_t>(out.size());
+    }
     out[i - 1].places.push_back({std::string(scene.name(n)), matrix, color_of(scene, n)});
   });
   if (!complete) diag.report(Diag::expansion_limit, {}, most_visits, "nodes when every USE is followed");
@@ -68,7 +70,8 @@ std::vector<Piece> pieces_of(std::span<const ProgressiveSurface> surfaces) {
     for (const auto& cut : surfaces[i].stream.cuts) {
       piece.end = cut.end;
       out.push_back(piece);
-      piece.begin = cut.end, piece.error = cut.error * scale;
+      piece.begin = cut.end;
+      piece.error = cut.error * scale;
     }
   }
   std::ranges::stable_sort(out, std::greater{}, &Piece::error);

@@ -50,9 +50,12 @@ class Writer {
     out_.bytes(progressive_magic);
     std::uint8_t flags = 0;
     auto flag = [&](bool on, std::uint8_t bit) { flags |= on ? bit : 0; };
-    flag(m.ccw, mesh_bits::ccw), flag(m.solid, mesh_bits::solid), flag(m.convex, mesh_bits::convex);
-    flag(in_.n_normal, mesh_bits::normal), flag(in_.n_color, mesh_bits::color),
-        flag(in_.n_color == 4, mesh_bits::alpha);
+    flag(m.ccw, mesh_bits::ccw);
+    flag(m.solid, mesh_bits::solid);
+    flag(m.convex, mesh_bits::convex);
+    flag(in_.n_normal, mesh_bits::normal);
+    flag(in_.n_color, mesh_bits::color);
+    flag(in_.n_color == 4, mesh_bits::alpha);
     flag(in_.n_texcoord, mesh_bits::texcoord);
     out_.byte(flags);
     out_.byte(code_.kind());
@@ -69,7 +72,10 @@ class Writer {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Point low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     for (const Point& p : final_positions(in_))
-      for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        low[i] = std::min(low[i], p[i]);
+        high[i] = std::max(high[i], p[i]);
+      }
     if (in_.vertices.empty()) low = high = {};
     for (double x : low) out_.fixed(outward(x, -infinity));
     for (double x : high) out_.fixed(outward(x, infinity));
@@ -144,7 +150,10 @@ class Writer {
                                         (s.end_of_wedges > begin_.wedges ? split_bits::values : 0)));
     if (n_faces >= 3) out_.number(n_faces - 3);
     out_.number(s.vertex);
-    if (s.error < error_) out_.number(static_cast<std::uint64_t>(ordered(error_) - ordered(s.error))), error_ = s.error;
+    if (s.error < error_) {
+      out_.number(static_cast<std::uint64_t>(ordered(error_) - ordered(s.error)));
+      error_ = s.error;
+    }
     const std::size_t born = in_.n_base_vertices + i;
     out_.whole(std::int64_t{in_.vertices[born].number} - in_.vertices[s.vertex].number);
     positions(s.vertex, moves, s.fine, in_.vertices[born].position);
@@ -180,15 +189,22 @@ class Writer {
 
   void move_corners(const Record::Split& s, std::uint32_t born, bool one_by_one) {
     replay_.take_fan(s.vertex, fan_);
-    stay_.clear(), go_.clear();
+    stay_.clear();
+    go_.clear();
     std::size_t k = begin_.corners;
     std::uint8_t mask = 0;
     for (std::size_t i = 0; i < fan_.size(); ++i) {
       const bool goes = k < s.end_of_corners && in_.corners[k].corner == fan_[i];
-      if (goes) ++k, mask |= static_cast<std::uint8_t>(1 << i % 8);
+      if (goes) {
+        ++k;
+        mask |= static_cast<std::uint8_t>(1 << i % 8);
+      }
       (goes ? go_ : stay_).push_back(fan_[i]);
       replay_.append(goes ? born : s.vertex, fan_[i]);
-      if (i % 8 == 7 || i + 1 == fan_.size()) out_.byte(mask), mask = 0;
+      if (i % 8 == 7 || i + 1 == fan_.size()) {
+        out_.byte(mask);
+        mask = 0;
+      }
     }
     const auto first_new = static_cast<std::uint32_t>(replay_.row.size());
     for (k = begin_.corners; k < s.end_of_corners; ++k) {
@@ -226,8 +242,8 @@ class Writer {
         far_wedge(x.wedge);
     }
     replay_.add_face(face.corners);
-    go_.push_back(static_cast<std::uint32_t>(3 * f + born_at)),
-        stay_.push_back(static_cast<std::uint32_t>(3 * f + 3 - turn - born_at));
+    go_.push_back(static_cast<std::uint32_t>(3 * f + born_at));
+    stay_.push_back(static_cast<std::uint32_t>(3 * f + 3 - turn - born_at));
   }
 
   void far_wedge(std::uint32_t w) {

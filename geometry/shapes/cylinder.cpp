@@ -13,7 +13,10 @@ namespace {
 void write_side(FaceWriter& out, std::span<const double> x, std::span<const double> z) {
   const auto n = static_cast<std::uint32_t>(x.size() - 1);
   for (std::uint32_t k = 0; k < n; ++k) out.normal(x[k], 0, z[k]);
-  for (std::uint32_t k = 0; k <= n; ++k) out.texcoord(double(k) / n, 0), out.texcoord(double(k) / n, 1);
+  for (std::uint32_t k = 0; k <= n; ++k) {
+    out.texcoord(double(k) / n, 0);
+    out.texcoord(double(k) / n, 1);
+  }
   for (std::uint32_t k = 0; k < n; ++k) {
     const std::uint32_t next = (k + 1) % n, t = 2 * k;
     out.corner(k, k, t);

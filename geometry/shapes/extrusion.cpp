@@ -60,7 +60,10 @@ class Reader {
     std::vector<std::array<double, N>> out(flat.size() / N);
     for (std::size_t i = 0; i < out.size() * N; ++i) {
       double v = flat[i];
-      if (!std::isfinite(v)) v = 0, ++n_not_finite_;
+      if (!std::isfinite(v)) {
+        v = 0;
+        ++n_not_finite_;
+      }
       out[i / N][i % N] = v;
     }
     return out;
@@ -136,7 +139,10 @@ class Extruder {
     cap_texcoords_ = static_cast<std::uint32_t>(mesh_.texcoord.count());
     Vec2 low = f_.crossSection[0], high = low;
     for (auto& c : f_.crossSection)
-      for (std::size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], c[k]), high[k] = std::max(high[k], c[k]);
+      for (std::size_t k = 0; k < 2; ++k) {
+        low[k] = std::min(low[k], c[k]);
+        high[k] = std::max(high[k], c[k]);
+      }
     const double larger = std::max(high[0] / 2 - low[0] / 2, high[1] / 2 - low[1] / 2);  // halves do not overflow
     auto scaled = [&](std::uint32_t k, std::size_t axis) {
       return larger > 0 ? (f_.crossSection[k][axis] / 2 - low[axis] / 2) / larger : 0;

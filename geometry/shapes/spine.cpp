@@ -29,7 +29,10 @@ class Spine {
   std::vector<SpinePlane> planes() const {
     if (n_ < 2) return {SpinePlane{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     std::vector<Vec3> y(n_), z(n_);
-    for (std::size_t i = 0; i < n_; ++i) y[i] = along(i), z[i] = across(i);
+    for (std::size_t i = 0; i < n_; ++i) {
+      y[i] = along(i);
+      z[i] = across(i);
+    }
     for (std::size_t i = 1; i < n_; ++i)  // a hairpin has no direction at its tip
       if (length(y[i]) == 0) y[i] = y[i - 1];
     std::vector<SpinePlane> out(n_);

@@ -13,7 +13,9 @@ Collapser::Collapser(const Mesh& triangles, const CollapseOptions& options)
     : impl_(new Impl{simplify::make_simplifier(triangles, options), {}}) {
   Mesh& m = impl_->flags;
   m.kind = triangles.kind;
-  m.ccw = triangles.ccw, m.solid = triangles.solid, m.convex = triangles.convex;
+  m.ccw = triangles.ccw;
+  m.solid = triangles.solid;
+  m.convex = triangles.convex;
   m.crease_angle = triangles.crease_angle;
 }
 Collapser::~Collapser() = default;

@@ -12,14 +12,15 @@
 // - Features: borders, seams (edges where the corners of both faces differ in color or texture coordinate, or in
 // normals by
 //   more than the crease angle) and edges of more than two faces. An edge of them collapses along itself only; other
-//   edges collapse into them, never them away. A vertex where the surface touches itself stays where it is, exactly, and
-//   so does one that is to be fixed.
+//   edges collapse into them, never them away. A vertex where the surface touches itself stays where it is, exactly,
+//   and so does one that is to be fixed.
 // - Creases: the same, but a collapse that does not go along them is possible, for four times the cost. So they stay
 // while
 //   there is anything else to take; forbidden altogether, noisy scans and small budgets suffer (docs/rationale.md).
-// - No face turns by 90 degrees or more in a collapse; slivers are not made of good faces. No face comes to lie back on a
-//   neighbour, unless by steps of less than ten degrees, or where the faces between two sides of a sheet go; length_normal
-//   and melax are left free to, as their formulas have it.
+// - No face turns by 90 degrees or more in a collapse; slivers are not made of good faces. No face comes to lie back on
+// a
+//   neighbour, unless by steps of less than ten degrees, or where the faces between two sides of a sheet go;
+//   length_normal and melax are left free to, as their formulas have it.
 //
 // Attributes of the corners are interpolated along the edge. Deterministic; single-threaded.
 #pragma once
@@ -47,8 +48,8 @@ struct CollapseOptions {
   // Both false: the formulas of length_normal and melax are the paper's and nothing else.
   bool keep_borders = true;
   bool keep_creases = true;
-  double crease_angle = 1.2;  // radians between the normals of two faces, from which on their edge is a crease
-  bool record = false;        // fill Collapser::record
+  double crease_angle = 1.2;         // radians between the normals of two faces, from which on their edge is a crease
+  bool record = false;               // fill Collapser::record
   std::vector<std::uint32_t> fixed;  // positions of the mesh that stay where they are, ascending
 };
 
@@ -101,7 +102,8 @@ class Collapser {
   /// Collapses the cheapest edge until at most `n_faces` are left (an edge takes two faces with it, so one less is
   /// possible), or until there is no edge that may go, or none that would leave error() at most `max_error`. Calling it
   /// for a series of targets gives the same as one run to the last. In meshes of more than 32,768 vertices, costs
-  /// between two powers of four (of two: length_normal and melax) count as equal until 16,384 faces are left. O(n log n) all in all.
+  /// between two powers of four (of two: length_normal and melax) count as equal until 16,384 faces are left. O(n log
+  /// n) all in all.
   void run_to(std::size_t n_faces, double max_error = std::numeric_limits<double>::infinity());
 
   std::size_t n_faces() const;

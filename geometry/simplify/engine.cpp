@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t many_vertices = 1 << 15;  // from which on a mesh is simplified in sweeps
 constexpr std::size_t few_faces = 1 << 14;        // until so many are left
-constexpr double fold_weight = 0.1;               // of the faces that an end takes along; 1: folds stay that nobody needs
+constexpr double fold_weight = 0.1;  // of the faces that an end takes along; 1: folds stay that nobody needs
 
 /// Where x is along the edge from a (0) to b (1).
 double along(const Vec3& a, const Vec3& b, const Vec3& x) {
@@ -90,7 +90,10 @@ bool Engine::settle(Move& move) {
 
 /// For the vertex at the top of the queue. False when it is not the cheapest after all.
 bool Engine::settle_vertex(std::uint32_t v, Move& move) {
-  if (!surface_.gather(v, from_)) return queue_->remove(v), false;
+  if (!surface_.gather(v, from_)) {
+    queue_->remove(v);
+    return false;
+  }
   const VertexQueue::Key key = queue_->top_key();
   options_.clear();
   if (int s = from_.find(best_[v]); s >= 0) pricer_->price(from_, s, options_);
@@ -124,7 +127,8 @@ Engine::Refusal Engine::refusal(const Option& option) {
   return keeps_shape(surface_, from_, to_, option.position, pricer_->one_way()) ? Refusal::none : Refusal::shape;
 }
 
-/// What an end that is drawn in costs, as if a part of the faces around moved so far. The formulas of the paper are let alone.
+/// What an end that is drawn in costs, as if a part of the faces around moved so far. The formulas of the paper are let
+/// alone.
 double Engine::cost_of_fold(const Option& option) const {
   const double loss = pricer_->one_way() ? 0 : squared_loss_at_fold(surface_, from_, to_, option.position);
   if (loss == 0) return 0;

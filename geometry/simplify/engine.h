@@ -2,8 +2,8 @@
 //
 // Every vertex is in the queue with the cost of the cheapest edge that it has to offer, whether or not that edge may
 // go. Only at the top of the queue this is looked at: the vertex is priced once more, and goes back into the queue when
-// it has become dearer, or when it is the next best edge that may go. An edge whose best place would turn a face over is
-// offered at both its ends instead.
+// it has become dearer, or when it is the next best edge that may go. An edge whose best place would turn a face over
+// is offered at both its ends instead.
 //
 // After a collapse only the vertex that is left is priced, with all its edges; in a large mesh (sweeping_), later. What
 // became dearer around it is found at the top of the queue; what became cheaper there, a little late. That saves time

@@ -74,7 +74,10 @@ class Finder {
     int n_groups = ring_.n_spokes;
     for (const Ring::Face& f : ring_.face_span()) {
       std::uint8_t a = root(f.next), b = root(f.prev);
-      if (a != b) group[a] = b, --n_groups;
+      if (a != b) {
+        group[a] = b;
+        --n_groups;
+      }
     }
     return n_groups == 1;
   }

@@ -7,7 +7,7 @@ namespace wrlkit::simplify {
 
 struct FeatureOptions {
   bool borders, creases;
-  double crease_angle;  // radians
+  double crease_angle;                   // radians
   std::span<const std::uint32_t> fixed;  // positions of the mesh that came in, ascending
 };
 

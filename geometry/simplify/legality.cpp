@@ -59,7 +59,8 @@ bool folds_back(const Surface& surface, const Ring& u, const Ring& v, const Vec3
   for (const Turn& f : std::span(turns, n)) {
     if (!turns_much(f.before, f.after)) continue;
     for (const Turn& g : std::span(turns, n))
-      if ((g.next == f.prev || g.prev == f.next) && folded(f.after, g.after) && !folded(f.before, g.before)) return true;
+      if ((g.next == f.prev || g.prev == f.next) && folded(f.after, g.after) && !folded(f.before, g.before))
+        return true;
     const auto g = surface.across(f.face, f.next, f.prev);
     if (g == none) continue;
     const Vec3 normal = surface.normal(g);
@@ -88,7 +89,10 @@ bool keeps_topology(const Ring& u, const Ring& v) {
   bool common[2 * Ring::max_faces] = {}, any_pair = false;  // of the spokes of u: whether v has it too
   int n_common = 0, n_opposite = 0;
   for (int i = 0; i < u.n_spokes; ++i)
-    if (u.spokes[i].vertex != pv && v.find(u.spokes[i].vertex) >= 0) common[i] = true, ++n_common;
+    if (u.spokes[i].vertex != pv && v.find(u.spokes[i].vertex) >= 0) {
+      common[i] = true;
+      ++n_common;
+    }
   bool seen[2 * Ring::max_faces] = {};
   for (const Ring::Face& f : u.face_span()) {
     if (!u.has(f, pv)) {
@@ -97,7 +101,10 @@ bool keeps_topology(const Ring& u, const Ring& v) {
       continue;
     }
     std::uint8_t w = u.next_vertex(f) == pv ? f.prev : f.next;
-    if (!seen[w]) seen[w] = true, ++n_opposite;
+    if (!seen[w]) {
+      seen[w] = true;
+      ++n_opposite;
+    }
     if (u.spokes[w].feature && v.spokes[v.find(u.spokes[w].vertex)].feature) return false;
   }
   if (n_common != n_opposite || n_opposite == 0) return false;
@@ -130,7 +137,8 @@ double squared_loss_at_fold(const Surface& surface, const Ring& u, const Ring& v
     for (const Ring* ring : {&u, &v})
       for (const Ring::Face& f : ring->face_span())
         if (!ring->has(f, ring == &u ? v.center : u.center))
-          nearest = std::min(nearest, squared_distance(p, {x, surface.position(ring->next_vertex(f)), surface.position(ring->prev_vertex(f))}));
+          nearest = std::min(nearest, squared_distance(p, {x, surface.position(ring->next_vertex(f)),
+                                                           surface.position(ring->prev_vertex(f))}));
     loss = std::max(loss, nearest);
   }
   return loss;

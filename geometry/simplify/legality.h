@@ -9,14 +9,14 @@ namespace wrlkit::simplify {
 /// other edges are both features.
 bool keeps_topology(const Ring& u, const Ring& v);
 
-/// With that vertex at x, no face turns by about 80 degrees or more, and none becomes a sliver that was none. Nor does one
-/// that turns by ten degrees or more come to lie back on a neighbour, their normals more than 150 degrees apart where they
-/// were not: on noisy scans faces turn over step by step. `may_fold` takes this last rule away.
+/// With that vertex at x, no face turns by about 80 degrees or more, and none becomes a sliver that was none. Nor does
+/// one that turns by ten degrees or more come to lie back on a neighbour, their normals more than 150 degrees apart
+/// where they were not: on noisy scans faces turn over step by step. `may_fold` takes this last rule away.
 bool keeps_shape(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x, bool may_fold);
 
-/// Where faces around the edge look in opposite directions, as at the end of a wire or on the rim of a sheet: how far the
-/// two vertices are from the faces that are left of both rings, squared; 0 elsewhere. The planes of the faces do not tell
-/// that an end is drawn in.
+/// Where faces around the edge look in opposite directions, as at the end of a wire or on the rim of a sheet: how far
+/// the two vertices are from the faces that are left of both rings, squared; 0 elsewhere. The planes of the faces do
+/// not tell that an end is drawn in.
 double squared_loss_at_fold(const Surface& surface, const Ring& u, const Ring& v, const Vec3& x);
 
 /// The largest distance of x from the planes of the faces and, for x on a feature, from its lines.

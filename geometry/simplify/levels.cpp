@@ -14,8 +14,11 @@ constexpr struct {
   std::string_view name;
   Criterion value;
 } criteria[] = {
-    {"length-normal", Criterion::length_normal}, {"melax", Criterion::melax},     {"lindstrom-turk", Criterion::lindstrom_turk},
-    {"quadric", Criterion::quadric},             {"meshopt", Criterion::meshopt},
+    {"length-normal", Criterion::length_normal},
+    {"melax", Criterion::melax},
+    {"lindstrom-turk", Criterion::lindstrom_turk},
+    {"quadric", Criterion::quadric},
+    {"meshopt", Criterion::meshopt},
 };
 
 /// To six decimals of the extent, which no eye can tell and a text file is a third shorter for. Positions that were
@@ -145,6 +148,8 @@ std::optional<MeshLevel> LevelMaker::next(std::size_t n_faces) {
   return level;
 }
 
-std::vector<MeshLevel> make_levels(const Mesh& first, const LevelOptions& options) { return Levels(first, options).run(); }
+std::vector<MeshLevel> make_levels(const Mesh& first, const LevelOptions& options) {
+  return Levels(first, options).run();
+}
 
 }  // namespace wrlkit

@@ -52,9 +52,9 @@ class LevelMaker {
   Collapser collapser_;
 };
 
-/// The levels behind `first`, which is a mesh of triangles (Mesh::is_triangles). Each is made from the one before, and is
-/// coarser than it but farther from the first: one that saves too little, or is no nearer than a coarser one, is left out,
-/// and so is one of fewer triangles than a box has. O(n log n) for each error, or once for all ratios.
+/// The levels behind `first`, which is a mesh of triangles (Mesh::is_triangles). Each is made from the one before, and
+/// is coarser than it but farther from the first: one that saves too little, or is no nearer than a coarser one, is
+/// left out, and so is one of fewer triangles than a box has. O(n log n) for each error, or once for all ratios.
 std::vector<MeshLevel> make_levels(const Mesh& first, const LevelOptions& options);
 
 }  // namespace wrlkit

@@ -71,7 +71,8 @@ class LindstromTurk final : public Pricer {
   void fetch(const Ring& ring) const {
     for (const Ring::Spoke& s : ring.spoke_span()) {
       const char* m = reinterpret_cast<const char*>(&metric_[s.vertex]);
-      __builtin_prefetch(m), __builtin_prefetch(m + sizeof(Metric) - 1);
+      __builtin_prefetch(m);
+      __builtin_prefetch(m + sizeof(Metric) - 1);
     }
   }
   /// Plane and normal, which every corner of a face has.
@@ -83,7 +84,8 @@ class LindstromTurk final : public Pricer {
     return m;
   }
   bool has_lines(const Ring& ring) const {
-    return std::ranges::any_of(ring.face_span(), [&](const Ring::Face& f) { return surface_.face[f.face].features & 7; });
+    return std::ranges::any_of(ring.face_span(),
+                               [&](const Ring::Face& f) { return surface_.face[f.face].features & 7; });
   }
 
   void move(const Ring& from, const Ring& to, const Vec3& x) {
@@ -100,7 +102,8 @@ class LindstromTurk final : public Pricer {
         Metric m = face_metric(cross(surface_.position(a) - x, surface_.position(b) - x));
         center.add(m, 1);
         m.add(before, -1);
-        metric_[a].add(m, 1), metric_[b].add(m, 1);
+        metric_[a].add(m, 1);
+        metric_[b].add(m, 1);
       }
     }
     metric_[to.center] = center;

@@ -56,7 +56,8 @@ std::vector<double> ranges(const Sphere& sphere, std::span<const MeshLevel> leve
 
 double ScreenBudget::per_pixel() const { return screen_height / (2 * std::tan(field_of_view / 2)); }
 
-std::size_t LodNodes::add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels, const ScreenBudget& budget) {
+std::size_t LodNodes::add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels,
+                          const ScreenBudget& budget) {
   const auto sphere = bounding_sphere(mesh);
   const auto range = ranges(sphere, levels, budget);
   if (range.empty()) return 0;

@@ -21,9 +21,10 @@ class LodNodes {
  public:
   explicit LodNodes(Scene& scene) : scene_(scene) {}
 
-  /// Makes a LOD of each Shape that holds the surface, with the Shape as its first level. `mesh` is the surface; nothing is
-  /// made when there are no levels and it is not to vanish. Returns the number of LODs.
-  std::size_t add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels, const ScreenBudget& budget);
+  /// Makes a LOD of each Shape that holds the surface, with the Shape as its first level. `mesh` is the surface;
+  /// nothing is made when there are no levels and it is not to vanish. Returns the number of LODs.
+  std::size_t add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels,
+                  const ScreenBudget& budget);
   /// Puts the LODs where their Shapes were: into grouping nodes, and among the roots of scopes. O(nodes).
   void replace_shapes();
 

@@ -18,10 +18,18 @@ struct Matrix {
   }
   /// s v v^T.
   void add_outer(const Vec3& v, double s) {
-    a[0] += s * v[0] * v[0], a[1] += s * v[0] * v[1], a[2] += s * v[0] * v[2];
-    a[3] += s * v[1] * v[1], a[4] += s * v[1] * v[2], a[5] += s * v[2] * v[2];
+    a[0] += s * v[0] * v[0];
+    a[1] += s * v[0] * v[1];
+    a[2] += s * v[0] * v[2];
+    a[3] += s * v[1] * v[1];
+    a[4] += s * v[1] * v[2];
+    a[5] += s * v[2] * v[2];
   }
-  void add_identity(double s) { a[0] += s, a[3] += s, a[5] += s; }
+  void add_identity(double s) {
+    a[0] += s;
+    a[3] += s;
+    a[5] += s;
+  }
   /// Times the determinant.
   Matrix adjugate() const {
     return {{a[3] * a[5] - a[4] * a[4], a[2] * a[4] - a[1] * a[5], a[1] * a[4] - a[2] * a[3], a[0] * a[5] - a[2] * a[2],

@@ -33,8 +33,8 @@ class Meshopt final : public Simplifier {
     float error = 0;
     std::vector<std::uint32_t> out(index_.size());
     out.resize(meshopt_simplify(out.data(), index_.data(), index_.size(), points_.data(), vertex_of_.size(),
-                                3 * sizeof(float), 3 * n_faces, limit,
-                                lock_borders_ ? meshopt_SimplifyLockBorder : 0, &error));
+                                3 * sizeof(float), 3 * n_faces, limit, lock_borders_ ? meshopt_SimplifyLockBorder : 0,
+                                &error));
     n_faces_ = out.size() / 3;
     error_ = error * scale;
     for (std::uint32_t f = 0; f < surface_.n_slots(); ++f) {

@@ -20,8 +20,8 @@ bool for_each_place(const Scene& scene, Shown shown, const std::function<void(No
 /// The largest factor by which lengths grow, for matrices without shear.
 double scale_of(const Matrix& m);
 
-/// Of each surface the largest over its places: metres of the world for a unit of the geometry. 1 where it stands nowhere,
-/// or is scaled to nothing.
+/// Of each surface the largest over its places: metres of the world for a unit of the geometry. 1 where it stands
+/// nowhere, or is scaled to nothing.
 std::vector<double> largest_scales(const Scene& scene, std::span<const ShapeSurface> surfaces);
 
 /// By Shape: the number of its surface among these, from 1; 0: of none.

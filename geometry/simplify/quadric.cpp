@@ -56,8 +56,11 @@ class GlobalQuadric final : public Pricer {
   GlobalQuadric(const Surface& surface, const Wedges& wedges)
       : Pricer(surface), wedges_(wedges), quadric_(surface.n_vertices()), width_(wedges.width()) {
     origin_ = surface.n_vertices() ? surface.position(0) : Vec3{};
-    if (width_)
-      wedge_quadric_.resize(wedges.count()), area_.resize(wedges.count()), linear_.resize(wedges.count() * width_);
+    if (width_) {
+      wedge_quadric_.resize(wedges.count());
+      area_.resize(wedges.count());
+      linear_.resize(wedges.count() * width_);
+    }
     scale_ = width_ ? attribute_size * size() : 0;
     for (std::uint32_t f = 0; f < surface.n_slots(); ++f)
       if (surface.alive(f)) add_face(f);
@@ -100,7 +103,10 @@ class GlobalQuadric final : public Pricer {
   double size() const {
     Vec3 low{}, high{};
     for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v)
-      for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], point(v)[i]), high[i] = std::max(high[i], point(v)[i]);
+      for (int i = 0; i < 3; ++i) {
+        low[i] = std::min(low[i], point(v)[i]);
+        high[i] = std::max(high[i], point(v)[i]);
+      }
     return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
   }
 
@@ -147,7 +153,8 @@ class GlobalQuadric final : public Pricer {
       const auto& w = wedges_.of_face[face.face];
       std::uint32_t a = w[face.corner], b = w[(face.corner + (face.next == spoke ? 1 : 2)) % 3];
       if (a != last_a && b != last_b) f(a, b);
-      last_a = a, last_b = b;
+      last_a = a;
+      last_b = b;
     }
   }
 

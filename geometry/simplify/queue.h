@@ -47,7 +47,10 @@ class HeapQueue final : public VertexQueue {
   void set(std::uint32_t v, Key key) override {
     std::uint64_t entry = std::uint64_t{key} << 32 | v;
     std::uint32_t i = at_[v];
-    if (i == absent) i = static_cast<std::uint32_t>(heap_.size()), heap_.push_back(entry);
+    if (i == absent) {
+      i = static_cast<std::uint32_t>(heap_.size());
+      heap_.push_back(entry);
+    }
     place(i, entry);
   }
   void remove(std::uint32_t v) override {
@@ -63,18 +66,25 @@ class HeapQueue final : public VertexQueue {
   static constexpr std::uint32_t absent = 0xffffffffu;
   static std::uint32_t vertex(std::uint64_t entry) { return static_cast<std::uint32_t>(entry); }
 
-  void put(std::size_t i, std::uint64_t entry) { heap_[i] = entry, at_[vertex(entry)] = static_cast<std::uint32_t>(i); }
+  void put(std::size_t i, std::uint64_t entry) {
+    heap_[i] = entry;
+    at_[vertex(entry)] = static_cast<std::uint32_t>(i);
+  }
 
   /// Puts the entry where it belongs, from the hole at i.
   void place(std::size_t i, std::uint64_t entry) {
-    while (i > 0 && entry < heap_[(i - 1) / 4]) put(i, heap_[(i - 1) / 4]), i = (i - 1) / 4;
+    while (i > 0 && entry < heap_[(i - 1) / 4]) {
+      put(i, heap_[(i - 1) / 4]);
+      i = (i - 1) / 4;
+    }
     while (true) {
       std::size_t c = 4 * i + 1, end = c + 4 < heap_.size() ? c + 4 : heap_.size();
       if (c >= end) break;
       for (std::size_t d = c + 1; d < end; ++d)
         if (heap_[d] < heap_[c]) c = d;
       if (entry <= heap_[c]) break;
-      put(i, heap_[c]), i = c;
+      put(i, heap_[c]);
+      i = c;
     }
     put(i, entry);
   }

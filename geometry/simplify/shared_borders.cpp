@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t most_entries = 20'000'000;  // of positions in places; the borders of what comes later are free
 constexpr double tolerance = 0x1p-20;             // of the largest coordinate
-constexpr double near_origin = 0x1p-8;            // of the largest coordinate of the world, which counts as such at least
+constexpr double near_origin = 0x1p-8;  // of the largest coordinate of the world, which counts as such at least
 
 std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ x >> 31) * 0x9e3779b97f4a7c15u;
@@ -23,8 +23,8 @@ struct Entry {
   std::uint32_t part, border;
 };
 
-/// Cells are some times as wide as what counts as the same, so that equal positions have a cell in common although each is
-/// entered in one or two as a rule.
+/// Cells are some times as wide as what counts as the same, so that equal positions have a cell in common although each
+/// is entered in one or two as a rule.
 class Cells {
  public:
   explicit Cells(double least) : least_(least) {}
@@ -60,9 +60,14 @@ class Cells {
 /// neighbours, without carry, is zero there, and nearly never on a border.
 void SharedBorders::add(const Mesh& mesh) {
   local_.reset(mesh.n_positions());
-  used_.clear(), open_.clear();
+  used_.clear();
+  open_.clear();
   auto sum = [&](std::uint32_t p) -> std::uint64_t& {
-    if (!local_.contains(p)) local_.set(p, static_cast<std::uint32_t>(used_.size())), used_.push_back(p), open_.push_back(0);
+    if (!local_.contains(p)) {
+      local_.set(p, static_cast<std::uint32_t>(used_.size()));
+      used_.push_back(p);
+      open_.push_back(0);
+    }
     return open_[local_[p]];
   };
   for (std::size_t c = 0; mesh.is_triangles() && c + 2 < mesh.corners.size(); c += 3) {
@@ -79,7 +84,8 @@ void SharedBorders::add(const Mesh& mesh) {
   end_.push_back(position_.size());
 }
 
-std::vector<std::vector<std::uint32_t>> SharedBorders::find(const Scene& scene, std::span<const ShapeSurface> surfaces) const {
+std::vector<std::vector<std::uint32_t>> SharedBorders::find(const Scene& scene,
+                                                            std::span<const ShapeSurface> surfaces) const {
   std::vector<std::vector<std::uint32_t>> out(end_.size());
   const auto number = surface_numbers(scene, surfaces);
   auto for_each_border = [&](auto f) {
@@ -88,7 +94,8 @@ std::vector<std::vector<std::uint32_t>> SharedBorders::find(const Scene& scene, 
       const auto i = number[shape.value];
       if (i == 0) return;
       ++part;
-      for (std::size_t b = i > 1 ? end_[i - 2] : 0; b < end_[i - 1]; ++b) f(m.point(point_[b]), part, static_cast<std::uint32_t>(b));
+      for (std::size_t b = i > 1 ? end_[i - 2] : 0; b < end_[i - 1]; ++b)
+        f(m.point(point_[b]), part, static_cast<std::uint32_t>(b));
     });
   };
   double largest = 0;

@@ -1,5 +1,5 @@
-// Where open borders of several parts of a world meet. What lies there must stay where it is while each part is simplified
-// for itself, or there were cracks between them, and between different levels of detail.
+// Where open borders of several parts of a world meet. What lies there must stay where it is while each part is
+// simplified for itself, or there were cracks between them, and between different levels of detail.
 #pragma once
 #include "geometry/simplify/places.h"
 
@@ -10,10 +10,10 @@ class SharedBorders {
   /// The mesh of the next surface, of triangles or empty. O(corners).
   void add(const Mesh& mesh);
 
-  /// Of each of the surfaces that were added: the positions of its mesh, ascending, that lie on an open border and where
-  /// another part, or another place of the same one, has such a position too. A part is a Shape where it stands in the
-  /// world; positions are the same when they differ by a millionth of how far they are from the origin, or a little more.
-  /// O(n log n) in the positions on borders in all places.
+  /// Of each of the surfaces that were added: the positions of its mesh, ascending, that lie on an open border and
+  /// where another part, or another place of the same one, has such a position too. A part is a Shape where it stands
+  /// in the world; positions are the same when they differ by a millionth of how far they are from the origin, or a
+  /// little more. O(n log n) in the positions on borders in all places.
   std::vector<std::vector<std::uint32_t>> find(const Scene& scene, std::span<const ShapeSurface> surfaces) const;
 
  private:

@@ -14,7 +14,10 @@ std::vector<std::uint32_t> number(const Mesh& mesh, std::vector<std::uint32_t>& 
     std::vector<std::uint32_t> id(mesh.n_positions(), none);
     for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
       std::uint32_t p = mesh.corners[c];
-      if (id[p] == none) id[p] = static_cast<std::uint32_t>(used.size()), used.push_back(p);
+      if (id[p] == none) {
+        id[p] = static_cast<std::uint32_t>(used.size());
+        used.push_back(p);
+      }
       vertex_of_corner[c] = id[p];
     }
     return used;
@@ -111,8 +114,10 @@ bool Surface::gather(std::uint32_t v, Ring& ring) {
     ring.faces[ring.n_faces++] = {entries[i], k, next, prev};
     if (t.features == 0) continue;
     int at = k, before = (k + 2) % 3;
-    ring.spokes[next].feature |= t.features >> at & 1, ring.spokes[next].crease |= t.features >> (at + 3) & 1;
-    ring.spokes[prev].feature |= t.features >> before & 1, ring.spokes[prev].crease |= t.features >> (before + 3) & 1;
+    ring.spokes[next].feature |= t.features >> at & 1;
+    ring.spokes[next].crease |= t.features >> (at + 3) & 1;
+    ring.spokes[prev].feature |= t.features >> before & 1;
+    ring.spokes[prev].crease |= t.features >> (before + 3) & 1;
   }
   return true;
 }
@@ -120,8 +125,11 @@ bool Surface::gather(std::uint32_t v, Ring& ring) {
 void Surface::classify(const Ring& ring) {
   int n = 0, n_creases = 0;
   bool is_open = false;
-  for (const Ring::Spoke& s : ring.spoke_span())
-    n += s.feature, n_creases += s.crease && !s.feature, is_open |= s.n_faces != 2;
+  for (const Ring::Spoke& s : ring.spoke_span()) {
+    n += s.feature;
+    n_creases += s.crease && !s.feature;
+    is_open |= s.n_faces != 2;
+  }
   auto by_lines = [](int lines) { return lines == 0 ? Kind::free : lines == 2 ? Kind::line : Kind::corner; };
   Vertex& v = vertex[ring.center];
   v.open = is_open;
@@ -157,7 +165,10 @@ void Surface::merge(const Ring& from, const Ring& to) {
     else
       joined[n++] = f.face;
   for (const Ring::Face& f : from.face_span())
-    if (alive(f.face)) face[f.face].v[f.corner] = v, joined[n++] = f.face;
+    if (alive(f.face)) {
+      face[f.face].v[f.corner] = v;
+      joined[n++] = f.face;
+    }
   if (vertex[u].capacity > vertex[v].capacity) {
     std::swap(vertex[u].begin, vertex[v].begin);
     std::swap(vertex[u].capacity, vertex[v].capacity);

@@ -13,7 +13,8 @@ namespace {
 
 class Choice {
  public:
-  Choice(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text) : scene_(scene), diag_(diag), below_(below), text_(text), order_(all_nodes(scene)), kept_(scene.node_count()) {}
+  Choice(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text)
+      : scene_(scene), diag_(diag), below_(below), text_(text), order_(all_nodes(scene)), kept_(scene.node_count()) {}
 
   std::vector<ShapeSurface> run() {
     keep_routed();
@@ -41,7 +42,9 @@ class Choice {
 
  private:
   void keep_routed() {
-    auto keep = [&](const Scope& s) { for (const auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = Kept::routed; };
+    auto keep = [&](const Scope& s) {
+      for (const auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = Kept::routed;
+    };
     keep(scene_.main);
     for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) keep(scene_.proto(ProtoId{i}).body);
   }
@@ -55,7 +58,8 @@ class Choice {
       open.pop_back();
       for_each_child(scene_, n, [&](NodeId c) {
         if (!c || seen[c.value]) return;
-        seen[c.value] = 1, kept_[c.value] = Kept::has_levels;
+        seen[c.value] = 1;
+        kept_[c.value] = Kept::has_levels;
         open.push_back(c);
       });
     }
@@ -77,14 +81,19 @@ class Choice {
     if (text_ == OfText::leave && scene_.is(geometry.node, nodes::Text)) return "text";
     const char* why = has_is(geometry.node) ? by_is : reason(kept_[geometry.node.value]);
     for_each_child(scene_, geometry.node, [&](NodeId c) {
-      if (c && !why) why = has_is(c) ? by_is : scene_.type(c).kind != NodeKind::builtin ? "a Shape with nodes that are not known" : reason(kept_[c.value]);
+      if (c && !why)
+        why = has_is(c)                                  ? by_is
+              : scene_.type(c).kind != NodeKind::builtin ? "a Shape with nodes that are not known"
+                                                         : reason(kept_[c.value]);
     });
     return why;
   }
 
   enum class Kept : std::uint8_t { no, routed, has_levels };
   static const char* reason(Kept kept) {
-    return kept == Kept::routed ? "a Shape that a ROUTE changes" : kept == Kept::has_levels ? "a Shape below a LOD, which has its levels" : nullptr;
+    return kept == Kept::routed       ? "a Shape that a ROUTE changes"
+           : kept == Kept::has_levels ? "a Shape below a LOD, which has its levels"
+                                      : nullptr;
   }
 
   const Scene& scene_;
@@ -97,9 +106,12 @@ class Choice {
 
 }  // namespace
 
-std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text) { return Choice(scene, diag, below, text).run(); }
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text) {
+  return Choice(scene, diag, below, text).run();
+}
 
-SurfaceReader::SurfaceReader(const Scene& scene, Task& ctx) : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
+SurfaceReader::SurfaceReader(const Scene& scene, Task& ctx)
+    : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
 
 void SurfaceReader::read(const ShapeSurface& surface, Mesh& mesh) {
   mesh.clear();
@@ -107,7 +119,10 @@ void SurfaceReader::read(const ShapeSurface& surface, Mesh& mesh) {
   make_mesh(job, {.texcoords = true});
   if (!mesh.is_triangles()) return mesh.clear();
   if (!job.textured) mesh.texcoord.clear();
-  if (mesh.primitive) mesh.normal.clear(), mesh.crease_angle = CollapseOptions{}.crease_angle;
+  if (mesh.primitive) {
+    mesh.normal.clear();
+    mesh.crease_angle = CollapseOptions{}.crease_angle;
+  }
 }
 
 }  // namespace wrlkit

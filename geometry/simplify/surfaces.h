@@ -17,10 +17,11 @@ enum class BelowLod : std::uint8_t { leave, take };
 
 enum class OfText : std::uint8_t { leave, take };
 
-/// In the order of the scene, the bodies of prototypes too. Left out: text unless taken, lines and points; geometry that is the end of a
-/// ROUTE or an IS or has such nodes; Shapes that are the end of a ROUTE or, unless taken, lie below a LOD. What is left out of
-/// surfaces and text is said to `diag` (not-simplified), if there is one. O(nodes).
-std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag = nullptr, BelowLod below = BelowLod::leave, OfText text = OfText::leave);
+/// In the order of the scene, the bodies of prototypes too. Left out: text unless taken, lines and points; geometry
+/// that is the end of a ROUTE or an IS or has such nodes; Shapes that are the end of a ROUTE or, unless taken, lie
+/// below a LOD. What is left out of surfaces and text is said to `diag` (not-simplified), if there is one. O(nodes).
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag = nullptr, BelowLod below = BelowLod::leave,
+                                      OfText text = OfText::leave);
 
 /// Makes triangles of them. One object for many surfaces, one after the other.
 class SurfaceReader {

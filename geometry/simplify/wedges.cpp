@@ -65,7 +65,11 @@ bool Wedges::differ(std::uint32_t a, std::uint32_t b, double cosine) const {
   const float *p = at(a), *q = at(b);
   if (!std::equal(p + n_normal_, p + width_, q + n_normal_)) return true;
   double pq = 0, pp = 0, qq = 0;
-  for (int i = 0; i < n_normal_; ++i) pq += p[i] * q[i], pp += p[i] * p[i], qq += q[i] * q[i];
+  for (int i = 0; i < n_normal_; ++i) {
+    pq += p[i] * q[i];
+    pp += p[i] * p[i];
+    qq += q[i] * q[i];
+  }
   return n_normal_ && pq < cosine * std::sqrt(pp * qq);
 }
 
@@ -83,7 +87,9 @@ void Wedges::interpolate(std::uint32_t a, std::uint32_t b, double t, float* out)
 }
 
 void Wedges::write(Mesh& mesh, const Surface& surface) const {
-  mesh.normal = Attribute(3), mesh.color = Attribute(n_color_ ? n_color_ : 3), mesh.texcoord = Attribute(2);
+  mesh.normal = Attribute(3);
+  mesh.color = Attribute(n_color_ ? n_color_ : 3);
+  mesh.texcoord = Attribute(2);
   mesh.lightcoord = Attribute(2);
   if (n_normal_) write_stream(mesh.normal, *this, surface, 0);
   if (n_color_) write_stream(mesh.color, *this, surface, n_normal_);

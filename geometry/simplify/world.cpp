@@ -5,10 +5,10 @@
 #include <functional>
 #include <optional>
 
+#include "base/parallel.h"
 #include "geometry/closest_point.h"
 #include "geometry/deviation.h"
 #include "geometry/geometry.h"
-#include "base/parallel.h"
 #include "geometry/simplify/shared_borders.h"
 
 namespace wrlkit {
@@ -58,7 +58,8 @@ class FacesByError {
 };
 
 /// Triangles of each surface at each count: where the same error bounds all of them.
-std::vector<std::vector<std::size_t>> share_out(const std::vector<FacesByError>& curves, const std::vector<std::size_t>& counts) {
+std::vector<std::vector<std::size_t>> share_out(const std::vector<FacesByError>& curves,
+                                                const std::vector<std::size_t>& counts) {
   double largest = 0;
   for (const auto& c : curves) largest = std::max(largest, c.largest_error());
   std::vector<std::vector<std::size_t>> out;
@@ -99,7 +100,8 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
   std::vector<std::vector<std::size_t>> faces;
   if (errors.empty() && parts_.size() > 1) {
     std::vector<std::optional<FacesByError>> curves(parts_.size());
-    parallel_for(parts_.size(), [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, parts_[i].collapse, parts_[i].scale); });
+    parallel_for(parts_.size(),
+                 [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, parts_[i].collapse, parts_[i].scale); });
     std::vector<FacesByError> all;
     for (auto& c : curves) all.push_back(std::move(*c));
     faces = share_out(all, counts);
@@ -114,7 +116,8 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
       for (double& e : local) e /= p.scale;
       p.levels = make_levels(p.mesh, {.collapse = p.collapse, .errors = local});
       for (double e : local)
-        p.at.push_back(static_cast<std::size_t>(std::ranges::count_if(p.levels, [&](const MeshLevel& l) { return l.error <= e; })));
+        p.at.push_back(static_cast<std::size_t>(
+            std::ranges::count_if(p.levels, [&](const MeshLevel& l) { return l.error <= e; })));
       return;
     }
     LevelMaker maker(p.mesh, p.collapse);

@@ -17,22 +17,23 @@ struct WorldSimplifyOptions {
   ScreenBudget budget;
 };
 
-/// One interaction point. Counts and distances are over all surfaces, each counted once however often it is used, as large
-/// as the largest of its places in the world. Distances in metres.
+/// One interaction point. Counts and distances are over all surfaces, each counted once however often it is used, as
+/// large as the largest of its places in the world. Distances in metres.
 struct InteractionPoint {
   std::size_t n_faces = 0;
-  double rms = 0, error = 0;  // two-sided distance from the first: root of the mean square over the surfaces, and largest
-  double normals = 0;         // angle between the normals of both, in radians, in the mean over the surfaces
-  double seconds = 0;         // processor time of the collapses up to here; unknown (0) when the points are by errors
+  double rms = 0,
+         error = 0;    // two-sided distance from the first: root of the mean square over the surfaces, and largest
+  double normals = 0;  // angle between the normals of both, in radians, in the mean over the surfaces
+  double seconds = 0;  // processor time of the collapses up to here; unknown (0) when the points are by errors
 };
 
 class SimplifiedWorld {
  public:
-  /// Reads the surfaces of a scene (surfaces_of) and simplifies them. Unless by errors, the triangles are taken where the
-  /// error grows least, whichever surface that is on; within a surface in the order of the criterion. One of several
-  /// surfaces keeps
-  /// as many as a box has. What open borders of several parts have in common stays where it is (shared_borders.h). What
-  /// is left alone is said (not-simplified). All meshes are in memory. `scene` must outlive this.
+  /// Reads the surfaces of a scene (surfaces_of) and simplifies them. Unless by errors, the triangles are taken where
+  /// the error grows least, whichever surface that is on; within a surface in the order of the criterion. One of
+  /// several surfaces keeps as many as a box has. What open borders of several parts have in common stays where it is
+  /// (shared_borders.h). What is left alone is said (not-simplified). All meshes are in memory. `scene` must outlive
+  /// this.
   SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx);
 
   std::size_t n_faces() const { return n_faces_; }
@@ -47,11 +48,11 @@ class SimplifiedWorld {
   struct Part {
     ShapeSurface surface;
     Mesh mesh;
-    CollapseOptions collapse;         // with what neighbours share
-    double scale = 1;                 // metres of the world for its unit
-    double area = 0;                  // in the world
-    std::vector<MeshLevel> levels;    // different ones, the finest first
-    std::vector<std::size_t> at;      // by interaction point: how many of the levels have gone by; 0: as it was
+    CollapseOptions collapse;       // with what neighbours share
+    double scale = 1;               // metres of the world for its unit
+    double area = 0;                // in the world
+    std::vector<MeshLevel> levels;  // different ones, the finest first
+    std::vector<std::size_t> at;    // by interaction point: how many of the levels have gone by; 0: as it was
   };
   void read_parts(const CollapseOptions& options, Task& ctx);
   void measure_points(std::size_t n);

@@ -31,9 +31,17 @@ Grower::Grower(const Links& links, const UnfoldOptions& options)
       newest_chart_(links.n_positions(), none) {}
 
 const Flattened& Grower::grow(std::uint32_t seed) {
-  chart_.clear(), previous_.clear();
-  flat_.clear(), refused_.clear(), queue_ = {};
-  n_kept_ = 0, reach_ = HUGE_VALF, area_ = 0, extent_ = 0, distorted_ = searching_ = false, next_spread_ = 32;
+  chart_.clear();
+  previous_.clear();
+  flat_.clear();
+  refused_.clear();
+  queue_ = {};
+  n_kept_ = 0;
+  reach_ = HUGE_VALF;
+  area_ = 0;
+  extent_ = 0;
+  distorted_ = searching_ = false;
+  next_spread_ = 32;
   Triangle2 t = links_.shape(seed);
   center_ = (1. / 3) * (t[0] + t[1] + t[2]);
   std::array<std::uint32_t, 3> points;
@@ -42,7 +50,8 @@ const Flattened& Grower::grow(std::uint32_t seed) {
     chart_.points.push_back(t[k]);
     previous_.push_back(none);
     std::uint32_t p = links_.position(3 * seed + k);
-    newest_[p] = k, newest_chart_[p] = n_charts_;
+    newest_[p] = k;
+    newest_chart_[p] = n_charts_;
   }
   place(seed, points);
   advance();
@@ -128,7 +137,10 @@ std::uint32_t Grower::known_point(std::uint32_t position, Point2 near, double wi
   std::uint32_t found = none;
   for (std::uint32_t p = newest_[position]; p != none; p = previous_[p]) {
     Point2 d = chart_.points[p] - near;
-    if (dot(d, d) < best) best = dot(d, d), found = p;
+    if (dot(d, d) < best) {
+      best = dot(d, d);
+      found = p;
+    }
   }
   return found;
 }
@@ -141,13 +153,16 @@ bool Grower::attach(std::uint32_t corner) {
   std::uint32_t position = links_.position(opposite), point = known_point(position, where, joins_within * size);
   if (point != none) where = chart_.points[point];
   Triangle2 t;
-  t[mate % 3] = b, t[next_corner(mate) % 3] = a, t[opposite % 3] = where;
+  t[mate % 3] = b;
+  t[next_corner(mate) % 3] = a;
+  t[opposite % 3] = where;
   if (!fits(triangle, t)) return false;
   if (point == none) {
     point = static_cast<std::uint32_t>(chart_.points.size());
     chart_.points.push_back(where);
     previous_.push_back(newest_chart_[position] == n_charts_ ? newest_[position] : none);
-    newest_[position] = point, newest_chart_[position] = n_charts_;
+    newest_[position] = point;
+    newest_chart_[position] = n_charts_;
   }
   std::array<std::uint32_t, 3> points;
   points[mate % 3] = point_at(next_corner(corner));
@@ -162,7 +177,10 @@ bool Grower::fits(std::uint32_t triangle, const Triangle2& t) {
   Stretch s = stretch_of(links_.shape(triangle), t);
   if (!(s.most < most_stretched && s.least > 1 / most_stretched)) return false;
   if (!clear_of_others(t)) return false;
-  if (!distorted_ && (s.most > 1 + exact || s.least < 1 - exact)) distorted_ = true, keep();
+  if (!distorted_ && (s.most > 1 + exact || s.least < 1 - exact)) {
+    distorted_ = true;
+    keep();
+  }
   return true;
 }
 
@@ -192,7 +210,8 @@ bool Grower::clear_of_others(const Triangle2& t) {
 
 void Grower::place(std::uint32_t triangle, const std::array<std::uint32_t, 3>& points) {
   auto slot = static_cast<std::uint32_t>(chart_.triangles.size());
-  slot_[triangle] = slot, of_chart_[triangle] = n_charts_;
+  slot_[triangle] = slot;
+  of_chart_[triangle] = n_charts_;
   chart_.triangles.push_back(triangle);
   chart_.corner_point.insert(chart_.corner_point.end(), points.begin(), points.end());
   area_ += links_.area(triangle) / 2;
@@ -251,7 +270,8 @@ bool Grower::too_stretched() const {
     double a = links_.area(chart_.triangles[i]);
     if (!(a > 0)) continue;
     Stretch s = stretch_of(links_.shape(chart_.triangles[i]), chart_.at(i));
-    sum += a * (1 / (s.least * s.least) + 1 / (s.most * s.most)) / 2, area += a;
+    sum += a * (1 / (s.least * s.least) + 1 / (s.most * s.most)) / 2;
+    area += a;
   }
   return sum > area * options_.max_stretch * options_.max_stretch;
 }

@@ -26,7 +26,11 @@ bool usable(const Vec3& p) {
 Links::Links(const UnfoldInput& in, double crease_angle)
     : in_(in), n_positions_(static_cast<std::uint32_t>(in.positions.size() / 3)) {
   std::size_t n = in.corners.size() / 3;
-  flat_.resize(n), normal_.resize(n), solid_.resize(n), finite_.resize(n), mate_.assign(3 * n, none);
+  flat_.resize(n);
+  normal_.resize(n);
+  solid_.resize(n);
+  finite_.resize(n);
+  mate_.assign(3 * n, none);
   for (std::uint32_t t = 0; t < n; ++t) lay_flat(t);
   connect(crease_angle);
 }
@@ -91,7 +95,8 @@ void Links::join(std::uint32_t a, std::uint32_t b, double crease_cosine) {
   if (position(a) == position(b)) return;
   if (!in_.groups.empty() && in_.groups[t] != in_.groups[u]) return;
   if (cosine(t, u) < crease_cosine) return;
-  mate_[a] = b, mate_[b] = a;
+  mate_[a] = b;
+  mate_[b] = a;
 }
 
 }  // namespace wrlkit::unwrap

@@ -30,7 +30,10 @@ class Links {
   bool flat(std::uint32_t corner) const { return cosine(corner / 3, mate_[corner] / 3) > same_plane; }
   /// Of the angle between the fronts of two triangles; one without a front agrees with any.
   double cosine(std::uint32_t t, std::uint32_t u) const;
-  void cut(std::uint32_t corner) { mate_[mate_[corner]] = none, mate_[corner] = none; }
+  void cut(std::uint32_t corner) {
+    mate_[mate_[corner]] = none;
+    mate_[corner] = none;
+  }
 
   /// The triangle in its plane: corner 0 at the origin, corner 1 on the x axis, corner 2 above it.
   Triangle2 shape(std::uint32_t t) const { return {Point2{}, {flat_[t].length, 0}, {flat_[t].x, flat_[t].y}}; }

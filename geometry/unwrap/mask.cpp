@@ -5,7 +5,9 @@
 namespace wrlkit::unwrap {
 
 void Bitmap::reset(int width, int height) {
-  width_ = width, height_ = height, stride_ = (width + 63) / 64;
+  width_ = width;
+  height_ = height;
+  stride_ = (width + 63) / 64;
   words_.assign(static_cast<std::size_t>(stride_) * height, 0);
 }
 
@@ -25,7 +27,8 @@ void Bitmap::set_run(int y, int first, int last) {
 void Bitmap::add(const Triangle2& t) {
   for_each_touched_row(t, [&](int y, int x0, int x1) {
     if (y < 0 || y >= height_) return;
-    x0 = std::max(x0, 0), x1 = std::min(x1, width_ - 1);
+    x0 = std::max(x0, 0);
+    x1 = std::min(x1, width_ - 1);
     if (x0 <= x1) set_run(y, x0, x1);
   });
 }
@@ -53,7 +56,8 @@ void turn_quarter(const Bitmap& from, Bitmap& to) {
 
 /// Rows from all over the height come first: neighbouring ones are blocked by the same things.
 void Mask::make(const Bitmap& bitmap) {
-  width = bitmap.width(), height = bitmap.height();
+  width = bitmap.width();
+  height = bitmap.height();
   runs.clear();
   longest.assign(height, 0);
   bitmap.for_each_run([&](int y, int first, int last) {

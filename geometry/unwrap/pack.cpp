@@ -43,11 +43,13 @@ struct Spotted {
 /// Where a piece that lies there, in a box of that size before it was turned, has its origin.
 Placement placement(const Piece& p, const Spotted& s, Point2 offset) {
   Placement r;
-  r.quarter_turns = s.quarters, r.scale = p.scale;
+  r.quarter_turns = s.quarters;
+  r.scale = p.scale;
   double w = p.width, h = p.height;
   Point2 corner[4] = {{0, 0}, {h, 0}, {w, h}, {0, w}};
   Point2 o = turned(offset, s.quarters) + corner[s.quarters];
-  r.x = o.x + s.at.x, r.y = o.y + s.at.y;
+  r.x = o.x + s.at.x;
+  r.y = o.y + s.at.y;
   return r;
 }
 
@@ -211,10 +213,16 @@ void Packer::make_unit(std::uint32_t item, double factor, int side) {
 }
 
 void Packer::add_to_unit(const Piece& p, Spotted s, Bitmap& unit) {
-  if (s.at.y >= unit.height()) s.at = {}, atlas_.items[p.item].crowded = true;
+  if (s.at.y >= unit.height()) {
+    s.at = {};
+    atlas_.items[p.item].crowded = true;
+  }
   draw(p, bitmap_);
   Bitmap turned;
-  for (int q = 0; q < s.quarters; ++q) turn_quarter(bitmap_, turned), std::swap(bitmap_, turned);
+  for (int q = 0; q < s.quarters; ++q) {
+    turn_quarter(bitmap_, turned);
+    std::swap(bitmap_, turned);
+  }
   unit.add(bitmap_, s.at.x, s.at.y);
   atlas_.items[p.item].charts[p.part] = placement(p, s, offset(p));
 }
@@ -277,9 +285,10 @@ Atlas fit(Packer& p, const PackOptions& options) {
   for (int k = 0; pages < 1 && (k < tries || (low == 0 && k < 4 * tries)); ++k) {
     double top = p.run(f, options.side, 0);
     if (p.shrunk()) top = std::max(top, 1.2 * side);
-    if (top <= side)
-      low = f, best = p.atlas();
-    else
+    if (top <= side) {
+      low = f;
+      best = p.atlas();
+    } else
       high = f;
     if (low == f && (top > full * side || f >= most)) break;
     if (low > 0 && high > 0 && high < low * near) break;
@@ -288,7 +297,10 @@ Atlas fit(Packer& p, const PackOptions& options) {
     if (high > 0 && next >= high) next = low > 0 ? (low + high) / 2 : high * 0.98;
     f = std::min(next, most);
   }
-  if (best.pages.empty()) p.run(f, options.side, options.side), best = p.atlas();
+  if (best.pages.empty()) {
+    p.run(f, options.side, options.side);
+    best = p.atlas();
+  }
   for (Page& page : best.pages) page.height = options.side;
   return best;
 }

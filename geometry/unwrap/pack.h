@@ -52,9 +52,10 @@ struct Atlas {
 /// touch, so that one may lie in a hole or bay of another; they are turned by quarters, never mirrored.
 ///
 /// - Each chart, however small, touches at least one texel that no other touches, and the middle of its box is the
-///   middle of a texel if it is less than one. (But when an item that has copies has so many charts that a page has not a
-///   texel for each, those beyond share one, and the item is `crowded`.)
-/// - Without `side`, pages are squares; sides are powers of two up to `max_side`. The last may be lower. What is too large
+///   middle of a texel if it is less than one. (But when an item that has copies has so many charts that a page has not
+///   a texel for each, those beyond share one, and the item is `crowded`.)
+/// - Without `side`, pages are squares; sides are powers of two up to `max_side`. The last may be lower. What is too
+/// large
 ///   for a page is scaled down.
 /// - With `side`, more pages of that side are opened only if there is not a texel for each chart.
 ///

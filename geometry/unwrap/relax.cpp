@@ -35,10 +35,15 @@ void Relaxer::run(const Links& links, Flattened& chart, int steps) {
       double weight = weight_of(shape);
       Point2 middle = (1. / 3) * (t[0] + t[1] + t[2]), own = (1. / 3) * (shape[0] + shape[1] + shape[2]);
       double c = 0, s = 0;
-      for (int k = 0; k < 3; ++k) shape[k] = shape[k] - own, c += dot(shape[k], t[k]), s += cross(shape[k], t[k]);
+      for (int k = 0; k < 3; ++k) {
+        shape[k] = shape[k] - own;
+        c += dot(shape[k], t[k]);
+        s += cross(shape[k], t[k]);
+      }
       double norm = std::sqrt(c * c + s * s);
       if (!(norm > 0)) c = norm = 1;
-      c /= norm, s /= norm;
+      c /= norm;
+      s /= norm;
       for (int k = 0; k < 3; ++k) {
         Point2 p{c * shape[k].x - s * shape[k].y, s * shape[k].x + c * shape[k].y};
         Point2& sum = sums_[chart.corner_point[3 * i + k]];

@@ -24,7 +24,11 @@ struct Flattened {
   Triangle2 at(std::size_t i) const {
     return {points[corner_point[3 * i]], points[corner_point[3 * i + 1]], points[corner_point[3 * i + 2]]};
   }
-  void clear() { points.clear(), triangles.clear(), corner_point.clear(); }
+  void clear() {
+    points.clear();
+    triangles.clear();
+    corner_point.clear();
+  }
 };
 
 class Relaxer {

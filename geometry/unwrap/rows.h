@@ -34,7 +34,8 @@ void for_each_touched_row(const Triangle2& t, F&& f) {
       if (b.y < y || a.y > y + 1) continue;
       double slope = b.y > a.y ? (b.x - a.x) / (b.y - a.y) : 0;
       double from = a.y >= y ? a.x : a.x + slope * (y - a.y), to = b.y <= y + 1 ? b.x : a.x + slope * (y + 1 - a.y);
-      low = std::min({low, from, to}), high = std::max({high, from, to});
+      low = std::min({low, from, to});
+      high = std::max({high, from, to});
     }
     if (low > high) continue;
     auto [x0, x1] = cells(low, high);

@@ -76,7 +76,8 @@ std::optional<Spot> Strip::find(const Mask& mask, int y, int last_y) {
       y += n - 1;
       continue;
     }
-    low_ = 0, high_ = (width_ - mask.width) / 64;
+    low_ = 0;
+    high_ = (width_ - mask.width) / 64;
     std::fill(blocked_.begin(), blocked_.begin() + high_ + 1, 0);
     bool open = true;
     for (const Mask::Run& run : mask.runs)

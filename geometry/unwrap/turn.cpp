@@ -19,7 +19,10 @@ Box box_of(const std::vector<Point2>& points, Point2 direction) {
   Box b;
   for (Point2 p : points) {
     Point2 q = turned(p, direction);
-    b.x0 = std::min(b.x0, q.x), b.x1 = std::max(b.x1, q.x), b.y0 = std::min(b.y0, q.y), b.y1 = std::max(b.y1, q.y);
+    b.x0 = std::min(b.x0, q.x);
+    b.x1 = std::max(b.x1, q.x);
+    b.y0 = std::min(b.y0, q.y);
+    b.y1 = std::max(b.y1, q.y);
   }
   return b;
 }
@@ -58,7 +61,10 @@ Point2 Turner::turn(std::vector<Point2>& points) {
     double l = std::sqrt(dot(side, side));
     if (!(l > 0)) continue;
     Box b = box_of(hull_, (1 / l) * side);
-    if (b.width() * b.height() < box.width() * box.height() * (1 - 1e-9)) box = b, best = (1 / l) * side;
+    if (b.width() * b.height() < box.width() * box.height() * (1 - 1e-9)) {
+      box = b;
+      best = (1 / l) * side;
+    }
   }
   if (box.height() > box.width()) best = {-best.y, best.x};
   box = box_of(points, best);

@@ -38,7 +38,10 @@ void add_rest(Charts& charts) {
   auto number = static_cast<std::uint32_t>(charts.size());
   bool any = false;
   for (std::uint32_t& c : charts.chart_of)
-    if (c == none) c = number, any = true;
+    if (c == none) {
+      c = number;
+      any = true;
+    }
   if (any) charts.sizes.push_back({});
 }
 

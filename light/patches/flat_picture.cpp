@@ -6,22 +6,28 @@
 namespace wrlkit::light {
 namespace {
 
-double cross2(const Place& a, const Place& b, const Place& c) { return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]); }
+double cross2(const Place& a, const Place& b, const Place& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
 
 /// A picture that is being drawn: sums of samples.
 class Drawing {
  public:
-  Drawing(FloatPicture& picture, const Place& low, const PictureOptions& options) : picture_(picture), low_(low), options_(options), hits_(picture.pixels.size()) {}
+  Drawing(FloatPicture& picture, const Place& low, const PictureOptions& options)
+      : picture_(picture), low_(low), options_(options), hits_(picture.pixels.size()) {}
 
   void triangle(const std::array<Place, 3>& corners, const std::array<V3, 3>& colors) {
     const double step = options_.texel / options_.samples;
     std::array<Place, 3> c;  // in samples, y down
-    for (std::size_t i = 0; i < 3; ++i) c[i] = {(corners[i][0] - low_[0]) / step, picture_.height * options_.samples - (corners[i][1] - low_[1]) / step};
+    for (std::size_t i = 0; i < 3; ++i)
+      c[i] = {(corners[i][0] - low_[0]) / step, picture_.height * options_.samples - (corners[i][1] - low_[1]) / step};
     const double area = cross2(c[0], c[1], c[2]);
     if (!(std::fabs(area) > 0)) return;
     auto range = [&](std::size_t axis, int n) {
       const auto [low, high] = std::minmax({c[0][axis], c[1][axis], c[2][axis]});
-      auto first = [&](double v) { return static_cast<int>(std::clamp(std::ceil(v - 0.5), 0.0, static_cast<double>(n))); };
+      auto first = [&](double v) {
+        return static_cast<int>(std::clamp(std::ceil(v - 0.5), 0.0, static_cast<double>(n)));
+      };
       return std::pair{first(low), first(high)};
     };
     const auto [y0, y1] = range(1, picture_.height * options_.samples);
@@ -47,11 +53,14 @@ class Drawing {
     picture_.at(x / options_.samples, y / options_.samples) += color;
     ++hits_[index(x / options_.samples, y / options_.samples)];
   }
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) + static_cast<std::size_t>(x); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) + static_cast<std::size_t>(x);
+  }
 
   template <class F>
   void each_neighbour(std::size_t i, F&& f) const {
-    const int x = static_cast<int>(i % static_cast<std::size_t>(picture_.width)), y = static_cast<int>(i / static_cast<std::size_t>(picture_.width));
+    const int x = static_cast<int>(i % static_cast<std::size_t>(picture_.width)),
+              y = static_cast<int>(i / static_cast<std::size_t>(picture_.width));
     for (int v = std::max(0, y - 1); v <= std::min(picture_.height - 1, y + 1); ++v)
       for (int u = std::max(0, x - 1); u <= std::min(picture_.width - 1, x + 1); ++u) f(index(u, v));
   }
@@ -60,7 +69,10 @@ class Drawing {
   void grow() {
     std::vector<std::size_t> ring, next;
     auto wait = [&](std::size_t i) {
-      if (!hits_[i]) hits_[i] = waits, next.push_back(i);
+      if (!hits_[i]) {
+        hits_[i] = waits;
+        next.push_back(i);
+      }
     };
     for (std::size_t i = 0; i < hits_.size(); ++i)
       if (hits_[i] && hits_[i] != waits) each_neighbour(i, wait);
@@ -71,7 +83,10 @@ class Drawing {
         V3 sum;
         int n = 0;
         each_neighbour(i, [&](std::size_t j) {
-          if (hits_[j] && hits_[j] != waits) sum += picture_.pixels[j], ++n;
+          if (hits_[j] && hits_[j] != waits) {
+            sum += picture_.pixels[j];
+            ++n;
+          }
         });
         picture_.pixels[i] = (1.0 / n) * sum;
       }
@@ -81,7 +96,7 @@ class Drawing {
   }
 
   FloatPicture& picture_;
-  Place low_;                        // of the lower left corner of the picture
+  Place low_;  // of the lower left corner of the picture
   const PictureOptions& options_;
   std::vector<std::uint32_t> hits_;  // samples
 };
@@ -96,12 +111,18 @@ PictureFrame PictureFrame::facing(const V3& normal, const V3& origin) {
 }
 
 void PlaneBox::add(const Place& p) {
-  for (std::size_t i = 0; i < 2; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    low[i] = std::min(low[i], p[i]);
+    high[i] = std::max(high[i], p[i]);
+  }
 }
 
 std::array<int, 2> picture_size(const PlaneBox& box, const PictureOptions& options) {
   constexpr double most = 1 << 24;
-  auto side = [&](std::size_t i) { return static_cast<int>(std::clamp(std::ceil((box.high[i] - box.low[i]) / options.texel - 1e-6), 1.0, most)) + 2 * options.border; };
+  auto side = [&](std::size_t i) {
+    return static_cast<int>(std::clamp(std::ceil((box.high[i] - box.low[i]) / options.texel - 1e-6), 1.0, most)) +
+           2 * options.border;
+  };
   return {side(0), side(1)};
 }
 

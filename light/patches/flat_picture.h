@@ -12,8 +12,8 @@ namespace wrlkit::light {
 using drawing::V3;
 using Place = std::array<double, 2>;
 
-/// The plane of a polygon as a picture has it: x to the right, y up. Walls stand upright; floors have -Z up, as seen from
-/// above.
+/// The plane of a polygon as a picture has it: x to the right, y up. Walls stand upright; floors have -Z up, as seen
+/// from above.
 struct PictureFrame {
   V3 origin, right, up;
 
@@ -29,14 +29,14 @@ struct PlaneBox {
 };
 
 struct FlatPatch {
-  std::array<Place, 3> corners;      // in a PictureFrame, metres
-  std::array<V3, 3> colors;          // of the corners
+  std::array<Place, 3> corners;  // in a PictureFrame, metres
+  std::array<V3, 3> colors;      // of the corners
 };
 
 struct PictureOptions {
-  double texel = 0.01;               // metres
-  int samples = 4;                   // places a texel along each side
-  int border = 2;                    // texels around the box that go on with its colours
+  double texel = 0.01;  // metres
+  int samples = 4;      // places a texel along each side
+  int border = 2;       // texels around the box that go on with its colours
 };
 
 /// Linear colours, the top row first.
@@ -44,7 +44,9 @@ struct FloatPicture {
   int width = 0, height = 0;
   std::vector<V3> pixels;
 
-  V3& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+  V3& at(int x, int y) {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
 };
 
 /// Texels that no patch covers go on as those around them. O(patches + texels * samples^2).

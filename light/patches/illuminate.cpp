@@ -11,7 +11,8 @@ namespace {
 Vec3 numbers(const V3& v) { return {v.x, v.y, v.z}; }
 Corners corners_of(const std::array<V3, 3>& t) { return {numbers(t[0]), numbers(t[1]), numbers(t[2])}; }
 
-/// The faces of a mesh by the triangles that they are pieces of: those of t are order[first[t]] to order[first[t + 1] - 1].
+/// The faces of a mesh by the triangles that they are pieces of: those of t are order[first[t]] to order[first[t + 1] -
+/// 1].
 struct ByTriangle {
   std::vector<std::uint32_t> first, order;
 
@@ -23,8 +24,8 @@ struct ByTriangle {
   }
 };
 
-/// Splits patches where the light changes, by what a few steps of stochastic iteration say of it. Two runs have to say so, as
-/// neighbours differ by noise as well.
+/// Splits patches where the light changes, by what a few steps of stochastic iteration say of it. Two runs have to say
+/// so, as neighbours differ by noise as well.
 class Refinement {
  public:
   Refinement(PatchedWorld& world, const IlluminateOptions& options) : world_(world), options_(options) {}
@@ -49,11 +50,16 @@ class Refinement {
   }
 
   /// The largest that an edge may be, or is about when only the area is limited.
-  double edge() const { return world_.sizes().max_edge > 0 ? world_.sizes().max_edge : 2 * std::sqrt(world_.sizes().max_area); }
+  double edge() const {
+    return world_.sizes().max_edge > 0 ? world_.sizes().max_edge : 2 * std::sqrt(world_.sizes().max_area);
+  }
 
   double threshold() const {
     double sum = 0, area = 0;
-    for (std::uint32_t s = 0; s < world_.n_sides(); ++s) sum += world_.area(s) * (pilot_[0][s] - mean(world_.emission(s))), area += world_.area(s);
+    for (std::uint32_t s = 0; s < world_.n_sides(); ++s) {
+      sum += world_.area(s) * (pilot_[0][s] - mean(world_.emission(s)));
+      area += world_.area(s);
+    }
     return area > 0 ? options_.gradient * sum / area : 0;
   }
 
@@ -78,12 +84,13 @@ class Refinement {
 
   PatchedWorld& world_;
   const IlluminateOptions& options_;
-  std::vector<double> pilot_[2];     // radiance of each side
+  std::vector<double> pilot_[2];  // radiance of each side
 };
 
 class Gathering {
  public:
-  Gathering(const PatchedWorld& world, const std::vector<V3>& irradiance, PatchSet& to) : world_(world), irradiance_(irradiance), set_(to) {}
+  Gathering(const PatchedWorld& world, const std::vector<V3>& irradiance, PatchSet& to)
+      : world_(world), irradiance_(irradiance), set_(to) {}
 
   void add_use(std::uint32_t use) {
     const PatchMesh& mesh = world_.mesh(use);
@@ -103,7 +110,9 @@ class Gathering {
   }
   void add_side(const PatchMesh& mesh, std::uint32_t face, std::uint32_t side, bool back) {
     const V3 l = radiance(world_, side, irradiance_[side]);
-    set_.patches.push_back({corners_of(mesh.corners(face)), {static_cast<float>(l.x), static_cast<float>(l.y), static_cast<float>(l.z)}, back});
+    set_.patches.push_back({corners_of(mesh.corners(face)),
+                            {static_cast<float>(l.x), static_cast<float>(l.y), static_cast<float>(l.z)},
+                            back});
   }
 
   const PatchedWorld& world_;

@@ -8,9 +8,12 @@ namespace wrlkit::light {
 
 std::vector<V3> illuminate(const PatchedWorld& world, Method method, const MethodOptions& options) {
   switch (method) {
-    case Method::path: return follow_paths(world, options);
-    case Method::stochastic_iteration: return iterate_stochastically(world, options);
-    case Method::progressive_radiosity: return shoot_progressively(world, options);
+    case Method::path:
+      return follow_paths(world, options);
+    case Method::stochastic_iteration:
+      return iterate_stochastically(world, options);
+    case Method::progressive_radiosity:
+      return shoot_progressively(world, options);
   }
   return {};
 }

@@ -1,11 +1,12 @@
-// Three ways to find the light that falls on each patch of a world: Lazanyi's "various methods" (3.1). They differ in how
-// they come to a result, not in the result: all err around the same solution, by as much as their samples are few.
+// Three ways to find the light that falls on each patch of a world: Lazanyi's "various methods" (3.1). They differ in
+// how they come to a result, not in the result: all err around the same solution, by as much as their samples are few.
 //
 //   path                   each patch follows light back from many of its places to where it is made: Monte Carlo path
 //                          tracing (Kajiya 1986), with rays to lamps and emitters at each reflection
 //   stochastic-iteration   all patches gather along one random ray each from what all had before; the mean of many such
 //                          steps is the solution (Szirmay-Kalos 1999): all orders of reflection for one ray a step
-//   progressive-radiosity  the patches that have most light left to give give it first, along as many rays as it is worth
+//   progressive-radiosity  the patches that have most light left to give give it first, along as many rays as it is
+//   worth
 //                          (Cohen et al. 1988; the form factors by rays); what is left in the end is shared by all
 //
 // Patches reflect diffusely, with one reflectance each. The same numbers for any number of threads.
@@ -21,7 +22,7 @@ namespace wrlkit::light {
 enum class Method : std::uint8_t { path, stochastic_iteration, progressive_radiosity };
 
 struct MethodOptions {
-  int samples = 256;                 // rays a patch side: paths, steps, or rays for all the light of the world a side
+  int samples = 256;  // rays a patch side: paths, steps, or rays for all the light of the world a side
   std::uint64_t seed = 1;
   std::function<void(double)> done = [](double) {};  // told now and then how much of the work is done, up to 1
 };

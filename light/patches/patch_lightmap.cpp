@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "light/flux.h"
 #include "base/parallel.h"
+#include "light/flux.h"
 #include "light/patches/patch_mesh.h"
 #include "light/patches/smooth_patches.h"
 
@@ -32,7 +32,11 @@ std::uint32_t find_polygons(const std::vector<Triangle>& triangles, std::vector<
       const auto t = waiting.back();
       waiting.pop_back();
       for (auto o : mesh.faces()[t].neighbours)
-        if (o != PatchMesh::none && polygon_of[o] == PatchMesh::none && dot(normals[first], normals[o]) > least_cosine) polygon_of[o] = n, waiting.push_back(o);
+        if (o != PatchMesh::none && polygon_of[o] == PatchMesh::none &&
+            dot(normals[first], normals[o]) > least_cosine) {
+          polygon_of[o] = n;
+          waiting.push_back(o);
+        }
     }
     ++n;
   }
@@ -45,19 +49,21 @@ struct Polygon {
   PlaneBox box;
   std::vector<FlatPatch> patches;
   std::array<int, 2> size{};
-  int x = 0, y = 0;                  // of its upper left corner in the picture
+  int x = 0, y = 0;  // of its upper left corner in the picture
 };
 
 class ShapeDrawing {
  public:
-  ShapeDrawing(const PatchSet& set, const LightWorld& world, const PatchLightmapOptions& options, std::span<const PlacedPatch> placed)
+  ShapeDrawing(const PatchSet& set, const LightWorld& world, const PatchLightmapOptions& options,
+               std::span<const PlacedPatch> placed)
       : set_(set), world_(world), options_(options), placed_(placed), use_(placed[0].use) {}
 
   ShapePicture draw() {
     find_triangles();
     place_patches();
     ShapePicture out{.use = use_};
-    out.n_polygons = static_cast<std::size_t>(std::ranges::count_if(polygons_, [](auto& p) { return !p.patches.empty(); }));
+    out.n_polygons =
+        static_cast<std::size_t>(std::ranges::count_if(polygons_, [](auto& p) { return !p.patches.empty(); }));
     choose_texel();
     if (n_bare()) add_rest();
     pack(out.picture);
@@ -108,7 +114,8 @@ class ShapeDrawing {
   void place_patches() {
     std::vector<std::array<V3, 3>> colors;
     for (const auto& p : placed_) colors.push_back({color(p), {}, {}});
-    if (options_.smooth) colors = smooth_colors(meeting(colors));
+    if (options_.smooth)
+      colors = smooth_colors(meeting(colors));
     else
       for (auto& c : colors) c[1] = c[2] = c[0];
     for (std::size_t i = 0; i < placed_.size(); ++i) {
@@ -152,10 +159,12 @@ class ShapeDrawing {
     const V3 rgb(patch.rgb[0], patch.rgb[1], patch.rgb[2]);
     if (!options_.without_color) return rgb;
     const auto own = color_of(world_, p.use, p.element, p.back, corners_of(p));
-    return {light_on(rgb.x, own.albedo.x, own.emission.x), light_on(rgb.y, own.albedo.y, own.emission.y), light_on(rgb.z, own.albedo.z, own.emission.z)};
+    return {light_on(rgb.x, own.albedo.x, own.emission.x), light_on(rgb.y, own.albedo.y, own.emission.y),
+            light_on(rgb.z, own.albedo.z, own.emission.z)};
   }
 
-  /// Where nothing can be seen of it, there is none: the digits of what is emitted, or of nothing, would be taken for light.
+  /// Where nothing can be seen of it, there is none: the digits of what is emitted, or of nothing, would be taken for
+  /// light.
   static double light_on(double radiance, double albedo, double emission) {
     constexpr double darkest = 0.001, digits = 1e-5;
     const double reflected = radiance - emission;
@@ -168,8 +177,10 @@ class ShapeDrawing {
     double area = 0, n = 0;
     for (const auto& polygon : polygons_)
       for (const auto& p : polygon.patches) {
-        const Place a{p.corners[1][0] - p.corners[0][0], p.corners[1][1] - p.corners[0][1]}, b{p.corners[2][0] - p.corners[0][0], p.corners[2][1] - p.corners[0][1]};
-        area += 0.5 * std::fabs(a[0] * b[1] - a[1] * b[0]), ++n;
+        const Place a{p.corners[1][0] - p.corners[0][0], p.corners[1][1] - p.corners[0][1]},
+            b{p.corners[2][0] - p.corners[0][0], p.corners[2][1] - p.corners[0][1]};
+        area += 0.5 * std::fabs(a[0] * b[1] - a[1] * b[0]);
+        ++n;
       }
     picture_.texel = area > 0 ? std::sqrt(area / n) / 4 : 1;
   }
@@ -179,7 +190,10 @@ class ShapeDrawing {
     V3 sum;
     double n = 0;
     for (const auto& polygon : polygons_)
-      for (const auto& p : polygon.patches) sum += p.colors[0] + p.colors[1] + p.colors[2], n += 3;
+      for (const auto& p : polygon.patches) {
+        sum += p.colors[0] + p.colors[1] + p.colors[2];
+        n += 3;
+      }
     const V3 mean = (1 / n) * sum;
     const double t = picture_.texel;
     Polygon rest;
@@ -190,8 +204,8 @@ class ShapeDrawing {
     has_rest_ = true;
   }
 
-  /// Rows of polygons, the highest first. A Shape that is one polygon gets a picture of just that. Where there are so many polygons
-  /// that their borders alone take too much, these go.
+  /// Rows of polygons, the highest first. A Shape that is one polygon gets a picture of just that. Where there are so
+  /// many polygons that their borders alone take too much, these go.
   void pack(FloatPicture& picture) {
     constexpr int attempts = 64;
     for (double i = 0, before = HUGE_VAL; !try_to_pack(picture) && i < attempts; ++i) {
@@ -215,12 +229,18 @@ class ShapeDrawing {
       widest = std::max(widest, p.size[0]);
     }
     std::ranges::stable_sort(order, std::greater{}, [](const Polygon* p) { return p->size[1]; });
-    picture.width = order.size() == 1 ? widest : std::max(widest, static_cast<int>(std::min(std::sqrt(1.1 * area), 0x1p30)));
+    picture.width =
+        order.size() == 1 ? widest : std::max(widest, static_cast<int>(std::min(std::sqrt(1.1 * area), 0x1p30)));
     int x = 0, row = 0;
     double y = 0;
     for (auto* p : order) {
-      if (x + p->size[0] > picture.width) x = 0, y += row, row = 0;
-      p->x = x, p->y = static_cast<int>(std::min(y, 0x1p30));
+      if (x + p->size[0] > picture.width) {
+        x = 0;
+        y += row;
+        row = 0;
+      }
+      p->x = x;
+      p->y = static_cast<int>(std::min(y, 0x1p30));
       x += p->size[0];
       row = std::max(row, p->size[1]);
     }
@@ -259,7 +279,7 @@ class ShapeDrawing {
   PictureOptions picture_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> polygon_of_;
-  std::vector<Polygon> polygons_;    // fronts, backs, and `rest`
+  std::vector<Polygon> polygons_;  // fronts, backs, and `rest`
   bool has_rest_ = false;
 };
 

@@ -23,8 +23,11 @@ class Matcher {
         const bool right = is_right(set_.shapes[s], set_.triangles[t]);
         for (auto p = set_.triangles[t].first_patch; p < set_.end_of_triangle(t); ++p) {
           const auto& patch = set_.patches[p];
-          if (right) out_.placed.push_back({static_cast<std::uint32_t>(p), set_.shapes[s].index, set_.triangles[t].index, patch.back});
-          else look_for(static_cast<std::uint32_t>(p));
+          if (right)
+            out_.placed.push_back(
+                {static_cast<std::uint32_t>(p), set_.shapes[s].index, set_.triangles[t].index, patch.back});
+          else
+            look_for(static_cast<std::uint32_t>(p));
         }
       }
     std::ranges::stable_sort(out_.placed, {}, &PlacedPatch::use);
@@ -54,8 +57,8 @@ class Matcher {
     return std::ranges::all_of(std::array{0, 1, 2}, [&](int i) { return length(ours[i] - theirs[i]) <= most; });
   }
 
-  /// Looks at the patch's middle from just above it. Of what lies there about as the patch does the nearest counts, and black backs of
-  /// solid faces only where there is nothing else.
+  /// Looks at the patch's middle from just above it. Of what lies there about as the patch does the nearest counts, and
+  /// black backs of solid faces only where there is nothing else.
   void look_for(std::uint32_t p) {
     constexpr int most_layers = 16;
     constexpr double least_cosine = 0.5;  // coarse digits turn small patches
@@ -66,15 +69,25 @@ class Matcher {
     std::optional<Hit> best;
     double least = HUGE_VAL, after = 0;
     Hit hit;
-    for (int i = 0; dot(normal, normal) > 0 && i < most_layers && world_.nearest(ray, after, hit) && hit.distance <= 2 * above; ++i, after = hit.distance) {
+    for (int i = 0;
+         dot(normal, normal) > 0 && i < most_layers && world_.nearest(ray, after, hit) && hit.distance <= 2 * above;
+         ++i, after = hit.distance) {
       const double off = std::fabs(hit.distance - above) + (is_black(hit, set_.patches[p].back) ? 2 * above : 0);
-      if (off < least && std::fabs(dot(unit(hit.across), normal)) > least_cosine) least = off, best = hit;
+      if (off < least && std::fabs(dot(unit(hit.across), normal)) > least_cosine) {
+        least = off;
+        best = hit;
+      }
     }
-    if (!best) return void(++out_.n_orphans);
+    if (!best) {
+      ++out_.n_orphans;
+      return;
+    }
     out_.placed.push_back({p, best->use, best->element, best->back != set_.patches[p].back});
   }
 
-  bool is_black(const Hit& hit, bool back) const { return hit.back != back && world_.meshes()[world_.mesh_of()[hit.use]].solid; }
+  bool is_black(const Hit& hit, bool back) const {
+    return hit.back != back && world_.meshes()[world_.mesh_of()[hit.use]].solid;
+  }
 
   const PatchSet& set_;
   const LightWorld& world_;
@@ -89,11 +102,13 @@ std::array<V3, 3> triangle_of(const LightWorld& world, std::uint32_t use, std::u
   const auto& m = world.meshes()[world.mesh_of()[use]];
   const auto& frame = world.stage().frames[world.stage().uses[use].frame];
   std::array<V3, 3> out;
-  for (int k = 0; k < 3; ++k) out[static_cast<std::size_t>(k)] = frame.point(world.meshes().position(m, element, k) + m.origin);
+  for (int k = 0; k < 3; ++k)
+    out[static_cast<std::size_t>(k)] = frame.point(world.meshes().position(m, element, k) + m.origin);
   return out;
 }
 
-PatchColor color_of(const LightWorld& world, std::uint32_t use, std::uint32_t element, bool back, const std::array<V3, 3>& patch) {
+PatchColor color_of(const LightWorld& world, std::uint32_t use, std::uint32_t element, bool back,
+                    const std::array<V3, 3>& patch) {
   // The same places whoever asks: what is divided by this mean later must have been multiplied by it.
   static const Lattice<2> places(0);
   const std::uint32_t n = world.is_plain(use) ? 1 : 64;
@@ -102,7 +117,8 @@ PatchColor color_of(const LightWorld& world, std::uint32_t use, std::uint32_t el
   for (std::uint32_t i = 0; i < n; ++i) {
     const auto [u, v] = places[i];
     const double root = std::sqrt(u);
-    const auto w = weights_in(triangle, patch[0] + (root * (1 - v)) * (patch[1] - patch[0]) + (root * v) * (patch[2] - patch[0]));
+    const auto w =
+        weights_in(triangle, patch[0] + (root * (1 - v)) * (patch[1] - patch[0]) + (root * v) * (patch[2] - patch[0]));
     const auto p = world.surface({.use = use, .element = element, .back = back, .weights = {w[0], w[1], w[2]}});
     out.albedo += (p.alpha / n) * p.albedo;
     out.emission += (p.alpha / n) * p.emission;

@@ -22,7 +22,8 @@ struct PointHash {
 };
 
 std::array<std::uint64_t, 3> bits(const V3& p) {
-  return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0), std::bit_cast<std::uint64_t>(p.z + 0.0)};
+  return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0),
+          std::bit_cast<std::uint64_t>(p.z + 0.0)};
 }
 
 }  // namespace
@@ -116,8 +117,8 @@ int PatchMesh::side_of(std::uint32_t face, const Edge& e) const {
   return i;
 }
 
-// Each face on the path has a longer edge than the one before, so it ends: at a border, or at an edge that is the longest of
-// both its faces.
+// Each face on the path has a longer edge than the one before, so it ends: at a border, or at an edge that is the
+// longest of both its faces.
 void PatchMesh::split(std::size_t face) {
   path_.assign(1, static_cast<std::uint32_t>(face));
   while (!path_.empty()) {
@@ -151,7 +152,8 @@ void PatchMesh::bisect(std::uint32_t face, int side) {
   faces_[at_end].neighbours[other_side] = second;
 }
 
-/// (a, b, c) with the edge a-b becomes (a, m, c); the new face is (m, b, c). Halves of the edge have its number in both.
+/// (a, b, c) with the edge a-b becomes (a, m, c); the new face is (m, b, c). Halves of the edge have its number in
+/// both.
 std::uint32_t PatchMesh::halve(std::uint32_t face, int side, std::uint32_t middle) {
   const auto second = static_cast<std::uint32_t>(faces_.size());
   faces_.push_back(faces_[face]);

@@ -1,6 +1,6 @@
-// Triangles that are cut into patches by bisecting longest edges (Rivara 1984): no angle gets below half of the smallest
-// one of its triangle, so needles become rounder and nothing becomes a sliver. An edge is cut on both of its sides, so that
-// neighbours meet corner to corner, across the triangles of a surface as well.
+// Triangles that are cut into patches by bisecting longest edges (Rivara 1984): no angle gets below half of the
+// smallest one of its triangle, so needles become rounder and nothing becomes a sliver. An edge is cut on both of its
+// sides, so that neighbours meet corner to corner, across the triangles of a surface as well.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -36,11 +36,12 @@ class PatchMesh {
   double area(std::size_t face) const;
   /// Do two faces lie in planes that hardly differ, the same side up?
   bool flat(std::size_t a, std::size_t b) const;
-  /// Length of its longest edge; 0 of a triangle with two corners in one place. Such a one is never split, as two of its edges are one.
+  /// Length of its longest edge; 0 of a triangle with two corners in one place. Such a one is never split, as two of
+  /// its edges are one.
   double longest(std::size_t face) const;
 
-  /// Halves a face at its longest edge, after those neighbours that have a longer one there. The face keeps its number as one
-  /// of the halves; new faces come behind the last. The same calls give the same mesh.
+  /// Halves a face at its longest edge, after those neighbours that have a longer one there. The face keeps its number
+  /// as one of the halves; new faces come behind the last. The same calls give the same mesh.
   void split(std::size_t face);
   /// The face of a triangle that a point of it lies in. O(log of its faces), as longest edges are halved in turn.
   std::uint32_t locate(std::uint32_t triangle, const V3& point) const;
@@ -51,7 +52,7 @@ class PatchMesh {
  private:
   /// How a face was halved, on the way down from a triangle to its faces. A child is a face, or `cut` + another Cut.
   struct Cut {
-    std::uint32_t begin, middle, apex;        // corners: the first half lies on the side of `begin`
+    std::uint32_t begin, middle, apex;  // corners: the first half lies on the side of `begin`
     std::array<std::uint32_t, 2> children;
   };
   static constexpr std::uint32_t cut = 0x80000000u;
@@ -74,8 +75,8 @@ class PatchMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles_;  // corners
   std::vector<Cut> cuts_;
   std::vector<std::uint32_t> first_child_;  // by triangle
-  std::vector<std::uint32_t> child_at_;     // by face: where it is a child, 2 * Cut + 0 or 1; of a whole triangle `none`
-  std::vector<std::uint32_t> path_;         // scratch
+  std::vector<std::uint32_t> child_at_;  // by face: where it is a child, 2 * Cut + 0 or 1; of a whole triangle `none`
+  std::vector<std::uint32_t> path_;      // scratch
 };
 
 }  // namespace wrlkit::light

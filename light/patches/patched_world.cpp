@@ -15,8 +15,10 @@ constexpr std::size_t side_block = 1024;  // of work in parallel
 
 }  // namespace
 
-PatchedWorld::PatchedWorld(const LightWorld& world, const PatchSizes& sizes, Diagnostics& diag) : world_(world), sizes_(sizes) {
-  if (!(sizes_.max_edge > 0) && !(sizes_.max_area > 0)) sizes_.max_edge = std::sqrt(3 * total_area() / patches_as_a_rule);
+PatchedWorld::PatchedWorld(const LightWorld& world, const PatchSizes& sizes, Diagnostics& diag)
+    : world_(world), sizes_(sizes) {
+  if (!(sizes_.max_edge > 0) && !(sizes_.max_area > 0))
+    sizes_.max_edge = std::sqrt(3 * total_area() / patches_as_a_rule);
   cut(diag);
   number_sides();
 }
@@ -45,14 +47,16 @@ double PatchedWorld::total_area() const {
 
 void PatchedWorld::cut(Diagnostics& diag) {
   const PatchSizes asked = sizes_;
-  if (const double least = least_patches(), most = static_cast<double>(sizes_.most_patches); least > most) enlarge(std::sqrt(least / most));
+  if (const double least = least_patches(), most = static_cast<double>(sizes_.most_patches); least > most)
+    enlarge(std::sqrt(least / most));
   while (!try_to_cut()) {
     enlarge(1.5);
     // A world of more triangles than that is taken as it is.
     if (!std::isfinite(sizes_.max_edge + sizes_.max_area)) break;
   }
   if (sizes_.max_edge > asked.max_edge || sizes_.max_area > asked.max_area)
-    diag.report(Diag::patch_limit, {}, sizes_.most_patches, sizes_.max_edge > 0 ? sizes_.max_edge / asked.max_edge : std::sqrt(sizes_.max_area / asked.max_area));
+    diag.report(Diag::patch_limit, {}, sizes_.most_patches,
+                sizes_.max_edge > 0 ? sizes_.max_edge / asked.max_edge : std::sqrt(sizes_.max_area / asked.max_area));
 }
 
 void PatchedWorld::enlarge(double factor) {
@@ -78,7 +82,9 @@ bool PatchedWorld::try_to_cut() {
     uses_[u].mesh = std::make_unique<PatchMesh>(triangles_of(u));
     uses_[u].both_sides = !m.solid;
     const std::size_t n_sides = 1 + !m.solid;
-    if (!uses_[u].mesh->split_to(sizes_.max_edge, sizes_.max_area, (sizes_.most_patches - std::min(n, sizes_.most_patches)) / n_sides)) return false;
+    if (!uses_[u].mesh->split_to(sizes_.max_edge, sizes_.max_area,
+                                 (sizes_.most_patches - std::min(n, sizes_.most_patches)) / n_sides))
+      return false;
     n += n_sides * uses_[u].mesh->faces().size();
   }
   return true;
@@ -97,7 +103,8 @@ void PatchedWorld::number_sides() {
   albedo_.resize(sides_.size());
   emission_.resize(sides_.size());
   parallel_for((sides_.size() + side_block - 1) / side_block, [&](std::size_t b) {
-    for (std::size_t s = b * side_block; s < std::min(sides_.size(), (b + 1) * side_block); ++s) paint(static_cast<std::uint32_t>(s));
+    for (std::size_t s = b * side_block; s < std::min(sides_.size(), (b + 1) * side_block); ++s)
+      paint(static_cast<std::uint32_t>(s));
   });
 }
 
@@ -118,7 +125,8 @@ Receiver PatchedWorld::receiver(std::uint32_t s, double u, double v) const {
   V3 face = unit(cross(e1, e2));
   if (side.back) face = -face;
   const auto t = triangle_of(world_, side.use, mesh(side.use).faces()[side.face].triangle);
-  return {world_.off_surface(p, face, std::max(length(t[1] - t[0]), length(t[2] - t[0]))), face, face, world_.stage().uses[side.use].lights};
+  return {world_.off_surface(p, face, std::max(length(t[1] - t[0]), length(t[2] - t[0]))), face, face,
+          world_.stage().uses[side.use].lights};
 }
 
 std::uint32_t PatchedWorld::side_at(const Hit& hit, const V3& position) const {

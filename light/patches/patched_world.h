@@ -1,18 +1,19 @@
-// The surfaces of a world, cut into patches: what light falls on and leaves in the methods of radiosity. Each patch has one
-// side, or two where its Shape is lit on both (solid FALSE). Patches are flat; normals of the file do not bend them.
+// The surfaces of a world, cut into patches: what light falls on and leaves in the methods of radiosity. Each patch has
+// one side, or two where its Shape is lit on both (solid FALSE). Patches are flat; normals of the file do not bend
+// them.
 #pragma once
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "light/flux.h"
-#include "light/world.h"
 #include "light/patches/patch_mesh.h"
+#include "light/world.h"
 
 namespace wrlkit::light {
 
 struct PatchSizes {
-  double max_edge = 0, max_area = 0;  // metres, square metres; none of both: some twenty thousand patches
+  double max_edge = 0, max_area = 0;      // metres, square metres; none of both: some twenty thousand patches
   std::size_t most_patches = 10'000'000;  // a side is one
 };
 
@@ -21,7 +22,7 @@ class PatchedWorld {
   static constexpr std::uint32_t none = 0xffffffffu;
 
   struct Side {
-    std::uint32_t use, face;          // of mesh(use)
+    std::uint32_t use, face;  // of mesh(use)
     bool back;
   };
 
@@ -63,7 +64,7 @@ class PatchedWorld {
   void cut(Diagnostics& diag);
   bool try_to_cut();
   std::vector<std::array<V3, 3>> triangles_of(std::uint32_t use) const;
-  double total_area() const;         // of all sides
+  double total_area() const;  // of all sides
   double least_patches() const;
   void enlarge(double factor);
   void number_sides();

@@ -1,8 +1,8 @@
 // Path tracing: see methods.h. Places on a patch and directions come from one lattice, so a patch is sampled evenly.
 #include <algorithm>
 
-#include "light/transport.h"
 #include "light/patches/methods.h"
+#include "light/transport.h"
 
 namespace wrlkit::light {
 namespace {
@@ -10,7 +10,8 @@ namespace {
 constexpr int lamp_rays = 2;
 constexpr std::uint32_t portion = 4096;  // sides between two reports
 
-V3 irradiance_of(const PatchedWorld& world, const DirectLight& direct, const Transport& transport, std::uint32_t side, const MethodOptions& o) {
+V3 irradiance_of(const PatchedWorld& world, const DirectLight& direct, const Transport& transport, std::uint32_t side,
+                 const MethodOptions& o) {
   if (!(world.area(side) > 0)) return {};
   const auto key = key_of(o.seed, 10, side);
   Stream random(key);
@@ -37,7 +38,8 @@ std::vector<V3> follow_paths(const PatchedWorld& world, const MethodOptions& opt
   const auto n = static_cast<std::uint32_t>(world.n_sides());
   std::vector<V3> out(n);
   for (std::uint32_t begin = 0; begin < n; begin += portion) {
-    for_sides(begin, std::min(n, begin + portion), [&](std::uint32_t s) { out[s] = irradiance_of(world, direct, transport, s, options); });
+    for_sides(begin, std::min(n, begin + portion),
+              [&](std::uint32_t s) { out[s] = irradiance_of(world, direct, transport, s, options); });
     options.done(static_cast<double>(std::min(n, begin + portion)) / n);
   }
   return out;

@@ -1,16 +1,16 @@
-// Shooting: see methods.h. Every ray carries about the same power, so a side gets as many rays as its unshot light is worth,
-// and a side that has less than a ray's worth gets one by chance. Sides are done in rounds, all those together that have at
-// least half as much as the brightest; the deposits of a round are added in the order of the sides.
+// Shooting: see methods.h. Every ray carries about the same power, so a side gets as many rays as its unshot light is
+// worth, and a side that has less than a ray's worth gets one by chance. Sides are done in rounds, all those together
+// that have at least half as much as the brightest; the deposits of a round are added in the order of the sides.
 #include <algorithm>
 
-#include "light/transport.h"
 #include "base/parallel.h"
 #include "light/patches/methods.h"
+#include "light/transport.h"
 
 namespace wrlkit::light {
 namespace {
 
-constexpr double enough = 1e-4;      // of the light is left when shooting ends
+constexpr double enough = 1e-4;  // of the light is left when shooting ends
 constexpr int lamp_rays = 16;
 
 struct Deposit {
@@ -21,8 +21,13 @@ struct Deposit {
 class Shooting {
  public:
   Shooting(const PatchedWorld& world, const MethodOptions& options)
-      : world_(world), options_(options), direct_(world.world()), transport_(world.world(), direct_, nullptr),
-        received_(world.n_sides()), unshot_(world.n_sides()), shot_(world.n_sides()) {}
+      : world_(world),
+        options_(options),
+        direct_(world.world()),
+        transport_(world.world(), direct_, nullptr),
+        received_(world.n_sides()),
+        unshot_(world.n_sides()),
+        shot_(world.n_sides()) {}
 
   std::vector<V3> run() {
     start();
@@ -79,9 +84,13 @@ class Shooting {
     constexpr std::size_t block = 64;
     std::vector<std::vector<Deposit>> deposits((from.size() + block - 1) / block);
     parallel_for(deposits.size(), [&](std::size_t b) {
-      for (std::size_t i = b * block; i < std::min(from.size(), (b + 1) * block); ++i) shoot_from(from[i], a_ray, round, deposits[b]);
+      for (std::size_t i = b * block; i < std::min(from.size(), (b + 1) * block); ++i)
+        shoot_from(from[i], a_ray, round, deposits[b]);
     });
-    for (auto s : from) sent_ += mean(unshot_[s]), unshot_[s] = {};
+    for (auto s : from) {
+      sent_ += mean(unshot_[s]);
+      unshot_[s] = {};
+    }
     for (const auto& list : deposits)
       for (const auto& [side, power] : list) {
         landed_ += mean(power);
@@ -103,13 +112,15 @@ class Shooting {
       transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& p, double part) {
         const auto side = world_.side_at(hit, ray.at(hit.distance));
         // A side reflects its albedo times its alpha; `part` has the alpha already.
-        if (side != PatchedWorld::none && part > 0 && world_.area(side) > 0) out.push_back({side, (part / p.alpha) * power});
+        if (side != PatchedWorld::none && part > 0 && world_.area(side) > 0)
+          out.push_back({side, (part / p.alpha) * power});
       });
     }
     shot_[s] += n;
   }
 
-  /// The ambient term: what is left goes to all alike, and is reflected for ever, as far as it does not leave the world.
+  /// The ambient term: what is left goes to all alike, and is reflected for ever, as far as it does not leave the
+  /// world.
   void share_the_rest() {
     V3 left, reflecting;
     double area = 0;
@@ -129,13 +140,15 @@ class Shooting {
   const MethodOptions& options_;
   DirectLight direct_;
   Transport transport_;
-  std::vector<V3> received_, unshot_;     // irradiance; power that has not been shot yet
-  std::vector<std::uint32_t> shot_;       // rays so far
-  double sent_ = 0, landed_ = 0;          // power of all rays, and of those that met a patch
+  std::vector<V3> received_, unshot_;  // irradiance; power that has not been shot yet
+  std::vector<std::uint32_t> shot_;    // rays so far
+  double sent_ = 0, landed_ = 0;       // power of all rays, and of those that met a patch
 };
 
 }  // namespace
 
-std::vector<V3> shoot_progressively(const PatchedWorld& world, const MethodOptions& options) { return Shooting(world, options).run(); }
+std::vector<V3> shoot_progressively(const PatchedWorld& world, const MethodOptions& options) {
+  return Shooting(world, options).run();
+}
 
 }  // namespace wrlkit::light

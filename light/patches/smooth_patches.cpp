@@ -10,15 +10,17 @@ namespace {
 
 constexpr double smooth_cosine = 0.97;
 
-double twice_area(const MeetingPatch& p) { return length(cross(p.corners[1] - p.corners[0], p.corners[2] - p.corners[0])); }
+double twice_area(const MeetingPatch& p) {
+  return length(cross(p.corners[1] - p.corners[0], p.corners[2] - p.corners[0]));
+}
 
 double angle_at(const MeetingPatch& p, std::size_t i) {
   const V3 a = p.corners[(i + 1) % 3] - p.corners[i], b = p.corners[(i + 2) % 3] - p.corners[i];
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// Corners of patches that are one vertex, although each was printed by itself. One joins the first that is near enough, so vertices
-/// cannot drift.
+/// Corners of patches that are one vertex, although each was printed by itself. One joins the first that is near
+/// enough, so vertices cannot drift.
 class VertexTable {
  public:
   VertexTable(double tolerance, const V3& origin) : tolerance_(tolerance), cell_(4 * tolerance), origin_(origin) {}
@@ -30,7 +32,9 @@ class VertexTable {
         for (auto z = cell_of(p.z - tolerance_); z <= cell_of(p.z + tolerance_); ++z) {
           const auto [from, to] = cells_.equal_range(key(x, y, z));
           for (auto i = from; i != to; ++i)
-            if (const Vertex& v = vertices_[i->second]; length(v.place - p) <= tolerance_ && dot(v.normal, normal) >= smooth_cosine) return i->second;
+            if (const Vertex& v = vertices_[i->second];
+                length(v.place - p) <= tolerance_ && dot(v.normal, normal) >= smooth_cosine)
+              return i->second;
         }
     const auto n = static_cast<std::uint32_t>(vertices_.size());
     cells_.emplace(key(cell_of(p.x), cell_of(p.y), cell_of(p.z)), n);
@@ -44,10 +48,15 @@ class VertexTable {
     V3 place, normal;
   };
 
-  std::int64_t cell_of(double v) const { return static_cast<std::int64_t>(std::clamp(std::floor(v / cell_), -0x1p62, 0x1p62)); }
+  std::int64_t cell_of(double v) const {
+    return static_cast<std::int64_t>(std::clamp(std::floor(v / cell_), -0x1p62, 0x1p62));
+  }
   static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
     std::uint64_t h = 0;
-    for (auto v : {x, y, z}) h = (h ^ static_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u, h ^= h >> 32;
+    for (auto v : {x, y, z}) {
+      h = (h ^ static_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 32;
+    }
     return h;
   }
 

@@ -1,16 +1,16 @@
-// L(n+1) = Le + T*(n) L(n): see methods.h. T*(n) is a transport operator drawn anew for each step, with the mean T: every
-// side sends one ray from a random place of its own in a random direction, and takes the light that the side there had in
-// the step before. L(n) does not converge, it wanders about the solution; the mean of all L(n) converges to it, because
-// what a side gathers has the right mean whatever the others have just now. As no ray brings more than the greatest L(n)
-// times a reflectance, it cannot run away.
+// L(n+1) = Le + T*(n) L(n): see methods.h. T*(n) is a transport operator drawn anew for each step, with the mean T:
+// every side sends one ray from a random place of its own in a random direction, and takes the light that the side
+// there had in the step before. L(n) does not converge, it wanders about the solution; the mean of all L(n) converges
+// to it, because what a side gathers has the right mean whatever the others have just now. As no ray brings more than
+// the greatest L(n) times a reflectance, it cannot run away.
 //
 // Emitted light is not waited for: each step sends rays to lamps and emitters as well, and L is what is reflected.
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "light/transport.h"
 #include "light/patches/methods.h"
+#include "light/transport.h"
 
 namespace wrlkit::light {
 namespace {
@@ -19,8 +19,8 @@ constexpr int lamp_rays = 2;
 constexpr double not_around = 1e-3;  // share of the light that may be on its way still when the mean begins to be taken
 constexpr int most_unheard = 1024;   // steps before that
 
-/// A permutation of 0 to n - 1. Steps of one side that follow each other must be independent, which points of a lattice in
-/// their order are not.
+/// A permutation of 0 to n - 1. Steps of one side that follow each other must be independent, which points of a lattice
+/// in their order are not.
 std::uint32_t shuffled(std::uint32_t i, std::uint32_t n, std::uint64_t key) {
   const std::uint32_t mask = std::bit_ceil(n) - 1;
   const int half = std::bit_width(mask) / 2 + 1;
@@ -36,8 +36,12 @@ std::uint32_t shuffled(std::uint32_t i, std::uint32_t n, std::uint64_t key) {
 class Iteration {
  public:
   Iteration(const PatchedWorld& world, const MethodOptions& options)
-      : world_(world), options_(options), direct_(world.world()), transport_(world.world(), direct_, nullptr),
-        reflected_(world.n_sides()), next_(world.n_sides()) {}
+      : world_(world),
+        options_(options),
+        direct_(world.world()),
+        transport_(world.world(), direct_, nullptr),
+        reflected_(world.n_sides()),
+        next_(world.n_sides()) {}
 
   std::vector<V3> run() {
     const int n_unheard = spread();
@@ -62,8 +66,8 @@ class Iteration {
     V3 made, reflected;
   };
 
-  /// Steps until light has got around; returns how many. A step adds one reflection, so what is lacking after n of them is a share of
-  /// r^n when a reflection keeps r of the light.
+  /// Steps until light has got around; returns how many. A step adds one reflection, so what is lacking after n of them
+  /// is a share of r^n when a reflection keeps r of the light.
   int spread() {
     std::vector<V3> again(world_.n_sides());  // reflected before, and now once more
     V3 before, after;
@@ -127,6 +131,8 @@ class Iteration {
 
 }  // namespace
 
-std::vector<V3> iterate_stochastically(const PatchedWorld& world, const MethodOptions& options) { return Iteration(world, options).run(); }
+std::vector<V3> iterate_stochastically(const PatchedWorld& world, const MethodOptions& options) {
+  return Iteration(world, options).run();
+}
 
 }  // namespace wrlkit::light

@@ -10,7 +10,8 @@ std::optional<Texel> vertex_color(const MeshPool& pool, const PooledMesh& m, con
   return out;
 }
 
-std::optional<Texel> texture_at(const MeshPool& pool, const PooledMesh& m, const Surface& s, const Hit& hit, double detail) {
+std::optional<Texel> texture_at(const MeshPool& pool, const PooledMesh& m, const Surface& s, const Hit& hit,
+                                double detail) {
   if (!s.picture.texture || m.texcoords == PooledMesh::absent) return {};
   auto at = interpolate<2>(pool, pool.texcoords, m, m.texcoords, hit);
   return s.picture.sample(s.texcoords(at[0], at[1]), detail);

@@ -15,7 +15,8 @@ V3 highlight(const Surface& s, const V3& light, const V3& direction, const LitPo
   V3 to_light = unit(direction);
   if (!(directed > 0) || !(dot(at.normal, to_light) > 0)) return {};
   double gloss = std::max(dot(at.normal, unit(to_light + at.to_viewer)), 0.0);
-  double strength = directed / std::max(dot(face, to_light), least_facing) * std::pow(gloss, s.material.shininess * 128);
+  double strength =
+      directed / std::max(dot(face, to_light), least_facing) * std::pow(gloss, s.material.shininess * 128);
   return strength * (light * to_linear(s.material.specular));
 }
 

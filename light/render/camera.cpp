@@ -46,8 +46,9 @@ Camera camera_on(const Box& box, const Lens& lens) {
   bool flat = size.z <= 1e-3 * std::max(size.x, size.y);
   V3 towards = unit(flat ? V3(0, 0, 1) : V3(0.6, 0.5, 1));
   Camera c = camera_at(towards, {0, 0, 0}, {0, 1, 0}, lens);
-  // A corner is inside when |corner - eye| across is at most its depth times k. For an eye at depth D behind the centre that
-  // leaves an interval across, which shrinks with D: the nearest eye has one just left, in the middle of which it stands.
+  // A corner is inside when |corner - eye| across is at most its depth times k. For an eye at depth D behind the centre
+  // that leaves an interval across, which shrinks with D: the nearest eye has one just left, in the middle of which it
+  // stands.
   auto place = [&](const V3& axis, double k) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (int i = 0; i < 8; ++i) {

@@ -8,10 +8,10 @@ namespace wrlkit::drawing {
 /// A perspective camera. Places in the picture are in pixels, from the upper left corner.
 struct Camera {
   V3 eye;
-  V3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1};   // unit, at right angles
+  V3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1};  // unit, at right angles
   int width = 1, height = 1;
-  double half_x = 1, half_y = 1;                   // tangents of half the horizontal and vertical field of view
-  double sample_span = 0.5;                        // pixels between neighbouring samples, for textures
+  double half_x = 1, half_y = 1;  // tangents of half the horizontal and vertical field of view
+  double sample_span = 0.5;       // pixels between neighbouring samples, for textures
 
   /// Unit direction of the ray through a place.
   V3 direction(double px, double py) const {
@@ -39,8 +39,8 @@ struct Lens {
 Camera camera_in(const Affine& frame, const Lens& lens);
 /// From an eye to a target. When they coincide it looks along -Z; when `up` is the line of sight another one is taken.
 Camera camera_at(const V3& eye, const V3& target, const V3& up, const Lens& lens);
-/// Shows the whole box, in the middle and with a margin of 5 %: from the front, the right and above, or straight from the front
-/// when it has no depth.
+/// Shows the whole box, in the middle and with a margin of 5 %: from the front, the right and above, or straight from
+/// the front when it has no depth.
 Camera camera_on(const Box& box, const Lens& lens);
 
 }  // namespace wrlkit::drawing

@@ -21,8 +21,8 @@ class Fog {
 
   V3 color_{1};
   bool exponential_ = false;
-  double range_ = 0;                 // 0: no fog
-  Affine to_local_;                  // distances are measured in the frame of the Fog
+  double range_ = 0;  // 0: no fog
+  Affine to_local_;   // distances are measured in the frame of the Fog
 };
 
 }  // namespace wrlkit::drawing

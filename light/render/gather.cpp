@@ -37,7 +37,8 @@ std::uint32_t Gatherer::mesh_of(NodeId geometry) {
 }
 
 bool Gatherer::is_primitive(NodeId n) const {
-  return scene_.is(n, nodes::Box) || scene_.is(n, nodes::Cone) || scene_.is(n, nodes::Cylinder) || scene_.is(n, nodes::Sphere);
+  return scene_.is(n, nodes::Box) || scene_.is(n, nodes::Cone) || scene_.is(n, nodes::Cylinder) ||
+         scene_.is(n, nodes::Sphere);
 }
 
 /// Its type and the values of all its fields, which are numbers and truth values.
@@ -48,8 +49,10 @@ std::vector<double> Gatherer::description(NodeId n) const {
     if (!fields[slot].has_value()) continue;
     const Value& written = scene_.value(n, slot);
     const Value& v = written.is || written.type != fields[slot].type ? fields[slot].default_value : written;
-    if (v.type == FieldType::SFBool) out.push_back(v.integer);
-    else out.insert(out.end(), v.number_span().begin(), v.number_span().end());
+    if (v.type == FieldType::SFBool)
+      out.push_back(v.integer);
+    else
+      out.insert(out.end(), v.number_span().begin(), v.number_span().end());
   }
   return out;
 }
@@ -66,7 +69,8 @@ Box bounds(const Stage& stage, const MeshPool& pool, std::span<const std::uint32
     if (points > most_points)
       for (int k = 0; k < 8; ++k) add(m.box.corner(k));
     else
-      for (std::uint32_t k = 0; k < m.n_points; ++k) add(m.origin + V3(pool.point(m, k)[0], pool.point(m, k)[1], pool.point(m, k)[2]));
+      for (std::uint32_t k = 0; k < m.n_points; ++k)
+        add(m.origin + V3(pool.point(m, k)[0], pool.point(m, k)[1], pool.point(m, k)[2]));
   }
   return all;
 }

@@ -1,18 +1,19 @@
-// The meshes that a stage needs, each taken in once: by geometry node, and for Box, Cone, Cylinder and Sphere by what they
-// are, because the atoms of a molecule are a hundred thousand nodes and a handful of spheres.
+// The meshes that a stage needs, each taken in once: by geometry node, and for Box, Cone, Cylinder and Sphere by what
+// they are, because the atoms of a molecule are a hundred thousand nodes and a handful of spheres.
 #pragma once
 #include <map>
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "light/render/mesh_pool.h"
 #include "light/render/stage.h"
-#include "base/diagnostics.h"
 
 namespace wrlkit::drawing {
 
 class Gatherer {
  public:
-  Gatherer(const Scene& scene, const MeshSource& source, MeshPool& pool) : scene_(scene), source_(source), pool_(pool) {}
+  Gatherer(const Scene& scene, const MeshSource& source, MeshPool& pool)
+      : scene_(scene), source_(source), pool_(pool) {}
 
   /// The mesh of each of stage.uses. When there are more than MeshPool::most_elements, the rest are empty.
   std::vector<std::uint32_t> meshes_of(const Stage& stage, Diagnostics& diag);

@@ -57,7 +57,8 @@ V3 Inspector::light(const Hit& hit, double area, double facing) const {
     case RenderOptions::Mode::checker:
       return is_dark(place->at[0] * page.width(), place->at[1] * page.height()) ? V3(0.2) : V3(0.9);
     case RenderOptions::Mode::density:
-      return ramp(std::log2(std::sqrt(place->density * page.width() * page.height())) / std::log2(most_texels_per_metre));
+      return ramp(std::log2(std::sqrt(place->density * page.width() * page.height())) /
+                  std::log2(most_texels_per_metre));
     case RenderOptions::Mode::lightmap:
     case RenderOptions::Mode::albedo:
     case RenderOptions::Mode::preview:

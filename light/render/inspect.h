@@ -1,5 +1,5 @@
-// Pictures for who judges a lightmap: the light alone, its texels as a checkerboard, how many of them a metre has, and the
-// colours of surfaces without any light.
+// Pictures for who judges a lightmap: the light alone, its texels as a checkerboard, how many of them a metre has, and
+// the colours of surfaces without any light.
 #pragma once
 #include "light/render/camera.h"
 #include "light/render/render.h"
@@ -10,7 +10,8 @@ namespace wrlkit::drawing {
 
 class Inspector {
  public:
-  Inspector(const Drawing& drawing, const Tracer& tracer, const Camera& camera, RenderOptions::Mode mode, const V3& background)
+  Inspector(const Drawing& drawing, const Tracer& tracer, const Camera& camera, RenderOptions::Mode mode,
+            const V3& background)
       : drawing_(drawing), tracer_(tracer), camera_(camera), mode_(mode), background_(background) {}
 
   /// The colour of a place in the picture, each component in [0, 1].

@@ -23,14 +23,23 @@ double spot(const Light& l, const V3& to_light) {
 std::optional<Light> make_light(const Scene& scene, const Placed& placed, const Stage& stage) {
   const LightNode n = read_light(scene, placed.node);
   if (!n.on) return {};
-  Light l{.kind = n.kind, .color = n.color, .intensity = n.intensity, .ambient_intensity = n.ambient_intensity, .direction = n.direction, .location = n.location,
-          .attenuation = n.attenuation, .radius = n.radius, .beam_width = n.beam_width, .cut_off_angle = n.cut_off_angle};
+  Light l{.kind = n.kind,
+          .color = n.color,
+          .intensity = n.intensity,
+          .ambient_intensity = n.ambient_intensity,
+          .direction = n.direction,
+          .location = n.location,
+          .attenuation = n.attenuation,
+          .radius = n.radius,
+          .beam_width = n.beam_width,
+          .cut_off_angle = n.cut_off_angle};
   const Affine& frame = stage.frames[placed.frame];
   l.location = frame.point(l.location);
   l.direction = unit(frame.vector(l.direction));
   l.to_local = frame.inverse();
   bool placeable = l.kind == Light::Kind::directional || finite(l.to_local);
-  if (!placeable || !finite(l.location) || !finite(l.direction) || !(l.intensity > 0 || l.ambient_intensity > 0)) return {};
+  if (!placeable || !finite(l.location) || !finite(l.direction) || !(l.intensity > 0 || l.ambient_intensity > 0))
+    return {};
   return l;
 }
 

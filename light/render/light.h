@@ -13,9 +13,9 @@ struct Light {
   Kind kind = Kind::directional;
   V3 color{1};
   double intensity = 1, ambient_intensity = 0;
-  V3 direction{0, 0, -1};            // in which the light travels; unit, world
-  V3 location;                       // world
-  Affine to_local;                   // distances are measured in the frame of the light
+  V3 direction{0, 0, -1};  // in which the light travels; unit, world
+  V3 location;             // world
+  Affine to_local;         // distances are measured in the frame of the light
   V3 attenuation{1, 0, 0};
   double radius = 100, beam_width = 0, cut_off_angle = 0;
 };
@@ -27,7 +27,7 @@ struct Lit {
 };
 
 struct LitPoint {
-  V3 position, normal, to_viewer;    // world, the latter two unit
+  V3 position, normal, to_viewer;  // world, the latter two unit
 };
 
 /// A light node in its frame; none when it is off, adds nothing or stands in a frame that has no inverse.
@@ -35,9 +35,9 @@ std::optional<Light> make_light(const Scene& scene, const Placed& placed, const 
 
 /// How a light comes to a place.
 struct Arrival {
-  V3 to_light;                       // unit; zero where the light itself stands
-  double distance = 0;               // world; infinite for a DirectionalLight
-  double strength = 0;               // attenuation * spot; 0 beyond the radius
+  V3 to_light;          // unit; zero where the light itself stands
+  double distance = 0;  // world; infinite for a DirectionalLight
+  double strength = 0;  // attenuation * spot; 0 beyond the radius
 };
 Arrival arrival(const Light& light, const V3& position);
 

@@ -1,5 +1,5 @@
-// Points, directions and affine maps of the renderer, in double: coordinates of a plant may lie a thousand kilometres from
-// the origin, and what goes to single precision is first brought near it.
+// Points, directions and affine maps of the renderer, in double: coordinates of a plant may lie a thousand kilometres
+// from the origin, and what goes to single precision is first brought near it.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -18,7 +18,12 @@ struct V3 {
   constexpr explicit V3(double all) : x(all), y(all), z(all) {}
   constexpr V3(const Vec3& v) : x(v[0]), y(v[1]), z(v[2]) {}
 
-  V3& operator+=(const V3& b) { x += b.x; y += b.y; z += b.z; return *this; }
+  V3& operator+=(const V3& b) {
+    x += b.x;
+    y += b.y;
+    z += b.z;
+    return *this;
+  }
 };
 
 inline V3 operator+(const V3& a, const V3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -28,7 +33,9 @@ inline V3 operator*(double s, const V3& a) { return {s * a.x, s * a.y, s * a.z};
 /// Component by component: colours.
 inline V3 operator*(const V3& a, const V3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 inline double dot(const V3& a, const V3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline V3 cross(const V3& a, const V3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline V3 cross(const V3& a, const V3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline double length(const V3& a) { return std::sqrt(dot(a, a)); }
 inline V3 unit(const V3& a) {
   double l = length(a);
@@ -47,7 +54,10 @@ struct Box {
   V3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
 
   bool empty() const { return !(low.x <= high.x); }
-  void add(const V3& p) { low = min(low, p); high = max(high, p); }
+  void add(const V3& p) {
+    low = min(low, p);
+    high = max(high, p);
+  }
   V3 centre() const { return 0.5 * low + 0.5 * high; }
   V3 size() const { return high - low; }
   V3 corner(int i) const { return {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; }
@@ -60,8 +70,8 @@ struct Affine {
   V3 vector(const V3& v) const { return v.x * x + v.y * y + v.z * z; }
   V3 point(const V3& p) const { return vector(p) + t; }
   double determinant() const { return dot(x, cross(y, z)); }
-  /// A normal, by the inverse transpose, not of length 1. It stays on its side of the surface when the map mirrors, and is
-  /// good for maps that flatten, too.
+  /// A normal, by the inverse transpose, not of length 1. It stays on its side of the surface when the map mirrors, and
+  /// is good for maps that flatten, too.
   V3 normal(const V3& n) const {
     V3 m = n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y);
     return determinant() < 0 ? -m : m;
@@ -76,7 +86,9 @@ struct Affine {
   }
 };
 
-inline Affine operator*(const Affine& a, const Affine& b) { return {a.vector(b.x), a.vector(b.y), a.vector(b.z), a.point(b.t)}; }
+inline Affine operator*(const Affine& a, const Affine& b) {
+  return {a.vector(b.x), a.vector(b.y), a.vector(b.z), a.point(b.t)};
+}
 inline bool finite(const Affine& a) { return finite(a.x) && finite(a.y) && finite(a.z) && finite(a.t); }
 
 inline Affine translation(const V3& t) { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, t}; }

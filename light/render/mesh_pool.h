@@ -1,12 +1,12 @@
-// The meshes of all geometry nodes in a few large arrays: positions in single precision, relative to a centre of each mesh
-// of its own, and for each corner of each triangle, segment or point where its position, normal, colour and texture
-// coordinates are. A million meshes of one triangle cost hardly more than one mesh of a million.
+// The meshes of all geometry nodes in a few large arrays: positions in single precision, relative to a centre of each
+// mesh of its own, and for each corner of each triangle, segment or point where its position, normal, colour and
+// texture coordinates are. A million meshes of one triangle cost hardly more than one mesh of a million.
 #pragma once
 #include <cstdint>
 #include <vector>
 
-#include "light/render/linear.h"
 #include "geometry/mesh.h"
+#include "light/render/linear.h"
 
 namespace wrlkit::drawing {
 
@@ -22,10 +22,11 @@ struct PooledMesh {
   Mesh::Kind kind = Mesh::Kind::none;
   bool solid = true;
   std::uint8_t color_width = 3;
-  std::uint32_t n_elements = 0;      // triangles, segments or points
-  std::size_t first_corner = 0;      // into MeshPool::corners
+  std::uint32_t n_elements = 0;  // triangles, segments or points
+  std::size_t first_corner = 0;  // into MeshPool::corners
   std::size_t first_point = 0, n_points = 0;
-  std::size_t normals = absent, colors = absent, texcoords = absent, lightcoords = absent;  // into the index of each stream
+  std::size_t normals = absent, colors = absent, texcoords = absent,
+              lightcoords = absent;  // into the index of each stream
   V3 origin;                         // positions are relative to this
   Box box;                           // with the origin
 
@@ -37,9 +38,9 @@ class MeshPool {
   /// More elements than this are not drawn: some 200 bytes each, with the tree of the tracer.
   static constexpr std::size_t most_elements = 40'000'000;
 
-  /// Takes a mesh in. Polygons are cut into fans and polylines into segments. The front of a triangle is where its corners
-  /// run counter-clockwise, whatever mesh.ccw says. Costs O(its corners). Elements with positions that are not finite, or
-  /// beyond single precision, are dropped.
+  /// Takes a mesh in. Polygons are cut into fans and polylines into segments. The front of a triangle is where its
+  /// corners run counter-clockwise, whatever mesh.ccw says. Costs O(its corners). Elements with positions that are not
+  /// finite, or beyond single precision, are dropped.
   std::uint32_t add(const Mesh& mesh);
 
   const PooledMesh& operator[](std::uint32_t i) const { return meshes_[i]; }
@@ -66,8 +67,8 @@ class MeshPool {
   std::size_t add_attribute(const Attribute& from, Stream& to);
 
   std::vector<PooledMesh> meshes_;
-  std::size_t n_elements_ = 0;         // of all meshes
-  std::vector<std::uint32_t> order_;   // corners of the mesh, as elements; scratch
+  std::size_t n_elements_ = 0;        // of all meshes
+  std::vector<std::uint32_t> order_;  // corners of the mesh, as elements; scratch
   StampedMap map_;
 };
 

@@ -15,7 +15,8 @@ struct Placement {
 
   std::array<double, 13> key() const {
     const Affine& f = frame;
-    return {f.x.x, f.x.y, f.x.z, f.y.x, f.y.y, f.y.z, f.z.x, f.z.y, f.z.z, f.t.x, f.t.y, f.t.z, static_cast<double>(mesh)};
+    return {
+        f.x.x, f.x.y, f.x.z, f.y.x, f.y.y, f.y.z, f.z.x, f.z.y, f.z.z, f.t.x, f.t.y, f.t.z, static_cast<double>(mesh)};
   }
   bool operator==(const Placement& o) const { return key() == o.key(); }
 };

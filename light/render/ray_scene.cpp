@@ -13,8 +13,8 @@
 namespace wrlkit::drawing {
 namespace {
 
-constexpr std::uint32_t small_mesh = 16;         // elements; an instance costs more than those
-constexpr std::size_t fast_build = 2'000'000;    // above, the build counts for more than the rays
+constexpr std::uint32_t small_mesh = 16;                            // elements; an instance costs more than those
+constexpr std::size_t fast_build = 2'000'000;                       // above, the build counts for more than the rays
 constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();  // Embree leaves such elements out
 constexpr float infinity = std::numeric_limits<float>::infinity();
 enum Mask : unsigned { opaque = 1, clear = 2 };
@@ -23,7 +23,8 @@ enum Mask : unsigned { opaque = 1, clear = 2 };
 bool acceptable(const RTCRay& r) {
   constexpr float largest = 1e18f;
   auto small = [](float v) { return std::fabs(v) < largest; };
-  return small(r.org_x) && small(r.org_y) && small(r.org_z) && small(r.dir_x) && small(r.dir_y) && small(r.dir_z) && r.tnear < r.tfar;
+  return small(r.org_x) && small(r.org_y) && small(r.org_z) && small(r.dir_x) && small(r.dir_y) && small(r.dir_z) &&
+         r.tnear < r.tfar;
 }
 
 /// The elements of one use, within a batch.
@@ -59,20 +60,18 @@ struct RayScene::State {
   const MeshPool& meshes;
   std::span<const std::uint32_t> mesh_of;
   RayOptions options;
-  V3 centre{};                              // world; all single-precision coordinates are relative to it
+  V3 centre{};  // world; all single-precision coordinates are relative to it
   double radius = 0;
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
-  Batch batches[6] = {{RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}},
-                      {RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}},
-                      {RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE, 4, {}, {}, {}},
-                      {RTC_GEOMETRY_TYPE_DISC_POINT, 4, {}, {}, {}},
-                      {RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}},
-                      {RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}}};
-  std::vector<const Batch*> batch_of{};     // by Embree's geometry number; null: an instance
-  std::vector<std::uint32_t> use_of{};      // the same, of instances
-  std::vector<RTCScene> instanced{};        // by mesh
-  std::vector<char> held{};                 // by use
+  Batch batches[6] = {
+      {RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}},          {RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}},
+      {RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE, 4, {}, {}, {}}, {RTC_GEOMETRY_TYPE_DISC_POINT, 4, {}, {}, {}},
+      {RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}},          {RTC_GEOMETRY_TYPE_TRIANGLE, 3, {}, {}, {}}};
+  std::vector<const Batch*> batch_of{};  // by Embree's geometry number; null: an instance
+  std::vector<std::uint32_t> use_of{};   // the same, of instances
+  std::vector<RTCScene> instanced{};     // by mesh
+  std::vector<char> held{};              // by use
 
   ~State();
   bool is_clear(std::uint32_t use) const { return use < options.clear.size() && options.clear[use]; }
@@ -109,7 +108,7 @@ struct Context {
   const void* state;
   float distance;
   Found found;
-  Found left;                                // a back at the same distance as a front
+  Found left;  // a back at the same distance as a front
   bool leaves;
 };
 
@@ -126,11 +125,21 @@ template <class State, bool culled>
 void keep(const RTCFilterFunctionNArguments* a) {
   auto& context = *reinterpret_cast<Context*>(a->context);
   float distance = RTCRayN_tfar(a->ray, a->N, 0);
-  Found f{RTCHitN_geomID(a->hit, a->N, 0), RTCHitN_primID(a->hit, a->N, 0), RTCHitN_instID(a->hit, a->N, 0, 0), is_back(a)};
-  if (culled && f.back) { a->valid[0] = 0; return; }
+  Found f{RTCHitN_geomID(a->hit, a->N, 0), RTCHitN_primID(a->hit, a->N, 0), RTCHitN_instID(a->hit, a->N, 0, 0),
+          is_back(a)};
+  if (culled && f.back) {
+    a->valid[0] = 0;
+    return;
+  }
   if (distance == context.distance) {
-    if (context.found.back != f.back) context.leaves = true, context.left = f.back ? f : context.found;
-    if (static_cast<const State*>(context.state)->before(context.found, f)) { a->valid[0] = 0; return; }
+    if (context.found.back != f.back) {
+      context.leaves = true;
+      context.left = f.back ? f : context.found;
+    }
+    if (static_cast<const State*>(context.state)->before(context.found, f)) {
+      a->valid[0] = 0;
+      return;
+    }
   } else {
     context.leaves = false;
   }
@@ -153,7 +162,9 @@ std::pair<std::uint32_t, std::uint32_t> RayScene::State::resolve(const Found& f)
   return {p.use, f.element - p.first_element};
 }
 
-RTCFilterFunctionN RayScene::State::filter(bool culled) const { return culled ? keep<State, true> : keep<State, false>; }
+RTCFilterFunctionN RayScene::State::filter(bool culled) const {
+  return culled ? keep<State, true> : keep<State, false>;
+}
 
 /// The middle of all boxes, so that single precision is spent on the world and not on its distance from the origin.
 void RayScene::State::place_centre() {
@@ -170,8 +181,11 @@ void RayScene::State::place_centre() {
 RTCRay RayScene::State::embree_ray(const Ray& ray, double after, float before) const {
   V3 origin = ray.origin - centre;
   RTCRay r{};
-  r.org_x = static_cast<float>(origin.x), r.org_y = static_cast<float>(origin.y), r.org_z = static_cast<float>(origin.z);
-  r.dir_x = static_cast<float>(ray.direction.x), r.dir_y = static_cast<float>(ray.direction.y);
+  r.org_x = static_cast<float>(origin.x);
+  r.org_y = static_cast<float>(origin.y);
+  r.org_z = static_cast<float>(origin.z);
+  r.dir_x = static_cast<float>(ray.direction.x);
+  r.dir_y = static_cast<float>(ray.direction.y);
   r.dir_z = static_cast<float>(ray.direction.z);
   r.tnear = after > 0 ? std::nextafter(static_cast<float>(after), infinity) : 0;
   r.tfar = before;
@@ -195,7 +209,10 @@ bool RayScene::State::is_instanced(std::uint32_t use, std::span<const std::uint3
 void RayScene::State::place_uses(Diagnostics& diag) {
   std::vector<std::uint32_t> n_uses(meshes.size());
   std::size_t all = 0, flat = 0;
-  for (auto m : mesh_of) ++n_uses[m], all += meshes[m].n_elements;
+  for (auto m : mesh_of) {
+    ++n_uses[m];
+    all += meshes[m].n_elements;
+  }
   std::unordered_set<Placement, PlacementHash> placed;
   held.resize(mesh_of.size());
   for (std::uint32_t u = 0; u < mesh_of.size(); ++u) {
@@ -205,7 +222,8 @@ void RayScene::State::place_uses(Diagnostics& diag) {
     if (n_uses[mesh_of[u]] > 1 && !placed.insert({mesh_of[u], frame}).second) continue;
     bool instanced = all > options.all_flat && is_instanced(u, n_uses);
     flat += instanced ? 0 : m.n_elements;
-    if (flat > MeshPool::most_elements) return diag.report(Diag::expansion_limit, {}, MeshPool::most_elements, "triangles");
+    if (flat > MeshPool::most_elements)
+      return diag.report(Diag::expansion_limit, {}, MeshPool::most_elements, "triangles");
     held[u] = true;
     instanced ? instance(u) : flatten(u);
   }
@@ -249,14 +267,15 @@ void RayScene::State::add_vertices(Batch& to, const Affine& frame, const PooledM
 void RayScene::State::add_dot(Batch& to, const Pen::Dot& dot) const {
   V3 p = dot.at - centre;
   bool visible = dot.radius > 0 && finite(p);
-  to.vertices.insert(to.vertices.end(), {visible ? static_cast<float>(p.x) : nowhere, static_cast<float>(p.y), static_cast<float>(p.z),
-                                         static_cast<float>(dot.radius)});
+  to.vertices.insert(to.vertices.end(), {visible ? static_cast<float>(p.x) : nowhere, static_cast<float>(p.y),
+                                         static_cast<float>(p.z), static_cast<float>(dot.radius)});
 }
 
 void RayScene::State::add_ribbons(Batch& to, const Affine& frame, const PooledMesh& mesh) {
   for (std::size_t e = 0; e < mesh.n_elements; ++e) {
     to.indices.push_back(static_cast<std::uint32_t>(to.vertices.size() / 4));
-    V3 a = frame.point(meshes.position(mesh, e, 0) + mesh.origin), b = frame.point(meshes.position(mesh, e, 1) + mesh.origin);
+    V3 a = frame.point(meshes.position(mesh, e, 0) + mesh.origin),
+       b = frame.point(meshes.position(mesh, e, 1) + mesh.origin);
     for (const Pen::Dot& d : options.pen->line(a, b)) add_dot(to, d);
   }
 }
@@ -307,7 +326,8 @@ void RayScene::State::instance(std::uint32_t use) {
   const Affine& f = stage.frames[stage.uses[use].frame];
   V3 t = f.point(m.origin) - centre;
   auto n = [](double v) { return static_cast<float>(v); };
-  float columns[12] = {n(f.x.x), n(f.x.y), n(f.x.z), n(f.y.x), n(f.y.y), n(f.y.z), n(f.z.x), n(f.z.y), n(f.z.z), n(t.x), n(t.y), n(t.z)};
+  float columns[12] = {n(f.x.x), n(f.x.y), n(f.x.z), n(f.y.x), n(f.y.y), n(f.y.z),
+                       n(f.z.x), n(f.z.y), n(f.z.z), n(t.x),   n(t.y),   n(t.z)};
   RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(g, scene_of(mesh_of[use]));
   rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
@@ -327,8 +347,8 @@ void RayScene::State::attach(Batch& b, bool culled, Mask mask) {
                              b.vertices.data(), 0, stride, (b.vertices.size() - 4) / b.width);
   bool triangles = b.type == RTC_GEOMETRY_TYPE_TRIANGLE;
   if (b.type != RTC_GEOMETRY_TYPE_DISC_POINT)
-    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, triangles ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT, b.indices.data(),
-                               0, triangles ? 12 : 4, b.n_elements);
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, triangles ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT,
+                               b.indices.data(), 0, triangles ? 12 : 4, b.n_elements);
   rtcSetGeometryIntersectFilterFunction(g, filter(culled));
   rtcSetGeometryMask(g, mask);
   rtcCommitGeometry(g);
@@ -337,8 +357,8 @@ void RayScene::State::attach(Batch& b, bool culled, Mask mask) {
   batch_of[id] = &b;
 }
 
-RayScene::RayScene(const Stage& stage, const MeshPool& meshes, std::span<const std::uint32_t> mesh_of, const RayOptions& options,
-                   Diagnostics& diag)
+RayScene::RayScene(const Stage& stage, const MeshPool& meshes, std::span<const std::uint32_t> mesh_of,
+                   const RayOptions& options, Diagnostics& diag)
     : state_(new State{.stage = stage, .meshes = meshes, .mesh_of = mesh_of, .options = options}) {
   State& s = *state_;
   s.device = rtcNewDevice(only_one_thread() ? "threads=1" : nullptr);
@@ -394,7 +414,9 @@ bool RayScene::nearest(const Ray& ray, double after, Hit& hit) const {
   auto kind = s.meshes[s.mesh_of[hit.use]].kind;
   if (kind == Mesh::Kind::points) u = v = 0;
   if (kind == Mesh::Kind::lines) v = 0;
-  hit.weights[0] = 1 - u - v, hit.weights[1] = u, hit.weights[2] = v;
+  hit.weights[0] = 1 - u - v;
+  hit.weights[1] = u;
+  hit.weights[2] = v;
   return true;
 }
 

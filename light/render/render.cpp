@@ -19,7 +19,8 @@ namespace {
 using namespace drawing;
 
 /// The Viewpoint that the options ask for; none: fit.
-std::optional<Placed> choose_viewpoint(const Scene& scene, const Stage& stage, const RenderOptions& options, Diagnostics& diag) {
+std::optional<Placed> choose_viewpoint(const Scene& scene, const Stage& stage, const RenderOptions& options,
+                                       Diagnostics& diag) {
   if (options.fit || stage.viewpoints.empty()) {
     if (!options.viewpoint.empty() && !options.fit) diag.report(Diag::viewpoint_not_found, {}, options.viewpoint);
     return {};
@@ -36,17 +37,22 @@ std::optional<Placed> choose_viewpoint(const Scene& scene, const Stage& stage, c
 Camera viewpoint_camera(const Scene& scene, const Placed& p, const Stage& stage, Lens lens, bool own_angle) {
   namespace f = nodes::viewpoint;
   if (own_angle) lens.field_of_view = scene.get(p.node, f::fieldOfView);
-  return camera_in(stage.frames[p.frame] * translation(scene.get(p.node, f::position)) * rotation(scene.get(p.node, f::orientation)), lens);
+  return camera_in(
+      stage.frames[p.frame] * translation(scene.get(p.node, f::position)) * rotation(scene.get(p.node, f::orientation)),
+      lens);
 }
 
-Camera choose_camera(const Scene& scene, const Stage& stage, const RenderOptions& options, Diagnostics& diag, auto&& box) {
+Camera choose_camera(const Scene& scene, const Stage& stage, const RenderOptions& options, Diagnostics& diag,
+                     auto&& box) {
   Lens lens{options.width, options.height, options.field_of_view > 0 ? options.field_of_view : 0.785398};
   if (auto& l = options.look_at) return camera_at(l->eye, l->target, l->up, lens);
-  if (auto p = choose_viewpoint(scene, stage, options, diag)) return viewpoint_camera(scene, *p, stage, lens, !(options.field_of_view > 0));
+  if (auto p = choose_viewpoint(scene, stage, options, diag))
+    return viewpoint_camera(scene, *p, stage, lens, !(options.field_of_view > 0));
   return camera_on(box(), lens);
 }
 
-Sky choose_sky(const Scene& scene, const Stage& stage, const RenderOptions& options, Resources* resources, Diagnostics& diag) {
+Sky choose_sky(const Scene& scene, const Stage& stage, const RenderOptions& options, Resources* resources,
+               Diagnostics& diag) {
   if (options.background) return Sky(V3(*options.background));
   if (!stage.background) return Sky(V3(0));
   return Sky(scene, stage.background->node, stage.frames[stage.background->frame], resources, diag);
@@ -97,10 +103,12 @@ Box room_to_turn(const Box& box) {
 
 RenderOptions with_camera(const Scene& scene, const MeshSource& source, RenderOptions options, Diagnostics& diag) {
   const Stage stage = set_stage(scene, diag);
-  return seen_by(choose_camera(scene, stage, options, diag, [&] { return bounds_of(scene, stage, source, diag); }), options);
+  return seen_by(choose_camera(scene, stage, options, diag, [&] { return bounds_of(scene, stage, source, diag); }),
+                 options);
 }
 
-std::vector<RenderOptions> turntable(const Scene& scene, const MeshSource& source, RenderOptions options, int n, Diagnostics& diag) {
+std::vector<RenderOptions> turntable(const Scene& scene, const MeshSource& source, RenderOptions options, int n,
+                                     Diagnostics& diag) {
   const Stage stage = set_stage(scene, diag);
   const Box box = bounds_of(scene, stage, source, diag);
   if (options.viewpoint.empty()) options.fit = true;
@@ -118,12 +126,15 @@ std::vector<RenderOptions> turntable(const Scene& scene, const MeshSource& sourc
   return out;
 }
 
-Image render(const Scene& scene, const MeshSource& source, const RenderOptions& options, Resources* resources, Diagnostics& diag) {
+Image render(const Scene& scene, const MeshSource& source, const RenderOptions& options, Resources* resources,
+             Diagnostics& diag) {
   Stage stage = set_stage(scene, diag);
   const auto box_of_all = [&] { return bounds_of(scene, stage, source, diag); };
   if (options.mode == RenderOptions::Mode::path) {
     const Camera seen_from = choose_camera(scene, stage, options, diag, box_of_all);
-    light::PathOptions how{.samples = std::clamp(options.samples, 1, 64), .level_of = choose_levels(scene, seen_from, options), .done = options.done};
+    light::PathOptions how{.samples = std::clamp(options.samples, 1, 64),
+                           .level_of = choose_levels(scene, seen_from, options),
+                           .done = options.done};
     if (options.background) how.background = light::linear(V3(*options.background));
     return light::path_picture(scene, source, seen_from, how, resources, diag);
   }
@@ -131,7 +142,8 @@ Image render(const Scene& scene, const MeshSource& source, const RenderOptions& 
   std::vector<std::uint32_t> mesh_of;
   const bool shows_all = options.level == 0;  // what the camera is to see is what is drawn
   if (shows_all) mesh_of = Gatherer(scene, source, pool).meshes_of(stage, diag);
-  Camera camera = choose_camera(scene, stage, options, diag, [&] { return shows_all ? bounds(stage, pool, mesh_of) : box_of_all(); });
+  Camera camera = choose_camera(scene, stage, options, diag,
+                                [&] { return shows_all ? bounds(stage, pool, mesh_of) : box_of_all(); });
   if (stage.billboards || !shows_all) stage = seen_stage(scene, camera, options);
   if (!shows_all) mesh_of = Gatherer(scene, source, pool).meshes_of(stage, diag);
   Raster raster{camera.width, camera.height, std::clamp(options.samples, 1, 16)};

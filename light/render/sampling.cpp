@@ -19,9 +19,13 @@ class Sampler {
       : raster_(raster), color_(color), pixels_(std::size_t(raster.width) * raster.height) {}
 
   Image run() {
-    each_row([&](int y) { for (int x = 0; x < raster_.width; ++x) at(x, y) = first(x, y); });
+    each_row([&](int y) {
+      for (int x = 0; x < raster_.width; ++x) at(x, y) = first(x, y);
+    });
     Image image{raster_.width, raster_.height, 3, std::vector<std::uint8_t>(pixels_.size() * 3)};
-    each_row([&](int y) { for (int x = 0; x < raster_.width; ++x) put(image, x, y); });
+    each_row([&](int y) {
+      for (int x = 0; x < raster_.width; ++x) put(image, x, y);
+    });
     return image;
   }
 
@@ -43,7 +47,11 @@ class Sampler {
 
   static Pixel statistics(std::initializer_list<V3> colors) {
     V3 sum, low(1), high(0);
-    for (const V3& c : colors) sum += c, low = min(low, c), high = max(high, c);
+    for (const V3& c : colors) {
+      sum += c;
+      low = min(low, c);
+      high = max(high, c);
+    }
     V3 mean = (1.0 / static_cast<double>(colors.size())) * sum;
     auto f = [](double v) { return static_cast<float>(v); };
     return {{f(mean.x), f(mean.y), f(mean.z)}, {f(low.x), f(low.y), f(low.z)}, {f(high.x), f(high.y), f(high.z)}};
@@ -82,6 +90,8 @@ class Sampler {
 
 }  // namespace
 
-Image sample_picture(const Raster& raster, const std::function<V3(double, double)>& color) { return Sampler(raster, color).run(); }
+Image sample_picture(const Raster& raster, const std::function<V3(double, double)>& color) {
+  return Sampler(raster, color).run();
+}
 
 }  // namespace wrlkit::drawing

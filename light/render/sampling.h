@@ -15,9 +15,9 @@ struct Raster {
   double span() const { return samples < 2 ? 1 : 0.5; }
 };
 
-/// The RGB picture of `color(x, y)`, each component in [0, 1], x and y in pixels from the upper left corner. Four samples a
-/// pixel first; pixels that differ from one of their neighbours, or in themselves, then get samples * samples. Rows are
-/// done in parallel; the picture does not depend on how.
+/// The RGB picture of `color(x, y)`, each component in [0, 1], x and y in pixels from the upper left corner. Four
+/// samples a pixel first; pixels that differ from one of their neighbours, or in themselves, then get samples *
+/// samples. Rows are done in parallel; the picture does not depend on how.
 Image sample_picture(const Raster& raster, const std::function<V3(double x, double y)>& color);
 
 }  // namespace wrlkit::drawing

@@ -9,8 +9,8 @@
 namespace wrlkit::drawing {
 namespace {
 
-constexpr int most_layers = 32;      // of transparent things, one behind the other
-constexpr double hidden = 1.0 / 512; // what shows through by less is not looked for
+constexpr int most_layers = 32;       // of transparent things, one behind the other
+constexpr double hidden = 1.0 / 512;  // what shows through by less is not looked for
 
 /// Into [0, 1]; what is no number is black.
 double displayed(double v) { return v > 0 ? std::min(v, 1.0) : 0; }
@@ -41,7 +41,8 @@ Spot spot_at(const Drawing& d, const Ray& ray, const Hit& hit) {
   return s;
 }
 
-std::optional<Texel> texel_of(const Drawing& d, const Surface& s, const Hit& hit, const Camera& camera, const Seen& seen) {
+std::optional<Texel> texel_of(const Drawing& d, const Surface& s, const Hit& hit, const Camera& camera,
+                              const Seen& seen) {
   const PooledMesh& m = d.meshes[d.mesh_of[hit.use]];
   if (!s.picture.texture) return {};
   auto place = place_of(d.meshes, m, hit, d.meshes.texcoords, m.texcoords, s.texcoords, seen.area);
@@ -57,7 +58,8 @@ Shader::Shader(const Scene& scene, const Drawing& drawing, const Tracer& tracer,
   if (stage.fog) fog_ = Fog(scene, *stage.fog, stage);
   for (const Placed& p : stage.lights)
     if (auto l = make_light(scene, p, stage)) everywhere_.push_back(*l);
-  for (const LightScope& s : stage.scopes) scoped_.push_back(s.light.node ? make_light(scene, s.light, stage) : std::nullopt);
+  for (const LightScope& s : stage.scopes)
+    scoped_.push_back(s.light.node ? make_light(scene, s.light, stage) : std::nullopt);
 }
 
 V3 Shader::color(double px, double py) const {
@@ -79,9 +81,12 @@ Texel Shader::shade(const Ray& ray, const Hit& hit) const {
   const Surface& s = drawing_.surfaces[drawing_.surface_of[hit.use]];
   const PooledMesh& m = drawing_.meshes[drawing_.mesh_of[hit.use]];
   Texel out;
-  if (m.kind == Mesh::Kind::faces) out = shade_face(ray, hit, s);
-  else if (auto own = vertex_color(drawing_.meshes, m, hit)) out = {own->color, own->alpha * s.alpha};
-  else out = {s.lit ? s.emissive : V3(1), s.alpha};  // IndexedLineSet and PointSet (6.24, 6.36)
+  if (m.kind == Mesh::Kind::faces)
+    out = shade_face(ray, hit, s);
+  else if (auto own = vertex_color(drawing_.meshes, m, hit))
+    out = {own->color, own->alpha * s.alpha};
+  else
+    out = {s.lit ? s.emissive : V3(1), s.alpha};  // IndexedLineSet and PointSet (6.24, 6.36)
   return {displayed(fog_.dim(displayed(out.color), hit.distance * ray.direction)), displayed(out.alpha)};
 }
 
@@ -106,11 +111,14 @@ Texel Shader::shade_face(const Ray& ray, const Hit& hit, const Surface& s) const
 }
 
 /// Occlusion dims ambient light, as in glTF; normals lean along the picture's sides.
-void Shader::further_pictures(const Surface& s, const PooledMesh& m, const Hit& hit, const Seen& seen, V3& normal, Further& to) const {
+void Shader::further_pictures(const Surface& s, const PooledMesh& m, const Hit& hit, const Seen& seen, V3& normal,
+                              Further& to) const {
   const MeshPool& pool = drawing_.meshes;
   const auto place = place_of(pool, m, hit, pool.texcoords, m.texcoords, s.texcoords, seen.area);
   if (!place) return;
-  auto sample = [&](const Layer& l) { return l.sample(place->at, place->detail(*l.texture, hit, camera_, seen.facing)); };
+  auto sample = [&](const Layer& l) {
+    return l.sample(place->at, place->detail(*l.texture, hit, camera_, seen.facing));
+  };
   if (s.glow.texture) to.emissive = s.emissive * sample(s.glow).color;
   if (s.shadow.texture) to.ambient *= 1 - s.shadow_strength * (1 - sample(s.shadow).color.x);
   if (!s.bumps.texture) return;
@@ -119,17 +127,23 @@ void Shader::further_pictures(const Surface& s, const PooledMesh& m, const Hit& 
     const float* c = pool.value(pool.texcoords, m, m.texcoords, hit.element, k);
     uv[k] = s.texcoords(c[0], c[1]);
   }
-  const double u1 = uv[1][0] - uv[0][0], v1 = uv[1][1] - uv[0][1], u2 = uv[2][0] - uv[0][0], v2 = uv[2][1] - uv[0][1], d = u1 * v2 - u2 * v1;
+  const double u1 = uv[1][0] - uv[0][0], v1 = uv[1][1] - uv[0][1], u2 = uv[2][0] - uv[0][0], v2 = uv[2][1] - uv[0][1],
+               d = u1 * v2 - u2 * v1;
   if (!(std::fabs(d) > 0)) return;
   const Affine& frame = drawing_.stage.frames[drawing_.stage.uses[hit.use].frame];
-  const V3 a = pool.position(m, hit.element, 0), e1 = pool.position(m, hit.element, 1) - a, e2 = pool.position(m, hit.element, 2) - a;
-  auto along = [&](const V3& direction) { const V3 w = frame.vector((1 / d) * direction); return unit(w - dot(w, normal) * normal); };
+  const V3 a = pool.position(m, hit.element, 0), e1 = pool.position(m, hit.element, 1) - a,
+           e2 = pool.position(m, hit.element, 2) - a;
+  auto along = [&](const V3& direction) {
+    const V3 w = frame.vector((1 / d) * direction);
+    return unit(w - dot(w, normal) * normal);
+  };
   const V3 t = along(v2 * e1 - v1 * e2), b = along(u1 * e2 - u2 * e1), n = 2.0 * sample(s.bumps).color - V3(1);
   normal = unit((s.bump_scale * n.x) * t + (s.bump_scale * n.y) * b + n.z * normal);
 }
 
 /// The sum of 4.14.4, without fog.
-V3 Shader::light(const Surface& s, const V3& base, const Further& further, const LitPoint& at, std::uint32_t scope) const {
+V3 Shader::light(const Surface& s, const V3& base, const Further& further, const LitPoint& at,
+                 std::uint32_t scope) const {
   Lit material = s.material;
   material.diffuse = base;
   material.ambient = further.ambient;

@@ -1,4 +1,5 @@
-// The colour that a ray brings: what it meets, lit by the lights that reach it, through what is transparent, to the sky.
+// The colour that a ray brings: what it meets, lit by the lights that reach it, through what is transparent, to the
+// sky.
 #pragma once
 #include <optional>
 #include <span>
@@ -24,9 +25,9 @@ struct Drawing {
 
 /// What lies where a ray meets a triangle.
 struct Spot {
-  V3 position;                       // world
-  V3 face;                           // normal of the triangle, world, as long as twice its area
-  V3 normal;                         // unit, interpolated, on the side of the viewer
+  V3 position;  // world
+  V3 face;      // normal of the triangle, world, as long as twice its area
+  V3 normal;    // unit, interpolated, on the side of the viewer
 };
 
 /// How a triangle is seen.
@@ -60,13 +61,14 @@ class Shader {
   const Sky& sky_;
   Fog fog_;
   std::optional<Light> headlight_;
-  std::vector<Light> everywhere_;                // PointLights and SpotLights
-  std::vector<std::optional<Light>> scoped_;     // by LightScope
+  std::vector<Light> everywhere_;             // PointLights and SpotLights
+  std::vector<std::optional<Light>> scoped_;  // by LightScope
 };
 
 /// Position and normals of a hit on a triangle.
 Spot spot_at(const Drawing& drawing, const Ray& ray, const Hit& hit);
 /// What the surface's picture shows there; none without one.
-std::optional<Texel> texel_of(const Drawing& drawing, const Surface& surface, const Hit& hit, const Camera& camera, const Seen& seen);
+std::optional<Texel> texel_of(const Drawing& drawing, const Surface& surface, const Hit& hit, const Camera& camera,
+                              const Seen& seen);
 
 }  // namespace wrlkit::drawing

@@ -13,8 +13,8 @@ Affine local_frame(const Scene& scene, NodeId n) {
   namespace f = nodes::transform;
   V3 center = scene.get(n, f::center);
   Affine turn = rotation(scene.get(n, f::rotation)), axes = rotation(scene.get(n, f::scaleOrientation));
-  return translation(scene.get(n, f::translation)) * translation(center) * turn * axes * scaling(scene.get(n, f::scale)) *
-         axes.inverse() * translation(-center);
+  return translation(scene.get(n, f::translation)) * translation(center) * turn * axes *
+         scaling(scene.get(n, f::scale)) * axes.inverse() * translation(-center);
 }
 
 /// Billboard (6.6) in a frame: its Z axis turns to the viewer, about the axis of rotation, or freely when that is zero.
@@ -35,7 +35,12 @@ Affine turned_to(const Pose& viewer, const V3& axis, const Affine& frame) {
 class Walk {
  public:
   Walk(const Scene& scene, Diagnostics& diag, const StageOptions& options)
-      : scene_(scene), viewer_(options.viewer), level_of_(options.level_of), diag_(diag), limits_(options.limits), n_uses_(scene.node_count()) {
+      : scene_(scene),
+        viewer_(options.viewer),
+        level_of_(options.level_of),
+        diag_(diag),
+        limits_(options.limits),
+        n_uses_(scene.node_count()) {
     limits_.visits += scene.node_count();
     limits_.shapes += scene.node_count();
   }
@@ -43,7 +48,10 @@ class Walk {
   Stage run() {
     push_children(scene_.main.roots, 0, 0, 0);
     for (std::size_t visits = 0; !stack_.empty(); ++visits) {
-      if (visits == limits_.visits) { report("nodes when every USE is followed", limits_.visits); break; }
+      if (visits == limits_.visits) {
+        report("nodes when every USE is followed", limits_.visits);
+        break;
+      }
       Item i = stack_.back();
       stack_.pop_back();
       if (i.node && may_visit(i.node) && !visit(i)) break;
@@ -61,7 +69,10 @@ class Walk {
 
   bool may_visit(NodeId n) {
     if (++n_uses_[n.value] <= limits_.uses) return true;
-    if (!uses_reported_) uses_reported_ = true, diag_.report(Diag::expansion_limit, scene_.where(n), limits_.uses, "uses of a node");
+    if (!uses_reported_) {
+      uses_reported_ = true;
+      diag_.report(Diag::expansion_limit, scene_.where(n), limits_.uses, "uses of a node");
+    }
     return false;
   }
 
@@ -71,12 +82,18 @@ class Walk {
     std::uint32_t name = name_below(i);
     if (t == nodes::Shape) return add_shape(i, name);
     Placed here{i.node, i.frame};
-    if (t == nodes::PointLight || t == nodes::SpotLight) add_light(here);
-    else if (t == nodes::Viewpoint) stage_.viewpoints.push_back(here);
-    else if (t == nodes::Background) bind(stage_.background, here);
-    else if (t == nodes::Fog) bind(stage_.fog, here);
-    else if (t == nodes::NavigationInfo) bind(stage_.navigation, here);
-    else push_children(shown_children(scene_, i.node, level(i)), frame_below(i), i.lights, name);
+    if (t == nodes::PointLight || t == nodes::SpotLight)
+      add_light(here);
+    else if (t == nodes::Viewpoint)
+      stage_.viewpoints.push_back(here);
+    else if (t == nodes::Background)
+      bind(stage_.background, here);
+    else if (t == nodes::Fog)
+      bind(stage_.fog, here);
+    else if (t == nodes::NavigationInfo)
+      bind(stage_.navigation, here);
+    else
+      push_children(shown_children(scene_, i.node, level(i)), frame_below(i), i.lights, name);
     return true;
   }
 
@@ -87,14 +104,21 @@ class Walk {
   bool add_shape(const Item& i, std::uint32_t name) {
     NodeId geometry = scene_.get(i.node, nodes::shape::geometry);
     if (!geometry) return true;
-    if (stage_.uses.size() == limits_.shapes) return report("Shapes when every USE is followed", limits_.shapes), false;
+    if (stage_.uses.size() == limits_.shapes) {
+      report("Shapes when every USE is followed", limits_.shapes);
+      return false;
+    }
     stage_.uses.push_back({geometry, scene_.get(i.node, nodes::shape::appearance), i.node, i.frame, i.lights, name});
     return true;
   }
 
   void add_light(const Placed& p) {
-    if (stage_.lights.size() < limits_.lights) stage_.lights.push_back(p);
-    else if (!lights_reported_) lights_reported_ = true, report("lights", limits_.lights);
+    if (stage_.lights.size() < limits_.lights)
+      stage_.lights.push_back(p);
+    else if (!lights_reported_) {
+      lights_reported_ = true;
+      report("lights", limits_.lights);
+    }
   }
 
   /// The name of what stands at or below a node.
@@ -104,7 +128,9 @@ class Walk {
     return static_cast<std::uint32_t>(stage_.names.size() - 1);
   }
 
-  std::size_t level(const Item& i) const { return level_of_ && scene_.is(i.node, nodes::LOD) ? level_of_(i.node, stage_.frames[i.frame]) : 0; }
+  std::size_t level(const Item& i) const {
+    return level_of_ && scene_.is(i.node, nodes::LOD) ? level_of_(i.node, stage_.frames[i.frame]) : 0;
+  }
 
   /// The frame of the children of a node.
   std::uint32_t frame_below(const Item& i) {
@@ -112,7 +138,8 @@ class Walk {
     if (scene_.is(i.node, nodes::Transform)) return add_frame(above * local_frame(scene_, i.node));
     if (!scene_.is(i.node, nodes::Billboard)) return i.frame;
     stage_.billboards = true;
-    return viewer_ ? add_frame(above * turned_to(*viewer_, scene_.get(i.node, nodes::billboard::axisOfRotation), above)) : i.frame;
+    return viewer_ ? add_frame(above * turned_to(*viewer_, scene_.get(i.node, nodes::billboard::axisOfRotation), above))
+                   : i.frame;
   }
 
   std::uint32_t add_frame(const Affine& a) {
@@ -130,7 +157,10 @@ class Walk {
   std::uint32_t scope_with(const Placed& light, std::uint32_t parent) {
     std::uint32_t depth = stage_.scopes[parent].depth + 1;
     if (depth > limits_.scope_depth) {
-      if (!depth_reported_) depth_reported_ = true, report("DirectionalLights on one Shape", limits_.scope_depth);
+      if (!depth_reported_) {
+        depth_reported_ = true;
+        report("DirectionalLights on one Shape", limits_.scope_depth);
+      }
       return parent;
     }
     stage_.scopes.push_back({parent, depth, light});
@@ -156,7 +186,8 @@ Stage set_stage(const Scene& scene, Diagnostics& diag, const StageOptions& optio
 
 std::string full_name(const Scene& scene, const Stage& stage, const Use& use) {
   std::string out;
-  for (std::uint32_t n = use.name; n; n = stage.names[n].parent) out = std::string(scene.name(stage.names[n].node)) + (out.empty() ? "" : "/") + out;
+  for (std::uint32_t n = use.name; n; n = stage.names[n].parent)
+    out = std::string(scene.name(stage.names[n].node)) + (out.empty() ? "" : "/") + out;
   return out;
 }
 

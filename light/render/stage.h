@@ -1,6 +1,6 @@
-// What is drawn where: the transformation hierarchy unrolled, one entry for each way to a Shape, a light or a Viewpoint.
-// The graph may share nodes so that it has far more ways than nodes (forty groups, each holding the next one twice), so the
-// walk has a budget.
+// What is drawn where: the transformation hierarchy unrolled, one entry for each way to a Shape, a light or a
+// Viewpoint. The graph may share nodes so that it has far more ways than nodes (forty groups, each holding the next one
+// twice), so the walk has a budget.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "light/render/linear.h"
 #include "base/diagnostics.h"
+#include "light/render/linear.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::drawing {
@@ -34,8 +34,8 @@ struct Placed {
   std::uint32_t frame = 0;
 };
 
-/// A DirectionalLight lights what is below its parent. The lights of a Shape are a chain: its scope, the scope's parent and
-/// so on to scope 0, which has no light.
+/// A DirectionalLight lights what is below its parent. The lights of a Shape are a chain: its scope, the scope's parent
+/// and so on to scope 0, which has no light.
 struct LightScope {
   std::uint32_t parent = 0, depth = 0;
   Placed light;
@@ -51,10 +51,10 @@ struct Stage {
   std::vector<Use> uses;
   std::vector<LightScope> scopes{LightScope{}};
   std::vector<NameStep> names{NameStep{}};
-  std::vector<Placed> lights;      // PointLights and SpotLights, which light all the world within their radius
+  std::vector<Placed> lights;  // PointLights and SpotLights, which light all the world within their radius
   std::vector<Placed> viewpoints;
   std::optional<Placed> background, fog, navigation;  // the first of each kind is the one that is bound (4.6.10)
-  bool billboards = false;         // some frames depend on the viewer
+  bool billboards = false;                            // some frames depend on the viewer
 };
 
 /// Visits and Shapes are allowed so many beyond the nodes of the scene: a world without USE is always drawn whole.
@@ -70,13 +70,13 @@ struct StageLimits {
 using LevelOf = std::function<std::size_t(NodeId lod, const Affine& frame)>;
 
 struct StageOptions {
-  std::optional<Pose> viewer{};      // Billboards turn there; none: they stand as they are
-  LevelOf level_of{};                // none: the first
+  std::optional<Pose> viewer{};  // Billboards turn there; none: they stand as they are
+  LevelOf level_of{};            // none: the first
   StageLimits limits{};
 };
 
-/// Walks the scene in the order of the file. A second walk with another viewer, but the same levels, gives the same entries in other
-/// frames.
+/// Walks the scene in the order of the file. A second walk with another viewer, but the same levels, gives the same
+/// entries in other frames.
 Stage set_stage(const Scene& scene, Diagnostics& diag, const StageOptions& options = {});
 
 /// The DEF names from the root to a Shape, with '/' between them.

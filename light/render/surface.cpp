@@ -33,7 +33,9 @@ void read_material(Surface& s, const Scene& scene, NodeId n) {
   s.emissive = scene.get(n, m::emissiveColor);
 }
 
-bool is_material(const Scene& scene, NodeId n) { return scene.is(n, nodes::Material) || scene.is(n, nodes::PhysicalMaterial) || scene.is(n, nodes::UnlitMaterial); }
+bool is_material(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::Material) || scene.is(n, nodes::PhysicalMaterial) || scene.is(n, nodes::UnlitMaterial);
+}
 
 /// TextureTransform (6.49): Tc' = -C S R C T Tc.
 TexcoordMap texcoord_map(const Scene& scene, NodeId n) {
@@ -55,7 +57,10 @@ V3 BakedLight::at(const std::array<double, 2>& place, double detail) const {
 
 Texel Surface::base(const std::optional<Texel>& vertex, const std::optional<Texel>& texel) const {
   Texel out{lit || shines ? material.diffuse : V3(1), alpha};
-  if (vertex) out.color = vertex->color, out.alpha *= vertex->alpha;
+  if (vertex) {
+    out.color = vertex->color;
+    out.alpha *= vertex->alpha;
+  }
   if (texel) add(out, *texel);
   if (opaque) out.alpha = 1;
   if (cutoff) out.alpha = out.alpha >= *cutoff ? 1 : 0;
@@ -116,7 +121,8 @@ BakedLight Surfaces::baked_light(NodeId appearance) {
   b.light = layer(scene_.get(appearance, f::lightmap));
   if (!b) return b;
   b.scale = scene_.get(appearance, f::lightmapScale);
-  if (NodeId map = scene_.get(appearance, f::lightmapTransform); scene_.is(map, nodes::TextureTransform)) b.places = texcoord_map(scene_, map);
+  if (NodeId map = scene_.get(appearance, f::lightmapTransform); scene_.is(map, nodes::TextureTransform))
+    b.places = texcoord_map(scene_, map);
   auto direction = scene_.get(appearance, f::lightmapDirection);
   if (direction.size() != b.direction.size()) return b;
   std::ranges::transform(direction, b.direction.begin(), [&](NodeId n) { return layer(n); });
@@ -140,7 +146,8 @@ Layer Surfaces::make_layer(NodeId n) {
   namespace f = nodes::image_texture;
   auto urls = scene_.get(n, f::url);
   if (urls.empty()) return {};
-  return {picture(resources_->image(urls, scene_.where(n), diag_)), scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)};
+  return {picture(resources_->image(urls, scene_.where(n), diag_)), scene_.get(n, f::repeatS),
+          scene_.get(n, f::repeatT)};
 }
 
 std::shared_ptr<const Texture> Surfaces::picture(const std::shared_ptr<const Image>& image) {

@@ -26,7 +26,9 @@ struct Layer {
   std::shared_ptr<const Texture> texture;  // null: none
   bool repeat_s = true, repeat_t = true;
 
-  Texel sample(const std::array<double, 2>& at, double detail) const { return texture->sample(at[0], at[1], detail, repeat_s, repeat_t); }
+  Texel sample(const std::array<double, 2>& at, double detail) const {
+    return texture->sample(at[0], at[1], detail, repeat_s, repeat_t);
+  }
 };
 
 /// Light that was computed before (docs/lighting.md), by place in a lightmap.
@@ -42,23 +44,23 @@ struct BakedLight {
 };
 
 struct Surface {
-  bool lit = false;                  // it has a Material or PhysicalMaterial
-  bool shines = false;               // it has an UnlitMaterial: its colour is light of its own
-  bool modulates = false;            // the picture multiplies the colour and does not replace it (picture_color.h)
+  bool lit = false;        // it has a Material or PhysicalMaterial
+  bool shines = false;     // it has an UnlitMaterial: its colour is light of its own
+  bool modulates = false;  // the picture multiplies the colour and does not replace it (picture_color.h)
   Lit material;
   V3 emissive;
-  double alpha = 1;                  // 1 - transparency
+  double alpha = 1;  // 1 - transparency
   Layer picture;
   // Further pictures of a material of X3D 4.0 (ISO/IEC 19775-1:2023, 12.4), at the places of `picture`.
-  Layer glow, shadow, bumps;         // emission, occlusion of ambient light, normals
+  Layer glow, shadow, bumps;  // emission, occlusion of ambient light, normals
   double bump_scale = 1, shadow_strength = 1;
-  std::optional<double> cutoff;      // alphaMode MASK: what is less is not there
-  bool opaque = false;               // alphaMode OPAQUE
+  std::optional<double> cutoff;  // alphaMode MASK: what is less is not there
+  bool opaque = false;           // alphaMode OPAQUE
   TexcoordMap texcoords;
   BakedLight baked;
 
-  /// The colour before lighting (ODrgb where there is light, ICrgb where not) and the alpha there. `vertex` is the colour
-  /// that the geometry gives, RGB or RGBA; none: the Material's.
+  /// The colour before lighting (ODrgb where there is light, ICrgb where not) and the alpha there. `vertex` is the
+  /// colour that the geometry gives, RGB or RGBA; none: the Material's.
   Texel base(const std::optional<Texel>& vertex, const std::optional<Texel>& texel) const;
   /// A texel on top of a colour.
   void add(Texel& out, const Texel& texel) const;
@@ -87,7 +89,7 @@ class Surfaces {
   Resources* resources_;
   Diagnostics& diag_;
   std::vector<Surface> surfaces_;
-  std::vector<std::uint32_t> index_;  // by NodeId; 0: not made yet
+  std::vector<std::uint32_t> index_;       // by NodeId; 0: not made yet
   std::map<std::uint32_t, Layer> layers_;  // by NodeId
   std::map<std::shared_ptr<const Image>, std::shared_ptr<const Texture>> textures_;
 };

@@ -34,13 +34,15 @@ Texture::Level Texture::half(const Level& from) const {
   Level to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
   to.pixels.resize(std::size_t(to.width) * to.height * channels_);
   auto pixel = [&](int x, int y, int c) {
-    return from.pixels[(std::size_t(std::min(y, from.height - 1)) * from.width + std::min(x, from.width - 1)) * channels_ + c];
+    return from
+        .pixels[(std::size_t(std::min(y, from.height - 1)) * from.width + std::min(x, from.width - 1)) * channels_ + c];
   };
   std::size_t at = 0;
   for (int y = 0; y < to.height; ++y)
     for (int x = 0; x < to.width; ++x)
       for (int c = 0; c < channels_; ++c) {
-        int sum = pixel(2 * x, 2 * y, c) + pixel(2 * x + 1, 2 * y, c) + pixel(2 * x, 2 * y + 1, c) + pixel(2 * x + 1, 2 * y + 1, c);
+        int sum = pixel(2 * x, 2 * y, c) + pixel(2 * x + 1, 2 * y, c) + pixel(2 * x, 2 * y + 1, c) +
+                  pixel(2 * x + 1, 2 * y + 1, c);
         to.pixels[at++] = static_cast<std::uint8_t>((sum + 2) / 4);
       }
   return to;
@@ -53,7 +55,8 @@ void Texture::blend(const Level& level, double s, double t, Wrap wrap, double we
   for (int k = 0; k < 4; ++k) {
     int dx = k & 1, dy = k >> 1;
     double w = weight * (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy) / 255;
-    std::size_t at = std::size_t(wrapped(iy + dy, level.height, wrap.t)) * level.width + wrapped(ix + dx, level.width, wrap.s);
+    std::size_t at =
+        std::size_t(wrapped(iy + dy, level.height, wrap.t)) * level.width + wrapped(ix + dx, level.width, wrap.s);
     for (int c = 0; c < channels_; ++c) out[c] += w * level.pixels[at * channels_ + c];
   }
 }

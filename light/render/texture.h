@@ -1,5 +1,5 @@
-// A picture that is laid over a surface: a pyramid of halved pictures, read bilinearly from the one whose pixels are about
-// as large as those of the screen.
+// A picture that is laid over a surface: a pyramid of halved pictures, read bilinearly from the one whose pixels are
+// about as large as those of the screen.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -21,8 +21,8 @@ class Texture {
   /// Null when the picture has no pixels.
   static std::shared_ptr<const Texture> make(const Image& image);
 
-  /// s to the right, t upwards, the picture in [0, 1]. `detail` is the number of its pixels that one sample spans. Where it
-  /// does not repeat, the pixels of the border go on.
+  /// s to the right, t upwards, the picture in [0, 1]. `detail` is the number of its pixels that one sample spans.
+  /// Where it does not repeat, the pixels of the border go on.
   Texel sample(double s, double t, double detail, bool repeat_s, bool repeat_t) const;
 
   int width() const { return levels_[0].width; }
@@ -45,8 +45,8 @@ class Texture {
   std::vector<Level> levels_;
 };
 
-/// SFImage (5.5): width, height, components, then a number a pixel, the lowest row first. Without pixels when it has none
-/// or fewer than it says.
+/// SFImage (5.5): width, height, components, then a number a pixel, the lowest row first. Without pixels when it has
+/// none or fewer than it says.
 Image image_of(std::span<const std::int32_t> sfimage);
 
 }  // namespace wrlkit::drawing

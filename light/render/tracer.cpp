@@ -30,8 +30,8 @@ class ScreenPen : public Pen {
   const TracerOptions& options_;
 };
 
-RayScene make_scene(const Stage& stage, const MeshPool& meshes, std::span<const std::uint32_t> mesh_of, const Camera& camera,
-                    const TracerOptions& options, Diagnostics& diag) {
+RayScene make_scene(const Stage& stage, const MeshPool& meshes, std::span<const std::uint32_t> mesh_of,
+                    const Camera& camera, const TracerOptions& options, Diagnostics& diag) {
   ScreenPen pen(camera, options);
   return {stage, meshes, mesh_of, {.cull = options.cull, .all_flat = options.all_flat, .pen = &pen}, diag};
 }

@@ -1,5 +1,5 @@
-// The rays of a picture: a RayScene in which lines and points are ribbons and discs that face the camera and are as wide as
-// a line of the screen there, so that they hide and are hidden like everything else.
+// The rays of a picture: a RayScene in which lines and points are ribbons and discs that face the camera and are as
+// wide as a line of the screen there, so that they hide and are hidden like everything else.
 #pragma once
 #include "light/render/camera.h"
 #include "light/render/ray_scene.h"
@@ -8,8 +8,8 @@ namespace wrlkit::drawing {
 
 /// How things are put before the rays.
 struct TracerOptions {
-  bool cull = true;           // what is behind a `solid` surface's face is seen through it
-  double line_width = 1.5;    // pixels
+  bool cull = true;         // what is behind a `solid` surface's face is seen through it
+  double line_width = 1.5;  // pixels
   double point_size = 2;
   std::size_t all_flat = RayOptions{}.all_flat;
 };

@@ -5,8 +5,8 @@
 namespace wrlkit::drawing {
 namespace {
 
-constexpr double half_width = 0.5;   // of an edge, pixels; the triangle on its other side draws the other half
-constexpr double crowded = 6;        // triangles less high than so many pixels have paler edges, or all would be black
+constexpr double half_width = 0.5;  // of an edge, pixels; the triangle on its other side draws the other half
+constexpr double crowded = 6;       // triangles less high than so many pixels have paler edges, or all would be black
 const V3 paper{0.9}, pen{0.12};
 
 }  // namespace
@@ -20,13 +20,14 @@ V3 Wireframe::color(double px, double py) const {
   return mix(lit, pen, ink(hit, px, py));
 }
 
-/// How much of the pen is at a place of a triangle: distances are measured in the picture. Corners and edges are taken as
-/// homogeneous points and lines, which are right behind the camera, too.
+/// How much of the pen is at a place of a triangle: distances are measured in the picture. Corners and edges are taken
+/// as homogeneous points and lines, which are right behind the camera, too.
 double Wireframe::ink(const Hit& hit, double px, double py) const {
   const PooledMesh& m = drawing_.meshes[drawing_.mesh_of[hit.use]];
   const Affine& frame = drawing_.stage.frames[drawing_.stage.uses[hit.use].frame];
   V3 corner[3];
-  for (int k = 0; k < 3; ++k) corner[k] = camera_.project(frame.point(drawing_.meshes.position(m, hit.element, k) + m.origin));
+  for (int k = 0; k < 3; ++k)
+    corner[k] = camera_.project(frame.point(drawing_.meshes.position(m, hit.element, k) + m.origin));
   double nearest = 1e9, lowest = 1e9;
   for (int k = 0; k < 3; ++k) {
     V3 line = cross(corner[(k + 1) % 3], corner[(k + 2) % 3]);

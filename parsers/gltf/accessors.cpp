@@ -11,10 +11,20 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF data is read as it lies in the file");
 
-enum Component { byte = 5120, unsigned_byte = 5121, short_ = 5122, unsigned_short = 5123, unsigned_int = 5125, float_ = 5126 };
+enum Component {
+  byte = 5120,
+  unsigned_byte = 5121,
+  short_ = 5122,
+  unsigned_short = 5123,
+  unsigned_int = 5125,
+  float_ = 5126
+};
 
 std::size_t component_size(std::uint64_t type) {
-  return type == byte || type == unsigned_byte ? 1 : type == short_ || type == unsigned_short ? 2 : type == unsigned_int || type == float_ ? 4 : 0;
+  return type == byte || type == unsigned_byte      ? 1
+         : type == short_ || type == unsigned_short ? 2
+         : type == unsigned_int || type == float_   ? 4
+                                                    : 0;
 }
 
 std::size_t width_of(std::string_view type) {
@@ -30,17 +40,25 @@ T raw(const char* p) {
 
 double component(const char* p, int type, bool normalized) {
   switch (type) {
-    case byte: return normalized ? decimal(std::max(raw<std::int8_t>(p) / 127.0f, -1.0f)) : raw<std::int8_t>(p);
-    case unsigned_byte: return normalized ? decimal(raw<std::uint8_t>(p) / 255.0f) : raw<std::uint8_t>(p);
-    case short_: return normalized ? decimal(std::max(raw<std::int16_t>(p) / 32767.0f, -1.0f)) : raw<std::int16_t>(p);
-    case unsigned_short: return normalized ? decimal(raw<std::uint16_t>(p) / 65535.0f) : raw<std::uint16_t>(p);
-    case unsigned_int: return raw<std::uint32_t>(p);
-    default: return decimal(raw<float>(p));
+    case byte:
+      return normalized ? decimal(std::max(raw<std::int8_t>(p) / 127.0f, -1.0f)) : raw<std::int8_t>(p);
+    case unsigned_byte:
+      return normalized ? decimal(raw<std::uint8_t>(p) / 255.0f) : raw<std::uint8_t>(p);
+    case short_:
+      return normalized ? decimal(std::max(raw<std::int16_t>(p) / 32767.0f, -1.0f)) : raw<std::int16_t>(p);
+    case unsigned_short:
+      return normalized ? decimal(raw<std::uint16_t>(p) / 65535.0f) : raw<std::uint16_t>(p);
+    case unsigned_int:
+      return raw<std::uint32_t>(p);
+    default:
+      return decimal(raw<float>(p));
   }
 }
 
 std::uint32_t whole_component(const char* p, int type) {
-  return type == unsigned_byte ? raw<std::uint8_t>(p) : type == unsigned_short ? raw<std::uint16_t>(p) : raw<std::uint32_t>(p);
+  return type == unsigned_byte    ? raw<std::uint8_t>(p)
+         : type == unsigned_short ? raw<std::uint16_t>(p)
+                                  : raw<std::uint32_t>(p);
 }
 
 bool is_whole(int type) { return type == unsigned_byte || type == unsigned_short || type == unsigned_int; }
@@ -58,7 +76,8 @@ double decimal(float f) {
 }
 
 bool Accessors::fails(std::uint32_t index, std::string_view why) {
-  file_.diag().report(Diag::gltf_no_data, file_.where(file_.at(Table::accessors, index)), word(Table::accessors), index, why);
+  file_.diag().report(Diag::gltf_no_data, file_.where(file_.at(Table::accessors, index)), word(Table::accessors), index,
+                      why);
   return false;
 }
 
@@ -70,8 +89,14 @@ std::optional<Accessors::Layout> Accessors::layout(std::uint32_t index) {
   l.component = static_cast<int>(type);
   l.width = width_of(a["type"].text());
   l.normalized = a["normalized"].boolean();
-  if (!l.size || !l.width) return fails(index, "its type is none of glTF's"), std::nullopt;
-  if (count == 0 || count > none) return fails(index, "its count is no number of elements"), std::nullopt;
+  if (!l.size || !l.width) {
+    fails(index, "its type is none of glTF's");
+    return std::nullopt;
+  }
+  if (count == 0 || count > none) {
+    fails(index, "its count is no number of elements");
+    return std::nullopt;
+  }
   l.count = count;
   return l;
 }
@@ -84,7 +109,10 @@ std::optional<ViewBytes> Accessors::place(Json of, std::size_t count, std::size_
   const std::size_t stride = view->stride ? view->stride : size;
   bool fits = offset && stride >= size && *offset <= view->bytes.size() && size <= view->bytes.size() - *offset &&
               (count - 1) <= (view->bytes.size() - *offset - size) / stride;
-  if (!fits) return file_.diag().report(Diag::gltf_outside, file_.where(of), "accessor", "its bufferView"), std::nullopt;
+  if (!fits) {
+    file_.diag().report(Diag::gltf_outside, file_.where(of), "accessor", "its bufferView");
+    return std::nullopt;
+  }
   return ViewBytes{view->bytes.substr(*offset), stride};
 }
 
@@ -96,7 +124,8 @@ bool Accessors::read(std::uint32_t index, const Layout& l, std::vector<T>& out, 
     if (!place_) return false;
     out.resize(l.count * l.width);
     for (std::size_t i = 0; i < l.count; ++i)
-      for (std::size_t k = 0; k < l.width; ++k) out[i * l.width + k] = convert(place_->bytes.data() + i * place_->stride + k * l.size);
+      for (std::size_t k = 0; k < l.width; ++k)
+        out[i * l.width + k] = convert(place_->bytes.data() + i * place_->stride + k * l.size);
   } else {
     zeros_ += l.count * l.width;
     if (zeros_ > max_zeros) return fails(index, "it has no data for so many elements");
@@ -107,7 +136,10 @@ bool Accessors::read(std::uint32_t index, const Layout& l, std::vector<T>& out, 
 
 template <class T, class Convert>
 bool Accessors::sparse(Json json, const Layout& l, std::vector<T>& out, Convert convert) {
-  auto bad = [&] { return file_.diag().report(Diag::gltf_outside, file_.where(json), "sparse accessor", "its elements"), false; };
+  auto bad = [&] {
+    file_.diag().report(Diag::gltf_outside, file_.where(json), "sparse accessor", "its elements");
+    return false;
+  };
   const auto n = json["count"].whole().value_or(0);
   const Json indices = json["indices"], values = json["values"];
   const auto type = static_cast<int>(indices["componentType"].whole().value_or(0));
@@ -117,7 +149,8 @@ bool Accessors::sparse(Json json, const Layout& l, std::vector<T>& out, Convert 
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t e = whole_component(at->bytes.data() + i * at->stride, type);
     if (e >= l.count) return bad();
-    for (std::size_t k = 0; k < l.width; ++k) out[e * l.width + k] = convert(from->bytes.data() + i * from->stride + k * l.size);
+    for (std::size_t k = 0; k < l.width; ++k)
+      out[e * l.width + k] = convert(from->bytes.data() + i * from->stride + k * l.size);
   }
   return true;
 }
@@ -126,10 +159,17 @@ std::optional<Numbers> Accessors::numbers(std::uint32_t index, std::initializer_
   if (index == none) return std::nullopt;
   auto l = layout(index);
   if (!l) return std::nullopt;
-  if (std::ranges::find(widths, l->width) == widths.end()) return fails(index, "its type does not fit its use"), std::nullopt;
-  if (l->width == 16 && l->component != float_) return fails(index, "its matrices are not of floats"), std::nullopt;
+  if (std::ranges::find(widths, l->width) == widths.end()) {
+    fails(index, "its type does not fit its use");
+    return std::nullopt;
+  }
+  if (l->width == 16 && l->component != float_) {
+    fails(index, "its matrices are not of floats");
+    return std::nullopt;
+  }
   Numbers out{l->width, {}};
-  if (!read(index, *l, out.values, [&](const char* p) { return component(p, l->component, l->normalized); })) return std::nullopt;
+  if (!read(index, *l, out.values, [&](const char* p) { return component(p, l->component, l->normalized); }))
+    return std::nullopt;
   return out;
 }
 
@@ -137,7 +177,10 @@ std::optional<std::vector<std::uint32_t>> Accessors::whole(std::uint32_t index, 
   if (index == none) return std::nullopt;
   auto l = layout(index);
   if (!l) return std::nullopt;
-  if (l->width != width || !is_whole(l->component)) return fails(index, "its type does not fit its use"), std::nullopt;
+  if (l->width != width || !is_whole(l->component)) {
+    fails(index, "its type does not fit its use");
+    return std::nullopt;
+  }
   std::vector<std::uint32_t> out;
   if (!read(index, *l, out, [&](const char* p) { return whole_component(p, l->component); })) return std::nullopt;
   return out;

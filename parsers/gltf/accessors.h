@@ -26,7 +26,9 @@ class Accessors {
   std::optional<Numbers> numbers(std::uint32_t index, std::initializer_list<std::size_t> widths);
   /// Whole numbers: indices and joints, `width` for each element.
   std::optional<std::vector<std::uint32_t>> whole(std::uint32_t index, std::size_t width = 1);
-  std::uint64_t count(std::uint32_t index) const { return file_.at(Table::accessors, index)["count"].whole().value_or(0); }
+  std::uint64_t count(std::uint32_t index) const {
+    return file_.at(Table::accessors, index)["count"].whole().value_or(0);
+  }
 
  private:
   struct Layout {

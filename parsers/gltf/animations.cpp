@@ -14,7 +14,8 @@ constexpr double tolerance = 1e-3;
 /// Hermite's cubic (glTF 2.0, appendix C.5).
 double cubic(double a, double a_out, double b, double b_in, double span, double t) {
   const double t2 = t * t, t3 = t2 * t;
-  return (2 * t3 - 3 * t2 + 1) * a + span * (t3 - 2 * t2 + t) * a_out + (-2 * t3 + 3 * t2) * b + span * (t3 - t2) * b_in;
+  return (2 * t3 - 3 * t2 + 1) * a + span * (t3 - 2 * t2 + t) * a_out + (-2 * t3 + 3 * t2) * b +
+         span * (t3 - t2) * b_in;
 }
 
 }  // namespace
@@ -23,16 +24,22 @@ std::set<std::uint32_t> moved_nodes(File& file) {
   std::set<std::uint32_t> out;
   for (std::size_t a = 0; a < file.count(Table::animations); ++a)
     for (Json c : file.at(Table::animations, a)["channels"].elements()) {
-      if (auto n = c["target"]["node"].whole(); n && *n < file.count(Table::nodes) && c["target"]["path"].text() != "weights") out.insert(static_cast<std::uint32_t>(*n));
-      if (auto p = node_path(c["target"]["extensions"]["KHR_animation_pointer"]["pointer"].text()); p && p->second != "weights") out.insert(p->first);
+      if (auto n = c["target"]["node"].whole();
+          n && *n < file.count(Table::nodes) && c["target"]["path"].text() != "weights")
+        out.insert(static_cast<std::uint32_t>(*n));
+      if (auto p = node_path(c["target"]["extensions"]["KHR_animation_pointer"]["pointer"].text());
+          p && p->second != "weights")
+        out.insert(p->first);
     }
   return out;
 }
 
 void Animations::build() {
-  for (std::size_t i = 0; i < c_.file.count(Table::animations); ++i) animation(c_.file.at(Table::animations, i), i == 0);
+  for (std::size_t i = 0; i < c_.file.count(Table::animations); ++i)
+    animation(c_.file.at(Table::animations, i), i == 0);
   for (const auto& [node, morphs] : hierarchy_.morphs())
-    if (!morphed_.contains(node)) c_.lost.add("morph targets (as their weights stand)", c_.file.where(c_.file.at(Table::nodes, node)));
+    if (!morphed_.contains(node))
+      c_.lost.add("morph targets (as their weights stand)", c_.file.where(c_.file.at(Table::nodes, node)));
   c_.scene.main.roots.insert(c_.scene.main.roots.end(), made_.begin(), made_.end());
 }
 
@@ -47,7 +54,8 @@ double Animations::duration(Json a) {
 /// What wrlkit wrote and another program has kept is there as the TimeSensor that it was, with its ROUTEs.
 bool Animations::came_back(Json a) const {
   const NodeId clock = vrml97(a) ? extras_.named(a["name"].text()) : NodeId{};
-  return c_.scene.is(clock, nodes::TimeSensor) && std::ranges::any_of(c_.scene.main.routes, [&](const Route& r) { return r.from == clock; });
+  return c_.scene.is(clock, nodes::TimeSensor) &&
+         std::ranges::any_of(c_.scene.main.routes, [&](const Route& r) { return r.from == clock; });
 }
 
 void Animations::animation(Json a, bool runs) {
@@ -77,9 +85,15 @@ std::optional<Animations::Track> Animations::track(Json sampler, std::size_t wid
   }
   if (how == "CUBICSPLINE") return spline(*in, *out, width);
   Track t;
-  auto value = [&](std::size_t i) { return std::vector<double>(out->values.begin() + static_cast<std::ptrdiff_t>(i * width), out->values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width)); };
+  auto value = [&](std::size_t i) {
+    return std::vector<double>(out->values.begin() + static_cast<std::ptrdiff_t>(i * width),
+                               out->values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
+  };
   for (std::size_t i = 0; i < n; ++i) {
-    if (how == "STEP" && i > 0) t.time.push_back(in->values[i]), t.value.push_back(t.value.back());
+    if (how == "STEP" && i > 0) {
+      t.time.push_back(in->values[i]);
+      t.value.push_back(t.value.back());
+    }
     t.time.push_back(in->values[i]);
     t.value.push_back(value(i));
   }
@@ -91,14 +105,18 @@ Animations::Track Animations::spline(const Numbers& in, const Numbers& out, std:
   double largest = 1e-9;
   for (std::size_t i = 0; i < in.count(); ++i)
     for (std::size_t k = 0; k < width; ++k) largest = std::max(largest, std::abs(out.values[(3 * i + 1) * width + k]));
-  auto part = [&](std::size_t i, int which, std::size_t k) { return out.values[(3 * i + static_cast<std::size_t>(which)) * width + k]; };
+  auto part = [&](std::size_t i, int which, std::size_t k) {
+    return out.values[(3 * i + static_cast<std::size_t>(which)) * width + k];
+  };
   auto at = [&](std::size_t i, double u) {
     std::vector<double> v(width);
     const double span = in.values[i + 1] - in.values[i];
-    for (std::size_t k = 0; k < width; ++k) v[k] = cubic(part(i, 1, k), part(i, 2, k), part(i + 1, 1, k), part(i + 1, 0, k), span, u);
+    for (std::size_t k = 0; k < width; ++k)
+      v[k] = cubic(part(i, 1, k), part(i, 2, k), part(i + 1, 1, k), part(i + 1, 0, k), span, u);
     return v;
   };
-  // A cubic on a piece of length h leaves its chord by at most h^2 / 8 times its second derivative, which is largest at an end.
+  // A cubic on a piece of length h leaves its chord by at most h^2 / 8 times its second derivative, which is largest at
+  // an end.
   for (std::size_t i = 0; i + 1 < in.count(); ++i) {
     const double span = in.values[i + 1] - in.values[i];
     double bend = 0;
@@ -106,8 +124,12 @@ Animations::Track Animations::spline(const Numbers& in, const Numbers& out, std:
       const double a = part(i, 1, k), b = part(i + 1, 1, k), m = span * part(i, 2, k), n = span * part(i + 1, 0, k);
       bend = std::max({bend, std::abs(-6 * a + 6 * b - 4 * m - 2 * n), std::abs(6 * a - 6 * b + 2 * m + 4 * n)});
     }
-    const auto pieces = static_cast<int>(std::ceil(std::fmin(std::fmax(std::sqrt(bend / (8 * tolerance * largest)), 1), most_pieces)));
-    for (int p = 0; p < pieces; ++p) t.time.push_back(in.values[i] + span * p / pieces), t.value.push_back(at(i, double(p) / pieces));
+    const auto pieces =
+        static_cast<int>(std::ceil(std::fmin(std::fmax(std::sqrt(bend / (8 * tolerance * largest)), 1), most_pieces)));
+    for (int p = 0; p < pieces; ++p) {
+      t.time.push_back(in.values[i] + span * p / pieces);
+      t.value.push_back(at(i, double(p) / pieces));
+    }
   }
   if (in.count() > 0) {
     t.time.push_back(in.values.back());
@@ -128,8 +150,10 @@ void Animations::channel(Json c, Json animation, NodeId clock, double whole) {
   const auto samplers = animation["samplers"].elements();
   const auto path = c["target"]["path"].text();
   auto s = c["sampler"].whole();
-  if (!s || *s >= samplers.size()) return c_.diag().report(Diag::gltf_bad_index, c_.file.where(c), "sampler", c["sampler"].source().substr(0, 20));
-  if (path == "pointer") return pointer(samplers[*s], c["target"]["extensions"]["KHR_animation_pointer"]["pointer"].text(), clock, whole, c);
+  if (!s || *s >= samplers.size())
+    return c_.diag().report(Diag::gltf_bad_index, c_.file.where(c), "sampler", c["sampler"].source().substr(0, 20));
+  if (path == "pointer")
+    return pointer(samplers[*s], c["target"]["extensions"]["KHR_animation_pointer"]["pointer"].text(), clock, whole, c);
   move(samplers[*s], c_.file.index(Table::nodes, c["target"]["node"]), path, clock, whole, c);
 }
 
@@ -138,14 +162,18 @@ void Animations::move(Json sampler, std::uint32_t node, std::string_view path, N
   if (path == "weights") return morph(sampler, node, clock, whole, c);
   const NodeId to = hierarchy_.made(node);
   const bool rotates = path == "rotation";
-  if (!to || !c_.scene.is(to, nodes::Transform) || (!rotates && path != "translation" && path != "scale")) return c_.lost.add("animation of " + std::string(path), c_.file.where(c));
+  if (!to || !c_.scene.is(to, nodes::Transform) || (!rotates && path != "translation" && path != "scale"))
+    return c_.lost.add("animation of " + std::string(path), c_.file.where(c));
   auto t = track(sampler, rotates ? 4 : 3);
   if (!t) return;
   std::vector<double> key, value;
   for (std::size_t i = 0; i < t->time.size(); ++i) {
     key.push_back(std::clamp(t->time[i] / whole, 0.0, 1.0));
     const auto& v = t->value[i];
-    if (!rotates) { value.insert(value.end(), v.begin(), v.end()); continue; }
+    if (!rotates) {
+      value.insert(value.end(), v.begin(), v.end());
+      continue;
+    }
     const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3]);
     const double by = length > 0 ? length : 1;
     const Vec4 r = axis_angle({v[0] / by, v[1] / by, v[2] / by, v[3] / by});
@@ -163,7 +191,8 @@ void Animations::move(Json sampler, std::uint32_t node, std::string_view path, N
 }
 
 void Animations::pointer(Json sampler, std::string_view pointer, NodeId clock, double whole, Json at) {
-  if (auto p = node_path(pointer); p && p->first < c_.file.count(Table::nodes)) return move(sampler, p->first, p->second, clock, whole, at);
+  if (auto p = node_path(pointer); p && p->first < c_.file.count(Table::nodes))
+    return move(sampler, p->first, p->second, clock, whole, at);
   const Pointed p = followers_of(c_, hierarchy_, meshes_, pointer);
   if (p.followers.empty()) return c_.lost.add("animation of " + std::string(pointer.substr(0, 80)), c_.file.where(at));
   if (auto t = track(sampler, p.width))
@@ -174,7 +203,11 @@ void Animations::pointer(Json sampler, std::string_view pointer, NodeId clock, d
 void Animations::follow(const Track& t, const Follower& f, NodeId clock, double whole, Json at) {
   constexpr int pieces = 8;
   const std::size_t width = f.color ? 3 : 1;
-  auto same = [&](const auto& a, const auto& b) { return std::equal(a.begin() + static_cast<std::ptrdiff_t>(f.at), a.begin() + static_cast<std::ptrdiff_t>(f.at + width), b.begin() + static_cast<std::ptrdiff_t>(f.at)); };
+  auto same = [&](const auto& a, const auto& b) {
+    return std::equal(a.begin() + static_cast<std::ptrdiff_t>(f.at),
+                      a.begin() + static_cast<std::ptrdiff_t>(f.at + width),
+                      b.begin() + static_cast<std::ptrdiff_t>(f.at));
+  };
   std::vector<double> key, value;
   auto add = [&](double time, const std::vector<double>& v) {
     key.push_back(std::clamp(time / whole, 0.0, 1.0));
@@ -213,7 +246,8 @@ void Animations::morph(Json sampler, std::uint32_t node, NodeId clock, double wh
     auto t = m.targets.empty() || !m.coordinate ? std::nullopt : track(sampler, m.targets.size());
     if (!t) continue;
     n_numbers_ += t->time.size() * m.base.size();
-    if (n_numbers_ > max_numbers) return c_.diag().report(Diag::expansion_limit, c_.file.where(at), max_numbers, "numbers of animated points");
+    if (n_numbers_ > max_numbers)
+      return c_.diag().report(Diag::expansion_limit, c_.file.where(at), max_numbers, "numbers of animated points");
     std::vector<double> key, value;
     value.reserve(t->time.size() * m.base.size());
     for (std::size_t i = 0; i < t->time.size(); ++i) {

@@ -1,9 +1,10 @@
 // Animations of glTF as TimeSensor, interpolators and ROUTEs; one TimeSensor each, of which the first runs.
 //
-// LINEAR is what interpolators do: along lines, and rotations along the shorter arc. STEP becomes two keys at one place.
-// CUBICSPLINE is cut into straight pieces that stay within 1e-3 of the largest value, up to 64 between two keys. Weights of
-// morph targets move points: a CoordinateInterpolator. What KHR_animation_pointer says of colours, light and cameras (pointers.h) is
-// Color- and ScalarInterpolators; between colours stand seven more, because glTF mixes them as light.
+// LINEAR is what interpolators do: along lines, and rotations along the shorter arc. STEP becomes two keys at one
+// place. CUBICSPLINE is cut into straight pieces that stay within 1e-3 of the largest value, up to 64 between two keys.
+// Weights of morph targets move points: a CoordinateInterpolator. What KHR_animation_pointer says of colours, light and
+// cameras (pointers.h) is Color- and ScalarInterpolators; between colours stand seven more, because glTF mixes them as
+// light.
 #pragma once
 #include <set>
 
@@ -15,7 +16,8 @@ class Animations {
  public:
   static constexpr std::uint64_t max_numbers = 50'000'000;  // of keyValues of CoordinateInterpolators
 
-  Animations(const Context& c, const Hierarchy& h, const Meshes& m, const Extras& e) : c_(c), hierarchy_(h), meshes_(m), extras_(e) {}
+  Animations(const Context& c, const Hierarchy& h, const Meshes& m, const Extras& e)
+      : c_(c), hierarchy_(h), meshes_(m), extras_(e) {}
 
   /// Adds what moves to the roots of the scene.
   void build();

@@ -25,8 +25,12 @@ Ball bounds_below(File& file, std::uint32_t node) {
       auto from = a["min"].numbers(), to = a["max"].numbers();
       if (from.size() != 3 || to.size() != 3) continue;
       for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 q = m.point({corner & 1 ? from[0] : to[0], corner & 2 ? from[1] : to[1], corner & 4 ? from[2] : to[2]});
-        for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], q[i]), high[i] = std::max(high[i], q[i]);
+        const Vec3 q =
+            m.point({corner & 1 ? from[0] : to[0], corner & 2 ? from[1] : to[1], corner & 4 ? from[2] : to[2]});
+        for (std::size_t i = 0; i < 3; ++i) {
+          low[i] = std::min(low[i], q[i]);
+          high[i] = std::max(high[i], q[i]);
+        }
       }
     }
   }

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "parsers/gltf/meshopt.h"
 #include "base/io/read_file.h"
 #include "base/io/url.h"
+#include "parsers/gltf/meshopt.h"
 
 namespace wrlkit::gltf_reader {
 namespace {
@@ -17,16 +17,30 @@ std::vector<std::string> folders(const std::string& path, const std::vector<std:
 
 }  // namespace
 
-Buffers::Buffers(File& file, std::string path, const std::vector<std::string>& allowed, std::vector<FileLookup>* lookups)
-    : file_(file), path_(std::move(path)), files_(folders(path_, allowed)), lookups_(lookups), buffers_(file.count(Table::buffers)), views_(file.count(Table::bufferViews)) {}
+Buffers::Buffers(File& file, std::string path, const std::vector<std::string>& allowed,
+                 std::vector<FileLookup>* lookups)
+    : file_(file),
+      path_(std::move(path)),
+      files_(folders(path_, allowed)),
+      lookups_(lookups),
+      buffers_(file.count(Table::buffers)),
+      views_(file.count(Table::bufferViews)) {}
 
 bool Buffers::spend(std::uint64_t bytes, Json on) {
-  if (bytes <= max_bytes - spent_) return spent_ += bytes, true;
-  return file_.diag().report(Diag::too_large, file_.where(on), "the data of all buffers", readable_size(max_bytes), readable_size(bytes)), false;
+  if (bytes <= max_bytes - spent_) {
+    spent_ += bytes;
+    return true;
+  }
+  file_.diag().report(Diag::too_large, file_.where(on), "the data of all buffers", readable_size(max_bytes),
+                      readable_size(bytes));
+  return false;
 }
 
 std::optional<std::string> Buffers::load(Json buffer, std::string_view uri) {
-  auto report = [&](Diag id, auto... more) { return file_.diag().report(id, file_.where(buffer["uri"]), uri.substr(0, 100), more...), std::nullopt; };
+  auto report = [&](Diag id, auto... more) {
+    file_.diag().report(id, file_.where(buffer["uri"]), uri.substr(0, 100), more...);
+    return std::nullopt;
+  };
   if (url_kind(uri) == UrlKind::data) {
     if (!spend(uri.size(), buffer)) return std::nullopt;
     auto bytes = decode_data_url(uri);
@@ -42,7 +56,10 @@ std::optional<std::string> Buffers::load(Json buffer, std::string_view uri) {
   if (best.state == AllowedFiles::repaired) report(Diag::url_repaired, best.path);
   std::string why;
   auto bytes = read_bytes(best.path, max_bytes - spent_, why);
-  if (!bytes) return file_.diag().report(Diag::cannot_read, file_.where(buffer), best.path, why), std::nullopt;
+  if (!bytes) {
+    file_.diag().report(Diag::cannot_read, file_.where(buffer), best.path, why);
+    return std::nullopt;
+  }
   if (!spend(bytes->size(), buffer)) return std::nullopt;
   return bytes;
 }
@@ -64,8 +81,10 @@ std::optional<std::string_view> Buffers::slice(Json of) {
   auto all = index == none ? std::nullopt : buffer(index);
   if (!all) return std::nullopt;
   auto offset = of["byteOffset"] ? of["byteOffset"].whole() : 0, length = of["byteLength"].whole();
-  if (!offset || !length || *offset > all->size() || *length > all->size() - *offset)
-    return file_.diag().report(Diag::gltf_outside, file_.where(of), "bufferView", "the buffer"), std::nullopt;
+  if (!offset || !length || *offset > all->size() || *length > all->size() - *offset) {
+    file_.diag().report(Diag::gltf_outside, file_.where(of), "bufferView", "the buffer");
+    return std::nullopt;
+  }
   return all->substr(*offset, *length);
 }
 
@@ -92,10 +111,13 @@ bool Buffers::unpack(Json json, View& v) {
   if (!packed) return false;
   const auto count = json["count"].whole().value_or(0), stride = json["byteStride"].whole().value_or(0);
   // No mode packs more than 64 to 1, but for its tail: what claims more is damaged, and must not cost memory.
-  const bool likely = stride > 0 && stride <= 256 && count <= max_bytes / stride && count * stride <= 256 * (packed->size() + 256);
+  const bool likely =
+      stride > 0 && stride <= 256 && count <= max_bytes / stride && count * stride <= 256 * (packed->size() + 256);
   if (likely && !spend(count * stride, json)) return false;
-  if (likely && meshopt_unpack(*packed, {json["mode"].text(), json["filter"].text("NONE"), count, stride}, v.unpacked)) return true;
-  return file_.diag().report(Diag::gltf_packed, file_.where(json), "EXT_meshopt_compression"), false;
+  if (likely && meshopt_unpack(*packed, {json["mode"].text(), json["filter"].text("NONE"), count, stride}, v.unpacked))
+    return true;
+  file_.diag().report(Diag::gltf_packed, file_.where(json), "EXT_meshopt_compression");
+  return false;
 }
 
 }  // namespace wrlkit::gltf_reader

@@ -6,17 +6,28 @@
 namespace wrlkit::gltf_reader {
 namespace {
 
-constexpr std::string_view known_extensions[] = {
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization", "KHR_texture_transform",
-    "KHR_lights_punctual", "KHR_materials_unlit", "MOZ_lightmap", "EXT_mesh_gpu_instancing", "MSFT_lod", "KHR_animation_pointer", "KHR_materials_emissive_strength",
-    "EXT_texture_webp"};
+constexpr std::string_view known_extensions[] = {"KHR_draco_mesh_compression",
+                                                 "EXT_meshopt_compression",
+                                                 "KHR_meshopt_compression",
+                                                 "KHR_mesh_quantization",
+                                                 "KHR_texture_transform",
+                                                 "KHR_lights_punctual",
+                                                 "KHR_materials_unlit",
+                                                 "MOZ_lightmap",
+                                                 "EXT_mesh_gpu_instancing",
+                                                 "MSFT_lod",
+                                                 "KHR_animation_pointer",
+                                                 "KHR_materials_emissive_strength",
+                                                 "EXT_texture_webp"};
 
 /// ISO/IEC 14772-1, A.3: characters of a name; the first is no digit or sign either.
-bool in_name(unsigned char c) { return c > ' ' && c != 0x7f && std::string_view("\"#',.[\\]{}").find(static_cast<char>(c)) == std::string_view::npos; }
+bool in_name(unsigned char c) {
+  return c > ' ' && c != 0x7f && std::string_view("\"#',.[\\]{}").find(static_cast<char>(c)) == std::string_view::npos;
+}
 
 bool is_keyword(std::string_view s) {
-  constexpr std::string_view words[] = {"DEF", "EXTERNPROTO", "FALSE", "IS", "NULL", "PROTO", "ROUTE", "TO", "TRUE", "USE",
-                                        "eventIn", "eventOut", "exposedField", "field"};
+  constexpr std::string_view words[] = {"DEF", "EXTERNPROTO", "FALSE", "IS",      "NULL",     "PROTO",        "ROUTE",
+                                        "TO",  "TRUE",        "USE",   "eventIn", "eventOut", "exposedField", "field"};
   return std::ranges::find(words, s) != std::end(words);
 }
 
@@ -33,8 +44,10 @@ std::string compact(std::string_view s) {
   std::string out;
   bool quoted = false;
   for (std::size_t i = 0; i < s.size(); ++i) {
-    if (quoted && s[i] == '\\' && i + 1 < s.size()) out += s[i++];
-    else if (s[i] == '"') quoted = !quoted;
+    if (quoted && s[i] == '\\' && i + 1 < s.size())
+      out += s[i++];
+    else if (s[i] == '"')
+      quoted = !quoted;
     if (quoted || static_cast<unsigned char>(s[i]) > ' ') out += s[i];
   }
   return out;
@@ -56,7 +69,10 @@ void Lost::report(Diagnostics& diag) const {
   std::string all;
   std::size_t n = 0;
   for (const auto& [name, count] : names_) {
-    if (++n > most) { all += ", ... (" + std::to_string(names_.size()) + " kinds)"; break; }
+    if (++n > most) {
+      all += ", ... (" + std::to_string(names_.size()) + " kinds)";
+      break;
+    }
     if (!all.empty()) all += ", ";
     all += name;
     if (count > 1) all += " (" + std::to_string(count) + ")";
@@ -96,7 +112,9 @@ double display(double l) {
   if (l >= 1) return 1;
   double guess = l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
   // Writers convert either the number or the float that it is stored as.
-  return shortest(guess, [f = static_cast<float>(l)](double d) { return static_cast<float>(linear(d)) == f || static_cast<float>(linear(static_cast<float>(d))) == f; });
+  return shortest(guess, [f = static_cast<float>(l)](double d) {
+    return static_cast<float>(linear(d)) == f || static_cast<float>(linear(static_cast<float>(d))) == f;
+  });
 }
 
 }  // namespace wrlkit::gltf_reader

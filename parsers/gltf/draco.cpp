@@ -21,7 +21,8 @@ bool fill(const draco::Mesh& mesh, DracoAttribute& a) {
 
 }  // namespace
 
-std::optional<std::vector<std::uint32_t>> draco_unpack(std::string_view packed, std::span<DracoAttribute> attributes) try {
+std::optional<std::vector<std::uint32_t>> draco_unpack(std::string_view packed,
+                                                       std::span<DracoAttribute> attributes) try {
   draco::DecoderBuffer buffer;
   buffer.Init(packed.data(), packed.size());
   auto type = draco::Decoder::GetEncodedGeometryType(&buffer);

@@ -9,8 +9,8 @@
 namespace wrlkit::gltf_reader {
 
 struct DracoAttribute {
-  std::uint32_t id = 0;   // as the extension says
-  std::uint32_t width = 0;  // components wanted
+  std::uint32_t id = 0;        // as the extension says
+  std::uint32_t width = 0;     // components wanted
   std::vector<double> values;  // filled: width for each vertex, as stored (normalised ones as fractions)
 };
 

@@ -23,11 +23,16 @@ Value empty_value(Scene& scene, FieldType t) {
   static constexpr std::int32_t no_pixels[3] = {};
   const auto& i = info(t);
   switch (i.element) {
-    case Element::text: return i.multiple ? scene.make(t, 0, std::span<const std::string_view>{}) : scene.make(t, 0, std::string_view{});
-    case Element::node: return scene.make(t, 0, NodeId{});
-    case Element::image: return scene.make(t, 0, std::span<const std::int32_t>(no_pixels));
-    case Element::integer: return i.multiple ? scene.make(t, 0, std::span<const std::int32_t>{}) : scene.make(t, 0, std::int32_t{0});
-    case Element::number: break;
+    case Element::text:
+      return i.multiple ? scene.make(t, 0, std::span<const std::string_view>{}) : scene.make(t, 0, std::string_view{});
+    case Element::node:
+      return scene.make(t, 0, NodeId{});
+    case Element::image:
+      return scene.make(t, 0, std::span<const std::int32_t>(no_pixels));
+    case Element::integer:
+      return i.multiple ? scene.make(t, 0, std::span<const std::int32_t>{}) : scene.make(t, 0, std::int32_t{0});
+    case Element::number:
+      break;
   }
   return scene.make(t, 0, std::span<const double>(zeros, i.multiple ? 0 : i.arity));
 }
@@ -64,7 +69,10 @@ TypeId Extras::type(std::string_view name, Json at) {
   }
   if (TypeId t = find_builtin(name, Dialect::vrml97)) return t;
   if (auto i = unknown_.find(name); i != unknown_.end()) return i->second;
-  if (!is_legal_name(name)) return bad(at, "a node type"), nodes::Group;
+  if (!is_legal_name(name)) {
+    bad(at, "a node type");
+    return nodes::Group;
+  }
   c_.diag().report(Diag::unknown_node, c_.file.where(at), name);
   NodeType t;
   t.name = c_.scene.keep(name);
@@ -80,7 +88,11 @@ std::vector<FieldDef> Extras::interface(Json list, std::size_t first_slot) {
     auto parts = row.elements();
     FieldDef f{};
     auto access = parts.size() >= 3 ? access_of(parts[0].text()) : std::nullopt;
-    if (!access || !is_legal_name(parts[2].text()) || !find_field_type(parts[1].text(), f.type) || out.size() >= 60'000) { bad(row, "a field of an interface"); continue; }
+    if (!access || !is_legal_name(parts[2].text()) || !find_field_type(parts[1].text(), f.type) ||
+        out.size() >= 60'000) {
+      bad(row, "a field of an interface");
+      continue;
+    }
     f.access = *access;
     f.name = c_.scene.keep(parts[2].text());
     f.dialects = 0xff;
@@ -155,7 +167,9 @@ std::optional<Value> Extras::numbers(FieldType t, std::uint16_t slot, Json j) {
   std::vector<double> v;
   for (Json e : j.elements()) v.push_back(e.is_boolean() ? e.boolean() : e.number());
   const bool image = i.element == Element::image;
-  if (!j.is_array() || (!image && !i.multiple && (i.arity == 1 || v.size() != i.arity)) || (!image && v.size() % i.arity) || (image && v.size() < 3)) return std::nullopt;
+  if (!j.is_array() || (!image && !i.multiple && (i.arity == 1 || v.size() != i.arity)) ||
+      (!image && v.size() % i.arity) || (image && v.size() < 3))
+    return std::nullopt;
   if (real) return c_.scene.make(t, slot, v);
   std::vector<std::int32_t> whole(v.size());
   std::ranges::transform(v, whole.begin(), to_int);
@@ -166,7 +180,10 @@ std::optional<Value> Extras::value(FieldType t, std::uint16_t slot, Json j, Chil
   if (j["IS"].is_text() || j["verbatim"].is_text()) {
     const bool is = j["IS"].is_text();
     Value v = c_.scene.make(FieldType::verbatim, slot, j[is ? "IS" : "verbatim"].text());
-    if (is) v.type = t, v.is = true;
+    if (is) {
+      v.type = t;
+      v.is = true;
+    }
     return v;
   }
   switch (info(t).element) {
@@ -185,7 +202,9 @@ std::optional<Value> Extras::value(FieldType t, std::uint16_t slot, Json j, Chil
       break;
   }
   // A scalar of several values and lists of one value cannot be mixed up: those are arrays.
-  return j.is_array() == (info(t).multiple || info(t).arity > 1 || info(t).element == Element::image) ? numbers(t, slot, j) : std::nullopt;
+  return j.is_array() == (info(t).multiple || info(t).arity > 1 || info(t).element == Element::image)
+             ? numbers(t, slot, j)
+             : std::nullopt;
 }
 
 Value Extras::nodes(FieldType t, std::uint16_t slot, Json j, Children& children) {
@@ -193,19 +212,28 @@ Value Extras::nodes(FieldType t, std::uint16_t slot, Json j, Children& children)
   auto one = [&](Json e) {
     NodeId n = reference(e, children);
     auto name = !n && e.is_object() && e.begin() != e.end() ? (*e.begin())["USE"].text() : std::string_view{};
-    if (!name.empty() && owner_) pending_.push_back({owner_, slot, all.size(), c_.scene.keep(name)});
-    else if (!name.empty()) return c_.diag().report(Diag::undefined_use, c_.file.where(e), name);
-    else if (!n) return;
+    if (!name.empty() && owner_)
+      pending_.push_back({owner_, slot, all.size(), c_.scene.keep(name)});
+    else if (!name.empty())
+      return c_.diag().report(Diag::undefined_use, c_.file.where(e), name);
+    else if (!n)
+      return;
     all.push_back(n);
   };
-  if (j.is_array()) for (Json e : j) one(e);
-  else one(j);
+  if (j.is_array())
+    for (Json e : j) one(e);
+  else
+    one(j);
   if (info(t).multiple) return c_.scene.make(t, slot, all);
   return c_.scene.make(t, slot, all.empty() ? NodeId{} : all[0]);
 }
 
 NodeId Extras::reference(Json j, Children& children) {
-  auto take = [&] { NodeId n = children.front(); return children.pop_front(), n; };
+  auto take = [&] {
+    NodeId n = children.front();
+    children.pop_front();
+    return n;
+  };
   if (!j.is_object()) return children.empty() ? NodeId{} : take();
   if (j.begin() == j.end()) return {};
   const Json inner = *j.begin();
@@ -240,12 +268,17 @@ void Extras::fields(NodeId n, Json all, Children& children) {
       continue;
     }
     auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97);
-    if (!slot && !std::ranges::all_of(words_of(f.key()), is_legal_name)) { bad(f, "a field"); continue; }
+    if (!slot && !std::ranges::all_of(words_of(f.key()), is_legal_name)) {
+      bad(f, "a field");
+      continue;
+    }
     if (!slot) owner_ = {};  // what has no slot cannot be filled in later
     auto v = slot ? value(c_.scene.type(n).fields[*slot].type, *slot, f, children) : unknown(f, children);
     owner_ = n;
-    if (!v) bad(f, std::string(c_.scene.type(n).name) + "." + std::string(f.key()));
-    else c_.scene.set(n, slot ? *v : c_.scene.make_extra(f.key(), *v));
+    if (!v)
+      bad(f, std::string(c_.scene.type(n).name) + "." + std::string(f.key()));
+    else
+      c_.scene.set(n, slot ? *v : c_.scene.make_extra(f.key(), *v));
   }
   owner_ = outer;
 }
@@ -282,7 +315,10 @@ void Extras::proto_values(NodeId n, Json list) {
     if (parts.size() < 4) continue;
     const auto& t = c_.scene.type(n);
     auto slot = t.find(parts[2].text(), Dialect::vrml97);
-    if (!slot) { bad(row, parts[2].text()); continue; }
+    if (!slot) {
+      bad(row, parts[2].text());
+      continue;
+    }
     auto v = value(t.fields[*slot].type, *slot, parts[3], none_);
     const bool plain = v && !v->is && info(v->type).element != Element::node;
     if (v && !(plain && equal_plain(*v, t.fields[*slot].default_value))) c_.scene.set(n, *v);
@@ -302,13 +338,19 @@ void Extras::routes(Json list, Scope& scope) {
   for (Json r : list.elements()) {
     auto text = r.text();
     auto to_at = text.find(" TO ");
-    if (to_at == text.npos) { bad(r, "a ROUTE"); continue; }
+    if (to_at == text.npos) {
+      bad(r, "a ROUTE");
+      continue;
+    }
     auto [from, out] = split(text.substr(0, to_at));
     auto [to, in] = split(text.substr(to_at + 4));
     NodeId a = named(from), b = named(to);
-    if (!is_legal_name(out) || !is_legal_name(in)) bad(r, "a ROUTE");
-    else if (a && b) scope.routes.push_back({a, b, c_.scene.keep(out), c_.scene.keep(in)});
-    else c_.diag().report(Diag::undefined_route, c_.file.where(r), a ? to : from);
+    if (!is_legal_name(out) || !is_legal_name(in))
+      bad(r, "a ROUTE");
+    else if (a && b)
+      scope.routes.push_back({a, b, c_.scene.keep(out), c_.scene.keep(in)});
+    else
+      c_.diag().report(Diag::undefined_route, c_.file.where(r), a ? to : from);
   }
 }
 
@@ -334,11 +376,19 @@ void Extras::resolve(std::size_t first) {
     const Value* old = c_.scene.find(p->owner, p->slot);
     if (!old) continue;
     NodeId n = named(p->name);
-    if (!n) c_.diag().report(Diag::undefined_use, c_.scene.where(p->owner), p->name);
-    else if (!may_hold(p->owner, n)) c_.diag().report(Diag::use_cycle, c_.scene.where(p->owner), p->name), n = {};
+    if (!n)
+      c_.diag().report(Diag::undefined_use, c_.scene.where(p->owner), p->name);
+    else if (!may_hold(p->owner, n)) {
+      c_.diag().report(Diag::use_cycle, c_.scene.where(p->owner), p->name);
+      n = {};
+    }
     std::vector<NodeId> all(old->node_span().begin(), old->node_span().end());
-    if (!info(old->type).multiple) c_.scene.set(p->owner, c_.scene.make(old->type, p->slot, n));
-    else if (p->position < all.size()) all[p->position] = n, c_.scene.set(p->owner, c_.scene.make(old->type, p->slot, all));
+    if (!info(old->type).multiple)
+      c_.scene.set(p->owner, c_.scene.make(old->type, p->slot, n));
+    else if (p->position < all.size()) {
+      all[p->position] = n;
+      c_.scene.set(p->owner, c_.scene.make(old->type, p->slot, all));
+    }
   }
   for (auto p = pending_.begin() + static_cast<std::ptrdiff_t>(first); p != pending_.end(); ++p)
     if (const Value* v = c_.scene.find(p->owner, p->slot); v && info(v->type).multiple) {
@@ -352,7 +402,10 @@ void Extras::imports(Json list, Scope& scope) {
   for (Json i : list.elements()) {
     const auto text = i.text();
     const auto as_at = text.find(" AS ");
-    if (as_at == text.npos) { bad(i, "an IMPORT"); continue; }
+    if (as_at == text.npos) {
+      bad(i, "an IMPORT");
+      continue;
+    }
     const auto [world, exported] = split(text.substr(0, as_at));
     const auto name = text.substr(as_at + 4);
     const NodeId n = named(world);
@@ -375,9 +428,12 @@ void Extras::exports(Json list, Scope& scope) {
     const auto as_at = text.find(" AS ");
     const auto name = as_at == text.npos ? std::string_view() : text.substr(as_at + 4);
     const NodeId n = named(text.substr(0, as_at));
-    if (!is_legal_name(name)) bad(e, "an EXPORT");
-    else if (!n) c_.diag().report(Diag::undefined_import, c_.file.where(e), "EXPORT", text.substr(0, as_at), "not defined");
-    else scope.exports.push_back({n, c_.scene.keep(name)});
+    if (!is_legal_name(name))
+      bad(e, "an EXPORT");
+    else if (!n)
+      c_.diag().report(Diag::undefined_import, c_.file.where(e), "EXPORT", text.substr(0, as_at), "not defined");
+    else
+      scope.exports.push_back({n, c_.scene.keep(name)});
   }
 }
 

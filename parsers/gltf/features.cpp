@@ -18,7 +18,8 @@ struct Values {
 
 class Parting {
  public:
-  Parting(Scene& scene, NodeId geometry, const std::vector<std::uint32_t>& part_of_face) : scene_(scene), geometry_(geometry), part_of_face_(part_of_face) {}
+  Parting(Scene& scene, NodeId geometry, const std::vector<std::uint32_t>& part_of_face)
+      : scene_(scene), geometry_(geometry), part_of_face_(part_of_face) {}
 
   std::vector<std::pair<std::uint32_t, NodeId>> run() {
     find_faces();
@@ -42,10 +43,14 @@ class Parting {
   void find_faces() {
     begin_ = {0};
     if (is_points()) {
-      for (std::size_t i = 0; i < scene_.get(scene_.get(geometry_, nodes::point_set::coord), nodes::coordinate::point).size() / 3; ++i) begin_.push_back(i + 1);
+      for (std::size_t i = 0;
+           i < scene_.get(scene_.get(geometry_, nodes::point_set::coord), nodes::coordinate::point).size() / 3; ++i)
+        begin_.push_back(i + 1);
       return;
     }
-    coord_index_ = scene_.is(geometry_, nodes::IndexedFaceSet) ? scene_.get(geometry_, nodes::indexed_face_set::coordIndex) : scene_.get(geometry_, nodes::indexed_line_set::coordIndex);
+    coord_index_ = scene_.is(geometry_, nodes::IndexedFaceSet)
+                       ? scene_.get(geometry_, nodes::indexed_face_set::coordIndex)
+                       : scene_.get(geometry_, nodes::indexed_line_set::coordIndex);
     for (std::size_t i = 0; i < coord_index_.size(); ++i)
       if (coord_index_[i] == -1) begin_.push_back(i + 1);
   }
@@ -57,7 +62,8 @@ class Parting {
     if (is_points()) {
       values_ = {{nodes::point_set::coord.slot, none}, {nodes::point_set::color.slot, none}};
     } else if (scene_.is(geometry_, nodes::IndexedLineSet)) {
-      values_ = {{ils::coord.slot, ils::coordIndex.slot}, {ils::color.slot, ils::colorIndex.slot, !scene_.get(geometry_, ils::colorPerVertex)}};
+      values_ = {{ils::coord.slot, ils::coordIndex.slot},
+                 {ils::color.slot, ils::colorIndex.slot, !scene_.get(geometry_, ils::colorPerVertex)}};
     } else {
       values_ = {{ifs::coord.slot, ifs::coordIndex.slot},
                  {ifs::color.slot, ifs::colorIndex.slot, !scene_.get(geometry_, ifs::colorPerVertex)},
@@ -97,16 +103,21 @@ class Parting {
           continue;
         }
         for (std::size_t i = begin_[f]; i < begin_[f + 1]; ++i) {
-          if (!is_points() && coord_index_[i] == -1) index.push_back(-1);
-          else take(value_at(v, i));
+          if (!is_points() && coord_index_[i] == -1)
+            index.push_back(-1);
+          else
+            take(value_at(v, i));
         }
       }
       put_values(n, v, order);
       if (v.index_slot == Value::extra_slot) continue;
       if (&v == &values_[0]) coord = index;
-      const bool counts_up = v.per_face && std::ranges::equal(index, order, [&, i = 0](auto a, auto) mutable { return a == i++; });
-      if (&v != &values_[0] && (index == coord || counts_up)) scene_.unset(n, v.index_slot);
-      else scene_.set(n, scene_.make(FieldType::MFInt32, v.index_slot, index));
+      const bool counts_up =
+          v.per_face && std::ranges::equal(index, order, [&, i = 0](auto a, auto) mutable { return a == i++; });
+      if (&v != &values_[0] && (index == coord || counts_up))
+        scene_.unset(n, v.index_slot);
+      else
+        scene_.set(n, scene_.make(FieldType::MFInt32, v.index_slot, index));
     }
     return n;
   }
@@ -118,7 +129,8 @@ class Parting {
       const std::size_t width = info(list.type).arity;
       std::vector<double> some;
       for (auto i : order)
-        for (std::size_t k = 0; k < width; ++k) some.push_back(list.number_span()[static_cast<std::size_t>(i) * width + k]);
+        for (std::size_t k = 0; k < width; ++k)
+          some.push_back(list.number_span()[static_cast<std::size_t>(i) * width + k]);
       scene_.set(to, scene_.make(list.type, list.slot, some));
     }
     scene_.set(n, scene_.make(FieldType::SFNode, v.node_slot, to));
@@ -134,7 +146,8 @@ class Parting {
 
 }  // namespace
 
-std::vector<std::pair<std::uint32_t, NodeId>> take_apart(Scene& scene, NodeId geometry, const std::vector<std::uint32_t>& part_of_face) {
+std::vector<std::pair<std::uint32_t, NodeId>> take_apart(Scene& scene, NodeId geometry,
+                                                         const std::vector<std::uint32_t>& part_of_face) {
   return Parting(scene, geometry, part_of_face).run();
 }
 
@@ -146,8 +159,10 @@ NodeId PartGroups::group(Scene& scene, PartRows& table, std::uint32_t row, std::
   table.set_made(row);
   const bool number = rows[row].name.starts_with('#');  // merge has called it so
   if (!rows[row].name.empty() && !number) scene.set_name(made, rows[row].name);
-  if (rows[row].parent == none) out.push_back(made);
-  else children_[group(scene, table, rows[row].parent, out)].push_back(made);
+  if (rows[row].parent == none)
+    out.push_back(made);
+  else
+    children_[group(scene, table, rows[row].parent, out)].push_back(made);
   return made;
 }
 

@@ -1,5 +1,5 @@
-// Meshes of many parts, taken apart: feature ids (EXT_mesh_features) of wrlkit's own files become the parts again that `merge` has
-// put together, each below the groups that its name tells of.
+// Meshes of many parts, taken apart: feature ids (EXT_mesh_features) of wrlkit's own files become the parts again that
+// `merge` has put together, each below the groups that its name tells of.
 #pragma once
 #include <map>
 #include <vector>
@@ -9,10 +9,11 @@
 
 namespace wrlkit::gltf_reader {
 
-/// A geometry for each part, in the order in which parts have their first face. `part_of_face` has the number of the part of
-/// each face, polyline or point of an IndexedFaceSet, IndexedLineSet or PointSet. Points, colours and the like are those
-/// that the part uses, in nodes of its own. Linear.
-std::vector<std::pair<std::uint32_t, NodeId>> take_apart(Scene& scene, NodeId geometry, const std::vector<std::uint32_t>& part_of_face);
+/// A geometry for each part, in the order in which parts have their first face. `part_of_face` has the number of the
+/// part of each face, polyline or point of an IndexedFaceSet, IndexedLineSet or PointSet. Points, colours and the like
+/// are those that the part uses, in nodes of its own. Linear.
+std::vector<std::pair<std::uint32_t, NodeId>> take_apart(Scene& scene, NodeId geometry,
+                                                         const std::vector<std::uint32_t>& part_of_face);
 
 /// Groups of the rows of a table of parts.
 class PartGroups {

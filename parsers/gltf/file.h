@@ -1,5 +1,5 @@
-// A glTF file in its parts: the JSON, the binary chunk of a GLB, and the arrays of the JSON by index. References between
-// them are indices that anybody may have written: `element` checks each.
+// A glTF file in its parts: the JSON, the binary chunk of a GLB, and the arrays of the JSON by index. References
+// between them are indices that anybody may have written: `element` checks each.
 #pragma once
 #include <array>
 #include <set>
@@ -7,13 +7,26 @@
 #include <string_view>
 #include <vector>
 
-#include "parsers/gltf/json.h"
 #include "base/diagnostics.h"
+#include "parsers/gltf/json.h"
 
 namespace wrlkit::gltf_reader {
 
 enum class Table : std::uint8_t {
-  accessors, animations, buffers, bufferViews, cameras, images, lights, materials, meshes, nodes, samplers, scenes, skins, textures
+  accessors,
+  animations,
+  buffers,
+  bufferViews,
+  cameras,
+  images,
+  lights,
+  materials,
+  meshes,
+  nodes,
+  samplers,
+  scenes,
+  skins,
+  textures
 };
 inline constexpr std::size_t n_tables = 14;
 /// "accessor", "node", ...: as messages name an element.
@@ -39,12 +52,14 @@ class File {
 
   /// Written by wrlkit with extras: what it leaves out has the default of VRML.
   bool is_own() const { return own_; }
-  /// And with all extras, so that what meshes and materials leave out has the default of VRML, too; without that (--extras facts) they
-  /// are what glTF says.
+  /// And with all extras, so that what meshes and materials leave out has the default of VRML, too; without that
+  /// (--extras facts) they are what glTF says.
   bool is_whole() const { return whole_; }
   bool is_binary() const { return text_.data() != bytes_.data(); }
 
-  Span where(Json j) const { return {static_cast<std::uint32_t>(base_ + (text_.data() - bytes_.data()) + j.offset()), j.length()}; }
+  Span where(Json j) const {
+    return {static_cast<std::uint32_t>(base_ + (text_.data() - bytes_.data()) + j.offset()), j.length()};
+  }
   Diagnostics& diag() { return diag_; }
 
  private:

@@ -2,20 +2,26 @@
 
 #include <algorithm>
 
-#include "parsers/gltf/animations.h"
 #include "base/text/blanks.h"
+#include "parsers/gltf/animations.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf_reader {
 namespace {
 
-constexpr std::string_view understood[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",
-                                           "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit", "MOZ_lightmap", "EXT_mesh_gpu_instancing", "MSFT_lod",
-                                           "EXT_texture_webp", "KHR_materials_emissive_strength", "EXT_instance_features", "EXT_mesh_features", "EXT_structural_metadata"};
+constexpr std::string_view understood[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                           "KHR_meshopt_compression",    "KHR_mesh_quantization",
+                                           "KHR_texture_transform",      "KHR_lights_punctual",
+                                           "KHR_materials_unlit",        "MOZ_lightmap",
+                                           "EXT_mesh_gpu_instancing",    "MSFT_lod",
+                                           "EXT_texture_webp",           "KHR_materials_emissive_strength",
+                                           "EXT_instance_features",      "EXT_mesh_features",
+                                           "EXT_structural_metadata"};
 
 void check_required(File& file) {
   for (Json e : file.root()["extensionsRequired"].elements())
-    if (std::ranges::find(understood, e.text()) == std::end(understood)) file.diag().report(Diag::gltf_extension, file.where(e), e.text());
+    if (std::ranges::find(understood, e.text()) == std::end(understood))
+      file.diag().report(Diag::gltf_extension, file.where(e), e.text());
 }
 
 /// Title and what is kept as text.
@@ -36,10 +42,12 @@ void add_world_info(const Context& c) {
 bool looks_like_gltf(std::string_view bytes) {
   if (is_glb(bytes)) return true;
   auto s = trim(bytes.substr(0, 1 << 16));
-  return s.starts_with('{') && (s.find("\"asset\"") != s.npos || s.find("\"scenes\"") != s.npos || s.find("\"nodes\"") != s.npos || s.find("\"accessors\"") != s.npos);
+  return s.starts_with('{') && (s.find("\"asset\"") != s.npos || s.find("\"scenes\"") != s.npos ||
+                                s.find("\"nodes\"") != s.npos || s.find("\"accessors\"") != s.npos);
 }
 
-void parse(std::string_view bytes, std::uint32_t base, const std::string& path, const std::vector<std::string>& allowed, std::vector<FileLookup>* lookups, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
+void parse(std::string_view bytes, std::uint32_t base, const std::string& path, const std::vector<std::string>& allowed,
+           std::vector<FileLookup>* lookups, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
   File file(bytes, base, diag);
   if (!file.read()) return;
   check_required(file);
@@ -50,14 +58,19 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
   Extras extras(context);
   PartRows rows(context);
   Meshes meshes(context, extras, rows);
-  Hierarchy hierarchy(context, extras, meshes, rows, limits, file.is_own() ? std::set<std::uint32_t>() : moved_nodes(file));
+  Hierarchy hierarchy(context, extras, meshes, rows, limits,
+                      file.is_own() ? std::set<std::uint32_t>() : moved_nodes(file));
   const Json kept = vrml97(file.at(Table::scenes, file.root()["scene"].whole().value_or(0)));
   scene.comment = std::string(vrml97(file.root()["asset"])["comment"].text());
   extras.protos(kept["protos"]);
   hierarchy.build();
   extras.finish(kept);
   if (!file.is_own()) Animations(context, hierarchy, meshes, extras).build();  // wrlkit's own are there as ROUTEs
-  if (!file.is_own()) lost.keep(file, file.root()), lost.keep(file, file.root()["asset"]), add_world_info(context);
+  if (!file.is_own()) {
+    lost.keep(file, file.root());
+    lost.keep(file, file.root()["asset"]);
+    add_world_info(context);
+  }
   lost.report(diag);
 }
 

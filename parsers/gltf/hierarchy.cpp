@@ -18,7 +18,8 @@ Json lod_of(Json node) { return node["extensions"]["MSFT_lod"]["ids"]; }
 
 /// Types that glTF has elements for: what another program made of those is believed, not the extras.
 bool is_said_by_gltf(TypeId t) {
-  constexpr TypeId types[] = {nodes::Group, nodes::Transform, nodes::Shape, nodes::Viewpoint, nodes::LOD, nodes::PointLight, nodes::DirectionalLight, nodes::SpotLight};
+  constexpr TypeId types[] = {nodes::Group,      nodes::Transform,        nodes::Shape,    nodes::Viewpoint, nodes::LOD,
+                              nodes::PointLight, nodes::DirectionalLight, nodes::SpotLight};
   return std::ranges::find(types, t) != std::end(types);
 }
 
@@ -32,8 +33,17 @@ bool has_matrix(const Json& fields) { return fields["center"] || (fields["scaleO
 
 }  // namespace
 
-Hierarchy::Hierarchy(const Context& c, Extras& extras, Meshes& meshes, PartRows& rows, const ParseLimits& limits, std::set<std::uint32_t> moved)
-    : c_(c), extras_(extras), meshes_(meshes), rows_(rows), limits_(limits), moved_(std::move(moved)), parent_(c.file.count(Table::nodes), none), state_(parent_.size()), made_(parent_.size()) {}
+Hierarchy::Hierarchy(const Context& c, Extras& extras, Meshes& meshes, PartRows& rows, const ParseLimits& limits,
+                     std::set<std::uint32_t> moved)
+    : c_(c),
+      extras_(extras),
+      meshes_(meshes),
+      rows_(rows),
+      limits_(limits),
+      moved_(std::move(moved)),
+      parent_(c.file.count(Table::nodes), none),
+      state_(parent_.size()),
+      made_(parent_.size()) {}
 
 void Hierarchy::find_parents() {
   for (std::uint32_t n = 0; n < parent_.size(); ++n)
@@ -61,7 +71,8 @@ void Hierarchy::build() {
     return all;
   };
   Nodes roots;
-  if (shown != none) roots = add(c_.file.at(Table::scenes, shown));
+  if (shown != none)
+    roots = add(c_.file.at(Table::scenes, shown));
   else  // a library of nodes: all of them
     for (std::uint32_t n = 0; n < parent_.size(); ++n)
       if (parent_[n] == none) visit(n, 0, {}, roots);
@@ -127,14 +138,16 @@ void Hierarchy::make(std::uint32_t n, std::size_t depth, Vec3 origin, Nodes& out
   if (c_.file.is_own() && instancing(json) && c_.file.index(Table::meshes, json["mesh"]) != none) {
     return own_instances(n, origin, out);
   }
-  const bool passes_on = place.translation == Vec3{0, 0, 0} && !place.scaled() && place.rotation[3] == 0 && !json["mesh"] && !json["camera"] && !light_of(json);
+  const bool passes_on = place.translation == Vec3{0, 0, 0} && !place.scaled() && place.rotation[3] == 0 &&
+                         !json["mesh"] && !json["camera"] && !light_of(json);
   if (!passes_on) {
     for (std::size_t i = 0; i < 3; ++i) place.translation[i] += origin[i];
     origin = {};
   }
   if (extras.is_object() && extras.begin() == extras.end() && c_.file.is_own()) {  // a helper
     auto all = light_of(json) ? Nodes() : children(n, depth, origin);
-    return void(out.insert(out.end(), all.begin(), all.end()));
+    out.insert(out.end(), all.begin(), all.end());
+    return;
   }
   Json type;
   if (extras.is_object() && extras.begin() != extras.end()) type = *extras.begin();
@@ -142,21 +155,25 @@ void Hierarchy::make(std::uint32_t n, std::size_t depth, Vec3 origin, Nodes& out
     if (auto i = c_.file.index(Table::nodes, type); i != none && made_[i]) return out.push_back(made_[i]);
     type = {};
   }
-  const bool known = type.is_object() && (c_.file.is_own() || !is_said_by_gltf(find_builtin(type.key(), Dialect::vrml97)));
+  const bool known =
+      type.is_object() && (c_.file.is_own() || !is_said_by_gltf(find_builtin(type.key(), Dialect::vrml97)));
   auto below = children(n, depth, origin);
   // Parts of a merged mesh stand by themselves.
-  if (auto mesh = c_.file.index(Table::meshes, json["mesh"]); mesh != none && !type && below.empty() && place.identity() && meshes_.has_features(mesh)) {
+  if (auto mesh = c_.file.index(Table::meshes, json["mesh"]);
+      mesh != none && !type && below.empty() && place.identity() && meshes_.has_features(mesh)) {
     auto parts = shapes(n, place);
-    return void(out.insert(out.end(), parts.begin(), parts.end()));
+    out.insert(out.end(), parts.begin(), parts.end());
+    return;
   }
   NodeId made = known ? kept(n, type, place, std::move(below)) : implied(n, place, std::move(below));
   if (!c_.file.is_own()) report(json);
-  if (made) extras_.define(made), out.push_back(made);
+  if (made) {
+    extras_.define(made);
+    out.push_back(made);
+  }
 }
 
-void Hierarchy::report(Json json) {
-  c_.lost.keep(c_.file, json);
-}
+void Hierarchy::report(Json json) { c_.lost.keep(c_.file, json); }
 
 // ---- nodes that wrlkit has written ---------------------------------------------------------------------------------
 
@@ -191,8 +208,10 @@ NodeId Hierarchy::kept(std::uint32_t n, Json fields, const Place& place, Nodes b
     all.insert(all.end(), rest.begin(), rest.end());
     c_.scene.set(made, c_.scene.make(FieldType::MFNode, *slot, all));
   }
-  if (fields["DEF"]) c_.set_name(made, fields["DEF"]);
-  else if (!viewpoint || fields["description"].text() != json["name"].text()) c_.set_name(made, json["name"]);
+  if (fields["DEF"])
+    c_.set_name(made, fields["DEF"]);
+  else if (!viewpoint || fields["description"].text() != json["name"].text())
+    c_.set_name(made, json["name"]);
   return made;
 }
 
@@ -251,7 +270,8 @@ NodeId Hierarchy::level_of_detail(std::uint32_t n, NodeId first, std::size_t dep
   const auto coverage = json["extras"]["MSFT_screencoverage"].numbers();
   std::vector<double> range;
   for (std::size_t i = 0; i + 1 < levels.size() && i < coverage.size() && coverage[i] > 0 && ball.radius > 0; ++i)
-    range.push_back(std::max(range.empty() ? 0 : range.back(), ball.radius / (coverage[i] * std::tan(half_field_of_view))));
+    range.push_back(
+        std::max(range.empty() ? 0 : range.back(), ball.radius / (coverage[i] * std::tan(half_field_of_view))));
   if (range.size() + 1 == levels.size()) {
     c_.scene.set(lod, nodes::lod::range, range);
     if (ball.center != Vec3{0, 0, 0}) c_.scene.set(lod, nodes::lod::center, ball.center);
@@ -283,14 +303,20 @@ Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const Place& place) {
 }
 
 std::vector<Place> Hierarchy::places(Json attributes) {
-  auto read = [&](const char* name, std::size_t width) { return c_.accessors.numbers(c_.file.index(Table::accessors, attributes[name]), {width}); };
+  auto read = [&](const char* name, std::size_t width) {
+    return c_.accessors.numbers(c_.file.index(Table::accessors, attributes[name]), {width});
+  };
   auto t = read("TRANSLATION", 3), r = read("ROTATION", 4), s = read("SCALE", 3);
   const std::size_t n = std::max({t ? t->count() : 0, r ? r->count() : 0, s ? s->count() : 0});
   for (Json a : attributes)
-    if (a.key() != "TRANSLATION" && a.key() != "ROTATION" && a.key() != "SCALE") c_.lost.add("instances' " + std::string(a.key()), c_.file.where(a));
+    if (a.key() != "TRANSLATION" && a.key() != "ROTATION" && a.key() != "SCALE")
+      c_.lost.add("instances' " + std::string(a.key()), c_.file.where(a));
   std::vector<Place> all;
   for (std::size_t i = 0; i < n; ++i) {
-    if (++n_instances_ > max_instances) { c_.diag().report(Diag::expansion_limit, c_.file.where(attributes), max_instances, "instances"); break; }
+    if (++n_instances_ > max_instances) {
+      c_.diag().report(Diag::expansion_limit, c_.file.where(attributes), max_instances, "instances");
+      break;
+    }
     Place& p = all.emplace_back();
     if (t && i < t->count()) p.translation = {t->at(i)[0], t->at(i)[1], t->at(i)[2]};
     if (r && i < r->count()) p.rotation = axis_angle({r->at(i)[0], r->at(i)[1], r->at(i)[2], r->at(i)[3]});
@@ -313,7 +339,8 @@ void Hierarchy::instances(Json node, Nodes& shapes) {
 /// Each is what a node with the mesh would be, in the group that its row of the table of parts is in.
 void Hierarchy::own_instances(std::uint32_t n, const Vec3& origin, Nodes& out) {
   const Json json = c_.file.at(Table::nodes, n), at = instancing(json);
-  const auto names = json["extras"]["names"].elements(), sets = json["extensions"]["EXT_instance_features"]["featureIds"].elements();
+  const auto names = json["extras"]["names"].elements(),
+             sets = json["extensions"]["EXT_instance_features"]["featureIds"].elements();
   const auto ids = sets.empty() ? std::vector<std::uint32_t>() : rows_.ids(sets[0], at);
   const auto mesh = c_.file.index(Table::meshes, json["mesh"]);
   PartGroups apart;
@@ -344,7 +371,8 @@ void Hierarchy::own_instances(std::uint32_t n, const Vec3& origin, Nodes& out) {
 
 Matrix Hierarchy::world(std::uint32_t n) {
   Matrix m;
-  for (std::size_t up = 0; n != none && up < limits_.depth; ++up, n = parent_[n]) m = place_of(c_.file.at(Table::nodes, n)).matrix() * m;
+  for (std::size_t up = 0; n != none && up < limits_.depth; ++up, n = parent_[n])
+    m = place_of(c_.file.at(Table::nodes, n)).matrix() * m;
   return m;
 }
 
@@ -381,7 +409,8 @@ NodeId Hierarchy::camera(Json node, const Place& place) {
   if (place.rotation[3] != 0) c_.scene.set(n, f::orientation, place.rotation);
   const Json seen = camera["perspective"];
   double angle = seen["yfov"].number(pi / 4);
-  if (double aspect = seen["aspectRatio"].number(1); !c_.file.is_own() && aspect > 0 && aspect < 1) angle = 2 * std::atan(std::tan(angle / 2) * aspect);
+  if (double aspect = seen["aspectRatio"].number(1); !c_.file.is_own() && aspect > 0 && aspect < 1)
+    angle = 2 * std::atan(std::tan(angle / 2) * aspect);
   if (angle > 0 && angle < pi && std::abs(angle - 0.785398) > 1e-6) c_.scene.set(n, f::fieldOfView, angle);
   if (c_.file.is_own()) return n;
   if (camera["orthographic"]) c_.lost.add("orthographic camera", c_.file.where(camera));
@@ -430,12 +459,24 @@ NodeId Hierarchy::light(Json node, const Place& place, const Matrix& world) {
   if (index == none) return {};
   const Json light = c_.file.at(Table::lights, index);
   const auto type = light["type"].text();
-  if (type != "directional" && type != "spot" && type != "point") return c_.diag().report(Diag::gltf_bad_value, c_.file.where(light), "light of type '" + std::string(type) + "'"), NodeId{};
-  NodeId n = c_.add(type == "directional" ? nodes::DirectionalLight : type == "spot" ? nodes::SpotLight : nodes::PointLight, node);
+  if (type != "directional" && type != "spot" && type != "point") {
+    c_.diag().report(Diag::gltf_bad_value, c_.file.where(light), "light of type '" + std::string(type) + "'");
+    return NodeId{};
+  }
+  NodeId n = c_.add(type == "directional" ? nodes::DirectionalLight
+                    : type == "spot"      ? nodes::SpotLight
+                                          : nodes::PointLight,
+                    node);
   lights_[index].push_back(n);
-  if (c_.file.is_own()) return light_fields(n, {}, place), n;
+  if (c_.file.is_own()) {
+    light_fields(n, {}, place);
+    return n;
+  }
   c_.lost.keep(c_.file, light);
-  if (type != "directional") return light_fields(n, light, place), n;
+  if (type != "directional") {
+    light_fields(n, light, place);
+    return n;
+  }
   light_fields(n, light, decompose(world));
   if (c_.scene.name(n).empty()) c_.set_name(n, light["name"].text().empty() ? node["name"] : light["name"]);
   suns_.push_back(n);

@@ -2,8 +2,8 @@
 //
 // A node that shows a mesh and stands where it is not moved is a Shape; others are Transforms, those that do not move
 // Groups. A camera or light without children takes translation and rotation into its fields. What wrlkit's writer has
-// kept in extras says which node of VRML it was instead: {} is a helper that VRML needs not, {"USE": n} is the node that
-// node n of the file has become.
+// kept in extras says which node of VRML it was instead: {} is a helper that VRML needs not, {"USE": n} is the node
+// that node n of the file has become.
 //
 // Everything is posed as the file shows it: skins by the transforms of their joints, morph targets by their weights.
 #pragma once
@@ -35,7 +35,9 @@ class Hierarchy {
 
  private:
   using Nodes = std::vector<NodeId>;
-  static Nodes of(const std::map<std::uint32_t, Nodes>& all, std::uint32_t i) { return all.contains(i) ? all.at(i) : Nodes(); }
+  static Nodes of(const std::map<std::uint32_t, Nodes>& all, std::uint32_t i) {
+    return all.contains(i) ? all.at(i) : Nodes();
+  }
   enum class State : std::uint8_t { untouched, open, done };
   /// What stands for a node is appended; `origin` is to be added to the first translation.
   void visit(std::uint32_t node, std::size_t depth, const Vec3& origin, Nodes& out);

@@ -37,15 +37,24 @@ std::string unescape(std::string_view s) {
   std::string out;
   constexpr std::uint32_t replacement = 0xfffd;
   for (std::size_t i = 0; i < s.size(); ++i) {
-    if (s[i] != '\\' || i + 1 == s.size()) { out += s[i]; continue; }
+    if (s[i] != '\\' || i + 1 == s.size()) {
+      out += s[i];
+      continue;
+    }
     char c = s[++i];
     constexpr std::string_view from = "\"\\/bfnrt", to = "\"\\/\b\f\n\r\t";
-    if (auto k = from.find(c); k != from.npos) { out += to[k]; continue; }
+    if (auto k = from.find(c); k != from.npos) {
+      out += to[k];
+      continue;
+    }
     auto v = c == 'u' ? hex4(s, i + 1) : std::nullopt;
     if (v) i += 4;
     bool high = v && *v >= 0xd800 && *v < 0xdc00;
     auto low = high && s.substr(i + 1).starts_with("\\u") ? hex4(s, i + 3) : std::nullopt;
-    if (low && *low >= 0xdc00 && *low < 0xe000) v = 0x10000 + ((*v - 0xd800) << 10) + (*low - 0xdc00), i += 6;
+    if (low && *low >= 0xdc00 && *low < 0xe000) {
+      v = 0x10000 + ((*v - 0xd800) << 10) + (*low - 0xdc00);
+      i += 6;
+    }
     append_utf8(out, v && (*v < 0xd800 || *v > 0xdfff) ? *v : replacement);
   }
   return out;
@@ -62,7 +71,10 @@ class JsonParser {
     while (!open_.empty())
       if (!step()) return fault();
     blanks();
-    if (at_ != s_.size()) return expected_ = "the end", fault();
+    if (at_ != s_.size()) {
+      expected_ = "the end";
+      return fault();
+    }
     return std::nullopt;
   }
 
@@ -74,7 +86,10 @@ class JsonParser {
     for (; !open_.empty(); open_.pop_back()) close(items_[open_.back()]);
     return {std::min(at_, s_.size()), expected_};
   }
-  bool fails(const char* expected) { return expected_ = expected, false; }
+  bool fails(const char* expected) {
+    expected_ = expected;
+    return false;
+  }
   void close(JsonDocument::Item& i) {
     i.end = static_cast<std::uint32_t>(std::min(at_, s_.size()));
     i.last = static_cast<std::uint32_t>(items_.size());
@@ -84,14 +99,20 @@ class JsonParser {
   }
   bool take(char c) {
     blanks();
-    return at_ < s_.size() && s_[at_] == c ? ++at_, true : false;
+    if (at_ == s_.size() || s_[at_] != c) return false;
+    ++at_;
+    return true;
   }
 
   /// The next element or member of what is open, or its end.
   bool step() {
     auto& o = items_[open_.back()];
     const bool object = o.kind == Kind::object, first = items_.size() == open_.back() + 1u;
-    if (take(object ? '}' : ']')) return close(o), open_.pop_back(), true;
+    if (take(object ? '}' : ']')) {
+      close(o);
+      open_.pop_back();
+      return true;
+    }
     if (!first && !take(',')) return fails(object ? "',' or '}'" : "',' or ']'");
     std::string_view key;
     if (object) {
@@ -110,21 +131,38 @@ class JsonParser {
     auto& i = items_[id];
     const char c = at_ < s_.size() ? s_[at_] : '\0';
     if (c == '{' || c == '[') {
-      if (open_.size() >= JsonDocument::max_depth) return items_.pop_back(), fails("less depth");
+      if (open_.size() >= JsonDocument::max_depth) {
+        items_.pop_back();
+        return fails("less depth");
+      }
       i.kind = c == '{' ? Kind::object : Kind::array;
       ++at_;
-      return open_.push_back(id), true;
+      open_.push_back(id);
+      return true;
     }
     bool good = c == '"' ? (i.kind = Kind::text, text(i.text)) : word(i);
-    if (!good) return items_.pop_back(), fails("a value");
-    return close(items_[id]), true;
+    if (!good) {
+      items_.pop_back();
+      return fails("a value");
+    }
+    close(items_[id]);
+    return true;
   }
 
   bool word(JsonDocument::Item& i) {
     auto rest = s_.substr(at_);
-    struct Word { std::string_view name; Kind kind; double number; };
+    struct Word {
+      std::string_view name;
+      Kind kind;
+      double number;
+    };
     for (const Word& w : {Word{"true", Kind::boolean, 1}, {"false", Kind::boolean, 0}, {"null", Kind::null, 0}})
-      if (rest.starts_with(w.name)) return i.kind = w.kind, i.number = w.number, at_ += w.name.size(), true;
+      if (rest.starts_with(w.name)) {
+        i.kind = w.kind;
+        i.number = w.number;
+        at_ += w.name.size();
+        return true;
+      }
     if (rest.empty() || !(rest[0] == '-' || (rest[0] >= '0' && rest[0] <= '9'))) return false;
     auto r = std::from_chars(rest.data(), rest.data() + rest.size(), i.number);
     if (r.ec == std::errc::invalid_argument || (r.ec == std::errc() && !std::isfinite(i.number))) return false;
@@ -139,7 +177,10 @@ class JsonParser {
     const auto begin = ++at_;
     bool escaped = false;
     while (at_ < s_.size() && s_[at_] != '"') {
-      if (s_[at_] == '\\') escaped = true, ++at_;
+      if (s_[at_] == '\\') {
+        escaped = true;
+        ++at_;
+      }
       ++at_;
     }
     if (at_ >= s_.size()) return false;

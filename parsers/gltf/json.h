@@ -1,5 +1,6 @@
-// JSON (RFC 8259) as a tree in one vector, parents before children. Every value knows where it stands, which is why this
-// is not a library's: messages about a glTF file name line and column. Texts without escapes are views into the source.
+// JSON (RFC 8259) as a tree in one vector, parents before children. Every value knows where it stands, which is why
+// this is not a library's: messages about a glTF file name line and column. Texts without escapes are views into the
+// source.
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -69,7 +70,10 @@ class Json {
   class Iterator {
    public:
     Json operator*() const { return Json(doc_, at_); }
-    Iterator& operator++() { return at_ = doc_->items_[at_].last, *this; }
+    Iterator& operator++() {
+      at_ = doc_->items_[at_].last;
+      return *this;
+    }
     bool operator==(const Iterator&) const = default;
 
    private:

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/image/image.h"
 #include "base/io/url.h"
 #include "base/text/base64.h"
 #include "scenegraph/equal.h"
-#include "base/image/image.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf_reader {
@@ -67,7 +67,8 @@ UvAffine affine_of(Json transform) {
 std::optional<std::uint32_t> set_of(Json info) {
   if (!info) return std::nullopt;
   const Json moved = info["extensions"]["KHR_texture_transform"]["texCoord"];
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>((moved ? moved : info["texCoord"]).whole().value_or(0), 99));
+  return static_cast<std::uint32_t>(
+      std::min<std::uint64_t>((moved ? moved : info["texCoord"]).whole().value_or(0), 99));
 }
 
 Json light_of(Json material) {
@@ -77,7 +78,9 @@ Json light_of(Json material) {
 
 }  // namespace
 
-std::optional<std::uint32_t> Materials::texcoord_set(std::uint32_t material) const { return set_of(c_.file.at(Table::materials, material)["pbrMetallicRoughness"]["baseColorTexture"]); }
+std::optional<std::uint32_t> Materials::texcoord_set(std::uint32_t material) const {
+  return set_of(c_.file.at(Table::materials, material)["pbrMetallicRoughness"]["baseColorTexture"]);
+}
 
 std::optional<std::uint32_t> Materials::light_set(std::uint32_t material) const {
   const Json light = light_of(c_.file.at(Table::materials, material));
@@ -93,8 +96,11 @@ const Look& Materials::get(std::uint32_t material, SurfaceKind s) {
 std::vector<std::pair<NodeId, bool>> Materials::nodes_of(std::uint32_t material) const {
   std::vector<std::pair<NodeId, bool>> out;
   for (const auto& [key, look] : looks_) {
-    const NodeId n = std::get<0>(key) == material && look.appearance ? c_.scene.get(look.appearance, nodes::appearance::material) : NodeId{};
-    if (c_.scene.is(n, nodes::Material) && std::ranges::find(out, n, &std::pair<NodeId, bool>::first) == out.end()) out.emplace_back(n, std::get<1>(key).faces);
+    const NodeId n = std::get<0>(key) == material && look.appearance
+                         ? c_.scene.get(look.appearance, nodes::appearance::material)
+                         : NodeId{};
+    if (c_.scene.is(n, nodes::Material) && std::ranges::find(out, n, &std::pair<NodeId, bool>::first) == out.end())
+      out.emplace_back(n, std::get<1>(key).faces);
   }
   return out;
 }
@@ -105,7 +111,8 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
   if (!m) return look;
   look.double_sided = m["doubleSided"].boolean();
   const Json extras = vrml97(m), info = m["pbrMetallicRoughness"]["baseColorTexture"];
-  auto texture_index = s.faces && (s.given_texcoord || c_.file.is_whole()) ? c_.file.index(Table::textures, info["index"]) : none;
+  auto texture_index =
+      s.faces && (s.given_texcoord || c_.file.is_whole()) ? c_.file.index(Table::textures, info["index"]) : none;
   NodeId picture = texture_index == none ? NodeId{} : texture(texture_index);
   NodeId transform = picture ? texture_transform(info, s, look) : NodeId{};
   look.textured = bool(picture);
@@ -120,11 +127,19 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
       }
   NodeId material = material_node(m, s, look);
   const bool multiplied = picture && material && is_multiplied(m, s, material);
-  if (multiplied) c_.scene.set(material, c_.scene.make(FieldType::SFNode, c_.scene.is(material, nodes::Material) ? nodes::material::diffuseTexture.slot : nodes::unlit_material::emissiveTexture.slot, picture));
+  if (multiplied)
+    c_.scene.set(material,
+                 c_.scene.make(FieldType::SFNode,
+                               c_.scene.is(material, nodes::Material) ? nodes::material::diffuseTexture.slot
+                                                                      : nodes::unlit_material::emissiveTexture.slot,
+                               picture));
   // What has no name of its own is called by that of the Material, or of the Appearance; wrlkit says which.
   const bool apart = c_.file.is_own() && (material || c_.file.is_whole());
   const Json name = apart ? extras["Appearance"]["DEF"] : m["name"];
-  if (material && apart && name.text() != m["name"].text()) c_.set_name(material, m["name"]), material = same_named(material, nodes::Material);
+  if (material && apart && name.text() != m["name"].text()) {
+    c_.set_name(material, m["name"]);
+    material = same_named(material, nodes::Material);
+  }
   if (!material && !picture && !name) return look;
   look.appearance = c_.add(nodes::Appearance, m);
   if (material) c_.scene.set(look.appearance, nodes::appearance::material, material);
@@ -155,7 +170,10 @@ NodeId Materials::same_named(NodeId n, TypeId type) {
   auto [i, is_new] = named_.try_emplace({type.value, std::string(c_.scene.name(n))}, n);
   if (is_new) return n;
   auto a = c_.scene.fields(i->second), b = c_.scene.fields(n);
-  auto same = [](const Value& x, const Value& y) { return x.slot == y.slot && x.type == y.type && (info(x.type).element == Element::node ? x.node == y.node : equal_plain(x, y)); };
+  auto same = [](const Value& x, const Value& y) {
+    return x.slot == y.slot && x.type == y.type &&
+           (info(x.type).element == Element::node ? x.node == y.node : equal_plain(x, y));
+  };
   return std::ranges::equal(a, b, same) ? i->second : n;
 }
 
@@ -214,7 +232,8 @@ void Materials::set_highlight(NodeId n, Json m) {
   const auto base = vector<4>(pbr["baseColorFactor"], {1, 1, 1, 1});
   if (kept && metallic == 0) {  // another program has changed the file, but perhaps not this
     auto specular = vector<3>(kept["specularColor"], black);
-    const double s = unit_range(std::max({specular[0], specular[1], specular[2]})), shininess = unit_range(kept["shininess"].number(0.2));
+    const double s = unit_range(std::max({specular[0], specular[1], specular[2]})),
+                 shininess = unit_range(kept["shininess"].number(0.2));
     const double expected = s <= peak ? 1 : std::pow(std::max(2 / (128 * shininess + 2), peak / s), 0.25);
     if (std::abs(expected - r) < 1e-4) return extras_.fields(n, kept);
   }
@@ -238,7 +257,10 @@ NodeId Materials::make_texture(Json t) {
   const Json webp = t["extensions"]["EXT_texture_webp"]["source"];
   auto image = c_.file.index(Table::images, t["source"] ? t["source"] : webp);
   const Json extras = vrml97(t);
-  if (image == none) return c_.lost.add("a texture without a picture", c_.file.where(t)), NodeId{};
+  if (image == none) {
+    c_.lost.add("a texture without a picture", c_.file.where(t));
+    return NodeId{};
+  }
   NodeId n;
   if (extras["PixelTexture"]) n = pixel_texture(t, c_.file.at(Table::images, image));
   if (!n) {
@@ -251,9 +273,11 @@ NodeId Materials::make_texture(Json t) {
   auto sampler_index = c_.file.index(Table::samplers, t["sampler"]);
   const Json sampler = sampler_index == none ? Json() : c_.file.at(Table::samplers, sampler_index);
   const bool pixels = c_.scene.is(n, nodes::PixelTexture);
-  for (auto [name, image_slot, pixel_slot] : {std::tuple{"wrapS", nodes::image_texture::repeatS.slot, nodes::pixel_texture::repeatS.slot},
-                                              {"wrapT", nodes::image_texture::repeatT.slot, nodes::pixel_texture::repeatT.slot}}) {
-    if (sampler[name].number() == clamp) c_.scene.set(n, c_.scene.make(FieldType::SFBool, pixels ? pixel_slot : image_slot, false));
+  for (auto [name, image_slot, pixel_slot] :
+       {std::tuple{"wrapS", nodes::image_texture::repeatS.slot, nodes::pixel_texture::repeatS.slot},
+        {"wrapT", nodes::image_texture::repeatT.slot, nodes::pixel_texture::repeatT.slot}}) {
+    if (sampler[name].number() == clamp)
+      c_.scene.set(n, c_.scene.make(FieldType::SFBool, pixels ? pixel_slot : image_slot, false));
     if (sampler[name].number() == mirror) c_.lost.add("MIRRORED_REPEAT", c_.file.where(sampler));
   }
   if (sampler["magFilter"].number() == nearest) c_.lost.add("filter NEAREST", c_.file.where(sampler));
@@ -268,14 +292,17 @@ NodeId Materials::pixel_texture(Json t, Json image) {
   auto inside = view == none ? std::nullopt : c_.buffers.view(view);
   auto beside = inside || !image["uri"] ? std::nullopt : c_.buffers.load(image, image["uri"].text());
   std::string why;
-  auto picture = inside ? decode_image(inside->bytes, "pixels.png", why) : beside ? decode_image(*beside, "pixels.png", why) : std::nullopt;
+  auto picture = inside   ? decode_image(inside->bytes, "pixels.png", why)
+                 : beside ? decode_image(*beside, "pixels.png", why)
+                          : std::nullopt;
   if (!picture) return {};
   std::vector<std::int32_t> v{picture->width, picture->height, picture->channels};
   const auto row = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->channels);
   for (auto y = static_cast<std::size_t>(picture->height); y-- > 0;)
     for (std::size_t x = 0; x < row; x += static_cast<std::size_t>(picture->channels)) {
       std::uint32_t pixel = 0;
-      for (int k = 0; k < picture->channels; ++k) pixel = pixel << 8 | picture->pixels[y * row + x + static_cast<std::size_t>(k)];
+      for (int k = 0; k < picture->channels; ++k)
+        pixel = pixel << 8 | picture->pixels[y * row + x + static_cast<std::size_t>(k)];
       v.push_back(static_cast<std::int32_t>(pixel));
     }
   NodeId n = c_.add(nodes::PixelTexture, t);
@@ -288,7 +315,10 @@ std::vector<std::string> Materials::urls(Json t, std::uint32_t index) {
   std::vector<std::string> all;
   for (Json url : vrml97(t)["ImageTexture"]["url"].elements()) all.emplace_back(url.text());
   const Json image = c_.file.at(Table::images, index);
-  if (auto uri = image["uri"].text(); !uri.empty()) return all.emplace_back(uri), all;
+  if (auto uri = image["uri"].text(); !uri.empty()) {
+    all.emplace_back(uri);
+    return all;
+  }
   auto& url = image_urls_[index];
   auto view = url.empty() ? c_.file.index(Table::bufferViews, image["bufferView"]) : none;
   if (auto bytes = view == none ? std::nullopt : c_.buffers.view(view)) {
@@ -322,7 +352,9 @@ NodeId Materials::transform_node(const UvAffine& a, Json said) {
   namespace f = nodes::texture_transform;
   const double sx = std::hypot(a.xx, a.xy), sy = std::hypot(a.yx, a.yy);
   // VRML turns before it scales, so the rows must be at right angles.
-  if (!(sx > 0 && sy > 0) || std::abs(a.xx * a.yx + a.xy * a.yy) > 1e-9 * sx * sy || !std::isfinite(sx + sy + a.x + a.y)) return {};
+  if (!(sx > 0 && sy > 0) || std::abs(a.xx * a.yx + a.xy * a.yy) > 1e-9 * sx * sy ||
+      !std::isfinite(sx + sy + a.x + a.y))
+    return {};
   const double r = std::atan2(-a.xy, a.xx), c = std::cos(r), sn = std::sin(r), signed_sy = a.yx * sn + a.yy * c;
   const double x = a.x / sx, y = a.y / signed_sy;
   NodeId n = c_.add(nodes::TextureTransform, said);
@@ -351,8 +383,10 @@ void Materials::set_light(NodeId appearance, Json m) {
   if (directions.size() == 3) c_.scene.set(appearance, a::lightmapDirection, directions);
   if (const UvAffine moved = affine_of(said); said && moved != UvAffine{}) {
     const NodeId n = transform_node(moved, said);
-    if (n) c_.scene.set(appearance, a::lightmapTransform, n);
-    else c_.lost.add("KHR_texture_transform of a lightmap", c_.file.where(said));
+    if (n)
+      c_.scene.set(appearance, a::lightmapTransform, n);
+    else
+      c_.lost.add("KHR_texture_transform of a lightmap", c_.file.where(said));
   }
 }
 
@@ -363,8 +397,11 @@ void Materials::report_lost(Json m) {
     if (m[t]) c_.lost.add(t, where);
   const Json pbr = m["pbrMetallicRoughness"];
   if (pbr["metallicRoughnessTexture"]) c_.lost.add("metallicRoughnessTexture", where);
-  if (pbr["metallicFactor"].number(1) > 0 && !m["extensions"]["KHR_materials_unlit"]) c_.lost.add("metallicFactor", where);
-  if (pbr["baseColorTexture"] && vector<4>(pbr["baseColorFactor"], {1, 1, 1, 1})[3] < 1 && m["alphaMode"].text() == "BLEND") c_.lost.add("alpha of baseColorFactor with a picture", where);
+  if (pbr["metallicFactor"].number(1) > 0 && !m["extensions"]["KHR_materials_unlit"])
+    c_.lost.add("metallicFactor", where);
+  if (pbr["baseColorTexture"] && vector<4>(pbr["baseColorFactor"], {1, 1, 1, 1})[3] < 1 &&
+      m["alphaMode"].text() == "BLEND")
+    c_.lost.add("alpha of baseColorFactor with a picture", where);
   if (m["alphaMode"].text() == "MASK") c_.lost.add("alphaMode MASK", where);
   c_.lost.keep(c_.file, m);
 }

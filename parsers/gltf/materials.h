@@ -1,9 +1,9 @@
 // Materials of glTF as Appearance nodes: the inverse of what the glTF writer does (writers/gltf/materials.h).
 //
-// Colour. baseColorFactor is diffuseColor, or emissiveColor where KHR_materials_unlit says so; a picture of three or four
-// channels replaces it (ISO/IEC 14772-1, table 4.6). roughness r is a highlight of shininess (2 / r^4 - 2) / 128 and
-// specularColor 0.01 / r^4, both up to 1; as rough as can be is black. Of metal, the highlight has the base colour. What
-// wrlkit wrote has the very fields in extras.
+// Colour. baseColorFactor is diffuseColor, or emissiveColor where KHR_materials_unlit says so; a picture of three or
+// four channels replaces it (ISO/IEC 14772-1, table 4.6). roughness r is a highlight of shininess (2 / r^4 - 2) / 128
+// and specularColor 0.01 / r^4, both up to 1; as rough as can be is black. Of metal, the highlight has the base colour.
+// What wrlkit wrote has the very fields in extras.
 //
 // Baked light, of MOZ_lightmap or extras.lightmap, is the lightmap of the Appearance (docs/lighting.md).
 #pragma once
@@ -33,10 +33,10 @@ struct SurfaceKind {
 struct Look {
   NodeId appearance;  // or none
   bool double_sided = false;
-  Vec3 color_factor{1, 1, 1};      // linear; of the geometry's colours
-  std::uint32_t texcoord = 0;      // TEXCOORD_n that the picture uses
+  Vec3 color_factor{1, 1, 1};  // linear; of the geometry's colours
+  std::uint32_t texcoord = 0;  // TEXCOORD_n that the picture uses
   bool textured = false;
-  std::optional<UvAffine> bake;    // to be applied to the texture coordinates
+  std::optional<UvAffine> bake;  // to be applied to the texture coordinates
 };
 
 class Materials {

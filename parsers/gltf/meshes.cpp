@@ -1,8 +1,8 @@
 #include "parsers/gltf/meshes.h"
 
 #include <algorithm>
-#include <utility>
 #include <cmath>
+#include <utility>
 
 #include "parsers/gltf/draco.h"
 #include "parsers/gltf/features.h"
@@ -48,7 +48,12 @@ constexpr std::initializer_list<std::size_t> three{3}, two{2}, color_widths{3, 4
 bool without_alpha(std::vector<double>& v) {
   std::size_t to = 0;
   bool clear = false;
-  for (std::size_t i = 0; i + 3 < v.size(); i += 4) clear |= v[i + 3] < 1, v[to++] = v[i], v[to++] = v[i + 1], v[to++] = v[i + 2];
+  for (std::size_t i = 0; i + 3 < v.size(); i += 4) {
+    clear |= v[i + 3] < 1;
+    v[to++] = v[i];
+    v[to++] = v[i + 1];
+    v[to++] = v[i + 2];
+  }
   v.resize(to);
   return clear;
 }
@@ -64,8 +69,12 @@ std::vector<Meshes::Part> Meshes::parts(std::uint32_t index, const Pose& pose) {
   const Json mesh = c_.file.at(Table::meshes, index);
   std::uint32_t k = 0;
   for (Json json : mesh["primitives"].elements()) {
-    Primitive p{json, mesh, c_.file.index(Table::materials, json["material"]), static_cast<int>(json["mode"] ? std::min<std::uint64_t>(json["mode"].whole().value_or(99), 99) : 4)};
-    if (p.mode > 6) { c_.diag().report(Diag::gltf_bad_value, c_.file.where(json), "mode"); continue; }
+    Primitive p{json, mesh, c_.file.index(Table::materials, json["material"]),
+                static_cast<int>(json["mode"] ? std::min<std::uint64_t>(json["mode"].whole().value_or(99), 99) : 4)};
+    if (p.mode > 6) {
+      c_.diag().report(Diag::gltf_bad_value, c_.file.where(json), "mode");
+      continue;
+    }
     auto make = [&](std::vector<Part>& to) {
       auto made = part(p, pose);
       if (!made) return;
@@ -89,15 +98,18 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
   const bool is_whole = c_.file.is_whole();
   const Json attributes = p.json["attributes"];
   Sets sets{"TEXCOORD_" + std::to_string(is_whole ? 0 : materials_.texcoord_set(p.material).value_or(0)), {}};
-  if (const auto light = materials_.light_set(p.material); light && p.faces()) sets.light = "TEXCOORD_" + std::to_string(*light);
+  if (const auto light = materials_.light_set(p.material); light && p.faces())
+    sets.light = "TEXCOORD_" + std::to_string(*light);
   const Json kept = vrml97(p.mesh);
-  SurfaceKind kind{p.faces(), bool(attributes["COLOR_0"]) || (is_whole && attributes["_COLOR"]), bool(attributes[sets.texcoord]), !sets.light.empty() && attributes[sets.light]};
+  SurfaceKind kind{p.faces(), bool(attributes["COLOR_0"]) || (is_whole && attributes["_COLOR"]),
+                   bool(attributes[sets.texcoord]), !sets.light.empty() && attributes[sets.light]};
   if (is_whole) kind.given_texcoord = bool(kept["IndexedFaceSet"]["texCoord"]);
   const Look& look = materials_.get(p.material, kind);
   NodeId geometry;
   if (is_whole) {
     std::string key = look.double_sided ? "2" : "1";
-    for (Json part : {attributes, p.json["indices"], p.json["mode"], p.mesh["name"], kept}) (key += ' ') += part.source();
+    for (Json part : {attributes, p.json["indices"], p.json["mode"], p.mesh["name"], kept})
+      (key += ' ') += part.source();
     NodeId& known = own_[key];
     if (known && how.shared()) return Part{look.appearance, known};
     if (NodeId whole = kept_whole(p)) return Part{look.appearance, known = whole};
@@ -116,7 +128,9 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
   if (p.mesh["primitives"].elements().size() == 1) c_.set_name(geometry, p.mesh["name"]);
   extras_.define(geometry);
   if (!morphs_.empty() && !morphs_.back().coordinate) {
-    auto coord = p.faces() ? nodes::indexed_face_set::coord.slot : p.mode == points ? nodes::point_set::coord.slot : nodes::indexed_line_set::coord.slot;
+    auto coord = p.faces()          ? nodes::indexed_face_set::coord.slot
+                 : p.mode == points ? nodes::point_set::coord.slot
+                                    : nodes::indexed_line_set::coord.slot;
     morphs_.back().coordinate = c_.scene.value(geometry, coord).node;
   }
   return Part{look.appearance, geometry};
@@ -137,11 +151,13 @@ std::vector<Meshes::Part> Meshes::features(const Primitive& p, const Part& whole
   const auto sets = set["featureIds"].elements();
   const Json ids_of = sets.empty() ? Json() : sets[0];
   const bool packed = bool(p.json["extensions"]["KHR_draco_mesh_compression"]);
-  const auto ids = packed ? rows_.ids(ids_of, std::exchange(unpacked_ids_, {})) : rows_.ids(ids_of, p.json["attributes"]);
+  const auto ids =
+      packed ? rows_.ids(ids_of, std::exchange(unpacked_ids_, {})) : rows_.ids(ids_of, p.json["attributes"]);
   if (ids.empty()) return out;
   std::vector<std::uint32_t> of_face;
   for (auto v : first->second) of_face.push_back(v < ids.size() ? ids[v] : none);
-  for (auto [row, geometry] : take_apart(c_.scene, whole.geometry, of_face)) out.push_back({whole.appearance, geometry, row});
+  for (auto [row, geometry] : take_apart(c_.scene, whole.geometry, of_face))
+    out.push_back({whole.appearance, geometry, row});
   return out;
 }
 
@@ -151,7 +167,9 @@ NodeId Meshes::kept_whole(const Primitive& p) {
   for (Json e : kept.is_object() ? kept : Json()) {
     const TypeId t = find_builtin(e.key(), Dialect::vrml97);
     if (!t || !builtin_nodes()[t.value].is_a("X3DGeometryNode")) continue;
-    const bool partly = t == nodes::IndexedFaceSet ? !e["coordIndex"] : t == nodes::IndexedLineSet ? !e["coordIndex"] : t == nodes::PointSet && !e["coord"]["Coordinate"]["point"];
+    const bool partly = t == nodes::IndexedFaceSet   ? !e["coordIndex"]
+                        : t == nodes::IndexedLineSet ? !e["coordIndex"]
+                                                     : t == nodes::PointSet && !e["coord"]["Coordinate"]["point"];
     if (partly) continue;
     NodeId n = c_.add(t, e);
     extras_.fields(n, e);
@@ -167,13 +185,17 @@ NodeId Meshes::kept_whole(const Primitive& p) {
 bool Meshes::fill(Stream& s, std::initializer_list<std::size_t> widths) {
   if (s.accessor == none || !s.values.empty()) return true;
   auto read = c_.accessors.numbers(s.accessor, widths);
-  if (!read) return s.accessor = none, false;
+  if (!read) {
+    s.accessor = none;
+    return false;
+  }
   s.width = read->width;
   s.values = std::move(read->values);
   return true;
 }
 
-Meshes::Stream Meshes::stream(const Primitive& p, std::string_view name, std::size_t n, std::initializer_list<std::size_t> widths) {
+Meshes::Stream Meshes::stream(const Primitive& p, std::string_view name, std::size_t n,
+                              std::initializer_list<std::size_t> widths) {
   const Json a = p.json["attributes"][name];
   Stream s{c_.file.index(Table::accessors, a), *widths.begin(), {}};
   if (s.accessor == none) return s;
@@ -192,11 +214,15 @@ bool Meshes::load(const Primitive& p, const Pose& how, const Sets& sets, Streams
   } else {
     const Json position = p.json["attributes"]["POSITION"];
     auto accessor = c_.file.index(Table::accessors, position);
-    if (accessor == none) return c_.diag().report(Diag::gltf_bad_value, c_.file.where(p.json), "primitive without POSITION"), false;
+    if (accessor == none) {
+      c_.diag().report(Diag::gltf_bad_value, c_.file.where(p.json), "primitive without POSITION");
+      return false;
+    }
     s.n = c_.accessors.count(accessor);
     s.position = {accessor, 3, {}};
     s.normal = stream(p, "NORMAL", s.n, three);
-    s.color = stream(p, p.json["attributes"]["COLOR_0"] || !c_.file.is_whole() ? "COLOR_0" : "_COLOR", s.n, color_widths);
+    s.color =
+        stream(p, p.json["attributes"]["COLOR_0"] || !c_.file.is_whole() ? "COLOR_0" : "_COLOR", s.n, color_widths);
     s.texcoord = stream(p, sets.texcoord, s.n, two);
     if (!sets.light.empty()) s.light = stream(p, sets.light, s.n, two);
     if (p.json["indices"]) {
@@ -217,21 +243,40 @@ bool Meshes::load_draco(const Primitive& p, const Sets& sets, Streams& s) {
   auto view = c_.file.index(Table::bufferViews, ext["bufferView"]);
   auto bytes = view == none ? std::nullopt : c_.buffers.view(view);
   if (!bytes) return false;
-  struct Row { const char* name; Stream* to; std::size_t width; };
-  const std::string color_type(c_.file.at(Table::accessors, p.json["attributes"]["COLOR_0"].whole().value_or(none))["type"].text());
-  const Row rows[] = {{"POSITION", &s.position, 3}, {"NORMAL", &s.normal, 3}, {"COLOR_0", &s.color, color_type == "VEC4" ? 4u : 3u}, {sets.texcoord.c_str(), &s.texcoord, 2}, {sets.light.c_str(), &s.light, 2}, {"_FEATURE_ID_0", &s.feature, 1}};
+  struct Row {
+    const char* name;
+    Stream* to;
+    std::size_t width;
+  };
+  const std::string color_type(
+      c_.file.at(Table::accessors, p.json["attributes"]["COLOR_0"].whole().value_or(none))["type"].text());
+  const Row rows[] = {{"POSITION", &s.position, 3},
+                      {"NORMAL", &s.normal, 3},
+                      {"COLOR_0", &s.color, color_type == "VEC4" ? 4u : 3u},
+                      {sets.texcoord.c_str(), &s.texcoord, 2},
+                      {sets.light.c_str(), &s.light, 2},
+                      {"_FEATURE_ID_0", &s.feature, 1}};
   std::vector<DracoAttribute> wanted;
   std::vector<const Row*> used;
   for (const Row& r : rows)
-    if (auto id = ext["attributes"][r.name].whole(); id && *id < none) wanted.push_back({static_cast<std::uint32_t>(*id), static_cast<std::uint32_t>(r.width), {}}), used.push_back(&r);
+    if (auto id = ext["attributes"][r.name].whole(); id && *id < none) {
+      wanted.push_back({static_cast<std::uint32_t>(*id), static_cast<std::uint32_t>(r.width), {}});
+      used.push_back(&r);
+    }
   auto index = draco_unpack(bytes->bytes, wanted);
-  if (!index) return c_.diag().report(Diag::gltf_packed, c_.file.where(ext), "KHR_draco_mesh_compression"), false;
+  if (!index) {
+    c_.diag().report(Diag::gltf_packed, c_.file.where(ext), "KHR_draco_mesh_compression");
+    return false;
+  }
   for (std::size_t i = 0; i < used.size(); ++i) {
     used[i]->to->width = used[i]->width;
     used[i]->to->values = std::move(wanted[i].values);
     for (double& v : used[i]->to->values) v = decimal(static_cast<float>(v));
   }
-  if (s.position.values.empty()) return c_.diag().report(Diag::gltf_bad_value, c_.file.where(p.json), "primitive without POSITION"), false;
+  if (s.position.values.empty()) {
+    c_.diag().report(Diag::gltf_bad_value, c_.file.where(p.json), "primitive without POSITION");
+    return false;
+  }
   s.n = s.position.values.size() / 3;
   unpacked_ids_ = std::move(s.feature.values);
   s.index = std::move(*index);
@@ -241,7 +286,10 @@ bool Meshes::load_draco(const Primitive& p, const Sets& sets, Streams& s) {
 
 bool Meshes::pose(const Primitive& p, const Pose& how, Streams& s) {
   n_posed_ += s.n;
-  if (n_posed_ > max_posed) return c_.diag().report(Diag::expansion_limit, c_.file.where(p.json), max_posed, "vertices of posed meshes"), false;
+  if (n_posed_ > max_posed) {
+    c_.diag().report(Diag::expansion_limit, c_.file.where(p.json), max_posed, "vertices of posed meshes");
+    return false;
+  }
   s.loose = true;
   fill(s.normal, three);
   for (std::size_t i = 0; i < s.position.values.size(); ++i) s.position.values[i] += how.origin[i % 3];
@@ -254,13 +302,16 @@ void Meshes::morph(const Primitive& p, const Pose& how, Streams& s) {
   m.base = s.position.values;
   m.weights = how.weights.empty() ? p.mesh["weights"].numbers() : how.weights;
   for (Json target : p.json["targets"].elements()) {
-    for (Json a : target) if (a.key() != "POSITION" && a.key() != "NORMAL") c_.lost.add("morph target of " + std::string(a.key()), c_.file.where(a));
+    for (Json a : target)
+      if (a.key() != "POSITION" && a.key() != "NORMAL")
+        c_.lost.add("morph target of " + std::string(a.key()), c_.file.where(a));
     auto moves = c_.accessors.numbers(c_.file.index(Table::accessors, target["POSITION"]), three);
     auto turns = c_.accessors.numbers(c_.file.index(Table::accessors, target["NORMAL"]), three);
     const std::size_t k = m.targets.size();
     const double w = k < m.weights.size() ? m.weights[k] : 0;
     n_posed_ += s.n;
-    if (n_posed_ > max_posed) return c_.diag().report(Diag::expansion_limit, c_.file.where(p.json), max_posed, "vertices of posed meshes");
+    if (n_posed_ > max_posed)
+      return c_.diag().report(Diag::expansion_limit, c_.file.where(p.json), max_posed, "vertices of posed meshes");
     m.targets.push_back(moves && moves->count() == s.n ? std::move(moves->values) : std::vector<double>(s.n * 3, 0.0));
     for (std::size_t i = 0; i < s.n * 3; ++i) s.position.values[i] += w * m.targets.back()[i];
     if (turns && turns->count() == s.n && s.normal.values.size() == s.n * 3)
@@ -315,8 +366,11 @@ std::vector<std::uint32_t> Meshes::elements(const Primitive& p, Streams& s) {
   const std::size_t size = p.faces() ? 3 : p.mode == points ? 1 : 2;
   std::size_t bad = 0, to = 0;
   for (std::size_t i = 0; i + size <= out.size(); i += size) {
-    const bool outside = std::any_of(out.begin() + static_cast<std::ptrdiff_t>(i), out.begin() + static_cast<std::ptrdiff_t>(i + size), [&](auto v) { return v >= s.n; });
-    const bool flat = size == 3 && (out[i] == out[i + 1] || out[i + 1] == out[i + 2] || out[i] == out[i + 2]);  // strips turn with such
+    const bool outside =
+        std::any_of(out.begin() + static_cast<std::ptrdiff_t>(i), out.begin() + static_cast<std::ptrdiff_t>(i + size),
+                    [&](auto v) { return v >= s.n; });
+    const bool flat = size == 3 && (out[i] == out[i + 1] || out[i + 1] == out[i + 2] ||
+                                    out[i] == out[i + 2]);  // strips turn with such
     bad += outside;
     if (outside || flat) continue;
     for (std::size_t k = 0; k < size; ++k) out[to++] = out[i + k];
@@ -328,7 +382,8 @@ std::vector<std::uint32_t> Meshes::elements(const Primitive& p, Streams& s) {
 
 // ---- geometry of others --------------------------------------------------------------------------------------------
 
-NodeId Meshes::attribute(TypeId type, std::uint16_t slot, FieldType field, Stream& s, int variant, bool loose, const std::function<void(std::vector<double>&)>& change) {
+NodeId Meshes::attribute(TypeId type, std::uint16_t slot, FieldType field, Stream& s, int variant, bool loose,
+                         const std::function<void(std::vector<double>&)>& change) {
   NodeId unshared;
   NodeId& known = loose ? unshared : attributes_[{type.value, s.accessor, variant}];
   if (known) return known;
@@ -350,28 +405,35 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
   const auto nothing = [](std::vector<double>&) {};
   NodeId coord, normal, color, texcoord;
   const int variant = is_identity_factor(look.color_factor) && !look.bake ? 0 : static_cast<int>(p.material) + 1;
-  coord = attribute(nodes::Coordinate, nodes::coordinate::point.slot, FieldType::MFVec3f, s.position, 0, s.loose, nothing);
+  coord =
+      attribute(nodes::Coordinate, nodes::coordinate::point.slot, FieldType::MFVec3f, s.position, 0, s.loose, nothing);
   if (!coord) return {};
-  if (s.normal && p.faces()) normal = attribute(nodes::Normal, nodes::normal::vector.slot, FieldType::MFVec3f, s.normal, 0, s.loose, nothing);
+  if (s.normal && p.faces())
+    normal = attribute(nodes::Normal, nodes::normal::vector.slot, FieldType::MFVec3f, s.normal, 0, s.loose, nothing);
   if (s.color)
-    color = attribute(nodes::Color, nodes::color::color.slot, FieldType::MFColor, s.color, variant, s.loose, [&](std::vector<double>& v) {
-      if (s.color.width == 4 && without_alpha(v)) c_.lost.add("alpha of COLOR_0", c_.file.where(p.json));
-      for (std::size_t i = 0; i < v.size(); ++i) v[i] = display(static_cast<float>(v[i] * look.color_factor[i % 3]));
-    });
+    color = attribute(nodes::Color, nodes::color::color.slot, FieldType::MFColor, s.color, variant, s.loose,
+                      [&](std::vector<double>& v) {
+                        if (s.color.width == 4 && without_alpha(v))
+                          c_.lost.add("alpha of COLOR_0", c_.file.where(p.json));
+                        for (std::size_t i = 0; i < v.size(); ++i)
+                          v[i] = display(static_cast<float>(v[i] * look.color_factor[i % 3]));
+                      });
   if (s.texcoord && p.faces() && look.textured)
-    texcoord = attribute(nodes::TextureCoordinate, nodes::texture_coordinate::point.slot, FieldType::MFVec2f, s.texcoord, variant, s.loose, [&](std::vector<double>& v) {
-      const auto a = look.bake.value_or(UvAffine{});
-      for (std::size_t i = 0; i + 1 < v.size(); i += 2) {
-        const double u = v[i], t = std::round((1 - v[i + 1]) * 1e9) / 1e9;
-        v[i] = look.bake ? a.xx * u + a.xy * t + a.x : u;
-        v[i + 1] = look.bake ? a.yx * u + a.yy * t + a.y : t;
-      }
-    });
+    texcoord = attribute(nodes::TextureCoordinate, nodes::texture_coordinate::point.slot, FieldType::MFVec2f,
+                         s.texcoord, variant, s.loose, [&](std::vector<double>& v) {
+                           const auto a = look.bake.value_or(UvAffine{});
+                           for (std::size_t i = 0; i + 1 < v.size(); i += 2) {
+                             const double u = v[i], t = std::round((1 - v[i + 1]) * 1e9) / 1e9;
+                             v[i] = look.bake ? a.xx * u + a.xy * t + a.x : u;
+                             v[i + 1] = look.bake ? a.yx * u + a.yy * t + a.y : t;
+                           }
+                         });
   NodeId light;
   if (s.light)
-    light = attribute(nodes::TextureCoordinate, nodes::texture_coordinate::point.slot, FieldType::MFVec2f, s.light, -1, s.loose, [](std::vector<double>& v) {
-      for (std::size_t i = 1; i < v.size(); i += 2) v[i] = std::round((1 - v[i]) * 1e9) / 1e9;
-    });
+    light = attribute(nodes::TextureCoordinate, nodes::texture_coordinate::point.slot, FieldType::MFVec2f, s.light, -1,
+                      s.loose, [](std::vector<double>& v) {
+                        for (std::size_t i = 1; i < v.size(); i += 2) v[i] = std::round((1 - v[i]) * 1e9) / 1e9;
+                      });
   const auto corners = elements(p, s);
   Scene& scene = c_.scene;
   if (p.mode == points) {
@@ -404,7 +466,9 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
     namespace f = nodes::indexed_line_set;
     scene.set(n, f::coord, coord);
     if (color) scene.set(n, f::color, color);
-    return index.slot = f::coordIndex.slot, scene.set(n, index), n;
+    index.slot = f::coordIndex.slot;
+    scene.set(n, index);
+    return n;
   }
   namespace f = nodes::indexed_face_set;
   scene.set(n, f::coord, coord);
@@ -421,8 +485,11 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
 void Meshes::report_lost(const Primitive& p, const Sets& sets) {
   for (Json a : p.json["attributes"]) {
     const auto name = a.key();
-    if (name == "POSITION" || name == "NORMAL" || name == "COLOR_0" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) continue;
-    if (name != sets.light && (name != sets.texcoord || !materials_.texcoord_set(p.material))) c_.lost.add(name, c_.file.where(a));
+    if (name == "POSITION" || name == "NORMAL" || name == "COLOR_0" || name.starts_with("JOINTS_") ||
+        name.starts_with("WEIGHTS_"))
+      continue;
+    if (name != sets.light && (name != sets.texcoord || !materials_.texcoord_set(p.material)))
+      c_.lost.add(name, c_.file.where(a));
   }
   c_.lost.keep(c_.file, p.json);
 }
@@ -442,7 +509,8 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
     s.texcoord.values[i] = rounded(a.xx * u + a.xy * v + a.x);
     t = rounded(a.yx * u + a.yy * v + a.y);
   }
-  for (std::size_t i = 1; i < s.light.values.size(); i += 2) s.light.values[i] = decimal(static_cast<float>(1 - s.light.values[i]));
+  for (std::size_t i = 1; i < s.light.values.size(); i += 2)
+    s.light.values[i] = decimal(static_cast<float>(1 - s.light.values[i]));
   if (s.color.width == 4) without_alpha(s.color.values);
   for (double& v : s.color.values) v = display(static_cast<float>(v));
   const TypeId type = p.faces() ? nodes::IndexedFaceSet : p.mode == points ? nodes::PointSet : nodes::IndexedLineSet;
@@ -472,7 +540,8 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
   // What is left of the fields: nodes among them only say which there were, and their names.
   for (Json f : fields.is_object() ? fields : Json())
     if (auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97)) {
-      if (info(c_.scene.type(n).fields[*slot].type).element == Element::node) name_attribute(c_.scene.value(n, *slot).node, f);
+      if (info(c_.scene.type(n).fields[*slot].type).element == Element::node)
+        name_attribute(c_.scene.value(n, *slot).node, f);
     }
   extras_.plain_fields(n, fields);
   return n;
@@ -494,7 +563,8 @@ std::vector<std::uint32_t> Meshes::first_vertices(const Primitive& p, const std:
 void Meshes::name_attributes(NodeId n, Json kept) {
   const Json fields = kept[c_.scene.type(n).name];
   for (Json f : fields.is_object() ? fields : Json())
-    if (auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97); slot && info(c_.scene.type(n).fields[*slot].type).element == Element::node) {
+    if (auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97);
+        slot && info(c_.scene.type(n).fields[*slot].type).element == Element::node) {
       NodeId a = c_.scene.value(n, *slot).node;
       const auto name = f.is_object() && f.begin() != f.end() ? (*f.begin())["DEF"].text() : std::string_view();
       if (!a || name.empty()) continue;
@@ -523,20 +593,30 @@ void Meshes::own_faces(NodeId n, const Primitive& p, const Streams& s, const std
   Scene& scene = c_.scene;
   const auto points_ = join(s.position.values, 3);
   const auto coord_index = index_of(polygons, points_.of_vertex);
-  auto add = [&](TypeId type, FieldType field, std::uint16_t value_slot, std::uint16_t node_slot, std::uint16_t index_slot, const Joined& j, bool per_vertex) {
+  auto add = [&](TypeId type, FieldType field, std::uint16_t value_slot, std::uint16_t node_slot,
+                 std::uint16_t index_slot, const Joined& j, bool per_vertex) {
     NodeId a = c_.add(type, p.json);
     scene.set(a, scene.make(field, value_slot, j.values));
     scene.set(n, scene.make(FieldType::SFNode, node_slot, a));
     auto index = per_vertex ? index_of(polygons, j.of_vertex) : face_index_of(polygons, j.of_vertex);
-    if (per_vertex ? index != coord_index : !counts_up(index)) scene.set(n, scene.make(FieldType::MFInt32, index_slot, index));
+    if (per_vertex ? index != coord_index : !counts_up(index))
+      scene.set(n, scene.make(FieldType::MFInt32, index_slot, index));
   };
   NodeId coord = c_.add(nodes::Coordinate, p.json);
   scene.set(coord, nodes::coordinate::point, points_.values);
   scene.set(n, f::coord, coord);
-  if (s.color) add(nodes::Color, FieldType::MFColor, nodes::color::color.slot, f::color.slot, f::colorIndex.slot, join(s.color.values, 3), kept["colorPerVertex"].boolean(true));
-  if (s.normal && kept["normal"]) add(nodes::Normal, FieldType::MFVec3f, nodes::normal::vector.slot, f::normal.slot, f::normalIndex.slot, join(s.normal.values, 3), kept["normalPerVertex"].boolean(true));
-  if (s.texcoord && kept["texCoord"]) add(nodes::TextureCoordinate, FieldType::MFVec2f, nodes::texture_coordinate::point.slot, f::texCoord.slot, f::texCoordIndex.slot, join(s.texcoord.values, 2), true);
-  if (s.light) add(nodes::TextureCoordinate, FieldType::MFVec2f, nodes::texture_coordinate::point.slot, f::lightCoord.slot, f::lightCoordIndex.slot, join(s.light.values, 2), true);
+  if (s.color)
+    add(nodes::Color, FieldType::MFColor, nodes::color::color.slot, f::color.slot, f::colorIndex.slot,
+        join(s.color.values, 3), kept["colorPerVertex"].boolean(true));
+  if (s.normal && kept["normal"])
+    add(nodes::Normal, FieldType::MFVec3f, nodes::normal::vector.slot, f::normal.slot, f::normalIndex.slot,
+        join(s.normal.values, 3), kept["normalPerVertex"].boolean(true));
+  if (s.texcoord && kept["texCoord"])
+    add(nodes::TextureCoordinate, FieldType::MFVec2f, nodes::texture_coordinate::point.slot, f::texCoord.slot,
+        f::texCoordIndex.slot, join(s.texcoord.values, 2), true);
+  if (s.light)
+    add(nodes::TextureCoordinate, FieldType::MFVec2f, nodes::texture_coordinate::point.slot, f::lightCoord.slot,
+        f::lightCoordIndex.slot, join(s.light.values, 2), true);
   scene.set(n, f::coordIndex, coord_index);
 }
 
@@ -553,7 +633,8 @@ void Meshes::own_lines(NodeId n, const Streams& s, const std::vector<std::uint32
     NodeId color = c_.scene.add(nodes::Color, c_.scene.where(n));
     c_.scene.set(color, nodes::color::color, shades.values);
     c_.scene.set(n, f::color, color);
-    if (auto own_index = index_of(lines_, shades.of_vertex); own_index != index) c_.scene.set(n, f::colorIndex, own_index);
+    if (auto own_index = index_of(lines_, shades.of_vertex); own_index != index)
+      c_.scene.set(n, f::colorIndex, own_index);
   }
   c_.scene.set(n, f::coordIndex, index);
 }

@@ -1,10 +1,10 @@
-// Meshes of glTF as geometry nodes. Points stay points, lines lines, triangles faces: those that wrlkit has cut out of a
-// polygon become that polygon again.
+// Meshes of glTF as geometry nodes. Points stay points, lines lines, triangles faces: those that wrlkit has cut out of
+// a polygon become that polygon again.
 //
 // In files of others every attribute keeps its vertices: Coordinate, Normal, Color and TextureCoordinate have the
-// accessor's values, coordIndex its indices, and who shares an accessor shares the node. In files of wrlkit vertices that
-// were split for their attributes are one point again, and what VRML makes itself (normals from creaseAngle, texture
-// coordinates from the bounding box) is left to it.
+// accessor's values, coordIndex its indices, and who shares an accessor shares the node. In files of wrlkit vertices
+// that were split for their attributes are one point again, and what VRML makes itself (normals from creaseAngle,
+// texture coordinates from the bounding box) is left to it.
 #pragma once
 #include <functional>
 
@@ -16,10 +16,10 @@ namespace wrlkit::gltf_reader {
 
 /// How a node shows a mesh.
 struct Pose {
-  std::vector<double> weights;   // of its morph targets; empty: those of the mesh
-  std::vector<Matrix> joints;    // of a skin: from the mesh to the node; empty: none
+  std::vector<double> weights;  // of its morph targets; empty: those of the mesh
+  std::vector<Matrix> joints;   // of a skin: from the mesh to the node; empty: none
   std::uint32_t skin = none;
-  Vec3 origin{0, 0, 0};          // what wrlkit has subtracted from the points
+  Vec3 origin{0, 0, 0};  // what wrlkit has subtracted from the points
   bool shared() const { return weights.empty() && joints.empty() && origin == Vec3{0, 0, 0}; }
 };
 
@@ -35,7 +35,8 @@ class Meshes {
  public:
   static constexpr std::uint64_t max_posed = 20'000'000;  // vertices of skinned and morphed meshes
 
-  Meshes(const Context& c, Extras& extras, PartRows& rows) : c_(c), extras_(extras), rows_(rows), materials_(c, extras), reported_(c.file.count(Table::meshes)) {}
+  Meshes(const Context& c, Extras& extras, PartRows& rows)
+      : c_(c), extras_(extras), rows_(rows), materials_(c, extras), reported_(c.file.count(Table::meshes)) {}
 
   struct Part {
     NodeId appearance, geometry;
@@ -46,7 +47,9 @@ class Meshes {
   /// Is it a mesh of wrlkit with feature ids, which becomes several Shapes?
   bool has_features(std::uint32_t mesh) const;
   /// See Materials::nodes_of.
-  std::vector<std::pair<NodeId, bool>> materials_of(std::uint32_t material) const { return materials_.nodes_of(material); }
+  std::vector<std::pair<NodeId, bool>> materials_of(std::uint32_t material) const {
+    return materials_.nodes_of(material);
+  }
   /// Of the last call, one for each primitive with targets.
   std::vector<Morph> take_morphs() { return std::move(morphs_); }
 
@@ -60,7 +63,7 @@ class Meshes {
   };
   struct Streams {
     Stream position, normal, color, texcoord, light, feature;  // feature: of Draco only
-    std::size_t n = 0;  // vertices
+    std::size_t n = 0;                                         // vertices
     std::vector<std::uint32_t> index;
     std::uint32_t index_accessor = none;
     bool indexed = false, loose = false;  // loose: the values are not those of the accessors
@@ -94,7 +97,8 @@ class Meshes {
   void note_first_vertices(NodeId, const Primitive&, const std::vector<std::uint32_t>& corners);
   std::vector<std::uint32_t> first_vertices(const Primitive&, const std::vector<std::uint32_t>& corners) const;
   void own_lines(NodeId, const Streams&, const std::vector<std::uint32_t>& segments);
-  NodeId attribute(TypeId, std::uint16_t slot, FieldType, Stream&, int variant, bool loose, const std::function<void(std::vector<double>&)>& change);
+  NodeId attribute(TypeId, std::uint16_t slot, FieldType, Stream&, int variant, bool loose,
+                   const std::function<void(std::vector<double>&)>& change);
   void name_attribute(NodeId, Json kept);
   void name_attributes(NodeId, Json kept);
   void report_lost(const Primitive&, const Sets&);
@@ -104,11 +108,11 @@ class Meshes {
   PartRows& rows_;
   Materials materials_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Part>> parts_;  // by mesh and primitive
-  std::map<std::tuple<std::uint32_t, std::uint32_t, int>, NodeId> attributes_;    // by type, accessor and variant
-  std::map<std::tuple<int, std::uint32_t, std::size_t>, Value> coord_index_;      // by mode, accessor and vertices
-  std::map<std::string, NodeId> own_;                                             // by what they are made of
-  std::map<std::uint32_t, std::vector<std::uint32_t>> first_vertex_;  // by geometry node: of each face
-  std::vector<double> unpacked_ids_;  // of the primitive at hand
+  std::map<std::tuple<std::uint32_t, std::uint32_t, int>, NodeId> attributes_;  // by type, accessor and variant
+  std::map<std::tuple<int, std::uint32_t, std::size_t>, Value> coord_index_;    // by mode, accessor and vertices
+  std::map<std::string, NodeId> own_;                                           // by what they are made of
+  std::map<std::uint32_t, std::vector<std::uint32_t>> first_vertex_;            // by geometry node: of each face
+  std::vector<double> unpacked_ids_;                                            // of the primitive at hand
   std::vector<Morph> morphs_;
   std::vector<char> reported_;
   std::uint64_t n_posed_ = 0;

@@ -32,7 +32,8 @@ std::set<std::string> names_in_gltf(std::string_view bytes, const std::string& p
   PartRows parts(Context{file, buffers, accessors, scene, lost});
   for (const PartRow& row : parts.rows()) {
     out.insert(row.name);
-    if (const auto number = row.name.rfind('#'); number != row.name.npos) out.insert(row.name.substr(0, number));  // "Bolt#2", of merge
+    if (const auto number = row.name.rfind('#'); number != row.name.npos)
+      out.insert(row.name.substr(0, number));  // "Bolt#2", of merge
   }
   out.erase("");
   return out;

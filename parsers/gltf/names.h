@@ -1,4 +1,5 @@
-// The DEF names that a glTF file of wrlkit has, wherever they stand: of nodes, meshes and materials, in extras, in the table of parts.
+// The DEF names that a glTF file of wrlkit has, wherever they stand: of nodes, meshes and materials, in extras, in the
+// table of parts.
 #pragma once
 #include <set>
 #include <string>

@@ -5,7 +5,7 @@
 namespace wrlkit::gltf_reader {
 namespace {
 
-constexpr double largest_id = 16777216;  // ids are stored as floats
+constexpr double largest_id = 16777216;   // ids are stored as floats
 constexpr std::size_t most_groups = 200;  // in one another; what is deeper stands by itself
 
 }  // namespace
@@ -14,8 +14,10 @@ const std::vector<PartRow>& PartRows::rows() {
   if (read_) return rows_;
   read_ = true;
   const auto tables = c_.file.root()["extensions"]["EXT_structural_metadata"]["propertyTables"].elements();
-  if (!tables.empty()) read_table(tables[0]);
-  else read_paths(c_.file.root()["asset"]["extras"]["features"]);
+  if (!tables.empty())
+    read_table(tables[0]);
+  else
+    read_paths(c_.file.root()["asset"]["extras"]["features"]);
   made_.resize(rows_.size());
   return rows_;
 }
@@ -25,10 +27,14 @@ std::optional<std::vector<std::uint64_t>> PartRows::column(Json view, std::strin
   const std::size_t size = type == "UINT8" ? 1 : type == "UINT16" ? 2 : type == "UINT64" ? 8 : 4;
   const auto index = c_.file.index(Table::bufferViews, view);
   const auto bytes = index == none ? std::nullopt : c_.buffers.view(index);
-  if (!bytes || bytes->bytes.size() / size < n) return c_.diag().report(Diag::gltf_outside, c_.file.where(view), "EXT_structural_metadata", "its bufferView"), std::nullopt;
+  if (!bytes || bytes->bytes.size() / size < n) {
+    c_.diag().report(Diag::gltf_outside, c_.file.where(view), "EXT_structural_metadata", "its bufferView");
+    return std::nullopt;
+  }
   std::vector<std::uint64_t> out(n);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < size; ++k) out[i] |= std::uint64_t{static_cast<unsigned char>(bytes->bytes[i * size + k])} << 8 * k;
+    for (std::size_t k = 0; k < size; ++k)
+      out[i] |= std::uint64_t{static_cast<unsigned char>(bytes->bytes[i * size + k])} << 8 * k;
   return out;
 }
 
@@ -41,14 +47,21 @@ void PartRows::read_table(Json table) {
   const auto offsets = column(name["stringOffsets"], name["stringOffsetType"].text("UINT32"), n + 1);
   if (!offsets) return;
   const Json classes = c_.file.root()["extensions"]["EXT_structural_metadata"]["schema"]["classes"];
-  const auto parents = parent ? column(parent["values"], classes[table["class"].text()]["properties"]["parent"]["componentType"].text(), n) : std::nullopt;
+  const auto parents =
+      parent
+          ? column(parent["values"], classes[table["class"].text()]["properties"]["parent"]["componentType"].text(), n)
+          : std::nullopt;
   std::vector<std::size_t> depth(n);
   for (std::size_t i = 0; i < n; ++i) {
     const auto from = (*offsets)[i], to = (*offsets)[i + 1];
-    if (from > to || to > texts->bytes.size()) return rows_.clear(), c_.diag().report(Diag::gltf_bad_value, c_.file.where(name), "EXT_structural_metadata: stringOffsets");
+    if (from > to || to > texts->bytes.size()) {
+      rows_.clear();
+      return c_.diag().report(Diag::gltf_bad_value, c_.file.where(name), "EXT_structural_metadata: stringOffsets");
+    }
     const bool below = parents && (*parents)[i] < i && depth[(*parents)[i]] < most_groups;
     if (below) depth[i] = depth[(*parents)[i]] + 1;
-    rows_.push_back({std::string(texts->bytes.substr(from, to - from)), below ? static_cast<std::uint32_t>((*parents)[i]) : none});
+    rows_.push_back(
+        {std::string(texts->bytes.substr(from, to - from)), below ? static_cast<std::uint32_t>((*parents)[i]) : none});
   }
 }
 
@@ -78,7 +91,8 @@ void PartRows::read_paths(Json list) {
 
 std::vector<std::uint32_t> PartRows::ids(Json set, Json attributes) {
   const auto number = set["attribute"].whole();
-  const auto index = number ? c_.file.index(Table::accessors, attributes["_FEATURE_ID_" + std::to_string(*number)]) : none;
+  const auto index =
+      number ? c_.file.index(Table::accessors, attributes["_FEATURE_ID_" + std::to_string(*number)]) : none;
   const auto values = index == none ? std::nullopt : c_.accessors.numbers(index, {1});
   return values ? ids(set, values->values) : std::vector<std::uint32_t>();
 }
@@ -87,7 +101,10 @@ std::vector<std::uint32_t> PartRows::ids(Json set, const std::vector<double>& va
   std::vector<std::uint32_t> out;
   const double nothing = set["nullFeatureId"].number(-1);
   for (double id : values) {
-    if (!(id >= 0 && id < largest_id)) return c_.diag().report(Diag::gltf_bad_value, c_.file.where(set), "_FEATURE_ID_0"), std::vector<std::uint32_t>();
+    if (!(id >= 0 && id < largest_id)) {
+      c_.diag().report(Diag::gltf_bad_value, c_.file.where(set), "_FEATURE_ID_0");
+      return std::vector<std::uint32_t>();
+    }
     out.push_back(id == nothing ? none : static_cast<std::uint32_t>(id));
   }
   return out;
@@ -112,7 +129,8 @@ void PartRows::count() {
   }
   for (std::uint32_t m = 0; m < c_.file.count(Table::meshes); ++m)
     for (Json p : c_.file.at(Table::meshes, m)["primitives"].elements()) {
-      if (p["extensions"]["KHR_draco_mesh_compression"]) continue;  // a part that is also placed once has its name twice then
+      if (p["extensions"]["KHR_draco_mesh_compression"])
+        continue;  // a part that is also placed once has its name twice then
       for (Json set : p["extensions"]["EXT_mesh_features"]["featureIds"].elements()) {
         auto all = ids(set, p["attributes"]);
         std::ranges::sort(all);

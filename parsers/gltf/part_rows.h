@@ -1,5 +1,6 @@
-// The table that feature ids of wrlkit's own files lead to: names of parts and groups (writers/gltf/parts.h). A property table of
-// EXT_structural_metadata with the columns "name" and "parent", or a list of paths in the extras of the asset.
+// The table that feature ids of wrlkit's own files lead to: names of parts and groups (writers/gltf/parts.h). A
+// property table of EXT_structural_metadata with the columns "name" and "parent", or a list of paths in the extras of
+// the asset.
 #pragma once
 #include <string>
 #include <vector>

@@ -49,7 +49,8 @@ Pointed followers_of(const Context& c, const Hierarchy& hierarchy, const Meshes&
     out.width = 1;
     const double now = c.file.at(Table::lights, *intensity)["intensity"].number(1);
     for (NodeId l : hierarchy.lights(*intensity))
-      if (const bool sun = scene.is(l, nodes::DirectionalLight); sun || now > 0) out.followers.push_back({l, "set_intensity", false, 0, sun ? 1 / std::numbers::pi : 1 / now});
+      if (const bool sun = scene.is(l, nodes::DirectionalLight); sun || now > 0)
+        out.followers.push_back({l, "set_intensity", false, 0, sun ? 1 / std::numbers::pi : 1 / now});
   } else if (auto camera = number_between(pointer, "/cameras/", "/perspective/yfov")) {
     out.width = 1;
     for (NodeId v : hierarchy.cameras(*camera)) out.followers.push_back({v, "set_fieldOfView"});

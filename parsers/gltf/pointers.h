@@ -11,13 +11,13 @@ namespace wrlkit::gltf_reader {
 struct Follower {
   NodeId node;
   std::string_view event;
-  bool color = false;      // three numbers, linear; else one
-  std::size_t at = 0;      // the first of them
+  bool color = false;            // three numbers, linear; else one
+  std::size_t at = 0;            // the first of them
   double scale = 1, offset = 0;  // of a number
 };
 
 struct Pointed {
-  std::size_t width = 0;   // numbers of the property; 0: nothing of it has a counterpart
+  std::size_t width = 0;  // numbers of the property; 0: nothing of it has a counterpart
   std::vector<Follower> followers;
 };
 

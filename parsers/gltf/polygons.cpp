@@ -38,7 +38,10 @@ std::vector<std::uint32_t> outline(std::span<const std::uint32_t> t) {
 struct Hash {
   std::size_t operator()(const std::array<double, 3>& a) const {
     std::uint64_t h = 0;
-    for (double v : a) h = (h ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15ull, h ^= h >> 29;
+    for (double v : a) {
+      h = (h ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15ull;
+      h ^= h >> 29;
+    }
     return h;
   }
 };
@@ -56,11 +59,16 @@ Polygons polygons_of(std::span<const std::uint32_t> triangles, std::span<const d
       out.corners.insert(out.corners.end(), loop.begin(), loop.end());
       return out.close();
     }
-    for (std::size_t i = 0; i < t.size(); i += 3) out.corners.insert(out.corners.end(), t.begin() + static_cast<std::ptrdiff_t>(i), t.begin() + static_cast<std::ptrdiff_t>(i) + 3), out.close();
+    for (std::size_t i = 0; i < t.size(); i += 3) {
+      out.corners.insert(out.corners.end(), t.begin() + static_cast<std::ptrdiff_t>(i),
+                         t.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+      out.close();
+    }
   };
   for (std::size_t r = 0; r + 1 < runs.size(); r += 2) {
     const double size = runs[r];
-    for (double k = 0; k < runs[r + 1] && size >= 1 && size <= static_cast<double>((triangles.size() - at) / 3); ++k) take(static_cast<std::size_t>(size));
+    for (double k = 0; k < runs[r + 1] && size >= 1 && size <= static_cast<double>((triangles.size() - at) / 3); ++k)
+      take(static_cast<std::size_t>(size));
   }
   while (at + 3 <= triangles.size()) take(1);
   return out;
@@ -85,7 +93,9 @@ Joined join(std::span<const double> values, std::size_t width) {
     std::array<double, 3> key{};
     for (std::size_t k = 0; k < width; ++k) key[k] = values[i + k] + 0.0;  // -0 is 0
     auto [at, is_new] = seen.try_emplace(key, static_cast<std::int32_t>(out.values.size() / width));
-    if (is_new) out.values.insert(out.values.end(), values.begin() + static_cast<std::ptrdiff_t>(i), values.begin() + static_cast<std::ptrdiff_t>(i + width));
+    if (is_new)
+      out.values.insert(out.values.end(), values.begin() + static_cast<std::ptrdiff_t>(i),
+                        values.begin() + static_cast<std::ptrdiff_t>(i + width));
     out.of_vertex.push_back(at->second);
   }
   return out;

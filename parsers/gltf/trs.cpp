@@ -17,11 +17,17 @@ double to_15_digits(double v) {
 Vec3 column(const Matrix& m, int c) { return {m(0, c), m(1, c), m(2, c)}; }
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
 Matrix of_columns(const Vec3& a, const Vec3& b, const Vec3& c) {
   Matrix m;
-  for (int r = 0; r < 3; ++r) m(r, 0) = a[static_cast<std::size_t>(r)], m(r, 1) = b[static_cast<std::size_t>(r)], m(r, 2) = c[static_cast<std::size_t>(r)];
+  for (int r = 0; r < 3; ++r) {
+    m(r, 0) = a[static_cast<std::size_t>(r)];
+    m(r, 1) = b[static_cast<std::size_t>(r)];
+    m(r, 2) = c[static_cast<std::size_t>(r)];
+  }
   return m;
 }
 
@@ -48,18 +54,25 @@ Matrix eigenvectors(Matrix a) {
     for (auto [p, q] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
       if (a(p, q) == 0) continue;
       const double theta = (a(q, q) - a(p, p)) / (2 * a(p, q));
-      const double t = (theta < 0 ? -1.0 : 1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1)), c = 1 / std::sqrt(t * t + 1), s = t * c;
+      const double t = (theta < 0 ? -1.0 : 1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1)),
+                   c = 1 / std::sqrt(t * t + 1), s = t * c;
       Matrix g;
-      g(p, p) = g(q, q) = c, g(p, q) = s, g(q, p) = -s;
+      g(p, p) = g(q, q) = c;
+      g(p, q) = s;
+      g(q, p) = -s;
       Matrix gt;
-      gt(p, p) = gt(q, q) = c, gt(p, q) = -s, gt(q, p) = s;
+      gt(p, p) = gt(q, q) = c;
+      gt(p, q) = -s;
+      gt(q, p) = s;
       a = gt * a * g;
       v = v * g;
     }
   return v;
 }
 
-bool finite(const std::vector<double>& v) { return std::ranges::all_of(v, [](double x) { return std::isfinite(x); }); }
+bool finite(const std::vector<double>& v) {
+  return std::ranges::all_of(v, [](double x) { return std::isfinite(x); });
+}
 
 }  // namespace
 
@@ -85,12 +98,17 @@ Place decompose(const Matrix& m) {
   Vec3 x = column(m, 0), y = column(m, 1), z = column(m, 2);
   const double a = length(x), b = length(y), c = length(z), sign = m.determinant() < 0 ? -1 : 1;
   constexpr double right_angle = 1e-6;
-  const bool square = std::abs(dot(x, y)) <= right_angle * a * b && std::abs(dot(y, z)) <= right_angle * b * c && std::abs(dot(x, z)) <= right_angle * a * c;
+  const bool square = std::abs(dot(x, y)) <= right_angle * a * b && std::abs(dot(y, z)) <= right_angle * b * c &&
+                      std::abs(dot(x, z)) <= right_angle * a * c;
   if (square && a > 0 && b > 0 && c > 0) {
-    auto by = [](Vec3 v, double s) { for (double& k : v) k /= s; return v; };
+    auto by = [](Vec3 v, double s) {
+      for (double& k : v) k /= s;
+      return v;
+    };
     p.rotation = axis_angle_of(of_columns(by(x, sign * a), by(y, b), by(z, c)));
     p.scale = {to_15_digits(sign * a), to_15_digits(b), to_15_digits(c)};
-    for (double& s : p.scale) if (std::abs(std::abs(s) - 1) < 1e-7) s = s < 0 ? -1 : 1;  // rounding of single precision
+    for (double& s : p.scale)
+      if (std::abs(std::abs(s) - 1) < 1e-7) s = s < 0 ? -1 : 1;  // rounding of single precision
     return p;
   }
   // M = R V D V^T; a mirror goes into D.
@@ -111,16 +129,21 @@ Place decompose(const Matrix& m) {
     axes[i] = d;
   }
   // Directions without extent: at right angles to the others.
-  if (!(size[order[0]] > 0)) return p.scale = {0, 0, 0}, p;
+  if (!(size[order[0]] > 0)) {
+    p.scale = {0, 0, 0};
+    return p;
+  }
   if (!(size[order[1]] > 1e-12 * size[order[0]])) {
     const Vec3& d = axes[order[0]];
     Vec3 other = std::abs(d[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n = cross(d, other);
     const double l = length(n);
     for (double& k : n) k /= l;
-    axes[order[1]] = n, size[order[1]] = 0;
+    axes[order[1]] = n;
+    size[order[1]] = 0;
   }
   if (!(size[order[2]] > 1e-12 * size[order[0]])) {
-    axes[order[2]] = cross(axes[order[0]], axes[order[1]]), size[order[2]] = 0;
+    axes[order[2]] = cross(axes[order[0]], axes[order[1]]);
+    size[order[2]] = 0;
     if (v.determinant() * of_columns(axes[0], axes[1], axes[2]).determinant() < 0)
       for (double& k : axes[order[2]]) k = -k;
   }
@@ -152,7 +175,9 @@ Matrix inverse(const Matrix& m) {
   const Vec3 x = column(m, 0), y = column(m, 1), z = column(m, 2), r0 = cross(y, z), r1 = cross(z, x), r2 = cross(x, y);
   for (int c = 0; c < 3; ++c) {
     const auto k = static_cast<std::size_t>(c);
-    o(0, c) = r0[k] / d, o(1, c) = r1[k] / d, o(2, c) = r2[k] / d;
+    o(0, c) = r0[k] / d;
+    o(1, c) = r1[k] / d;
+    o(2, c) = r2[k] / d;
   }
   const Vec3 t = o.point(column(m, 3));
   for (int r = 0; r < 3; ++r) o(r, 3) = -t[static_cast<std::size_t>(r)];

@@ -19,20 +19,27 @@ std::string_view without_bom(std::string_view s) { return s.starts_with("\xef\xb
 
 class PatchParser {
  public:
-  PatchParser(std::string_view text, std::uint32_t base, Diagnostics& diag) : xml_(text, base, diag), diag_(diag) { set_.printed = {0, 0, 1}; }
+  PatchParser(std::string_view text, std::uint32_t base, Diagnostics& diag) : xml_(text, base, diag), diag_(diag) {
+    set_.printed = {0, 0, 1};
+  }
 
   std::optional<PatchSet> parse() {
     const XmlTag* tag = &xml_.next();
     while (tag->kind == XmlTag::Kind::close) tag = &xml_.next();
     if (tag->name != word::patches) {
-      diag_.report(Diag::no_patches, tag->where, tag->name.empty() ? "there is no element in it" : "its first element is '" + std::string(tag->name) + "'");
+      diag_.report(
+          Diag::no_patches, tag->where,
+          tag->name.empty() ? "there is no element in it" : "its first element is '" + std::string(tag->name) + "'");
       return std::nullopt;
     }
     for (; tag->kind != XmlTag::Kind::end; tag = &xml_.next()) {
-      if (tag->kind == XmlTag::Kind::close) close(*tag);
-      else open(*tag);
+      if (tag->kind == XmlTag::Kind::close)
+        close(*tag);
+      else
+        open(*tag);
     }
-    for (; depth_ > 0; --depth_) diag_.report(Diag::unclosed, levels_[depth_ - 1].where, name_of(levels_[depth_ - 1].element));
+    for (; depth_ > 0; --depth_)
+      diag_.report(Diag::unclosed, levels_[depth_ - 1].where, name_of(levels_[depth_ - 1].element));
     return std::move(set_);
   }
 
@@ -58,7 +65,10 @@ class PatchParser {
   void open(const XmlTag& tag) {
     const auto e = element_of(tag.name);
     const bool closed = tag.kind == XmlTag::Kind::empty || e == patch;  // nothing stands in a patch
-    if (skipping_ > 0) return void(skipping_ += tag.kind == XmlTag::Kind::open);
+    if (skipping_ > 0) {
+      skipping_ += tag.kind == XmlTag::Kind::open;
+      return;
+    }
     if (e == other || (e == patches && depth_ > 0)) {
       diag_.report(Diag::unknown_element, tag.where, tag.name);
       skipping_ += !closed;
@@ -69,8 +79,10 @@ class PatchParser {
     quiet_ = !tag.sound;
     begin(e, tag);
     quiet_ = false;
-    if (!closed) levels_[depth_++] = {e, tag.where};
-    else ended(e);
+    if (!closed)
+      levels_[depth_++] = {e, tag.where};
+    else
+      ended(e);
   }
 
   void leave() {
@@ -79,7 +91,10 @@ class PatchParser {
   }
 
   void close(const XmlTag& tag) {
-    if (skipping_ > 0) return void(--skipping_);
+    if (skipping_ > 0) {
+      --skipping_;
+      return;
+    }
     const auto e = element_of(tag.name);
     if (e == patch) return;
     if (e == other || std::none_of(levels_, levels_ + depth_, [&](const Level& l) { return l.element == e; }))
@@ -104,13 +119,18 @@ class PatchParser {
 
   void check_attributes(Element e, const XmlTag& tag) {
     using Words = std::initializer_list<std::string_view>;
-    static const Words known[] = {{word::version, word::source, word::unit, word::method, word::samples}, {word::name, word::index}, {word::index, word::v}, {word::v, word::rgb, word::side}};
+    static const Words known[] = {{word::version, word::source, word::unit, word::method, word::samples},
+                                  {word::name, word::index},
+                                  {word::index, word::v},
+                                  {word::v, word::rgb, word::side}};
     std::uint32_t met = 0;  // of these words
     for (auto& a : tag.attributes) {
       const auto word = std::ranges::find(known[e], a.name);
       const std::uint32_t bit = 1u << (word - known[e].begin());
-      if (word == known[e].end()) say(Diag::unknown_attribute, a.where, name_of(e), a.name);
-      else if (met & bit) say(Diag::duplicate_field, a.where, a.name, "the first one is taken");
+      if (word == known[e].end())
+        say(Diag::unknown_attribute, a.where, name_of(e), a.name);
+      else if (met & bit)
+        say(Diag::duplicate_field, a.where, a.name, "the first one is taken");
       met |= bit;
     }
   }
@@ -141,8 +161,10 @@ class PatchParser {
     need_shape();
     Corners v;
     const auto index = count(tag, word::index);
-    if (tag.find(word::v) && corners(tag, v)) set_.add_triangle(index, v);
-    else set_.add_loose_triangle();
+    if (tag.find(word::v) && corners(tag, v))
+      set_.add_triangle(index, v);
+    else
+      set_.add_loose_triangle();
     set_.triangles.back().index = index;
     in_triangle_ = true;
   }
@@ -158,16 +180,24 @@ class PatchParser {
     for (std::size_t i = 0; i < 3; ++i) p.rgb[i] = radiance(i < n ? rgb[i] : 0, light->where);
     if (auto* side = tag.find(word::side)) {
       p.back = side->value == word::back;
-      if (!p.back && side->value != word::front) say(Diag::unknown_word, side->where, side->value, word::patch, word::side);
+      if (!p.back && side->value != word::front)
+        say(Diag::unknown_word, side->where, side->value, word::patch, word::side);
     }
     need_shape();
-    if (!in_triangle_) set_.add_loose_triangle(), in_triangle_ = true;
+    if (!in_triangle_) {
+      set_.add_loose_triangle();
+      in_triangle_ = true;
+    }
     set_.patches.push_back(p);
   }
 
   /// What stands directly below the root is in a shape without name, all that follows each other in one.
   void need_shape() {
-    if (!in_shape_) set_.add_shape({}, PatchSet::unknown), in_shape_ = true, in_triangle_ = false;
+    if (!in_shape_) {
+      set_.add_shape({}, PatchSet::unknown);
+      in_shape_ = true;
+      in_triangle_ = false;
+    }
   }
 
   float radiance(double v, Span where) {
@@ -179,7 +209,10 @@ class PatchParser {
   bool corners(const XmlTag& tag, Corners& out) {
     double v[9];
     const auto* a = tag.find(word::v);
-    if (!a || numbers(*a, v, true) < 9) return say(Diag::bad_patch, a ? a->where : tag.where, word::v), false;
+    if (!a || numbers(*a, v, true) < 9) {
+      say(Diag::bad_patch, a ? a->where : tag.where, word::v);
+      return false;
+    }
     for (std::size_t i = 0; i < 9; ++i) out[i / 3][i % 3] = v[i] * set_.printed.unit;
     return true;
   }
@@ -191,12 +224,16 @@ class PatchParser {
     bool behind_point = false;
     for (std::size_t i = 0; i < number.size(); ++i) {
       const char c = number[i];
-      if (c == '.') behind_point = true;
+      if (c == '.')
+        behind_point = true;
       else if (c == 'e' || c == 'E') {
         auto from = number.data() + i + 1, end = number.data() + number.size();
         std::from_chars(from + (from < end && *from == '+'), end, exponent);
         break;
-      } else if (c >= '0' && c <= '9') decimals += behind_point, digits += digits > 0 || c != '0';
+      } else if (c >= '0' && c <= '9') {
+        decimals += behind_point;
+        digits += digits > 0 || c != '0';
+      }
     }
     most.decimals = std::max(most.decimals, std::min(decimals - exponent, 17));
     most.digits = std::max(most.digits, std::min(digits, 17));
@@ -209,11 +246,18 @@ class PatchParser {
     for (std::size_t n = 0;; ++n) {
       while (p < end && (static_cast<unsigned char>(*p) <= ' ' || *p == ',')) ++p;
       if (p == end) return n;
-      const Span rest{a.where.begin + static_cast<std::uint32_t>(p - a.value.data()), static_cast<std::uint32_t>(end - p)};
-      if (n == N) return say(Diag::extra_values, rest, a.name, N), n;
+      const Span rest{a.where.begin + static_cast<std::uint32_t>(p - a.value.data()),
+                      static_cast<std::uint32_t>(end - p)};
+      if (n == N) {
+        say(Diag::extra_values, rest, a.name, N);
+        return n;
+      }
       const char* from = p;
       const auto result = vrml::read_double(p, end, out[n]);
-      if (result == vrml::NumberResult::none) return say(Diag::bad_value, rest, "'" + std::string(from, end) + "'", "number"), n;
+      if (result == vrml::NumberResult::none) {
+        say(Diag::bad_value, rest, "'" + std::string(from, end) + "'", "number");
+        return n;
+      }
       if (result == vrml::NumberResult::repaired) say(Diag::number_repaired, rest, std::string(from, p), out[n]);
       if (is_place) note_digits({from, p});
     }
@@ -226,13 +270,17 @@ class PatchParser {
     const char* p = a->value.data();
     std::int32_t v = -1;
     const auto result = vrml::read_int32(p, p + a->value.size(), v);
-    if (result == vrml::NumberResult::exact && v >= 0 && p == a->value.data() + a->value.size()) return static_cast<std::uint32_t>(v);
+    if (result == vrml::NumberResult::exact && v >= 0 && p == a->value.data() + a->value.size())
+      return static_cast<std::uint32_t>(v);
     say(Diag::bad_value, a->where, "'" + std::string(a->value) + "'", "number from 0");
     return PatchSet::unknown;
   }
 
   double metres_of(const XmlTag::Attribute& a) {
-    constexpr struct { std::string_view name; double metres; } units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+    constexpr struct {
+      std::string_view name;
+      double metres;
+    } units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
     for (auto& u : units)
       if (a.value == u.name) return u.metres;
     say(Diag::unknown_unit, a.where, a.value);
@@ -250,7 +298,7 @@ class PatchParser {
   Level levels_[3];
   std::size_t depth_ = 0, skipping_ = 0;
   bool in_shape_ = false, in_triangle_ = false;
-  bool quiet_ = false;     // the tag has a fault that was told
+  bool quiet_ = false;  // the tag has a fault that was told
 };
 
 std::optional<PatchSet> parse_text(std::string_view text, std::uint32_t base, Diagnostics& diag) {
@@ -271,7 +319,9 @@ bool is_patch_file(std::string_view text) {
   return first_element(text) == patch_words::patches;
 }
 
-std::optional<PatchSet> parse_patches(const FileText& file, Diagnostics& diag) { return parse_text(file.view(), file.base, diag); }
+std::optional<PatchSet> parse_patches(const FileText& file, Diagnostics& diag) {
+  return parse_text(file.view(), file.base, diag);
+}
 
 std::optional<PatchSet> read_patches(const std::string& path, const ReadLimits& limits, Diagnostics& diag) {
   const auto file = read_file(path, limits, diag);
@@ -281,7 +331,10 @@ std::optional<PatchSet> read_patches(const std::string& path, const ReadLimits& 
 std::optional<PatchSet> parse_patches(std::string_view text, std::string name, Diagnostics& diag) {
   auto kept = std::make_shared<std::string>(text);
   const auto base = diag.sources().add(std::move(name), text.size(), [kept] { return Sources::Loaded{*kept, kept}; });
-  if (base == Span::nowhere) return diag.report(Diag::too_large, {}, "the text", "4 GiB", text.size()), std::nullopt;
+  if (base == Span::nowhere) {
+    diag.report(Diag::too_large, {}, "the text", "4 GiB", text.size());
+    return std::nullopt;
+  }
   return parse_text(*kept, base, diag);
 }
 

@@ -32,7 +32,8 @@ struct Faces {
 
 NodeId face_set(Scene& scene, const Faces& faces) {
   namespace f = nodes::indexed_face_set;
-  const NodeId coord = scene.add(nodes::Coordinate), color = scene.add(nodes::Color), set = scene.add(nodes::IndexedFaceSet);
+  const NodeId coord = scene.add(nodes::Coordinate), color = scene.add(nodes::Color),
+               set = scene.add(nodes::IndexedFaceSet);
   scene.set(coord, nodes::coordinate::point, faces.points);
   scene.set(color, nodes::color::color, faces.colors);
   scene.set(set, f::coord, coord);

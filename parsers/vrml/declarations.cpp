@@ -30,7 +30,10 @@ bool Parser::declaration(Access access, bool with_value, FieldDef& f, Token& nam
     return false;
   }
   name = lex_.peek();
-  if (name.kind != Kind::word) return expected("a name", name), false;
+  if (name.kind != Kind::word) {
+    expected("a name", name);
+    return false;
+  }
   lex_.next();
   f.name = scene_.keep(new_name(name));
   f.access = access;
@@ -45,15 +48,28 @@ bool Parser::declaration(Access access, bool with_value, FieldDef& f, Token& nam
 
 Parser::Interface Parser::interface(bool with_values) {
   Interface out;
-  if (Token t = lex_.peek(); t.kind != Kind::open_bracket) return expected("'['", t), out;
+  if (Token t = lex_.peek(); t.kind != Kind::open_bracket) {
+    expected("'['", t);
+    return out;
+  }
   Token opened = lex_.next();
   for (;;) {
     Token t = lex_.next();
     if (t.kind == Kind::close_bracket) return out;
-    if (t.kind == Kind::end) return unclosed(opened), out;
-    if (t.kind == Kind::open_brace || t.kind == Kind::close_brace) return expected("']'", t), lex_.seek(t.begin), out;
+    if (t.kind == Kind::end) {
+      unclosed(opened);
+      return out;
+    }
+    if (t.kind == Kind::open_brace || t.kind == Kind::close_brace) {
+      expected("']'", t);
+      lex_.seek(t.begin);
+      return out;
+    }
     auto access = t.kind == Kind::word ? find_access(text(t)) : std::nullopt;
-    if (!access) { diag_.report(Diag::stray_token, span(t), describe(t)); continue; }
+    if (!access) {
+      diag_.report(Diag::stray_token, span(t), describe(t));
+      continue;
+    }
     FieldDef f{};
     Token name;
     if (!declaration(*access, with_values, f, name)) continue;
@@ -70,13 +86,18 @@ Parser::Interface Parser::interface(bool with_values) {
 
 void Parser::proto(Token keyword) {
   Token name = lex_.next();
-  if (!name_like(name)) { expected("a name", name); lex_.seek(name.begin); return; }
+  if (!name_like(name)) {
+    expected("a name", name);
+    lex_.seek(name.begin);
+    return;
+  }
   auto proto_name = new_name(name);
   auto declared = interface(true);
   Proto p;
   p.where = span(keyword);
-  if (Token t = lex_.peek(); t.kind != Kind::open_brace) { expected("'{'", t); }
-  else if (scope_depth_ + build_.depth() >= limits_.depth) {
+  if (Token t = lex_.peek(); t.kind != Kind::open_brace) {
+    expected("'{'", t);
+  } else if (scope_depth_ + build_.depth() >= limits_.depth) {
     diag_.report(Diag::too_deep, span(name), limits_.depth);
     lex_.next();
     skip_to_close(Kind::open_brace, Kind::close_brace);
@@ -97,7 +118,11 @@ void Parser::proto(Token keyword) {
 
 void Parser::externproto(Token keyword) {
   Token name = lex_.next();
-  if (!name_like(name)) { expected("a name", name); lex_.seek(name.begin); return; }
+  if (!name_like(name)) {
+    expected("a name", name);
+    lex_.seek(name.begin);
+    return;
+  }
   auto declared = interface(false);
   Proto p;
   p.where = span(keyword);
@@ -129,8 +154,16 @@ void Parser::script_declaration(Access access, Token keyword) {
   std::uint16_t slot = *declared;
   if (is_clause(f.type, slot) || !f.has_value()) return;
   Value v;
-  if (value(f.type, slot, f.name, f.default_value, v)) build_.field(v, span(name));
-  else build_.field([&] { Value e = f.default_value; e.slot = slot; return e; }(), span(name));
+  if (value(f.type, slot, f.name, f.default_value, v))
+    build_.field(v, span(name));
+  else
+    build_.field(
+        [&] {
+          Value e = f.default_value;
+          e.slot = slot;
+          return e;
+        }(),
+        span(name));
 }
 
 // `field SFInt32 n 3` in a node that cannot declare fields: kept as a field of the name "field SFInt32 n".
@@ -141,9 +174,12 @@ void Parser::undeclarable(Access access, Token keyword) {
   std::string full = std::string(text(keyword)) + ' ' + std::string(text(type)) + ' ' + std::string(name_of(name));
   Value v;
   const bool is = text(lex_.peek()) == "IS";
-  if (is) v = is_value(lex_.next(), t, Value::extra_slot);
-  else if (access == Access::in || access == Access::out) v = scene_.make(FieldType::verbatim, Value::extra_slot, std::string_view{});
-  else if (!value(t, Value::extra_slot, text(name), empty_value(t), v)) return;
+  if (is)
+    v = is_value(lex_.next(), t, Value::extra_slot);
+  else if (access == Access::in || access == Access::out)
+    v = scene_.make(FieldType::verbatim, Value::extra_slot, std::string_view{});
+  else if (!value(t, Value::extra_slot, text(name), empty_value(t), v))
+    return;
   if (!is || v.is) build_.field(scene_.make_extra(full, v), span(keyword));
 }
 
@@ -163,22 +199,38 @@ void Parser::route_statement(Token keyword) {
 // node.event; blanks around the point occur.
 bool Parser::route_end(std::string_view& node, std::string_view& event) {
   Token t = lex_.peek();
-  if (t.kind != Kind::word || node_follows(t)) return expected("a node and its event", t), false;
+  if (t.kind != Kind::word || node_follows(t)) {
+    expected("a node and its event", t);
+    return false;
+  }
   lex_.next();
   std::string_view w = name_of(t);
   auto point = w.rfind('.');
-  if (point != w.npos && point + 1 < w.size() && point > 0) { node = w.substr(0, point); event = w.substr(point + 1); return true; }
+  if (point != w.npos && point + 1 < w.size() && point > 0) {
+    node = w.substr(0, point);
+    event = w.substr(point + 1);
+    return true;
+  }
   node = point == w.npos ? w : w.substr(0, point);
   Token e = lex_.peek();
-  if (e.kind != Kind::word) return expected("an event", e), false;
+  if (e.kind != Kind::word) {
+    expected("an event", e);
+    return false;
+  }
   lex_.next();
   event = name_of(e);
   if (point == w.npos) {
-    if (!event.starts_with('.')) return expected("'.'", e), false;
+    if (!event.starts_with('.')) {
+      expected("'.'", e);
+      return false;
+    }
     event.remove_prefix(1);
     if (event.empty()) {
       e = lex_.next();
-      if (e.kind != Kind::word) return expected("an event", e), false;
+      if (e.kind != Kind::word) {
+        expected("an event", e);
+        return false;
+      }
       event = name_of(e);
     }
   }
@@ -204,9 +256,12 @@ void Parser::import_export(Token keyword) {
     lex_.next();
     name = new_name(t);
   }
-  if (scene_.dialect() != Dialect::x3d) diag_.report(Diag::dialect_statement, span(keyword), text(keyword));
-  else if (import) build_.import_name(node, exported, name, span(keyword));
-  else build_.export_name(node, name, span(keyword));
+  if (scene_.dialect() != Dialect::x3d)
+    diag_.report(Diag::dialect_statement, span(keyword), text(keyword));
+  else if (import)
+    build_.import_name(node, exported, name, span(keyword));
+  else
+    build_.export_name(node, name, span(keyword));
 }
 
 }  // namespace wrlkit::vrml

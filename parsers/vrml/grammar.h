@@ -1,6 +1,6 @@
 // Recursive descent over the grammar of annex A; functions carry the names of its productions where they have one. A
-// function that meets a fault reports it once and returns; the caller that owns the brace skips to it. Statements, nodes
-// and their fields are in parser.cpp, prototypes, Scripts and ROUTEs in declarations.cpp.
+// function that meets a fault reports it once and returns; the caller that owns the brace skips to it. Statements,
+// nodes and their fields are in parser.cpp, prototypes, Scripts and ROUTEs in declarations.cpp.
 #pragma once
 #include <algorithm>
 #include <optional>

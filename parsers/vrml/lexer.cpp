@@ -40,16 +40,26 @@ Token Lexer::next() {
   if (p_ == end_) return t;
   char c = *p_++;
   switch (c) {
-    case '{': t.kind = Kind::open_brace; break;
-    case '}': t.kind = Kind::close_brace; break;
-    case '[': t.kind = Kind::open_bracket; break;
-    case ']': t.kind = Kind::close_bracket; break;
+    case '{':
+      t.kind = Kind::open_brace;
+      break;
+    case '}':
+      t.kind = Kind::close_brace;
+      break;
+    case '[':
+      t.kind = Kind::open_bracket;
+      break;
+    case ']':
+      t.kind = Kind::close_bracket;
+      break;
     case '"':
       t.kind = Kind::string;
       closed_ = false;
       for (; p_ < end_ && !closed_; ++p_) {
-        if (*p_ == '\\' && p_ + 1 < end_) ++p_;
-        else if (*p_ == '"') closed_ = true;
+        if (*p_ == '\\' && p_ + 1 < end_)
+          ++p_;
+        else if (*p_ == '"')
+          closed_ = true;
       }
       break;
     default:

@@ -1,4 +1,5 @@
-// Cuts VRML97 text into tokens (ISO/IEC 14772-1, annex A) without copying it and without counting lines. Commas are blanks,
+// Cuts VRML97 text into tokens (ISO/IEC 14772-1, annex A) without copying it and without counting lines. Commas are
+// blanks,
 // '#' starts a comment. A word is anything between separators: which words are names and which are numbers is the
 // grammar's business, because real files put all kinds of characters into names.
 #pragma once
@@ -19,7 +20,12 @@ class Lexer {
   explicit Lexer(std::string_view text) : begin_(text.data()), p_(begin_), end_(begin_ + text.size()) {}
 
   Token next();
-  Token peek() { const char* p = p_; Token t = next(); p_ = p; return t; }
+  Token peek() {
+    const char* p = p_;
+    Token t = next();
+    p_ = p;
+    return t;
+  }
 
   std::uint32_t offset() const { return static_cast<std::uint32_t>(p_ - begin_); }
   void seek(std::uint32_t offset) { p_ = begin_ + offset; }

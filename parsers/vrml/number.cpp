@@ -12,7 +12,8 @@
 namespace wrlkit::vrml {
 namespace {
 
-constexpr double powers_of_ten[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+constexpr double powers_of_ten[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                    1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
 bool digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 
@@ -22,7 +23,8 @@ const char* end_of_word(const char* p, const char* end) {
 }
 
 bool starts_with_nocase(std::string_view s, std::string_view what) {
-  return s.size() >= what.size() && std::equal(what.begin(), what.end(), s.begin(), [](char a, char b) { return a == (b | 0x20); });
+  return s.size() >= what.size() &&
+         std::equal(what.begin(), what.end(), s.begin(), [](char a, char b) { return a == (b | 0x20); });
 }
 
 /// "nan", "NAN0", "nan(ind)" for "nan", but not "nano": that is the name of a field behind a list without brackets.
@@ -32,7 +34,9 @@ bool is_odd(std::string_view word, std::string_view what) {
   return word.starts_with('(') || std::ranges::all_of(word, digit);
 }
 bool is_infinity(std::string_view word) { return is_odd(word, "inf") || is_odd(word, "infinity"); }
-bool is_nan(std::string_view word) { return is_odd(word, "nan") || is_odd(word, "qnan") || is_odd(word, "snan") || is_odd(word, "ind"); }
+bool is_nan(std::string_view word) {
+  return is_odd(word, "nan") || is_odd(word, "qnan") || is_odd(word, "snan") || is_odd(word, "ind");
+}
 
 /// At the '#' of "1.#INF", which belongs to the number, although comments begin like that.
 bool c_runtime_word(const char* p, const char* end) {
@@ -41,8 +45,8 @@ bool c_runtime_word(const char* p, const char* end) {
   return is_infinity(tail) || is_nan(tail);
 }
 
-// What CAD programs print most: sign, digits, point, digits, fifteen of them at the most. Both the digits and the power of
-// ten are exact doubles then, so one division rounds correctly. False leaves everything to fast_float.
+// What CAD programs print most: sign, digits, point, digits, fifteen of them at the most. Both the digits and the power
+// of ten are exact doubles then, so one division rounds correctly. False leaves everything to fast_float.
 bool read_plain(const char*& at, const char* end, double& out) {
   const char* p = at;
   bool negative = *p == '-';
@@ -69,8 +73,14 @@ NumberResult read_odd(std::string_view word, double& out) {
   bool negative = word.starts_with('-');
   if (negative || word.starts_with('+')) word.remove_prefix(1);
   auto tail = word.substr(word.find('#') + 1);  // all of it when there is none
-  if (is_nan(tail)) return out = 0, NumberResult::repaired;
-  if (is_infinity(tail)) return out = (negative ? -1 : 1) * static_cast<double>(std::numeric_limits<float>::max()), NumberResult::repaired;
+  if (is_nan(tail)) {
+    out = 0;
+    return NumberResult::repaired;
+  }
+  if (is_infinity(tail)) {
+    out = (negative ? -1 : 1) * static_cast<double>(std::numeric_limits<float>::max());
+    return NumberResult::repaired;
+  }
   if (!starts_with_nocase(word, "0x")) return NumberResult::none;
   std::uint64_t v = 0;
   auto r = std::from_chars(word.data() + 2, word.data() + word.size(), v, 16);
@@ -88,13 +98,21 @@ NumberResult read_double(const char*& p, const char* end, double& out) {
   auto r = fast_float::from_chars(q, end, out);
   // Words (nan, inf) are not numbers of VRML; fast_float takes them.
   bool word_like = q < end && !digit(*q) && *q != '.' && *q != '-';
-  if (r.ptr != q && !word_like && (r.ptr == end || Lexer::separates(*r.ptr)) && !c_runtime_word(r.ptr, end) && std::isfinite(out)) return p = r.ptr, NumberResult::exact;
+  if (r.ptr != q && !word_like && (r.ptr == end || Lexer::separates(*r.ptr)) && !c_runtime_word(r.ptr, end) &&
+      std::isfinite(out)) {
+    p = r.ptr;
+    return NumberResult::exact;
+  }
   const char* stop = end_of_word(p, end);
   // "1.#QNAN": the lexer takes the '#' for a comment.
   const char* odd_stop = stop;
   if (stop > p && c_runtime_word(stop, end)) odd_stop = end_of_word(stop + 1, end);
   double odd;
-  if (auto result = read_odd({p, static_cast<std::size_t>(odd_stop - p)}, odd); result != NumberResult::none) return p = odd_stop, out = odd, result;
+  if (auto result = read_odd({p, static_cast<std::size_t>(odd_stop - p)}, odd); result != NumberResult::none) {
+    p = odd_stop;
+    out = odd;
+    return result;
+  }
   if (r.ptr == q || word_like) return NumberResult::none;
   if (!std::isfinite(out)) out = std::copysign(static_cast<double>(std::numeric_limits<float>::max()), out);
   p = stop;  // "1.5abc", "12-": what could be read counts, the rest of the word is dropped
@@ -119,8 +137,10 @@ NumberResult read_int32(const char*& p, const char* end, std::int32_t& out) {
   if (r == NumberResult::none) return r;
   // Eight digits are the bits of an int32, so that 0xffffffff is -1.
   bool hexadecimal = p - word > 2 && (word[1] == 'x' || word[1] == 'X');
-  if (hexadecimal && d > std::numeric_limits<std::int32_t>::max() && d <= std::numeric_limits<std::uint32_t>::max())
-    return out = static_cast<std::int32_t>(static_cast<std::uint32_t>(d)), r;
+  if (hexadecimal && d > std::numeric_limits<std::int32_t>::max() && d <= std::numeric_limits<std::uint32_t>::max()) {
+    out = static_cast<std::int32_t>(static_cast<std::uint32_t>(d));
+    return r;
+  }
   double clamped = std::clamp(std::trunc(d), -2147483648.0, 2147483647.0);
   out = static_cast<std::int32_t>(clamped);
   return clamped == d ? r : NumberResult::repaired;

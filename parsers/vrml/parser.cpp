@@ -12,7 +12,9 @@ bool begins_statement(std::string_view word) {
   return word == "PROTO" || word == "EXTERNPROTO" || word == "ROUTE" || word == "IMPORT" || word == "EXPORT";
 }
 
-bool begins_head(std::string_view word) { return word == "PROFILE" || word == "COMPONENT" || word == "META" || word == "UNIT"; }
+bool begins_head(std::string_view word) {
+  return word == "PROFILE" || word == "COMPONENT" || word == "META" || word == "UNIT";
+}
 
 }  // namespace
 
@@ -39,8 +41,14 @@ bool Parser::node_follows(Token name) {
 void Parser::statements(Kind until) {
   for (;;) {
     Token t = lex_.peek();
-    if (t.kind == until) { lex_.next(); return; }
-    if (t.kind == Kind::end) { diag_.report(Diag::unclosed, span(t), "{"); return; }
+    if (t.kind == until) {
+      lex_.next();
+      return;
+    }
+    if (t.kind == Kind::end) {
+      diag_.report(Diag::unclosed, span(t), "{");
+      return;
+    }
     if (statement(t)) continue;
     if (name_like(t)) {
       auto at = lex_.offset();
@@ -57,13 +65,21 @@ void Parser::statements(Kind until) {
 bool Parser::statement(Token t) {
   if (t.kind != Kind::word) return false;
   auto w = text(t);
-  if (begins_head(w) && scene_.dialect() == Dialect::x3d && !node_follows(t)) return lex_.next(), head_statement(t), true;
+  if (begins_head(w) && scene_.dialect() == Dialect::x3d && !node_follows(t)) {
+    lex_.next();
+    head_statement(t);
+    return true;
+  }
   if (!begins_statement(w)) return false;
   lex_.next();
-  if (w == "PROTO") proto(t);
-  else if (w == "EXTERNPROTO") externproto(t);
-  else if (w == "ROUTE") route_statement(t);
-  else import_export(t);
+  if (w == "PROTO")
+    proto(t);
+  else if (w == "EXTERNPROTO")
+    externproto(t);
+  else if (w == "ROUTE")
+    route_statement(t);
+  else
+    import_export(t);
   return true;
 }
 
@@ -87,16 +103,24 @@ void Parser::head_statement(Token keyword) {
     Token factor = lex_.peek();
     numbers_.clear();
     read_numbers(FieldType::SFDouble, 1);
-    if (numbers_.empty() || !units_.set(category, numbers_.back())) diag_.report(Diag::unit_dropped, span(factor), category, describe(factor));
+    if (numbers_.empty() || !units_.set(category, numbers_.back()))
+      diag_.report(Diag::unit_dropped, span(factor), category, describe(factor));
   }
 }
 
 std::string_view Parser::word_or_string() {
   Token t = lex_.peek();
   std::string_view s;
-  if (t.kind == Kind::string) return string_token(s), s;
-  if (t.kind != Kind::word) return expected("a word", t), s;
-  return lex_.next(), name_of(t);
+  if (t.kind == Kind::string) {
+    string_token(s);
+    return s;
+  }
+  if (t.kind != Kind::word) {
+    expected("a word", t);
+    return s;
+  }
+  lex_.next();
+  return name_of(t);
 }
 
 void Parser::stray() {
@@ -117,23 +141,40 @@ NodeId Parser::node_statement() {
   if (w == "NULL") return {};
   if (w == "USE") {
     Token name = lex_.next();
-    if (name.kind != Kind::word) return expected("a name", name), lex_.seek(name.begin), NodeId{};
+    if (name.kind != Kind::word) {
+      expected("a name", name);
+      lex_.seek(name.begin);
+      return NodeId{};
+    }
     return build_.use(name_of(name), span(name));
   }
   std::string_view def;
   while (text(t) == "DEF") {
     if (!def.empty()) diag_.report(Diag::def_without_node, span(t), def);
     Token name = lex_.next();
-    if (name.kind != Kind::word) return expected("a name", name), lex_.seek(name.begin), NodeId{};
-    if (name_like(name) && !begins_statement(text(name)) && lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing
+    if (name.kind != Kind::word) {
+      expected("a name", name);
+      lex_.seek(name.begin);
+      return NodeId{};
+    }
+    if (name_like(name) && !begins_statement(text(name)) &&
+        lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing
       diag_.report(Diag::def_without_name, span(name));
-      return lex_.next(), node(name, {});
+      lex_.next();
+      return node(name, {});
     }
     def = new_name(name);
     t = lex_.next();
   }
-  if (!def.empty() && (text(t) == "USE" || !name_like(t))) return expected("a node", t), lex_.seek(t.begin), NodeId{};
-  if (Token brace = lex_.peek(); brace.kind != Kind::open_brace) return expected("'{'", brace), NodeId{};
+  if (!def.empty() && (text(t) == "USE" || !name_like(t))) {
+    expected("a node", t);
+    lex_.seek(t.begin);
+    return NodeId{};
+  }
+  if (Token brace = lex_.peek(); brace.kind != Kind::open_brace) {
+    expected("'{'", brace);
+    return NodeId{};
+  }
   lex_.next();
   return node(t, def);
 }
@@ -154,8 +195,14 @@ NodeId Parser::node(Token type_name, std::string_view def) {
 void Parser::node_body(Token opened) {
   for (;;) {
     Token t = lex_.peek();
-    if (t.kind == Kind::close_brace) { lex_.next(); return; }
-    if (t.kind == Kind::end) { unclosed(opened); return; }
+    if (t.kind == Kind::close_brace) {
+      lex_.next();
+      return;
+    }
+    if (t.kind == Kind::end) {
+      unclosed(opened);
+      return;
+    }
     if (t.kind == Kind::close_bracket && open_lists_ > 0) {  // of a list that holds this node: its brace is missing
       expected("'}'", t);
       return;
@@ -166,7 +213,10 @@ void Parser::node_body(Token opened) {
       skip_to_close(Kind::open_brace, Kind::close_brace);
       continue;
     }
-    if (!name_like(t) || is_stray(t)) { stray(); continue; }
+    if (!name_like(t) || is_stray(t)) {
+      stray();
+      continue;
+    }
     if (!statement(t)) node_body_element(t);
   }
 }
@@ -182,11 +232,16 @@ void Parser::node_body_element(Token t) {
   if (auto access = find_access(w)) {
     const bool declares = declaration_follows(t);
     lex_.next();
-    if (declares) script_declaration(*access, t);
-    else expected("a field type and a name", lex_.peek());
+    if (declares)
+      script_declaration(*access, t);
+    else
+      expected("a field type and a name", lex_.peek());
     return;
   }
-  if (node_follows(t)) { implicit_child(t); return; }
+  if (node_follows(t)) {
+    implicit_child(t);
+    return;
+  }
   lex_.next();
   unknown_field(t);
 }
@@ -231,8 +286,15 @@ bool Parser::is_clause(FieldType type, std::uint16_t slot) {
 Value Parser::is_value(Token is, FieldType type, std::uint16_t slot) {
   Value v;
   Token name = lex_.next();
-  if (name.kind != Kind::word) return expected("a name", name), lex_.seek(name.begin), v;
-  if (interfaces_.empty()) return diag_.report(Diag::is_outside, span(is)), v;
+  if (name.kind != Kind::word) {
+    expected("a name", name);
+    lex_.seek(name.begin);
+    return v;
+  }
+  if (interfaces_.empty()) {
+    diag_.report(Diag::is_outside, span(is));
+    return v;
+  }
   if (!interfaces_.back()->names.contains(text(name))) diag_.report(Diag::unknown_is, span(name), text(name));
   v = scene_.make(FieldType::verbatim, slot, name_of(name));
   v.type = type;
@@ -248,7 +310,8 @@ void Parser::unknown_field(Token name) {
   Value v;
   bool is = text(lex_.peek()) == "IS";
   // set_x IS y and x_changed IS y of an exposedField are in order.
-  if (type.kind != NodeKind::unknown && !(is && type.find(field_name, scene_.dialect(), true))) diag_.report(Diag::unknown_field, span(name), type.name, text(name));
+  if (type.kind != NodeKind::unknown && !(is && type.find(field_name, scene_.dialect(), true)))
+    diag_.report(Diag::unknown_field, span(name), type.name, text(name));
   if (is) {
     v = is_value(lex_.next(), FieldType::verbatim, Value::extra_slot);
     if (v.is) build_.field(scene_.make_extra(field_name, v), span(name));
@@ -294,7 +357,12 @@ bool Parser::single_node(std::uint16_t slot, std::string_view field, Value& out)
   Token t = lex_.peek();
   NodeId n;
   if (t.kind == Kind::open_bracket && !node_list_follows()) {
-    if (!property_node(slot, n)) return expected("a node", t), lex_.next(), skip_list(), false;
+    if (!property_node(slot, n)) {
+      expected("a node", t);
+      lex_.next();
+      skip_list();
+      return false;
+    }
   } else if (t.kind == Kind::open_bracket) {
     Value list;
     diag_.report(Diag::extra_bracket, span(t), field);
@@ -303,7 +371,8 @@ bool Parser::single_node(std::uint16_t slot, std::string_view field, Value& out)
   } else if (name_like(t) && node_follows(t)) {
     n = node_statement();
   } else {
-    return expected("a node", t), false;
+    expected("a node", t);
+    return false;
   }
   out = scene_.make(FieldType::SFNode, slot, n);
   return true;
@@ -311,12 +380,15 @@ bool Parser::single_node(std::uint16_t slot, std::string_view field, Value& out)
 
 // `color [ 1 0 0 ]` where a Color node belongs: the node that holds such a list and nothing else is put around it.
 bool Parser::property_node(std::uint16_t slot, NodeId& out) {
-  if (build_.depth() == 0 || slot >= build_.current_type().fields.size()) return false;  // a field that the file declares
+  if (build_.depth() == 0 || slot >= build_.current_type().fields.size())
+    return false;  // a field that the file declares
   const auto& def = build_.current_type().fields[slot];
   for (std::uint32_t i = 0; i < builtin_nodes().size(); ++i) {
     const auto& t = builtin_nodes()[i];
-    const bool list = !t.fields.empty() && t.fields[0].has_value() && info(t.fields[0].type).multiple && info(t.fields[0].type).element == Element::number;
-    bool fits = list && t.is_a("X3DGeometricPropertyNode") && std::ranges::any_of(def.kinds, [&](auto k) { return t.is_a(k); });
+    const bool list = !t.fields.empty() && t.fields[0].has_value() && info(t.fields[0].type).multiple &&
+                      info(t.fields[0].type).element == Element::number;
+    bool fits =
+        list && t.is_a("X3DGeometricPropertyNode") && std::ranges::any_of(def.kinds, [&](auto k) { return t.is_a(k); });
     if (!fits) continue;
     Token first = lex_.peek();
     diag_.report(Diag::list_repaired, span(first), t.name);
@@ -333,7 +405,10 @@ bool Parser::node_list(std::uint16_t slot, Value& out) {
   const auto mark = nodes_.size(), misplaced_before = misplaced_.size();
   Token first = lex_.peek();
   if (first.kind != Kind::open_bracket) {
-    if (!name_like(first) || !node_follows(first)) return expected("a node or '['", first), false;
+    if (!name_like(first) || !node_follows(first)) {
+      expected("a node or '['", first);
+      return false;
+    }
     if (NodeId n = node_statement()) nodes_.push_back(n);
   } else {
     lex_.next();
@@ -367,9 +442,18 @@ NodeId Parser::shape_around(NodeId n) {
 void Parser::list_elements(Token opened) {
   for (;;) {
     Token t = lex_.peek();
-    if (t.kind == Kind::close_bracket) { lex_.next(); return; }
-    if (t.kind == Kind::end) { unclosed(opened); return; }
-    if (t.kind == Kind::close_brace) { expected("']'", t); return; }  // the bracket is missing
+    if (t.kind == Kind::close_bracket) {
+      lex_.next();
+      return;
+    }
+    if (t.kind == Kind::end) {
+      unclosed(opened);
+      return;
+    }
+    if (t.kind == Kind::close_brace) {
+      expected("']'", t);
+      return;
+    }  // the bracket is missing
     if (statement(t)) continue;
     if (name_like(t) && node_follows(t)) {
       if (text(t) == "NULL") diag_.report(Diag::null_repaired, span(t));

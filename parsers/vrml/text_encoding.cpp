@@ -7,10 +7,16 @@ namespace wrlkit::vrml {
 namespace {
 
 void append(std::string& out, std::uint32_t c) {
-  if (c < 0x80) out += static_cast<char>(c);
-  else if (c < 0x800) (out += static_cast<char>(0xc0 | c >> 6)) += static_cast<char>(0x80 | (c & 0x3f));
-  else if (c < 0x10000) ((out += static_cast<char>(0xe0 | c >> 12)) += static_cast<char>(0x80 | (c >> 6 & 0x3f))) += static_cast<char>(0x80 | (c & 0x3f));
-  else (((out += static_cast<char>(0xf0 | c >> 18)) += static_cast<char>(0x80 | (c >> 12 & 0x3f))) += static_cast<char>(0x80 | (c >> 6 & 0x3f))) += static_cast<char>(0x80 | (c & 0x3f));
+  if (c < 0x80)
+    out += static_cast<char>(c);
+  else if (c < 0x800)
+    (out += static_cast<char>(0xc0 | c >> 6)) += static_cast<char>(0x80 | (c & 0x3f));
+  else if (c < 0x10000)
+    ((out += static_cast<char>(0xe0 | c >> 12)) += static_cast<char>(0x80 | (c >> 6 & 0x3f))) +=
+        static_cast<char>(0x80 | (c & 0x3f));
+  else
+    (((out += static_cast<char>(0xf0 | c >> 18)) += static_cast<char>(0x80 | (c >> 12 & 0x3f))) +=
+     static_cast<char>(0x80 | (c >> 6 & 0x3f))) += static_cast<char>(0x80 | (c & 0x3f));
 }
 
 // Length of the well-formed sequence at s[i], 0 when it is none (Unicode, table 3-7).
@@ -20,8 +26,10 @@ std::size_t sequence(std::string_view s, std::size_t i) {
   unsigned c = b(0);
   if (c < 0x80) return 1;
   if (c >= 0xc2 && c <= 0xdf) return tail(1) ? 2 : 0;
-  if (c >= 0xe0 && c <= 0xef) return tail(1) && tail(2) && !(c == 0xe0 && b(1) < 0xa0) && !(c == 0xed && b(1) > 0x9f) ? 3 : 0;
-  if (c >= 0xf0 && c <= 0xf4) return tail(1) && tail(2) && tail(3) && !(c == 0xf0 && b(1) < 0x90) && !(c == 0xf4 && b(1) > 0x8f) ? 4 : 0;
+  if (c >= 0xe0 && c <= 0xef)
+    return tail(1) && tail(2) && !(c == 0xe0 && b(1) < 0xa0) && !(c == 0xed && b(1) > 0x9f) ? 3 : 0;
+  if (c >= 0xf0 && c <= 0xf4)
+    return tail(1) && tail(2) && tail(3) && !(c == 0xf0 && b(1) < 0x90) && !(c == 0xf4 && b(1) > 0x8f) ? 4 : 0;
   return 0;
 }
 
@@ -56,7 +64,8 @@ std::string utf16_to_utf8(std::string_view s) {
     if (c >= 0xd800 && c < 0xdc00 && i + 3 < s.size() && unit(i + 2) >= 0xdc00 && unit(i + 2) < 0xe000) {
       c = 0x10000 + ((c - 0xd800) << 10) + (unit(i + 2) - 0xdc00);
       i += 2;
-    } else if (c >= 0xd800 && c < 0xe000) c = 0xfffd;
+    } else if (c >= 0xd800 && c < 0xe000)
+      c = 0xfffd;
     append(out, c);
   }
   return out;

@@ -8,7 +8,9 @@ std::string Tokens::describe(Token t) const {
   return t.kind == Kind::end ? "the end of the file" : "'" + std::string(text(t).substr(0, 60)) + "'";
 }
 
-void Tokens::expected(std::string_view what, Token found) { diag_.report(Diag::syntax, span(found), what, describe(found)); }
+void Tokens::expected(std::string_view what, Token found) {
+  diag_.report(Diag::syntax, span(found), what, describe(found));
+}
 
 bool Tokens::skip_to_close(Kind open, Kind close) {
   for (std::size_t depth = 1;;) {
@@ -60,8 +62,10 @@ bool Tokens::string_token(std::string_view& out) {
   if (t.kind != Kind::string) return false;
   lex_.next();
   auto s = text(t).substr(1);
-  if (lex_.closed(t)) s.remove_suffix(1);
-  else unclosed_string(t);
+  if (lex_.closed(t))
+    s.remove_suffix(1);
+  else
+    unclosed_string(t);
   out = utf8(s, span(t));
   if (s.find('\\') == s.npos) return true;
   std::string plain;
@@ -85,8 +89,10 @@ std::string Tokens::skip_values() {
       lex_.next();
       auto missing = skip_list();
       if (!missing) continue;
-      if (Token stop = lex_.peek(); stop.kind == Kind::end) unclosed(t);
-      else expected("']'", stop);
+      if (Token stop = lex_.peek(); stop.kind == Kind::end)
+        unclosed(t);
+      else
+        expected("']'", stop);
       return '\n' + std::string(missing, ']');  // a comment may come before
     }
     if (!value_like(t)) return {};

@@ -3,8 +3,8 @@
 #pragma once
 #include <string>
 
-#include "parsers/vrml/lexer.h"
 #include "base/diagnostics.h"
+#include "parsers/vrml/lexer.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::vrml {
@@ -27,7 +27,10 @@ class Tokens {
   }
 
   /// A number, a string or a boolean: nothing that a field could be called.
-  bool value_like(Token t) const { return t.kind == Kind::string || (t.kind == Kind::word && (!name_like(t) || text(t) == "TRUE" || text(t) == "FALSE")); }
+  bool value_like(Token t) const {
+    return t.kind == Kind::string ||
+           (t.kind == Kind::word && (!name_like(t) || text(t) == "TRUE" || text(t) == "FALSE"));
+  }
 
   // Messages.
   void expected(std::string_view what, Token found);
@@ -46,7 +49,8 @@ class Tokens {
   // Ways past.
   /// Skips to behind the bracket that closes the one just read. False: the text ended first.
   bool skip_to_close(Kind open, Kind close);
-  /// From inside a list behind its ']'; a brace that was not opened in it ends it, too. Returns how many ']' are missing.
+  /// From inside a list behind its ']'; a brace that was not opened in it ends it, too. Returns how many ']' are
+  /// missing.
   std::size_t skip_list();
   /// Past anything that can be a value: numbers, strings, booleans and lists. What is missing to close it, as text.
   std::string skip_values();

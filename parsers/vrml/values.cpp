@@ -6,7 +6,8 @@
 
 namespace wrlkit::vrml {
 
-bool Values::plain_value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out) {
+bool Values::plain_value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback,
+                         Value& out) {
   const auto& t = info(type);
   if (t.element == Element::image) return image(type, slot, out);
   if (t.element != Element::text) return numbers_value(type, slot, field, fallback, out);
@@ -15,7 +16,8 @@ bool Values::plain_value(FieldType type, std::uint16_t slot, std::string_view fi
 
 // ---- numbers -------------------------------------------------------------------------------------------------------
 
-bool Values::numbers_value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out) {
+bool Values::numbers_value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback,
+                           Value& out) {
   const auto& t = info(type);
   const bool real = t.element == Element::number;
   numbers_.clear();
@@ -31,15 +33,22 @@ bool Values::numbers_value(FieldType type, std::uint16_t slot, std::string_view 
     read_numbers(type, t.multiple ? 0 : t.arity);
   }
   const std::size_t count = real ? numbers_.size() : integers_.size();
-  if (t.multiple && first.kind != Kind::open_bracket && count > t.arity) diag_.report(Diag::missing_bracket, span(first), field);
-  if (count == 0 && !(t.multiple && first.kind == Kind::open_bracket)) return diag_.report(Diag::bad_value, span(first), describe(first), t.name), false;
+  if (t.multiple && first.kind != Kind::open_bracket && count > t.arity)
+    diag_.report(Diag::missing_bracket, span(first), field);
+  if (count == 0 && !(t.multiple && first.kind == Kind::open_bracket)) {
+    diag_.report(Diag::bad_value, span(first), describe(first), t.name);
+    return false;
+  }
   if (!t.multiple && count != t.arity) fix_arity(t.arity, fallback, field, span(first));
   if (t.multiple && count % t.arity) {
     diag_.report(Diag::missing_values, span(first), count, field, static_cast<int>(t.arity));
     numbers_.resize(count - count % t.arity);
   }
-  if (!t.multiple && t.arity == 1) out = real ? scene_.make(type, slot, numbers_[0]) : scene_.make(type, slot, integers_[0]);
-  else out = real ? scene_.make(type, slot, std::span<const double>(numbers_)) : scene_.make(type, slot, std::span<const std::int32_t>(integers_));
+  if (!t.multiple && t.arity == 1)
+    out = real ? scene_.make(type, slot, numbers_[0]) : scene_.make(type, slot, integers_[0]);
+  else
+    out = real ? scene_.make(type, slot, std::span<const double>(numbers_))
+               : scene_.make(type, slot, std::span<const std::int32_t>(integers_));
   return true;
 }
 
@@ -52,9 +61,12 @@ void Values::fix_arity(std::size_t arity, const Value& fallback, std::string_vie
 }
 
 void Values::read_numbers(FieldType type, std::size_t most) {
-  if (type == FieldType::SFBool || type == FieldType::MFBool) booleans(most);
-  else if (info(type).element == Element::number) numbers(numbers_, read_double, most);
-  else numbers(integers_, read_int32, most);
+  if (type == FieldType::SFBool || type == FieldType::MFBool)
+    booleans(most);
+  else if (info(type).element == Element::number)
+    numbers(numbers_, read_double, most);
+  else
+    numbers(integers_, read_int32, most);
 }
 
 template <class T, class Read>
@@ -92,8 +104,14 @@ void Values::booleans(std::size_t most) {
 
 void Values::close_list(Token opened) {
   Token t = lex_.peek();
-  if (t.kind == Kind::close_bracket) { lex_.next(); return; }
-  if (t.kind == Kind::end) { unclosed(opened); return; }
+  if (t.kind == Kind::close_bracket) {
+    lex_.next();
+    return;
+  }
+  if (t.kind == Kind::end) {
+    unclosed(opened);
+    return;
+  }
   expected("a number or ']'", t);
   if (t.kind == Kind::close_brace) return;  // the ']' is missing; the brace belongs to the node
   skip_list();
@@ -114,8 +132,12 @@ bool Values::image(FieldType type, std::uint16_t slot, Value& out) {
   std::uint64_t pixels = side(0) * side(1);
   if (pixels > lex_.size()) pixels = lex_.size();
   if (pixels) numbers(integers_, read_int32, 3 + pixels);
-  if (integers_.size() != 3 + side(0) * side(1)) diag_.report(Diag::missing_values, span(first), integers_.size() - 3, "image", side(0) * side(1));
-  if (bracket) { diag_.report(Diag::extra_bracket, span(first), "image"); close_list(first); }
+  if (integers_.size() != 3 + side(0) * side(1))
+    diag_.report(Diag::missing_values, span(first), integers_.size() - 3, "image", side(0) * side(1));
+  if (bracket) {
+    diag_.report(Diag::extra_bracket, span(first), "image");
+    close_list(first);
+  }
   out = scene_.make(type, slot, std::span<const std::int32_t>(integers_));
   return true;
 }
@@ -131,7 +153,10 @@ bool Values::single_string(FieldType type, std::uint16_t slot, std::string_view 
     if (bracket) skip_list();
     return false;
   }
-  if (bracket) { diag_.report(Diag::extra_bracket, span(t), field); skip_list(); }
+  if (bracket) {
+    diag_.report(Diag::extra_bracket, span(t), field);
+    skip_list();
+  }
   out = scene_.make(type, slot, s);
   return true;
 }
@@ -141,7 +166,10 @@ bool Values::string_list(FieldType type, std::uint16_t slot, Value& out) {
   Token first = lex_.peek();
   std::string_view s;
   if (first.kind != Kind::open_bracket) {
-    if (first.kind != Kind::string) return diag_.report(Diag::bad_value, span(first), describe(first), "MFString"), false;
+    if (first.kind != Kind::string) {
+      diag_.report(Diag::bad_value, span(first), describe(first), "MFString");
+      return false;
+    }
     while (lex_.peek().kind == Kind::string && string_token(s)) list.push_back(s);
     if (list.size() > 1) diag_.report(Diag::missing_bracket, span(first), "of strings");
   } else {
@@ -174,7 +202,8 @@ Value Values::empty_value(FieldType type) {
   if (t.element == Element::text) return scene_.make(type, 0, std::span<const std::string_view>{});
   if (t.element == Element::node) return scene_.make(type, 0, NodeId{});
   if (t.element == Element::image) return scene_.make(type, 0, std::span<const std::int32_t>(no_pixels));
-  if (t.element == Element::integer) return t.multiple ? scene_.make(type, 0, std::span<const std::int32_t>{}) : scene_.make(type, 0, std::int32_t{0});
+  if (t.element == Element::integer)
+    return t.multiple ? scene_.make(type, 0, std::span<const std::int32_t>{}) : scene_.make(type, 0, std::int32_t{0});
   return scene_.make(type, 0, std::span<const double>(zeros, t.multiple ? 0 : t.arity));
 }
 

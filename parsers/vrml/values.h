@@ -15,8 +15,8 @@ class Values : protected Tokens {
   /// is none, which was reported.
   bool plain_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
   bool string_list(FieldType, std::uint16_t slot, Value& out);
-  /// The text of values up to the next name or bracket that ends them. What is left open in it is closed, so that it can
-  /// stand before other text.
+  /// The text of values up to the next name or bracket that ends them. What is left open in it is closed, so that it
+  /// can stand before other text.
   std::string verbatim();
   /// The value a field has when nobody gave one: zeroes and empty lists.
   Value empty_value(FieldType);

@@ -1,9 +1,10 @@
-// The grammar of VRML 1.0: a node is its fields and, behind or between them, its children. It shares tokens and values with
-// VRML97. What differs is here: strings without quotes, enumerations and bit masks, names such as `+0` (Inventor makes them),
-// nodes that describe themselves, and two habits of Inventor: `radius 2 ~` and `radius 2 = Engine { } . output`.
+// The grammar of VRML 1.0: a node is its fields and, behind or between them, its children. It shares tokens and values
+// with VRML97. What differs is here: strings without quotes, enumerations and bit masks, names such as `+0` (Inventor
+// makes them), nodes that describe themselves, and two habits of Inventor: `radius 2 ~` and `radius 2 = Engine { } .
+// output`.
 //
-// Files of Castle Game Engine have nodes of VRML97 among those of VRML 1.0 ("the sum of VRML 1.0 and 2.0"). Where both have
-// a node of that name, the node in whose field it stands decides.
+// Files of Castle Game Engine have nodes of VRML97 among those of VRML 1.0 ("the sum of VRML 1.0 and 2.0"). Where both
+// have a node of that name, the node in whose field it stands decides.
 #include "parsers/vrml/vrml1.h"
 
 #include <algorithm>
@@ -17,18 +18,26 @@ namespace wrlkit::vrml {
 namespace {
 
 /// TRUE, CLOCKWISE: a value and not the name of a field.
-bool is_constant(std::string_view word) { return std::ranges::none_of(word, [](char c) { return c >= 'a' && c <= 'z'; }); }
+bool is_constant(std::string_view word) {
+  return std::ranges::none_of(word, [](char c) { return c >= 'a' && c <= 'z'; });
+}
 
 bool is_vrml97(const NodeType& t) { return !(t.dialects & static_cast<DialectSet>(Dialect::vrml1)); }
 
 /// Field types under the names that Inventor and VRML 1.0 have for them.
 bool find_type(std::string_view name, FieldType& out) {
-  if (name == "SFLong" || name == "SFULong" || name == "SFShort" || name == "SFUShort" || name == "SFUInt32") name = "SFInt32";
-  else if (name == "MFLong" || name == "MFULong" || name == "MFShort" || name == "MFUShort" || name == "MFUInt32") name = "MFInt32";
-  else if (name == "SFName") name = "SFString";
-  else if (name == "MFName" || name == "MFEnum" || name == "MFBitMask") name = "MFString";
-  else if (name == "MFMatrix") name = "MFMatrix4f";
-  else if (name == "SFPlane") name = "SFVec4f";
+  if (name == "SFLong" || name == "SFULong" || name == "SFShort" || name == "SFUShort" || name == "SFUInt32")
+    name = "SFInt32";
+  else if (name == "MFLong" || name == "MFULong" || name == "MFShort" || name == "MFUShort" || name == "MFUInt32")
+    name = "MFInt32";
+  else if (name == "SFName")
+    name = "SFString";
+  else if (name == "MFName" || name == "MFEnum" || name == "MFBitMask")
+    name = "MFString";
+  else if (name == "MFMatrix")
+    name = "MFMatrix4f";
+  else if (name == "SFPlane")
+    name = "SFVec4f";
   return find_field_type(name, out);
 }
 
@@ -39,7 +48,10 @@ class Vrml1Parser : private Values {
 
   void file() {
     for (Token t = lex_.peek(); t.kind != Kind::end; t = lex_.peek()) {
-      if (!node_follows(t)) { stray(); continue; }
+      if (!node_follows(t)) {
+        stray();
+        continue;
+      }
       if (NodeId n = node_statement()) build_.root(n);
       for (NodeId n : std::exchange(misplaced_, {})) build_.root(n);
     }
@@ -105,22 +117,38 @@ NodeId Vrml1Parser::node_statement() {
   if (text(t) == "NULL") return {};
   if (text(t) == "USE") {
     Token name = lex_.next();
-    if (name.kind != Kind::word) return expected("a name", name), lex_.seek(name.begin), NodeId{};
+    if (name.kind != Kind::word) {
+      expected("a name", name);
+      lex_.seek(name.begin);
+      return NodeId{};
+    }
     return build_.use(name_of(name), span(name));
   }
   std::string_view def;
   if (text(t) == "DEF") {
     Token name = lex_.next();
-    if (name.kind != Kind::word) return expected("a name", name), lex_.seek(name.begin), NodeId{};
+    if (name.kind != Kind::word) {
+      expected("a name", name);
+      lex_.seek(name.begin);
+      return NodeId{};
+    }
     if (is_name(name) && lex_.peek().kind == Kind::open_brace) {
       diag_.report(Diag::def_without_name, span(name));
-      return lex_.next(), node(name, {});
+      lex_.next();
+      return node(name, {});
     }
     def = name_of(name);
     t = lex_.next();
   }
-  if (!is_name(t)) return expected("a node", t), lex_.seek(t.begin), NodeId{};
-  if (Token brace = lex_.peek(); brace.kind != Kind::open_brace) return expected("'{'", brace), NodeId{};
+  if (!is_name(t)) {
+    expected("a node", t);
+    lex_.seek(t.begin);
+    return NodeId{};
+  }
+  if (Token brace = lex_.peek(); brace.kind != Kind::open_brace) {
+    expected("'{'", brace);
+    return NodeId{};
+  }
   lex_.next();
   return node(t, def);
 }
@@ -155,22 +183,34 @@ void Vrml1Parser::node_body(Token opened) {
   Body body;
   for (;;) {
     Token t = lex_.peek();
-    if (t.kind == Kind::end) { unclosed(opened); break; }
-    if (t.kind == Kind::close_brace) { lex_.next(); break; }
-    if (is_name(t)) element(t, body);
-    else stray();
+    if (t.kind == Kind::end) {
+      unclosed(opened);
+      break;
+    }
+    if (t.kind == Kind::close_brace) {
+      lex_.next();
+      break;
+    }
+    if (is_name(t))
+      element(t, body);
+    else
+      stray();
   }
-  if (!body.children.empty()) build_.field(scene_.make_extra("children", scene_.make(FieldType::MFNode, Value::extra_slot, body.children)), span(opened));
+  if (!body.children.empty())
+    build_.field(scene_.make_extra("children", scene_.make(FieldType::MFNode, Value::extra_slot, body.children)),
+                 span(opened));
 }
 
 void Vrml1Parser::element(Token t, Body& body) {
   const auto& type = build_.current_type();
-  if (auto paren = text(t).find('('); paren != 0 && paren != std::string_view::npos) t.end = t.begin + static_cast<std::uint32_t>(paren);  // parts(SIDES)
+  if (auto paren = text(t).find('('); paren != 0 && paren != std::string_view::npos)
+    t.end = t.begin + static_cast<std::uint32_t>(paren);  // parts(SIDES)
   auto w = text(t);
   if (auto own = std::ranges::find(body.own, w, [](auto& f) { return f.first; }); own != body.own.end()) {
     lex_.seek(t.end);
     known_field(own->second, Value::extra_slot, t, empty_value(own->second));
-  } else if (auto slot = type.find(w, is_vrml97(type) ? Dialect::vrml97 : Dialect::vrml1); slot && type.fields[*slot].has_value()) {
+  } else if (auto slot = type.find(w, is_vrml97(type) ? Dialect::vrml97 : Dialect::vrml1);
+             slot && type.fields[*slot].has_value()) {
     lex_.seek(t.end);
     known_field(type.fields[*slot].type, *slot, t, type.fields[*slot].default_value);
   } else if (node_follows(t)) {
@@ -185,14 +225,17 @@ void Vrml1Parser::element(Token t, Body& body) {
     stray();
   } else {
     lex_.seek(t.end);
-    if (w == "isA") known_field(FieldType::MFString, Value::extra_slot, t, empty_value(FieldType::MFString));
-    else unknown_field(t);
+    if (w == "isA")
+      known_field(FieldType::MFString, Value::extra_slot, t, empty_value(FieldType::MFString));
+    else
+      unknown_field(t);
   }
 }
 
 void Vrml1Parser::child(NodeId n, Token where, Body& body) {
   const auto& type = build_.current_type();
-  if (auto slot = type.find("children", is_vrml97(type) ? Dialect::vrml97 : Dialect::vrml1)) return build_.append_child(*slot, n);
+  if (auto slot = type.find("children", is_vrml97(type) ? Dialect::vrml97 : Dialect::vrml1))
+    return build_.append_child(*slot, n);
   if (type.kind == NodeKind::unknown) return body.children.push_back(n);
   diag_.report(Diag::misplaced_node, span(where), describe(where));
   misplaced_.push_back(n);
@@ -205,25 +248,41 @@ void Vrml1Parser::stray() {
     if (t.kind == Kind::open_brace) skip_to_close(Kind::open_brace, Kind::close_brace);
     if (t.kind == Kind::open_bracket) skip_to_close(Kind::open_bracket, Kind::close_bracket);
     Token next = lex_.peek();
-    if (next.kind == Kind::end || next.kind == Kind::close_brace || (is_name(next) && !is_constant(text(next))) || node_follows(next)) return;
+    if (next.kind == Kind::end || next.kind == Kind::close_brace || (is_name(next) && !is_constant(text(next))) ||
+        node_follows(next))
+      return;
   }
 }
 
 // ---- fields --------------------------------------------------------------------------------------------------------
 
-// fields [ SFFloat width, SFFloat height ]: what follows in the node is of these types. Of nodes of the standard they say
-// what is known.
+// fields [ SFFloat width, SFFloat height ]: what follows in the node is of these types. Of nodes of the standard they
+// say what is known.
 void Vrml1Parser::own_fields(Body& body) {
   Token open = lex_.next();
-  if (open.kind != Kind::open_bracket) return expected("'['", open), lex_.seek(open.begin);
+  if (open.kind != Kind::open_bracket) {
+    expected("'['", open);
+    return lex_.seek(open.begin);
+  }
   for (Token t = lex_.next(); t.kind != Kind::close_bracket; t = lex_.next()) {
     FieldType type{};
     if (t.kind == Kind::end) return unclosed(open);
-    if (t.kind == Kind::close_brace) return expected("']'", t), lex_.seek(t.begin);
-    if (!find_type(text(t), type)) { expected("a field type", t); continue; }
+    if (t.kind == Kind::close_brace) {
+      expected("']'", t);
+      return lex_.seek(t.begin);
+    }
+    if (!find_type(text(t), type)) {
+      expected("a field type", t);
+      continue;
+    }
     Token name = lex_.next();
-    if (!name_like(name)) { expected("a name", name), lex_.seek(name.begin); continue; }
-    if (!build_.current_type().find(text(name), Dialect::vrml1) && body.own.size() < SceneBuilder::most_fields) body.own.emplace_back(name_of(name), type);
+    if (!name_like(name)) {
+      expected("a name", name);
+      lex_.seek(name.begin);
+      continue;
+    }
+    if (!build_.current_type().find(text(name), Dialect::vrml1) && body.own.size() < SceneBuilder::most_fields)
+      body.own.emplace_back(name_of(name), type);
   }
 }
 
@@ -231,7 +290,10 @@ void Vrml1Parser::known_field(FieldType type, std::uint16_t slot, Token name, co
   Value v;
   bool good = false;
   if (auto next = text(lex_.peek()); next != "~" && next != "=") good = value(type, slot, text(name), fallback, v);
-  if (take_word("~")) diag_.report(Diag::ignored_field, span(name), text(name)), good = false;
+  if (take_word("~")) {
+    diag_.report(Diag::ignored_field, span(name), text(name));
+    good = false;
+  }
   if (text(lex_.peek()) == "=") connection(name);
   if (!good) return;
   build_.field(slot == Value::extra_slot ? scene_.make_extra(name_of(name), v) : v, span(name));
@@ -240,15 +302,18 @@ void Vrml1Parser::known_field(FieldType type, std::uint16_t slot, Token name, co
 void Vrml1Parser::connection(Token name) {
   lex_.next();
   diag_.report(Diag::no_engine, span(name), text(name));
-  if (take_word("USE")) lex_.next();
-  else node_statement();
+  if (take_word("USE"))
+    lex_.next();
+  else
+    node_statement();
   Token dot = lex_.peek();
   if (!text(dot).starts_with('.')) return;
   lex_.next();
   if (text(dot) == ".") lex_.next();
 }
 
-// As in VRML97: nodes in it are read, anything else is kept as text. A word that is no node and no field can only be a value.
+// As in VRML97: nodes in it are read, anything else is kept as text. A word that is no node and no field can only be a
+// value.
 void Vrml1Parser::unknown_field(Token name) {
   const auto& type = build_.current_type();
   if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, span(name), type.name, text(name));
@@ -276,13 +341,19 @@ bool Vrml1Parser::value(FieldType type, std::uint16_t slot, std::string_view fie
     out = scene_.make(type, slot, text(lex_.next()) == "1");
     return true;
   }
-  if (type == FieldType::SFEnum || type == FieldType::SFBitMask) read = enumeration(type, slot, out);
-  else if (info(type).element == Element::node) read = node_value(type, slot, out);
+  if (type == FieldType::SFEnum || type == FieldType::SFBitMask)
+    read = enumeration(type, slot, out);
+  else if (info(type).element == Element::node)
+    read = node_value(type, slot, out);
   else if (std::string_view s; type == FieldType::SFString) {
-    if ((read = string(s))) out = scene_.make(type, slot, s);
-    else diag_.report(Diag::bad_value, span(t), describe(t), "SFString");
-  } else if (type == FieldType::MFString) read = strings(type, slot, out);
-  else read = plain_value(type, slot, field, fallback, out);
+    if ((read = string(s)))
+      out = scene_.make(type, slot, s);
+    else
+      diag_.report(Diag::bad_value, span(t), describe(t), "SFString");
+  } else if (type == FieldType::MFString)
+    read = strings(type, slot, out);
+  else
+    read = plain_value(type, slot, field, fallback, out);
   if (!read) skip_values();
   return read;
 }
@@ -296,16 +367,24 @@ bool Vrml1Parser::node_value(FieldType type, std::uint16_t slot, Value& out) {
     if (!bracket) break;
   }
   in_vrml97_field_ = around;
-  if (bracket && !take(Kind::close_bracket)) expected("a node or ']'", lex_.peek()), skip_list();
-  if (info(type).multiple) out = scene_.make(type, slot, list);
-  else out = scene_.make(type, slot, list.empty() ? NodeId{} : list[0]);
+  if (bracket && !take(Kind::close_bracket)) {
+    expected("a node or ']'", lex_.peek());
+    skip_list();
+  }
+  if (info(type).multiple)
+    out = scene_.make(type, slot, list);
+  else
+    out = scene_.make(type, slot, list.empty() ? NodeId{} : list[0]);
   return true;
 }
 
 // A word, or (A | B); blanks may be missing anywhere in it.
 bool Vrml1Parser::enumeration(FieldType type, std::uint16_t slot, Value& out) {
   Token first = lex_.peek();
-  if (first.kind != Kind::word && first.kind != Kind::string) return diag_.report(Diag::bad_value, span(first), describe(first), info(type).name), false;
+  if (first.kind != Kind::word && first.kind != Kind::string) {
+    diag_.report(Diag::bad_value, span(first), describe(first), info(type).name);
+    return false;
+  }
   std::string all;
   int depth = 0;
   do {
@@ -316,7 +395,10 @@ bool Vrml1Parser::enumeration(FieldType type, std::uint16_t slot, Value& out) {
     }
     if (lex_.peek().kind != Kind::word) break;
   } while (depth > 0 || all.ends_with('|') || text(lex_.peek()).starts_with('|'));
-  if (all.empty()) return diag_.report(Diag::bad_value, span(first), describe(first), info(type).name), false;
+  if (all.empty()) {
+    diag_.report(Diag::bad_value, span(first), describe(first), info(type).name);
+    return false;
+  }
   out = scene_.make(type, slot, utf8(all, span(first)));
   return true;
 }
@@ -338,19 +420,27 @@ bool Vrml1Parser::strings(FieldType type, std::uint16_t slot, Value& out) {
     while (string(s)) list.push_back(s);
     if (!take(Kind::close_bracket)) {
       Token t = lex_.peek();
-      if (t.kind == Kind::end) unclosed(first);
-      else expected("a string or ']'", t), skip_list();
+      if (t.kind == Kind::end)
+        unclosed(first);
+      else {
+        expected("a string or ']'", t);
+        skip_list();
+      }
     }
   } else if (string(s)) {
     list.push_back(s);
-  } else return diag_.report(Diag::bad_value, span(first), describe(first), "MFString"), false;
+  } else {
+    diag_.report(Diag::bad_value, span(first), describe(first), "MFString");
+    return false;
+  }
   out = scene_.make(type, slot, list);
   return true;
 }
 
 }  // namespace
 
-void parse_vrml1(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
+void parse_vrml1(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene,
+                 Diagnostics& diag) {
   Vrml1Parser(text, base, limits, scene, diag).file();
 }
 

@@ -23,21 +23,29 @@ void Parser::connect(const XmlNode& c, Element& e) {
     v.slot = own != e.own.end() ? f.default_value.slot : *slot;
     return build_.field(v, where(c));
   }
-  if (type.kind != NodeKind::unknown && !type.find(field, Dialect::x3d, true)) diag_.report(Diag::unknown_field, where(c, "nodeField"), type.name, field);
+  if (type.kind != NodeKind::unknown && !type.find(field, Dialect::x3d, true))
+    diag_.report(Diag::unknown_field, where(c, "nodeField"), type.name, field);
   build_.field(scene_.make_extra(field, v), where(c));
 }
 
-bool Parser::element_value(const XmlNode& n, FieldType type, std::uint16_t slot, std::string_view name, const Value& fallback, Value& out) {
+bool Parser::element_value(const XmlNode& n, FieldType type, std::uint16_t slot, std::string_view name,
+                           const Value& fallback, Value& out) {
   if (info(type).element != wrlkit::Element::node) {
     auto text = raw(n, "value");
     // Xj3D's own files have the value between the tags.
-    for_each_child(n, [&](const XmlNode& c) { if (!text && c.kind == XmlNode::Kind::text) text = c.content; });
+    for_each_child(n, [&](const XmlNode& c) {
+      if (!text && c.kind == XmlNode::Kind::text) text = c.content;
+    });
     return text && value(type, slot, name, fallback, *text, out);
   }
   std::vector<NodeId> list;
-  for_each_element(n, [&](const XmlNode& c) { if (NodeId id = node(c)) list.push_back(id); });
-  if (type == FieldType::SFNode) out = scene_.make(type, slot, list.empty() ? NodeId{} : list[0]);
-  else out = scene_.make(type, slot, list);
+  for_each_element(n, [&](const XmlNode& c) {
+    if (NodeId id = node(c)) list.push_back(id);
+  });
+  if (type == FieldType::SFNode)
+    out = scene_.make(type, slot, list.empty() ? NodeId{} : list[0]);
+  else
+    out = scene_.make(type, slot, list);
   return !list.empty();
 }
 
@@ -46,19 +54,27 @@ std::optional<FieldDef> Parser::declaration(const XmlNode& n, bool with_value) {
   f.name = scene_.keep(get(n, "name"));
   f.dialects = 0xff;
   auto type = get(n, "type");
-  if (f.name.empty() || !find_field_type(type, f.type)) return diag_.report(Diag::bad_value, where(n, "type"), "'" + std::string(type) + "'", "field type"), std::nullopt;
+  if (f.name.empty() || !find_field_type(type, f.type)) {
+    diag_.report(Diag::bad_value, where(n, "type"), "'" + std::string(type) + "'", "field type");
+    return std::nullopt;
+  }
   auto access = vrml::find_access(get(n, "accessType"));
-  if (!access) diag_.report(Diag::bad_value, where(n, "accessType"), "'" + std::string(get(n, "accessType")) + "'", "access type");
+  if (!access)
+    diag_.report(Diag::bad_value, where(n, "accessType"), "'" + std::string(get(n, "accessType")) + "'", "access type");
   f.access = access.value_or(Access::inout);
   f.default_value = empty_value(f.type);
-  if (Value v; with_value && f.has_value() && element_value(n, f.type, Value::extra_slot, f.name, f.default_value, v)) f.default_value = v;
+  if (Value v; with_value && f.has_value() && element_value(n, f.type, Value::extra_slot, f.name, f.default_value, v))
+    f.default_value = v;
   return f;
 }
 
 void Parser::script_field(const XmlNode& n, Element& e) {
   if (build_.current_type().name != "Script") {
-    if (build_.current_type().kind != NodeKind::unknown) diag_.report(Diag::unknown_field, where(n), build_.current_type().name, "field " + std::string(get(n, "name")));
-    for_each_element(n, [&](const XmlNode& c) { if (NodeId id = node(c)) e.extra[scene_.keep(get(n, "name"))].push_back(id); });
+    if (build_.current_type().kind != NodeKind::unknown)
+      diag_.report(Diag::unknown_field, where(n), build_.current_type().name, "field " + std::string(get(n, "name")));
+    for_each_element(n, [&](const XmlNode& c) {
+      if (NodeId id = node(c)) e.extra[scene_.keep(get(n, "name"))].push_back(id);
+    });
     return;
   }
   auto f = declaration(n, false);
@@ -67,9 +83,12 @@ void Parser::script_field(const XmlNode& n, Element& e) {
   if (!slot) return;
   f->default_value.slot = *slot;
   e.own[f->name] = *f;
-  for_each_element(n, [&](const XmlNode& c) { if (c.name == "IS") is_element(c, e); });
+  for_each_element(n, [&](const XmlNode& c) {
+    if (c.name == "IS") is_element(c, e);
+  });
   Value v;
-  if (f->has_value() && element_value(n, f->type, *slot, f->name, f->default_value, v)) build_.field(v, where(n, "value"));
+  if (f->has_value() && element_value(n, f->type, *slot, f->name, f->default_value, v))
+    build_.field(v, where(n, "value"));
 }
 
 void Parser::field_value(const XmlNode& n) {
@@ -84,8 +103,11 @@ void Parser::field_value(const XmlNode& n) {
   }
   if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, where(n, "name"), type.name, name);
   std::vector<NodeId> list;
-  for_each_element(n, [&](const XmlNode& c) { if (NodeId id = node(c)) list.push_back(id); });
-  v = list.empty() ? scene_.make(FieldType::verbatim, Value::extra_slot, as_vrml(get(n, "value"))) : scene_.make(FieldType::MFNode, Value::extra_slot, list);
+  for_each_element(n, [&](const XmlNode& c) {
+    if (NodeId id = node(c)) list.push_back(id);
+  });
+  v = list.empty() ? scene_.make(FieldType::verbatim, Value::extra_slot, as_vrml(get(n, "value")))
+                   : scene_.make(FieldType::MFNode, Value::extra_slot, list);
   build_.field(scene_.make_extra(scene_.keep(name), v), where(n));
 }
 
@@ -96,8 +118,10 @@ std::vector<FieldDef> Parser::interface(const XmlNode& n, Names& names) {
     if (c.name != "field") return unknown(c);
     auto f = declaration(c, !external);
     if (!f) return;
-    if (out.size() >= SceneBuilder::most_fields) return diag_.report(Diag::expansion_limit, where(c), SceneBuilder::most_fields, "fields");
-    if (!names.insert(f->name).second) return diag_.report(Diag::duplicate_field, where(c, "name"), f->name, "the first one counts");
+    if (out.size() >= SceneBuilder::most_fields)
+      return diag_.report(Diag::expansion_limit, where(c), SceneBuilder::most_fields, "fields");
+    if (!names.insert(f->name).second)
+      return diag_.report(Diag::duplicate_field, where(c, "name"), f->name, "the first one counts");
     f->default_value.slot = static_cast<std::uint16_t>(out.size());
     out.push_back(*f);
   });
@@ -131,19 +155,22 @@ void Parser::externproto(const XmlNode& n) {
   p.where = where(n);
   p.external = true;
   Value urls;
-  if (auto url = raw(n, "url"); url && value(FieldType::MFString, 0, "url", {}, *url, urls)) p.urls.assign(urls.text_span().begin(), urls.text_span().end());
+  if (auto url = raw(n, "url"); url && value(FieldType::MFString, 0, "url", {}, *url, urls))
+    p.urls.assign(urls.text_span().begin(), urls.text_span().end());
   p.type = build_.proto_type(get(n, "name"), interface(n, names));
   build_.declare_proto(std::move(p), where(n, "name"));
 }
 
 void Parser::route(const XmlNode& n) {
-  build_.route(name_of(raw(n, "fromNode").value_or("")), get(n, "fromField"), name_of(raw(n, "toNode").value_or("")), get(n, "toField"), where(n));
+  build_.route(name_of(raw(n, "fromNode").value_or("")), get(n, "fromField"), name_of(raw(n, "toNode").value_or("")),
+               get(n, "toField"), where(n));
 }
 
 // Without AS the name stays.
 void Parser::import(const XmlNode& n) {
   const auto exported = raw(n, "importedDEF").value_or("");
-  build_.import_name(name_of(raw(n, "inlineDEF").value_or("")), name_of(exported), name_of(raw(n, "AS").value_or(exported)), where(n));
+  build_.import_name(name_of(raw(n, "inlineDEF").value_or("")), name_of(exported),
+                     name_of(raw(n, "AS").value_or(exported)), where(n));
 }
 
 void Parser::export_(const XmlNode& n) {

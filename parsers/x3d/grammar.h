@@ -1,6 +1,6 @@
 // Recursive descent over the elements. Each function reads one kind of element; what a child is for, its containerField
-// says, and where that is wrong or missing, the node table. Nodes are read in parser.cpp, prototypes, Scripts and ROUTEs in
-// declarations.cpp.
+// says, and where that is wrong or missing, the node table. Nodes are read in parser.cpp, prototypes, Scripts and
+// ROUTEs in declarations.cpp.
 #pragma once
 #include <map>
 #include <optional>
@@ -20,12 +20,17 @@ std::string as_vrml(std::string_view);
 class Parser : private AttributeValues {
  public:
   Parser(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag)
-      : AttributeValues(text, base, scene, diag), limits_(limits), build_(scene, diag), whole_(text), tree_(read_xml(text)) {}
+      : AttributeValues(text, base, scene, diag),
+        limits_(limits),
+        build_(scene, diag),
+        whole_(text),
+        tree_(read_xml(text)) {}
 
   void document();
 
  private:
-  /// What is known of an open node beside its type: the fields that a Script declares, and nodes in fields without a slot.
+  /// What is known of an open node beside its type: the fields that a Script declares, and nodes in fields without a
+  /// slot.
   struct Element {
     std::string_view name;
     std::map<std::string_view, FieldDef> own;
@@ -64,7 +69,8 @@ class Parser : private AttributeValues {
   void field_value(const XmlNode&);
   std::optional<FieldDef> declaration(const XmlNode&, bool with_value);
   /// The value of a field or fieldValue element: its attribute, or the nodes in it.
-  bool element_value(const XmlNode&, FieldType, std::uint16_t slot, std::string_view name, const Value& fallback, Value& out);
+  bool element_value(const XmlNode&, FieldType, std::uint16_t slot, std::string_view name, const Value& fallback,
+                     Value& out);
   std::vector<FieldDef> interface(const XmlNode&, Names&);
   void proto(const XmlNode&);
   void externproto(const XmlNode&);
@@ -79,15 +85,23 @@ class Parser : private AttributeValues {
   }
   template <class F>
   void for_each_element(const XmlNode& n, F f) {
-    for_each_child(n, [&](const XmlNode& c) { if (c.kind == XmlNode::Kind::element) f(c); });
+    for_each_child(n, [&](const XmlNode& c) {
+      if (c.kind == XmlNode::Kind::element) f(c);
+    });
   }
   const XmlNode* find_element(const XmlNode&, std::string_view name);
   std::optional<std::string_view> raw(const XmlNode&, std::string_view name) const;
-  std::string_view get(const XmlNode& n, std::string_view name) { auto v = raw(n, name); return v ? plain(*v) : std::string_view{}; }
+  std::string_view get(const XmlNode& n, std::string_view name) {
+    auto v = raw(n, name);
+    return v ? plain(*v) : std::string_view{};
+  }
   /// The name of a node. XML can hold some that no other encoding can write: blanks and the like become '_'.
   std::string_view name_of(std::string_view attribute);
   Span where(const XmlNode& n) const { return span_of(n.name); }
-  Span where(const XmlNode& n, std::string_view attribute) const { auto v = raw(n, attribute); return v ? span_of(*v) : where(n); }
+  Span where(const XmlNode& n, std::string_view attribute) const {
+    auto v = raw(n, attribute);
+    return v ? span_of(*v) : where(n);
+  }
   void unknown(const XmlNode& n) { diag_.report(Diag::unknown_element, where(n), n.name); }
 
   ParseLimits limits_;

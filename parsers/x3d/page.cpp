@@ -11,7 +11,9 @@ namespace {
 
 std::string lower(std::string_view s) {
   std::string out(s);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : static_cast<char>(c); });
+  std::ranges::transform(out, out.begin(), [](unsigned char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : static_cast<char>(c);
+  });
   return out;
 }
 
@@ -26,7 +28,9 @@ Spelling spelled(std::initializer_list<std::string_view> words) {
 
 const Spelling& elements() {
   static const Spelling all = [] {
-    Spelling out = spelled({"X3D", "Scene", "head", "meta", "component", "unit", "ROUTE", "ProtoDeclare", "ProtoInterface", "ProtoBody", "ProtoInstance", "ExternProtoDeclare", "IS", "connect", "field", "fieldValue", "IMPORT", "EXPORT"});
+    Spelling out = spelled({"X3D", "Scene", "head", "meta", "component", "unit", "ROUTE", "ProtoDeclare",
+                            "ProtoInterface", "ProtoBody", "ProtoInstance", "ExternProtoDeclare", "IS", "connect",
+                            "field", "fieldValue", "IMPORT", "EXPORT"});
     for (const auto& t : builtin_nodes())
       if (t.dialects & static_cast<DialectSet>(Dialect::x3d)) out[lower(t.name)] = t.name;
     return out;
@@ -40,7 +44,9 @@ const Spelling& attributes() {
     for (const auto& t : builtin_nodes())
       if (t.dialects & static_cast<DialectSet>(Dialect::x3d))
         for (const auto& f : t.fields) out[lower(f.name)] = f.name;
-    out.merge(spelled({"DEF", "USE", "containerField", "fromNode", "fromField", "toNode", "toField", "nodeField", "protoField", "accessType", "inlineDEF", "importedDEF", "exportedDEF", "localDEF", "AS", "conversionFactor"}));
+    out.merge(spelled({"DEF", "USE", "containerField", "fromNode", "fromField", "toNode", "toField", "nodeField",
+                       "protoField", "accessType", "inlineDEF", "importedDEF", "exportedDEF", "localDEF", "AS",
+                       "conversionFactor"}));
     return out;
   }();
   return all;
@@ -54,23 +60,32 @@ void spell(std::string& xml, std::size_t at, std::size_t n, const Spelling& tabl
 
 /// The attributes of the tag whose name ends at `at`; where it ends.
 std::size_t tag(std::string& xml, std::size_t at) {
-  auto ends = [&] { return at >= xml.size() || xml[at] == '>' || xml[at] == '<' || (xml[at] == '/' && at + 1 < xml.size() && xml[at + 1] == '>'); };
+  auto ends = [&] {
+    return at >= xml.size() || xml[at] == '>' || xml[at] == '<' ||
+           (xml[at] == '/' && at + 1 < xml.size() && xml[at + 1] == '>');
+  };
   while (!ends()) {
-    if (blank(xml[at])) { ++at; continue; }
+    if (blank(xml[at])) {
+      ++at;
+      continue;
+    }
     const auto name = at;
     while (!ends() && !blank(xml[at]) && xml[at] != '=') ++at;
     const auto length = at - name;
     while (!ends() && blank(xml[at])) ++at;
     const bool has_value = !ends() && xml[at] == '=' && length > 0;
-    if (has_value)
-      do ++at; while (!ends() && blank(xml[at]));
+    if (has_value) do
+        ++at;
+      while (!ends() && blank(xml[at]));
     const char quote = has_value && !ends() ? xml[at] : 0;
-    const bool of_page = lower(std::string_view(xml).substr(name, std::min<std::size_t>(length, 2))) == "on" && length > 2;  // onclick
+    const bool of_page =
+        lower(std::string_view(xml).substr(name, std::min<std::size_t>(length, 2))) == "on" && length > 2;  // onclick
     if ((quote == '"' || quote == '\'') && !of_page) {
       spell(xml, name, length, attributes());
       at = std::min(xml.find(quote, at + 1), xml.size() - 1) + 1;
     } else {
-      if (of_page && (quote == '"' || quote == '\'')) at = std::min(xml.find(quote, at + 1), xml.size() - 1) + 1;
+      if (of_page && (quote == '"' || quote == '\''))
+        at = std::min(xml.find(quote, at + 1), xml.size() - 1) + 1;
       else if (has_value)
         while (!ends() && !blank(xml[at])) ++at;
       if (at == name) ++at;
@@ -94,7 +109,8 @@ std::optional<PageWorld> world_of_page(std::string_view text) {
   PageWorld out{std::string(text.substr(begin, end - begin)), begin};
   for (std::size_t at = 0; (at = out.xml.find('<', at)) != out.xml.npos;) {
     constexpr std::string_view whole[][2] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}};
-    auto skipped = std::ranges::find_if(whole, [&](const auto& w) { return out.xml.compare(at, w[0].size(), w[0]) == 0; });
+    auto skipped =
+        std::ranges::find_if(whole, [&](const auto& w) { return out.xml.compare(at, w[0].size(), w[0]) == 0; });
     if (skipped != std::end(whole)) {
       at = std::min(out.xml.find((*skipped)[1], at), out.xml.size());
       continue;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "base/text/blanks.h"
 #include "parsers/x3d/grammar.h"
 #include "parsers/x3d/page.h"
-#include "base/text/blanks.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::x3d {
@@ -14,14 +14,20 @@ namespace wrlkit::x3d {
 void Parser::document() {
   for (auto& n : tree_.nodes) n.name.remove_prefix(n.name.find(':') + 1);  // of a namespace
   if (auto declared = whole_.substr(0, whole_.find("?>")); declared.starts_with("<?xml"))
-    for (auto name : {"ISO-8859-1", "iso-8859-1", "Latin-1", "latin1", "windows-1252", "Windows-1252"}) latin1_ |= declared.find(name) != declared.npos;
+    for (auto name : {"ISO-8859-1", "iso-8859-1", "Latin-1", "latin1", "windows-1252", "Windows-1252"})
+      latin1_ |= declared.find(name) != declared.npos;
   const XmlNode& top = tree_.nodes[0];
-  for (auto i = top.first_child; i != XmlNode::none && tree_.nodes[i].kind != XmlNode::Kind::element; i = tree_.nodes[i].next)
+  for (auto i = top.first_child; i != XmlNode::none && tree_.nodes[i].kind != XmlNode::Kind::element;
+       i = tree_.nodes[i].next)
     if (tree_.nodes[i].kind == XmlNode::Kind::comment) comment(tree_.nodes[i]);
-  auto is = [](const XmlNode& n, std::string_view name) { return n.kind == XmlNode::Kind::element && std::ranges::equal(n.name, name, {}, [](unsigned char c) { return std::tolower(c); }); };
+  auto is = [](const XmlNode& n, std::string_view name) {
+    return n.kind == XmlNode::Kind::element &&
+           std::ranges::equal(n.name, name, {}, [](unsigned char c) { return std::tolower(c); });
+  };
   const XmlNode* x3d = find_element(top, "X3D");
   // A page has it somewhere within, in small letters.
-  for (const auto& n : tree_.nodes) if (!x3d && is(n, "x3d")) x3d = &n;
+  for (const auto& n : tree_.nodes)
+    if (!x3d && is(n, "x3d")) x3d = &n;
   if (!x3d) {
     diag_.report(Diag::x3d_repaired, Span{}, "there is no X3D element; the document is taken as one");
     x3d = &top;
@@ -40,10 +46,12 @@ void Parser::document() {
       if (NodeId id = node(n)) build_.root(id);
   });
   for (const auto& f : tree_.repaired)
-    diag_.report(f.lost ? Diag::xml_syntax : Diag::x3d_repaired, span_of(whole_.substr(std::min(f.at, whole_.size()), 1)),
+    diag_.report(f.lost ? Diag::xml_syntax : Diag::x3d_repaired,
+                 span_of(whole_.substr(std::min(f.at, whole_.size()), 1)),
                  f.lost ? f.what + "; it is passed over" : std::string("a blank is missing between two attributes"));
   if (!tree_.fault.empty())
-    diag_.report(Diag::xml_syntax, span_of(whole_.substr(std::min(tree_.fault_at, whole_.size()), 1)), tree_.fault + "; what stands behind is not read");
+    diag_.report(Diag::xml_syntax, span_of(whole_.substr(std::min(tree_.fault_at, whole_.size()), 1)),
+                 tree_.fault + "; what stands behind is not read");
   scene_.main = build_.close_scope();
   apply(units_, scene_, diag_);
 }
@@ -62,10 +70,14 @@ void Parser::comment(const XmlNode& n) {
 
 void Parser::head(const XmlNode& h) {
   for_each_element(h, [&](const XmlNode& n) {
-    if (n.name == "meta") scene_.x3d.meta.emplace_back(get(n, "name"), get(n, "content"));
-    else if (n.name == "component") component(n);
-    else if (n.name == "unit") unit(n);
-    else unknown(n);
+    if (n.name == "meta")
+      scene_.x3d.meta.emplace_back(get(n, "name"), get(n, "content"));
+    else if (n.name == "component")
+      component(n);
+    else if (n.name == "unit")
+      unit(n);
+    else
+      unknown(n);
   });
 }
 
@@ -87,11 +99,26 @@ void Parser::roots(const XmlNode& scene) {
 }
 
 bool Parser::statement(const XmlNode& n) {
-  if (n.name == "ROUTE") return route(n), true;
-  if (n.name == "ProtoDeclare") return proto(n), true;
-  if (n.name == "ExternProtoDeclare") return externproto(n), true;
-  if (n.name == "IMPORT") return import(n), true;
-  if (n.name == "EXPORT") return export_(n), true;
+  if (n.name == "ROUTE") {
+    route(n);
+    return true;
+  }
+  if (n.name == "ProtoDeclare") {
+    proto(n);
+    return true;
+  }
+  if (n.name == "ExternProtoDeclare") {
+    externproto(n);
+    return true;
+  }
+  if (n.name == "IMPORT") {
+    import(n);
+    return true;
+  }
+  if (n.name == "EXPORT") {
+    export_(n);
+    return true;
+  }
   return false;
 }
 
@@ -104,7 +131,10 @@ TypeId Parser::type_of(const XmlNode& n) {
 
 NodeId Parser::node(const XmlNode& n) {
   if (auto use = raw(n, "USE")) return build_.use(name_of(*use), span_of(*use));
-  if (depth_ >= limits_.depth || scene_.node_count() >= limits_.nodes) return diag_.report(Diag::too_deep, where(n), limits_.depth), NodeId{};
+  if (depth_ >= limits_.depth || scene_.node_count() >= limits_.nodes) {
+    diag_.report(Diag::too_deep, where(n), limits_.depth);
+    return NodeId{};
+  }
   ++depth_;
   NodeId id = build_.open(type_of(n), name_of(raw(n, "DEF").value_or("")), where(n));
   Element e{n.name, {}, {}, {}, {}};
@@ -120,8 +150,10 @@ NodeId Parser::node(const XmlNode& n) {
 void Parser::attributes(const XmlNode& n, Element& e) {
   for (const auto& a : tree_.attributes_of(n)) {
     const auto name = a.name;
-    const bool of_xml = name == "DEF" || name == "containerField" || name == "class" || name == "id" || name == "style" || name == "nodeType" || name.find(':') != name.npos;
-    if (!of_xml || (name != "containerField" && name != "DEF" && build_.current_type().find(name, Dialect::x3d))) attribute(a, e);
+    const bool of_xml = name == "DEF" || name == "containerField" || name == "class" || name == "id" ||
+                        name == "style" || name == "nodeType" || name.find(':') != name.npos;
+    if (!of_xml || (name != "containerField" && name != "DEF" && build_.current_type().find(name, Dialect::x3d)))
+      attribute(a, e);
   }
 }
 
@@ -143,9 +175,13 @@ void Parser::child(const XmlNode& c, Element& e) {
   if (c.kind == XmlNode::Kind::text) {
     auto text = c.cdata ? verbatim_text(c.content) : plain(c.content, false);
     if (script && (!e.program.empty() || !trim(text).empty())) {
-      if (e.program.empty()) e.program_at = span_of(c.content), text.remove_prefix(text.find_first_not_of(" \t\r\n"));
+      if (e.program.empty()) {
+        e.program_at = span_of(c.content);
+        text.remove_prefix(text.find_first_not_of(" \t\r\n"));
+      }
       e.program += text;
-    } else if (!trim(text).empty()) diag_.report(Diag::stray_token, span_of(c.content), "'" + std::string(trim(text).substr(0, 60)) + "'");
+    } else if (!trim(text).empty())
+      diag_.report(Diag::stray_token, span_of(c.content), "'" + std::string(trim(text).substr(0, 60)) + "'");
   }
   if (c.kind != XmlNode::Kind::element) return;
   if (statement(c)) return;
@@ -159,7 +195,8 @@ void Parser::child(const XmlNode& c, Element& e) {
 // The program of a Script in the text of the file, which may be in several pieces, as an url of its own.
 void Parser::program(const Element& e) {
   if (e.program.empty()) return;
-  build_.field(scene_.make(FieldType::MFString, nodes::script::url.slot, std::vector<std::string_view>{e.program}), e.program_at);
+  build_.field(scene_.make(FieldType::MFString, nodes::script::url.slot, std::vector<std::string_view>{e.program}),
+               e.program_at);
 }
 
 void Parser::child_node(const XmlNode& c, Element& e) {
@@ -187,7 +224,9 @@ void Parser::put(const XmlNode& c, NodeId id, Element& e) {
   if (slot && put_into_slot(*slot, id, where(c))) return;
   if (type.kind == NodeKind::unknown) return e.extra[scene_.keep(name)].push_back(id);
   if (auto other = slot_by_kind(id)) {
-    if (said) diag_.report(Diag::container_repaired, span_of(*said), type.name, name, scene_.type(id).name, type.fields[*other].name);
+    if (said)
+      diag_.report(Diag::container_repaired, span_of(*said), type.name, name, scene_.type(id).name,
+                   type.fields[*other].name);
     put_into_slot(*other, id, where(c));
     return;
   }
@@ -204,9 +243,13 @@ void Parser::put(const XmlNode& c, NodeId id, Element& e) {
 
 bool Parser::put_into_slot(std::uint16_t slot, NodeId id, Span at) {
   const auto type = build_.current_type().fields[slot].type;
-  if (type == FieldType::MFNode) return build_.append_child(slot, id), true;
+  if (type == FieldType::MFNode) {
+    build_.append_child(slot, id);
+    return true;
+  }
   if (type != FieldType::SFNode) return false;
-  return build_.field(scene_.make(type, slot, id), at), true;
+  build_.field(scene_.make(type, slot, id), at);
+  return true;
 }
 
 /// The first field that may hold such a node.
@@ -214,27 +257,33 @@ std::optional<std::uint16_t> Parser::slot_by_kind(NodeId n) const {
   const auto& fields = build_.current_type().fields;
   const auto& t = scene_.type(n);
   for (std::size_t i = 0; i < fields.size(); ++i)
-    if (fields[i].has_value() && info(fields[i].type).element == wrlkit::Element::node && std::ranges::any_of(fields[i].kinds, [&](auto k) { return t.is_a(k); }))
+    if (fields[i].has_value() && info(fields[i].type).element == wrlkit::Element::node &&
+        std::ranges::any_of(fields[i].kinds, [&](auto k) { return t.is_a(k); }))
       return static_cast<std::uint16_t>(i);
   return std::nullopt;
 }
 
 void Parser::extras(Element& e) {
   for (auto& [name, list] : e.extra)
-    build_.field(scene_.make_extra(name, scene_.make(FieldType::MFNode, Value::extra_slot, list)), scene_.where(build_.current()));
+    build_.field(scene_.make_extra(name, scene_.make(FieldType::MFNode, Value::extra_slot, list)),
+                 scene_.where(build_.current()));
 }
 
 // ---- the tree ------------------------------------------------------------------------------------------------------
 
 const XmlNode* Parser::find_element(const XmlNode& n, std::string_view name) {
   const XmlNode* found = nullptr;
-  for_each_element(n, [&](const XmlNode& c) { if (!found && c.name == name) found = &c; });
+  for_each_element(n, [&](const XmlNode& c) {
+    if (!found && c.name == name) found = &c;
+  });
   return found;
 }
 
 std::string_view Parser::name_of(std::string_view attribute) {
   const auto name = plain(attribute);
-  auto breaks = [](char c) { return static_cast<unsigned char>(c) <= ' ' || std::string_view("\"#,[]{}").find(c) != std::string_view::npos; };
+  auto breaks = [](char c) {
+    return static_cast<unsigned char>(c) <= ' ' || std::string_view("\"#,[]{}").find(c) != std::string_view::npos;
+  };
   if (std::ranges::none_of(name, breaks)) return name;
   std::string legal(name);
   std::ranges::replace_if(legal, breaks, '_');
@@ -253,7 +302,8 @@ std::string as_vrml(std::string_view s) {
   if (s == "true" || s == "TRUE") return "TRUE";
   if (s == "false" || s == "FALSE") return "FALSE";
   if (s.empty()) return {};
-  const bool plain = s.starts_with('"') || s.starts_with('[') || (!s.empty() && s.find_first_not_of("+-.0123456789eE, \t\n\r") == s.npos);
+  const bool plain = s.starts_with('"') || s.starts_with('[') ||
+                     (!s.empty() && s.find_first_not_of("+-.0123456789eE, \t\n\r") == s.npos);
   if (plain) return std::string(s);
   std::string out = "\"";
   for (char c : s) {
@@ -271,7 +321,10 @@ int version_number(std::string_view s) {
 
 void parse(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
   const auto page = world_of_page(text);
-  if (page) text = scene.keep(page->xml), base += static_cast<std::uint32_t>(page->begin);
+  if (page) {
+    text = scene.keep(page->xml);
+    base += static_cast<std::uint32_t>(page->begin);
+  }
   Parser(text, base, limits, scene, diag).document();
 }
 

@@ -29,8 +29,10 @@ class Applying {
   Applying(const Units& units, Scene& scene, Diagnostics& diag) : units_(units), scene_(scene), diag_(diag) {}
 
   void run() {
-    constexpr int enough = 16;  // prototypes in one another; each round goes through all that are declared before they are used
-    for (int i = 0; i < enough && round(); ++i) {}
+    constexpr int enough =
+        16;  // prototypes in one another; each round goes through all that are declared before they are used
+    for (int i = 0; i < enough && round(); ++i) {
+    }
     for (std::uint32_t i = 0; i < scene_.node_count(); ++i) node(NodeId{i});
     for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) defaults(ProtoId{i});
   }
@@ -40,15 +42,20 @@ class Applying {
 
   // ---- what measures what ----
 
-  static std::optional<std::uint16_t> slot_of(const NodeType& t, std::string_view name) { return t.find(name, Dialect::x3d, true); }
+  static std::optional<std::uint16_t> slot_of(const NodeType& t, std::string_view name) {
+    return t.find(name, Dialect::x3d, true);
+  }
 
-  /// An interpolator's values, in and out, are one thing; so are the events of a field. The others of the node table are known.
+  /// An interpolator's values, in and out, are one thing; so are the events of a field. The others of the node table
+  /// are known.
   Measure* open(NodeId n, std::uint16_t slot) {
     const auto& t = scene_.type(n);
     if (t.kind == NodeKind::proto) return &of_proto_[{scene_.type_id(n), slot}];
     const auto name = t.fields[slot].name;
     const bool values = name == "keyValue" || name == "keyVelocity" || name == "value_changed";
-    return t.kind == NodeKind::builtin && t.is_a("X3DInterpolatorNode") && values && t.fields[slot].unit.empty() ? &of_values_[n] : nullptr;
+    return t.kind == NodeKind::builtin && t.is_a("X3DInterpolatorNode") && values && t.fields[slot].unit.empty()
+               ? &of_values_[n]
+               : nullptr;
   }
 
   Measure measure(NodeId n, std::uint16_t slot) {
@@ -94,7 +101,9 @@ class Applying {
 
   // ---- values ----
 
-  double factor(Measure m) const { return m == Measure::length ? units_.length : m == Measure::angle ? units_.angle : 1; }
+  double factor(Measure m) const {
+    return m == Measure::length ? units_.length : m == Measure::angle ? units_.angle : 1;
+  }
 
   Value scaled(const Value& v, double factor) {
     const auto& t = info(v.type);
@@ -111,10 +120,12 @@ class Applying {
     return scene_.make(v.type, v.slot, Vec3{a[0], a[1] / units_.length, a[2] / (units_.length * units_.length)});
   }
 
-  /// -1 where the default is -1 says that nothing is said; and what the reader has added, as the default of this version, is in radians.
+  /// -1 where the default is -1 says that nothing is said; and what the reader has added, as the default of this
+  /// version, is in radians.
   static bool says_nothing(const Value& v, const FieldDef& f) {
     if (f.x3d_from && equal_plain(v, f.x3d_default)) return true;
-    return !v.number_span().empty() && v.number_span()[0] < 0 && !f.default_value.number_span().empty() && f.default_value.number_span()[0] < 0;
+    return !v.number_span().empty() && v.number_span()[0] < 0 && !f.default_value.number_span().empty() &&
+           f.default_value.number_span()[0] < 0;
   }
 
   void node(NodeId n) {
@@ -125,9 +136,13 @@ class Applying {
       if (scene_.is_extra(v) || v.is || info(v.type).element != Element::number) continue;
       const auto& f = scene_.type(n).fields[v.slot];
       const Measure m = measure(n, v.slot);
-      if (m == Measure::several) diag_.report(Diag::unit_dropped, scene_.where(n), scene_.type(n).name, std::string(f.name) + ", which leads to several units,");
-      if (kind == NodeKind::builtin && f.name == "attenuation" && f.type == FieldType::SFVec3f) scene_.set(n, attenuation(v));
-      else if (factor(m) != 1 && !(kind == NodeKind::builtin && says_nothing(v, f))) scene_.set(n, scaled(v, factor(m)));
+      if (m == Measure::several)
+        diag_.report(Diag::unit_dropped, scene_.where(n), scene_.type(n).name,
+                     std::string(f.name) + ", which leads to several units,");
+      if (kind == NodeKind::builtin && f.name == "attenuation" && f.type == FieldType::SFVec3f)
+        scene_.set(n, attenuation(v));
+      else if (factor(m) != 1 && !(kind == NodeKind::builtin && says_nothing(v, f)))
+        scene_.set(n, scaled(v, factor(m)));
     }
   }
 
@@ -136,8 +151,11 @@ class Applying {
     for (std::uint16_t i = 0; i < scene_.type(type).fields.size(); ++i) {
       const auto& f = scene_.type(type).fields[i];
       const auto m = of_proto_.find({type, i});
-      if (m == of_proto_.end() || factor(m->second) == 1 || !f.has_value() || info(f.type).element != Element::number || f.default_value.is) continue;
-      const_cast<FieldDef&>(f).default_value = scaled(f.default_value, factor(m->second));  // rows of a scene's own types are its own
+      if (m == of_proto_.end() || factor(m->second) == 1 || !f.has_value() || info(f.type).element != Element::number ||
+          f.default_value.is)
+        continue;
+      const_cast<FieldDef&>(f).default_value =
+          scaled(f.default_value, factor(m->second));  // rows of a scene's own types are its own
     }
   }
 
@@ -153,8 +171,14 @@ class Applying {
 
 bool Units::set(std::string_view category, double factor) {
   if (!(factor > 0) || !std::isfinite(factor)) return false;
-  if (category == "length") return length = factor, true;
-  if (category == "angle") return angle = factor, true;
+  if (category == "length") {
+    length = factor;
+    return true;
+  }
+  if (category == "angle") {
+    angle = factor;
+    return true;
+  }
   return false;
 }
 

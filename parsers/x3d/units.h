@@ -1,4 +1,5 @@
-// UNIT statements of X3D (ISO/IEC 19775-1, 7.2.5.10): a file may count in inches and degrees. A scene is always in metres and radians.
+// UNIT statements of X3D (ISO/IEC 19775-1, 7.2.5.10): a file may count in inches and degrees. A scene is always in
+// metres and radians.
 #pragma once
 #include "base/diagnostics.h"
 #include "scenegraph/scene.h"
@@ -12,9 +13,10 @@ struct Units {
   bool set(std::string_view category, double factor);
 };
 
-/// Multiplies the written values of all fields that have such a unit in the node table. The key values of an interpolator count in the unit
-/// of what its ROUTEs lead to, fields of prototypes and their defaults in that of the fields that they stand for (IS), also through several
-/// of them. What leads to different units stays as it is, and is reported; what leads nowhere stays. O(scene) when there is a unit.
+/// Multiplies the written values of all fields that have such a unit in the node table. The key values of an
+/// interpolator count in the unit of what its ROUTEs lead to, fields of prototypes and their defaults in that of the
+/// fields that they stand for (IS), also through several of them. What leads to different units stays as it is, and is
+/// reported; what leads nowhere stays. O(scene) when there is a unit.
 void apply(const Units&, Scene&, Diagnostics&);
 
 }  // namespace wrlkit::x3d

@@ -2,18 +2,29 @@
 
 #include <charconv>
 
-#include "parsers/vrml/text_encoding.h"
 #include "base/text/blanks.h"
+#include "parsers/vrml/text_encoding.h"
 
 namespace wrlkit::x3d {
 namespace {
 
 void append_utf8(std::uint32_t c, std::string& out) {
   auto tail = [&](int shift) { out += static_cast<char>(0x80 | (c >> shift & 0x3f)); };
-  if (c < 0x80) out += static_cast<char>(c);
-  else if (c < 0x800) out += static_cast<char>(0xc0 | c >> 6), tail(0);
-  else if (c < 0x10000) out += static_cast<char>(0xe0 | c >> 12), tail(6), tail(0);
-  else out += static_cast<char>(0xf0 | c >> 18), tail(12), tail(6), tail(0);
+  if (c < 0x80)
+    out += static_cast<char>(c);
+  else if (c < 0x800) {
+    out += static_cast<char>(0xc0 | c >> 6);
+    tail(0);
+  } else if (c < 0x10000) {
+    out += static_cast<char>(0xe0 | c >> 12);
+    tail(6);
+    tail(0);
+  } else {
+    out += static_cast<char>(0xf0 | c >> 18);
+    tail(12);
+    tail(6);
+    tail(0);
+  }
 }
 
 }  // namespace
@@ -30,31 +41,47 @@ std::string_view AttributeValues::plain(std::string_view raw, bool attribute) {
   if (s.find_first_of(attribute ? "&\n\r\t" : "&\r") == s.npos) return s;
   std::string out;
   for (std::size_t i = 0; i < s.size(); ++i) {
-    if (s[i] == '&') entity(s, i, out);
-    else if (s[i] == '\r') out += i + 1 < s.size() && s[i + 1] == '\n' ? "" : attribute ? " " : "\n";
-    else if (attribute && (s[i] == '\n' || s[i] == '\t')) out += ' ';
-    else out += s[i];
+    if (s[i] == '&')
+      entity(s, i, out);
+    else if (s[i] == '\r')
+      out += i + 1 < s.size() && s[i + 1] == '\n' ? "" : attribute ? " " : "\n";
+    else if (attribute && (s[i] == '\n' || s[i] == '\t'))
+      out += ' ';
+    else
+      out += s[i];
   }
   return scene_.keep(out);
 }
 
-/// The entity at `at`, which is left on its ';'. One that is not XML's own stays as it is: nothing is expanded that a file
-/// declares, so that nothing can explode.
+/// The entity at `at`, which is left on its ';'. One that is not XML's own stays as it is: nothing is expanded that a
+/// file declares, so that nothing can explode.
 void AttributeValues::entity(std::string_view s, std::size_t& at, std::string& out) {
   constexpr std::size_t longest = 12;
   const auto end = s.substr(at, longest).find(';');
-  if (end == s.npos) return void(out += '&');
+  if (end == s.npos) {
+    out += '&';
+    return;
+  }
   const auto name = s.substr(at + 1, end - 1);
-  constexpr std::pair<std::string_view, char> known[] = {{"lt", '<'}, {"gt", '>'}, {"amp", '&'}, {"quot", '"'}, {"apos", '\''}};
+  constexpr std::pair<std::string_view, char> known[] = {
+      {"lt", '<'}, {"gt", '>'}, {"amp", '&'}, {"quot", '"'}, {"apos", '\''}};
   for (auto [n, c] : known)
-    if (n == name) return out += c, void(at += end);
+    if (n == name) {
+      out += c;
+      at += end;
+      return;
+    }
   if (name.starts_with('#')) {
     const bool hex = name.starts_with("#x");
     const auto digits = name.substr(hex ? 2 : 1);
     std::uint32_t c = 0;
     auto r = std::from_chars(digits.data(), digits.data() + digits.size(), c, hex ? 16 : 10);
-    if (r.ec == std::errc{} && r.ptr == digits.data() + digits.size() && c > 0 && c < 0x110000 && (c < 0xd800 || c > 0xdfff))
-      return append_utf8(c, out), void(at += end);
+    if (r.ec == std::errc{} && r.ptr == digits.data() + digits.size() && c > 0 && c < 0x110000 &&
+        (c < 0xd800 || c > 0xdfff)) {
+      append_utf8(c, out);
+      at += end;
+      return;
+    }
   }
   const bool in_text = s.data() >= text_.data() && s.data() < text_.data() + text_.size();
   diag_.report(Diag::xml_entity, in_text ? span_of(s.substr(at, end + 1)) : Span{text_base_, 0}, name);
@@ -76,11 +103,21 @@ bool AttributeValues::at_end(std::string_view type) {
   return false;
 }
 
-bool AttributeValues::value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, std::string_view attribute, Value& out) {
+bool AttributeValues::value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback,
+                            std::string_view attribute, Value& out) {
   const auto& t = info(type);
-  if (t.element == Element::node) return diag_.report(Diag::bad_value, span_of(attribute), "'" + std::string(attribute.substr(0, 60)) + "'", t.name), false;
-  if (t.element == Element::text && !t.multiple) return out = scene_.make(type, slot, plain(attribute)), true;
-  if (t.element == Element::text) return strings(slot, attribute, out), true;
+  if (t.element == Element::node) {
+    diag_.report(Diag::bad_value, span_of(attribute), "'" + std::string(attribute.substr(0, 60)) + "'", t.name);
+    return false;
+  }
+  if (t.element == Element::text && !t.multiple) {
+    out = scene_.make(type, slot, plain(attribute));
+    return true;
+  }
+  if (t.element == Element::text) {
+    strings(slot, attribute, out);
+    return true;
+  }
   const bool entities = attribute.find('&') != attribute.npos;
   enter(attribute, entities ? plain(attribute) : attribute);
   if (t.element == Element::image) {
@@ -92,14 +129,17 @@ bool AttributeValues::value(FieldType type, std::uint16_t slot, std::string_view
   return numbers_of(type, slot, field, fallback, attribute, out);
 }
 
-bool AttributeValues::numbers_of(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, std::string_view attribute, Value& out) {
+bool AttributeValues::numbers_of(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback,
+                                 std::string_view attribute, Value& out) {
   const auto& t = info(type);
   const bool real = t.element == Element::number;
   numbers_.clear();
   integers_.clear();
   bool bracket = take(vrml::Kind::open_bracket);  // of the other encoding
   // No comment, as in the other encoding: x3dom's pages write colours so.
-  if (const auto at = attribute.find('#'); at != attribute.npos) diag_.report(Diag::bad_value, span_of(attribute.substr(at)), "'" + std::string(attribute.substr(at, 60)) + "'", t.name);
+  if (const auto at = attribute.find('#'); at != attribute.npos)
+    diag_.report(Diag::bad_value, span_of(attribute.substr(at)), "'" + std::string(attribute.substr(at, 60)) + "'",
+                 t.name);
   read_numbers(type, 0);
   if (bracket && take(vrml::Kind::close_bracket)) diag_.report(Diag::extra_bracket, span_of(attribute), field);
   at_end(t.name);
@@ -109,25 +149,38 @@ bool AttributeValues::numbers_of(FieldType type, std::uint16_t slot, std::string
     return false;
   }
   if (!t.multiple && count < t.arity) fix_arity(t.arity, fallback, field, span_of(attribute));
-  if (!t.multiple && count > t.arity) diag_.report(Diag::missing_values, span_of(attribute), count, field, static_cast<int>(t.arity));
-  if (t.multiple && count % t.arity) diag_.report(Diag::missing_values, span_of(attribute), count, field, static_cast<int>(t.arity));
+  if (!t.multiple && count > t.arity)
+    diag_.report(Diag::missing_values, span_of(attribute), count, field, static_cast<int>(t.arity));
+  if (t.multiple && count % t.arity)
+    diag_.report(Diag::missing_values, span_of(attribute), count, field, static_cast<int>(t.arity));
   if (real) numbers_.resize(t.multiple ? count - count % t.arity : t.arity);
-  if (!t.multiple && t.arity == 1) out = real ? scene_.make(type, slot, numbers_[0]) : scene_.make(type, slot, integers_[0]);
-  else out = real ? scene_.make(type, slot, std::span<const double>(numbers_)) : scene_.make(type, slot, std::span<const std::int32_t>(integers_));
+  if (!t.multiple && t.arity == 1)
+    out = real ? scene_.make(type, slot, numbers_[0]) : scene_.make(type, slot, integers_[0]);
+  else
+    out = real ? scene_.make(type, slot, std::span<const double>(numbers_))
+               : scene_.make(type, slot, std::span<const std::int32_t>(integers_));
   return true;
 }
 
 // true and false; the words of the other encoding are read as well.
-bool AttributeValues::booleans(FieldType type, std::uint16_t slot, std::string_view field, std::string_view attribute, Value& out) {
+bool AttributeValues::booleans(FieldType type, std::uint16_t slot, std::string_view field, std::string_view attribute,
+                               Value& out) {
   integers_.clear();
   for (auto t = lex_.next(); t.kind == vrml::Kind::word; t = lex_.next()) {
     auto w = text(t);
-    const bool yes = w == "true" || w == "TRUE" || w == "True" || w == "1", no = w == "false" || w == "FALSE" || w == "False" || w == "0";
-    if (!yes && !no) { diag_.report(Diag::bad_value, span(t), describe(t), "SFBool"); continue; }
+    const bool yes = w == "true" || w == "TRUE" || w == "True" || w == "1",
+               no = w == "false" || w == "FALSE" || w == "False" || w == "0";
+    if (!yes && !no) {
+      diag_.report(Diag::bad_value, span(t), describe(t), "SFBool");
+      continue;
+    }
     if (w != "true" && w != "false") diag_.report(Diag::bool_repaired, span(t), w, yes ? "true" : "false");
     integers_.push_back(yes);
   }
-  if (type == FieldType::MFBool) return out = scene_.make(type, slot, std::span<const std::int32_t>(integers_)), true;
+  if (type == FieldType::MFBool) {
+    out = scene_.make(type, slot, std::span<const std::int32_t>(integers_));
+    return true;
+  }
   if (integers_.empty()) return false;
   if (integers_.size() > 1) diag_.report(Diag::missing_values, span_of(attribute), integers_.size(), field, 1);
   out = scene_.make(type, slot, integers_[0] != 0);

@@ -12,7 +12,7 @@ namespace {
 
 /// What is done to a text so that pugixml reads on.
 struct Repairs {
-  std::vector<std::size_t> blanks;  // in front of these places, ascending
+  std::vector<std::size_t> blanks;                          // in front of these places, ascending
   std::vector<std::pair<std::size_t, std::size_t>> erased;  // from, to
 };
 
@@ -24,7 +24,9 @@ struct Copy {
   Copy(std::string_view text, const Repairs& r) : blanks(r.blanks) {
     bytes.reserve(text.size() + blanks.size());
     bytes = text;
-    for (auto [from, to] : r.erased) std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.begin() + static_cast<std::ptrdiff_t>(to), ' ');
+    for (auto [from, to] : r.erased)
+      std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.begin() + static_cast<std::ptrdiff_t>(to),
+                ' ');
     for (auto b = blanks.rbegin(); b != blanks.rend(); ++b) bytes.insert(*b, 1, ' ');
   }
   std::size_t in_text(std::size_t at) const {
@@ -52,7 +54,11 @@ class Flattener {
           continue;
         }
       }
-      while (!n.next_sibling() && n.parent() != document) n = n.parent(), open.pop_back(), last.pop_back();
+      while (!n.next_sibling() && n.parent() != document) {
+        n = n.parent();
+        open.pop_back();
+        last.pop_back();
+      }
       n = n.next_sibling();
     }
   }
@@ -62,7 +68,8 @@ class Flattener {
   std::string_view view(const char* p) const {
     const char* begin = copy_.bytes.data();
     const bool inside = !std::less<>{}(p, begin) && !std::less<>{}(begin + copy_.bytes.size(), p);
-    return inside ? text_.substr(copy_.in_text(static_cast<std::size_t>(p - begin)), std::strlen(p)) : text_.substr(text_.size());
+    return inside ? text_.substr(copy_.in_text(static_cast<std::size_t>(p - begin)), std::strlen(p))
+                  : text_.substr(text_.size());
   }
 
   std::uint32_t add(pugi::xml_node n) {
@@ -100,15 +107,20 @@ class Flattener {
 bool repair(std::string_view s, std::size_t at, pugi::xml_parse_status status, Repairs& repairs, bool& lost) {
   auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
   at = std::min(at, s.size());
-  lost = status != pugi::status_bad_attribute || at == 0 || at == s.size() || (s[at - 1] != '"' && s[at - 1] != '\'') || blank(s[at]);
-  if (!lost) return repairs.blanks.insert(std::ranges::upper_bound(repairs.blanks, at), at), true;
+  lost = status != pugi::status_bad_attribute || at == 0 || at == s.size() || (s[at - 1] != '"' && s[at - 1] != '\'') ||
+         blank(s[at]);
+  if (!lost) {
+    repairs.blanks.insert(std::ranges::upper_bound(repairs.blanks, at), at);
+    return true;
+  }
   auto begin = at, end = at;
   if (status == pugi::status_bad_attribute) {  // an attribute without quotes: the word that it is
     while (begin > 0 && !blank(s[begin - 1]) && s[begin - 1] != '<' && s[begin - 1] != '>') --begin;
     while (end < s.size() && !blank(s[end]) && s[end] != '>' && s[end] != '<' && s.substr(end, 2) != "/>") ++end;
     if (begin == end || begin == 0 || s[begin - 1] == '<') return false;
   } else if (status == pugi::status_unrecognized_tag) {
-    begin = s.rfind('<', at), end = begin + 1;
+    begin = s.rfind('<', at);
+    end = begin + 1;
     if (begin == s.npos || s.substr(begin).starts_with("<!") || s.substr(begin).starts_with("<?")) return false;
   } else {
     return false;
@@ -120,20 +132,23 @@ bool repair(std::string_view s, std::size_t at, pugi::xml_parse_status status, R
 }
 
 struct Cut {
-  std::string_view text;   // with its brackets, if they are there
-  bool complete = false;   // it ends with '>'
+  std::string_view text;  // with its brackets, if they are there
+  bool complete = false;  // it ends with '>'
 };
 
-/// The tag at the beginning of `s`. '<' cannot be in a tag, not even between quotes, so a quote that is never closed ends
-/// there.
+/// The tag at the beginning of `s`. '<' cannot be in a tag, not even between quotes, so a quote that is never closed
+/// ends there.
 Cut cut_tag(std::string_view s) {
   char quote = 0;
   for (std::size_t i = 1; i < s.size(); ++i) {
     const char c = s[i];
     if (c == '<') return {s.substr(0, i), false};
-    if (quote) quote = c == quote ? 0 : quote;
-    else if (c == '"' || c == '\'') quote = c;
-    else if (c == '>') return {s.substr(0, i + 1), true};
+    if (quote)
+      quote = c == quote ? 0 : quote;
+    else if (c == '"' || c == '\'')
+      quote = c;
+    else if (c == '>')
+      return {s.substr(0, i + 1), true};
   }
   return {s, false};
 }
@@ -144,10 +159,14 @@ std::string_view cut_doctype(std::string_view s) {
   bool inside = false;
   for (std::size_t i = 2; i < s.size(); ++i) {
     const char c = s[i];
-    if (quote) quote = c == quote ? 0 : quote;
-    else if (c == '"' || c == '\'') quote = c;
-    else if (c == '[' || c == ']') inside = c == '[';
-    else if (c == '>' && !inside) return s.substr(0, i + 1);
+    if (quote)
+      quote = c == quote ? 0 : quote;
+    else if (c == '"' || c == '\'')
+      quote = c;
+    else if (c == '[' || c == ']')
+      inside = c == '[';
+    else if (c == '>' && !inside)
+      return s.substr(0, i + 1);
   }
   return s;
 }
@@ -167,14 +186,18 @@ XmlTree read_xml(std::string_view text) {
     Copy copy(text, repairs);
     pugi::xml_document document;
     // No conversion of entities and line ends: values keep their length and place.
-    const auto result = document.load_buffer_inplace(copy.bytes.data(), copy.bytes.size(), pugi::parse_cdata | pugi::parse_comments, pugi::encoding_utf8);
+    const auto result = document.load_buffer_inplace(copy.bytes.data(), copy.bytes.size(),
+                                                     pugi::parse_cdata | pugi::parse_comments, pugi::encoding_utf8);
     const auto at = copy.in_text(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
     bool lost = false;
     if (!result && i < most_repairs && repair(text, at, result.status, repairs, lost)) {
       tree.repaired.push_back({result.description(), at, lost});
       continue;
     }
-    if (!result) tree.fault = result.description(), tree.fault_at = at;
+    if (!result) {
+      tree.fault = result.description();
+      tree.fault_at = at;
+    }
     Flattener(text, copy, tree).run(document);
     return tree;
   }
@@ -194,17 +217,20 @@ struct XmlReader::State {
   std::size_t at = 0;
   XmlTag tag;
   std::vector<XmlTag::Attribute> attributes;
-  std::string buffer;      // the tag that pugixml reads, and changes in place
+  std::string buffer;  // the tag that pugixml reads, and changes in place
   pugi::xml_document document;
 
-  Span span(std::string_view piece) const { return {base + static_cast<std::uint32_t>(piece.data() - text.data()), static_cast<std::uint32_t>(piece.size())}; }
+  Span span(std::string_view piece) const {
+    return {base + static_cast<std::uint32_t>(piece.data() - text.data()), static_cast<std::uint32_t>(piece.size())};
+  }
   std::string_view rest() const { return text.substr(at); }
 
   /// Past text, comments and declarations to the next tag; false at the end.
   bool find_tag() {
     while (at < text.size()) {
       const auto between = rest().substr(0, rest().find('<'));
-      if (const auto words = trim(between); !words.empty()) diag.report(Diag::stray_token, span(words), "text between tags");
+      if (const auto words = trim(between); !words.empty())
+        diag.report(Diag::stray_token, span(words), "text between tags");
       at += between.size();
       if (at < text.size() && !skip_declaration()) return true;
     }
@@ -234,7 +260,9 @@ struct XmlReader::State {
     tag.sound = complete;
     if (!complete) diag.report(Diag::xml_syntax, tag.where, "'>' expected");
     auto inner = piece.substr(1, piece.size() - 1 - complete);
-    tag.kind = inner.starts_with('/') ? XmlTag::Kind::close : inner.ends_with('/') ? XmlTag::Kind::empty : XmlTag::Kind::open;
+    tag.kind = inner.starts_with('/') ? XmlTag::Kind::close
+               : inner.ends_with('/') ? XmlTag::Kind::empty
+                                      : XmlTag::Kind::open;
     if (tag.kind == XmlTag::Kind::close) inner.remove_prefix(1);
     if (tag.kind == XmlTag::Kind::empty) inner.remove_suffix(1);
     parse(inner);
@@ -243,7 +271,8 @@ struct XmlReader::State {
   /// `inner`: the name and what follows it.
   void parse(std::string_view inner) {
     buffer.assign("<").append(inner).append("/>");
-    const auto result = document.load_buffer_inplace(buffer.data(), buffer.size(), pugi::parse_default, pugi::encoding_utf8);
+    const auto result =
+        document.load_buffer_inplace(buffer.data(), buffer.size(), pugi::parse_default, pugi::encoding_utf8);
     const auto place = [&](const char* in_buffer, std::size_t length) {
       const auto offset = static_cast<std::size_t>(in_buffer - buffer.data()) - 1;  // '<'
       return span(inner.substr(std::min(offset, inner.size()), length));
@@ -264,7 +293,8 @@ struct XmlReader::State {
   }
 };
 
-XmlReader::XmlReader(std::string_view text, std::uint32_t base, Diagnostics& diag) : state_(new State{text, base, diag}) {}
+XmlReader::XmlReader(std::string_view text, std::uint32_t base, Diagnostics& diag)
+    : state_(new State{text, base, diag}) {}
 XmlReader::~XmlReader() = default;
 
 const XmlTag& XmlReader::next() {

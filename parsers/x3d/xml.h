@@ -36,29 +36,29 @@ struct XmlTree {
 
   struct Fault {
     std::string what;
-    std::size_t at;            // in the text
-    bool lost;                 // something that stands there; else all of it was read
+    std::size_t at;  // in the text
+    bool lost;       // something that stands there; else all of it was read
   };
-  std::vector<Fault> repaired; // faults behind which reading went on
-  std::string fault;           // that at which it ended; empty: nowhere
-  std::size_t fault_at = 0;    // and where. Nodes that begin before are there.
+  std::vector<Fault> repaired;  // faults behind which reading went on
+  std::string fault;            // that at which it ended; empty: nowhere
+  std::size_t fault_at = 0;     // and where. Nodes that begin before are there.
 
   std::span<const XmlAttribute> attributes_of(const XmlNode& n) const {
     return std::span(attributes).subspan(n.first_attribute, n.n_attributes);
   }
 };
 
-/// Reads UTF-8 or any other encoding in which ASCII is ASCII. Nothing is converted, so that each value lies at its place in
-/// the file: what entities mean and in which encoding the text is, the reader of the values knows. Up to 16 faults inside of
-/// tags are repaired: a blank that is missing between two attributes, an attribute without quotes, which is dropped, and a
+/// Reads UTF-8 or any other encoding in which ASCII is ASCII. Nothing is converted, so that each value lies at its
+/// place in the file: what entities mean and in which encoding the text is, the reader of the values knows. Up to 16
+/// faults inside of tags are repaired: a blank that is missing between two attributes, an attribute without quotes,
+/// which is dropped, and a
 /// '<' that begins no tag. The views are good as long as `text`. O(text) for each of them; no recursion.
 XmlTree read_xml(std::string_view text);
 
 // ---- a tag at a time -----------------------------------------------------------------------------------------------
-// For files that are long lists. pugixml would hold every element of a file and end at the first fault, so tags are cut out
-// of the text first: a fault costs one tag, and memory is one tag's. Comments, processing instructions and CDATA are
-// passed over.
-
+// For files that are long lists. pugixml would hold every element of a file and end at the first fault, so tags are cut
+// out of the text first: a fault costs one tag, and memory is one tag's. Comments, processing instructions and CDATA
+// are passed over.
 
 struct XmlTag {
   enum class Kind : std::uint8_t { end, open, close, empty };  // end: of the text

@@ -13,7 +13,10 @@ SceneFigures figures_of(const Scene& scene) {
     const NodeId g = scene.get(shape, nodes::shape::geometry);
     if (!g) return;
     ++f.draws;
-    if (!drawn[g.value]) drawn[g.value] = 1, ++f.meshes;
+    if (!drawn[g.value]) {
+      drawn[g.value] = 1;
+      ++f.meshes;
+    }
   });
   f.nodes = reachable(scene, scene.main).size();
   return f;

@@ -20,7 +20,10 @@ class Nesting {
   }
 
  private:
-  enum : std::uint16_t { fresh = 0, open = 0xffff };  // otherwise: how many nodes stand below each other, this one included
+  enum : std::uint16_t {
+    fresh = 0,
+    open = 0xffff
+  };  // otherwise: how many nodes stand below each other, this one included
 
   void scope(const Scope& s) {
     todo_.assign(s.roots.rbegin(), s.roots.rend());
@@ -28,7 +31,9 @@ class Nesting {
       NodeId n = todo_.back();
       if (height_[n.value] == fresh) {
         height_[n.value] = open;
-        for_each_child(scene_, n, [&](NodeId c) { if (height_[c.value] == fresh) todo_.push_back(c); });
+        for_each_child(scene_, n, [&](NodeId c) {
+          if (height_[c.value] == fresh) todo_.push_back(c);
+        });
         continue;
       }
       todo_.pop_back();
@@ -41,8 +46,10 @@ class Nesting {
     bool faulty = false;
     std::uint16_t height = 0;
     for_each_child(scene_, n, [&](NodeId c) {
-      if (!fits(n, c)) faulty = report(n, c);
-      else if (height_[c.value] != open) height = std::max(height, height_[c.value]);
+      if (!fits(n, c))
+        faulty = report(n, c);
+      else if (height_[c.value] != open)
+        height = std::max(height, height_[c.value]);
     });
     if (faulty) take_out(n);
     height_[n.value] = static_cast<std::uint16_t>(height + 1);
@@ -55,8 +62,10 @@ class Nesting {
   }
 
   bool report(NodeId parent, NodeId child) {
-    if (height_[child.value] == open) diag_.report(Diag::use_cycle, scene_.where(parent), scene_.name(child));
-    else diag_.report(Diag::too_deep, scene_.where(child), deepest);
+    if (height_[child.value] == open)
+      diag_.report(Diag::use_cycle, scene_.where(parent), scene_.name(child));
+    else
+      diag_.report(Diag::too_deep, scene_.where(child), deepest);
     return true;
   }
 
@@ -66,7 +75,10 @@ class Nesting {
       const Value& content = scene_.content(v);
       std::vector<NodeId> left;
       std::ranges::copy_if(content.node_span(), std::back_inserter(left), [&](NodeId c) { return fits(parent, c); });
-      if (left.size() == content.node_span().size()) { fields.push_back(v); continue; }
+      if (left.size() == content.node_span().size()) {
+        fields.push_back(v);
+        continue;
+      }
       if (!info(content.type).multiple) continue;
       Value list = scene_.make(content.type, v.slot, left);
       fields.push_back(scene_.is_extra(v) ? scene_.make_extra(v.extra->name, list) : list);

@@ -26,7 +26,8 @@ void spread(std::vector<NodeId> open, std::vector<char>& marks, Neighbours neigh
 
 }  // namespace
 
-bool OwnNodes::mark(const Scene& scene, const Scope& scope, std::span<const NodeId> defaults, const HasState& has_state) {
+bool OwnNodes::mark(const Scene& scene, const Scope& scope, std::span<const NodeId> defaults,
+                    const HasState& has_state) {
   std::vector<NodeId> nodes, acting, varying;
   reach(scene, scope.roots, met_, nodes);
   reach(scene, defaults, met_, nodes);
@@ -34,12 +35,19 @@ bool OwnNodes::mark(const Scene& scene, const Scope& scope, std::span<const Node
   std::vector<Edge> edges;
   for (NodeId n : nodes) {
     const auto& type = scene.type(n);
-    if (type.name == "Script" || type.name == "Inline" || (type.kind == NodeKind::proto && has_state(n))) acting.push_back(n);
+    if (type.name == "Script" || type.name == "Inline" || (type.kind == NodeKind::proto && has_state(n)))
+      acting.push_back(n);
     if (std::ranges::any_of(scene.fields(n), [&](const Value& v) { return scene.content(v).is; })) varying.push_back(n);
     for_each_child(scene, n, [&](NodeId c) { edges.push_back({c, n}); });
   }
-  for (const Route& r : scope.routes) varying.push_back(r.from), varying.push_back(r.to);
-  for (const Import& i : scope.imports) varying.push_back(i.inline_node), varying.push_back(i.node);
+  for (const Route& r : scope.routes) {
+    varying.push_back(r.from);
+    varying.push_back(r.to);
+  }
+  for (const Import& i : scope.imports) {
+    varying.push_back(i.inline_node);
+    varying.push_back(i.node);
+  }
   for (const Export& e : scope.exports) varying.push_back(e.node);
   const bool state = !acting.empty() || !scope.routes.empty() || !scope.exports.empty();
 
@@ -49,7 +57,8 @@ bool OwnNodes::mark(const Scene& scene, const Scope& scope, std::span<const Node
     if (own_[e.child.value]) varying.push_back(e.child);
   std::ranges::sort(edges, {}, &Edge::child);
   spread(varying, own_, [&](NodeId n, auto visit) {
-    for (auto e = std::ranges::lower_bound(edges, n, {}, &Edge::child); e != edges.end() && e->child == n; ++e) visit(e->parent);
+    for (auto e = std::ranges::lower_bound(edges, n, {}, &Edge::child); e != edges.end() && e->child == n; ++e)
+      visit(e->parent);
   });
   return state;
 }

@@ -1,9 +1,9 @@
-// What each use of a scope needs for itself, and what all uses can share: an instance of a prototype is a use of its body,
-// an Inline one of the file. Shared nodes are why a prototype that doubles itself forty times is forty nodes.
+// What each use of a scope needs for itself, and what all uses can share: an instance of a prototype is a use of its
+// body, an Inline one of the file. Shared nodes are why a prototype that doubles itself forty times is forty nodes.
 //
-// A node is a scope's own when two uses of it can come to differ: when events can reach it (it is an end of a ROUTE, exported, a
-// Script, below a Script, which may change what it holds, an instance of a prototype that has such nodes, or an Inline, whose
-// file nobody has seen yet), when it has an IS, and when it holds a node of that kind.
+// A node is a scope's own when two uses of it can come to differ: when events can reach it (it is an end of a ROUTE,
+// exported, a Script, below a Script, which may change what it holds, an instance of a prototype that has such nodes,
+// or an Inline, whose file nobody has seen yet), when it has an IS, and when it holds a node of that kind.
 #pragma once
 #include <functional>
 #include <span>

@@ -20,11 +20,16 @@ const Prototype& Prototypes::prepare(ProtoId p) {
   const Proto& proto = scene_.proto(p);
   busy_.push_back(name(proto));
   Prototype result;
-  if (proto.external) result = find_body(proto);
-  else if (proto.body.roots.empty()) result.state = Prototype::empty;
+  if (proto.external)
+    result = find_body(proto);
+  else if (proto.body.roots.empty())
+    result.state = Prototype::empty;
   else {
     look_into(proto);
-    auto has_state = [&](NodeId n) { auto& t = known_[scene_.type(n).proto.value]; return t.has_state || t.state == Prototype::missing; };
+    auto has_state = [&](NodeId n) {
+      auto& t = known_[scene_.type(n).proto.value];
+      return t.has_state || t.state == Prototype::missing;
+    };
     result = {Prototype::ready, p, own_.mark(scene_, proto.body, defaults(proto), has_state)};
   }
   busy_.pop_back();
@@ -33,7 +38,10 @@ const Prototype& Prototypes::prepare(ProtoId p) {
     result.state = Prototype::missing;
   }
   // What is part of a circle here can be whole elsewhere: it is asked for again.
-  if (result.state == Prototype::busy) return known = {}, contains_itself;
+  if (result.state == Prototype::busy) {
+    known = {};
+    return contains_itself;
+  }
   return known = result;
 }
 
@@ -89,8 +97,8 @@ void Prototypes::look_into(const Proto& proto) {
   for (NodeId n : nodes) look_at(n);
 }
 
-/// A body that names its own prototype has a node of unknown type there, for the name is known only behind the body (4.8.4);
-/// only an EXTERNPROTO can really lead back.
+/// A body that names its own prototype has a node of unknown type there, for the name is known only behind the body
+/// (4.8.4); only an EXTERNPROTO can really lead back.
 void Prototypes::look_at(NodeId n) {
   const auto& type = scene_.type(n);
   if (type.kind == NodeKind::unknown && std::ranges::find(busy_, type.name) != busy_.end())
@@ -98,14 +106,17 @@ void Prototypes::look_at(NodeId n) {
   if (type.kind != NodeKind::proto) return;
   const bool too_deep = busy_.size() >= deepest;
   if (!too_deep && prepare(type.proto).state != Prototype::busy) return;
-  if (too_deep) ctx_.diag.report(Diag::too_deep, scene_.where(n), deepest);
-  else ctx_.diag.report(Diag::proto_cycle, scene_.where(n), type.name);
+  if (too_deep)
+    ctx_.diag.report(Diag::too_deep, scene_.where(n), deepest);
+  else
+    ctx_.diag.report(Diag::proto_cycle, scene_.where(n), type.name);
   scene_.become(n, nodes::Group, {});
 }
 
 std::vector<NodeId> Prototypes::defaults(const Proto& proto) const {
   std::vector<NodeId> out;
-  for (const auto& f : scene_.type(proto.type).fields) out.insert(out.end(), f.default_value.node_span().begin(), f.default_value.node_span().end());
+  for (const auto& f : scene_.type(proto.type).fields)
+    out.insert(out.end(), f.default_value.node_span().begin(), f.default_value.node_span().end());
   return out;
 }
 

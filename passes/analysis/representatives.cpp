@@ -20,7 +20,8 @@ std::uint64_t hash_of(std::string_view s) {
 }
 
 bool is_shareable(const NodeType& t) {
-  constexpr std::string_view bases[] = {"X3DAppearanceNode", "X3DAppearanceChildNode", "X3DGeometryNode", "X3DGeometricPropertyNode", "X3DFontStyleNode"};
+  constexpr std::string_view bases[] = {"X3DAppearanceNode", "X3DAppearanceChildNode", "X3DGeometryNode",
+                                        "X3DGeometricPropertyNode", "X3DFontStyleNode"};
   return t.kind == NodeKind::builtin && std::ranges::any_of(bases, [&](auto b) { return t.is_a(b); });
 }
 
@@ -64,7 +65,8 @@ void Representatives::find(std::span<const NodeId> level) {
     const NodeId n = level[i];
     const Class& c = classes_[classes[i]];
     const bool any = named_ || scene_.name(n).empty();
-    of_[n.value] = any ? (c.first_named ? c.first_named : c.first) : by_name.try_emplace({classes[i], scene_.name(n)}, n).first->second;
+    of_[n.value] = any ? (c.first_named ? c.first_named : c.first)
+                       : by_name.try_emplace({classes[i], scene_.name(n)}, n).first->second;
   }
 }
 

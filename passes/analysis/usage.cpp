@@ -22,7 +22,10 @@ Usage::Usage(const Scene& scene) : uses_(scene.node_count()), touched_(scene.nod
     const Proto& p = scene.proto(ProtoId{i});
     add(p.body);
     for (const auto& f : scene.type(p.type).fields)
-      for (NodeId n : f.default_value.node_span()) touched_[n.value] = 1, writable.push_back(n);
+      for (NodeId n : f.default_value.node_span()) {
+        touched_[n.value] = 1;
+        writable.push_back(n);
+      }
   }
   touch_below(scene, std::move(writable));
 }

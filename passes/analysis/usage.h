@@ -11,8 +11,8 @@ class Usage {
   /// Of all scopes. O(nodes).
   explicit Usage(const Scene& scene);
 
-  /// An end of a ROUTE, exported, held by a Script or by an instance of a prototype, or below one that a Script with directOutput
-  /// holds: events may come here that this file does not show.
+  /// An end of a ROUTE, exported, held by a Script or by an instance of a prototype, or below one that a Script with
+  /// directOutput holds: events may come here that this file does not show.
   bool touched(NodeId n) const { return touched_[n.value]; }
   /// Held in one place, as a child, in a field or at the top of a scope.
   bool once(NodeId n) const { return uses_[n.value] == 1; }

@@ -7,13 +7,13 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "passes/combine_lightmap/page.h"
-#include "passes/lightmap/copy_node.h"
+#include "base/image/srgb_table.h"
+#include "geometry/tessellation.h"
 #include "light/render/baked.h"
 #include "light/render/surface.h"
-#include "geometry/tessellation.h"
+#include "passes/combine_lightmap/page.h"
+#include "passes/lightmap/copy_node.h"
 #include "scenegraph/nodes.h"
-#include "base/image/srgb_table.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -57,7 +57,8 @@ std::array<double, N> mixed(const Attribute& a, std::uint32_t corner, const std:
 /// Of texture coordinates: twice the area, without a sign.
 double picture_area(const Attribute& a, std::uint32_t corner, const drawing::TexcoordMap& map) {
   const float *p = a.at(a.index[corner]), *q = a.at(a.index[corner + 1]), *r = a.at(a.index[corner + 2]);
-  return std::abs((double{q[0]} - p[0]) * (double{r[1]} - p[1]) - (double{r[0]} - p[0]) * (double{q[1]} - p[1])) * std::abs(map.determinant());
+  return std::abs((double{q[0]} - p[0]) * (double{r[1]} - p[1]) - (double{r[0]} - p[0]) * (double{q[1]} - p[1])) *
+         std::abs(map.determinant());
 }
 
 /// Its numbers can be reckoned with. What is further away shows nothing of the page.
@@ -80,7 +81,11 @@ bool has_clear_colors(const Scene& scene, NodeId geometry) {
 class Combining {
  public:
   Combining(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx)
-      : scene_(scene), options_(options), ctx_(ctx), surfaces_(scene, ctx.resources, ctx.diag), unheard_(ctx.diag.shared_sources()),
+      : scene_(scene),
+        options_(options),
+        ctx_(ctx),
+        surfaces_(scene, ctx.resources, ctx.diag),
+        unheard_(ctx.diag.shared_sources()),
         reading_{unheard_, unheard_counts_, ctx.resources} {}
 
   Outcome run() {
@@ -104,7 +109,8 @@ class Combining {
   int factor(const Group& group);
   void list_triangles(const Group& group, std::uint32_t shape, int width, int height);
   double detail_of(const drawing::Surface& s, const Mesh& mesh) const;
-  Texel4 color(const Painted& t, const std::array<double, 3>& weights, const std::array<double, 2>& place, bool alpha) const;
+  Texel4 color(const Painted& t, const std::array<double, 3>& weights, const std::array<double, 2>& place,
+               bool alpha) const;
   void show(const LitShape& lit, NodeId texture);
   NodeId geometry_for(const LitShape& lit);
   NodeId writable(NodeId node, std::unordered_map<std::uint32_t, NodeId>& copies);
@@ -134,7 +140,9 @@ void Combining::find_shapes() {
     if (!scene_.is(n, nodes::Shape)) continue;
     auto lit = lit_shape(n);
     if (!lit) {
-      for_each_child(scene_, n, [&](NodeId c) { if (c) ++unlit_uses_[c.value]; });
+      for_each_child(scene_, n, [&](NodeId c) {
+        if (c) ++unlit_uses_[c.value];
+      });
       continue;
     }
     auto light = surfaces_[lit->surface].baked.light.texture;
@@ -148,11 +156,14 @@ void Combining::find_shapes() {
 std::optional<LitShape> Combining::lit_shape(NodeId shape) {
   LitShape lit{shape, scene_.get(shape, nodes::shape::appearance), scene_.get(shape, nodes::shape::geometry), 0, false};
   if (!scene_.is(lit.appearance, nodes::Appearance) || !scene_.get(lit.appearance, ap::lightmap)) return {};
-  if (!scene_.is(lit.geometry, nodes::IndexedFaceSet) || !scene_.is(scene_.get(lit.geometry, ifs::lightCoord), nodes::TextureCoordinate)) return {};
+  if (!scene_.is(lit.geometry, nodes::IndexedFaceSet) ||
+      !scene_.is(scene_.get(lit.geometry, ifs::lightCoord), nodes::TextureCoordinate))
+    return {};
   lit.surface = surfaces_.of(lit.appearance);
   const auto& s = surfaces_[lit.surface];
   if (!s.baked) return {};
-  lit.transparent = !options_.into.lightmap && (s.alpha < 1 || (s.picture.texture && s.picture.texture->has_alpha()) || has_clear_colors(scene_, lit.geometry));
+  lit.transparent = !options_.into.lightmap && (s.alpha < 1 || (s.picture.texture && s.picture.texture->has_alpha()) ||
+                                                has_clear_colors(scene_, lit.geometry));
   return lit;
 }
 
@@ -182,42 +193,52 @@ double Combining::detail_of(const drawing::Surface& s, const Mesh& mesh) const {
 int Combining::factor(const Group& group) {
   const double most = std::max(1, options_.max_size / std::max(group.light->width(), group.light->height()));
   double wanted = 1;
-  for (std::size_t i = 0; i < meshes_.size(); ++i) wanted = std::max(wanted, std::min(detail_of(surfaces_[group.shapes[i].surface], meshes_[i]), 1e9));
+  for (std::size_t i = 0; i < meshes_.size(); ++i)
+    wanted = std::max(wanted, std::min(detail_of(surfaces_[group.shapes[i].surface], meshes_[i]), 1e9));
   const double chosen = std::min(options_.scale.value ? options_.scale.value : std::ceil(wanted), most);
   constexpr double unseen = 1.5;
-  if (wanted > unseen * chosen) ctx_.diag.report(Diag::texture_coarser, scene_.where(group.shapes[0].shape), std::lround(wanted / chosen));
+  if (wanted > unseen * chosen)
+    ctx_.diag.report(Diag::texture_coarser, scene_.where(group.shapes[0].shape), std::lround(wanted / chosen));
   return static_cast<int>(chosen);
 }
 
 void Combining::list_triangles(const Group& group, std::uint32_t shape, int width, int height) {
   const auto& s = surfaces_[group.shapes[shape].surface];
   const Mesh& mesh = meshes_[shape];
-  const double pixels = s.picture.texture && mesh.texcoord.present() ? double(s.picture.texture->width()) * s.picture.texture->height() : 0;
+  const double pixels = s.picture.texture && mesh.texcoord.present()
+                            ? double(s.picture.texture->width()) * s.picture.texture->height()
+                            : 0;
   for (std::uint32_t c = 0; c < mesh.corners.size(); c += 3) {
     PageTriangle t;
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const float* at = mesh.lightcoord.at(mesh.lightcoord.index[c + corner]);
       auto [u, v] = s.baked.places(at[0], at[1]);
-      t.x[corner] = u * width, t.y[corner] = (1 - v) * height;
+      t.x[corner] = u * width;
+      t.y[corner] = (1 - v) * height;
     }
     const double texels = std::abs(t.area());
     if (!(texels > 0) || !is_near(t)) continue;
     triangles_.push_back(t);
-    painted_.push_back({&s, shape, c, pixels > 0 ? std::sqrt(pixels * picture_area(mesh.texcoord, c, s.texcoords) / texels) : 1});
+    painted_.push_back(
+        {&s, shape, c, pixels > 0 ? std::sqrt(pixels * picture_area(mesh.texcoord, c, s.texcoords) / texels) : 1});
   }
 }
 
 bool Combining::combine(Group& group) {
   read_meshes(group);
   const int k = factor(group), width = k * group.light->width(), height = k * group.light->height();
-  triangles_.clear(), painted_.clear();
+  triangles_.clear();
+  painted_.clear();
   for (std::uint32_t i = 0; i < meshes_.size(); ++i) list_triangles(group, i, width, height);
-  constexpr double reach = 2, most = 8;  // texels of the light, and of the picture: all triangles take as long as it is wide
+  constexpr double reach = 2,
+                   most = 8;  // texels of the light, and of the picture: all triangles take as long as it is wide
   Page page(width, height, std::min(reach * k, most));
   bool whole = page.paint(triangles_, [&](std::size_t i, const std::array<double, 3>& weights, double x, double y) {
     return color(painted_[i], weights, {x / width, 1 - y / height}, group.transparent);
   });
-  if (!whole) ctx_.diag.report(Diag::expansion_limit, scene_.where(group.shapes[0].shape), Page::most_layers, "layers of faces in a lightmap");
+  if (!whole)
+    ctx_.diag.report(Diag::expansion_limit, scene_.where(group.shapes[0].shape), Page::most_layers,
+                     "layers of faces in a lightmap");
   ctx_.stats["combine-lightmap.texels"] += std::uint64_t(width) * static_cast<std::uint64_t>(height);
   return hand_in(group, page.image(group.transparent ? 4 : 3));
 }
@@ -239,7 +260,10 @@ bool Combining::hand_in(Group& group, const Image& image) {
   const std::string name = "baked_" + std::to_string(&group - groups_.data()) + "." + format_of(group);
   std::string error;
   auto bytes = encode_as(name, image, error);
-  if (!bytes) return ctx_.diag.report(Diag::cannot_write, {}, name, error), false;
+  if (!bytes) {
+    ctx_.diag.report(Diag::cannot_write, {}, name, error);
+    return false;
+  }
   const std::string url = ctx_.resources->add_made({name, std::make_shared<const std::string>(std::move(*bytes))});
   group.texture = scene_.add(nodes::ImageTexture, scene_.where(group.shapes[0].shape));
   scene_.set(group.texture, nodes::image_texture::url, std::vector<std::string_view>{url});
@@ -249,7 +273,8 @@ bool Combining::hand_in(Group& group, const Image& image) {
 }
 
 /// What a surface shows at a place of its light, without alpha: 255.
-Texel4 Combining::color(const Painted& t, const std::array<double, 3>& weights, const std::array<double, 2>& place, bool alpha) const {
+Texel4 Combining::color(const Painted& t, const std::array<double, 3>& weights, const std::array<double, 2>& place,
+                        bool alpha) const {
   const Mesh& mesh = meshes_[t.mesh];
   const drawing::Surface& s = *t.surface;
   std::optional<drawing::Texel> vertex, texel;
@@ -269,20 +294,24 @@ Texel4 Combining::color(const Painted& t, const std::array<double, 3>& weights, 
   auto shown = [&](double color, double texel, double emitted) {
     return table.byte(table.linear(color) * s.baked.scale * table.linear(texel) + table.linear(emitted));
   };
-  const auto opacity = alpha ? static_cast<std::uint8_t>(std::clamp(base.alpha, 0.0, 1.0) * 255 + 0.5) : std::uint8_t{255};
-  return {{shown(base.color.x, light.x, s.emissive.x), shown(base.color.y, light.y, s.emissive.y), shown(base.color.z, light.z, s.emissive.z), opacity}};
+  const auto opacity =
+      alpha ? static_cast<std::uint8_t>(std::clamp(base.alpha, 0.0, 1.0) * 255 + 0.5) : std::uint8_t{255};
+  return {{shown(base.color.x, light.x, s.emissive.x), shown(base.color.y, light.y, s.emissive.y),
+           shown(base.color.z, light.z, s.emissive.z), opacity}};
 }
 
 void Combining::show(const LitShape& lit, NodeId texture) {
   NodeId appearance = writable(lit.appearance, appearances_);
-  if (scene_.get(lit.shape, nodes::shape::appearance) != appearance) scene_.set(lit.shape, nodes::shape::appearance, appearance);
+  if (scene_.get(lit.shape, nodes::shape::appearance) != appearance)
+    scene_.set(lit.shape, nodes::shape::appearance, appearance);
   if (options_.into.lightmap) {
     scene_.set(appearance, ap::lightmap, texture);
     return scene_.unset(appearance, ap::lightmapScale.slot);
   }
   if (changed_.emplace(appearance.value, 1).second) {
     NodeId transform = scene_.get(appearance, ap::lightmapTransform);
-    for (auto slot : {ap::material.slot, ap::textureTransform.slot, ap::lightmap.slot, ap::lightmapTransform.slot, ap::lightmapScale.slot, ap::lightmapDirection.slot})
+    for (auto slot : {ap::material.slot, ap::textureTransform.slot, ap::lightmap.slot, ap::lightmapTransform.slot,
+                      ap::lightmapScale.slot, ap::lightmapDirection.slot})
       scene_.unset(appearance, slot);
     scene_.set(appearance, ap::texture, texture);
     if (transform) scene_.set(appearance, ap::textureTransform, transform);
@@ -298,7 +327,8 @@ NodeId Combining::geometry_for(const LitShape& lit) {
   NodeId places = scene_.get(g, ifs::lightCoord);
   const auto listed = scene_.get(g, ifs::lightCoordIndex);
   const std::vector<std::int32_t> index(listed.begin(), listed.end());
-  for (auto slot : {ifs::color.slot, ifs::colorIndex.slot, ifs::colorPerVertex.slot, ifs::texCoordIndex.slot, ifs::lightCoord.slot, ifs::lightCoordIndex.slot})
+  for (auto slot : {ifs::color.slot, ifs::colorIndex.slot, ifs::colorPerVertex.slot, ifs::texCoordIndex.slot,
+                    ifs::lightCoord.slot, ifs::lightCoordIndex.slot})
     scene_.unset(g, slot);
   scene_.set(g, ifs::texCoord, places);
   if (!index.empty()) scene_.set(g, ifs::texCoordIndex, index);
@@ -322,16 +352,25 @@ bool has_lightmaps(const Scene& scene) {
 }  // namespace
 
 bool TexelFactor::read(std::string_view text) {
-  if (text == "auto") return value = 0, true;
+  if (text == "auto") {
+    value = 0;
+    return true;
+  }
   auto r = std::from_chars(text.data(), text.data() + text.size(), value);
   return r.ec == std::errc{} && r.ptr == text.data() + text.size() && value >= 1 && value <= 64;
 }
 
-bool CombineTarget::read(std::string_view text) { return lightmap = text == "lightmap", lightmap || text == "texture"; }
+bool CombineTarget::read(std::string_view text) {
+  lightmap = text == "lightmap";
+  return lightmap || text == "texture";
+}
 
 bool CombinedFormat::read(std::string_view text) {
   PictureFormat chosen;
-  if (text == "auto") return value.clear(), true;
+  if (text == "auto") {
+    value.clear();
+    return true;
+  }
   return chosen.read(text) ? (value = chosen.value, true) : false;
 }
 

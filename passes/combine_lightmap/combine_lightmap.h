@@ -1,5 +1,5 @@
-// Pass `combine-lightmap`: a surface's own colour times its baked light, in one picture. VRML has one texture a Shape, so
-// what was two, at two places, becomes one at the places of the lightmap:
+// Pass `combine-lightmap`: a surface's own colour times its baked light, in one picture. VRML has one texture a Shape,
+// so what was two, at two places, becomes one at the places of the lightmap:
 //
 //   Shape {                                                   Shape {
 //     appearance Appearance {                                   appearance Appearance {
@@ -14,16 +14,17 @@
 //     }
 //   }
 //
-// There is no Material any more: without one a Shape is not lit (ISO/IEC 14772-1, table 4.5) and shows its texture as it is;
-// with one it would be lit twice. What a Material emits is added to the picture; its highlights are lost. Transparency
-// becomes alpha of the picture. Opaque Shapes do not share a picture with transparent ones: browsers would blend them.
+// There is no Material any more: without one a Shape is not lit (ISO/IEC 14772-1, table 4.5) and shows its texture as
+// it is; with one it would be lit twice. What a Material emits is added to the picture; its highlights are lost.
+// Transparency becomes alpha of the picture. Opaque Shapes do not share a picture with transparent ones: browsers would
+// blend them.
 //
-// A page of light becomes one combined page (two, when it has transparent Shapes), larger by a whole factor, so that textures
-// keep their detail. Nodes that other Shapes use, which have no light, are copied before they change.
+// A page of light becomes one combined page (two, when it has transparent Shapes), larger by a whole factor, so that
+// textures keep their detail. Nodes that other Shapes use, which have no light, are copied before they change.
 #pragma once
-#include "passes/pipeline/option_range.h"
-#include "passes/pipeline/pass.h"
+#include "base/option_range.h"
 #include "passes/picture_format/picture_format.h"
+#include "passes/pipeline/pass.h"
 
 namespace wrlkit {
 
@@ -58,13 +59,16 @@ struct CombineLightmapOptions {
 
   void fields(auto&& f) {
     f("scale", scale, "texels for each texel of the light, along each side; auto: as many as the textures have");
-    f("max-size", max_size, "pixels along each side of a picture; a larger page of light keeps its size", between(1, 32768));
-    f("into", into, "texture: VRML's one texture; lightmap: all stays as it is, and the lightmap shows the combined colours");
+    f("max-size", max_size, "pixels along each side of a picture; a larger page of light keeps its size",
+      between(1, 32768));
+    f("into", into,
+      "texture: VRML's one texture; lightmap: all stays as it is, and the lightmap shows the combined colours");
     f("format", format, "of the pictures; auto: as those of the light; JPEG only where there is no alpha");
   }
 };
 
-/// A scene without lightmaps is left alone, in O(nodes); so is any without resources, which hold the pictures. Statistics: combine-lightmap.shapes, .pages, .texels.
+/// A scene without lightmaps is left alone, in O(nodes); so is any without resources, which hold the pictures.
+/// Statistics: combine-lightmap.shapes, .pages, .texels.
 Outcome combine_lightmap(Scene&, const CombineLightmapOptions&, PassContext&);
 
 }  // namespace wrlkit

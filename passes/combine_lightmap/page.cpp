@@ -18,13 +18,20 @@ std::array<double, 2> columns(const PageTriangle& t, double top, double bottom) 
   for (int i = 0; i < 3; ++i) {
     int k = (i + 1) % 3;
     double x0 = t.x[i], y0 = t.y[i], x1 = t.x[k], y1 = t.y[k];
-    if (y0 > y1) std::swap(x0, x1), std::swap(y0, y1);
+    if (y0 > y1) {
+      std::swap(x0, x1);
+      std::swap(y0, y1);
+    }
     if (y1 < top || y0 > bottom) continue;
     for (double y : {std::max(top, y0), std::min(bottom, y1)}) {
       double x = y1 > y0 ? x0 + (x1 - x0) * (y - y0) / (y1 - y0) : x0;
-      left = std::min(left, x), right = std::max(right, x);
+      left = std::min(left, x);
+      right = std::max(right, x);
     }
-    if (y1 == y0) left = std::min(left, x1), right = std::max(right, x1);
+    if (y1 == y0) {
+      left = std::min(left, x1);
+      right = std::max(right, x1);
+    }
   }
   return {left, right};
 }
@@ -58,7 +65,8 @@ Position position(const PageTriangle& t, double area, double x, double y) {
     if (square >= nearest) continue;
     nearest = square;
     on_edge = {};
-    on_edge[i] = 1 - at, on_edge[(i + 1) % 3] = at;
+    on_edge[i] = 1 - at;
+    on_edge[(i + 1) % 3] = at;
   }
   p.distance = std::sqrt(nearest);
   if (low < -far || high > 1 + far) p.weights = on_edge;
@@ -100,14 +108,19 @@ Level half(const Level& from) {
 void fill(Level& fine, const Level& coarse) {
   parallel_for(static_cast<std::size_t>(fine.height), [&](std::size_t y) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(fine.width); ++x)
-      if (const std::size_t i = y * fine.width + x; !fine.known[i]) fine.texels[i] = coarse.texels[y / 2 * coarse.width + x / 2];
+      if (const std::size_t i = y * fine.width + x; !fine.known[i])
+        fine.texels[i] = coarse.texels[y / 2 * coarse.width + x / 2];
   });
 }
 
 }  // namespace
 
 Page::Page(int width, int height, double reach)
-    : width_(width), height_(height), reach_(reach), texels_(std::size_t(width) * height), distance_(texels_.size(), nobody) {}
+    : width_(width),
+      height_(height),
+      reach_(reach),
+      texels_(std::size_t(width) * height),
+      distance_(texels_.size(), nobody) {}
 
 /// A band of rows, by texel: how far its owner is, and who that is. Colours come last, so that each texel has one only.
 class Page::Band {
@@ -132,7 +145,8 @@ class Page::Band {
  private:
   std::size_t index(int x, int y) const { return std::size_t(y - begin_) * page_.width_ + x; }
 
-  /// The square of the distance that an owner at that one must be nearer than, or a little more: distances are kept in 8 bits.
+  /// The square of the distance that an owner at that one must be nearer than, or a little more: distances are kept in
+  /// 8 bits.
   static std::array<double, 256> limits_of(double reach) {
     std::array<double, 256> out{};
     for (std::size_t i = 1; i < out.size(); ++i) {
@@ -168,7 +182,8 @@ class Page::Band {
     auto row = [&](double y) { return static_cast<int>(std::clamp(y, double(begin_), double(end_))); };
     for (int y = row(top - reach); y < row(bottom + reach + 1) && budget_ > 0; ++y) {
       auto [left, right] = columns(t, y + 0.5 - reach, y + 0.5 + reach);
-      int begin = static_cast<int>(std::clamp(left - reach, 0.0, double(page_.width_))), end = static_cast<int>(std::clamp(right + reach + 1, 0.0, double(page_.width_)));
+      int begin = static_cast<int>(std::clamp(left - reach, 0.0, double(page_.width_))),
+          end = static_cast<int>(std::clamp(right + reach + 1, 0.0, double(page_.width_)));
       budget_ -= std::min<std::uint64_t>(budget_, static_cast<std::uint64_t>(std::max(end - begin, 1)));
       for (int x = begin; x < end; ++x) {
         auto& least = page_.distance_[std::size_t(y) * page_.width_ + x];
@@ -209,7 +224,8 @@ Image Page::image(int channels) const {
   for (std::size_t l = levels.size() - 1; l-- > 0;) fill(levels[l], levels[l + 1]);
   Image out{width_, height_, channels, {}};
   out.pixels.reserve(texels_.size() * channels);
-  for (const Texel4& t : levels[0].texels) out.pixels.insert(out.pixels.end(), t.rgba.begin(), t.rgba.begin() + channels);
+  for (const Texel4& t : levels[0].texels)
+    out.pixels.insert(out.pixels.end(), t.rgba.begin(), t.rgba.begin() + channels);
   return out;
 }
 

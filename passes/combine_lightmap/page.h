@@ -1,6 +1,7 @@
-// A picture that triangles are painted into: who owns each texel, and what it shows. Texels within `reach` of a triangle are
-// painted, too, by the nearest one, as the plane of its values goes on: what lies beyond the border of a chart is seen when a
-// texture is filtered. Those further away take the colours around them, for smaller versions of the picture.
+// A picture that triangles are painted into: who owns each texel, and what it shows. Texels within `reach` of a
+// triangle are painted, too, by the nearest one, as the plane of its values goes on: what lies beyond the border of a
+// chart is seen when a texture is filtered. Those further away take the colours around them, for smaller versions of
+// the picture.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -33,8 +34,8 @@ class Page {
   /// So many times the texels of the page are looked at, at the most.
   static constexpr std::uint64_t most_layers = 64;
 
-  /// Paints all triangles; of several at a texel's middle the first one. False when they overlap so much that the work was
-  /// cut off. O(texels of the triangles).
+  /// Paints all triangles; of several at a texel's middle the first one. False when they overlap so much that the work
+  /// was cut off. O(texels of the triangles).
   bool paint(std::span<const PageTriangle> triangles, const Paint& paint);
   /// The picture, of 3 or 4 channels. O(texels).
   Image image(int channels) const;

@@ -7,13 +7,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "passes/cull/visibility.h"
-#include "passes/analysis/figures.h"
 #include "geometry/geometry.h"
-#include "light/render/gather.h"
 #include "geometry/tessellation.h"
+#include "light/render/gather.h"
+#include "passes/analysis/figures.h"
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
+#include "passes/cull/visibility.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -25,11 +25,19 @@ using namespace drawing;
 class Culling {
  public:
   Culling(Scene& scene, const CullOptions& options, PassContext& ctx)
-      : scene_(scene), options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, usage_(scene), stage_(set_stage(scene, unheard_)) {}
+      : scene_(scene),
+        options_(options),
+        ctx_(ctx),
+        unheard_(ctx.diag.shared_sources()),
+        reading_{unheard_, unheard_counts_},
+        usage_(scene),
+        stage_(set_stage(scene, unheard_)) {}
 
   Outcome run() {
     const auto before = figures_of(scene_);
-    mesh_of_ = Gatherer(scene_, [this](NodeId n) -> const Mesh& { return triangles(n); }, pool_).meshes_of(stage_, unheard_);
+    mesh_of_ = Gatherer(
+                   scene_, [this](NodeId n) -> const Mesh& { return triangles(n); }, pool_)
+                   .meshes_of(stage_, unheard_);
     find_fixed();
     gone_.resize(stage_.uses.size());
     if (options_.smaller.metres > 0) {
@@ -72,11 +80,11 @@ class Culling {
   std::vector<std::uint32_t> mesh_of_;
   Mesh mesh_;
   MeshScratch scratch_;
-  std::vector<char> fixed_, moving_;    // by node: stays; may be elsewhere at another time
-  std::vector<char> gone_;              // by use
-  std::vector<std::uint32_t> part_;     // by use: another one of the same part
-  std::vector<char> shape_gone_;        // by node
-  std::vector<std::string> left_out_;   // names
+  std::vector<char> fixed_, moving_;   // by node: stays; may be elsewhere at another time
+  std::vector<char> gone_;             // by use
+  std::vector<std::uint32_t> part_;    // by use: another one of the same part
+  std::vector<char> shape_gone_;       // by node
+  std::vector<std::string> left_out_;  // names
 };
 
 const Mesh& Culling::triangles(NodeId geometry) {
@@ -87,7 +95,8 @@ const Mesh& Culling::triangles(NodeId geometry) {
 }
 
 void Culling::find_fixed() {
-  fixed_.resize(scene_.node_count()), moving_.resize(scene_.node_count());
+  fixed_.resize(scene_.node_count());
+  moving_.resize(scene_.node_count());
   std::vector<std::uint32_t> held(scene_.node_count());
   for (NodeId n : scene_.main.roots)
     if (n) ++held[n.value];
@@ -104,7 +113,10 @@ void Culling::find_fixed() {
   for (NodeId n : all_nodes(scene_)) {
     const NodeType& t = scene_.type(n);
     const bool bound = usage_.touched(n) || std::ranges::any_of(scene_.fields(n), [](const Value& v) { return v.is; });
-    if (bound) fixed_[n.value] = 1, below(n, moving_);
+    if (bound) {
+      fixed_[n.value] = 1;
+      below(n, moving_);
+    }
     if (scene_.is(n, nodes::Billboard)) below(n, moving_);
     if (t.kind != NodeKind::builtin || scene_.is(n, nodes::LOD) || scene_.is(n, nodes::Switch)) below(n, fixed_);
     if (t.kind != NodeKind::builtin || !t.is_a("X3DGroupingNode")) continue;
@@ -140,7 +152,10 @@ void Culling::join_parts() {
   struct Hash {
     std::size_t operator()(const Key& k) const {
       std::size_t h = k.frame;
-      for (double v : k.at) h = (h ^ std::hash<double>()(v)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
+      for (double v : k.at) {
+        h = (h ^ std::hash<double>()(v)) * 0x9e3779b97f4a7c15u;
+        h ^= h >> 29;
+      }
       return h;
     }
   };
@@ -171,15 +186,20 @@ void Culling::find_small() {
   std::vector<Box> boxes(part_.size());
   for (std::uint32_t u = 0; u < part_.size(); ++u) {
     const Box& b = pool_[mesh_of_[u]].box;
-    if (!b.empty()) boxes[root(u)].add(b.low), boxes[root(u)].add(b.high);
+    if (!b.empty()) {
+      boxes[root(u)].add(b.low);
+      boxes[root(u)].add(b.high);
+    }
   }
-  for (std::uint32_t u = 0; u < part_.size(); ++u) gone_[u] = pool_[mesh_of_[u]].n_elements > 0 && is_small(u, boxes[root(u)]);
+  for (std::uint32_t u = 0; u < part_.size(); ++u)
+    gone_[u] = pool_[mesh_of_[u]].n_elements > 0 && is_small(u, boxes[root(u)]);
 }
 
 /// Something may be seen through it. Pictures are not looked at.
 bool Culling::may_be_clear(const Use& use) const {
   if (!use.appearance) return false;
-  if (!scene_.is(use.appearance, nodes::Appearance) || scene_.get(use.appearance, nodes::appearance::texture)) return true;
+  if (!scene_.is(use.appearance, nodes::Appearance) || scene_.get(use.appearance, nodes::appearance::texture))
+    return true;
   const NodeId material = scene_.get(use.appearance, nodes::appearance::material);
   return material && (!scene_.is(material, nodes::Material) || scene_.get(material, nodes::material::transparency) > 0);
 }
@@ -192,8 +212,11 @@ void Culling::find_hidden() {
     wanted.push_back(!gone_[u] && !fixed_[use.shape.value] && !moving_[use.shape.value]);
   }
   std::vector<V3> eyes;
-  for (const Placed& p : stage_.viewpoints) eyes.push_back(stage_.frames[p.frame].point(scene_.get(p.node, nodes::viewpoint::position)));
-  gone_ = hidden_uses(stage_, pool_, mesh_of_, eyes, {options_.walkways, options_.rays, static_cast<std::uint64_t>(options_.seed), clear, wanted}, ctx_.diag);
+  for (const Placed& p : stage_.viewpoints)
+    eyes.push_back(stage_.frames[p.frame].point(scene_.get(p.node, nodes::viewpoint::position)));
+  gone_ = hidden_uses(stage_, pool_, mesh_of_, eyes,
+                      {options_.walkways, options_.rays, static_cast<std::uint64_t>(options_.seed), clear, wanted},
+                      ctx_.diag);
 }
 
 /// Shapes of which every place is gone.
@@ -233,7 +256,8 @@ void Culling::write_list() const {
   errno = 0;
   std::ofstream out(options_.list, std::ios::binary);
   for (const auto& name : left_out_) out << name << '\n';
-  if (!out.flush()) ctx_.diag.report(Diag::cannot_write, {}, options_.list, std::generic_category().message(errno ? errno : EIO));
+  if (!out.flush())
+    ctx_.diag.report(Diag::cannot_write, {}, options_.list, std::generic_category().message(errno ? errno : EIO));
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
-// Leaves out what is too small to matter, or what nobody can ever see: bolts in an overview of a plant, the inner tubes of a
-// heat exchanger.
+// Leaves out what is too small to matter, or what nobody can ever see: bolts in an overview of a plant, the inner tubes
+// of a heat exchanger.
 //
 //   before   Shape { geometry Box { size 9 9 9 } }   DEF Core Shape { geometry Sphere { } }
 //   after    Shape { geometry Box { size 9 9 9 } }     # cull{hidden=true}: the sphere was inside
 #pragma once
 #include <string>
 
+#include "base/option_range.h"
 #include "passes/pipeline/length_option.h"
-#include "passes/pipeline/option_range.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
@@ -31,16 +31,19 @@ struct CullOptions {
 
 /// Removes Shapes from the groups that hold them, if that goes for all places where they are shown.
 ///
-/// - `smaller`: the extent is the longest diagonal of the box around a part, in the largest of its places. Shapes without a
+/// - `smaller`: the extent is the longest diagonal of the box around a part, in the largest of its places. Shapes
+/// without a
 ///   name that share points and stand in one frame are one part: a solid may be written as one Shape a face.
-/// - `hidden`: rays go from points all over the part, evenly by area, in all directions (cull/visibility.h). A part is seen
+/// - `hidden`: rays go from points all over the part, evenly by area, in all directions (cull/visibility.h). A part is
+/// seen
 ///   when one reaches the outside, a Viewpoint or a walkway. So what is left out was not seen by so many rays; a part
 ///   behind a hole of a thousandth of its sky may be among it. Nothing hides behind what has transparency or a picture.
 /// - Left alone: what a ROUTE, a Script, an IS or an instance of a prototype may change, with all below it; what stands
 ///   below a LOD or Switch, or is held otherwise than by a group; lines and points, by `hidden`.
 ///
 /// Groups stay, also empty ones: run `prune` behind it. What is left out is said (culled), with the first names; `list`
-/// gets all. Counted: cull.small, cull.hidden (Shapes), cull.triangles, and figures.h. The same result for any number of threads.
+/// gets all. Counted: cull.small, cull.hidden (Shapes), cull.triangles, and figures.h. The same result for any number
+/// of threads.
 Outcome cull(Scene&, const CullOptions&, PassContext&);
 
 }  // namespace wrlkit

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "light/random.h"
 #include "base/parallel.h"
+#include "light/random.h"
 #include "light/render/ray_scene.h"
 
 namespace wrlkit {
@@ -21,14 +21,20 @@ struct Sample {
 
 class Visibility {
  public:
-  Visibility(const Stage& stage, const MeshPool& pool, std::span<const std::uint32_t> mesh_of, const VisibilityOptions& options, Diagnostics& diag)
-      : stage_(stage), pool_(pool), mesh_of_(mesh_of), options_(options), rays_(stage, pool, mesh_of, {.cull = false, .clear = options.clear}, diag) {}
+  Visibility(const Stage& stage, const MeshPool& pool, std::span<const std::uint32_t> mesh_of,
+             const VisibilityOptions& options, Diagnostics& diag)
+      : stage_(stage),
+        pool_(pool),
+        mesh_of_(mesh_of),
+        options_(options),
+        rays_(stage, pool, mesh_of, {.cull = false, .clear = options.clear}, diag) {}
 
   std::vector<char> run(std::span<const V3> viewpoints) {
     eyes_.assign(viewpoints.begin(), viewpoints.end());
     if (options_.walkways) find_walkways();
     std::vector<char> out(mesh_of_.size());
-    parallel_for(out.size(), [&](std::size_t u) { out[u] = options_.wanted[u] && is_hidden(static_cast<std::uint32_t>(u)); });
+    parallel_for(out.size(),
+                 [&](std::size_t u) { out[u] = options_.wanted[u] && is_hidden(static_cast<std::uint32_t>(u)); });
     return out;
   }
 
@@ -55,7 +61,9 @@ class Visibility {
   }
 
   Sample sample(std::uint32_t use, std::span<const double> sums, light::Stream& random) const {
-    const auto e = std::min<std::size_t>(static_cast<std::size_t>(std::ranges::upper_bound(sums, random.next() * sums.back()) - sums.begin()), sums.size() - 1);
+    const auto e = std::min<std::size_t>(
+        static_cast<std::size_t>(std::ranges::upper_bound(sums, random.next() * sums.back()) - sums.begin()),
+        sums.size() - 1);
     const auto t = triangle(use, e);
     const double r = std::sqrt(random.next()), s = random.next();
     return {t[0] + (r * (1 - s)) * (t[1] - t[0]) + (r * s) * (t[2] - t[0]), unit(cross(t[1] - t[0], t[2] - t[0]))};
@@ -75,8 +83,10 @@ class Visibility {
     light::Stream random(light::key_of(options_.seed, use));
     for (int i = 0; i < options_.rays; ++i) {
       const Sample s = sample(use, sums, random);
-      const double z = 2 * random.next() - 1, turn = 2 * std::numbers::pi * random.next(), r = std::sqrt(std::max(0.0, 1 - z * z));
-      if (is_free(s, {r * std::cos(turn), r * std::sin(turn), z}, std::numeric_limits<double>::infinity())) return false;
+      const double z = 2 * random.next() - 1, turn = 2 * std::numbers::pi * random.next(),
+                   r = std::sqrt(std::max(0.0, 1 - z * z));
+      if (is_free(s, {r * std::cos(turn), r * std::sin(turn), z}, std::numeric_limits<double>::infinity()))
+        return false;
       if (eyes_.empty()) continue;
       const V3 way = eyes_[static_cast<std::size_t>(random.next() * static_cast<double>(eyes_.size()))] - s.at;
       if (const double d = length(way); !(d > 0) || is_free(s, (1 / d) * way, d)) return false;
@@ -89,7 +99,9 @@ class Visibility {
     std::vector<double> sums;
     std::vector<std::uint32_t> uses;
     double sum = 0;
-    auto faces_up = [](const std::array<V3, 3>& t) { return std::abs(unit(cross(t[1] - t[0], t[2] - t[0])).y) > up_facing; };
+    auto faces_up = [](const std::array<V3, 3>& t) {
+      return std::abs(unit(cross(t[1] - t[0], t[2] - t[0])).y) > up_facing;
+    };
     for (std::uint32_t u = 0; u < mesh_of_.size(); ++u) {
       if (mesh(u).kind != Mesh::Kind::faces) continue;
       double area = 0;
@@ -102,10 +114,13 @@ class Visibility {
     if (uses.empty()) return;
     for (std::size_t i = 0; i < 4 * most_eyes && eyes_.size() < most_eyes; ++i) {
       light::Stream random(light::key_of(options_.seed, i, 1));
-      const auto k = std::min<std::size_t>(static_cast<std::size_t>(std::ranges::upper_bound(sums, random.next() * sums.back()) - sums.begin()), sums.size() - 1);
+      const auto k = std::min<std::size_t>(
+          static_cast<std::size_t>(std::ranges::upper_bound(sums, random.next() * sums.back()) - sums.begin()),
+          sums.size() - 1);
       const auto of_use = areas(uses[k]);
       const Sample s = sample(uses[k], of_use, random);
-      if (std::abs(s.normal.y) > up_facing && is_free(s, {0, 1, 0}, head_room)) eyes_.push_back(s.at + V3(0, eye_height, 0));
+      if (std::abs(s.normal.y) > up_facing && is_free(s, {0, 1, 0}, head_room))
+        eyes_.push_back(s.at + V3(0, eye_height, 0));
     }
   }
 
@@ -119,8 +134,8 @@ class Visibility {
 
 }  // namespace
 
-std::vector<char> hidden_uses(const Stage& stage, const MeshPool& pool, std::span<const std::uint32_t> mesh_of, std::span<const V3> viewpoints,
-                              const VisibilityOptions& options, Diagnostics& diag) {
+std::vector<char> hidden_uses(const Stage& stage, const MeshPool& pool, std::span<const std::uint32_t> mesh_of,
+                              std::span<const V3> viewpoints, const VisibilityOptions& options, Diagnostics& diag) {
   return Visibility(stage, pool, mesh_of, options, diag).run(viewpoints);
 }
 

@@ -19,7 +19,8 @@ const char* kind_of(const NodeType& t) {
 
 class Sharing {
  public:
-  Sharing(Scene& scene, const DedupOptions& options, PassContext& ctx) : scene_(scene), options_(options), ctx_(ctx), usage_(scene) {}
+  Sharing(Scene& scene, const DedupOptions& options, PassContext& ctx)
+      : scene_(scene), options_(options), ctx_(ctx), usage_(scene) {}
 
   Outcome run() {
     const auto before = figures_of(scene_);
@@ -56,7 +57,8 @@ class Sharing {
         changed |= one != c;
         c = one;
       }
-      if (changed) scene_.set(n, info(v.type).multiple ? scene_.make(v.type, v.slot, list) : scene_.make(v.type, v.slot, list[0]));
+      if (changed)
+        scene_.set(n, info(v.type).multiple ? scene_.make(v.type, v.slot, list) : scene_.make(v.type, v.slot, list[0]));
     }
   }
 
@@ -70,6 +72,8 @@ class Sharing {
 
 }  // namespace
 
-Outcome dedup(Scene& scene, const DedupOptions& options, PassContext& ctx) { return Sharing(scene, options, ctx).run(); }
+Outcome dedup(Scene& scene, const DedupOptions& options, PassContext& ctx) {
+  return Sharing(scene, options, ctx).run();
+}
 
 }  // namespace wrlkit

@@ -36,11 +36,11 @@ struct Given {
 /// One instance while it is being expanded.
 struct Instance {
   NodeId node;
-  Span where;   // of the instance; its node can get another place
+  Span where;  // of the instance; its node can get another place
   ProtoId body;
   std::vector<Given> given;  // sorted by field
   Copies copies;
-  bool routed;  // ROUTEs touch it
+  bool routed;                                       // ROUTEs touch it
   std::unordered_map<const FieldDef*, Ends> events;  // of the interface, if routed
 };
 
@@ -51,16 +51,23 @@ class Key {
   void add(const Given& g, std::string_view file) {
     constexpr std::size_t most = 64;
     const Value& v = g.value;
-    pointer(g.field), number(v.type), number(v.count);
+    pointer(g.field);
+    number(v.type);
+    number(v.count);
     const auto numbers = v.number_span();
     const auto integers = v.integer_span();
     switch (const auto& t = info(v.type); t.element) {
       case Element::node:
         return t.multiple ? pointer(v.nodes) : number(v.node.value);
       case Element::text:
-        if (t.multiple) pointer(v.texts), key_ += file;  // these may be urls, which are relative to a file
-        else if (v.count <= most) key_ += v.text();
-        else pointer(v.chars);
+        if (t.multiple) {
+          pointer(v.texts);
+          key_ += file;
+        }  // these may be urls, which are relative to a file
+        else if (v.count <= most)
+          key_ += v.text();
+        else
+          pointer(v.chars);
         return;
       case Element::number:
         return numbers.size() <= most ? bytes(numbers.data(), numbers.size_bytes()) : pointer(v.numbers);
@@ -104,7 +111,8 @@ class Expansion {
       open.pop_back();
       if (n.value >= seen_.size()) seen_.resize(scene_.node_count() + scene_.node_count() / 2);
       if (std::exchange(seen_[n.value], 1)) continue;
-      while (is_instance(scene_, n) && expand(n)) {}  // the first node of a body may be an instance itself
+      while (is_instance(scene_, n) && expand(n)) {
+      }  // the first node of a body may be an instance itself
       auto mark = open.size();
       for_each_child(scene_, n, [&](NodeId c) { open.push_back(c); });
       std::reverse(open.begin() + static_cast<std::ptrdiff_t>(mark), open.end());
@@ -121,14 +129,22 @@ class Expansion {
     const Prototype& p = prototypes_.of(n);
     if (p.state != Prototype::ready && p.state != Prototype::empty) return false;
     expanded_ = true;
-    if (p.state == Prototype::empty || !spend(1, scene_.where(n))) return scene_.become(n, nodes::Group, {}), false;
+    if (p.state == Prototype::empty || !spend(1, scene_.where(n))) {
+      scene_.become(n, nodes::Group, {});
+      return false;
+    }
     Instance i{n, scene_.where(n), p.body, given_by(n, p.body), {scene_, prototypes_.own()}, routes_.touches(n), {}};
-    if (p.has_state || i.routed) return expand_alone(i, true), true;
+    if (p.has_state || i.routed) {
+      expand_alone(i, true);
+      return true;
+    }
     Key key(i.body);
     for (const Given& g : i.given) key.add(g, scene_.sources->file(i.where.begin));
     auto [known, is_new] = known_.try_emplace(std::move(key).text(), Known{n, i.where});
-    if (is_new) expand_alone(i, false);
-    else expand_like(n, known->second);
+    if (is_new)
+      expand_alone(i, false);
+    else
+      expand_like(n, known->second);
     return true;
   }
 
@@ -147,11 +163,16 @@ class Expansion {
     if (with_events)
       for (std::size_t k = 1; k < body.roots.size(); ++k)
         if (prototypes_.own()[body.roots[k]]) hidden_.push_back(i.copies.of(body.roots[k]));
-    for (const Route& r : body.routes) i.copies.of(r.from), i.copies.of(r.to);
-    for (const Import& m : body.imports) scene_.main.imports.push_back({i.copies.of(m.inline_node), m.exported, i.copies.of(m.node)});
+    for (const Route& r : body.routes) {
+      i.copies.of(r.from);
+      i.copies.of(r.to);
+    }
+    for (const Import& m : body.imports)
+      scene_.main.imports.push_back({i.copies.of(m.inline_node), m.exported, i.copies.of(m.node)});
     for (NodeId from, to; i.copies.next(from, to);) fill(i, from, to);
     if (i.routed) redirect(i);
-    for (const Route& r : body.routes) add_route({i.copies.of(r.from), i.copies.of(r.to), r.event_out, r.event_in}, i.where);
+    for (const Route& r : body.routes)
+      add_route({i.copies.of(r.from), i.copies.of(r.to), r.event_out, r.event_in}, i.where);
   }
 
   /// Values that the instance writes. An EXTERNPROTO may declare the fields in another order than the file it names.
@@ -186,7 +207,11 @@ class Expansion {
     bool urls_given = false, urls_here = false;
     for (const Value& v : source) {
       const Value& content = scene_.content(v);
-      if (!content.is) { fields.push_back(i.copies.of(v)); urls_here |= content.type == FieldType::MFString; continue; }
+      if (!content.is) {
+        fields.push_back(i.copies.of(v));
+        urls_here |= content.type == FieldType::MFString;
+        continue;
+      }
       const FieldDef* outer = prototypes_.field(i.body, content.text());
       if (!outer) continue;
       if (i.routed) connect(i.events[outer], from, to, v);
@@ -196,8 +221,10 @@ class Expansion {
       if (outer->type == FieldType::MFString) (given ? urls_given : urls_here) = true;
     }
     scene_.become(to, scene_.type_id(from), fields);
-    if (urls_given) scene_.set_where(to, i.where);
-    else if (urls_here) scene_.set_where(to, scene_.where(from));
+    if (urls_given)
+      scene_.set_where(to, i.where);
+    else if (urls_here)
+      scene_.set_where(to, scene_.where(from));
   }
 
   /// False when the field of `from` cannot have that value: an event, or another type.
@@ -205,16 +232,19 @@ class Expansion {
     const auto& type = scene_.type(from);
     if (scene_.is_extra(field)) {  // set_x IS y of a known node, or a field of an unknown one
       if (type.kind != NodeKind::unknown) return false;
-      return out.push_back(scene_.make_extra(field.extra->name, value)), true;
+      out.push_back(scene_.make_extra(field.extra->name, value));
+      return true;
     }
     const FieldDef& def = type.fields[field.slot];
     if (!def.has_value() || !fits(value, def.type)) return false;
-    return out.push_back(adapt(value, def.type, field.slot)), true;
+    out.push_back(adapt(value, def.type, field.slot));
+    return true;
   }
 
   static bool fits(const Value& v, FieldType t) {
     const auto &a = info(v.type), &b = info(t);
-    return !v.is && a.element == b.element && a.arity == b.arity && (a.multiple == b.multiple || a.element == Element::node);
+    return !v.is && a.element == b.element && a.arity == b.arity &&
+           (a.multiple == b.multiple || a.element == Element::node);
   }
 
   Value adapt(Value v, FieldType t, std::uint16_t slot) {
@@ -240,7 +270,8 @@ class Expansion {
     const auto name = f.name_in(scene_.dialect());
     const bool both = f.access == Access::inout;
     if (both || f.access == Access::in) outer.in.push_back({to, both ? scene_.keep("set_" + std::string(name)) : name});
-    if (both || f.access == Access::out) outer.out.push_back({to, both ? scene_.keep(std::string(name) + "_changed") : name});
+    if (both || f.access == Access::out)
+      outer.out.push_back({to, both ? scene_.keep(std::string(name) + "_changed") : name});
   }
 
   /// ROUTEs from and to the instance, all of them written outside of its body, go to the inner nodes.
@@ -292,7 +323,8 @@ class Expansion {
   /// False, which is reported once, when the limit has been reached.
   bool spend(std::size_t cost, Span where) {
     if (spent_ + cost > budget_) {
-      if (!std::exchange(full_, true)) ctx_.diag.report(Diag::expansion_limit, where, budget_, "nodes and ROUTEs of prototypes");
+      if (!std::exchange(full_, true))
+        ctx_.diag.report(Diag::expansion_limit, where, budget_, "nodes and ROUTEs of prototypes");
       return false;
     }
     spent_ += cost;
@@ -307,7 +339,8 @@ class Expansion {
       scene_.main.roots.push_back(choice);
     }
     limit_nesting(scene_, ctx_.diag);
-    if (!options_.keep_declarations) std::erase_if(scene_.main.protos, [&](ProtoId p) { return !prototypes_.is_missing(p); });
+    if (!options_.keep_declarations)
+      std::erase_if(scene_.main.protos, [&](ProtoId p) { return !prototypes_.is_missing(p); });
     declare_missing();
   }
 
@@ -317,7 +350,8 @@ class Expansion {
     std::vector<char> declared(scene_.proto_count());
     for (ProtoId p : protos) declared[p.value] = 1;
     for (NodeId n : reachable(scene_, scene_.main))
-      if (is_instance(scene_, n) && !std::exchange(declared[scene_.type(n).proto.value], 1)) protos.push_back(scene_.type(n).proto);
+      if (is_instance(scene_, n) && !std::exchange(declared[scene_.type(n).proto.value], 1))
+        protos.push_back(scene_.type(n).proto);
   }
 
   Scene& scene_;
@@ -334,6 +368,8 @@ class Expansion {
 
 }  // namespace
 
-Outcome expand_protos(Scene& scene, const ExpandProtosOptions& options, PassContext& ctx) { return Expansion(scene, options, ctx).run(); }
+Outcome expand_protos(Scene& scene, const ExpandProtosOptions& options, PassContext& ctx) {
+  return Expansion(scene, options, ctx).run();
+}
 
 }  // namespace wrlkit

@@ -3,18 +3,18 @@
 //   PROTO Bolt [ field SFFloat r 1 ] { Shape { geometry Cylinder { radius IS r } } }
 //   Bolt { r 2 }   ->   Shape { geometry Cylinder { radius 2 } }
 //
-// The first node of the body takes the place of the instance and keeps its DEF name (ISO/IEC 14772-1, 4.8.3); the others
-// are not drawn but can be reached by events: those that are part of a ROUTE and Scripts are kept, in a Switch that shows
-// none of them. ROUTEs of the body come along, ROUTEs to the instance go to what IS connects them to; an exposedField
-// without IS passes events on. EXTERNPROTOs are looked up in the files they name; an instance whose prototype is not found
-// stays.
+// The first node of the body takes the place of the instance and keeps its DEF name (ISO/IEC 14772-1, 4.8.3); the
+// others are not drawn but can be reached by events: those that are part of a ROUTE and Scripts are kept, in a Switch
+// that shows none of them. ROUTEs of the body come along, ROUTEs to the instance go to what IS connects them to; an
+// exposedField without IS passes events on. EXTERNPROTOs are looked up in the files they name; an instance whose
+// prototype is not found stays.
 //
-// Nodes are shared wherever instances cannot differ (own_nodes.h): what no IS and no event reaches is in the scene once, and
-// instances with equal values hold the same nodes, unless events can reach them. So a prototype that doubles itself forty
-// times costs forty nodes and not 2^40. Cost: n log n in what comes out, which is limited; instances beyond the limit become
-// empty Groups.
+// Nodes are shared wherever instances cannot differ (own_nodes.h): what no IS and no event reaches is in the scene
+// once, and instances with equal values hold the same nodes, unless events can reach them. So a prototype that doubles
+// itself forty times costs forty nodes and not 2^40. Cost: n log n in what comes out, which is limited; instances
+// beyond the limit become empty Groups.
 #pragma once
-#include "passes/pipeline/option_range.h"
+#include "base/option_range.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
@@ -23,7 +23,8 @@ struct ExpandProtosOptions {
   int limit = 500'000;
   bool keep_declarations = false;
   void fields(auto&& f) {
-    f("limit", limit, "how many nodes and ROUTEs the instances may become, beyond sixteen for each node of the world", at_least(0));
+    f("limit", limit, "how many nodes and ROUTEs the instances may become, beyond sixteen for each node of the world",
+      at_least(0));
     f("keep-declarations", keep_declarations, "keep the declarations although nothing uses them any more");
   }
 };

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "passes/analysis/figures.h"
 #include "geometry/geometry.h"
+#include "geometry/tessellation.h"
+#include "passes/analysis/figures.h"
+#include "passes/analysis/usage.h"
 #include "passes/lightmap/own_shapes.h"
 #include "passes/merge/moved.h"
 #include "passes/normals/normals.h"
-#include "geometry/tessellation.h"
-#include "passes/analysis/usage.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -18,7 +18,12 @@ namespace {
 
 class Flattening {
  public:
-  Flattening(Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), usage_(scene), textured_(textured_geometry(scene)), state_(scene.node_count(), State::unknown) {}
+  Flattening(Scene& scene, PassContext& ctx)
+      : scene_(scene),
+        ctx_(ctx),
+        usage_(scene),
+        textured_(textured_geometry(scene)),
+        state_(scene.node_count(), State::unknown) {}
 
   bool run() {
     std::vector<std::pair<NodeId, Matrix>> open;
@@ -46,7 +51,8 @@ class Flattening {
            std::ranges::none_of(scene_.fields(n), [&](const Value& v) { return v.is || scene_.is_extra(v); });
   }
 
-  /// Of a node that stands in one place: nothing below it has a place of its own but Shapes. Nesting is bounded (nesting.h).
+  /// Of a node that stands in one place: nothing below it has a place of its own but Shapes. Nesting is bounded
+  /// (nesting.h).
   bool is_still(NodeId n) {
     auto& s = state_[n.value];
     if (s == State::unknown) s = find_still(n) ? State::still : State::not_still;
@@ -58,7 +64,8 @@ class Flattening {
       const NodeId g = scene_.get(n, nodes::shape::geometry);
       if (!g) return true;
       bool plain = is_plain(g) && scene_.type(g).is_a("X3DGeometryNode");
-      for_each_child(scene_, g, [&](NodeId c) { plain &= is_plain(c) && !scene_.is(c, nodes::TextureCoordinateGenerator); });
+      for_each_child(scene_, g,
+                     [&](NodeId c) { plain &= is_plain(c) && !scene_.is(c, nodes::TextureCoordinateGenerator); });
       return plain && !(scene_.is(g, nodes::IndexedFaceSet) && scene_.get(g, nodes::indexed_face_set::lightCoord));
     }
     if (!scene_.is(n, nodes::Group) && !scene_.is(n, nodes::Transform)) return false;
@@ -75,7 +82,10 @@ class Flattening {
     if (mesh_.kind == Mesh::Kind::none || mesh_.corners.empty()) return;
     moved_.clear();
     append_moved(moved_, mesh_, frame, scratch_.map);
-    const NodeId to = scene_.add(moved_.kind == Mesh::Kind::lines ? nodes::IndexedLineSet : moved_.kind == Mesh::Kind::points ? nodes::PointSet : nodes::IndexedFaceSet, scene_.where(g));
+    const NodeId to = scene_.add(moved_.kind == Mesh::Kind::lines    ? nodes::IndexedLineSet
+                                 : moved_.kind == Mesh::Kind::points ? nodes::PointSet
+                                                                     : nodes::IndexedFaceSet,
+                                 scene_.where(g));
     store_mesh(scene_, to, moved_);
     scene_.set_name(to, scene_.name(g));
     scene_.set(shape, nodes::shape::geometry, to);

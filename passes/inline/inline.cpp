@@ -16,7 +16,7 @@ namespace {
 /// The file as it stands in the scene for the first Inline that names it.
 struct Imported {
   Scope scope;
-  bool marked = false;    // what is its own is known
+  bool marked = false;  // what is its own is known
   bool has_state = false;
 };
 
@@ -57,8 +57,10 @@ class Inliner {
     if (chain_.size() >= static_cast<std::size_t>(options_.depth))
       return ctx_.diag.report(Diag::expansion_limit, scene_.where(n), options_.depth, "Inlines inside each other");
     auto known = imported_.find(world.get());
-    if (known == imported_.end()) become_group(n, first_use(world), scope);
-    else become_group(n, further_use(known->second, scene_.where(n)), scope);
+    if (known == imported_.end())
+      become_group(n, first_use(world), scope);
+    else
+      become_group(n, further_use(known->second, scene_.where(n)), scope);
   }
 
   const Scope& first_use(const std::shared_ptr<const Scene>& world) {
@@ -74,8 +76,8 @@ class Inliner {
     return scope;
   }
 
-  /// Prototypes of the file are declared before all others, so that they are known wherever it is inlined, under names that
-  /// nothing else has.
+  /// Prototypes of the file are declared before all others, so that they are known wherever it is inlined, under names
+  /// that nothing else has.
   void rename_protos(const Scope& scope, std::uint32_t first_node) {
     std::unordered_map<std::uint32_t, TypeId> renamed;
     for (ProtoId p : scope.protos) {
@@ -103,7 +105,8 @@ class Inliner {
 
   /// Of the prototypes that have come since.
   void note_names() {
-    for (; n_noted_ < scene_.proto_count(); ++n_noted_) taken_.insert(scene_.type(scene_.proto(ProtoId{n_noted_}).type).name);
+    for (; n_noted_ < scene_.proto_count(); ++n_noted_)
+      taken_.insert(scene_.type(scene_.proto(ProtoId{n_noted_}).type).name);
   }
 
   Scope further_use(Imported& file, Span where) {
@@ -121,8 +124,10 @@ class Inliner {
     Copies copies(scene_, own_);
     Scope out;
     for (NodeId n : scope.roots) out.roots.push_back(copies.of(n));
-    for (const Route& r : scope.routes) out.routes.push_back({copies.of(r.from), copies.of(r.to), r.event_out, r.event_in});
-    for (const Import& i : scope.imports) out.imports.push_back({copies.of(i.inline_node), i.exported, copies.of(i.node)});
+    for (const Route& r : scope.routes)
+      out.routes.push_back({copies.of(r.from), copies.of(r.to), r.event_out, r.event_in});
+    for (const Import& i : scope.imports)
+      out.imports.push_back({copies.of(i.inline_node), i.exported, copies.of(i.node)});
     for (const Export& e : scope.exports) out.exports.push_back({copies.of(e.node), e.name});
     for (NodeId from, to; copies.next(from, to);) {
       std::vector<Value> fields;
@@ -136,7 +141,8 @@ class Inliner {
   }
 
   bool mark(const Scope& scope) {
-    // A body holds only instances of prototypes that are declared before its own. What an EXTERNPROTO is is not known here.
+    // A body holds only instances of prototypes that are declared before its own. What an EXTERNPROTO is is not known
+    // here.
     auto has_state = [&](NodeId n) { return proto_has_state_[scene_.type(n).proto.value] != 0; };
     for (auto i = static_cast<std::uint32_t>(proto_has_state_.size()); i < scene_.proto_count(); ++i) {
       const Proto& p = scene_.proto(ProtoId{i});
@@ -149,7 +155,8 @@ class Inliner {
   void become_group(NodeId n, const Scope& use, Scope& scope) {
     std::vector<Value> fields;
     if (!use.roots.empty()) fields.push_back(scene_.make(FieldType::MFNode, nodes::group::children.slot, use.roots));
-    for (auto [from, to] : {std::pair{nodes::inline_::bboxCenter.slot, nodes::group::bboxCenter.slot}, {nodes::inline_::bboxSize.slot, nodes::group::bboxSize.slot}})
+    for (auto [from, to] : {std::pair{nodes::inline_::bboxCenter.slot, nodes::group::bboxCenter.slot},
+                            {nodes::inline_::bboxSize.slot, nodes::group::bboxSize.slot}})
       if (auto* v = scene_.find(n, from); v && !v->is) {
         fields.push_back(*v);
         fields.back().slot = to;
@@ -168,7 +175,8 @@ class Inliner {
       if (scene_.is(i.inline_node, nodes::Inline)) return false;
       const auto& exports = exports_[i.inline_node.value];
       const auto found = exports.find(i.exported);
-      if (found == exports.end()) ctx_.diag.report(Diag::import_not_found, scene_.where(i.node), scene_.name(i.inline_node), i.exported);
+      if (found == exports.end())
+        ctx_.diag.report(Diag::import_not_found, scene_.where(i.node), scene_.name(i.inline_node), i.exported);
       meant[i.node.value] = found == exports.end() ? NodeId{} : found->second;
       return true;
     });
@@ -176,7 +184,10 @@ class Inliner {
     auto lead = [&](NodeId& n) {
       if (auto m = meant.find(n.value); m != meant.end()) n = m->second;
     };
-    for (Route& r : scope.routes) lead(r.from), lead(r.to);
+    for (Route& r : scope.routes) {
+      lead(r.from);
+      lead(r.to);
+    }
     for (Export& e : scope.exports) lead(e.node);
     std::erase_if(scope.routes, [](const Route& r) { return !r.from || !r.to; });
     std::erase_if(scope.exports, [](const Export& e) { return !e.node; });
@@ -188,7 +199,7 @@ class Inliner {
   std::unordered_map<const Scene*, Imported> imported_;
   std::vector<std::shared_ptr<const Scene>> kept_;
   std::unordered_map<std::uint32_t, std::unordered_map<std::string_view, NodeId>> exports_;  // of the file of an Inline
-  std::vector<const Scene*> chain_;  // files that are being loaded, each inlined by the one before
+  std::vector<const Scene*> chain_;             // files that are being loaded, each inlined by the one before
   std::unordered_set<std::string_view> taken_;  // names of prototypes
   std::unordered_map<std::string_view, std::size_t> counter_;
   std::uint32_t n_noted_ = 0;
@@ -200,6 +211,8 @@ class Inliner {
 
 }  // namespace
 
-Outcome inline_worlds(Scene& scene, const InlineOptions& options, PassContext& ctx) { return Inliner(scene, options, ctx).run(); }
+Outcome inline_worlds(Scene& scene, const InlineOptions& options, PassContext& ctx) {
+  return Inliner(scene, options, ctx).run();
+}
 
 }  // namespace wrlkit

@@ -2,13 +2,13 @@
 //
 //   Inline { url "pump.wrl" }   ->   Group { children [ ...nodes of pump.wrl... ] }
 //
-// Each file is read once and its nodes are shared by all Inlines that name it, but for those that events can reach: each
-// Inline has its own. An Inline that cannot be loaded stays. The names, prototypes and ROUTEs of the file come along; they
-// cannot be reached by name from outside (ISO/IEC 14772-1, 6.25), but for what X3D exports: ROUTEs to imported names
-// (ISO/IEC 19775-1, 4.4.6) lead to the nodes themselves. Cost: n log n in the nodes of the files and in the copies,
-// which are limited; beyond the limit they are shared.
+// Each file is read once and its nodes are shared by all Inlines that name it, but for those that events can reach:
+// each Inline has its own. An Inline that cannot be loaded stays. The names, prototypes and ROUTEs of the file come
+// along; they cannot be reached by name from outside (ISO/IEC 14772-1, 6.25), but for what X3D exports: ROUTEs to
+// imported names (ISO/IEC 19775-1, 4.4.6) lead to the nodes themselves. Cost: n log n in the nodes of the files and in
+// the copies, which are limited; beyond the limit they are shared.
 #pragma once
-#include "passes/pipeline/option_range.h"
+#include "base/option_range.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {

@@ -34,7 +34,8 @@ void Form::take(const Mesh& m) {
 
 std::uint64_t Form::exact_key() const {
   const Mesh& m = *mesh;
-  std::uint64_t h = mixed(static_cast<std::uint64_t>(m.kind) * 8 + m.ccw * 4 + m.solid * 2 + m.convex, std::bit_cast<std::uint64_t>(m.crease_angle));
+  std::uint64_t h = mixed(static_cast<std::uint64_t>(m.kind) * 8 + m.ccw * 4 + m.solid * 2 + m.convex,
+                          std::bit_cast<std::uint64_t>(m.crease_angle));
   h = mixed(mixed(h, m.n_faces()), m.corners.size());
   for (const Attribute* a : m.attributes()) h = mixed(h, a->present() ? static_cast<std::uint64_t>(a->width) : 0);
   // Sums, as faces may come in any order.

@@ -1,6 +1,6 @@
-// A mesh as something that may stand elsewhere, too: its corners around their mean, and what of it stays the same when it is
-// moved. Everything is taken over the corners of faces, so that neither the order of faces and points nor whether faces
-// share points makes a difference.
+// A mesh as something that may stand elsewhere, too: its corners around their mean, and what of it stays the same when
+// it is moved. Everything is taken over the corners of faces, so that neither the order of faces and points nor whether
+// faces share points makes a difference.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -14,10 +14,10 @@ enum class Scaling : std::uint8_t { none, uniform, axis };
 
 struct Form {
   const Mesh* mesh = nullptr;
-  std::vector<Vec3> at;   // of each corner, from the centre
-  Vec3 centre{};          // mean of the corners
-  double size = 0;        // root mean square of the distances from there
-  double reach = 0;       // the largest of them
+  std::vector<Vec3> at;            // of each corner, from the centre
+  Vec3 centre{};                   // mean of the corners
+  double size = 0;                 // root mean square of the distances from there
+  double reach = 0;                // the largest of them
   std::array<double, 3> spread{};  // along the principal axes, descending
 
   /// Of a mesh that outlives it. O(corners).
@@ -26,13 +26,14 @@ struct Form {
   std::uint64_t exact_key() const;
 };
 
-/// Numbers that a motion does not change, each with its step: those of two forms that may match are less than half a step
-/// apart.
+/// Numbers that a motion does not change, each with its step: those of two forms that may match are less than half a
+/// step apart.
 std::vector<double> invariants(const Form& form, Scaling scaling, double tolerance);
 
 /// Eigenvectors of a symmetric matrix of N rows as columns of `vectors`, and its eigenvalues; Jacobi's method.
 template <std::size_t N>
-void diagonalise(std::array<std::array<double, N>, N> a, std::array<std::array<double, N>, N>& vectors, std::array<double, N>& values) {
+void diagonalise(std::array<std::array<double, N>, N> a, std::array<std::array<double, N>, N>& vectors,
+                 std::array<double, N>& values) {
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t k = 0; k < N; ++k) vectors[i][k] = i == k;
   for (int sweep = 0; sweep < 30; ++sweep)
@@ -40,16 +41,20 @@ void diagonalise(std::array<std::array<double, N>, N> a, std::array<std::array<d
       for (std::size_t q = p + 1; q < N; ++q) {
         if (std::abs(a[p][q]) <= 1e-16 * std::sqrt(std::abs(a[p][p] * a[q][q]))) continue;
         const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-        const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1)), c = 1 / std::sqrt(t * t + 1), s = t * c;
+        const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1)),
+                     c = 1 / std::sqrt(t * t + 1), s = t * c;
         for (std::size_t i = 0; i < N; ++i) {
           const double x = a[i][p], y = a[i][q];
-          a[i][p] = c * x - s * y, a[i][q] = s * x + c * y;
+          a[i][p] = c * x - s * y;
+          a[i][q] = s * x + c * y;
         }
         for (std::size_t i = 0; i < N; ++i) {
           const double x = a[p][i], y = a[q][i];
-          a[p][i] = c * x - s * y, a[q][i] = s * x + c * y;
+          a[p][i] = c * x - s * y;
+          a[q][i] = s * x + c * y;
           const double u = vectors[i][p], v = vectors[i][q];
-          vectors[i][p] = c * u - s * v, vectors[i][q] = s * u + c * v;
+          vectors[i][p] = c * u - s * v;
+          vectors[i][q] = s * u + c * v;
         }
       }
   for (std::size_t i = 0; i < N; ++i) values[i] = a[i][i];

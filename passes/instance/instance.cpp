@@ -4,13 +4,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "passes/analysis/figures.h"
-#include "geometry/geometry.h"
 #include "base/hashing.h"
-#include "passes/instance/match.h"
+#include "geometry/geometry.h"
 #include "geometry/simplify/places.h"
+#include "passes/analysis/figures.h"
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
+#include "passes/instance/match.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -24,7 +24,13 @@ constexpr std::size_t most_compared = 16;  // groups of equal invariants that a 
 class Instancing {
  public:
   Instancing(Scene& scene, const InstanceOptions& options, PassContext& ctx)
-      : scene_(scene), options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, usage_(scene), textured_(textured_geometry(scene)) {}
+      : scene_(scene),
+        options_(options),
+        ctx_(ctx),
+        unheard_(ctx.diag.shared_sources()),
+        reading_{unheard_, unheard_counts_},
+        usage_(scene),
+        textured_(textured_geometry(scene)) {}
 
   Outcome run() {
     const auto before = figures_of(scene_);
@@ -120,7 +126,10 @@ void Instancing::choose() {
     const NodeId g = scene_.get(n, nodes::shape::geometry);
     if (!g || !may_share(g)) continue;
     auto& i = number[g.value];
-    if (!i) surfaces_.push_back({g, {}}), i = static_cast<std::uint32_t>(surfaces_.size());
+    if (!i) {
+      surfaces_.push_back({g, {}});
+      i = static_cast<std::uint32_t>(surfaces_.size());
+    }
     surfaces_[i - 1].shapes.push_back(n);
   }
   std::erase_if(surfaces_, [&](const ShapeSurface& s) { return s.shapes.size() != usage_.uses(s.geometry); });
@@ -142,7 +151,9 @@ std::vector<std::uint64_t> Instancing::cells(const Form& form, double tolerance,
     const double down = std::floor(v);
     const std::size_t n = out.size();
     for (std::size_t i = 0; i < n; ++i) {
-      if (all) out.push_back(mixed(out[i], static_cast<std::uint64_t>(static_cast<std::int64_t>(v - down < 0.5 ? down - 1 : down + 1))));
+      if (all)
+        out.push_back(
+            mixed(out[i], static_cast<std::uint64_t>(static_cast<std::int64_t>(v - down < 0.5 ? down - 1 : down + 1))));
       out[i] = mixed(out[i], static_cast<std::uint64_t>(static_cast<std::int64_t>(down)));
     }
   }
@@ -176,7 +187,8 @@ bool Instancing::is_worth(const Group& g) const {
   constexpr double transform = 150;
   double saved = 0;
   for (const Copy& c : g.copies)
-    saved += static_cast<double>(g.bytes) - (c.where == TransformFields{} ? 0 : transform * static_cast<double>(surfaces_[c.surface].shapes.size()));
+    saved += static_cast<double>(g.bytes) -
+             (c.where == TransformFields{} ? 0 : transform * static_cast<double>(surfaces_[c.surface].shapes.size()));
   return !g.copies.empty() && saved >= options_.min_saving;
 }
 
@@ -229,7 +241,10 @@ void Instancing::put(const ShapeSurface& surface, const TransformFields& where, 
 bool Instancing::replace(std::span<NodeId> list) const {
   bool any = false;
   for (NodeId& n : list)
-    if (auto t = n ? instead_.find(n.value) : instead_.end(); t != instead_.end()) n = t->second, any = true;
+    if (auto t = n ? instead_.find(n.value) : instead_.end(); t != instead_.end()) {
+      n = t->second;
+      any = true;
+    }
   return any;
 }
 
@@ -268,8 +283,12 @@ bool ScalingName::read(std::string_view text) {
   return false;
 }
 
-std::string ScalingName::print() const { return value == Scaling::none ? "none" : value == Scaling::uniform ? "uniform" : "axis"; }
+std::string ScalingName::print() const {
+  return value == Scaling::none ? "none" : value == Scaling::uniform ? "uniform" : "axis";
+}
 
-Outcome instance(Scene& scene, const InstanceOptions& options, PassContext& ctx) { return Instancing(scene, options, ctx).run(); }
+Outcome instance(Scene& scene, const InstanceOptions& options, PassContext& ctx) {
+  return Instancing(scene, options, ctx).run();
+}
 
 }  // namespace wrlkit

@@ -1,16 +1,18 @@
-// The same part in many places, written each time anew: found and written once. CAD exporters know no DEF and USE, and put
-// the coordinates of each bolt where it stands.
+// The same part in many places, written each time anew: found and written once. CAD exporters know no DEF and USE, and
+// put the coordinates of each bolt where it stands.
 //
-//   before   Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 2 0 ] } coordIndex [ 0 1 2 -1 ] } }
-//            Shape { geometry IndexedFaceSet { coord Coordinate { point [ 5 0 0, 5 1 0, 3 0 0 ] } coordIndex [ 0 1 2 -1 ] } }
+//   before   Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 2 0 ] } coordIndex [ 0 1 2 -1
+//   ] } }
+//            Shape { geometry IndexedFaceSet { coord Coordinate { point [ 5 0 0, 5 1 0, 3 0 0 ] } coordIndex [ 0 1 2 -1
+//            ] } }
 //   after    Shape { geometry DEF _1 IndexedFaceSet { ... } }
 //            Transform { translation 5 0 0 rotation 0 0 1 1.570796 children Shape { geometry USE _1 } }
 #pragma once
 #include <string>
 #include <string_view>
 
+#include "base/option_range.h"
 #include "passes/instance/form.h"
-#include "passes/pipeline/option_range.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
@@ -32,7 +34,8 @@ struct InstanceOptions {
 
   void fields(auto&& f) {
     f("tolerance", tolerance, "how far a point may be from where it was, in metres of the world", at_least(0));
-    f("scaling", scaling, "what a copy may be scaled by: none, one factor (uniform), or a factor along each of three axes (axis)");
+    f("scaling", scaling,
+      "what a copy may be scaled by: none, one factor (uniform), or a factor along each of three axes (axis)");
     f("mirror", mirror, "also mirror images, by a negative scale, which VRML97 does not have");
     f("named", named, "also where a Coordinate or the like has a DEF name, which is lost");
     f("min-saving", min_saving, "bytes that a group of equal parts has to save to be shared, as glTF counts them");
@@ -42,21 +45,26 @@ struct InstanceOptions {
 /// Shares geometry (IndexedFaceSet, IndexedLineSet, PointSet) that is the same but for a rotation, a translation and a
 /// scale: the first keeps its geometry, the Shapes of the others stand in a new Transform and USE it.
 ///
-/// - Found without names and in any order of faces, points and corners, with points shared or not. Meshes are compared by
+/// - Found without names and in any order of faces, points and corners, with points shared or not. Meshes are compared
+/// by
 ///   what a motion does not change (instance/form.h), then vertex by vertex (instance/match.h). Every corner is within
-///   `tolerance` of where it was, in the largest of its places; its colour is the same, its normal within 0.3 degrees, its
-///   texture coordinate within 0.00001. ccw, solid, convex and creaseAngle agree. `axis` finds only copies whose corners
-///   stand in the same order, and needs normals in the file or a creaseAngle of 0.
+///   `tolerance` of where it was, in the largest of its places; its colour is the same, its normal within 0.3 degrees,
+///   its texture coordinate within 0.00001. ccw, solid, convex and creaseAngle agree. `axis` finds only copies whose
+///   corners stand in the same order, and needs normals in the file or a creaseAngle of 0.
 /// - A mirror image has its faces the other way round, and a scale with a negative factor turns them.
-/// - Geometry far from its origin, where single precision is coarser than the tolerance, is moved to the origin, and its
+/// - Geometry far from its origin, where single precision is coarser than the tolerance, is moved to the origin, and
+/// its
 ///   own Shape gets a Transform, too.
-/// - Not worth it: what saves less than `min-saving` bytes over all copies. A vertex is 24 bytes, an index 2, a Transform 150.
+/// - Not worth it: what saves less than `min-saving` bytes over all copies. A vertex is 24 bytes, an index 2, a
+/// Transform 150.
 /// - The DEF name of a geometry goes to the Transform. Shapes keep theirs, and groups stay as they are.
-/// - Left alone: what a ROUTE, a Script or an IS touches; geometry with baked light; textures that lie by the extent of the
+/// - Left alone: what a ROUTE, a Script or an IS touches; geometry with baked light; textures that lie by the extent of
+/// the
 ///   geometry; Shapes that are held otherwise than by a group; bodies of prototypes.
 ///
-/// Run `weld`, and for one Shape a face `join`, before it. Counted: instance.groups, instance.copies (geometries that are no more),
-/// and figures.h. Names that go are said (names-lost). Expected linear in the corners, n log n where copies differ in their order.
+/// Run `weld`, and for one Shape a face `join`, before it. Counted: instance.groups, instance.copies (geometries that
+/// are no more), and figures.h. Names that go are said (names-lost). Expected linear in the corners, n log n where
+/// copies differ in their order.
 Outcome instance(Scene&, const InstanceOptions&, PassContext&);
 
 }  // namespace wrlkit

@@ -6,16 +6,21 @@
 namespace wrlkit::instancing {
 namespace {
 
-constexpr int most_attempts = 200;   // frames laid for one pair of meshes
-constexpr std::size_t most_likely = 64;  // corners that may be the first one of a frame
+constexpr int most_attempts = 200;                           // frames laid for one pair of meshes
+constexpr std::size_t most_likely = 64;                      // corners that may be the first one of a frame
 constexpr double same_direction = 0.005, same_place = 1e-5;  // of unit normals, of texture coordinates
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Vec3 times(const Vec3& a, double f) { return {a[0] * f, a[1] * f, a[2] * f}; }
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
-double distance2(const Vec3& a, const Vec3& b) { const Vec3 d = minus(a, b); return dot(d, d); }
+double distance2(const Vec3& a, const Vec3& b) {
+  const Vec3 d = minus(a, b);
+  return dot(d, d);
+}
 
 /// Columns: along p, square to it towards q, and square to both.
 std::optional<std::array<Vec3, 3>> frame(const Vec3& p, const Vec3& q, bool mirrored) {
@@ -62,16 +67,22 @@ Matrix normal_matrix(const Matrix& m) {
 std::uint64_t FaceGrid::cell(const Vec3& at, int dx, int dy, int dz) const {
   const int d[]{dx, dy, dz};
   std::uint64_t h = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    h = (h ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(std::floor(at[k] / (2 * near_)), -4e18, 4e18)) + d[k])) * 0x9e3779b97f4a7c15u, h ^= h >> 31;
+  for (std::size_t k = 0; k < 3; ++k) {
+    h = (h ^ static_cast<std::uint64_t>(
+                 static_cast<std::int64_t>(std::clamp(std::floor(at[k] / (2 * near_)), -4e18, 4e18)) + d[k])) *
+        0x9e3779b97f4a7c15u;
+    h ^= h >> 31;
+  }
   return h;
 }
 
 void FaceGrid::build(const Form& form, double near) {
   near_ = near;
   entries_.clear();
-  for (std::size_t f = 0; f < form.mesh->n_faces(); ++f) entries_.push_back({cell(face_centre(form, f), 0, 0, 0), static_cast<std::uint32_t>(f)});
-  std::ranges::sort(entries_, [](const Entry& a, const Entry& b) { return a.cell != b.cell ? a.cell < b.cell : a.face < b.face; });
+  for (std::size_t f = 0; f < form.mesh->n_faces(); ++f)
+    entries_.push_back({cell(face_centre(form, f), 0, 0, 0), static_cast<std::uint32_t>(f)});
+  std::ranges::sort(
+      entries_, [](const Entry& a, const Entry& b) { return a.cell != b.cell ? a.cell < b.cell : a.face < b.face; });
 }
 
 template <class F>
@@ -96,7 +107,8 @@ bool FaceGrid::any_near(const Vec3& at, F&& f) const {
 // ---- comparing -----------------------------------------------------------------------------------------------------
 
 std::optional<TransformFields> Matcher::match(const Form& from, const Form& to) {
-  from_ = &from, to_ = &to;
+  from_ = &from;
+  to_ = &to;
   if (from.at.size() != to.at.size() || from.mesh->n_faces() != to.mesh->n_faces()) return std::nullopt;
   if (auto done = in_order()) return done;
   return by_frames();
@@ -117,7 +129,8 @@ std::optional<TransformFields> Matcher::settle(const Pairs& pairs, bool mirrored
   for (std::size_t i = 0; i < pairs.size(); ++i) to[i] = to_->at[pairs[i]];
   const Matrix linear = fit(from_->at, to, options_.scaling, mirrored);
   if (!mirrored && linear.determinant() < 0) return std::nullopt;
-  if (!agree(translation_matrix(to_->centre) * linear * translation_matrix(times(from_->centre, -1)), pairs)) return std::nullopt;
+  if (!agree(translation_matrix(to_->centre) * linear * translation_matrix(times(from_->centre, -1)), pairs))
+    return std::nullopt;
   const double far = from_->reach + length(from_->centre);
   auto fields = in_few_digits(linear, from_->centre, to_->centre, far, options_.tolerance / 4);
   if (!agree(matrix_of(fields), pairs)) fields = in_few_digits(linear, from_->centre, to_->centre, far, 0);
@@ -132,7 +145,8 @@ bool Matcher::agree(const Matrix& m, const Pairs& pairs) const {
   const auto &a = *from_->mesh, &b = *to_->mesh;
   const Matrix normal = normal_matrix(m);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double *p = a.positions.data() + std::size_t{a.corners[i]} * 3, *q = b.positions.data() + std::size_t{b.corners[pairs[i]]} * 3;
+    const double *p = a.positions.data() + std::size_t{a.corners[i]} * 3,
+                 *q = b.positions.data() + std::size_t{b.corners[pairs[i]]} * 3;
     if (!(distance2(m.point({p[0], p[1], p[2]}), {q[0], q[1], q[2]}) <= allowed)) return false;
     if (!agree_in_attributes(normal, static_cast<std::uint32_t>(i), pairs[i])) return false;
   }
@@ -141,7 +155,9 @@ bool Matcher::agree(const Matrix& m, const Pairs& pairs) const {
 
 bool Matcher::agree_in_attributes(const Matrix& normal, std::uint32_t i, std::uint32_t k) const {
   const auto &a = *from_->mesh, &b = *to_->mesh;
-  if (a.color.present() && !std::equal(a.color.at(a.color.index[i]), a.color.at(a.color.index[i]) + a.color.width, b.color.at(b.color.index[k]))) return false;
+  if (a.color.present() && !std::equal(a.color.at(a.color.index[i]), a.color.at(a.color.index[i]) + a.color.width,
+                                       b.color.at(b.color.index[k])))
+    return false;
   if (a.texcoord.present()) {
     const float *p = a.texcoord.at(a.texcoord.index[i]), *q = b.texcoord.at(b.texcoord.index[k]);
     if (!(std::abs(p[0] - q[0]) <= same_place && std::abs(p[1] - q[1]) <= same_place)) return false;
@@ -179,7 +195,9 @@ std::optional<TransformFields> Matcher::by_frames() {
     }
     tried.clear();
     for (const Vec3& b : to_->at) {
-      if (std::abs(length(b) - rq) > near || std::abs(std::sqrt(distance2(a, b)) - d) > 2 * near || std::ranges::find(tried, b) != tried.end()) continue;
+      if (std::abs(length(b) - rq) > near || std::abs(std::sqrt(distance2(a, b)) - d) > 2 * near ||
+          std::ranges::find(tried, b) != tried.end())
+        continue;
       tried.push_back(b);
       if (auto done = try_frame(a, b, false)) return done;
       if (options_.mirror)
@@ -203,13 +221,20 @@ bool Matcher::choose_base() {
     std::optional<std::uint32_t> best;
     std::size_t fewest = 0;
     for (std::size_t i = 0, k = 0; i < all.size(); i = k) {
-      for (k = i + 1; k < all.size() && all[k].first - all[k - 1].first <= near; ++k) {}
-      if (!best || k - i <= fewest) best = all[i].second, fewest = k - i;  // of equals the farther one
+      for (k = i + 1; k < all.size() && all[k].first - all[k - 1].first <= near; ++k) {
+      }
+      if (!best || k - i <= fewest) {
+        best = all[i].second;
+        fewest = k - i;
+      }  // of equals the farther one
     }
     return best;
   };
   const double least = 0.3 * from_->reach;
-  auto first = rarest([&](const Vec3& p) { const double r = length(p); return r >= least ? std::optional(r) : std::nullopt; });
+  auto first = rarest([&](const Vec3& p) {
+    const double r = length(p);
+    return r >= least ? std::optional(r) : std::nullopt;
+  });
   if (!first) return false;
   base_[0] = *first;
   const Vec3 p = at[*first];
@@ -233,7 +258,8 @@ std::optional<TransformFields> Matcher::try_frame(const Vec3& p, const Vec3& q, 
   linear.m = {};
   for (std::size_t k = 0; k < 3; ++k)
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) linear(r, c) += factor_ * (*b)[k][static_cast<std::size_t>(r)] * (*a)[k][static_cast<std::size_t>(c)];
+      for (int c = 0; c < 3; ++c)
+        linear(r, c) += factor_ * (*b)[k][static_cast<std::size_t>(r)] * (*a)[k][static_cast<std::size_t>(c)];
   if (!pair_faces(linear, mirrored)) return std::nullopt;
   return settle(pairs_, mirrored);
 }
@@ -258,7 +284,9 @@ bool Matcher::pair_face(std::size_t a, std::size_t b, const Matrix& linear, bool
   const double allowed = grid_.near() * grid_.near();
   const std::size_t starts = m.kind == Mesh::Kind::faces ? n : 1;
   for (std::size_t start = 0; start < starts; ++start) {
-    auto counterpart = [&](std::size_t i) { return other + (mirrored && m.kind == Mesh::Kind::faces ? (start + n - i) % n : (start + i) % n); };
+    auto counterpart = [&](std::size_t i) {
+      return other + (mirrored && m.kind == Mesh::Kind::faces ? (start + n - i) % n : (start + i) % n);
+    };
     std::size_t i = 0;
     while (i < n && distance2(linear.point(from_->at[first + i]), to_->at[counterpart(i)]) <= allowed) ++i;
     if (i < n) continue;

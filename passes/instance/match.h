@@ -1,8 +1,9 @@
 // Is one mesh another one, moved? Found by vertices, not by principal axes: a cube or a bolt has any number of those.
 //
-// First the corners are taken in the order in which they stand, as exporters write copies. Where that fails, a frame is laid
-// through two corners of the first mesh, chosen such that few others are like them, and through each pair of the second that
-// could be theirs; a body with symmetries takes the first. Either way every corner of every face is compared in the end.
+// First the corners are taken in the order in which they stand, as exporters write copies. Where that fails, a frame is
+// laid through two corners of the first mesh, chosen such that few others are like them, and through each pair of the
+// second that could be theirs; a body with symmetries takes the first. Either way every corner of every face is
+// compared in the end.
 #pragma once
 #include <optional>
 

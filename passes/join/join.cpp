@@ -142,7 +142,9 @@ class Joining {
   Parts parts_of(NodeId geometry) const;
   bool has_opacity(NodeId g) const {
     const bool faces = scene_.is(g, nodes::IndexedFaceSet);
-    return scene_.is(faces ? scene_.get(g, nodes::indexed_face_set::color) : scene_.get(g, nodes::indexed_line_set::color), nodes::ColorRGBA);
+    return scene_.is(
+        faces ? scene_.get(g, nodes::indexed_face_set::color) : scene_.get(g, nodes::indexed_line_set::color),
+        nodes::ColorRGBA);
   }
   bool may_be_textured(NodeId appearance) const {
     return appearance &&

@@ -8,7 +8,8 @@
 //              Shape { appearance USE Steel geometry IndexedFaceSet { coord USE All coordIndex [ 2 1 3 -1 ] } } ] }
 //   after    Group { children
 //              Shape { appearance DEF Steel Appearance { ... }
-//                      geometry IndexedFaceSet { coord DEF All Coordinate { ... } coordIndex [ 0 1 2 -1 2 1 3 -1 ] } } }
+//                      geometry IndexedFaceSet { coord DEF All Coordinate { ... } coordIndex [ 0 1 2 -1 2 1 3 -1 ] } }
+//                      }
 #pragma once
 #include "passes/pipeline/pass.h"
 

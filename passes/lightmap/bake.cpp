@@ -59,27 +59,35 @@ std::vector<char> known_texels(const Page& page, const std::vector<char>& inside
   };
   for (std::size_t i = 0; i < page.size(); ++i)
     if (page.covered(i) && !inside[i]) lit(page.places[i].chart) = 1;
-  for (std::size_t i = 0; i < page.size(); ++i) known[i] = page.covered(i) && (!inside[i] || !lit(page.places[i].chart));
+  for (std::size_t i = 0; i < page.size(); ++i)
+    known[i] = page.covered(i) && (!inside[i] || !lit(page.places[i].chart));
   return known;
 }
 
-/// From what was summed, radiance times cosine times direction, to the mean direction of radiance that lightmapDirection is.
-/// Light from one direction has the same of both; light from all of a hemisphere 2/3 of its normal against 1/2. Between
-/// them we go straight. Means can be mixed with those of texels of other brightness. Light that no picture shows has none: processors
-/// may be set to take the smallest numbers for 0, and not all threads are alike in that.
+/// From what was summed, radiance times cosine times direction, to the mean direction of radiance that
+/// lightmapDirection is. Light from one direction has the same of both; light from all of a hemisphere 2/3 of its
+/// normal against 1/2. Between them we go straight. Means can be mixed with those of texels of other brightness. Light
+/// that no picture shows has none: processors may be set to take the smallest numbers for 0, and not all threads are
+/// alike in that.
 void make_directions(Estimate& whole) {
   constexpr float faint = 1e-6f;
   auto mean = [](float x, float y, float z, float all, float out[3]) {
     const float length = all > faint ? std::min(1.0f, std::sqrt(x * x + y * y + z * z) / all) : 0;
     const float scale = all > faint ? (0.75f + 0.75f * std::max(0.0f, length - 2.0f / 3)) / all : 0;
-    out[0] = x * scale, out[1] = y * scale, out[2] = z * scale;
+    out[0] = x * scale;
+    out[1] = y * scale;
+    out[2] = z * scale;
   };
   for (std::size_t i = 0; i < whole.light().size(); ++i) {
     Rgb &x = whole.layers[1][i], &y = whole.layers[2][i], &z = whole.layers[3][i];
     const Rgb& all = whole.light()[i];
     float r[3], g[3], b[3];
-    mean(x.r, y.r, z.r, all.r, r), mean(x.g, y.g, z.g, all.g, g), mean(x.b, y.b, z.b, all.b, b);
-    x = {r[0], g[0], b[0]}, y = {r[1], g[1], b[1]}, z = {r[2], g[2], b[2]};
+    mean(x.r, y.r, z.r, all.r, r);
+    mean(x.g, y.g, z.g, all.g, g);
+    mean(x.b, y.b, z.b, all.b, b);
+    x = {r[0], g[0], b[0]};
+    y = {r[1], g[1], b[1]};
+    z = {r[2], g[2], b[2]};
   }
 }
 
@@ -87,16 +95,21 @@ void make_directions(Estimate& whole) {
 std::vector<std::vector<Rgb>> directions(const Page& page, const PageLight& light, bool denoised) {
   if (light.along.empty()) return {};
   Estimate whole = light.direct;
-  for (std::size_t i = 0; i < page.size(); ++i) whole.light()[i] += light.gathered.light()[i], whole.variance[i] += light.gathered.variance[i];
+  for (std::size_t i = 0; i < page.size(); ++i) {
+    whole.light()[i] += light.gathered.light()[i];
+    whole.variance[i] += light.gathered.variance[i];
+  }
   std::ranges::copy(light.along, std::back_inserter(whole.layers));
   if (denoised) denoise(page, whole);
   make_directions(whole);
   return {std::make_move_iterator(whole.layers.begin() + 1), std::make_move_iterator(whole.layers.end())};
 }
 
-BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, const PageBaker& from, const BakeOptions& options, Statistics& stats) {
+BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, const PageBaker& from,
+                 const BakeOptions& options, Statistics& stats) {
   lighten_cut_off(page, light, inside, from.world());
-  const auto n_texels = static_cast<std::size_t>(std::ranges::count_if(page.places, [](const Place& p) { return p.chart != Place::nowhere; }));
+  const auto n_texels = static_cast<std::size_t>(
+      std::ranges::count_if(page.places, [](const Place& p) { return p.chart != Place::nowhere; }));
   stats["lightmap.texels"] += n_texels;
   for (std::size_t i = 0; i < page.size(); ++i) {
     stats["lightmap.inside"] += inside[i];
@@ -115,7 +128,8 @@ BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, co
   auto dark = dark_uses(from.page(), chart, layers[0]);
   for (auto& layer : layers) fill(layer, known, page.width, page.height);
   BakedPage out{{page.width, page.height, std::move(layers[0]), inside}, {}, n_texels, std::move(dark)};
-  for (std::size_t l = 1; l < layers.size(); ++l) out.direction.push_back({page.width, page.height, std::move(layers[l]), {}});
+  for (std::size_t l = 1; l < layers.size(); ++l)
+    out.direction.push_back({page.width, page.height, std::move(layers[l]), {}});
   return out;
 }
 
@@ -124,11 +138,16 @@ TexelLight mean(const TexelLight& a, const TexelLight& b) {
   if (a.site != b.site) return a.site == Site::open || (a.site == Site::pierced && b.site != Site::open) ? a : b;
   TexelLight out = a;
   auto mix = [](Rgb& x, const Rgb& y) { x = 0.5f * (x + y); };
-  mix(out.direct, b.direct), mix(out.gathered, b.gathered);
+  mix(out.direct, b.direct);
+  mix(out.gathered, b.gathered);
   for (int k = 0; k < 3; ++k) mix(out.along[k], b.along[k]);
-  out.direct_apart = 0.5f * (a.direct - b.direct), out.gathered_apart = 0.5f * (a.gathered - b.gathered);
-  auto square = [](float v) { return v * v; };  // it knows what a lattice saves, and what lies between the points of a texel
-  out.direct_variance = square(luminance(out.direct_apart)), out.gathered_variance = square(luminance(out.gathered_apart));
+  out.direct_apart = 0.5f * (a.direct - b.direct);
+  out.gathered_apart = 0.5f * (a.gathered - b.gathered);
+  auto square = [](float v) {
+    return v * v;
+  };  // it knows what a lattice saves, and what lies between the points of a texel
+  out.direct_variance = square(luminance(out.direct_apart));
+  out.gathered_variance = square(luminance(out.gathered_apart));
   return out;
 }
 
@@ -136,10 +155,12 @@ std::string title_of_page(const std::string& title, std::size_t page, std::size_
   return n_pages == 1 ? title : title + ", page " + std::to_string(page + 1) + " of " + std::to_string(n_pages);
 }
 
-/// Light comes in rounds: one for all texels or, where an error is asked for, as many as it takes, each with as many rays as those before it.
+/// Light comes in rounds: one for all texels or, where an error is asked for, as many as it takes, each with as many
+/// rays as those before it.
 class Rounds {
  public:
-  Rounds(const light::Integrator& integrator, Checkpoint& checkpoint, const BakeOptions& options, std::uint64_t n_tiles, PassContext& ctx)
+  Rounds(const light::Integrator& integrator, Checkpoint& checkpoint, const BakeOptions& options, std::uint64_t n_tiles,
+         PassContext& ctx)
       : integrator_(integrator), checkpoint_(checkpoint), options_(options), n_tiles_(n_tiles), ctx_(ctx) {}
 
   /// `first` is the number of the page's first tile.
@@ -157,7 +178,8 @@ class Rounds {
       for (std::size_t i = 0; i < chosen.size(); ++i) next[i] &= chosen[i];
       chosen = std::move(next);
       if (std::ranges::find(chosen, 1) == chosen.end()) break;
-      run(from, first, round, {static_cast<std::uint32_t>(rays << (round - 1)), rays << (round - 1)}, chosen, [&](const TexelLight& t) { add(t, page, light, inside, halves); });
+      run(from, first, round, {static_cast<std::uint32_t>(rays << (round - 1)), rays << (round - 1)}, chosen,
+          [&](const TexelLight& t) { add(t, page, light, inside, halves); });
     }
     return finish(std::move(page), std::move(light), inside, from, options_, ctx_.stats);
   }
@@ -167,8 +189,11 @@ class Rounds {
 
   /// Calls f(texel) for the chosen texels of all tiles of a page.
   template <class F>
-  void run(PageBaker& from, std::uint64_t first, std::uint32_t number_of_round, const light::Integrator::Round& round, const std::vector<char>& chosen, F&& f) {
-    if (ctx_.monitor) ctx_.monitor->begin(number_of_round ? name_ + ", round " + std::to_string(number_of_round + 1) : name_, from.n_tiles(), "tiles");
+  void run(PageBaker& from, std::uint64_t first, std::uint32_t number_of_round, const light::Integrator::Round& round,
+           const std::vector<char>& chosen, F&& f) {
+    if (ctx_.monitor)
+      ctx_.monitor->begin(number_of_round ? name_ + ", round " + std::to_string(number_of_round + 1) : name_,
+                          from.n_tiles(), "tiles");
     for (std::size_t tile = 0; tile < from.n_tiles(); ++tile) {
       const std::uint64_t number = number_of_round * n_tiles_ + first + tile;
       std::vector<TexelLight> texels;
@@ -185,9 +210,11 @@ class Rounds {
   }
 
   /// Two estimates, each with half of the rays, tell of an error that is asked for.
-  std::vector<TexelLight> gather(const PageBaker& from, const std::vector<Point>& points, std::uint64_t number, const light::Integrator::Round& round) {
+  std::vector<TexelLight> gather(const PageBaker& from, const std::vector<Point>& points, std::uint64_t number,
+                                 const light::Integrator::Round& round) {
     auto ask = [&](std::uint64_t half, std::uint32_t share) {
-      const auto light = integrator_.irradiance(points, number + (half << 48), {round.first / share, round.rays / int(share), from.numbers()});
+      const auto light = integrator_.irradiance(points, number + (half << 48),
+                                                {round.first / share, round.rays / int(share), from.numbers()});
       for (const auto& l : light) ctx_.stats["lightmap.rays"] += l.rays;
       return from.gather(light);
     };
@@ -200,10 +227,15 @@ class Rounds {
 
   void take(const TexelLight& t, Page& page, PageLight& light, std::vector<char>& inside, Halves& halves) {
     const auto i = page.at(t.x, t.y);
-    light.direct.light()[i] = t.direct, light.direct.variance[i] = t.direct_variance;
-    light.gathered.light()[i] = t.gathered, light.gathered.variance[i] = t.gathered_variance;
+    light.direct.light()[i] = t.direct;
+    light.direct.variance[i] = t.direct_variance;
+    light.gathered.light()[i] = t.gathered;
+    light.gathered.variance[i] = t.gathered_variance;
     for (std::size_t l = 0; l < light.along.size(); ++l) light.along[l][i] = t.along[l];
-    if (!halves.direct.empty()) halves.direct[i] = t.direct_apart, halves.gathered[i] = t.gathered_apart;
+    if (!halves.direct.empty()) {
+      halves.direct[i] = t.direct_apart;
+      halves.gathered[i] = t.gathered_apart;
+    }
     page.places[i] = {t.chart, t.position, t.normal};
     inside[i] = t.site != Site::open;
     ctx_.stats["lightmap.leaks"] += t.site == Site::pierced;
@@ -214,7 +246,8 @@ class Rounds {
     const auto i = page.at(t.x, t.y);
     const bool open = t.site == Site::open;
     if (!open && !inside[i]) return;
-    const float share = open && inside[i] ? 1 : 0.5f;  // what was within something as far as few rays told may be in the open
+    const float share =
+        open && inside[i] ? 1 : 0.5f;  // what was within something as far as few rays told may be in the open
     auto mix = [&](Rgb& mean, const Rgb& more) { mean = (1 - share) * mean + share * more; };
     auto join = [&](Estimate& mean, const Rgb& more, float variance) {
       mix(mean.light()[i], more);
@@ -222,7 +255,8 @@ class Rounds {
     };
     join(light.direct, t.direct, t.direct_variance);
     join(light.gathered, t.gathered, t.gathered_variance);
-    mix(halves.direct[i], t.direct_apart), mix(halves.gathered[i], t.gathered_apart);
+    mix(halves.direct[i], t.direct_apart);
+    mix(halves.gathered[i], t.gathered_apart);
     for (std::size_t l = 0; l < light.along.size(); ++l) mix(light.along[l][i], t.along[l]);
     inside[i] = !open;
   }
@@ -238,12 +272,13 @@ class Rounds {
   const BakeOptions& options_;
   std::uint64_t n_tiles_;
   PassContext& ctx_;
-  std::string name_;                 // of the page
+  std::string name_;  // of the page
 };
 
 }  // namespace
 
-std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world, const BakeOptions& options, PassContext& ctx) {
+std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world,
+                            const BakeOptions& options, PassContext& ctx) {
   std::vector<PageBaker> bakers;
   std::uint64_t n_tiles = 0;
   for (const auto& p : layout.pages()) n_tiles += bakers.emplace_back(parts, p, world, options.directional).n_tiles();
@@ -255,9 +290,11 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   std::vector<BakedPage> out;
   std::uint64_t first = 0;
   for (std::size_t p = 0; p < bakers.size(); first += bakers[p++].n_tiles())
-    out.push_back(rounds.bake(bakers[p], first, layout.pages()[p].width, layout.pages()[p].height, title_of_page(options.title, p, bakers.size())));
+    out.push_back(rounds.bake(bakers[p], first, layout.pages()[p].width, layout.pages()[p].height,
+                              title_of_page(options.title, p, bakers.size())));
 
-  if (checkpoint.error()) ctx.diag.report(Diag::cannot_write, {}, options.checkpoint, std::generic_category().message(checkpoint.error()));
+  if (checkpoint.error())
+    ctx.diag.report(Diag::cannot_write, {}, options.checkpoint, std::generic_category().message(checkpoint.error()));
   std::vector<Canvas> light;
   for (auto& p : out) light.push_back(std::move(p.light));
   const SeamReport seams = close_seams(light, layout.seams());

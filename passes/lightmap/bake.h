@@ -1,4 +1,5 @@
-// Light for every texel of every page: points of the surface are lit, noise is taken out, cuts are closed, gaps are filled.
+// Light for every texel of every page: points of the surface are lit, noise is taken out, cuts are closed, gaps are
+// filled.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,28 +11,30 @@
 namespace wrlkit::bake {
 
 struct BakeOptions {
-  int samples = 4;                       // points a texel
-  int rays = 16;                         // a point, even; where an error is asked for, for a start
-  light::IntegratorOptions integrator;   // its rays tell how good the cache must be
-  double error = 0;                      // relative standard error that is wanted of what is shown, after denoising; 0: none
+  int samples = 4;                      // points a texel
+  int rays = 16;                        // a point, even; where an error is asked for, for a start
+  light::IntegratorOptions integrator;  // its rays tell how good the cache must be
+  double error = 0;  // relative standard error that is wanted of what is shown, after denoising; 0: none
   bool directional = false;
   bool denoise = true;
-  std::string title = "lightmap";        // of what a Monitor is told
-  std::string checkpoint;                // file in which finished tiles are kept, and stay; empty: none
+  std::string title = "lightmap";  // of what a Monitor is told
+  std::string checkpoint;          // file in which finished tiles are kept, and stay; empty: none
 };
 
 /// Pictures of a page, linear, row 0 the lowest.
 struct BakedPage {
-  Canvas light;                          // irradiance / pi
-  std::vector<Canvas> direction;         // mean direction of the light: X, Y and Z, each from -1 to 1 for red, green and blue
-  std::size_t n_texels = 0;              // that lie on faces
+  Canvas light;                   // irradiance / pi
+  std::vector<Canvas> direction;  // mean direction of the light: X, Y and Z, each from -1 to 1 for red, green and blue
+  std::size_t n_texels = 0;       // that lie on faces
   std::vector<DarkUse> dark;
 };
 
-/// One for each page of the layout. `world` must have been made of the stage that the layout's uses refer to. Statistics:
-/// lightmap.texels (covered), .samples, .rays, .inside (texels whose points lie within something, filled from their
-/// neighbours), .leaks (those of them on which a lamp shines, or a surface outside, though backs are all around), .black (texels in the open that no
-/// light reaches), .holes (those of them amid lit ones), .seam-places and .jumps (SeamReport). The same for any number of threads, and after an interruption.
-std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world, const BakeOptions& options, PassContext& ctx);
+/// One for each page of the layout. `world` must have been made of the stage that the layout's uses refer to.
+/// Statistics: lightmap.texels (covered), .samples, .rays, .inside (texels whose points lie within something, filled
+/// from their neighbours), .leaks (those of them on which a lamp shines, or a surface outside, though backs are all
+/// around), .black (texels in the open that no light reaches), .holes (those of them amid lit ones), .seam-places and
+/// .jumps (SeamReport). The same for any number of threads, and after an interruption.
+std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world,
+                            const BakeOptions& options, PassContext& ctx);
 
 }  // namespace wrlkit::bake

@@ -1,5 +1,5 @@
-// What was baked when the work was cut off: a file to which each finished tile is appended, so that the next run goes on
-// from there, whatever ended the last one.
+// What was baked when the work was cut off: a file to which each finished tile is appended, so that the next run goes
+// on from there, whatever ended the last one.
 //
 //   "wrlkit bake\n" key(8)   then for each tile: number(8) size(8) checksum(8) bytes
 //
@@ -16,8 +16,8 @@ namespace wrlkit::bake {
 
 class Checkpoint {
  public:
-  /// Opens or makes the file; no path: nothing is kept. Tiles of a file with another key are forgotten: they are of other
-  /// work. Throws std::system_error when the file cannot be written.
+  /// Opens or makes the file; no path: nothing is kept. Tiles of a file with another key are forgotten: they are of
+  /// other work. Throws std::system_error when the file cannot be written.
   Checkpoint(const std::string& path, std::uint64_t key);
 
   /// What a tile was when it was saved; null when it was not. Good as long as this object lives.

@@ -40,7 +40,8 @@ void take_means(const std::vector<Pair>& pairs, std::vector<T>& values) {
 
 }  // namespace
 
-bool is_cut_off(const light::LightWorld& world, Shade shade, const V3& a, const V3& b, const V3& normal_a, const V3& normal_b) {
+bool is_cut_off(const light::LightWorld& world, Shade shade, const V3& a, const V3& b, const V3& normal_a,
+                const V3& normal_b) {
   constexpr double lift = 0.002;       // of the way: above what few bits of a coordinate make of a plane
   constexpr double least_slope = 0.1;  // sine of the angle between what crosses and the way
   constexpr int most = 8;
@@ -52,7 +53,9 @@ bool is_cut_off(const light::LightWorld& world, Shade shade, const V3& a, const 
   drawing::Hit hit;
   double after = 0;
   for (int i = 0; i < most && world.nearest(ray, after, hit) && hit.distance < length(along); ++i, after = hit.distance)
-    if (world.is_clear(hit.use) == (shade == Shade::dim) && std::fabs(dot(unit(hit.across), ray.direction)) > least_slope) return true;
+    if (world.is_clear(hit.use) == (shade == Shade::dim) &&
+        std::fabs(dot(unit(hit.across), ray.direction)) > least_slope)
+      return true;
   return false;
 }
 
@@ -62,7 +65,8 @@ Shade shade_beside(float light, float other) {
   return light <= dark * other ? Shade::dark : Shade::dim;
 }
 
-void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>& inside, const light::LightWorld& world) {
+void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>& inside,
+                     const light::LightWorld& world) {
   std::vector<Pair> pairs;
   const V3 centre = world.centre();
   for (int y = 0; y < page.height; ++y)
@@ -73,11 +77,16 @@ void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>
       each_beside(page, inside, x, y, [&](std::size_t j) {
         const Place& other = page.places[j];
         const Shade shade = shade_beside(luminance(light.at(i)), luminance(light.at(j)));
-        if (shade != Shade::none && is_cut_off(world, shade, centre + v3(other.position), centre + v3(own.position), v3(other.normal), v3(own.normal))) pairs.push_back({i, j});
+        if (shade != Shade::none && is_cut_off(world, shade, centre + v3(other.position), centre + v3(own.position),
+                                               v3(other.normal), v3(own.normal)))
+          pairs.push_back({i, j});
       });
     }
   if (pairs.empty()) return;
-  for (Estimate* e : {&light.direct, &light.gathered}) take_means(pairs, e->light()), take_means(pairs, e->variance);
+  for (Estimate* e : {&light.direct, &light.gathered}) {
+    take_means(pairs, e->light());
+    take_means(pairs, e->variance);
+  }
   for (auto& layer : light.along) take_means(pairs, layer);
 }
 

@@ -6,7 +6,8 @@
 
 namespace wrlkit::bake {
 
-std::vector<DarkUse> dark_uses(const PageLayout& page, std::span<const std::uint32_t> charts, std::span<const Rgb> light) {
+std::vector<DarkUse> dark_uses(const PageLayout& page, std::span<const std::uint32_t> charts,
+                               std::span<const Rgb> light) {
   constexpr float black = 1.5e-4f;  // linear; half a step of 8 bits
   struct Count {
     std::size_t texels = 0, lit = 0;

@@ -11,12 +11,13 @@
 namespace wrlkit::bake {
 
 struct DarkUse {
-  std::uint32_t use;                     // into Stage::uses
+  std::uint32_t use;  // into Stage::uses
   std::size_t n_texels;
 };
 
-/// The uses on a page of which a hundredth of the texels, at the most, is brighter than what 8 bits show as black; by use. `charts`: of each
-/// texel, PlacedTriangle::chart or Place::nowhere. Linear.
-std::vector<DarkUse> dark_uses(const PageLayout& page, std::span<const std::uint32_t> charts, std::span<const Rgb> light);
+/// The uses on a page of which a hundredth of the texels, at the most, is brighter than what 8 bits show as black; by
+/// use. `charts`: of each texel, PlacedTriangle::chart or Place::nowhere. Linear.
+std::vector<DarkUse> dark_uses(const PageLayout& page, std::span<const std::uint32_t> charts,
+                               std::span<const Rgb> light);
 
 }  // namespace wrlkit::bake

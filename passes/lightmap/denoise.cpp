@@ -9,7 +9,8 @@ namespace wrlkit::bake {
 namespace {
 
 constexpr float nothing = 1e-6f;  // of noise. Numbers so small that some threads take them for 0 are far below
-/// Few rays to lamps may all miss what stands between, and tell of no noise. So much of the variance of the rest is believed of them, too.
+/// Few rays to lamps may all miss what stands between, and tell of no noise. So much of the variance of the rest is
+/// believed of them, too.
 constexpr float untold = 0.25f;
 constexpr float spline[3] = {3.0f / 8, 1.0f / 4, 1.0f / 16};  // the B3 spline, from its middle
 
@@ -47,7 +48,9 @@ std::vector<Pair> means(const Page& page, const std::vector<Pair>& of, int step)
           const int u = std::clamp(x + dx, 0, page.width - 1), v = std::clamp(y + dy, 0, page.height - 1);
           const std::size_t j = page.at(u, v);
           const float w = (dx ? 0.25f : 0.5f) * (dy ? 0.25f : 0.5f) * likeness(page.places[i], page.places[j]);
-          light += w * of[j].light, noise += w * of[j].noise, weights += w;
+          light += w * of[j].light;
+          noise += w * of[j].noise;
+          weights += w;
         }
       out[i] = {light / weights, noise / weights};
     }
@@ -55,7 +58,8 @@ std::vector<Pair> means(const Page& page, const std::vector<Pair>& of, int step)
   return out;
 }
 
-/// What tells noise from light: luminance and the standard deviation of it, over the texels around, as those of one texel are guesses.
+/// What tells noise from light: luminance and the standard deviation of it, over the texels around, as those of one
+/// texel are guesses.
 std::vector<Pair> guide(const Page& page, const Estimate& estimate) {
   std::vector<Pair> own(page.size());
   for (std::size_t i = 0; i < page.size(); ++i) own[i] = {luminance(estimate.light()[i]), estimate.variance[i]};
@@ -66,7 +70,8 @@ std::vector<Pair> guide(const Page& page, const Estimate& estimate) {
 
 class Filter {
  public:
-  Filter(const Page& page, const Estimate& estimate, int step, float contrast) : page_(page), estimate_(estimate), guide_(guide(page, estimate)), step_(step), contrast_(contrast) {}
+  Filter(const Page& page, const Estimate& estimate, int step, float contrast)
+      : page_(page), estimate_(estimate), guide_(guide(page, estimate)), step_(step), contrast_(contrast) {}
 
   /// Weighted means around a texel, and the variance that is left of the light.
   void at(int x, int y, std::vector<std::vector<Rgb>>& layers, float& variance) const {
@@ -105,8 +110,8 @@ class Filter {
   float contrast_;
 };
 
-/// What was taken out is noise, or light that changes from texel to texel, such as the edge of a shadow. Noise is as much as the variance says,
-/// and the share that is more than that comes back (the filter of Wiener).
+/// What was taken out is noise, or light that changes from texel to texel, such as the edge of a shadow. Noise is as
+/// much as the variance says, and the share that is more than that comes back (the filter of Wiener).
 void give_back(const Page& page, const Estimate& noisy, Estimate& filtered) {
   std::vector<Pair> taken(page.size());
   for (std::size_t i = 0; i < page.size(); ++i) {
@@ -117,7 +122,8 @@ void give_back(const Page& page, const Estimate& noisy, Estimate& filtered) {
   for (std::size_t i = 0; i < page.size(); ++i) {
     if (!(taken[i].light > std::max(taken[i].noise, nothing * nothing))) continue;
     const float back = 1 - taken[i].noise / taken[i].light;
-    for (std::size_t l = 0; l < filtered.layers.size(); ++l) filtered.layers[l][i] = (1 - back) * filtered.layers[l][i] + back * noisy.layers[l][i];
+    for (std::size_t l = 0; l < filtered.layers.size(); ++l)
+      filtered.layers[l][i] = (1 - back) * filtered.layers[l][i] + back * noisy.layers[l][i];
   }
 }
 
@@ -144,7 +150,8 @@ void denoise(const Page& page, Estimate& estimate, const DenoiseOptions& options
 std::vector<Rgb> shown_light(const Page& page, Estimate direct, Estimate gathered, bool denoised) {
   if (denoised) {
     for (std::size_t i = 0; i < page.size(); ++i) direct.variance[i] += untold * gathered.variance[i];
-    denoise(page, direct), denoise(page, gathered);
+    denoise(page, direct);
+    denoise(page, gathered);
   }
   for (std::size_t i = 0; i < page.size(); ++i) direct.light()[i] += gathered.light()[i];
   return std::move(direct.light());

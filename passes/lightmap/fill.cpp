@@ -23,9 +23,15 @@ Layer half(const Layer& from) {
       Rgb sum;
       int n = 0;
       for (int k = 0; k < 4; ++k)
-        if (std::size_t i = from.at(2 * x + k % 2, 2 * y + k / 2); from.known[i]) sum += from.texels[i], ++n;
+        if (std::size_t i = from.at(2 * x + k % 2, 2 * y + k / 2); from.known[i]) {
+          sum += from.texels[i];
+          ++n;
+        }
       const std::size_t i = to.at(x, y);
-      if (n) to.texels[i] = (1.0f / n) * sum, to.known[i] = 1;
+      if (n) {
+        to.texels[i] = (1.0f / n) * sum;
+        to.known[i] = 1;
+      }
     }
   return to;
 }
@@ -41,12 +47,16 @@ void each_neighbour(std::size_t i, std::span<const std::uint32_t> chart, int wid
 
 }  // namespace
 
-void fill_charts(std::span<std::vector<Rgb>> layers, std::vector<char>& known, std::span<const std::uint32_t> chart, std::uint32_t no_chart, int width, int height) {
+void fill_charts(std::span<std::vector<Rgb>> layers, std::vector<char>& known, std::span<const std::uint32_t> chart,
+                 std::uint32_t no_chart, int width, int height) {
   enum : char { unknown, is_known, waits };
   std::vector<std::size_t> border, next;
   auto add_around = [&](std::size_t i) {
     each_neighbour(i, chart, width, height, [&](std::size_t j) {
-      if (known[j] == unknown) known[j] = waits, next.push_back(j);
+      if (known[j] == unknown) {
+        known[j] = waits;
+        next.push_back(j);
+      }
     });
   };
   for (std::size_t i = 0; i < known.size(); ++i)
@@ -59,7 +69,10 @@ void fill_charts(std::span<std::vector<Rgb>> layers, std::vector<char>& known, s
         Rgb sum;
         int n = 0;
         each_neighbour(i, chart, width, height, [&](std::size_t j) {
-          if (known[j] == is_known) sum += layer[j], ++n;
+          if (known[j] == is_known) {
+            sum += layer[j];
+            ++n;
+          }
         });
         layer[i] = (1.0f / static_cast<float>(n)) * sum;
       }

@@ -9,13 +9,15 @@
 
 namespace wrlkit::bake {
 
-/// Charts go on where something covers them: every texel of a chart with `known[i] == 0` becomes known, in each layer the mean of its
-/// known neighbours in that chart, those beside them first. `chart` is by texel. Charts without a known texel stay unknown. O(texels).
-void fill_charts(std::span<std::vector<Rgb>> layers, std::vector<char>& known, std::span<const std::uint32_t> chart, std::uint32_t no_chart, int width, int height);
+/// Charts go on where something covers them: every texel of a chart with `known[i] == 0` becomes known, in each layer
+/// the mean of its known neighbours in that chart, those beside them first. `chart` is by texel. Charts without a known
+/// texel stay unknown. O(texels).
+void fill_charts(std::span<std::vector<Rgb>> layers, std::vector<char>& known, std::span<const std::uint32_t> chart,
+                 std::uint32_t no_chart, int width, int height);
 
-/// Gives every texel with `known[i] == 0` a colour: the mean of the known ones around it, at the finest scale that has any
-/// (pull and push over halved pictures; Gortler et al. 1996). Known texels stay. Without any known one all is black.
-/// O(texels).
+/// Gives every texel with `known[i] == 0` a colour: the mean of the known ones around it, at the finest scale that has
+/// any (pull and push over halved pictures; Gortler et al. 1996). Known texels stay. Without any known one all is
+/// black. O(texels).
 void fill(std::vector<Rgb>& texels, const std::vector<char>& known, int width, int height);
 
 }  // namespace wrlkit::bake

@@ -4,10 +4,10 @@
 #include <unordered_set>
 
 #include "geometry/geometry.h"
+#include "light/patches/patch_lightmap.h"
 #include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/parts.h"
 #include "passes/lightmap/store.h"
-#include "light/patches/patch_lightmap.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::bake {
@@ -42,7 +42,9 @@ std::vector<float> coords_of(const Part& part, const ShapePicture& shape, const 
       const V3 p = part.position(3 * t + k);
       auto distance = [&](int c) { return length(pool.position(mesh, of, c) + mesh.origin - p); };
       const int corners[] = {0, 1, 2};
-      const auto& place = (back ? shape.back : shape.front)[of][static_cast<std::size_t>(*std::ranges::min_element(corners, {}, distance))];
+      const auto& place =
+          (back ? shape.back
+                : shape.front)[of][static_cast<std::size_t>(*std::ranges::min_element(corners, {}, distance))];
       out.insert(out.end(), place.begin(), place.end());
     }
   }
@@ -51,7 +53,8 @@ std::vector<float> coords_of(const Part& part, const ShapePicture& shape, const 
 
 }  // namespace
 
-bool light_from_patches(Scene& scene, const light::LightWorld& world, const PatchSet& patches, const FromPatchesOptions& options, PassContext& ctx) {
+bool light_from_patches(Scene& scene, const light::LightWorld& world, const PatchSet& patches,
+                        const FromPatchesOptions& options, PassContext& ctx) {
   light::PatchLightmapOptions how;
   how.smooth = options.smooth;
   how.without_color = true;
@@ -78,7 +81,8 @@ bool light_from_patches(Scene& scene, const light::LightWorld& world, const Patc
       if (coords.empty()) continue;
       const NodeId node = world.stage().uses[use].shape;
       NodeId geometry = part.geometry;
-      if (!taken.insert(geometry.value).second) scene.set(node, nodes::shape::geometry, geometry = copy_of(scene, geometry));
+      if (!taken.insert(geometry.value).second)
+        scene.set(node, nodes::shape::geometry, geometry = copy_of(scene, geometry));
       storing.place(part, coords, geometry);
       storing.light(node, {static_cast<std::uint32_t>(shape - made.shapes.begin())}, {});
       ++ctx.stats["lightmap.shapes"];

@@ -50,9 +50,16 @@ bool is_smooth(const Part& p, std::uint32_t c0, std::uint32_t c1, std::uint32_t 
 }  // namespace
 
 Layout::Layout(const std::vector<Part>& parts, const LayoutOptions& options)
-    : parts_(parts), options_(options), items_(parts.size()), piece_unit_(parts.size(), 1), density_(options.density > 0 ? options.density : 1) {
-  if (options_.density > 0) density_ = possible_density(), pack_all();
-  else pack(0, parts_.size(), options_.side);
+    : parts_(parts),
+      options_(options),
+      items_(parts.size()),
+      piece_unit_(parts.size(), 1),
+      density_(options.density > 0 ? options.density : 1) {
+  if (options_.density > 0) {
+    density_ = possible_density();
+    pack_all();
+  } else
+    pack(0, parts_.size(), options_.side);
   measure_pieces();
   place_triangles();
 }
@@ -70,11 +77,12 @@ double Layout::texels(std::size_t part) const {
   return area * p.density * p.density * static_cast<double>(p.uses.size());
 }
 
-/// As was asked for, unless there would be more texels than memory can be expected for. A surface that is larger than a page
-/// will not have so many as it counts for here.
+/// As was asked for, unless there would be more texels than memory can be expected for. A surface that is larger than a
+/// page will not have so many as it counts for here.
 double Layout::possible_density() const {
   double sum = 0, wish = options_.density, page = usual_fill * options_.side * options_.side;
-  for (std::size_t i = 0; i < parts_.size(); ++i) sum += std::min(wish * wish * texels(i), page * static_cast<double>(parts_[i].uses.size()));
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    sum += std::min(wish * wish * texels(i), page * static_cast<double>(parts_[i].uses.size()));
   return wish * std::min(1.0, std::sqrt(usual_fill * most_texels / sum));
 }
 
@@ -83,8 +91,12 @@ Layout::Coarse Layout::coarse() const {
   Coarse out{0, 1};
   for (std::size_t i = 0; i < parts_.size() && options_.density > 0; ++i) {
     double least = 1;
-    for (const Placement& c : items_[i].charts) least = std::min(least, c.scale / (options_.density * parts_[i].density));
-    if (least < enough) out.n_shapes += parts_[i].uses.size(), out.least = std::min(out.least, least);
+    for (const Placement& c : items_[i].charts)
+      least = std::min(least, c.scale / (options_.density * parts_[i].density));
+    if (least < enough) {
+      out.n_shapes += parts_[i].uses.size();
+      out.least = std::min(out.least, least);
+    }
   }
   return out;
 }
@@ -100,15 +112,16 @@ void Layout::pack_all() {
   }
 }
 
-/// A part that has more charts than a page has texels, or than fit on one in a piece of which there are copies, gets a larger page.
+/// A part that has more charts than a page has texels, or than fit on one in a piece of which there are copies, gets a
+/// larger page.
 int Layout::larger(int side) const {
   constexpr int most_side = 32768;
   if (side >= most_side) throw std::length_error("a surface has more charts than the largest page has texels");
   return side ? 2 * side : options_.side;
 }
 
-/// A Shape has one lightmap: where the charts of a part are not all on one page, fewer parts are tried together, and what
-/// does not fit alone gets fewer texels.
+/// A Shape has one lightmap: where the charts of a part are not all on one page, fewer parts are tried together, and
+/// what does not fit alone gets fewer texels.
 void Layout::pack(std::size_t begin, std::size_t end, int side) {
   std::vector<unwrap::PackItem> items;
   for (std::size_t i = begin; i < end; ++i) items.push_back(item(i));
@@ -136,7 +149,8 @@ void Layout::measure_pieces() {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (items_[i].copies.empty()) continue;
     for (std::size_t c = 0; c < parts_[i].mesh.corners.size(); ++c) {
-      const Point2 p = items_[i].charts[parts_[i].charts.chart_of[c / 3]].apply({parts_[i].charts.places[c].x, parts_[i].charts.places[c].y});
+      const Point2 p = items_[i].charts[parts_[i].charts.chart_of[c / 3]].apply(
+          {parts_[i].charts.places[c].x, parts_[i].charts.places[c].y});
       piece_unit_[i] = std::max({piece_unit_[i], p.x, p.y});
     }
   }
@@ -162,7 +176,8 @@ void Layout::place_triangles() {
           const std::uint32_t t = p.charts.triangles[j];
           PlacedTriangle placed{{}, chart};
           for (std::uint32_t v = 0; v < 3; ++v) {
-            const Point2 inside = in_item(i, 3 * std::size_t{t} + v), q = copies.empty() ? inside : copies[k].apply(inside);
+            const Point2 inside = in_item(i, 3 * std::size_t{t} + v),
+                         q = copies.empty() ? inside : copies[k].apply(inside);
             placed.corner[v] = {static_cast<float>(q.x), static_cast<float>(q.y)};
           }
           page.triangles.push_back(placed);
@@ -214,7 +229,8 @@ std::vector<Seam> Layout::seams() const {
       const HalfEdge &f = edges[e], &g = edges[e + 1];
       if (f.a != g.a || f.b != g.b) continue;
       auto next = [](const HalfEdge& h) { return 3 * h.triangle + (h.corner + 1) % 3; };
-      const std::uint32_t f0 = f.corner, f1 = next(f), g0 = next(g), g1 = g.corner;  // neighbours run against each other
+      const std::uint32_t f0 = f.corner, f1 = next(f), g0 = next(g),
+                          g1 = g.corner;  // neighbours run against each other
       if (!is_smooth(p, f0, f1, g0, g1) || (meet(p, f0, g0) && meet(p, f1, g1))) continue;
       for (std::size_t k = 0; k < p.uses.size(); ++k) out.push_back({side(i, k, f0, f1), side(i, k, g0, g1)});
     }

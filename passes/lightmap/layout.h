@@ -4,16 +4,16 @@
 #include <span>
 #include <vector>
 
+#include "geometry/unwrap/pack.h"
 #include "passes/lightmap/parts.h"
 #include "passes/lightmap/seams.h"
 #include "passes/lightmap/texels.h"
-#include "geometry/unwrap/pack.h"
 
 namespace wrlkit::bake {
 
 struct LayoutOptions {
-  double density = 0;    // texels per metre; 0: as many as fit on one page of `side`
-  int side = 2048;       // of that page, or the largest of a page
+  double density = 0;  // texels per metre; 0: as many as fit on one page of `side`
+  int side = 2048;     // of that page, or the largest of a page
   int padding = 2;
 };
 
@@ -25,16 +25,16 @@ struct FacetRef {
 struct PageLayout {
   int width = 0, height = 0;
   std::vector<PlacedTriangle> triangles;
-  std::vector<FacetRef> refs;           // of each of them
+  std::vector<FacetRef> refs;  // of each of them
 };
 
 /// How the charts of a part become places in a Shape's page: lightCoord is turned by quarters and moved, in units of
 /// `unit` texels, then divided by the page's sides.
 struct ShapePlace {
   std::uint32_t page = 0;
-  bool own_coords = true;               // lightCoord is the place on the page already
+  bool own_coords = true;  // lightCoord is the place on the page already
   int quarter_turns = 0;
-  double x = 0, y = 0, unit = 1;        // texels
+  double x = 0, y = 0, unit = 1;  // texels
 };
 
 class Layout {
@@ -47,7 +47,7 @@ class Layout {
   /// What did not get as many as were asked for.
   struct Coarse {
     std::size_t n_shapes = 0;
-    double least = 0;                   // texels per metre, relative to the wish
+    double least = 0;  // texels per metre, relative to the wish
   };
   Coarse coarse() const;
   /// Of use `k` of a part.
@@ -72,7 +72,7 @@ class Layout {
   const std::vector<Part>& parts_;
   LayoutOptions options_;
   std::vector<unwrap::PackedItem> items_;  // of each part
-  std::vector<double> piece_unit_;      // of a part with copies: the larger side of the piece, texels
+  std::vector<double> piece_unit_;         // of a part with copies: the larger side of the piece, texels
   std::vector<PageLayout> pages_;
   double density_ = 1;
 };

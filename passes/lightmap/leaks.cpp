@@ -38,7 +38,8 @@ std::vector<const Emitter*> strongest_of(const LightWorld& world, const light::P
   for (std::size_t i = 0; i < all.size(); i += step)
     if (const double s = strength(all[i], p); s > 0) found.push_back({s, &all[i]});
   const auto n = std::min(most_asked, found.size());
-  std::ranges::partial_sort(found, found.begin() + static_cast<std::ptrdiff_t>(n), std::ranges::greater(), &std::pair<double, const Emitter*>::first);
+  std::ranges::partial_sort(found, found.begin() + static_cast<std::ptrdiff_t>(n), std::ranges::greater(),
+                            &std::pair<double, const Emitter*>::first);
   std::vector<const Emitter*> out;
   for (std::size_t i = 0; i < n; ++i) out.push_back(found[i].second);
   return out;
@@ -50,7 +51,8 @@ bool comes_from_outside(const LightWorld& world, const V3& start, const Emitter&
   return std::ranges::any_of(places, [&](const auto& at) {
     const V3 way = e.at(at[0], at[1]) - start;
     const double distance = length(way);
-    return world.transmittance({start, (1 / distance) * way}, (1 - beside) * distance) > 0 && is_in_the_open(world, start + (1 - beside) * way);
+    return world.transmittance({start, (1 / distance) * way}, (1 - beside) * distance) > 0 &&
+           is_in_the_open(world, start + (1 - beside) * way);
   });
 }
 
@@ -59,7 +61,8 @@ bool comes_from_outside(const LightWorld& world, const V3& start, const Emitter&
 bool is_lit_from_outside(const LightWorld& world, const light::Point& p) {
   const V3 start = world.off_surface(p.position, p.face, p.extent);
   if (!is_hidden(world, start, p.face)) return false;
-  return std::ranges::any_of(strongest_of(world, p), [&](const Emitter* e) { return comes_from_outside(world, start, *e); });
+  return std::ranges::any_of(strongest_of(world, p),
+                             [&](const Emitter* e) { return comes_from_outside(world, start, *e); });
 }
 
 }  // namespace wrlkit::bake

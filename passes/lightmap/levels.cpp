@@ -21,24 +21,31 @@ std::vector<NodeId> children_of_all_views(const Scene& scene, NodeId n) {
 
 bool Levels::next() {
   if (n_views_ > 0 && !choose_unseen()) return false;
-  return ++n_views_, true;
+  ++n_views_;
+  return true;
 }
 
 /// By node: it holds a Shape that no view has shown and whose turn may come.
 std::vector<char> Levels::holders_of_unseen() {
   n_unseen_ = 0;
   return holders(
-      scene_, [&](NodeId n) { return is_shade(n) && !in_shades_ ? shown_children(scene_, n) : children_of_all_views(scene_, n); },
+      scene_,
       [&](NodeId n) {
-        const bool unseen = scene_.is(n, nodes::Shape) && scene_.get(n, nodes::shape::geometry) && !seen_.contains(n.value);
-        return n_unseen_ += unseen, unseen;
+        return is_shade(n) && !in_shades_ ? shown_children(scene_, n) : children_of_all_views(scene_, n);
+      },
+      [&](NodeId n) {
+        const bool unseen =
+            scene_.is(n, nodes::Shape) && scene_.get(n, nodes::shape::geometry) && !seen_.contains(n.value);
+        n_unseen_ += unseen;
+        return unseen;
       });
 }
 
 bool Levels::choose_unseen() {
   auto holds = holders_of_unseen();
   if (!n_unseen_ && !in_shades_) {
-    in_shades_ = true, depth_ = 0;
+    in_shades_ = true;
+    depth_ = 0;
     holds = holders_of_unseen();
   }
   if (!n_unseen_ || !saw_more_ || n_views_ == most) return false;
@@ -62,7 +69,8 @@ void Levels::find_shades(const light::LightWorld& world) {
   const auto& stage = world.stage();
   for (std::size_t u = 0; u < stage.uses.size() && !world.lamps().empty(); ++u) {
     drawing::Box box;
-    for (int k = 0; k < 8; ++k) box.add(stage.frames[stage.uses[u].frame].point(world.meshes()[world.mesh_of()[u]].box.corner(k)));
+    for (int k = 0; k < 8; ++k)
+      box.add(stage.frames[stage.uses[u].frame].point(world.meshes()[world.mesh_of()[u]].box.corner(k)));
     const double size = length(box.size());
     if (!(size < small * world.radius())) continue;
     const drawing::V3 room(margin * size);
@@ -77,7 +85,9 @@ void Levels::find_shades(const light::LightWorld& world) {
 }
 
 drawing::LevelOf Levels::level_of() const {
-  return [this](NodeId lod, const drawing::Affine&) -> std::size_t { return lod.value < shown_.size() ? shown_[lod.value] : 0; };
+  return [this](NodeId lod, const drawing::Affine&) -> std::size_t {
+    return lod.value < shown_.size() ? shown_[lod.value] : 0;
+  };
 }
 
 void Levels::add(NodeId shape) {

@@ -8,7 +8,10 @@
 #include <system_error>
 #include <unordered_map>
 
+#include "base/image/image.h"
 #include "geometry/geometry.h"
+#include "geometry/tessellation.h"
+#include "light/render/stage.h"
 #include "light/world.h"
 #include "passes/lightmap/bake.h"
 #include "passes/lightmap/from_patches.h"
@@ -20,9 +23,6 @@
 #include "passes/lightmap/store.h"
 #include "passes/lightmap/unlit_nodes.h"
 #include "passes/normals/normals.h"
-#include "light/render/stage.h"
-#include "geometry/tessellation.h"
-#include "base/image/image.h"
 
 namespace wrlkit {
 namespace {
@@ -110,11 +110,14 @@ std::string_view name_of(const Part& p, const Scene& scene, const drawing::Stage
 Outcome take_patches(Scene& scene, const light::LightWorld& world, const LightmapOptions& options, PassContext& ctx) {
   const auto patches = ctx.resources->patches(options.patches, ctx.diag);
   if (!patches) return Outcome::failed;
-  return light_from_patches(scene, world, *patches, {options.smooth, options.format.value}, ctx) ? Outcome::changed : Outcome::unchanged;
+  return light_from_patches(scene, world, *patches, {options.smooth, options.format.value}, ctx) ? Outcome::changed
+                                                                                                 : Outcome::unchanged;
 }
 
-/// What nobody sees from within is sealed; what has light already stays as it is; each density and size is a part of its own.
-void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& world, const Levels& levels, const LightmapOptions& options, Diagnostics& diag) {
+/// What nobody sees from within is sealed; what has light already stays as it is; each density and size is a part of
+/// its own.
+void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& world, const Levels& levels,
+             const LightmapOptions& options, Diagnostics& diag) {
   const auto& uses = world.stage().uses;
   for (Part& p : parts) {
     for (std::uint32_t u : p.uses)
@@ -124,20 +127,27 @@ void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& wo
   std::erase_if(parts, [](const Part& p) { return p.uses.empty(); });
   for (const Part& p : parts)
     if (p.faces_in) diag.report(Diag::inside_out, scene.where(p.geometry), name_of(p, scene, world.stage()));
-  split_by_size(parts, world.stage(), [&](std::uint32_t u) { return density_of(options.densities, scene, world.stage(), u); });
+  split_by_size(parts, world.stage(),
+                [&](std::uint32_t u) { return density_of(options.densities, scene, world.stage(), u); });
 }
 
 /// Where they are a part of what is seen, not only bolts that something hides.
-void report_dark(const std::vector<BakedPage>& pages, const std::vector<Part>& parts, const Scene& scene, const drawing::Stage& stage, Diagnostics& diag) {
+void report_dark(const std::vector<BakedPage>& pages, const std::vector<Part>& parts, const Scene& scene,
+                 const drawing::Stage& stage, Diagnostics& diag) {
   constexpr std::size_t some = 100;  // one in so many texels
   std::size_t n_texels = 0, n_dark_texels = 0, n_dark = 0, n_shapes = 0;
   std::uint32_t first = 0xffffffff;
   for (const BakedPage& page : pages) {
-    n_texels += page.n_texels, n_dark += page.dark.size();
-    for (const DarkUse& d : page.dark) n_dark_texels += d.n_texels, first = std::min(first, d.use);
+    n_texels += page.n_texels;
+    n_dark += page.dark.size();
+    for (const DarkUse& d : page.dark) {
+      n_dark_texels += d.n_texels;
+      first = std::min(first, d.use);
+    }
   }
   for (const Part& p : parts) n_shapes += p.uses.size();
-  if (n_dark && some * n_dark_texels >= n_texels) diag.report(Diag::dark_shapes, scene.where(stage.uses[first].shape), n_dark, n_shapes);
+  if (n_dark && some * n_dark_texels >= n_texels)
+    diag.report(Diag::dark_shapes, scene.where(stage.uses[first].shape), n_dark, n_shapes);
 }
 
 /// Lights what the view shows.
@@ -160,14 +170,16 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
   unfold_parts(parts, world.stage());
   const LayoutOptions wanted = layout_options(options, levels.depth());
   const Layout layout(parts, wanted);
-  if (const auto coarse = layout.coarse(); coarse.n_shapes) ctx.diag.report(Diag::density_limit, {}, wanted.density, coarse.n_shapes, coarse.least * wanted.density);
+  if (const auto coarse = layout.coarse(); coarse.n_shapes)
+    ctx.diag.report(Diag::density_limit, {}, wanted.density, coarse.n_shapes, coarse.least * wanted.density);
   auto pages = bake::bake(parts, layout, world, bake_options(options, levels.view(), title), ctx);
   report_dark(pages, parts, scene, world.stage(), ctx.diag);
   say(": pictures");
   store(scene, parts, layout, world.stage(), pages, {options.format.value, options.exr}, ctx);
   for (const Part& p : parts) {
     for (std::uint32_t u : p.uses) levels.add(world.stage().uses[u].shape);
-    ctx.stats["lightmap.shapes"] += p.uses.size(), ctx.stats["lightmap.charts"] += p.charts.size() * p.uses.size();
+    ctx.stats["lightmap.shapes"] += p.uses.size();
+    ctx.stats["lightmap.charts"] += p.charts.size() * p.uses.size();
   }
   ctx.stats["lightmap.pages"] += pages.size();
   return Outcome::changed;
@@ -184,8 +196,10 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
     if (!options.patches.empty()) return all;
   }
   std::error_code none_there;
-  for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view) std::filesystem::remove(checkpoint_of(options, view), none_there);
-  if (levels.n_unseen()) ctx.diag.report(Diag::expansion_limit, {}, Levels::most, "levels of detail one behind the other");
+  for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view)
+    std::filesystem::remove(checkpoint_of(options, view), none_there);
+  if (levels.n_unseen())
+    ctx.diag.report(Diag::expansion_limit, {}, Levels::most, "levels of detail one behind the other");
   return all;
 }
 
@@ -193,7 +207,10 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
 
 bool BakeQuality::read(std::string_view text) {
   for (auto v : {draft, normal, high})
-    if (BakeQuality q{v}; q.print() == text) return *this = q, true;
+    if (BakeQuality q{v}; q.print() == text) {
+      *this = q;
+      return true;
+    }
   return false;
 }
 
@@ -228,7 +245,8 @@ std::string NamedDensities::print() const {
 double NamedDensities::of(std::string_view name) const {
   for (const auto& [pattern, factor] : all) {
     const bool open = pattern.back() == '*';
-    if (open ? name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1)) : name == pattern) return factor;
+    if (open ? name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1)) : name == pattern)
+      return factor;
   }
   return 0;
 }

@@ -1,20 +1,23 @@
 // Pass `lightmap`: computes the light in the world and puts it onto its surfaces, as textures (Lazanyi, section 3).
 //
-//   before   PointLight { ... }  DEF Wall Shape { appearance Appearance { material Material { ... } } geometry Box { ... } }
-//   after    PointLight { ... }  DEF Wall Shape { appearance Appearance { material Material { ... }
-//                                                                         lightmap ImageTexture { url "lightmap_0.png" } }
-//                                                 geometry IndexedFaceSet { ... lightCoord TextureCoordinate { ... } } }
+//   before   PointLight { ... }  DEF Wall Shape { appearance Appearance { material Material { ... } } geometry Box {
+//   ... } } after    PointLight { ... }  DEF Wall Shape { appearance Appearance { material Material { ... }
+//                                                                         lightmap ImageTexture { url "lightmap_0.png"
+//                                                                         } }
+//                                                 geometry IndexedFaceSet { ... lightCoord TextureCoordinate { ... } }
+//                                                 }
 //
-// The surface keeps its own colour and texture; what VRML97 can say, one texture, is made of both by `combine-lightmap`.
+// The surface keeps its own colour and texture; what VRML97 can say, one texture, is made of both by
+// `combine-lightmap`.
 #pragma once
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/option_range.h"
 #include "light/sky_light.h"
-#include "passes/pipeline/option_range.h"
-#include "passes/pipeline/pass.h"
 #include "passes/picture_format/picture_format.h"
+#include "passes/pipeline/pass.h"
 
 namespace wrlkit {
 
@@ -28,8 +31,9 @@ struct BakeQuality {
   std::string print() const;
 };
 
-/// More or fewer texels for what has a name: "Floor=0.25" or, with an asterisk at the end for any name that begins so, "Sign*=4",
-/// several with colons between. The first that fits a Shape counts; Shapes have the names of the groups around them, too.
+/// More or fewer texels for what has a name: "Floor=0.25" or, with an asterisk at the end for any name that begins so,
+/// "Sign*=4", several with colons between. The first that fits a Shape counts; Shapes have the names of the groups
+/// around them, too.
 struct NamedDensities {
   static constexpr std::string_view type = "NAME=FACTOR:NAME*=FACTOR...";
   std::vector<std::pair<std::string, double>> all;
@@ -54,17 +58,21 @@ struct LightmapOptions {
 
   void fields(auto&& f) {
     f("quality", quality, "how many rays, and how many texels unless a density is given");
-    f("error", error, "relative standard error that is wanted of what is shown, such as 0.01; 0: as the quality has it", between(0, 1));
+    f("error", error, "relative standard error that is wanted of what is shown, such as 0.01; 0: as the quality has it",
+      between(0, 1));
     f("density", density, "texels per metre; 0: as many as fit on one page", at_least(0));
     f("densities", densities, "by name, times the density of the rest");
-    f("max-size", max_size, "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given", between(0, 32768));
+    f("max-size", max_size,
+      "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given",
+      between(0, 32768));
     f("sky", sky, "what shines from beyond the world: its Background, nothing, or one radiance");
     f("emission", emission, "emissiveColor shines so many times as bright as it looks", at_least(0));
     f("directional", directional, "keep from where the light comes, too");
     f("exr", exr, "write the light as OpenEXR, too");
     f("denoise", denoise, "take the noise out");
     f("format", format, "of the pictures");
-    f("checkpoint", checkpoint, "file in which finished work is kept, so that the same call goes on after an interruption");
+    f("checkpoint", checkpoint,
+      "file in which finished work is kept, so that the same call goes on after an interruption");
     f("seed", seed, "of the random numbers");
     f("patches", patches, "patch file (wrlkit illuminate) to take the light from, instead of computing it");
     f("smooth", smooth, "colours of patches go over into one another");
@@ -74,24 +82,30 @@ struct LightmapOptions {
 /// Lights every surface with a Material that a browser would show, as it stands at the start.
 ///
 /// - The world as light sees it, in which units, is in docs/lighting.md.
-/// - Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays shared
-///   (lightmap/own_shapes.h) among those that show it in one size and density (lightmap/sizes.h). What events can reach is not
-///   copied: it has the light of its first place.
-/// - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get faces.
-/// - Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels a level. LODs within
-///   levels have light at all of theirs, too: as many views are lit as there are levels one behind the other (lightmap/levels.h), 64 at
-///   the most.
+/// - Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays
+/// shared
+///   (lightmap/own_shapes.h) among those that show it in one size and density (lightmap/sizes.h). What events can reach
+///   is not copied: it has the light of its first place.
+/// - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get
+/// faces.
+/// - Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels
+/// a level. LODs within
+///   levels have light at all of theirs, too: as many views are lit as there are levels one behind the other
+///   (lightmap/levels.h), 64 at the most.
 /// - Text becomes faces, too, unless events, a Script or a prototype may write it.
 /// - Left alone: Shapes without a Material, lines, points, other choices of a Switch.
-/// - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only `smooth`
+/// - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only
+/// `smooth`
 ///   and `format` count. Shapes show their first level of detail only; further ones stay without light.
-/// - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `inline` and `expand-protos` before.
-/// - There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach (density-limit).
+/// - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `inline` and
+/// `expand-protos` before.
+/// - There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach
+/// (density-limit).
 /// - A world without any light, or with too little to see it by, is lit by a white sky, which is reported (no-light).
 ///
-/// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays, and for judging the
-/// result .inside, .leaks, .black, .holes, .seam-places, .jumps (lightmap/bake.h).
-/// O(texels * rays * log triangles). The same result for any number of threads.
+/// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays,
+/// and for judging the result .inside, .leaks, .black, .holes, .seam-places, .jumps (lightmap/bake.h). O(texels * rays
+/// * log triangles). The same result for any number of threads.
 Outcome lightmap(Scene& scene, const LightmapOptions& options, PassContext& ctx);
 
 }  // namespace wrlkit

@@ -4,9 +4,9 @@
 #include <string>
 #include <unordered_set>
 
+#include "passes/analysis/own_nodes.h"
 #include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/holders.h"
-#include "passes/analysis/own_nodes.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -20,13 +20,19 @@ std::vector<NodeId> children_of(const Scene& scene, NodeId n, OfLod of_lod) {
 /// By node: a Shape, or something that holds one.
 std::vector<char> holders_of_shapes(const Scene& scene, OfLod of_lod) {
   return holders(
-      scene, [&](NodeId n) { return children_of(scene, n, of_lod); }, [&](NodeId n) { return scene.is(n, nodes::Shape); });
+      scene, [&](NodeId n) { return children_of(scene, n, of_lod); },
+      [&](NodeId n) { return scene.is(n, nodes::Shape); });
 }
 
 class Unsharer {
  public:
   Unsharer(Scene& scene, Diagnostics& diag, OfLod of_lod, std::size_t most)
-      : scene_(scene), diag_(diag), of_lod_(of_lod), most_(most), holds_(holders_of_shapes(scene, of_lod)), met_(scene.node_count()) {
+      : scene_(scene),
+        diag_(diag),
+        of_lod_(of_lod),
+        most_(most),
+        holds_(holders_of_shapes(scene, of_lod)),
+        met_(scene.node_count()) {
     moving_.mark(scene, scene.main, {}, [](NodeId) { return false; });
     for (NodeId n : all_nodes(scene))
       if (auto name = scene.name(n); !name.empty()) names_.emplace(name);
@@ -46,14 +52,20 @@ class Unsharer {
   }
 
  private:
-  /// Puts a copy for each node that was met before. False when nothing changed. The first place in the file keeps the node.
+  /// Puts a copy for each node that was met before. False when nothing changed. The first place in the file keeps the
+  /// node.
   bool own(std::vector<NodeId>& ids) {
     bool changed = false;
     const auto mark = static_cast<std::ptrdiff_t>(open_.size());
     for (NodeId& n : ids) {
       if (!n || !is_holder(n)) continue;
-      if (!is_met(n)) met_[n.value] = 1, open_.push_back(n);
-      else if (!moving_[n]) n = copy(n), changed = true;
+      if (!is_met(n)) {
+        met_[n.value] = 1;
+        open_.push_back(n);
+      } else if (!moving_[n]) {
+        n = copy(n);
+        changed = true;
+      }
     }
     std::reverse(open_.begin() + mark, open_.end());
     return changed;
@@ -65,7 +77,8 @@ class Unsharer {
     for (const Value& v : fields) {
       if (scene_.is_extra(v) || v.is || info(v.type).element != Element::node) continue;
       std::vector<NodeId> ids(v.node_span().begin(), v.node_span().end());
-      bool is_hierarchy = std::ranges::any_of(ids, [&](NodeId c) { return std::ranges::find(shown, c) != shown.end(); });
+      bool is_hierarchy =
+          std::ranges::any_of(ids, [&](NodeId c) { return std::ranges::find(shown, c) != shown.end(); });
       if (is_hierarchy && own(ids)) scene_.set(n, scene_.make(v.type, v.slot, ids));
     }
   }
@@ -109,6 +122,8 @@ class Unsharer {
 
 }  // namespace
 
-std::size_t own_shapes(Scene& scene, Diagnostics& diag, OfLod of_lod, std::size_t most) { return Unsharer(scene, diag, of_lod, most).run(); }
+std::size_t own_shapes(Scene& scene, Diagnostics& diag, OfLod of_lod, std::size_t most) {
+  return Unsharer(scene, diag, of_lod, most).run();
+}
 
 }  // namespace wrlkit::bake

@@ -1,4 +1,5 @@
-// A page of the atlas while light is baked onto it: for each texel where in the world it lies, and the light that was found there. Texels are counted from the lower left corner, as texture coordinates are; row 0 is the lowest.
+// A page of the atlas while light is baked onto it: for each texel where in the world it lies, and the light that was
+// found there. Texels are counted from the lower left corner, as texture coordinates are; row 0 is the lowest.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -36,21 +37,24 @@ struct Page {
 struct Estimate {
   /// The first is light: irradiance over pi. Others may follow, which are denoised as it is.
   std::vector<std::vector<Rgb>> layers;
-  std::vector<float> variance;           // of the luminance of the light
+  std::vector<float> variance;  // of the luminance of the light
 
-  explicit Estimate(const Page& page, std::size_t n_layers = 1) : layers(n_layers, std::vector<Rgb>(page.size())), variance(page.size()) {}
+  explicit Estimate(const Page& page, std::size_t n_layers = 1)
+      : layers(n_layers, std::vector<Rgb>(page.size())), variance(page.size()) {}
 
   std::vector<Rgb>& light() { return layers[0]; }
   const std::vector<Rgb>& light() const { return layers[0]; }
 };
 
-/// Light of a page by two estimates, which add up: by rays to lamps and emitters, and by rays in all directions. The edges of shadows are in the
-/// one, so that the noise of the other can be taken out across them.
+/// Light of a page by two estimates, which add up: by rays to lamps and emitters, and by rays in all directions. The
+/// edges of shadows are in the one, so that the noise of the other can be taken out across them.
 struct PageLight {
   Estimate direct, gathered;
-  std::vector<std::vector<Rgb>> along;   // of both: times x, y and z of the direction to where it comes from; empty unless that is wanted
+  std::vector<std::vector<Rgb>>
+      along;  // of both: times x, y and z of the direction to where it comes from; empty unless that is wanted
 
-  PageLight(const Page& page, bool directional) : direct(page), gathered(page), along(directional ? 3 : 0, std::vector<Rgb>(page.size())) {}
+  PageLight(const Page& page, bool directional)
+      : direct(page), gathered(page), along(directional ? 3 : 0, std::vector<Rgb>(page.size())) {}
 
   Rgb at(std::size_t i) const { return direct.light()[i] + gathered.light()[i]; }
 };

@@ -15,7 +15,7 @@ using light::Irradiance;
 using light::Point;
 
 constexpr double pi = 3.14159265358979323846;
-constexpr float within = 0.5f;               // share of rays that meet backs, from which on a point lies inside something
+constexpr float within = 0.5f;  // share of rays that meet backs, from which on a point lies inside something
 
 Vec vec(const V3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Rgb rgb(const light::Rgb& c) { return {c[0], c[1], c[2]}; }
@@ -24,9 +24,11 @@ float luminance_of(const Irradiance& p) { return luminance(rgb(p.direct)) + lumi
 bool is_dark(const Irradiance& p) { return !(luminance_of(p) > 0); }
 
 void add(const Irradiance& from, TexelLight& to) {
-  to.direct += rgb(from.direct), to.gathered += rgb(from.gathered);
+  to.direct += rgb(from.direct);
+  to.gathered += rgb(from.gathered);
   for (int k = 0; k < 3; ++k) to.along[k] += rgb(from.along[k]);
-  to.direct_variance += luminance(rgb(from.direct_variance)), to.gathered_variance += luminance(rgb(from.gathered_variance));
+  to.direct_variance += luminance(rgb(from.direct_variance));
+  to.gathered_variance += luminance(rgb(from.gathered_variance));
 }
 
 /// Leaves those of some texels; the numbers of their samples.
@@ -61,17 +63,32 @@ std::vector<TexelLight> PageBaker::gather(std::vector<Irradiance> light) const {
     if (is_dark(light[i]) && is_enclosed(points_[i])) light[i].inside = 1;
   for (const auto& t : texels_.texels) {
     const std::span all(&light[t.first], t.count);
-    TexelLight texel{t.x, t.y, page_.triangles[texels_.samples[t.first].triangle].chart, site_of(all, t.first), {}, {}, {}, 0, 0, {}, {}, {}, {}};
-    float weight = 0;  // of a point that lies within something, as far as it sees out; such light counts where there is no other
+    TexelLight texel{t.x,
+                     t.y,
+                     page_.triangles[texels_.samples[t.first].triangle].chart,
+                     site_of(all, t.first),
+                     {},
+                     {},
+                     {},
+                     0,
+                     0,
+                     {},
+                     {},
+                     {},
+                     {}};
+    float weight =
+        0;  // of a point that lies within something, as far as it sees out; such light counts where there is no other
     for (const Irradiance& l : all) {
       if (texel.site == Site::open && (l.inside > within || is_cut_off(light, t, l))) continue;
       add(l, texel);
       weight += texel.site == Site::open ? 1 : 1 - l.inside;
     }
     const auto scale = weight > 0 ? static_cast<float>(1 / (pi * weight)) : 0;
-    texel.direct = scale * texel.direct, texel.gathered = scale * texel.gathered;
+    texel.direct = scale * texel.direct;
+    texel.gathered = scale * texel.gathered;
     for (Rgb& a : texel.along) a = scale * a;
-    texel.direct_variance *= scale * scale, texel.gathered_variance *= scale * scale;
+    texel.direct_variance *= scale * scale;
+    texel.gathered_variance *= scale * scale;
     const Point& middle = points_[t.first + t.count / 2];
     texel.position = vec(middle.position - world_.centre());
     texel.normal = vec(middle.normal);
@@ -83,10 +100,12 @@ std::vector<TexelLight> PageBaker::gather(std::vector<Irradiance> light) const {
 /// A point of a texel that lies in the shade beyond a surface which crosses the texel.
 bool PageBaker::is_cut_off(std::span<const Irradiance> light, const TexelSamples& t, const Irradiance& own) const {
   const auto all = light.subspan(t.first, t.count);
-  const auto brightest = std::ranges::max_element(all, {}, [](const Irradiance& p) { return p.inside > within ? -1 : luminance_of(p); });
+  const auto brightest =
+      std::ranges::max_element(all, {}, [](const Irradiance& p) { return p.inside > within ? -1 : luminance_of(p); });
   const Shade shade = shade_beside(luminance_of(own), luminance_of(*brightest));
   if (shade == Shade::none) return false;
-  const Point &from = points_[static_cast<std::size_t>(&*brightest - light.data())], &to = points_[static_cast<std::size_t>(&own - light.data())];
+  const Point &from = points_[static_cast<std::size_t>(&*brightest - light.data())],
+              &to = points_[static_cast<std::size_t>(&own - light.data())];
   return bake::is_cut_off(world_, shade, from.position, to.position, from.normal, to.normal);
 }
 
@@ -96,7 +115,8 @@ bool PageBaker::is_enclosed(const Point& p) const {
   return world_.encloses({world_.off_surface(p.position, p.face, p.extent), unit(askew)});
 }
 
-/// Of the points from `first` on. Few rays may all meet backs of what is open; it is a leak only where closed things are all around.
+/// Of the points from `first` on. Few rays may all meet backs of what is open; it is a leak only where closed things
+/// are all around.
 Site PageBaker::site_of(std::span<const Irradiance> light, std::size_t first) const {
   if (std::ranges::any_of(light, [](const Irradiance& p) { return p.inside <= within; })) return Site::open;
   for (std::size_t i = 0; i < light.size(); ++i) {

@@ -13,8 +13,8 @@ namespace wrlkit::bake {
 /// Where the points of a texel lie.
 enum class Site : std::uint32_t {
   open,
-  within,                                    // something: what few rays see is not the light there
-  pierced,                                   // within something on all sides, and yet a lamp shines there, or a surface that is outside: a leak
+  within,   // something: what few rays see is not the light there
+  pierced,  // within something on all sides, and yet a lamp shines there, or a surface that is outside: a leak
 };
 
 /// What is kept of a texel: what the checkpoint holds.
@@ -30,7 +30,7 @@ struct TexelLight {
 
 class PageBaker {
  public:
-  static constexpr int grid = 4;             // points along each side of a texel that may be lit
+  static constexpr int grid = 4;  // points along each side of a texel that may be lit
 
   /// `flat`: lit by the normals of the faces, not by those of shading.
   PageBaker(const std::vector<Part>& parts, const PageLayout& page, const light::LightWorld& world, bool flat)
@@ -40,9 +40,10 @@ class PageBaker {
   const PageLayout& page() const { return page_; }
   std::size_t n_tiles() const { return grid_.n_tiles(); }
 
-  /// Points of the surface for a tile's samples, in their order; of a grid with so many along each side of a texel. `chosen`, by texel of
-  /// the page: only of those texels; empty: of all.
-  const std::vector<light::Point>& points(std::size_t tile, int samples, int side = grid, std::span<const char> chosen = {});
+  /// Points of the surface for a tile's samples, in their order; of a grid with so many along each side of a texel.
+  /// `chosen`, by texel of the page: only of those texels; empty: of all.
+  const std::vector<light::Point>& points(std::size_t tile, int samples, int side = grid,
+                                          std::span<const char> chosen = {});
 
   /// Of those points, among all that the tile has.
   std::span<const std::uint32_t> numbers() const { return numbers_; }

@@ -6,12 +6,12 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "passes/analysis/driven.h"
-#include "passes/lightmap/witnesses.h"
-#include "passes/normals/normals.h"
 #include "base/parallel.h"
 #include "geometry/simplify/surfaces.h"
 #include "geometry/unwrap/unfold.h"
+#include "passes/analysis/driven.h"
+#include "passes/lightmap/witnesses.h"
+#include "passes/normals/normals.h"
 #include "passes/weld/points.h"
 #include "scenegraph/nodes.h"
 
@@ -33,17 +33,19 @@ std::vector<std::uint32_t> points_of(const Mesh& mesh, PointJoiner& joiner) {
 /// How faces go along the edges of a surface.
 enum class Edges : std::uint8_t {
   open,
-  balanced,                          // each as often in one direction as in the other: outlines may touch themselves
-  closed,                            // each once in each direction
+  balanced,  // each as often in one direction as in the other: outlines may touch themselves
+  closed,    // each once in each direction
 };
 
 Edges edges_of(const std::vector<std::uint32_t>& corners) {
   std::vector<std::uint64_t> there, back;
-  there.reserve(corners.size()), back.reserve(corners.size());
+  there.reserve(corners.size());
+  back.reserve(corners.size());
   for (std::size_t t = 0; t < corners.size(); t += 3)
     for (int k = 0; k < 3; ++k) {
       const std::uint64_t from = corners[t + k], to = corners[t + (k + 1) % 3];
-      there.push_back(from << 32 | to), back.push_back(to << 32 | from);
+      there.push_back(from << 32 | to);
+      back.push_back(to << 32 | from);
     }
   std::ranges::sort(there);
   std::ranges::sort(back);
@@ -54,7 +56,7 @@ Edges edges_of(const std::vector<std::uint32_t>& corners) {
 /// Signed volumes of what a closed surface consists of; 0 for a plate of which both sides lie in one place.
 struct Volumes {
   double all = 0;
-  bool one_way = true;               // none is wound against another
+  bool one_way = true;  // none is wound against another
 };
 
 /// By point: the least point of those that faces connect with it.
@@ -131,7 +133,9 @@ class Backs {
   }
 
  private:
-  static std::size_t turned(std::size_t corner) { return corner % 3 == 1 ? corner + 1 : corner % 3 == 2 ? corner - 1 : corner; }
+  static std::size_t turned(std::size_t corner) {
+    return corner % 3 == 1 ? corner + 1 : corner % 3 == 2 ? corner - 1 : corner;
+  }
 
   void append_turned(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>&) const {
     to.resize(2 * n_);
@@ -154,7 +158,13 @@ class Backs {
 class Finder {
  public:
   Finder(const Scene& scene, const light::LightWorld& world, PassContext& ctx)
-      : scene_(scene), world_(world), stage_(world.stage()), witnesses_(scene, world), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, reader_(scene, reading_) {
+      : scene_(scene),
+        world_(world),
+        stage_(world.stage()),
+        witnesses_(scene, world),
+        unheard_(ctx.diag.shared_sources()),
+        reading_{unheard_, unheard_counts_},
+        reader_(scene, reading_) {
     const auto driven = driven_geometry(scene);  // a Script may write what it likes
     for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take, OfText::take))
       if (!scene.is(s.geometry, nodes::Text) || !driven[s.geometry.value]) lit_.emplace(s.geometry.value, s);
@@ -169,7 +179,8 @@ class Finder {
       if (!lit_.contains(use.geometry.value) || !has_material(use.appearance)) continue;
       auto [at, added] = number.try_emplace(use.geometry.value, parts.size());
       if (added) parts.push_back({.geometry = use.geometry, .letters = scene_.is(use.geometry, nodes::Text)});
-      if (finite(stage_.frames[use.frame]) && shapes.insert(use.shape.value).second) parts[at->second].uses.push_back(u);
+      if (finite(stage_.frames[use.frame]) && shapes.insert(use.shape.value).second)
+        parts[at->second].uses.push_back(u);
     }
     for (Part& p : parts) read(p);
     std::erase_if(parts, [](const Part& p) { return p.uses.empty() || p.mesh.corners.empty(); });
@@ -193,11 +204,13 @@ class Finder {
     const auto points = points_of(p.mesh, joiner);
     const Edges edges = edges_of(points);
     const bool was_solid = p.mesh.solid;
-    const Volumes volumes = edges == Edges::closed || (edges == Edges::balanced && was_solid) ? signed_volumes(p, points) : Volumes();
+    const Volumes volumes =
+        edges == Edges::closed || (edges == Edges::balanced && was_solid) ? signed_volumes(p, points) : Volumes();
     p.mesh.solid = true;
     if (edges == Edges::balanced && volumes.all > 0) return;
     const bool outward = was_solid && volumes.all > 0;
-    p.sealed = outward || (volumes.all != 0 && volumes.one_way && !is_clear(p) && !has_witness(p) && !(was_solid && is_room(p)));
+    p.sealed = outward ||
+               (volumes.all != 0 && volumes.one_way && !is_clear(p) && !has_witness(p) && !(was_solid && is_room(p)));
     if (!p.sealed) return was_solid ? void() : Backs(p).append();
     p.inside_out = volumes.all < 0;
     if (!p.inside_out) return;
@@ -205,7 +218,9 @@ class Finder {
     p.faces_in = was_solid;
   }
 
-  bool is_clear(const Part& p) const { return std::ranges::any_of(p.uses, [&](std::uint32_t u) { return world_.is_clear(u); }); }
+  bool is_clear(const Part& p) const {
+    return std::ranges::any_of(p.uses, [&](std::uint32_t u) { return world_.is_clear(u); });
+  }
 
   bool has_witness(const Part& p) const {
     return std::ranges::any_of(p.uses, [&](std::uint32_t u) { return witnesses_.within(box_of(p, u), u); });
@@ -213,12 +228,14 @@ class Finder {
 
   /// Something stands in it, or it shines itself.
   bool is_room(const Part& p) const {
-    return std::ranges::any_of(p.uses, [&](std::uint32_t u) { return world_.emitter_of(u, 0) || witnesses_.holds_another(box_of(p, u), u); });
+    return std::ranges::any_of(
+        p.uses, [&](std::uint32_t u) { return world_.emitter_of(u, 0) || witnesses_.holds_another(box_of(p, u), u); });
   }
 
   drawing::Box box_of(const Part& p, std::uint32_t use) const {
     drawing::Box box;
-    for (std::size_t c = 0; c < p.mesh.corners.size(); ++c) box.add(stage_.frames[stage_.uses[use].frame].point(p.position(c)));
+    for (std::size_t c = 0; c < p.mesh.corners.size(); ++c)
+      box.add(stage_.frames[stage_.uses[use].frame].point(p.position(c)));
     return box;
   }
 
@@ -242,7 +259,9 @@ class Finder {
     for (std::size_t c = 0; c < p.mesh.corners.size(); ++c) {
       const float* n = shaded_.normal.present() ? shaded_.normal.at(shaded_.normal.index[c]) : nullptr;
       const V3 u = n ? unit(V3(n[0], n[1], n[2])) : V3();
-      p.normals[3 * c] = static_cast<float>(u.x), p.normals[3 * c + 1] = static_cast<float>(u.y), p.normals[3 * c + 2] = static_cast<float>(u.z);
+      p.normals[3 * c] = static_cast<float>(u.x);
+      p.normals[3 * c + 1] = static_cast<float>(u.y);
+      p.normals[3 * c + 2] = static_cast<float>(u.z);
     }
   }
 
@@ -261,7 +280,8 @@ class Finder {
 
 /// As one sees them from the front, and their backs from behind.
 unwrap::Charts charts_of_letters(const Part& p, const Affine& frame) {
-  const V3 x = unit(frame.vector({1, 0, 0})), y = cross(unit(frame.normal({0, 0, 1})), x), origin = frame.point({0, 0, 0});
+  const V3 x = unit(frame.vector({1, 0, 0})), y = cross(unit(frame.normal({0, 0, 1})), x),
+           origin = frame.point({0, 0, 0});
   const auto n = static_cast<std::uint32_t>(p.n_triangles()), n_fronts = static_cast<std::uint32_t>(p.n_fronts);
   unwrap::Charts charts;
   for (const auto& [first, last, way] : {std::tuple{0u, n_fronts, 1.0}, std::tuple{n_fronts, n, -1.0}}) {
@@ -274,7 +294,8 @@ unwrap::Charts charts_of_letters(const Part& p, const Affine& frame) {
       places.push_back({way * dot(at, x), dot(at, y), 0});
       box.add(places.back());
     }
-    for (const V3& v : places) charts.places.push_back({static_cast<float>(v.x - box.low.x), static_cast<float>(v.y - box.low.y)});
+    for (const V3& v : places)
+      charts.places.push_back({static_cast<float>(v.x - box.low.x), static_cast<float>(v.y - box.low.y)});
     charts.chart_of.resize(charts.places.size() / 3, static_cast<std::uint32_t>(charts.sizes.size()));
     charts.begin.push_back(static_cast<std::uint32_t>(begin / 3));
     charts.sizes.push_back({static_cast<float>(box.size().x), static_cast<float>(box.size().y)});
@@ -296,7 +317,9 @@ void unfold(Part& p, const Stage& stage) {
   std::vector<double> world(joiner.points.size());
   for (std::size_t i = 0; i + 2 < world.size(); i += 3) {
     const V3 v = frame.vector({joiner.points[i], joiner.points[i + 1], joiner.points[i + 2]});
-    world[i] = v.x, world[i + 1] = v.y, world[i + 2] = v.z;
+    world[i] = v.x;
+    world[i + 1] = v.y;
+    world[i + 2] = v.z;
   }
   // A frame that mirrors shows the front of a face where its corners run clockwise.
   if (frame.determinant() < 0)
@@ -314,12 +337,15 @@ void unfold(Part& p, const Stage& stage) {
 
 }  // namespace
 
-std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, PassContext& ctx) { return Finder(scene, world, ctx).run(); }
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, PassContext& ctx) {
+  return Finder(scene, world, ctx).run();
+}
 
 void face_in(Part& part, std::vector<float>& coords) {
   if (!part.faces_in) return;
   Backs(part).turn();
-  for (std::size_t c = 0; c + 5 < coords.size(); c += 6) std::swap_ranges(&coords[c + 2], &coords[c + 4], &coords[c + 4]);
+  for (std::size_t c = 0; c + 5 < coords.size(); c += 6)
+    std::swap_ranges(&coords[c + 2], &coords[c + 4], &coords[c + 4]);
 }
 
 void unfold_parts(std::vector<Part>& parts, const Stage& stage) {

@@ -13,7 +13,10 @@ constexpr double settled = 0.25;  // of the error that is allowed: more rays for
 
 /// By one half of the rays: `sign` is 1 or -1.
 Estimate half(Estimate whole, const std::vector<Rgb>& difference, float sign) {
-  for (std::size_t i = 0; i < difference.size(); ++i) whole.light()[i] += sign * difference[i], whole.variance[i] *= 2;
+  for (std::size_t i = 0; i < difference.size(); ++i) {
+    whole.light()[i] += sign * difference[i];
+    whole.variance[i] *= 2;
+  }
   return whole;
 }
 
@@ -21,16 +24,30 @@ Estimate half(Estimate whole, const std::vector<Rgb>& difference, float sign) {
 struct Errors {
   double sum = 0, squares = 0, light = 0, n = 0;
 
-  void add(double error2, double l) { sum += error2, squares += error2 * error2, light += l, n += 1; }
-  void add(const Errors& e) { sum += e.sum, squares += e.squares, light += e.light, n += e.n; }
+  void add(double error2, double l) {
+    sum += error2;
+    squares += error2 * error2;
+    light += l;
+    n += 1;
+  }
+  void add(const Errors& e) {
+    sum += e.sum;
+    squares += e.squares;
+    light += e.light;
+    n += e.n;
+  }
   double mean() const { return sum / std::max(1.0, n); }
   double at_most() const { return (sum + std::sqrt(squares)) / std::max(1.0, n); }
 };
 
 }  // namespace
 
-std::vector<char> unsettled(const Page& page, const PageLight& light, const Halves& halves, double error, bool denoised) {
-  auto filtered = [&](float sign) { return shown_light(page, half(light.direct, halves.direct, sign), half(light.gathered, halves.gathered, sign), denoised); };
+std::vector<char> unsettled(const Page& page, const PageLight& light, const Halves& halves, double error,
+                            bool denoised) {
+  auto filtered = [&](float sign) {
+    return shown_light(page, half(light.direct, halves.direct, sign), half(light.gathered, halves.gathered, sign),
+                       denoised);
+  };
   const auto a = filtered(1), b = filtered(-1);
   const int columns = (page.width + side - 1) / side, rows = (page.height + side - 1) / side;
   std::vector<Errors> blocks(std::size_t(columns) * rows);
@@ -50,10 +67,12 @@ std::vector<char> unsettled(const Page& page, const PageLight& light, const Halv
     for (int x = 0; x < columns; ++x) {
       Errors around;  // of one, chance says too much
       for (int v = std::max(0, y - 1); v <= std::min(rows - 1, y + 1); ++v)
-        for (int u = std::max(0, x - 1); u <= std::min(columns - 1, x + 1); ++u) around.add(blocks[std::size_t(v) * columns + u]);
+        for (int u = std::max(0, x - 1); u <= std::min(columns - 1, x + 1); ++u)
+          around.add(blocks[std::size_t(v) * columns + u]);
       if (!(around.mean() > settled * settled * allowed * allowed)) continue;
       for (int j = y * side; j < std::min(page.height, (y + 1) * side); ++j)
-        for (int i = x * side; i < std::min(page.width, (x + 1) * side); ++i) out[page.at(i, j)] = page.covered(page.at(i, j));
+        for (int i = x * side; i < std::min(page.width, (x + 1) * side); ++i)
+          out[page.at(i, j)] = page.covered(page.at(i, j));
     }
   return out;
 }

@@ -6,7 +6,12 @@ namespace wrlkit::bake {
 struct Rgb {
   float r = 0, g = 0, b = 0;
 
-  Rgb& operator+=(const Rgb& o) { return r += o.r, g += o.g, b += o.b, *this; }
+  Rgb& operator+=(const Rgb& o) {
+    r += o.r;
+    g += o.g;
+    b += o.b;
+    return *this;
+  }
 };
 
 inline Rgb operator+(Rgb a, const Rgb& b) { return a += b; }

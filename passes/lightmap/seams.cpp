@@ -9,7 +9,7 @@ namespace {
 
 constexpr float unlike = 0.1f;    // difference that is a jump, relative to the brighter side
 constexpr float unseen = 0.004f;  // in a display-referred picture less than 14 of 255, in the dark
-constexpr float stay = 0.02f;  // what moving a texel costs, against a difference across the seam
+constexpr float stay = 0.02f;     // what moving a texel costs, against a difference across the seam
 
 /// What a bilinear filter shows at a place: four texels and their weights.
 struct Tap {
@@ -47,13 +47,17 @@ class System {
     for (int k = 0; k < iterations && rr > enough; ++k) {
       apply(p, q);
       const auto step = static_cast<float>(rr / dot(p, q));
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] += step * p[i], r[i] = r[i] - step * q[i];
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] += step * p[i];
+        r[i] = r[i] - step * q[i];
+      }
       const double next = dot(r, r);
       const auto turn = static_cast<float>(next / rr);
       for (std::size_t i = 0; i < p.size(); ++i) p[i] = r[i] + turn * p[i];
       rr = next;
     }
-    for (std::size_t i = 0; i < x.size(); ++i) texel(i) = {std::max(0.0f, x[i].r), std::max(0.0f, x[i].g), std::max(0.0f, x[i].b)};
+    for (std::size_t i = 0; i < x.size(); ++i)
+      texel(i) = {std::max(0.0f, x[i].r), std::max(0.0f, x[i].g), std::max(0.0f, x[i].b)};
   }
 
   SeamReport report() {
@@ -75,7 +79,8 @@ class System {
   template <class F>
   void each_tap(const SeamSide& e, float t, F&& f) const {
     const Canvas& page = pages_[e.page];
-    const float x = e.end[0].x + t * (e.end[1].x - e.end[0].x) - 0.5f, y = e.end[0].y + t * (e.end[1].y - e.end[0].y) - 0.5f;
+    const float x = e.end[0].x + t * (e.end[1].x - e.end[0].x) - 0.5f,
+                y = e.end[0].y + t * (e.end[1].y - e.end[0].y) - 0.5f;
     const float fx = x - std::floor(x), fy = y - std::floor(y);
     for (int k = 0; k < 4; ++k) {
       const int u = std::clamp(static_cast<int>(std::floor(x)) + (k & 1), 0, page.width - 1);
@@ -95,7 +100,10 @@ class System {
 
   Tap tap(const SeamSide& e, float t) {
     Tap out;
-    each_tap(e, t, [&](int k, std::uint64_t texel, float weight) { out.unknown[k] = number_of(std::uint64_t{e.page} << 32 | texel), out.weight[k] = weight; });
+    each_tap(e, t, [&](int k, std::uint64_t texel, float weight) {
+      out.unknown[k] = number_of(std::uint64_t{e.page} << 32 | texel);
+      out.weight[k] = weight;
+    });
     return out;
   }
 
@@ -126,7 +134,8 @@ class System {
 
   static double dot(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
     double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += double{a[i].r} * b[i].r + double{a[i].g} * b[i].g + double{a[i].b} * b[i].b;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      sum += double{a[i].r} * b[i].r + double{a[i].g} * b[i].g + double{a[i].b} * b[i].b;
     return sum;
   }
 

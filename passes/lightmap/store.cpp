@@ -5,13 +5,13 @@
 #include <stdexcept>
 #include <unordered_set>
 
+#include "base/image/image.h"
+#include "base/image/srgb_table.h"
 #include "geometry/geometry.h"
 #include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/polygons.h"
 #include "passes/weld/value_table.h"
-#include "base/image/image.h"
 #include "scenegraph/nodes.h"
-#include "base/image/srgb_table.h"
 
 namespace wrlkit::bake {
 namespace {
@@ -91,18 +91,22 @@ void Storing::light(NodeId shape, const ShapePlace& place, const PageLayout& pag
   scene_.set(appearance, f::lightmap, lightmaps_[place.page]);
   scene_.set(appearance, f::lightmapScale, scale_);
   if (!directions_[place.page].empty()) scene_.set(appearance, f::lightmapDirection, directions_[place.page]);
-  if (place.own_coords) scene_.unset(appearance, f::lightmapTransform.slot);
-  else scene_.set(appearance, f::lightmapTransform, transform(place, page));
+  if (place.own_coords)
+    scene_.unset(appearance, f::lightmapTransform.slot);
+  else
+    scene_.set(appearance, f::lightmapTransform, transform(place, page));
 }
 
 void Storing::add_page(std::size_t i, const BakedPage& page) {
   const std::string name = "lightmap_" + std::to_string(i);
   const double scale = scale_;
-  lightmaps_.push_back(texture(name, picture(page.light, [scale, &table = SrgbTable::get()](float v) { return table.byte(v / scale); })));
+  lightmaps_.push_back(texture(
+      name, picture(page.light, [scale, &table = SrgbTable::get()](float v) { return table.byte(v / scale); })));
   auto& directions = directions_.emplace_back();
   const char* axes[] = {"_x", "_y", "_z"};
   for (std::size_t k = 0; k < page.direction.size(); ++k)
-    directions.push_back(texture(name + axes[k], picture(page.direction[k], [](float v) { return byte(0.5 + 0.5 * v); })));
+    directions.push_back(
+        texture(name + axes[k], picture(page.direction[k], [](float v) { return byte(0.5 + 0.5 * v); })));
   if (!options_.exr) return;
   std::string error;
   auto bytes = encode_exr(raw(page.light), error);
@@ -116,7 +120,8 @@ NodeId Storing::texture(const std::string& name, const Image& image) {
   const std::string file = name + "." + options_.extension;
   auto bytes = encode_as(file, image, error);
   if (!bytes) throw std::runtime_error(error);
-  const std::string url = ctx_.resources->add_made({file, std::make_shared<const std::string>(std::move(*bytes)), false});
+  const std::string url =
+      ctx_.resources->add_made({file, std::make_shared<const std::string>(std::move(*bytes)), false});
   const NodeId n = scene_.add(nodes::ImageTexture);
   scene_.set(n, f::url, std::vector<std::string_view>{url});
   scene_.set(n, f::repeatS, false);
@@ -138,12 +143,13 @@ NodeId Storing::transform(const ShapePlace& p, const PageLayout& page) {
   return n;
 }
 
-void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const drawing::Stage& stage, const std::vector<BakedPage>& pages,
-           const StoreOptions& options, PassContext& ctx) {
+void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const drawing::Stage& stage,
+           const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx) {
   Storing storing(scene, pages, options, ctx);
   std::unordered_set<std::uint32_t> taken;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const NodeId shared = parts[i].geometry, geometry = taken.insert(shared.value).second ? shared : copy_of(scene, shared);
+    const NodeId shared = parts[i].geometry,
+                 geometry = taken.insert(shared.value).second ? shared : copy_of(scene, shared);
     auto coords = layout.coords(i);
     face_in(parts[i], coords);
     storing.place(parts[i], coords, geometry);

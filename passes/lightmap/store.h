@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "passes/lightmap/bake.h"
 #include "base/image/image.h"
+#include "passes/lightmap/bake.h"
 
 namespace wrlkit::bake {
 
@@ -20,14 +20,15 @@ struct StoreOptions {
   bool exr = false;               // the light as it is beside them, linear and not scaled
 };
 
-/// Takes the pictures of all pages, which go to ctx.resources, and then part by part and Shape by Shape what lies on them.
-/// lightmapScale is the same everywhere: as much as keeps all but the brightest thousandth of the texels below white.
+/// Takes the pictures of all pages, which go to ctx.resources, and then part by part and Shape by Shape what lies on
+/// them. lightmapScale is the same everywhere: as much as keeps all but the brightest thousandth of the texels below
+/// white.
 class Storing {
  public:
   Storing(Scene& scene, const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx);
 
-  /// `geometry` becomes an IndexedFaceSet of the triangles of the part, with lightCoord: two numbers for each corner. Polygons that lie
-  /// in one chart are polygons again.
+  /// `geometry` becomes an IndexedFaceSet of the triangles of the part, with lightCoord: two numbers for each corner.
+  /// Polygons that lie in one chart are polygons again.
   void place(Part& part, const std::vector<float>& coords, NodeId geometry);
   /// The Appearance of the Shape gets the lightmap of a page; one that Shapes with different lightmaps share is copied.
   void light(NodeId shape, const ShapePlace& place, const PageLayout& page);
@@ -42,14 +43,14 @@ class Storing {
   StoreOptions options_;
   PassContext& ctx_;
   double scale_;
-  std::vector<NodeId> lightmaps_;                // of each page
+  std::vector<NodeId> lightmaps_;  // of each page
   std::vector<std::vector<NodeId>> directions_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, NodeId> of_;  // Appearances by the one that was, and page
-  std::set<std::uint32_t> taken_;                // Appearances that have a lightmap
+  std::set<std::uint32_t> taken_;                                 // Appearances that have a lightmap
 };
 
 /// All of a layout.
-void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const drawing::Stage& stage, const std::vector<BakedPage>& pages,
-           const StoreOptions& options, PassContext& ctx);
+void store(Scene& scene, std::vector<Part>& parts, const Layout& layout, const drawing::Stage& stage,
+           const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx);
 
 }  // namespace wrlkit::bake

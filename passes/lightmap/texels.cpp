@@ -12,7 +12,9 @@ struct Weights {
   float w[3];
 };
 
-float area2(const Spot2& a, const Spot2& b, const Spot2& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+float area2(const Spot2& a, const Spot2& b, const Spot2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 /// Negative ones where there is no area: no point lies in it.
 Weights weights_at(const PlacedTriangle& t, const Spot2& p) {
@@ -30,8 +32,8 @@ struct OnEdge {
   Weights weights;
 };
 
-/// A little off the border, towards the middle: a point in the corner of two walls lies in both of them, and sees what is
-/// behind one or the other.
+/// A little off the border, towards the middle: a point in the corner of two walls lies in both of them, and sees what
+/// is behind one or the other.
 Weights pulled_in(const PlacedTriangle& t, const Spot2& p, Weights w) {
   constexpr float way = 0.25f;  // texels
   const auto& c = t.corner;
@@ -52,7 +54,8 @@ OnEdge nearest_on_border(const PlacedTriangle& t, const Spot2& p) {
     float x = a.x + s * dx - p.x, y = a.y + s * dy - p.y;
     if (float d = x * x + y * y; d < best.distance2) {
       best = {d, {{0, 0, 0}}};
-      best.weights.w[i] = 1 - s, best.weights.w[j] = s;
+      best.weights.w[i] = 1 - s;
+      best.weights.w[j] = s;
     }
   }
   return best;
@@ -100,7 +103,8 @@ class TileRaster {
 
   void take(int most, TileTexels& out) {
     for (int y = 0; y < TexelGrid::tile; ++y)
-      for (int x = 0; x < TexelGrid::tile; ++x) take(cells_[std::size_t(y) * TexelGrid::tile + x], x0_ + x, y0_ + y, most, out);
+      for (int x = 0; x < TexelGrid::tile; ++x)
+        take(cells_[std::size_t(y) * TexelGrid::tile + x], x0_ + x, y0_ + y, most, out);
   }
 
  private:
@@ -144,7 +148,12 @@ class TileRaster {
 }  // namespace
 
 TexelGrid::TexelGrid(std::span<const PlacedTriangle> triangles, int width, int height)
-    : triangles_(triangles), width_(width), height_(height), columns_((width + tile - 1) / tile), rows_((height + tile - 1) / tile), first_(n_tiles() + 1) {
+    : triangles_(triangles),
+      width_(width),
+      height_(height),
+      columns_((width + tile - 1) / tile),
+      rows_((height + tile - 1) / tile),
+      first_(n_tiles() + 1) {
   auto each_tile = [&](const PlacedTriangle& t, auto&& f) {
     Bounds b = bounds_of(t, width_, height_);
     for (int y = b.y0 / tile; y * tile < b.y1; ++y)

@@ -24,14 +24,19 @@ std::vector<char> with_surfaces(const Scene& scene) {
   std::vector<std::vector<std::uint32_t>> holders(has.size());
   std::vector<std::uint32_t> open;
   auto found = [&](std::uint32_t p) {
-    if (!has[p]) has[p] = 1, open.push_back(p);
+    if (!has[p]) {
+      has[p] = 1;
+      open.push_back(p);
+    }
   };
   for (std::uint32_t p = 0; p < has.size(); ++p) {
     const Proto& proto = scene.proto(ProtoId{p});
     if (proto.external) found(p);
     for (NodeId n : reachable(scene, proto.body)) {
-      if (is_proto(scene, n)) holders[scene.type(n).proto.value].push_back(p);
-      else if (makes_surface(scene, n)) found(p);
+      if (is_proto(scene, n))
+        holders[scene.type(n).proto.value].push_back(p);
+      else if (makes_surface(scene, n))
+        found(p);
     }
   }
   while (!open.empty()) {
@@ -43,9 +48,12 @@ std::vector<char> with_surfaces(const Scene& scene) {
 }
 
 bool is_foreign_surface(const NodeType& type) {
-  constexpr std::string_view without_area[] = {"IndexedLineSet", "LineSet", "PointSet", "IndexedMarkerSet", "MarkerSet", "NurbsCurve", "Polyline2D", "Polypoint2D", "Arc2D", "Circle2D"};
+  constexpr std::string_view without_area[] = {"IndexedLineSet", "LineSet",    "PointSet",   "IndexedMarkerSet",
+                                               "MarkerSet",      "NurbsCurve", "Polyline2D", "Polypoint2D",
+                                               "Arc2D",          "Circle2D"};
   if (type.kind != NodeKind::builtin || (type.dialects & static_cast<DialectSet>(Dialect::vrml97))) return false;
-  return (type.is_a("Vrml1ShapeNode") || type.is_a("X3DGeometryNode")) && std::ranges::find(without_area, type.name) == std::end(without_area);
+  return (type.is_a("Vrml1ShapeNode") || type.is_a("X3DGeometryNode")) &&
+         std::ranges::find(without_area, type.name) == std::end(without_area);
 }
 
 }  // namespace
@@ -53,12 +61,14 @@ bool is_foreign_surface(const NodeType& type) {
 std::size_t closed_nodes(const Scene& scene) {
   const auto has = with_surfaces(scene);
   return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) {
-    return is_proto(scene, n) ? has[scene.type(n).proto.value] != 0 : scene.is(n, nodes::Inline) && makes_surface(scene, n);
+    return is_proto(scene, n) ? has[scene.type(n).proto.value] != 0
+                              : scene.is(n, nodes::Inline) && makes_surface(scene, n);
   }));
 }
 
 std::size_t foreign_surfaces(const Scene& scene) {
-  return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return is_foreign_surface(scene.type(n)); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return is_foreign_surface(scene.type(n)); }));
 }
 
 }  // namespace wrlkit::bake

@@ -1,4 +1,5 @@
-// What the pass does not look into: worlds behind Inline, what prototypes stand for, and nodes that VRML97 does not have.
+// What the pass does not look into: worlds behind Inline, what prototypes stand for, and nodes that VRML97 does not
+// have.
 #pragma once
 #include <cstddef>
 
@@ -6,8 +7,8 @@
 
 namespace wrlkit::bake {
 
-/// Inlines, and instances of prototypes with surfaces or with what makes them (of an EXTERNPROTO nobody knows, so it counts), among
-/// all nodes of the main scope. Linear.
+/// Inlines, and instances of prototypes with surfaces or with what makes them (of an EXTERNPROTO nobody knows, so it
+/// counts), among all nodes of the main scope. Linear.
 std::size_t closed_nodes(const Scene& scene);
 
 /// Surfaces that are nodes of VRML 1.0, or of X3D alone, in the main scope: nobody has lowered them. Linear.

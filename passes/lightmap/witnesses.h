@@ -1,5 +1,5 @@
-// Who would see the inner side of a closed surface, or light it: a viewer who stands in there, a lamp, something that shines; and what stands
-// in there as in a room.
+// Who would see the inner side of a closed surface, or light it: a viewer who stands in there, a lamp, something that
+// shines; and what stands in there as in a room.
 #pragma once
 #include <vector>
 
@@ -9,7 +9,8 @@ namespace wrlkit::bake {
 
 class Witnesses {
  public:
-  /// Viewpoints, PointLights and SpotLights, the middles of emitters, and the boxes of all that is drawn. n log n. The world must live on.
+  /// Viewpoints, PointLights and SpotLights, the middles of emitters, and the boxes of all that is drawn. n log n. The
+  /// world must live on.
   Witnesses(const Scene& scene, const light::LightWorld& world);
 
   /// Whether any of them stands within the box; those that belong to `use` do not count.
@@ -26,8 +27,8 @@ class Witnesses {
     drawing::Box box;
     std::uint32_t use;
   };
-  std::vector<Witness> all_;         // by x
-  std::vector<Thing> things_;        // by the lowest x
+  std::vector<Witness> all_;   // by x
+  std::vector<Thing> things_;  // by the lowest x
 };
 
 }  // namespace wrlkit::bake

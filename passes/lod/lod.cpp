@@ -19,8 +19,14 @@ struct Part {
 class Lod {
  public:
   Lod(Scene& scene, const LodOptions& options, PassContext& ctx)
-      : scene_(scene), options_(options), ctx_(ctx), unheard_(ctx.diag.shared_sources()), reading_{unheard_, unheard_counts_}, surfaces_(surfaces_of(scene)),
-        reader_(scene, reading_), nodes_(scene) {}
+      : scene_(scene),
+        options_(options),
+        ctx_(ctx),
+        unheard_(ctx.diag.shared_sources()),
+        reading_{unheard_, unheard_counts_},
+        surfaces_(surfaces_of(scene)),
+        reader_(scene, reading_),
+        nodes_(scene) {}
 
   Outcome run() {
     std::size_t n_lods = 0;
@@ -47,7 +53,8 @@ class Lod {
       borders.add(mesh);
       any |= is_large(mesh);
     }
-    fixed_.resize(surfaces_.size()), scale_.resize(surfaces_.size(), 1);
+    fixed_.resize(surfaces_.size());
+    scale_.resize(surfaces_.size(), 1);
     if (any) fixed_ = borders.find(scene_, surfaces_);
     if (any && !options_.errors.values.empty()) scale_ = largest_scales(scene_, surfaces_);
   }
@@ -74,15 +81,18 @@ class Lod {
   }
 
   LevelOptions levels_of(std::size_t surface) const {
-    LevelOptions levels{{.criterion = options_.criterion.value, .fixed = fixed_[surface]}, options_.ratios.values,
-                        options_.errors.values, options_.min_saving};
+    LevelOptions levels{{.criterion = options_.criterion.value, .fixed = fixed_[surface]},
+                        options_.ratios.values,
+                        options_.errors.values,
+                        options_.min_saving};
     for (double& e : levels.errors) e /= scale_[surface];
     return levels;
   }
 
   std::size_t store(const ShapeSurface& surface, const Part& part) {
     if (part.mesh.n_faces() == 0) return 0;
-    const auto n = nodes_.add(surface, part.mesh, part.levels, {options_.pixels, options_.screen_height, options_.field_of_view, options_.vanish});
+    const auto n = nodes_.add(surface, part.mesh, part.levels,
+                              {options_.pixels, options_.screen_height, options_.field_of_view, options_.vanish});
     ctx_.stats[n ? "lod.shapes" : "lod.too-small"] += surface.shapes.size();
     ctx_.stats["lod.levels"] += n * part.levels.size();
     for (const auto& level : part.levels) ctx_.stats["lod.triangles"] += level.mesh.n_faces();

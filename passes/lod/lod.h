@@ -1,5 +1,5 @@
-// Levels of detail: each Shape that is worth it becomes a LOD node with the Shape as its first level and simplified ones
-// behind it (Lazanyi, section 2; ISO/IEC 14772-1, 6.26).
+// Levels of detail: each Shape that is worth it becomes a LOD node with the Shape as its first level and simplified
+// ones behind it (Lazanyi, section 2; ISO/IEC 14772-1, 6.26).
 //
 //   before   DEF Tank Shape { appearance Appearance { ... } geometry IndexedFaceSet { ... } }
 //   after    LOD { center 0 1 0 range [ 8.2, 31 ]
@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/pipeline/option_range.h"
-#include "passes/pipeline/pass.h"
+#include "base/option_range.h"
 #include "geometry/simplify/levels.h"
+#include "passes/pipeline/pass.h"
 
 namespace wrlkit {
 
@@ -41,28 +41,33 @@ struct LodOptions {
     f("pixels", pixels, "error of a level on the screen, in pixels, from which on it may be shown", at_least(0));
     f("screen-height", screen_height, "pixels", at_least(1));
     f("field-of-view", field_of_view, "of the screen's height, in radians", between(0.001, 3.141));
-    f("vanish", vanish, "pixels below which a part may be left out altogether, by an empty last level; 0: never", at_least(0));
-    f("min-saving", min_saving, "share of the triangles of the level before that a level has to save to be written", between(0, 1));
+    f("vanish", vanish, "pixels below which a part may be left out altogether, by an empty last level; 0: never",
+      at_least(0));
+    f("min-saving", min_saving, "share of the triangles of the level before that a level has to save to be written",
+      between(0, 1));
     f("min-faces", min_faces, "triangles below which a Shape is left as it is", at_least(0));
   }
 };
 
 /// Makes levels of detail of the Shapes of a scene, in the bodies of prototypes too.
 ///
-/// - Each level is made from the one before it (simplify/collapse.h says what is kept), and how far it is from the first is
+/// - Each level is made from the one before it (simplify/collapse.h says what is kept), and how far it is from the
+/// first is
 ///   measured (deviation.h). A level that saves less than `min-saving` is not written, nor one that is smaller than the
 ///   bounding box that could stand for it: twelve triangles.
 /// - `center` is the middle of the bounds. A `range` is the distance from which on the error of the next level, seen at
-///   the near side of the bounding sphere, is below `pixels`: radius + error * screen-height / (2 tan(field-of-view / 2)
-///   pixels). Ranges ascend.
+///   the near side of the bounding sphere, is below `pixels`: radius + error * screen-height / (2 tan(field-of-view /
+///   2) pixels). Ranges ascend.
 /// - Distances of VRML are in the coordinates of the LOD (6.26), so `range` and `center` are in those of the geometry,
-///   however large the Transforms above show it. `errors` are metres of the world: where a geometry stands several times, in
-///   the largest of its places.
-/// - What open borders of several parts have in common stays where it is (simplify/shared_borders.h), so that parts meet at
+///   however large the Transforms above show it. `errors` are metres of the world: where a geometry stands several
+///   times, in the largest of its places.
+/// - What open borders of several parts have in common stays where it is (simplify/shared_borders.h), so that parts
+/// meet at
 ///   any of their levels.
 /// - A Shape that is shared is simplified once, and so is a geometry that several Shapes share. The levels share the
 ///   Appearance.
-/// - Left alone: Shapes below an authored LOD; those whose geometry is text, lines, points, the end of a ROUTE or an IS;
+/// - Left alone: Shapes below an authored LOD; those whose geometry is text, lines, points, the end of a ROUTE or an
+/// IS;
 ///   and everything else in the world. The Shape keeps its name; a parent holds the LOD in its place.
 ///
 /// Polygons that only touch have no common edges: run `weld` before. Statistics: lod.shapes, lod.levels, lod.triangles

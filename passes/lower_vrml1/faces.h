@@ -1,5 +1,5 @@
-// The faces of every polygon shape of VRML 1.0 and Inventor in one form, and what a binding gives to each of them. Lines are
-// faces that are not closed.
+// The faces of every polygon shape of VRML 1.0 and Inventor in one form, and what a binding gives to each of them.
+// Lines are faces that are not closed.
 #pragma once
 #include <span>
 #include <vector>
@@ -11,24 +11,26 @@ namespace wrlkit::vrml1 {
 
 struct Faces {
   struct Face {
-    std::uint32_t begin, count;   // in `coord`
-    std::int32_t part, number;    // what PER_PART and PER_FACE count
+    std::uint32_t begin, count;  // in `coord`
+    std::int32_t part, number;   // what PER_PART and PER_FACE count
   };
-  std::vector<std::int32_t> coord;     // as VRML97 has it: corners, -1 behind each face
-  std::vector<std::int32_t> sequence;  // of each entry of coord: which vertex of the shape it is, what PER_VERTEX counts
-  std::vector<std::int32_t> place;     // and where it stands in the file's coordIndex, what PER_VERTEX_INDEXED looks up
+  std::vector<std::int32_t> coord;  // as VRML97 has it: corners, -1 behind each face
+  std::vector<std::int32_t>
+      sequence;                     // of each entry of coord: which vertex of the shape it is, what PER_VERTEX counts
+  std::vector<std::int32_t> place;  // and where it stands in the file's coordIndex, what PER_VERTEX_INDEXED looks up
   std::vector<Face> faces;
-  bool verbatim = false;               // coord is the file's coordIndex
+  bool verbatim = false;  // coord is the file's coordIndex
 };
 
-/// The polygons, polylines, strips of triangles or grid of a geometry node; `n_points`: of its coordinates, for nodes that
-/// count through them. `segments`: lines are cut into their segments, for bindings by part.
+/// The polygons, polylines, strips of triangles or grid of a geometry node; `n_points`: of its coordinates, for nodes
+/// that count through them. `segments`: lines are cut into their segments, for bindings by part.
 Faces read_faces(const Scene&, NodeId geometry, std::size_t n_points, bool segments);
 
 /// Which values an attribute has: nothing, the one of everything, one for each face, one for each corner.
 struct Attribute {
   enum class Of : std::uint8_t { nothing, all, faces, corners } of = Of::nothing;
-  std::vector<std::int32_t> index;  // of faces: one each; of corners: beside Faces::coord. Empty: as VRML97 counts without one
+  std::vector<std::int32_t>
+      index;  // of faces: one each; of corners: beside Faces::coord. Empty: as VRML97 counts without one
   explicit operator bool() const { return of != Of::nothing; }
 };
 

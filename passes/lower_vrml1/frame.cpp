@@ -8,7 +8,8 @@ NodeId placed(Scene& scene, const Placement& at, const std::vector<NodeId>& node
   namespace f = nodes::transform;
   if (at.identity()) {
     NodeId n = scene.add(nodes::Group, where);
-    return scene.set(n, nodes::group::children, nodes), n;
+    scene.set(n, nodes::group::children, nodes);
+    return n;
   }
   NodeId n = scene.add(nodes::Transform, where);
   const TransformFields fields = at.fields(), none;
@@ -17,15 +18,18 @@ NodeId placed(Scene& scene, const Placement& at, const std::vector<NodeId>& node
   if (fields.scale != none.scale) scene.set(n, f::scale, fields.scale);
   if (fields.scale_orientation != none.scale_orientation) scene.set(n, f::scaleOrientation, fields.scale_orientation);
   if (fields.center != none.center) scene.set(n, f::center, fields.center);
-  return scene.set(n, f::children, nodes), n;
+  scene.set(n, f::children, nodes);
+  return n;
 }
 
 std::vector<NodeId> children(Scene& scene, const Frame& frame) {
   std::vector<NodeId> backwards;
   for (auto run = frame.runs.rbegin(); run != frame.runs.rend(); ++run) {
     const Span where = scene.where(run->nodes[0]);
-    if (run->at.identity()) backwards.insert(backwards.end(), run->nodes.rbegin(), run->nodes.rend());
-    else backwards.push_back(placed(scene, run->at, run->nodes, where));
+    if (run->at.identity())
+      backwards.insert(backwards.end(), run->nodes.rbegin(), run->nodes.rend());
+    else
+      backwards.push_back(placed(scene, run->at, run->nodes, where));
     if (!run->lights_rest) continue;
     std::ranges::reverse(backwards);
     backwards = {placed(scene, {}, backwards, where)};
@@ -36,7 +40,8 @@ std::vector<NodeId> children(Scene& scene, const Frame& frame) {
 
 NodeId group(Scene& scene, const Frame& frame, Span where, std::string_view name) {
   if (frame.runs.empty()) return {};
-  NodeId n = frame.runs.size() == 1 ? placed(scene, frame.runs[0].at, frame.runs[0].nodes, where) : placed(scene, {}, children(scene, frame), where);
+  NodeId n = frame.runs.size() == 1 ? placed(scene, frame.runs[0].at, frame.runs[0].nodes, where)
+                                    : placed(scene, {}, children(scene, frame), where);
   if (!name.empty()) scene.set_name(n, name);
   return n;
 }

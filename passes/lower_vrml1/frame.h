@@ -13,12 +13,15 @@ struct Frame {
     std::vector<NodeId> nodes;
     bool lights_rest = false;  // begins with a DirectionalLight that does not reach what is before it
   };
-  struct Light { NodeId source; Matrix at; };
+  struct Light {
+    NodeId source;
+    Matrix at;
+  };
 
-  Placement at;                // of what comes next, since the group began
+  Placement at;  // of what comes next, since the group began
   std::vector<Run> runs;
-  std::vector<Light> lights;   // DirectionalLights that shine on, if the group does not end the state
-  bool drawn = false;          // something that light falls on is in it
+  std::vector<Light> lights;  // DirectionalLights that shine on, if the group does not end the state
+  bool drawn = false;         // something that light falls on is in it
 
   void add(NodeId n) {
     if (runs.empty() || !(runs.back().at == at)) runs.push_back({at, {}, false});

@@ -42,7 +42,10 @@ std::span<const double> Looks::list(NodeId material, std::uint16_t slot) const {
 Palette Looks::make_palette(const State& s) const {
   Palette p;
   // Colours that need no light: nothing is given but emissiveColor.
-  auto none = [&](std::uint16_t slot) { auto* v = s.material ? scene_.find(s.material, slot) : nullptr; return v && v->count == 0; };
+  auto none = [&](std::uint16_t slot) {
+    auto* v = s.material ? scene_.find(s.material, slot) : nullptr;
+    return v && v->count == 0;
+  };
   const bool precomputed = none(m::diffuseColor.slot) && none(m::ambientColor.slot) && none(m::specularColor.slot);
   p.unlit = precomputed || !s.lit;
   auto colors = list(s.material, precomputed ? m::emissiveColor.slot : m::diffuseColor.slot);
@@ -53,25 +56,37 @@ Palette Looks::make_palette(const State& s) const {
     if (scene_.is(s.color, v1::BaseColor)) {
       auto rgb = scene_.get(s.color, v1::base_color::rgb);
       p.colors.assign(rgb.begin(), rgb.end());
-    } else if (scene_.is(s.color, v1::PackedColor)) unpack(scene_.get(s.color, v1::packed_color::orderedRGBA), p.colors, transparency);
-    else unpack(scene_.get(s.color, v1::vertex_property::orderedRGBA), p.colors, transparency);
+    } else if (scene_.is(s.color, v1::PackedColor))
+      unpack(scene_.get(s.color, v1::packed_color::orderedRGBA), p.colors, transparency);
+    else
+      unpack(scene_.get(s.color, v1::vertex_property::orderedRGBA), p.colors, transparency);
     if (p.colors.empty()) p.colors = {0.8, 0.8, 0.8};
   }
-  struct List { std::span<const double> values; std::size_t arity; };
-  const List others[] = {{list(s.material, m::ambientColor.slot), 3}, {list(s.material, m::specularColor.slot), 3}, {list(s.material, m::emissiveColor.slot), 3},
-                         {list(s.material, m::shininess.slot), 1}, {transparency.empty() ? list(s.material, m::transparency.slot) : transparency, 1}};
+  struct List {
+    std::span<const double> values;
+    std::size_t arity;
+  };
+  const List others[] = {{list(s.material, m::ambientColor.slot), 3},
+                         {list(s.material, m::specularColor.slot), 3},
+                         {list(s.material, m::emissiveColor.slot), 3},
+                         {list(s.material, m::shininess.slot), 1},
+                         {transparency.empty() ? list(s.material, m::transparency.slot) : transparency, 1}};
   p.size = p.colors.size() / 3;
   bool varied = false;
   for (auto& l : others) {
     p.size = std::max(p.size, l.values.size() / l.arity);
     auto first = l.values.first(l.arity);
-    for (std::size_t i = 0; i < l.values.size(); i += l.arity) varied |= !std::ranges::equal(l.values.subspan(i, l.arity), first);
+    for (std::size_t i = 0; i < l.values.size(); i += l.arity)
+      varied |= !std::ranges::equal(l.values.subspan(i, l.arity), first);
   }
   if (!varied || precomputed) return p;
   std::map<std::vector<double>, std::uint32_t> first_of;
   for (std::size_t k = 0; k < p.size; ++k) {
     std::vector<double> all;
-    for (auto& l : others) { auto v = at(l.values, k, l.arity); all.insert(all.end(), v.begin(), v.end()); }
+    for (auto& l : others) {
+      auto v = at(l.values, k, l.arity);
+      all.insert(all.end(), v.begin(), v.end());
+    }
     p.kind.push_back(first_of.emplace(std::move(all), static_cast<std::uint32_t>(k)).first->second);
   }
   return p;
@@ -102,22 +117,29 @@ NodeId Looks::material_node(const State& s, std::size_t k, bool colored, bool st
   if (n) return n;
   std::vector<double> unpacked, alpha;
   if (s.color && !scene_.is(s.color, v1::BaseColor))
-    unpack(scene_.is(s.color, v1::PackedColor) ? scene_.get(s.color, v1::packed_color::orderedRGBA) : scene_.get(s.color, v1::vertex_property::orderedRGBA), unpacked, alpha);
+    unpack(scene_.is(s.color, v1::PackedColor) ? scene_.get(s.color, v1::packed_color::orderedRGBA)
+                                               : scene_.get(s.color, v1::vertex_property::orderedRGBA),
+           unpacked, alpha);
   const double transparency = at(alpha.empty() ? list(s.material, m::transparency.slot) : alpha, k, 1)[0];
   const bool unlit = p.unlit || strokes;
   if (unlit && picture) return n = unlit_node(s, k, colored, transparency, picture);
   if (unlit && colored) {
-    if (transparency > 0) diag_.report(Diag::no_vrml97_value, scene_.where(s.material ? s.material : s.color), "Material", "transparency");
+    if (transparency > 0)
+      diag_.report(Diag::no_vrml97_value, scene_.where(s.material ? s.material : s.color), "Material", "transparency");
     return NodeId{};
   }
   const NodeId source = s.material ? s.material : s.color;
   n = scene_.add(nodes::Material, source ? scene_.where(source) : Span{});
   if (source && k == 0) scene_.set_name(n, scene_.name(source));
   scene_.set(n, nodes::material::transparency, transparency);
-  auto vec = [&](std::uint16_t slot) { auto v = at(list(s.material, slot), k, 3); return Vec3{v[0], v[1], v[2]}; };
+  auto vec = [&](std::uint16_t slot) {
+    auto v = at(list(s.material, slot), k, 3);
+    return Vec3{v[0], v[1], v[2]};
+  };
   if (unlit) {
     // Lines show their diffuse colour; exporters that give an emissive one alone mean that.
-    const bool glows = strokes && !p.unlit && !s.color && s.material && !scene_.find(s.material, m::diffuseColor.slot) && scene_.find(s.material, m::emissiveColor.slot);
+    const bool glows = strokes && !p.unlit && !s.color && s.material &&
+                       !scene_.find(s.material, m::diffuseColor.slot) && scene_.find(s.material, m::emissiveColor.slot);
     scene_.set(n, nodes::material::diffuseColor, Vec3{0, 0, 0});
     scene_.set(n, nodes::material::emissiveColor, glows ? vec(m::emissiveColor.slot) : p.color(k));
     return n;
@@ -148,14 +170,17 @@ NodeId Looks::unlit_node(const State& s, std::size_t k, bool colored, double tra
 
 NodeId Looks::appearance(const State& s, std::size_t k, bool colored, bool strokes, bool baked) {
   const NodeId texture = texture_node(s.texture);
-  // A picture is multiplied by the colour, as one of a material is in X3D 4.0; that of an Appearance takes its place (picture_color.h).
+  // A picture is multiplied by the colour, as one of a material is in X3D 4.0; that of an Appearance takes its place
+  // (picture_color.h).
   const auto model = texture ? scene_.get(s.texture, v1::texture2::model) : std::string_view{};
-  const bool mixes = texture && !strokes && (colored || palette(s).color(k) != Vec3{1, 1, 1}), product = mixes && model == "MODULATE";
+  const bool mixes = texture && !strokes && (colored || palette(s).color(k) != Vec3{1, 1, 1}),
+             product = mixes && model == "MODULATE";
   const NodeId material = material_node(s, k % palette(s).size, colored, strokes, product ? texture : NodeId{});
   const auto map = texture && !baked ? s.texture_transform : 0;
   auto& n = appearances_[{material, texture, map}];
   if (n) return n;
-  if ((mixes && !product) || model == "BLEND") diag_.report(Diag::no_vrml97_value, scene_.where(s.texture), "Texture2", "model");
+  if ((mixes && !product) || model == "BLEND")
+    diag_.report(Diag::no_vrml97_value, scene_.where(s.texture), "Texture2", "model");
   n = scene_.add(nodes::Appearance, material ? scene_.where(material) : Span{});
   if (material) scene_.set(n, nodes::appearance::material, material);
   if (texture && !product) scene_.set(n, nodes::appearance::texture, texture);
@@ -179,9 +204,12 @@ NodeId Looks::texture_node(NodeId source) {
   const bool url = !file.empty();
   n = scene_.add(url ? nodes::ImageTexture : nodes::PixelTexture, scene_.where(source));
   scene_.set_name(n, scene_.name(source));
-  if (url) scene_.set(n, nodes::image_texture::url, std::vector<std::string_view>{file});
-  else scene_.set(n, nodes::pixel_texture::image, scene_.get(source, v1::texture2::image));
-  const bool repeat_s = scene_.get(source, v1::texture2::wrapS) != "CLAMP", repeat_t = scene_.get(source, v1::texture2::wrapT) != "CLAMP";
+  if (url)
+    scene_.set(n, nodes::image_texture::url, std::vector<std::string_view>{file});
+  else
+    scene_.set(n, nodes::pixel_texture::image, scene_.get(source, v1::texture2::image));
+  const bool repeat_s = scene_.get(source, v1::texture2::wrapS) != "CLAMP",
+             repeat_t = scene_.get(source, v1::texture2::wrapT) != "CLAMP";
   scene_.set(n, url ? nodes::image_texture::repeatS : nodes::pixel_texture::repeatS, repeat_s);
   scene_.set(n, url ? nodes::image_texture::repeatT : nodes::pixel_texture::repeatT, repeat_t);
   return n;
@@ -215,7 +243,10 @@ NodeId Looks::texture_transform(std::uint32_t map) {
   if (maps_[map] == UvMap{}) return {};
   auto& n = transforms_[map];
   if (n) return n;
-  if (!can_say(map)) return diag_.report(Diag::no_vrml97_value, {}, "Texture2Transform", "scaleFactor"), NodeId{};
+  if (!can_say(map)) {
+    diag_.report(Diag::no_vrml97_value, {}, "Texture2Transform", "scaleFactor");
+    return NodeId{};
+  }
   const auto& [a, b] = maps_[map];
   auto tidy = [](double v) { return std::round(v * 1e12) / 1e12 + 0.0; };
   const double angle = std::atan2(-a[1], a[0]), determinant = a[0] * a[3] - a[1] * a[2];

@@ -1,24 +1,26 @@
-// Materials and textures of VRML 1.0 as Appearances. A Material of VRML 1.0 is six lists; the k-th material has the k-th value
-// of each, the last one of a shorter list, and behind the longest list they begin again. A Shape of VRML97 has one Material
-// and, by a Color node, many diffuse colours: materials that agree in all but diffuseColor are of one kind.
+// Materials and textures of VRML 1.0 as Appearances. A Material of VRML 1.0 is six lists; the k-th material has the
+// k-th value of each, the last one of a shorter list, and behind the longest list they begin again. A Shape of VRML97
+// has one Material and, by a Color node, many diffuse colours: materials that agree in all but diffuseColor are of one
+// kind.
 #pragma once
 #include <map>
 #include <optional>
 #include <tuple>
 #include <vector>
 
-#include "passes/lower_vrml1/state.h"
 #include "base/diagnostics.h"
+#include "passes/lower_vrml1/state.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::vrml1 {
 
 /// The materials of a state.
 struct Palette {
-  std::vector<double> colors;       // what shapes show: diffuse, or emissive where nothing is lit; rgb
-  std::vector<std::uint32_t> kind;  // of each material: the first one that agrees with it; empty: all agree with the first
-  std::size_t size = 1;             // of materials; the next one is the first again
-  bool unlit = false;               // the colours are not lit
+  std::vector<double> colors;  // what shapes show: diffuse, or emissive where nothing is lit; rgb
+  std::vector<std::uint32_t>
+      kind;              // of each material: the first one that agrees with it; empty: all agree with the first
+  std::size_t size = 1;  // of materials; the next one is the first again
+  bool unlit = false;    // the colours are not lit
 
   Vec3 color(std::size_t k) const;
   std::size_t kind_of(std::size_t k) const { return kind.empty() ? 0 : kind[k % size]; }
@@ -39,8 +41,8 @@ class Looks {
   const Palette& palette(const State&);
   /// The colours of a palette as a node.
   NodeId color_node(const State&);
-  /// How one of the materials looks; `colored`: the geometry has colours. `strokes`: lines or points, which are not lit.
-  /// `baked`: the texture coordinates are moved already.
+  /// How one of the materials looks; `colored`: the geometry has colours. `strokes`: lines or points, which are not
+  /// lit. `baked`: the texture coordinates are moved already.
   NodeId appearance(const State&, std::size_t material, bool colored, bool strokes, bool baked);
 
   /// A Texture2Transform behind those in force: its number.

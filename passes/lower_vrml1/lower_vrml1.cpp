@@ -30,8 +30,12 @@ struct Effect {
 class Lowering {
  public:
   Lowering(Scene& scene, const LowerVrml1Options& options, PassContext& ctx)
-      : scene_(scene), diag_(ctx.diag), looks_(scene, diag_), shapes_(scene, looks_, diag_, default_crease_angle()),
-        steps_left_(static_cast<std::size_t>(options.limit) + steps_a_node * scene.node_count()), limit_(options.limit) {}
+      : scene_(scene),
+        diag_(ctx.diag),
+        looks_(scene, diag_),
+        shapes_(scene, looks_, diag_, default_crease_angle()),
+        steps_left_(static_cast<std::size_t>(options.limit) + steps_a_node * scene.node_count()),
+        limit_(options.limit) {}
 
   void run() {
     legal_names();
@@ -53,7 +57,8 @@ class Lowering {
       const auto old = scene_.name(NodeId{i});
       if (old.find_first_of("+.-'\\0123456789") == old.npos) continue;
       std::string name(old.substr(0, old.find('+')));
-      std::ranges::replace_if(name, [](char c) { return c == '.' || c == '\'' || c == '\\'; }, '_');
+      std::ranges::replace_if(
+          name, [](char c) { return c == '.' || c == '\'' || c == '\\'; }, '_');
       if (!name.empty() && (name[0] == '-' || (name[0] >= '0' && name[0] <= '9'))) name.insert(0, 1, '_');
       if (name != old) scene_.set_name(NodeId{i}, name);
     }
@@ -63,12 +68,17 @@ class Lowering {
   double default_crease_angle() const { return scene_.header.starts_with("#Inventor V2.1") ? 0 : 0.5; }
   bool is(NodeId n, TypeId t) const { return scene_.is(n, t); }
 
-  /// False when there is too much that comes again, which is reported once. What comes for the first time is always done.
+  /// False when there is too much that comes again, which is reported once. What comes for the first time is always
+  /// done.
   bool step(NodeId n) {
     if (n.value >= met_.size()) met_.resize(n.value + std::size_t{1});
     if (!std::exchange(met_[n.value], 1)) return true;
-    if (steps_left_ > 0) return --steps_left_, true;
-    if (!std::exchange(full_, true)) diag_.report(Diag::expansion_limit, scene_.where(n), limit_, "nodes visited again in other states");
+    if (steps_left_ > 0) {
+      --steps_left_;
+      return true;
+    }
+    if (!std::exchange(full_, true))
+      diag_.report(Diag::expansion_limit, scene_.where(n), limit_, "nodes visited again in other states");
     return false;
   }
 
@@ -105,7 +115,8 @@ class Lowering {
   /// A child of Switch or LOD as a node: there must be one for each.
   NodeId choice(NodeId child, State& s, Frame& frame) {
     visit(child, s, frame);
-    if (frame.runs.size() == 1 && frame.runs[0].at.identity() && frame.runs[0].nodes.size() == 1) return frame.runs[0].nodes[0];
+    if (frame.runs.size() == 1 && frame.runs[0].at.identity() && frame.runs[0].nodes.size() == 1)
+      return frame.runs[0].nodes[0];
     NodeId n = group(scene_, frame, scene_.where(child), {});
     return n ? n : scene_.add(nodes::Group, scene_.where(child));
   }
@@ -143,21 +154,35 @@ void Lowering::visit(NodeId n, State& s, Frame& frame) {
     if (!made) made = make();
     if (made) frame.add(made);
   };
-  if (type.kind != NodeKind::builtin) visit_unknown(n, s, frame);
-  else if (!(type.dialects & static_cast<DialectSet>(Dialect::vrml1))) visit_vrml97(n, s, frame);
-  else if (is(n, v1::Environment)) single([&] { return fog_of(scene_, n, diag_); });
-  else if (property(n, s)) {}
-  else if (type.is_a("Vrml1TransformNode")) visit_transform(n, s, frame);
-  else if (type.is_a("Vrml1ShapeNode")) visit_shape(n, s, frame);
-  else if (type.is_a("Vrml1LightNode")) visit_light(n, frame);
-  else if (type.is_a("Vrml1CameraNode")) single([&] { return viewpoint(scene_, n, diag_); });
-  else if (type.is_a("Vrml1InfoNode")) single([&] { return info_of(scene_, n); });
-  else if (is(n, v1::WWWInline) || is(n, v1::File)) single([&] { return inline_of(scene_, n); });
-  else if (type.is_a("Vrml1SeparatorNode")) visit_separator(n, s, frame);
-  else if (is(n, v1::Switch) || is(n, v1::Blinker)) visit_switch(n, s, frame);
-  else if (is(n, v1::LOD) || is(n, v1::LevelOfDetail)) visit_lod(n, s, frame);
-  else if (is(n, v1::Array) || is(n, v1::MultipleCopy)) visit_copies(n, s, frame);
-  else if (type.is_a("Vrml1GroupNode")) visit_group(n, children_of(n), s, frame);
+  if (type.kind != NodeKind::builtin)
+    visit_unknown(n, s, frame);
+  else if (!(type.dialects & static_cast<DialectSet>(Dialect::vrml1)))
+    visit_vrml97(n, s, frame);
+  else if (is(n, v1::Environment))
+    single([&] { return fog_of(scene_, n, diag_); });
+  else if (property(n, s)) {
+  } else if (type.is_a("Vrml1TransformNode"))
+    visit_transform(n, s, frame);
+  else if (type.is_a("Vrml1ShapeNode"))
+    visit_shape(n, s, frame);
+  else if (type.is_a("Vrml1LightNode"))
+    visit_light(n, frame);
+  else if (type.is_a("Vrml1CameraNode"))
+    single([&] { return viewpoint(scene_, n, diag_); });
+  else if (type.is_a("Vrml1InfoNode"))
+    single([&] { return info_of(scene_, n); });
+  else if (is(n, v1::WWWInline) || is(n, v1::File))
+    single([&] { return inline_of(scene_, n); });
+  else if (type.is_a("Vrml1SeparatorNode"))
+    visit_separator(n, s, frame);
+  else if (is(n, v1::Switch) || is(n, v1::Blinker))
+    visit_switch(n, s, frame);
+  else if (is(n, v1::LOD) || is(n, v1::LevelOfDetail))
+    visit_lod(n, s, frame);
+  else if (is(n, v1::Array) || is(n, v1::MultipleCopy))
+    visit_copies(n, s, frame);
+  else if (type.is_a("Vrml1GroupNode"))
+    visit_group(n, children_of(n), s, frame);
   --depth_;
 }
 
@@ -167,39 +192,63 @@ void Lowering::visit(NodeId n, State& s, Frame& frame) {
 NodeId Lowering::first_equal(NodeId n) {
   constexpr std::size_t few = 64;
   if (!scene_.name(n).empty()) return n;
-  auto bytes = [](const auto& span) { return std::string_view(reinterpret_cast<const char*>(span.data()), span.size_bytes()); };
+  auto bytes = [](const auto& span) {
+    return std::string_view(reinterpret_cast<const char*>(span.data()), span.size_bytes());
+  };
   std::string all = std::to_string(scene_.type_id(n).value);
   for (const Value& v : scene_.fields(n)) {
     const Element element = info(v.type).element;
     if (scene_.is_extra(v) || v.count > few || element == Element::node || v.type == FieldType::MFString) return n;
     all += '/' + std::to_string(v.slot) + ' ' + std::to_string(v.count) + ' ';
-    all += element == Element::number ? bytes(v.number_span()) : element == Element::text ? v.text() : bytes(v.integer_span());
+    all += element == Element::number ? bytes(v.number_span())
+           : element == Element::text ? v.text()
+                                      : bytes(v.integer_span());
   }
   return equals_.emplace(std::move(all), n).first->second;
 }
 
 bool Lowering::property(NodeId n, State& s) {
   const TypeId t = scene_.type_id(n);
-  if (t == v1::Coordinate3 || t == v1::Coordinate4) s.coord = n;
-  else if (t == v1::Normal) s.normal = n;
-  else if (t == v1::NormalBinding) s.normal_binding = read_binding(scene_.get(n, v1::normal_binding::value));
-  else if (t == v1::Material) s.material = first_equal(n), s.color = {};
-  else if (t == v1::BaseColor || t == v1::PackedColor) s.color = first_equal(n);
-  else if (t == v1::MaterialBinding) s.material_binding = read_binding(scene_.get(n, v1::material_binding::value));
-  else if (t == v1::Texture2) s.texture = first_equal(n);
-  else if (t == v1::Texture2Transform) s.texture_transform = looks_.then(s.texture_transform, n);
-  else if (t == v1::TextureCoordinate2 || t == v1::TextureCoordinatePlane || t == v1::TextureCoordinateEnvironment) s.texture_coord = n;
-  else if (t == v1::TextureCoordinateDefault) s.texture_coord = {};
-  else if (t == v1::TextureCoordinateBinding) s.texture_binding = read_binding(scene_.get(n, v1::texture_coordinate_binding::value));
-  else if (t == v1::ShapeHints) s.hints = first_equal(n);
-  else if (t == v1::FontStyle || t == v1::Font) s.font = first_equal(n);
-  else if (t == v1::LightModel) s.lit = scene_.get(n, v1::light_model::model) != "BASE_COLOR";
+  if (t == v1::Coordinate3 || t == v1::Coordinate4)
+    s.coord = n;
+  else if (t == v1::Normal)
+    s.normal = n;
+  else if (t == v1::NormalBinding)
+    s.normal_binding = read_binding(scene_.get(n, v1::normal_binding::value));
+  else if (t == v1::Material) {
+    s.material = first_equal(n);
+    s.color = {};
+  } else if (t == v1::BaseColor || t == v1::PackedColor)
+    s.color = first_equal(n);
+  else if (t == v1::MaterialBinding)
+    s.material_binding = read_binding(scene_.get(n, v1::material_binding::value));
+  else if (t == v1::Texture2)
+    s.texture = first_equal(n);
+  else if (t == v1::Texture2Transform)
+    s.texture_transform = looks_.then(s.texture_transform, n);
+  else if (t == v1::TextureCoordinate2 || t == v1::TextureCoordinatePlane || t == v1::TextureCoordinateEnvironment)
+    s.texture_coord = n;
+  else if (t == v1::TextureCoordinateDefault)
+    s.texture_coord = {};
+  else if (t == v1::TextureCoordinateBinding)
+    s.texture_binding = read_binding(scene_.get(n, v1::texture_coordinate_binding::value));
+  else if (t == v1::ShapeHints)
+    s.hints = first_equal(n);
+  else if (t == v1::FontStyle || t == v1::Font)
+    s.font = first_equal(n);
+  else if (t == v1::LightModel)
+    s.lit = scene_.get(n, v1::light_model::model) != "BASE_COLOR";
   else if (t == v1::DrawStyle) {
     const auto style = scene_.get(n, v1::draw_style::style);
-    s.drawing = style == "LINES" ? Drawing::lines : style == "POINTS" ? Drawing::points : style == "INVISIBLE" ? Drawing::invisible : Drawing::filled;
-  } else if (t == v1::ClipPlane || t == v1::ProfileCoordinate2 || t == v1::ProfileCoordinate3 || t == v1::LinearProfile || t == v1::NurbsProfile) {
+    s.drawing = style == "LINES"       ? Drawing::lines
+                : style == "POINTS"    ? Drawing::points
+                : style == "INVISIBLE" ? Drawing::invisible
+                                       : Drawing::filled;
+  } else if (t == v1::ClipPlane || t == v1::ProfileCoordinate2 || t == v1::ProfileCoordinate3 ||
+             t == v1::LinearProfile || t == v1::NurbsProfile) {
     diag_.report(Diag::no_vrml97_node, scene_.where(n), scene_.type(n).name);
-  } else return scene_.type(n).is_a("Vrml1PropertyNode");  // of no effect on what is there: Complexity, PickStyle
+  } else
+    return scene_.type(n).is_a("Vrml1PropertyNode");  // of no effect on what is there: Complexity, PickStyle
   return true;
 }
 
@@ -209,7 +258,8 @@ void Lowering::visit_transform(NodeId n, State& s, Frame& frame) {
   } else if (is(n, v1::Units)) {
     const double before = metres(s.unit), k = metres(scene_.get(n, v1::units::units), s.unit) / before;
     frame.at.then(TransformFields{.scale = {k, k, k}});
-  } else frame.at.then(transform_of(scene_, n, diag_));
+  } else
+    frame.at.then(transform_of(scene_, n, diag_));
 }
 
 void Lowering::visit_shape(NodeId n, const State& s, Frame& frame) {
@@ -242,7 +292,10 @@ void Lowering::visit_group(NodeId n, std::span<const NodeId> nodes, State& s, Fr
     const State before = s;
     Frame inner;
     for (NodeId c : nodes) visit(c, s, inner);
-    known = effects_.emplace(std::pair{n, before}, Effect{group(scene_, inner, scene_.where(n), scene_.name(n)), s, inner.at, inner.lights}).first;
+    known = effects_
+                .emplace(std::pair{n, before},
+                         Effect{group(scene_, inner, scene_.where(n), scene_.name(n)), s, inner.at, inner.lights})
+                .first;
   }
   const Effect& e = known->second;
   if (e.drawn) frame.add(e.drawn);
@@ -259,24 +312,30 @@ void Lowering::visit_separator(NodeId n, State s, Frame& frame) {
     if (is(n, v1::WWWAnchor)) {
       made = scene_.add(nodes::Anchor, scene_.where(n));
       scene_.set_name(made, scene_.name(n));
-      if (auto url = scene_.get(n, v1::www_anchor::name); !url.empty()) scene_.set(made, nodes::anchor::url, std::vector<std::string_view>{url});
+      if (auto url = scene_.get(n, v1::www_anchor::name); !url.empty())
+        scene_.set(made, nodes::anchor::url, std::vector<std::string_view>{url});
       scene_.set(made, nodes::anchor::description, scene_.get(n, v1::www_anchor::description));
       scene_.set(made, nodes::anchor::children, children(scene_, inner));
-      if (scene_.get(n, v1::www_anchor::map) == "POINT") diag_.report(Diag::no_vrml97_value, scene_.where(n), "WWWAnchor", "map");
-    } else made = group(scene_, inner, scene_.where(n), scene_.name(n));
+      if (scene_.get(n, v1::www_anchor::map) == "POINT")
+        diag_.report(Diag::no_vrml97_value, scene_.where(n), "WWWAnchor", "map");
+    } else
+      made = group(scene_, inner, scene_.where(n), scene_.name(n));
     known = effects_.emplace(std::pair{n, s}, Effect{made, {}, {}, {}}).first;
   }
   if (known->second.drawn) frame.add(known->second.drawn);
 }
 
-// The chosen child acts like one of a Group; the others are drawn apart from everything, so that they can be chosen later.
+// The chosen child acts like one of a Group; the others are drawn apart from everything, so that they can be chosen
+// later.
 void Lowering::visit_switch(NodeId n, State& s, Frame& frame) {
   const auto nodes = children_of(n);
-  const auto chosen = is(n, v1::Switch) ? scene_.get(n, v1::switch_::whichChild) : scene_.get(n, v1::blinker::whichChild);
+  const auto chosen =
+      is(n, v1::Switch) ? scene_.get(n, v1::switch_::whichChild) : scene_.get(n, v1::blinker::whichChild);
   if (chosen == -3) return visit_group(n, nodes, s, frame);
   if (scene_.name(n) == "Cameras") {  // the viewpoints of the world; the chosen one comes first
     std::vector<NodeId> order(nodes.begin(), nodes.end());
-    if (chosen > 0 && static_cast<std::size_t>(chosen) < order.size()) std::swap(order[0], order[static_cast<std::size_t>(chosen)]);
+    if (chosen > 0 && static_cast<std::size_t>(chosen) < order.size())
+      std::swap(order[0], order[static_cast<std::size_t>(chosen)]);
     for (NodeId c : order) {
       const Placement before = frame.at;
       State own = s;
@@ -294,13 +353,17 @@ void Lowering::visit_switch(NodeId n, State& s, Frame& frame) {
     Frame inner;
     choices.push_back(choice(nodes[i], own, inner));
     any |= !inner.runs.empty();
-    if (chosen == static_cast<int>(i)) after = own, taken = std::move(inner);
+    if (chosen == static_cast<int>(i)) {
+      after = own;
+      taken = std::move(inner);
+    }
   }
   if (any) {
     NodeId made = scene_.add(nodes::Switch, scene_.where(n));
     scene_.set_name(made, scene_.name(n));
     scene_.set(made, nodes::switch_::children, choices);
-    scene_.set(made, nodes::switch_::whichChoice, chosen >= 0 && static_cast<std::size_t>(chosen) < nodes.size() ? chosen : -1);
+    scene_.set(made, nodes::switch_::whichChoice,
+               chosen >= 0 && static_cast<std::size_t>(chosen) < nodes.size() ? chosen : -1);
     frame.add(made);
   }
   s = after;
@@ -322,7 +385,8 @@ void Lowering::visit_lod(NodeId n, const State& s, Frame& frame) {
   if (is(n, v1::LOD)) {
     scene_.set(made, nodes::lod::center, scene_.get(n, v1::lod::center));
     scene_.set(made, nodes::lod::range, scene_.get(n, v1::lod::range));
-  } else diag_.report(Diag::no_vrml97_value, scene_.where(n), "LevelOfDetail", "screenArea");
+  } else
+    diag_.report(Diag::no_vrml97_value, scene_.where(n), "LevelOfDetail", "screenArea");
   frame.add(made);
 }
 
@@ -339,7 +403,8 @@ void Lowering::visit_copies(NodeId n, const State& s, Frame& frame) {
     frame.at = before;
   };
   if (is(n, v1::MultipleCopy)) {
-    for (auto m = scene_.get(n, v1::multiple_copy::matrix); m.size() >= 16; m = m.subspan(16)) put(matrix_of_rows(m.first(16), scene_.where(n), diag_));
+    for (auto m = scene_.get(n, v1::multiple_copy::matrix); m.size() >= 16; m = m.subspan(16))
+      put(matrix_of_rows(m.first(16), scene_.where(n), diag_));
     return;
   }
   namespace a = v1::array;

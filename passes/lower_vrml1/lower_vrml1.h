@@ -1,16 +1,17 @@
 // lower-vrml1: a world of VRML 1.0 or Inventor in the nodes of VRML97.
 //
 //   Separator {                                        Group { children [
-//     Material { diffuseColor 1 0 0 }                    Shape { appearance Appearance { material DEF Red Material { ... } }
-//     Cube { }                                   ->              geometry Box { } }
-//     Translation { translation 3 0 0 }                  Transform { translation 3 0 0 children
-//     Sphere { }                                           Shape { appearance Appearance { material USE Red } geometry Sphere { } } } ] }
+//     Material { diffuseColor 1 0 0 }                    Shape { appearance Appearance { material DEF Red Material {
+//     ... } } Cube { }                                   ->              geometry Box { } } Translation { translation 3
+//     0 0 }                  Transform { translation 3 0 0 children Sphere { } Shape { appearance Appearance { material
+//     USE Red } geometry Sphere { } } } ] }
 //   }
 //
-// VRML 1.0 is a program for a machine with a state: a node changes the state for all that follows, out of a Group but not out
-// of a Separator. The pass runs that program and writes down what is drawn. Groups stay groups, a run of nodes at one place
-// is below one Transform, and what is drawn again in the same state is one node with several uses: a Separator that comes a
-// thousand times is there once, and a Coordinate3 is one Coordinate however many shapes it is in. DEF names go along.
+// VRML 1.0 is a program for a machine with a state: a node changes the state for all that follows, out of a Group but
+// not out of a Separator. The pass runs that program and writes down what is drawn. Groups stay groups, a run of nodes
+// at one place is below one Transform, and what is drawn again in the same state is one node with several uses: a
+// Separator that comes a thousand times is there once, and a Coordinate3 is one Coordinate however many shapes it is
+// in. DEF names go along.
 //
 // What VRML97 cannot say is reported as lost. What it says in another way:
 // - materials by part or face: a Color node, or one Shape for each kind where they differ in more than diffuse colour;
@@ -20,17 +21,19 @@
 //   NavigationInfo and Background, as browsers of the time took them;
 // - a node that describes itself (`isA`) and is not known: the first of its bases that is.
 //
-// Worlds that are not VRML 1.0 are left alone. Linear in the file and in what it draws; nodes that are used in ever other
-// states are limited like the copies of expand-protos.
+// Worlds that are not VRML 1.0 are left alone. Linear in the file and in what it draws; nodes that are used in ever
+// other states are limited like the copies of expand-protos.
 #pragma once
-#include "passes/pipeline/option_range.h"
+#include "base/option_range.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
 
 struct LowerVrml1Options {
   int limit = 500'000;
-  void fields(auto&& f) { f("limit", limit, "how many nodes may be visited again because the state is another one", at_least(0)); }
+  void fields(auto&& f) {
+    f("limit", limit, "how many nodes may be visited again because the state is another one", at_least(0));
+  }
 };
 Outcome lower_vrml1(Scene&, const LowerVrml1Options&, PassContext&);
 

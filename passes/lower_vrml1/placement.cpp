@@ -26,7 +26,9 @@ std::array<double, N> tidy(std::array<double, N> a) {
 }
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 Vec3 scaled(const Vec3& a, double f) { return {a[0] * f, a[1] * f, a[2] * f}; }
 
 /// One after the other in one Transform; none where it takes two.
@@ -44,7 +46,8 @@ std::optional<TransformFields> sum(const TransformFields& a, const TransformFiel
     auto out = a;
     const Vec3 turned = rotation_matrix(a.rotation).point(b.translation);
     for (std::size_t i = 0; i < 3; ++i) out.translation[i] = tidy(a.translation[i] + turned[i]);
-    return without_noise(out.translation), out;
+    without_noise(out.translation);
+    return out;
   }
   const bool b_only_scales = b.translation == none.translation && b.rotation[3] == 0 && b.center == none.center;
   if (!unscaled || a.center != none.center || !b_only_scales) return std::nullopt;
@@ -54,20 +57,27 @@ std::optional<TransformFields> sum(const TransformFields& a, const TransformFiel
   return out;
 }
 
-/// Jacobi's rotations of one side: the columns of `a` are turned until they are square to each other, and those of `v` along.
+/// Jacobi's rotations of one side: the columns of `a` are turned until they are square to each other, and those of `v`
+/// along.
 void square_columns(Rows& a, Rows& v) {
   constexpr int enough = 30;
   for (int sweep = 0; sweep < enough; ++sweep)
     for (auto [p, q] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}}) {
       double pp = 0, qq = 0, pq = 0;
-      for (auto& row : a) pp += row[p] * row[p], qq += row[q] * row[q], pq += row[p] * row[q];
+      for (auto& row : a) {
+        pp += row[p] * row[p];
+        qq += row[q] * row[q];
+        pq += row[p] * row[q];
+      }
       if (std::abs(pq) <= 1e-15 * std::sqrt(pp * qq)) continue;
       const double theta = (qq - pp) / (2 * pq);
-      const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1)), c = 1 / std::sqrt(t * t + 1), s = t * c;
+      const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1)),
+                   c = 1 / std::sqrt(t * t + 1), s = t * c;
       for (auto* m : {&a, &v})
         for (auto& row : *m) {
           const double x = row[p], y = row[q];
-          row[p] = c * x - s * y, row[q] = s * x + c * y;
+          row[p] = c * x - s * y;
+          row[q] = s * x + c * y;
         }
     }
 }
@@ -85,7 +95,8 @@ void complete(std::array<Vec3, 3>& columns, const std::array<bool, 3>& known) {
     if (known[k]) continue;
     const auto &a = columns[(k + 1) % 3], &b = columns[(k + 2) % 3];
     columns[k] = cross(a, b);
-    if (const double length = std::sqrt(dot(columns[k], columns[k])); length > 0) columns[k] = scaled(columns[k], 1 / length);
+    if (const double length = std::sqrt(dot(columns[k], columns[k])); length > 0)
+      columns[k] = scaled(columns[k], 1 / length);
   }
 }
 
@@ -131,8 +142,10 @@ TransformFields decompose(const Matrix& m) {
   std::array<bool, 3> known{};
   const double largest = std::ranges::max(out.scale);
   for (std::size_t k = 0; k < 3; ++k)
-    if ((known[k] = out.scale[k] > 1e-12 * largest)) u[k] = scaled(u[k], 1 / out.scale[k]);
-    else u[k] = {};
+    if ((known[k] = out.scale[k] > 1e-12 * largest))
+      u[k] = scaled(u[k], 1 / out.scale[k]);
+    else
+      u[k] = {};
   if (m.determinant() < 0) {  // mirrored along the axis that leaves the least to turn
     const std::array<double, 3> along{dot(u[0], axes[0]), dot(u[1], axes[1]), dot(u[2], axes[2])};
     const auto k = static_cast<std::size_t>(std::ranges::min_element(along) - along.begin());
@@ -146,7 +159,8 @@ TransformFields decompose(const Matrix& m) {
       for (std::size_t k = 0; k < 3; ++k) r[i][k] = u[0][i] * v[k][0] + u[1][i] * v[k][1] + u[2][i] * v[k][2];
     out.rotation = tidy(axis_angle(r));
   }
-  const bool uniform = std::abs(out.scale[0] - out.scale[1]) <= 1e-12 * largest && std::abs(out.scale[0] - out.scale[2]) <= 1e-12 * largest;
+  const bool uniform = std::abs(out.scale[0] - out.scale[1]) <= 1e-12 * largest &&
+                       std::abs(out.scale[0] - out.scale[2]) <= 1e-12 * largest;
   if (!uniform) out.scale_orientation = tidy(axis_angle(v));
   out.scale = tidy(out.scale);
   return out;

@@ -1,5 +1,6 @@
-// The transformation that the traversal of VRML 1.0 has gathered since the group around it, and the Transform that says it.
-// Any matrix is one: a rotation times a scale along turned axes (polar decomposition), which is what Transform can say.
+// The transformation that the traversal of VRML 1.0 has gathered since the group around it, and the Transform that says
+// it. Any matrix is one: a rotation times a scale along turned axes (polar decomposition), which is what Transform can
+// say.
 #pragma once
 #include <optional>
 
@@ -25,8 +26,8 @@ class Placement {
   std::optional<TransformFields> fields_ = TransformFields{};  // while they say it
 };
 
-/// The Transform of a matrix: R V S V', where A V has columns square to each other (singular values). A mirrored matrix has one negative scale; one that
-/// flattens still has a rotation; one that is not finite is the identity.
+/// The Transform of a matrix: R V S V', where A V has columns square to each other (singular values). A mirrored matrix
+/// has one negative scale; one that flattens still has a rotation; one that is not finite is the identity.
 TransformFields decompose(const Matrix&);
 /// What is nothing beside the largest component becomes 0.
 void without_noise(Vec3&);

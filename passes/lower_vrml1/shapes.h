@@ -1,5 +1,5 @@
-// Shapes of VRML97 for a geometry node of VRML 1.0 in a state. Coordinates, normals and texture coordinates become one node
-// each, however many shapes are made of them.
+// Shapes of VRML97 for a geometry node of VRML 1.0 in a state. Coordinates, normals and texture coordinates become one
+// node each, however many shapes are made of them.
 #pragma once
 #include <map>
 #include <utility>
@@ -13,7 +13,8 @@ namespace wrlkit::vrml1 {
 class Shapes {
  public:
   /// `crease_angle`: of faces for which no ShapeHints says one.
-  Shapes(Scene& scene, Looks& looks, Diagnostics& diag, double crease_angle) : scene_(scene), looks_(looks), diag_(diag), crease_angle_(crease_angle) {}
+  Shapes(Scene& scene, Looks& looks, Diagnostics& diag, double crease_angle)
+      : scene_(scene), looks_(looks), diag_(diag), crease_angle_(crease_angle) {}
 
   /// What the node draws: none, a Shape, or several where one cannot say it.
   const std::vector<NodeId>& of(NodeId geometry, const State&);
@@ -31,7 +32,8 @@ class Shapes {
   using Parts = std::vector<std::pair<NodeId, std::size_t>>;  // geometry and its material
 
   std::vector<NodeId> make(NodeId, const State&);
-  NodeId shape(NodeId geometry, const State&, std::size_t material, bool colored = false, bool strokes = false, bool baked = false);
+  NodeId shape(NodeId geometry, const State&, std::size_t material, bool colored = false, bool strokes = false,
+               bool baked = false);
   NodeId add(TypeId, NodeId source);
 
   // Primitives.
@@ -46,7 +48,8 @@ class Shapes {
   void bind_all(Job&, const Faces&);
   void bind_texture(Job&, const Faces&);
   std::vector<NodeId> emit_all(const Job&, const Faces&);
-  NodeId emit(const Job&, const Faces&, const Attribute& colors, const Attribute& normals, const Attribute& texture, std::size_t material, NodeId coord);
+  NodeId emit(const Job&, const Faces&, const Attribute& colors, const Attribute& normals, const Attribute& texture,
+              std::size_t material, NodeId coord);
   NodeId face_set(const Job&, const Faces&, const Attribute& normals, const Attribute& texture);
   NodeId line_set(const Job&, const Faces&);
   void set_colors(NodeId geometry, const Job&, const Faces&, const Attribute&);

@@ -29,7 +29,8 @@ bool read_color(std::string_view s, Vec3& out) {
   return true;
 }
 
-// A lobe of cos^(128 rate), which has half of its brightness at some angle; so has the ramp from beamWidth to cutOffAngle.
+// A lobe of cos^(128 rate), which has half of its brightness at some angle; so has the ramp from beamWidth to
+// cutOffAngle.
 double beam_width(double rate, double cut_off) {
   if (rate <= 0) return cut_off;
   const double half = std::acos(std::pow(0.5, 1 / (128 * rate)));
@@ -49,13 +50,15 @@ NodeId viewpoint(Scene& scene, NodeId camera, Diagnostics& diag) {
   const double angle = parallel ? default_angle : scene.get(camera, p::heightAngle);
   if (parallel) {  // back to where as much is seen
     diag.report(Diag::no_vrml97_value, scene.where(camera), "OrthographicCamera", "height");
-    const double back = scene.get(camera, o::height) / 2 / std::tan(default_angle / 2) - scene.get(camera, o::focalDistance);
+    const double back =
+        scene.get(camera, o::height) / 2 / std::tan(default_angle / 2) - scene.get(camera, o::focalDistance);
     const auto offset = rotation_matrix(orientation).point({0, 0, back});
     for (std::size_t i = 0; i < 3; ++i) position[i] += offset[i];
   }
   scene.set(n, nodes::viewpoint::position, position);
   scene.set(n, nodes::viewpoint::orientation, orientation);
-  if (angle != default_angle) scene.set(n, nodes::viewpoint::fieldOfView, angle);  // the default of both, with the digits of each
+  if (angle != default_angle)
+    scene.set(n, nodes::viewpoint::fieldOfView, angle);  // the default of both, with the digits of each
   scene.set(n, nodes::viewpoint::description, scene.name(camera));
   return n;
 }
@@ -115,7 +118,8 @@ NodeId inline_of(Scene& scene, NodeId source) {
 }
 
 NodeId info_of(Scene& scene, NodeId source) {
-  const auto text = scene.is(source, v1::Info) ? scene.get(source, v1::info::string) : scene.get(source, v1::label::label);
+  const auto text =
+      scene.is(source, v1::Info) ? scene.get(source, v1::info::string) : scene.get(source, v1::label::label);
   const auto name = scene.name(source);
   if (Vec3 color; name == "BackgroundColor" && read_color(text, color)) {
     NodeId n = scene.add(nodes::Background, scene.where(source));
@@ -131,8 +135,10 @@ NodeId info_of(Scene& scene, NodeId source) {
     return n;
   }
   NodeId n = named(scene, nodes::WorldInfo, source);
-  if (name == "Title") scene.set(n, nodes::world_info::title, text);
-  else scene.set(n, nodes::world_info::info, std::vector<std::string_view>{text});
+  if (name == "Title")
+    scene.set(n, nodes::world_info::title, text);
+  else
+    scene.set(n, nodes::world_info::info, std::vector<std::string_view>{text});
   return n;
 }
 
@@ -150,22 +156,31 @@ NodeId fog_of(Scene& scene, NodeId source, Diagnostics& diag) {
 
 TransformFields transform_of(const Scene& scene, NodeId n, Diagnostics& diag) {
   TransformFields out;
-  if (scene.is(n, v1::Translation)) out.translation = scene.get(n, v1::translation::translation);
-  else if (scene.is(n, v1::Rotation)) out.rotation = scene.get(n, v1::rotation::rotation);
-  else if (scene.is(n, v1::Scale)) out.scale = scene.get(n, v1::scale::scaleFactor);
-  else if (scene.is(n, v1::Rotor)) out.rotation = scene.get(n, v1::rotor::rotation);
-  else if (scene.is(n, v1::Pendulum)) out.rotation = scene.get(n, v1::pendulum::rotation);
-  else if (scene.is(n, v1::Shuttle)) out.translation = scene.get(n, v1::shuttle::translation);
+  if (scene.is(n, v1::Translation))
+    out.translation = scene.get(n, v1::translation::translation);
+  else if (scene.is(n, v1::Rotation))
+    out.rotation = scene.get(n, v1::rotation::rotation);
+  else if (scene.is(n, v1::Scale))
+    out.scale = scene.get(n, v1::scale::scaleFactor);
+  else if (scene.is(n, v1::Rotor))
+    out.rotation = scene.get(n, v1::rotor::rotation);
+  else if (scene.is(n, v1::Pendulum))
+    out.rotation = scene.get(n, v1::pendulum::rotation);
+  else if (scene.is(n, v1::Shuttle))
+    out.translation = scene.get(n, v1::shuttle::translation);
   else if (scene.is(n, v1::RotationXYZ)) {
     const auto axis = scene.get(n, v1::rotation_xyz::axis);
-    out.rotation = {axis == "X" ? 1.0 : 0.0, axis == "Y" ? 1.0 : 0.0, axis == "Z" ? 1.0 : 0.0, scene.get(n, v1::rotation_xyz::angle)};
+    out.rotation = {axis == "X" ? 1.0 : 0.0, axis == "Y" ? 1.0 : 0.0, axis == "Z" ? 1.0 : 0.0,
+                    scene.get(n, v1::rotation_xyz::angle)};
   } else if (scene.is(n, v1::Transform)) {
     namespace t = v1::transform;
-    out = {scene.get(n, t::translation), scene.get(n, t::rotation), scene.get(n, t::scaleFactor), scene.get(n, t::scaleOrientation), scene.get(n, t::center)};
+    out = {scene.get(n, t::translation), scene.get(n, t::rotation), scene.get(n, t::scaleFactor),
+           scene.get(n, t::scaleOrientation), scene.get(n, t::center)};
   }
   const bool moves = scene.is(n, v1::Rotor) || scene.is(n, v1::Pendulum) || scene.is(n, v1::Shuttle);
   if (moves) diag.report(Diag::no_vrml97_value, scene.where(n), scene.type(n).name, "speed");
-  if (scene.is(n, v1::ResetTransform) || scene.is(n, v1::AntiSquish)) diag.report(Diag::no_vrml97_node, scene.where(n), scene.type(n).name);
+  if (scene.is(n, v1::ResetTransform) || scene.is(n, v1::AntiSquish))
+    diag.report(Diag::no_vrml97_node, scene.where(n), scene.type(n).name);
   return out;
 }
 
@@ -174,14 +189,20 @@ Matrix matrix_of_rows(std::span<const double> rows, Span where, Diagnostics& dia
   const double w = rows[15] != 0 ? rows[15] : 1;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 4; ++c) m(r, c) = rows[static_cast<std::size_t>(c * 4 + r)] / w;
-  if (rows[3] != 0 || rows[7] != 0 || rows[11] != 0) diag.report(Diag::no_vrml97_value, where, "MatrixTransform", "matrix");
+  if (rows[3] != 0 || rows[7] != 0 || rows[11] != 0)
+    diag.report(Diag::no_vrml97_value, where, "MatrixTransform", "matrix");
   return m;
 }
 
 namespace {
-struct Unit { std::string_view name; double metres; };
-constexpr Unit units[] = {{"METERS", 1}, {"CENTIMETERS", 0.01}, {"MILLIMETERS", 0.001}, {"MICROMETERS", 1e-6}, {"MICRONS", 1e-6}, {"NANOMETERS", 1e-9}, {"ANGSTROMS", 1e-10},
-                          {"KILOMETERS", 1000}, {"FEET", 0.3048}, {"INCHES", 0.0254}, {"POINTS", 0.0254 / 72}, {"YARDS", 0.9144}, {"MILES", 1609.344}, {"NAUTICAL_MILES", 1852}};
+struct Unit {
+  std::string_view name;
+  double metres;
+};
+constexpr Unit units[] = {{"METERS", 1},       {"CENTIMETERS", 0.01},   {"MILLIMETERS", 0.001},  {"MICROMETERS", 1e-6},
+                          {"MICRONS", 1e-6},   {"NANOMETERS", 1e-9},    {"ANGSTROMS", 1e-10},    {"KILOMETERS", 1000},
+                          {"FEET", 0.3048},    {"INCHES", 0.0254},      {"POINTS", 0.0254 / 72}, {"YARDS", 0.9144},
+                          {"MILES", 1609.344}, {"NAUTICAL_MILES", 1852}};
 }  // namespace
 
 double metres(std::string_view unit, std::uint8_t& number) {

@@ -1,5 +1,5 @@
-// What the traversal of VRML 1.0 knows at a node but for the transformation: which property nodes are in force. Equal states
-// make equal Shapes, so that what is used again in the same state is made once.
+// What the traversal of VRML 1.0 knows at a node but for the transformation: which property nodes are in force. Equal
+// states make equal Shapes, so that what is used again in the same state is made once.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -11,10 +11,20 @@
 
 namespace wrlkit::vrml1 {
 
-enum class Binding : std::uint8_t { automatic, overall, per_part, per_part_indexed, per_face, per_face_indexed, per_vertex, per_vertex_indexed };
+enum class Binding : std::uint8_t {
+  automatic,
+  overall,
+  per_part,
+  per_part_indexed,
+  per_face,
+  per_face_indexed,
+  per_vertex,
+  per_vertex_indexed
+};
 
 inline Binding read_binding(std::string_view word) {
-  constexpr std::array<std::string_view, 8> words{"DEFAULT", "OVERALL", "PER_PART", "PER_PART_INDEXED", "PER_FACE", "PER_FACE_INDEXED", "PER_VERTEX", "PER_VERTEX_INDEXED"};
+  constexpr std::array<std::string_view, 8> words{"DEFAULT",  "OVERALL",          "PER_PART",   "PER_PART_INDEXED",
+                                                  "PER_FACE", "PER_FACE_INDEXED", "PER_VERTEX", "PER_VERTEX_INDEXED"};
   auto i = std::ranges::find(words, word);
   return i == words.end() ? Binding::automatic : static_cast<Binding>(i - words.begin());
 }
@@ -29,7 +39,8 @@ struct State {
   // Property nodes of the file, and VertexProperty; none: the default.
   NodeId coord, normal, material, color, texture, texture_coord, hints, font;
   std::uint32_t texture_transform = 0;  // of Looks
-  Binding material_binding = Binding::automatic, normal_binding = Binding::automatic, texture_binding = Binding::automatic;
+  Binding material_binding = Binding::automatic, normal_binding = Binding::automatic,
+          texture_binding = Binding::automatic;
   Drawing drawing = Drawing::filled;
   bool lit = true;
   std::uint8_t unit = 0;  // of Units

@@ -12,9 +12,12 @@ namespace tsm = nodes::two_sided_material;
 
 bool back_differs(const Scene& scene, NodeId n) {
   if (!scene.get(n, tsm::separateBackColor)) return false;
-  return scene.get(n, tsm::diffuseColor) != scene.get(n, tsm::backDiffuseColor) || scene.get(n, tsm::emissiveColor) != scene.get(n, tsm::backEmissiveColor) ||
-         scene.get(n, tsm::specularColor) != scene.get(n, tsm::backSpecularColor) || scene.get(n, tsm::shininess) != scene.get(n, tsm::backShininess) ||
-         scene.get(n, tsm::transparency) != scene.get(n, tsm::backTransparency) || scene.get(n, tsm::ambientIntensity) != scene.get(n, tsm::backAmbientIntensity);
+  return scene.get(n, tsm::diffuseColor) != scene.get(n, tsm::backDiffuseColor) ||
+         scene.get(n, tsm::emissiveColor) != scene.get(n, tsm::backEmissiveColor) ||
+         scene.get(n, tsm::specularColor) != scene.get(n, tsm::backSpecularColor) ||
+         scene.get(n, tsm::shininess) != scene.get(n, tsm::backShininess) ||
+         scene.get(n, tsm::transparency) != scene.get(n, tsm::backTransparency) ||
+         scene.get(n, tsm::ambientIntensity) != scene.get(n, tsm::backAmbientIntensity);
 }
 
 bool one_side(Scene& scene, NodeId n, Diagnostics& diag) {
@@ -66,7 +69,8 @@ bool take_picture(Scene& scene, NodeId n, Diagnostics& diag) {
   if (!scene.is(n, nodes::Appearance)) return false;
   bool changed = false;
   if (scene.get(n, a::backMaterial)) {
-    if (scene.get(n, a::backMaterial) != scene.get(n, a::material)) diag.report(Diag::no_back_material, scene.where(n), "Appearance.backMaterial");
+    if (scene.get(n, a::backMaterial) != scene.get(n, a::material))
+      diag.report(Diag::no_back_material, scene.where(n), "Appearance.backMaterial");
     scene.unset(n, a::backMaterial.slot);
     changed = true;
   }

@@ -5,8 +5,8 @@
 
 namespace wrlkit::x3d {
 
-/// Leaves of a TwoSidedMaterial the front and of a MultiTexture, with its coordinates and transforms, the first, and takes
-/// the picture of a material for that of an Appearance that has none. False: nothing to do.
+/// Leaves of a TwoSidedMaterial the front and of a MultiTexture, with its coordinates and transforms, the first, and
+/// takes the picture of a material for that of an Appearance that has none. False: nothing to do.
 bool lower_appearance(Scene&, NodeId, Diagnostics&);
 
 }  // namespace wrlkit::x3d

@@ -16,32 +16,51 @@ struct EllipsoidRow {
 
 // ISO/IEC 19775-1, table 25.3.
 constexpr EllipsoidRow ellipsoids[] = {
-    {"AA", 6377563.396, 299.3249646}, {"AM", 6377340.189, 299.3249646}, {"AN", 6378160, 298.25},          {"BN", 6377483.865, 299.1528128},
-    {"BR", 6377397.155, 299.1528128}, {"CC", 6378206.4, 294.9786982},   {"CD", 6378249.145, 293.465},     {"EA", 6377276.345, 300.8017},
-    {"EB", 6377298.556, 300.8017},    {"EC", 6377301.243, 300.8017},    {"ED", 6377295.664, 300.8017},    {"EE", 6377304.063, 300.8017},
-    {"EF", 6377309.613, 300.8017},    {"FA", 6378155, 298.3},           {"HE", 6378200, 298.3},           {"HO", 6378270, 297},
-    {"ID", 6378160, 298.247},         {"IN", 6378388, 297},             {"KA", 6378245, 298.3},           {"RF", 6378137, 298.257222101},
-    {"SA", 6378160, 298.25},          {"WD", 6378135, 298.26},          {"WE", 6378137, 298.257223563},
+    {"AA", 6377563.396, 299.3249646}, {"AM", 6377340.189, 299.3249646},
+    {"AN", 6378160, 298.25},          {"BN", 6377483.865, 299.1528128},
+    {"BR", 6377397.155, 299.1528128}, {"CC", 6378206.4, 294.9786982},
+    {"CD", 6378249.145, 293.465},     {"EA", 6377276.345, 300.8017},
+    {"EB", 6377298.556, 300.8017},    {"EC", 6377301.243, 300.8017},
+    {"ED", 6377295.664, 300.8017},    {"EE", 6377304.063, 300.8017},
+    {"EF", 6377309.613, 300.8017},    {"FA", 6378155, 298.3},
+    {"HE", 6378200, 298.3},           {"HO", 6378270, 297},
+    {"ID", 6378160, 298.247},         {"IN", 6378388, 297},
+    {"KA", 6378245, 298.3},           {"RF", 6378137, 298.257222101},
+    {"SA", 6378160, 298.25},          {"WD", 6378135, 298.26},
+    {"WE", 6378137, 298.257223563},
 };
 
 bool set_zone(std::string_view word, GeoSystem& s) {
   int zone = 0;
   const auto [end, fault] = std::from_chars(word.data() + 1, word.data() + word.size(), zone);
   if (word[0] != 'Z' || fault != std::errc{} || end != word.data() + word.size() || zone < 1 || zone > 60) return false;
-  return s.zone = zone, true;
+  s.zone = zone;
+  return true;
 }
 
 /// False: nobody knows that word.
 bool take(std::string_view word, GeoSystem& s) {
   using Kind = GeoSystem::Kind;
-  if (word == "GD" || word == "GDC") return s.kind = Kind::geodetic, true;
-  if (word == "GC" || word == "GCC") return s.kind = Kind::geocentric, true;
-  if (word == "UTM") return s.kind = Kind::utm, true;
+  if (word == "GD" || word == "GDC") {
+    s.kind = Kind::geodetic;
+    return true;
+  }
+  if (word == "GC" || word == "GCC") {
+    s.kind = Kind::geocentric;
+    return true;
+  }
+  if (word == "UTM") {
+    s.kind = Kind::utm;
+    return true;
+  }
   if (word == "S") return s.south = true;
   if (word == "longitude_first" || word == "easting_first") return s.east_first = true;
   if (word == "latitude_first" || word == "northing_first") return true;
   for (const auto& row : ellipsoids)
-    if (row.code == word) return s.ellipsoid = {row.a, 1 / row.inverse_f}, true;
+    if (row.code == word) {
+      s.ellipsoid = {row.a, 1 / row.inverse_f};
+      return true;
+    }
   return word.size() > 1 && set_zone(word, s);
 }
 
@@ -62,17 +81,21 @@ Angles from_utm(const GeoSystem& s, double northing, double easting) {
   constexpr double scale = 0.9996, false_easting = 500000, false_northing = 10000000;
   const double n = s.ellipsoid.f / (2 - s.ellipsoid.f), n2 = n * n, n3 = n2 * n, n4 = n2 * n2;
   const double radius = s.ellipsoid.a / (1 + n) * (1 + n2 / 4 + n4 / 64);
-  const double beta[] = {n / 2 - 2 * n2 / 3 + 37 * n3 / 96 - n4 / 360, n2 / 48 + n3 / 15 - 437 * n4 / 1440, 17 * n3 / 480 - 37 * n4 / 840, 4397 * n4 / 161280};
-  const double xi = (northing - (s.south ? false_northing : 0)) / (scale * radius), eta = (easting - false_easting) / (scale * radius);
+  const double beta[] = {n / 2 - 2 * n2 / 3 + 37 * n3 / 96 - n4 / 360, n2 / 48 + n3 / 15 - 437 * n4 / 1440,
+                         17 * n3 / 480 - 37 * n4 / 840, 4397 * n4 / 161280};
+  const double xi = (northing - (s.south ? false_northing : 0)) / (scale * radius),
+               eta = (easting - false_easting) / (scale * radius);
   double x = xi, y = eta;
   for (int j = 1; j <= 4; ++j) {
     x -= beta[j - 1] * std::sin(2 * j * xi) * std::cosh(2 * j * eta);
     y -= beta[j - 1] * std::cos(2 * j * xi) * std::sinh(2 * j * eta);
   }
   // From the conformal latitude to the geodetic one, by a fixed point that takes a digit and more a step.
-  const double conformal = std::asinh(std::sin(x) / std::hypot(std::sinh(y), std::cos(x))), eccentricity = std::sqrt(squared_eccentricity(s.ellipsoid));
+  const double conformal = std::asinh(std::sin(x) / std::hypot(std::sinh(y), std::cos(x))),
+               eccentricity = std::sqrt(squared_eccentricity(s.ellipsoid));
   double latitude = std::atan(std::sinh(conformal));
-  for (int i = 0; i < 12; ++i) latitude = std::atan(std::sinh(conformal + eccentricity * std::atanh(eccentricity * std::sin(latitude))));
+  for (int i = 0; i < 12; ++i)
+    latitude = std::atan(std::sinh(conformal + eccentricity * std::atanh(eccentricity * std::sin(latitude))));
   return {latitude, (6 * s.zone - 183) * degree + std::atan2(std::sinh(y), std::cos(x))};
 }
 
@@ -108,11 +131,10 @@ Vec3 geodetic(const Ellipsoid& e, const Vec3& p) {
 }
 
 Matrix standing_at(const Vec3& geodetic) {
-  const double sl = std::sin(geodetic[0] * degree), cl = std::cos(geodetic[0] * degree), so = std::sin(geodetic[1] * degree), co = std::cos(geodetic[1] * degree);
+  const double sl = std::sin(geodetic[0] * degree), cl = std::cos(geodetic[0] * degree),
+               so = std::sin(geodetic[1] * degree), co = std::cos(geodetic[1] * degree);
   Matrix m;
-  m.m = {-so, cl * co, sl * co, 0,
-         co, cl * so, sl * so, 0,
-         0, sl, -cl, 0};
+  m.m = {-so, cl * co, sl * co, 0, co, cl * so, sl * so, 0, 0, sl, -cl, 0};
   return m;
 }
 

@@ -24,9 +24,15 @@ struct GeoRow {
 };
 
 constexpr GeoRow rows[] = {
-    {nodes::GeoLocation, "geoCoords"},      {nodes::GeoCoordinate, "point"},  {nodes::GeoElevationGrid, "geoGridOrigin"},
-    {nodes::GeoTransform, "geoCenter"},     {nodes::GeoLOD, "center"},        {nodes::GeoPositionInterpolator, "keyValue"},
-    {nodes::GeoTouchSensor, {}, true},      {nodes::GeoViewpoint, "position", true}, {nodes::GeoProximitySensor, "geoCenter", true},
+    {nodes::GeoLocation, "geoCoords"},
+    {nodes::GeoCoordinate, "point"},
+    {nodes::GeoElevationGrid, "geoGridOrigin"},
+    {nodes::GeoTransform, "geoCenter"},
+    {nodes::GeoLOD, "center"},
+    {nodes::GeoPositionInterpolator, "keyValue"},
+    {nodes::GeoTouchSensor, {}, true},
+    {nodes::GeoViewpoint, "position", true},
+    {nodes::GeoProximitySensor, "geoCenter", true},
 };
 
 const GeoRow* row_of(const Scene& scene, NodeId n) {
@@ -75,8 +81,8 @@ class Placing {
 
  private:
   struct Stand {
-    Vec3 at;       // in the world that is made
-    Matrix turn;   // to its axes, from east, up and south of that place
+    Vec3 at;      // in the world that is made
+    Matrix turn;  // to its axes, from east, up and south of that place
   };
 
   // ---- the origin ----
@@ -84,7 +90,8 @@ class Placing {
   void choose_origin(const std::vector<NodeId>& all, const std::vector<NodeId>& found) {
     namespace o = nodes::geo_origin;
     auto given = std::ranges::find_if(all, [&](NodeId n) { return scene_.is(n, nodes::GeoOrigin); });
-    if (given != all.end()) return set_origin(*given, scene_.get(*given, o::geoCoords), scene_.get(*given, o::rotateYUp));
+    if (given != all.end())
+      return set_origin(*given, scene_.get(*given, o::geoCoords), scene_.get(*given, o::rotateYUp));
     for (bool last : {false, true})
       for (NodeId n : found) {
         const GeoRow& row = *row_of(scene_, n);
@@ -116,7 +123,9 @@ class Placing {
     if (v && !v->is) i->second = geo_system(v->text_span(), unknown);
     constexpr std::string_view kinds[] = {"GD", "UTM", "GC"};
     for (const auto& word : unknown)
-      diag_.report(Diag::unknown_geo_system, scene_.where(n), word, word == "WGS84" ? "the height above the ellipsoid" : kinds[static_cast<std::size_t>(i->second.kind)]);
+      diag_.report(
+          Diag::unknown_geo_system, scene_.where(n), word,
+          word == "WGS84" ? "the height above the ellipsoid" : kinds[static_cast<std::size_t>(i->second.kind)]);
     return i->second;
   }
 
@@ -156,15 +165,24 @@ class Placing {
       if (v.is && !scene_.is_extra(v) && scene_.type(n).fields[v.slot].name == row_of(scene_, n)->place)
         diag_.report(Diag::no_vrml97_value, scene_.where(n), scene_.type(n).name, scene_.type(n).fields[v.slot].name);
     const TypeId t = scene_.type_id(n);
-    if (t == nodes::GeoLocation) location(n);
-    else if (t == nodes::GeoCoordinate) coordinate(n);
-    else if (t == nodes::GeoElevationGrid) grid(n);
-    else if (t == nodes::GeoTransform) transform(n);
-    else if (t == nodes::GeoViewpoint) viewpoint(n);
-    else if (t == nodes::GeoPositionInterpolator) interpolator(n);
-    else if (t == nodes::GeoLOD) level_of_detail(n);
-    else if (t == nodes::GeoProximitySensor) proximity(n);
-    else scene_.become(n, nodes::TouchSensor, fields_for(scene_, n, nodes::TouchSensor));
+    if (t == nodes::GeoLocation)
+      location(n);
+    else if (t == nodes::GeoCoordinate)
+      coordinate(n);
+    else if (t == nodes::GeoElevationGrid)
+      grid(n);
+    else if (t == nodes::GeoTransform)
+      transform(n);
+    else if (t == nodes::GeoViewpoint)
+      viewpoint(n);
+    else if (t == nodes::GeoPositionInterpolator)
+      interpolator(n);
+    else if (t == nodes::GeoLOD)
+      level_of_detail(n);
+    else if (t == nodes::GeoProximitySensor)
+      proximity(n);
+    else
+      scene_.become(n, nodes::TouchSensor, fields_for(scene_, n, nodes::TouchSensor));
   }
 
   void location(NodeId n) {
@@ -178,7 +196,8 @@ class Placing {
 
   void coordinate(NodeId n) {
     auto fields = fields_for(scene_, n, nodes::Coordinate);
-    fields.push_back(scene_.make(FieldType::MFVec3f, nodes::coordinate::point.slot, world_points(n, scene_.get(n, nodes::geo_coordinate::point))));
+    fields.push_back(scene_.make(FieldType::MFVec3f, nodes::coordinate::point.slot,
+                                 world_points(n, scene_.get(n, nodes::geo_coordinate::point))));
     scene_.become(n, nodes::Coordinate, fields);
   }
 
@@ -189,15 +208,21 @@ class Placing {
     const Vec4 turn = axis_angle(s.turn), back{turn[0], turn[1], turn[2], -turn[3]};
     const Vec3 away = rotation_matrix(back).point(-1.0 * s.at);
     auto fields = fields_for(scene_, n, nodes::Transform);
-    auto own = [&](std::uint16_t slot) { return slot == t::rotation.slot || slot == t::scale.slot || slot == t::scaleOrientation.slot || slot == t::translation.slot; };
+    auto own = [&](std::uint16_t slot) {
+      return slot == t::rotation.slot || slot == t::scale.slot || slot == t::scaleOrientation.slot ||
+             slot == t::translation.slot;
+    };
     NodeId inner = scene_.add(nodes::Transform, scene_.where(n)), moved = scene_.add(nodes::Transform, scene_.where(n));
     scene_.set(inner, t::translation, away);
     scene_.set(inner, t::rotation, back);
     std::vector<Value> outer;
     for (const Value& v : fields) {
-      if (!scene_.is_extra(v) && own(v.slot)) scene_.set(moved, v);
-      else if (!scene_.is_extra(v) && v.slot == t::children.slot) scene_.set(inner, v);
-      else outer.push_back(v);
+      if (!scene_.is_extra(v) && own(v.slot))
+        scene_.set(moved, v);
+      else if (!scene_.is_extra(v) && v.slot == t::children.slot)
+        scene_.set(inner, v);
+      else
+        outer.push_back(v);
     }
     scene_.set(moved, t::children, std::vector<NodeId>{inner});
     outer.push_back(scene_.make(FieldType::SFVec3f, t::translation.slot, s.at));
@@ -213,23 +238,28 @@ class Placing {
     auto fields = fields_for(scene_, n, nodes::Viewpoint);
     std::erase_if(fields, [&](const Value& f) { return !scene_.is_extra(f) && f.slot == v::orientation.slot; });
     fields.push_back(scene_.make(FieldType::SFVec3f, v::position.slot, s.at));
-    fields.push_back(scene_.make(FieldType::SFRotation, v::orientation.slot, axis_angle(s.turn * rotation_matrix(scene_.get(n, g::orientation)))));
+    fields.push_back(scene_.make(FieldType::SFRotation, v::orientation.slot,
+                                 axis_angle(s.turn * rotation_matrix(scene_.get(n, g::orientation)))));
     if (scene_.find(n, g::centerOfRotation.slot))
-      fields.push_back(scene_.make(FieldType::SFVec3f, v::centerOfRotation.slot, world(system(n), scene_.get(n, g::centerOfRotation))));
+      fields.push_back(scene_.make(FieldType::SFVec3f, v::centerOfRotation.slot,
+                                   world(system(n), scene_.get(n, g::centerOfRotation))));
     for (std::uint16_t slot : {g::headlight.slot, g::navType.slot, g::speedFactor.slot})
-      if (scene_.find(n, slot)) diag_.report(Diag::no_vrml97_value, scene_.where(n), "GeoViewpoint", scene_.type(n).fields[slot].name);
+      if (scene_.find(n, slot))
+        diag_.report(Diag::no_vrml97_value, scene_.where(n), "GeoViewpoint", scene_.type(n).fields[slot].name);
     scene_.become(n, nodes::Viewpoint, fields);
   }
 
   void interpolator(NodeId n) {
     auto fields = fields_for(scene_, n, nodes::PositionInterpolator);
-    fields.push_back(scene_.make(FieldType::MFVec3f, nodes::position_interpolator::keyValue.slot, world_points(n, scene_.get(n, nodes::geo_position_interpolator::keyValue))));
+    fields.push_back(scene_.make(FieldType::MFVec3f, nodes::position_interpolator::keyValue.slot,
+                                 world_points(n, scene_.get(n, nodes::geo_position_interpolator::keyValue))));
     scene_.become(n, nodes::PositionInterpolator, fields);
   }
 
   void proximity(NodeId n) {
     auto fields = fields_for(scene_, n, nodes::ProximitySensor);
-    fields.push_back(scene_.make(FieldType::SFVec3f, nodes::proximity_sensor::center.slot, world(system(n), scene_.get(n, nodes::geo_proximity_sensor::geoCenter))));
+    fields.push_back(scene_.make(FieldType::SFVec3f, nodes::proximity_sensor::center.slot,
+                                 world(system(n), scene_.get(n, nodes::geo_proximity_sensor::geoCenter))));
     scene_.become(n, nodes::ProximitySensor, fields);
   }
 
@@ -248,18 +278,22 @@ class Placing {
       return i;
     };
     std::vector<NodeId> near, far;
-    for (auto url : {scene_.get(n, g::child1Url), scene_.get(n, g::child2Url), scene_.get(n, g::child3Url), scene_.get(n, g::child4Url)})
+    for (auto url : {scene_.get(n, g::child1Url), scene_.get(n, g::child2Url), scene_.get(n, g::child3Url),
+                     scene_.get(n, g::child4Url)})
       if (!url.empty()) near.push_back(inlined(url));
     for (NodeId c : scene_.get(n, g::rootNode)) far.push_back(c);
     if (far.empty() && !scene_.get(n, g::rootUrl).empty()) far.push_back(inlined(scene_.get(n, g::rootUrl)));
     auto fields = fields_for(scene_, n, nodes::LOD);
-    std::erase_if(fields, [&](const Value& v) { return !scene_.is_extra(v) && (v.slot == l::center.slot || v.slot == l::range.slot); });
+    std::erase_if(fields, [&](const Value& v) {
+      return !scene_.is_extra(v) && (v.slot == l::center.slot || v.slot == l::range.slot);
+    });
     const bool both = !near.empty();
     std::vector<NodeId> levels{group(far)};
     if (both) levels.insert(levels.begin(), group(near));
     fields.push_back(scene_.make(FieldType::MFNode, l::children.slot, levels));
     fields.push_back(scene_.make(FieldType::SFVec3f, l::center.slot, world(system(n), scene_.get(n, g::center))));
-    if (both) fields.push_back(scene_.make(FieldType::MFFloat, l::range.slot, std::vector<double>{scene_.get(n, g::range)}));
+    if (both)
+      fields.push_back(scene_.make(FieldType::MFFloat, l::range.slot, std::vector<double>{scene_.get(n, g::range)}));
     scene_.become(n, nodes::LOD, fields);
   }
 
@@ -295,13 +329,16 @@ class Placing {
         index.insert(index.end(), {below - 1, below, here, here - 1, -1});
       }
     auto fields = fields_for(scene_, n, nodes::IndexedFaceSet);
-    auto child = [&](TypeId type, std::uint16_t slot, std::uint16_t list, FieldType t, const std::vector<double>& numbers) {
+    auto child = [&](TypeId type, std::uint16_t slot, std::uint16_t list, FieldType t,
+                     const std::vector<double>& numbers) {
       NodeId i = scene_.add(type, scene_.where(n));
       scene_.set(i, scene_.make(t, list, numbers));
       fields.push_back(scene_.make(FieldType::SFNode, slot, i));
     };
     child(nodes::Coordinate, f::coord.slot, nodes::coordinate::point.slot, FieldType::MFVec3f, points);
-    if (!scene_.get(n, g::texCoord)) child(nodes::TextureCoordinate, f::texCoord.slot, nodes::texture_coordinate::point.slot, FieldType::MFVec2f, texcoords);
+    if (!scene_.get(n, g::texCoord))
+      child(nodes::TextureCoordinate, f::texCoord.slot, nodes::texture_coordinate::point.slot, FieldType::MFVec2f,
+            texcoords);
     fields.push_back(scene_.make(FieldType::MFInt32, f::coordIndex.slot, index));
     fields.push_back(scene_.make(FieldType::SFFloat, f::creaseAngle.slot, scene_.get(n, g::creaseAngle)));
     scene_.become(n, nodes::IndexedFaceSet, fields);
@@ -311,7 +348,10 @@ class Placing {
 
   /// What carries places on Earth carries those of the world from now on; what only Earth knows leads nowhere.
   std::optional<std::string_view> event(NodeId n, std::string_view name) {
-    struct Renamed { TypeId type; std::string_view field, is; };
+    struct Renamed {
+      TypeId type;
+      std::string_view field, is;
+    };
     constexpr Renamed renamed[] = {{nodes::GeoPositionInterpolator, "geovalue_changed", "value_changed"},
                                    {nodes::GeoLocation, "geoCoords", "translation"},
                                    {nodes::GeoViewpoint, "set_position", "set_position"},
@@ -334,13 +374,19 @@ class Placing {
 
   void routes(Scope& scope) {
     auto carries_place = [&](const Route& r) { return scene_.is(r.from, nodes::GeoPositionInterpolator); };
-    auto takes_place = [&](const Route& r) { return (scene_.is(r.to, nodes::GeoLocation) && r.event_in.find("geoCoords") != r.event_in.npos) || (scene_.is(r.to, nodes::GeoViewpoint) && r.event_in == "set_position"); };
+    auto takes_place = [&](const Route& r) {
+      return (scene_.is(r.to, nodes::GeoLocation) && r.event_in.find("geoCoords") != r.event_in.npos) ||
+             (scene_.is(r.to, nodes::GeoViewpoint) && r.event_in == "set_position");
+    };
     std::vector<Route> kept;
     for (Route r : scope.routes) {
       const auto from = event(r.from, r.event_out), to = event(r.to, r.event_in);
-      if (!from) diag_.report(Diag::no_vrml97_value, scene_.where(r.from), scene_.type(r.from).name, r.event_out);
-      else if (!to || (takes_place(r) && !carries_place(r))) diag_.report(Diag::no_vrml97_value, scene_.where(r.to), scene_.type(r.to).name, r.event_in);
-      else kept.push_back({r.from, r.to, *from, *to});
+      if (!from)
+        diag_.report(Diag::no_vrml97_value, scene_.where(r.from), scene_.type(r.from).name, r.event_out);
+      else if (!to || (takes_place(r) && !carries_place(r)))
+        diag_.report(Diag::no_vrml97_value, scene_.where(r.to), scene_.type(r.to).name, r.event_in);
+      else
+        kept.push_back({r.from, r.to, *from, *to});
     }
     scope.routes = std::move(kept);
   }

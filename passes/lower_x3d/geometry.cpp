@@ -14,7 +14,8 @@ constexpr int sides = 64;  // of a circle
 
 using Indices = std::vector<std::int32_t>;
 
-// ---- sets of triangles, quadrilaterals and lines ----------------------------------------------------------------------
+// ---- sets of triangles, quadrilaterals and lines
+// ----------------------------------------------------------------------
 
 enum class Cut { polygons3, polygons4, fans, strips, lines };
 
@@ -55,8 +56,10 @@ std::vector<Indices> runs_of(const Scene& scene, NodeId n, const SetRow& row) {
   std::vector<Indices> runs(1);
   if (row.indexed) {
     for (auto i : list) {
-      if (i >= 0) runs.back().push_back(i);
-      else if (row.cut == Cut::fans || row.cut == Cut::strips) runs.emplace_back();
+      if (i >= 0)
+        runs.back().push_back(i);
+      else if (row.cut == Cut::fans || row.cut == Cut::strips)
+        runs.emplace_back();
     }
   } else if (row.has_list) {
     std::int32_t at = 0;
@@ -74,21 +77,26 @@ std::vector<Indices> runs_of(const Scene& scene, NodeId n, const SetRow& row) {
 
 void cut_polygons(const Indices& run, std::size_t corners, Indices& out) {
   for (std::size_t i = 0; i + corners <= run.size(); i += corners) {
-    out.insert(out.end(), run.begin() + static_cast<std::ptrdiff_t>(i), run.begin() + static_cast<std::ptrdiff_t>(i + corners));
+    out.insert(out.end(), run.begin() + static_cast<std::ptrdiff_t>(i),
+               run.begin() + static_cast<std::ptrdiff_t>(i + corners));
     out.push_back(-1);
   }
 }
 
 void cut(const Indices& run, Cut how, Indices& out) {
   switch (how) {
-    case Cut::polygons3: return cut_polygons(run, 3, out);
-    case Cut::polygons4: return cut_polygons(run, 4, out);
-    case Cut::lines: return cut_polygons(run, std::max<std::size_t>(run.size(), 1), out);
+    case Cut::polygons3:
+      return cut_polygons(run, 3, out);
+    case Cut::polygons4:
+      return cut_polygons(run, 4, out);
+    case Cut::lines:
+      return cut_polygons(run, std::max<std::size_t>(run.size(), 1), out);
     case Cut::fans:
       for (std::size_t i = 1; i + 1 < run.size(); ++i) out.insert(out.end(), {run[0], run[i], run[i + 1], -1});
       return;
     case Cut::strips:  // every other triangle is turned round
-      for (std::size_t i = 0; i + 2 < run.size(); ++i) out.insert(out.end(), {run[i + i % 2], run[i + 1 - i % 2], run[i + 2], -1});
+      for (std::size_t i = 0; i + 2 < run.size(); ++i)
+        out.insert(out.end(), {run[i + i % 2], run[i + 1 - i % 2], run[i + 2], -1});
   }
 }
 
@@ -109,7 +117,8 @@ void lower_set(Scene& scene, NodeId n, const SetRow& row) {
   scene.become(n, lines ? nodes::IndexedLineSet : nodes::IndexedFaceSet, fields);
 }
 
-// ---- the plane --------------------------------------------------------------------------------------------------------
+// ---- the plane
+// --------------------------------------------------------------------------------------------------------
 
 struct Flat {
   std::vector<double> points, texcoords;  // xyz, st
@@ -167,7 +176,8 @@ void become_faces(Scene& scene, NodeId n, const Flat& f) {
   auto fields = fields_for(scene, n, nodes::IndexedFaceSet);
   fields.push_back(scene.make(FieldType::SFNode, ifs::coord.slot, coordinate(scene, n, f)));
   fields.push_back(scene.make(FieldType::MFInt32, ifs::coordIndex.slot, f.index));
-  if (!scene.find(n, *scene.type(n).find("solid", Dialect::x3d))) fields.push_back(scene.make(FieldType::SFBool, ifs::solid.slot, f.solid));
+  if (!scene.find(n, *scene.type(n).find("solid", Dialect::x3d)))
+    fields.push_back(scene.make(FieldType::SFBool, ifs::solid.slot, f.solid));
   fields.push_back(scene.make(FieldType::SFBool, ifs::convex.slot, false));
   if (!f.texcoords.empty()) {
     NodeId t = scene.add(nodes::TextureCoordinate, scene.where(n));
@@ -202,23 +212,34 @@ bool lower_flat_lines(Scene& scene, NodeId n) {
   } else {
     return false;
   }
-  return become_lines(scene, n, f), true;
+  become_lines(scene, n, f);
+  return true;
 }
 
 void disk(Scene& scene, NodeId n) {
   namespace d = nodes::disk2d;
   Flat f;
   const double inner = scene.get(n, d::innerRadius), outer = scene.get(n, d::outerRadius);
-  if (inner == outer) return f.close(arc(f, outer, 0, 0)), become_lines(scene, n, f);
-  if (inner > 0) ring(f, inner, outer);
-  else arc(f, outer, 0, 0), f.close();
+  if (inner == outer) {
+    f.close(arc(f, outer, 0, 0));
+    return become_lines(scene, n, f);
+  }
+  if (inner > 0)
+    ring(f, inner, outer);
+  else {
+    arc(f, outer, 0, 0);
+    f.close();
+  }
   f.map(outer, outer);
   become_faces(scene, n, f);
 }
 
 bool lower_flat_faces(Scene& scene, NodeId n) {
   Flat f;
-  if (scene.is(n, nodes::Disk2D)) return disk(scene, n), true;
+  if (scene.is(n, nodes::Disk2D)) {
+    disk(scene, n);
+    return true;
+  }
   if (scene.is(n, nodes::ArcClose2D)) {
     namespace a = nodes::arc_close2d;
     const double radius = scene.get(n, a::radius);
@@ -229,7 +250,10 @@ bool lower_flat_faces(Scene& scene, NodeId n) {
   } else if (scene.is(n, nodes::Rectangle2D)) {
     const auto size = scene.get(n, nodes::rectangle2d::size);
     const double x = size[0] / 2, y = size[1] / 2;
-    f.add(-x, -y), f.add(x, -y), f.add(x, y), f.add(-x, y);
+    f.add(-x, -y);
+    f.add(x, -y);
+    f.add(x, y);
+    f.add(-x, y);
     f.close();
     f.map(x, y);
   } else if (scene.is(n, nodes::TriangleSet2D)) {
@@ -240,7 +264,8 @@ bool lower_flat_faces(Scene& scene, NodeId n) {
   } else {
     return false;
   }
-  return become_faces(scene, n, f), true;
+  become_faces(scene, n, f);
+  return true;
 }
 
 bool lower_flat_points(Scene& scene, NodeId n) {
@@ -249,7 +274,8 @@ bool lower_flat_points(Scene& scene, NodeId n) {
   add_all(f, scene.get(n, nodes::polypoint2d::point));
   auto fields = fields_for(scene, n, nodes::PointSet);
   fields.push_back(scene.make(FieldType::SFNode, nodes::point_set::coord.slot, coordinate(scene, n, f)));
-  return scene.become(n, nodes::PointSet, fields), true;
+  scene.become(n, nodes::PointSet, fields);
+  return true;
 }
 
 }  // namespace
@@ -272,7 +298,10 @@ std::vector<Value> fields_for(const Scene& scene, NodeId n, TypeId type) {
 
 bool lower_geometry(Scene& scene, NodeId n) {
   auto row = std::ranges::find(sets, scene.type_id(n), &SetRow::type);
-  if (row != std::end(sets)) return lower_set(scene, n, *row), true;
+  if (row != std::end(sets)) {
+    lower_set(scene, n, *row);
+    return true;
+  }
   return lower_flat_lines(scene, n) || lower_flat_faces(scene, n) || lower_flat_points(scene, n);
 }
 

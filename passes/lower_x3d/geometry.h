@@ -4,7 +4,8 @@
 
 namespace wrlkit::x3d {
 
-/// Turns one geometry node that only X3D has into an IndexedFaceSet, IndexedLineSet or PointSet. False: it is another node.
+/// Turns one geometry node that only X3D has into an IndexedFaceSet, IndexedLineSet or PointSet. False: it is another
+/// node.
 bool lower_geometry(Scene&, NodeId);
 
 /// The fields of `n` that a node of `type` has under the same name, and those that no type has.

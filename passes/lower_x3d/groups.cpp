@@ -30,7 +30,8 @@ constexpr GroupRow groups[] = {
 std::string legal_name(std::string_view s) {
   std::string out;
   for (char c : s) {
-    const bool bad = static_cast<unsigned char>(c) <= ' ' || std::string_view("\"'#,.[\\]{}").find(c) != std::string_view::npos;
+    const bool bad =
+        static_cast<unsigned char>(c) <= ' ' || std::string_view("\"'#,.[\\]{}").find(c) != std::string_view::npos;
     out += bad ? '_' : c;
   }
   if (!out.empty() && ((out[0] >= '0' && out[0] <= '9') || out[0] == '+' || out[0] == '-')) out.insert(0, 1, '_');
@@ -52,7 +53,8 @@ NodeId hidden(Scene& scene, NodeId at, std::span<const NodeId> children) {
 
 std::vector<NodeId> children_of(Scene& scene, NodeId n, const GroupRow& row) {
   const Value& v = scene.value(n, row.children);
-  std::vector<NodeId> all(v.is ? nullptr : v.node_span().data(), v.is ? nullptr : v.node_span().data() + v.node_span().size());
+  std::vector<NodeId> all(v.is ? nullptr : v.node_span().data(),
+                          v.is ? nullptr : v.node_span().data() + v.node_span().size());
   if (row.from != nodes::CADLayer) return all;
   const auto visible = scene.get(n, nodes::cad_layer::visible);
   for (std::size_t i = 0; i < std::min(all.size(), visible.size()); ++i)
@@ -87,7 +89,9 @@ bool hide(Scene& scene, NodeId n) {
   }
   NodeId copy = scene.add(scene.type_id(n), scene.where(n));  // a Shape or an Inline
   scene.set_fields(copy, std::vector<Value>(scene.fields(n).begin(), scene.fields(n).end()));
-  scene.become(n, nodes::Switch, std::vector<Value>{scene.make(FieldType::MFNode, nodes::switch_::children.slot, std::vector<NodeId>{copy})});
+  scene.become(
+      n, nodes::Switch,
+      std::vector<Value>{scene.make(FieldType::MFNode, nodes::switch_::children.slot, std::vector<NodeId>{copy})});
   return true;
 }
 

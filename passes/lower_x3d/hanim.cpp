@@ -43,17 +43,28 @@ bool lower_humanoid(Scene& scene, NodeId n, Diagnostics& diag) {
   if (type.kind != NodeKind::unknown || std::ranges::find(names, type.name) == std::end(names)) return false;
   const bool humanoid = type.name == names[0], segment = type.name == names[3];
   std::vector<NodeId> children;
-  for (std::string_view field : {humanoid ? "skeleton" : "children", humanoid ? "skin" : "", humanoid ? "viewpoints" : ""})
+  for (std::string_view field :
+       {humanoid ? "skeleton" : "children", humanoid ? "skin" : "", humanoid ? "viewpoints" : ""})
     if (const Value* v = field.empty() ? nullptr : extra(scene, n, field))
       for (NodeId c : v->node_span())
         if (c) children.push_back(c);
   std::vector<Value> fields;
-  struct Row { std::string_view name; std::uint16_t slot; FieldType type; std::size_t count; };
-  constexpr Row rows[] = {{"translation", t::translation.slot, FieldType::SFVec3f, 3}, {"rotation", t::rotation.slot, FieldType::SFRotation, 4}, {"scale", t::scale.slot, FieldType::SFVec3f, 3},
-                          {"scaleOrientation", t::scaleOrientation.slot, FieldType::SFRotation, 4}, {"center", t::center.slot, FieldType::SFVec3f, 3}};
+  struct Row {
+    std::string_view name;
+    std::uint16_t slot;
+    FieldType type;
+    std::size_t count;
+  };
+  constexpr Row rows[] = {{"translation", t::translation.slot, FieldType::SFVec3f, 3},
+                          {"rotation", t::rotation.slot, FieldType::SFRotation, 4},
+                          {"scale", t::scale.slot, FieldType::SFVec3f, 3},
+                          {"scaleOrientation", t::scaleOrientation.slot, FieldType::SFRotation, 4},
+                          {"center", t::center.slot, FieldType::SFVec3f, 3}};
   for (const Row& r : rows)
-    if (auto v = numbers(scene, n, r.name, r.count); !segment && !v.empty()) fields.push_back(scene.make(r.type, r.slot, v));
-  if (!children.empty()) fields.push_back(scene.make(FieldType::MFNode, segment ? nodes::group::children.slot : t::children.slot, children));
+    if (auto v = numbers(scene, n, r.name, r.count); !segment && !v.empty())
+      fields.push_back(scene.make(r.type, r.slot, v));
+  if (!children.empty())
+    fields.push_back(scene.make(FieldType::MFNode, segment ? nodes::group::children.slot : t::children.slot, children));
   diag.report(Diag::no_vrml97_node, scene.where(n), type.name);
   scene.become(n, segment ? nodes::Group : nodes::Transform, fields);
   return true;

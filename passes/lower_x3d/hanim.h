@@ -5,9 +5,9 @@
 
 namespace wrlkit::x3d {
 
-/// HAnimHumanoid, HAnimJoint and HAnimSite become Transforms, HAnimSegment a Group: as they stand, moved by no joint. What a
-/// humanoid lists beside its skeleton (joints, segments, sites) are the same nodes once more and show nothing; its skin does.
-/// False: it is none of them.
+/// HAnimHumanoid, HAnimJoint and HAnimSite become Transforms, HAnimSegment a Group: as they stand, moved by no joint.
+/// What a humanoid lists beside its skeleton (joints, segments, sites) are the same nodes once more and show nothing;
+/// its skin does. False: it is none of them.
 bool lower_humanoid(Scene&, NodeId, Diagnostics&);
 
 }  // namespace wrlkit::x3d

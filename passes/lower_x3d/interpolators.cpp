@@ -43,7 +43,8 @@ Values straight(const Values& a, const Values& b, double t) {
 }
 
 /// So many pieces that what is between their ends, by `mix`, is near enough.
-int pieces(const Between& at, const std::function<Values(const Values&, const Values&, double)>& mix, double tolerance) {
+int pieces(const Between& at, const std::function<Values(const Values&, const Values&, double)>& mix,
+           double tolerance) {
   int n = 1;
   auto near = [&] {
     for (int i = 0; i < n; ++i)
@@ -68,7 +69,8 @@ Keys cut(std::span<const double> key, Make between, Mix mix, double tolerance) {
   return out;
 }
 
-// ---- splines (19.2.3.1) -----------------------------------------------------------------------------------------------
+// ---- splines (19.2.3.1)
+// -----------------------------------------------------------------------------------------------
 
 struct Spline {
   std::span<const double> key, value, velocity;
@@ -76,7 +78,10 @@ struct Spline {
   bool closed, normalized;
 
   std::size_t count() const { return std::min(key.size(), value.size() / width); }
-  Values at(std::span<const double> list, std::size_t i) const { return {list.begin() + static_cast<std::ptrdiff_t>(i * width), list.begin() + static_cast<std::ptrdiff_t>((i + 1) * width)}; }
+  Values at(std::span<const double> list, std::size_t i) const {
+    return {list.begin() + static_cast<std::ptrdiff_t>(i * width),
+            list.begin() + static_cast<std::ptrdiff_t>((i + 1) * width)};
+  }
 
   std::vector<Values> tangents() const {
     const std::size_t n = count();
@@ -88,11 +93,16 @@ struct Spline {
       return t;
     };
     for (std::size_t i = 0; i < n; ++i)
-      if (given >= n) out[i] = at(velocity, i);
-      else if (i > 0 && i + 1 < n) out[i] = chord(i - 1, i + 1);
+      if (given >= n)
+        out[i] = at(velocity, i);
+      else if (i > 0 && i + 1 < n)
+        out[i] = chord(i - 1, i + 1);
     const bool round = closed && n > 2 && at(value, 0) == at(value, n - 1);
-    if (given == 2 && n > 2) out[0] = at(velocity, 0), out[n - 1] = at(velocity, 1);
-    else if (given < n && round) out[0] = out[n - 1] = chord(n - 2, 1);
+    if (given == 2 && n > 2) {
+      out[0] = at(velocity, 0);
+      out[n - 1] = at(velocity, 1);
+    } else if (given < n && round)
+      out[0] = out[n - 1] = chord(n - 2, 1);
     if (normalized) normalize(out);
     return out;
   }
@@ -115,16 +125,22 @@ struct Spline {
     };
     auto between = [&](std::size_t i) -> Between {
       return [=, this](double t) {
-        const double t2 = t * t, t3 = t2 * t, from = 2 * t3 - 3 * t2 + 1, to = 3 * t2 - 2 * t3, out = (t3 - 2 * t2 + t) * factor(i, true), in = (t3 - t2) * factor(i + 1, false);
+        const double t2 = t * t, t3 = t2 * t, from = 2 * t3 - 3 * t2 + 1, to = 3 * t2 - 2 * t3,
+                     out = (t3 - 2 * t2 + t) * factor(i, true), in = (t3 - t2) * factor(i + 1, false);
         Values v(width);
-        for (std::size_t k = 0; k < width; ++k) v[k] = from * value[i * width + k] + to * value[(i + 1) * width + k] + out * tangent[i][k] + in * tangent[i + 1][k];
+        for (std::size_t k = 0; k < width; ++k)
+          v[k] = from * value[i * width + k] + to * value[(i + 1) * width + k] + out * tangent[i][k] +
+                 in * tangent[i + 1][k];
         return v;
       };
     };
     double range = 0;
     for (std::size_t k = 0; k < width; ++k) {
       double low = value[k], high = value[k];
-      for (std::size_t i = 1; i < n; ++i) low = std::min(low, value[i * width + k]), high = std::max(high, value[i * width + k]);
+      for (std::size_t i = 1; i < n; ++i) {
+        low = std::min(low, value[i * width + k]);
+        high = std::max(high, value[i * width + k]);
+      }
       range = std::max(range, high - low);
     }
     if (n == 1) return {{key[0]}, at(value, 0)};
@@ -132,7 +148,8 @@ struct Spline {
   }
 };
 
-// ---- rotations (19.4.13) ----------------------------------------------------------------------------------------------
+// ---- rotations (19.4.13)
+// ----------------------------------------------------------------------------------------------
 
 using Quaternion = Vec4;  // x, y, z, w
 
@@ -177,7 +194,8 @@ Keys squad(std::span<const double> key, std::span<const double> value) {
   }
   std::vector<Quaternion> inner = q;
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    const Vec3 a = logarithm(q[i], q[i + 1]), b = logarithm(q[i], q[i - 1]), s{-(a[0] + b[0]) / 4, -(a[1] + b[1]) / 4, -(a[2] + b[2]) / 4};
+    const Vec3 a = logarithm(q[i], q[i + 1]), b = logarithm(q[i], q[i - 1]),
+               s{-(a[0] + b[0]) / 4, -(a[1] + b[1]) / 4, -(a[2] + b[2]) / 4};
     const double angle = std::hypot(s[0], s[1], s[2]), f = angle > 0 ? std::sin(angle) / angle : 0;
     inner[i] = times(q[i], {s[0] * f, s[1] * f, s[2] * f, std::cos(angle)});
   }
@@ -192,8 +210,10 @@ Keys squad(std::span<const double> key, std::span<const double> value) {
     return Values(r.begin(), r.end());
   };
   Keys out;
-  if (n == 1) out.add(key[0], Values(q[0].begin(), q[0].end()));
-  else out = cut(key.first(n), between, mix, part);
+  if (n == 1)
+    out.add(key[0], Values(q[0].begin(), q[0].end()));
+  else
+    out = cut(key.first(n), between, mix, part);
   for (std::size_t i = 0; i < out.key.size(); ++i) {
     const Vec4 r = turn({out.value[4 * i], out.value[4 * i + 1], out.value[4 * i + 2], out.value[4 * i + 3]});
     std::ranges::copy(r, out.value.begin() + static_cast<std::ptrdiff_t>(4 * i));
@@ -201,17 +221,23 @@ Keys squad(std::span<const double> key, std::span<const double> value) {
   return out;
 }
 
-// ---- fractions (19.4.4) -----------------------------------------------------------------------------------------------
+// ---- fractions (19.4.4)
+// -----------------------------------------------------------------------------------------------
 
 /// Pairs as the standard has them, (in, out) of each key; or (out, in) of each interval, as its authoring tools say.
 Keys eased(std::span<const double> key, std::span<const double> pairs) {
   if (key.empty()) return {};
   const std::size_t n = key.size();
   const bool by_key = pairs.size() / 2 >= n;
-  auto ease = [&](std::size_t i, std::size_t k) { return 2 * i + k < pairs.size() ? std::clamp(pairs[2 * i + k], 0.0, 1.0) : 0; };
+  auto ease = [&](std::size_t i, std::size_t k) {
+    return 2 * i + k < pairs.size() ? std::clamp(pairs[2 * i + k], 0.0, 1.0) : 0;
+  };
   auto between = [&](std::size_t i) -> Between {
     double out = by_key ? ease(i, 1) : ease(i, 0), in = by_key ? ease(i + 1, 0) : ease(i, 1);
-    if (const double sum = out + in; sum > 1) out /= sum, in /= sum;
+    if (const double sum = out + in; sum > 1) {
+      out /= sum;
+      in /= sum;
+    }
     const double from = key[i], length = key[i + 1] - key[i];
     return [=](double u) -> Values {
       const double t = 1 / (2 - out - in);
@@ -230,16 +256,19 @@ class Lowering {
   bool run() {
     std::vector<NodeId> eases;
     for (NodeId n : all_nodes(scene_)) {
-      if (scene_.is(n, nodes::SplinePositionInterpolator)) spline(n, nodes::PositionInterpolator, FieldType::MFVec3f, 3);
+      if (scene_.is(n, nodes::SplinePositionInterpolator))
+        spline(n, nodes::PositionInterpolator, FieldType::MFVec3f, 3);
       if (scene_.is(n, nodes::SplineScalarInterpolator)) spline(n, nodes::ScalarInterpolator, FieldType::MFFloat, 1);
-      if (scene_.is(n, nodes::SquadOrientationInterpolator)) become(n, nodes::OrientationInterpolator, FieldType::MFRotation, squad(list(n, "key"), list(n, "keyValue")));
+      if (scene_.is(n, nodes::SquadOrientationInterpolator))
+        become(n, nodes::OrientationInterpolator, FieldType::MFRotation, squad(list(n, "key"), list(n, "keyValue")));
       if (scene_.is(n, nodes::EaseInEaseOut)) eases.push_back(n);
     }
     if (!eases.empty()) {
       routes(scene_.main);
       for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) routes(scene_.proto(ProtoId{i}).body);
     }
-    for (NodeId n : eases) become(n, nodes::ScalarInterpolator, FieldType::MFFloat, eased(list(n, "key"), list(n, "easeInEaseOut")));
+    for (NodeId n : eases)
+      become(n, nodes::ScalarInterpolator, FieldType::MFFloat, eased(list(n, "key"), list(n, "easeInEaseOut")));
     return changed_;
   }
 
@@ -248,20 +277,26 @@ class Lowering {
     const Value& v = scene_.value(n, *scene_.type(n).find(field, Dialect::x3d));
     return v.is ? std::span<const double>{} : v.number_span();
   }
-  bool flag(NodeId n, std::string_view field) const { return scene_.value(n, *scene_.type(n).find(field, Dialect::x3d)).integer != 0; }
+  bool flag(NodeId n, std::string_view field) const {
+    return scene_.value(n, *scene_.type(n).find(field, Dialect::x3d)).integer != 0;
+  }
 
   void spline(NodeId n, TypeId type, FieldType values, std::size_t width) {
-    const Spline s{list(n, "key"), list(n, "keyValue"), list(n, "keyVelocity"), width, flag(n, "closed"), flag(n, "normalizeVelocity")};
+    const Spline s{list(n, "key"), list(n, "keyValue"), list(n, "keyVelocity"),
+                   width,          flag(n, "closed"),   flag(n, "normalizeVelocity")};
     become(n, type, values, s.count() > 0 ? s.keys() : Keys{});
   }
 
   void become(NodeId n, TypeId type, FieldType values, const Keys& keys) {
     if (report_) diag_.report(Diag::no_vrml97_curve, scene_.where(n), scene_.type(n).name);
     auto fields = fields_for(scene_, n, type);
-    const auto &t = scene_.type(type);
+    const auto& t = scene_.type(type);
     const std::uint16_t key = *t.find("key", Dialect::x3d), value = *t.find("keyValue", Dialect::x3d);
-    std::erase_if(fields, [&](const Value& v) { return !scene_.is_extra(v) && !v.is && (v.slot == key || v.slot == value); });
-    auto has = [&](std::uint16_t slot) { return std::ranges::any_of(fields, [&](const Value& v) { return !scene_.is_extra(v) && v.slot == slot; }); };
+    std::erase_if(fields,
+                  [&](const Value& v) { return !scene_.is_extra(v) && !v.is && (v.slot == key || v.slot == value); });
+    auto has = [&](std::uint16_t slot) {
+      return std::ranges::any_of(fields, [&](const Value& v) { return !scene_.is_extra(v) && v.slot == slot; });
+    };
     if (!has(key)) fields.push_back(scene_.make(FieldType::MFFloat, key, keys.key));
     if (!has(value)) fields.push_back(scene_.make(values, value, keys.value));
     scene_.become(n, type, fields);
@@ -270,7 +305,8 @@ class Lowering {
 
   void routes(Scope& scope) {
     for (Route& r : scope.routes)
-      if (scene_.is(r.from, nodes::EaseInEaseOut) && r.event_out.starts_with("modifiedFraction")) r.event_out = "value_changed";
+      if (scene_.is(r.from, nodes::EaseInEaseOut) && r.event_out.starts_with("modifiedFraction"))
+        r.event_out = "value_changed";
   }
 
   Scene& scene_;

@@ -24,8 +24,11 @@ bool lower_curves(Scene& scene, const LowerX3dOptions& options, Diagnostics& dia
       const auto& type = scene.type(n);
       const bool curve = scene.is(n, nodes::NurbsCurve) || scene.is(n, nodes::CoordinateDouble);
       if (type.kind != NodeKind::builtin || curve != last) continue;
-      if (!x3d::lower_nurbs(scene, n, options.tolerance, diag) && !x3d::lower_nurbs_interpolator(scene, n, options.tolerance, diag)) continue;
-      if (options.vrml97 && type.name != "CoordinateDouble") diag.report(Diag::no_vrml97_curve, scene.where(n), type.name);
+      if (!x3d::lower_nurbs(scene, n, options.tolerance, diag) &&
+          !x3d::lower_nurbs_interpolator(scene, n, options.tolerance, diag))
+        continue;
+      if (options.vrml97 && type.name != "CoordinateDouble")
+        diag.report(Diag::no_vrml97_curve, scene.where(n), type.name);
       changed = true;
     }
   return changed;

@@ -20,7 +20,10 @@ class Lowering {
   bool run() {
     for (NodeId n : all_nodes(scene_)) note_colors(n);
     for (NodeId n : all_nodes(scene_)) unlit_is_none(n);
-    for (NodeId n : all_nodes(scene_)) material(n), viewpoint(n);
+    for (NodeId n : all_nodes(scene_)) {
+      material(n);
+      viewpoint(n);
+    }
     return changed_;
   }
 
@@ -28,7 +31,8 @@ class Lowering {
   /// Appearances of nothing but geometry that has its own colours: without a Material these are unlit.
   void note_colors(NodeId shape) {
     if (!scene_.is(shape, nodes::Shape)) return;
-    NodeId appearance = scene_.get(shape, nodes::shape::appearance), geometry = scene_.get(shape, nodes::shape::geometry);
+    NodeId appearance = scene_.get(shape, nodes::shape::appearance),
+           geometry = scene_.get(shape, nodes::shape::geometry);
     if (!appearance || !geometry) return;
     auto slot = scene_.type(geometry).find("color", Dialect::x3d);
     const Value* v = slot ? scene_.find(geometry, *slot) : nullptr;
@@ -48,13 +52,17 @@ class Lowering {
     const Vec3 base = scene_.get(n, p::baseColor);
     const double metal = scene_.get(n, p::metallic), rough = scene_.get(n, p::roughness);
     Vec3 diffuse, specular;
-    for (std::size_t i = 0; i < 3; ++i) diffuse[i] = base[i] * (1 - metal / 2), specular[i] = (0.04 * (1 - metal) + base[i] * metal) * (1 - rough);
+    for (std::size_t i = 0; i < 3; ++i) {
+      diffuse[i] = base[i] * (1 - metal / 2);
+      specular[i] = (0.04 * (1 - metal) + base[i] * metal) * (1 - rough);
+    }
     auto fields = fields_for(scene_, n, nodes::Material);
     const double shininess = rough > 0 ? std::clamp((2 / std::pow(rough, 4) - 2) / 128, 0.0, 1.0) : 1;
     fields.push_back(scene_.make(FieldType::SFColor, m::diffuseColor.slot, diffuse));
     fields.push_back(scene_.make(FieldType::SFColor, m::specularColor.slot, specular));
     fields.push_back(scene_.make(FieldType::SFFloat, m::shininess.slot, shininess));
-    if (const NodeId picture = own_picture(scene_, n)) fields.push_back(scene_.make(FieldType::SFNode, m::diffuseTexture.slot, picture));
+    if (const NodeId picture = own_picture(scene_, n))
+      fields.push_back(scene_.make(FieldType::SFNode, m::diffuseTexture.slot, picture));
     become(n, nodes::Material, fields);
   }
 
@@ -77,7 +85,8 @@ class Lowering {
     auto known = colored_.find(appearance.value);
     const bool pictured = scene_.is(n, nodes::UnlitMaterial) && scene_.get(appearance, nodes::appearance::texture);
     if (pictured && !vrml97_) kept_.insert(n.value);
-    const bool white = (pictured && vrml97_) || (known != colored_.end() && known->second) || (scene_.is(n, nodes::UnlitMaterial) && scene_.get(n, u::emissiveColor) == Vec3{1, 1, 1});
+    const bool white = (pictured && vrml97_) || (known != colored_.end() && known->second) ||
+                       (scene_.is(n, nodes::UnlitMaterial) && scene_.get(n, u::emissiveColor) == Vec3{1, 1, 1});
     if (!scene_.is(n, nodes::UnlitMaterial) || !white || scene_.get(n, u::transparency) != 0) return;
     scene_.unset(appearance, nodes::appearance::material.slot);
     changed_ = true;
@@ -94,7 +103,8 @@ class Lowering {
     namespace o = nodes::ortho_viewpoint;
     const auto p = scene_.get(n, o::position), c = scene_.get(n, o::centerOfRotation);
     const auto window = scene_.get(n, o::fieldOfView);
-    const double height = window.size() >= 4 ? window[3] - window[1] : 2, distance = std::hypot(p[0] - c[0], p[1] - c[1], p[2] - c[2]);
+    const double height = window.size() >= 4 ? window[3] - window[1] : 2,
+                 distance = std::hypot(p[0] - c[0], p[1] - c[1], p[2] - c[2]);
     auto fields = fields_for(scene_, n, nodes::Viewpoint);
     const double angle = distance > 0 ? 2 * std::atan(std::abs(height) / 2 / distance) : 0.785398;
     fields.push_back(scene_.make(FieldType::SFFloat, nodes::viewpoint::fieldOfView.slot, angle));

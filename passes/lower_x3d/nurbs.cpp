@@ -13,10 +13,13 @@ constexpr std::size_t most_lines = 4096, most_points = 1 << 20;
 constexpr int most_per_span = 256;
 
 /// Many intervals are cut less each, so that the time is that of a few.
-int most_chords(std::size_t intervals) { return std::clamp(static_cast<int>(most_lines / std::max<std::size_t>(intervals, 1)), 4, most_per_span); }
+int most_chords(std::size_t intervals) {
+  return std::clamp(static_cast<int>(most_lines / std::max<std::size_t>(intervals, 1)), 4, most_per_span);
+}
 
 bool usable(std::span<const double> knots, int order, std::size_t count) {
-  return knots.size() == count + static_cast<std::size_t>(order) && std::ranges::is_sorted(knots) && std::ranges::all_of(knots, [](double k) { return std::isfinite(k); }) &&
+  return knots.size() == count + static_cast<std::size_t>(order) && std::ranges::is_sorted(knots) &&
+         std::ranges::all_of(knots, [](double k) { return std::isfinite(k); }) &&
          knots[static_cast<std::size_t>(order) - 1] < knots[count];
 }
 
@@ -80,37 +83,50 @@ int chords(const Line& at, double from, double to, double tolerance, int most) {
 std::vector<double> spread(const std::vector<double>& ends, const std::vector<int>& parts) {
   std::vector<double> out{ends[0]};
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-    for (int k = 1; k <= parts[i]; ++k) out.push_back(k == parts[i] ? ends[i + 1] : ends[i] + (ends[i + 1] - ends[i]) * k / parts[i]);
+    for (int k = 1; k <= parts[i]; ++k)
+      out.push_back(k == parts[i] ? ends[i + 1] : ends[i] + (ends[i + 1] - ends[i]) * k / parts[i]);
   return out;
 }
 
 /// As the author wants it: so many pieces, or so many between two control points.
 std::vector<double> asked_for(const Basis& b, int tessellation, std::size_t most) {
-  const auto wanted = tessellation > 0 ? static_cast<std::size_t>(tessellation) : static_cast<std::size_t>(-static_cast<std::int64_t>(tessellation)) * (b.count - 1);
+  const auto wanted = tessellation > 0
+                          ? static_cast<std::size_t>(tessellation)
+                          : static_cast<std::size_t>(-static_cast<std::int64_t>(tessellation)) * (b.count - 1);
   return spread({b.first(), b.last()}, {static_cast<int>(std::clamp<std::size_t>(wanted, 1, most))});
 }
 
 /// Not more than `most` pieces in all.
 void limit(std::vector<int>& parts, std::size_t most) {
-  auto sum = [&] { std::size_t n = 0; for (int p : parts) n += static_cast<std::size_t>(p); return n; };
+  auto sum = [&] {
+    std::size_t n = 0;
+    for (int p : parts) n += static_cast<std::size_t>(p);
+    return n;
+  };
   while (sum() > most && std::ranges::any_of(parts, [](int p) { return p > 1; }))
     for (int& p : parts) p = std::max(1, p / 2);
 }
 
-/// Parameters of the other direction at which a surface is looked at: the middles of its intervals and their ends, not too many.
+/// Parameters of the other direction at which a surface is looked at: the middles of its intervals and their ends, not
+/// too many.
 std::vector<double> probes(const Basis& b) {
   const auto ends = breaks(b);
   constexpr std::size_t most = 16;
   const std::size_t step = (ends.size() + most - 1) / most;
   std::vector<double> out;
-  for (std::size_t i = 0; i + 1 < ends.size(); i += step) out.push_back(ends[i]), out.push_back((ends[i] + ends[i + 1]) / 2);
+  for (std::size_t i = 0; i + 1 < ends.size(); i += step) {
+    out.push_back(ends[i]);
+    out.push_back((ends[i] + ends[i + 1]) / 2);
+  }
   out.push_back(ends.back());
   return out;
 }
 
 /// A surface along one parameter, at a value of the other.
 Line line_of(const Surface& s, bool along_u, const BasisValues& other) {
-  return [&s, along_u, &other](double t) { return along_u ? s.at(values_at(s.u, t), other) : s.at(other, values_at(s.v, t)); };
+  return [&s, along_u, &other](double t) {
+    return along_u ? s.at(values_at(s.u, t), other) : s.at(other, values_at(s.v, t));
+  };
 }
 
 std::vector<int> parts_along(const Surface& s, bool along_u, double tolerance) {
@@ -120,7 +136,8 @@ std::vector<int> parts_along(const Surface& s, bool along_u, double tolerance) {
   for (double t : probes(other)) {
     const auto across = values_at(other, t);
     const Line line = line_of(s, along_u, across);
-    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = std::max(parts[i], chords(line, ends[i], ends[i + 1], tolerance, most_chords(parts.size())));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      parts[i] = std::max(parts[i], chords(line, ends[i], ends[i + 1], tolerance, most_chords(parts.size())));
   }
   return parts;
 }
@@ -134,7 +151,8 @@ double twist(const Surface& s, const std::vector<double>& u, const std::vector<d
   for (double t : v) {
     const auto across = values_at(s.v, t);
     for (std::size_t i = 0; i < u.size(); ++i) row[i] = s.at(along[i], across);
-    for (std::size_t i = 1; i < u.size() && !before.empty(); ++i) most = std::max(most, length((before[i - 1] + row[i]) - (before[i] + row[i - 1])) / 4);
+    for (std::size_t i = 1; i < u.size() && !before.empty(); ++i)
+      most = std::max(most, length((before[i - 1] + row[i]) - (before[i] + row[i - 1])) / 4);
     before = row;
   }
   return most;
@@ -173,7 +191,8 @@ BasisValues values_at(const Basis& b, double t) {
     if (lower.empty()) continue;
     for (std::size_t r = 0; r < k; ++r) {
       const double d = static_cast<double>(k) * lower[r] / (b.knots[span + r + 1] - b.knots[span + 1 - k + r]);
-      out.slope[r] -= d, out.slope[r + 1] += d;
+      out.slope[r] -= d;
+      out.slope[r + 1] += d;
     }
   }
   return out;
@@ -182,7 +201,8 @@ BasisValues values_at(const Basis& b, double t) {
 Vec3 Curve::at(double t) const {
   const auto b = values_at(basis, t);
   Sum sum;
-  for (std::size_t i = 0; i < b.value.size(); ++i) sum.add(points, arity, b.first + i, b.value[i] * weight(weights, b.first + i));
+  for (std::size_t i = 0; i < b.value.size(); ++i)
+    sum.add(points, arity, b.first + i, b.value[i] * weight(weights, b.first + i));
   return sum.projected();
 }
 
@@ -215,7 +235,9 @@ std::vector<double> cuts(const Curve& c, double tolerance, int tessellation) {
   if (tessellation != 0) return asked_for(c.basis, tessellation, most_lines);
   const auto ends = breaks(c.basis);
   std::vector<int> parts;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) parts.push_back(chords([&](double t) { return c.at(t); }, ends[i], ends[i + 1], tolerance, most_chords(ends.size() - 1)));
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    parts.push_back(
+        chords([&](double t) { return c.at(t); }, ends[i], ends[i + 1], tolerance, most_chords(ends.size() - 1)));
   limit(parts, std::max(most_lines, parts.size()));
   return spread(ends, parts);
 }
@@ -224,10 +246,14 @@ Grid cuts(const Surface& s, double tolerance, int u_tessellation, int v_tessella
   constexpr std::size_t most = 1024;
   auto u = parts_along(s, true, tolerance / 2), v = parts_along(s, false, tolerance / 2);
   for (;;) {
-    Grid g{u_tessellation != 0 ? asked_for(s.u, u_tessellation, most) : spread(breaks(s.u), u), v_tessellation != 0 ? asked_for(s.v, v_tessellation, most) : spread(breaks(s.v), v)};
-    const bool room = 4 * g.u.size() * g.v.size() <= most_points && *std::ranges::max_element(u) < most_per_span && *std::ranges::max_element(v) < most_per_span;
-    if (g.u.size() * g.v.size() > most_points && (std::ranges::any_of(u, [](int p) { return p > 1; }) || std::ranges::any_of(v, [](int p) { return p > 1; }))) {
-      limit(u, g.u.size() / 2), limit(v, g.v.size() / 2);
+    Grid g{u_tessellation != 0 ? asked_for(s.u, u_tessellation, most) : spread(breaks(s.u), u),
+           v_tessellation != 0 ? asked_for(s.v, v_tessellation, most) : spread(breaks(s.v), v)};
+    const bool room = 4 * g.u.size() * g.v.size() <= most_points && *std::ranges::max_element(u) < most_per_span &&
+                      *std::ranges::max_element(v) < most_per_span;
+    if (g.u.size() * g.v.size() > most_points &&
+        (std::ranges::any_of(u, [](int p) { return p > 1; }) || std::ranges::any_of(v, [](int p) { return p > 1; }))) {
+      limit(u, g.u.size() / 2);
+      limit(v, g.v.size() / 2);
       continue;
     }
     if (!room || (u_tessellation != 0 && v_tessellation != 0) || twist(s, g.u, g.v) <= tolerance / 2) return g;

@@ -1,4 +1,5 @@
-// Rational B-splines (Piegl and Tiller, The NURBS Book, chapters 2 to 4): points, derivatives, and how finely they are cut.
+// Rational B-splines (Piegl and Tiller, The NURBS Book, chapters 2 to 4): points, derivatives, and how finely they are
+// cut.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -21,8 +22,9 @@ struct Basis {
 
 constexpr int highest_order = 32;
 
-/// None where there are less control points than `order`, which is from 2 to `highest_order`. Knots that are not as many as they
-/// have to be, decrease, or leave no interval, are those of a curve from the first point to the last, in equal steps: `replaced`.
+/// None where there are less control points than `order`, which is from 2 to `highest_order`. Knots that are not as
+/// many as they have to be, decrease, or leave no interval, are those of a curve from the first point to the last, in
+/// equal steps: `replaced`.
 std::optional<Basis> make_basis(int order, std::span<const double> knots, std::size_t count, bool& replaced);
 
 /// The `order` polynomials that are not 0 at a parameter, and their slopes.
@@ -36,8 +38,8 @@ BasisValues values_at(const Basis&, double t);
 /// A curve, of control points with 2 or 3 coordinates.
 struct Curve {
   Basis basis;
-  std::span<const double> points;   // of `arity` coordinates
-  std::vector<double> weights;      // one for each; none: 1
+  std::span<const double> points;  // of `arity` coordinates
+  std::vector<double> weights;     // one for each; none: 1
   std::size_t arity = 3;
 
   Vec3 at(double t) const;
@@ -56,14 +58,15 @@ struct Surface {
   Vec3 across(double s, double t) const;
 };
 
-/// Parameters from end to end at which a curve is cut into straight lines that stay within `tolerance` of it. `tessellation` as in
-/// NurbsCurve, and as the author has it, where it is not 0. At most 4096 lines. O(lines).
+/// Parameters from end to end at which a curve is cut into straight lines that stay within `tolerance` of it.
+/// `tessellation` as in NurbsCurve, and as the author has it, where it is not 0. At most 4096 lines. O(lines).
 std::vector<double> cuts(const Curve&, double tolerance, int tessellation);
 
 struct Grid {
   std::vector<double> u, v;
 };
-/// Parameters of both directions so that triangles between neighbours stay within `tolerance` of the surface; at most a million points.
+/// Parameters of both directions so that triangles between neighbours stay within `tolerance` of the surface; at most a
+/// million points.
 Grid cuts(const Surface&, double tolerance, int u_tessellation, int v_tessellation);
 
 }  // namespace wrlkit::x3d

@@ -25,29 +25,44 @@ struct Faces {
 
 class Lowering {
  public:
-  Lowering(Scene& scene, NodeId n, double tolerance, Diagnostics& diag) : scene_(scene), n_(n), tolerance_(tolerance), diag_(diag) {}
+  Lowering(Scene& scene, NodeId n, double tolerance, Diagnostics& diag)
+      : scene_(scene), n_(n), tolerance_(tolerance), diag_(diag) {}
 
   bool run() {
     const TypeId t = scene_.type_id(n_);
-    if (t == nodes::CoordinateDouble) coordinate();
-    else if (t == nodes::NurbsCurve) curve();
-    else if (t == nodes::NurbsPatchSurface || t == nodes::NurbsTrimmedSurface) surface();
-    else if (t == nodes::NurbsSweptSurface) swept();
-    else if (t == nodes::NurbsSwungSurface) swung();
-    else return false;
+    if (t == nodes::CoordinateDouble)
+      coordinate();
+    else if (t == nodes::NurbsCurve)
+      curve();
+    else if (t == nodes::NurbsPatchSurface || t == nodes::NurbsTrimmedSurface)
+      surface();
+    else if (t == nodes::NurbsSweptSurface)
+      swept();
+    else if (t == nodes::NurbsSwungSurface)
+      swung();
+    else
+      return false;
     return true;
   }
 
   bool interpolator() {
-    if (scene_.is(n_, nodes::NurbsPositionInterpolator)) return keys(nodes::PositionInterpolator, FieldType::MFVec3f, false), true;
-    if (scene_.is(n_, nodes::NurbsOrientationInterpolator)) return keys(nodes::OrientationInterpolator, FieldType::MFRotation, true), true;
+    if (scene_.is(n_, nodes::NurbsPositionInterpolator)) {
+      keys(nodes::PositionInterpolator, FieldType::MFVec3f, false);
+      return true;
+    }
+    if (scene_.is(n_, nodes::NurbsOrientationInterpolator)) {
+      keys(nodes::OrientationInterpolator, FieldType::MFRotation, true);
+      return true;
+    }
     return false;
   }
 
  private:
   // ---- what the fields say ----
 
-  const Value& field(NodeId n, std::string_view name) const { return scene_.value(n, *scene_.type(n).find(name, Dialect::x3d)); }
+  const Value& field(NodeId n, std::string_view name) const {
+    return scene_.value(n, *scene_.type(n).find(name, Dialect::x3d));
+  }
   std::span<const double> numbers(NodeId n, std::string_view name) const {
     const Value& v = field(n, name);
     return v.is ? std::span<const double>{} : v.number_span();
@@ -60,14 +75,16 @@ class Lowering {
   std::span<const double> control_points(NodeId n) const {
     const NodeId c = field(n, "controlPoint").is ? NodeId{} : field(n, "controlPoint").node;
     if (scene_.is(c, nodes::Coordinate)) return scene_.get(c, nodes::coordinate::point);
-    return scene_.is(c, nodes::CoordinateDouble) ? scene_.get(c, nodes::coordinate_double::point) : std::span<const double>{};
+    return scene_.is(c, nodes::CoordinateDouble) ? scene_.get(c, nodes::coordinate_double::point)
+                                                 : std::span<const double>{};
   }
 
   std::vector<double> weights(NodeId n, std::size_t count) {
     auto given = numbers(n, "weight");
     if (given.empty()) return {};
     if (given.size() < count || !std::ranges::all_of(given, [](double w) { return w > 0 && std::isfinite(w); })) {
-      diag_.report(Diag::x3d_repaired, scene_.where(n), std::string(scene_.type(n).name) + ": a weight above 0 is needed for each control point; all are 1");
+      diag_.report(Diag::x3d_repaired, scene_.where(n),
+                   std::string(scene_.type(n).name) + ": a weight above 0 is needed for each control point; all are 1");
       return {};
     }
     return {given.begin(), given.begin() + static_cast<std::ptrdiff_t>(count)};
@@ -77,9 +94,12 @@ class Lowering {
     bool replaced = false;
     const auto knots = numbers(n, knot);
     auto b = make_basis(integer(n, order), knots, count, replaced);
-    if (!b) bad(std::to_string(count) + " control points for order " + std::to_string(integer(n, order)));
+    if (!b)
+      bad(std::to_string(count) + " control points for order " + std::to_string(integer(n, order)));
     else if (replaced && !knots.empty())
-      diag_.report(Diag::x3d_repaired, scene_.where(n), std::string(scene_.type(n).name) + ": " + std::string(knot) + " has no knots for " + std::to_string(count) + " control points; equal steps are taken");
+      diag_.report(Diag::x3d_repaired, scene_.where(n),
+                   std::string(scene_.type(n).name) + ": " + std::string(knot) + " has no knots for " +
+                       std::to_string(count) + " control points; equal steps are taken");
     return b;
   }
 
@@ -88,11 +108,18 @@ class Lowering {
       const auto p = scene_.get(n, nodes::contour_polyline2d::controlPoint);
       bool replaced = false;
       auto b = make_basis(2, {}, p.size() / 2, replaced);
-      if (!b) return bad("a line has two points"), std::nullopt;
+      if (!b) {
+        bad("a line has two points");
+        return std::nullopt;
+      }
       return Curve{*b, p, {}, 2};
     }
     const bool flat = scene_.is(n, nodes::NurbsCurve2D);
-    if (!flat && !scene_.is(n, nodes::NurbsCurve) && !scene_.is(n, nodes::NurbsPositionInterpolator) && !scene_.is(n, nodes::NurbsOrientationInterpolator)) return bad("a curve is missing"), std::nullopt;
+    if (!flat && !scene_.is(n, nodes::NurbsCurve) && !scene_.is(n, nodes::NurbsPositionInterpolator) &&
+        !scene_.is(n, nodes::NurbsOrientationInterpolator)) {
+      bad("a curve is missing");
+      return std::nullopt;
+    }
     const auto p = flat ? numbers(n, "controlPoint") : control_points(n);
     const std::size_t arity = flat ? 2 : 3;
     auto b = basis(n, p.size() / arity, "order", "knot");
@@ -101,8 +128,12 @@ class Lowering {
   }
 
   std::optional<Surface> surface_of(NodeId n, std::span<const double> p, std::size_t arity) {
-    const auto u = static_cast<std::size_t>(std::max(integer(n, "uDimension"), 0)), v = static_cast<std::size_t>(std::max(integer(n, "vDimension"), 0));
-    if (u == 0 || v == 0 || p.size() / arity / u < v) return bad(std::to_string(p.size() / arity) + " control points for " + std::to_string(u) + " x " + std::to_string(v)), std::nullopt;
+    const auto u = static_cast<std::size_t>(std::max(integer(n, "uDimension"), 0)),
+               v = static_cast<std::size_t>(std::max(integer(n, "vDimension"), 0));
+    if (u == 0 || v == 0 || p.size() / arity / u < v) {
+      bad(std::to_string(p.size() / arity) + " control points for " + std::to_string(u) + " x " + std::to_string(v));
+      return std::nullopt;
+    }
     auto along_u = basis(n, u, "uOrder", "uKnot"), along_v = basis(n, v, "vOrder", "vKnot");
     if (!along_u || !along_v) return std::nullopt;
     return Surface{*along_u, *along_v, p, weights(n, u * v), arity};
@@ -112,7 +143,10 @@ class Lowering {
     double sum = 0;
     for (std::size_t k = 0; k < arity && p.size() >= arity; ++k) {
       double low = p[k], high = p[k];
-      for (std::size_t i = k; i < p.size(); i += arity) low = std::min(low, p[i]), high = std::max(high, p[i]);
+      for (std::size_t i = k; i < p.size(); i += arity) {
+        low = std::min(low, p[i]);
+        high = std::max(high, p[i]);
+      }
       sum += (high - low) * (high - low);
     }
     return std::sqrt(sum);
@@ -142,7 +176,8 @@ class Lowering {
 
   void coordinate() {
     auto fields = fields_for(scene_, n_, nodes::Coordinate);
-    fields.push_back(scene_.make(FieldType::MFVec3f, nodes::coordinate::point.slot, scene_.get(n_, nodes::coordinate_double::point)));
+    fields.push_back(scene_.make(FieldType::MFVec3f, nodes::coordinate::point.slot,
+                                 scene_.get(n_, nodes::coordinate_double::point)));
     scene_.become(n_, nodes::Coordinate, fields);
   }
 
@@ -159,7 +194,8 @@ class Lowering {
     std::vector<std::int32_t> index(points.size() / 3);
     for (std::size_t i = 0; i < index.size(); ++i) index[i] = static_cast<std::int32_t>(i);
     auto fields = fields_for(scene_, n_, nodes::IndexedLineSet);
-    fields.push_back(scene_.make(FieldType::SFNode, l::coord.slot, child(nodes::Coordinate, FieldType::MFVec3f, nodes::coordinate::point.slot, points)));
+    fields.push_back(scene_.make(FieldType::SFNode, l::coord.slot,
+                                 child(nodes::Coordinate, FieldType::MFVec3f, nodes::coordinate::point.slot, points)));
     fields.push_back(scene_.make(FieldType::MFInt32, l::coordIndex.slot, index));
     scene_.become(n_, nodes::IndexedLineSet, fields);
   }
@@ -168,10 +204,15 @@ class Lowering {
     namespace s = nodes::indexed_face_set;
     auto fields = fields_for(scene_, n_, nodes::IndexedFaceSet);
     std::erase_if(fields, [&](const Value& v) { return !scene_.is_extra(v) && v.slot == s::texCoord.slot; });
-    fields.push_back(scene_.make(FieldType::SFNode, s::coord.slot, child(nodes::Coordinate, FieldType::MFVec3f, nodes::coordinate::point.slot, f.points)));
+    fields.push_back(
+        scene_.make(FieldType::SFNode, s::coord.slot,
+                    child(nodes::Coordinate, FieldType::MFVec3f, nodes::coordinate::point.slot, f.points)));
     fields.push_back(scene_.make(FieldType::MFInt32, s::coordIndex.slot, f.index));
-    fields.push_back(scene_.make(FieldType::SFNode, s::normal.slot, child(nodes::Normal, FieldType::MFVec3f, nodes::normal::vector.slot, f.normals)));
-    fields.push_back(scene_.make(FieldType::SFNode, s::texCoord.slot, child(nodes::TextureCoordinate, FieldType::MFVec2f, nodes::texture_coordinate::point.slot, f.texcoords)));
+    fields.push_back(scene_.make(FieldType::SFNode, s::normal.slot,
+                                 child(nodes::Normal, FieldType::MFVec3f, nodes::normal::vector.slot, f.normals)));
+    fields.push_back(scene_.make(
+        FieldType::SFNode, s::texCoord.slot,
+        child(nodes::TextureCoordinate, FieldType::MFVec2f, nodes::texture_coordinate::point.slot, f.texcoords)));
     scene_.become(n_, nodes::IndexedFaceSet, fields);
   }
 
@@ -180,12 +221,15 @@ class Lowering {
     auto point = [&](std::size_t i) { return Vec3{f.points[3 * i], f.points[3 * i + 1], f.points[3 * i + 2]}; };
     auto apart = [&](std::size_t a, std::size_t b) { return length(point(a) - point(b)) > smallest; };
     auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-      if (apart(a, b) && apart(b, c) && apart(c, a)) f.index.insert(f.index.end(), {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c), -1});
+      if (apart(a, b) && apart(b, c) && apart(c, a))
+        f.index.insert(f.index.end(),
+                       {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c), -1});
     };
     for (std::size_t i = columns; i < f.points.size() / 3; ++i) {
       if (i % columns == 0) continue;
       const std::size_t below = i - columns;
-      add(below - 1, below, i), add(below - 1, i, i - 1);
+      add(below - 1, below, i);
+      add(below - 1, i, i - 1);
     }
   }
 
@@ -199,7 +243,8 @@ class Lowering {
   }
 
   void surface() {
-    if (scene_.is(n_, nodes::NurbsTrimmedSurface) && !scene_.get(n_, trimmed::trimmingContour).empty()) diag_.report(Diag::untrimmed, scene_.where(n_));
+    if (scene_.is(n_, nodes::NurbsTrimmedSurface) && !scene_.get(n_, trimmed::trimmingContour).empty())
+      diag_.report(Diag::untrimmed, scene_.where(n_));
     const auto p = control_points(n_);
     Faces f;
     if (auto s = surface_of(n_, p, 3)) {
@@ -219,7 +264,8 @@ class Lowering {
   std::vector<double> texcoords(const Surface& s, const Grid& g) {
     const NodeId t = field(n_, "texCoord").is ? NodeId{} : field(n_, "texCoord").node;
     std::optional<Surface> map;
-    if (scene_.is(t, nodes::TextureCoordinate) && scene_.get(t, nodes::texture_coordinate::point).size() >= 2 * s.u.count * s.v.count)
+    if (scene_.is(t, nodes::TextureCoordinate) &&
+        scene_.get(t, nodes::texture_coordinate::point).size() >= 2 * s.u.count * s.v.count)
       map = Surface{s.u, s.v, scene_.get(t, nodes::texture_coordinate::point), s.weights, 2};
     else if (scene_.is(t, nodes::NurbsTextureCoordinate))
       map = surface_of(t, scene_.get(t, nodes::nurbs_texture_coordinate::controlPoint), 2);
@@ -241,10 +287,14 @@ class Lowering {
     auto fields = fields_for(scene_, n_, nodes::Extrusion);
     auto section = curve_of(across), way = curve_of(along);
     std::vector<double> section_points, spine;
-    if (section && way && section->arity == 2 && way->arity == 3) section_points = points_of(*section, cuts_of(*section, across)), spine = points_of(*way, cuts_of(*way, along));
+    if (section && way && section->arity == 2 && way->arity == 3) {
+      section_points = points_of(*section, cuts_of(*section, across));
+      spine = points_of(*way, cuts_of(*way, along));
+    }
     fields.push_back(scene_.make(FieldType::MFVec2f, e::crossSection.slot, section_points));
     fields.push_back(scene_.make(FieldType::MFVec3f, e::spine.slot, spine));
-    for (std::uint16_t slot : {e::beginCap.slot, e::endCap.slot}) fields.push_back(scene_.make(FieldType::SFBool, slot, false));
+    for (std::uint16_t slot : {e::beginCap.slot, e::endCap.slot})
+      fields.push_back(scene_.make(FieldType::SFBool, slot, false));
     fields.push_back(scene_.make(FieldType::SFFloat, e::creaseAngle.slot, std::numbers::pi));
     scene_.become(n_, nodes::Extrusion, fields);
   }
@@ -262,7 +312,8 @@ class Lowering {
         return Vec3{p[0] * t[0], p[1], p[0] * t[1]};
       };
       auto slope = [&](const Basis& b, double t, auto point) {  // by differences, inside of the ends
-        const double h = (b.last() - b.first()) * nudge, from = std::max(t - h, b.first()), to = std::min(t + h, b.last());
+        const double h = (b.last() - b.first()) * nudge, from = std::max(t - h, b.first()),
+                     to = std::min(t + h, b.last());
         return point(to) - point(from);
       };
       for (std::size_t j = 0; j < vs.size(); ++j)
@@ -271,10 +322,12 @@ class Lowering {
           const Vec3 p = at(u, v);
           // Next to the axis, where the surface has a point.
           const double inner = u + ((profile->basis.first() + profile->basis.last()) / 2 - u) * nudge;
-          const Vec3 n = unit(cross(slope(profile->basis, u, [&](double t) { return at(t, v); }), slope(way->basis, v, [&](double t) { return at(inner, t); })));
+          const Vec3 n = unit(cross(slope(profile->basis, u, [&](double t) { return at(t, v); }),
+                                    slope(way->basis, v, [&](double t) { return at(inner, t); })));
           f.points.insert(f.points.end(), p.begin(), p.end());
           f.normals.insert(f.normals.end(), n.begin(), n.end());
-          f.texcoords.insert(f.texcoords.end(), {static_cast<double>(i) / static_cast<double>(us.size() - 1), static_cast<double>(j) / static_cast<double>(vs.size() - 1)});
+          f.texcoords.insert(f.texcoords.end(), {static_cast<double>(i) / static_cast<double>(us.size() - 1),
+                                                 static_cast<double>(j) / static_cast<double>(vs.size() - 1)});
         }
       triangles(f, us.size(), 1e-9 * reach);
     }
@@ -289,7 +342,11 @@ class Lowering {
       for (double t : cuts_of(*c, n_)) {
         const double part = (t - b.first()) / (b.last() - b.first());
         key.push_back(part);
-        if (!directions) { const Vec3 p = c->at(t); value.insert(value.end(), p.begin(), p.end()); continue; }
+        if (!directions) {
+          const Vec3 p = c->at(t);
+          value.insert(value.end(), p.begin(), p.end());
+          continue;
+        }
         constexpr double nudge = 1e-4;
         const double h = (b.last() - b.first()) * nudge;
         const Vec4 turn = from_z(unit(c->at(std::min(t + h, b.last())) - c->at(std::max(t - h, b.first()))));
@@ -319,7 +376,11 @@ class Lowering {
 
 }  // namespace
 
-bool lower_nurbs(Scene& scene, NodeId n, double tolerance, Diagnostics& diag) { return Lowering(scene, n, tolerance, diag).run(); }
-bool lower_nurbs_interpolator(Scene& scene, NodeId n, double tolerance, Diagnostics& diag) { return Lowering(scene, n, tolerance, diag).interpolator(); }
+bool lower_nurbs(Scene& scene, NodeId n, double tolerance, Diagnostics& diag) {
+  return Lowering(scene, n, tolerance, diag).run();
+}
+bool lower_nurbs_interpolator(Scene& scene, NodeId n, double tolerance, Diagnostics& diag) {
+  return Lowering(scene, n, tolerance, diag).interpolator();
+}
 
 }  // namespace wrlkit::x3d

@@ -5,13 +5,15 @@
 
 namespace wrlkit::x3d {
 
-/// Turns a NurbsPatchSurface, NurbsTrimmedSurface (whole: contours are not cut), or NurbsSwungSurface into an IndexedFaceSet of triangles with
-/// exact normals, a NurbsCurve into an IndexedLineSet, a NurbsSweptSurface into an Extrusion, and a CoordinateDouble into a Coordinate.
-/// `tolerance`: how far lines and triangles may be from what is meant, in metres; 0: a thousandth of the diagonal of the control points. What
-/// cannot be is reported and empty. False: it is another node.
+/// Turns a NurbsPatchSurface, NurbsTrimmedSurface (whole: contours are not cut), or NurbsSwungSurface into an
+/// IndexedFaceSet of triangles with exact normals, a NurbsCurve into an IndexedLineSet, a NurbsSweptSurface into an
+/// Extrusion, and a CoordinateDouble into a Coordinate. `tolerance`: how far lines and triangles may be from what is
+/// meant, in metres; 0: a thousandth of the diagonal of the control points. What cannot be is reported and empty.
+/// False: it is another node.
 bool lower_nurbs(Scene&, NodeId, double tolerance, Diagnostics&);
 
-/// NurbsPositionInterpolator and NurbsOrientationInterpolator as interpolators with as many keys as the tolerance asks for.
+/// NurbsPositionInterpolator and NurbsOrientationInterpolator as interpolators with as many keys as the tolerance asks
+/// for.
 bool lower_nurbs_interpolator(Scene&, NodeId, double tolerance, Diagnostics&);
 
 }  // namespace wrlkit::x3d

@@ -56,19 +56,24 @@ class Products {
   bool run() {
     std::vector<NodeId> materials;
     for (NodeId n : all_nodes(scene_))
-      if (scene_.is(n, nodes::Appearance) && multiplies_picture(scene_, n)) appearance(n), materials.push_back(scene_.get(n, nodes::appearance::material));
+      if (scene_.is(n, nodes::Appearance) && multiplies_picture(scene_, n)) {
+        appearance(n);
+        materials.push_back(scene_.get(n, nodes::appearance::material));
+      }
     for (NodeId m : materials) forget_picture(m);
     return changed_;
   }
 
  private:
   void appearance(NodeId n) {
-    const NodeId texture = scene_.get(n, nodes::appearance::texture), material = scene_.get(n, nodes::appearance::material);
+    const NodeId texture = scene_.get(n, nodes::appearance::texture),
+                 material = scene_.get(n, nodes::appearance::material);
     if (!texture || !in_color(channels_of(scene_, texture, ctx_))) return;
     const bool by_vertex = colored_.contains(n);
     const Vec3 color = color_of(scene_, material);
     if (!by_vertex && color == white) return;
-    if (by_vertex || !scene_.is(texture, nodes::PixelTexture)) return ctx_.diag.report(Diag::no_vrml97_product, scene_.where(texture));
+    if (by_vertex || !scene_.is(texture, nodes::PixelTexture))
+      return ctx_.diag.report(Diag::no_vrml97_product, scene_.where(texture));
     scene_.set(n, nodes::appearance::texture, painted(texture, color));
     changed_ = true;
   }
@@ -99,7 +104,9 @@ class Products {
   /// It is its Appearance's.
   void forget_picture(NodeId material) {
     if (!own_picture(scene_, material)) return;
-    const auto slot = scene_.is(material, nodes::Material) ? nodes::material::diffuseTexture.slot : scene_.is(material, nodes::PhysicalMaterial) ? nodes::physical_material::baseTexture.slot : nodes::unlit_material::emissiveTexture.slot;
+    const auto slot = scene_.is(material, nodes::Material)           ? nodes::material::diffuseTexture.slot
+                      : scene_.is(material, nodes::PhysicalMaterial) ? nodes::physical_material::baseTexture.slot
+                                                                     : nodes::unlit_material::emissiveTexture.slot;
     scene_.unset(material, slot);
     changed_ = true;
   }
@@ -120,8 +127,11 @@ bool whiten_replaced(Scene& scene, PassContext& ctx) {
   std::map<NodeId, NodeId> white_of;
   for (NodeId n : all_nodes(scene)) {
     if (!scene.is(n, nodes::Appearance) || multiplies_picture(scene, n)) continue;
-    const NodeId texture = scene.get(n, nodes::appearance::texture), material = scene.get(n, nodes::appearance::material);
-    if (!texture || !scene.is(material, nodes::Material) || color_of(scene, material) == white || !in_color(channels_of(scene, texture, ctx))) continue;
+    const NodeId texture = scene.get(n, nodes::appearance::texture),
+                 material = scene.get(n, nodes::appearance::material);
+    if (!texture || !scene.is(material, nodes::Material) || color_of(scene, material) == white ||
+        !in_color(channels_of(scene, texture, ctx)))
+      continue;
     NodeId& copy = white_of[material];
     if (!copy) {
       copy = scene.add(nodes::Material, scene.where(material));

@@ -29,7 +29,10 @@ class Lowering {
     for (NodeId n : all) foreign_fields(n);
     for (NodeId n : all) foreign_node(n);
     routes(scene_.main);
-    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) interface(ProtoId{i}), routes(scene_.proto(ProtoId{i}).body);
+    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) {
+      interface(ProtoId{i});
+      routes(scene_.proto(ProtoId{i}).body);
+    }
     report();
     return head() || changed_;
   }
@@ -44,8 +47,10 @@ class Lowering {
     const auto rgba = scene_.get(n, nodes::color_rgba::color);
     bool opaque = true;
     for (std::size_t i = 0; i < rgba.size(); ++i) {
-      if (i % 4 < 3) rgb.push_back(rgba[i]);
-      else opaque &= rgba[i] == 1;
+      if (i % 4 < 3)
+        rgb.push_back(rgba[i]);
+      else
+        opaque &= rgba[i] == 1;
     }
     if (!opaque) diag_.report(Diag::no_vrml97_value, scene_.where(n), "ColorRGBA", "color (opacity)");
     auto fields = fields_for(scene_, n, nodes::Color);
@@ -56,7 +61,10 @@ class Lowering {
 
   // ---- what has none ----
   void lose(NodeId n) { lose(n, scene_.type(n).name); }
-  void lose(NodeId n, std::string_view what) { if (lost_.empty()) first_lost_ = scene_.where(n); ++lost_[what]; }
+  void lose(NodeId n, std::string_view what) {
+    if (lost_.empty()) first_lost_ = scene_.where(n);
+    ++lost_[what];
+  }
 
   /// Nodes that VRML97 does not have, in fields that it has.
   void foreign_children(NodeId n) {
@@ -68,8 +76,10 @@ class Lowering {
       if (std::ranges::all_of(held, stays)) continue;
       std::vector<NodeId> kept;
       for (NodeId c : held) stays(c) ? kept.push_back(c) : lose(c);
-      if (v.type == FieldType::SFNode || kept.empty()) scene_.unset(n, v.slot);
-      else scene_.set(n, scene_.make(v.type, v.slot, kept));
+      if (v.type == FieldType::SFNode || kept.empty())
+        scene_.unset(n, v.slot);
+      else
+        scene_.set(n, scene_.make(v.type, v.slot, kept));
       changed_ = true;
     }
   }
@@ -99,18 +109,28 @@ class Lowering {
 
   void interface(ProtoId p) {
     const auto& t = scene_.type(scene_.proto(p).type);
-    constexpr FieldType known[] = {FieldType::SFBool, FieldType::SFInt32, FieldType::MFInt32, FieldType::SFFloat, FieldType::MFFloat, FieldType::SFTime, FieldType::MFTime, FieldType::SFVec2f, FieldType::MFVec2f, FieldType::SFVec3f, FieldType::MFVec3f, FieldType::SFColor, FieldType::MFColor, FieldType::SFRotation, FieldType::MFRotation, FieldType::SFString, FieldType::MFString, FieldType::SFNode, FieldType::MFNode, FieldType::SFImage};
+    constexpr FieldType known[] = {
+        FieldType::SFBool,   FieldType::SFInt32,  FieldType::MFInt32, FieldType::SFFloat,    FieldType::MFFloat,
+        FieldType::SFTime,   FieldType::MFTime,   FieldType::SFVec2f, FieldType::MFVec2f,    FieldType::SFVec3f,
+        FieldType::MFVec3f,  FieldType::SFColor,  FieldType::MFColor, FieldType::SFRotation, FieldType::MFRotation,
+        FieldType::SFString, FieldType::MFString, FieldType::SFNode,  FieldType::MFNode,     FieldType::SFImage};
     for (const auto& f : t.fields)
-      if (std::ranges::find(known, f.type) == std::end(known)) diag_.report(Diag::no_vrml97_value, scene_.proto(p).where, t.name, std::string(f.name) + " (" + std::string(info(f.type).name) + ")");
+      if (std::ranges::find(known, f.type) == std::end(known))
+        diag_.report(Diag::no_vrml97_value, scene_.proto(p).where, t.name,
+                     std::string(f.name) + " (" + std::string(info(f.type).name) + ")");
   }
 
   // ---- ROUTEs ----
   void links(Scope& s) {
     dropped_.resize(scene_.node_count());
-    for (const Import& i : s.imports) lose(i.node), dropped_[i.node.value] = 1;
+    for (const Import& i : s.imports) {
+      lose(i.node);
+      dropped_[i.node.value] = 1;
+    }
     for (const Export& e : s.exports) lose(e.node, "EXPORT");
     changed_ |= !s.imports.empty() || !s.exports.empty();
-    s.imports.clear(), s.exports.clear();
+    s.imports.clear();
+    s.exports.clear();
   }
 
   bool is_dropped(NodeId n) const { return n.value < dropped_.size() && dropped_[n.value]; }
@@ -134,10 +154,20 @@ class Lowering {
     std::vector<Route> kept;
     for (Route r : s.routes) {
       const Route old = r;
-      r.event_out = event(r.from, r.event_out), r.event_in = event(r.to, r.event_in);
-      if (is_dropped(r.from) || is_dropped(r.to)) { ++lost_["ROUTE"]; continue; }
-      if (r.event_out.empty()) { diag_.report(Diag::no_vrml97_value, scene_.where(r.from), scene_.type(r.from).name, old.event_out); continue; }
-      if (r.event_in.empty()) { diag_.report(Diag::no_vrml97_value, scene_.where(r.to), scene_.type(r.to).name, old.event_in); continue; }
+      r.event_out = event(r.from, r.event_out);
+      r.event_in = event(r.to, r.event_in);
+      if (is_dropped(r.from) || is_dropped(r.to)) {
+        ++lost_["ROUTE"];
+        continue;
+      }
+      if (r.event_out.empty()) {
+        diag_.report(Diag::no_vrml97_value, scene_.where(r.from), scene_.type(r.from).name, old.event_out);
+        continue;
+      }
+      if (r.event_in.empty()) {
+        diag_.report(Diag::no_vrml97_value, scene_.where(r.to), scene_.type(r.to).name, old.event_in);
+        continue;
+      }
       kept.push_back(r);
     }
     changed_ |= kept != s.routes;
@@ -146,14 +176,20 @@ class Lowering {
 
   void report() {
     std::string types;
-    for (const auto& [type, n] : lost_) (types += types.empty() ? "" : ", ") += std::string(type) + (n > 1 ? " (" + std::to_string(n) + ")" : "");
+    for (const auto& [type, n] : lost_)
+      (types += types.empty() ? "" : ", ") += std::string(type) + (n > 1 ? " (" + std::to_string(n) + ")" : "");
     if (!lost_.empty()) diag_.report(Diag::no_vrml97_node, first_lost_, types);
   }
 
   bool head() {
     if (scene_.format != Format::x3d_xml && scene_.format != Format::x3d_classic) return false;
-    auto line = [](std::string s) { std::ranges::replace_if(s, [](char c) { return c == '\n' || c == '\r'; }, ' '); return s; };
-    for (const auto& [name, content] : scene_.x3d.meta) scene_.comment += "# " + line(name) + ": " + line(content) + "\n";
+    auto line = [](std::string s) {
+      std::ranges::replace_if(
+          s, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+      return s;
+    };
+    for (const auto& [name, content] : scene_.x3d.meta)
+      scene_.comment += "# " + line(name) + ": " + line(content) + "\n";
     scene_.x3d = {};
     scene_.format = Format::vrml97;
     return true;

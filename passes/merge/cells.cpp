@@ -11,7 +11,8 @@ using Cell = std::vector<std::uint32_t>;
 
 class Halving {
  public:
-  Halving(std::span<const CellItem> items, std::size_t budget, double least) : items_(items), budget_(budget), least_(least) {}
+  Halving(std::span<const CellItem> items, std::size_t budget, double least)
+      : items_(items), budget_(budget), least_(least) {}
 
   std::vector<Cell> run() {
     std::map<std::uint32_t, Cell> kinds;
@@ -50,11 +51,16 @@ class Halving {
     Cell& cell = cells_[c];
     Vec3 low = items_[cell[0]].at, high = low;
     for (auto i : cell)
-      for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], items_[i].at[k]), high[k] = std::max(high[k], items_[i].at[k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], items_[i].at[k]);
+        high[k] = std::max(high[k], items_[i].at[k]);
+      }
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
       if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-    std::ranges::sort(cell, [&](auto a, auto b) { return items_[a].at[axis] != items_[b].at[axis] ? items_[a].at[axis] < items_[b].at[axis] : a < b; });
+    std::ranges::sort(cell, [&](auto a, auto b) {
+      return items_[a].at[axis] != items_[b].at[axis] ? items_[a].at[axis] < items_[b].at[axis] : a < b;
+    });
     const auto middle = cell.begin() + static_cast<std::ptrdiff_t>(cell.size() / 2);
     Cell upper(middle, cell.end());
     cell.erase(middle, cell.end());
@@ -73,6 +79,8 @@ class Halving {
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> cells_of(std::span<const CellItem> items, std::size_t budget, double least) { return Halving(items, budget, least).run(); }
+std::vector<std::vector<std::uint32_t>> cells_of(std::span<const CellItem> items, std::size_t budget, double least) {
+  return Halving(items, budget, least).run();
+}
 
 }  // namespace wrlkit

@@ -9,16 +9,16 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "passes/analysis/figures.h"
 #include "geometry/geometry.h"
+#include "geometry/simplify/places.h"
+#include "geometry/tessellation.h"
+#include "passes/analysis/figures.h"
+#include "passes/analysis/representatives.h"
 #include "passes/merge/cells.h"
 #include "passes/merge/moved.h"
 #include "passes/merge/part_cells.h"
 #include "passes/merge/still_places.h"
 #include "passes/normals/normals.h"
-#include "passes/analysis/representatives.h"
-#include "geometry/simplify/places.h"
-#include "geometry/tessellation.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -26,17 +26,20 @@
 namespace wrlkit {
 namespace {
 
-// Of compressed glTF, about: of each point and corner that is written once more; of a mesh with its table of places, and of a place in it.
-// A mesh by itself shares indices and normals with others, which halves it.
-constexpr double point_bytes = 8, corner_bytes = 0.7, place_bytes = 10, node_bytes = 120, table_bytes = 600, own_share = 0.4;
-constexpr double large_cell = 50'000;                                     // corners
+// Of compressed glTF, about: of each point and corner that is written once more; of a mesh with its table of places,
+// and of a place in it. A mesh by itself shares indices and normals with others, which halves it.
+constexpr double point_bytes = 8, corner_bytes = 0.7, place_bytes = 10, node_bytes = 120, table_bytes = 600,
+                 own_share = 0.4;
+constexpr double large_cell = 50'000;  // corners
 
 /// EXT_mesh_gpu_instancing knows translation, rotation and scale, and no mirror images.
 bool can_be_instance(const Matrix& m) {
   double squares = 0, dots = 0;
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r) squares += m(r, c) * m(r, c);
-  for (int c = 0; c < 3; ++c) dots = std::max(dots, std::abs(m(0, c) * m(0, (c + 1) % 3) + m(1, c) * m(1, (c + 1) % 3) + m(2, c) * m(2, (c + 1) % 3)));
+  for (int c = 0; c < 3; ++c)
+    dots = std::max(dots,
+                    std::abs(m(0, c) * m(0, (c + 1) % 3) + m(1, c) * m(1, (c + 1) % 3) + m(2, c) * m(2, (c + 1) % 3)));
   return m.determinant() > 0 && dots <= 1e-9 * squares;
 }
 
@@ -52,17 +55,29 @@ struct Outline {
 class Merging {
  public:
   Merging(Scene& scene, const MergeOptions& options, PassContext& ctx)
-      : scene_(scene), options_(options), ctx_(ctx), usage_(scene), textured_(textured_geometry(scene)), still_(scene, usage_, options.parts) {}
+      : scene_(scene),
+        options_(options),
+        ctx_(ctx),
+        usage_(scene),
+        textured_(textured_geometry(scene)),
+        still_(scene, usage_, options.parts) {}
 
   Outcome run() {
     const auto before = figures_of(scene_);
-    if (still_.too_many() || (!options_.instanced && !options_.parts && before.draws <= static_cast<std::size_t>(std::max(options_.max_draws, 0)))) return Outcome::unchanged;
+    if (still_.too_many() || (!options_.instanced && !options_.parts &&
+                              before.draws <= static_cast<std::size_t>(std::max(options_.max_draws, 0))))
+      return Outcome::unchanged;
     names_before_ = names();
     name_parts();
-    if (options_.parts) divide_parts();
-    else divide();
+    if (options_.parts)
+      divide_parts();
+    else
+      divide();
     for (const auto& cell : cells_) merge_cell(cell);
-    if (made_.empty()) return options_.parts ? void() : report_draws_left(before), Outcome::unchanged;
+    if (made_.empty()) {
+      if (!options_.parts) report_draws_left(before);
+      return Outcome::unchanged;
+    }
     put_into_zones();
     remove_merged();
     if (!options_.parts) keep_lost_names();
@@ -103,11 +118,11 @@ class Merging {
   std::unordered_map<std::uint32_t, Outline> outlines_;
   std::vector<std::string> part_names_;  // by place
   std::vector<std::vector<std::uint32_t>> cells_;
-  std::vector<std::uint32_t> items_;     // places that are drawn
-  std::vector<char> merged_;             // by node: Shapes that are not needed any more
+  std::vector<std::uint32_t> items_;                   // places that are drawn
+  std::vector<char> merged_;                           // by node: Shapes that are not needed any more
   std::map<std::uint32_t, std::vector<NodeId>> made_;  // by zone
-  std::size_t n_shared_ = 0;             // draws that figures count, and tables of places save
-  std::size_t n_made_ = 0, n_empty_ = 0;  // n_empty_: places of Shapes that draw nothing
+  std::size_t n_shared_ = 0;                           // draws that figures count, and tables of places save
+  std::size_t n_made_ = 0, n_empty_ = 0;               // n_empty_: places of Shapes that draw nothing
   std::set<std::string_view> names_before_;
   std::set<std::string> merged_parts_;
   Mesh mesh_, all_;
@@ -130,14 +145,17 @@ const Outline& Merging::outline(NodeId g) {
   o.known = true;
   const Mesh& m = mesh_of(g);
   if (m.corners.empty() || m.kind == Mesh::Kind::none) return o;
-  o.kind = static_cast<std::uint64_t>(m.kind) * 64 + m.solid * 32 + m.color.present() * (m.color.width == 4 ? 16 : 8) + m.normal.present() * 2 + m.texcoord.present();
+  o.kind = static_cast<std::uint64_t>(m.kind) * 64 + m.solid * 32 + m.color.present() * (m.color.width == 4 ? 16 : 8) +
+           m.normal.present() * 2 + m.texcoord.present();
   o.corners = m.corners.size();
-  o.bytes = point_bytes * static_cast<double>(std::min(m.n_positions(), o.corners)) + corner_bytes * static_cast<double>(o.corners);
+  o.bytes = point_bytes * static_cast<double>(std::min(m.n_positions(), o.corners)) +
+            corner_bytes * static_cast<double>(o.corners);
   Vec3 low{}, high{};
   for (std::size_t i = 0; i < m.corners.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = m.positions[m.corners[i] * std::size_t{3} + k];
-      low[k] = i ? std::min(low[k], x) : x, high[k] = i ? std::max(high[k], x) : x;
+      low[k] = i ? std::min(low[k], x) : x;
+      high[k] = i ? std::max(high[k], x) : x;
     }
   for (std::size_t k = 0; k < 3; ++k) o.centre[k] = (low[k] + high[k]) / 2;
   return o;
@@ -169,8 +187,11 @@ void Merging::divide() {
     n_empty_ += o.kind == 0;
     if (o.kind == 0) continue;
     const auto appearance = same.of(scene_.get(place(i).shape, nodes::shape::appearance));
-    const auto kind = kinds.try_emplace({place(i).zone, appearance.value, o.kind}, static_cast<std::uint32_t>(kinds.size())).first->second;
-    items.push_back({kind, still_.zones()[place(i).zone].times, place(i).frame.point(o.centre), static_cast<double>(o.corners), appearance.value});
+    const auto kind =
+        kinds.try_emplace({place(i).zone, appearance.value, o.kind}, static_cast<std::uint32_t>(kinds.size()))
+            .first->second;
+    items.push_back({kind, still_.zones()[place(i).zone].times, place(i).frame.point(o.centre),
+                     static_cast<double>(o.corners), appearance.value});
     items_.push_back(i);
   }
   const auto budget = static_cast<std::size_t>(std::max(options_.max_draws, 0));
@@ -198,8 +219,10 @@ std::optional<std::string> Merging::names_in_geometry(std::uint32_t i) const {
   std::string out(scene_.name(g));
   bool others = false;
   for_each_child(scene_, g, [&](NodeId c) {
-    if (scene_.is(c, nodes::Coordinate)) (out += '\n') += scene_.name(c);
-    else others |= !scene_.name(c).empty();
+    if (scene_.is(c, nodes::Coordinate))
+      (out += '\n') += scene_.name(c);
+    else
+      others |= !scene_.name(c).empty();
   });
   return others ? std::nullopt : std::optional(out);
 }
@@ -216,8 +239,12 @@ void Merging::divide_parts() {
     const Outline& o = outline(geometry(i));
     if (!own_names || o.kind == 0) continue;
     const auto appearance = same.of(scene_.get(place(i).shape, nodes::shape::appearance));
-    const auto group = groups.try_emplace({place(i).zone, appearance.value, o.kind, *own_names}, static_cast<std::uint32_t>(groups.size())).first->second;
-    items.push_back({group, geometry(i).value, place(i).shape.value, std::max(still_.zones()[place(i).zone].times, 1u), o.bytes});
+    const auto group = groups
+                           .try_emplace({place(i).zone, appearance.value, o.kind, *own_names},
+                                        static_cast<std::uint32_t>(groups.size()))
+                           .first->second;
+    items.push_back(
+        {group, geometry(i).value, place(i).shape.value, std::max(still_.zones()[place(i).zone].times, 1u), o.bytes});
     items_.push_back(i);
   }
   cells_ = part_cells(items);
@@ -240,8 +267,12 @@ void Merging::keep_instances(std::vector<CellItem>& items, std::size_t budget) {
     const StillPlace& p = place(items_[i]);
     Sharing& s = known[{items[i].look, geometry(items_[i])}];
     s.items.push_back(i);
-    if (can_be_instance(p.frame)) ++s.in_zone[p.zone];
-    else ++s.odd, s.odd_draws += items[i].cost;
+    if (can_be_instance(p.frame))
+      ++s.in_zone[p.zone];
+    else {
+      ++s.odd;
+      s.odd_draws += items[i].cost;
+    }
     kinds[items[i].kind] = items[i].cost;
   }
   std::size_t draws = 0;
@@ -249,22 +280,32 @@ void Merging::keep_instances(std::vector<CellItem>& items, std::size_t budget) {
   std::vector<Sharing*> best;
   for (auto& [key, s] : known) {
     const double n = static_cast<double>(s.items.size());
-    s.saved = (n - own_share) * outline(geometry(items_[s.items[0]])).bytes - table_bytes * static_cast<double>(s.in_zone.size()) - place_bytes * (n - static_cast<double>(s.odd)) - node_bytes * static_cast<double>(s.odd);
+    s.saved = (n - own_share) * outline(geometry(items_[s.items[0]])).bytes -
+              table_bytes * static_cast<double>(s.in_zone.size()) - place_bytes * (n - static_cast<double>(s.odd)) -
+              node_bytes * static_cast<double>(s.odd);
     if (s.saved > 0) best.push_back(&s);
   }
   std::ranges::stable_sort(best, std::greater{}, &Sharing::saved);
   std::vector<char> kept(items.size());
   for (const Sharing* s : best) {
     std::size_t cost = s->odd_draws, saved = 0;
-    for (const auto& [zone, n] : s->in_zone) cost += still_.zones()[zone].times, saved += (n - 1) * still_.zones()[zone].times;
+    for (const auto& [zone, n] : s->in_zone) {
+      cost += still_.zones()[zone].times;
+      saved += (n - 1) * still_.zones()[zone].times;
+    }
     if (draws + cost > budget) continue;
-    draws += cost, n_shared_ += saved;
+    draws += cost;
+    n_shared_ += saved;
     for (auto i : s->items) kept[i] = 1;
   }
   std::size_t to = 0;
   for (std::size_t i = 0; i < items.size(); ++i)
-    if (!kept[i]) items[to] = items[i], items_[to++] = items_[i];
-  items.resize(to), items_.resize(to);
+    if (!kept[i]) {
+      items[to] = items[i];
+      items_[to++] = items_[i];
+    }
+  items.resize(to);
+  items_.resize(to);
 }
 
 void Merging::merge_cell(std::vector<std::uint32_t> cell) {
@@ -289,10 +330,14 @@ void Merging::merge_cell(std::vector<std::uint32_t> cell) {
     faces.push_back(added);
     merged_parts_.insert(part_names_[i]);
   }
-  const NodeId geometry = scene_.add(all_.kind == Mesh::Kind::lines ? nodes::IndexedLineSet : all_.kind == Mesh::Kind::points ? nodes::PointSet : nodes::IndexedFaceSet);
+  const NodeId geometry = scene_.add(all_.kind == Mesh::Kind::lines    ? nodes::IndexedLineSet
+                                     : all_.kind == Mesh::Kind::points ? nodes::PointSet
+                                                                       : nodes::IndexedFaceSet);
   store_mesh(scene_, geometry, all_);
-  if (!options_.parts) set_features(scene_, geometry, {names, faces});
-  else take_names(geometry, this->geometry(cell[0]));
+  if (!options_.parts)
+    set_features(scene_, geometry, {names, faces});
+  else
+    take_names(geometry, this->geometry(cell[0]));
   const NodeId shape = scene_.add(nodes::Shape, scene_.where(place(cell[0]).shape));
   if (appearance) scene_.set(shape, nodes::shape::appearance, appearance);
   scene_.set(shape, nodes::shape::geometry, geometry);
@@ -343,7 +388,10 @@ void Merging::remove_merged() {
     for (const Value& v : std::vector<Value>(scene_.fields(*g).begin(), scene_.fields(*g).end())) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
-      if (std::erase_if(list, is_gone) > 0) any = true, scene_.set(*g, scene_.make(FieldType::MFNode, v.slot, list));
+      if (std::erase_if(list, is_gone) > 0) {
+        any = true;
+        scene_.set(*g, scene_.make(FieldType::MFNode, v.slot, list));
+      }
       left |= !list.empty();
     }
     gone[g->value] = any && !left && !zone[g->value] && !usage_.touched(*g);
@@ -358,7 +406,8 @@ std::set<std::string_view> Merging::names() const {
   return out;
 }
 
-/// Those of nodes that are neither there any more nor on the way to a part (Coordinates and the like) stay as parts without faces.
+/// Those of nodes that are neither there any more nor on the way to a part (Coordinates and the like) stay as parts
+/// without faces.
 void Merging::keep_lost_names() {
   const auto now = names();
   std::set<std::string_view> in_table;
@@ -376,7 +425,10 @@ void Merging::keep_lost_names() {
   std::vector<std::string_view> all(parts->names.begin(), parts->names.end());
   std::vector<std::int32_t> faces(parts->faces.begin(), parts->faces.end());
   for (auto n : names_before_)
-    if (!now.contains(n) && !in_table.contains(n)) all.push_back(n), faces.push_back(0);
+    if (!now.contains(n) && !in_table.contains(n)) {
+      all.push_back(n);
+      faces.push_back(0);
+    }
   if (all.size() > parts->names.size()) set_features(scene_, geometry, {all, faces});
 }
 
@@ -384,7 +436,9 @@ void Merging::keep_lost_names() {
 void Merging::report_draws_left(const SceneFigures& left) {
   const auto draws = left.draws - n_empty_ - n_shared_, fixed = still_.n_fixed();
   if (draws <= static_cast<std::size_t>(options_.max_draws)) return;
-  ctx_.diag.report(Diag::draws_left, {}, draws, options_.max_draws, std::to_string(draws - std::min(fixed, draws)) + " do not look alike or move by themselves, " + std::to_string(fixed) + " have to stay as they are");
+  ctx_.diag.report(Diag::draws_left, {}, draws, options_.max_draws,
+                   std::to_string(draws - std::min(fixed, draws)) + " do not look alike or move by themselves, " +
+                       std::to_string(fixed) + " have to stay as they are");
 }
 
 void Merging::write_csv() const {
@@ -401,20 +455,26 @@ void Merging::write_csv() const {
   std::map<std::string_view, std::size_t> ids;
   std::set<std::pair<std::size_t, NodeId>> said;
   for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix&) {
-    const NodeId g = scene_.get(shape, nodes::shape::geometry), appearance = scene_.get(shape, nodes::shape::appearance);
+    const NodeId g = scene_.get(shape, nodes::shape::geometry),
+                 appearance = scene_.get(shape, nodes::shape::appearance);
     const auto parts = g ? features_of(scene_, g) : std::nullopt;
     if (!parts) return;
     for (std::size_t i = 0; i < parts->names.size(); ++i) {
       const auto name = parts->names[i];
       const auto id = ids.try_emplace(name, ids.size()).first->second;
-      if (parts->faces[i] > 0 && said.emplace(id, appearance).second) out << id << ',' << quoted(name) << ',' << quoted(appearance ? scene_.name(appearance) : std::string_view()) << '\n';
+      if (parts->faces[i] > 0 && said.emplace(id, appearance).second)
+        out << id << ',' << quoted(name) << ',' << quoted(appearance ? scene_.name(appearance) : std::string_view())
+            << '\n';
     }
   });
-  if (!out.flush()) ctx_.diag.report(Diag::cannot_write, {}, options_.csv, std::generic_category().message(errno ? errno : EIO));
+  if (!out.flush())
+    ctx_.diag.report(Diag::cannot_write, {}, options_.csv, std::generic_category().message(errno ? errno : EIO));
 }
 
 }  // namespace
 
-Outcome merge(Scene& scene, const MergeOptions& options, PassContext& ctx) { return Merging(scene, options, ctx).run(); }
+Outcome merge(Scene& scene, const MergeOptions& options, PassContext& ctx) {
+  return Merging(scene, options, ctx).run();
+}
 
 }  // namespace wrlkit

@@ -28,7 +28,8 @@ void append_moved(Mesh& all, const Mesh& m, const Matrix& frame, StampedMap& map
   auto take = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to, auto&& make) {
     for (std::size_t f = 0; f < m.n_faces(); ++f)
       for (std::size_t begin = m.begin_of(f), end = m.end_of(f), c = begin; c < end; ++c) {
-        const auto v = from[reversed && c > begin ? begin + end - c : c];  // from the same corner on, so that it is cut in the same way
+        const auto v = from[reversed && c > begin ? begin + end - c
+                                                  : c];  // from the same corner on, so that it is cut in the same way
         if (!map.contains(v)) map.set(v, make(v));
         to.push_back(map[v]);
       }
@@ -42,7 +43,8 @@ void append_moved(Mesh& all, const Mesh& m, const Matrix& frame, StampedMap& map
     points.insert(points.end(), at.begin(), at.end());
     return static_cast<std::uint32_t>(points.size() / 3 - 1);
   });
-  for (std::size_t f = 0; f < m.n_faces(); ++f) all.face_begin.push_back(first_corner + static_cast<std::uint32_t>(m.end_of(f)));
+  for (std::size_t f = 0; f < m.n_faces(); ++f)
+    all.face_begin.push_back(first_corner + static_cast<std::uint32_t>(m.end_of(f)));
   for (auto a : {&Mesh::normal, &Mesh::color, &Mesh::texcoord}) {
     const Attribute& from = m.*a;
     Attribute& to = all.*a;
@@ -57,7 +59,10 @@ void append_moved(Mesh& all, const Mesh& m, const Matrix& frame, StampedMap& map
       std::array<double, 3> n{};
       for (int r = 0; r < 3; ++r) {
         const int r1 = (r + 1) % 3, r2 = (r + 2) % 3;
-        for (int c = 0; c < 3; ++c) n[static_cast<std::size_t>(r)] += sign * p[c] * (frame(r1, (c + 1) % 3) * frame(r2, (c + 2) % 3) - frame(r1, (c + 2) % 3) * frame(r2, (c + 1) % 3));
+        for (int c = 0; c < 3; ++c)
+          n[static_cast<std::size_t>(r)] +=
+              sign * p[c] *
+              (frame(r1, (c + 1) % 3) * frame(r2, (c + 2) % 3) - frame(r1, (c + 2) % 3) * frame(r2, (c + 1) % 3));
       }
       const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
       for (double v : n) to.values.push_back(static_cast<float>(length > 0 ? v / length : 0));

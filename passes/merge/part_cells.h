@@ -1,5 +1,5 @@
-// Which Shapes without a name are better one mesh: those of one part that look alike, if their vertices take fewer bytes together than
-// the nodes and meshes that they need apart.
+// Which Shapes without a name are better one mesh: those of one part that look alike, if their vertices take fewer
+// bytes together than the nodes and meshes that they need apart.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -8,10 +8,10 @@
 namespace wrlkit {
 
 struct PartItem {
-  std::uint32_t group;     // only things of one group go together
+  std::uint32_t group;  // only things of one group go together
   std::uint32_t geometry, shape;
-  std::uint32_t times;     // that the group is drawn
-  double bytes;            // of its vertices in a merged mesh
+  std::uint32_t times;  // that the group is drawn
+  double bytes;         // of its vertices in a merged mesh
 };
 
 /// Cells of two items and more, as numbers of items. A shape that stands in several groups stays. n log n.

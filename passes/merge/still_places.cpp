@@ -15,19 +15,30 @@ constexpr std::uint32_t no_zone = 0xffffffff;
 }  // namespace
 
 StillPlaces::StillPlaces(const Scene& scene, const Usage& usage, bool by_name)
-    : scene_(scene), usage_(usage), by_name_(by_name), bound_(scene.node_count()), takers_(scene.node_count()), zone_at_(scene.node_count()), listed_(scene.node_count()), fixed_(scene.node_count()), named_(scene.node_count()) {
+    : scene_(scene),
+      usage_(usage),
+      by_name_(by_name),
+      bound_(scene.node_count()),
+      takers_(scene.node_count()),
+      zone_at_(scene.node_count()),
+      listed_(scene.node_count()),
+      fixed_(scene.node_count()),
+      named_(scene.node_count()) {
   find_bound();
   walk();
   // A Shape that has to stay somewhere stays everywhere.
   const std::size_t before = places_.size();
-  std::erase_if(places_, [&](const StillPlace& p) { return fixed_[p.shape.value] || takers_[p.shape.value] != usage_.uses(p.shape); });
+  std::erase_if(places_, [&](const StillPlace& p) {
+    return fixed_[p.shape.value] || takers_[p.shape.value] != usage_.uses(p.shape);
+  });
   n_fixed_ += before - places_.size();
 }
 
 /// Bodies of prototypes may share nodes with the world.
 void StillPlaces::find_bound() {
   std::vector<NodeId> all;
-  for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) reach(scene_, scene_.proto(ProtoId{i}).body.roots, bound_, all);
+  for (std::uint32_t i = 0; i < scene_.proto_count(); ++i)
+    reach(scene_, scene_.proto(ProtoId{i}).body.roots, bound_, all);
 }
 
 void StillPlaces::walk() {
@@ -65,7 +76,9 @@ bool StillPlaces::may_take(NodeId shape) const {
   const NodeId g = scene_.get(shape, nodes::shape::geometry);
   if (bound_[shape.value] || !is_plain(shape) || !is_plain(g) || !scene_.type(g).is_a("X3DGeometryNode")) return false;
   bool plain = true;
-  for_each_child(scene_, g, [&](NodeId c) { plain &= is_plain(c) && !scene_.is(c, nodes::TextureCoordinateGenerator) && !scene_.is(c, nodes::MetadataSet); });
+  for_each_child(scene_, g, [&](NodeId c) {
+    plain &= is_plain(c) && !scene_.is(c, nodes::TextureCoordinateGenerator) && !scene_.is(c, nodes::MetadataSet);
+  });
   return plain && !(scene_.is(g, nodes::IndexedFaceSet) && scene_.get(g, nodes::indexed_face_set::lightCoord));
 }
 
@@ -83,14 +96,22 @@ void StillPlaces::visit(const Item& i) {
     at.path = path_below();
     // The name of a geometry tells parts apart that have no other; where they have, it is kept with the first.
     const bool first = !std::exchange(named_[g.value], 1);
-    if ((first || scene_.name(i.node).empty()) && !scene_.name(g).empty()) paths_.push_back({scene_.name(g), at.path}), at.path = static_cast<std::uint32_t>(paths_.size() - 1);
-    if (i.zone != no_zone) places_.push_back({i.node, i.zone, i.frame, at.path});
-    else n_fixed_ += i.shown, fixed_[i.node.value] = 1;
+    if ((first || scene_.name(i.node).empty()) && !scene_.name(g).empty()) {
+      paths_.push_back({scene_.name(g), at.path});
+      at.path = static_cast<std::uint32_t>(paths_.size() - 1);
+    }
+    if (i.zone != no_zone)
+      places_.push_back({i.node, i.zone, i.frame, at.path});
+    else {
+      n_fixed_ += i.shown;
+      fixed_[i.node.value] = 1;
+    }
     return;
   }
   const auto& type = scene_.type(i.node);
   if (hierarchy_children(scene_, i.node).empty()) return;
-  const bool known = type.kind == NodeKind::builtin && (type.is_a("X3DGroupingNode") || scene_.is(i.node, nodes::StaticGroup)) && !bound_[i.node.value];
+  const bool known = type.kind == NodeKind::builtin &&
+                     (type.is_a("X3DGroupingNode") || scene_.is(i.node, nodes::StaticGroup)) && !bound_[i.node.value];
   Item below = i;
   below.path = path_below();
   if (!known) {
@@ -118,7 +139,10 @@ void StillPlaces::children(NodeId group, Item as) {
         for (NodeId c : v.node_span()) ++takers_[c.value];
   }
   for (auto n = list.rbegin(); n != list.rend(); ++n)
-    if (*n) as.node = *n, stack_.push_back(as);
+    if (*n) {
+      as.node = *n;
+      stack_.push_back(as);
+    }
 }
 
 /// Each child of a Switch or LOD is a world of its own.
@@ -130,8 +154,9 @@ void StillPlaces::alternatives(const Item& i) {
     Item below = i;
     below.node = *n;
     below.shown = i.shown && std::ranges::find(shown, *n) != shown.end();
-    const bool group = !scene_.is(*n, nodes::Shape) && scene_.type(*n).kind == NodeKind::builtin && scene_.type(*n).is_a("X3DGroupingNode") &&
-                       !scene_.is(*n, nodes::Switch) && !scene_.is(*n, nodes::LOD) && !bound_[n->value];
+    const bool group = !scene_.is(*n, nodes::Shape) && scene_.type(*n).kind == NodeKind::builtin &&
+                       scene_.type(*n).is_a("X3DGroupingNode") && !scene_.is(*n, nodes::Switch) &&
+                       !scene_.is(*n, nodes::LOD) && !bound_[n->value];
     if (!group) {
       below.zone = no_zone;
       stack_.push_back(below);
@@ -140,7 +165,10 @@ void StillPlaces::alternatives(const Item& i) {
     bool fresh;
     below.zone = zone_of(*n, below.shown, fresh);
     if (!fresh) continue;
-    if (!scene_.name(*n).empty()) paths_.push_back({scene_.name(*n), i.path}), below.path = static_cast<std::uint32_t>(paths_.size() - 1);
+    if (!scene_.name(*n).empty()) {
+      paths_.push_back({scene_.name(*n), i.path});
+      below.path = static_cast<std::uint32_t>(paths_.size() - 1);
+    }
     below.frame = {};
     children(*n, below);
   }

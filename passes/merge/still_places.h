@@ -17,8 +17,8 @@ struct Zone {
 struct StillPlace {
   NodeId shape;
   std::uint32_t zone;
-  Matrix frame;         // to the zone
-  std::uint32_t path;   // into StillPlaces::paths
+  Matrix frame;        // to the zone
+  std::uint32_t path;  // into StillPlaces::paths
 };
 
 class StillPlaces {
@@ -63,9 +63,9 @@ class StillPlaces {
   const Scene& scene_;
   const Usage& usage_;
   bool by_name_;
-  std::vector<char> bound_;              // by node: of a prototype, or below what is not known
-  std::vector<std::uint32_t> takers_;    // by node: lists out of which it may be taken
-  std::vector<std::uint32_t> zone_at_;   // by node, plus one
+  std::vector<char> bound_;             // by node: of a prototype, or below what is not known
+  std::vector<std::uint32_t> takers_;   // by node: lists out of which it may be taken
+  std::vector<std::uint32_t> zone_at_;  // by node, plus one
   std::vector<char> listed_, fixed_, named_;
   std::vector<Zone> zones_{Zone{.times = 1}};
   std::vector<StillPlace> places_;

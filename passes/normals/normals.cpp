@@ -30,7 +30,10 @@ constexpr std::size_t n_recent = 4096;  // normals that are looked through for a
 /// Room for n values that are written before they are read; shrinks never.
 template <class T>
 T* room(std::vector<T>& v, std::size_t n) {
-  if (v.size() < n) v.clear(), v.resize(n);
+  if (v.size() < n) {
+    v.clear();
+    v.resize(n);
+  }
   return v.data();
 }
 
@@ -67,7 +70,11 @@ class Normals {
   void compute(double crease_angle) {
     bool no_gaps = face_normals();
     bool smooth = crease_angle > 0 && n_faces_ > 1;
-    if (smooth || !no_gaps) number_positions(), chain_edges(), find_mates();
+    if (smooth || !no_gaps) {
+      number_positions();
+      chain_edges();
+      find_mates();
+    }
     if (!no_gaps) fill_gaps();
     if (!smooth) return emit_faces();
     unite_corners(crease_angle);
@@ -278,7 +285,9 @@ void Normals::make_groups() {
       group[c] = g;
       float* v = values + std::size_t{3} * g;
       if (first) {
-        v[0] = n.x, v[1] = n.y, v[2] = n.z;
+        v[0] = n.x;
+        v[1] = n.y;
+        v[2] = n.z;
         mixed[g] = 0;
       } else if (!mixed[g] && (v[0] != n.x || v[1] != n.y || v[2] != n.z)) {
         v[0] = v[1] = v[2] = 0;
@@ -302,7 +311,9 @@ void Normals::add_up() {
       Vec3 out = minus(point(c + 1 == last ? first : c + 1), point(c));
       if (mixed[group[c]]) {
         float *v = values + std::size_t{3} * group[c], w = static_cast<float>(angle(in, out, up));
-        v[0] += w * n.x, v[1] += w * n.y, v[2] += w * n.z;
+        v[0] += w * n.x;
+        v[1] += w * n.y;
+        v[2] += w * n.z;
       }
       in = out;
     }
@@ -362,7 +373,9 @@ std::uint32_t Normals::value(float x, float y, float z) {
   if (r < n_values_ && old[0] == x && old[1] == y && old[2] == z) return r;
   r = n_values_++;
   float* v = values + std::size_t{3} * r;
-  v[0] = x, v[1] = y, v[2] = z;
+  v[0] = x;
+  v[1] = y;
+  v[2] = z;
   return r;
 }
 

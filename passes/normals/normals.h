@@ -8,7 +8,7 @@
 // Geometric normals are Newell's: polygons may be concave, not planar, or of any number of corners. With `ccw FALSE`
 // the front is the side from which the corners run clockwise, and all normals are the opposite of Newell's.
 #pragma once
-#include "passes/pipeline/option_range.h"
+#include "base/option_range.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
@@ -19,7 +19,8 @@ struct NormalsOptions {
 
   void fields(auto&& f) {
     f("recompute", recompute, "also where the file gives normals");
-    f("crease-angle", crease_angle, "in radians, instead of the file's creaseAngle; negative: the file's", between(-1, 3.1416));
+    f("crease-angle", crease_angle, "in radians, instead of the file's creaseAngle; negative: the file's",
+      between(-1, 3.1416));
   }
 };
 

@@ -6,9 +6,15 @@
 namespace wrlkit {
 
 struct NormalsScratch {
-  struct FaceNormal { float x, y, z, weight; };
-  struct Edge { std::uint32_t other, link; };
-  struct Seen { std::uint32_t from, edge; };
+  struct FaceNormal {
+    float x, y, z, weight;
+  };
+  struct Edge {
+    std::uint32_t other, link;
+  };
+  struct Seen {
+    std::uint32_t from, edge;
+  };
 
   std::vector<FaceNormal> face_normals;
   std::vector<Edge> edges;

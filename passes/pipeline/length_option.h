@@ -13,7 +13,10 @@ struct LengthOption {
   double metres = 0;
 
   bool read(std::string_view text) {
-    constexpr struct { std::string_view name; double metres; } units[] = {{"", 1}, {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+    constexpr struct {
+      std::string_view name;
+      double metres;
+    } units[] = {{"", 1}, {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
     double v = 0;
     auto r = std::from_chars(text.data(), text.data() + text.size(), v);
     const std::string_view unit(r.ptr, static_cast<std::size_t>(text.data() + text.size() - r.ptr));

@@ -1,12 +1,12 @@
-// Makes a registry line out of a pass: pass<weld, WeldOptions>("weld", "join equal vertices", ...). The options describe
-// themselves through fields(); everything else is derived here.
+// Makes a registry line out of a pass: pass<weld, WeldOptions>("weld", "join equal vertices", ...). The options
+// describe themselves through fields(); everything else is derived here.
 #pragma once
 #include <charconv>
 #include <type_traits>
 
-#include "passes/pipeline/option_range.h"
-#include "passes/pipeline/pipeline.h"
+#include "base/option_range.h"
 #include "base/text/nearest_name.h"
+#include "passes/pipeline/pipeline.h"
 
 namespace wrlkit {
 namespace option_text {
@@ -19,19 +19,24 @@ inline std::string_view type_name(const std::string&) { return "text"; }
 inline std::string print(bool v) { return v ? "true" : "false"; }
 inline std::string print(const std::string& v) { return v; }
 template <class N>
-  requires std::is_arithmetic_v<N>
-std::string print(N v) {
+requires std::is_arithmetic_v<N> std::string print(N v) {
   char b[40];
   return {b, std::to_chars(b, b + sizeof b, v).ptr};
 }
 
 inline bool read(std::string_view s, bool& v) {
-  if (s == "true" || s == "false") return v = s == "true", true;
+  if (s == "true" || s == "false") {
+    v = s == "true";
+    return true;
+  }
   return false;
 }
-inline bool read(std::string_view s, std::string& v) { return v = s, true; }
+inline bool read(std::string_view s, std::string& v) {
+  v = s;
+  return true;
+}
 template <class N>
-  requires std::is_arithmetic_v<N>
+requires std::is_arithmetic_v<N>
 bool read(std::string_view s, N& v) {
   auto r = std::from_chars(s.data(), s.data() + s.size(), v);
   return r.ec == std::errc{} && r.ptr == s.data() + s.size();
@@ -44,18 +49,22 @@ inline std::string print(OptionRange r) {
 }
 template <class T>
 bool in_range(const T& v, OptionRange r) {
-  if constexpr (std::is_arithmetic_v<T>) return r.contains(v);
-  else return true;
+  if constexpr (std::is_arithmetic_v<T>)
+    return r.contains(v);
+  else
+    return true;
 }
 
 /// A type made for options says these itself: weld.h has one.
 template <class T>
-std::string_view type_name(const T&) { return T::type; }
+std::string_view type_name(const T&) {
+  return T::type;
+}
 template <class T>
-  requires requires(const T& v) { v.print(); }
+requires requires(const T& v) { v.print(); }
 std::string print(const T& v) { return v.print(); }
 template <class T>
-  requires requires(T& v) { v.read(std::string_view{}); }
+requires requires(T& v) { v.read(std::string_view{}); }
 bool read(std::string_view s, T& v) { return v.read(s); }
 
 template <class T>
@@ -72,12 +81,16 @@ class PassOf final : public PassInstance {
  public:
   bool is_mesh_pass() const override { return mesh; }
   Outcome run([[maybe_unused]] Scene& scene, [[maybe_unused]] PassContext& ctx) const override {
-    if constexpr (mesh) return Outcome::failed;
-    else return Function(scene, options_, ctx);
+    if constexpr (mesh)
+      return Outcome::failed;
+    else
+      return Function(scene, options_, ctx);
   }
   Outcome run([[maybe_unused]] MeshJob& job) const override {
-    if constexpr (mesh) return Function(job, options_);
-    else return Outcome::failed;
+    if constexpr (mesh)
+      return Function(job, options_);
+    else
+      return Outcome::failed;
   }
   bool set(std::string_view option, std::string_view value, std::string& why) override {
     bool found = false;
@@ -87,8 +100,13 @@ class PassOf final : public PassInstance {
       if (name != option) return;
       found = true;
       auto given = field;
-      if (option_text::read(value, given) && option_text::in_range(given, range)) return why.clear(), void(field = std::move(given));
-      why = "option '" + std::string(option) + "': '" + std::string(value) + "' is no value for it: " + option_text::describe(name, field, help, range).type_and_range();
+      if (option_text::read(value, given) && option_text::in_range(given, range)) {
+        why.clear();
+        field = std::move(given);
+        return;
+      }
+      why = "option '" + std::string(option) + "': '" + std::string(value) +
+            "' is no value for it: " + option_text::describe(name, field, help, range).type_and_range();
     });
     if (!found) why = "has no option '" + std::string(option) + "'" + nearest.question();
     return why.empty();
@@ -108,7 +126,9 @@ class PassOf final : public PassInstance {
 
 template <auto Function, class Options>
 constexpr PassInfo pass(std::string_view name, std::string_view summary, Level needs, Level leaves) {
-  return {name, summary, needs, leaves, [](const PassInfo&) -> std::unique_ptr<PassInstance> { return std::make_unique<PassOf<Function, Options>>(); }};
+  return {name, summary, needs, leaves, [](const PassInfo&) -> std::unique_ptr<PassInstance> {
+            return std::make_unique<PassOf<Function, Options>>();
+          }};
 }
 
 }  // namespace wrlkit

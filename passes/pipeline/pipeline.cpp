@@ -5,9 +5,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "passes/analysis/driven.h"
-#include "geometry/geometry.h"
 #include "base/text/blanks.h"
+#include "geometry/geometry.h"
+#include "passes/analysis/driven.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
@@ -41,11 +41,14 @@ bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
   return true;
 }
 
-std::string no_such_pass(std::string_view name) { return "there is no pass '" + std::string(name) + "'" + pass_question(name); }
+std::string no_such_pass(std::string_view name) {
+  return "there is no pass '" + std::string(name) + "'" + pass_question(name);
+}
 
 class Timer {
  public:
-  Timer(std::vector<PassTime>* to, std::string name) : to_(to), name_(std::move(name)), start_(std::chrono::steady_clock::now()) {}
+  Timer(std::vector<PassTime>* to, std::string name)
+      : to_(to), name_(std::move(name)), start_(std::chrono::steady_clock::now()) {}
   ~Timer() {
     if (to_) to_->push_back({name_, std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()});
   }
@@ -67,23 +70,39 @@ std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why)
     auto brace = item.find('{');
     auto name = trim(item.substr(0, brace));
     auto* info = find_pass(name);
-    if (!info) return why = no_such_pass(name), std::nullopt;
+    if (!info) {
+      why = no_such_pass(name);
+      return std::nullopt;
+    }
     Step s{info, info->make()};
     if (brace != item.npos) {
-      if (item.back() != '}') return why = "'}' is missing behind '" + std::string(name) + "'", std::nullopt;
-      if (!set_options(*s.pass, item.substr(brace + 1, item.size() - brace - 2), why)) return why = "pass '" + std::string(name) + "' " + why, std::nullopt;
+      if (item.back() != '}') {
+        why = "'}' is missing behind '" + std::string(name) + "'";
+        return std::nullopt;
+      }
+      if (!set_options(*s.pass, item.substr(brace + 1, item.size() - brace - 2), why)) {
+        why = "pass '" + std::string(name) + "' " + why;
+        return std::nullopt;
+      }
     }
     p.steps_.push_back(std::move(s));
   }
   return p;
 }
 
-bool Pipeline::add(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options, std::string& why) {
+bool Pipeline::add(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options,
+                   std::string& why) {
   auto* info = find_pass(name);
-  if (!info) return why = no_such_pass(name), false;
+  if (!info) {
+    why = no_such_pass(name);
+    return false;
+  }
   Step s{info, info->make()};
   for (const auto& [option, value] : options)
-    if (!s.pass->set(option, value, why)) return why = "pass '" + std::string(name) + "' " + why, false;
+    if (!s.pass->set(option, value, why)) {
+      why = "pass '" + std::string(name) + "' " + why;
+      return false;
+    }
   steps_.push_back(std::move(s));
   return true;
 }
@@ -91,7 +110,9 @@ bool Pipeline::add(std::string_view name, const std::vector<std::pair<std::strin
 void Pipeline::complete(std::string_view named) {
   std::string why;
   auto standard = parse(named, why);
-  auto at = [&](std::string_view name) { return std::ranges::find(standard->steps_, name, [](const Step& s) { return s.info->name; }); };
+  auto at = [&](std::string_view name) {
+    return std::ranges::find(standard->steps_, name, [](const Step& s) { return s.info->name; });
+  };
   const auto split = at("tessellate"), combine = std::min(at("combine-lightmap"), split);
   std::vector<const PassInfo*> chosen;
   for (const Step& s : steps_) chosen.push_back(s.info);
@@ -101,15 +122,23 @@ void Pipeline::complete(std::string_view named) {
       if (std::ranges::find(chosen, from->info) == chosen.end()) out.push_back(std::move(*from));
     return out;
   };
-  auto insert = [&](auto where, std::vector<Step>&& all) { steps_.insert(where, std::make_move_iterator(all.begin()), std::make_move_iterator(all.end())); };
+  auto insert = [&](auto where, std::vector<Step>&& all) {
+    steps_.insert(where, std::make_move_iterator(all.begin()), std::make_move_iterator(all.end()));
+  };
   auto front = missing(standard->steps_.begin(), combine);
-  auto last_over_scene = std::ranges::find_if(steps_.rbegin(), steps_.rend(), [](const Step& s) { return !s.pass->is_mesh_pass(); });
+  auto last_over_scene =
+      std::ranges::find_if(steps_.rbegin(), steps_.rend(), [](const Step& s) { return !s.pass->is_mesh_pass(); });
   insert(last_over_scene.base(), missing(combine, split));
-  // Where nothing is drawn, what the standard pipeline does to a world is done to those that Inlines bring in as well, and to the metadata
-  // that `merge` makes.
-  auto brings_in = [](const Step& s) { return s.info->name == "inline" || s.info->name == "expand-protos" || s.info->name == "merge"; };
+  // Where nothing is drawn, what the standard pipeline does to a world is done to those that Inlines bring in as well,
+  // and to the metadata that `merge` makes.
+  auto brings_in = [](const Step& s) {
+    return s.info->name == "inline" || s.info->name == "expand-protos" || s.info->name == "merge";
+  };
   if (split == standard->steps_.end() && std::ranges::any_of(steps_, brings_in)) {
-    if (!front.empty() && front[0].info->name == "lower-vrml1") steps_.insert(steps_.begin(), std::move(front[0])), front.erase(front.begin());  // Inlines are found behind it
+    if (!front.empty() && front[0].info->name == "lower-vrml1") {
+      steps_.insert(steps_.begin(), std::move(front[0]));
+      front.erase(front.begin());
+    }  // Inlines are found behind it
     return insert(std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base(), std::move(front));
   }
   insert(steps_.begin(), std::move(front));
@@ -139,9 +168,12 @@ std::string Pipeline::text() const {
   return out;
 }
 
-bool Pipeline::run(Scene& scene, PassContext& ctx, const PipelineOptions& options) { return run_steps(0, steps_.size(), scene, ctx, options, ctx.diag); }
+bool Pipeline::run(Scene& scene, PassContext& ctx, const PipelineOptions& options) {
+  return run_steps(0, steps_.size(), scene, ctx, options, ctx.diag);
+}
 
-/// A pass that does not find the level it needs leaves what it finds: normals in front of tessellate make no mesh of a Box.
+/// A pass that does not find the level it needs leaves what it finds: normals in front of tessellate make no mesh of a
+/// Box.
 Level Pipeline::level_behind(std::size_t step) const {
   Level level = Level::authored;
   for (std::size_t i = 0; i <= step; ++i)
@@ -149,7 +181,8 @@ Level Pipeline::level_behind(std::size_t step) const {
   return level;
 }
 
-bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassContext& ctx, const PipelineOptions& options, Diagnostics& breaches) {
+bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassContext& ctx,
+                         const PipelineOptions& options, Diagnostics& breaches) {
   for (std::size_t i = begin; i < end;) {
     std::size_t next = i + 1;
     // Mesh passes run together unless somebody wants to look between them.
@@ -158,12 +191,14 @@ bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassC
     {
       Timer timer(options.times, std::string(steps_[i].info->name));
       if (ctx.monitor) ctx.monitor->begin(std::string(steps_[i].info->name), 0, "");
-      bool good = steps_[i].pass->is_mesh_pass() ? run_mesh_steps(i, next, scene, ctx) : steps_[i].pass->run(scene, ctx) != Outcome::failed;
+      bool good = steps_[i].pass->is_mesh_pass() ? run_mesh_steps(i, next, scene, ctx)
+                                                 : steps_[i].pass->run(scene, ctx) != Outcome::failed;
       if (!good) return false;
     }
     const auto& done = *steps_[next - 1].info;
     if (options.verify_each && !verify(scene, level_behind(next - 1), breaches)) return false;
-    if (options.print && (options.print_after == done.name || options.print_after == "all")) options.print(std::string(done.name), scene);
+    if (options.print && (options.print_after == done.name || options.print_after == "all"))
+      options.print(std::string(done.name), scene);
     i = next;
   }
   return true;
@@ -211,9 +246,18 @@ MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOp
   state->driven = driven_geometry(scene);
   return [this, tail, &scene, &ctx, state](NodeId n) -> const Mesh& {
     const bool known = n.value < state->textured.size();
-    MeshJob job{scene, n, state->mesh, state->scratch, ctx, known && state->textured[n.value] != 0, known && state->driven[n.value] != 0};
+    MeshJob job{scene,
+                n,
+                state->mesh,
+                state->scratch,
+                ctx,
+                known && state->textured[n.value] != 0,
+                known && state->driven[n.value] != 0};
     read_mesh(job);
-    for (std::size_t i = tail; i < steps_.size(); ++i) state->mesh.cut.clear(), steps_[i].pass->run(job);
+    for (std::size_t i = tail; i < steps_.size(); ++i) {
+      state->mesh.cut.clear();
+      steps_[i].pass->run(job);
+    }
     return state->mesh;
   };
 }

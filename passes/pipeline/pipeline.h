@@ -2,8 +2,8 @@
 //
 //   inline,expand-protos,tessellate{tolerance=0.005},normals
 //
-// Neighbouring mesh passes are run together on one geometry after the other. When a writer follows, the last such group is
-// not run at all until the writer asks for a mesh, so that the meshes of a plant never lie in memory all together.
+// Neighbouring mesh passes are run together on one geometry after the other. When a writer follows, the last such group
+// is not run at all until the writer asks for a mesh, so that the meshes of a plant never lie in memory all together.
 #pragma once
 #include <functional>
 #include <memory>
@@ -29,13 +29,13 @@ class PassInstance {
  public:
   virtual ~PassInstance() = default;
   virtual bool is_mesh_pass() const = 0;
-  virtual Outcome run(Scene&, PassContext&) const = 0;      // of a scene pass
-  virtual Outcome run(MeshJob&) const = 0;                  // of a mesh pass
+  virtual Outcome run(Scene&, PassContext&) const = 0;  // of a scene pass
+  virtual Outcome run(MeshJob&) const = 0;              // of a mesh pass
   /// False when there is no such option or the text is no value for it; `why` says which.
   virtual bool set(std::string_view option, std::string_view value, std::string& why) = 0;
   virtual std::vector<OptionInfo> options() const = 0;
-  /// What the outcome depends on beside the scene and the files that it refers to: the pass itself, when it was read from a
-  /// file, and files that its options name.
+  /// What the outcome depends on beside the scene and the files that it refers to: the pass itself, when it was read
+  /// from a file, and files that its options name.
   virtual std::vector<std::string> files() const { return {}; }
 };
 
@@ -53,22 +53,28 @@ struct PassInfo {
 std::span<const PassInfo> passes();
 /// Of the list, or one that was added.
 const PassInfo* find_pass(std::string_view name);
-/// Adds a pass that is not in the list, in place of one that was added by that name before; `info` is kept by its address, for as long
-/// as the program runs. False when the list, or a named pipeline, has the name. For one thread, while no other uses passes.
+/// Adds a pass that is not in the list, in place of one that was added by that name before; `info` is kept by its
+/// address, for as long as the program runs. False when the list, or a named pipeline, has the name. For one thread,
+/// while no other uses passes.
 bool add_pass(const PassInfo& info);
 /// Those that were added, by name.
 std::vector<const PassInfo*> added_passes();
 /// The name that somebody may have meant, as a question: "; did you mean 'weld'?"; or nothing.
 std::string pass_question(std::string_view name);
 /// Named pipelines: "gltf" is what convert uses for glTF.
-struct NamedPipeline { std::string_view name, text, summary; };
+struct NamedPipeline {
+  std::string_view name, text, summary;
+};
 std::span<const NamedPipeline> named_pipelines();
 
-struct PassTime { std::string name; double seconds; };
+struct PassTime {
+  std::string name;
+  double seconds;
+};
 
 struct PipelineOptions {
   bool verify_each = false;
-  std::string print_after;                                    // a pass, or "all"
+  std::string print_after;  // a pass, or "all"
   std::function<void(const std::string& pass, const Scene&)> print;
   std::vector<PassTime>* times = nullptr;
 
@@ -82,18 +88,18 @@ class Pipeline {
   static std::optional<Pipeline> parse(std::string_view text, std::string& why);
   /// Adds a pass at the end, with these options. False, and why, when there is none, or an option is wrong.
   bool add(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options, std::string& why);
-  /// Adds the passes of a named pipeline that this one lacks, by name: those before `tessellate` in front, the others at
-  /// the end. So a writer has what it needs whatever was chosen: `weld` for glTF is `inline,...,weld,tessellate,...`.
-  /// `combine-lightmap` comes behind the last pass over the scene, which may be the one that makes the light; what the named one
-  /// has over the scene behind it stays behind it.
+  /// Adds the passes of a named pipeline that this one lacks, by name: those before `tessellate` in front, the others
+  /// at the end. So a writer has what it needs whatever was chosen: `weld` for glTF is
+  /// `inline,...,weld,tessellate,...`. `combine-lightmap` comes behind the last pass over the scene, which may be the
+  /// one that makes the light; what the named one has over the scene behind it stays behind it.
   void complete(std::string_view named);
   /// The whole text, every option spelled out; parse(text()) is this pipeline again.
   std::string text() const;
 
   /// Runs every pass. False when one failed.
   bool run(Scene&, PassContext&, const PipelineOptions& = {});
-  /// Runs every pass but the last group of mesh passes, which the returned source runs for each mesh that it is asked for.
-  /// The scene, the context and this pipeline must outlive it. Null when a pass failed.
+  /// Runs every pass but the last group of mesh passes, which the returned source runs for each mesh that it is asked
+  /// for. The scene, the context and this pipeline must outlive it. Null when a pass failed.
   MeshSource run_lazily(Scene&, PassContext&, const PipelineOptions& = {});
 
   /// PassInstance::files of all passes.
@@ -113,7 +119,8 @@ class Pipeline {
     std::unique_ptr<PassInstance> pass;
   };
   /// `breaches` is told what --verify-each finds.
-  bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&, Diagnostics& breaches);
+  bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&,
+                 Diagnostics& breaches);
   bool run_mesh_steps(std::size_t begin, std::size_t end, Scene&, PassContext&);
   Level level_behind(std::size_t step) const;
   std::vector<Step> steps_;

@@ -30,21 +30,25 @@ class Pruning {
     for (const Import& i : main.imports) here[i.node.value] = here[i.inline_node.value];
     changed_ |= std::erase_if(main.imports, [&](const Import& i) { return !here[i.node.value]; }) > 0;
     changed_ |= std::erase_if(main.exports, [&](const Export& e) { return !here[e.node.value]; }) > 0;
-    changed_ |= std::erase_if(main.routes, [&](const Route& r) { return !here[r.from.value] || !here[r.to.value]; }) > 0;
+    changed_ |=
+        std::erase_if(main.routes, [&](const Route& r) { return !here[r.from.value] || !here[r.to.value]; }) > 0;
     return changed_ ? Outcome::changed : Outcome::unchanged;
   }
 
  private:
   bool useless(NodeId n) const {
     if (!n || kept_[n.value] || !scene_.name(n).empty()) return false;
-    for (auto& v : scene_.fields(n)) if (scene_.content(v).is || scene_.is_extra(v)) return false;
+    for (auto& v : scene_.fields(n))
+      if (scene_.content(v).is || scene_.is_extra(v)) return false;
     if (scene_.is(n, nodes::Shape)) return !scene_.get(n, nodes::shape::geometry);
-    if (scene_.is(n, nodes::Collision) && scene_.get(n, nodes::collision::proxy)) return false;  // not seen, but in the way
+    if (scene_.is(n, nodes::Collision) && scene_.get(n, nodes::collision::proxy))
+      return false;  // not seen, but in the way
     return is_group(n) && hierarchy_children(scene_, n).empty();
   }
 
   bool is_group(NodeId n) const {
-    constexpr TypeId groups[] = {nodes::Anchor, nodes::Billboard, nodes::Collision, nodes::Group, nodes::LOD, nodes::Switch, nodes::Transform};
+    constexpr TypeId groups[] = {nodes::Anchor, nodes::Billboard, nodes::Collision, nodes::Group,
+                                 nodes::LOD,    nodes::Switch,    nodes::Transform};
     return std::ranges::find(groups, scene_.type_id(n)) != std::end(groups);
   }
 
@@ -61,7 +65,10 @@ class Pruning {
       v = scene_.make(FieldType::MFNode, v.slot, left);
       any = true;
     }
-    if (any) scene_.set_fields(n, fields), changed_ = true;
+    if (any) {
+      scene_.set_fields(n, fields);
+      changed_ = true;
+    }
   }
 
   Scene& scene_;

@@ -3,8 +3,8 @@
 //
 //   Group { children [ Shape { } Group { } DEF A Group { } ] }   ->   Group { children DEF A Group { } }
 //
-// Nodes with a DEF name stay, so does everything that a ROUTE touches and everything below a Switch or LOD, whose children
-// are counted. Cost: linear.
+// Nodes with a DEF name stay, so does everything that a ROUTE touches and everything below a Switch or LOD, whose
+// children are counted. Cost: linear.
 #pragma once
 #include "passes/pipeline/pass.h"
 

@@ -63,7 +63,10 @@ class CellGrid {
 template <class F>
 void for_each_cell(const std::array<double, 3>& low, const std::array<double, 3>& high, double size, F f) {
   std::array<double, 3> ends[2];
-  for (int i = 0; i < 3; ++i) ends[0][i] = std::floor(low[i] / size), ends[1][i] = std::floor(high[i] / size);
+  for (int i = 0; i < 3; ++i) {
+    ends[0][i] = std::floor(low[i] / size);
+    ends[1][i] = std::floor(high[i] / size);
+  }
   for (int k = 0; k < 8; ++k) {
     std::array<double, 3> cell;
     bool again = false;  // the box does not leave its cell in this direction

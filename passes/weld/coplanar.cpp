@@ -70,10 +70,15 @@ CoplanarMerger::Frame CoplanarMerger::frame_of(const Surface& s, std::uint32_t f
     double a = dot(cross(u, v), frame.normal);
     if (!(a > best)) continue;
     best = a;
-    frame.u = u, frame.v = v;
-    frame.corners[0] = s.begin(f), frame.corners[1] = s.begin(f) + i - 1, frame.corners[2] = s.begin(f) + i;
+    frame.u = u;
+    frame.v = v;
+    frame.corners[0] = s.begin(f);
+    frame.corners[1] = s.begin(f) + i - 1;
+    frame.corners[2] = s.begin(f) + i;
   }
-  frame.uu = dot(frame.u, frame.u), frame.uv = dot(frame.u, frame.v), frame.vv = dot(frame.v, frame.v);
+  frame.uu = dot(frame.u, frame.u);
+  frame.uv = dot(frame.u, frame.v);
+  frame.vv = dot(frame.v, frame.v);
   frame.good = best > 0;
   return frame;
 }
@@ -159,7 +164,10 @@ bool CoplanarMerger::outline(const Surface& s, std::uint32_t seed) {
     c = s.after(c);
     while (inside(s, seed, c)) c = s.after(mate_[c]);
   } while (c != first);
-  if (cutter_.cut(s.points.data(), room_).crossing) return corners_.resize(begin), false;
+  if (cutter_.cut(s.points.data(), room_).crossing) {
+    corners_.resize(begin);
+    return false;
+  }
   face_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
   return true;
 }

@@ -72,7 +72,10 @@ void PointJoiner::drop_unused(std::vector<std::uint32_t>& index) {
 std::uint32_t PointJoiner::first_within(double tolerance, const double* p) const {
   std::uint32_t first = CellGrid::none;
   std::array<double, 3> low, high;
-  for (int i = 0; i < 3; ++i) low[i] = p[i] - tolerance, high[i] = p[i] + tolerance;
+  for (int i = 0; i < 3; ++i) {
+    low[i] = p[i] - tolerance;
+    high[i] = p[i] + tolerance;
+  }
   for_each_cell(low, high, cell_size * tolerance, [&](const std::array<double, 3>& cell) {
     grid_.visit(cell, [&](std::uint32_t n) {
       const double* q = &points[std::size_t{3} * n];
@@ -107,7 +110,8 @@ double tolerance_by_digits(std::span<const double> points) {
   constexpr double huge = std::numeric_limits<double>::max();
   double low[3] = {huge, huge, huge}, high[3] = {-huge, -huge, -huge}, largest = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    low[i % 3] = std::min(low[i % 3], points[i]), high[i % 3] = std::max(high[i % 3], points[i]);
+    low[i % 3] = std::min(low[i % 3], points[i]);
+    high[i % 3] = std::max(high[i % 3], points[i]);
     largest = std::max(largest, std::abs(points[i]));
   }
   int n = 0;

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "geometry/mesh.h"
 #include "passes/weld/cell_grid.h"
 #include "passes/weld/value_table.h"
-#include "geometry/mesh.h"
 
 namespace wrlkit {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "geometry/shapes/vector.h"
 #include "geometry/mesh.h"
+#include "geometry/shapes/vector.h"
 
 namespace wrlkit {
 

@@ -69,7 +69,10 @@ void TJunctions::spread_edges(const Surface& s) {
     e.level = std::max(e.level, highest - most_levels);
     if (std::ranges::find(levels_, e.level) == levels_.end()) levels_.push_back(e.level);
     Vec3 a = s.point(s.mesh.corners[e.corner]), b = s.point(s.mesh.corners[s.after(e.corner)]), low, high;
-    for (int i = 0; i < 3; ++i) low[i] = std::min(a[i], b[i]) - near_, high[i] = std::max(a[i], b[i]) + near_;
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(a[i], b[i]) - near_;
+      high[i] = std::max(a[i], b[i]) + near_;
+    }
     for_each_cell(low, high, cell_size(e.level), [&](const Vec3& cell) { grid_.add(cell, e.corner, e.level); });
   }
 }

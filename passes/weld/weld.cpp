@@ -28,7 +28,10 @@ bool join_values(Attribute& a, ValueTable<float, width>& table, StampedMap& map,
   table.start(std::min(a.count(), a.index.size()));
   map.reset(a.count());
   for (std::uint32_t i : a.index)
-    if (!map.contains(i)) map.set(i, table.number(a.at(i))), ++n_used;
+    if (!map.contains(i)) {
+      map.set(i, table.number(a.at(i)));
+      ++n_used;
+    }
   if (n_used == table.count() && !(tidy && a.count() > n_used)) return false;
   for (std::uint32_t& i : a.index) i = map[i];
   a.values.swap(table.values);
@@ -63,7 +66,9 @@ class Welding {
 
   bool join_points();
   bool join_attributes(bool tidy);
-  std::size_t count_values() const { return mesh_.normal.count() + mesh_.color.count() + mesh_.texcoord.count() + mesh_.lightcoord.count(); }
+  std::size_t count_values() const {
+    return mesh_.normal.count() + mesh_.color.count() + mesh_.texcoord.count() + mesh_.lightcoord.count();
+  }
   void spell_out_faces();
   void forget_triangles();
   bool repair();

@@ -58,7 +58,8 @@ struct WeldOptions {
 /// - weld.degenerate-faces: fewer than three different points, or no area (as `triangulate` sees it). A polygon only
 ///   loses the corners that repeat the one before (weld.repeated-corners). A mesh of nothing but such faces is kept: it
 ///   is not seen, but has an extent.
-/// - weld.duplicate-faces: the same points in the same order as an earlier face; in the opposite order too where `solid`
+/// - weld.duplicate-faces: the same points in the same order as an earlier face; in the opposite order too where
+/// `solid`
 ///   is FALSE. The earlier one stays, as a depth buffer would have it. weld.duplicate-triangles counts them as
 ///   triangles. A sheet given twice, once for each side, stays.
 /// - weld.t-junctions: corners added. A point of an open edge that lies on another open edge, within the tolerance (or

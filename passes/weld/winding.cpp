@@ -73,7 +73,10 @@ void Winding::sum_up(const Surface& s, const std::vector<SurfaceEdge>& edges) {
 }
 
 void Winding::decide(Part& part, bool ccw, bool outward) {
-  if (part.one_sided) return void(++counts.one_sided_parts);
+  if (part.one_sided) {
+    ++counts.one_sided_parts;
+    return;
+  }
   bool closed = 2 * std::size_t{part.n_edges} == part.n_corners && part.volume != 0;
   bool inside_out = (part.volume < 0) == ccw;
   bool tie = part.n_faces[0] == part.n_faces[1];

@@ -27,8 +27,10 @@ void replay(const fs::path& path) {
 
 int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
-    if (!fs::is_directory(argv[i])) replay(argv[i]);
-    else for (const auto& entry : fs::directory_iterator(argv[i])) replay(entry.path());
+    if (!fs::is_directory(argv[i]))
+      replay(argv[i]);
+    else
+      for (const auto& entry : fs::directory_iterator(argv[i])) replay(entry.path());
   }
   std::printf("%d files\n", n_replayed);
   return n_replayed ? 0 : 1;

@@ -1,5 +1,5 @@
-// What must hold of any bytes as a patch file: the reader gives a set whose lists fit together; written and read again it is
-// written as the same text; its world passes through the checks.
+// What must hold of any bytes as a patch file: the reader gives a set whose lists fit together; written and read again
+// it is written as the same text; its world passes through the checks.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -44,7 +44,10 @@ void check_lists(const PatchSet& set) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Diagnostics diag;
   const auto set = parse_patches({reinterpret_cast<const char*>(data), size}, "fuzz", diag);
-  for (auto& m : diag.messages()) m.text(), diag.sources().locate(m.where);
+  for (auto& m : diag.messages()) {
+    m.text();
+    diag.sources().locate(m.where);
+  }
   if (!set) return 0;
   check_lists(*set);
   const auto first = text_of(*set);

@@ -20,7 +20,8 @@ void require(bool holds, const char* what) {
 }
 
 Mesh mesh_at(ProgressiveMesh& mesh, std::size_t n_faces) {
-  mesh.coarsen_to(n_faces), mesh.refine_to(n_faces);
+  mesh.coarsen_to(n_faces);
+  mesh.refine_to(n_faces);
   Mesh m = mesh.mesh();
   require(m.corners.size() == 3 * mesh.n_faces(), "faces are missing");
   require(std::ranges::all_of(m.corners, [&](std::uint32_t v) { return v < m.n_positions(); }),

@@ -1,6 +1,6 @@
-// What must hold of any bytes at all that are read as X3D: what is written reads as what was written, and the world passes
-// through the passes without harm. Bytes without an XML header are taken for the inside of a document, so that the fuzzer
-// need not find one. main.cpp replays files.
+// What must hold of any bytes at all that are read as X3D: what is written reads as what was written, and the world
+// passes through the passes without harm. Bytes without an XML header are taken for the inside of a document, so that
+// the fuzzer need not find one. main.cpp replays files.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -25,21 +25,25 @@ void require(bool holds, const std::string& what) {
 std::string x3d_text(const Scene& scene) {
   Diagnostics diag;
   std::string text;
-  write_x3d(scene, {}, [&](std::string_view s) { text += s; }, diag);
+  write_x3d(
+      scene, {}, [&](std::string_view s) { text += s; }, diag);
   return text;
 }
 
 void run_passes(Scene scene) {
   std::string why;
-  auto pipeline = Pipeline::parse("expand-protos{limit=5000},lower-x3d{vrml97=true},prune,tessellate,normals,triangulate", why);
+  auto pipeline =
+      Pipeline::parse("expand-protos{limit=5000},lower-x3d{vrml97=true},prune,tessellate,normals,triangulate", why);
   require(pipeline.has_value(), why);
   Diagnostics diag;
   Statistics statistics;
   PassContext context{diag, statistics};
   bool good = pipeline->run(scene, context, {.verify_each = true});
-  require(good, "a pass failed, or left what it must not: " + (diag.messages().empty() ? "" : diag.messages().back().text()));
+  require(good,
+          "a pass failed, or left what it must not: " + (diag.messages().empty() ? "" : diag.messages().back().text()));
   std::string text;
-  write_vrml(scene, {}, [&](std::string_view s) { text += s; }, diag);
+  write_vrml(
+      scene, {}, [&](std::string_view s) { text += s; }, diag);
 }
 
 }  // namespace
@@ -49,7 +53,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (sniff_format(text) == Format::none) text = "<X3D version='4.0' profile='Full'><Scene>" + text + "</Scene></X3D>";
   Diagnostics diag;
   auto world = parse_world(text, "fuzz", {}, diag);
-  for (auto& m : diag.messages()) m.text(), diag.sources().locate(m.where);
+  for (auto& m : diag.messages()) {
+    m.text();
+    diag.sources().locate(m.where);
+  }
   if (!world) return 0;
   check_values(world->scene, diag);
   // Names may change when they are written the first time.

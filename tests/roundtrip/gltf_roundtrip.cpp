@@ -1,10 +1,11 @@
 // What comes back from other languages: VRML97 -> X3D -> VRML97, VRML97 -> glTF -> VRML97, X3D -> VRML97 -> X3D,
-// glTF -> VRML97 -> glTF, VRML 1.0 -> VRML97 -> glTF (and back). Both scenes are walked side by side, and each name, sharing,
-// ROUTE and field is equal, within a bound (1e-5 of its size, as single precision and quaternions have it), or other. The
-// counts, over corpus/ and tests/gltf and over a part of the found corpus (WRLKIT_SHARED, or ../shared), are the tables in
-// docs/conformance.md.
+// glTF -> VRML97 -> glTF, VRML 1.0 -> VRML97 -> glTF (and back). Both scenes are walked side by side, and each name,
+// sharing, ROUTE and field is equal, within a bound (1e-5 of its size, as single precision and quaternions have it), or
+// other. The counts, over corpus/ and tests/gltf and over a part of the found corpus (WRLKIT_SHARED, or ../shared), are
+// the tables in docs/conformance.md.
 //
-//   gltf_roundtrip --check          fails when a table in docs/conformance.md says something else; those of the found corpus are
+//   gltf_roundtrip --check          fails when a table in docs/conformance.md says something else; those of the found
+//   corpus are
 //                                   skipped when it is not there
 //   gltf_roundtrip --update         writes them there
 //   gltf_roundtrip FOLDER...        counts for the VRML97 worlds below other folders, through glTF
@@ -47,7 +48,9 @@ using Tally = std::map<std::string, Counts>;
 
 bool near(double a, double b) { return std::abs(a - b) <= 1e-5 * (1 + std::abs(a)); }
 
-bool near_numbers(std::span<const double> a, std::span<const double> b) { return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), near); }
+bool near_numbers(std::span<const double> a, std::span<const double> b) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), near);
+}
 
 bool same_rotation(std::span<const double> a, std::span<const double> b) {
   return near_numbers(rotation_matrix({a[0], a[1], a[2], a[3]}).m, rotation_matrix({b[0], b[1], b[2], b[3]}).m);
@@ -77,7 +80,10 @@ class Comparison {
   }
 
   void nodes(std::span<const NodeId> x, std::span<const NodeId> y, const std::string& where) {
-    if (x.size() != y.size()) return void(tally_[where + ": another number of nodes"].other++);
+    if (x.size() != y.size()) {
+      tally_[where + ": another number of nodes"].other++;
+      return;
+    }
     for (std::size_t i = 0; i < x.size(); ++i) node(x[i], y[i], where);
   }
 
@@ -85,10 +91,14 @@ class Comparison {
     if (!x && !y) return;
     if (!x || !y || a_.type(x).name != b_.type(y).name) {
       std::string from(x ? a_.type(x).name : "NULL"), to(y ? b_.type(y).name : "NULL");
-      return void(tally_[where + ": " + from + " is " + to].other++);
+      tally_[where + ": " + from + " is " + to].other++;
+      return;
     }
     auto [at, is_new] = met_.try_emplace(x.value, y);
-    if (!is_new) return void(++(at->second == y ? tally_["USE"].equal : tally_["USE"].other));
+    if (!is_new) {
+      ++(at->second == y ? tally_["USE"].equal : tally_["USE"].other);
+      return;
+    }
     ++tally_["nodes"].equal;
     if (!a_.name(x).empty()) name(x, y);
     if (a_.is(x, nodes::IndexedFaceSet)) return polygons(x, y, "polygons", polygons_of);
@@ -99,9 +109,12 @@ class Comparison {
   /// Instances of a prototype have the names of its body; what a ROUTE refers to among them gets a number.
   void name(NodeId x, NodeId y) {
     const auto wanted = a_.name(x), found = b_.name(y);
-    if (found == wanted) ++tally_["DEF names"].equal;
-    else if (found.starts_with(std::string(wanted) + "_")) ++tally_["DEF names"].near;
-    else ++tally_["DEF names of " + std::string(a_.type(x).name)].other;
+    if (found == wanted)
+      ++tally_["DEF names"].equal;
+    else if (found.starts_with(std::string(wanted) + "_"))
+      ++tally_["DEF names"].near;
+    else
+      ++tally_["DEF names of " + std::string(a_.type(x).name)].other;
   }
 
   void fields(NodeId x, NodeId y) {
@@ -111,19 +124,30 @@ class Comparison {
       if (!f.has_value()) continue;
       const Value &v = a_.value(x, slot), &w = b_.value(y, slot);
       const std::string name = std::string(t.name) + "." + std::string(f.name_in(Dialect::vrml97));
-      if (info(f.type).element == Element::node) nodes(v.node_span(), w.node_span(), name);
-      else if (a_.find(x, slot) || b_.find(y, slot)) value(v, w, name);
+      if (info(f.type).element == Element::node)
+        nodes(v.node_span(), w.node_span(), name);
+      else if (a_.find(x, slot) || b_.find(y, slot))
+        value(v, w, name);
     }
   }
 
   void value(const Value& v, const Value& w, const std::string& name) {
-    if (equal_plain(v, w)) return void(++tally_["fields"].equal);
+    if (equal_plain(v, w)) {
+      ++tally_["fields"].equal;
+      return;
+    }
     bool close = info(v.type).element == Element::number && v.count == w.count;
-    if (close) close = v.type == FieldType::SFRotation ? same_rotation(v.number_span(), w.number_span()) : near_numbers(v.number_span(), w.number_span());
+    if (close)
+      close = v.type == FieldType::SFRotation ? same_rotation(v.number_span(), w.number_span())
+                                              : near_numbers(v.number_span(), w.number_span());
     if (!close && name.ends_with(".direction")) close = near_numbers(unit(v.number_span()), unit(w.number_span()));
     // Behind the urls stands where the picture is now.
-    if (!close && name.ends_with("Texture.url")) close = w.count > v.count && std::ranges::equal(v.text_span(), w.text_span().first(v.count));
-    if (close) return void(++tally_["fields"].near);
+    if (!close && name.ends_with("Texture.url"))
+      close = w.count > v.count && std::ranges::equal(v.text_span(), w.text_span().first(v.count));
+    if (close) {
+      ++tally_["fields"].near;
+      return;
+    }
     ++tally_[name].other;
   }
 
@@ -137,8 +161,10 @@ class Comparison {
     auto p = s.get(coord, nodes::coordinate::point);
     for (auto i : s.get(n, f::coordIndex)) {
       const auto k = static_cast<std::size_t>(i) * 3;
-      if (i >= 0 && k + 2 < p.size()) out.back().push_back({p[k], p[k + 1], p[k + 2]});
-      else if (i < 0) out.emplace_back();
+      if (i >= 0 && k + 2 < p.size())
+        out.back().push_back({p[k], p[k + 1], p[k + 2]});
+      else if (i < 0)
+        out.emplace_back();
     }
     std::erase_if(out, [](auto& face) { return face.size() < 3; });
     for (auto& face : out) {
@@ -156,8 +182,10 @@ class Comparison {
     auto p = s.get(coord, nodes::coordinate::point);
     for (auto i : s.get(n, f::coordIndex)) {
       const auto k = static_cast<std::size_t>(i) * 3;
-      if (i >= 0 && k + 2 < p.size()) out.back().push_back({p[k], p[k + 1], p[k + 2]});
-      else if (i < 0) out.emplace_back();
+      if (i >= 0 && k + 2 < p.size())
+        out.back().push_back({p[k], p[k + 1], p[k + 2]});
+      else if (i < 0)
+        out.emplace_back();
     }
     std::erase_if(out, [](auto& line) { return line.size() < 2; });
     return out;
@@ -178,7 +206,10 @@ class Comparison {
     for (const auto& face : p) {
       std::size_t i = at;
       while (i < std::min(q.size(), at + further) && !close(face, q[i])) ++i;
-      if (i == std::min(q.size(), at + further)) { ++c.other; continue; }
+      if (i == std::min(q.size(), at + further)) {
+        ++c.other;
+        continue;
+      }
       ++(face == q[i] ? c.equal : c.near);
       at = i + 1;
     }
@@ -210,7 +241,9 @@ bool write_glb(World& world, const fs::path& from, const fs::path& to) {
   return meshes && write_gltf(world.scene, meshes, {}, &resources, to.string(), diag);
 }
 
-fs::path temporary(const char* name) { return fs::temp_directory_path() / (std::string(name) + std::to_string(::getpid())); }
+fs::path temporary(const char* name) {
+  return fs::temp_directory_path() / (std::string(name) + std::to_string(::getpid()));
+}
 
 std::unique_ptr<World> again(const Scene& scene, const char* name, void (*write)(const Scene&, std::string&)) {
   Diagnostics diag;
@@ -221,12 +254,14 @@ std::unique_ptr<World> again(const Scene& scene, const char* name, void (*write)
 
 void as_vrml(const Scene& scene, std::string& text) {
   Diagnostics diag(scene.sources);
-  write_vrml(scene, {}, [&](std::string_view s) { text += s; }, diag);
+  write_vrml(
+      scene, {}, [&](std::string_view s) { text += s; }, diag);
 }
 
 void as_x3d(const Scene& scene, std::string& text) {
   Diagnostics diag(scene.sources);
-  write_x3d(scene, {}, [&](std::string_view s) { text += s; }, diag);
+  write_x3d(
+      scene, {}, [&](std::string_view s) { text += s; }, diag);
 }
 
 /// The scene in the nodes of VRML97.
@@ -243,8 +278,10 @@ Scene lowered(Scene scene) {
 void compare_with_glb(World& world, const fs::path& path, Tally& tally) {
   const auto glb = temporary("through.glb");
   if (write_glb(world, path, glb)) {
-    if (auto back = read(glb)) Comparison(world.scene, back->scene, tally).run();
-    else ++tally["not read"].other;
+    if (auto back = read(glb))
+      Comparison(world.scene, back->scene, tally).run();
+    else
+      ++tally["not read"].other;
   }
   fs::remove(glb);
 }
@@ -252,14 +289,17 @@ void compare_with_glb(World& world, const fs::path& path, Tally& tally) {
 bool through_gltf(const fs::path& path, Tally& tally) {
   auto world = read(path);
   if (!world || world->format != Format::vrml97) return false;
-  return compare_with_glb(*world, path, tally), true;
+  compare_with_glb(*world, path, tally);
+  return true;
 }
 
 bool through_x3d(const fs::path& path, Tally& tally) {
   auto world = read(path);
   if (!world || world->format != Format::vrml97) return false;
-  if (auto back = again(world->scene, "through.x3d", as_x3d)) Comparison(lowered(world->scene), lowered(back->scene), tally).run();
-  else ++tally["not read"].other;
+  if (auto back = again(world->scene, "through.x3d", as_x3d))
+    Comparison(lowered(world->scene), lowered(back->scene), tally).run();
+  else
+    ++tally["not read"].other;
   return true;
 }
 
@@ -268,8 +308,10 @@ bool x3d_through_vrml(const fs::path& path, Tally& tally) {
   if (!world || (world->format != Format::x3d_xml && world->format != Format::x3d_classic)) return false;
   auto vrml = again(lowered(world->scene), "through.wrl", as_vrml);
   auto back = vrml ? again(vrml->scene, "back.x3d", as_x3d) : nullptr;
-  if (back) Comparison(world->scene, back->scene, tally).run();
-  else ++tally["not read"].other;
+  if (back)
+    Comparison(world->scene, back->scene, tally).run();
+  else
+    ++tally["not read"].other;
   return true;
 }
 
@@ -283,7 +325,8 @@ bool gltf_through_vrml(const fs::path& path, Tally& tally) {
 bool vrml1_through_vrml(const fs::path& path, Tally& tally) {
   auto world = read(path);
   if (!world || world->format != Format::vrml1) return false;
-  if (auto vrml = again(lowered(world->scene), (path.string() + ".wrl").c_str(), as_vrml)) compare_with_glb(*vrml, path, tally);
+  if (auto vrml = again(lowered(world->scene), (path.string() + ".wrl").c_str(), as_vrml))
+    compare_with_glb(*vrml, path, tally);
   return true;
 }
 
@@ -306,7 +349,8 @@ std::string table(const std::string& title, const fs::path& folder, Run run, std
     if (n++ % every == 0 && (every == 1 || fs::file_size(path) < large)) worlds += run(path, tally);
   std::ostringstream out;
   out << title << ", " << worlds << " files:\n\n| what | equal | within the bound | other |\n|---|---|---|---|\n";
-  for (const auto& [what, c] : tally) out << "| " << what << " | " << c.equal << " | " << c.near << " | " << c.other << " |\n";
+  for (const auto& [what, c] : tally)
+    out << "| " << what << " | " << c.equal << " | " << c.near << " | " << c.other << " |\n";
   return out.str() + "\n";
 }
 
@@ -319,10 +363,15 @@ std::string text_of(const fs::path& path) {
 bool put(std::string& text, const std::string& mark, const std::string& made, bool update) {
   const std::string begin = "<!-- made by tests/roundtrip/" + mark + " -->\n", end = "<!-- end -->";
   auto from = text.find(begin), to = text.find(end, from);
-  if (from == text.npos || to == text.npos) return std::printf("docs/conformance.md has no place for %s\n%s", mark.c_str(), made.c_str()), false;
+  if (from == text.npos || to == text.npos) {
+    std::printf("docs/conformance.md has no place for %s\n%s", mark.c_str(), made.c_str());
+    return false;
+  }
   from += begin.size();
   const bool same = text.substr(from, to - from) == made;
-  if (!same && !update) std::printf("docs/conformance.md says otherwise than this; gltf_roundtrip --update writes it there\n%s", made.c_str());
+  if (!same && !update)
+    std::printf("docs/conformance.md says otherwise than this; gltf_roundtrip --update writes it there\n%s",
+                made.c_str());
   if (update) text.replace(from, to - from, made);
   return same || update;
 }
@@ -353,7 +402,8 @@ int main(int argc, char** argv) {
   std::string own, others;
   for (const Row& r : rows) {
     own += table(r.title + std::string(", ") + r.folder + "/", source / r.folder, r.run);
-    if (has_found && r.found) others += table(r.title + std::string(", one of ten found files"), found / r.found, r.run, 10);
+    if (has_found && r.found)
+      others += table(r.title + std::string(", one of ten found files"), found / r.found, r.run, 10);
   }
   auto text = text_of(page);
   bool good = put(text, "gltf_roundtrip", own, update);

@@ -1,5 +1,5 @@
-// For every world of VRML97 or VRML 1.0 below some folders: what is written reads back as the same scene, and written again it is the same
-// text. Says of each world that breaks this what differs, and fails.
+// For every world of VRML97 or VRML 1.0 below some folders: what is written reads back as the same scene, and written
+// again it is the same text. Says of each world that breaks this what differs, and fails.
 //
 //   roundtrip FOLDER...    folders that are not there are skipped, and named
 //   roundtrip              corpus/ of the project, and that of the folder WRLKIT_SHARED or of ../shared
@@ -31,7 +31,8 @@ std::vector<std::string> files_below(const fs::path& folder) {
 std::string text_of(const Scene& scene) {
   Diagnostics diag;
   std::string text;
-  write_vrml(scene, {.own_fields = true}, [&](std::string_view s) { text += s; }, diag);
+  write_vrml(
+      scene, {.own_fields = true}, [&](std::string_view s) { text += s; }, diag);
   return text;
 }
 
@@ -68,14 +69,18 @@ void check_folder(const std::string& folder, Count& count) {
     auto world = read_world(path, {}, diag);
     if (!world || (world->format != Format::vrml97 && world->format != Format::vrml1)) continue;
     ++count.worlds;
-    if (auto fault = lost(world->scene); !fault.empty()) ++count.faulty, std::printf("%s: %s\n", path.c_str(), fault.c_str());
+    if (auto fault = lost(world->scene); !fault.empty()) {
+      ++count.faulty;
+      std::printf("%s: %s\n", path.c_str(), fault.c_str());
+    }
   }
 }
 
 std::vector<std::string> standard_folders() {
   const fs::path source = WRLKIT_SOURCE_DIR;
   const char* shared = std::getenv("WRLKIT_SHARED");
-  return {(source / "corpus").string(), ((shared ? fs::path(shared) : source.parent_path() / "shared") / "corpus").string()};
+  return {(source / "corpus").string(),
+          ((shared ? fs::path(shared) : source.parent_path() / "shared") / "corpus").string()};
 }
 
 }  // namespace
@@ -83,8 +88,10 @@ std::vector<std::string> standard_folders() {
 int main(int argc, char** argv) {
   Count count;
   for (const auto& folder : argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : standard_folders()) {
-    if (fs::is_directory(folder)) check_folder(folder, count);
-    else std::printf("skipped: there is no %s\n", folder.c_str());
+    if (fs::is_directory(folder))
+      check_folder(folder, count);
+    else
+      std::printf("skipped: there is no %s\n", folder.c_str());
   }
   std::printf("%d worlds, %d of them come back otherwise\n", count.worlds, count.faulty);
   return count.worlds == 0 || count.faulty ? 1 : 0;

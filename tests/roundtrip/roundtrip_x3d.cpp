@@ -1,5 +1,5 @@
-// VRML97 through X3D and back, and X3D through its own writer: the text in the end is the text in the beginning. Differences
-// that docs/conformance.md explains are told apart by what the world has; any other fails.
+// VRML97 through X3D and back, and X3D through its own writer: the text in the end is the text in the beginning.
+// Differences that docs/conformance.md explains are told apart by what the world has; any other fails.
 //
 //   roundtrip_x3d FOLDER...    folders that are not there are skipped, and named
 //   roundtrip_x3d              corpus/ of the project, and that of the folder WRLKIT_SHARED or of ../shared
@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "base/text/xml_text.h"
 #include "parsers/parsers.h"
 #include "passes/lower_x3d/lower_x3d.h"
 #include "scenegraph/walk.h"
 #include "writers/vrml/vrml.h"
 #include "writers/x3d/x3d.h"
-#include "base/text/xml_text.h"
 
 using namespace wrlkit;
 
@@ -29,14 +29,16 @@ std::string vrml_text(Scene scene) {
   PassContext ctx{diag, stats};
   lower_x3d(scene, {.vrml97 = true}, ctx);
   std::string text;
-  write_vrml(scene, {}, [&](std::string_view s) { text += s; }, diag);
+  write_vrml(
+      scene, {}, [&](std::string_view s) { text += s; }, diag);
   return text;
 }
 
 std::string x3d_text(const Scene& scene) {
   Diagnostics diag;
   std::string text;
-  write_x3d(scene, {}, [&](std::string_view s) { text += s; }, diag);
+  write_x3d(
+      scene, {}, [&](std::string_view s) { text += s; }, diag);
   return text;
 }
 
@@ -55,7 +57,8 @@ std::string difference_of(std::string_view a, std::string_view b) {
 }
 
 bool odd_text(std::string_view s) {
-  return std::ranges::any_of(s, [](char c) { return static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t' && c != '\r'; });
+  return std::ranges::any_of(
+      s, [](char c) { return static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t' && c != '\r'; });
 }
 
 /// What XML cannot hold or tells otherwise: see "VRML97 as X3D" in docs/conformance.md.
@@ -73,7 +76,9 @@ bool has_what_xml_has_not(const Scene& scene) {
       if (c.is) continue;
       if (t.kind == NodeKind::proto && info(c.type).element == Element::node && c.node_span().empty()) return true;
       if (info(c.type).element == Element::text && !info(c.type).multiple && odd_text(c.text())) return true;
-      if (info(c.type).element == Element::text && info(c.type).multiple && std::ranges::any_of(c.text_span(), odd_text)) return true;
+      if (info(c.type).element == Element::text && info(c.type).multiple &&
+          std::ranges::any_of(c.text_span(), odd_text))
+        return true;
     }
   }
   return false;
@@ -85,7 +90,10 @@ struct Count {
 
 void report(const std::string& path, const std::string& fault, bool explained, Count& count) {
   if (fault.empty()) return;
-  if (explained) return void((++count.explained, std::printf("known: %s: %s\n", path.c_str(), fault.c_str())));
+  if (explained) {
+    (++count.explained, std::printf("known: %s: %s\n", path.c_str(), fault.c_str()));
+    return;
+  }
   ++count.faulty;
   std::printf("%s: %s\n", path.c_str(), fault.c_str());
 }
@@ -101,14 +109,17 @@ void check_file(const std::string& path, Count& count) {
   const bool vrml = world->format == Format::vrml97;
   ++(vrml ? count.vrml : count.x3d);
   const bool explained = has_what_xml_has_not(world->scene);
-  if (vrml) report(path, difference_of(vrml_text(world->scene), vrml_text(again->scene)), explained, count);
-  else report(path, difference_of(x3d, x3d_text(again->scene)), explained, count);
+  if (vrml)
+    report(path, difference_of(vrml_text(world->scene), vrml_text(again->scene)), explained, count);
+  else
+    report(path, difference_of(x3d, x3d_text(again->scene)), explained, count);
 }
 
 std::vector<std::string> standard_folders() {
   const fs::path source = WRLKIT_SOURCE_DIR;
   const char* shared = std::getenv("WRLKIT_SHARED");
-  return {(source / "corpus").string(), ((shared ? fs::path(shared) : source.parent_path() / "shared") / "corpus").string()};
+  return {(source / "corpus").string(),
+          ((shared ? fs::path(shared) : source.parent_path() / "shared") / "corpus").string()};
 }
 
 }  // namespace
@@ -116,13 +127,17 @@ std::vector<std::string> standard_folders() {
 int main(int argc, char** argv) {
   Count count;
   for (const auto& folder : argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : standard_folders()) {
-    if (!fs::is_directory(folder)) { std::printf("skipped: there is no %s\n", folder.c_str()); continue; }
+    if (!fs::is_directory(folder)) {
+      std::printf("skipped: there is no %s\n", folder.c_str());
+      continue;
+    }
     std::vector<std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
       if (entry.is_regular_file()) files.push_back(entry.path().string());
     std::ranges::sort(files);
     for (const auto& f : files) check_file(f, count);
   }
-  std::printf("%d worlds of VRML97 and %d of X3D, %d come back otherwise for a known reason, %d for none\n", count.vrml, count.x3d, count.explained, count.faulty);
+  std::printf("%d worlds of VRML97 and %d of X3D, %d come back otherwise for a known reason, %d for none\n", count.vrml,
+              count.x3d, count.explained, count.faulty);
   return count.vrml + count.x3d == 0 || count.faulty ? 1 : 0;
 }

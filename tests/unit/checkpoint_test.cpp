@@ -16,7 +16,11 @@ using wrlkit::bake::Checkpoint;
 TEST_CASE("checkpoint: tiles come back, those of other work do not") {
   TempFolder folder;
   const auto path = (folder.path() / "bake").string();
-  { Checkpoint c(path, 7); c.save(3, {'a', 'b'}); c.save(9, {}); }
+  {
+    Checkpoint c(path, 7);
+    c.save(3, {'a', 'b'});
+    c.save(9, {});
+  }
   {
     Checkpoint c(path, 7);
     CHECK(c.n_found() == 2);
@@ -34,11 +38,24 @@ TEST_CASE("checkpoint: tiles come back, those of other work do not") {
 TEST_CASE("checkpoint: a tail that was cut off or damaged is written again") {
   TempFolder folder;
   const auto path = (folder.path() / "bake").string();
-  { Checkpoint c(path, 7); c.save(1, std::vector<char>(100, 'x')); c.save(2, std::vector<char>(100, 'y')); }
+  {
+    Checkpoint c(path, 7);
+    c.save(1, std::vector<char>(100, 'x'));
+    c.save(2, std::vector<char>(100, 'y'));
+  }
   const auto size = std::filesystem::file_size(path);
   SECTION("cut off") { std::filesystem::resize_file(path, size - 30); }
-  SECTION("damaged") { std::fstream f(path, std::ios::in | std::ios::out | std::ios::binary); f.seekp(static_cast<std::streamoff>(size) - 5); f.put('z'); }
-  { Checkpoint c(path, 7); CHECK(c.n_found() == 1); CHECK(c.find(1)); c.save(2, {'n'}); }
+  SECTION("damaged") {
+    std::fstream f(path, std::ios::in | std::ios::out | std::ios::binary);
+    f.seekp(static_cast<std::streamoff>(size) - 5);
+    f.put('z');
+  }
+  {
+    Checkpoint c(path, 7);
+    CHECK(c.n_found() == 1);
+    CHECK(c.find(1));
+    c.save(2, {'n'});
+  }
   Checkpoint again(path, 7);
   CHECK(again.n_found() == 2);
   CHECK(*again.find(2) == std::vector<char>{'n'});

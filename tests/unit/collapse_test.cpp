@@ -488,7 +488,8 @@ struct Player {
       std::size_t faces = i ? r.steps[i - 1].end_of_faces : 0, corners = i ? r.steps[i - 1].end_of_corners : 0;
       for (std::size_t k = faces; k < s.end_of_faces; ++k) removed[r.removed_faces[k]] = false;
       for (std::size_t k = s.end_of_corners; k-- > corners;) wedge_of_corner[r.corners[k].corner] = r.corners[k].before;
-      moved[s.to] = s.old_to, moved[s.from] = s.old_from;
+      moved[s.to] = s.old_to;
+      moved[s.from] = s.old_from;
     }
   }
 };

@@ -236,7 +236,9 @@ TEST_CASE("deviation: far from the origin it is measured as well") {
 
 TEST_CASE("deviation: a hundred thousand triangles in one place cost what one does") {
   Surface pile;
-  pile.add(0, 0, 0), pile.add(1, 0, 0), pile.add(0, 1, 0);
+  pile.add(0, 0, 0);
+  pile.add(1, 0, 0);
+  pile.add(0, 1, 0);
   for (int i = 0; i < 100'000; ++i) pile.corners.insert(pile.corners.end(), {0, 1, 2});
   Surface one = pile, above = pile;
   one.corners.resize(3);
@@ -263,7 +265,8 @@ TEST_CASE("deviation: triangles of sizes that halve make no deep tree") {
   for (int i = 0; i < 1000; ++i) {
     double s = std::ldexp(1, -i);
     auto a = halves.add(s, 0, 0);
-    halves.add(s, s, 0), halves.add(s / 2, 0, s);
+    halves.add(s, s, 0);
+    halves.add(s / 2, 0, s);
     halves.corners.insert(halves.corners.end(), {a, a + 1, a + 2});
   }
   CHECK(ClosestPoint(halves.view()).nearest({-1, 0, 0}, {}).distance == Approx(1));

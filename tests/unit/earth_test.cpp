@@ -38,7 +38,8 @@ TEST_CASE("earth: there and back, from the poles to the date line", "[earth]") {
       }
 }
 
-// What the README of the Python package utm says, and the CN Tower by the article Universal Transverse Mercator of Wikipedia.
+// What the README of the Python package utm says, and the CN Tower by the article Universal Transverse Mercator of
+// Wikipedia.
 TEST_CASE("earth: UTM", "[earth]") {
   const auto degrees = [](std::initializer_list<std::string_view> words, const Vec3& place) {
     const auto s = system_of(words);
@@ -56,7 +57,8 @@ TEST_CASE("earth: UTM", "[earth]") {
   CHECK(tower[1] == Approx(-(79 + 23 / 60.0 + 13.7 / 3600)).margin(1e-5));
   // On its meridian, and as far south as north.
   CHECK(degrees({"UTM", "Z31"}, {0, 500000, 0})[1] == Approx(3).margin(1e-12));
-  CHECK(degrees({"UTM", "Z31", "S"}, {10000000 - 4000000, 400000, 0})[0] == Approx(-degrees({"UTM", "Z31"}, {4000000, 400000, 0})[0]).margin(1e-12));
+  CHECK(degrees({"UTM", "Z31", "S"}, {10000000 - 4000000, 400000, 0})[0] ==
+        Approx(-degrees({"UTM", "Z31"}, {4000000, 400000, 0})[0]).margin(1e-12));
   // Along the meridian the scale is 0.9996: the length of a quarter of it is 10001965.729 m.
   CHECK(degrees({"UTM", "Z31"}, {0.9996 * 10001965.729, 500000, 0})[0] == Approx(90).margin(1e-8));
 }
@@ -67,7 +69,8 @@ TEST_CASE("earth: who stands there has east to the right, and up above", "[earth
   CHECK(distance(greenwich.point({0, 1, 0}), {1, 0, 0}) < 1e-15);
   CHECK(distance(greenwich.point({0, 0, -1}), {0, 0, 1}) < 1e-15);
   CHECK(standing_at({51, 7, 0}).determinant() == Approx(1).margin(1e-15));
-  const Vec3 here = geocentric({}, {51, 7, 100}), above = geocentric({}, {51, 7, 101}), up = standing_at({51, 7, 0}).point({0, 1, 0});
+  const Vec3 here = geocentric({}, {51, 7, 100}), above = geocentric({}, {51, 7, 101}),
+             up = standing_at({51, 7, 0}).point({0, 1, 0});
   CHECK(distance(above, {here[0] + up[0], here[1] + up[1], here[2] + up[2]}) < 1e-8);
 }
 

@@ -145,8 +145,10 @@ TEST_CASE("Extrusion: closed spine", "[geometry]") {
 TEST_CASE("Extrusion: a surface of revolution around one point", "[geometry]") {
   // The spine stands still, the orientation turns a section beside the axis: a torus (6.18.3).
   std::string spine, orientation;
-  for (int i = 0; i <= 12; ++i)
-    spine += "0 0 0, ", orientation += "1 0 0 " + std::to_string(2 * pi * (i % 12) / 12) + ", ";
+  for (int i = 0; i <= 12; ++i) {
+    spine += "0 0 0, ";
+    orientation += "1 0 0 " + std::to_string(2 * pi * (i % 12) / 12) + ", ";
+  }
   Fixture f("Extrusion { beginCap FALSE endCap FALSE crossSection [ 1 3, 1 2, -1 2, -1 3, 1 3 ] spine [ " + spine +
             " ] orientation [ " + orientation + " ] }");
   auto& m = f.faces();

@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "parsers/vrml/parser.h"
 #include "geometry/geometry.h"
+#include "parsers/vrml/parser.h"
 #include "passes/tessellate/tessellate.h"
 #include "scenegraph/nodes.h"
 
@@ -129,7 +129,9 @@ inline std::array<double, 2> texcoord_at(const Mesh& m, const Vec3& point, const
   }
   return found;
 }
-inline bool near(const std::array<double, 2>& a, double s, double t) { return std::abs(a[0] - s) + std::abs(a[1] - t) < 1e-6; }
+inline bool near(const std::array<double, 2>& a, double s, double t) {
+  return std::abs(a[0] - s) + std::abs(a[1] - t) < 1e-6;
+}
 
 // Whether the picture is seen the right way round from the side that the face turns to.
 inline bool texture_mirrored(const Mesh& m) {

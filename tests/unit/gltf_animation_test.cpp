@@ -29,8 +29,11 @@ Quat quat(const double* r) {
 Quat slerp(Quat a, Quat b, double t) {
   double c = 0;
   for (int i = 0; i < 4; ++i) c += a[i] * b[i];
-  if (c < 0) for (double& v : b) v = -v;
-  const double angle = std::acos(std::min(std::abs(c), 1.0)), wa = angle > 1e-9 ? std::sin((1 - t) * angle) / std::sin(angle) : 1 - t, wb = angle > 1e-9 ? std::sin(t * angle) / std::sin(angle) : t;
+  if (c < 0)
+    for (double& v : b) v = -v;
+  const double angle = std::acos(std::min(std::abs(c), 1.0)),
+               wa = angle > 1e-9 ? std::sin((1 - t) * angle) / std::sin(angle) : 1 - t,
+               wb = angle > 1e-9 ? std::sin(t * angle) / std::sin(angle) : t;
   Quat o;
   for (int i = 0; i < 4; ++i) o[i] = wa * a[i] + wb * b[i];
   return o;
@@ -66,7 +69,8 @@ void set_fraction(Scene& scene, double f) {
       auto [i, t] = place(scene.get(r.from, nodes::orientation_interpolator::key), f);
       auto v = scene.get(r.from, nodes::orientation_interpolator::keyValue);
       const Quat a = quat(&v[4 * i]);
-      scene.set(r.to, scene.make(FieldType::SFRotation, *slot, axis_angle(t > 0 ? slerp(a, quat(&v[4 * i + 4]), t) : a)));
+      scene.set(r.to,
+                scene.make(FieldType::SFRotation, *slot, axis_angle(t > 0 ? slerp(a, quat(&v[4 * i + 4]), t) : a)));
     }
   }
 }
@@ -74,7 +78,10 @@ void set_fraction(Scene& scene, double f) {
 Matrix path_to(const Scene& scene, NodeId from, std::string_view name, bool& found) {
   const Matrix m = local_matrix(scene, from);
   const bool inside = name.empty() || scene.name(from) == name;
-  if (scene.is(from, nodes::Shape)) return found = inside, m;
+  if (scene.is(from, nodes::Shape)) {
+    found = inside;
+    return m;
+  }
   if (scene.is(from, nodes::Transform))
     for (NodeId c : scene.get(from, nodes::transform::children)) {
       const Matrix below = path_to(scene, c, inside ? std::string_view{} : name, found);
@@ -100,7 +107,10 @@ struct File {
 
   std::vector<double> numbers(std::size_t accessor) const {
     const auto &a = j["accessors"][accessor], &v = j["bufferViews"][a["bufferView"].get<std::size_t>()];
-    const std::size_t width = a["type"] == "SCALAR" ? 1 : a["type"] == "VEC3" ? 3 : 4, at = v.value("byteOffset", 0) + a.value("byteOffset", 0);
+    const std::size_t width = a["type"] == "SCALAR" ? 1
+                              : a["type"] == "VEC3" ? 3
+                                                    : 4,
+                      at = v.value("byteOffset", 0) + a.value("byteOffset", 0);
     std::vector<float> f(a["count"].get<std::size_t>() * width);
     std::memcpy(f.data(), bin.data() + at, f.size() * sizeof(float));
     return {f.begin(), f.end()};
@@ -117,9 +127,14 @@ struct File {
         std::size_t i = 0;
         while (i + 2 < in.size() && in[i + 1] <= time) ++i;
         const double f = std::clamp((time - in[i]) / (in[i + 1] - in[i]), 0.0, 1.0);
-        auto at = [&](std::size_t k) { return out[width * i + k] + f * (out[width * (i + 1) + k] - out[width * i + k]); };
-        if (c["target"]["path"] == "rotation") r = slerp({out[4 * i], out[4 * i + 1], out[4 * i + 2], out[4 * i + 3]}, {out[4 * i + 4], out[4 * i + 5], out[4 * i + 6], out[4 * i + 7]}, f);
-        else (c["target"]["path"] == "scale" ? s : t) = {at(0), at(1), at(2)};
+        auto at = [&](std::size_t k) {
+          return out[width * i + k] + f * (out[width * (i + 1) + k] - out[width * i + k]);
+        };
+        if (c["target"]["path"] == "rotation")
+          r = slerp({out[4 * i], out[4 * i + 1], out[4 * i + 2], out[4 * i + 3]},
+                    {out[4 * i + 4], out[4 * i + 5], out[4 * i + 6], out[4 * i + 7]}, f);
+        else
+          (c["target"]["path"] == "scale" ? s : t) = {at(0), at(1), at(2)};
       }
   }
 
@@ -136,7 +151,10 @@ struct File {
     const auto& n = j["nodes"][node];
     const Matrix m = local(node, time);
     inside |= n.value("name", "") == name;
-    if (inside && n.contains("mesh")) return found = true, m;
+    if (inside && n.contains("mesh")) {
+      found = true;
+      return m;
+    }
     for (const auto& c : n.value("children", json::array())) {
       const Matrix below = world(c, name, time, inside, found);
       if (found) return m * below;
@@ -198,27 +216,44 @@ std::string moving(const std::string& fields, const std::string& interpolator, c
 
 TEST_CASE("Interpolators move in glTF what they move in VRML", "[gltf][animation]") {
   const std::string way = "PositionInterpolator { key [0 0.3 1] keyValue [0 0 0, 1 2 3, -4 0 1] }";
-  const std::string turn = "OrientationInterpolator { key [0 0.25 0.6 1] keyValue [0 1 0 0, 0 1 0 1.5, 1 0 1 2.5, 0 0 1 -0.4] }";
+  const std::string turn =
+      "OrientationInterpolator { key [0 0.25 0.6 1] keyValue [0 1 0 0, 0 1 0 1.5, 1 0 1 2.5, 0 0 1 -0.4] }";
   const std::string grow = "PositionInterpolator { key [0 0.5 1] keyValue [1 1 1, 2 0.5 3, 1 1 1] }";
   SECTION("translation") { compare(moving("scale 2 2 2", way, "set_translation")); }
   SECTION("translation about a center") { compare(moving("center 1 2 3 rotation 0 0 1 1", way, "translation")); }
   SECTION("rotation") { compare(moving("translation 1 0 0", turn, "set_rotation")); }
   SECTION("rotation about a center") { compare(moving("center 1 2 3 scale 1 2 1", turn, "set_rotation")); }
   SECTION("scale along turned axes") { compare(moving("center 1 0 0 scaleOrientation 0 0 1 0.7", grow, "set_scale")); }
-  SECTION("half turns") { compare(moving("", "OrientationInterpolator { key [0 0.5 1] keyValue [0 1 0 0, 0 1 0 3.14159, 0 1 0 6.28318] }", "rotation")); }
-  SECTION("a jump") { compare(moving("", "PositionInterpolator { key [0 0.5 0.5 1] keyValue [0 0 0, 1 0 0, 5 0 0, 6 0 0] }", "set_translation")); }
-  SECTION("three equal keys") { compare(moving("", "PositionInterpolator { key [0 0.5 0.5 0.5 1] keyValue [0 0 0, 1 0 0, 3 0 0, 5 0 0, 6 0 0] }", "set_translation")); }
-  SECTION("keys beyond the cycle") { compare(moving("", "PositionInterpolator { key [-1 0.5 3] keyValue [0 0 0, 6 0 0, 0 5 0] }", "set_translation")); }
-  SECTION("keys within it") { compare(moving("", "PositionInterpolator { key [0.25 0.5] keyValue [0 0 0, 6 0 0] }", "set_translation")); }
+  SECTION("half turns") {
+    compare(moving("", "OrientationInterpolator { key [0 0.5 1] keyValue [0 1 0 0, 0 1 0 3.14159, 0 1 0 6.28318] }",
+                   "rotation"));
+  }
+  SECTION("a jump") {
+    compare(moving("", "PositionInterpolator { key [0 0.5 0.5 1] keyValue [0 0 0, 1 0 0, 5 0 0, 6 0 0] }",
+                   "set_translation"));
+  }
+  SECTION("three equal keys") {
+    compare(moving("", "PositionInterpolator { key [0 0.5 0.5 0.5 1] keyValue [0 0 0, 1 0 0, 3 0 0, 5 0 0, 6 0 0] }",
+                   "set_translation"));
+  }
+  SECTION("keys beyond the cycle") {
+    compare(moving("", "PositionInterpolator { key [-1 0.5 3] keyValue [0 0 0, 6 0 0, 0 5 0] }", "set_translation"));
+  }
+  SECTION("keys within it") {
+    compare(moving("", "PositionInterpolator { key [0.25 0.5] keyValue [0 0 0, 6 0 0] }", "set_translation"));
+  }
   SECTION("through a prototype") {
-    compare("PROTO P [] { Transform { rotation 0 1 0 1 children DEF T Transform { children Shape { geometry Box {} } } } DEF C TimeSensor { cycleInterval 4 } DEF I " + way +
-            " ROUTE C.fraction_changed TO I.set_fraction ROUTE I.value_changed TO T.set_translation } DEF M P {}");
+    compare(
+        "PROTO P [] { Transform { rotation 0 1 0 1 children DEF T Transform { children Shape { geometry Box {} } } } "
+        "DEF C TimeSensor { cycleInterval 4 } DEF I " +
+        way + " ROUTE C.fraction_changed TO I.set_fraction ROUTE I.value_changed TO T.set_translation } DEF M P {}");
   }
 }
 
 TEST_CASE("Keys that do not ascend are told", "[gltf][animation]") {
   TempFolder folder;
-  auto world = parse(moving("", "PositionInterpolator { key [0 1 0.5] keyValue [0 0 0, 1 0 0, 2 0 0] }", "set_translation"));
+  auto world =
+      parse(moving("", "PositionInterpolator { key [0 1 0.5] keyValue [0 0 0, 1 0 0, 2 0 0] }", "set_translation"));
   REQUIRE(write(*world, folder));
   CHECK_FALSE(load(folder).j.contains("animations"));
 }

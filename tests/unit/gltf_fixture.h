@@ -12,8 +12,8 @@
 #include "scenegraph/nodes.h"
 #include "scenegraph/transform.h"
 #include "tests/unit/temp_folder.h"
-#include "writers/gltf/gltf.h"
 #include "writers/gltf/color.h"
+#include "writers/gltf/gltf.h"
 
 namespace wrlkit::gltf_tests {
 
@@ -160,8 +160,8 @@ inline std::string with_material(std::string_view material) {
 }
 
 inline std::string with_picture(std::string_view url,
-                         std::string_view material = "material Material { diffuseColor 0.5 0.25 1 }",
-                         std::string_view more = "") {
+                                std::string_view material = "material Material { diffuseColor 0.5 0.25 1 }",
+                                std::string_view more = "") {
   return "appearance Appearance { " + std::string(material) + " texture ImageTexture { url \"" + std::string(url) +
          "\" " + std::string(more) + "} }";
 }
@@ -175,7 +175,6 @@ inline std::string png(int channels, std::vector<std::uint8_t> pixels, int width
 }
 
 inline std::vector<double> numbers(const json& j) { return j.get<std::vector<double>>(); }
-
 
 inline double difference(const Matrix& a, const Matrix& b) {
   double d = 0;

@@ -199,7 +199,8 @@ gltf::UvAffine affine(std::string_view fields) {
 
 /// The matrix of KHR_texture_transform, T R S, on coordinates of glTF.
 Vec2 apply(const gltf::UvTransform& t, double u, double v) {
-  u *= t.scale[0], v *= t.scale[1];
+  u *= t.scale[0];
+  v *= t.scale[1];
   double c = std::cos(t.rotation), s = std::sin(t.rotation);
   return {c * u + s * v + t.offset[0], -s * u + c * v + t.offset[1]};
 }

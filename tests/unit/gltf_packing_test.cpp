@@ -121,7 +121,8 @@ TEST_CASE("Normals in a byte a component point the same way, but for a degree", 
   std::vector<float> normals;
   for (int i = 0; i < 500; ++i) {
     const double z = -1 + 2 * (i + 0.5) / 500, a = i * 2.399963, r = std::sqrt(1 - z * z);
-    normals.insert(normals.end(), {static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)), static_cast<float>(z)});
+    normals.insert(normals.end(),
+                   {static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)), static_cast<float>(z)});
   }
   CHECK(byte_normals(normals).error < 0.01);
   CHECK(octahedral_normals(normals, 8).error < 0.02);
@@ -131,7 +132,8 @@ TEST_CASE("Normals in a byte a component point the same way, but for a degree", 
 TEST_CASE("Vertices in the order in which they are drawn are the same triangles", "[packing]") {
   Vertices v;
   constexpr std::uint32_t side = 20;
-  for (std::uint32_t i = 0; i < side * side; ++i) v.position.insert(v.position.end(), {static_cast<float>(i % side), static_cast<float>(i / side), 0.f});
+  for (std::uint32_t i = 0; i < side * side; ++i)
+    v.position.insert(v.position.end(), {static_cast<float>(i % side), static_cast<float>(i / side), 0.f});
   for (std::uint32_t y = side - 1; y-- > 0;)
     for (std::uint32_t x = 0; x + 1 < side; ++x) {
       const std::uint32_t a = y * side + x;

@@ -19,7 +19,10 @@ Matrix random_matrix(std::mt19937& random, int rank) {
   for (double& v : m.m) v = number(random);
   for (int r = 0; r < 3; ++r) {
     if (rank < 3) m(r, 2) = m(r, 0) * 2 - m(r, 1);
-    if (rank < 2) m(r, 1) = -m(r, 0), m(r, 2) = 3 * m(r, 0);
+    if (rank < 2) {
+      m(r, 1) = -m(r, 0);
+      m(r, 2) = 3 * m(r, 0);
+    }
     if (rank < 1) m(r, 0) = m(r, 1) = m(r, 2) = 0;
   }
   return m;
@@ -44,7 +47,8 @@ TEST_CASE("JSON knows where its values stand", "[gltf-reader]") {
 }
 
 TEST_CASE("JSON keeps what stands before a fault", "[gltf-reader]") {
-  for (std::string_view text : {R"({"a": 1, "b": )", R"({"a": 1 "b": 2})", R"({"a": 1, b: 2})", R"({"a": 1, "b": 01x})", "{\"a\": 1, \"b\": \"", R"({"a": 1}})"}) {
+  for (std::string_view text : {R"({"a": 1, "b": )", R"({"a": 1 "b": 2})", R"({"a": 1, b: 2})", R"({"a": 1, "b": 01x})",
+                                "{\"a\": 1, \"b\": \"", R"({"a": 1}})"}) {
     JsonDocument doc;
     CHECK(doc.parse(text));
     CHECK(doc.root()["a"].number() == 1);

@@ -169,7 +169,8 @@ TEST_CASE("Prototypes in the bodies of others are in the same list", "[gltf]") {
   const auto& protos = g.j["scenes"][0]["extras"]["vrml97"]["protos"];
   REQUIRE(protos.size() == 4);
   std::vector<std::string> lines;
-  for (const auto& p : protos) lines.push_back(p["PROTO"].get<std::string>() + " in " + p.value("in", json("none")).dump());
+  for (const auto& p : protos)
+    lines.push_back(p["PROTO"].get<std::string>() + " in " + p.value("in", json("none")).dump());
   CHECK(lines == std::vector<std::string>{"A in \"none\"", "D in \"none\"", "B in 0", "C in 2"});
 }
 

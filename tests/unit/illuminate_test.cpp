@@ -1,14 +1,14 @@
-// The three methods of `wrlkit illuminate` against scenes whose solution is known: form factors of squares, the closed room
-// that shines everywhere, the sphere. The seed is fixed; over eight seeds the worst values deviate by 0.5 % (standard deviation)
-// in the cube.
+// The three methods of `wrlkit illuminate` against scenes whose solution is known: form factors of squares, the closed
+// room that shines everywhere, the sphere. The seed is fixed; over eight seeds the worst values deviate by 0.5 %
+// (standard deviation) in the cube.
 #include "light/patches/illuminate.h"
 
 #include <catch2/catch.hpp>
 #include <memory>
 #include <string>
 
-#include "parsers/parsers.h"
 #include "base/parallel.h"
+#include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
 #include "writers/patches/patches.h"
 
@@ -56,9 +56,11 @@ struct Lit {
   }
 };
 
-std::string surface(double albedo, double exitance, const std::string& points, const std::string& faces = "0 1 2 3 -1") {
-  return "Shape { appearance Appearance { material Material { diffuseColor " + display(albedo) + " emissiveColor " + display(exitance / pi) +
-         " } } geometry IndexedFaceSet { coord Coordinate { point [" + points + "] } coordIndex [" + faces + "] } }\n";
+std::string surface(double albedo, double exitance, const std::string& points,
+                    const std::string& faces = "0 1 2 3 -1") {
+  return "Shape { appearance Appearance { material Material { diffuseColor " + display(albedo) + " emissiveColor " +
+         display(exitance / pi) + " } } geometry IndexedFaceSet { coord Coordinate { point [" + points +
+         "] } coordIndex [" + faces + "] } }\n";
 }
 
 /// The unit cube seen from within: floor, four walls in one Shape, ceiling, which shines.
@@ -74,7 +76,9 @@ constexpr Method methods[] = {Method::path, Method::stochastic_iteration, Method
 }  // namespace
 
 TEST_CASE("a cube with a luminous ceiling: all methods agree with the radiosity of squares") {
-  struct { double albedo, floor, wall, ceiling; } const rows[] = {{0, 0.1998, 0.2000, 0}, {0.5, 0.3425, 0.3623, 0.2086}, {0.8, 0.8263, 0.8599, 0.7342}};
+  struct {
+    double albedo, floor, wall, ceiling;
+  } const rows[] = {{0, 0.1998, 0.2000, 0}, {0.5, 0.3425, 0.3623, 0.2086}, {0.8, 0.8263, 0.8599, 0.7342}};
   for (const auto& row : rows) {
     const Lit room(cube(row.albedo));
     for (auto method : methods) {
@@ -140,16 +144,20 @@ TEST_CASE("within a sphere all is lit alike, whichever tenth of it shines") {
       for (int j = 0; j < n - i; ++j)
         for (int up : {1, 0}) {
           if (!up && j == n - i - 1) continue;
-          const int a[3][2] = {{up ? i : i + 1, up ? j : j + 1}, {up ? i + 1 : i, up ? j : j + 1}, {up ? i : i + 1, up ? j + 1 : j}};
+          const int a[3][2] = {
+              {up ? i : i + 1, up ? j : j + 1}, {up ? i + 1 : i, up ? j : j + 1}, {up ? i : i + 1, up ? j + 1 : j}};
           const bool flip = (octant & 1) ^ (octant >> 1 & 1) ^ (octant >> 2 & 1);
           for (int k = 0; k < 3; ++k) {
             V3 p(a[k][0], a[k][1], n - a[k][0] - a[k][1]);
             p = unit(p);
-            points += std::to_string(octant & 1 ? -p.x : p.x) + " " + std::to_string(octant & 2 ? -p.y : p.y) + " " + std::to_string(octant & 4 ? -p.z : p.z) + ", ";
+            points += std::to_string(octant & 1 ? -p.x : p.x) + " " + std::to_string(octant & 2 ? -p.y : p.y) + " " +
+                      std::to_string(octant & 4 ? -p.z : p.z) + ", ";
           }
-          const auto face = std::to_string(n_points) + " " + std::to_string(n_points + (flip ? 1 : 2)) + " " + std::to_string(n_points + (flip ? 2 : 1)) + " -1 ";
+          const auto face = std::to_string(n_points) + " " + std::to_string(n_points + (flip ? 1 : 2)) + " " +
+                            std::to_string(n_points + (flip ? 2 : 1)) + " -1 ";
           (octant == 0 ? bright : dark) += face;
-          n_points += 3, ++n_triangles;
+          n_points += 3;
+          ++n_triangles;
         }
   REQUIRE(n_triangles == 8 * n * n);
   const Lit sphere(surface(0.8, 1, points, bright) + surface(0.8, 0, points, dark));
@@ -161,20 +169,27 @@ TEST_CASE("within a sphere all is lit alike, whichever tenth of it shines") {
 
 TEST_CASE("a point light above a floor, without a second surface") {
   // Irradiance by VRML's formula: pi * intensity * cosine, in the middle of a small floor.
-  const Lit floor("PointLight { location 0 0 2 attenuation 0 0 1 intensity 1 }" + surface(0.5, 0, "-0.01 -0.01 0, 0.01 -0.01 0, 0.01 0.01 0, -0.01 0.01 0"));
+  const Lit floor("PointLight { location 0 0 2 attenuation 0 0 1 intensity 1 }" +
+                  surface(0.5, 0, "-0.01 -0.01 0, 0.01 -0.01 0, 0.01 0.01 0, -0.01 0.01 0"));
   for (auto method : methods) CHECK(floor.irradiance(method, 1, 16)[0] == Approx(pi / 4).epsilon(1e-3));
 }
 
 TEST_CASE("a patch set of a room is the same for any number of threads and both sides of a sheet are in it") {
-  const std::string sheet = "PointLight { location 0.5 0.5 2 } Transform { children DEF Hall Group { children [ DEF Sheet Shape { appearance Appearance { "
-                            "material Material { } } geometry IndexedFaceSet { solid FALSE coord Coordinate { point [0 0 0, 1 0 0, 1 1 0, 0 1 0] } "
-                            "coordIndex [0 1 2 3 -1] } } ] } } Transform { translation 0 0 -5 children DEF Box Shape { geometry Box { } } }";
+  const std::string sheet =
+      "PointLight { location 0.5 0.5 2 } Transform { children DEF Hall Group { children [ DEF Sheet Shape { appearance "
+      "Appearance { "
+      "material Material { } } geometry IndexedFaceSet { solid FALSE coord Coordinate { point [0 0 0, 1 0 0, 1 1 0, 0 "
+      "1 0] } "
+      "coordIndex [0 1 2 3 -1] } } ] } } Transform { translation 0 0 -5 children DEF Box Shape { geometry Box { } } }";
   const Lit lit(sheet);
   std::vector<std::string> texts;
   for (int threads : {1, 2}) {
     ThreadLimit limit(threads);
     Diagnostics none;
-    const auto set = illuminate(lit.world->scene, *lit.light, {.method = Method::stochastic_iteration, .sizes = {.max_edge = 0.5}, .gradient = 0.5, .how = {.samples = 8}}, none);
+    const auto set = illuminate(
+        lit.world->scene, *lit.light,
+        {.method = Method::stochastic_iteration, .sizes = {.max_edge = 0.5}, .gradient = 0.5, .how = {.samples = 8}},
+        none);
     std::string text;
     write_patches(set, [&](std::string_view s) { text += s; });
     texts.push_back(text);
@@ -196,9 +211,16 @@ TEST_CASE("patches become smaller where light changes, and not by noise") {
   auto n_patches = [](const std::string& text, double gradient) {
     const Lit lit(text);
     Diagnostics none;
-    return illuminate(lit.world->scene, *lit.light, {.method = Method::stochastic_iteration, .sizes = {.max_edge = 0.25}, .gradient = gradient, .how = {.samples = 1}}, none).patches.size();
+    return illuminate(lit.world->scene, *lit.light,
+                      {.method = Method::stochastic_iteration,
+                       .sizes = {.max_edge = 0.25},
+                       .gradient = gradient,
+                       .how = {.samples = 1}},
+                      none)
+        .patches.size();
   };
-  const std::string floor = surface(0.5, 0, "0 0 0, 2 0 0, 2 2 0, 0 2 0"), lamp = "PointLight { location 1 1 1 attenuation 0 0 1 } ";
+  const std::string floor = surface(0.5, 0, "0 0 0, 2 0 0, 2 2 0, 0 2 0"),
+                    lamp = "PointLight { location 1 1 1 attenuation 0 0 1 } ";
   const auto board = surface(0, 0, "0.5 0.5 0.3, 0.5 1.5 0.3, 1.5 1.5 0.3, 1.5 0.5 0.3");
   CHECK(n_patches(lamp + floor + board, 0.2) > 2 * n_patches(lamp + floor + board, 0));
   CHECK(n_patches(cube(0.8, 1), 0.02) < 3 * n_patches(cube(0.8, 1), 0));

@@ -21,7 +21,9 @@ bool all_near(const Image& image, const std::vector<int>& expected, int slack) {
   for (int y = 4; y < image.height - 4; ++y)
     for (int x = 4; x < image.width - 4; ++x)
       for (int c = 0; c < image.channels; ++c)
-        if (std::abs(image.pixels[static_cast<std::size_t>((y * image.width + x) * image.channels + c)] - expected[static_cast<std::size_t>(c)]) > slack) return false;
+        if (std::abs(image.pixels[static_cast<std::size_t>((y * image.width + x) * image.channels + c)] -
+                     expected[static_cast<std::size_t>(c)]) > slack)
+          return false;
   return true;
 }
 

@@ -39,7 +39,10 @@ std::uint32_t crc32(std::string_view s) {
 
 std::uint32_t adler32(std::string_view s) {
   std::uint32_t a = 1, b = 0;
-  for (unsigned char c : s) a = (a + c) % 65521, b = (b + a) % 65521;
+  for (unsigned char c : s) {
+    a = (a + c) % 65521;
+    b = (b + a) % 65521;
+  }
   return b << 16 | a;
 }
 

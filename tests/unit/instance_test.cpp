@@ -1,4 +1,5 @@
-// `instance` finds copies of symmetric and other bodies, wherever they stand, however their faces and points are listed.
+// `instance` finds copies of symmetric and other bodies, wherever they stand, however their faces and points are
+// listed.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -6,8 +7,8 @@
 #include <numeric>
 
 #include "geometry/geometry.h"
-#include "passes/instance/match.h"
 #include "light/random.h"
+#include "passes/instance/match.h"
 
 using namespace wrlkit;
 using namespace wrlkit::instancing;
@@ -44,7 +45,8 @@ Mesh prism(std::uint32_t sides, double radius, double height) {
   return mesh_of(points, faces);
 }
 
-/// Somewhere else, as another program writes it: every face with points of its own, in another order, from another corner.
+/// Somewhere else, as another program writes it: every face with points of its own, in another order, from another
+/// corner.
 Mesh scattered(const Mesh& m, const Matrix& where, std::uint64_t seed, double rounding) {
   light::Stream random(seed);
   std::vector<std::size_t> order(m.n_faces());
@@ -69,7 +71,9 @@ Mesh scattered(const Mesh& m, const Matrix& where, std::uint64_t seed, double ro
 
 Matrix somewhere(std::uint64_t seed, double scale) {
   light::Stream r(seed);
-  return translation_matrix({9 * r.next(), -7 * r.next(), 3 * r.next()}) * rotation_matrix({r.next() - 0.5, r.next() - 0.5, r.next() - 0.5, 6 * r.next()}) * scale_matrix({scale, scale, scale});
+  return translation_matrix({9 * r.next(), -7 * r.next(), 3 * r.next()}) *
+         rotation_matrix({r.next() - 0.5, r.next() - 0.5, r.next() - 0.5, 6 * r.next()}) *
+         scale_matrix({scale, scale, scale});
 }
 
 double farthest(const Mesh& from, const Matrix& m, const Mesh& to) {
@@ -89,7 +93,8 @@ double farthest(const Mesh& from, const Matrix& m, const Mesh& to) {
 
 std::optional<TransformFields> match(const Mesh& a, const Mesh& b, const MatchOptions& options) {
   Form from, to;
-  from.take(a), to.take(b);
+  from.take(a);
+  to.take(b);
   if (from.exact_key() != to.exact_key()) return std::nullopt;
   return Matcher(options).match(from, to);
 }
@@ -97,8 +102,12 @@ std::optional<TransformFields> match(const Mesh& a, const Mesh& b, const MatchOp
 }  // namespace
 
 TEST_CASE("instance: bodies with many symmetries, scattered and rounded") {
-  struct Body { std::uint32_t sides; double radius, height; };
-  for (Body b : {Body{4, 1, std::sqrt(2.0)}, Body{4, 1, 1.5}, Body{3, 0.02, 0.01}, Body{6, 0.012, 0.008}, Body{64, 0.3, 4}, Body{5, 2, 0}})
+  struct Body {
+    std::uint32_t sides;
+    double radius, height;
+  };
+  for (Body b : {Body{4, 1, std::sqrt(2.0)}, Body{4, 1, 1.5}, Body{3, 0.02, 0.01}, Body{6, 0.012, 0.008},
+                 Body{64, 0.3, 4}, Body{5, 2, 0}})
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
       for (double scale : {1.0, 2.5}) {
         INFO(b.sides << " sides, radius " << b.radius << ", seed " << seed << ", scale " << scale);
@@ -126,7 +135,8 @@ TEST_CASE("instance: a mirror image is found on request only, with its faces tur
     const Matrix where = somewhere(seed, 1) * scale_matrix({1, -1, 1});
     Mesh inside_out = scattered(a, where, seed, 0), copy = inside_out;
     for (std::size_t f = 0; f < copy.n_faces(); ++f)
-      std::reverse(copy.corners.begin() + static_cast<std::ptrdiff_t>(copy.begin_of(f)), copy.corners.begin() + static_cast<std::ptrdiff_t>(copy.end_of(f)));
+      std::reverse(copy.corners.begin() + static_cast<std::ptrdiff_t>(copy.begin_of(f)),
+                   copy.corners.begin() + static_cast<std::ptrdiff_t>(copy.end_of(f)));
     CHECK_FALSE(match(a, copy, {Scaling::none, false, 1e-6}));
     const auto found = match(a, copy, {Scaling::none, true, 1e-6});
     REQUIRE(found);
@@ -152,6 +162,7 @@ TEST_CASE("instance: far away, single points, and points in a line") {
   Mesh p = mesh_of({{1, 2, 3}}, {{0}}), q = mesh_of({{4, 4, 4}}, {{0}});
   p.kind = q.kind = Mesh::Kind::points;
   CHECK(match(p, q, {Scaling::uniform, false, 1e-4}));
-  const Mesh line = mesh_of({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, {{0, 1, 2}}), turned = mesh_of({{0, 1, 0}, {0, 3, 0}, {0, 0, 0}}, {{2, 0, 1}});
+  const Mesh line = mesh_of({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, {{0, 1, 2}}),
+             turned = mesh_of({{0, 1, 0}, {0, 3, 0}, {0, 0, 0}}, {{2, 0, 1}});
   CHECK(match(line, turned, {Scaling::uniform, false, 1e-4}));
 }

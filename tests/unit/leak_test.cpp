@@ -1,5 +1,6 @@
-// The measure of light inside closed walls, where only surfaces give light: it finds a leak that is made on purpose, and none where light
-// belongs. `seal` is told that a case with a slit is closed, so light that comes in through it is what a leak is.
+// The measure of light inside closed walls, where only surfaces give light: it finds a leak that is made on purpose,
+// and none where light belongs. `seal` is told that a case with a slit is closed, so light that comes in through it is
+// what a leak is.
 #include <catch2/catch.hpp>
 
 #include "parsers/parsers.h"
@@ -11,14 +12,24 @@ using namespace wrlkit::bake;
 
 namespace {
 
-/// A case of 2 m whose wall towards x ends at `height`; a plate lies in it, and what shines, a square of `half` a side, looks down from `lamp`.
+/// A case of 2 m whose wall towards x ends at `height`; a plate lies in it, and what shines, a square of `half` a side,
+/// looks down from `lamp`.
 std::string world_with(double height, const std::string& lamp, double half) {
   const auto h = std::to_string(height), s = std::to_string(half);
-  return "#VRML V2.0 utf8\nShape { appearance Appearance { material Material { } } geometry IndexedFaceSet { coord Coordinate { point [ -1 -1 -1, 1 -1 -1, 1 1 -1, -1 1 -1, "
-         "-1 -1 1, 1 -1 1, 1 1 1, -1 1 1, 1 " + h + " -1, 1 " + h + " 1 ] } coordIndex [ 0 3 2 1 -1 4 5 6 7 -1 0 1 5 4 -1 3 7 6 2 -1 0 4 7 3 -1 1 8 9 5 -1 ] } }\n"
-         "Transform { translation 0 -0.8 0 children Shape { appearance Appearance { material Material { } } geometry Box { size 1.8 0.1 1.8 } } }\n"
-         "Transform { translation " + lamp + " children Shape { appearance Appearance { material Material { diffuseColor 0 0 0 emissiveColor 1 1 1 } } geometry IndexedFaceSet { "
-         "coord Coordinate { point [ -" + s + " 0 -" + s + ", " + s + " 0 -" + s + ", " + s + " 0 " + s + ", -" + s + " 0 " + s + " ] } coordIndex [ 0 1 2 3 -1 ] } } }";
+  return "#VRML V2.0 utf8\nShape { appearance Appearance { material Material { } } geometry IndexedFaceSet { coord "
+         "Coordinate { point [ -1 -1 -1, 1 -1 -1, 1 1 -1, -1 1 -1, "
+         "-1 -1 1, 1 -1 1, 1 1 1, -1 1 1, 1 " +
+         h + " -1, 1 " + h +
+         " 1 ] } coordIndex [ 0 3 2 1 -1 4 5 6 7 -1 0 1 5 4 -1 3 7 6 2 -1 0 4 7 3 -1 1 8 9 5 -1 ] } }\n"
+         "Transform { translation 0 -0.8 0 children Shape { appearance Appearance { material Material { } } geometry "
+         "Box { size 1.8 0.1 1.8 } } }\n"
+         "Transform { translation " +
+         lamp +
+         " children Shape { appearance Appearance { material Material { diffuseColor 0 0 0 emissiveColor 1 1 1 } } "
+         "geometry IndexedFaceSet { "
+         "coord Coordinate { point [ -" +
+         s + " 0 -" + s + ", " + s + " 0 -" + s + ", " + s + " 0 " + s + ", -" + s + " 0 " + s +
+         " ] } coordIndex [ 0 1 2 3 -1 ] } } }";
 }
 
 Statistics figures_of(const std::string& text) {

@@ -1,19 +1,20 @@
-// Baked light on its way: in meshes, in pictures that passes make, in one texture with the surface's colour, in renderings.
+// Baked light on its way: in meshes, in pictures that passes make, in one texture with the surface's colour, in
+// renderings.
 #include <catch2/catch.hpp>
-#include <set>
 #include <cmath>
+#include <set>
 
-#include "parsers/parsers.h"
-#include "parsers/resources.h"
-#include "passes/combine_lightmap/page.h"
-#include "passes/combine_lightmap/combine_lightmap.h"
+#include "base/image/srgb_table.h"
 #include "geometry/geometry.h"
-#include "passes/pipeline/pipeline.h"
+#include "geometry/vertices.h"
 #include "light/render/baked.h"
 #include "light/render/render.h"
+#include "parsers/parsers.h"
+#include "parsers/resources.h"
+#include "passes/combine_lightmap/combine_lightmap.h"
+#include "passes/combine_lightmap/page.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/nodes.h"
-#include "base/image/srgb_table.h"
-#include "geometry/vertices.h"
 #include "scenegraph/walk.h"
 #include "tests/unit/temp_folder.h"
 #include "writers/made_files.h"
@@ -30,7 +31,10 @@ struct Lit {
   PassContext ctx{diag, stats, &resources};
   std::unique_ptr<World> world;
 
-  explicit Lit(const std::string& body, const std::string& header = "#VRML V2.0 utf8\n") : world(parse_world(header + body, "test.wrl", {}, diag)) { REQUIRE(world); }
+  explicit Lit(const std::string& body, const std::string& header = "#VRML V2.0 utf8\n")
+      : world(parse_world(header + body, "test.wrl", {}, diag)) {
+    REQUIRE(world);
+  }
   Scene& scene() { return world->scene; }
   void run(const std::string& pipeline) {
     std::string why;
@@ -70,7 +74,8 @@ int shown(double linear) { return static_cast<int>(linear_to_srgb(linear) * 255 
 const std::string square =
     "IndexedFaceSet { coord Coordinate { point [ -1 -1 0, 1 -1 0, 1 1 0, -1 1 0 ] } coordIndex [ 0 1 2 3 -1 ]"
     " lightCoord TextureCoordinate { point [ 0.25 0.25, 0.75 0.25, 0.75 0.75, 0.25 0.75 ] } }";
-const std::string half_lit = "PixelTexture { image 4 4 1 128 128 128 128 128 128 128 128 128 128 128 128 128 128 128 128 }";
+const std::string half_lit =
+    "PixelTexture { image 4 4 1 128 128 128 128 128 128 128 128 128 128 128 128 128 128 128 128 }";
 const std::string light = " lightmap DEF Light " + half_lit;
 
 std::string shape(const std::string& appearance, const std::string& geometry = square) {
@@ -80,8 +85,9 @@ std::string shape(const std::string& appearance, const std::string& geometry = s
 }  // namespace
 
 TEST_CASE("lightmap: meshes carry places in it as they carry texture coordinates", "[lightmap]") {
-  Lit w(shape("", "IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] } coordIndex [ 0 1 2 3 -1 ]"
-                  " lightCoord TextureCoordinate { point [ 0 0, 0.5 0, 0.5 0.5 ] } lightCoordIndex [ 0 1 2 2 -1 ] }"));
+  Lit w(shape("",
+              "IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] } coordIndex [ 0 1 2 3 -1 ]"
+              " lightCoord TextureCoordinate { point [ 0 0, 0.5 0, 0.5 0.5 ] } lightCoordIndex [ 0 1 2 2 -1 ] }"));
   NodeId g = w.of(nodes::IndexedFaceSet)[0];
   CHECK(w.mesh(g).lightcoord.index == std::vector<std::uint32_t>{0, 1, 2, 2});
   w.run("weld,triangulate");
@@ -107,7 +113,8 @@ TEST_CASE("lightmap: meshes carry places in it as they carry texture coordinates
   CHECK(v.lightcoord.empty());
 }
 
-TEST_CASE("lightmap: levels of detail keep the light, and join does not mix what has light with what has none", "[lightmap]") {
+TEST_CASE("lightmap: levels of detail keep the light, and join does not mix what has light with what has none",
+          "[lightmap]") {
   std::string points, places, index;
   for (int y = 0; y <= 20; ++y)
     for (int x = 0; x <= 20; ++x) {
@@ -116,7 +123,8 @@ TEST_CASE("lightmap: levels of detail keep the light, and join does not mix what
       if (x < 20 && y < 20)
         for (int k : {0, 1, 22, 21, -1}) index += std::to_string(k < 0 ? k : y * 21 + x + k) + " ";
     }
-  const std::string set = "IndexedFaceSet { coord Coordinate { point [ " + points + " ] } coordIndex [ " + index + " ] ";
+  const std::string set =
+      "IndexedFaceSet { coord Coordinate { point [ " + points + " ] } coordIndex [ " + index + " ] ";
   Lit w(shape(light, set + "lightCoord TextureCoordinate { point [ " + places + " ] } }"));
   w.run("lod{ratios=0.1,min-faces=10}");
   auto levels = w.of(nodes::IndexedFaceSet);
@@ -125,7 +133,8 @@ TEST_CASE("lightmap: levels of detail keep the light, and join does not mix what
   CHECK(coarse.n_faces() < 100);
   REQUIRE(coarse.lightcoord.present());
   for (std::size_t c = 0; c < coarse.corners.size(); ++c)
-    CHECK(coarse.lightcoord.at(coarse.lightcoord.index[c])[0] == Approx(coarse.positions[3 * std::size_t{coarse.corners[c]}] / 20).margin(0.05));
+    CHECK(coarse.lightcoord.at(coarse.lightcoord.index[c])[0] ==
+          Approx(coarse.positions[3 * std::size_t{coarse.corners[c]}] / 20).margin(0.05));
   Lit two("Group { children [ " + shape("material DEF M Material {}") + shape("material USE M", set + "}") + " ] }");
   two.run("join");
   CHECK(two.of(nodes::Shape).size() == 2);
@@ -222,10 +231,16 @@ TEST_CASE("page: texels belong to the triangle they lie in, then to the nearest"
   CHECK(pixel(image, 15, 0)[0] > 165);  // nobody's: the colours around
   CHECK(pixel(image, 0, 7)[0] == 100);
   std::vector<PageTriangle> too_many(10'000, {{0, 16, 0}, {0, 0, 8}});
-  for (auto& t : too_many) t.x[1] = 1e6, t.y[2] = 1e6;
+  for (auto& t : too_many) {
+    t.x[1] = 1e6;
+    t.y[2] = 1e6;
+  }
   int painted = 0;
   Page crowded(4, 4, 1);
-  crowded.paint(too_many, [&](std::size_t, const std::array<double, 3>&, double, double) { return ++painted, Texel4{{1, 1, 1, 255}}; });
+  crowded.paint(too_many, [&](std::size_t, const std::array<double, 3>&, double, double) {
+    ++painted;
+    return Texel4{{1, 1, 1, 255}};
+  });
   CHECK(painted == 16);
 }
 
@@ -246,9 +261,12 @@ TEST_CASE("combine-lightmap: the texture is colour times light, and nothing is l
   CHECK(w.diag.messages().empty());
 }
 
-TEST_CASE("combine-lightmap: the pictures are of the format that those of the light have, if no other is asked for", "[lightmap]") {
+TEST_CASE("combine-lightmap: the pictures are of the format that those of the light have, if no other is asked for",
+          "[lightmap]") {
   auto formats = [](const std::string& bake, const std::string& combine) {
-    Lit w("DEF A Shape { appearance Appearance { material Material {} } geometry Box {} } Transform { translation 5 0 0 children Shape { appearance Appearance { material Material { transparency 0.5 } } geometry Box {} } }");
+    Lit w(
+        "DEF A Shape { appearance Appearance { material Material {} } geometry Box {} } Transform { translation 5 0 0 "
+        "children Shape { appearance Appearance { material Material { transparency 0.5 } } geometry Box {} } }");
     w.run("lightmap{quality=draft,max-size=64" + bake + "},combine-lightmap" + combine);
     std::set<std::string> out;
     for (NodeId t : w.of(nodes::ImageTexture)) {
@@ -273,7 +291,8 @@ TEST_CASE("combine-lightmap: emission, scale, vertex colours, and a grey texture
   };
   CHECK(first("material Material { diffuseColor 0 0 0 emissiveColor 0 0 0.8 }" + light) == Rgb{0, 0, 204});
   CHECK(first("material Material { diffuseColor 1 1 1 } lightmapScale 2" + light)[0] == shown(2 * grey));
-  CHECK(first("material Material { }" + light, square.substr(0, square.size() - 1) + "color Color { color 0 1 0 } colorPerVertex FALSE }") ==
+  CHECK(first("material Material { }" + light,
+              square.substr(0, square.size() - 1) + "color Color { color 0 1 0 } colorPerVertex FALSE }") ==
         Rgb{0, shown(grey), 0});
   CHECK(first("material Material { diffuseColor 1 0 0 } texture PixelTexture { image 1 1 1 0x80 }" + light) ==
         Rgb{shown(grey * grey), 0, 0});
@@ -289,11 +308,13 @@ TEST_CASE("combine-lightmap: transparent Shapes have a picture of their own, wit
   auto see_through = w.picture(w.scene().get(appearances[0], nodes::appearance::texture));
   REQUIRE(see_through->channels == 4);
   CHECK(see_through->pixels[4 * 5 + 3] == 191);
-  CHECK(w.scene().get(appearances[1], nodes::appearance::texture) == w.scene().get(appearances[2], nodes::appearance::texture));
+  CHECK(w.scene().get(appearances[1], nodes::appearance::texture) ==
+        w.scene().get(appearances[2], nodes::appearance::texture));
 }
 
 TEST_CASE("combine-lightmap: opacity of colours is alpha of the picture", "[lightmap]") {
-  const std::string colored = square.substr(0, square.size() - 1) + "color ColorRGBA { color [ 1 0 0 0.2 ] } colorPerVertex FALSE }";
+  const std::string colored =
+      square.substr(0, square.size() - 1) + "color ColorRGBA { color [ 1 0 0 0.2 ] } colorPerVertex FALSE }";
   Lit w(shape("material Material { }" + light, colored), "#X3D V3.3 utf8\nPROFILE Immersive\n");
   w.run("combine-lightmap");
   const auto picture = w.picture(w.of(nodes::ImageTexture)[0]);
@@ -301,10 +322,11 @@ TEST_CASE("combine-lightmap: opacity of colours is alpha of the picture", "[ligh
   CHECK(picture->pixels[4 * 5 + 3] == 51);
 }
 
-TEST_CASE("combine-lightmap: shared geometry keeps its places for each Shape, and for those without light", "[lightmap]") {
+TEST_CASE("combine-lightmap: shared geometry keeps its places for each Shape, and for those without light",
+          "[lightmap]") {
   const std::string quarter = " lightmapTransform TextureTransform { scale 0.5 0.5 }";
-  Lit w(shape("material DEF M Material { }" + light + quarter, "DEF Square " + square) + shape("material USE M lightmap USE Light", "USE Square") +
-        shape("material USE M", "USE Square"));
+  Lit w(shape("material DEF M Material { }" + light + quarter, "DEF Square " + square) +
+        shape("material USE M lightmap USE Light", "USE Square") + shape("material USE M", "USE Square"));
   w.run("combine-lightmap");
   auto shapes = w.of(nodes::Shape);
   auto geometry = [&](std::size_t i) { return w.scene().get(shapes[i], nodes::shape::geometry); };
@@ -319,7 +341,9 @@ TEST_CASE("combine-lightmap: shared geometry keeps its places for each Shape, an
 }
 
 TEST_CASE("combine-lightmap: a detailed texture makes a larger picture, within the limit", "[lightmap]") {
-  const std::string fine = "texture PixelTexture { image 2 2 3 0xff0000 0x00ff00 0x0000ff 0xffffff } textureTransform TextureTransform { scale 8 8 }";
+  const std::string fine =
+      "texture PixelTexture { image 2 2 3 0xff0000 0x00ff00 0x0000ff 0xffffff } textureTransform TextureTransform { "
+      "scale 8 8 }";
   Lit w(shape("material Material { } " + fine + light));
   w.run("combine-lightmap");
   CHECK(w.picture(w.of(nodes::ImageTexture)[0])->width == 32);  // 16 pixels over two texels: eight times
@@ -336,26 +360,41 @@ TEST_CASE("combine-lightmap: into the lightmap, all else stays", "[lightmap]") {
   NodeId a = w.of(nodes::Appearance)[0];
   CHECK(w.scene().get(a, nodes::appearance::material));
   CHECK(w.scene().get(a, nodes::appearance::lightmapScale) == 1);
-  CHECK(pixel(*w.picture(w.scene().get(a, nodes::appearance::lightmap)), 1, 1) == Rgb{0, shown(2 * srgb_to_linear(128 / 255.0)), 0});
+  CHECK(pixel(*w.picture(w.scene().get(a, nodes::appearance::lightmap)), 1, 1) ==
+        Rgb{0, shown(2 * srgb_to_linear(128 / 255.0)), 0});
 }
 
 TEST_CASE("combine-lightmap: on the way to VRML97 the picture has what X3D and VRML 1.0 multiply", "[lightmap]") {
-  const std::string look = "Texture2 { filename \"wrlkit:two.png\" } ", points = "point [ -1 -1 0, 1 -1 0, 1 1 0, -1 1 0 ]", lamp = "DirectionalLight { direction 0 0 -1 } ";
-  const std::string faces = "geometry IndexedFaceSet { coordIndex [ 0 1 2 3 -1 ] coord Coordinate { " + points + " } ", x3d = "#X3D V4.0 utf8\nPROFILE Full\n";
-  auto in_x3d = [&](const std::string& material) { return lamp + "Shape { appearance Appearance { material " + material + " } " + faces + "} }"; };
+  const std::string look = "Texture2 { filename \"wrlkit:two.png\" } ",
+                    points = "point [ -1 -1 0, 1 -1 0, 1 1 0, -1 1 0 ]",
+                    lamp = "DirectionalLight { direction 0 0 -1 } ";
+  const std::string faces = "geometry IndexedFaceSet { coordIndex [ 0 1 2 3 -1 ] coord Coordinate { " + points + " } ",
+                    x3d = "#X3D V4.0 utf8\nPROFILE Full\n";
+  auto in_x3d = [&](const std::string& material) {
+    return lamp + "Shape { appearance Appearance { material " + material + " } " + faces + "} }";
+  };
   const std::string picture = "ImageTexture { url \"wrlkit:two.png\" } ", orange = "1 0.5 0.25 ";
-  struct { const char* name; std::string header, body; } const cases[] = {
-      {"VRML 1.0", "#VRML V1.0 ascii\n", "Separator { " + lamp + "Material { diffuseColor " + orange + "} " + look + "Coordinate3 { " + points + " } IndexedFaceSet { coordIndex [ 0, 1, 2, 3, -1 ] } }"},
+  struct {
+    const char* name;
+    std::string header, body;
+  } const cases[] = {
+      {"VRML 1.0", "#VRML V1.0 ascii\n",
+       "Separator { " + lamp + "Material { diffuseColor " + orange + "} " + look + "Coordinate3 { " + points +
+           " } IndexedFaceSet { coordIndex [ 0, 1, 2, 3, -1 ] } }"},
       {"Material", x3d, in_x3d("Material { diffuseColor " + orange + "diffuseTexture " + picture + "}")},
-      {"PhysicalMaterial", x3d, in_x3d("PhysicalMaterial { metallic 0 baseColor " + orange + "baseTexture " + picture + "}")},
-      {"colours of vertices", x3d, lamp + "Shape { appearance Appearance { material Material { } texture " + picture + "} " + faces + "color Color { color [ " + orange + orange + orange + orange + "] } } }"},
+      {"PhysicalMaterial", x3d,
+       in_x3d("PhysicalMaterial { metallic 0 baseColor " + orange + "baseTexture " + picture + "}")},
+      {"colours of vertices", x3d,
+       lamp + "Shape { appearance Appearance { material Material { } texture " + picture + "} " + faces +
+           "color Color { color [ " + orange + orange + orange + orange + "] } } }"},
   };
   for (const auto& c : cases) {
     INFO(c.name);
     Lit w(c.body, c.header);
     std::string error;
     const Image half{8, 8, 3, std::vector<std::uint8_t>(192, 200)};
-    REQUIRE(w.resources.add_made({"two.png", std::make_shared<const std::string>(*encode_as("two.png", half, error))}) == "wrlkit:two.png");
+    REQUIRE(w.resources.add_made({"two.png", std::make_shared<const std::string>(
+                                                 *encode_as("two.png", half, error))}) == "wrlkit:two.png");
     std::string why;
     auto pipeline = Pipeline::parse("lightmap{quality=draft,max-size=64,denoise=false}", why);
     pipeline->complete("vrml");
@@ -384,7 +423,8 @@ TEST_CASE("combine-lightmap: a pipeline has it behind the last pass over the sce
     }
     return names;
   };
-  const std::string front = "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d,prune,", end = ",tessellate,normals,triangulate";
+  const std::string front = "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d,prune,",
+                    end = ",tessellate,normals,triangulate";
   CHECK(completed("weld", "gltf") == front + "combine-lightmap,weld" + end);
   CHECK(completed("weld,lod", "gltf") == front + "weld,lod,combine-lightmap" + end);
   CHECK(completed("lod,weld", "gltf") == front + "lod,combine-lightmap,weld" + end);

@@ -16,13 +16,15 @@ using namespace wrlkit::bake;
 namespace {
 
 /// All texels of all tiles.
-std::vector<std::pair<TexelSamples, std::vector<SurfaceSample>>> all_texels(const std::vector<PlacedTriangle>& triangles, int width, int height, int side, int most = 1000) {
+std::vector<std::pair<TexelSamples, std::vector<SurfaceSample>>> all_texels(
+    const std::vector<PlacedTriangle>& triangles, int width, int height, int side, int most = 1000) {
   TexelGrid grid(triangles, width, height);
   std::vector<std::pair<TexelSamples, std::vector<SurfaceSample>>> out;
   TileTexels tile;
   for (std::size_t i = 0; i < grid.n_tiles(); ++i) {
     grid.texels_of(i, side, most, tile);
-    for (auto& t : tile.texels) out.push_back({t, {tile.samples.begin() + t.first, tile.samples.begin() + t.first + t.count}});
+    for (auto& t : tile.texels)
+      out.push_back({t, {tile.samples.begin() + t.first, tile.samples.begin() + t.first + t.count}});
   }
   return out;
 }
@@ -62,7 +64,8 @@ double deviation_from(const Noisy& page, int x0, int x1, float mean) {
 }
 
 float shown(const std::vector<Rgb>& texels, int width, float x, float y) {
-  x -= 0.5f, y -= 0.5f;
+  x -= 0.5f;
+  y -= 0.5f;
   int u = static_cast<int>(std::floor(x)), v = static_cast<int>(std::floor(y));
   float fx = x - u, fy = y - v;
   auto at = [&](int i, int j) { return texels[std::size_t(j) * width + i].r; };
@@ -100,7 +103,10 @@ TEST_CASE("texels: samples lie where their weights say, whatever the tile") {
   for (auto& [t, samples] : all_texels(triangles, 128, 128, 3)) {
     for (auto& s : samples) {
       float x = 0, y = 0;
-      for (int k = 0; k < 3; ++k) x += s.weight[k] * triangles[s.triangle].corner[k].x, y += s.weight[k] * triangles[s.triangle].corner[k].y;
+      for (int k = 0; k < 3; ++k) {
+        x += s.weight[k] * triangles[s.triangle].corner[k].x;
+        y += s.weight[k] * triangles[s.triangle].corner[k].y;
+      }
       float slack = samples.size() == 1 ? 1.0f : 1e-3f;
       CHECK(x >= t.x - slack);
       CHECK(x <= t.x + 1 + slack);
@@ -122,7 +128,8 @@ TEST_CASE("texels: a triangle that runs clockwise, as those of a mirrored Shape 
   REQUIRE(a.size() == b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     REQUIRE(a[i].second.size() == b[i].second.size());
-    for (std::size_t k = 0; k < a[i].second.size(); ++k) CHECK(a[i].second[k].weight[1] == Approx(b[i].second[k].weight[2]).margin(1e-5));
+    for (std::size_t k = 0; k < a[i].second.size(); ++k)
+      CHECK(a[i].second[k].weight[1] == Approx(b[i].second[k].weight[2]).margin(1e-5));
   }
 }
 
@@ -136,7 +143,10 @@ TEST_CASE("texels: no more samples than are asked for, spread over the texel") {
   for (auto& [t, samples] : all_texels(square(0, 0, 8, 8), 8, 8, 4, 4)) {
     CHECK(samples.size() == 4);
     float low = 8, high = 0;
-    for (auto& s : samples) low = std::min(low, s.weight[0]), high = std::max(high, s.weight[0]);
+    for (auto& s : samples) {
+      low = std::min(low, s.weight[0]);
+      high = std::max(high, s.weight[0]);
+    }
     CHECK(high > low);
   }
 }
@@ -167,7 +177,8 @@ TEST_CASE("denoise: detail of one texel that is more than the noise stays") {
   for (std::size_t i = 0; i < page.size(); ++i) page.light()[i] += detail(i) * Rgb{1, 1, 1};
   denoise(page, page);
   for (int y = 4; y < 60; ++y)
-    for (int x = 4; x < 60; ++x) off += std::pow(page.light()[page.at(x, y)].g - 1 - detail(page.at(x, y)), 2) / (56 * 56);
+    for (int x = 4; x < 60; ++x)
+      off += std::pow(page.light()[page.at(x, y)].g - 1 - detail(page.at(x, y)), 2) / (56 * 56);
   CHECK(std::sqrt(off) < 1.2 * noise);
 }
 
@@ -175,14 +186,20 @@ TEST_CASE("denoise: light is not mixed between charts, around a crease or withou
   SECTION("charts") {
     auto page = noisy_page(32, 0.5f);
     for (std::size_t i = 0; i < page.size(); ++i)
-      if (i % 32 >= 16) page.places[i].chart = 1, page.light()[i] = {0, 0, 0};
+      if (i % 32 >= 16) {
+        page.places[i].chart = 1;
+        page.light()[i] = {0, 0, 0};
+      }
     denoise(page, page);
     CHECK(deviation_from(page, 16, 32, 0) == 0);
   }
   SECTION("a crease") {
     auto page = noisy_page(32, 0.5f);
     for (std::size_t i = 0; i < page.size(); ++i)
-      if (i % 32 >= 16) page.places[i].normal = {1, 0, 0}, page.light()[i] = {0, 0, 0};
+      if (i % 32 >= 16) {
+        page.places[i].normal = {1, 0, 0};
+        page.light()[i] = {0, 0, 0};
+      }
     denoise(page, page);
     CHECK(deviation_from(page, 16, 32, 0) == 0);
   }
@@ -195,14 +212,16 @@ TEST_CASE("denoise: light is not mixed between charts, around a crease or withou
   }
 }
 
-TEST_CASE("denoise: two estimates, of which the one has an edge and the other noise, keep the edge and lose the noise") {
+TEST_CASE(
+    "denoise: two estimates, of which the one has an edge and the other noise, keep the edge and lose the noise") {
   const auto noisy = noisy_page(64, 0.1f);
   Estimate edge(static_cast<const Page&>(noisy));
   for (std::size_t i = 0; i < noisy.size(); ++i) edge.light()[i] = i % 64 < 32 ? Rgb{} : Rgb{1, 1, 1};
   const auto shown = shown_light(noisy, edge, noisy, true);
   double left = 0, right = 0, off = 0;
   for (int y = 4; y < 60; ++y) {
-    left += shown[noisy.at(31, y)].g / 56, right += shown[noisy.at(32, y)].g / 56;
+    left += shown[noisy.at(31, y)].g / 56;
+    right += shown[noisy.at(32, y)].g / 56;
     for (int x = 4; x < 60; ++x) off += std::pow(shown[noisy.at(x, y)].g - (x < 32 ? 1 : 2), 2);
   }
   CHECK(right - left == Approx(1).margin(0.01));
@@ -215,7 +234,8 @@ TEST_CASE("denoise: light of lamps that says it has no noise is filtered where t
   // One texel in twelve is in a shadow that it says to be certain of.
   const auto noisy = noisy_page(64, 0.2f);
   Estimate lamps(static_cast<const Page&>(noisy));
-  for (std::size_t i = 0; i < noisy.size(); ++i) lamps.light()[i] = i % 64 % 4 == 1 && i / 64 % 3 == 1 ? Rgb{0.85f, 0.85f, 0.85f} : Rgb{1, 1, 1};
+  for (std::size_t i = 0; i < noisy.size(); ++i)
+    lamps.light()[i] = i % 64 % 4 == 1 && i / 64 % 3 == 1 ? Rgb{0.85f, 0.85f, 0.85f} : Rgb{1, 1, 1};
   const auto shown = shown_light(noisy, lamps, noisy, true);
   double off = 0;
   for (int y = 4; y < 60; ++y)
@@ -246,7 +266,9 @@ TEST_CASE("refine: the error of what is shown is known without knowing the light
       double off = 0;
       for (std::size_t i = 0; i < one.size(); ++i) off += std::pow(shown[i].g - truth[i], 2) / double(one.size());
       const double error = std::sqrt(off) / all;
-      auto wanting = [&](double wanted) { return std::ranges::count(unsettled(one, light, halves, wanted, denoised), 1); };
+      auto wanting = [&](double wanted) {
+        return std::ranges::count(unsettled(one, light, halves, wanted, denoised), 1);
+      };
       CHECK(wanting(0.75 * error) > 0);
       CHECK(wanting(1.75 * error) == 0);
     }
@@ -257,7 +279,10 @@ TEST_CASE("fill: unknown texels take the light around them, known ones stay") {
   std::vector<char> known(texels.size());
   for (int y = 0; y < 9; ++y)
     for (int x = 0; x < 13; ++x)
-      if (x < 3) texels[y * 13 + x] = {0.5f, 1, 2}, known[y * 13 + x] = 1;
+      if (x < 3) {
+        texels[y * 13 + x] = {0.5f, 1, 2};
+        known[y * 13 + x] = 1;
+      }
   fill(texels, known, 13, 9);
   for (auto& t : texels) {
     CHECK(t.r == Approx(0.5f));
@@ -270,15 +295,23 @@ TEST_CASE("fill: unknown texels take the light around them, known ones stay") {
 
 TEST_CASE("fill: charts go on with their own light before that of others comes in") {
   constexpr std::uint32_t none = 99;
-  // Of two rows that touch the lower one is chart 0, of which the left half is known, and the upper one chart 1, of which all is.
+  // Of two rows that touch the lower one is chart 0, of which the left half is known, and the upper one chart 1, of
+  // which all is.
   std::vector<std::uint32_t> chart(2 * 12);
   std::vector<std::vector<Rgb>> layers(2, std::vector<Rgb>(chart.size()));
   std::vector<char> known(chart.size());
   for (int x = 0; x < 12; ++x) {
-    chart[12 + x] = 1, known[12 + x] = 1, layers[0][12 + x] = {9, 9, 9};
-    if (x < 6) known[x] = 1, layers[0][x] = {0.25f, 0.5f, 1}, layers[1][x] = {-1, 0, 0};
+    chart[12 + x] = 1;
+    known[12 + x] = 1;
+    layers[0][12 + x] = {9, 9, 9};
+    if (x < 6) {
+      known[x] = 1;
+      layers[0][x] = {0.25f, 0.5f, 1};
+      layers[1][x] = {-1, 0, 0};
+    }
   }
-  chart[11] = none, known[11] = 0;
+  chart[11] = none;
+  known[11] = 0;
   fill_charts(layers, known, chart, none, 12, 2);
   for (int x = 0; x < 11; ++x) {
     CHECK(layers[0][x].g == Approx(0.5f));

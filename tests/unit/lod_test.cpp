@@ -5,12 +5,12 @@
 #include <set>
 #include <sstream>
 
-#include "parsers/parsers.h"
 #include "geometry/closest_point.h"
-#include "passes/lod/lod.h"
 #include "geometry/simplify/lod_nodes.h"
 #include "geometry/simplify/shared_borders.h"
 #include "geometry/simplify/world.h"
+#include "parsers/parsers.h"
+#include "passes/lod/lod.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
@@ -45,7 +45,8 @@ Mesh sheet(std::size_t n, double height) {
   auto at = [&](std::size_t x, std::size_t y) { return static_cast<std::uint32_t>(y * (n + 1) + x); };
   for (std::size_t y = 0; y < n; ++y)
     for (std::size_t x = 0; x < n; ++x)
-      for (auto c : {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y), at(x + 1, y + 1), at(x, y + 1)}) m.corners.push_back(c);
+      for (auto c : {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y), at(x + 1, y + 1), at(x, y + 1)})
+        m.corners.push_back(c);
   return m;
 }
 
@@ -147,7 +148,8 @@ TEST_CASE("lod: nothing is changed where there is nothing to gain, or somebody l
       "Shape { geometry Text { string \"a b c d e f g h i j k\" } }",
       "LOD { level [ Shape { geometry Sphere { } } ] }",
       "DEF S Shape { geometry Sphere { } } DEF R Script { eventOut SFNode n } ROUTE R.n TO S.set_geometry",
-      "Shape { geometry IndexedFaceSet { coord DEF C Coordinate { } } } DEF I CoordinateInterpolator { } ROUTE I.value_changed TO C.set_point",
+      "Shape { geometry IndexedFaceSet { coord DEF C Coordinate { } } } DEF I CoordinateInterpolator { } ROUTE "
+      "I.value_changed TO C.set_point",
       "PROTO P [ field SFFloat r 1 ] { Shape { geometry Sphere { radius IS r } } } P { }",
       "Shape { }",
       "",
@@ -175,9 +177,11 @@ TEST_CASE("simplified world: triangles go where they are missed least", "[lod]")
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 10; ++x) {
       const int a = y * 11 + x;
-      index += std::to_string(a) + ' ' + std::to_string(a + 1) + ' ' + std::to_string(a + 12) + ' ' + std::to_string(a + 11) + " -1 ";
+      index += std::to_string(a) + ' ' + std::to_string(a + 1) + ' ' + std::to_string(a + 12) + ' ' +
+               std::to_string(a + 11) + " -1 ";
     }
-  TestWorld w("Shape { geometry Sphere { } } Shape { geometry IndexedFaceSet { coord Coordinate { point [ " + points + " ] } coordIndex [ " + index + " ] } }");
+  TestWorld w("Shape { geometry Sphere { } } Shape { geometry IndexedFaceSet { coord Coordinate { point [ " + points +
+              " ] } coordIndex [ " + index + " ] } }");
   Mesh ball;
   const auto surfaces = surfaces_of(w.scene);
   REQUIRE(surfaces.size() == 2);
@@ -233,8 +237,9 @@ std::set<Vec3> cut(TestWorld& w, NodeId geometry, double at, double scale) {
 
 TEST_CASE("lod: parts that share a border meet at all levels", "[lod]") {
   // The second plate is ten times as large and scaled down; the third stands apart from them.
-  TestWorld w("Shape { geometry " + plate(20, 0, 1) + " } Transform { scale 0.1 0.1 0.1 children Shape { geometry " + plate(20, 1, 10) +
-              " } } Transform { translation 0 0 9 children Shape { geometry " + plate(20, 0, 1) + " } }");
+  TestWorld w("Shape { geometry " + plate(20, 0, 1) + " } Transform { scale 0.1 0.1 0.1 children Shape { geometry " +
+              plate(20, 1, 10) + " } } Transform { translation 0 0 9 children Shape { geometry " + plate(20, 0, 1) +
+              " } }");
   REQUIRE(lod(w.scene, {}, w.ctx) == Outcome::changed);
   const auto lods = all_of(w.scene, nodes::LOD);
   REQUIRE(lods.size() == 3);
@@ -242,7 +247,8 @@ TEST_CASE("lod: parts that share a border meet at all levels", "[lod]") {
   for (std::size_t part : {0, 1}) {
     const auto levels = w.scene.get(lods[part], nodes::lod::children);
     CHECK(levels.size() > 2);
-    for (NodeId shape : levels) borders.push_back(cut(w, w.scene.get(shape, nodes::shape::geometry), 1, part ? 0.1 : 1));
+    for (NodeId shape : levels)
+      borders.push_back(cut(w, w.scene.get(shape, nodes::shape::geometry), 1, part ? 0.1 : 1));
   }
   CHECK(borders[0].size() == 21);
   for (const auto& b : borders) CHECK(b == borders[0]);
@@ -254,15 +260,20 @@ TEST_CASE("shared borders: places of one geometry, and what is no border", "[lod
   // Turned by half around the middle of its border x = 1, a plate would meet itself there, but its waves of v and 1 - v
   // differ. A flat sheet does so with two corners. The boxes stand in one place, but they are closed.
   const std::string box = "Transform { translation 0 0 7 children Shape { geometry Box { size 2 2 2 } } }";
-  const std::string turned = "Transform { translation 2 1 0 rotation 0 0 1 3.141592653589793 children Shape { geometry ";
-  const std::string flat = "IndexedFaceSet { coord Coordinate { point [ 0 0 5, 1 0 5, 1 1 5, 0 1 5 ] } coordIndex [ 0 1 2 3 ] }";
-  TestWorld w("Shape { geometry DEF P " + plate(5, 0, 1) + " }" + turned + "USE P } } Shape { geometry DEF F " + flat + " }" + turned +
-              "USE F } } " + box + box);
+  const std::string turned =
+      "Transform { translation 2 1 0 rotation 0 0 1 3.141592653589793 children Shape { geometry ";
+  const std::string flat =
+      "IndexedFaceSet { coord Coordinate { point [ 0 0 5, 1 0 5, 1 1 5, 0 1 5 ] } coordIndex [ 0 1 2 3 ] }";
+  TestWorld w("Shape { geometry DEF P " + plate(5, 0, 1) + " }" + turned + "USE P } } Shape { geometry DEF F " + flat +
+              " }" + turned + "USE F } } " + box + box);
   const auto surfaces = surfaces_of(w.scene);
   SharedBorders borders;
   SurfaceReader reader(w.scene, w.ctx);
   Mesh mesh;
-  for (const auto& s : surfaces) reader.read(s, mesh), borders.add(mesh);
+  for (const auto& s : surfaces) {
+    reader.read(s, mesh);
+    borders.add(mesh);
+  }
   const auto fixed = borders.find(w.scene, surfaces);
   REQUIRE(fixed.size() == 4);
   CHECK(fixed[0].empty());
@@ -272,7 +283,9 @@ TEST_CASE("shared borders: places of one geometry, and what is no border", "[lod
 }
 
 TEST_CASE("errors are metres of the world, ranges are not", "[lod]") {
-  const auto ball = [](const std::string& scale) { return "Transform { scale " + scale + " children Shape { geometry DEF S Sphere { radius 1000 } } }"; };
+  const auto ball = [](const std::string& scale) {
+    return "Transform { scale " + scale + " children Shape { geometry DEF S Sphere { radius 1000 } } }";
+  };
   LodOptions options;
   options.ratios.values = {0.25};
   std::vector<double> ranges;

@@ -82,9 +82,12 @@ TEST_CASE("node table: every node has a world in the corpus", "[node_table]") {
   const auto corpus = std::filesystem::path(WRLKIT_SOURCE_DIR) / "corpus";
   for (auto& n : builtin_nodes()) {
     INFO(n.name);
-    if (n.dialects & static_cast<DialectSet>(Dialect::vrml97)) CHECK(std::filesystem::exists(corpus / "nodes" / (std::string(n.name) + ".wrl")));
-    if (n.dialects & static_cast<DialectSet>(Dialect::x3d)) CHECK(std::filesystem::exists(corpus / "x3d" / (std::string(n.name) + ".x3d")));
-    if (n.dialects == static_cast<DialectSet>(Dialect::vrml1)) CHECK(std::filesystem::exists(corpus / "vrml1" / (std::string(n.name) + ".wrl")));
+    if (n.dialects & static_cast<DialectSet>(Dialect::vrml97))
+      CHECK(std::filesystem::exists(corpus / "nodes" / (std::string(n.name) + ".wrl")));
+    if (n.dialects & static_cast<DialectSet>(Dialect::x3d))
+      CHECK(std::filesystem::exists(corpus / "x3d" / (std::string(n.name) + ".x3d")));
+    if (n.dialects == static_cast<DialectSet>(Dialect::vrml1))
+      CHECK(std::filesystem::exists(corpus / "vrml1" / (std::string(n.name) + ".wrl")));
   }
 }
 

@@ -326,7 +326,8 @@ TEST_CASE("normals: faces without area") {
         b.run();
         b.check_unit();
         points = hinge(0.3);
-        points[0][2] = bad, points[5][2] = -bad;
+        points[0][2] = bad;
+        points[5][2] = -bad;
         b.set(points, hinge_faces, crease);
         b.run();
         b.check_unit();

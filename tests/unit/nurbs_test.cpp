@@ -13,7 +13,8 @@ namespace {
 
 const double h = std::sqrt(0.5);
 const std::vector<double> quarters{0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
-const std::vector<double> circle_points{1, 0, 0, 1, 1, 0, 0, 1, 0, -1, 1, 0, -1, 0, 0, -1, -1, 0, 0, -1, 0, 1, -1, 0, 1, 0, 0};
+const std::vector<double> circle_points{1, 0,  0,  1, 1, 0,  0, 1, 0,  -1, 1, 0, -1, 0,
+                                        0, -1, -1, 0, 0, -1, 0, 1, -1, 0,  1, 0, 0};
 const std::vector<double> circle_weights{1, h, 1, h, 1, h, 1, h, 1};
 
 Basis basis(int order, const std::vector<double>& knots, std::size_t count) {
@@ -53,7 +54,8 @@ TEST_CASE("nurbs: the polynomials sum up to 1, their slopes to 0, and slopes are
     CHECK(std::accumulate(v.slope.begin(), v.slope.end(), 0.0) == Approx(0).margin(1e-12));
   }
   const auto here = values_at(b, 0.35), before = values_at(b, 0.35 - 1e-6), after = values_at(b, 0.35 + 1e-6);
-  for (std::size_t i = 0; i < 4; ++i) CHECK(here.slope[i] == Approx((after.value[i] - before.value[i]) / 2e-6).margin(1e-6));
+  for (std::size_t i = 0; i < 4; ++i)
+    CHECK(here.slope[i] == Approx((after.value[i] - before.value[i]) / 2e-6).margin(1e-6));
 }
 
 TEST_CASE("nurbs: a cubic of four points is Bezier's", "[nurbs]") {
@@ -63,7 +65,8 @@ TEST_CASE("nurbs: a cubic of four points is Bezier's", "[nurbs]") {
   CHECK(replaced);
   for (double t : {0.0, 0.25, 0.6, 1.0}) {
     const double s = 1 - t, b[] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
-    for (std::size_t k = 0; k < 3; ++k) CHECK(c.at(t)[k] == Approx(b[0] * p[k] + b[1] * p[3 + k] + b[2] * p[6 + k] + b[3] * p[9 + k]).margin(1e-14));
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK(c.at(t)[k] == Approx(b[0] * p[k] + b[1] * p[3 + k] + b[2] * p[6 + k] + b[3] * p[9 + k]).margin(1e-14));
   }
 }
 
@@ -99,7 +102,8 @@ TEST_CASE("nurbs: a sphere is one, faces outwards, and its triangles keep the to
     for (std::size_t j = 1; j < g.v.size(); ++j)
       for (std::size_t i = 1; i < g.u.size(); ++i) {
         const Vec3 a = s.at(g.u[i - 1], g.v[j - 1]), b = s.at(g.u[i], g.v[j - 1]), c = s.at(g.u[i], g.v[j]);
-        most = std::max(most, 1 - length({(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3}));
+        most =
+            std::max(most, 1 - length({(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3}));
       }
     CHECK(most <= tolerance);
   }

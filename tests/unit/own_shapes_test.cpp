@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "parsers/parsers.h"
 #include "light/render/stage.h"
+#include "parsers/parsers.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -82,7 +82,9 @@ TEST_CASE("own shapes: lights and empty groups stay shared") {
 
 TEST_CASE("own shapes: a world that doubles itself ends at the limit, and says so") {
   std::string text = "DEF G0 Shape { geometry Box {} }\n";
-  for (int i = 1; i <= 30; ++i) text += "DEF G" + std::to_string(i) + " Group { children [ USE G" + std::to_string(i - 1) + " USE G" + std::to_string(i - 1) + " ] }\n";
+  for (int i = 1; i <= 30; ++i)
+    text += "DEF G" + std::to_string(i) + " Group { children [ USE G" + std::to_string(i - 1) + " USE G" +
+            std::to_string(i - 1) + " ] }\n";
   TestWorld w(text);
   CHECK(bake::own_shapes(w.scene, w.diag, bake::OfLod::first, 1000) >= 1000);
   CHECK(w.diag.count(Severity::error) + w.diag.count(Severity::warning) > 0);

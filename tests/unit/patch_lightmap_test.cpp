@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <memory>
 
-#include "parsers/parsers.h"
 #include "light/flux.h"
 #include "light/patches/smooth_patches.h"
+#include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
 
 using namespace wrlkit;
@@ -97,15 +97,19 @@ TEST_CASE("patches lie off their surface by as much as their digits have rounded
 
 TEST_CASE("of two surfaces within reach the nearest counts") {
   // A board that hangs 5 mm in front of the wall.
-  const Room r(std::string(room) + "Transform { translation 0 0 0.005 children Shape { geometry IndexedFaceSet { coord Coordinate { point [0 0 0, 2 0 0, 2 1 0] } coordIndex [0 1 2 -1] } } }");
+  const Room r(std::string(room) +
+               "Transform { translation 0 0 0.005 children Shape { geometry IndexedFaceSet { coord Coordinate { point "
+               "[0 0 0, 2 0 0, 2 1 0] } coordIndex [0 1 2 -1] } } }");
   auto set = halves();
   set.printed = {.decimals = 2, .digits = 3};
   for (const auto& p : match_patches(set, *r.light).placed) CHECK(p.use == 0);
 }
 
 TEST_CASE("both sides of a sheet have places of their own, and a side without patches shows the other one") {
-  const Room r("#VRML V2.0 utf8\nShape { appearance Appearance { material Material { } } geometry IndexedFaceSet { solid FALSE coord Coordinate { "
-               "point [0 0 0, 2 0 0, 2 1 0, 0 1 0] } coordIndex [0 1 2 3 -1] } }");
+  const Room r(
+      "#VRML V2.0 utf8\nShape { appearance Appearance { material Material { } } geometry IndexedFaceSet { solid FALSE "
+      "coord Coordinate { "
+      "point [0 0 0, 2 0 0, 2 1 0, 0 1 0] } coordIndex [0 1 2 3 -1] } }");
   auto set = halves();
   const auto fronts = patch_lightmap(set, *r.light, {}).shapes.at(0);
   CHECK(fronts.n_polygons == 1);
@@ -128,7 +132,9 @@ TEST_CASE("both sides of a sheet have places of their own, and a side without pa
 }
 
 TEST_CASE("what has no patch: in a polygon as those around it, elsewhere the mean") {
-  const Room r(std::string(room) + "Shape { geometry IndexedFaceSet { coord Coordinate { point [5 0 0, 6 0 0, 6 1 0, 5 1 0, 5 0 1, 6 0 1, 6 0 0] } coordIndex [0 1 2 3 -1 4 5 6 -1] } }");
+  const Room r(std::string(room) +
+               "Shape { geometry IndexedFaceSet { coord Coordinate { point [5 0 0, 6 0 0, 6 1 0, 5 1 0, 5 0 1, 6 0 1, "
+               "6 0 0] } coordIndex [0 1 2 3 -1 4 5 6 -1] } }");
   PatchSet set;
   set.add_shape("", PatchSet::unknown);
   set.add_loose_triangle();

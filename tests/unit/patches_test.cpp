@@ -90,8 +90,10 @@ TEST_CASE("a patch file is read and written again as it was") {
 
 TEST_CASE("patches below the root or a shape, in other units, names with references") {
   Diagnostics diag;
-  const auto set = read("<patches unit='cm'><patch v='0 0 0, 100 0 0, 0 50 0' rgb='1 1 1'/><shape name='A&amp;&lt;&quot;&#65;'>"
-                        "<patch v='0 0 0 1 0 0 0 1 0' rgb='1 2 3'/></shape><patch v='0 0 0 1 0 0 0 1 0' rgb='1 2 3'/></patches>", diag);
+  const auto set = read(
+      "<patches unit='cm'><patch v='0 0 0, 100 0 0, 0 50 0' rgb='1 1 1'/><shape name='A&amp;&lt;&quot;&#65;'>"
+      "<patch v='0 0 0 1 0 0 0 1 0' rgb='1 2 3'/></shape><patch v='0 0 0 1 0 0 0 1 0' rgb='1 2 3'/></patches>",
+      diag);
   REQUIRE(set);
   CHECK(diag.messages().empty());
   REQUIRE(set->shapes.size() == 3);
@@ -108,14 +110,16 @@ TEST_CASE("patches below the root or a shape, in other units, names with referen
 
 TEST_CASE("what is wrong costs the patch it is in, and is told with its place") {
   Diagnostics diag;
-  const auto set = read("<patches>\n<shape name=\"a\">\n"
-                        "<patch v=\"0 0 0 1 0 0 0 1\" rgb=\"1 1 1\"/>\n"       // eight numbers
-                        "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"1 x 1\"/>\n"     // no number: one is there, the others are 0
-                        "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"1 1 1\" a='1'/>\n"
-                        "<patch v=\"0 0 0 1 0 0 0 1 0 rgb=\"1 1 1\"/>\n"       // a quote is missing
-                        "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"-1 nan 2\"\n"    // '>' is missing
-                        "<thing><patch/></thing>\n"
-                        "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"4 -5 6\"/>", diag);
+  const auto set = read(
+      "<patches>\n<shape name=\"a\">\n"
+      "<patch v=\"0 0 0 1 0 0 0 1\" rgb=\"1 1 1\"/>\n"    // eight numbers
+      "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"1 x 1\"/>\n"  // no number: one is there, the others are 0
+      "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"1 1 1\" a='1'/>\n"
+      "<patch v=\"0 0 0 1 0 0 0 1 0 rgb=\"1 1 1\"/>\n"     // a quote is missing
+      "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"-1 nan 2\"\n"  // '>' is missing
+      "<thing><patch/></thing>\n"
+      "<patch v=\"0 0 0 1 0 0 0 1 0\" rgb=\"4 -5 6\"/>",
+      diag);
   REQUIRE(set);
   REQUIRE(set->patches.size() == 4);
   CHECK(set->patches[0].rgb == std::array<float, 3>{1, 0, 0});
@@ -137,7 +141,8 @@ TEST_CASE("what is wrong costs the patch it is in, and is told with its place") 
 TEST_CASE("the digits of a file say how far its coordinates were rounded") {
   auto step = [](const std::string& v, double at, const std::string& unit = "m") {
     Diagnostics diag;
-    return read("<patches unit='" + unit + "'><patch v='" + v + "' rgb='0.123456 1 1'/></patches>", diag)->printed.step(at);
+    return read("<patches unit='" + unit + "'><patch v='" + v + "' rgb='0.123456 1 1'/></patches>", diag)
+        ->printed.step(at);
   };
   CHECK(step("12.345 0.300 0 1 0 0 0 1 0", 12) == Approx(1e-3));
   CHECK(step("12.345 0.300 0 1 0 0 0 1 0", 0.3) == Approx(1e-3));
@@ -150,8 +155,10 @@ TEST_CASE("the digits of a file say how far its coordinates were rounded") {
 
 TEST_CASE("entities are not expanded, document types are passed over") {
   Diagnostics diag;
-  const auto set = read("<!DOCTYPE patches [<!ENTITY a \"&b;&b;\"> <!ENTITY b \"]>\">]><!-- <patches> --><patches>"
-                        "<shape name='&a;'/><patch v='&a;' rgb='1 1 1'/></patches>", diag);
+  const auto set = read(
+      "<!DOCTYPE patches [<!ENTITY a \"&b;&b;\"> <!ENTITY b \"]>\">]><!-- <patches> --><patches>"
+      "<shape name='&a;'/><patch v='&a;' rgb='1 1 1'/></patches>",
+      diag);
   REQUIRE(set);
   CHECK(diag.count(Diag::xml_doctype) == 1);
   CHECK(set->shapes[0].name == "&a;");
@@ -171,13 +178,18 @@ TEST_CASE("other files are no patch files") {
 
 TEST_CASE("files in other encodings") {
   Diagnostics diag;
-  const auto latin = read("<?xml version='1.0' encoding='ISO-8859-1'?><patches source='K\xfchlung.wrl'><shape name='\xe4'/></patches>", diag);
+  const auto latin =
+      read("<?xml version='1.0' encoding='ISO-8859-1'?><patches source='K\xfchlung.wrl'><shape name='\xe4'/></patches>",
+           diag);
   REQUIRE(latin);
   CHECK(latin->source == "K\xc3\xbchlung.wrl");
   CHECK(latin->shapes[0].name == "\xc3\xa4");
   CHECK(diag.count(Diag::encoding_repaired) == 2);
   std::string wide = "\xff\xfe";
-  for (char c : example) wide += c, wide += '\0';
+  for (char c : example) {
+    wide += c;
+    wide += '\0';
+  }
   CHECK(is_patch_file(wide));
   Diagnostics again;
   REQUIRE(read(wide, again));
@@ -235,8 +247,10 @@ TEST_CASE("needles become rounder, and no angle falls below half of the smallest
 
 TEST_CASE("what is split here and there stays conforming, also where sheets lie back to back") {
   const V3 a{0, 0, 0}, b{1, 0, 0}, c{1, 1, 0}, d{0, 1, 0}, e{0.2, 0.3, 1};
-  for (const auto& triangles : {std::vector<Triangle>{{a, b, c}, {a, c, d}, {a, b, e}}, std::vector<Triangle>{{a, b, e}, {b, a, e}},
-                                std::vector<Triangle>{{a, b, e}, {a, b, e}}, std::vector<Triangle>{{a, b, c}, {c, d, a}, {b, e, c}, {e, c, d}}}) {
+  for (const auto& triangles :
+       {std::vector<Triangle>{{a, b, c}, {a, c, d}, {a, b, e}}, std::vector<Triangle>{{a, b, e}, {b, a, e}},
+        std::vector<Triangle>{{a, b, e}, {a, b, e}},
+        std::vector<Triangle>{{a, b, c}, {c, d, a}, {b, e, c}, {e, c, d}}}) {
     PatchMesh mesh(triangles);
     for (std::uint32_t i = 0; i < 500; ++i) mesh.split((i * 2654435761u) % mesh.faces().size());
     require_conforming(mesh);
@@ -248,7 +262,8 @@ TEST_CASE("what is split here and there stays conforming, also where sheets lie 
 
 TEST_CASE("triangles with two corners in one place stay whole") {
   const V3 a{0, 0, 0}, b{1, 0, 0}, c{0.5, 0, 0};
-  for (const auto& triangles : {std::vector<Triangle>{{a, a, b}, {a, b, b}}, std::vector<Triangle>{{a, b, c}, {a, b, a}}, std::vector<Triangle>{{a, a, a}}}) {
+  for (const auto& triangles : {std::vector<Triangle>{{a, a, b}, {a, b, b}},
+                                std::vector<Triangle>{{a, b, c}, {a, b, a}}, std::vector<Triangle>{{a, a, a}}}) {
     PatchMesh mesh(triangles);
     CHECK(mesh.split_to(0.1, 0, 10'000));
     CHECK(mesh.faces().size() < 100);

@@ -32,8 +32,10 @@ double mean(const Image& i) {
   return sum / (static_cast<double>(i.pixels.size()) / 3);
 }
 
-const std::string room = "IndexedFaceSet { solid FALSE coord Coordinate { point [ -1 -1 -1, 1 -1 -1, 1 1 -1, -1 1 -1, -1 -1 1, 1 -1 1, 1 1 1, -1 1 1 ] } "
-                         "coordIndex [ 0 1 2 3 -1 4 5 6 7 -1 0 1 5 4 -1 3 2 6 7 -1 0 3 7 4 -1 1 2 6 5 -1 ] } ";
+const std::string room =
+    "IndexedFaceSet { solid FALSE coord Coordinate { point [ -1 -1 -1, 1 -1 -1, 1 1 -1, -1 1 -1, -1 -1 1, 1 -1 1, 1 1 "
+    "1, -1 1 1 ] } "
+    "coordIndex [ 0 1 2 3 -1 4 5 6 7 -1 0 1 5 4 -1 3 2 6 7 -1 0 3 7 4 -1 1 2 6 5 -1 ] } ";
 
 }  // namespace
 
@@ -50,7 +52,8 @@ TEST_CASE("path tracing: what shines is as bright as it says, and a ball in a wh
 TEST_CASE("path tracing: a closed room that shines everywhere is as bright everywhere") {
   // Emission 0.2 and albedo 0.5: 0.2 + 0.1 + 0.05 + ... = 0.4.
   PathStudio s(24, 12);
-  const Image inside = s.render("Viewpoint { position 0.3 0.2 0.5 fieldOfView 1.5 } " + shape(room, "diffuseColor " + grey(0.5) + " emissiveColor " + grey(0.2)));
+  const Image inside = s.render("Viewpoint { position 0.3 0.2 0.5 fieldOfView 1.5 } " +
+                                shape(room, "diffuseColor " + grey(0.5) + " emissiveColor " + grey(0.2)));
   CHECK(mean(inside) == Approx(0.4).epsilon(0.01));
   for (int at : {0, 6, 12, 18, 23}) CHECK(linear(pixel(inside, at, at)[0]) == Approx(0.4).epsilon(0.12));
 }
@@ -60,29 +63,36 @@ TEST_CASE("path tracing: a plate under a PointLight") {
   PathStudio s(101, 4);
   s.options.headlight = true;  // does not count
   const double albedo = 0.4, h = 2;
-  const Image plate = s.render(view + "PointLight { location 0 0 2 attenuation 0 0 1 } " + shape(quad(-5, -5, 5, 5), "diffuseColor " + grey(albedo)));
+  const Image plate = s.render(view + "PointLight { location 0 0 2 attenuation 0 0 1 } " +
+                               shape(quad(-5, -5, 5, 5), "diffuseColor " + grey(albedo)));
   for (double x : {0.0, 1.0, 2.0, 4.0}) {
     const double d2 = h * h + x * x;
     // 101 pixels show 10 m of the plane.
-    CHECK(linear(pixel(plate, 50 + static_cast<int>(std::lround(x * 10.1)), 50)[0]) == Approx(albedo * h / (d2 * std::sqrt(d2))).epsilon(0.03));
+    CHECK(linear(pixel(plate, 50 + static_cast<int>(std::lround(x * 10.1)), 50)[0]) ==
+          Approx(albedo * h / (d2 * std::sqrt(d2))).epsilon(0.03));
   }
 }
 
 TEST_CASE("path tracing: shadows, reflected light, what is behind glass, and backs of solid faces") {
   PathStudio s(41, 8);
-  const std::string sun = "DirectionalLight { direction 0 0 -1 } ", floor = shape(quad(-5, -5, 5, 5), "diffuseColor 0.5 0.5 0.5");
+  const std::string sun = "DirectionalLight { direction 0 0 -1 } ",
+                    floor = shape(quad(-5, -5, 5, 5), "diffuseColor 0.5 0.5 0.5");
   // Something that stands beside the line of sight, but in the light of a slanting sun.
-  const std::string slanting = "DirectionalLight { direction 1 0 -1 } ", screen = shape(quad(-3, -1, -1, 1, 2, "solid FALSE"), "diffuseColor 0 0 0");
+  const std::string slanting = "DirectionalLight { direction 1 0 -1 } ",
+                    screen = shape(quad(-3, -1, -1, 1, 2, "solid FALSE"), "diffuseColor 0 0 0");
   CHECK(middle(s.render(view + slanting + floor)) == Rgb{108, 108, 108});
   CHECK(middle(s.render(view + slanting + floor + screen)) == Rgb{0, 0, 0});
   // Light that comes over a red wall is red.
   const Rgb beside = middle(s.render(view + "DirectionalLight { direction -1 0 0 } " + floor +
-                                     shape("IndexedFaceSet { solid FALSE coord Coordinate { point [ -1 -5 0, -1 5 0, -1 5 4, -1 -5 4 ] } coordIndex [ 0 1 2 3 ] }", "diffuseColor 1 0 0")));
+                                     shape("IndexedFaceSet { solid FALSE coord Coordinate { point [ -1 -5 0, -1 5 0, "
+                                           "-1 5 4, -1 -5 4 ] } coordIndex [ 0 1 2 3 ] }",
+                                           "diffuseColor 1 0 0")));
   CHECK(beside[0] > 60);
   CHECK(beside[1] == 0);
   // Half of the lamp's light comes through the pane.
   const std::string pane = shape(quad(-2, -2, 2, 2, 1, "solid FALSE"), "diffuseColor 0 0 0 transparency 0.5");
-  CHECK(linear(middle(s.render(view + shape(quad(-5, -5, 5, 5), emitting("1 1 1")) + pane))[0]) == Approx(0.5).epsilon(0.01));
+  CHECK(linear(middle(s.render(view + shape(quad(-5, -5, 5, 5), emitting("1 1 1")) + pane))[0]) ==
+        Approx(0.5).epsilon(0.01));
   // The camera looks through a back, as in a browser; light does not pass it.
   const std::string away = shape(quad(-2, -2, 2, 2, 1, "ccw FALSE"), "diffuseColor 0 0 0");
   CHECK(middle(s.render(view + sun + floor + away)) == Rgb{0, 0, 0});
@@ -91,7 +101,8 @@ TEST_CASE("path tracing: shadows, reflected light, what is behind glass, and bac
 
 TEST_CASE("path tracing: textures, and Billboards as the camera sees them") {
   PathStudio s(41, 2);
-  const std::string texture = "texture PixelTexture { image 2 1 3 0xff0000 0x0000ff repeatS FALSE }", white = "Background { skyColor 1 1 1 } ";
+  const std::string texture = "texture PixelTexture { image 2 1 3 0xff0000 0x0000ff repeatS FALSE }",
+                    white = "Background { skyColor 1 1 1 } ";
   const Image flag = s.render(view + white + shape(quad(-4, -4, 4, 4), "", texture));
   CHECK(pixel(flag, 5, 20)[0] > 250);
   CHECK(pixel(flag, 5, 20)[2] == 0);
@@ -107,7 +118,9 @@ TEST_CASE("path tracing: any number of threads makes the same picture, and its p
     CHECK(done > share);
     share = done;
   };
-  const std::string world = view + "PointLight { location 0 3 3 } " + shape(quad(-4, -4, 4, 4), "diffuseColor 1 0.5 0.2") + shape("Sphere { }", "diffuseColor 0.5 0.5 0.5");
+  const std::string world = view + "PointLight { location 0 3 3 } " +
+                            shape(quad(-4, -4, 4, 4), "diffuseColor 1 0.5 0.2") +
+                            shape("Sphere { }", "diffuseColor 0.5 0.5 0.5");
   const Image many = s.render(world);
   CHECK(share == 1);
   share = 0;

@@ -17,7 +17,9 @@ std::string canonical(std::string_view text) {
   return p ? p->text() : "error: " + why;
 }
 
-std::unique_ptr<World> read(const std::string& text, Diagnostics& diag) { return parse_world("#VRML V2.0 utf8\n" + text, "test.wrl", {}, diag); }
+std::unique_ptr<World> read(const std::string& text, Diagnostics& diag) {
+  return parse_world("#VRML V2.0 utf8\n" + text, "test.wrl", {}, diag);
+}
 
 }  // namespace
 
@@ -30,16 +32,23 @@ TEST_CASE("pipeline: text and back", "[pipeline]") {
 TEST_CASE("pipeline: what is wrong with a text", "[pipeline]") {
   CHECK(canonical("polish") == "error: there is no pass 'polish'");
   CHECK(canonical("inline{deepness=3}") == "error: pass 'inline' has no option 'deepness'");
-  CHECK(canonical("inline{depth=deep}") == "error: pass 'inline' option 'depth': 'deep' is no value for it: integer at least 0");
-  CHECK(canonical("inline{depth=-1}") == "error: pass 'inline' option 'depth': '-1' is no value for it: integer at least 0");
-  CHECK(canonical("lod{min-saving=nan}") == "error: pass 'lod' option 'min-saving': 'nan' is no value for it: number 0 to 1");
-  CHECK(canonical("lod{min-saving=1.01}") == "error: pass 'lod' option 'min-saving': '1.01' is no value for it: number 0 to 1");
-  CHECK(canonical("lightmap{format=bmp}") == "error: pass 'lightmap' option 'format': 'bmp' is no value for it: png, jpg or webp");
+  CHECK(canonical("inline{depth=deep}") ==
+        "error: pass 'inline' option 'depth': 'deep' is no value for it: integer at least 0");
+  CHECK(canonical("inline{depth=-1}") ==
+        "error: pass 'inline' option 'depth': '-1' is no value for it: integer at least 0");
+  CHECK(canonical("lod{min-saving=nan}") ==
+        "error: pass 'lod' option 'min-saving': 'nan' is no value for it: number 0 to 1");
+  CHECK(canonical("lod{min-saving=1.01}") ==
+        "error: pass 'lod' option 'min-saving': '1.01' is no value for it: number 0 to 1");
+  CHECK(canonical("lightmap{format=bmp}") ==
+        "error: pass 'lightmap' option 'format': 'bmp' is no value for it: png, jpg or webp");
   CHECK(canonical("inline{depth=3") == "error: '}' is missing behind 'inline'");
 }
 
 TEST_CASE("pipeline: lazily and at once are the same", "[pipeline]") {
-  const std::string text = "Shape { geometry Sphere { } } Shape { geometry IndexedFaceSet { creaseAngle 1 coord Coordinate { point [ 0 0 0 1 0 0 1 1 0 0 1 0.1 ] } coordIndex [ 0 1 2 3 ] } }";
+  const std::string text =
+      "Shape { geometry Sphere { } } Shape { geometry IndexedFaceSet { creaseAngle 1 coord Coordinate { point [ 0 0 0 "
+      "1 0 0 1 1 0 0 1 0.1 ] } coordIndex [ 0 1 2 3 ] } }";
   Diagnostics diag;
   Statistics stats;
   PassContext ctx{diag, stats};
@@ -67,9 +76,11 @@ TEST_CASE("pipeline: a pass that changes nothing says so and changes nothing", "
     if (p.make()->is_mesh_pass()) continue;
     auto world = read("DEF A Transform { children Shape { geometry Box { } } }", diag);
     std::string before, after;
-    write_vrml(world->scene, {}, [&](std::string_view s) { before += s; }, diag);
+    write_vrml(
+        world->scene, {}, [&](std::string_view s) { before += s; }, diag);
     auto outcome = p.make()->run(world->scene, ctx);
-    write_vrml(world->scene, {}, [&](std::string_view s) { after += s; }, diag);
+    write_vrml(
+        world->scene, {}, [&](std::string_view s) { after += s; }, diag);
     INFO(p.name);
     CHECK(outcome == Outcome::unchanged);
     CHECK(before == after);

@@ -10,9 +10,10 @@
 #include <numbers>
 #include <set>
 
-#include "parsers/parsers.h"
 #include "geometry/progressive/position_code.h"
 #include "geometry/progressive/progressive_world.h"
+#include "parsers/parsers.h"
+#include "passes/pipeline/pass.h"
 
 using namespace wrlkit;
 
@@ -55,7 +56,9 @@ Mesh ball() {
   auto& p = mesh.positions.edit();
   for (std::size_t i = 0; i < p.size(); i += 3) {
     const double a = 2 * std::numbers::pi * p[i], b = std::numbers::pi * p[i + 1];
-    p[i] = std::cos(a) * std::sin(b), p[i + 1] = std::sin(a) * std::sin(b), p[i + 2] = std::cos(b);
+    p[i] = std::cos(a) * std::sin(b);
+    p[i + 1] = std::sin(a) * std::sin(b);
+    p[i + 2] = std::cos(b);
   }
   for (auto& v : mesh.corners) {
     const std::uint32_t row = v / 17, column = v % 17;
@@ -83,7 +86,9 @@ Mesh non_manifold() {
 Mesh with_seams() {
   Mesh mesh = open_sheet();
   change_positions(mesh, [](double x) { return double(float(x)); });
-  mesh.normal = Attribute(3), mesh.color = Attribute(4), mesh.texcoord = Attribute(2);
+  mesh.normal = Attribute(3);
+  mesh.color = Attribute(4);
+  mesh.texcoord = Attribute(2);
   for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
     const std::uint32_t v = mesh.corners[c];
     const auto x = float(mesh.positions[3 * std::size_t{v}]), y = float(mesh.positions[3 * std::size_t{v} + 1]);
@@ -164,7 +169,8 @@ bool same(const Mesh& a, const Mesh& b) {
 constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
 
 Mesh at(ProgressiveMesh& p, std::size_t n) {
-  p.coarsen_to(n), p.refine_to(n);
+  p.coarsen_to(n);
+  p.refine_to(n);
   return p.mesh();
 }
 
@@ -198,8 +204,11 @@ TEST_CASE("progressive: every state is that of the simplifier, in any order") {
     Collapser c(mesh, {});
     for (std::size_t n = mesh.n_faces();; --n) {
       c.run_to(n);
-      at(p, n / 3), at(p, mesh.n_faces() - n / 2);
-      p.coarsen_to(n), p.refine_to(n), p.coarsen_to(n);
+      at(p, n / 3);
+      at(p, mesh.n_faces() - n / 2);
+      p.coarsen_to(n);
+      p.refine_to(n);
+      p.coarsen_to(n);
       if (c.n_faces() > n) break;  // as coarse as it gets
       REQUIRE(p.n_faces() == c.n_faces());
       REQUIRE(corners_of(p.mesh(), false) == corners_of(c.mesh(), false));

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
-#include "tests/unit/temp_folder.h"
 #include "base/io/output.h"
+#include "tests/unit/temp_folder.h"
 
 using namespace wrlkit;
 using namespace std::string_literals;

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <map>
 
+#include "light/render/render.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
-#include "light/render/render.h"
 
 namespace wrlkit::render_tests {
 
@@ -74,7 +74,9 @@ inline std::string shape(const std::string& geometry, const std::string& materia
 
 /// A rectangle in the plane at depth z, seen from the front.
 inline std::string quad(double x0, double y0, double x1, double y1, double z = 0, const std::string& fields = "") {
-  auto p = [&](double x, double y) { return std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + ", "; };
+  auto p = [&](double x, double y) {
+    return std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + ", ";
+  };
   return "IndexedFaceSet { coord Coordinate { point [ " + p(x0, y0) + p(x1, y0) + p(x1, y1) + p(x0, y1) +
          " ] } coordIndex [ 0 1 2 3 -1 ] " + fields + " } ";
 }

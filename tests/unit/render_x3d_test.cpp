@@ -14,7 +14,9 @@ Rgb seen(const std::string& material, const std::string& more = "", const std::s
   return middle(s.render(view + around + shape(square, material, more)));
 }
 
-std::string picture(const std::string& field, const std::string& pixel) { return field + " PixelTexture { image 1 1 3 " + pixel + " } "; }
+std::string picture(const std::string& field, const std::string& pixel) {
+  return field + " PixelTexture { image 1 1 3 " + pixel + " } ";
+}
 
 }  // namespace
 
@@ -23,14 +25,17 @@ TEST_CASE("render: a picture of emission is multiplied by emissiveColor") {
 }
 
 TEST_CASE("render: occlusion dims the ambient light by its strength") {
-  const std::string lamp = dark + "DirectionalLight { intensity 0 ambientIntensity 0.5 } ", white = "diffuseColor 1 1 1 ambientIntensity 1 ";
+  const std::string lamp = dark + "DirectionalLight { intensity 0 ambientIntensity 0.5 } ",
+                    white = "diffuseColor 1 1 1 ambientIntensity 1 ";
   CHECK(seen(white, "", lamp) == Rgb{128, 128, 128});
   CHECK(seen(white + picture("occlusionTexture", "0x000000"), "", lamp) == Rgb{0, 0, 0});
   CHECK(seen(white + "occlusionStrength 0.5 " + picture("occlusionTexture", "0x000000"), "", lamp) == Rgb{64, 64, 64});
 }
 
 TEST_CASE("render: a normal map leans the normal along the sides of the picture") {
-  auto grey = [](const std::string& pixel, const std::string& more = "") { return seen("diffuseColor 1 1 1 " + more + picture("normalTexture", pixel))[0]; };
+  auto grey = [](const std::string& pixel, const std::string& more = "") {
+    return seen("diffuseColor 1 1 1 " + more + picture("normalTexture", pixel))[0];
+  };
   CHECK(std::abs(grey("0x8080ff") - 255) <= 1);
   CHECK(std::abs(grey("0xda80da") - 180) <= 3);  // 45 degrees to the side
   CHECK(std::abs(grey("0xda80da", "normalScale 0 ") - 255) <= 1);

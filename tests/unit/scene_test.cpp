@@ -60,7 +60,8 @@ TEST_CASE("scene: nodes with many fields find them like others", "[scene]") {
     given += "f" + std::to_string((i * 37) % 100) + ' ' + std::to_string(i) + " other" + std::to_string(i) + " 1 ";
   }
   Diagnostics diag;
-  auto world = parse_world("#VRML V2.0 utf8\nPROTO P [ " + declared + "] { Group { } } P { " + given + "f37 1000 }", "test.wrl", {}, diag);
+  auto world = parse_world("#VRML V2.0 utf8\nPROTO P [ " + declared + "] { Group { } } P { " + given + "f37 1000 }",
+                           "test.wrl", {}, diag);
   REQUIRE(world);
   auto& s = world->scene;
   NodeId p = s.main.roots[0];
@@ -98,9 +99,11 @@ TEST_CASE("scene: numbers keep what the file says", "[scene]") {
 }
 
 TEST_CASE("equality sees values, sharing and routes, but not defaults that are written out", "[scene]") {
-  CHECK(difference(scene_of("Group { children [ DEF A Shape { } USE A ] }"), scene_of("Group { children [ DEF A Shape { } Shape { } ] }")) != "");
+  CHECK(difference(scene_of("Group { children [ DEF A Shape { } USE A ] }"),
+                   scene_of("Group { children [ DEF A Shape { } Shape { } ] }")) != "");
   CHECK(difference(scene_of("Shape { geometry Box { size 2 2 2 } }"), scene_of("Shape { geometry Box { } }")) == "");
-  CHECK(difference(scene_of("Shape { geometry Box { size 2 2 3 } }"), scene_of("Shape { geometry Box { } }")) == "Box: field size");
+  CHECK(difference(scene_of("Shape { geometry Box { size 2 2 3 } }"), scene_of("Shape { geometry Box { } }")) ==
+        "Box: field size");
 }
 
 TEST_CASE("transform: T C R SR S -SR -C", "[scene]") {
@@ -113,7 +116,9 @@ TEST_CASE("transform: T C R SR S -SR -C", "[scene]") {
 }
 
 TEST_CASE("walk: what a browser would show", "[scene]") {
-  auto s = scene_of("Switch { whichChoice 1 choice [ Group { } DEF Shown Group { } ] } LOD { level [ DEF Fine Group { } Group { } ] } Collision { proxy Group { } children DEF Seen Group { } }");
+  auto s = scene_of(
+      "Switch { whichChoice 1 choice [ Group { } DEF Shown Group { } ] } LOD { level [ DEF Fine Group { } Group { } ] "
+      "} Collision { proxy Group { } children DEF Seen Group { } }");
   auto name = [&](int root) { return s.name(shown_children(s, s.main.roots[static_cast<std::size_t>(root)]).at(0)); };
   CHECK(name(0) == "Shown");
   CHECK(name(1) == "Fine");

@@ -38,7 +38,10 @@ struct Job {
 struct Bounds {
   double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
   void add(double x, double y) {
-    left = std::min(left, x), right = std::max(right, x), bottom = std::min(bottom, y), top = std::max(top, y);
+    left = std::min(left, x);
+    right = std::max(right, x);
+    bottom = std::min(bottom, y);
+    top = std::max(top, y);
   }
 };
 
@@ -424,7 +427,7 @@ TEST_CASE("UTF-8, good and bad", "[text]") {
   CHECK(mesh_of("\xe4\xb8\xad") == mesh_of("\xe5\x9b\xbd"));  // not in DejaVu: the same box for both
   CHECK(mesh_of("a\nb\x01\x7f") == mesh_of("ab"));
   CHECK(mesh_of("a\tb") == mesh_of("a b"));
-  CHECK(job.diag.count(Diag::missing_glyph) == 2);                // of those two
+  CHECK(job.diag.count(Diag::missing_glyph) == 2);  // of those two
   CHECK(job.diag.messages().size() == 2);
 }
 

@@ -7,12 +7,12 @@
 #include <set>
 #include <utility>
 
-#include "parsers/parsers.h"
 #include "base/parallel.h"
-#include "passes/pipeline/pipeline.h"
 #include "geometry/unwrap/pack.h"
 #include "geometry/unwrap/rows.h"
 #include "geometry/unwrap/unfold.h"
+#include "parsers/parsers.h"
+#include "passes/pipeline/pipeline.h"
 
 using namespace wrlkit;
 using namespace wrlkit::unwrap;
@@ -63,8 +63,12 @@ using P3 = std::array<double, 3>;
 Solid cube() {
   Solid s;
   for (int i = 0; i < 8; ++i) s.point(i & 1, i >> 1 & 1, i >> 2 & 1);
-  s.quad(0, 2, 3, 1), s.quad(4, 5, 7, 6), s.quad(0, 1, 5, 4), s.quad(2, 6, 7, 3), s.quad(0, 4, 6, 2),
-      s.quad(1, 3, 7, 5);
+  s.quad(0, 2, 3, 1);
+  s.quad(4, 5, 7, 6);
+  s.quad(0, 1, 5, 4);
+  s.quad(2, 6, 7, 3);
+  s.quad(0, 4, 6, 2);
+  s.quad(1, 3, 7, 5);
   return s;
 }
 
@@ -105,7 +109,8 @@ void for_each_texel(const Triangle2& t, F&& f) {
       if ((a.y <= at) == (b.y <= at)) continue;
       if (a.y > b.y) std::swap(a, b);
       double x = a.x + (b.x - a.x) * (at - a.y) / (b.y - a.y);
-      low = std::min(low, x), high = std::max(high, x);
+      low = std::min(low, x);
+      high = std::max(high, x);
     }
     for (int x = static_cast<int>(std::ceil(low - 0.5)); x + 0.5 < high; ++x) f(x, y);
   }
@@ -150,7 +155,8 @@ double stretch(const Solid& s, const Charts& c) {
     Point2 u = p[1] - p[0], v = p[2] - p[0];
     double uu = square(0, 1), vv = square(0, 2), uv = (uu + vv - square(1, 2)) / 2;
     sum += a * (dot(v, v) * uu - 2 * dot(u, v) * uv + dot(u, u) * vv) / (4 * b * b) / 2;
-    a3 += a, a2 += b;
+    a3 += a;
+    a2 += b;
   }
   return std::sqrt(sum / a3 * a2 / a3);
 }
@@ -173,7 +179,10 @@ Texels texels(std::span<const PackItem> items, const Atlas& atlas, int padding) 
   auto own = [&](std::uint32_t page, Point2 middle, std::uint64_t who) {
     int x = static_cast<int>(std::floor(middle.x)), y = static_cast<int>(std::floor(middle.y));
     const Page& p = atlas.pages.at(page);
-    if (x < 0 || y < 0 || x >= p.width || y >= p.height) return void(++r.outside);
+    if (x < 0 || y < 0 || x >= p.width || y >= p.height) {
+      ++r.outside;
+      return;
+    }
     std::uint64_t& o = r.owner[page][std::size_t(y) * p.width + x];
     r.shared += o != nobody && o != who;
     o = who;
@@ -398,8 +407,14 @@ TEST_CASE("unwrap: broken triangles have harmless places") {
   std::size_t good = s.size();
   auto far = s.point(NAN, 0, 0), infinite = s.point(HUGE_VAL, 1, 1), huge = s.point(1e300, 1, 1);
   auto middle = s.point(0.5, 0, 0), same = s.point(0, 0, 0);
-  s.triangle(0, 1, far), s.triangle(0, 1, infinite), s.triangle(1, 2, huge);
-  s.triangle(2, 2, 2), s.triangle(0, 0, 1), s.triangle(0, same, 0), s.triangle(0, middle, 1), s.triangle(0, 1, 999999);
+  s.triangle(0, 1, far);
+  s.triangle(0, 1, infinite);
+  s.triangle(1, 2, huge);
+  s.triangle(2, 2, 2);
+  s.triangle(0, 0, 1);
+  s.triangle(0, same, 0);
+  s.triangle(0, middle, 1);
+  s.triangle(0, 1, 999999);
   Charts c = s.charts();
   check(s, c);
   for (std::size_t t = 0; t < good; ++t) CHECK(c.chart_of[t] == 0);

@@ -65,11 +65,21 @@ TEST_CASE("placement: fields and matrix agree, whatever is added", "[vrml1]") {
       const Vec3 v{number(random), number(random), number(random)};
       const Vec4 r{0.6, 0, 0.8, number(random)};
       switch (kind(random)) {
-        case 0: p.then(TransformFields{.translation = v}); break;
-        case 1: p.then(TransformFields{.rotation = r}); break;
-        case 2: p.then(TransformFields{.scale = v}); break;
-        case 3: p.then(TransformFields{.translation = v, .rotation = r, .center = {v[1], v[2], v[0]}}); break;
-        default: p.then(translation_matrix(v)); break;
+        case 0:
+          p.then(TransformFields{.translation = v});
+          break;
+        case 1:
+          p.then(TransformFields{.rotation = r});
+          break;
+        case 2:
+          p.then(TransformFields{.scale = v});
+          break;
+        case 3:
+          p.then(TransformFields{.translation = v, .rotation = r, .center = {v[1], v[2], v[0]}});
+          break;
+        default:
+          p.then(translation_matrix(v));
+          break;
       }
       REQUIRE(difference(matrix_of(p.fields()), p.matrix()) < 1e-8);
     }

@@ -55,7 +55,10 @@ struct Bench {
     std::vector<Face> loose;
     for (const Face& f : faces) {
       loose.emplace_back();
-      for (auto p : f) loose.back().push_back(static_cast<std::uint32_t>(own.size())), own.push_back(points[p]);
+      for (auto p : f) {
+        loose.back().push_back(static_cast<std::uint32_t>(own.size()));
+        own.push_back(points[p]);
+      }
     }
     set(own, loose);
   }
@@ -131,8 +134,10 @@ TEST_CASE("weld with a tolerance does what comparing with every point does") {
     for (Point& p : points) p = {where(random), where(random), where(random) * 0.1};
     std::vector<std::uint32_t> index(points.size());
     std::vector<double> flat;
-    for (std::uint32_t i = 0; i < points.size(); ++i)
-      index[i] = i, flat.insert(flat.end(), points[i].begin(), points[i].end());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      index[i] = i;
+      flat.insert(flat.end(), points[i].begin(), points[i].end());
+    }
     PointJoiner joiner;
     StampedMap map;
     joiner.join_equal(flat, index, map);
@@ -153,8 +158,10 @@ TEST_CASE("weld with a tolerance makes no chains") {
   for (int i = 0; i < 100; ++i) points.push_back({i * 0.6, 0, 0});
   std::vector<double> flat;
   std::vector<std::uint32_t> index;
-  for (const Point& p : points)
-    index.push_back(static_cast<std::uint32_t>(index.size())), flat.insert(flat.end(), p.begin(), p.end());
+  for (const Point& p : points) {
+    index.push_back(static_cast<std::uint32_t>(index.size()));
+    flat.insert(flat.end(), p.begin(), p.end());
+  }
   PointJoiner joiner;
   StampedMap map;
   joiner.join_equal(flat, index, map);

@@ -7,10 +7,10 @@
 #include <set>
 #include <string>
 
-#include "parsers/parsers.h"
 #include "geometry/geometry.h"
-#include "passes/pipeline/pipeline.h"
 #include "geometry/shapes/vector.h"
+#include "parsers/parsers.h"
+#include "passes/pipeline/pipeline.h"
 #include "passes/triangulate/triangulate.h"
 #include "passes/weld/weld.h"
 #include "scenegraph/nodes.h"

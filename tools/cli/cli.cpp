@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "geometry/simplify/levels.h"
 #include "base/image/image.h"
-#include "tools/profiles.h"
+#include "geometry/simplify/levels.h"
 #include "tools/cli/python_passes.h"
 #include "tools/cli/recipe.h"
+#include "tools/profiles.h"
 
 #ifndef WRLKIT_VERSION
 #define WRLKIT_VERSION "unknown"
@@ -23,7 +23,9 @@ namespace {
 // -Werror=NAME and -Wno-NAME look like bundled short flags to CLI11; they are taken out before.
 std::vector<std::string> take_warning_flags(std::vector<std::string>& words) {
   std::vector<std::string> out;
-  std::erase_if(words, [&](const std::string& w) { return w.starts_with("-W") && w.size() > 2 && (out.push_back(w.substr(2)), true); });
+  std::erase_if(words, [&](const std::string& w) {
+    return w.starts_with("-W") && w.size() > 2 && (out.push_back(w.substr(2)), true);
+  });
   return out;
 }
 
@@ -34,38 +36,52 @@ void common(CLI::App& verb, Flags& f) {
   g->add_flag("--json", f.json, "print for machines");
   g->add_flag("--strict", f.strict, "every repair is an error");
   g->add_option("--report", f.report, "write what happened to this file, as JSON")->type_name("FILE");
-  g->add_option("--allow-path", f.allow_paths, "files below this folder may be read, too (Inline, textures)")->type_name("DIR")->allow_extra_args(false);
+  g->add_option("--allow-path", f.allow_paths, "files below this folder may be read, too (Inline, textures)")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
   g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
-  g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")->type_name("SIZE")->check([](const std::string& s) { return size_of(s) ? "" : "'" + s + "' is no size"; }, "", "");
+  g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")
+      ->type_name("SIZE")
+      ->check([](const std::string& s) { return size_of(s) ? "" : "'" + s + "' is no size"; }, "", "");
 }
 
 void input(CLI::App& verb, Flags& f) {
-  verb.add_option_function<std::string>("IN", [&f](const std::string& path) { f.inputs = {path}; }, "the world; - is standard input")->required();
+  verb.add_option_function<std::string>(
+          "IN", [&f](const std::string& path) { f.inputs = {path}; }, "the world; - is standard input")
+      ->required();
 }
 
 void placing(CLI::App& verb, Flags& f) {
-  verb.add_option("--unit", f.unit, "what one unit of the input is: m, cm, mm, in, ft")->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
+  verb.add_option("--unit", f.unit, "what one unit of the input is: m, cm, mm, in, ft")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
   verb.add_option("--up", f.up, "which axis of the input points up: y, z, x")->check(CLI::IsMember({"y", "z", "x"}));
 }
 
 void python(CLI::App& verb, Flags& f) {
-  verb.add_option("--python", f.python, "a file with passes in Python, which then have a name like all others; see docs/python.md")->type_name("FILE")->allow_extra_args(false);
+  verb.add_option("--python", f.python,
+                  "a file with passes in Python, which then have a name like all others; see docs/python.md")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
 void pipeline(CLI::App& verb, Flags& f) {
-  verb.add_option("-p,--pipeline", f.pipeline, "passes to run, or the name of a pipeline; see wrlkit passes")->type_name("PASSES");
+  verb.add_option("-p,--pipeline", f.pipeline, "passes to run, or the name of a pipeline; see wrlkit passes")
+      ->type_name("PASSES");
   python(verb, f);
   verb.add_flag("--print-pipeline", f.print_pipeline, "print the whole pipeline with all options, and end");
   verb.add_flag("--verify-each", f.verify_each, "check the scene after each pass");
-  verb.add_option("--print-after", f.print_after, "print the scene as VRML after this pass, or after all")->type_name("PASS");
+  verb.add_option("--print-after", f.print_after, "print the scene as VRML after this pass, or after all")
+      ->type_name("PASS");
   verb.add_flag("--time-passes", f.time_passes, "print how long each pass took");
   verb.add_flag("--stats", f.stats, "print what the passes counted");
 }
 
 void vrml_output(CLI::App& verb, Flags& f) {
   verb.add_flag("--gzip", f.gzip, "compress VRML output");
-  verb.add_flag("--dump", f.dump, "VRML output with wrlkit's own fields, which no browser knows: the scene as passes leave it");
-  verb.add_option("--precision", f.precision, "significant digits of VRML output; 0: all that are needed")->check(CLI::Range(0, 17));
+  verb.add_flag("--dump", f.dump,
+                "VRML output with wrlkit's own fields, which no browser knows: the scene as passes leave it");
+  verb.add_option("--precision", f.precision, "significant digits of VRML output; 0: all that are needed")
+      ->check(CLI::Range(0, 17));
 }
 
 std::vector<std::string> profile_names() {
@@ -75,24 +91,57 @@ std::vector<std::string> profile_names() {
 }
 
 void small_gltf(CLI::App& verb, Flags& f) {
-  verb.add_option("--compress", f.compress, "vertices in glTF: none, as floats; quantize, in fewer bits; meshopt, that and packed; draco, packed smaller, each mesh by itself")
-      ->check(CLI::IsMember({"none", "quantize", "meshopt", "draco"}))->capture_default_str();
-  auto* tolerance = verb.add_option("--tolerance", f.tolerance, "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; as a rule 1mm, or less in a small world")->type_name("LENGTH");
-  verb.add_option("--position-bits", f.position_bits, "instead of that, bits of the extent of each mesh")->check(CLI::Range(1, 16))->excludes(tolerance);
+  verb.add_option("--compress", f.compress,
+                  "vertices in glTF: none, as floats; quantize, in fewer bits; meshopt, that and packed; draco, packed "
+                  "smaller, each mesh by itself")
+      ->check(CLI::IsMember({"none", "quantize", "meshopt", "draco"}))
+      ->capture_default_str();
+  auto* tolerance = verb.add_option("--tolerance", f.tolerance,
+                                    "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; "
+                                    "as a rule 1mm, or less in a small world")
+                        ->type_name("LENGTH");
+  verb.add_option("--position-bits", f.position_bits, "instead of that, bits of the extent of each mesh")
+      ->check(CLI::Range(1, 16))
+      ->excludes(tolerance);
   verb.add_option("--normal-bits", f.normal_bits, "of each component")->check(CLI::Range(2, 8))->capture_default_str();
-  verb.add_option("--texcoord-bits", f.texcoord_bits, "of a picture's width and height; of a lightmap's two more")->check(CLI::Range(1, 16))->capture_default_str();
-  verb.add_option("--draco-level", f.draco_level, "0: fast, 10: small")->check(CLI::Range(0, 10))->capture_default_str();
-  verb.add_option("--extras", f.extras, "what VRML says and glTF cannot, kept in extras: all, so that the same VRML can be made again; facts, what nodes say that draw nothing, links and descriptions; none")
-      ->check(CLI::IsMember({"all", "facts", "none"}))->capture_default_str();
-  verb.add_option("--texture-format", f.texture_format, "pictures in glTF: keep, PNG and JPEG as they are; png; jpeg, of colours without alpha, where it is smaller; webp, of colours, where it is smaller (EXT_texture_webp)")
-      ->check(CLI::IsMember({"keep", "png", "jpeg", "webp"}))->capture_default_str();
-  verb.add_option("--texture-quality", f.texture_quality, "of JPEG and WebP")->check(CLI::Range(1, 100))->capture_default_str();
-  verb.add_option("--texture-size", f.texture_size, "pictures in glTF have so many pixels along their longer side, at most; 0: as they are")->check(CLI::Range(0, static_cast<int>(max_image_side)))->type_name("PIXELS")->capture_default_str();
-  verb.add_flag("--gpu-instancing", f.gpu_instancing, "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call (EXT_mesh_gpu_instancing; not every viewer knows it)");
-  verb.add_option("--names", f.names, "names of parts in glTF: nodes, each part is one; table, a table of names and groups that places and merged meshes refer to (EXT_structural_metadata, EXT_mesh_gpu_instancing; with --extras facts)")
-      ->check(CLI::IsMember({"nodes", "table"}))->capture_default_str();
-  verb.add_option("--profile", f.profile, "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")->check(CLI::IsMember(profile_names()));
-  verb.add_option("--color-bits", f.color_bits, "of each component, in linear light")->check(CLI::Range(1, 16))->capture_default_str();
+  verb.add_option("--texcoord-bits", f.texcoord_bits, "of a picture's width and height; of a lightmap's two more")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  verb.add_option("--draco-level", f.draco_level, "0: fast, 10: small")
+      ->check(CLI::Range(0, 10))
+      ->capture_default_str();
+  verb.add_option("--extras", f.extras,
+                  "what VRML says and glTF cannot, kept in extras: all, so that the same VRML can be made again; "
+                  "facts, what nodes say that draw nothing, links and descriptions; none")
+      ->check(CLI::IsMember({"all", "facts", "none"}))
+      ->capture_default_str();
+  verb.add_option("--texture-format", f.texture_format,
+                  "pictures in glTF: keep, PNG and JPEG as they are; png; jpeg, of colours without alpha, where it is "
+                  "smaller; webp, of colours, where it is smaller (EXT_texture_webp)")
+      ->check(CLI::IsMember({"keep", "png", "jpeg", "webp"}))
+      ->capture_default_str();
+  verb.add_option("--texture-quality", f.texture_quality, "of JPEG and WebP")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  verb.add_option("--texture-size", f.texture_size,
+                  "pictures in glTF have so many pixels along their longer side, at most; 0: as they are")
+      ->check(CLI::Range(0, static_cast<int>(max_image_side)))
+      ->type_name("PIXELS")
+      ->capture_default_str();
+  verb.add_flag("--gpu-instancing", f.gpu_instancing,
+                "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call "
+                "(EXT_mesh_gpu_instancing; not every viewer knows it)");
+  verb.add_option("--names", f.names,
+                  "names of parts in glTF: nodes, each part is one; table, a table of names and groups that places and "
+                  "merged meshes refer to (EXT_structural_metadata, EXT_mesh_gpu_instancing; with --extras facts)")
+      ->check(CLI::IsMember({"nodes", "table"}))
+      ->capture_default_str();
+  verb.add_option("--profile", f.profile,
+                  "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")
+      ->check(CLI::IsMember(profile_names()));
+  verb.add_option("--color-bits", f.color_bits, "of each component, in linear light")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
 }
 
 bool is_level(const std::string& s) {
@@ -103,21 +152,40 @@ void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint");
   verb.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
   verb.add_option("--look-at", f.look_at, "eye, target and up: nine numbers")->expected(9)->delimiter(',');
-  verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")->expected(3)->delimiter(',');
-  verb.add_option("--headlight", f.headlight, "on or off, whatever NavigationInfo says")->check(CLI::IsMember({"on", "off"}));
-  verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")->check(CLI::Range(0.0, 179.0));
-  verb.add_option("--mode", f.mode, "preview; path: with shadows and reflected light, as noisy as --samples are few; wireframe; albedo: no light; and of lightmaps: the light alone, its texels as a checker, their density (texels a metre)")->check(CLI::IsMember({"preview", "path", "wireframe", "albedo", "lightmap", "checker", "density"}))->capture_default_str();
+  verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")
+      ->expected(3)
+      ->delimiter(',');
+  verb.add_option("--headlight", f.headlight, "on or off, whatever NavigationInfo says")
+      ->check(CLI::IsMember({"on", "off"}));
+  verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")
+      ->check(CLI::Range(0.0, 179.0));
+  verb.add_option(
+          "--mode", f.mode,
+          "preview; path: with shadows and reflected light, as noisy as --samples are few; wireframe; albedo: no "
+          "light; and of lightmaps: the light alone, its texels as a checker, their density (texels a metre)")
+      ->check(CLI::IsMember({"preview", "path", "wireframe", "albedo", "lightmap", "checker", "density"}))
+      ->capture_default_str();
 }
 
 void corpus_inputs(CLI::App& verb, Flags& f) {
   verb.add_option("RECIPE", f.recipe, "a recipe; see docs/recipes.md")->required();
-  verb.add_option("IN", f.inputs, "folders, globs, worlds, @FILE: a list of worlds; -: such a list on standard input")->required();
-  verb.add_option("-o,--output", f.output, "folder for the outputs, which stand in it as the inputs in theirs")->required()->type_name("DIR");
-  verb.add_option("--format", f.format, "ending of the outputs")->check(CLI::IsMember({"glb", "gltf", "wrl", "wrz", "wrl.gz", "x3d", "x3dz"}))->capture_default_str();
+  verb.add_option("IN", f.inputs, "folders, globs, worlds, @FILE: a list of worlds; -: such a list on standard input")
+      ->required();
+  verb.add_option("-o,--output", f.output, "folder for the outputs, which stand in it as the inputs in theirs")
+      ->required()
+      ->type_name("DIR");
+  verb.add_option("--format", f.format, "ending of the outputs")
+      ->check(CLI::IsMember({"glb", "gltf", "wrl", "wrz", "wrl.gz", "x3d", "x3dz"}))
+      ->capture_default_str();
   verb.add_option("--include", f.include, "of folders, only files like these: '*.wrl', 'unit_1/**'")->type_name("GLOB");
   verb.add_option("--exclude", f.exclude, "of folders, no files like these")->type_name("GLOB");
-  verb.add_option("--base", f.base, "files of lists stand in the output as below this folder; else as below the current one")->type_name("DIR");
-  verb.add_option("--shard", f.shard, "only a part of the files: 2/8, the second of eight; auto, auto/8: by the environment of Slurm or Kubernetes")->type_name("I/N");
+  verb.add_option("--base", f.base,
+                  "files of lists stand in the output as below this folder; else as below the current one")
+      ->type_name("DIR");
+  verb.add_option(
+          "--shard", f.shard,
+          "only a part of the files: 2/8, the second of eight; auto, auto/8: by the environment of Slurm or Kubernetes")
+      ->type_name("I/N");
 }
 
 struct Verb {
@@ -128,23 +196,34 @@ struct Verb {
 
 const Verb verbs[] = {
     {"convert", "convert a world; the name of OUT decides the format",
-     "wrlkit convert plant.wrl plant.glb\n  wrlkit convert plant.wrl small.glb --compress meshopt --tolerance 1mm\n  wrlkit convert old.wrl.gz new.wrl -p inline,expand-protos --gzip",
+     "wrlkit convert plant.wrl plant.glb\n  wrlkit convert plant.wrl small.glb --compress meshopt --tolerance 1mm\n  "
+     "wrlkit convert old.wrl.gz new.wrl -p inline,expand-protos --gzip",
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.add_option("OUT", f.output, "file.glb, .gltf, .wrl, .wrz")->required();
        pipeline(v, f);
-       v.add_option("--recipe", f.recipe, "passes and options from a recipe, as far as they are not given here; see docs/recipes.md")->type_name("FILE");
+       v.add_option("--recipe", f.recipe,
+                    "passes and options from a recipe, as far as they are not given here; see docs/recipes.md")
+           ->type_name("FILE");
        v.add_flag("--print-recipe", f.print_recipe, "print the whole pipeline and all options as a recipe, and end");
-       v.add_option("--lightmap-as", f.lightmap_as, "baked light in glTF: base-color, in the texture of unlit materials; emissive; occlusion, its brightness alone; moz, as MOZ_lightmap; extras, for programs that look there")
-           ->check(CLI::IsMember({"base-color", "emissive", "occlusion", "moz", "extras"}))->capture_default_str();
-       v.add_flag("--animation-pointer", f.animation_pointer, "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few viewers know");
+       v.add_option("--lightmap-as", f.lightmap_as,
+                    "baked light in glTF: base-color, in the texture of unlit materials; emissive; occlusion, its "
+                    "brightness alone; moz, as MOZ_lightmap; extras, for programs that look there")
+           ->check(CLI::IsMember({"base-color", "emissive", "occlusion", "moz", "extras"}))
+           ->capture_default_str();
+       v.add_flag("--animation-pointer", f.animation_pointer,
+                  "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few "
+                  "viewers know");
        small_gltf(v, f);
        placing(v, f);
        vrml_output(v, f);
      },
      run_convert},
-    {"optimize", "a small glTF file: equal parts shared, vertices in as few bits as a tolerance allows, packed; names and parts stay",
-     "wrlkit optimize plant.wrl plant.glb\n  wrlkit optimize plant.wrl plant.glb --profile cesium --tolerance 2mm --json\n  wrlkit optimize --profile unity --print-profile",
+    {"optimize",
+     "a small glTF file: equal parts shared, vertices in as few bits as a tolerance allows, packed; names and parts "
+     "stay",
+     "wrlkit optimize plant.wrl plant.glb\n  wrlkit optimize plant.wrl plant.glb --profile cesium --tolerance 2mm "
+     "--json\n  wrlkit optimize --profile unity --print-profile",
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.get_option("IN")->required(false);
@@ -156,7 +235,11 @@ const Verb verbs[] = {
      },
      run_optimize},
     {"info", "what is inside: nodes, triangles, bounds, textures, lights", "wrlkit info plant.wrl --json",
-     [](CLI::App& v, Flags& f) { input(v, f); placing(v, f); }, run_info},
+     [](CLI::App& v, Flags& f) {
+       input(v, f);
+       placing(v, f);
+     },
+     run_info},
     {"check", "faults and doubtful places of worlds", "wrlkit check *.wrl",
      [](CLI::App& v, Flags& f) {
        v.add_option("IN", f.inputs, "worlds")->required();
@@ -171,120 +254,251 @@ const Verb verbs[] = {
        vrml_output(v, f);
      },
      run_cat},
-    {"diff", "how two worlds differ: structure, names, materials, and the distance of their surfaces; exit code 0 when they do, too",
+    {"diff",
+     "how two worlds differ: structure, names, materials, and the distance of their surfaces; exit code 0 when they "
+     "do, too",
      "wrlkit diff plant.wrl simpler.wrl\n  wrlkit diff plant.wrl simpler.wrl --json",
      [](CLI::App& v, Flags& f) {
        for (const char* name : {"A", "B"})
-         v.add_option_function<std::string>(name, [&f](const std::string& path) { f.inputs.push_back(path); }, "a world; - is standard input")->required();
+         v.add_option_function<std::string>(
+              name, [&f](const std::string& path) { f.inputs.push_back(path); }, "a world; - is standard input")
+             ->required();
        placing(v, f);
      },
      run_diff},
     {"render", "a picture of the world, without a display; of two worlds and how they differ; of many worlds",
-     "wrlkit render plant.wrl plant.png --viewpoint Overview\n  wrlkit render plant.wrl apart.png --compare simpler.wrl\n  wrlkit render valve.wrl valve.webp --turntable 36\n  wrlkit render old/ new/pump.wrl sheet.png",
+     "wrlkit render plant.wrl plant.png --viewpoint Overview\n  wrlkit render plant.wrl apart.png --compare "
+     "simpler.wrl\n  wrlkit render valve.wrl valve.webp --turntable 36\n  wrlkit render old/ new/pump.wrl sheet.png",
      [](CLI::App& v, Flags& f) {
-       v.add_option_function<std::vector<std::string>>("IN", [&f](const std::vector<std::string>& files) { f.inputs.assign(files.begin(), files.end() - 1), f.output = files.back(); },
-                    "the world, and the picture: file.png, .jpg or .webp; of several worlds, folders of worlds, globs or @FILE, a list of worlds, it is a contact sheet with a picture each")
-           ->required()->expected(2, 1'000'000)->type_name("... OUT");
-       v.add_option("--compare", f.compare, "another world: both from where the first is seen, and how the pictures differ, brighter than it is")->type_name("FILE");
-       v.add_option("--turntable", f.turntable, "so many pictures around the middle of the world: OUT_000.png, OUT_001.png, ..., or of OUT.webp one animation")->check(CLI::Range(1, 3600))->type_name("N");
-       v.add_option("--width", f.width, "pixels; in a contact sheet 320 when it is not said")->check(CLI::Range(1, 16384))->capture_default_str();
-       v.add_option("--height", f.height, "pixels; in a contact sheet 240 when it is not said")->check(CLI::Range(1, 16384))->capture_default_str();
-       v.add_option("--samples", f.samples, "samples a pixel, along each side; beyond 16 for --mode path only")->check(CLI::Range(1, 64))->capture_default_str();
-       v.add_option("--level", f.level, "of each LOD: that level, from 0, or its last; auto, by the distance, as browsers choose")->check([](const std::string& s) { return is_level(s) ? "" : "'" + s + "' is neither a number from 0 to 999 nor auto"; }, "", "")->type_name("N|auto")->capture_default_str();
+       v.add_option_function<std::vector<std::string>>(
+            "IN",
+            [&f](const std::vector<std::string>& files) {
+              f.inputs.assign(files.begin(), files.end() - 1);
+              f.output = files.back();
+            },
+            "the world, and the picture: file.png, .jpg or .webp; of several worlds, folders of worlds, globs or "
+            "@FILE, a list of worlds, it is a contact sheet with a picture each")
+           ->required()
+           ->expected(2, 1'000'000)
+           ->type_name("... OUT");
+       v.add_option(
+            "--compare", f.compare,
+            "another world: both from where the first is seen, and how the pictures differ, brighter than it is")
+           ->type_name("FILE");
+       v.add_option("--turntable", f.turntable,
+                    "so many pictures around the middle of the world: OUT_000.png, OUT_001.png, ..., or of OUT.webp "
+                    "one animation")
+           ->check(CLI::Range(1, 3600))
+           ->type_name("N");
+       v.add_option("--width", f.width, "pixels; in a contact sheet 320 when it is not said")
+           ->check(CLI::Range(1, 16384))
+           ->capture_default_str();
+       v.add_option("--height", f.height, "pixels; in a contact sheet 240 when it is not said")
+           ->check(CLI::Range(1, 16384))
+           ->capture_default_str();
+       v.add_option("--samples", f.samples, "samples a pixel, along each side; beyond 16 for --mode path only")
+           ->check(CLI::Range(1, 64))
+           ->capture_default_str();
+       v.add_option("--level", f.level,
+                    "of each LOD: that level, from 0, or its last; auto, by the distance, as browsers choose")
+           ->check(
+               [](const std::string& s) {
+                 return is_level(s) ? "" : "'" + s + "' is neither a number from 0 to 999 nor auto";
+               },
+               "", "")
+           ->type_name("N|auto")
+           ->capture_default_str();
        pictures(v, f);
        pipeline(v, f);
        placing(v, f);
      },
      run_render},
-    {"simplify", "the world at falling numbers of triangles, a file each, and all of them as levels of detail in one file",
-     "wrlkit simplify valve.wrl --every 1000 -o out/\n  wrlkit simplify valve.wrl --ratios 0.5,0.25 -o out/\n  wrlkit simplify valve.wrl --error 1mm,5mm -o out/\n  wrlkit simplify valve.wrl --progressive -o out/",
+    {"simplify",
+     "the world at falling numbers of triangles, a file each, and all of them as levels of detail in one file",
+     "wrlkit simplify valve.wrl --every 1000 -o out/\n  wrlkit simplify valve.wrl --ratios 0.5,0.25 -o out/\n  wrlkit "
+     "simplify valve.wrl --error 1mm,5mm -o out/\n  wrlkit simplify valve.wrl --progressive -o out/",
      [](CLI::App& v, Flags& f) {
        input(v, f);
-       v.add_option("-o,--output", f.output, "folder for the files; made when it is not there")->required()->type_name("DIR");
-       v.add_option("--every", f.every, "a file each time that so many triangles have gone: at the multiples of N")->check(CLI::Range(1, 1'000'000'000))->type_name("N");
+       v.add_option("-o,--output", f.output, "folder for the files; made when it is not there")
+           ->required()
+           ->type_name("DIR");
+       v.add_option("--every", f.every, "a file each time that so many triangles have gone: at the multiples of N")
+           ->check(CLI::Range(1, 1'000'000'000))
+           ->type_name("N");
        v.add_option("--counts", f.counts, "a file at each of these numbers of triangles")->delimiter(',');
-       v.add_option("--ratios", f.ratios, "a file at each of these shares of the triangles")->delimiter(',')->check(CLI::Range(0.0, 1.0));
-       v.add_option("--error", f.errors, "a file with each surface as simple as it can be within this distance: 2mm, 0.5in; a number is in metres")->delimiter(',')->type_name("LENGTH");
-       v.add_flag("--progressive", f.progressive, "instead of worlds, one .wpm file: from coarse to exactly the original, for viewers that show what has come in");
+       v.add_option("--ratios", f.ratios, "a file at each of these shares of the triangles")
+           ->delimiter(',')
+           ->check(CLI::Range(0.0, 1.0));
+       v.add_option(
+            "--error", f.errors,
+            "a file with each surface as simple as it can be within this distance: 2mm, 0.5in; a number is in metres")
+           ->delimiter(',')
+           ->type_name("LENGTH");
+       v.add_flag("--progressive", f.progressive,
+                  "instead of worlds, one .wpm file: from coarse to exactly the original, for viewers that show what "
+                  "has come in");
        v.add_option("--criterion", f.criterion, "which edges collapse first")->check(CLI::IsMember(criterion_names()));
-       v.add_option("--pixels", f.pixels, "error that may be seen on a screen of 1080 pixels, for the ranges of the LOD nodes")->check(CLI::PositiveNumber)->capture_default_str();
+       v.add_option("--pixels", f.pixels,
+                    "error that may be seen on a screen of 1080 pixels, for the ranges of the LOD nodes")
+           ->check(CLI::PositiveNumber)
+           ->capture_default_str();
        pipeline(v, f);
        vrml_output(v, f);
      },
      run_simplify},
     {"compare-lod", "what each criterion makes of a world: a page of errors, times and pictures, or one picture of all",
-     "wrlkit compare-lod valve.wrl -o report.html\n  wrlkit compare-lod valve.wrl -o valve.png --counts 2000,500 --criteria melax,quadric --mode wireframe",
+     "wrlkit compare-lod valve.wrl -o report.html\n  wrlkit compare-lod valve.wrl -o valve.png --counts 2000,500 "
+     "--criteria melax,quadric --mode wireframe",
      [](CLI::App& v, Flags& f) {
        input(v, f);
-       v.add_option("-o,--output", f.output, "file.html; or file.png: the pictures alone, four in a row, a row for each criterion")->required()->type_name("FILE");
+       v.add_option("-o,--output", f.output,
+                    "file.html; or file.png: the pictures alone, four in a row, a row for each criterion")
+           ->required()
+           ->type_name("FILE");
        v.add_option("--counts", f.counts, "numbers of triangles to compare at")->delimiter(',');
-       v.add_option("--ratios", f.ratios, "instead of that, shares of the triangles; as a rule 0.5,0.25,0.1,0.05,0.02,0.01")->delimiter(',')->check(CLI::Range(0.0, 1.0));
-       v.add_option("--criteria", f.criteria, "which; as a rule all")->delimiter(',')->check(CLI::IsMember(criterion_names()));
+       v.add_option("--ratios", f.ratios,
+                    "instead of that, shares of the triangles; as a rule 0.5,0.25,0.1,0.05,0.02,0.01")
+           ->delimiter(',')
+           ->check(CLI::Range(0.0, 1.0));
+       v.add_option("--criteria", f.criteria, "which; as a rule all")
+           ->delimiter(',')
+           ->check(CLI::IsMember(criterion_names()));
        v.add_flag("--bare", f.bare, "the criterion alone decides: creases and borders are edges like others");
-       v.add_option("--size", f.picture_size, "pixels along each side of a picture")->check(CLI::Range(16, 2048))->capture_default_str();
-       v.add_option("--level", f.level, "of each LOD: that level, from 0, or its last; auto, by the distance, as browsers choose")->check([](const std::string& s) { return is_level(s) ? "" : "'" + s + "' is neither a number from 0 to 999 nor auto"; }, "", "")->type_name("N|auto")->capture_default_str();
+       v.add_option("--size", f.picture_size, "pixels along each side of a picture")
+           ->check(CLI::Range(16, 2048))
+           ->capture_default_str();
+       v.add_option("--level", f.level,
+                    "of each LOD: that level, from 0, or its last; auto, by the distance, as browsers choose")
+           ->check(
+               [](const std::string& s) {
+                 return is_level(s) ? "" : "'" + s + "' is neither a number from 0 to 999 nor auto";
+               },
+               "", "")
+           ->type_name("N|auto")
+           ->capture_default_str();
        pictures(v, f);
        pipeline(v, f);
      },
      run_compare_lod},
     {"illuminate", "the light of a world by global illumination, as patches with a colour each",
-     "wrlkit illuminate room.wrl patches.xml\n  wrlkit illuminate room.wrl patches.xml --method stochastic-iteration --max-edge 5cm --samples 64\n  wrlkit illuminate room.wrl.gz patches.xml.gz --gradient 0.2\n  wrlkit illuminate room.wrl patches.xml --pictures textures/ --smooth",
+     "wrlkit illuminate room.wrl patches.xml\n  wrlkit illuminate room.wrl patches.xml --method stochastic-iteration "
+     "--max-edge 5cm --samples 64\n  wrlkit illuminate room.wrl.gz patches.xml.gz --gradient 0.2\n  wrlkit illuminate "
+     "room.wrl patches.xml --pictures textures/ --smooth",
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.add_option("OUT", f.output, "file.xml or file.xml.gz; - is standard output")->required();
-       v.add_option("--method", f.method, "how: path, stochastic-iteration or progressive-radiosity")->check(CLI::IsMember({"path", "stochastic-iteration", "progressive-radiosity"}))->capture_default_str();
-       v.add_option("--samples", f.light_samples, "rays a patch: the error falls with their square root or faster")->check(CLI::Range(1, 1'000'000))->capture_default_str();
-       v.add_option("--max-edge", f.max_edge, "longest edge of a patch: 5cm, 0.05; as a rule what makes some twenty thousand patches")->type_name("LENGTH");
+       v.add_option("--method", f.method, "how: path, stochastic-iteration or progressive-radiosity")
+           ->check(CLI::IsMember({"path", "stochastic-iteration", "progressive-radiosity"}))
+           ->capture_default_str();
+       v.add_option("--samples", f.light_samples, "rays a patch: the error falls with their square root or faster")
+           ->check(CLI::Range(1, 1'000'000))
+           ->capture_default_str();
+       v.add_option("--max-edge", f.max_edge,
+                    "longest edge of a patch: 5cm, 0.05; as a rule what makes some twenty thousand patches")
+           ->type_name("LENGTH");
        v.add_option("--max-area", f.max_area, "largest area of a patch, in square metres")->check(CLI::PositiveNumber);
-       v.add_option("--gradient", f.gradient, "smaller patches, down to an eighth, where neighbours differ by more than this share of the world's mean radiance: 0.2")->check(CLI::PositiveNumber);
-       v.add_option("--max-patches", f.max_patches, "when there would be more, all are made larger, and --gradient ends; a patch takes some 260 bytes")->check(CLI::Range(1, 100'000'000))->capture_default_str();
-       auto* pictures = v.add_option("--pictures", f.pictures, "folder for the textures as well: a .png for each Shape with its flat polygons as they are lit")->type_name("DIR");
-       v.add_flag("--smooth", f.smooth, "the textures with three colours a patch, so that its edges are not seen")->needs(pictures);
-       v.add_option("--sky", f.sky, "what shines from beyond the world: its Background, none, or one radiance, as 0.5:0.5:1")->type_name("background|none|R:G:B")->capture_default_str();
-       v.add_option("--emission", f.emission, "emissiveColor shines so many times as bright as it looks")->check(CLI::NonNegativeNumber)->capture_default_str();
-       v.add_option("--seed", f.seed, "of the random numbers: the same seed gives the same file")->capture_default_str();
+       v.add_option("--gradient", f.gradient,
+                    "smaller patches, down to an eighth, where neighbours differ by more than this share of the "
+                    "world's mean radiance: 0.2")
+           ->check(CLI::PositiveNumber);
+       v.add_option("--max-patches", f.max_patches,
+                    "when there would be more, all are made larger, and --gradient ends; a patch takes some 260 bytes")
+           ->check(CLI::Range(1, 100'000'000))
+           ->capture_default_str();
+       auto* pictures =
+           v.add_option("--pictures", f.pictures,
+                        "folder for the textures as well: a .png for each Shape with its flat polygons as they are lit")
+               ->type_name("DIR");
+       v.add_flag("--smooth", f.smooth, "the textures with three colours a patch, so that its edges are not seen")
+           ->needs(pictures);
+       v.add_option("--sky", f.sky,
+                    "what shines from beyond the world: its Background, none, or one radiance, as 0.5:0.5:1")
+           ->type_name("background|none|R:G:B")
+           ->capture_default_str();
+       v.add_option("--emission", f.emission, "emissiveColor shines so many times as bright as it looks")
+           ->check(CLI::NonNegativeNumber)
+           ->capture_default_str();
+       v.add_option("--seed", f.seed, "of the random numbers: the same seed gives the same file")
+           ->capture_default_str();
        placing(v, f);
      },
      run_illuminate},
     {"view", "a page to look at the world, or to compare two: one HTML file that needs no other and no network",
-     "wrlkit view plant.wrl -o plant.html\n  wrlkit view plant.wrl simpler.wrl -o compared.html\n  wrlkit view valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view plant.wrl --serve",
+     "wrlkit view plant.wrl -o plant.html\n  wrlkit view plant.wrl simpler.wrl -o compared.html\n  wrlkit view "
+     "valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view plant.wrl --serve",
      [](CLI::App& v, Flags& f) {
        v.add_option("IN", f.inputs, "the world, or two worlds to be compared")->required()->expected(1, 2);
        v.add_option("-o,--output", f.output, "file.html; - is standard output")->type_name("FILE");
-       v.add_flag("--serve", f.serve, "show the page at an address of this machine, which nobody else can reach, until it is interrupted");
-       v.add_option("--criteria", f.criteria, "criteria whose collapses are shown step by step; as a rule three of a single world of up to 300,000 triangles")->delimiter(',')->check(CLI::IsMember(criterion_names()));
+       v.add_flag("--serve", f.serve,
+                  "show the page at an address of this machine, which nobody else can reach, until it is interrupted");
+       v.add_option("--criteria", f.criteria,
+                    "criteria whose collapses are shown step by step; as a rule three of a single world of up to "
+                    "300,000 triangles")
+           ->delimiter(',')
+           ->check(CLI::IsMember(criterion_names()));
        pipeline(v, f);
        placing(v, f);
      },
      run_view},
     {"corpus-run", "one recipe over many files, each in a process of its own; what was done before is not done again",
-     "wrlkit corpus run recipes/plant-web.toml plant/ -o web/\n  wrlkit corpus run recipes/archive.toml 'old/**/*.wrl' @more.txt -o new/ --jobs 8 --memory 32G --timeout 5m\n  wrlkit corpus run recipe.toml plant/ -o web/ --shard 2/8",
+     "wrlkit corpus run recipes/plant-web.toml plant/ -o web/\n  wrlkit corpus run recipes/archive.toml 'old/**/*.wrl' "
+     "@more.txt -o new/ --jobs 8 --memory 32G --timeout 5m\n  wrlkit corpus run recipe.toml plant/ -o web/ --shard 2/8",
      [](CLI::App& v, Flags& f) {
        corpus_inputs(v, f);
-       v.add_option("--timeout", f.timeout, "a file that takes longer is given up: 90s, 10m, 2h")->type_name("TIME")->capture_default_str()->check([](const std::string& s) { return seconds_of(s) > 0 ? "" : "'" + s + "' is no time; 90s, 10m, 2h"; }, "", "");
-       v.add_option("--joblog", f.joblog, "a line for each file as GNU parallel writes them, behind what is there")->type_name("FILE");
-       v.add_option("--bundle", f.bundle, "so many small files share a worker, one after the other, which takes a third of the time; 1: each has one of its own")->check(CLI::Range(1, 1000));
+       v.add_option("--timeout", f.timeout, "a file that takes longer is given up: 90s, 10m, 2h")
+           ->type_name("TIME")
+           ->capture_default_str()
+           ->check([](const std::string& s) { return seconds_of(s) > 0 ? "" : "'" + s + "' is no time; 90s, 10m, 2h"; },
+                   "", "");
+       v.add_option("--joblog", f.joblog, "a line for each file as GNU parallel writes them, behind what is there")
+           ->type_name("FILE");
+       v.add_option("--bundle", f.bundle,
+                    "so many small files share a worker, one after the other, which takes a third of the time; 1: each "
+                    "has one of its own")
+           ->check(CLI::Range(1, 1000));
        v.add_flag("--retry", f.retry, "files of which nothing could be made are tried again");
      },
      run_corpus_run},
     {"corpus-plan", "what corpus run would do: each file with its output, its shard and what it is likely to cost",
-     "wrlkit corpus plan recipes/plant-web.toml plant/ -o web/ --shard 1/8\n  wrlkit corpus plan recipes/plant-web.toml plant/ -o web/ --json",
+     "wrlkit corpus plan recipes/plant-web.toml plant/ -o web/ --shard 1/8\n  wrlkit corpus plan "
+     "recipes/plant-web.toml plant/ -o web/ --json",
      [](CLI::App& v, Flags& f) { corpus_inputs(v, f); }, run_corpus_plan},
-    {"corpus-report", "what a corpus run has come to: a page, tables, or what became worse since another run; exit code 1 when something did",
-     "wrlkit corpus report web/\n  wrlkit corpus report web/ -o report.html -o files.csv --compare web_before/\n  wrlkit corpus report web/ --looks 0 --json",
+    {"corpus-report",
+     "what a corpus run has come to: a page, tables, or what became worse since another run; exit code 1 when "
+     "something did",
+     "wrlkit corpus report web/\n  wrlkit corpus report web/ -o report.html -o files.csv --compare web_before/\n  "
+     "wrlkit corpus report web/ --looks 0 --json",
      [](CLI::App& v, Flags& f) {
-       v.add_option_function<std::string>("OUT", [&f](const std::string& path) { f.inputs = {path}; }, "the folder of the run")->required();
-       v.add_option("-o,--output", f.outputs, "file.html, .csv or .json; several times; OUT/report.html as a rule")->type_name("FILE");
+       v.add_option_function<std::string>(
+            "OUT", [&f](const std::string& path) { f.inputs = {path}; }, "the folder of the run")
+           ->required();
+       v.add_option("-o,--output", f.outputs, "file.html, .csv or .json; several times; OUT/report.html as a rule")
+           ->type_name("FILE");
        v.add_option("--compare", f.compare, "the folder of another run, before this one")->type_name("DIR");
-       v.add_option("--looks", f.looks, "of how many worlds, at the most, surfaces are compared and pictures drawn")->check(CLI::Range(0, 1'000'000))->capture_default_str();
+       v.add_option("--looks", f.looks, "of how many worlds, at the most, surfaces are compared and pictures drawn")
+           ->check(CLI::Range(0, 1'000'000))
+           ->capture_default_str();
      },
      run_corpus_report},
-    {"passes", "every pass, or one with its options", "wrlkit passes tessellate", [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "a pass"); python(v, f); }, run_passes},
+    {"passes", "every pass, or one with its options", "wrlkit passes tessellate",
+     [](CLI::App& v, Flags& f) {
+       v.add_option("NAME", f.name, "a pass");
+       python(v, f);
+     },
+     run_passes},
     {"formats", "what can be read and written", "wrlkit formats", [](CLI::App&, Flags&) {}, run_formats},
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",
-     [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "node type, pass or message")->required(); }, run_explain},
-    {"docs", "a page of the documentation that is made from the tables: nodes, passes, diagnostics, recipes or profiles", "wrlkit docs nodes",
-     [](CLI::App& v, Flags& f) { v.add_option("PAGE", f.name, "nodes, passes, diagnostics, recipes or profiles")->required()->check(CLI::IsMember({"nodes", "passes", "diagnostics", "recipes", "profiles"})); }, run_docs},
+     [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "node type, pass or message")->required(); },
+     run_explain},
+    {"docs",
+     "a page of the documentation that is made from the tables: nodes, passes, diagnostics, recipes or profiles",
+     "wrlkit docs nodes",
+     [](CLI::App& v, Flags& f) {
+       v.add_option("PAGE", f.name, "nodes, passes, diagnostics, recipes or profiles")
+           ->required()
+           ->check(CLI::IsMember({"nodes", "passes", "diagnostics", "recipes", "profiles"}));
+     },
+     run_docs},
 };
 
 void limit_memory(const Flags& f) {
@@ -315,7 +529,8 @@ std::unique_ptr<CLI::App> app_of(const Verb& verb, Flags& flags) {
 
 std::vector<CLI::Option*> long_options(const CLI::App& app) {
   std::vector<CLI::Option*> out;
-  for (auto* o : app.get_options([](const CLI::Option* o) { return !o->get_lnames().empty(); })) out.push_back(const_cast<CLI::Option*>(o));
+  for (auto* o : app.get_options([](const CLI::Option* o) { return !o->get_lnames().empty(); }))
+    out.push_back(const_cast<CLI::Option*>(o));
   for (auto* group : app.get_subcommands([](const CLI::App* a) { return a->get_name().empty(); }))
     for (auto* o : long_options(*group)) out.push_back(o);
   return out;
@@ -342,7 +557,9 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
     auto* sub = app.add_subcommand(v.name, v.help);
     v.flags(*sub, flags);
     common(*sub, flags);
-    sub->footer(std::string("-Werror=NAME and -Wno-NAME set the severity of one message (wrlkit explain NAME), -Werror that of all warnings.\n\nExample:\n  ") + v.example);
+    sub->footer(std::string("-Werror=NAME and -Wno-NAME set the severity of one message (wrlkit explain NAME), -Werror "
+                            "that of all warnings.\n\nExample:\n  ") +
+                v.example);
     sub->callback([&] { chosen = &v; });
   }
   try {
@@ -362,23 +579,30 @@ std::vector<std::string> words_of(const GivenOptions& options) {
   std::vector<std::string> words;
   for (const auto& [name, values] : options)
     for (const auto& v : values)
-      if (v.empty()) words.insert(words.end(), {"--" + name, ""});  // behind "=" CLI11 takes no value for a missing one
-      else words.push_back("--" + name + "=" + v);
+      if (v.empty())
+        words.insert(words.end(), {"--" + name, ""});  // behind "=" CLI11 takes no value for a missing one
+      else
+        words.push_back("--" + name + "=" + v);
   return words;
 }
 
-/// The command line with what its recipe says, as far as it does not say that itself. False, with a message, when the recipe
-/// is none.
-bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& words, std::vector<std::string>& warnings) {
+/// The command line with what its recipe says, as far as it does not say that itself. False, with a message, when the
+/// recipe is none.
+bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& words,
+                std::vector<std::string>& warnings) {
   std::string why;
   auto recipe = read_recipe(flags.recipe, why);
-  if (!recipe) return std::fputs(why.c_str(), stderr), false;
+  if (!recipe) {
+    std::fputs(why.c_str(), stderr);
+    return false;
+  }
   if (!recipe->python.empty()) recipe->options.emplace_back("python", recipe->python);
   if (recipe->pipeline) recipe->options.emplace_back("pipeline", std::vector{*recipe->pipeline});
   Flags unused;
   const auto app = app_of(verb, unused);
   std::erase_if(recipe->options, [&](const auto& o) {
-    return !app->get_option_no_throw("--" + o.first) || std::ranges::find(flags.given, o.first, &GivenOptions::value_type::first) != flags.given.end();
+    return !app->get_option_no_throw("--" + o.first) ||
+           std::ranges::find(flags.given, o.first, &GivenOptions::value_type::first) != flags.given.end();
   });
   const auto added = words_of(recipe->options);
   words.insert(std::ranges::find(words, verb.name) + 1, added.begin(), added.end());
@@ -394,7 +618,11 @@ std::uint64_t size_of(const std::string& s) {
   char* end = nullptr;
   double v = std::strtod(s.c_str(), &end);
   std::string unit = end;
-  double factor = unit == "G" || unit == "g" ? 1 << 30 : unit == "M" || unit == "m" ? 1 << 20 : unit == "K" || unit == "k" ? 1 << 10 : unit.empty() ? 1 : 0;
+  double factor = unit == "G" || unit == "g"   ? 1 << 30
+                  : unit == "M" || unit == "m" ? 1 << 20
+                  : unit == "K" || unit == "k" ? 1 << 10
+                  : unit.empty()               ? 1
+                                               : 0;
   return v > 0 ? static_cast<std::uint64_t>(v * factor) : 0;
 }
 
@@ -410,11 +638,14 @@ std::vector<OptionHelp> options_of(std::string_view verb) {
   Flags unused;
   const auto app = app_of(*find_verb(verb), unused);
   std::vector<OptionHelp> out;
-  for (auto* o : long_options(*app)) out.push_back({o->get_lnames()[0], is_flag(*o) ? std::string(flag_type) : o->get_type_name(), o->get_description()});
+  for (auto* o : long_options(*app))
+    out.push_back(
+        {o->get_lnames()[0], is_flag(*o) ? std::string(flag_type) : o->get_type_name(), o->get_description()});
   return out;
 }
 
-bool check_option(std::string_view verb, std::string_view option, const std::vector<std::string>& values, std::string& why) {
+bool check_option(std::string_view verb, std::string_view option, const std::vector<std::string>& values,
+                  std::string& why) {
   Flags unused;
   const auto app = app_of(*find_verb(verb), unused);
   auto* o = app->get_option("--" + std::string(option));
@@ -449,15 +680,23 @@ Flags conversion_flags(const Recipe& recipe) {
 int run_command_line(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const auto warnings = take_warning_flags(words);
-  if (words.size() > 1 && words[0] == "corpus" && !words[1].starts_with('-')) words[0] += "-" + words[1], words.erase(words.begin() + 1);
-  if (!words.empty() && !words[0].starts_with('-') && !find_verb(words[0]))
-    return std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str()), usage;
+  if (words.size() > 1 && words[0] == "corpus" && !words[1].starts_with('-')) {
+    words[0] += "-" + words[1];
+    words.erase(words.begin() + 1);
+  }
+  if (!words.empty() && !words[0].starts_with('-') && !find_verb(words[0])) {
+    std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str());
+    return usage;
+  }
   Flags flags;
   const Verb* chosen = nullptr;
   int code = parse(words, flags, chosen);
   std::vector<std::string> of_recipe;
   std::string why;
-  if (chosen && !load_python_passes(flags.python, why)) return std::fprintf(stderr, "wrlkit: --python: %s\n", why.c_str()), usage;
+  if (chosen && !load_python_passes(flags.python, why)) {
+    std::fprintf(stderr, "wrlkit: --python: %s\n", why.c_str());
+    return usage;
+  }
   if (chosen && !flags.recipe.empty()) {
     if (!add_recipe(flags, *chosen, words, of_recipe)) return usage;
     flags = {};

@@ -22,7 +22,8 @@ struct OptionHelp {
 /// The options of a verb, in the order of its help.
 std::vector<OptionHelp> options_of(std::string_view verb);
 /// Whether that option of a verb may be given so; else why not.
-bool check_option(std::string_view verb, std::string_view option, const std::vector<std::string>& values, std::string& why);
+bool check_option(std::string_view verb, std::string_view option, const std::vector<std::string>& values,
+                  std::string& why);
 
 /// The flags of a convert that does what a recipe says. The recipe has been read, so it says what convert understands.
 Flags conversion_flags(const Recipe& recipe);

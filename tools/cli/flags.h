@@ -10,24 +10,24 @@ namespace wrlkit {
 struct Flags {
   // every verb
   bool quiet = false, verbose = false, json = false, strict = false;
-  std::string report;                      // file for a JSON report
-  std::vector<std::string> warnings;       // -Werror=NAME, -Wno-NAME, -Werror
+  std::string report;                 // file for a JSON report
+  std::vector<std::string> warnings;  // -Werror=NAME, -Wno-NAME, -Werror
   std::vector<std::string> allow_paths;
   int jobs = 0;
-  std::string memory;                      // "8G"
+  std::string memory;  // "8G"
   std::string unit, up;
 
   // what the verb works on
   std::vector<std::string> inputs;
   std::string output;
-  std::string name;                        // explain, passes
+  std::string name;  // explain, passes
 
   // convert, cat, render
-  std::string pipeline;                    // -p; empty: what the format needs
+  std::string pipeline;  // -p; empty: what the format needs
   bool pipeline_given = false;
   bool print_pipeline = false, verify_each = false, time_passes = false, stats = false;
   std::string print_after;
-  std::vector<std::string> python;         // files with passes
+  std::vector<std::string> python;  // files with passes
   bool gzip = false, dump = false;
   int precision = 0;
   std::string recipe;
@@ -39,65 +39,66 @@ struct Flags {
 
   // glTF that is to be small
   std::string compress = "none";
-  std::string tolerance;                   // a length: 1mm
+  std::string tolerance;  // a length: 1mm
   std::string profile, extras = "all";
   bool print_profile = false;
   std::string texture_format = "keep";
   int texture_quality = 85, texture_size = 0;
   int position_bits = 0, normal_bits = 8, texcoord_bits = 12, color_bits = 10, draco_level = 7;
 
-  bool keep_urls = false;                  // of VRML and X3D output: what they mean stands beside the output, too
+  bool keep_urls = false;  // of VRML and X3D output: what they mean stands beside the output, too
 
-  bool parse_only = false;                 // check
+  bool parse_only = false;  // check
 
   // corpus
-  std::string format = "glb";              // ending of the outputs
+  std::string format = "glb";  // ending of the outputs
   std::vector<std::string> include, exclude;
   std::string timeout = "10m", shard, base, joblog;
   int bundle = 1;
   bool retry = false;
-  std::vector<std::string> outputs;        // report
-  std::string compare;                     // and of render: a world
+  std::vector<std::string> outputs;  // report
+  std::string compare;               // and of render: a world
   int looks = 2000;
 
   // render
   int width = 1280, height = 960, samples = 4;
   std::string viewpoint, mode = "preview", level = "0";
-  std::vector<double> look_at;             // eye, target, up
+  std::vector<double> look_at;  // eye, target, up
   bool fit = false;
-  std::vector<double> background;          // r, g, b; empty: the world's
-  std::string headlight;                   // "on", "off"; empty: as NavigationInfo says
-  int turntable = 0;                       // pictures around the world
-  double field_of_view = 0;                // degrees; 0: the Viewpoint's
+  std::vector<double> background;  // r, g, b; empty: the world's
+  std::string headlight;           // "on", "off"; empty: as NavigationInfo says
+  int turntable = 0;               // pictures around the world
+  double field_of_view = 0;        // degrees; 0: the Viewpoint's
 
   // simplify, compare-lod
   int every = 0;
   std::vector<std::size_t> counts;
   std::vector<double> ratios;
-  std::vector<std::string> errors;         // lengths: 2mm
+  std::vector<std::string> errors;  // lengths: 2mm
   std::string criterion;
   double pixels = 1;
   bool progressive = false;
 
   // illuminate
   std::string method = "path";
-  std::string max_edge;                    // a length: 5cm
-  double max_area = 0;                     // square metres
+  std::string max_edge;  // a length: 5cm
+  double max_area = 0;   // square metres
   double gradient = 0;
   int light_samples = 256, seed = 1, max_patches = 10'000'000;
-  std::string pictures;                    // folder
+  std::string pictures;  // folder
   bool smooth = false;
   double emission = 1;
   std::string sky = "background";
 
-  bool serve = false;                      // view
+  bool serve = false;  // view
 
-  std::vector<std::string> criteria;       // compare-lod, view
+  std::vector<std::string> criteria;  // compare-lod, view
   bool bare = false;
   int picture_size = 300;
 };
 
-/// Exit codes of the product: 0 done, 1 done but something of the input could not be used, 2 wrong usage, 3 nothing made.
+/// Exit codes of the product: 0 done, 1 done but something of the input could not be used, 2 wrong usage, 3 nothing
+/// made.
 enum ExitCode : int { done = 0, partly = 1, usage = 2, nothing = 3 };
 
 int run_convert(const Flags&);

@@ -12,11 +12,15 @@ namespace {
 
 std::string_view colour_of(Severity s) {
   switch (s) {
-    case Severity::error: return "\033[1;31m";
-    case Severity::warning: return "\033[1;33m";
-    case Severity::lost: return "\033[1;35m";
+    case Severity::error:
+      return "\033[1;31m";
+    case Severity::warning:
+      return "\033[1;33m";
+    case Severity::lost:
+      return "\033[1;35m";
     case Severity::note:
-    case Severity::ignored: return "\033[1;36m";
+    case Severity::ignored:
+      return "\033[1;36m";
   }
   return "";
 }
@@ -28,7 +32,8 @@ std::string place_text(const Place& p) {
 
 /// Characters of UTF-8: what a terminal shows of some bytes.
 std::size_t characters(std::string_view bytes) {
-  return static_cast<std::size_t>(std::ranges::count_if(bytes, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(bytes, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 }  // namespace
@@ -37,12 +42,14 @@ std::string message_text(const Message& m, const Sources& sources, bool colours)
   Place p = sources.locate(m.where);
   if (m.where.length == 0) p.line = 0;  // a message about the file as a whole
   std::string_view on = colours ? colour_of(m.severity) : "", off = colours ? "\033[0m" : "";
-  std::string out = fmt::format("{}{}{}:{} {} [{}]\n", place_text(p), on, to_string(m.severity), off, m.text(), info(m.id).name);
+  std::string out =
+      fmt::format("{}{}{}:{} {} [{}]\n", place_text(p), on, to_string(m.severity), off, m.text(), info(m.id).name);
   if (!p.line || p.line_text.empty()) return out;
   out += fmt::format("{:>6} | {}\n", p.line, p.line_text);
   const std::string_view line = p.line_text;
   const auto in_front = characters(line.substr(0, p.caret)), marked = characters(line.substr(p.caret, p.caret_length));
-  out += fmt::format("       | {}{}^{}{}\n", std::string(in_front, ' '), on, std::string(std::max<std::size_t>(marked, 1) - 1, '~'), off);
+  out += fmt::format("       | {}{}^{}{}\n", std::string(in_front, ' '), on,
+                     std::string(std::max<std::size_t>(marked, 1) - 1, '~'), off);
   return out;
 }
 
@@ -55,7 +62,9 @@ std::string messages_text(const Diagnostics& diag, bool colours, bool quiet) {
     ++printed[m.id];
   }
   for (auto [id, n] : printed)
-    if (diag.count(id) > n) out += fmt::format("{}: {} more like this [{}]\n", to_string(info(id).severity), diag.count(id) - n, info(id).name);
+    if (diag.count(id) > n)
+      out +=
+          fmt::format("{}: {} more like this [{}]\n", to_string(info(id).severity), diag.count(id) - n, info(id).name);
   return out;
 }
 
@@ -71,7 +80,10 @@ std::string messages_json(const Diagnostics& diag) {
     json.member("name", info(m.id).name);
     json.member("text", m.text());
     json.member("file", p.file);
-    if (p.line && m.where.length) json.member("line", p.line), json.member("column", p.column);
+    if (p.line && m.where.length) {
+      json.member("line", p.line);
+      json.member("column", p.column);
+    }
     // How often this message came in all, told once.
     if (counted.insert(m.id).second) json.member("count", diag.count(m.id));
     json.end_object();

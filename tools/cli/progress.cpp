@@ -21,7 +21,8 @@ volatile std::sig_atomic_t ending = 0;
 
 void note_end(int which) { ending = which; }
 
-/// The thread that draws ends the process by the signal, once the line is gone: what comes next on the terminal is the shell's.
+/// The thread that draws ends the process by the signal, once the line is gone: what comes next on the terminal is the
+/// shell's.
 void watch_for_end() {
   for (const int s : ending_signals)
     if (const auto before = std::signal(s, note_end); before != SIG_DFL) std::signal(s, before);
@@ -80,7 +81,10 @@ void Progress::watch() {
   std::unique_lock lock(mutex_);
   while (!end_.wait_for(lock, blink, [&] { return ended_; })) {
     if (ending) {
-      if (shown_) std::fputs(clear_line, stderr), std::fflush(stderr);
+      if (shown_) {
+        std::fputs(clear_line, stderr);
+        std::fflush(stderr);
+      }
       end_by(ending);
     }
     const auto now = Clock::now();
@@ -102,12 +106,16 @@ std::string Progress::line(double seconds) const {
   std::string text = fmt::format("{}: {}/{} {} ({} %)", what_, done, total_, unit_, done * 100 / total_);
   if (!done || seconds < 1) return text;
   const double rate = static_cast<double>(done) / seconds;
-  return text + fmt::format(", {:.{}f}/s, {} left", rate, rate < 10 ? 1 : 0, duration(static_cast<double>(total_ - done) / rate));
+  return text + fmt::format(", {:.{}f}/s, {} left", rate, rate < 10 ? 1 : 0,
+                            duration(static_cast<double>(total_ - done) / rate));
 }
 
 void Progress::clear() {
   std::lock_guard lock(mutex_);
-  if (terminal_ && shown_) std::fputs(clear_line, stderr), std::fflush(stderr);
+  if (terminal_ && shown_) {
+    std::fputs(clear_line, stderr);
+    std::fflush(stderr);
+  }
   shown_ = false;
   quiet_ = true;
 }

@@ -32,7 +32,7 @@ class Progress : public Monitor {
   std::string line(double seconds) const;
 
   const bool on_, terminal_;
-  std::mutex mutex_;                  // of all that follows but done_
+  std::mutex mutex_;  // of all that follows but done_
   std::condition_variable end_;
   bool ended_ = false, quiet_ = true, shown_ = false, watches_signals_ = false;
   std::string what_, unit_;

@@ -20,13 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder with the package: beside the program in the build tree, installed in a folder of libraries. Empty: there is none.
+/// The folder with the package: beside the program in the build tree, installed in a folder of libraries. Empty: there
+/// is none.
 std::string package_folder() {
   std::error_code none;
   const auto self = fs::read_symlink("/proc/self/exe", none).parent_path(), lib = self / ".." / "lib";
   std::vector<fs::path> folders{self / "python", lib / "wrlkit" / "python"};
-  for (fs::directory_iterator i(lib, none), end; !none && i != end; i.increment(none)) folders.push_back(i->path() / "wrlkit" / "python");  // lib/x86_64-linux-gnu
-  const auto found = std::ranges::find_if(folders, [&](const fs::path& f) { return fs::exists(f / "wrlkit" / "__main__.py", none); });
+  for (fs::directory_iterator i(lib, none), end; !none && i != end; i.increment(none))
+    folders.push_back(i->path() / "wrlkit" / "python");  // lib/x86_64-linux-gnu
+  const auto found =
+      std::ranges::find_if(folders, [&](const fs::path& f) { return fs::exists(f / "wrlkit" / "__main__.py", none); });
   return found == folders.end() ? "" : fs::canonical(*found, none).string();
 }
 
@@ -43,11 +46,15 @@ bool load_python_passes(const std::vector<std::string>& paths, std::string& why)
 
 int run_in_python(char** words) {
   const auto folder = package_folder();
-  if (folder.empty()) return fmt::print(stderr, "wrlkit: passes in Python need the Python package, which is not installed beside this program\n"), usage;
+  if (folder.empty()) {
+    fmt::print(stderr,
+               "wrlkit: passes in Python need the Python package, which is not installed beside this program\n");
+    return usage;
+  }
   const char* others = std::getenv("PYTHONPATH");
   setenv("PYTHONPATH", (others && *others ? folder + ":" + others : folder).c_str(), 1);
-  set("PYTHONHASHSEED", "0");           // the same order of sets in every run
-  set("OPENBLAS_NUM_THREADS", "1");     // the workers of a corpus run are forks, which have no other threads
+  set("PYTHONHASHSEED", "0");        // the same order of sets in every run
+  set("OPENBLAS_NUM_THREADS", "1");  // the workers of a corpus run are forks, which have no other threads
   set("OMP_NUM_THREADS", "1");
   const char* python = std::getenv("WRLKIT_PYTHON");
   if (!python || !*python) python = WRLKIT_PYTHON;
@@ -56,7 +63,8 @@ int run_in_python(char** words) {
   for (++words; *words; ++words) arguments.push_back(*words);
   arguments.push_back(nullptr);
   execvp(python, arguments.data());
-  return fmt::print(stderr, "wrlkit: passes in Python: '{}' cannot be run: {}\n", python, std::strerror(errno)), usage;
+  fmt::print(stderr, "wrlkit: passes in Python: '{}' cannot be run: {}\n", python, std::strerror(errno));
+  return usage;
 }
 
 }  // namespace wrlkit

@@ -34,7 +34,8 @@ struct Recipe {
   std::vector<std::string> warnings;    // as behind -W: "error=unknown-field"
 };
 
-/// Which section of a recipe an option of the command line stands in; empty: in none, for it does not belong to a recipe.
+/// Which section of a recipe an option of the command line stands in; empty: in none, for it does not belong to a
+/// recipe.
 std::string_view recipe_section(std::string_view option);
 
 /// Null when there is no such file, or it is no recipe: `why` is a message with file, line, column and the line itself.
@@ -44,7 +45,8 @@ std::optional<Recipe> read_recipe(const std::string& path, std::string& why);
 std::optional<Recipe> read_recipe_options(const std::string& path, std::string& why);
 
 /// The recipe that says what these options and this pipeline say. Reading it gives them again.
-std::string recipe_text(const GivenOptions& options, const std::vector<std::string>& warnings, const Pipeline& pipeline);
+std::string recipe_text(const GivenOptions& options, const std::vector<std::string>& warnings,
+                        const Pipeline& pipeline);
 
 /// The sections, their keys and the passes: docs/recipes.md.
 std::string recipes_page();

@@ -5,12 +5,12 @@
 
 #include <cstdio>
 
+#include "base/io/output.h"
+#include "base/text/json.h"
 #include "passes/lower_vrml1/lower_vrml1.h"
 #include "scenegraph/nodes.h"
-#include "tools/embedded_pictures.h"
 #include "tools/cli/print_diagnostics.h"
-#include "base/text/json.h"
-#include "base/io/output.h"
+#include "tools/embedded_pictures.h"
 #include "writers/vrml/vrml.h"
 
 namespace wrlkit {
@@ -36,12 +36,20 @@ Session::Session(const Flags& flags)
 }
 
 Session::Session(const Flags& flags, std::unique_ptr<World> world, Resources& resources, Diagnostics& diag)
-    : flags_(flags), threads_(flags.jobs), diag_(diag), world_(std::move(world)), context_{diag_, stats_, &resources}, progress_(!flags.quiet) {}
+    : flags_(flags),
+      threads_(flags.jobs),
+      diag_(diag),
+      world_(std::move(world)),
+      context_{diag_, stats_, &resources},
+      progress_(!flags.quiet) {}
 
 bool Session::apply_warning_flags() {
   if (flags_.strict) diag_.warnings_are_errors();
   for (const auto& w : flags_.warnings) {
-    if (w == "error") { diag_.warnings_are_errors(); continue; }
+    if (w == "error") {
+      diag_.warnings_are_errors();
+      continue;
+    }
     bool error = w.starts_with("error="), off = w.starts_with("no-");
     Diag id{};
     if ((!error && !off) || !find_diag(w.substr(error ? 6 : 3), id)) {
@@ -62,12 +70,15 @@ World* Session::read(const std::string& path) {
 
 World* Session::read(const std::string& path, const FileText& file) {
   world_.reset();
-  resources_ = std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = flags_.allow_paths}, [this](const std::string& inlined, Diagnostics& diag) { return parse_inlined(inlined, diag); });
+  resources_ = std::make_unique<FileResources>(
+      ResourceOptions{.input = path, .allowed = flags_.allow_paths},
+      [this](const std::string& inlined, Diagnostics& diag) { return parse_inlined(inlined, diag); });
   context_.resources = resources_.get();
   world_ = parse_world(file, {.allowed = flags_.allow_paths, .lookups = &buffers_}, diag_);
   if (world_) {
     place(world_->scene);
-    if (world_->format == Format::gltf && !flags_.output.empty() && flags_.output != "-") unpack_pictures(world_->scene, *resources_);
+    if (world_->format == Format::gltf && !flags_.output.empty() && flags_.output != "-")
+      unpack_pictures(world_->scene, *resources_);
     resources_->set_root({std::shared_ptr<const Scene>{}, &world_->scene});
   }
   return world_.get();
@@ -78,10 +89,16 @@ void Session::place(Scene& scene) const { place_world(scene, flags_.unit, flags_
 bool Session::choose_pipeline(std::string_view standard) {
   std::string why;
   pipeline_ = Pipeline::parse(flags_.pipeline_given ? std::string_view(flags_.pipeline) : standard, why);
-  if (!pipeline_) return fmt::print(stderr, "wrlkit: -p: {}\n", why), false;
+  if (!pipeline_) {
+    fmt::print(stderr, "wrlkit: -p: {}\n", why);
+    return false;
+  }
   if (flags_.pipeline_given) pipeline_->complete(standard);
   const auto& after = flags_.print_after;
-  if (!after.empty() && after != "all" && !find_pass(after)) return fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after)), false;
+  if (!after.empty() && after != "all" && !find_pass(after)) {
+    fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));
+    return false;
+  }
   return true;
 }
 
@@ -93,7 +110,8 @@ PipelineOptions Session::pipeline_options() {
     o.print = [this](const std::string& pass, const Scene& scene) {
       progress_.clear();
       fmt::print(stderr, "# after {}\n", pass);
-      write_vrml(scene, {.own_fields = true}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag_);
+      write_vrml(
+          scene, {.own_fields = true}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag_);
     };
   if (flags_.time_passes) o.times = &times_;
   return o;
@@ -118,7 +136,10 @@ bool Session::write_report(int code) {
   json.member("inputs", std::span<const std::string>(flags_.inputs));
   json.member("output", flags_.output);
   json.member("exit_code", code);
-  for (auto& [name, fact] : facts_) json.key(name), json.raw(fact);
+  for (auto& [name, fact] : facts_) {
+    json.key(name);
+    json.raw(fact);
+  }
   json.key("statistics");
   json.begin_object();
   for (auto& [name, n] : stats_) json.member(name, n);

@@ -1,13 +1,14 @@
-// One run of a verb over one world, or one after the other: messages, files it may read, progress, report and exit code.
+// One run of a verb over one world, or one after the other: messages, files it may read, progress, report and exit
+// code.
 #pragma once
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "parsers/parsers.h"
 #include "parsers/resources.h"
-#include "base/parallel.h"
 #include "passes/pipeline/pipeline.h"
 #include "tools/cli/flags.h"
 #include "tools/cli/progress.h"

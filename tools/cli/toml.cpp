@@ -29,7 +29,8 @@ void members_of(const toml::table& from, TomlNode& to) {
     member.key_place = place_of(key.source());
   }
   // toml++ sorts by name.
-  std::ranges::stable_sort(to.items, {}, [](const TomlNode& n) { return std::pair(n.key_place.line, n.key_place.column); });
+  std::ranges::stable_sort(to.items, {},
+                           [](const TomlNode& n) { return std::pair(n.key_place.line, n.key_place.column); });
 }
 
 TomlNode node_of(const toml::node& from) {
@@ -43,15 +44,19 @@ TomlNode node_of(const toml::node& from) {
       to.kind = Kind::list;
       for (const auto& item : value) to.items.push_back(node_of(item));
     } else if constexpr (toml::is_boolean<T>) {
-      to.kind = Kind::boolean, to.text = *value ? "true" : "false";
+      to.kind = Kind::boolean;
+      to.text = *value ? "true" : "false";
     } else if constexpr (toml::is_integer<T> || toml::is_floating_point<T>) {
-      to.kind = Kind::number, to.text = shortest(*value);
+      to.kind = Kind::number;
+      to.text = shortest(*value);
     } else if constexpr (toml::is_string<T>) {
-      to.kind = Kind::text, to.text = *value;
+      to.kind = Kind::text;
+      to.text = *value;
     } else {
       std::ostringstream out;
       out << *value;
-      to.kind = Kind::text, to.text = out.str();
+      to.kind = Kind::text;
+      to.text = out.str();
     }
   });
   return to;
@@ -84,7 +89,9 @@ std::optional<TomlNode> parse_toml(std::string_view text, std::string& why, Toml
 std::string toml_value(std::string_view text) {
   double number = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text == "true" || text == "false" || (!text.empty() && read.ec == std::errc{} && read.ptr == text.data() + text.size())) return std::string(text);
+  if (text == "true" || text == "false" ||
+      (!text.empty() && read.ec == std::errc{} && read.ptr == text.data() + text.size()))
+    return std::string(text);
   std::ostringstream out;
   out << toml::value<std::string>(std::string(text));
   return out.str();

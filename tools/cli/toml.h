@@ -16,8 +16,8 @@ struct TomlNode {
   enum class Kind : std::uint8_t { boolean, number, text, list, table };
 
   Kind kind = Kind::table;
-  std::string key;              // of a member of a table
-  std::string text;             // of boolean, number and text; numbers as short as they can be
+  std::string key;   // of a member of a table
+  std::string text;  // of boolean, number and text; numbers as short as they can be
   TomlPlace place, key_place;
   std::vector<TomlNode> items;  // of a list, or the members of a table, in the order of the file
 

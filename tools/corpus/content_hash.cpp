@@ -31,9 +31,11 @@ std::optional<ContentHash> hash_of_file(const std::string& path) {
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
     XXH3_128bits_reset(state.get());
     constexpr std::size_t size = 256 * 1024;
-    const auto piece = std::make_unique_for_overwrite<char[]>(size);  // a worker that clears it would spend more on that than on most files
+    const auto piece = std::make_unique_for_overwrite<char[]>(
+        size);  // a worker that clears it would spend more on that than on most files
     ssize_t got = 0;
-    while ((got = read(fd, piece.get(), size)) > 0) XXH3_128bits_update(state.get(), piece.get(), static_cast<std::size_t>(got));
+    while ((got = read(fd, piece.get(), size)) > 0)
+      XXH3_128bits_update(state.get(), piece.get(), static_cast<std::size_t>(got));
     if (got == 0) hash = of(XXH3_128bits_digest(state.get()));
   }
   close(fd);

@@ -5,13 +5,13 @@
 
 #include <filesystem>
 
-#include "tools/cli/cli.h"
-#include "tools/verbs/convert.h"
-#include "tools/gltf_output.h"
-#include "tools/cli/print_diagnostics.h"
-#include "tools/corpus/written_names.h"
-#include "tools/cli/recipe.h"
 #include "base/io/output.h"
+#include "tools/cli/cli.h"
+#include "tools/cli/print_diagnostics.h"
+#include "tools/cli/recipe.h"
+#include "tools/corpus/written_names.h"
+#include "tools/gltf_output.h"
+#include "tools/verbs/convert.h"
 
 namespace wrlkit {
 namespace {
@@ -24,7 +24,9 @@ constexpr std::uint64_t largest_asset = std::uint64_t{4} << 30;
 std::string program() {
   Dl_info info{};
   std::string file = "/proc/self/exe";
-  if (dladdr(reinterpret_cast<void*>(&corpus_work), &info) && std::string_view(info.dli_fname).find(".so") != std::string_view::npos) file = info.dli_fname;
+  if (dladdr(reinterpret_cast<void*>(&corpus_work), &info) &&
+      std::string_view(info.dli_fname).find(".so") != std::string_view::npos)
+    file = info.dli_fname;
   return std::string(program_version()) + hash_of_file(file).value_or(ContentHash{}).hex();
 }
 
@@ -36,7 +38,8 @@ std::vector<std::string> allowed_folders(const CorpusWork& work, const CorpusPla
 
 void use(const FileLookup& lookup, JournalLine& line) {
   const bool found = lookup.result.state == AllowedFiles::found || lookup.result.state == AllowedFiles::repaired;
-  line.files.push_back({lookup.referrer, lookup.url, found ? lookup.result.path : "", found ? hash_of_file(lookup.result.path).value_or(ContentHash{}) : ContentHash{}});
+  line.files.push_back({lookup.referrer, lookup.url, found ? lookup.result.path : "",
+                        found ? hash_of_file(lookup.result.path).value_or(ContentHash{}) : ContentHash{}});
 }
 
 /// The first error, in one line.
@@ -56,12 +59,16 @@ bool copy(const std::string& from, const std::string& to, std::string& cause) {
   auto file = OutputFile::open(to, {}, diag);
   if (file) file->write(*bytes);
   if (file && file->commit(diag)) return true;
-  return cause = cause_in(diag), false;
+  cause = cause_in(diag);
+  return false;
 }
 
 bool convert(const Flags& flags, const std::function<void(Scene&)>& last, JournalLine& line) {
   Session s(flags);
-  if (!prepare_conversion(s)) return line.cause = "the recipe does not fit", false;
+  if (!prepare_conversion(s)) {
+    line.cause = "the recipe does not fit";
+    return false;
+  }
   const bool made = read_input(s) && write_world(s, last);
   line.state = !made ? JobState::failed : s.diag().has_errors() ? JobState::made_partly : JobState::made;
   line.messages = messages_json(s.diag());
@@ -87,12 +94,16 @@ std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& wh
   f.output = "out." + corpus_flags.format;
   work.text = corpus_flags.format.starts_with("wr") || corpus_flags.format.starts_with("x3d");
   Session s(f);
-  if (!prepare_conversion(s)) return why.clear(), std::nullopt;
+  if (!prepare_conversion(s)) {
+    why.clear();
+    return std::nullopt;
+  }
   auto options = f.given;  // of files in Python their contents count, not where they are
   std::erase_if(options, [](const auto& o) { return o.first == "python"; });
   std::string files;
   for (const auto& file : s.pipeline().files()) files += hash_of_file(file).value_or(ContentHash{}).hex() + "\n";
-  work.hash = hash_of(program() + "\n" + corpus_flags.format + "\n" + (f.strict ? "strict\n" : "") + files + recipe_text(options, f.warnings, s.pipeline()));
+  work.hash = hash_of(program() + "\n" + corpus_flags.format + "\n" + (f.strict ? "strict\n" : "") + files +
+                      recipe_text(options, f.warnings, s.pipeline()));
   return work;
 }
 
@@ -122,9 +133,15 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
     flags.output = target;
     flags.allow_paths = allowed_folders(work, plan, job);
     flags.keep_urls = work.text && job.input.mirrored;
-    convert(flags, flags.keep_urls ? [&](Scene& scene) { name_written_files(scene, plan, job, flags.allow_paths); } : std::function<void(Scene&)>(), line);
+    convert(flags,
+            flags.keep_urls ? [&](Scene& scene) { name_written_files(scene, plan, job, flags.allow_paths); }
+                            : std::function<void(Scene&)>(),
+            line);
   }
-  if (is_made(line.state)) line.output_bytes = fs::file_size(target, none), line.output_hash = hash_of_file(target).value_or(ContentHash{});
+  if (is_made(line.state)) {
+    line.output_bytes = fs::file_size(target, none);
+    line.output_hash = hash_of_file(target).value_or(ContentHash{});
+  }
 }
 
 DoneBefore::DoneBefore(const CorpusWork& work, const CorpusPlan& plan) : work_(work), plan_(plan) {
@@ -138,7 +155,8 @@ std::optional<JobState> DoneBefore::state_of(const CorpusJob& job) {
   if (at == known_.end() || at->second.work != work_.hash) return std::nullopt;
   const auto& known = at->second;
   std::error_code fault;
-  if (is_made(known.state) && (fs::file_size(fs::path(work_.out) / job.output, fault) != known.output_bytes || fault)) return std::nullopt;
+  if (is_made(known.state) && (fs::file_size(fs::path(work_.out) / job.output, fault) != known.output_bytes || fault))
+    return std::nullopt;
   if (hash_of_file(job.input.path) != known.input) return std::nullopt;
   for (const auto& f : known.files)
     if (!still_the_same(job, f)) return std::nullopt;

@@ -4,17 +4,17 @@
 #include <string>
 #include <unordered_map>
 
-#include "tools/corpus/journal.h"
 #include "tools/cli/flags.h"
+#include "tools/corpus/journal.h"
 
 namespace wrlkit {
 
 /// What everything of a run has in common.
 struct CorpusWork {
-  Flags flags;         // of a conversion
-  ContentHash hash;    // of program, recipe and format: the same gives the same bytes
-  std::string out;     // folder
-  bool text = false;   // outputs are VRML or X3D, which refer to files beside them
+  Flags flags;        // of a conversion
+  ContentHash hash;   // of program, recipe and format: the same gives the same bytes
+  std::string out;    // folder
+  bool text = false;  // outputs are VRML or X3D, which refer to files beside them
 };
 
 /// Where a run writes down its whole recipe.
@@ -32,8 +32,8 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
 class DoneBefore {
  public:
   DoneBefore(const CorpusWork& work, const CorpusPlan& plan);
-  /// The state that a job ended in when it was done with the same program and recipe from the same input and the same files
-  /// behind it, and what was made then is still there.
+  /// The state that a job ended in when it was done with the same program and recipe from the same input and the same
+  /// files behind it, and what was made then is still there.
   std::optional<JobState> state_of(const CorpusJob& job);
   /// Whether an earlier run has worked on that output.
   bool has(const CorpusJob& job) const { return known_.contains(name_in_journal(job.output)); }

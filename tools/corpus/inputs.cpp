@@ -17,14 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view world_endings[] = {".wrl.gz", ".x3d.gz", ".x3dv.gz", ".wrl", ".wrz", ".vrml", ".x3d", ".x3dz", ".x3dv", ".x3dvz", ".iv", ".gltf", ".glb"};
-constexpr std::string_view asset_endings[] = {".png", ".jpg", ".jpeg", ".gif", ".bmp", ".tga", ".tif", ".tiff", ".webp", ".exr", ".hdr", ".dds",
-                                              ".wav", ".mp3", ".mid", ".midi", ".mpg", ".mpeg", ".mp4", ".avi", ".js", ".class"};
+constexpr std::string_view world_endings[] = {".wrl.gz", ".x3d.gz", ".x3dv.gz", ".wrl", ".wrz",  ".vrml", ".x3d",
+                                              ".x3dz",   ".x3dv",   ".x3dvz",   ".iv",  ".gltf", ".glb"};
+constexpr std::string_view asset_endings[] = {".png",  ".jpg",  ".jpeg", ".gif", ".bmp", ".tga",  ".tif", ".tiff",
+                                              ".webp", ".exr",  ".hdr",  ".dds", ".wav", ".mp3",  ".mid", ".midi",
+                                              ".mpg",  ".mpeg", ".mp4",  ".avi", ".js",  ".class"};
 
 /// The ending of a name that is in the list; empty when none is.
 std::string_view ending_in(std::span<const std::string_view> list, std::string_view name) {
   for (auto e : list)
-    if (name.size() > e.size() && std::ranges::equal(name.substr(name.size() - e.size()), e, {}, [](unsigned char c) { return std::tolower(c); })) return e;
+    if (name.size() > e.size() &&
+        std::ranges::equal(name.substr(name.size() - e.size()), e, {}, [](unsigned char c) { return std::tolower(c); }))
+      return e;
   return {};
 }
 
@@ -37,7 +41,8 @@ std::vector<std::string> names_of(const std::string& path) {
 bool match(std::span<const std::string> glob, std::span<const std::string> names) {
   if (glob.empty()) return names.empty();
   if (glob[0] == "**") return match(glob.subspan(1), names) || (!names.empty() && match(glob, names.subspan(1)));
-  return !names.empty() && fnmatch(glob[0].c_str(), names[0].c_str(), 0) == 0 && match(glob.subspan(1), names.subspan(1));
+  return !names.empty() && fnmatch(glob[0].c_str(), names[0].c_str(), 0) == 0 &&
+         match(glob.subspan(1), names.subspan(1));
 }
 
 bool is_glob(const std::string& word) { return word.find_first_of("*?[") != word.npos; }
@@ -71,7 +76,10 @@ class Gatherer {
   }
 
  private:
-  bool fail(std::string what) { return why_ = std::move(what), false; }
+  bool fail(std::string what) {
+    why_ = std::move(what);
+    return false;
+  }
 
   std::uint32_t root(const fs::path& path) {
     auto name = path.empty() ? std::string(".") : path.lexically_normal().string();
@@ -99,7 +107,10 @@ class Gatherer {
     if (from_list) {
       const auto base = rules_.base.empty() ? fs::path(".") : fs::path(rules_.base);
       const auto relative = fs::proximate(path, base, none).lexically_normal();
-      if (!none && !relative.empty() && *relative.begin() != ".." && !relative.is_absolute()) inside = relative, from = base;
+      if (!none && !relative.empty() && *relative.begin() != ".." && !relative.is_absolute()) {
+        inside = relative;
+        from = base;
+      }
     }
     add(path, inside.string(), root(from), false, false);
     return true;
@@ -109,10 +120,13 @@ class Gatherer {
     fs::path front;
     std::string pattern;
     for (const auto& n : fs::path(word))
-      if (pattern.empty() && !is_glob(n.string())) front /= n;
-      else pattern += (pattern.empty() ? "" : "/") + n.string();
+      if (pattern.empty() && !is_glob(n.string()))
+        front /= n;
+      else
+        pattern += (pattern.empty() ? "" : "/") + n.string();
     std::error_code none;
-    if (!fs::is_directory(front.empty() ? "." : front, none)) return fail("there is no folder '" + front.string() + "'");
+    if (!fs::is_directory(front.empty() ? "." : front, none))
+      return fail("there is no folder '" + front.string() + "'");
     // Without "/" a glob here is about the names in that folder, not below it.
     return folder(front.empty() ? "." : front.string(), pattern);
   }
@@ -129,34 +143,43 @@ class Gatherer {
       const auto name = i->path().filename().string();
       std::error_code none;
       const bool is_folder = i->is_directory(none);
-      if (name.starts_with('.') || (is_folder && !output_.empty() && fs::weakly_canonical(i->path(), none) == output_) || i.depth() > most_depth) {
+      if (name.starts_with('.') ||
+          (is_folder && !output_.empty() && fs::weakly_canonical(i->path(), none) == output_) ||
+          i.depth() > most_depth) {
         if (is_folder) i.disable_recursion_pending();
         continue;
       }
       if (is_folder) {
         above.resize(static_cast<std::size_t>(i.depth()) + 1);
         const auto folder = identity(i->path());
-        if (std::ranges::find(above, folder) != above.end()) i.disable_recursion_pending();  // a symbolic link that leads back
+        if (std::ranges::find(above, folder) != above.end())
+          i.disable_recursion_pending();  // a symbolic link that leads back
         above.push_back(folder);
         entered = i->path().string();
       }
       if (is_folder || !i->is_regular_file(none)) continue;
       auto inside = i->path().lexically_relative(path).string();
-      const bool is_world = !ending_in(world_endings, name).empty(), is_asset = rules_.assets && !is_world && !ending_in(asset_endings, name).empty();
-      if (is_asset) add(i->path(), std::move(inside), at, true, true);
-      else if (pattern.empty() ? is_world && wanted(inside) : match(parts, names_of(inside)) && wanted(inside)) add(i->path(), std::move(inside), at, rules_.assets, false);
+      const bool is_world = !ending_in(world_endings, name).empty(),
+                 is_asset = rules_.assets && !is_world && !ending_in(asset_endings, name).empty();
+      if (is_asset)
+        add(i->path(), std::move(inside), at, true, true);
+      else if (pattern.empty() ? is_world && wanted(inside) : match(parts, names_of(inside)) && wanted(inside))
+        add(i->path(), std::move(inside), at, rules_.assets, false);
     }
-    return !fault || fail("cannot read the folder '" + entered + "': " + fault.message());  // nothing is left out in silence
+    return !fault ||
+           fail("cannot read the folder '" + entered + "': " + fault.message());  // nothing is left out in silence
   }
 
   bool wanted(const std::string& inside) const {
     const auto matches = [&](const std::string& g) { return glob_matches(g, inside); };
-    return (rules_.include.empty() || std::ranges::any_of(rules_.include, matches)) && std::ranges::none_of(rules_.exclude, matches);
+    return (rules_.include.empty() || std::ranges::any_of(rules_.include, matches)) &&
+           std::ranges::none_of(rules_.exclude, matches);
   }
 
   void add(const fs::path& path, std::string inside, std::uint32_t root, bool mirrored, bool asset) {
     std::error_code none;
-    out_.files.push_back({path.lexically_normal().string(), std::move(inside), root, fs::file_size(path, none), mirrored, asset});
+    out_.files.push_back(
+        {path.lexically_normal().string(), std::move(inside), root, fs::file_size(path, none), mirrored, asset});
   }
 
   using Identity = std::pair<dev_t, ino_t>;

@@ -1,5 +1,5 @@
-// Which files a corpus run is about: folders, globs, lists and names on the command line, in an order that does not depend
-// on the file system.
+// Which files a corpus run is about: folders, globs, lists and names on the command line, in an order that does not
+// depend on the file system.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -29,12 +29,12 @@ struct Inputs {
   std::vector<InputFile> files;    // by path, each once
 };
 
-/// "plant/", "plant/**/*.wrl", "@list.txt", "-" (a list on standard input), "pump.wrl". In folders and globs only what has
-/// the ending of a world counts, and nothing that is hidden. Nothing, and why, when something named is not there.
+/// "plant/", "plant/**/*.wrl", "@list.txt", "-" (a list on standard input), "pump.wrl". In folders and globs only what
+/// has the ending of a world counts, and nothing that is hidden. Nothing, and why, when something named is not there.
 std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const InputRules& rules, std::string& why);
 
-/// Whether a path below some folder is meant by a glob: "*" within a name, "**" across folders; without "/" it is about the
-/// last name alone.
+/// Whether a path below some folder is meant by a glob: "*" within a name, "**" across folders; without "/" it is about
+/// the last name alone.
 bool glob_matches(const std::string& glob, const std::string& path);
 
 /// "a/b.wrl.gz" without its ending, when that is one of a world: "a/b"; else nothing.

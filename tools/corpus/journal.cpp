@@ -13,8 +13,8 @@
 #include <fstream>
 #include <utility>
 
-#include "parsers/gltf/json.h"
 #include "base/text/json.h"
+#include "parsers/gltf/json.h"
 
 namespace wrlkit {
 namespace {
@@ -56,7 +56,10 @@ std::string to_json(const JournalLine& l) {
   json.member("memory", l.memory);
   json.member("input_bytes", l.input_bytes);
   json.member("input_hash", l.input_hash.hex());
-  if (is_made(l.state)) json.member("output_bytes", l.output_bytes), json.member("output_hash", l.output_hash.hex());
+  if (is_made(l.state)) {
+    json.member("output_bytes", l.output_bytes);
+    json.member("output_hash", l.output_hash.hex());
+  }
   if (l.codecs) json.member("codecs", true);
   json.key("files");
   json.begin_array();
@@ -85,13 +88,22 @@ std::optional<JournalLine> journal_line(std::string_view text) {
   const auto state = std::ranges::find(states, json["state"].text());
   if (!json.is_object() || state == std::end(states)) return std::nullopt;
   l.state = static_cast<JobState>(state - std::begin(states));
-  l.input = word("input"), l.output = word("output"), l.cause = word("cause");
-  l.work = hash_from(json["work"].text()), l.input_hash = hash_from(json["input_hash"].text()), l.output_hash = hash_from(json["output_hash"].text());
-  l.started = json["started"].number(), l.seconds = json["seconds"].number(), l.cpu = json["cpu"].number();
-  l.memory = whole("memory"), l.input_bytes = whole("input_bytes"), l.output_bytes = whole("output_bytes");
+  l.input = word("input");
+  l.output = word("output");
+  l.cause = word("cause");
+  l.work = hash_from(json["work"].text());
+  l.input_hash = hash_from(json["input_hash"].text());
+  l.output_hash = hash_from(json["output_hash"].text());
+  l.started = json["started"].number();
+  l.seconds = json["seconds"].number();
+  l.cpu = json["cpu"].number();
+  l.memory = whole("memory");
+  l.input_bytes = whole("input_bytes");
+  l.output_bytes = whole("output_bytes");
   l.codecs = json["codecs"].boolean();
   for (auto f : json["files"])
-    l.files.push_back({std::string(f["referrer"].text()), std::string(f["url"].text()), std::string(f["path"].text()), hash_from(f["hash"].text())});
+    l.files.push_back({std::string(f["referrer"].text()), std::string(f["url"].text()), std::string(f["path"].text()),
+                       hash_from(f["hash"].text())});
   l.messages = json["messages"].source();
   return l;
 }
@@ -108,10 +120,19 @@ std::optional<Journal> Journal::open(const std::string& folder, Shard shard, std
   fs::create_directories(folder, fault);
   const auto path = fmt::format("{}/journal-{}-of-{}.jsonl", folder, shard.index + 1, shard.count);
   const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (fd < 0 && fault) return why = folder + ": " + fault.message(), std::nullopt;
-  if (fd < 0) return why = path + ": " + std::strerror(errno), std::nullopt;
+  if (fd < 0 && fault) {
+    why = folder + ": " + fault.message();
+    return std::nullopt;
+  }
+  if (fd < 0) {
+    why = path + ": " + std::strerror(errno);
+    return std::nullopt;
+  }
   Journal journal(fd);
-  if (!lock(fd)) return why = path + ": another run is writing it", std::nullopt;
+  if (!lock(fd)) {
+    why = path + ": another run is writing it";
+    return std::nullopt;
+  }
   end_cut_line(fd);
   return journal;
 }
@@ -119,7 +140,10 @@ std::optional<Journal> Journal::open(const std::string& folder, Shard shard, std
 Journal::Journal(Journal&& o) noexcept : fd_(std::exchange(o.fd_, -1)) {}
 
 Journal::~Journal() {
-  if (fd_ >= 0) settle(), close(fd_);
+  if (fd_ >= 0) {
+    settle();
+    close(fd_);
+  }
 }
 
 bool Journal::append(const JournalLine& l) {

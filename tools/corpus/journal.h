@@ -1,6 +1,6 @@
-// What has been done, a line of JSON a file, in OUT/.wrlkit/. A line is written at once behind the last one and nothing is ever
-// changed, so whatever ends a run leaves whole lines and at most one half, which is no line. Each shard has a journal of its own;
-// who reads takes all of them, and the last line about an output counts.
+// What has been done, a line of JSON a file, in OUT/.wrlkit/. A line is written at once behind the last one and nothing
+// is ever changed, so whatever ends a run leaves whole lines and at most one half, which is no line. Each shard has a
+// journal of its own; who reads takes all of them, and the last line about an output counts.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -30,14 +30,14 @@ struct JournalLine {
   std::string input, output;  // the output below the folder of the run
   ContentHash work;           // program and recipe
   JobState state = JobState::failed;
-  std::string cause;          // why nothing was made
+  std::string cause;                         // why nothing was made
   double started = 0, seconds = 0, cpu = 0;  // Unix time; wall clock; processor
-  std::uint64_t memory = 0;   // most at a time, bytes
+  std::uint64_t memory = 0;                  // most at a time, bytes
   std::uint64_t input_bytes = 0, output_bytes = 0;
   ContentHash input_hash, output_hash;
   std::vector<UsedFile> files;
-  std::string messages;       // JSON, as --report has them
-  bool codecs = false;        // a worker has loaded the codecs for pictures: told to the run, not kept
+  std::string messages;  // JSON, as --report has them
+  bool codecs = false;   // a worker has loaded the codecs for pictures: told to the run, not kept
 };
 
 std::string to_json(const JournalLine&);
@@ -48,7 +48,8 @@ std::string name_in_journal(const std::string& name);
 
 class Journal {
  public:
-  /// Opens a shard's journal to write behind what it has. Nothing, and why, when it cannot be written or another run has it.
+  /// Opens a shard's journal to write behind what it has. Nothing, and why, when it cannot be written or another run
+  /// has it.
   static std::optional<Journal> open(const std::string& folder, Shard shard, std::string& why);
   Journal(Journal&&) noexcept;
   ~Journal();

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <limits>
 
-#include "parsers/gltf/json.h"
-#include "base/io/read_file.h"
-#include "light/render/render.h"
-#include "base/text/base64.h"
 #include "base/image/image.h"
-#include "tools/verbs/diff.h"
+#include "base/io/read_file.h"
+#include "base/text/base64.h"
 #include "base/text/json.h"
+#include "light/render/render.h"
+#include "parsers/gltf/json.h"
+#include "tools/verbs/diff.h"
 
 namespace wrlkit {
 namespace {
@@ -37,14 +37,18 @@ Flags flags_to_read(const Flags& flags, const std::string& path, bool input) {
   f.jobs = 1;
   f.inputs = {path};
   f.allow_paths = flags.allow_paths;
-  if (input) f.unit = flags.unit, f.up = flags.up;
+  if (input) {
+    f.unit = flags.unit;
+    f.up = flags.up;
+  }
   return f;
 }
 
 }  // namespace
 
 std::string look_file(const std::string& out, const JournalLine& line) {
-  return corpus_folder(out) + "/looks/" + hash_of(line.input_hash.hex() + line.output_hash.hex() + line.work.hex() + line.output).hex() + ".json";
+  return corpus_folder(out) + "/looks/" +
+         hash_of(line.input_hash.hex() + line.output_hash.hex() + line.work.hex() + line.output).hex() + ".json";
 }
 
 bool make_look(const Flags& flags, const std::string& out, const JournalLine& line) {
@@ -79,7 +83,8 @@ std::optional<Look> read_look(const std::string& path) {
   if (!text || doc.parse(*text)) return std::nullopt;
   const auto json = doc.root();
   constexpr double none = std::numeric_limits<double>::infinity();
-  return Look{json["rms"].number(none), json["max"].number(none), json["of_diagonal"].number(none), std::string(json["before"].text()), std::string(json["after"].text())};
+  return Look{json["rms"].number(none), json["max"].number(none), json["of_diagonal"].number(none),
+              std::string(json["before"].text()), std::string(json["after"].text())};
 }
 
 }  // namespace wrlkit

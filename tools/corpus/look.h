@@ -1,11 +1,11 @@
-// What has become of one world: how far its surface has moved, and how it looked before and after. Kept by contents, so that a
-// report that is made again has it.
+// What has become of one world: how far its surface has moved, and how it looked before and after. Kept by contents, so
+// that a report that is made again has it.
 #pragma once
 #include <optional>
 #include <string>
 
-#include "tools/corpus/journal.h"
 #include "tools/cli/flags.h"
+#include "tools/corpus/journal.h"
 
 namespace wrlkit {
 

@@ -9,7 +9,8 @@
 namespace wrlkit {
 namespace {
 
-// Of conversions to glTF (docs/performance.md): a process, and so much a byte of text. gzip packs VRML to a sixth or so.
+// Of conversions to glTF (docs/performance.md): a process, and so much a byte of text. gzip packs VRML to a sixth or
+// so.
 constexpr double process_seconds = 0.002, seconds_a_byte = 1e-8;
 constexpr std::uint64_t process_bytes = 48 << 20, bytes_a_byte = 12, gzip_ratio = 8;
 
@@ -26,7 +27,8 @@ std::string stem(const InputFile& file) { return without_ending(file.inside).val
 /// Places in the mirrored tree, each once.
 bool place(CorpusPlan& plan, const std::string& ending, std::string& why) {
   std::unordered_map<std::string, std::uint32_t> wanted;
-  for (auto& job : plan.jobs) ++wanted[job.output = job.input.asset ? job.input.inside : stem(job.input) + "." + ending];
+  for (auto& job : plan.jobs)
+    ++wanted[job.output = job.input.asset ? job.input.inside : stem(job.input) + "." + ending];
   for (auto& job : plan.jobs)
     if (!job.input.asset && wanted[job.output] > 1) {
       plan.kept.emplace_back(job.input.path, job.output);
@@ -36,7 +38,11 @@ bool place(CorpusPlan& plan, const std::string& ending, std::string& why) {
   std::unordered_map<std::string, const CorpusJob*> taken;
   for (auto& job : plan.jobs) {
     const auto [at, is_new] = taken.try_emplace(job.output, &job);
-    if (!is_new) return why = "'" + at->second->input.path + "' and '" + job.input.path + "' would both become '" + job.output + "'; give them folders of their own, or a list with --base", false;
+    if (!is_new) {
+      why = "'" + at->second->input.path + "' and '" + job.input.path + "' would both become '" + job.output +
+            "'; give them folders of their own, or a list with --base";
+      return false;
+    }
   }
   return true;
 }
@@ -80,16 +86,26 @@ std::optional<Shard> parse_shard(const std::string& text, std::string& why) {
     } else {
       index = from_environment("JOB_COMPLETION_INDEX");
     }
-    if (!index) return why = "neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX says which shard this is", std::nullopt;
-    if (!count) return why = "how many shards are there? auto/8 says eight", std::nullopt;
+    if (!index) {
+      why = "neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX says which shard this is";
+      return std::nullopt;
+    }
+    if (!count) {
+      why = "how many shards are there? auto/8 says eight";
+      return std::nullopt;
+    }
   } else if (auto i = number(first); i && *i > 0) {
     index = *i - 1;
   }
-  if (!index || !count || *index >= *count) return why = "'" + text + "' is no shard; 2/8 is the second of eight", std::nullopt;
+  if (!index || !count || *index >= *count) {
+    why = "'" + text + "' is no shard; 2/8 is the second of eight";
+    return std::nullopt;
+  }
   return Shard{*index, *count};
 }
 
-std::optional<CorpusPlan> plan_corpus(Inputs inputs, const std::string& ending, std::uint32_t shards, std::string& why) {
+std::optional<CorpusPlan> plan_corpus(Inputs inputs, const std::string& ending, std::uint32_t shards,
+                                      std::string& why) {
   CorpusPlan plan;
   plan.roots = std::move(inputs.roots);
   plan.jobs.reserve(inputs.files.size());

@@ -7,8 +7,8 @@
 #include <set>
 #include <unordered_map>
 
-#include "parsers/gltf/json.h"
 #include "base/text/json.h"
+#include "parsers/gltf/json.h"
 
 namespace wrlkit {
 namespace {
@@ -20,18 +20,30 @@ void count_messages(const JournalLine& line, ReportRow& row, std::map<std::strin
     const auto times = m["count"].whole().value_or(0);
     if (times == 0) continue;  // told with the first of its name
     const auto severity = m["severity"].text();
-    (severity == "error" ? row.errors : severity == "lost" ? row.lost : row.warnings) += static_cast<std::uint32_t>(times);
+    (severity == "error"  ? row.errors
+     : severity == "lost" ? row.lost
+                          : row.warnings) += static_cast<std::uint32_t>(times);
     auto& kind = kinds[std::string(m["name"].text())];
-    if (kind.files == 0) kind = {std::string(severity), fmt::format("{}:{}: {}", m["file"].text(), m["line"].whole().value_or(0), m["text"].text())};
-    kind.files += 1, kind.times += times;
+    if (kind.files == 0)
+      kind = {std::string(severity),
+              fmt::format("{}:{}: {}", m["file"].text(), m["line"].whole().value_or(0), m["text"].text())};
+    kind.files += 1;
+    kind.times += times;
   }
 }
 
 ReportRow row_of(JournalLine&& l) {
   ReportRow r;
-  r.input = std::move(l.input), r.output = std::move(l.output), r.cause = std::move(l.cause);
-  r.state = l.state, r.seconds = l.seconds, r.cpu = l.cpu, r.memory = l.memory;
-  r.input_bytes = l.input_bytes, r.output_bytes = l.output_bytes, r.output_hash = l.output_hash;
+  r.input = std::move(l.input);
+  r.output = std::move(l.output);
+  r.cause = std::move(l.cause);
+  r.state = l.state;
+  r.seconds = l.seconds;
+  r.cpu = l.cpu;
+  r.memory = l.memory;
+  r.input_bytes = l.input_bytes;
+  r.output_bytes = l.output_bytes;
+  r.output_hash = l.output_hash;
   return r;
 }
 
@@ -42,11 +54,15 @@ std::string csv_text(const std::string& s) {
   return out + '"';
 }
 
-std::string number_or_nothing(const std::optional<Look>& look, double Look::*member) { return look && std::isfinite(*look.*member) ? fmt::format("{:g}", *look.*member) : ""; }
+std::string number_or_nothing(const std::optional<Look>& look, double Look::*member) {
+  return look && std::isfinite(*look.*member) ? fmt::format("{:g}", *look.*member) : "";
+}
 
 }  // namespace
 
-std::size_t CorpusReport::n(JobState s) const { return static_cast<std::size_t>(std::ranges::count(rows, s, &ReportRow::state)); }
+std::size_t CorpusReport::n(JobState s) const {
+  return static_cast<std::size_t>(std::ranges::count(rows, s, &ReportRow::state));
+}
 
 CorpusReport read_report(const std::string& out) {
   // Which line counts is known when all have been read; messages are counted in a second reading.
@@ -63,7 +79,9 @@ CorpusReport read_report(const std::string& out) {
     count_messages(l, counts, report.kinds);
     const auto path = is_made(l.state) ? look_file(out, l) : "";
     auto row = row_of(std::move(l));
-    row.errors = counts.errors, row.warnings = counts.warnings, row.lost = counts.lost;
+    row.errors = counts.errors;
+    row.warnings = counts.warnings;
+    row.lost = counts.lost;
     if (!path.empty()) row.look = read_look(path);
     report.rows.push_back(std::move(row));
   });
@@ -74,7 +92,9 @@ CorpusReport read_report(const std::string& out) {
 void compare(CorpusReport& report, const CorpusReport& before) {
   constexpr double much = 1.5, seconds_at_least = 0.2, size_at_least = 1.1, farther = 1.5;
   report.compared = before.out;
-  const auto add = [&](const std::string& output, std::string what, bool worse) { report.changes.push_back({output, std::move(what), worse}); };
+  const auto add = [&](const std::string& output, std::string what, bool worse) {
+    report.changes.push_back({output, std::move(what), worse});
+  };
   auto old = before.rows.begin();
   for (const auto& row : report.rows) {
     for (; old != before.rows.end() && old->output < row.output; ++old) add(old->output, "is no longer there", true);
@@ -83,24 +103,37 @@ void compare(CorpusReport& report, const CorpusReport& before) {
       continue;
     }
     const auto& was = *old++;
-    if (row.state != was.state) add(row.output, fmt::format("{} instead of {}", to_string(row.state), to_string(was.state)), row.state > was.state);
+    if (row.state != was.state)
+      add(row.output, fmt::format("{} instead of {}", to_string(row.state), to_string(was.state)),
+          row.state > was.state);
     if (!is_made(row.state) || !is_made(was.state)) continue;
-    if (row.errors != was.errors || row.lost != was.lost) add(row.output, fmt::format("errors {} instead of {}, lost {} instead of {}", row.errors, was.errors, row.lost, was.lost), row.errors > was.errors || row.lost > was.lost);
+    if (row.errors != was.errors || row.lost != was.lost)
+      add(row.output,
+          fmt::format("errors {} instead of {}, lost {} instead of {}", row.errors, was.errors, row.lost, was.lost),
+          row.errors > was.errors || row.lost > was.lost);
     const auto bytes = static_cast<double>(row.output_bytes), bytes_before = static_cast<double>(was.output_bytes);
-    if (bytes > size_at_least * bytes_before || bytes_before > size_at_least * bytes) add(row.output, fmt::format("{} bytes instead of {}", row.output_bytes, was.output_bytes), bytes > bytes_before);
-    else if (row.output_hash != was.output_hash) add(row.output, "other bytes", false);
-    if (row.cpu > much * was.cpu + seconds_at_least) add(row.output, fmt::format("{:.2f} s of processor time instead of {:.2f}", row.cpu, was.cpu), true);
-    if (row.look && was.look && row.look->rms > farther * was.look->rms + 1e-12) add(row.output, fmt::format("its surface is {:.3g} m rms away instead of {:.3g}", row.look->rms, was.look->rms), true);
+    if (bytes > size_at_least * bytes_before || bytes_before > size_at_least * bytes)
+      add(row.output, fmt::format("{} bytes instead of {}", row.output_bytes, was.output_bytes), bytes > bytes_before);
+    else if (row.output_hash != was.output_hash)
+      add(row.output, "other bytes", false);
+    if (row.cpu > much * was.cpu + seconds_at_least)
+      add(row.output, fmt::format("{:.2f} s of processor time instead of {:.2f}", row.cpu, was.cpu), true);
+    if (row.look && was.look && row.look->rms > farther * was.look->rms + 1e-12)
+      add(row.output, fmt::format("its surface is {:.3g} m rms away instead of {:.3g}", row.look->rms, was.look->rms),
+          true);
   }
   for (; old != before.rows.end(); ++old) add(old->output, "is no longer there", true);
   std::ranges::stable_partition(report.changes, &Change::worse);
 }
 
 std::string report_csv(const CorpusReport& report) {
-  std::string out = "input,output,state,cause,seconds,cpu,memory,input_bytes,output_bytes,errors,warnings,lost,rms,max,of_diagonal\n";
+  std::string out =
+      "input,output,state,cause,seconds,cpu,memory,input_bytes,output_bytes,errors,warnings,lost,rms,max,of_diagonal\n";
   for (const auto& r : report.rows)
-    out += fmt::format("{},{},{},{},{:.3f},{:.3f},{},{},{},{},{},{},{},{},{}\n", csv_text(r.input), csv_text(r.output), to_string(r.state), csv_text(r.cause), r.seconds, r.cpu, r.memory, r.input_bytes,
-                       r.output_bytes, r.errors, r.warnings, r.lost, number_or_nothing(r.look, &Look::rms), number_or_nothing(r.look, &Look::max), number_or_nothing(r.look, &Look::of_diagonal));
+    out += fmt::format("{},{},{},{},{:.3f},{:.3f},{},{},{},{},{},{},{},{},{}\n", csv_text(r.input), csv_text(r.output),
+                       to_string(r.state), csv_text(r.cause), r.seconds, r.cpu, r.memory, r.input_bytes, r.output_bytes,
+                       r.errors, r.warnings, r.lost, number_or_nothing(r.look, &Look::rms),
+                       number_or_nothing(r.look, &Look::max), number_or_nothing(r.look, &Look::of_diagonal));
   return out;
 }
 
@@ -111,7 +144,9 @@ std::string report_json(const CorpusReport& report) {
   json.member("folder", report.out);
   json.key("states");
   json.begin_object();
-  for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout, JobState::no_memory}) json.member(to_string(s), report.n(s));
+  for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout,
+                 JobState::no_memory})
+    json.member(to_string(s), report.n(s));
   json.end_object();
   json.key("messages");
   json.begin_array();
@@ -141,7 +176,11 @@ std::string report_json(const CorpusReport& report) {
     json.member("errors", r.errors);
     json.member("warnings", r.warnings);
     json.member("lost", r.lost);
-    if (r.look) json.member("rms", r.look->rms), json.member("max", r.look->max), json.member("of_diagonal", r.look->of_diagonal);
+    if (r.look) {
+      json.member("rms", r.look->rms);
+      json.member("max", r.look->max);
+      json.member("of_diagonal", r.look->of_diagonal);
+    }
     json.end_object();
   }
   json.end_array();

@@ -35,10 +35,10 @@ struct Change {
 
 struct CorpusReport {
   std::string out;
-  std::vector<ReportRow> rows;                               // by output
-  std::map<std::string, ReportedKind, std::less<>> kinds;    // by name
-  std::string compared;                                      // folder of the other run; empty: none
-  std::vector<Change> changes;                               // those that are worse first
+  std::vector<ReportRow> rows;                             // by output
+  std::map<std::string, ReportedKind, std::less<>> kinds;  // by name
+  std::string compared;                                    // folder of the other run; empty: none
+  std::vector<Change> changes;                             // those that are worse first
 
   std::size_t n(JobState s) const;
 };

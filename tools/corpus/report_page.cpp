@@ -7,10 +7,10 @@
 #include <numeric>
 
 #include "base/io/read_file.h"
-#include "tools/report/chart.h"
-#include "tools/corpus/report.h"
-#include "tools/report/report_frame.h"
 #include "base/text/json.h"
+#include "tools/corpus/report.h"
+#include "tools/report/chart.h"
+#include "tools/report/report_frame.h"
 
 namespace wrlkit {
 namespace {
@@ -53,8 +53,12 @@ class Page {
     failures();
     deviations();
     kinds();
-    outliers("Most processor time", [](const ReportRow& r) { return r.cpu; }, [](const ReportRow& r) { return fmt::format("{:.2f} s", r.cpu); });
-    outliers("Most memory", [](const ReportRow& r) { return static_cast<double>(r.memory); }, [](const ReportRow& r) { return readable_size(r.memory); });
+    outliers(
+        "Most processor time", [](const ReportRow& r) { return r.cpu; },
+        [](const ReportRow& r) { return fmt::format("{:.2f} s", r.cpu); });
+    outliers(
+        "Most memory", [](const ReportRow& r) { return static_cast<double>(r.memory); },
+        [](const ReportRow& r) { return readable_size(r.memory); });
     files();
     out_ += report_end();
     return std::move(out_);
@@ -62,23 +66,33 @@ class Page {
 
  private:
   template <class... T>
-  void put(fmt::format_string<T...> format, T&&... values) { fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...); }
+  void put(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
+  }
 
   void figures() {
-    const auto sum = [&](auto value) { return std::accumulate(r_.rows.begin(), r_.rows.end(), 0.0, [&](double s, const ReportRow& r) { return s + static_cast<double>(value(r)); }); };
+    const auto sum = [&](auto value) {
+      return std::accumulate(r_.rows.begin(), r_.rows.end(), 0.0,
+                             [&](double s, const ReportRow& r) { return s + static_cast<double>(value(r)); });
+    };
     put("<ul class=\"summary\"><li><b>{}</b>files</li>", r_.rows.size());
-    for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout, JobState::no_memory})
+    for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout,
+                   JobState::no_memory})
       if (r_.n(s)) put("<li><b{}>{}</b>{}</li>", is_made(s) ? "" : " class=\"bad\"", r_.n(s), to_string(s));
-    put("<li><b>{}</b>read</li><li><b>{}</b>written</li><li><b>{:.1f} s</b>of processor time</li></ul>\n", readable_size(static_cast<std::uint64_t>(sum([](const ReportRow& r) { return r.input_bytes; }))),
-        readable_size(static_cast<std::uint64_t>(sum([](const ReportRow& r) { return r.output_bytes; }))), sum([](const ReportRow& r) { return r.cpu; }));
+    put("<li><b>{}</b>read</li><li><b>{}</b>written</li><li><b>{:.1f} s</b>of processor time</li></ul>\n",
+        readable_size(static_cast<std::uint64_t>(sum([](const ReportRow& r) { return r.input_bytes; }))),
+        readable_size(static_cast<std::uint64_t>(sum([](const ReportRow& r) { return r.output_bytes; }))),
+        sum([](const ReportRow& r) { return r.cpu; }));
   }
 
   void changes() {
     if (r_.compared.empty()) return;
     const auto worse = std::ranges::count_if(r_.changes, &Change::worse);
-    put("<h2>Compared with {}</h2>\n<p>{} changes, {} of them for the worse.</p>\n{}", html_text(r_.compared), r_.changes.size(), worse, table_begin("Changes"));
+    put("<h2>Compared with {}</h2>\n<p>{} changes, {} of them for the worse.</p>\n{}", html_text(r_.compared),
+        r_.changes.size(), worse, table_begin("Changes"));
     for (std::size_t i = 0; i < std::min(most_failed, r_.changes.size()); ++i)
-      put("<tr><td class=\"text\">{}</td><td class=\"text{}\">{}</td></tr>\n", html_text(r_.changes[i].output), r_.changes[i].worse ? " bad" : "", html_text(r_.changes[i].what));
+      put("<tr><td class=\"text\">{}</td><td class=\"text{}\">{}</td></tr>\n", html_text(r_.changes[i].output),
+          r_.changes[i].worse ? " bad" : "", html_text(r_.changes[i].what));
     out_ += table_end();
   }
 
@@ -87,7 +101,8 @@ class Page {
     for (const auto& r : r_.rows) {
       if (is_made(r.state) || n == most_failed) continue;
       if (n++ == 0) put("<h2>Nothing could be made of</h2>\n{}", table_begin("Failures"));
-      put("<tr><td class=\"text\">{}</td><td class=\"text bad\">{}</td><td class=\"text\">{}</td></tr>\n", html_text(r.input), to_string(r.state), html_text(r.cause));
+      put("<tr><td class=\"text\">{}</td><td class=\"text bad\">{}</td><td class=\"text\">{}</td></tr>\n",
+          html_text(r.input), to_string(r.state), html_text(r.cause));
     }
     if (n) out_ += table_end();
   }
@@ -98,7 +113,8 @@ class Page {
     for (const auto& r : r_.rows)
       if (value(r) > 0) rows.push_back(&r);
     const auto n = std::min(most_listed, rows.size());
-    std::ranges::partial_sort(rows, rows.begin() + static_cast<std::ptrdiff_t>(n), std::greater{}, [&](const ReportRow* r) { return value(*r); });
+    std::ranges::partial_sort(rows, rows.begin() + static_cast<std::ptrdiff_t>(n), std::greater{},
+                              [&](const ReportRow* r) { return value(*r); });
     rows.resize(n);
     return rows;
   }
@@ -106,23 +122,39 @@ class Page {
   void deviations() {
     const auto looked = std::ranges::count_if(r_.rows, [](const ReportRow& r) { return r.look.has_value(); });
     if (!looked) return;
-    put("<h2>Farthest from what they were</h2>\n<p>{} worlds were measured and drawn, before and after: the distance of their surfaces as the root of the mean square, in metres and as a share of the diagonal.</p>\n<div class=\"looks\">\n", looked);
-    for (const auto* r : largest([](const ReportRow& r) { return r.look && r.look->of_diagonal > rounding ? r.look->of_diagonal : 0; }))
-      put("<figure><div data-look=\"{}\"></div><figcaption>{}<br><span class=\"soft\">{}</span></figcaption></figure>\n", look_index(*r), html_text(r->input),
-          std::isfinite(r->look->rms) ? fmt::format("{:.3g} m rms, {:.3g} m at most; {:.2g} of the diagonal", r->look->rms, r->look->max, r->look->of_diagonal) : "one of the worlds shows no surface, or too large a one");
+    put("<h2>Farthest from what they were</h2>\n<p>{} worlds were measured and drawn, before and after: the distance "
+        "of their surfaces as the root of the mean square, in metres and as a share of the diagonal.</p>\n<div "
+        "class=\"looks\">\n",
+        looked);
+    for (const auto* r :
+         largest([](const ReportRow& r) { return r.look && r.look->of_diagonal > rounding ? r.look->of_diagonal : 0; }))
+      put("<figure><div data-look=\"{}\"></div><figcaption>{}<br><span "
+          "class=\"soft\">{}</span></figcaption></figure>\n",
+          look_index(*r), html_text(r->input),
+          std::isfinite(r->look->rms) ? fmt::format("{:.3g} m rms, {:.3g} m at most; {:.2g} of the diagonal",
+                                                    r->look->rms, r->look->max, r->look->of_diagonal)
+                                      : "one of the worlds shows no surface, or too large a one");
     put("</div>\n");
   }
 
-  std::ptrdiff_t look_index(const ReportRow& row) const { return std::count_if(r_.rows.data(), &row, [](const ReportRow& r) { return r.look.has_value(); }); }
+  std::ptrdiff_t look_index(const ReportRow& row) const {
+    return std::count_if(r_.rows.data(), &row, [](const ReportRow& r) { return r.look.has_value(); });
+  }
 
   void kinds() {
     if (r_.kinds.empty()) return;
-    put("<h2>What was lost, repaired or wrong</h2>\n{}<tr><th class=\"text\">message</th><th class=\"text\">kind</th><th>files</th><th>times</th><th class=\"text\">for example</th></tr>\n", table_begin("Messages"));
+    put("<h2>What was lost, repaired or wrong</h2>\n{}<tr><th class=\"text\">message</th><th "
+        "class=\"text\">kind</th><th>files</th><th>times</th><th class=\"text\">for example</th></tr>\n",
+        table_begin("Messages"));
     std::vector<std::pair<std::string_view, const ReportedKind*>> sorted;
     for (const auto& [name, kind] : r_.kinds) sorted.emplace_back(name, &kind);
     const auto rank = [](const ReportedKind& k) { return k.severity == "error" ? 0 : k.severity == "lost" ? 1 : 2; };
-    std::ranges::stable_sort(sorted, {}, [&](const auto& k) { return std::tuple(rank(*k.second), -static_cast<double>(k.second->files)); });
-    for (const auto& [name, k] : sorted) put("<tr><td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n", name, k->severity, k->files, k->times, html_text(k->example));
+    std::ranges::stable_sort(
+        sorted, {}, [&](const auto& k) { return std::tuple(rank(*k.second), -static_cast<double>(k.second->files)); });
+    for (const auto& [name, k] : sorted)
+      put("<tr><td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td "
+          "class=\"text\">{}</td></tr>\n",
+          name, k->severity, k->files, k->times, html_text(k->example));
     out_ += table_end();
   }
 
@@ -136,14 +168,22 @@ class Page {
     std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
     const double median = all[all.size() / 2];
     put("<h2>{}</h2>\n{}", title, table_begin(title));
-    for (const auto* r : rows) put("<tr><td class=\"text\">{}</td><td>{}</td><td class=\"soft\">{:.0f} times the median</td><td>{}</td></tr>\n", html_text(r->input), text(*r), median > 0 ? value(*r) / median : 0.0, readable_size(r->input_bytes));
+    for (const auto* r : rows)
+      put("<tr><td class=\"text\">{}</td><td>{}</td><td class=\"soft\">{:.0f} times the median</td><td>{}</td></tr>\n",
+          html_text(r->input), text(*r), median > 0 ? value(*r) / median : 0.0, readable_size(r->input_bytes));
     out_ += table_end();
   }
 
   void files() {
-    put("<h2>All files</h2>\n<p class=\"line\"><input id=\"q\" type=\"search\" placeholder=\"Name or cause\" aria-label=\"Search\"> <select id=\"s\" aria-label=\"State\"><option value=\"\">All states</option></select> "
-        "<button type=\"button\" id=\"back\">Back</button> <button type=\"button\" id=\"next\">Next</button> <span id=\"n\" class=\"soft\" role=\"status\"></span></p>\n{}<thead><tr id=\"head\"></tr></thead><tbody id=\"rows\"></tbody>{}<script>\nconst states=[", table_begin("All files"), table_end());
-    for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout, JobState::no_memory}) put("\"{}\",", to_string(s));
+    put("<h2>All files</h2>\n<p class=\"line\"><input id=\"q\" type=\"search\" placeholder=\"Name or cause\" "
+        "aria-label=\"Search\"> <select id=\"s\" aria-label=\"State\"><option value=\"\">All states</option></select> "
+        "<button type=\"button\" id=\"back\">Back</button> <button type=\"button\" id=\"next\">Next</button> <span "
+        "id=\"n\" class=\"soft\" role=\"status\"></span></p>\n{}<thead><tr id=\"head\"></tr></thead><tbody "
+        "id=\"rows\"></tbody>{}<script>\nconst states=[",
+        table_begin("All files"), table_end());
+    for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout,
+                   JobState::no_memory})
+      put("\"{}\",", to_string(s));
     std::string rows, looks;
     JsonOut json(rows), json_looks(looks);
     json.begin_array();
@@ -151,10 +191,20 @@ class Page {
     std::size_t n_looks = 0;
     for (const auto& r : r_.rows) {
       json.begin_array();
-      json.value(r.input), json.value(static_cast<int>(r.state)), json.value(r.seconds), json.value(r.cpu), json.value(r.memory), json.value(r.input_bytes), json.value(r.output_bytes);
-      json.value(r.errors), json.value(r.warnings), json.value(r.lost);
+      json.value(r.input);
+      json.value(static_cast<int>(r.state));
+      json.value(r.seconds);
+      json.value(r.cpu);
+      json.value(r.memory);
+      json.value(r.input_bytes);
+      json.value(r.output_bytes);
+      json.value(r.errors);
+      json.value(r.warnings);
+      json.value(r.lost);
       if (r.look) {
-        json.value(r.look->rms), json.value(r.look->max), json.value(n_looks++);
+        json.value(r.look->rms);
+        json.value(r.look->max);
+        json.value(n_looks++);
         const std::string_view pictures[] = {r.look->before, r.look->after};
         json_looks.value(std::span(pictures));
       } else {

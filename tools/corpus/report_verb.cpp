@@ -1,5 +1,5 @@
-// wrlkit corpus report: the journals of a run as a page, a table or JSON. What has become of the worlds is measured and drawn by
-// workers, as in the run: a world that ends a worker has no picture, and the report has all others.
+// wrlkit corpus report: the journals of a run as a page, a table or JSON. What has become of the worlds is measured and
+// drawn by workers, as in the run: a world that ends a worker has no picture, and the report has all others.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,11 +8,11 @@
 
 #include "base/image/image_codecs.h"
 #include "tools/cli/cli.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"
 #include "tools/corpus/report.h"
 #include "tools/corpus/workers.h"
-#include "tools/cli/progress.h"
-#include "tools/cli/session.h"
 
 namespace wrlkit {
 namespace {
@@ -51,14 +51,16 @@ void look(const Flags& flags, std::size_t most) {
   fs::create_directories(corpus_folder(out) + "/looks", none);
   load_image_codecs();
   const auto memory = flags.memory.empty() ? free_memory() / 10 * 8 : size_of(flags.memory);
-  const std::size_t jobs = flags.jobs > 0 ? static_cast<std::size_t>(flags.jobs) : std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t jobs =
+      flags.jobs > 0 ? static_cast<std::size_t>(flags.jobs) : std::max(1u, std::thread::hardware_concurrency());
   Progress progress(!flags.quiet);
   progress.begin("looking", lines.size(), "worlds");
   Workers workers;
   for (std::size_t next = 0, ended = 0; ended < lines.size() && !Workers::interrupted();) {
     while (next < lines.size() && workers.running() < jobs) {
       const auto& line = lines[next];
-      const bool begun = workers.start(next, memory / jobs, most_seconds, [&](const Workers::Tell&) { return make_look(conversion, out, line) ? 0 : 1; });
+      const bool begun = workers.start(next, memory / jobs, most_seconds,
+                                       [&](const Workers::Tell&) { return make_look(conversion, out, line) ? 0 : 1; });
       if (!begun && !workers.running()) return;
       if (!begun) break;
       ++next;
@@ -68,7 +70,9 @@ void look(const Flags& flags, std::size_t most) {
 }
 
 bool write(const CorpusReport& report, const std::string& path) {
-  return write_text_file(path, path.ends_with(".csv") ? report_csv(report) : path.ends_with(".json") ? report_json(report) : report_page(report));
+  return write_text_file(path, path.ends_with(".csv")    ? report_csv(report)
+                               : path.ends_with(".json") ? report_json(report)
+                                                         : report_page(report));
 }
 
 }  // namespace
@@ -76,7 +80,10 @@ bool write(const CorpusReport& report, const std::string& path) {
 int run_corpus_report(const Flags& flags) {
   const auto& out = flags.inputs[0];
   for (const auto& folder : {out, flags.compare})
-    if (!folder.empty() && !fs::is_directory(corpus_folder(folder))) return fmt::print(stderr, "wrlkit: there is no corpus run in '{}'\n", folder), usage;
+    if (!folder.empty() && !fs::is_directory(corpus_folder(folder))) {
+      fmt::print(stderr, "wrlkit: there is no corpus run in '{}'\n", folder);
+      return usage;
+    }
   if (flags.looks > 0) look(flags, static_cast<std::size_t>(flags.looks));
   auto report = read_report(out);
   if (!flags.compare.empty()) compare(report, read_report(flags.compare));

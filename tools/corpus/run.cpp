@@ -1,5 +1,5 @@
-// wrlkit corpus run and corpus plan. One process plans, starts workers and writes the journal; each file is done by a worker
-// (workers.h), which writes its output whole or not at all.
+// wrlkit corpus run and corpus plan. One process plans, starts workers and writes the journal; each file is done by a
+// worker (workers.h), which writes its output whole or not at all.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,12 +17,12 @@
 #include <unistd.h>
 
 #include "base/image/image_codecs.h"
+#include "base/text/json.h"
 #include "tools/cli/cli.h"
+#include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"
 #include "tools/corpus/status.h"
 #include "tools/corpus/workers.h"
-#include "tools/cli/session.h"
-#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {
@@ -36,13 +36,20 @@ std::string host_name() {
 
 /// As a shell reads it, on one line whatever is in it.
 std::string shell_word(const std::string& word) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || c >= 0x80 || std::string_view("/._-+:,=@%").find(static_cast<char>(c)) != std::string_view::npos; };
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || c >= 0x80 ||
+           std::string_view("/._-+:,=@%").find(static_cast<char>(c)) != std::string_view::npos;
+  };
   if (!word.empty() && std::ranges::all_of(word, plain)) return word;
   std::string out = "$'";
   for (const char c : word) {
-    if (c == '\'' || c == '\\') out += '\\', out += c;
-    else if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
-    else out += c;
+    if (c == '\'' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < ' ' || c == 0x7f)
+      out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+    else
+      out += c;
   }
   return out + '\'';
 }
@@ -50,7 +57,8 @@ std::string shell_word(const std::string& word) {
 /// "SIGABRT (Aborted)".
 std::string signal_text(int signal) {
   const char* name = sigabbrev_np(signal);
-  return fmt::format("{} ({})", name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal), strsignal(signal));
+  return fmt::format("{} ({})", name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal),
+                     strsignal(signal));
 }
 
 /// Whether the outputs would be written among the inputs.
@@ -68,28 +76,51 @@ struct Planned {
 std::optional<Planned> plan_of(const Flags& flags, bool assets) {
   std::string why;
   Planned p;
-  const auto fail = [&] { return fmt::print(stderr, "wrlkit: {}\n", why), std::nullopt; };
+  const auto fail = [&] {
+    fmt::print(stderr, "wrlkit: {}\n", why);
+    return std::nullopt;
+  };
   if (!flags.shard.empty()) {
     const auto shard = parse_shard(flags.shard, why);
     if (!shard) return fail();
     p.shard = *shard;
   }
-  auto inputs = gather_inputs(flags.inputs, {.include = flags.include, .exclude = flags.exclude, .base = flags.base, .output = flags.output, .assets = assets}, why);
+  auto inputs = gather_inputs(flags.inputs,
+                              {.include = flags.include,
+                               .exclude = flags.exclude,
+                               .base = flags.base,
+                               .output = flags.output,
+                               .assets = assets},
+                              why);
   if (!inputs) return fail();
-  if (inputs->files.empty()) return why = "there are no worlds among the inputs", fail();
+  if (inputs->files.empty()) {
+    why = "there are no worlds among the inputs";
+    return fail();
+  }
   auto plan = plan_corpus(std::move(*inputs), flags.format, p.shard.count, why);
   if (!plan) return fail();
   p.plan = std::move(*plan);
-  if (is_input_folder(p.plan, flags.output)) return why = "'" + flags.output + "' is a folder of inputs; the outputs need one of their own", fail();
+  if (is_input_folder(p.plan, flags.output)) {
+    why = "'" + flags.output + "' is a folder of inputs; the outputs need one of their own";
+    return fail();
+  }
   return p;
 }
 
 class Run {
  public:
   Run(const Flags& flags, const CorpusWork& work, const Planned& planned, Journal journal)
-      : flags_(flags), work_(work), plan_(planned.plan), journal_(std::move(journal)), before_(work, plan_), host_(host_name()) {
+      : flags_(flags),
+        work_(work),
+        plan_(planned.plan),
+        journal_(std::move(journal)),
+        before_(work, plan_),
+        host_(host_name()) {
     for (std::uint32_t i = 0; i < plan_.jobs.size(); ++i)
-      if (flags.shard.empty() || plan_.jobs[i].shard == planned.shard.index) todo_.push_back(i), cost_ += plan_.jobs[i].cost;
+      if (flags.shard.empty() || plan_.jobs[i].shard == planned.shard.index) {
+        todo_.push_back(i);
+        cost_ += plan_.jobs[i].cost;
+      }
     memory_ = flags.memory.empty() ? free_memory() / 10 * 8 : size_of(flags.memory);
     bundle_size_ = static_cast<std::size_t>(flags.bundle);
     jobs_ = flags.jobs > 0 ? static_cast<std::size_t>(flags.jobs) : std::max(1u, std::thread::hardware_concurrency());
@@ -101,8 +132,12 @@ class Run {
     status_ = &status;
     if (!flags_.joblog.empty() && !open_joblog()) return usage;
     if (!flags_.quiet)
-      for (const auto& [input, output] : plan_.kept) fmt::print(stderr, "{}: several inputs would become '{}'; this one keeps its ending in the name of the output\n", input, output);
-    while (good_ && !Workers::interrupted() && (next_ < todo_.size() || !bundle_.empty() || workers_.running() || !alone_.empty())) {
+      for (const auto& [input, output] : plan_.kept)
+        fmt::print(stderr,
+                   "{}: several inputs would become '{}'; this one keeps its ending in the name of the output\n", input,
+                   output);
+    while (good_ && !Workers::interrupted() &&
+           (next_ < todo_.size() || !bundle_.empty() || workers_.running() || !alone_.empty())) {
       start_some();
       // Those that need all of the memory wait until everybody else is done.
       if (all_begun() && !workers_.running() && !alone_.empty() && start({alone_.back()}, memory_)) alone_.pop_back();
@@ -115,10 +150,16 @@ class Run {
       }
       status.show(at_work());
     }
-    if (!good_) return fmt::print(stderr, "wrlkit: the journal in '{}' cannot be written: {}\n", corpus_folder(work_.out), journal_fault_), nothing;
+    if (!good_) {
+      fmt::print(stderr, "wrlkit: the journal in '{}' cannot be written: {}\n", corpus_folder(work_.out),
+                 journal_fault_);
+      return nothing;
+    }
     journal_.settle();
     if (!Workers::interrupted()) status.end();
-    return status.n_made() == 0 && status.n_done() > 0 ? nothing : status.n(JobState::made) == status.n_done() ? done : partly;
+    return status.n_made() == 0 && status.n_done() > 0   ? nothing
+           : status.n(JobState::made) == status.n_done() ? done
+                                                         : partly;
   }
 
  private:
@@ -137,7 +178,9 @@ class Run {
 
   bool all_begun() const { return next_ == todo_.size() && bundle_.empty(); }
   /// Whether its worker may do others, too.
-  bool may_share(std::uint32_t at) const { return bundle_size_ > 1 && plan_.jobs[at].cost < small_cost && !own_process_.contains(at); }
+  bool may_share(std::uint32_t at) const {
+    return bundle_size_ > 1 && plan_.jobs[at].cost < small_cost && !own_process_.contains(at);
+  }
 
   /// Takes the next file that is not done, and small ones behind it; not so many that other workers would have none.
   void fill_bundle() {
@@ -173,7 +216,10 @@ class Run {
       for (const auto at : files) tell(to_json(measured(at)) + "\n");
       return done;
     });
-    if (!begun) return std::this_thread::sleep_for(std::chrono::milliseconds(workers_.running() ? 0 : 100)), false;
+    if (!begun) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(workers_.running() ? 0 : 100));
+      return false;
+    }
     grants_[files.front()] = {files, memory};
     granted_ += memory;
     return true;
@@ -187,7 +233,10 @@ class Run {
     do_job(work_, plan_, plan_.jobs[at], line);
     const Usage after;
     line.codecs = !had_codecs && image_codecs_are_loaded();
-    line.started = before.time, line.seconds = after.time - before.time, line.cpu = after.cpu - before.cpu, line.memory = after.memory;
+    line.started = before.time;
+    line.seconds = after.time - before.time;
+    line.cpu = after.cpu - before.cpu;
+    line.memory = after.memory;
     return line;
   }
 
@@ -211,8 +260,10 @@ class Run {
         if (alone) measure(*line, end);
         take(at, std::move(*line));
       } else if (!alone) {  // whichever of them has ended the worker: the next one will say
-        own_process_.insert(at), todo_.push_back(at);
-      } else if (!end.timed_out && (end.exit_code == Workers::no_memory || end.signal == SIGKILL) && work.memory < memory_) {
+        own_process_.insert(at);
+        todo_.push_back(at);
+      } else if (!end.timed_out && (end.exit_code == Workers::no_memory || end.signal == SIGKILL) &&
+                 work.memory < memory_) {
         alone_.push_back(at);
       } else {
         auto failed = failure(at, end);
@@ -224,47 +275,81 @@ class Run {
 
   void take(std::uint32_t at, JournalLine line, int exit_code = 0, int signal = 0) {
     const auto& job = plan_.jobs[at];
-    line.input = job.input.path, line.output = job.output, line.work = work_.hash, line.input_bytes = job.input.bytes;
-    // The codecs take longer to load than most files to convert: when they are wanted again and again, the workers to come have them.
+    line.input = job.input.path;
+    line.output = job.output;
+    line.work = work_.hash;
+    line.input_bytes = job.input.bytes;
+    // The codecs take longer to load than most files to convert: when they are wanted again and again, the workers to
+    // come have them.
     if (std::exchange(line.codecs, false) && ++with_codecs_ == few) load_image_codecs();
     if (!is_made(line.state)) {
       std::error_code none;
-      if (before_.has(job)) fs::remove(fs::path(work_.out) / job.output, none);  // made by another recipe, or of what the input was
+      if (before_.has(job))
+        fs::remove(fs::path(work_.out) / job.output, none);  // made by another recipe, or of what the input was
       status_->failed(line.input, line.cause);
     }
-    if (!journal_.append(line)) good_ = false, journal_fault_ = std::strerror(errno);
-    if (const auto now = std::chrono::steady_clock::now(); now - settled_ > std::chrono::seconds(5)) journal_.settle(), settled_ = now;
-    const int code = line.state == JobState::made ? done : line.state == JobState::made_partly ? partly : line.state == JobState::failed ? nothing : exit_code;
+    if (!journal_.append(line)) {
+      good_ = false;
+      journal_fault_ = std::strerror(errno);
+    }
+    if (const auto now = std::chrono::steady_clock::now(); now - settled_ > std::chrono::seconds(5)) {
+      journal_.settle();
+      settled_ = now;
+    }
+    const int code = line.state == JobState::made          ? done
+                     : line.state == JobState::made_partly ? partly
+                     : line.state == JobState::failed      ? nothing
+                                                           : exit_code;
     log(line, code, signal);
     status_->add(line.state, job.cost, false);
   }
 
-  static void measure(JournalLine& line, const WorkerEnd& end) { line.started = end.started, line.seconds = end.seconds, line.cpu = end.cpu, line.memory = end.memory; }
+  static void measure(JournalLine& line, const WorkerEnd& end) {
+    line.started = end.started;
+    line.seconds = end.seconds;
+    line.cpu = end.cpu;
+    line.memory = end.memory;
+  }
 
   /// Of a worker that could not say it itself.
   JournalLine failure(std::uint32_t at, const WorkerEnd& end) const {
     JournalLine line;
     line.input_hash = hash_of_file(plan_.jobs[at].input.path).value_or(ContentHash{});
-    const auto printed = end.printed.empty() ? "" : ": " + end.printed.substr(0, end.printed.find_last_not_of('\n') + 1);
-    if (end.timed_out) line.state = JobState::timeout, line.cause = fmt::format("it took longer than {}", flags_.timeout);
-    else if (end.exit_code == Workers::no_memory) line.state = JobState::no_memory, line.cause = fmt::format("it needs more than {} of memory", readable_size(memory_));
-    else if (end.signal) line.state = JobState::crashed, line.cause = fmt::format("the worker has ended by {}{}", signal_text(end.signal), printed);
-    else line.state = JobState::crashed, line.cause = fmt::format("the worker has ended with exit code {}{}", end.exit_code, printed);
+    const auto printed =
+        end.printed.empty() ? "" : ": " + end.printed.substr(0, end.printed.find_last_not_of('\n') + 1);
+    if (end.timed_out) {
+      line.state = JobState::timeout;
+      line.cause = fmt::format("it took longer than {}", flags_.timeout);
+    } else if (end.exit_code == Workers::no_memory) {
+      line.state = JobState::no_memory;
+      line.cause = fmt::format("it needs more than {} of memory", readable_size(memory_));
+    } else if (end.signal) {
+      line.state = JobState::crashed;
+      line.cause = fmt::format("the worker has ended by {}{}", signal_text(end.signal), printed);
+    } else {
+      line.state = JobState::crashed;
+      line.cause = fmt::format("the worker has ended with exit code {}{}", end.exit_code, printed);
+    }
     return line;
   }
 
   bool open_joblog() {
     const bool is_new = !fs::exists(flags_.joblog);
     joblog_.open(flags_.joblog, std::ios::app);
-    if (!joblog_) return fmt::print(stderr, "wrlkit: '{}' cannot be written\n", flags_.joblog), false;
+    if (!joblog_) {
+      fmt::print(stderr, "wrlkit: '{}' cannot be written\n", flags_.joblog);
+      return false;
+    }
     if (is_new) joblog_ << "Seq\tHost\tStarttime\tJobRuntime\tSend\tReceive\tExitval\tSignal\tCommand\n";
     return true;
   }
 
   void log(const JournalLine& l, int exit_code, int signal) {
     if (!joblog_.is_open()) return;
-    joblog_ << fmt::format("{}\t{}\t{:.3f}\t{:10.3f}\t{}\t{}\t{}\t{}\twrlkit convert {} {} --recipe {}\n", ++logged_, host_, l.started, l.seconds, l.input_bytes, l.output_bytes, exit_code, signal,
-                           shell_word(l.input), shell_word((fs::path(work_.out) / l.output).string()), shell_word(flags_.recipe))
+    joblog_ << fmt::format("{}\t{}\t{:.3f}\t{:10.3f}\t{}\t{}\t{}\t{}\twrlkit convert {} {} --recipe {}\n", ++logged_,
+                           host_, l.started, l.seconds, l.input_bytes, l.output_bytes, exit_code, signal,
+                           shell_word(l.input), shell_word((fs::path(work_.out) / l.output).string()),
+                           shell_word(flags_.recipe))
             << std::flush;
   }
 
@@ -301,13 +386,16 @@ class Run {
 void print_plan(const Planned& p, const Flags& flags) {
   std::string json_text;
   JsonOut json(json_text);
-  if (flags.json) json.begin_array();
-  else fmt::print("shard\tseconds\tbytes\tinput\toutput\n");
+  if (flags.json)
+    json.begin_array();
+  else
+    fmt::print("shard\tseconds\tbytes\tinput\toutput\n");
   for (const auto& job : p.plan.jobs) {
     if (!flags.shard.empty() && job.shard != p.shard.index) continue;
     const auto output = (fs::path(flags.output) / job.output).string();
     if (!flags.json) {
-      fmt::print("{}/{}\t{:.3f}\t{}\t{}\t{}\n", job.shard + 1, p.shard.count, job.cost, job.input.bytes, job.input.path, output);
+      fmt::print("{}/{}\t{:.3f}\t{}\t{}\t{}\n", job.shard + 1, p.shard.count, job.cost, job.input.bytes, job.input.path,
+                 output);
       continue;
     }
     json.begin_object();
@@ -318,7 +406,10 @@ void print_plan(const Planned& p, const Flags& flags) {
     json.member("output", output);
     json.end_object();
   }
-  if (flags.json) json.end_array(), fmt::print("{}\n", json_text);
+  if (flags.json) {
+    json.end_array();
+    fmt::print("{}\n", json_text);
+  }
 }
 
 }  // namespace
@@ -326,11 +417,17 @@ void print_plan(const Planned& p, const Flags& flags) {
 int run_corpus_run(const Flags& flags) {
   std::string why;
   const auto work = corpus_work(flags, why);
-  if (!work) return fmt::print(stderr, "{}", why), usage;
+  if (!work) {
+    fmt::print(stderr, "{}", why);
+    return usage;
+  }
   const auto planned = plan_of(flags, work->text);
   if (!planned) return usage;
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
-  if (!journal) return fmt::print(stderr, "wrlkit: {}\n", why), usage;
+  if (!journal) {
+    fmt::print(stderr, "wrlkit: {}\n", why);
+    return usage;
+  }
   if (!write_run_recipe(*work, planned->plan)) return usage;
   return Run(flags, *work, *planned, std::move(*journal)).run();
 }
@@ -338,7 +435,10 @@ int run_corpus_run(const Flags& flags) {
 int run_corpus_plan(const Flags& flags) {
   std::string why;
   const auto work = corpus_work(flags, why);
-  if (!work) return fmt::print(stderr, "{}", why), usage;
+  if (!work) {
+    fmt::print(stderr, "{}", why);
+    return usage;
+  }
   const auto planned = plan_of(flags, work->text);
   if (planned) print_plan(*planned, flags);
   return planned ? done : usage;

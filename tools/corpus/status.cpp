@@ -12,7 +12,9 @@ namespace {
 
 std::string time_text(double seconds) {
   const auto s = static_cast<long long>(seconds + 0.5);
-  return s < 100 ? fmt::format("{} s", s) : s < 6000 ? fmt::format("{} min", (s + 30) / 60) : fmt::format("{}:{:02} h", s / 3600, s % 3600 / 60);
+  return s < 100    ? fmt::format("{} s", s)
+         : s < 6000 ? fmt::format("{} min", (s + 30) / 60)
+                    : fmt::format("{}:{:02} h", s / 3600, s % 3600 / 60);
 }
 
 /// Of the terminal, less the place of the cursor.
@@ -30,14 +32,17 @@ void cut(std::string& line, std::size_t n) {
 
 }  // namespace
 
-CorpusStatus::CorpusStatus(std::size_t files, double cost, bool quiet) : files_(files), cost_(cost), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+CorpusStatus::CorpusStatus(std::size_t files, double cost, bool quiet)
+    : files_(files), cost_(cost), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 void CorpusStatus::add(JobState state, double cost, bool again) {
   ++done_;
   ++states_[static_cast<std::size_t>(state)];
   done_cost_ += cost;
-  if (again) ++before_;
-  else cost_now_ += cost;
+  if (again)
+    ++before_;
+  else
+    cost_now_ += cost;
 }
 
 void CorpusStatus::failed(const std::string& input, const std::string& cause) {
@@ -51,14 +56,17 @@ void CorpusStatus::clear() {
 
 void CorpusStatus::show(const std::vector<std::string>& now) {
   const auto time = Clock::now();
-  const double since = std::chrono::duration<double>(time - last_).count(), elapsed = std::chrono::duration<double>(time - start_).count();
+  const double since = std::chrono::duration<double>(time - last_).count(),
+               elapsed = std::chrono::duration<double>(time - start_).count();
   if (quiet_ || elapsed < 1 || since < (terminal_ ? 0.2 : 10.0)) return;
   last_ = time;
   clear();
   auto line = fmt::format("{}/{} files", done_, files_);
   if (before_) line += fmt::format(", {} of them before", before_);
   if (const auto lost = done_ - n_made()) line += fmt::format(", {} failed", lost);
-  if (cost_now_ > 0) line += fmt::format(", {:.0f}/s, {} left", static_cast<double>(done_ - before_) / elapsed, time_text(elapsed * (cost_ - done_cost_) / cost_now_));
+  if (cost_now_ > 0)
+    line += fmt::format(", {:.0f}/s, {} left", static_cast<double>(done_ - before_) / elapsed,
+                        time_text(elapsed * (cost_ - done_cost_) / cost_now_));
   for (std::size_t i = 0; i < now.size() && i < 3; ++i) line += (i ? ", " : "; now ") + now[i];
   if (now.size() > 3) line += ", ...";
   if (terminal_) cut(line, width());  // what is on two lines cannot be overwritten

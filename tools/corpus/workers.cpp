@@ -25,7 +25,9 @@ constexpr int ending_signals[] = {SIGHUP, SIGINT, SIGTERM};
 volatile std::sig_atomic_t ending = 0;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-double clock_time() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
+double clock_time() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
 
 std::uint64_t address_space() {
   std::ifstream statm("/proc/self/statm");
@@ -48,7 +50,8 @@ void limit(int what, std::uint64_t value) {
 }
 
 /// In the child: never returns.
-[[noreturn]] void work_and_exit(pid_t parent, std::uint64_t memory, int told_fd, int printed_fd, const Workers::Work& work) {
+[[noreturn]] void work_and_exit(pid_t parent, std::uint64_t memory, int told_fd, int printed_fd,
+                                const Workers::Work& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);
   setpgid(0, 0);  // with what it starts itself
@@ -73,7 +76,9 @@ void limit(int what, std::uint64_t value) {
 }
 
 double cpu_of(const rusage& usage) {
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6; };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -108,7 +113,11 @@ std::vector<std::size_t> Workers::jobs() const {
 bool Workers::start(std::size_t job, std::uint64_t memory, double timeout, const Work& work) {
   int told[2], printed[2];
   if (!make_pipe(told)) return false;
-  if (!make_pipe(printed)) return close(told[0]), close(told[1]), false;
+  if (!make_pipe(printed)) {
+    close(told[0]);
+    close(told[1]);
+    return false;
+  }
   std::fflush(nullptr);  // or the child would print it, too
   const pid_t self = getpid();
   fork_hooks.before();
@@ -118,8 +127,13 @@ bool Workers::start(std::size_t job, std::uint64_t memory, double timeout, const
     work_and_exit(self, memory, told[1], printed[1], work);
   }
   fork_hooks.parent();
-  close(told[1]), close(printed[1]);
-  if (pid < 0) return close(told[0]), close(printed[0]), false;
+  close(told[1]);
+  close(printed[1]);
+  if (pid < 0) {
+    close(told[0]);
+    close(printed[0]);
+    return false;
+  }
   for (int fd : {told[0], printed[0]}) fcntl(fd, F_SETFL, O_NONBLOCK);
   running_.push_back({job, pid, told[0], printed[0], clock_time(), now(), now() + timeout, false, {}});
   return true;
@@ -130,9 +144,12 @@ void Workers::read_some(Worker& w) {
   for (auto [fd, text] : {std::pair(&w.told, &w.end.told), std::pair(&w.printed, &w.end.printed)}) {
     while (*fd >= 0) {
       const auto n = read(*fd, piece, sizeof piece);
-      if (n > 0) text->append(piece, static_cast<std::size_t>(n));
-      else if (n == 0) close(std::exchange(*fd, -1));
-      else if (errno != EINTR) break;
+      if (n > 0)
+        text->append(piece, static_cast<std::size_t>(n));
+      else if (n == 0)
+        close(std::exchange(*fd, -1));
+      else if (errno != EINTR)
+        break;
     }
   }
   if (w.end.printed.size() > 2 * most_printed) w.end.printed.erase(0, w.end.printed.size() - most_printed);
@@ -142,9 +159,11 @@ WorkerEnd Workers::finish(Worker& w) {
   int status = 0;
   rusage usage{};
   siginfo_t ended{};
-  while (waitid(P_PID, static_cast<id_t>(w.pid), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {}
+  while (waitid(P_PID, static_cast<id_t>(w.pid), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
   kill(-w.pid, SIGKILL);  // while the worker's number is still its own
-  while (wait4(w.pid, &status, 0, &usage) < 0 && errno == EINTR) {}
+  while (wait4(w.pid, &status, 0, &usage) < 0 && errno == EINTR) {
+  }
   for (int fd : {w.told, w.printed})
     if (fd >= 0) close(fd);
   auto& e = w.end;
@@ -166,7 +185,10 @@ std::optional<WorkerEnd> Workers::wait(double seconds) {
     double next = until;
     std::vector<pollfd> fds;
     for (auto& w : running_) {
-      if (!w.timed_out && now() >= w.deadline) kill(w.pid, SIGKILL), w.timed_out = true;
+      if (!w.timed_out && now() >= w.deadline) {
+        kill(w.pid, SIGKILL);
+        w.timed_out = true;
+      }
       if (!w.timed_out) next = std::min(next, w.deadline);
       fds.push_back({w.told, POLLIN, 0});
       fds.push_back({w.printed, POLLIN, 0});
@@ -188,7 +210,8 @@ std::optional<WorkerEnd> Workers::wait(double seconds) {
 Usage::Usage() : time(clock_time()) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  cpu = cpu_of(usage), memory = memory_of(usage);
+  cpu = cpu_of(usage);
+  memory = memory_of(usage);
 }
 
 std::uint64_t free_memory() {

@@ -1,5 +1,5 @@
-// Processes that do their work and are gone: what one of them does to itself it does to no other. They are forks of this
-// process, so that nothing has to be loaded or read again; this process must have a single thread.
+// Processes that do their work and are gone: what one of them does to itself it does to no other. They are forks of
+// this process, so that nothing has to be loaded or read again; this process must have a single thread.
 #pragma once
 #include <sys/types.h>
 
@@ -15,13 +15,13 @@ namespace wrlkit {
 /// What a worker leaves behind.
 struct WorkerEnd {
   std::size_t job = 0;
-  int exit_code = 0;      // unless a signal has ended it
+  int exit_code = 0;  // unless a signal has ended it
   int signal = 0;
   bool timed_out = false;
   double started = 0, seconds = 0, cpu = 0;  // Unix time; wall clock; processor
   std::uint64_t memory = 0;                  // most at a time, bytes
-  std::string told;       // what it said of its work, as far as it came
-  std::string printed;    // the end of what it printed
+  std::string told;                          // what it said of its work, as far as it came
+  std::string printed;                       // the end of what it printed
 };
 
 class Workers {
@@ -42,8 +42,8 @@ class Workers {
   std::size_t running() const { return running_.size(); }
   /// Jobs at work, in the order in which they were begun.
   std::vector<std::size_t> jobs() const;
-  /// Begins a job, with `memory` bytes beyond what this process has and so many seconds. False when the system has no more
-  /// processes.
+  /// Begins a job, with `memory` bytes beyond what this process has and so many seconds. False when the system has no
+  /// more processes.
   bool start(std::size_t job, std::uint64_t memory, double timeout, const Work& work);
   /// Whether a signal is to end this process.
   static bool interrupted();

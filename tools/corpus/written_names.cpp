@@ -19,8 +19,10 @@ bool is_url(const FieldDef& f) { return f.type == FieldType::MFString && (f.name
 std::string url_of(const std::string& path) {
   std::string out;
   for (const char c : path) {
-    if (c == '%' || c == '#' || c == '?' || c == ' ') out += fmt::format("%{:02X}", static_cast<unsigned>(c));
-    else out += c;
+    if (c == '%' || c == '#' || c == '?' || c == ' ')
+      out += fmt::format("%{:02X}", static_cast<unsigned>(c));
+    else
+      out += c;
   }
   return out;
 }
@@ -36,7 +38,8 @@ class Namer {
       for (std::uint16_t slot = 0; slot < type.fields.size(); ++slot) {
         if (!is_url(type.fields[slot])) continue;
         const Value* v = scene_.find(n, slot);
-        if (!v || v->is || v->type != FieldType::MFString || v->count == 0 || !names(v->text_span(), scene_.where(n))) continue;
+        if (!v || v->is || v->type != FieldType::MFString || v->count == 0 || !names(v->text_span(), scene_.where(n)))
+          continue;
         scene_.set(n, scene_.make(FieldType::MFString, slot, named_));
       }
     }
@@ -45,13 +48,17 @@ class Namer {
   }
 
  private:
-  /// Whether some of the urls get another name; then named_ has them all. Those in a world that was put into this one are led elsewhere.
+  /// Whether some of the urls get another name; then named_ has them all. Those in a world that was put into this one
+  /// are led elsewhere.
   bool names(std::span<const std::string_view> urls, Span where) {
     if (const auto referrer = scene_.sources->file(where.begin); !referrer.empty() && referrer != main_) return false;
     named_.assign(urls.begin(), urls.end());
     bool any = false;
     for (auto& url : named_)
-      if (const auto other = written(url); !other.empty()) url = scene_.keep(other), any = true;
+      if (const auto other = written(url); !other.empty()) {
+        url = scene_.keep(other);
+        any = true;
+      }
     return any;
   }
 
@@ -66,7 +73,10 @@ class Namer {
     const auto& target = plan_.jobs[at->second];
     if (target.input.asset || fs::path(target.output).filename() == fs::path(target.input.inside).filename()) return "";
     // Both below one folder, so that one leads to the other without leaving it.
-    return url_of(("/" / fs::path(target.output)).lexically_relative(("/" / fs::path(job_.output)).parent_path()).generic_string()) + std::string(fragment);
+    return url_of(("/" / fs::path(target.output))
+                      .lexically_relative(("/" / fs::path(job_.output)).parent_path())
+                      .generic_string()) +
+           std::string(fragment);
   }
 
   Scene& scene_;
@@ -79,6 +89,9 @@ class Namer {
 
 }  // namespace
 
-void name_written_files(Scene& scene, const CorpusPlan& plan, const CorpusJob& job, const std::vector<std::string>& allowed) { Namer(scene, plan, job, allowed).name_all(); }
+void name_written_files(Scene& scene, const CorpusPlan& plan, const CorpusJob& job,
+                        const std::vector<std::string>& allowed) {
+  Namer(scene, plan, job, allowed).name_all();
+}
 
 }  // namespace wrlkit

@@ -1,8 +1,9 @@
-// Line charts as SVG text, to stand in an HTML page: both axes logarithmic, as errors over numbers of triangles want it.
+// Line charts as SVG text, to stand in an HTML page: both axes logarithmic, as errors over numbers of triangles want
+// it.
 //
-// Colours, lines and letters are the page's business: their style is in tools/report/report.css. Series k of every chart
-// has the class `s<k>`, and a shape of its own at its points, for eyes that cannot tell the colours. Each point says its
-// numbers when it is pointed at.
+// Colours, lines and letters are the page's business: their style is in tools/report/report.css. Series k of every
+// chart has the class `s<k>`, and a shape of its own at its points, for eyes that cannot tell the colours. Each point
+// says its numbers when it is pointed at.
 #pragma once
 #include <string>
 #include <string_view>
@@ -19,8 +20,8 @@ struct ChartSeries {
   std::vector<ChartPoint> points;
 };
 
-/// The chart as an <svg> element. Coordinates are finite, x is positive. Values of y that are not, or are a hundred thousand
-/// times smaller than the largest, lie on the lower edge.
+/// The chart as an <svg> element. Coordinates are finite, x is positive. Values of y that are not, or are a hundred
+/// thousand times smaller than the largest, lie on the lower edge.
 std::string log_chart(std::string_view title, std::string_view unit, const std::vector<ChartSeries>& series);
 
 /// The mark of series k as a small <svg> element: for a legend.

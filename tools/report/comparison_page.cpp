@@ -31,7 +31,9 @@ class Page {
 
  private:
   template <class... T>
-  void put(fmt::format_string<T...> format, T&&... values) { fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...); }
+  void put(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
+  }
 
   void head() {
     out_ += report_begin(fmt::format("{} simplified", c_.model));
@@ -41,17 +43,24 @@ class Page {
 
   void picture(const Image& image, std::string_view css, std::string_view caption) {
     auto png = encode_png(image, why_);
-    if (png) put("<figure class=\"{}\"><img width=\"{}\" height=\"{}\" alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n", css, image.width, image.height, base64(*png), caption);
+    if (png)
+      put("<figure class=\"{}\"><img width=\"{}\" height=\"{}\" alt=\"\" "
+          "src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
+          css, image.width, image.height, base64(*png), caption);
   }
 
   void charts() {
-    put("<h2>How far, how fast</h2>\n<p>Distances are measured from both surfaces to the other, in the unit of the geometry. What is "
-        "lower is better; what lies on the lower edge is less than can be shown. Time is of the processor, for the collapses from the model on.</p>\n<ul class=\"keys\">");
-    for (std::size_t k = 0; k < c_.criteria.size(); ++k) put("<li>{}{}</li>", chart_mark(k), html_text(c_.criteria[k].name));
+    put("<h2>How far, how fast</h2>\n<p>Distances are measured from both surfaces to the other, in the unit of the "
+        "geometry. What is "
+        "lower is better; what lies on the lower edge is less than can be shown. Time is of the processor, for the "
+        "collapses from the model on.</p>\n<ul class=\"keys\">");
+    for (std::size_t k = 0; k < c_.criteria.size(); ++k)
+      put("<li>{}{}</li>", chart_mark(k), html_text(c_.criteria[k].name));
     put("</ul>\n<div class=\"charts\">\n");
     chart("Distance, root of the mean square", "", [](const InteractionPoint& p) { return p.rms; });
     chart("Distance, largest", "", [](const InteractionPoint& p) { return p.error; });
-    chart("Angle between normals, mean, in degrees", "degrees", [](const InteractionPoint& p) { return degrees(p.normals); });
+    chart("Angle between normals, mean, in degrees", "degrees",
+          [](const InteractionPoint& p) { return degrees(p.normals); });
     chart("Time, in seconds", "s", [](const InteractionPoint& p) { return p.seconds; });
     put("</div>\n");
   }
@@ -61,7 +70,8 @@ class Page {
     for (const auto& criterion : c_.criteria) {
       auto& s = series.emplace_back(ChartSeries{criterion.name, {}});
       for (const auto& p : criterion.points)
-        if (p.n_faces > 0 && p.n_faces < c_.n_faces && std::isfinite(value(p))) s.points.push_back({static_cast<double>(p.n_faces), value(p)});
+        if (p.n_faces > 0 && p.n_faces < c_.n_faces && std::isfinite(value(p)))
+          s.points.push_back({static_cast<double>(p.n_faces), value(p)});
     }
     put("<figure><figcaption><b>{}</b></figcaption>\n{}</figure>\n", title, log_chart(title, unit, series));
   }
@@ -73,17 +83,23 @@ class Page {
       for (const auto& criterion : c_.criteria)
         if (i < criterion.points.size()) {
           const auto& p = criterion.points[i];
-          picture(criterion.pictures[i], "", fmt::format("<b>{}</b>, {} triangles, rms {:.3g}", html_text(criterion.name), p.n_faces, p.rms));
+          picture(criterion.pictures[i], "",
+                  fmt::format("<b>{}</b>, {} triangles, rms {:.3g}", html_text(criterion.name), p.n_faces, p.rms));
         }
       put("</div>\n");
     }
   }
 
   void figures() {
-    put("<h2>Figures</h2>\n{}<tr><th class=\"text\">criterion</th><th>triangles</th><th>rms</th><th>max</th><th>normals, degrees</th><th>seconds</th></tr>\n", table_begin("Figures"));
+    put("<h2>Figures</h2>\n{}<tr><th "
+        "class=\"text\">criterion</th><th>triangles</th><th>rms</th><th>max</th><th>normals, "
+        "degrees</th><th>seconds</th></tr>\n",
+        table_begin("Figures"));
     for (const auto& criterion : c_.criteria)
       for (const auto& p : criterion.points)
-        put("<tr><td class=\"text\">{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.2g}</td><td>{:.3f}</td></tr>\n", html_text(criterion.name), p.n_faces, p.rms, p.error, degrees(p.normals), p.seconds);
+        put("<tr><td "
+            "class=\"text\">{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.2g}</td><td>{:.3f}</td></tr>\n",
+            html_text(criterion.name), p.n_faces, p.rms, p.error, degrees(p.normals), p.seconds);
     out_ += table_end();
   }
 

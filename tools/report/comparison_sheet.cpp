@@ -22,7 +22,9 @@ Image comparison_sheet(const Comparison& c) {
   sheet.pixels.assign(static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height) * 3, 255);
   std::size_t row = 0;
   for (const auto& criterion : c.criteria) {
-    for (std::size_t i = 0; i < criterion.pictures.size(); ++i) put(sheet, criterion.pictures[i], static_cast<int>(i % columns * width), static_cast<int>((row + i / columns) * height));
+    for (std::size_t i = 0; i < criterion.pictures.size(); ++i)
+      put(sheet, criterion.pictures[i], static_cast<int>(i % columns * width),
+          static_cast<int>((row + i / columns) * height));
     row += (criterion.pictures.size() + columns - 1) / columns;
   }
   return sheet;

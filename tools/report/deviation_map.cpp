@@ -39,11 +39,14 @@ class Map {
   }
 
  private:
-  double distance(const Vec3& p, const Corners& around) const { return nearest_.nearest(p, area_normal(around)).distance; }
+  double distance(const Vec3& p, const Corners& around) const {
+    return nearest_.nearest(p, area_normal(around)).distance;
+  }
 
   void measure_corners() {
     std::vector<std::uint32_t> triangle(surface_.positions.size() / 3);  // one that has the position
-    for (std::size_t c = 0; c < surface_.corners.size(); ++c) triangle[surface_.corners[c]] = static_cast<std::uint32_t>(c / 3);
+    for (std::size_t c = 0; c < surface_.corners.size(); ++c)
+      triangle[surface_.corners[c]] = static_cast<std::uint32_t>(c / 3);
     positions_.assign(surface_.positions.begin(), surface_.positions.end());
     distances_.resize(triangle.size());
     for_all(triangle.size(), [&](std::size_t i) {
@@ -67,19 +70,23 @@ class Map {
       hidden[t] = std::max(0., middle - corner);
     });
     const double largest = std::max(*std::ranges::max_element(hidden), *std::ranges::max_element(distances_));
-    const auto n_hidden = static_cast<std::size_t>(std::ranges::count_if(hidden, [&](double d) { return d > 0.02 * largest; }));
+    const auto n_hidden =
+        static_cast<std::size_t>(std::ranges::count_if(hidden, [&](double d) { return d > 0.02 * largest; }));
     if (n_hidden == 0) return;
     const double pieces = static_cast<double>(most - n) / static_cast<double>(n_hidden);
     const auto side = static_cast<std::uint32_t>(std::clamp(std::sqrt(pieces), 1., 16.));
-    for (std::size_t t = 0; t < n; ++t) if (hidden[t] > 0.02 * largest) cuts_[t] = side;
+    for (std::size_t t = 0; t < n; ++t)
+      if (hidden[t] > 0.02 * largest) cuts_[t] = side;
   }
 
   void cut() {
     std::vector<std::uint32_t> owner;  // the triangle of each vertex that is new
     const auto n_old = distances_.size();
     for (std::size_t t = 0; t < surface_.size(); ++t) {
-      if (cuts_[t] == 1) for (std::size_t k = 0; k < 3; ++k) corners_.push_back(surface_.corners[3 * t + k]);
-      else cut(t, owner);
+      if (cuts_[t] == 1)
+        for (std::size_t k = 0; k < 3; ++k) corners_.push_back(surface_.corners[3 * t + k]);
+      else
+        cut(t, owner);
     }
     distances_.resize(n_old + owner.size());
     for_all(owner.size(), [&](std::size_t i) {
@@ -106,7 +113,10 @@ class Map {
 
   Vec3 origin() const {
     Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (std::size_t i = 0; i < positions_.size(); ++i) low[i % 3] = std::min(low[i % 3], positions_[i]), high[i % 3] = std::max(high[i % 3], positions_[i]);
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      low[i % 3] = std::min(low[i % 3], positions_[i]);
+      high[i % 3] = std::max(high[i % 3], positions_[i]);
+    }
     if (positions_.empty()) return {};
     return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
   }
@@ -132,6 +142,8 @@ class Map {
 
 }  // namespace
 
-std::string deviation_map(const Triangles& surface, const Triangles& other, std::size_t most) { return Map(surface, other).write(most); }
+std::string deviation_map(const Triangles& surface, const Triangles& other, std::size_t most) {
+  return Map(surface, other).write(most);
+}
 
 }  // namespace wrlkit

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/pipeline/pipeline.h"
 #include "light/render/render.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
 namespace {
 
 constexpr int gap = 8;
-constexpr double em = 0.62;      // of the height of a line
-constexpr double used = 0.96;    // of its width
+constexpr double em = 0.62;    // of the height of a line
+constexpr double used = 0.96;  // of its width
 
 int line_height(int width, int height) { return std::clamp(std::min(width, height) / 9, 14, 48); }
 
@@ -20,8 +20,9 @@ int line_height(int width, int height) { return std::clamp(std::min(width, heigh
 Scene text_scene(std::string_view text, double width) {
   using Strings = std::vector<std::string_view>;
   Scene scene;
-  const NodeId shape = scene.add(nodes::Shape), appearance = scene.add(nodes::Appearance), material = scene.add(nodes::Material),
-               words = scene.add(nodes::Text), style = scene.add(nodes::FontStyle);
+  const NodeId shape = scene.add(nodes::Shape), appearance = scene.add(nodes::Appearance),
+               material = scene.add(nodes::Material), words = scene.add(nodes::Text),
+               style = scene.add(nodes::FontStyle);
   scene.set(material, nodes::material::emissiveColor, Vec3{0.1, 0.1, 0.1});
   scene.set(appearance, nodes::appearance::material, material);
   scene.set(style, nodes::font_style::family, Strings{"SANS"});
@@ -42,11 +43,14 @@ void put(Image& sheet, const Image& picture, int x, int y) {
   const auto row = static_cast<std::size_t>(picture.width) * 3;
   for (int i = 0; i < picture.height; ++i)
     std::copy_n(picture.pixels.data() + static_cast<std::size_t>(i) * row, row,
-                sheet.pixels.data() + (static_cast<std::size_t>(y + i) * static_cast<std::size_t>(sheet.width) + static_cast<std::size_t>(x)) * 3);
+                sheet.pixels.data() + (static_cast<std::size_t>(y + i) * static_cast<std::size_t>(sheet.width) +
+                                       static_cast<std::size_t>(x)) *
+                                          3);
 }
 
 Image plain_picture(int width, int height, std::uint8_t grey) {
-  return {width, height, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, grey)};
+  return {width, height, 3,
+          std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, grey)};
 }
 
 Image text_picture(std::string_view text, int width, int height) {
@@ -60,7 +64,8 @@ Image text_picture(std::string_view text, int width, int height) {
   if (!meshes) return plain_picture(width, height, 255);
   // The shorter side of the picture is so high at a distance of 10.
   const double shorter = std::min(1.0, static_cast<double>(width) / height);
-  RenderOptions options{.width = width, .height = height, .look_at = LookAt{}, .background = Vec3{1, 1, 1}, .headlight = false};
+  RenderOptions options{
+      .width = width, .height = height, .look_at = LookAt{}, .background = Vec3{1, 1, 1}, .headlight = false};
   options.field_of_view = 2 * std::atan(shorter / 2 / 10);
   return render(scene, meshes, options, nullptr, unheard);
 }

@@ -14,8 +14,8 @@ void put(Image& sheet, const Image& picture, int x, int y);
 /// An RGB picture of one grey.
 Image plain_picture(int width, int height, std::uint8_t grey);
 
-/// A line of text, dark on white, in the middle of a picture of that size; long ones are drawn narrower. Without a font it is
-/// white.
+/// A line of text, dark on white, in the middle of a picture of that size; long ones are drawn narrower. Without a font
+/// it is white.
 Image text_picture(std::string_view text, int width, int height);
 
 struct NamedPicture {

@@ -1,5 +1,5 @@
-// What is around every report: head, style and the choice of light or dark, as in the viewer page. The page stands alone and asks
-// for nothing of a network.
+// What is around every report: head, style and the choice of light or dark, as in the viewer page. The page stands
+// alone and asks for nothing of a network.
 #pragma once
 #include <string>
 #include <string_view>

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/text/json.h"
 #include "scenegraph/verify.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
-#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {

@@ -1,15 +1,15 @@
-// wrlkit compare-lod: what each criterion makes of a world at the same numbers of triangles, as a page of charts, figures and
-// pictures, or as one picture. The keys of --json are stable.
+// wrlkit compare-lod: what each criterion makes of a world at the same numbers of triangles, as a page of charts,
+// figures and pictures, or as one picture. The keys of --json are stable.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
 
+#include "base/text/json.h"
+#include "tools/cli/session.h"
 #include "tools/report/comparison.h"
 #include "tools/verbs/render_options.h"
-#include "tools/cli/session.h"
-#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {
@@ -46,16 +46,21 @@ class Painter {
 std::vector<std::size_t> counts_of(const Flags& f, std::size_t n_faces) {
   std::vector<std::size_t> out(f.counts.begin(), f.counts.end());
   constexpr double usual[] = {0.5, 0.25, 0.1, 0.05, 0.02, 0.01};
-  auto add = [&](const auto& ratios) { for (double r : ratios) out.push_back(static_cast<std::size_t>(r * static_cast<double>(n_faces))); };
-  if (!f.ratios.empty()) add(f.ratios);
-  else if (out.empty()) add(usual);
+  auto add = [&](const auto& ratios) {
+    for (double r : ratios) out.push_back(static_cast<std::size_t>(r * static_cast<double>(n_faces)));
+  };
+  if (!f.ratios.empty())
+    add(f.ratios);
+  else if (out.empty())
+    add(usual);
   for (auto& n : out) n = std::clamp<std::size_t>(n, 1, n_faces);
   std::ranges::sort(out, std::greater{});
   out.erase(std::ranges::unique(out).begin(), out.end());
   return out;
 }
 
-std::optional<ComparedCriterion> run_criterion(Session& s, Painter& painter, const std::string& name, const Comparison& c) {
+std::optional<ComparedCriterion> run_criterion(Session& s, Painter& painter, const std::string& name,
+                                               const Comparison& c) {
   CriterionName criterion;
   criterion.read(name);
   WorldSimplifyOptions options{.collapse = {.criterion = criterion.value}, .counts = c.counts};
@@ -64,7 +69,10 @@ std::optional<ComparedCriterion> run_criterion(Session& s, Painter& painter, con
   PassContext silent{unheard, s.context().stats, &s.resources()};
   const SimplifiedWorld world(s.world().scene, options, silent);
   ComparedCriterion out{name, {}, {}};
-  if (c.counts[0] == c.n_faces) out.points.push_back({.n_faces = c.n_faces}), out.pictures.push_back(c.picture);
+  if (c.counts[0] == c.n_faces) {
+    out.points.push_back({.n_faces = c.n_faces});
+    out.pictures.push_back(c.picture);
+  }
   for (std::size_t i = 0; i < world.n_points(); ++i) {
     auto picture = painter.draw(world.scene_at(i));
     if (!picture) return std::nullopt;
@@ -77,7 +85,10 @@ std::optional<ComparedCriterion> run_criterion(Session& s, Painter& painter, con
 std::optional<Comparison> compare(Session& s) {
   Comparison c{.model = std::filesystem::path(s.flags().inputs[0]).filename().string()};
   c.n_faces = SimplifiedWorld(s.world().scene, {}, s.context()).n_faces();
-  if (c.n_faces == 0) return fmt::print(stderr, "wrlkit compare-lod: there is no surface to simplify\n"), std::nullopt;
+  if (c.n_faces == 0) {
+    fmt::print(stderr, "wrlkit compare-lod: there is no surface to simplify\n");
+    return std::nullopt;
+  }
   c.counts = counts_of(s.flags(), c.n_faces);
   Painter painter(s);
   auto picture = painter.draw(s.world().scene);
@@ -125,10 +136,12 @@ std::string figures_json(const Comparison& c) {
 }
 
 std::string figures_text(const Comparison& c) {
-  std::string out = fmt::format("{:<14}  {:>10}  {:>10}  {:>10}  {:>8}  {:>8}\n", "criterion", "triangles", "rms", "max", "degrees", "seconds");
+  std::string out = fmt::format("{:<14}  {:>10}  {:>10}  {:>10}  {:>8}  {:>8}\n", "criterion", "triangles", "rms",
+                                "max", "degrees", "seconds");
   for (const auto& criterion : c.criteria)
     for (const auto& p : criterion.points)
-      out += fmt::format("{:<14}  {:>10}  {:>10.3g}  {:>10.3g}  {:>8.2f}  {:>8.3f}\n", criterion.name, p.n_faces, p.rms, p.error, degrees(p.normals), p.seconds);
+      out += fmt::format("{:<14}  {:>10}  {:>10.3g}  {:>10.3g}  {:>8.2f}  {:>8.3f}\n", criterion.name, p.n_faces, p.rms,
+                         p.error, degrees(p.normals), p.seconds);
   return out;
 }
 
@@ -136,23 +149,37 @@ bool write(const Comparison& c, Session& s) {
   const auto& name = s.flags().output;
   std::string why;
   const auto bytes = name.ends_with(".png") ? encode_png(comparison_sheet(c), why) : comparison_page(c, why);
-  if (!bytes) return s.diag().report(Diag::cannot_write, {}, name, why), false;
+  if (!bytes) {
+    s.diag().report(Diag::cannot_write, {}, name, why);
+    return false;
+  }
   return write_text_file(name, *bytes);
 }
 
 bool is_usable(const Flags& f) {
-  if (!f.counts.empty() && !f.ratios.empty()) return fmt::print(stderr, "wrlkit compare-lod: --counts or --ratios, not both\n"), false;
+  if (!f.counts.empty() && !f.ratios.empty()) {
+    fmt::print(stderr, "wrlkit compare-lod: --counts or --ratios, not both\n");
+    return false;
+  }
   if (f.output.ends_with(".html") || f.output.ends_with(".png")) return true;
-  return fmt::print(stderr, "wrlkit compare-lod: '{}': the comparison is written as .html or .png\n", f.output), false;
+  fmt::print(stderr, "wrlkit compare-lod: '{}': the comparison is written as .html or .png\n", f.output);
+  return false;
 }
 
 }  // namespace
 
 int run_compare_lod(const Flags& flags) {
   Session s(flags);
-  if (!is_usable(flags) || !s.good() || !s.choose_pipeline(flags.pipeline_given ? "lower-vrml1,lower-x3d{vrml97=true}" : "lower-vrml1,lower-x3d{vrml97=true},weld")) return usage;
-  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
-  if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
+  if (!is_usable(flags) || !s.good() ||
+      !s.choose_pipeline(flags.pipeline_given ? "lower-vrml1,lower-x3d{vrml97=true}"
+                                              : "lower-vrml1,lower-x3d{vrml97=true},weld"))
+    return usage;
+  if (flags.print_pipeline) {
+    fmt::print("{}\n", s.pipeline().text());
+    return done;
+  }
+  if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))
+    return s.end(false);
   const auto comparison = compare(s);
   if (!comparison) return s.end(false);
   if (!write(*comparison, s)) return s.end(false);

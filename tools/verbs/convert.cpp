@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "scenegraph/verify.h"
-#include "tools/gltf_output.h"
 #include "tools/cli/recipe.h"
 #include "tools/cli/session.h"
+#include "tools/gltf_output.h"
 #include "tools/vrml_file.h"
 
 namespace wrlkit {
@@ -19,9 +19,18 @@ enum class Target : std::uint8_t { glb, gltf, vrml, x3d };
 
 std::optional<Target> target_of(std::string name, bool& gzip) {
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (name.ends_with(".gz")) gzip = true, name.resize(name.size() - 3);
-  if (name.ends_with(".wrz")) return gzip = true, Target::vrml;
-  if (name.ends_with(".x3dz")) return gzip = true, Target::x3d;
+  if (name.ends_with(".gz")) {
+    gzip = true;
+    name.resize(name.size() - 3);
+  }
+  if (name.ends_with(".wrz")) {
+    gzip = true;
+    return Target::vrml;
+  }
+  if (name.ends_with(".x3dz")) {
+    gzip = true;
+    return Target::x3d;
+  }
   if (name.ends_with(".x3d")) return Target::x3d;
   if (name.ends_with(".wrl") || name.ends_with(".vrml")) return Target::vrml;
   if (gzip) return std::nullopt;
@@ -61,7 +70,10 @@ bool prepare_conversion(Session& s) {
   const auto& flags = s.flags();
   bool gzip = flags.gzip;
   const auto target = target_of(flags.output, gzip);
-  if (!target) return fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output), false;
+  if (!target) {
+    fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output);
+    return false;
+  }
   return s.good() && gltf_options(flags) && s.choose_pipeline(pipeline_for(*target, flags));
 }
 
@@ -72,7 +84,10 @@ bool read_input(Session& s) {
   if (!s.read(flags.inputs[0])) return false;
   check_values(s.world().scene, s.diag());
   const auto& main = s.world().scene.main;
-  if (main.roots.empty() && main.protos.empty() && s.diag().has_errors()) return s.diag().report(Diag::nothing_to_write, {}), false;
+  if (main.roots.empty() && main.protos.empty() && s.diag().has_errors()) {
+    s.diag().report(Diag::nothing_to_write, {});
+    return false;
+  }
   return true;
 }
 
@@ -87,8 +102,14 @@ int run_convert(const Flags& given) {
   apply_profile(flags);
   Session s(flags);
   if (!prepare_conversion(s)) return usage;
-  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
-  if (flags.print_recipe) return fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline())), done;
+  if (flags.print_pipeline) {
+    fmt::print("{}\n", s.pipeline().text());
+    return done;
+  }
+  if (flags.print_recipe) {
+    fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline()));
+    return done;
+  }
   const bool made = convert_world(s);
   s.progress().clear();
   if (made && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);

@@ -13,7 +13,8 @@ bool prepare_conversion(Session&);
 /// Reads the input, runs the pipeline and writes the output; false when there is none. Messages are in the session.
 bool convert_world(Session&);
 
-/// The two halves of that: reads the input; runs the pipeline and writes the output. `last` sees the scene as it is written, as VRML or X3D.
+/// The two halves of that: reads the input; runs the pipeline and writes the output. `last` sees the scene as it is
+/// written, as VRML or X3D.
 bool read_input(Session&);
 bool write_world(Session&, const std::function<void(Scene&)>& last = {});
 

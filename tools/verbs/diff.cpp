@@ -9,10 +9,10 @@
 #include <numbers>
 #include <set>
 
+#include "base/text/json.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "tools/world_meshes.h"
-#include "base/text/json.h"
 
 namespace wrlkit {
 

@@ -14,9 +14,11 @@ std::string_view access_word(Access a) {
   return words[static_cast<int>(a)];
 }
 
-std::string level_word(Level l) { return l == Level::authored ? "authored" : l == Level::expanded ? "expanded" : "mesh"; }
+std::string level_word(Level l) {
+  return l == Level::authored ? "authored" : l == Level::expanded ? "expanded" : "mesh";
+}
 
-std::string range_text(const Range& r) {
+std::string range_text(const FieldRange& r) {
   if (!r.bounded()) return "";
   auto end = [](double v) { return std::isinf(v) ? std::string(v < 0 ? "-inf" : "inf") : fmt::format("{:g}", v); };
   return fmt::format("{}{},{}{}", r.low_open ? "(" : "[", end(r.low), end(r.high), r.high_open ? ")" : "]");
@@ -70,20 +72,24 @@ std::string type_text(const NodeType& t) {
   out += fmt::format("  is a {}\n\n", bases);
   for (auto& f : t.fields) {
     auto name = f.name_in(Dialect::vrml97);
-    out += fmt::format("  {:<13}{:<11}{:<18}{:<14} {:<16} {}\n", access_word(f.access), info(f.type).name, name, f.default_text, limits_text(f), doc_text(t, f));
+    out += fmt::format("  {:<13}{:<11}{:<18}{:<14} {:<16} {}\n", access_word(f.access), info(f.type).name, name,
+                       f.default_text, limits_text(f), doc_text(t, f));
   }
   return out;
 }
 
 std::string pass_text(const PassInfo& p) {
-  std::string out = fmt::format("{}: {}\n  needs level {}, leaves level {}\n", p.name, p.summary, level_word(p.needs), level_word(p.leaves));
-  for (auto& o : p.make()->options()) out += fmt::format("  {:<18} {:<28} {:<14} {}\n", o.name, o.type_and_range(), o.value, o.help);
+  std::string out = fmt::format("{}: {}\n  needs level {}, leaves level {}\n", p.name, p.summary, level_word(p.needs),
+                                level_word(p.leaves));
+  for (auto& o : p.make()->options())
+    out += fmt::format("  {:<18} {:<28} {:<14} {}\n", o.name, o.type_and_range(), o.value, o.help);
   if (!p.doc.empty()) out += fmt::format("\n{}\n", p.doc);
   return out;
 }
 
 std::string diagnostic_text(Diag d) {
-  return fmt::format("{} [{}]: {}\n  -Wno-{} drops it, -Werror={} makes it an error.\n", to_string(info(d).severity), info(d).name, info(d).text, info(d).name, info(d).name);
+  return fmt::format("{} [{}]: {}\n  -Wno-{} drops it, -Werror={} makes it an error.\n", to_string(info(d).severity),
+                     info(d).name, info(d).text, info(d).name, info(d).name);
 }
 
 std::string formats_text() {
@@ -139,16 +145,23 @@ std::string passes_json() {
 std::string nodes_page() {
   std::string out = "# Node types\n\nGenerated from `scenegraph/nodes/*.nodes` by `script/docs`; do not edit.\n";
   for (auto& t : builtin_nodes()) {
-    out += fmt::format("\n## {}\n\n{} ({})\n\n| access | type | name | default | range, unit, kinds | |\n|---|---|---|---|---|---|\n", t.name, t.doc, t.clauses);
-    for (auto& f : t.fields) out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", access_word(f.access), info(f.type).name, f.name_in(Dialect::vrml97), f.default_text, limits_text(f), doc_text(t, f));
+    out += fmt::format(
+        "\n## {}\n\n{} ({})\n\n| access | type | name | default | range, unit, kinds | |\n|---|---|---|---|---|---|\n",
+        t.name, t.doc, t.clauses);
+    for (auto& f : t.fields)
+      out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", access_word(f.access), info(f.type).name,
+                         f.name_in(Dialect::vrml97), f.default_text, limits_text(f), doc_text(t, f));
   }
   return out;
 }
 
 std::string passes_page() {
-  std::string out = "# Passes\n\nGenerated from the registry by `script/docs`; do not edit. Each header in `passes/` says more, with an example.\n";
+  std::string out =
+      "# Passes\n\nGenerated from the registry by `script/docs`; do not edit. Each header in `passes/` says more, with "
+      "an example.\n";
   for (auto& p : passes()) {
-    out += fmt::format("\n## {}\n\n{}. Needs level *{}*, leaves level *{}*.\n", p.name, p.summary, level_word(p.needs), level_word(p.leaves));
+    out += fmt::format("\n## {}\n\n{}. Needs level *{}*, leaves level *{}*.\n", p.name, p.summary, level_word(p.needs),
+                       level_word(p.leaves));
     auto options = p.make()->options();
     if (!options.empty()) out += "\n| option | type | default | |\n|---|---|---|---|\n";
     for (auto& o : options) out += fmt::format("| {} | {} | {} | {} |\n", o.name, o.type_and_range(), o.value, o.help);
@@ -159,7 +172,9 @@ std::string passes_page() {
 }
 
 std::string diagnostics_page() {
-  std::string out = "# Messages\n\nGenerated from `base/diagnostics.def` by `script/docs`; do not edit.\n\n| name | severity | text |\n|---|---|---|\n";
+  std::string out =
+      "# Messages\n\nGenerated from `base/diagnostics.def` by `script/docs`; do not edit.\n\n| name | severity | text "
+      "|\n|---|---|---|\n";
   for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i) {
     auto& d = info(static_cast<Diag>(i));
     out += fmt::format("| {} | {} | {} |\n", d.name, to_string(d.severity), d.text);

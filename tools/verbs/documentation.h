@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "passes/pipeline/pipeline.h"
 #include "base/diagnostics.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/node_table.h"
 
 namespace wrlkit {

@@ -1,14 +1,14 @@
 // wrlkit explain, passes, formats: what the tables say of node types, passes, messages and formats.
 #include <fmt/format.h>
 
-#include "passes/pipeline/pipeline.h"
 #include "base/diagnostics.h"
 #include "base/text/nearest_name.h"
+#include "passes/pipeline/pipeline.h"
 #include "scenegraph/node_table.h"
-#include "tools/verbs/documentation.h"
-#include "tools/profiles.h"
 #include "tools/cli/flags.h"
 #include "tools/cli/recipe.h"
+#include "tools/profiles.h"
+#include "tools/verbs/documentation.h"
 
 namespace wrlkit {
 namespace {
@@ -18,7 +18,8 @@ std::string meant(std::string_view name) {
   for (auto& n : builtin_nodes()) nearest.consider(n.name);
   for (auto& p : passes()) nearest.consider(p.name);
   for (auto* p : added_passes()) nearest.consider(p->name);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i) nearest.consider(info(static_cast<Diag>(i)).name);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i)
+    nearest.consider(info(static_cast<Diag>(i)).name);
   return nearest.question();
 }
 
@@ -31,18 +32,31 @@ int run_explain(const Flags& flags) {
   if (type) fmt::print("{}", type_text(builtin_nodes()[type.value]));
   if (old) fmt::print("{}{}", type ? "\n" : "", type_text(builtin_nodes()[old.value]));
   if (type || old) return done;
-  if (auto* p = find_pass(flags.name)) return fmt::print("{}", pass_text(*p)), done;
-  if (Diag d; find_diag(flags.name, d)) return fmt::print("{}", diagnostic_text(d)), done;
+  if (auto* p = find_pass(flags.name)) {
+    fmt::print("{}", pass_text(*p));
+    return done;
+  }
+  if (Diag d; find_diag(flags.name, d)) {
+    fmt::print("{}", diagnostic_text(d));
+    return done;
+  }
   fmt::print(stderr, "wrlkit: there is no node type, pass or message '{}'{}\n", flags.name, meant(flags.name));
   return usage;
 }
 
 int run_passes(const Flags& flags) {
   if (!flags.name.empty()) {
-    if (auto* p = find_pass(flags.name)) return fmt::print("{}", pass_text(*p)), done;
-    return fmt::print(stderr, "wrlkit: there is no pass '{}'{}\n", flags.name, pass_question(flags.name)), usage;
+    if (auto* p = find_pass(flags.name)) {
+      fmt::print("{}", pass_text(*p));
+      return done;
+    }
+    fmt::print(stderr, "wrlkit: there is no pass '{}'{}\n", flags.name, pass_question(flags.name));
+    return usage;
   }
-  if (flags.json) return fmt::print("{}\n", passes_json()), done;
+  if (flags.json) {
+    fmt::print("{}\n", passes_json());
+    return done;
+  }
   for (auto& p : passes()) fmt::print("{:<18}{}\n", p.name, p.summary);
   for (auto* p : added_passes()) fmt::print("{:<18}{}\n", p->name, p->summary);
   fmt::print("\nPipelines with a name:\n");
@@ -51,12 +65,19 @@ int run_passes(const Flags& flags) {
 }
 
 int run_docs(const Flags& flags) {
-  fmt::print("{}", flags.name == "nodes" ? nodes_page() : flags.name == "passes" ? passes_page() : flags.name == "recipes" ? recipes_page() : flags.name == "profiles" ? profiles_page() : diagnostics_page());
+  fmt::print("{}", flags.name == "nodes"      ? nodes_page()
+                   : flags.name == "passes"   ? passes_page()
+                   : flags.name == "recipes"  ? recipes_page()
+                   : flags.name == "profiles" ? profiles_page()
+                                              : diagnostics_page());
   return done;
 }
 
 int run_formats(const Flags& flags) {
-  if (flags.json) return fmt::print("{}\n", formats_json()), done;
+  if (flags.json) {
+    fmt::print("{}\n", formats_json());
+    return done;
+  }
   fmt::print("{}", formats_text());
   return done;
 }

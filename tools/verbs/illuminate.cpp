@@ -12,14 +12,14 @@
 #include <set>
 #include <system_error>
 
-#include "light/sky_light.h"
-#include "light/patches/patch_lightmap.h"
 #include "base/image/image.h"
 #include "base/image/srgb.h"
+#include "base/io/output.h"
+#include "base/text/json.h"
+#include "light/patches/patch_lightmap.h"
+#include "light/sky_light.h"
 #include "tools/cli/lengths.h"
 #include "tools/cli/session.h"
-#include "base/text/json.h"
-#include "base/io/output.h"
 #include "writers/patches/patches.h"
 
 namespace wrlkit {
@@ -40,13 +40,17 @@ bool read_options(const Flags& f, light::IlluminateOptions& o) {
   if (f.max_edge.empty()) return true;
   o.sizes.max_edge = length_of(f.max_edge);
   if (o.sizes.max_edge > 0) return true;
-  return fmt::print(stderr, "wrlkit illuminate: --max-edge: '{}' is no length\n", f.max_edge), false;
+  fmt::print(stderr, "wrlkit illuminate: --max-edge: '{}' is no length\n", f.max_edge);
+  return false;
 }
 
 std::optional<light::LightOptions> light_options(const Flags& f) {
   light::LightOptions out{.emission = f.emission};
   SkyLight sky;
-  if (!sky.read(f.sky)) return fmt::print(stderr, "wrlkit illuminate: --sky: '{}' is neither background nor none nor a radiance R:G:B\n", f.sky), std::nullopt;
+  if (!sky.read(f.sky)) {
+    fmt::print(stderr, "wrlkit illuminate: --sky: '{}' is neither background nor none nor a radiance R:G:B\n", f.sky);
+    return std::nullopt;
+  }
   set_sky(out, sky);
   return out;
 }
@@ -55,7 +59,8 @@ std::optional<light::LightOptions> light_options(const Flags& f) {
 bool is_safe(const Flags& f) {
   std::error_code none_there;
   if (!std::filesystem::equivalent(f.inputs[0], f.output, none_there)) return true;
-  return fmt::print(stderr, "wrlkit illuminate: '{}' is the world itself\n", f.output), false;
+  fmt::print(stderr, "wrlkit illuminate: '{}' is the world itself\n", f.output);
+  return false;
 }
 
 /// The folder for the pictures; found out before the work is done.
@@ -76,7 +81,8 @@ Image as_seen(const light::FloatPicture& picture) {
 }
 
 /// "Room_Wall.png" of Room/Wall; a number behind it where there are several of that name, or none.
-std::string picture_name(const Scene& scene, const light::LightWorld& world, std::uint32_t use, std::set<std::string>& taken) {
+std::string picture_name(const Scene& scene, const light::LightWorld& world, std::uint32_t use,
+                         std::set<std::string>& taken) {
   auto name = drawing::full_name(scene, world.stage(), world.stage().uses[use]);
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && static_cast<unsigned char>(c) < 0x80) c = '_';
@@ -116,7 +122,8 @@ void print(Session& s, const PatchSet& set, double seconds) {
     json.end_object();
     fmt::print("{}\n", text);
   } else if (s.flags().verbose) {
-    fmt::print(stderr, "{}: {} patches of {} triangles in {} shapes, {:.1f} s of processor time\n", s.flags().output, set.patches.size(), set.triangles.size(), set.shapes.size(), seconds);
+    fmt::print(stderr, "{}: {} patches of {} triangles in {} shapes, {:.1f} s of processor time\n", s.flags().output,
+               set.patches.size(), set.triangles.size(), set.shapes.size(), seconds);
   }
 }
 
@@ -126,7 +133,10 @@ int run_illuminate(const Flags& flags) {
   Session s(flags);
   light::IlluminateOptions options;
   const auto light = light_options(flags);
-  if (!s.good() || !light || !read_options(flags, options) || !is_safe(flags) || !s.choose_pipeline("lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{texcoords=true}")) return usage;
+  if (!s.good() || !light || !read_options(flags, options) || !is_safe(flags) ||
+      !s.choose_pipeline(
+          "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{texcoords=true}"))
+    return usage;
   if (!s.read(flags.inputs[0])) return s.end(false);
   auto file = OutputFile::open(flags.output, {.gzip = flags.output.ends_with(".gz")}, s.diag());
   if (!file || !make_folder(s)) return s.end(false);
@@ -138,7 +148,10 @@ int run_illuminate(const Flags& flags) {
   s.progress().begin(flags.method, parts, "parts");
   options.how.done = [&](double share) { s.progress().set(static_cast<std::uint64_t>(share * parts)); };
   auto set = light::illuminate(s.world().scene, world, options, s.diag());
-  if (set.patches.empty()) return s.diag().report(Diag::no_surface, {}), s.end(false);
+  if (set.patches.empty()) {
+    s.diag().report(Diag::no_surface, {});
+    return s.end(false);
+  }
   set.source = flags.inputs[0] == standard_input ? "" : std::filesystem::path(flags.inputs[0]).filename().string();
   set.method = flags.method;
   write_patches(set, file->sink());

@@ -7,15 +7,15 @@
 #include <map>
 #include <set>
 
-#include "parsers/patches/patches.h"
 #include "base/image/image.h"
+#include "base/text/json.h"
+#include "parsers/patches/patches.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 #include "tools/geometry_census.h"
 #include "tools/verbs/patches_info.h"
 #include "tools/world_meshes.h"
-#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {
@@ -29,9 +29,10 @@ struct TextureInfo {
 struct Info {
   std::map<std::string, std::uint64_t> nodes;  // authored, each once
   GeometryCensus geometry;
-  std::uint64_t materials = 0, lights = 0, viewpoints = 0, lods = 0, animations = 0, protos = 0, routes = 0, scripts = 0, inlines = 0, names = 0;
+  std::uint64_t materials = 0, lights = 0, viewpoints = 0, lods = 0, animations = 0, protos = 0, routes = 0,
+                scripts = 0, inlines = 0, names = 0;
   std::vector<TextureInfo> textures;
-  std::vector<std::uint64_t> levels;           // triangles with every LOD at its first level, its second, ...
+  std::vector<std::uint64_t> levels;  // triangles with every LOD at its first level, its second, ...
 };
 
 /// What the file says, before anything is expanded.
@@ -58,13 +59,17 @@ TextureInfo texture_info(Session& s, NodeId n) {
     auto image = scene.get(n, nodes::pixel_texture::image);
     return {"", true, image.size() > 1 ? image[0] : 0, image.size() > 1 ? image[1] : 0};
   }
-  auto urls = scene.is(n, nodes::ImageTexture) ? scene.get(n, nodes::image_texture::url) : scene.get(n, nodes::movie_texture::url);
+  auto urls = scene.is(n, nodes::ImageTexture) ? scene.get(n, nodes::image_texture::url)
+                                               : scene.get(n, nodes::movie_texture::url);
   TextureInfo t{urls.empty() ? "" : std::string(urls[0]), false, 0, 0};
   if (urls.empty()) return t;
   auto blob = s.resources().bytes(urls, scene.where(n), s.diag());
   t.found = blob != nullptr;
   if (blob)
-    if (auto header = read_image_header(blob->bytes, blob->name)) t.width = header->width, t.height = header->height;
+    if (auto header = read_image_header(blob->bytes, blob->name)) {
+      t.width = header->width;
+      t.height = header->height;
+    }
   return t;
 }
 
@@ -88,12 +93,16 @@ void count_levels(Session& s, const WorldMeshes& meshes, Info& info) {
   std::vector<NodeId> lods;
   std::size_t most = 0;
   for (NodeId n : reachable(level, level.main))
-    if (level.is(n, nodes::LOD)) lods.push_back(n), most = std::max(most, level.get(n, nodes::lod::children).size());
+    if (level.is(n, nodes::LOD)) {
+      lods.push_back(n);
+      most = std::max(most, level.get(n, nodes::lod::children).size());
+    }
   constexpr std::size_t most_levels = 16;
   for (std::size_t k = 0; k < std::min(most, most_levels); ++k) {
     for (NodeId n : lods) {
       auto children = s.world().scene.get(n, nodes::lod::children);
-      if (!children.empty()) level.set(n, nodes::lod::children, std::vector<NodeId>{children[std::min(k, children.size() - 1)]});
+      if (!children.empty())
+        level.set(n, nodes::lod::children, std::vector<NodeId>{children[std::min(k, children.size() - 1)]});
     }
     info.levels.push_back(count_geometry(level, meshes.polygons, meshes.triangles).triangles);
   }
@@ -164,21 +173,28 @@ std::string info_json(Session& s, const Info& i) {
 
 std::string info_text(Session& s, const Info& i) {
   const auto& b = i.geometry.bounds;
-  std::string out = fmt::format("{}: {}{}, {} bytes\n", s.flags().inputs[0], to_string(s.world().format), s.world().gzip ? " (gzip)" : "", s.world().bytes);
-  out += fmt::format("  shapes {}, polygons {}, triangles {}, lines {}, points {}\n", i.geometry.shapes, i.geometry.polygons, i.geometry.triangles, i.geometry.lines, i.geometry.points);
+  std::string out = fmt::format("{}: {}{}, {} bytes\n", s.flags().inputs[0], to_string(s.world().format),
+                                s.world().gzip ? " (gzip)" : "", s.world().bytes);
+  out += fmt::format("  shapes {}, polygons {}, triangles {}, lines {}, points {}\n", i.geometry.shapes,
+                     i.geometry.polygons, i.geometry.triangles, i.geometry.lines, i.geometry.points);
   if (!b.empty())
-    out += fmt::format("  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}: {:.6g} x {:.6g} x {:.6g} m\n", b.min[0], b.min[1], b.min[2], b.max[0], b.max[1], b.max[2], b.max[0] - b.min[0], b.max[1] - b.min[1],
+    out += fmt::format("  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}: {:.6g} x {:.6g} x {:.6g} m\n", b.min[0],
+                       b.min[1], b.min[2], b.max[0], b.max[1], b.max[2], b.max[0] - b.min[0], b.max[1] - b.min[1],
                        b.max[2] - b.min[2]);
-  out += fmt::format("  materials {}, textures {}, lights {}, viewpoints {}, LODs {}\n", i.materials, i.textures.size(), i.lights, i.viewpoints, i.lods);
-  out += fmt::format("  names {}, prototypes {}, routes {}, scripts {}, inlines {}, animations {}\n", i.names, i.protos, i.routes, i.scripts, i.inlines, i.animations);
+  out += fmt::format("  materials {}, textures {}, lights {}, viewpoints {}, LODs {}\n", i.materials, i.textures.size(),
+                     i.lights, i.viewpoints, i.lods);
+  out += fmt::format("  names {}, prototypes {}, routes {}, scripts {}, inlines {}, animations {}\n", i.names, i.protos,
+                     i.routes, i.scripts, i.inlines, i.animations);
   std::vector<std::pair<std::uint64_t, std::string>> types;
   for (auto& [name, n] : i.nodes) types.emplace_back(n, name);
-  std::ranges::sort(types, [](auto& a, auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
+  std::ranges::sort(types,
+                    [](auto& a, auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
   out += "  nodes:";
   for (auto& [n, name] : types) out += fmt::format(" {} {}", n, name);
   out += "\n";
   for (auto& t : i.textures)
-    out += t.found ? fmt::format("  texture {} {} x {}\n", t.url.empty() ? "in the file" : t.url, t.width, t.height) : fmt::format("  texture {} is missing\n", t.url);
+    out += t.found ? fmt::format("  texture {} {} x {}\n", t.url.empty() ? "in the file" : t.url, t.width, t.height)
+                   : fmt::format("  texture {} is missing\n", t.url);
   return out;
 }
 

@@ -7,7 +7,8 @@
 
 namespace wrlkit {
 
-/// What `wrlkit info` prints of the session's world, with --json as one object; the world is expanded by it. Nothing when a pass fails.
+/// What `wrlkit info` prints of the session's world, with --json as one object; the world is expanded by it. Nothing
+/// when a pass fails.
 std::optional<std::string> info_of(Session&);
 
 }  // namespace wrlkit

@@ -7,19 +7,20 @@
 #include <set>
 #include <utility>
 
+#include "base/text/json.h"
 #include "parsers/gltf/names.h"
 #include "passes/analysis/text_list.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
+#include "tools/cli/session.h"
 #include "tools/gltf_output.h"
 #include "tools/profiles.h"
-#include "tools/cli/session.h"
-#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {
 
-/// All DEF names of the world, and those of what no Switch shows: glTF shows one of its children, and has no place for the others.
+/// All DEF names of the world, and those of what no Switch shows: glTF shows one of its children, and has no place for
+/// the others.
 struct Names {
   std::set<std::string> all, shown;
 };
@@ -51,7 +52,7 @@ struct Before {
 
 /// Names that the file does not have.
 struct Lost {
-  std::vector<std::string> names;      // of what is shown
+  std::vector<std::string> names;  // of what is shown
   std::vector<std::string> not_shown;
 };
 
@@ -67,13 +68,16 @@ Lost lost_of(const Names& names, const std::string& path) {
 }
 
 std::string names_text(const Before& before, const Lost& lost) {
-  std::string out = fmt::format("  names: {} of {} kept", before.names.all.size() - lost.names.size() - lost.not_shown.size(), before.names.all.size());
+  std::string out =
+      fmt::format("  names: {} of {} kept", before.names.all.size() - lost.names.size() - lost.not_shown.size(),
+                  before.names.all.size());
   if (!lost.not_shown.empty()) out += fmt::format("; {} are only of nodes that no Switch shows", lost.not_shown.size());
   return out + '\n';
 }
 
 std::string text(const Session& s, const Before& before, const Lost& lost, const GltfSummary& made) {
-  return fmt::format("{} ({} bytes) -> {} ({} bytes)\n{}{}", s.flags().inputs[0], before.bytes, s.flags().output, made.bytes(), summary_text(made), names_text(before, lost));
+  return fmt::format("{} ({} bytes) -> {} ({} bytes)\n{}{}", s.flags().inputs[0], before.bytes, s.flags().output,
+                     made.bytes(), summary_text(made), names_text(before, lost));
 }
 
 std::string json_text(const Session& s, const Before& before, const Lost& lost, const GltfSummary& made) {
@@ -101,13 +105,25 @@ int run_optimize(const Flags& given) {
   const Profile* profile = find_profile(flags.profile.empty() ? "three" : flags.profile);
   flags.profile = profile->name;
   apply_profile(flags);
-  if (flags.print_profile) return fmt::print("{}", profile_text(*profile)), done;
-  if (flags.inputs.empty() || flags.output.empty()) return fmt::print(stderr, "wrlkit: optimize needs IN and OUT\n"), usage;
-  if (!flags.pipeline_given) flags.pipeline = profile->pipeline, flags.pipeline_given = true;
+  if (flags.print_profile) {
+    fmt::print("{}", profile_text(*profile));
+    return done;
+  }
+  if (flags.inputs.empty() || flags.output.empty()) {
+    fmt::print(stderr, "wrlkit: optimize needs IN and OUT\n");
+    return usage;
+  }
+  if (!flags.pipeline_given) {
+    flags.pipeline = profile->pipeline;
+    flags.pipeline_given = true;
+  }
   Session s(flags);
   auto options = gltf_options(flags);
   if (!s.good() || !options || !s.choose_pipeline(gltf_pipeline(flags))) return usage;
-  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
+  if (flags.print_pipeline) {
+    fmt::print("{}\n", s.pipeline().text());
+    return done;
+  }
   if (!s.read(flags.inputs[0])) return s.end(false);
   std::error_code ec;
   const auto size = std::filesystem::file_size(flags.inputs[0], ec);
@@ -123,8 +139,10 @@ int run_optimize(const Flags& given) {
     s.diag().report(Diag::names_lost, {}, "optimize", list.count(), list.text());
   }
   s.progress().clear();
-  if (flags.json) fmt::print("{}", json_text(s, before, lost, made));
-  else if (!flags.quiet) fmt::print(stderr, "{}", text(s, before, lost, made));
+  if (flags.json)
+    fmt::print("{}", json_text(s, before, lost, made));
+  else if (!flags.quiet)
+    fmt::print(stderr, "{}", text(s, before, lost, made));
   return s.end(true);
 }
 

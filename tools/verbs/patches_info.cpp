@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "parsers/patches/patches.h"
-#include "light/render/linear.h"
-#include "tools/geometry_census.h"
 #include "base/text/json.h"
+#include "light/render/linear.h"
+#include "parsers/patches/patches.h"
+#include "tools/geometry_census.h"
 
 namespace wrlkit {
 namespace {
@@ -56,12 +56,18 @@ std::string as_json(const std::string& path, const FileText& file, const PatchSe
 
 std::string as_text(const std::string& path, const FileText& file, const PatchSet& set, const PatchesInfo& o) {
   std::string out = fmt::format("{}: patches, {} bytes\n", path, file.bytes_on_disk);
-  if (!set.source.empty()) out += fmt::format("  of {}{}{}{}\n", set.source, set.method.empty() ? "" : ", by ", set.method, set.samples ? fmt::format(", {} samples", set.samples) : "");
-  out += fmt::format("  shapes {}, triangles {}, patches {}", set.shapes.size(), set.triangles.size(), set.patches.size());
+  if (!set.source.empty())
+    out += fmt::format("  of {}{}{}{}\n", set.source, set.method.empty() ? "" : ", by ", set.method,
+                       set.samples ? fmt::format(", {} samples", set.samples) : "");
+  out +=
+      fmt::format("  shapes {}, triangles {}, patches {}", set.shapes.size(), set.triangles.size(), set.patches.size());
   if (o.n_back) out += fmt::format(", of them {} on back sides", o.n_back);
   const auto& b = o.bounds;
-  if (!b.empty()) out += fmt::format("\n  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}", b.min[0], b.min[1], b.min[2], b.max[0], b.max[1], b.max[2]);
-  return out + fmt::format("\n  area {:.6g} m2, mean radiance {:.4g} {:.4g} {:.4g}\n", o.area, o.radiance[0], o.radiance[1], o.radiance[2]);
+  if (!b.empty())
+    out += fmt::format("\n  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}", b.min[0], b.min[1], b.min[2], b.max[0],
+                       b.max[1], b.max[2]);
+  return out + fmt::format("\n  area {:.6g} m2, mean radiance {:.4g} {:.4g} {:.4g}\n", o.area, o.radiance[0],
+                           o.radiance[1], o.radiance[2]);
 }
 
 }  // namespace
@@ -71,8 +77,10 @@ int print_patches_info(Session& s, const FileText& file) {
   if (!set) return s.end(false);
   const auto& path = s.flags().inputs[0];
   const auto measured = measure(*set);
-  if (s.flags().json) fmt::print("{}\n", as_json(path, file, *set, measured));
-  else fmt::print("{}", as_text(path, file, *set, measured));
+  if (s.flags().json)
+    fmt::print("{}\n", as_json(path, file, *set, measured));
+  else
+    fmt::print("{}", as_text(path, file, *set, measured));
   return s.end(true);
 }
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "base/image/image_animation.h"
-#include "tools/verbs/render_sheets.h"
 #include "base/io/output.h"
+#include "tools/verbs/render_sheets.h"
 
 namespace wrlkit {
 
@@ -36,7 +36,10 @@ bool write_bytes(Session& s, std::string_view bytes, const std::string& name) {
 bool write_picture(Session& s, const Image& picture, const std::string& name) {
   std::string why;
   auto bytes = encode_as(name == "-" ? ".png" : name, picture, why);
-  if (!bytes) return s.diag().report(Diag::cannot_write, {}, name, why), false;
+  if (!bytes) {
+    s.diag().report(Diag::cannot_write, {}, name, why);
+    return false;
+  }
   return write_bytes(s, *bytes, name);
 }
 
@@ -65,7 +68,8 @@ class Turntable {
     // What is to be said about the world is said with the first picture.
     Diagnostics unheard(s_.diag().shared_sources());
     int i = 0;
-    for (const auto& options : turntable(s_.world().scene, meshes, render_options(s_.flags()), s_.flags().turntable, s_.diag())) {
+    for (const auto& options :
+         turntable(s_.world().scene, meshes, render_options(s_.flags()), s_.flags().turntable, s_.diag())) {
       if (!take(draw(s_, meshes, options, fmt::format("picture {}", i), i == 0 ? nullptr : &unheard), i)) return false;
       ++i;
     }
@@ -80,13 +84,17 @@ class Turntable {
     std::string why;
     if (!animation_) animation_ = begin_webp_animation(milliseconds, why);
     if (animation_ && animation_->add(picture, why)) return true;
-    return s_.diag().report(Diag::cannot_write, {}, name_, why), false;
+    s_.diag().report(Diag::cannot_write, {}, name_, why);
+    return false;
   }
 
   bool end() {
     std::string why;
     const auto bytes = animation_->finish(why);
-    if (!bytes) return s_.diag().report(Diag::cannot_write, {}, name_, why), false;
+    if (!bytes) {
+      s_.diag().report(Diag::cannot_write, {}, name_, why);
+      return false;
+    }
     return write_bytes(s_, *bytes, name_);
   }
 
@@ -96,9 +104,16 @@ class Turntable {
 };
 
 bool is_usable(const Flags& f, bool sheet) {
-  auto fault = [](std::string_view why) { return fmt::print(stderr, "wrlkit render: {}\n", why), false; };
-  if (!can_encode_as(f.output) && f.output != "-") return fmt::print(stderr, "wrlkit: '{}': pictures are written as .png, .jpg or .webp\n", f.output), false;
-  if (sheet + !f.compare.empty() + (f.turntable > 0) > 1) return fault("several worlds, --compare or --turntable, one of them");
+  auto fault = [](std::string_view why) {
+    fmt::print(stderr, "wrlkit render: {}\n", why);
+    return false;
+  };
+  if (!can_encode_as(f.output) && f.output != "-") {
+    fmt::print(stderr, "wrlkit: '{}': pictures are written as .png, .jpg or .webp\n", f.output);
+    return false;
+  }
+  if (sheet + !f.compare.empty() + (f.turntable > 0) > 1)
+    return fault("several worlds, --compare or --turntable, one of them");
   if (f.turntable > 0 && f.output == "-") return fault("--turntable: pictures in a series need a name");
   return true;
 }
@@ -109,11 +124,18 @@ int run_render(const Flags& flags) {
   Session s(flags);
   const bool sheet = is_sheet(flags);
   if (!is_usable(flags, sheet) || !s.good() || !s.choose_pipeline("picture")) return usage;
-  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
+  if (flags.print_pipeline) {
+    fmt::print("{}\n", s.pipeline().text());
+    return done;
+  }
   if (sheet) return render_sheet(s);
-  const bool made = !flags.compare.empty() ? render_comparison(s) : flags.turntable > 0 ? Turntable(s).make() : render_one(s);
+  const bool made = !flags.compare.empty() ? render_comparison(s)
+                    : flags.turntable > 0  ? Turntable(s).make()
+                                           : render_one(s);
   s.progress().clear();
-  if (made && flags.verbose && flags.mode == "density") fmt::print(stderr, "texels a metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n", most_texels_per_metre);
+  if (made && flags.verbose && flags.mode == "density")
+    fmt::print(stderr, "texels a metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n",
+               most_texels_per_metre);
   return s.end(made);
 }
 

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/text/json.h"
 #include "tools/report/picture_grid.h"
 #include "tools/verbs/render_sheets.h"
-#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {
@@ -31,7 +31,8 @@ PictureDifference difference(const Image& a, const Image& b) {
       sum += static_cast<std::uint64_t>(apart);
       most = std::max(most, apart);
     }
-    std::fill_n(d.picture.pixels.begin() + static_cast<std::ptrdiff_t>(i), 3, static_cast<std::uint8_t>(std::lround(std::sqrt(most * 255.0))));
+    std::fill_n(d.picture.pixels.begin() + static_cast<std::ptrdiff_t>(i), 3,
+                static_cast<std::uint8_t>(std::lround(std::sqrt(most * 255.0))));
     d.largest = std::max(d.largest, most);
     d.n_pixels += most > 0;
   }
@@ -51,7 +52,9 @@ std::string figures_json(const PictureDifference& d) {
   return text;
 }
 
-std::string figures_text(const PictureDifference& d) { return fmt::format("difference: mean {:.4g}, largest {} of 255", d.mean, d.largest); }
+std::string figures_text(const PictureDifference& d) {
+  return fmt::format("difference: mean {:.4g}, largest {} of 255", d.mean, d.largest);
+}
 
 std::string name_of(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
@@ -75,13 +78,17 @@ bool render_comparison(Session& s) {
   auto d = difference(first, second);
   const std::string figures = figures_json(d), text = figures_text(d);
   const std::size_t n_all = d.picture.pixels.size() / 3;
-  const Image grid = picture_grid({{name_of(f.inputs[0]), std::move(first)}, {name_of(f.compare), std::move(second)}, {text, std::move(d.picture)}}, 3);
+  const Image grid = picture_grid(
+      {{name_of(f.inputs[0]), std::move(first)}, {name_of(f.compare), std::move(second)}, {text, std::move(d.picture)}},
+      3);
   if (!write_picture(s, grid, f.output)) return false;
   s.fact("difference", figures);
   s.progress().clear();
   if (f.output == "-") return true;
-  if (f.json) fmt::print("{}\n", figures);
-  else fmt::print("{}, {} of {} pixels\n", text, d.n_pixels, n_all);
+  if (f.json)
+    fmt::print("{}\n", figures);
+  else
+    fmt::print("{}, {} of {} pixels\n", text, d.n_pixels, n_all);
   return true;
 }
 

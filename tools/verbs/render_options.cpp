@@ -13,18 +13,23 @@ RenderOptions render_options(const Flags& f) {
   o.height = f.height;
   o.samples = f.samples;
   using Mode = RenderOptions::Mode;
-  constexpr std::pair<std::string_view, Mode> modes[] = {{"preview", Mode::preview}, {"wireframe", Mode::wireframe}, {"lightmap", Mode::lightmap},
-                                                         {"checker", Mode::checker}, {"density", Mode::density},     {"albedo", Mode::albedo},   {"path", Mode::path}};
+  constexpr std::pair<std::string_view, Mode> modes[] = {{"preview", Mode::preview},   {"wireframe", Mode::wireframe},
+                                                         {"lightmap", Mode::lightmap}, {"checker", Mode::checker},
+                                                         {"density", Mode::density},   {"albedo", Mode::albedo},
+                                                         {"path", Mode::path}};
   for (auto [name, mode] : modes)
     if (f.mode == name) o.mode = mode;
-  if (f.level == "auto") o.level.reset();
-  else o.level = std::stoul(f.level);
+  if (f.level == "auto")
+    o.level.reset();
+  else
+    o.level = std::stoul(f.level);
   o.viewpoint = f.viewpoint;
   o.fit = f.fit;
   o.field_of_view = f.field_of_view * std::numbers::pi / 180;
   if (f.background.size() == 3) o.background = Vec3{f.background[0], f.background[1], f.background[2]};
   if (!f.headlight.empty()) o.headlight = f.headlight == "on";
-  if (const auto& l = f.look_at; l.size() == 9) o.look_at = LookAt{{l[0], l[1], l[2]}, {l[3], l[4], l[5]}, {l[6], l[7], l[8]}};
+  if (const auto& l = f.look_at; l.size() == 9)
+    o.look_at = LookAt{{l[0], l[1], l[2]}, {l[3], l[4], l[5]}, {l[6], l[7], l[8]}};
   return o;
 }
 

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/text/json.h"
 #include "tools/corpus/inputs.h"
 #include "tools/report/picture_grid.h"
 #include "tools/verbs/render_sheets.h"
-#include "base/text/json.h"
 
 namespace wrlkit {
 namespace {
@@ -23,7 +23,8 @@ struct Entry {
 /// More files than itself are meant.
 bool is_many(const std::string& word) {
   std::error_code ec;
-  return word.starts_with('@') || fs::is_directory(word, ec) || (word.find_first_of("*?") != std::string::npos && !fs::exists(word, ec));
+  return word.starts_with('@') || fs::is_directory(word, ec) ||
+         (word.find_first_of("*?") != std::string::npos && !fs::exists(word, ec));
 }
 
 /// Files that are named stand as they are; one that is not there has its place, too.
@@ -38,11 +39,16 @@ std::optional<std::vector<Entry>> entries(const std::vector<std::string>& words,
     if (!found) return std::nullopt;
     for (auto& file : found->files) out.push_back({file.path, file.inside});
   }
-  if (out.empty()) return why = "there is no world in " + words[0], std::nullopt;
+  if (out.empty()) {
+    why = "there is no world in " + words[0];
+    return std::nullopt;
+  }
   return out;
 }
 
-bool given(const Flags& f, std::string_view name) { return std::ranges::any_of(f.given, [&](const auto& g) { return g.first == name; }); }
+bool given(const Flags& f, std::string_view name) {
+  return std::ranges::any_of(f.given, [&](const auto& g) { return g.first == name; });
+}
 
 std::string contents_json(const std::vector<Entry>& worlds, const std::vector<bool>& drawn) {
   std::string text;
@@ -66,14 +72,22 @@ int render_sheet(Session& s) {
   const Flags& f = s.flags();
   std::string why;
   const auto worlds = entries(f.inputs, why);
-  if (!worlds) return fmt::print(stderr, "wrlkit render: {}\n", why), usage;
+  if (!worlds) {
+    fmt::print(stderr, "wrlkit render: {}\n", why);
+    return usage;
+  }
   RenderOptions options = render_options(f);
   if (!given(f, "width")) options.width = 320;
   if (!given(f, "height")) options.height = 240;
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(worlds->size()))));
   const GridSize size = grid_size(worlds->size(), columns, options.width, options.height);
-  if (!image_size_fault(size.width, size.height, SIZE_MAX).empty())
-    return fmt::print(stderr, "wrlkit render: a sheet of {} by {} pixels is too large; make its pictures smaller (--width, --height)\n", size.width, size.height), usage;
+  if (!image_size_fault(size.width, size.height, SIZE_MAX).empty()) {
+    fmt::print(
+        stderr,
+        "wrlkit render: a sheet of {} by {} pixels is too large; make its pictures smaller (--width, --height)\n",
+        size.width, size.height);
+    return usage;
+  }
   std::vector<NamedPicture> pictures;
   std::vector<bool> drawn;
   for (const auto& world : *worlds) {

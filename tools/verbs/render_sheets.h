@@ -2,14 +2,15 @@
 #pragma once
 #include <string>
 
-#include "tools/verbs/render_options.h"
 #include "tools/cli/session.h"
+#include "tools/verbs/render_options.h"
 
 namespace wrlkit {
 
 /// Reads a world, in place of the one before, and runs the pipeline; null when nothing can be had.
 MeshSource open_world(Session&, const std::string& input);
-/// A picture of the world that is open; --mode path says how far it is, as `name`. `diag`: where messages go, if not to the session's.
+/// A picture of the world that is open; --mode path says how far it is, as `name`. `diag`: where messages go, if not to
+/// the session's.
 Image draw(Session&, const MeshSource&, RenderOptions, std::string name, Diagnostics* diag = nullptr);
 /// In the format of its name; false when not, which is reported.
 bool write_picture(Session&, const Image&, const std::string& name);

@@ -63,9 +63,11 @@ void set_patience(int client) {
   setsockopt(client, SOL_SOCKET, SO_SNDTIMEO, &to_read, sizeof to_read);
 }
 
-/// Only what asks for this address by its number or as localhost: a page of another site may give its name to 127.0.0.1.
+/// Only what asks for this address by its number or as localhost: a page of another site may give its name to
+/// 127.0.0.1.
 bool is_meant(std::string head, std::uint16_t port) {
-  std::ranges::transform(head, head.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::ranges::transform(head, head.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return head.find(fmt::format("\r\nhost: 127.0.0.1:{}\r\n", port)) != head.npos ||
          head.find(fmt::format("\r\nhost: localhost:{}\r\n", port)) != head.npos;
 }
@@ -76,7 +78,8 @@ void answer(int to, std::uint16_t port, const PageSource& page) {
   const bool known = is_meant(head, port) && (head.starts_with("GET / ") || head.starts_with("HEAD / "));
   const auto html = known ? page() : nullptr;
   const std::string_view body = html ? *html : std::string_view("not found\n");
-  send_all(to, fmt::format("HTTP/1.1 {}\r\nContent-Type: {}; charset=utf-8\r\nContent-Length: {}\r\nCache-Control: no-store\r\nConnection: close\r\n\r\n",
+  send_all(to, fmt::format("HTTP/1.1 {}\r\nContent-Type: {}; charset=utf-8\r\nContent-Length: {}\r\nCache-Control: "
+                           "no-store\r\nConnection: close\r\n\r\n",
                            known ? "200 OK" : "404 Not Found", known ? "text/html" : "text/plain", body.size()));
   if (!head.starts_with("HEAD ")) send_all(to, body);
 }
@@ -93,11 +96,14 @@ std::string serve_page(const PageSource& page) {
   here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof here;
   auto* address = reinterpret_cast<sockaddr*>(&here);
-  if (listener < 0 || ::bind(listener, address, size) != 0 || ::listen(listener, most_clients) != 0 || ::getsockname(listener, address, &size) != 0) return reason();
+  if (listener < 0 || ::bind(listener, address, size) != 0 || ::listen(listener, most_clients) != 0 ||
+      ::getsockname(listener, address, &size) != 0)
+    return reason();
   const auto port = ntohs(here.sin_port);
   fmt::print("http://127.0.0.1:{}/\n", port);
   std::fflush(stdout);
-  // The source outlives the threads: nothing but the end of the process ends this loop as long as the listener is there.
+  // The source outlives the threads: nothing but the end of the process ends this loop as long as the listener is
+  // there.
   static std::counting_semaphore<most_clients> places(most_clients);
   for (;;) {
     places.acquire();

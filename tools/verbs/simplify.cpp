@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/io/output.h"
+#include "base/text/json.h"
 #include "geometry/progressive/progressive_world.h"
 #include "geometry/simplify/world.h"
 #include "tools/cli/lengths.h"
 #include "tools/cli/session.h"
 #include "tools/vrml_file.h"
-#include "base/text/json.h"
-#include "base/io/output.h"
 
 namespace wrlkit {
 namespace {
@@ -34,13 +34,20 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   if (!f.criterion.empty()) criterion.read(f.criterion);
   o.collapse.criterion = criterion.value;
   o.budget.pixels = f.pixels;
-  if ((f.every > 0) + !f.counts.empty() + !f.ratios.empty() + !f.errors.empty() + f.progressive != 1)
-    return fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios, --error and --progressive is needed\n"), std::nullopt;
-  if (f.progressive && criterion.value == Criterion::meshopt)
-    return fmt::print(stderr, "wrlkit simplify: --progressive: meshopt keeps no record of its steps\n"), std::nullopt;
+  if ((f.every > 0) + !f.counts.empty() + !f.ratios.empty() + !f.errors.empty() + f.progressive != 1) {
+    fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios, --error and --progressive is needed\n");
+    return std::nullopt;
+  }
+  if (f.progressive && criterion.value == Criterion::meshopt) {
+    fmt::print(stderr, "wrlkit simplify: --progressive: meshopt keeps no record of its steps\n");
+    return std::nullopt;
+  }
   for (const auto& text : f.errors) {
     const double e = length_of(text);
-    if (!(e > 0)) return fmt::print(stderr, "wrlkit simplify: --error: '{}' is no length\n", text), std::nullopt;
+    if (!(e > 0)) {
+      fmt::print(stderr, "wrlkit simplify: --error: '{}' is no length\n", text);
+      return std::nullopt;
+    }
     o.errors.push_back(e);
   }
   o.every = static_cast<std::size_t>(f.every);
@@ -49,7 +56,9 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   return o;
 }
 
-bool write_world(Session& s, const std::string& path, const Scene& scene) { return write_vrml_file(s, scene, path, s.flags().gzip); }
+bool write_world(Session& s, const std::string& path, const Scene& scene) {
+  return write_vrml_file(s, scene, path, s.flags().gzip);
+}
 
 /// The world as one progressive file in place of many.
 int write_progressive_file(Session& s, Criterion criterion, const std::string& path) {
@@ -103,7 +112,8 @@ void print(Session& s, std::size_t n_faces, const std::vector<Written>& files, c
     fmt::print("{}\n", text);
   } else {
     fmt::print("{:>10}  {:>10}  {:>10}  file\n{:>10}  {:>10}  {:>10}\n", "triangles", "rms", "max", n_faces, 0, 0);
-    for (const auto& [file, p] : files) fmt::print("{:>10}  {:>10.3g}  {:>10.3g}  {}\n", p.n_faces, p.rms, p.error, file);
+    for (const auto& [file, p] : files)
+      fmt::print("{:>10}  {:>10.3g}  {:>10.3g}  {}\n", p.n_faces, p.rms, p.error, file);
     fmt::print("{:>46}\n", lod_file);
   }
 }
@@ -112,7 +122,8 @@ void print(Session& s, std::size_t n_faces, const std::vector<Written>& files, c
 std::string_view standard_pipeline(const Flags& flags) {
   if (flags.pipeline_given) return flags.progressive || flags.dump ? "lower-vrml1,lower-x3d{vrml97=true}" : "vrml";
   if (flags.progressive) return "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
-  return flags.dump ? "lower-vrml1,lower-x3d{vrml97=true},weld" : "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap,weld";
+  return flags.dump ? "lower-vrml1,lower-x3d{vrml97=true},weld"
+                    : "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap,weld";
 }
 
 }  // namespace
@@ -121,13 +132,19 @@ int run_simplify(const Flags& flags) {
   Session s(flags);
   auto options = options_of(flags);
   if (!options || !s.good() || !s.choose_pipeline(standard_pipeline(flags))) return usage;
-  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
-  if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
+  if (flags.print_pipeline) {
+    fmt::print("{}\n", s.pipeline().text());
+    return done;
+  }
+  if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))
+    return s.end(false);
 
   std::error_code failed;
   fs::create_directories(flags.output, failed);
-  const std::string base = (fs::path(flags.output) / stem_of(flags.inputs[0])).string(), ending = flags.gzip ? ".wrl.gz" : ".wrl";
-  if (flags.progressive) return write_progressive_file(s, options->collapse.criterion, base + (flags.gzip ? ".wpm.gz" : ".wpm"));
+  const std::string base = (fs::path(flags.output) / stem_of(flags.inputs[0])).string(),
+                    ending = flags.gzip ? ".wrl.gz" : ".wrl";
+  if (flags.progressive)
+    return write_progressive_file(s, options->collapse.criterion, base + (flags.gzip ? ".wpm.gz" : ".wpm"));
 
   const SimplifiedWorld world(s.world().scene, *options, s.context());
   if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");

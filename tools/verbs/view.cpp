@@ -7,21 +7,22 @@
 #include <memory>
 #include <mutex>
 
+#include "base/io/output.h"
+#include "base/text/json.h"
 #include "geometry/progressive/progressive_world.h"
-#include "tools/report/deviation_map.h"
-#include "tools/verbs/serve.h"
 #include "tools/cli/session.h"
+#include "tools/report/deviation_map.h"
 #include "tools/shown_surface.h"
+#include "tools/verbs/serve.h"
 #include "tools/verbs/viewer_page.h"
 #include "writers/gltf/gltf.h"
-#include "base/text/json.h"
-#include "base/io/output.h"
 
 namespace wrlkit {
 namespace {
 
 /// Surfaces without loose faces, as `simplify --progressive` makes them.
-constexpr std::string_view surfaces_pipeline = "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
+constexpr std::string_view surfaces_pipeline =
+    "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
 /// Baked light stays apart from the colours, so that each can be looked at alone.
 constexpr std::string_view world_pipeline = "gltf-light";
 
@@ -85,8 +86,9 @@ class Viewer {
     const auto &a = *surfaces_[0], &b = *surfaces_[1];
     if (!a.complete() || !b.complete() || a.triangles().size() == 0 || b.triangles().size() == 0) return;
     s_.progress().begin("comparing", 0, "");
-    page_.apart = ViewerPage::Apart{measure_deviation(a.triangles(), b.triangles()),
-                                    {deviation_map(a.triangles(), b.triangles()), deviation_map(b.triangles(), a.triangles())}};
+    page_.apart =
+        ViewerPage::Apart{measure_deviation(a.triangles(), b.triangles()),
+                          {deviation_map(a.triangles(), b.triangles()), deviation_map(b.triangles(), a.triangles())}};
   }
 
   Session& s_;
@@ -95,9 +97,15 @@ class Viewer {
 };
 
 bool is_usable(const Flags& f) {
-  if (f.output.empty() && !f.serve) return fmt::print(stderr, "wrlkit view: -o FILE or --serve is needed\n"), false;
+  if (f.output.empty() && !f.serve) {
+    fmt::print(stderr, "wrlkit view: -o FILE or --serve is needed\n");
+    return false;
+  }
   for (const auto& name : f.criteria)
-    if (name == "meshopt") return fmt::print(stderr, "wrlkit view: --criteria: meshopt keeps no record of its steps\n"), false;
+    if (name == "meshopt") {
+      fmt::print(stderr, "wrlkit view: --criteria: meshopt keeps no record of its steps\n");
+      return false;
+    }
   return true;
 }
 
@@ -125,7 +133,10 @@ bool write_page(Session& s, const ViewerPage& page) {
   auto file = OutputFile::open(s.flags().output, {}, s.diag());
   if (!file) return false;
   std::size_t n_bytes = 0;
-  write_viewer_page(page, [&](std::string_view bytes) { n_bytes += bytes.size(), file->write(bytes); });
+  write_viewer_page(page, [&](std::string_view bytes) {
+    n_bytes += bytes.size();
+    file->write(bytes);
+  });
   if (!file->commit(s.diag())) return false;
   const auto contents = contents_json(page, s.flags().output, n_bytes);
   s.progress().clear();
@@ -134,7 +145,8 @@ bool write_page(Session& s, const ViewerPage& page) {
   return true;
 }
 
-/// The page that --serve shows. When a file of the worlds has changed it is made again; as long as that fails the last one is shown.
+/// The page that --serve shows. When a file of the worlds has changed it is made again; as long as that fails the last
+/// one is shown.
 class LivePage {
  public:
   LivePage(const Flags& flags, const ViewerPage& first) : flags_(flags), times_(times()), html_(text_of(first)) {}
@@ -178,15 +190,24 @@ class LivePage {
 int run_view(const Flags& flags) {
   Session s(flags);
   if (!is_usable(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;
-  if (flags.print_pipeline) return fmt::print("{}\n", s.pipeline().text()), done;
-  if (!has_viewer()) return fmt::print(stderr, "wrlkit view: the page was not built into this program: that needs Node.js and npm packages (script/bootstrap)\n"), nothing;
+  if (flags.print_pipeline) {
+    fmt::print("{}\n", s.pipeline().text());
+    return done;
+  }
+  if (!has_viewer()) {
+    fmt::print(stderr,
+               "wrlkit view: the page was not built into this program: that needs Node.js and npm packages "
+               "(script/bootstrap)\n");
+    return nothing;
+  }
   Viewer viewer(s);
   if (!viewer.fill()) return s.end(false);
   if (!flags.output.empty() && !write_page(s, viewer.page())) return s.end(false);
   const int code = s.end(true);
   if (!flags.serve) return code;
   LivePage live(flags, viewer.page());
-  return fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_page([&] { return live.get(); })), nothing;
+  fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_page([&] { return live.get(); }));
+  return nothing;
 }
 
 }  // namespace wrlkit

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "base/text/base64.h"
 #include "base/io/gzip.h"
+#include "base/text/base64.h"
 #include "base/text/json.h"
 
 #ifdef WRLKIT_VIEWER

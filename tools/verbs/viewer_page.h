@@ -1,12 +1,12 @@
-// The page that `view` writes: the viewer (viewer/, built by Vite and linked into the program as one HTML text) with the
-// worlds that it shows. What stands in the page is read by viewer/src/data.ts.
+// The page that `view` writes: the viewer (viewer/, built by Vite and linked into the program as one HTML text) with
+// the worlds that it shows. What stands in the page is read by viewer/src/data.ts.
 #pragma once
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "geometry/deviation.h"
 #include "base/io/sink.h"
+#include "geometry/deviation.h"
 
 namespace wrlkit {
 

@@ -15,8 +15,12 @@ constexpr std::string_view paths[] = {"translation", "rotation", "scale"};
 /// The field that says a property of a node.
 std::optional<std::uint16_t> slot_of(const Scene& scene, NodeId n, Path p) {
   using namespace nodes;
-  if (scene.is(n, Transform)) return p == Path::translation ? transform::translation.slot : p == Path::rotation ? transform::rotation.slot : transform::scale.slot;
-  if (scene.is(n, Viewpoint) && p != Path::scale) return p == Path::translation ? viewpoint::position.slot : viewpoint::orientation.slot;
+  if (scene.is(n, Transform))
+    return p == Path::translation ? transform::translation.slot
+           : p == Path::rotation  ? transform::rotation.slot
+                                  : transform::scale.slot;
+  if (scene.is(n, Viewpoint) && p != Path::scale)
+    return p == Path::translation ? viewpoint::position.slot : viewpoint::orientation.slot;
   if (scene.is(n, PointLight) && p == Path::translation) return point_light::location.slot;
   if (scene.is(n, SpotLight) && p == Path::translation) return spot_light::location.slot;
   return std::nullopt;
@@ -24,7 +28,9 @@ std::optional<std::uint16_t> slot_of(const Scene& scene, NodeId n, Path p) {
 
 Sample quaternion_of(const std::vector<double>& v) { return {v[0], v[1], v[2], v[3]}; }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
 
 /// Rotations follow one another without a change of sign; between distant ones stands one more.
 template <class Frame>
@@ -34,7 +40,8 @@ std::vector<Frame> continuous(const std::vector<Frame>& in) {
   for (Frame f : in) {
     if (!out.empty()) {
       const Frame last = out.back();
-      if (dot(last.value, f.value) < 0) for (double& v : f.value) v = -v;
+      if (dot(last.value, f.value) < 0)
+        for (double& v : f.value) v = -v;
       if (dot(last.value, f.value) < distant && f.at > last.at) {
         const Sample middle = mix(quaternion_of(last.value), quaternion_of(f.value), 0.5, true);
         out.push_back({(last.at + f.at) / 2, {middle.begin(), middle.end()}});
@@ -45,11 +52,14 @@ std::vector<Frame> continuous(const std::vector<Frame>& in) {
   return out;
 }
 
-View view_of(std::size_t width) { return width == 2 ? View::moving2 : width == 3 ? View::moving3 : width == 4 ? View::moving4 : View::moving1; }
+View view_of(std::size_t width) {
+  return width == 2 ? View::moving2 : width == 3 ? View::moving3 : width == 4 ? View::moving4 : View::moving1;
+}
 
 }  // namespace
 
-Animations::Animations(const Scene& scene, Motion::Reach reach, Diagnostics& diag) : scene_(scene), diag_(diag), motion_(scene, reach, diag) {
+Animations::Animations(const Scene& scene, Motion::Reach reach, Diagnostics& diag)
+    : scene_(scene), diag_(diag), motion_(scene, reach, diag) {
   for (const Route& r : scene.main.routes)
     if (scene.is(r.to, nodes::TimeSensor)) triggers_[r.to.value].push_back(&r);
 }
@@ -80,7 +90,11 @@ void Animations::add_transforms(const std::function<Vec3(std::uint32_t)>& offset
         const Sample s = in[0].value({});
         for (std::size_t k = 0; k < width; ++k) out.push_back(s[k] + (k < 3 ? by[k] : 0));
       };
-      add({same, std::string(paths[static_cast<std::size_t>(path)]), width, {{source, *slot_of(scene_, NodeId{source}, path)}}, evaluate});
+      add({same,
+           std::string(paths[static_cast<std::size_t>(path)]),
+           width,
+           {{source, *slot_of(scene_, NodeId{source}, path)}},
+           evaluate});
     }
   }
 }
@@ -98,7 +112,8 @@ void Animations::store(Store& store, const std::function<Vec3(std::uint32_t)>& o
     if (!w.channels.empty()) written_.push_back(std::move(w));
   }
   for (const Written& w : written_)
-    if (triggers_.contains(w.clock.value)) diag_.report(Diag::no_gltf_trigger, scene_.where(w.clock), scene_.name(w.clock));
+    if (triggers_.contains(w.clock.value))
+      diag_.report(Diag::no_gltf_trigger, scene_.where(w.clock), scene_.name(w.clock));
 }
 
 void Animations::add_channel(Written& w, std::uint32_t id, double cycle, Store& store) {
@@ -122,7 +137,10 @@ void Animations::add_channel(Written& w, std::uint32_t id, double cycle, Store& 
   auto [known, is_new] = w.known.try_emplace({s.input, s.output}, static_cast<std::uint32_t>(w.samplers.size()));
   if (is_new) w.samplers.push_back(s);
   const auto at = known->second;
-  if (p.nodes.empty()) w.channels.push_back({at, none, id}), pointers_ = true;
+  if (p.nodes.empty()) {
+    w.channels.push_back({at, none, id});
+    pointers_ = true;
+  }
   for (auto node : p.nodes) w.channels.push_back({at, node, id});
 }
 
@@ -153,7 +171,8 @@ std::vector<Animations::Frame> Animations::frames(const Property& p, std::span<c
 }
 
 /// Adds what is needed between the last frame and the next.
-void Animations::cut(std::vector<Frame>& out, const Frame& to, const std::function<std::vector<double>(double, Curve::Side)>& value) const {
+void Animations::cut(std::vector<Frame>& out, const Frame& to,
+                     const std::function<std::vector<double>(double, Curve::Side)>& value) const {
   constexpr int most_pieces = 64;
   constexpr double tolerance = 1e-3;
   const Frame from = out.back();
@@ -165,7 +184,8 @@ void Animations::cut(std::vector<Frame>& out, const Frame& to, const std::functi
         const auto exact = value(inner[i].at + t * (inner[i + 1].at - inner[i].at), Curve::Side::behind);
         for (std::size_t k = 0; k < exact.size(); ++k) {
           const double a = inner[i].value[k], b = inner[i + 1].value[k];
-          if (std::abs(exact[k] - (a + t * (b - a))) > tolerance * std::max({1.0, std::abs(a), std::abs(b)})) return false;
+          if (std::abs(exact[k] - (a + t * (b - a))) > tolerance * std::max({1.0, std::abs(a), std::abs(b)}))
+            return false;
         }
       }
     return true;
@@ -200,7 +220,8 @@ void Animations::write_target(JsonOut& json, const Channel& c) const {
   json.end_object();
 }
 
-void Animations::write(JsonOut& json, std::size_t i, const Extras* extras, const std::function<std::uint32_t(std::uint32_t)>& accessor) const {
+void Animations::write(JsonOut& json, std::size_t i, const Extras* extras,
+                       const std::function<std::uint32_t(std::uint32_t)>& accessor) const {
   const Written& w = written_[i];
   const auto trigger = triggers_.find(w.clock.value);
   const bool waits = trigger != triggers_.end();

@@ -1,21 +1,22 @@
 // Animations: each TimeSensor that moves something (gltf_motion.h) is one, as long as its cycleInterval.
 //
 // Both languages go along lines, and between rotations along the shorter arc, so keys become times and values stay what
-// they are. Keys that are equal are a jump: two times that are neighbours in single precision. An animation of glTF ends
-// with its last key, a cycle of VRML with fraction 1: there is always a key at either end. Between orientations that are
-// nearly half a turn apart there is one more, so that no reader takes the other way round. Where the ways differ, as for
-// colours, which VRML mixes by hue and glTF as light, pieces are cut in up to 64 so that they stay within 1e-3.
+// they are. Keys that are equal are a jump: two times that are neighbours in single precision. An animation of glTF
+// ends with its last key, a cycle of VRML with fraction 1: there is always a key at either end. Between orientations
+// that are nearly half a turn apart there is one more, so that no reader takes the other way round. Where the ways
+// differ, as for colours, which VRML mixes by hue and glTF as light, pieces are cut in up to 64 so that they stay
+// within 1e-3.
 //
-// glTF knows neither loops nor what starts an animation: {"loop": ..., "trigger": ["Button.touchTime TO Clock.startTime"]} is
-// in the extras. One that waits for an event has a name in any case.
+// glTF knows neither loops nor what starts an animation: {"loop": ..., "trigger": ["Button.touchTime TO
+// Clock.startTime"]} is in the extras. One that waits for an event has a name in any case.
 #pragma once
 #include <functional>
 
+#include "base/text/json.h"
 #include "writers/gltf/extras.h"
 #include "writers/gltf/motion.h"
 #include "writers/gltf/store.h"
 #include "writers/gltf/transform.h"
-#include "base/text/json.h"
 
 namespace wrlkit::gltf {
 
@@ -28,7 +29,9 @@ struct Property {
     const Scene* scene;
     const Curve* curve;
     double place;
-    Sample value(const Sample& as_it_stands) const { return curve ? value_at(*scene, curve->interpolator, place) : as_it_stands; }
+    Sample value(const Sample& as_it_stands) const {
+      return curve ? value_at(*scene, curve->interpolator, place) : as_it_stands;
+    }
   };
   using Evaluate = std::function<void(std::span<const At> inputs, std::vector<double>& out)>;
 
@@ -47,7 +50,9 @@ class Animations {
   const Motion& motion() const { return motion_; }
   /// Does anything move that property of the node?
   bool moves(NodeId, Path) const;
-  bool moves(NodeId n) const { return moves(n, Path::translation) || moves(n, Path::rotation) || moves(n, Path::scale); }
+  bool moves(NodeId n) const {
+    return moves(n, Path::translation) || moves(n, Path::rotation) || moves(n, Path::scale);
+  }
 
   /// A node of glTF that has a property of a node of VRML.
   void add_target(NodeId source, Path, std::uint32_t node);

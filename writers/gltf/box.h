@@ -14,7 +14,10 @@ struct Box {
 
   bool empty() const { return !(low[0] <= high[0]); }
   void add(const Box& b) {
-    for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], b.low[i]), high[i] = std::max(high[i], b.high[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], b.low[i]);
+      high[i] = std::max(high[i], b.high[i]);
+    }
   }
   Vec3 centre() const { return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2}; }
   /// Length of the diagonal.

@@ -63,7 +63,8 @@ Trs camera_transform(const Scene& scene, NodeId n) {
 std::string_view camera_name(const Scene& scene, NodeId n) {
   auto name = scene.name(n);
   if (!name.empty()) return name;
-  return scene.is(n, nodes::OrthoViewpoint) ? scene.get(n, nodes::ortho_viewpoint::description) : scene.get(n, nodes::viewpoint::description);
+  return scene.is(n, nodes::OrthoViewpoint) ? scene.get(n, nodes::ortho_viewpoint::description)
+                                            : scene.get(n, nodes::viewpoint::description);
 }
 
 void write_camera(JsonOut& json, const Scene& scene, const Camera& camera, const Box& world, const Visibility& v) {
@@ -78,8 +79,10 @@ void write_camera(JsonOut& json, const Scene& scene, const Camera& camera, const
   if (auto name = camera_name(scene, camera.source); !name.empty()) json.member("name", name);
   json.key(ortho ? "orthographic" : "perspective");
   json.begin_object();
-  if (ortho) write_window(json, window(scene, camera.source));
-  else write_angle(json, scene.get(camera.source, nodes::viewpoint::fieldOfView));
+  if (ortho)
+    write_window(json, window(scene, camera.source));
+  else
+    write_angle(json, scene.get(camera.source, nodes::viewpoint::fieldOfView));
   json.member("znear", static_cast<float>(znear));
   json.member("zfar", static_cast<float>(zfar));
   json.end_object();

@@ -6,9 +6,9 @@
 // between zfar / 1000, so that small models can be seen from near by, and zfar / 100000, so that a depth buffer can
 // tell surfaces of large ones apart.
 #pragma once
+#include "base/text/json.h"
 #include "writers/gltf/box.h"
 #include "writers/gltf/transform.h"
-#include "base/text/json.h"
 
 namespace wrlkit::gltf {
 

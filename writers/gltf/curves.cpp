@@ -59,9 +59,16 @@ std::span<const double> numbers(const Scene& scene, NodeId n, std::string_view f
   return v && !v->is ? v->number_span() : std::span<const double>();
 }
 
-bool has_lists(const Scene& scene, NodeId n) { return scene.is(n, nodes::CoordinateInterpolator) || scene.is(n, nodes::NormalInterpolator); }
+bool has_lists(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::CoordinateInterpolator) || scene.is(n, nodes::NormalInterpolator);
+}
 
-std::size_t width_of(const Scene& scene, NodeId n) { return scene.is(n, nodes::ScalarInterpolator) ? 1 : scene.is(n, nodes::PositionInterpolator2D) ? 2 : scene.is(n, nodes::OrientationInterpolator) ? 4 : 3; }
+std::size_t width_of(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::ScalarInterpolator)        ? 1
+         : scene.is(n, nodes::PositionInterpolator2D)  ? 2
+         : scene.is(n, nodes::OrientationInterpolator) ? 4
+                                                       : 3;
+}
 
 }  // namespace
 
@@ -69,20 +76,30 @@ Sample mix(const Sample& a, Sample b, double t, bool rotation) {
   double wa = 1 - t, wb = t;
   if (rotation) {
     double c = dot(a, b);
-    if (c < 0) c = -c, b = {-b[0], -b[1], -b[2], -b[3]};
-    if (const double angle = std::acos(std::min(c, 1.0)); angle > 1e-6) wa = std::sin((1 - t) * angle) / std::sin(angle), wb = std::sin(t * angle) / std::sin(angle);
+    if (c < 0) {
+      c = -c;
+      b = {-b[0], -b[1], -b[2], -b[3]};
+    }
+    if (const double angle = std::acos(std::min(c, 1.0)); angle > 1e-6) {
+      wa = std::sin((1 - t) * angle) / std::sin(angle);
+      wb = std::sin(t * angle) / std::sin(angle);
+    }
   }
   return {wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2], wa * a[3] + wb * b[3]};
 }
 
 bool is_interpolator(const Scene& scene, NodeId n) {
-  constexpr TypeId types[] = {nodes::PositionInterpolator, nodes::OrientationInterpolator, nodes::ScalarInterpolator, nodes::ColorInterpolator, nodes::CoordinateInterpolator, nodes::NormalInterpolator, nodes::PositionInterpolator2D};
+  constexpr TypeId types[] = {nodes::PositionInterpolator,  nodes::OrientationInterpolator, nodes::ScalarInterpolator,
+                              nodes::ColorInterpolator,     nodes::CoordinateInterpolator,  nodes::NormalInterpolator,
+                              nodes::PositionInterpolator2D};
   return n && std::ranges::find(types, scene.type_id(n)) != std::end(types);
 }
 
 std::span<const double> keys(const Scene& scene, NodeId n) {
   const auto key = numbers(scene, n, "key");
-  return values_per_key(scene, n) == 0 ? key.first(0) : has_lists(scene, n) ? key : key.first(std::min(key.size(), key_values(scene, n).size() / width_of(scene, n)));
+  return values_per_key(scene, n) == 0 ? key.first(0)
+         : has_lists(scene, n)         ? key
+                               : key.first(std::min(key.size(), key_values(scene, n).size() / width_of(scene, n)));
 }
 
 std::span<const double> key_values(const Scene& scene, NodeId n) { return numbers(scene, n, "keyValue"); }
@@ -94,7 +111,8 @@ std::size_t values_per_key(const Scene& scene, NodeId n) {
 }
 
 double Curve::place(double at, Side side) const {
-  auto past = side == Side::behind ? std::ranges::upper_bound(frames, at, {}, &Frame::at) : std::ranges::lower_bound(frames, at, {}, &Frame::at);
+  auto past = side == Side::behind ? std::ranges::upper_bound(frames, at, {}, &Frame::at)
+                                   : std::ranges::lower_bound(frames, at, {}, &Frame::at);
   if (past == frames.end()) return frames.back().place;
   if (past == frames.begin()) return frames.front().place;
   const Frame &a = past[-1], &b = *past;
@@ -106,21 +124,25 @@ std::optional<Curve> follow(const Scene& scene, NodeId n, const Ramp& ramp, std:
   if (key.empty() || !std::ranges::is_sorted(key)) return std::nullopt;
   Curve c{n, {}};
   auto add = [&](double at, double place) {
-    if (c.frames.size() < most && (c.frames.empty() || c.frames.back().at != at || c.frames.back().place != place)) c.frames.push_back({at, place});
+    if (c.frames.size() < most && (c.frames.empty() || c.frames.back().at != at || c.frames.back().place != place))
+      c.frames.push_back({at, place});
   };
   for (std::size_t i = 0; i + 1 < ramp.points.size(); ++i) {
     const auto [f0, v0] = ramp.points[i];
     const auto [f1, v1] = ramp.points[i + 1];
     if (!(f1 > f0)) continue;
     const bool up = v1 >= v0;
-    auto time_of = [&, f0 = f0, v0 = v0, f1 = f1, v1 = v1](double k) { return std::clamp(f0 + (f1 - f0) * (k - v0) / (v1 - v0), f0, f1); };
+    auto time_of = [&, f0 = f0, v0 = v0, f1 = f1, v1 = v1](double k) {
+      return std::clamp(f0 + (f1 - f0) * (k - v0) / (v1 - v0), f0, f1);
+    };
     add(f0, place_of(key, v0, up));
     if (v0 != v1) {
       auto low = static_cast<std::size_t>(std::ranges::upper_bound(key, std::min(v0, v1)) - key.begin());
       auto high = static_cast<std::size_t>(std::ranges::lower_bound(key, std::max(v0, v1)) - key.begin());
       for (std::size_t k = low; k < high; ++k) {
         const std::size_t at = up ? k : low + high - 1 - k;
-        const bool inner = at > low && at + 1 < high && key[at - 1] == key[at] && key[at + 1] == key[at];  // of more than two equal keys
+        const bool inner = at > low && at + 1 < high && key[at - 1] == key[at] &&
+                           key[at + 1] == key[at];  // of more than two equal keys
         if (!inner) add(time_of(key[at]), static_cast<double>(at));
       }
     }

@@ -64,12 +64,16 @@ Extras::Extras(const Scene& scene, Diagnostics& diag) : scene_(scene), diag_(dia
 void Extras::name_what_is_referred_to() {
   std::vector<NodeId> referred;
   for (const Route& r : scene_.main.routes) {
-    for (NodeId n : {r.from, r.to}) marks_[n.value] |= routed, referred.push_back(n);
+    for (NodeId n : {r.from, r.to}) {
+      marks_[n.value] |= routed;
+      referred.push_back(n);
+    }
   }
   for (const Import& i : scene_.main.imports) referred.push_back(i.inline_node);
   for (const Export& e : scene_.main.exports) referred.push_back(e.node);
   for (NodeId n : all_nodes(scene_))
-    if (scene_.type(n).kind == NodeKind::script) for_each_child(scene_, n, [&](NodeId held) { referred.push_back(held); });
+    if (scene_.type(n).kind == NodeKind::script)
+      for_each_child(scene_, n, [&](NodeId held) { referred.push_back(held); });
   if (referred.empty()) return;
   std::unordered_map<std::string, std::size_t> times;
   for (NodeId n : reachable(scene_, scene_.main)) ++times[std::string(scene_.name(n))];
@@ -106,7 +110,9 @@ Extras::Said Extras::said_by_node(NodeId n, bool plain_transform) const {
       {Group, {group::children.slot}, 1},
       {LOD, {lod::children.slot}, 1},
       {Shape, {shape::appearance.slot, shape::geometry.slot}, 2},
-      {OrthoViewpoint, {ortho_viewpoint::position.slot, ortho_viewpoint::orientation.slot, ortho_viewpoint::fieldOfView.slot}, 3},
+      {OrthoViewpoint,
+       {ortho_viewpoint::position.slot, ortho_viewpoint::orientation.slot, ortho_viewpoint::fieldOfView.slot},
+       3},
       {Viewpoint, {viewpoint::position.slot, viewpoint::orientation.slot, viewpoint::fieldOfView.slot}, 3},
       {DirectionalLight, {directional_light::direction.slot}, 1},
       {PointLight, {point_light::location.slot}, 1},
@@ -148,14 +154,16 @@ void Extras::vrml97(JsonOut& json, NodeId n, Said said, bool with_name) {
 /// Slots of a geometry whose values its vertices, indices and material say.
 Extras::Said Extras::said_by_vertices(NodeId n) const {
   using namespace nodes;
-  static constexpr std::uint16_t faces[] = {indexed_face_set::colorIndex.slot, indexed_face_set::coordIndex.slot, indexed_face_set::normalIndex.slot,
-                                            indexed_face_set::texCoordIndex.slot, indexed_face_set::ccw.slot, indexed_face_set::solid.slot};
-  static constexpr std::uint16_t lines[] = {indexed_line_set::colorIndex.slot, indexed_line_set::coordIndex.slot, indexed_line_set::colorPerVertex.slot};
+  static constexpr std::uint16_t faces[] = {indexed_face_set::colorIndex.slot,  indexed_face_set::coordIndex.slot,
+                                            indexed_face_set::normalIndex.slot, indexed_face_set::texCoordIndex.slot,
+                                            indexed_face_set::ccw.slot,         indexed_face_set::solid.slot};
+  static constexpr std::uint16_t lines[] = {indexed_line_set::colorIndex.slot, indexed_line_set::coordIndex.slot,
+                                            indexed_line_set::colorPerVertex.slot};
   return scene_.is(n, IndexedFaceSet) ? Said(faces) : scene_.is(n, IndexedLineSet) ? Said(lines) : Said();
 }
 
-/// Points and colours are in the vertices whether or not the file gave them a name; normals and texture coordinates of the
-/// vertices may be made from creaseAngle and the bounding box.
+/// Points and colours are in the vertices whether or not the file gave them a name; normals and texture coordinates of
+/// the vertices may be made from creaseAngle and the bounding box.
 bool Extras::adds_to_vertices(NodeId n, const Value& v) const {
   if (!speaks(n, v, said_by_vertices(n))) return false;
   if (scene_.is_extra(v) || info(v.type).element != Element::node) return true;
@@ -188,25 +196,32 @@ void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> po
 
 /// A name that another mesh has said already need not be said again.
 bool Extras::is_named_child(const Value& v) const {
-  return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && !name(v.node).empty() && !said_names_.contains(std::string(name(v.node)));
+  return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && !name(v.node).empty() &&
+         !said_names_.contains(std::string(name(v.node)));
 }
 
 bool Extras::has_names_in_geometry(NodeId n, std::span<const std::string_view> without) const {
-  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end(); });
+  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) {
+    return is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end();
+  });
 }
 
 void Extras::names_in_geometry(JsonOut& json, NodeId n, std::span<const std::string_view> without) {
   json.key(scene_.type(n).name);
   json.begin_object();
   for (const Value& v : scene_.fields(n))
-    if (is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end()) geometry_field(json, n, v), said_names_.emplace(name(v.node));
+    if (is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end()) {
+      geometry_field(json, n, v);
+      said_names_.emplace(name(v.node));
+    }
   json.end_object();
 }
 
 bool Extras::has_names_below(NodeId n, std::size_t depth) const {
   return depth > 0 && std::ranges::any_of(scene_.fields(n), [&](const Value& v) {
-    return is_named_child(v) || (!scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && has_names_below(v.node, depth - 1));
-  });
+           return is_named_child(v) || (!scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node &&
+                                        has_names_below(v.node, depth - 1));
+         });
 }
 
 void Extras::names_below(JsonOut& json, NodeId n, std::size_t depth) {
@@ -218,7 +233,10 @@ void Extras::names_below(JsonOut& json, NodeId n, std::size_t depth) {
     json.begin_object();
     json.key(scene_.type(v.node).name);
     json.begin_object();
-    if (named) json.member("DEF", name(v.node)), said_names_.emplace(name(v.node));
+    if (named) {
+      json.member("DEF", name(v.node));
+      said_names_.emplace(name(v.node));
+    }
     if (depth > 1) names_below(json, v.node, depth - 1);
     json.end_object();
     json.end_object();
@@ -239,7 +257,8 @@ void Extras::unseen_names(JsonOut& json, NodeId shape) {
 
 void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {
   json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
-  if (scene_.is_extra(v) || info(v.type).element != Element::node || info(v.type).multiple) return value(json, scene_.content(v), 0);
+  if (scene_.is_extra(v) || info(v.type).element != Element::node || info(v.type).multiple)
+    return value(json, scene_.content(v), 0);
   json.begin_object();
   json.key(scene_.type(v.node).name);
   json.begin_object();
@@ -311,7 +330,10 @@ void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in)
   if (in) json.member("in", *in);
   json.key("interface");
   interface(json, type, {}, 0);
-  if (p.external) json.key("url"), array(json, std::span<const std::string_view>(p.urls));
+  if (p.external) {
+    json.key("url");
+    array(json, std::span<const std::string_view>(p.urls));
+  }
   auto list = [&](std::string_view name, const auto& items, auto write) {
     if (items.empty()) return;
     json.key(name);
@@ -395,9 +417,14 @@ void Extras::content(JsonOut& json, NodeId n, std::size_t depth) {
 
 // Nodes without a name can be shared, too, by instances of prototypes: those are written again and again.
 bool Extras::too_much(NodeId n, std::size_t depth) {
-  if (depth >= max_depth) return diag_.report(Diag::no_gltf_depth, scene_.where(n), max_depth), true;
-  if (n_written_ == max_nodes)
-    diag_.report(Diag::expansion_limit, scene_.where(n), max_nodes, "nodes in extras"), ++n_written_;
+  if (depth >= max_depth) {
+    diag_.report(Diag::no_gltf_depth, scene_.where(n), max_depth);
+    return true;
+  }
+  if (n_written_ == max_nodes) {
+    diag_.report(Diag::expansion_limit, scene_.where(n), max_nodes, "nodes in extras");
+    ++n_written_;
+  }
   return n_written_ > max_nodes;
 }
 

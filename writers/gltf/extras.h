@@ -6,13 +6,14 @@
 // types of several numbers and all MF types are flat arrays. A node in a field has the same form, with "DEF" when it
 // has a name; {"Shape": {"USE": name}} has a place of its own in the file, or was written before. What a Script or a
 // prototype declares is listed under "interface" as [access, type, name, value], text that was kept as it is under
-// "verbatim". Long fields of a node that is there several times are written only with the first. All prototypes are in one
-// list; "in" is the index of the one that a prototype is declared in.
+// "verbatim". Long fields of a node that is there several times are written only with the first. All prototypes are in
+// one list; "in" is the index of the one that a prototype is declared in.
 //
-// {} marks a node of glTF that VRML needs not, {"USE": n} one that is the node which stands at n of the file's nodes once
-// more. A type without fields, {"Group": {}}, is there where a reader would take another one: a node of glTF that shows a
-// mesh and is not moved reads as a Shape, moved as a Transform with a Shape; without a mesh as a Transform, or if it is
-// not moved a Group. What can be reached by a ROUTE or held by a Script gets a name of its own where it has none.
+// {} marks a node of glTF that VRML needs not, {"USE": n} one that is the node which stands at n of the file's nodes
+// once more. A type without fields, {"Group": {}}, is there where a reader would take another one: a node of glTF that
+// shows a mesh and is not moved reads as a Shape, moved as a Transform with a Shape; without a mesh as a Transform, or
+// if it is not moved a Group. What can be reached by a ROUTE or held by a Script gets a name of its own where it has
+// none.
 #pragma once
 #include <optional>
 #include <string>
@@ -21,8 +22,8 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "scenegraph/scene.h"
 #include "base/text/json.h"
+#include "scenegraph/scene.h"
 
 namespace wrlkit::gltf {
 
@@ -31,7 +32,8 @@ class Extras {
   /// Slots of a node's type whose values glTF itself has expressed.
   using Said = std::span<const std::uint16_t>;
   static constexpr std::size_t max_nodes = 5'000'000;
-  /// Of nodes inside each other. Each is three levels of JSON, and some readers refuse more than 128 of these (serde_json).
+  /// Of nodes inside each other. Each is three levels of JSON, and some readers refuse more than 128 of these
+  /// (serde_json).
   static constexpr std::size_t max_depth = 32;
 
   Extras(const Scene& scene, Diagnostics& diag);
@@ -62,14 +64,15 @@ class Extras {
   void vrml97(JsonOut&, NodeId, Said said, bool with_name = false);
   /// The member extras: {vrml97: ...} of an object.
   void member(JsonOut&, NodeId, Said said);
-  /// The member vrml97: {Type: {fields}, polygons}: what the vertices of an IndexedFaceSet, IndexedLineSet or PointSet do
-  /// not tell. A node in a field only says that it was there, and its name. `polygons` are pairs: so many triangles are
-  /// one polygon, so often. `step`, unless it is 1: what positions are to be multiplied by; the scale of nodes with the mesh
-  /// is that and nothing else.
+  /// The member vrml97: {Type: {fields}, polygons}: what the vertices of an IndexedFaceSet, IndexedLineSet or PointSet
+  /// do not tell. A node in a field only says that it was there, and its name. `polygons` are pairs: so many triangles
+  /// are one polygon, so often. `step`, unless it is 1: what positions are to be multiplied by; the scale of nodes with
+  /// the mesh is that and nothing else.
   void geometry(JsonOut&, NodeId, std::span<const std::uint32_t> polygons, double step);
   /// Is there anything of that?
   bool geometry_says_more(NodeId) const;
-  /// The same with nothing but names: of Coordinates and the like, but for some fields; and of all that is in a Shape that shows nothing.
+  /// The same with nothing but names: of Coordinates and the like, but for some fields; and of all that is in a Shape
+  /// that shows nothing.
   void names_in_geometry(JsonOut&, NodeId, std::span<const std::string_view> without);
   bool has_names_in_geometry(NodeId, std::span<const std::string_view> without) const;
   void unseen_names(JsonOut&, NodeId shape);
@@ -115,7 +118,8 @@ class Extras {
   std::unordered_map<std::uint32_t, std::string> given_;
   std::size_t n_written_ = 0;
   std::unordered_set<std::string> said_names_;  // of Coordinates and the like, alone
-  std::optional<std::unordered_set<std::uint32_t>> body_;  // nodes of the prototype that is written: names are its own there
+  std::optional<std::unordered_set<std::uint32_t>>
+      body_;  // nodes of the prototype that is written: names are its own there
 };
 
 }  // namespace wrlkit::gltf

@@ -27,7 +27,8 @@ double square_of_cross(const T& a, const T& b, const T& c) {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    const double x = static_cast<double>(b[i] - a[i]) * static_cast<double>(c[j] - a[j]) - static_cast<double>(b[j] - a[j]) * static_cast<double>(c[i] - a[i]);
+    const double x = static_cast<double>(b[i] - a[i]) * static_cast<double>(c[j] - a[j]) -
+                     static_cast<double>(b[j] - a[j]) * static_cast<double>(c[i] - a[i]);
     sum += x * x;
   }
   return sum;
@@ -57,9 +58,12 @@ Flat flat_of(const std::array<Point, 3>& t, std::size_t first) {
 
 double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec cross(const Vec& a, const Vec& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
-/// From a point to a triangle that has an area: its plane, if the point is above the triangle, otherwise the nearest side.
+/// From a point to a triangle that has an area: its plane, if the point is above the triangle, otherwise the nearest
+/// side.
 double distance(const Vec& p, const std::array<Vec, 3>& t) {
   const Vec normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
   bool above = true;
@@ -82,9 +86,12 @@ bool loses_faces(std::span<const float> xyz, std::span<const std::uint32_t> tria
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
     const std::array<Point, 3> t{on_grid(corner(i), step), on_grid(corner(i + 1), step), on_grid(corner(i + 2), step)};
     if (square_of_cross(t[0], t[1], t[2]) > 0) continue;
-    const std::array<std::array<double, 3>, 3> p{{{corner(i)[0], corner(i)[1], corner(i)[2]}, {corner(i + 1)[0], corner(i + 1)[1], corner(i + 1)[2]}, {corner(i + 2)[0], corner(i + 2)[1], corner(i + 2)[2]}}};
+    const std::array<std::array<double, 3>, 3> p{{{corner(i)[0], corner(i)[1], corner(i)[2]},
+                                                  {corner(i + 1)[0], corner(i + 1)[1], corner(i + 1)[2]},
+                                                  {corner(i + 2)[0], corner(i + 2)[1], corner(i + 2)[2]}}};
     const double longest = std::max({square(p[0], p[1]), square(p[1], p[2]), square(p[2], p[0])});
-    if (longest > tolerance * tolerance && square_of_cross(p[0], p[1], p[2]) > flat * flat * longest * longest) gone.push_back(i);
+    if (longest > tolerance * tolerance && square_of_cross(p[0], p[1], p[2]) > flat * flat * longest * longest)
+      gone.push_back(i);
   }
   if (gone.empty()) return false;
   // Only sides that touch a flat triangle matter.
@@ -107,7 +114,8 @@ bool loses_faces(std::span<const float> xyz, std::span<const std::uint32_t> tria
     const std::size_t before = open.size();
     std::erase_if(open, [&](const Flat& f) {
       auto has = [&](const Point& a, const Point& b) { return a == b || covered.contains(edge(a, b)); };
-      const bool whole = f.from == f.to || has(f.from, f.to), halves = has(f.from, f.between) && has(f.between, f.to) && f.between != f.from && f.between != f.to;
+      const bool whole = f.from == f.to || has(f.from, f.to),
+                 halves = has(f.from, f.between) && has(f.between, f.to) && f.between != f.from && f.between != f.to;
       if (!whole && !halves) return false;
       covered.insert({edge(f.from, f.to), edge(f.from, f.between), edge(f.between, f.to)});
       return true;
@@ -118,7 +126,8 @@ bool loses_faces(std::span<const float> xyz, std::span<const std::uint32_t> tria
   constexpr std::size_t most_looked_at = 32;
   for (std::size_t o = 0, by = open.size() / most_looked_at + 1; o < open.size(); o += by) {
     Vec middle{};
-    for (std::size_t k = 0; k < 3; ++k) middle[k] = (double{corner(open[o].first)[k]} + corner(open[o].first + 1)[k] + corner(open[o].first + 2)[k]) / 3;
+    for (std::size_t k = 0; k < 3; ++k)
+      middle[k] = (double{corner(open[o].first)[k]} + corner(open[o].first + 1)[k] + corner(open[o].first + 2)[k]) / 3;
     bool near = false;
     for (std::size_t i = 0; i + 2 < triangles.size() && !near; i += 3) {
       std::array<Vec, 3> t;
@@ -128,7 +137,8 @@ bool loses_faces(std::span<const float> xyz, std::span<const std::uint32_t> tria
         for (std::size_t k = 0; k < 3; ++k) t[c][k] = static_cast<double>(p[k]) * step;
       }
       for (std::size_t k = 0; k < 3 && beside; ++k)
-        beside = std::min({t[0][k], t[1][k], t[2][k]}) <= middle[k] + tolerance && std::max({t[0][k], t[1][k], t[2][k]}) >= middle[k] - tolerance;
+        beside = std::min({t[0][k], t[1][k], t[2][k]}) <= middle[k] + tolerance &&
+                 std::max({t[0][k], t[1][k], t[2][k]}) >= middle[k] - tolerance;
       near = beside && square_of_cross(t[0], t[1], t[2]) > 0 && distance(middle, t) <= tolerance;
     }
     if (!near) return true;

@@ -4,11 +4,11 @@
 #include <bit>
 #include <filesystem>
 
-#include "writers/gltf/json.h"
-#include "writers/gltf/pointers.h"
 #include "base/io/gzip.h"
 #include "base/io/output.h"
 #include "base/io/uri.h"
+#include "writers/gltf/json.h"
+#include "writers/gltf/pointers.h"
 
 namespace wrlkit {
 namespace gltf {
@@ -75,23 +75,28 @@ class Writer {
         animations_(scene, reach(options), diag),
         materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
         parts_(options.names == GltfOptions::Names::table),
-        meshes_(scene, source, animations_.motion(), store_, parts_, options.lightmaps != GltfOptions::Lightmaps::base_color,
+        meshes_(scene, source, animations_.motion(), store_, parts_,
+                options.lightmaps != GltfOptions::Lightmaps::base_color,
                 options.compression.method == GltfCompression::Method::meshopt, diag),
-        hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, parts_, diag) {}
+        hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, parts_,
+                   diag) {}
 
   bool write() {
     Files files(diag_);
     if (!files.open(path_)) return false;
     return build([&](Parts& parts) {
       if (!pictures_inside() && !pictures_beside(parts, files)) return false;
-      bool written = options_.binary ? glb(parts, [&](auto& pieces) { files.first().write(pieces); }) : gltf(parts, files);
+      bool written =
+          options_.binary ? glb(parts, [&](auto& pieces) { files.first().write(pieces); }) : gltf(parts, files);
       return written && files.commit();
     });
   }
 
   bool write_glb_to(const Sink& sink) {
     return build([&](Parts& parts) {
-      return glb(parts, [&](auto& pieces) { for (auto piece : pieces) sink(piece); });
+      return glb(parts, [&](auto& pieces) {
+        for (auto piece : pieces) sink(piece);
+      });
     });
   }
 
@@ -128,10 +133,21 @@ class Writer {
     static const std::vector<Picture> no_pictures;
     Packing packing(options_.compression, store_, meshes_, hierarchy_);
     const auto columns = table(packing.uses_meshopt());
-    Layout layout(packing.store(), packing.blobs(), columns, pictures_inside() ? textures_.pictures() : no_pictures, packing.uses_meshopt());
-    Parts parts{scene_,     hierarchy_, meshes_, packing,
-                materials_, textures_,  layout,  animations_, parts_, options_.extras ? &extras_ : nullptr,
-                options_.facts_only, {}, {}};
+    Layout layout(packing.store(), packing.blobs(), columns, pictures_inside() ? textures_.pictures() : no_pictures,
+                  packing.uses_meshopt());
+    Parts parts{scene_,
+                hierarchy_,
+                meshes_,
+                packing,
+                materials_,
+                textures_,
+                layout,
+                animations_,
+                parts_,
+                options_.extras ? &extras_ : nullptr,
+                options_.facts_only,
+                {},
+                {}};
     return put(parts);
   }
 
@@ -163,29 +179,47 @@ class Writer {
 
   void summarize(const Parts& parts, const Blocks& json, std::vector<GltfSummary::Share> json_shares) const {
     GltfSummary& s = *summary_ = {};
-    s.json_shares = std::move(json_shares), s.geometry_shares = parts.layout.shares();
-    for (auto* shares : {&s.json_shares, &s.geometry_shares}) std::ranges::stable_sort(*shares, std::greater{}, &GltfSummary::Share::second);
-    s.nodes = hierarchy_.nodes().size(), s.meshes = meshes_.meshes().size();
+    s.json_shares = std::move(json_shares);
+    s.geometry_shares = parts.layout.shares();
+    for (auto* shares : {&s.json_shares, &s.geometry_shares})
+      std::ranges::stable_sort(*shares, std::greater{}, &GltfSummary::Share::second);
+    s.nodes = hierarchy_.nodes().size();
+    s.meshes = meshes_.meshes().size();
     for (const Node& n : hierarchy_.nodes()) {
       s.named += n.source && !scene_.name(n.source).empty();
       const Instances* table = n.instances == none ? nullptr : &hierarchy_.instances()[n.instances];
-      if (table && !table->rows.empty()) s.instances += table->places.size();
-      else if (table) s.instances += table->places.size(), s.named += static_cast<std::size_t>(std::ranges::count_if(table->sources, [&](NodeId i) { return !scene_.name(i).empty(); }));
+      if (table && !table->rows.empty())
+        s.instances += table->places.size();
+      else if (table) {
+        s.instances += table->places.size();
+        s.named += static_cast<std::size_t>(
+            std::ranges::count_if(table->sources, [&](NodeId i) { return !scene_.name(i).empty(); }));
+      }
       if (n.attachment != Attachment::mesh) continue;
       ++s.draws;
       const Streams& streams = parts.packing.streams(n.attached);
       const auto& accessors = parts.packing.store().accessors();
       if (meshes_.geometries()[meshes_.meshes()[n.attached].geometry].mode == Mode::triangles)
-        s.triangles += accessors[streams.indices == none ? streams.positions : streams.indices].count / 3 * (table ? table->places.size() : 1);
+        s.triangles += accessors[streams.indices == none ? streams.positions : streams.indices].count / 3 *
+                       (table ? table->places.size() : 1);
     }
     for (const auto& row : parts_.rows()) s.named += parts_.columns() && !row.name.empty();
     std::vector<std::string_view> text, pictures, geometry;
     json.pieces(text);
     parts.layout.pieces(geometry, false);
-    for (const Picture& p : textures_.pictures()) pictures.push_back(p.bytes), s.pictures += p.bytes.size();
-    s.json = json.size(), s.geometry = parts.layout.geometry_size();
-    s.quantization = parts.packing.quantization(), s.recoding = textures_.recoding();
-    if (options_.measure_gzip) s.json_gzip = gzipped_size(text), s.geometry_gzip = gzipped_size(geometry), s.pictures_gzip = gzipped_size(pictures);
+    for (const Picture& p : textures_.pictures()) {
+      pictures.push_back(p.bytes);
+      s.pictures += p.bytes.size();
+    }
+    s.json = json.size();
+    s.geometry = parts.layout.geometry_size();
+    s.quantization = parts.packing.quantization();
+    s.recoding = textures_.recoding();
+    if (options_.measure_gzip) {
+      s.json_gzip = gzipped_size(text);
+      s.geometry_gzip = gzipped_size(geometry);
+      s.pictures_gzip = gzipped_size(pictures);
+    }
   }
 
   bool glb(const Parts& parts, auto&& put) {

@@ -1,21 +1,22 @@
 // A scene as glTF 2.0. What becomes of each node type is written in the headers that this one names: gltf_hierarchy
 // (grouping nodes, LOD, Switch), gltf_transform, gltf_meshes, gltf_materials, gltf_textures, gltf_texture_transform,
-// gltf_lights, gltf_cameras, gltf_motion (what ROUTEs move), gltf_animations, gltf_morphs, gltf_pointers, gltf_origin (large coordinates), gltf_extras (everything else).
+// gltf_lights, gltf_cameras, gltf_motion (what ROUTEs move), gltf_animations, gltf_morphs, gltf_pointers, gltf_origin
+// (large coordinates), gltf_extras (everything else).
 #pragma once
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/io/sink.h"
 #include "geometry/mesh.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
-#include "base/io/sink.h"
 
 namespace wrlkit {
 
-/// How vertices and indices are stored. none: as floats. quantize: in fewer bits (KHR_mesh_quantization). meshopt: that, in
-/// the order in which they are drawn best, and packed (EXT_meshopt_compression). draco: in fewer bits and packed, each mesh by
-/// itself (KHR_draco_mesh_compression), where that is smaller; lines and points stay floats.
+/// How vertices and indices are stored. none: as floats. quantize: in fewer bits (KHR_mesh_quantization). meshopt:
+/// that, in the order in which they are drawn best, and packed (EXT_meshopt_compression). draco: in fewer bits and
+/// packed, each mesh by itself (KHR_draco_mesh_compression), where that is smaller; lines and points stay floats.
 struct GltfCompression {
   enum class Method : std::uint8_t { none, quantize, meshopt, draco };
 
@@ -23,11 +24,11 @@ struct GltfCompression {
   double tolerance = 0;   // metres of the world that no vertex moves further; 0: a millimetre, or less in a small world
   int position_bits = 0;  // instead of that: of the extent of each mesh; 0: by the tolerance
   int normal_bits = 8, texcoord_bits = 12, color_bits = 10;
-  int level = 7;          // of Draco: from 0, fast, to 10, small
+  int level = 7;  // of Draco: from 0, fast, to 10, small
 };
 
-/// How pictures are stored. keep: PNG and JPEG as they are, others as PNG. jpeg, webp: colour pictures in that format where that is
-/// smaller, see gltf_recoding.h.
+/// How pictures are stored. keep: PNG and JPEG as they are, others as PNG. jpeg, webp: colour pictures in that format
+/// where that is smaller, see gltf_recoding.h.
 struct GltfTextures {
   enum class Format : std::uint8_t { keep, png, jpeg, webp };
 
@@ -50,12 +51,13 @@ struct GltfSummary {
   struct Recoding {
     std::size_t pictures = 0, resized = 0;
     std::uint64_t before = 0, after = 0;  // bytes
-    double psnr = 0;                      // of the worst of those with a loss, against its pixels at the new size, in dB; 0: there is none
+    double psnr = 0;  // of the worst of those with a loss, against its pixels at the new size, in dB; 0: there is none
   };
   std::size_t nodes = 0, named = 0, meshes = 0, draws = 0, triangles = 0;
   std::size_t instances = 0;  // places in tables of EXT_mesh_gpu_instancing; a table is one node and one draw
-  std::uint64_t json = 0, geometry = 0, pictures = 0;                         // bytes
-  std::uint64_t json_gzip = 0, geometry_gzip = 0, pictures_gzip = 0;          // the same, gzipped each by itself; 0: not measured
+  std::uint64_t json = 0, geometry = 0, pictures = 0;  // bytes
+  std::uint64_t json_gzip = 0, geometry_gzip = 0,
+                pictures_gzip = 0;  // the same, gzipped each by itself; 0: not measured
   using Share = std::pair<std::string_view, std::uint64_t>;
   std::vector<Share> json_shares, geometry_shares;  // of what kind of thing so many of those bytes are, the most first
   Quantization quantization;
@@ -65,10 +67,10 @@ struct GltfSummary {
 
 struct GltfOptions {
   enum class Images : std::uint8_t { automatic, embedded, beside };
-  /// What becomes of lightmaps. base_color: the pass combine-lightmap has made textures of them, nothing is left to do. The
-  /// others leave surfaces as they are and write the light at texture coordinates of its own: emissive (the pass has put the
-  /// surfaces' colours into it, and nothing else is seen but highlights), occlusion (its brightness dims ambient light),
-  /// moz (extension MOZ_lightmap), extras (of the material, with the directions of the light).
+  /// What becomes of lightmaps. base_color: the pass combine-lightmap has made textures of them, nothing is left to do.
+  /// The others leave surfaces as they are and write the light at texture coordinates of its own: emissive (the pass
+  /// has put the surfaces' colours into it, and nothing else is seen but highlights), occlusion (its brightness dims
+  /// ambient light), moz (extension MOZ_lightmap), extras (of the material, with the directions of the light).
   enum class Lightmaps : std::uint8_t { base_color, emissive, occlusion, moz, extras };
 
   bool binary = true;                 // .glb; false: .gltf with a .bin beside it
@@ -78,15 +80,17 @@ struct GltfOptions {
   GltfTextures textures;
   bool measure_gzip = false;  // for the summary
   bool lights = true, cameras = true, animations = true;
-  bool animation_pointer = false;      // animations of colours and the like, by KHR_animation_pointer
-  /// Where names of parts stand. table: in a property table (EXT_structural_metadata), with places of equal meshes as tables, too;
-  /// groups that only hold parts are rows then (gltf_parts.h).
+  bool animation_pointer = false;  // animations of colours and the like, by KHR_animation_pointer
+  /// Where names of parts stand. table: in a property table (EXT_structural_metadata), with places of equal meshes as
+  /// tables, too; groups that only hold parts are rows then (gltf_parts.h).
   enum class Names : std::uint8_t { nodes, table };
   Names names = Names::nodes;
-  bool gpu_instancing = false;         // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (gltf_instances.h)
-  bool extras = true;                  // what glTF cannot say is kept
-  bool facts_only = false;             // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
-                                       // the same VRML again. Groups without a name that hold one thing are then one node with it
+  bool gpu_instancing =
+      false;           // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (gltf_instances.h)
+  bool extras = true;  // what glTF cannot say is kept
+  bool facts_only =
+      false;  // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
+              // the same VRML again. Groups without a name that hold one thing are then one node with it
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
 };
 
@@ -98,8 +102,8 @@ struct GltfOptions {
 /// shows a picture; segments or polylines; points. Other faces are cut into fans. Each geometry is asked for once, in
 /// the order of the file (again when a TextureTransform has to be applied to its texture coordinates).
 ///
-/// The same scene gives the same bytes. Memory: about the size of the output without compression and with it, beside one
-/// mesh.
+/// The same scene gives the same bytes. Memory: about the size of the output without compression and with it, beside
+/// one mesh.
 bool write_gltf(const Scene&, const MeshSource&, const GltfOptions&, Resources*, const std::string& path, Diagnostics&,
                 GltfSummary* = nullptr);
 

@@ -10,7 +10,8 @@ namespace {
 
 /// Nodes that have no counterpart and do not miss one: what they say is kept, and nothing changes for who looks.
 bool harmless(const Scene& scene, NodeId n) {
-  return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline) || scene.type(n).is_a("X3DMetadataObject");
+  return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline) ||
+         scene.type(n).is_a("X3DMetadataObject");
 }
 
 /// Groups that do something that glTF cannot do.
@@ -60,8 +61,10 @@ void Hierarchy::build() {
   }
   add_headlight();
   move_to_origin();
-  if (options_.names == GltfOptions::Names::table) make_part_rows();
-  else if (options_.gpu_instancing) make_instances();
+  if (options_.names == GltfOptions::Names::table)
+    make_part_rows();
+  else if (options_.gpu_instancing)
+    make_instances();
   report_lost();
 }
 
@@ -71,12 +74,12 @@ Hierarchy::Kind Hierarchy::kind(NodeId n) {
   if (kinds_[id] != Kind::not_known) return kinds_[id];
   const auto& t = scene_.type(n);
   if (t.kind == NodeKind::unknown) return hierarchy_children(scene_, n).empty() ? Kind::other : Kind::group;
-  return kinds_[id] = t.kind != NodeKind::builtin      ? Kind::other
-                      : t.is_a("X3DGroupingNode")      ? Kind::group
-                      : scene_.is(n, nodes::Shape)     ? Kind::shape
-                      : t.is_a("X3DViewpointNode")     ? Kind::viewpoint
-                      : is_light(scene_, n)            ? Kind::light
-                                                       : Kind::other;
+  return kinds_[id] = t.kind != NodeKind::builtin  ? Kind::other
+                      : t.is_a("X3DGroupingNode")  ? Kind::group
+                      : scene_.is(n, nodes::Shape) ? Kind::shape
+                      : t.is_a("X3DViewpointNode") ? Kind::viewpoint
+                      : is_light(scene_, n)        ? Kind::light
+                                                   : Kind::other;
 }
 
 /// A few shared groups can stand for any number of nodes. Beyond the limit each node is shown once and no more.
@@ -150,7 +153,8 @@ void Hierarchy::report_texcoords(NodeId geometry) {
   auto slot = scene_.type(geometry).find("texCoord", Dialect::x3d);
   const Value* v = slot ? scene_.find(geometry, *slot) : nullptr;
   if (v && !v->is && v->type == FieldType::SFNode && scene_.is(v->node, nodes::TextureCoordinateGenerator))
-    diag_.report(Diag::no_gltf_value, scene_.where(v->node), scene_.type(geometry).name, "texCoord (TextureCoordinateGenerator)");
+    diag_.report(Diag::no_gltf_value, scene_.where(v->node), scene_.type(geometry).name,
+                 "texCoord (TextureCoordinateGenerator)");
 }
 
 void Hierarchy::leave() {
@@ -163,7 +167,8 @@ void Hierarchy::leave() {
   }
   auto id = group(f);
   built_.resize(f.first_built);
-  if (says_nothing(nodes_[id]) && id + 1 == nodes_.size() && !scene_.is(frames_.back().node, nodes::LOD)) return nodes_.pop_back();
+  if (says_nothing(nodes_[id]) && id + 1 == nodes_.size() && !scene_.is(frames_.back().node, nodes::LOD))
+    return nodes_.pop_back();
   built_.push_back(id);
   set_same(id);
   Frame& parent = frames_.back();
@@ -183,17 +188,20 @@ std::uint32_t Hierarchy::group(const Frame& f) {
   if (!f.local.inner) {
     node.transform = add_transform(f.local.outer, animations_.moves(f.node));
     auto id = add(node, children);
-    return add_targets(f.node, id, id, id), id;
+    add_targets(f.node, id, id, id);
+    return id;
   }
   auto inner = add({.transform = add_transform(*f.local.inner)}, children);
   node.transform = add_transform(f.local.outer);
   auto id = add(node, {&inner, 1});
-  return add_targets(f.node, id, id, id), id;
+  add_targets(f.node, id, id, id);
+  return id;
 }
 
 bool Hierarchy::turns_about_a_center(NodeId n) const {
   namespace t = nodes::transform;
-  if (!scene_.is(n, nodes::Transform) || (!animations_.moves(n, Path::rotation) && !animations_.moves(n, Path::scale))) return false;
+  if (!scene_.is(n, nodes::Transform) || (!animations_.moves(n, Path::rotation) && !animations_.moves(n, Path::scale)))
+    return false;
   return scene_.get(n, t::center) != Vec3{0, 0, 0} || !quaternion(scene_.get(n, t::scaleOrientation)).identity();
 }
 
@@ -203,13 +211,18 @@ std::uint32_t Hierarchy::turning(const Frame& f, std::span<const std::uint32_t> 
   const Vec3 c = scene_.get(f.node, t::center);
   const Quaternion sr = quaternion(scene_.get(f.node, t::scaleOrientation)), back = inverse(sr);
   const std::vector<std::uint32_t> below(children.begin(), children.end());
-  auto helper = [&](const Trs& trs, std::span<const std::uint32_t> held) { return add({.transform = add_transform(trs, true)}, held); };
+  auto helper = [&](const Trs& trs, std::span<const std::uint32_t> held) {
+    return add({.transform = add_transform(trs, true)}, held);
+  };
   auto last = helper(placed_at(rotate(back, {-c[0], -c[1], -c[2]}), back), below);
   auto scale = helper({{0, 0, 0}, sr, scene_.get(f.node, t::scale)}, {&last, 1});
   auto rotation = helper({c, quaternion(scene_.get(f.node, t::rotation)), {1, 1, 1}}, {&scale, 1});
-  Node node{.source = f.node, .transform = add_transform({scene_.get(f.node, t::translation), {}, {1, 1, 1}}, true), .plain = false};
+  Node node{.source = f.node,
+            .transform = add_transform({scene_.get(f.node, t::translation), {}, {1, 1, 1}}, true),
+            .plain = false};
   auto id = add(node, {&rotation, 1});
-  return add_targets(f.node, id, rotation, scale), id;
+  add_targets(f.node, id, rotation, scale);
+  return id;
 }
 
 void Hierarchy::add_targets(NodeId source, std::uint32_t translation, std::uint32_t rotation, std::uint32_t scale) {
@@ -222,7 +235,7 @@ void Hierarchy::add_targets(NodeId source, std::uint32_t translation, std::uint3
 Vec3 Hierarchy::offset(std::uint32_t id) const {
   const Node& n = nodes_[id];
   if (!n.source || n.transform == none) return {0, 0, 0};
-  const Vec3 field = scene_.is(n.source, nodes::Transform) ? scene_.get(n.source, nodes::transform::translation)
+  const Vec3 field = scene_.is(n.source, nodes::Transform)   ? scene_.get(n.source, nodes::transform::translation)
                      : scene_.is(n.source, nodes::Viewpoint) ? scene_.get(n.source, nodes::viewpoint::position)
                                                              : light_transform(scene_, n.source).translation;
   const Vec3& at = transforms_[n.transform].translation;
@@ -247,10 +260,13 @@ std::uint32_t Hierarchy::fold(const Frame& f) {
 /// A group and the one thing in it, when only one of them has a name and their transforms are one.
 std::uint32_t Hierarchy::fold_into(const Frame& f, Node& child) {
   const bool drawn = child.attachment == Attachment::mesh || child.attachment == Attachment::nothing;
-  if (child.source && child.attachment == Attachment::nothing && extras_ && scene_.is(child.source, nodes::Shape) && extras_->has_unseen_names(child.source)) return none;
+  if (child.source && child.attachment == Attachment::nothing && extras_ && scene_.is(child.source, nodes::Shape) &&
+      extras_->has_unseen_names(child.source))
+    return none;
   if (!drawn || child.lod || !child.source || animations_.moves(child.source) || animations_.moves(f.node)) return none;
   if (!scene_.name(child.source).empty() && !scene_.name(f.node).empty()) return none;
-  const bool only_groups = scene_.is(child.source, nodes::Transform) || scene_.is(child.source, nodes::Group) || scene_.is(child.source, nodes::Shape);
+  const bool only_groups = scene_.is(child.source, nodes::Transform) || scene_.is(child.source, nodes::Group) ||
+                           scene_.is(child.source, nodes::Shape);
   const Trs& outer = f.local.outer;
   const Trs inner = child.transform == none ? Trs{} : transforms_[child.transform];
   const bool even = outer.scale[0] == outer.scale[1] && outer.scale[1] == outer.scale[2];
@@ -264,9 +280,11 @@ std::uint32_t Hierarchy::fold_into(const Frame& f, Node& child) {
 
 /// Nobody would miss it: no name, nothing in it.
 bool Hierarchy::says_nothing(const Node& n) const {
-  const bool group = n.source && scene_.name(n.source).empty() && (scene_.type(n.source).is_a("X3DGroupingNode") || scene_.is(n.source, nodes::Shape));
+  const bool group = n.source && scene_.name(n.source).empty() &&
+                     (scene_.type(n.source).is_a("X3DGroupingNode") || scene_.is(n.source, nodes::Shape));
   if (group && extras_ && scene_.is(n.source, nodes::Shape) && extras_->has_unseen_names(n.source)) return false;
-  return options_.facts_only && group && n.n_children == 0 && n.attachment == Attachment::nothing && !does_something(scene_, n.source);
+  return options_.facts_only && group && n.n_children == 0 && n.attachment == Attachment::nothing &&
+         !does_something(scene_, n.source);
 }
 
 void Hierarchy::make_lod(const Frame& f) {
@@ -302,7 +320,8 @@ std::uint32_t Hierarchy::shape(NodeId n) {
 }
 
 std::uint32_t Hierarchy::light(NodeId n) {
-  Node node{.source = n, .transform = add_transform(light_transform(scene_, n), animations_.moves(n, Path::translation))};
+  Node node{.source = n,
+            .transform = add_transform(light_transform(scene_, n), animations_.moves(n, Path::translation))};
   bool on = options_.lights && shines(scene_, n, animations_.motion());
   if (first_visit(n) && on) report_lost_light(scene_, n, frames_.size() == 1, diag_);
   if (on) {
@@ -314,7 +333,8 @@ std::uint32_t Hierarchy::light(NodeId n) {
         {n, position(frame * matrix(light_transform(scene_, n))), scale > 0 && std::isfinite(scale) ? scale : 1});
   }
   auto id = add(node);
-  return animations_.add_target(n, Path::translation, id), id;
+  animations_.add_target(n, Path::translation, id);
+  return id;
 }
 
 std::uint32_t Hierarchy::viewpoint(NodeId n) {
@@ -326,7 +346,8 @@ std::uint32_t Hierarchy::viewpoint(NodeId n) {
     cameras_.push_back({n, position(frames_.back().world * matrix(camera_transform(scene_, n)))});
   }
   auto id = add(node);
-  return add_targets(n, id, id, id), id;
+  add_targets(n, id, id, id);
+  return id;
 }
 
 std::uint32_t Hierarchy::other(NodeId n) {
@@ -424,7 +445,10 @@ Hierarchy::Family Hierarchy::family() const {
   for (std::size_t i = 0; i < f.order.size(); ++i) {
     const auto id = f.order[i];
     const Node& n = nodes_[id];
-    auto below = [&](std::uint32_t c, std::uint32_t p) { f.parent[c] = p, f.order.push_back(c); };
+    auto below = [&](std::uint32_t c, std::uint32_t p) {
+      f.parent[c] = p;
+      f.order.push_back(c);
+    };
     for (auto c : children(n)) below(c, id);
     if (n.lod)
       for (auto l : lods_.at(id).levels) below(l, f.parent[id]);
@@ -435,7 +459,8 @@ Hierarchy::Family Hierarchy::family() const {
 std::vector<double> Hierarchy::growth(const Family& f) const {
   std::vector<double> out(nodes_.size(), 1);
   for (auto id : f.order)
-    if (const auto p = f.parent[id]; p != none) out[id] = out[p] * (nodes_[p].transform == none ? 1 : stretch(transforms_[nodes_[p].transform]));
+    if (const auto p = f.parent[id]; p != none)
+      out[id] = out[p] * (nodes_[p].transform == none ? 1 : stretch(transforms_[nodes_[p].transform]));
   return out;
 }
 
@@ -446,12 +471,18 @@ double Hierarchy::round_transforms(double tolerance) {
   for (std::size_t i = order.size(); i-- > 0;) {
     const std::uint32_t id = order[i];
     const Node& n = nodes_[id];
-    if (n.attachment == Attachment::mesh && n.instances == none) reach[id] = std::max(reach[id], meshes_.reach(n.attached));
+    if (n.attachment == Attachment::mesh && n.instances == none)
+      reach[id] = std::max(reach[id], meshes_.reach(n.attached));
     if (n.instances != none)
-      for (const Trs& t : instances_[n.instances].places) reach[id] = std::max(reach[id], std::hypot(t.translation[0], t.translation[1], t.translation[2]) + stretch(t) * meshes_.reach(n.attached));
-    if (n.attachment == Attachment::camera || n.attachment == Attachment::light) reach[id] = std::max(reach[id], world_.extent());
+      for (const Trs& t : instances_[n.instances].places)
+        reach[id] = std::max(reach[id], std::hypot(t.translation[0], t.translation[1], t.translation[2]) +
+                                            stretch(t) * meshes_.reach(n.attached));
+    if (n.attachment == Attachment::camera || n.attachment == Attachment::light)
+      reach[id] = std::max(reach[id], world_.extent());
     const Trs t = trs(id);
-    if (parent[id] != none) reach[parent[id]] = std::max(reach[parent[id]], std::hypot(t.translation[0], t.translation[1], t.translation[2]) + stretch(t) * reach[id]);
+    if (parent[id] != none)
+      reach[parent[id]] = std::max(
+          reach[parent[id]], std::hypot(t.translation[0], t.translation[1], t.translation[2]) + stretch(t) * reach[id]);
   }
   // The fewest digits with which the sum on the way to each leaf stays below the tolerance.
   constexpr int most = 9;
@@ -460,21 +491,29 @@ double Hierarchy::round_transforms(double tolerance) {
     std::vector<std::pair<std::uint32_t, Trs>> all;
     double worst = 0;
     for (std::uint32_t id : order) {
-      if (parent[id] != none) moved[id] = moved[parent[id]], scale[id] = scale[parent[id]];
+      if (parent[id] != none) {
+        moved[id] = moved[parent[id]];
+        scale[id] = scale[parent[id]];
+      }
       if (nodes_[id].transform == none || animations_.moves(nodes_[id].source)) {
         scale[id] *= stretch(trs(id));
         continue;
       }
       const Trs t = trs(id);
       Trs r = t;
-      const int turn_digits = std::clamp(digits + static_cast<int>(std::ceil(std::log10(std::max(2 * reach[id] * scale[id] * stretch(t), 1e-9)))), 3, 15);
-      const int place_digits = std::clamp(digits + static_cast<int>(std::ceil(std::log10(std::max(scale[id], 1e-9)))), 0, 15);
+      const int turn_digits = std::clamp(
+          digits + static_cast<int>(std::ceil(std::log10(std::max(2 * reach[id] * scale[id] * stretch(t), 1e-9)))), 3,
+          15);
+      const int place_digits =
+          std::clamp(digits + static_cast<int>(std::ceil(std::log10(std::max(scale[id], 1e-9)))), 0, 15);
       for (double& v : r.translation) v = decimal(v, place_digits);
       for (double& v : r.scale) v = decimal(v, turn_digits) == 0 ? v : decimal(v, turn_digits);
       for (double* v : {&r.rotation.x, &r.rotation.y, &r.rotation.z, &r.rotation.w}) *v = decimal(*v, turn_digits);
       const Quaternion &a = t.rotation, &b = r.rotation;
-      const double place = std::hypot(t.translation[0] - r.translation[0], t.translation[1] - r.translation[1], t.translation[2] - r.translation[2]);
-      const double turn = 2 * std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z) + (a.w - b.w) * (a.w - b.w));
+      const double place = std::hypot(t.translation[0] - r.translation[0], t.translation[1] - r.translation[1],
+                                      t.translation[2] - r.translation[2]);
+      const double turn = 2 * std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) +
+                                        (a.z - b.z) * (a.z - b.z) + (a.w - b.w) * (a.w - b.w));
       const double grown = std::hypot(t.scale[0] - r.scale[0], t.scale[1] - r.scale[1], t.scale[2] - r.scale[2]);
       moved[id] += scale[id] * (place + (turn * stretch(t) + grown) * reach[id]);
       scale[id] *= stretch(t);
@@ -488,15 +527,19 @@ double Hierarchy::round_transforms(double tolerance) {
   return 0;
 }
 
-/// In the node of the mesh where that can be; what is animated, or is a Transform that can come back, has it in a child.
+/// In the node of the mesh where that can be; what is animated, or is a Transform that can come back, has it in a
+/// child.
 void Hierarchy::dequantize(const std::function<const Dequantization*(std::uint32_t)>& of_mesh) {
   for (std::uint32_t id = 0, n = static_cast<std::uint32_t>(nodes_.size()); id < n; ++id) {
     const auto* d = nodes_[id].attachment == Attachment::mesh ? of_mesh(nodes_[id].attached) : nullptr;
     if (!d) continue;
     const Vec3 step{d->step, d->step, d->step};
-    const bool keeps = extras_ && !options_.facts_only && !(nodes_[id].source && scene_.is(nodes_[id].source, nodes::Shape));
+    const bool keeps =
+        extras_ && !options_.facts_only && !(nodes_[id].source && scene_.is(nodes_[id].source, nodes::Shape));
     if (keeps || animations_.moves(nodes_[id].source)) {
-      const auto child = add({.transform = add_transform({d->origin, {}, step}), .attached = nodes_[id].attached, .attachment = Attachment::mesh});
+      const auto child = add({.transform = add_transform({d->origin, {}, step}),
+                              .attached = nodes_[id].attached,
+                              .attachment = Attachment::mesh});
       nodes_[id].attachment = Attachment::nothing;
       nodes_[id].first_child = static_cast<std::uint32_t>(children_.size());
       nodes_[id].n_children = 1;
@@ -504,7 +547,9 @@ void Hierarchy::dequantize(const std::function<const Dequantization*(std::uint32
       continue;
     }
     const Trs t = nodes_[id].transform == none ? Trs{} : transforms_[nodes_[id].transform];
-    nodes_[id].transform = add_transform({matrix(t).point(d->origin), t.rotation, {t.scale[0] * d->step, t.scale[1] * d->step, t.scale[2] * d->step}}, true);
+    nodes_[id].transform = add_transform(
+        {matrix(t).point(d->origin), t.rotation, {t.scale[0] * d->step, t.scale[1] * d->step, t.scale[2] * d->step}},
+        true);
   }
 }
 
@@ -517,7 +562,8 @@ void Hierarchy::report_lost() {
     if (n > 1) types += " (" + std::to_string(n) + ")";
   }
   if (!lost_.empty()) diag_.report(Diag::no_gltf_node, first_lost_, types);
-  if (auto n = scene_.main.routes.size() - animations_.motion().n_expressed_routes()) diag_.report(Diag::no_gltf_route, {}, n);
+  if (auto n = scene_.main.routes.size() - animations_.motion().n_expressed_routes())
+    diag_.report(Diag::no_gltf_route, {}, n);
   if (auto n = scene_.main.imports.size() + scene_.main.exports.size()) diag_.report(Diag::no_gltf_import, {}, n);
 }
 

@@ -6,16 +6,16 @@
 // level is the child; the others hang on it by MSFT_lod, whose screen coverage is that of the level's bounding sphere
 // at the distances of `range`, seen with VRML's standard field of view.
 //
-// A Transform whose rotation or scale is animated while it has a center or a scaleOrientation is a chain of nodes, one for
-// each part of T C R SR S -SR -C that moves by itself.
+// A Transform whose rotation or scale is animated while it has a center or a scaleOrientation is a chain of nodes, one
+// for each part of T C R SR S -SR -C that moves by itself.
 #pragma once
 #include <functional>
 #include <map>
 #include <unordered_map>
 
-#include "writers/gltf/gltf.h"
 #include "writers/gltf/animations.h"
 #include "writers/gltf/cameras.h"
+#include "writers/gltf/gltf.h"
 #include "writers/gltf/instances.h"
 #include "writers/gltf/lights.h"
 #include "writers/gltf/meshes.h"
@@ -30,9 +30,9 @@ struct Node {
   std::uint32_t transform = none;                 // into Hierarchy::transforms
   std::uint32_t attached = none;
   Attachment attachment = Attachment::nothing;
-  bool plain = true;  // the transform is what the fields of `source` say
-  bool lod = false;   // has an entry in Hierarchy::lods
-  std::uint32_t same_as = none;  // the node that `source` has become before
+  bool plain = true;               // the transform is what the fields of `source` say
+  bool lod = false;                // has an entry in Hierarchy::lods
+  std::uint32_t same_as = none;    // the node that `source` has become before
   std::uint32_t instances = none;  // into Hierarchy::instances; such a node is nobody's, its rows have sources
 };
 
@@ -50,7 +50,8 @@ class Hierarchy {
 
   /// Puts the places of instances where accessors are.
   void store_instances(Store&);
-  /// Leaves out digits of transforms, as far as nothing in the world moves further than `tolerance`. How far it may move.
+  /// Leaves out digits of transforms, as far as nothing in the world moves further than `tolerance`. How far it may
+  /// move.
   double round_transforms(double tolerance);
   /// Gives nodes of meshes the transform that makes metres of whole numbers; null: a mesh needs none.
   void dequantize(const std::function<const Dequantization*(std::uint32_t mesh)>&);
@@ -90,8 +91,8 @@ class Hierarchy {
     std::size_t next = 0;
     std::size_t first_built = 0;  // into built_
     NodeTransform local{};
-    Matrix world{};  // frame of the children
-    Box box{};       // of what they show
+    Matrix world{};      // frame of the children
+    Box box{};           // of what they show
     bool again = false;  // in something that was met before
   };
   Kind kind(NodeId);
@@ -160,7 +161,7 @@ class Hierarchy {
   std::vector<Kind> kinds_;           // of types
   std::vector<char> visited_;
   std::unordered_map<std::uint32_t, std::uint32_t> became_;  // of nodes of VRML, the first of glTF
-  std::map<std::string_view, std::size_t> lost_;  // by type: each Script has one of its own, but one name
+  std::map<std::string_view, std::size_t> lost_;             // by type: each Script has one of its own, but one name
   Span first_lost_;
   bool full_ = false;
 };

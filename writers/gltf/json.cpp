@@ -12,7 +12,8 @@ constexpr int linear_filter = 9729, linear_mipmap_linear = 9987, repeat = 10497,
 
 /// Forms whose numbers say more than their triangles do.
 bool is_parametric(const Scene& scene, NodeId n) {
-  constexpr TypeId types[] = {nodes::Box, nodes::Cone, nodes::Cylinder, nodes::ElevationGrid, nodes::Extrusion, nodes::Sphere, nodes::Text};
+  constexpr TypeId types[] = {nodes::Box,       nodes::Cone,   nodes::Cylinder, nodes::ElevationGrid,
+                              nodes::Extrusion, nodes::Sphere, nodes::Text};
   return std::ranges::find(types, scene.type_id(n)) != std::end(types);
 }
 
@@ -30,17 +31,24 @@ class Writer {
     list("scenes", 1, [&](std::size_t) { scene(); });
     measured("nodes", h_.nodes().size(), [&](std::size_t i) { node(static_cast<std::uint32_t>(i)); });
     auto visible = visibility(p_.scene, h_.navigation_info());
-    measured("cameras", h_.cameras().size(), [&](std::size_t i) { write_camera(json_, p_.scene, h_.cameras()[i], h_.world(), visible); });
-    measured("meshes", p_.meshes.meshes().size(), [&](std::size_t i) { mesh(p_.meshes.meshes()[i], p_.packing.streams(static_cast<std::uint32_t>(i))); });
-    measured("materials", p_.materials.materials().size(), [&](std::size_t i) { json_.raw(p_.materials.materials()[i]); });
+    measured("cameras", h_.cameras().size(),
+             [&](std::size_t i) { write_camera(json_, p_.scene, h_.cameras()[i], h_.world(), visible); });
+    measured("meshes", p_.meshes.meshes().size(),
+             [&](std::size_t i) { mesh(p_.meshes.meshes()[i], p_.packing.streams(static_cast<std::uint32_t>(i))); });
+    measured("materials", p_.materials.materials().size(),
+             [&](std::size_t i) { json_.raw(p_.materials.materials()[i]); });
     measured("textures", p_.textures.textures().size(), [&](std::size_t i) { texture(p_.textures.textures()[i]); });
     measured("images", p_.textures.pictures().size(), [&](std::size_t i) { image(i); });
     measured("samplers", p_.textures.samplers().size(), [&](std::size_t i) { sampler(p_.textures.samplers()[i]); });
-    measured("animations", p_.animations.count(), [&](std::size_t i) { p_.animations.write(json_, i, p_.facts_only ? nullptr : p_.extras, [&](std::uint32_t a) { return p_.packing.of(a); }); });
+    measured("animations", p_.animations.count(), [&](std::size_t i) {
+      p_.animations.write(json_, i, p_.facts_only ? nullptr : p_.extras,
+                          [&](std::uint32_t a) { return p_.packing.of(a); });
+    });
     const auto& accessors = p_.packing.store().accessors();
     measured("accessors", accessors.size(), [&](std::size_t i) { accessor(accessors[i]); });
     measured("bufferViews", p_.layout.views().size(), [&](std::size_t i) { buffer_view(p_.layout.views()[i]); });
-    list("buffers", (p_.layout.size() > 0) + (p_.layout.unpacked_size() > 0), [&](std::size_t i) { i == 0 ? buffer() : unpacked_buffer(); });
+    list("buffers", (p_.layout.size() > 0) + (p_.layout.unpacked_size() > 0),
+         [&](std::size_t i) { i == 0 ? buffer() : unpacked_buffer(); });
     json_.end_object();
     sink_(text_);
     return std::move(shares_);
@@ -108,7 +116,8 @@ class Writer {
     if (p_.materials.uses_unlit()) used.push_back("KHR_materials_unlit");
     if (p_.materials.uses_texture_transform()) used.push_back("KHR_texture_transform");
     if (p_.materials.uses_moz_lightmap()) used.push_back("MOZ_lightmap");
-    if (std::ranges::any_of(h_.instances(), [](const Instances& i) { return i.features != none; })) used.push_back("EXT_instance_features");
+    if (std::ranges::any_of(h_.instances(), [](const Instances& i) { return i.features != none; }))
+      used.push_back("EXT_instance_features");
     if (p_.meshes.any_features()) used.push_back("EXT_mesh_features");
     if (has_table()) used.push_back("EXT_structural_metadata");
     if (h_.uses_lod()) used.push_back("MSFT_lod");
@@ -141,7 +150,8 @@ class Writer {
     if (!h_.lights().empty()) {
       json_.key("KHR_lights_punctual");
       json_.begin_object();
-      list("lights", h_.lights().size(), [&](std::size_t i) { write_light(json_, p_.scene, h_.lights()[i], h_.world()); });
+      list("lights", h_.lights().size(),
+           [&](std::size_t i) { write_light(json_, p_.scene, h_.lights()[i], h_.world()); });
       json_.end_object();
     }
     json_.end_object();
@@ -154,17 +164,28 @@ class Writer {
     const bool packed = p_.packing.uses_meshopt(), parents = p_.names.any_parent();
     const std::size_t n = p_.names.rows().size();
     const auto no_parent = PartTable::no_parent(packed, n);
-    auto object = [&](std::string_view name, auto members) { json_.key(name), json_.begin_object(), members(), json_.end_object(); };
+    auto object = [&](std::string_view name, auto members) {
+      json_.key(name);
+      json_.begin_object();
+      members();
+      json_.end_object();
+    };
     auto schema = [&] {
       json_.member("id", "parts");
-      object("classes", [&] { object("part", [&] { object("properties", [&] {
-        json_.key("name"), json_.raw(R"({"type":"STRING","semantic":"NAME","required":true})");
-        if (parents) object("parent", [&] {
-          json_.member("type", "SCALAR");
-          json_.member("componentType", no_parent == none ? "UINT32" : "UINT16");
-          json_.member("noData", no_parent);
+      object("classes", [&] {
+        object("part", [&] {
+          object("properties", [&] {
+            json_.key("name");
+            json_.raw(R"({"type":"STRING","semantic":"NAME","required":true})");
+            if (parents)
+              object("parent", [&] {
+                json_.member("type", "SCALAR");
+                json_.member("componentType", no_parent == none ? "UINT32" : "UINT16");
+                json_.member("noData", no_parent);
+              });
+          });
         });
-      }); }); });
+      });
     };
     auto columns = [&] {
       object("name", [&] {
@@ -200,7 +221,9 @@ class Writer {
   void scene_extras() {
     const auto& main = p_.scene.main;
     const bool protos = !main.protos.empty() && !p_.facts_only;  // what they made is there
-    if (!h_.navigation_info() && !h_.origin() && main.routes.empty() && !protos && main.imports.empty() && main.exports.empty()) return;
+    if (!h_.navigation_info() && !h_.origin() && main.routes.empty() && !protos && main.imports.empty() &&
+        main.exports.empty())
+      return;
     json_.key("extras");
     json_.begin_object();
     json_.key("vrml97");
@@ -228,8 +251,10 @@ class Writer {
     if (n.attachment == Attachment::camera) json_.member("camera", n.attached);
     if (n.n_children > 0) numbers("children", h_.children(n));
     if (n.attachment == Attachment::light || n.lod) node_extensions(n, id);
-    if (n.instances != none) instances(h_.instances()[n.instances]);
-    else node_extras(n, id);
+    if (n.instances != none)
+      instances(h_.instances()[n.instances]);
+    else
+      node_extras(n, id);
     json_.end_object();
   }
 
@@ -309,18 +334,26 @@ class Writer {
   TypeId implied(const Node& n) const {
     const bool stays = n.transform == none || h_.transforms()[n.transform].identity();
     switch (n.attachment) {
-      case Attachment::mesh: return stays ? nodes::Shape : nodes::Transform;
-      case Attachment::camera: return nodes::Viewpoint;
-      case Attachment::light: return n.source ? p_.scene.type_id(n.source) : TypeId{};
-      case Attachment::nothing: break;
+      case Attachment::mesh:
+        return stays ? nodes::Shape : nodes::Transform;
+      case Attachment::camera:
+        return nodes::Viewpoint;
+      case Attachment::light:
+        return n.source ? p_.scene.type_id(n.source) : TypeId{};
+      case Attachment::nothing:
+        break;
     }
     return stays ? nodes::Group : nodes::Transform;
   }
 
   void node_extras(const Node& n, std::uint32_t id) {
-    bool vrml97 = p_.extras && (p_.facts_only ? is_fact(n) : !n.source || n.same_as != none || p_.extras->says_more(n.source, implied(n), n.plain) || named_as_described(n));
+    bool vrml97 =
+        p_.extras && (p_.facts_only ? is_fact(n)
+                                    : !n.source || n.same_as != none ||
+                                          p_.extras->says_more(n.source, implied(n), n.plain) || named_as_described(n));
     bool coverage = n.lod && !h_.lod(id).coverage.empty();
-    const bool unseen = p_.extras && p_.facts_only && !vrml97 && n.source && n.attachment == Attachment::nothing && p_.scene.is(n.source, nodes::Shape) && p_.extras->has_unseen_names(n.source);
+    const bool unseen = p_.extras && p_.facts_only && !vrml97 && n.source && n.attachment == Attachment::nothing &&
+                        p_.scene.is(n.source, nodes::Shape) && p_.extras->has_unseen_names(n.source);
     if (!vrml97 && !coverage && !unseen) return;
     json_.key("extras");
     json_.begin_object();
@@ -330,7 +363,10 @@ class Writer {
       json_.key("vrml97");
       json_.begin_object();
       if (n.source) json_.member("USE", n.same_as);
-      if (n.attachment == Attachment::mesh && !n.source) json_.key("Shape"), json_.raw("{}");
+      if (n.attachment == Attachment::mesh && !n.source) {
+        json_.key("Shape");
+        json_.raw("{}");
+      }
       json_.end_object();
     } else if (vrml97) {
       p_.extras->vrml97(json_, n.source, p_.extras->said_by_node(n.source, n.plain), named_as_described(n));
@@ -340,8 +376,10 @@ class Writer {
 
   /// What a reader other than wrlkit may want to know: the whole of what glTF has no node for, links and descriptions.
   bool is_fact(const Node& n) const {
-    if (!n.source || n.same_as != none || p_.scene.is(n.source, nodes::Switch) || p_.scene.is(n.source, nodes::LOD)) return false;
-    const bool group = p_.scene.type(n.source).is_a("X3DGroupingNode") && !p_.scene.is(n.source, nodes::Anchor) && !p_.scene.is(n.source, nodes::Billboard);
+    if (!n.source || n.same_as != none || p_.scene.is(n.source, nodes::Switch) || p_.scene.is(n.source, nodes::LOD))
+      return false;
+    const bool group = p_.scene.type(n.source).is_a("X3DGroupingNode") && !p_.scene.is(n.source, nodes::Anchor) &&
+                       !p_.scene.is(n.source, nodes::Billboard);
     return !group && !p_.scene.is(n.source, nodes::Shape) && p_.extras->says_more(n.source, implied(n), n.plain);
   }
 
@@ -371,7 +409,8 @@ class Writer {
     if (g.features != none) mesh_features(g);
     json_.end_object();
     json_.end_array();
-    if (p_.extras && p_.facts_only && p_.extras->has_names_in_geometry(g.source, names_without(m, s))) mesh_names(g.source, names_without(m, s));
+    if (p_.extras && p_.facts_only && p_.extras->has_names_in_geometry(g.source, names_without(m, s)))
+      mesh_names(g.source, names_without(m, s));
     if (p_.extras && !p_.facts_only) mesh_extras(g, s.draco == none, p_.packing.dequantization(m));
     json_.end_object();
   }
@@ -436,7 +475,8 @@ class Writer {
   void draco(const MeshRecord& m, const Streams& s) {
     Streams ids;
     std::uint32_t next = 0;
-    for (auto part : {&Streams::positions, &Streams::normals, &Streams::colors, &Streams::texcoords, &Streams::lightcoords, &Streams::features})
+    for (auto part : {&Streams::positions, &Streams::normals, &Streams::colors, &Streams::texcoords,
+                      &Streams::lightcoords, &Streams::features})
       if (s.*part != none) ids.*part = next++;
     json_.key("extensions");
     json_.begin_object();
@@ -455,8 +495,10 @@ class Writer {
   void mesh_extras(const Geometry& g, bool in_order, const Dequantization* whole) {
     const double step = whole ? whole->step : 1;
     const auto polygons = in_order ? std::span<const std::uint32_t>(g.polygons) : std::span<const std::uint32_t>();
-    if (is_parametric(p_.scene, g.source) || points_move(g.source)) p_.extras->member(json_, g.source, {});
-    else if (!polygons.empty() || step != 1 || p_.extras->geometry_says_more(g.source)) p_.extras->geometry(json_, g.source, polygons, step);
+    if (is_parametric(p_.scene, g.source) || points_move(g.source))
+      p_.extras->member(json_, g.source, {});
+    else if (!polygons.empty() || step != 1 || p_.extras->geometry_says_more(g.source))
+      p_.extras->geometry(json_, g.source, polygons, step);
   }
 
   /// The order of points that events replace matters.
@@ -470,8 +512,10 @@ class Writer {
     json_.begin_object();
     if (auto name = name_of(t.source); !name.empty()) json_.member("name", name);
     json_.member("sampler", t.sampler);
-    if (p_.textures.pictures()[t.picture].is_webp()) webp(t.picture);
-    else json_.member("source", t.picture);
+    if (p_.textures.pictures()[t.picture].is_webp())
+      webp(t.picture);
+    else
+      json_.member("source", t.picture);
     if (p_.extras && !p_.facts_only) p_.extras->member(json_, t.source, said_by_texture(p_.scene, t.source));
     json_.end_object();
   }
@@ -544,7 +588,8 @@ class Writer {
 
   void packed_view(const Layout::BufferView& v) {
     constexpr std::string_view filters[] = {"", "OCTAHEDRAL", "EXPONENTIAL"};
-    const auto& type = v.column == none ? info(v.view) : info(View::part);  // columns that are packed have elements of four bytes
+    const auto& type =
+        v.column == none ? info(v.view) : info(View::part);  // columns that are packed have elements of four bytes
     const bool triangles = v.column == none && (v.view == View::index16 || v.view == View::index32);
     json_.key("extensions");
     json_.begin_object();

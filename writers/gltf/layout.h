@@ -1,6 +1,6 @@
 // How the binary part of a glTF file is laid out: the views of the Store one after another, then pictures, each at a
-// multiple of four bytes. Views may be packed by meshoptimizer; what they are unpacked into is a second buffer, which is in
-// no file.
+// multiple of four bytes. Views may be packed by meshoptimizer; what they are unpacked into is a second buffer, which
+// is in no file.
 #pragma once
 #include "writers/gltf/parts.h"
 #include "writers/gltf/store.h"
@@ -17,17 +17,23 @@ class Layout {
     std::string packed;          // empty: it is not
     std::uint64_t unpacked = 0;  // bytes of a packed one; its place in the second buffer
     std::uint64_t unpacked_offset = 0;
-    std::uint64_t padding = 0;   // zeros behind it
+    std::uint64_t padding = 0;  // zeros behind it
   };
 
-  /// `blobs` become views of their own, behind those of the Store; then columns of a table, each at a multiple of eight bytes.
-  Layout(const Store&, const std::vector<std::string>& blobs, const std::vector<Column>& columns, const std::vector<Picture>& inside, bool meshopt);
+  /// `blobs` become views of their own, behind those of the Store; then columns of a table, each at a multiple of eight
+  /// bytes.
+  Layout(const Store&, const std::vector<std::string>& blobs, const std::vector<Column>& columns,
+         const std::vector<Picture>& inside, bool meshopt);
 
   const std::vector<BufferView>& views() const { return views_; }
   /// Index into views().
   std::uint32_t of(View v) const { return of_view_[static_cast<std::size_t>(v)]; }
-  std::uint32_t of_blob(std::size_t i) const { return static_cast<std::uint32_t>(views_.size() - n_pictures_ - columns_.size() - blobs_.size() + i); }
-  std::uint32_t of_column(std::size_t i) const { return static_cast<std::uint32_t>(views_.size() - n_pictures_ - columns_.size() + i); }
+  std::uint32_t of_blob(std::size_t i) const {
+    return static_cast<std::uint32_t>(views_.size() - n_pictures_ - columns_.size() - blobs_.size() + i);
+  }
+  std::uint32_t of_column(std::size_t i) const {
+    return static_cast<std::uint32_t>(views_.size() - n_pictures_ - columns_.size() + i);
+  }
   std::uint32_t of_picture(std::size_t i) const { return static_cast<std::uint32_t>(views_.size() - n_pictures_ + i); }
   /// Bytes of the elements of a column of numbers; 0: two.
   std::uint8_t stride_of_column(std::size_t i) const { return columns_[i].stride; }

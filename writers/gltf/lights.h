@@ -12,11 +12,11 @@
 // camera.
 #pragma once
 #include "base/diagnostics.h"
+#include "base/text/json.h"
 #include "scenegraph/light_node.h"
 #include "writers/gltf/box.h"
 #include "writers/gltf/motion.h"
 #include "writers/gltf/transform.h"
-#include "base/text/json.h"
 
 namespace wrlkit::gltf {
 

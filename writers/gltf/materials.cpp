@@ -33,7 +33,7 @@ struct Materials::Look {
   NodeId light_transform;
   UvAffine light_uv;
   bool lit = false, shows_color = false, shows_alpha = true;
-  std::string_view base_field;  // of the material
+  std::string_view base_field;          // of the material
   Vec3 base = white, emissive = black;  // display-referred
   double alpha = 1, metallic = 0, rough = 1, cutoff = 0.5;
   Alpha mode = Alpha::opaque;
@@ -58,7 +58,10 @@ struct FurtherPicture {
   std::string_view field;
   PixelMeaning meaning;
 };
-constexpr FurtherPicture further[] = {{"normalTexture", PixelMeaning::data}, {"occlusionTexture", PixelMeaning::data}, {"emissiveTexture", PixelMeaning::color}, {"metallicRoughnessTexture", PixelMeaning::data}};
+constexpr FurtherPicture further[] = {{"normalTexture", PixelMeaning::data},
+                                      {"occlusionTexture", PixelMeaning::data},
+                                      {"emissiveTexture", PixelMeaning::color},
+                                      {"metallicRoughnessTexture", PixelMeaning::data}};
 
 /// Of an UnlitMaterial it is the colour itself.
 NodeId further_picture(const Scene& scene, NodeId material, std::string_view field) {
@@ -72,7 +75,9 @@ bool Materials::has_picture(NodeId appearance) {
   if (!scene_.is(appearance, nodes::Appearance)) return false;
   if (textures_.get(scene_.get(appearance, nodes::appearance::texture)).texture != none) return true;
   const NodeId m = scene_.get(appearance, nodes::appearance::material);
-  return is_material(scene_, m) && std::ranges::any_of(further, [&](auto f) { return textures_.get(further_picture(scene_, m, f.field), f.meaning).texture != none; });
+  return is_material(scene_, m) && std::ranges::any_of(further, [&](auto f) {
+           return textures_.get(further_picture(scene_, m, f.field), f.meaning).texture != none;
+         });
 }
 
 MaterialUse Materials::get(NodeId appearance, SurfaceKind s) {
@@ -88,13 +93,17 @@ MaterialUse Materials::make(NodeId appearance, SurfaceKind s) {
   bool bake = l.texture.texture != none && !uv_transform(l.uv);
   const std::string text = json(l);
   const bool moving = moves(l), moving_picture = moves_picture(l);
-  const std::string source = (moving ? std::to_string(l.material.value) : "") + (moving_picture ? "/" + std::to_string(l.transform_node.value) : "");
+  const std::string source = (moving ? std::to_string(l.material.value) : "") +
+                             (moving_picture ? "/" + std::to_string(l.transform_node.value) : "");
   auto [i, is_new] = by_json_.try_emplace(text + source, static_cast<std::uint32_t>(materials_.size()));
   if (is_new) materials_.push_back(text);
   if (is_new && (moving || moving_picture))
-    moved_.push_back({i->second, l.material, l.base, l.emissive, l.alpha, l.base_field, l.shows_alpha, l.surface.faces && l.lit && !replaced_by_light(l), l.lit, moving_picture ? l.transform_node : NodeId{}, mapped(l)});
+    moved_.push_back({i->second, l.material, l.base, l.emissive, l.alpha, l.base_field, l.shows_alpha,
+                      l.surface.faces && l.lit && !replaced_by_light(l), l.lit,
+                      moving_picture ? l.transform_node : NodeId{}, mapped(l)});
   bool light = l.light.texture != none, bake_light = light && !uv_transform(l.light_uv);
-  return {i->second, bake ? l.transform_node : NodeId{}, light, bake_light ? l.light_transform : NodeId{}, l.shows_color};
+  return {i->second, bake ? l.transform_node : NodeId{}, light, bake_light ? l.light_transform : NodeId{},
+          l.shows_color};
 }
 
 Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
@@ -109,11 +118,18 @@ Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
   }
   if (!is_material(scene_, l.material)) l.material = {};
   if (!scene_.is(l.transform_node, nodes::TextureTransform)) l.transform_node = {};
-  if (s.faces && s.texcoord) l.texture = textures_.get(l.texture_node), further_pictures(l);
+  if (s.faces && s.texcoord) {
+    l.texture = textures_.get(l.texture_node);
+    further_pictures(l);
+  }
   if (s.faces && s.texcoord) l.uv = uv_affine(scene_, l.transform_node);
   read_material(l);
   if (l.alpha < 1 || (s.color && s.opacity) || moves(l, "transparency")) l.mode = Alpha::blend;
-  if (l.texture.channels % 2 == 0 && l.texture.channels > 0) l.alpha = 1, l.mode = l.texture.alpha, l.shows_alpha = false;
+  if (l.texture.channels % 2 == 0 && l.texture.channels > 0) {
+    l.alpha = 1;
+    l.mode = l.texture.alpha;
+    l.shows_alpha = false;
+  }
   read_alpha_mode(l);
   if (l.appearance && s.faces && s.light) look_at_light(l);
   return l;
@@ -121,35 +137,54 @@ Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
 
 void Materials::read_material(Look& l) {
   const SurfaceKind& s = l.surface;
-  const bool physical = scene_.is(l.material, nodes::PhysicalMaterial), unlit = scene_.is(l.material, nodes::UnlitMaterial);
+  const bool physical = scene_.is(l.material, nodes::PhysicalMaterial),
+             unlit = scene_.is(l.material, nodes::UnlitMaterial);
   const bool replaced = l.texture.channels >= 3 && !(l.appearance && multiplies_picture(scene_, l.appearance));
   l.lit = l.material && s.faces && !unlit;
   l.shows_color = s.color && !replaced;
   if (!l.material) return;
   namespace p = nodes::physical_material;
   namespace u = nodes::unlit_material;
-  const Vec3 emissive = physical ? scene_.get(l.material, p::emissiveColor) : unlit ? scene_.get(l.material, u::emissiveColor) : scene_.get(l.material, m::emissiveColor);
-  const Vec3 diffuse = physical ? scene_.get(l.material, p::baseColor) : unlit ? emissive : scene_.get(l.material, m::diffuseColor);
+  const Vec3 emissive = physical ? scene_.get(l.material, p::emissiveColor)
+                        : unlit  ? scene_.get(l.material, u::emissiveColor)
+                                 : scene_.get(l.material, m::emissiveColor);
+  const Vec3 diffuse = physical ? scene_.get(l.material, p::baseColor)
+                       : unlit  ? emissive
+                                : scene_.get(l.material, m::diffuseColor);
   if (!s.color && !replaced) l.base = s.faces ? diffuse : emissive;
-  if (!s.color && !replaced) l.base_field = unlit || (!s.faces && !physical) ? "emissiveColor" : physical ? "baseColor" : "diffuseColor";
+  if (!s.color && !replaced)
+    l.base_field = unlit || (!s.faces && !physical) ? "emissiveColor" : physical ? "baseColor" : "diffuseColor";
   if (s.faces && !unlit) l.emissive = emissive;
-  l.alpha = 1 - unit_range(physical ? scene_.get(l.material, p::transparency) : unlit ? scene_.get(l.material, u::transparency) : scene_.get(l.material, m::transparency));
-  if (physical) l.metallic = unit_range(scene_.get(l.material, p::metallic)), l.rough = unit_range(scene_.get(l.material, p::roughness));
-  else if (l.lit) l.rough = roughness(scene_.get(l.material, m::shininess), scene_.get(l.material, m::specularColor));
+  l.alpha = 1 - unit_range(physical ? scene_.get(l.material, p::transparency)
+                           : unlit  ? scene_.get(l.material, u::transparency)
+                                    : scene_.get(l.material, m::transparency));
+  if (physical) {
+    l.metallic = unit_range(scene_.get(l.material, p::metallic));
+    l.rough = unit_range(scene_.get(l.material, p::roughness));
+  } else if (l.lit)
+    l.rough = roughness(scene_.get(l.material, m::shininess), scene_.get(l.material, m::specularColor));
 }
 
 void Materials::read_alpha_mode(Look& l) {
   if (!l.appearance) return;
   const auto mode = scene_.get(l.appearance, nodes::appearance::alphaMode);
-  if (mode == "OPAQUE") l.mode = Alpha::opaque, l.alpha = 1, l.shows_alpha = false;
+  if (mode == "OPAQUE") {
+    l.mode = Alpha::opaque;
+    l.alpha = 1;
+    l.shows_alpha = false;
+  }
   if (mode == "BLEND") l.mode = Alpha::blend;
-  if (mode == "MASK") l.mode = Alpha::mask, l.cutoff = unit_range(scene_.get(l.appearance, nodes::appearance::alphaCutoff));
+  if (mode == "MASK") {
+    l.mode = Alpha::mask;
+    l.cutoff = unit_range(scene_.get(l.appearance, nodes::appearance::alphaCutoff));
+  }
 }
 
 void Materials::further_pictures(Look& l) {
   if (!l.material) return;
   std::uint32_t* to[] = {&l.normal, &l.occlusion, &l.glow, &l.metal_rough};
-  for (std::size_t i = 0; i < std::size(further); ++i) *to[i] = textures_.get(further_picture(scene_, l.material, further[i].field), further[i].meaning).texture;
+  for (std::size_t i = 0; i < std::size(further); ++i)
+    *to[i] = textures_.get(further_picture(scene_, l.material, further[i].field), further[i].meaning).texture;
   auto number = [&](std::string_view field) {
     auto slot = scene_.type(l.material).find(field, Dialect::x3d);
     return slot ? scene_.value(l.material, *slot).number : 1;
@@ -162,14 +197,19 @@ void Materials::look_at_light(Look& l) {
   using As = GltfOptions::Lightmaps;
   namespace a = nodes::appearance;
   NodeId lightmap = scene_.get(l.appearance, a::lightmap);
-  l.light = lightmaps_ == As::occlusion ? textures_.brightness(lightmap, scene_.get(l.appearance, a::lightmapScale)) : textures_.get(lightmap);
+  l.light = lightmaps_ == As::occlusion ? textures_.brightness(lightmap, scene_.get(l.appearance, a::lightmapScale))
+                                        : textures_.get(lightmap);
   if (l.light.texture == none) return;
   l.light_transform = scene_.get(l.appearance, a::lightmapTransform);
   if (!scene_.is(l.light_transform, nodes::TextureTransform)) l.light_transform = {};
   l.light_uv = uv_affine(scene_, l.light_transform);
   if (lightmaps_ == As::occlusion) l.occlusion = none;
   if (lightmaps_ != As::emissive) return;
-  l.base = black, l.emissive = white, l.shows_color = false, l.glow = none, l.base_field = {};
+  l.base = black;
+  l.emissive = white;
+  l.shows_color = false;
+  l.glow = none;
+  l.base_field = {};
   if (l.texture.channels % 2 == 1) l.texture = {};
 }
 
@@ -180,13 +220,15 @@ bool Materials::moves(const Look& l, std::string_view field) const {
 
 bool Materials::moves(const Look& l) const {
   constexpr std::string_view fields[] = {"emissiveColor", "specularColor", "shininess", "metallic", "roughness"};
-  return moves(l, l.base_field) || (l.shows_alpha && moves(l, "transparency")) || (l.lit && std::ranges::any_of(fields, [&](auto f) { return moves(l, f); }));
+  return moves(l, l.base_field) || (l.shows_alpha && moves(l, "transparency")) ||
+         (l.lit && std::ranges::any_of(fields, [&](auto f) { return moves(l, f); }));
 }
 
 bool Materials::moves_picture(const Look& l) const {
   namespace t = nodes::texture_transform;
   return l.transform_node && l.texture.texture != none && uv_transform(l.uv) &&
-         std::ranges::any_of(std::array{t::center.slot, t::scale.slot, t::rotation.slot, t::translation.slot}, [&](auto slot) { return motion_.moves(l.transform_node, slot); });
+         std::ranges::any_of(std::array{t::center.slot, t::scale.slot, t::rotation.slot, t::translation.slot},
+                             [&](auto slot) { return motion_.moves(l.transform_node, slot); });
 }
 
 /// The pictures that have the TextureTransform.
@@ -213,11 +255,19 @@ std::string Materials::json(const Look& l) {
   if (!name.empty()) json.member("name", name);
   pbr(json, l);
   if (l.normal != none && l.lit) texture_info(json, l, "normalTexture", l.normal, "scale", l.normal_scale);
-  if (l.occlusion != none && l.lit) texture_info(json, l, "occlusionTexture", l.occlusion, "strength", l.occlusion_strength);
+  if (l.occlusion != none && l.lit)
+    texture_info(json, l, "occlusionTexture", l.occlusion, "strength", l.occlusion_strength);
   using As = GltfOptions::Lightmaps;
-  if (replaced_by_light(l)) json.key("emissiveTexture"), light_info(json, l);
-  if (l.light.texture != none && lightmaps_ == As::occlusion) json.key("occlusionTexture"), light_info(json, l);
-  if (l.emissive != black || (l.lit && moves(l, "emissiveColor"))) json.member("emissiveFactor", std::span<const float>(linear_color(l.emissive)));
+  if (replaced_by_light(l)) {
+    json.key("emissiveTexture");
+    light_info(json, l);
+  }
+  if (l.light.texture != none && lightmaps_ == As::occlusion) {
+    json.key("occlusionTexture");
+    light_info(json, l);
+  }
+  if (l.emissive != black || (l.lit && moves(l, "emissiveColor")))
+    json.member("emissiveFactor", std::span<const float>(linear_color(l.emissive)));
   if (l.glow != none && l.lit) texture_info(json, l, "emissiveTexture", l.glow);
   if (l.mode != Alpha::opaque) json.member("alphaMode", l.mode == Alpha::mask ? "MASK" : "BLEND");
   if (l.mode == Alpha::mask && l.cutoff != 0.5) json.member("alphaCutoff", static_cast<float>(l.cutoff));
@@ -234,8 +284,16 @@ void Materials::extensions(JsonOut& json, const Look& l) {
   if (!unlit && !moz) return;
   json.key("extensions");
   json.begin_object();
-  if (unlit) json.key("KHR_materials_unlit"), json.raw("{}"), unlit_ = true;
-  if (moz) json.key("MOZ_lightmap"), light_info(json, l), moz_lightmap_ = true;
+  if (unlit) {
+    json.key("KHR_materials_unlit");
+    json.raw("{}");
+    unlit_ = true;
+  }
+  if (moz) {
+    json.key("MOZ_lightmap");
+    light_info(json, l);
+    moz_lightmap_ = true;
+  }
   json.end_object();
 }
 
@@ -263,7 +321,8 @@ void Materials::pbr(JsonOut& json, const Look& l) {
   json.end_object();
 }
 
-void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name, std::uint32_t texture, const char* factor, double value) {
+void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name, std::uint32_t texture,
+                             const char* factor, double value) {
   json.key(name);
   json.begin_object();
   texture_info_members(json, texture, 0, l.uv, moves_picture(l));
@@ -277,7 +336,8 @@ void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name
   json.end_object();
 }
 
-void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::uint32_t set, const UvAffine& uv, bool moved) {
+void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::uint32_t set, const UvAffine& uv,
+                                     bool moved) {
   json.member("index", texture);
   if (set > 0) json.member("texCoord", set);
   auto t = uv_transform(uv);
@@ -310,9 +370,12 @@ void Materials::light_extras(JsonOut& json, const Look& l) {
 
 /// What glTF has said of a Material.
 std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
-  std::vector<std::uint16_t> said{m::diffuseTexture.slot, m::normalTexture.slot, m::emissiveTexture.slot, m::occlusionTexture.slot, m::normalScale.slot, m::occlusionStrength.slot};
+  std::vector<std::uint16_t> said{m::diffuseTexture.slot,   m::normalTexture.slot, m::emissiveTexture.slot,
+                                  m::occlusionTexture.slot, m::normalScale.slot,   m::occlusionStrength.slot};
   // White with a picture could be either: a white material, or one that the picture replaces.
-  const bool one_color = l.surface.faces && !l.surface.color && (l.texture.channels < 3 || own_picture(scene_, l.material)) && (l.texture.texture == none || l.base != white);
+  const bool one_color = l.surface.faces && !l.surface.color &&
+                         (l.texture.channels < 3 || own_picture(scene_, l.material)) &&
+                         (l.texture.texture == none || l.base != white);
   if (one_color && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
   if (!replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
   if (l.texture.channels % 2 == 1 || l.texture.channels == 0) said.push_back(m::transparency.slot);
@@ -323,8 +386,14 @@ std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
 std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
   namespace p = nodes::physical_material;
   namespace u = nodes::unlit_material;
-  if (scene_.is(l.material, nodes::UnlitMaterial)) return {u::emissiveColor.slot, u::transparency.slot, u::emissiveTexture.slot};
-  return {p::baseColor.slot, p::emissiveColor.slot, p::metallic.slot, p::roughness.slot, p::transparency.slot, p::normalScale.slot, p::occlusionStrength.slot, p::baseTexture.slot, p::emissiveTexture.slot, p::metallicRoughnessTexture.slot, p::normalTexture.slot, p::occlusionTexture.slot};
+  if (scene_.is(l.material, nodes::UnlitMaterial))
+    return {u::emissiveColor.slot, u::transparency.slot, u::emissiveTexture.slot};
+  return {p::baseColor.slot,         p::emissiveColor.slot,
+          p::metallic.slot,          p::roughness.slot,
+          p::transparency.slot,      p::normalScale.slot,
+          p::occlusionStrength.slot, p::baseTexture.slot,
+          p::emissiveTexture.slot,   p::metallicRoughnessTexture.slot,
+          p::normalTexture.slot,     p::occlusionTexture.slot};
 }
 
 /// The fields of a material that the look does not show, a picture that is not shown at all, and the light.
@@ -332,12 +401,14 @@ void Materials::extras(JsonOut& json, const Look& l) {
   std::vector<std::uint16_t> said;
   if (l.material) said = scene_.is(l.material, nodes::Material) ? said_by_vrml97(l) : said_by_x3d(l);
   // White and unlit is what a Shape without a Material is, too.
-  bool material = extras_ && l.material && (extras_->anything(l.material, said) || (!l.lit && l.base == white && l.alpha == 1));
+  bool material =
+      extras_ && l.material && (extras_->anything(l.material, said) || (!l.lit && l.base == white && l.alpha == 1));
   bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
   bool picture = extras_ && l.texture_node && l.texture.texture == none;
   bool transform = extras_ && l.transform_node && l.texture.texture == none;
   // Of a Material alone: a picture that is multiplied, not one that takes the place of the colour.
-  bool multiplied = extras_ && l.texture.texture != none && scene_.is(l.material, nodes::Material) && own_picture(scene_, l.material);
+  bool multiplied =
+      extras_ && l.texture.texture != none && scene_.is(l.material, nodes::Material) && own_picture(scene_, l.material);
   bool light = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::extras;
   for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
     if (n && extras_) extras_->set_placed(n);
@@ -348,7 +419,12 @@ void Materials::extras(JsonOut& json, const Look& l) {
   if (material || picture || named || transform || multiplied) {
     json.key("vrml97");
     json.begin_object();
-    if (named) json.key("Appearance"), json.begin_object(), json.member("DEF", extras_->name(l.appearance)), json.end_object();
+    if (named) {
+      json.key("Appearance");
+      json.begin_object();
+      json.member("DEF", extras_->name(l.appearance));
+      json.end_object();
+    }
     if (multiplied) json.member("multiplied", true);
     if (material) extras_->node(json, l.material, said);
     if (picture) extras_->node(json, l.texture_node, {}, !extras_->name(l.texture_node).empty());

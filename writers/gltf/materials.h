@@ -13,21 +13,22 @@
 // specularColor, shininess and ambientIntensity stay in extras.
 //
 // Baked light. Where the geometry has places in a lightmap they are the set of texture coordinates behind that of the
-// picture: 1, or 0 when there is none. See GltfOptions::Lightmaps. The texture coordinates of MOZ_lightmap and extras are
-// said as in any textureInfo, with KHR_texture_transform for lightmapTransform; a texel is what a white surface reflects.
+// picture: 1, or 0 when there is none. See GltfOptions::Lightmaps. The texture coordinates of MOZ_lightmap and extras
+// are said as in any textureInfo, with KHR_texture_transform for lightmapTransform; a texel is what a white surface
+// reflects.
 //
 // X3D 4.0 (ISO/IEC 19775-1, 12 and 17.2). A PhysicalMaterial is glTF's own; an UnlitMaterial is unlit and of its
-// emissiveColor. There, and with every material of a file of version 4.0, a picture is multiplied by the colour and never
-// replaces it. Pictures for normals, occlusion, emission, metal and roughness are those of glTF; that they may have texture
-// coordinates of their own, by name, is kept in extras. alphaMode and alphaCutoff are glTF's as well.
+// emissiveColor. There, and with every material of a file of version 4.0, a picture is multiplied by the colour and
+// never replaces it. Pictures for normals, occlusion, emission, metal and roughness are those of glTF; that they may
+// have texture coordinates of their own, by name, is kept in extras. alphaMode and alphaCutoff are glTF's as well.
 #pragma once
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "writers/gltf/gltf.h"
 #include "writers/gltf/color.h"
 #include "writers/gltf/extras.h"
+#include "writers/gltf/gltf.h"
 #include "writers/gltf/motion.h"
 #include "writers/gltf/texture_transform.h"
 #include "writers/gltf/textures.h"
@@ -47,7 +48,7 @@ struct SurfaceKind {
 
 struct MaterialUse {
   std::uint32_t material = none;
-  NodeId bake;              // a TextureTransform that must be applied to the texture coordinates
+  NodeId bake;  // a TextureTransform that must be applied to the texture coordinates
   bool shows_light = false;
   NodeId bake_light;        // as bake, for the places in the lightmap
   bool shows_color = true;  // false: a picture takes the place of the geometry's colours
@@ -55,7 +56,8 @@ struct MaterialUse {
 
 class Materials {
  public:
-  Materials(const Scene& scene, Textures& textures, const Motion& motion, Extras* extras, GltfOptions::Lightmaps lightmaps)
+  Materials(const Scene& scene, Textures& textures, const Motion& motion, Extras* extras,
+            GltfOptions::Lightmaps lightmaps)
       : scene_(scene), textures_(textures), motion_(motion), extras_(extras), lightmaps_(lightmaps) {}
 
   /// Has an Appearance a picture that can be shown?
@@ -69,10 +71,10 @@ class Materials {
     NodeId source;
     Vec3 base, emissive;
     double alpha;
-    std::string_view base_field;            // empty: nothing of the source is in the base colour
+    std::string_view base_field;  // empty: nothing of the source is in the base colour
     bool shows_alpha, shows_emissive, lit;
-    NodeId transform;                       // a TextureTransform that is moved; none: it stands still
-    std::vector<std::string_view> mapped;   // pictures that it moves, by their path in the material
+    NodeId transform;                      // a TextureTransform that is moved; none: it stands still
+    std::vector<std::string_view> mapped;  // pictures that it moves, by their path in the material
   };
   const std::vector<Moved>& moved() const { return moved_; }
 
@@ -97,7 +99,8 @@ class Materials {
   void read_alpha_mode(Look&);
   void further_pictures(Look&);
   void pbr(JsonOut&, const Look&);
-  void texture_info(JsonOut&, const Look&, std::string_view name, std::uint32_t texture, const char* factor = nullptr, double value = 1);
+  void texture_info(JsonOut&, const Look&, std::string_view name, std::uint32_t texture, const char* factor = nullptr,
+                    double value = 1);
   void texture_info_members(JsonOut&, std::uint32_t texture, std::uint32_t set, const UvAffine&, bool moved = false);
   void light_info(JsonOut&, const Look&);
   void extensions(JsonOut&, const Look&);

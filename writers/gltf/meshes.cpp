@@ -4,8 +4,8 @@
 
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
-#include "writers/gltf/origin.h"
 #include "writers/gltf/meshopt.h"
+#include "writers/gltf/origin.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -28,8 +28,10 @@ std::vector<std::uint32_t> runs(const Mesh& mesh) {
   for (auto n : mesh.cut) {
     if (n == 0) continue;
     polygons |= n > 1;
-    if (!out.empty() && out[out.size() - 2] == n) ++out.back();
-    else out.insert(out.end(), {n, 1});
+    if (!out.empty() && out[out.size() - 2] == n)
+      ++out.back();
+    else
+      out.insert(out.end(), {n, 1});
   }
   return polygons ? out : std::vector<std::uint32_t>{};
 }
@@ -62,7 +64,8 @@ bool Meshes::gives_texcoords(NodeId n) const {
   return scene_.is(n, nodes::ElevationGrid) && scene_.get(n, nodes::elevation_grid::texCoord);
 }
 
-/// The mesh of a geometry. Flat faces that will move have a normal of their own each, even where they lie in one plane now.
+/// The mesh of a geometry. Flat faces that will move have a normal of their own each, even where they lie in one plane
+/// now.
 const Mesh& Meshes::mesh_of(NodeId n) {
   const Mesh& mesh = source_(n);
   moving_ = morphs_.moves(n);
@@ -77,7 +80,8 @@ const Mesh& Meshes::mesh_of(NodeId n) {
     const float* value = mesh.normal.at(mesh.normal.index[mesh.begin_of(face)]);
     normal.values.insert(normal.values.end(), value, value + 3);
     for (; n_pieces > 0 && face < mesh.n_faces(); --n_pieces, ++face)
-      std::fill(normal.index.begin() + static_cast<std::ptrdiff_t>(mesh.begin_of(face)), normal.index.begin() + static_cast<std::ptrdiff_t>(mesh.end_of(face)), id);
+      std::fill(normal.index.begin() + static_cast<std::ptrdiff_t>(mesh.begin_of(face)),
+                normal.index.begin() + static_cast<std::ptrdiff_t>(mesh.end_of(face)), id);
   };
   for (auto n_pieces : mesh.cut) add(n_pieces);
   while (face < mesh.n_faces()) add(1);
@@ -88,14 +92,17 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   const Mesh& mesh = mesh_of(n);
   Geometry g{.source = n, .mode = mode_of(mesh.kind), .double_sided = mesh.kind == Mesh::Kind::faces && !mesh.solid};
   feature_of_corner_.clear();
-  if (!number_parts(n, mesh)) diag_.report(Diag::no_gltf_value, scene_.where(n), scene_.type(n).name, "metadata (faces of parts that a pass has changed)");
+  if (!number_parts(n, mesh))
+    diag_.report(Diag::no_gltf_value, scene_.where(n), scene_.type(n).name,
+                 "metadata (faces of parts that a pass has changed)");
   split(mesh, texcoords);
   const Vertices& v = vertices_;
   if (v.n_not_finite > 0)
     diag_.report(Diag::float_overflow, scene_.where(n),
                  std::string(scene_.type(n).name) + " (" + std::to_string(v.n_not_finite) + " numbers)");
   if (v.index.empty()) return g;
-  if (!ordered_ && scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size()) g.polygons = runs(mesh);
+  if (!ordered_ && scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size())
+    g.polygons = runs(mesh);
   g.origin = move_near_origin(mesh, texcoords);
   report_coarse(n, mesh);
   std::uint32_t positions = store_.positions(v.position, {v.min, v.max});
@@ -116,13 +123,18 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
 
 void Meshes::split(const Mesh& mesh, bool texcoords, const Vec3& origin) {
   bool faces = mesh.kind == Mesh::Kind::faces;
-  split_vertices(
-      mesh,
-      {.origin = origin, .normals = faces, .texcoords = faces && texcoords, .lightcoords = faces && light_, .linear_colors = true, .flip_v = true},
-      scratch_, vertices_);
+  split_vertices(mesh,
+                 {.origin = origin,
+                  .normals = faces,
+                  .texcoords = faces && texcoords,
+                  .lightcoords = faces && light_,
+                  .linear_colors = true,
+                  .flip_v = true},
+                 scratch_, vertices_);
   if (!feature_of_corner_.empty()) {
     vertices_.feature.resize(vertices_.count());
-    for (std::size_t c = 0; c < feature_of_corner_.size(); ++c) vertices_.feature[scratch_.of_corner[c]] = feature_of_corner_[c];
+    for (std::size_t c = 0; c < feature_of_corner_.size(); ++c)
+      vertices_.feature[scratch_.of_corner[c]] = feature_of_corner_[c];
   }
   if (ordered_ && faces && !moving_) order_for_drawing(vertices_);
 }
@@ -147,7 +159,10 @@ bool Meshes::number_parts(NodeId n, const Mesh& mesh) {
 
 std::uint32_t Meshes::move_near_origin(const Mesh& mesh, bool texcoords) {
   Box box;
-  for (std::size_t i = 0; i < 3; ++i) box.low[i] = vertices_.min[i], box.high[i] = vertices_.max[i];
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] = vertices_.min[i];
+    box.high[i] = vertices_.max[i];
+  }
   auto origin = mesh_origin(box);
   if (!origin) return none;
   split(mesh, texcoords, *origin);
@@ -159,13 +174,19 @@ std::uint32_t Meshes::move_near_origin(const Mesh& mesh, bool texcoords) {
 void Meshes::report_coarse(NodeId n, const Mesh& mesh) {
   constexpr double least_reach = 1 << 14;  // up to there single precision says millimetres
   double reach = 0, worst = 0;
-  for (std::size_t i = 0; i < 3; ++i) reach = std::max({reach, std::abs(double{vertices_.min[i]}), std::abs(double{vertices_.max[i]})});
+  for (std::size_t i = 0; i < 3; ++i)
+    reach = std::max({reach, std::abs(double{vertices_.min[i]}), std::abs(double{vertices_.max[i]})});
   if (reach < least_reach) return;
-  auto at = [&](std::size_t corner, std::size_t i) { return mesh.positions[mesh.corners[corner] * std::size_t{3} + i] - vertices_.origin[i]; };
+  auto at = [&](std::size_t corner, std::size_t i) {
+    return mesh.positions[mesh.corners[corner] * std::size_t{3} + i] - vertices_.origin[i];
+  };
   for (std::size_t f = 0; f < mesh.n_faces(); ++f) {
     double moved = 0, size = 0;
     for (auto c = mesh.begin_of(f); c < mesh.end_of(f); ++c)
-      for (std::size_t i = 0; i < 3; ++i) moved = std::max(moved, std::abs(at(c, i) - static_cast<float>(at(c, i)))), size = std::max(size, std::abs(at(c, i) - at(mesh.begin_of(f), i)));
+      for (std::size_t i = 0; i < 3; ++i) {
+        moved = std::max(moved, std::abs(at(c, i) - static_cast<float>(at(c, i))));
+        size = std::max(size, std::abs(at(c, i) - at(mesh.begin_of(f), i)));
+      }
     if (moved > size / 4) worst = std::max(worst, moved);
   }
   if (worst > 0) diag_.report(Diag::coarse_positions, scene_.where(n), scene_.type(n).name, worst);
@@ -174,11 +195,15 @@ void Meshes::report_coarse(NodeId n, const Mesh& mesh) {
 std::uint32_t Meshes::mesh(std::uint32_t geometry, const MaterialUse& use) {
   Geometry& g = geometries_[geometry];
   for (std::uint32_t m = g.first_mesh; m != none; m = meshes_[m].next)
-    if (meshes_[m].material == use.material && meshes_[m].bake == use.bake && meshes_[m].bake_light == use.bake_light) return m;
+    if (meshes_[m].material == use.material && meshes_[m].bake == use.bake && meshes_[m].bake_light == use.bake_light)
+      return m;
   std::uint32_t texcoords = use.bake ? baked(g, use.bake, &Vertices::texcoord) : g.texcoords;
-  std::uint32_t lightcoords = !use.shows_light ? none : use.bake_light ? baked(g, use.bake_light, &Vertices::lightcoord) : g.lightcoords;
+  std::uint32_t lightcoords = !use.shows_light ? none
+                              : use.bake_light ? baked(g, use.bake_light, &Vertices::lightcoord)
+                                               : g.lightcoords;
   auto id = static_cast<std::uint32_t>(meshes_.size());
-  meshes_.push_back({geometry, use.material, texcoords, lightcoords, g.first_mesh, use.bake, use.bake_light, use.shows_color});
+  meshes_.push_back(
+      {geometry, use.material, texcoords, lightcoords, g.first_mesh, use.bake, use.bake_light, use.shows_color});
   return g.first_mesh = id;
 }
 
@@ -207,7 +232,8 @@ Box Meshes::bounds(const Geometry& g, const Matrix& frame) const {
   for (std::size_t i = 0; i < 3; ++i) {
     double reach = 0;
     for (std::size_t k = 0; k < 3; ++k) reach += std::abs(frame.m[i * 4 + k]) * half[k];
-    box.low[i] = at[i] - reach, box.high[i] = at[i] + reach;
+    box.low[i] = at[i] - reach;
+    box.high[i] = at[i] + reach;
   }
   return box;
 }

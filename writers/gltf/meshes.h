@@ -5,8 +5,8 @@
 #include <unordered_map>
 
 #include "base/diagnostics.h"
-#include "scenegraph/transform.h"
 #include "geometry/vertices.h"
+#include "scenegraph/transform.h"
 #include "writers/gltf/box.h"
 #include "writers/gltf/materials.h"
 #include "writers/gltf/morphs.h"
@@ -32,10 +32,13 @@ struct Geometry {
   bool double_sided = false;
   bool opacity = false;  // its colours have one
   double scale = 0;      // how many times larger it is in the world, at most, where it is shown
-  std::vector<std::uint32_t> polygons;  // pairs: so many triangles were one face, so often; empty: all faces are triangles
+  std::vector<std::uint32_t>
+      polygons;  // pairs: so many triangles were one face, so often; empty: all faces are triangles
 
   bool empty() const { return positions == none; }
-  SurfaceKind surface() const { return {mode == Mode::triangles, colors != none, texcoords != none, lightcoords != none, double_sided, opacity}; }
+  SurfaceKind surface() const {
+    return {mode == Mode::triangles, colors != none, texcoords != none, lightcoords != none, double_sided, opacity};
+  }
 };
 
 struct MeshRecord {
@@ -49,9 +52,19 @@ struct MeshRecord {
 
 class Meshes {
  public:
-  /// `light`: places in lightmaps are kept. `ordered`: triangles and vertices come in the order in which they are drawn best.
-  Meshes(const Scene& scene, const MeshSource& source, const Motion& motion, Store& store, PartTable& parts, bool light, bool ordered, Diagnostics& diag)
-      : scene_(scene), source_(source), store_(store), parts_(parts), light_(light), ordered_(ordered), diag_(diag), morphs_(scene, motion, store, diag), by_node_(scene.node_count(), none) {}
+  /// `light`: places in lightmaps are kept. `ordered`: triangles and vertices come in the order in which they are drawn
+  /// best.
+  Meshes(const Scene& scene, const MeshSource& source, const Motion& motion, Store& store, PartTable& parts, bool light,
+         bool ordered, Diagnostics& diag)
+      : scene_(scene),
+        source_(source),
+        store_(store),
+        parts_(parts),
+        light_(light),
+        ordered_(ordered),
+        diag_(diag),
+        morphs_(scene, motion, store, diag),
+        by_node_(scene.node_count(), none) {}
 
   /// Index into geometries() of the data of a geometry node. Texture coordinates that the file does not give are there
   /// only for who has a picture.
@@ -70,7 +83,9 @@ class Meshes {
   /// Rows of the table of parts are in a mesh.
   bool any_features() const { return any_features_; }
   /// How far a mesh goes from its origin.
-  double reach(std::uint32_t mesh) const { return bounds(geometries_[meshes_[mesh].geometry], {}).reach() * std::sqrt(3.0); }
+  double reach(std::uint32_t mesh) const {
+    return bounds(geometries_[meshes_[mesh].geometry], {}).reach() * std::sqrt(3.0);
+  }
   const Morphs& morphs() const { return morphs_; }
   /// Of a geometry that is not empty, in a frame.
   Box bounds(const Geometry&, const Matrix&) const;

@@ -8,8 +8,8 @@
 namespace wrlkit::gltf {
 namespace {
 
-constexpr std::size_t large = 3 * 5000;       // corners from which overdraw counts for more than sharing indices
-constexpr float overdraw_threshold = 1.05f;   // how much worse the vertex cache may become for it
+constexpr std::size_t large = 3 * 5000;      // corners from which overdraw counts for more than sharing indices
+constexpr float overdraw_threshold = 1.05f;  // how much worse the vertex cache may become for it
 
 void permute(std::vector<float>& values, std::size_t width, std::span<const std::uint32_t> to) {
   if (values.empty()) return;
@@ -45,7 +45,8 @@ void order_for_drawing(Vertices& v) {
   std::vector<unsigned> index(v.index.size()), to(n);
   meshopt_optimizeVertexCacheStrip(index.data(), v.index.data(), index.size(), n);
   if (index.size() >= large)
-    meshopt_optimizeOverdraw(index.data(), std::vector(index).data(), index.size(), v.position.data(), n, 3 * sizeof(float), overdraw_threshold);
+    meshopt_optimizeOverdraw(index.data(), std::vector(index).data(), index.size(), v.position.data(), n,
+                             3 * sizeof(float), overdraw_threshold);
   if (meshopt_optimizeVertexFetchRemap(to.data(), index.data(), index.size(), n) != n) return;
   for (auto& i : index) i = to[i];
   v.index.assign(index.begin(), index.end());
@@ -61,7 +62,8 @@ std::string pack_elements(std::string_view bytes, std::size_t stride) {
   meshopt_encodeVertexVersion(0);
   const std::size_t n = bytes.size() / stride;
   std::string out(meshopt_encodeVertexBufferBound(n, stride), '\0');
-  out.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(out.data()), out.size(), bytes.data(), n, stride));
+  out.resize(
+      meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(out.data()), out.size(), bytes.data(), n, stride));
   return out;
 }
 
@@ -89,7 +91,8 @@ std::vector<float> undo_octahedral(std::string bytes) {
   std::vector<float> out;
   out.reserve(n * 3);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < 3; ++k) out.push_back(std::max(static_cast<signed char>(bytes[i * 4 + k]) / 127.0f, -1.0f));
+    for (std::size_t k = 0; k < 3; ++k)
+      out.push_back(std::max(static_cast<signed char>(bytes[i * 4 + k]) / 127.0f, -1.0f));
   return out;
 }
 

@@ -17,12 +17,17 @@ NodeId node_in(const Scene& scene, NodeId n, std::string_view field) {
 
 Vec3 minus(const double* a, const double* b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 Bounds bounds_of(const std::vector<float>& v) {
   Bounds b{{v[0], v[1], v[2]}, {v[0], v[1], v[2]}};
-  for (std::size_t i = 0; i < v.size(); ++i) b.low[i % 3] = std::min(b.low[i % 3], v[i]), b.high[i % 3] = std::max(b.high[i % 3], v[i]);
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    b.low[i % 3] = std::min(b.low[i % 3], v[i]);
+    b.high[i % 3] = std::max(b.high[i % 3], v[i]);
+  }
   return b;
 }
 
@@ -42,24 +47,29 @@ struct Morphs::Source {
 
 bool Morphs::moves(NodeId n) const {
   const NodeId coord = node_in(scene_, n, "coord"), normal = node_in(scene_, n, "normal");
-  return (scene_.is(coord, nodes::Coordinate) && motion_.moves(coord, nodes::coordinate::point.slot)) || (scene_.is(normal, nodes::Normal) && motion_.moves(normal, nodes::normal::vector.slot));
+  return (scene_.is(coord, nodes::Coordinate) && motion_.moves(coord, nodes::coordinate::point.slot)) ||
+         (scene_.is(normal, nodes::Normal) && motion_.moves(normal, nodes::normal::vector.slot));
 }
 
 bool Morphs::makes_normals(NodeId n) const {
   const NodeId coord = node_in(scene_, n, "coord");
-  return scene_.is(n, nodes::IndexedFaceSet) && !node_in(scene_, n, "normal") && scene_.is(coord, nodes::Coordinate) && motion_.moves(coord, nodes::coordinate::point.slot);
+  return scene_.is(n, nodes::IndexedFaceSet) && !node_in(scene_, n, "normal") && scene_.is(coord, nodes::Coordinate) &&
+         motion_.moves(coord, nodes::coordinate::point.slot);
 }
 
 std::uint32_t Morphs::add(NodeId n, const Mesh& mesh, const SplitScratch& scratch, const Vertices& vertices) {
   const NodeId coord = node_in(scene_, n, "coord"), normal = node_in(scene_, n, "normal");
   Source s{n, mesh, scratch, vertices};
   const bool moves = scene_.is(coord, nodes::Coordinate) && motion_.moves(coord, nodes::coordinate::point.slot);
-  const bool turns = scene_.is(normal, nodes::Normal) && motion_.moves(normal, nodes::normal::vector.slot) && !vertices.normal.empty();
+  const bool turns =
+      scene_.is(normal, nodes::Normal) && motion_.moves(normal, nodes::normal::vector.slot) && !vertices.normal.empty();
   s.made_normals = makes_normals(n) && !vertices.normal.empty();
   s.normals = turns || s.made_normals;
   if (s.made_normals) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> groups;
-    for (const auto& v : scratch.vertices) s.group.push_back(groups.try_emplace({v.position, v.normal}, static_cast<std::uint32_t>(groups.size())).first->second);
+    for (const auto& v : scratch.vertices)
+      s.group.push_back(
+          groups.try_emplace({v.position, v.normal}, static_cast<std::uint32_t>(groups.size())).first->second);
     s.n_groups = groups.size();
   }
   Morph m;
@@ -79,16 +89,21 @@ bool Morphs::collect(Morph& m, Source& s, NodeId node, std::uint16_t slot, bool 
   bool any = false;
   for (const auto& d : motion_.drives(node, slot)) {
     const NodeId interpolator = motion_.curve(d.curve).interpolator;
-    if (m.of_keys.contains(interpolator.value)) { any = true; continue; }
+    if (m.of_keys.contains(interpolator.value)) {
+      any = true;
+      continue;
+    }
     const std::size_t n_keys = keys(scene_, interpolator).size(), per_key = values_per_key(scene_, interpolator);
     const bool fits = per_key > highest && own == (normals ? s.mesh.normal.count() : s.mesh.n_positions());
     n_vertices_ += n_keys * s.vertices.count();
     if (!fits || m.targets.size() + n_keys > max_targets || n_vertices_ > max_vertices) {
-      diag_.report(Diag::no_gltf_value, scene_.where(interpolator), scene_.type(interpolator).name, fits ? "keyValue, as it is too long," : "keyValue, as it does not fit the points,");
+      diag_.report(Diag::no_gltf_value, scene_.where(interpolator), scene_.type(interpolator).name,
+                   fits ? "keyValue, as it is too long," : "keyValue, as it does not fit the points,");
       continue;
     }
     auto& list = m.of_keys[interpolator.value];
-    for (std::size_t k = 0; k < n_keys; ++k) list.push_back(target(m, s, key_values(scene_, interpolator).subspan(k * per_key * 3, per_key * 3), normals));
+    for (std::size_t k = 0; k < n_keys; ++k)
+      list.push_back(target(m, s, key_values(scene_, interpolator).subspan(k * per_key * 3, per_key * 3), normals));
     any = true;
   }
   if (any) m.inputs.push_back({node.value, slot});
@@ -106,12 +121,16 @@ std::uint32_t Morphs::target(Morph& m, Source& s, std::span<const double> values
     const double size = normals ? length({to[0], to[1], to[2]}) : 1;
     for (std::size_t k = 0; k < 3; ++k) {
       moved[3 * i + k] = to[k];
-      if (normals) normal[3 * i + k] = size > 0 ? to_float(to[k] / size) - s.vertices.normal[3 * i + k] : 0;
-      else position[3 * i + k] = to_float(to[k] - s.mesh.positions[std::size_t{3} * v.position + k]);
+      if (normals)
+        normal[3 * i + k] = size > 0 ? to_float(to[k] / size) - s.vertices.normal[3 * i + k] : 0;
+      else
+        position[3 * i + k] = to_float(to[k] - s.mesh.positions[std::size_t{3} * v.position + k]);
     }
   }
   if (!normals && s.made_normals) normal = normals_at(s, moved);
-  auto still = [](const std::vector<float>& v) { return std::ranges::all_of(v, [](float x) { return std::abs(x) < 1e-12f; }); };
+  auto still = [](const std::vector<float>& v) {
+    return std::ranges::all_of(v, [](float x) { return std::abs(x) < 1e-12f; });
+  };
   if (still(position) && ((!normals && s.made_normals) || still(normal))) return none;  // normals are made to rounding
   Morph::Target t;
   t.positions = store_.positions(position, bounds_of(position));
@@ -128,7 +147,8 @@ std::vector<float> Morphs::normals_at(const Source& s, const std::vector<double>
   std::vector<Vec3> sums(s.n_groups, Vec3{0, 0, 0});
   for (std::size_t t = 0; t + 2 < index.size(); t += 3)
     for (std::size_t k = 0; k < 3; ++k) {
-      const double *a = &p[std::size_t{3} * index[t + k]], *b = &p[std::size_t{3} * index[t + (k + 1) % 3]], *c = &p[std::size_t{3} * index[t + (k + 2) % 3]];
+      const double *a = &p[std::size_t{3} * index[t + k]], *b = &p[std::size_t{3} * index[t + (k + 1) % 3]],
+                   *c = &p[std::size_t{3} * index[t + (k + 2) % 3]];
       const Vec3 x = minus(b, a), y = minus(c, a), up = cross(x, y);
       const double size = length(up), angle = std::atan2(size, dot(x, y));
       if (!(size > 0)) continue;
@@ -139,7 +159,8 @@ std::vector<float> Morphs::normals_at(const Source& s, const std::vector<double>
   for (std::size_t v = 0; v < s.group.size(); ++v) {
     const Vec3& sum = sums[s.group[v]];
     const double size = length(sum);
-    for (std::size_t i = 0; size > 0 && i < 3; ++i) out[3 * v + i] = static_cast<float>(sum[i] / size - s.vertices.normal[3 * v + i]);
+    for (std::size_t i = 0; size > 0 && i < 3; ++i)
+      out[3 * v + i] = static_cast<float>(sum[i] / size - s.vertices.normal[3 * v + i]);
   }
   return out;
 }

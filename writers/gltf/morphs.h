@@ -1,9 +1,10 @@
-// Morph targets: what a CoordinateInterpolator does to the points of a geometry, and a NormalInterpolator to its normals.
+// Morph targets: what a CoordinateInterpolator does to the points of a geometry, and a NormalInterpolator to its
+// normals.
 //
-// Each different value among the keys is a target, so far from what the file says as the value is; the weights are 1 for the
-// key that is reached and 0 for the others. Between two keys they go evenly, as the points do. Where the file gives no
-// normals, those of the moved points are made, within the smoothing groups that the points as they stand have; between keys they
-// go evenly, which is right at the keys only.
+// Each different value among the keys is a target, so far from what the file says as the value is; the weights are 1
+// for the key that is reached and 0 for the others. Between two keys they go evenly, as the points do. Where the file
+// gives no normals, those of the moved points are made, within the smoothing groups that the points as they stand have;
+// between keys they go evenly, which is right at the keys only.
 #pragma once
 #include <deque>
 
@@ -27,7 +28,8 @@ class Morphs {
   static constexpr std::size_t max_targets = 1000;            // of one geometry
   static constexpr std::uint64_t max_vertices = 100'000'000;  // of all targets
 
-  Morphs(const Scene& scene, const Motion& motion, Store& store, Diagnostics& diag) : scene_(scene), motion_(motion), store_(store), diag_(diag) {}
+  Morphs(const Scene& scene, const Motion& motion, Store& store, Diagnostics& diag)
+      : scene_(scene), motion_(motion), store_(store), diag_(diag) {}
 
   /// Does anything move its points or normals?
   bool moves(NodeId geometry) const;

@@ -51,7 +51,8 @@ const Row* row_of(TypeId interpolator, TypeId type, std::uint16_t slot) {
       {PositionInterpolator2D, TextureTransform, texture_transform::scale.slot, pointers},
       {PositionInterpolator2D, TextureTransform, texture_transform::translation.slot, pointers},
       {ScalarInterpolator, TextureTransform, texture_transform::rotation.slot, pointers}};
-  auto i = std::ranges::find_if(rows, [&](const Row& r) { return r.interpolator == interpolator && r.type == type && r.slot == slot; });
+  auto i = std::ranges::find_if(
+      rows, [&](const Row& r) { return r.interpolator == interpolator && r.type == type && r.slot == slot; });
   return i == std::end(rows) ? nullptr : i;
 }
 
@@ -59,7 +60,8 @@ const Row* row_of(TypeId interpolator, TypeId type, std::uint16_t slot) {
 bool turns_uneven(const Scene& scene, NodeId n, std::uint16_t slot) {
   namespace t = nodes::texture_transform;
   const Vec2 scale = scene.get(n, t::scale);
-  return (slot == t::rotation.slot && scale[0] != scale[1]) || (slot == t::scale.slot && scene.get(n, t::rotation) != 0);
+  return (slot == t::rotation.slot && scale[0] != scale[1]) ||
+         (slot == t::scale.slot && scene.get(n, t::rotation) != 0);
 }
 
 }  // namespace
@@ -76,7 +78,8 @@ Motion::Motion(const Scene& scene, Reach reach, Diagnostics& diag) : scene_(scen
 }
 
 void Motion::run(NodeId clock) {
-  steps_.clear(), seen_.clear();
+  steps_.clear();
+  seen_.clear();
   steps_.push_back({clock, nodes::time_sensor::fraction_changed.slot, no_curve, nullptr, 0});
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const Step at = steps_[i];
@@ -84,9 +87,12 @@ void Motion::run(NodeId clock) {
       const auto from = scene_.type(at.node).find(r->second->event_out, scene_.dialect(), true);
       if (from != at.slot) continue;
       steps_.push_back(at);
-      steps_.back().by = r->second, steps_.back().before = i;
-      if (!take(at, *r->second)) steps_.pop_back();
-      else arrive(steps_.back(), clock);
+      steps_.back().by = r->second;
+      steps_.back().before = i;
+      if (!take(at, *r->second))
+        steps_.pop_back();
+      else
+        arrive(steps_.back(), clock);
     }
   }
 }
@@ -107,14 +113,21 @@ bool Motion::take(const Step& at, const Route& r) {
     curves_.push_back({NodeId{}, {{0, 0}, {1, 1}}});
     return true;
   }
-  const bool scalar = at.curve == no_curve || !curves_[at.curve].interpolator || scene_.is(curves_[at.curve].interpolator, nodes::ScalarInterpolator);
-  auto curve = scalar ? follow(scene_, r.to, at.curve == no_curve ? Ramp{} : ramp_of(scene_, curves_[at.curve]), max_frames - n_frames_) : std::nullopt;
+  const bool scalar = at.curve == no_curve || !curves_[at.curve].interpolator ||
+                      scene_.is(curves_[at.curve].interpolator, nodes::ScalarInterpolator);
+  auto curve = scalar ? follow(scene_, r.to, at.curve == no_curve ? Ramp{} : ramp_of(scene_, curves_[at.curve]),
+                               max_frames - n_frames_)
+                      : std::nullopt;
   if (!curve) {
-    if (scalar && !keys(scene_, r.to).empty() && told_.insert(r.to.value).second) diag_.report(Diag::no_gltf_value, scene_.where(r.to), type.name, "key, as it does not ascend,");
+    if (scalar && !keys(scene_, r.to).empty() && told_.insert(r.to.value).second)
+      diag_.report(Diag::no_gltf_value, scene_.where(r.to), type.name, "key, as it does not ascend,");
     return false;
   }
   n_frames_ += curve->frames.size();
-  if (n_frames_ >= max_frames) return diag_.report(Diag::expansion_limit, scene_.where(r.to), max_frames, "keys of animations"), false;
+  if (n_frames_ >= max_frames) {
+    diag_.report(Diag::expansion_limit, scene_.where(r.to), max_frames, "keys of animations");
+    return false;
+  }
   next.slot = *type.find("value_changed", scene_.dialect(), true);
   next.curve = static_cast<std::uint32_t>(curves_.size());
   curves_.push_back(std::move(*curve));
@@ -124,12 +137,15 @@ bool Motion::take(const Step& at, const Route& r) {
 void Motion::arrive(const Step& at, NodeId clock) {
   if (is_interpolator(scene_, at.node)) return;
   const NodeId interpolator = curves_[at.curve].interpolator;
-  const Row* row = row_of(interpolator ? scene_.type_id(interpolator) : nodes::ScalarInterpolator, scene_.type_id(at.node), at.slot);
+  const Row* row =
+      row_of(interpolator ? scene_.type_id(interpolator) : nodes::ScalarInterpolator, scene_.type_id(at.node), at.slot);
   if (!row) return;
   if (scene_.is(at.node, nodes::TextureTransform) && turns_uneven(scene_, at.node, at.slot))
-    return diag_.report(Diag::no_gltf_value, scene_.where(at.node), "TextureTransform", "rotation, with a scale that is not even,");
+    return diag_.report(Diag::no_gltf_value, scene_.where(at.node), "TextureTransform",
+                        "rotation, with a scale that is not even,");
   if (row->reach > reach_) {
-    diag_.report(Diag::no_gltf_pointer, scene_.where(at.node), scene_.type(at.node).name, scene_.type(at.node).fields[at.slot].name_in(scene_.dialect()));
+    diag_.report(Diag::no_gltf_pointer, scene_.where(at.node), scene_.type(at.node).name,
+                 scene_.type(at.node).fields[at.slot].name_in(scene_.dialect()));
     return;
   }
   fields_[{at.node.value, at.slot}].push_back({clock, at.curve});

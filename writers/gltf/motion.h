@@ -1,9 +1,10 @@
-// What the ROUTEs of a scene move without a Script: from the fraction of a TimeSensor through interpolators, which may stand
-// one behind the other, to fields of nodes, and from a field that is moved to others that follow it.
+// What the ROUTEs of a scene move without a Script: from the fraction of a TimeSensor through interpolators, which may
+// stand one behind the other, to fields of nodes, and from a field that is moved to others that follow it.
 //
-// Core glTF says translation, rotation and scale of a Transform, position and orientation of a Viewpoint, the location of a
-// light, the points of a Coordinate and the vectors of a Normal (as morph targets). By KHR_animation_pointer: colours and
-// numbers of materials and lights, fieldOfView, and TextureTransform. A number can be the fraction itself. What moves anything else is kept in extras and lost.
+// Core glTF says translation, rotation and scale of a Transform, position and orientation of a Viewpoint, the location
+// of a light, the points of a Coordinate and the vectors of a Normal (as morph targets). By KHR_animation_pointer:
+// colours and numbers of materials and lights, fieldOfView, and TextureTransform. A number can be the fraction itself.
+// What moves anything else is kept in extras and lost.
 #pragma once
 #include <map>
 #include <set>
@@ -15,7 +16,8 @@ namespace wrlkit::gltf {
 
 class Motion {
  public:
-  static constexpr std::size_t max_frames = 4'000'000;  // of all curves: interpolators behind one another multiply theirs
+  static constexpr std::size_t max_frames =
+      4'000'000;  // of all curves: interpolators behind one another multiply theirs
 
   /// Which fields count: none, those of core glTF, or those of KHR_animation_pointer as well.
   enum class Reach : std::uint8_t { nothing, core, pointers };
@@ -42,9 +44,9 @@ class Motion {
   struct Step {
     NodeId node;
     std::uint16_t slot;
-    std::uint32_t curve;     // none: the clock itself
+    std::uint32_t curve;  // none: the clock itself
     const Route* by;
-    std::size_t before;      // into steps_
+    std::size_t before;  // into steps_
   };
   void run(NodeId clock);
   bool take(const Step&, const Route&);
@@ -63,7 +65,7 @@ class Motion {
   std::set<Field> seen_;  // of one clock
   std::size_t n_frames_ = 0, n_routes_ = 0;
   std::map<std::uint32_t, std::pair<std::size_t, std::size_t>> routes_;  // of a clock or interpolator: all, expressed
-  std::set<std::uint32_t> told_;  // interpolators
+  std::set<std::uint32_t> told_;                                         // interpolators
 };
 
 }  // namespace wrlkit::gltf

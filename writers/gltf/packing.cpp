@@ -11,14 +11,16 @@ namespace wrlkit::gltf {
 namespace {
 
 constexpr double usual_tolerance = 1e-3, usual_part_of_world = 8192;
-constexpr double least_steps = 16;  // along the longest side of a mesh: what is smaller than the tolerance is still to be seen
-constexpr int most_halvings = 4;        // of a step on which faces would vanish
+constexpr double least_steps =
+    16;  // along the longest side of a mesh: what is smaller than the tolerance is still to be seen
+constexpr int most_halvings = 4;    // of a step on which faces would vanish
 constexpr int more_light_bits = 2;  // a lightmap's texels are small, and those of other charts lie beside them
 
 double tolerance_for(const GltfCompression& options, const Box& world) {
   if (options.tolerance > 0) return options.tolerance;
   const double extent = world.extent();
-  return extent > 0 && std::isfinite(extent) ? std::min(usual_tolerance, extent / usual_part_of_world) : usual_tolerance;
+  return extent > 0 && std::isfinite(extent) ? std::min(usual_tolerance, extent / usual_part_of_world)
+                                             : usual_tolerance;
 }
 
 /// Whether 24 bits with a sign count the steps to all of them; further out floats themselves say more.
@@ -47,10 +49,13 @@ Packing::Packing(const GltfCompression& options, const Store& from, const Meshes
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Geometry& g = meshes.geometries()[records[i].geometry];
     const bool still = g.mode == Mode::triangles && g.morph == none;
-    streams_[i] = options_.method != Method::draco ? packed(streams_[i]) : still ? draco(streams_[i]) : copied(streams_[i]);
+    streams_[i] = options_.method != Method::draco ? packed(streams_[i])
+                  : still                          ? draco(streams_[i])
+                                                   : copied(streams_[i]);
   }
   double rest = summary_.tolerance - summary_.position;
-  if (options_.method == Method::meshopt && !hierarchy.instances().empty() && rest > 0) rest -= summary_.placement = pack_places(hierarchy, rest / 2);
+  if (options_.method == Method::meshopt && !hierarchy.instances().empty() && rest > 0)
+    rest -= summary_.placement = pack_places(hierarchy, rest / 2);
   pack_others();
   if (rest > 0) summary_.placement += hierarchy.round_transforms(rest);
   hierarchy.dequantize([&](std::uint32_t mesh) { return dequantization(records[mesh]); });
@@ -75,7 +80,10 @@ void Packing::note_uses(const Hierarchy& hierarchy) {
   for (const Node& n : hierarchy.nodes()) {
     if (n.instances == none || options_.method != Method::quantize) continue;
     const auto positions = meshes_.geometries()[meshes_.meshes()[n.attached].geometry].positions;
-    if (to_[positions] == none) ++summary_.kept, copied(positions, View::position);
+    if (to_[positions] == none) {
+      ++summary_.kept;
+      copied(positions, View::position);
+    }
   }
 }
 
@@ -83,16 +91,26 @@ void Packing::note_uses(const Hierarchy& hierarchy) {
 void Packing::keep_floats(const Geometry& g) {
   copied(g.positions, View::position);
   copied(g.normals, View::normal);
-  for (const auto& t : meshes_.morphs()[g.morph].targets) copied(t.positions, View::position), copied(t.normals, View::normal);
+  for (const auto& t : meshes_.morphs()[g.morph].targets) {
+    copied(t.positions, View::position);
+    copied(t.normals, View::normal);
+  }
 }
 
 Streams Packing::packed(const Streams& s) {
-  return {positions(s.positions), normals(s.normals), colors(s.colors), texcoords(s.texcoords), texcoords(s.lightcoords), indices(s.indices), s.features == none ? none : copied(s.features, View::feature)};
+  return {positions(s.positions),
+          normals(s.normals),
+          colors(s.colors),
+          texcoords(s.texcoords),
+          texcoords(s.lightcoords),
+          indices(s.indices),
+          s.features == none ? none : copied(s.features, View::feature)};
 }
 
 Streams Packing::copied(const Streams& s) {
   auto copy = [&](std::uint32_t a) { return a == none ? none : copied(a, from_.accessors()[a].view); };
-  return {copy(s.positions), copy(s.normals), copy(s.colors), copy(s.texcoords), copy(s.lightcoords), copy(s.indices), copy(s.features)};
+  return {copy(s.positions),   copy(s.normals), copy(s.colors),  copy(s.texcoords),
+          copy(s.lightcoords), copy(s.indices), copy(s.features)};
 }
 
 /// Meshes with the same values are one, whatever their material.
@@ -101,7 +119,10 @@ Streams Packing::draco(const Streams& s) {
   auto [known, is_new] = by_draco_.try_emplace(s);
   if (!is_new) return known->second;
   const double grid = step(s.positions), scale = std::max(scale_[s.positions], 0.0);
-  if (!fits_grid(floats(s.positions), grid)) return ++summary_.kept, known->second = copied(s);
+  if (!fits_grid(floats(s.positions), grid)) {
+    ++summary_.kept;
+    return known->second = copied(s);
+  }
   double error = 0;
   const auto xyz = snapped(floats(s.positions), 3, grid, error);
   std::vector<std::vector<float>> values;
@@ -122,16 +143,28 @@ Streams Packing::draco(const Streams& s) {
   constexpr float most_features = 65535;
   if (s.features != none) {
     add(s.features, DracoValues::Kind::feature, 0);
-    if (std::ranges::max(values.back()) > most_features) return ++summary_.kept, known->second = copied(s);
+    if (std::ranges::max(values.back()) > most_features) {
+      ++summary_.kept;
+      return known->second = copied(s);
+    }
   }
   const auto index = corners(s.indices, xyz.size() / 3);
   auto mesh = draco_pack(all, index, grid, options_.level);
-  if (!mesh || mesh->n_corners == 0 || mesh->bytes.size() + json_of_view >= raw) return ++summary_.kept, known->second = copied(s);
+  if (!mesh || mesh->n_corners == 0 || mesh->bytes.size() + json_of_view >= raw) {
+    ++summary_.kept;
+    return known->second = copied(s);
+  }
   summary_.position = std::max(summary_.position, error * scale);
   Bounds box{{xyz[0], xyz[1], xyz[2]}, {xyz[0], xyz[1], xyz[2]}};
-  for (std::size_t i = 0; i < xyz.size(); ++i) box.low[i % 3] = std::min(box.low[i % 3], xyz[i]), box.high[i % 3] = std::max(box.high[i % 3], xyz[i]);
-  auto described = [&](std::uint32_t a) { return a == none ? none : own_.described(from_.accessors()[a].view, mesh->n_vertices); };
-  Streams out{own_.described(View::position, mesh->n_vertices, &box), described(s.normals), described(s.colors), described(s.texcoords), described(s.lightcoords)};
+  for (std::size_t i = 0; i < xyz.size(); ++i) {
+    box.low[i % 3] = std::min(box.low[i % 3], xyz[i]);
+    box.high[i % 3] = std::max(box.high[i % 3], xyz[i]);
+  }
+  auto described = [&](std::uint32_t a) {
+    return a == none ? none : own_.described(from_.accessors()[a].view, mesh->n_vertices);
+  };
+  Streams out{own_.described(View::position, mesh->n_vertices, &box), described(s.normals), described(s.colors),
+              described(s.texcoords), described(s.lightcoords)};
   if (s.features != none) out.features = own_.described(View::short_feature, mesh->n_vertices);
   out.indices = own_.described(mesh->n_vertices <= 65535 ? View::index16 : View::index32, mesh->n_corners);
   out.draco = static_cast<std::uint32_t>(blobs_.size());
@@ -151,7 +184,8 @@ double Packing::pack_places(const Hierarchy& hierarchy, double tolerance) {
     if (n.instances == none) continue;
     const Instances& all = hierarchy.instances()[n.instances];
     double stretch = 0;
-    for (const Trs& t : all.places) stretch = std::max({stretch, std::abs(t.scale[0]), std::abs(t.scale[1]), std::abs(t.scale[2])});
+    for (const Trs& t : all.places)
+      stretch = std::max({stretch, std::abs(t.scale[0]), std::abs(t.scale[1]), std::abs(t.scale[2])});
     const double reach = std::max(meshes_.reach(n.attached) * growth[id], 1e-9);
     note(all.translations, grid_step(tolerance / 2 / std::max(growth[id], 1e-9)));
     // A turn by four numbers that are each wrong by half a step moves a point by at most two steps of its distance.
@@ -160,7 +194,8 @@ double Packing::pack_places(const Hierarchy& hierarchy, double tolerance) {
   }
   for (const auto& [accessor, step] : steps) {
     const bool turns = from_.accessors()[accessor].view == View::moving4;
-    once(accessor, [&, accessor = accessor, step = step, view = turns ? View::place4 : View::place3, width = turns ? 4u : 3u] { return own_.raw(view, on_grid(floats(accessor), width, step).bytes); });
+    once(accessor, [&, accessor = accessor, step = step, view = turns ? View::place4 : View::place3,
+                    width = turns ? 4u : 3u] { return own_.raw(view, on_grid(floats(accessor), width, step).bytes); });
   }
   return tolerance;
 }
@@ -199,7 +234,10 @@ std::vector<std::uint32_t> Packing::corners(std::uint32_t indices, std::size_t n
   if (indices == none || index.empty()) return index;
   const std::string bytes = from_.bytes(indices);
   const std::size_t width = bytes.size() / index.size();
-  for (std::size_t i = 0; i < index.size(); ++i) index[i] = 0, std::memcpy(&index[i], bytes.data() + i * width, width);
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    index[i] = 0;
+    std::memcpy(&index[i], bytes.data() + i * width, width);
+  }
   return index;
 }
 
@@ -208,15 +246,21 @@ double Packing::step(std::uint32_t accessor) const {
   const Bounds& b = from_.bounds_of(accessor);
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, double{b.high[k]} - b.low[k]);
-  if (options_.position_bits > 0 && extent > 0) return std::exp2(std::ceil(std::log2(extent / ((1 << options_.position_bits) - 1))));
-  const double scale = scale_[accessor], s = grid_step(summary_.tolerance / (scale > 0 && std::isfinite(scale) ? scale : 1));
+  if (options_.position_bits > 0 && extent > 0)
+    return std::exp2(std::ceil(std::log2(extent / ((1 << options_.position_bits) - 1))));
+  const double scale = scale_[accessor],
+               s = grid_step(summary_.tolerance / (scale > 0 && std::isfinite(scale) ? scale : 1));
   double fine = extent > 0 && s * least_steps > extent ? std::exp2(std::floor(std::log2(extent / least_steps))) : s;
   const auto faces = faces_.find(accessor);
   if (faces == faces_.end()) return fine;
   const auto xyz = floats(accessor);
   for (auto indices : faces->second) {
     const auto index = corners(indices, xyz.size() / 3);
-    for (int more = 0; more < most_halvings && loses_faces(xyz, index, fine, summary_.tolerance / (scale > 0 && std::isfinite(scale) ? scale : 1)); ++more) fine /= 2;
+    for (int more = 0;
+         more < most_halvings &&
+         loses_faces(xyz, index, fine, summary_.tolerance / (scale > 0 && std::isfinite(scale) ? scale : 1));
+         ++more)
+      fine /= 2;
   }
   return fine;
 }
@@ -226,7 +270,10 @@ std::uint32_t Packing::positions(std::uint32_t accessor) {
     const auto xyz = floats(accessor);
     const double s = step(accessor), scale = std::max(scale_[accessor], 0.0);
     auto note = [&](const Quantized& q) { summary_.position = std::max(summary_.position, q.error * scale); };
-    if (options_.method == Method::meshopt && !fits_grid(xyz, s)) return ++summary_.kept, own_.raw(View::position, from_.bytes(accessor), &from_.bounds_of(accessor));
+    if (options_.method == Method::meshopt && !fits_grid(xyz, s)) {
+      ++summary_.kept;
+      return own_.raw(View::position, from_.bytes(accessor), &from_.bounds_of(accessor));
+    }
     if (options_.method == Method::meshopt) {
       const auto q = on_grid(xyz, 3, s);
       note(q);
@@ -234,7 +281,10 @@ std::uint32_t Packing::positions(std::uint32_t accessor) {
     }
     const Bounds& b = from_.bounds_of(accessor);
     for (std::size_t k = 0; k < 3; ++k)
-      if ((double{b.high[k]} - b.low[k]) / s > 65534) return ++summary_.kept, own_.raw(View::position, from_.bytes(accessor), &b);
+      if ((double{b.high[k]} - b.low[k]) / s > 65534) {
+        ++summary_.kept;
+        return own_.raw(View::position, from_.bytes(accessor), &b);
+      }
     const auto q = short_positions(xyz, s);
     note(q.values);
     short_.emplace(accessor, Dequantization{q.origin, s});
@@ -245,7 +295,8 @@ std::uint32_t Packing::positions(std::uint32_t accessor) {
 std::uint32_t Packing::normals(std::uint32_t accessor) {
   return once(accessor, [&] {
     const bool filtered = options_.method == Method::meshopt;
-    const auto q = filtered ? octahedral_normals(floats(accessor), options_.normal_bits) : byte_normals(floats(accessor));
+    const auto q =
+        filtered ? octahedral_normals(floats(accessor), options_.normal_bits) : byte_normals(floats(accessor));
     summary_.normal = std::max(summary_.normal, q.error);
     return own_.raw(filtered ? View::oct_normal : View::byte_normal, q.bytes);
   });
@@ -266,7 +317,10 @@ std::uint32_t Packing::texcoords(std::uint32_t accessor) {
     const int bits = std::min(options_.texcoord_bits + (light_[accessor] ? more_light_bits : 0), 16);
     const bool in_picture = std::ranges::all_of(uv, [](float v) { return v >= 0 && v <= 1; });
     const bool on_a_grid = options_.method == Method::meshopt;
-    if (!on_a_grid && !in_picture) return ++summary_.kept, own_.raw(View::texcoord, from_.bytes(accessor));
+    if (!on_a_grid && !in_picture) {
+      ++summary_.kept;
+      return own_.raw(View::texcoord, from_.bytes(accessor));
+    }
     const auto q = on_a_grid ? on_grid(uv, 2, std::exp2(-bits)) : shorts(uv, 2, bits);
     summary_.texcoord = std::max(summary_.texcoord, q.error);
     return own_.raw(on_a_grid ? View::grid_texcoord : View::short_texcoord, q.bytes);

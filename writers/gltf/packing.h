@@ -1,6 +1,6 @@
-// Vertices and indices as they are stored: as they are, quantised, or quantised and packed. This is done last, when it is
-// known how large the world is and how much every mesh is scaled where it is shown: the grid of a mesh is as fine as the
-// tolerance asks for in the world.
+// Vertices and indices as they are stored: as they are, quantised, or quantised and packed. This is done last, when it
+// is known how large the world is and how much every mesh is scaled where it is shown: the grid of a mesh is as fine as
+// the tolerance asks for in the world.
 #pragma once
 #include "writers/gltf/gltf.h"
 #include "writers/gltf/hierarchy.h"
@@ -10,14 +10,16 @@ namespace wrlkit::gltf {
 
 /// Accessors of one mesh.
 struct Streams {
-  std::uint32_t positions = none, normals = none, colors = none, texcoords = none, lightcoords = none, indices = none, features = none;
+  std::uint32_t positions = none, normals = none, colors = none, texcoords = none, lightcoords = none, indices = none,
+                features = none;
   std::uint32_t draco = none;  // into Packing::blobs: the values of all of them
   auto operator<=>(const Streams&) const = default;
 };
 
 class Packing {
  public:
-  /// Reads `from` and the meshes; with 16-bit positions, nodes of the hierarchy get the scale that makes metres of them.
+  /// Reads `from` and the meshes; with 16-bit positions, nodes of the hierarchy get the scale that makes metres of
+  /// them.
   Packing(const GltfCompression&, const Store& from, const Meshes&, Hierarchy&);
 
   const Store& store() const { return *store_; }
@@ -66,8 +68,9 @@ class Packing {
   const Store* store_;
   std::vector<Streams> streams_;
   std::vector<std::uint32_t> to_;
-  std::vector<double> scale_;          // of accessors of positions: how much larger they are in the world
-  std::map<std::uint32_t, std::vector<std::uint32_t>> faces_;  // by accessor of positions: of indices of triangles; none: as they stand
+  std::vector<double> scale_;  // of accessors of positions: how much larger they are in the world
+  std::map<std::uint32_t, std::vector<std::uint32_t>>
+      faces_;                                // by accessor of positions: of indices of triangles; none: as they stand
   std::vector<std::uint8_t> lines_, light_;  // accessors of indices that are not triangles; of places in lightmaps
   std::unordered_map<std::uint32_t, Dequantization> short_;  // of accessors of positions
   std::vector<std::string> blobs_;

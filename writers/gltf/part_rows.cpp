@@ -1,5 +1,5 @@
-// --names table: groups that do nothing but hold parts, and the parts in them, become rows of the table of names; what a mesh
-// is placed by becomes a table of places, whatever group it was in.
+// --names table: groups that do nothing but hold parts, and the parts in them, become rows of the table of names; what
+// a mesh is placed by becomes a table of places, whatever group it was in.
 #include <algorithm>
 #include <cmath>
 
@@ -19,12 +19,13 @@ bool mirrors(const Trs& t) { return !(t.scale[0] * t.scale[1] * t.scale[2] > 0);
 bool Hierarchy::stays_a_node(const Node& n) const {
   if (n.lod || (n.source && animations_.moves(n.source))) return true;
   const Trs t = n.transform == none ? Trs{} : transforms_[n.transform];
-  if (n.attachment == Attachment::nothing) return mirrors(t) || !(!n.source || scene_.is(n.source, nodes::Transform) || scene_.is(n.source, nodes::Group));
+  if (n.attachment == Attachment::nothing)
+    return mirrors(t) || !(!n.source || scene_.is(n.source, nodes::Transform) || scene_.is(n.source, nodes::Group));
   return !only_places_a_mesh(n, {});  // where it is comes later
 }
 
-/// Marks what has to be a node: what is one for itself, what holds such a node, and parts whose place in the nearest node that
-/// stays is none that a table can say. `frame` has that place.
+/// Marks what has to be a node: what is one for itself, what holds such a node, and parts whose place in the nearest
+/// node that stays is none that a table can say. `frame` has that place.
 bool Hierarchy::find_nodes_that_stay(const Family& family, std::vector<char>& stays, std::vector<Matrix>& frame) const {
   for (std::uint32_t id = 0; id < nodes_.size(); ++id) stays[id] = stays_a_node(nodes_[id]);
   animations_.mark_targets(stays);
@@ -71,11 +72,15 @@ void Hierarchy::make_part_rows() {
       holder[id] = id;
       continue;
     }
-    if (above != none) holder[id] = holder[above], row[id] = row[above];
+    if (above != none) {
+      holder[id] = holder[above];
+      row[id] = row[above];
+    }
     // What is empty but has a name is a row, too.
     if (n.source && !scene_.name(n.source).empty()) row[id] = parts_.add(scene_.name(n.source), row[id]);
     if (n.attachment != Attachment::mesh) continue;
-    const auto [at, is_new] = known.try_emplace({holder[id], n.attached}, static_cast<std::uint32_t>(instances_.size()));
+    const auto [at, is_new] =
+        known.try_emplace({holder[id], n.attached}, static_cast<std::uint32_t>(instances_.size()));
     if (is_new) {
       instances_.emplace_back();
       (holder[id] == none ? in_root : in[holder[id]]).push_back(static_cast<std::uint32_t>(nodes_.size()));

@@ -1,11 +1,11 @@
 // Names of parts, as the rows of a table that feature ids lead to: those of merged meshes (EXT_mesh_features), and with
-// --names table also those of places (EXT_instance_features). A row is a part or a group; it has a name, and the row of the
-// group that it is in.
+// --names table also those of places (EXT_instance_features). A row is a part or a group; it has a name, and the row of
+// the group that it is in.
 //
 //   0: Plant, in nothing   1: Unit_1, in 0   2: Pump, in 1
 //
-// --names table writes them as a property table (EXT_structural_metadata) with the columns "name" and "parent". Otherwise
-// they are a list in the extras of the asset, of the names on the way to each part: "Plant/Unit_1/Pump".
+// --names table writes them as a property table (EXT_structural_metadata) with the columns "name" and "parent".
+// Otherwise they are a list in the extras of the asset, of the names on the way to each part: "Plant/Unit_1/Pump".
 #pragma once
 #include <cstdint>
 #include <map>
@@ -41,8 +41,8 @@ class PartTable {
 
   bool columns() const { return columns_; }
   const std::vector<Row>& rows() const { return rows_; }
-  /// The columns, in 16 or 32 bits as they need; when they are to be packed in 32. All texts; where each begins, and where the
-  /// last ends; parents, and what stands for none.
+  /// The columns, in 16 or 32 bits as they need; when they are to be packed in 32. All texts; where each begins, and
+  /// where the last ends; parents, and what stands for none.
   Column texts() const;
   Column offsets(bool packed) const;
   Column parents(bool packed) const;

@@ -21,7 +21,8 @@ class Pointers {
   void material(const Materials::Moved& m) {
     const std::string at = "/materials/" + std::to_string(m.material);
     if (m.transform)
-      for (std::string_view picture : m.mapped) texture_transform(at + "/" + std::string(picture) + "/extensions/KHR_texture_transform", m.transform);
+      for (std::string_view picture : m.mapped)
+        texture_transform(at + "/" + std::string(picture) + "/extensions/KHR_texture_transform", m.transform);
     if (!m.source) return;
     // The fields that are looked at, a missing one as it stands.
     auto base = [=](In in, Out& out) {
@@ -29,7 +30,8 @@ class Pointers {
       for (std::size_t i = 0; i < 3; ++i) out.push_back(linear(color[i]));
       out.push_back(m.shows_alpha ? 1 - unit_range(in.back().value({1 - m.alpha})[0]) : m.alpha);
     };
-    add(at + "/pbrMetallicRoughness/baseColorFactor", 4, m.source, {m.base_field, m.shows_alpha ? "transparency" : ""}, base, false);
+    add(at + "/pbrMetallicRoughness/baseColorFactor", 4, m.source, {m.base_field, m.shows_alpha ? "transparency" : ""},
+        base, false);
     auto emissive = [=](In in, Out& out) {
       for (double v : vec3(in[0].value(sample(m.emissive)))) out.push_back(linear(v));
     };
@@ -37,12 +39,16 @@ class Pointers {
     if (!m.lit) return;
     if (scene_.is(m.source, nodes::PhysicalMaterial)) {
       for (auto [field, factor] : {std::pair{"metallic", "metallicFactor"}, {"roughness", "roughnessFactor"}})
-        add(at + "/pbrMetallicRoughness/" + factor, 1, m.source, {field}, [](In in, Out& out) { out.push_back(unit_range(in[0].value({})[0])); }, false);
+        add(
+            at + "/pbrMetallicRoughness/" + factor, 1, m.source, {field},
+            [](In in, Out& out) { out.push_back(unit_range(in[0].value({})[0])); }, false);
       return;
     }
     const double shininess = scene_.get(m.source, nodes::material::shininess);
     const Vec3 specular = scene_.get(m.source, nodes::material::specularColor);
-    auto rough = [=](In in, Out& out) { out.push_back(roughness(in[0].value({shininess})[0], vec3(in[1].value(sample(specular))))); };
+    auto rough = [=](In in, Out& out) {
+      out.push_back(roughness(in[0].value({shininess})[0], vec3(in[1].value(sample(specular)))));
+    };
     add(at + "/pbrMetallicRoughness/roughnessFactor", 1, m.source, {"shininess", "specularColor"}, rough, false);
   }
 
@@ -53,29 +59,42 @@ class Pointers {
     };
     add(at + "/color", 3, l.source, {"color"}, color, false);
     const double full = full_intensity(scene_, l, world);
-    add(at + "/intensity", 1, l.source, {"intensity"}, [full](In in, Out& out) { out.push_back(full * std::max(in[0].value({})[0], 0.0)); }, false);
+    add(
+        at + "/intensity", 1, l.source, {"intensity"},
+        [full](In in, Out& out) { out.push_back(full * std::max(in[0].value({})[0], 0.0)); }, false);
   }
 
   void camera(std::size_t i, NodeId n) {
-    if (scene_.is(n, nodes::Viewpoint)) add("/cameras/" + std::to_string(i) + "/perspective/yfov", 1, n, {"fieldOfView"}, [](In in, Out& out) { out.push_back(in[0].value({})[0]); }, true);
+    if (scene_.is(n, nodes::Viewpoint))
+      add(
+          "/cameras/" + std::to_string(i) + "/perspective/yfov", 1, n, {"fieldOfView"},
+          [](In in, Out& out) { out.push_back(in[0].value({})[0]); }, true);
   }
 
   /// KHR_texture_transform counts from the top, and scales before it turns: a turn has an even scale.
   void texture_transform(const std::string& at, NodeId n) {
     namespace f = nodes::texture_transform;
-    const Vec2 center = scene_.get(n, f::center), scale = scene_.get(n, f::scale), shift = scene_.get(n, f::translation);
+    const Vec2 center = scene_.get(n, f::center), scale = scene_.get(n, f::scale),
+               shift = scene_.get(n, f::translation);
     const double rotation = scene_.get(n, f::rotation);
     const bool turns = rotation != 0 || animations_.motion().moves(n, f::rotation.slot);
-    auto two = [](const Property::At& in, const Vec2& still) { const Sample s = in.value({still[0], still[1]}); return Vec2{s[0], s[1]}; };
+    auto two = [](const Property::At& in, const Vec2& still) {
+      const Sample s = in.value({still[0], still[1]});
+      return Vec2{s[0], s[1]};
+    };
     auto offset = [=](In in, Out& out) {
-      const UvAffine a = uv_affine(two(in[0], center), two(in[1], scale), in[2].value({rotation})[0], two(in[3], shift));
-      out.push_back(a.xy + a.x), out.push_back(1 - a.yy - a.y);
+      const UvAffine a =
+          uv_affine(two(in[0], center), two(in[1], scale), in[2].value({rotation})[0], two(in[3], shift));
+      out.push_back(a.xy + a.x);
+      out.push_back(1 - a.yy - a.y);
     };
     auto size = [=](In in, Out& out) {
       const Vec2 s = two(in[0], scale);
       for (double v : s) out.push_back(turns ? std::abs(v) : v);
     };
-    auto turn = [=](In in, Out& out) { out.push_back(in[0].value({rotation})[0] + (scale[0] < 0 ? std::numbers::pi : 0)); };
+    auto turn = [=](In in, Out& out) {
+      out.push_back(in[0].value({rotation})[0] + (scale[0] < 0 ? std::numbers::pi : 0));
+    };
     add(at + "/offset", 2, n, {"center", "scale", "rotation", "translation"}, offset, false);
     add(at + "/scale", 2, n, {"scale"}, size, true);
     if (turns) add(at + "/rotation", 1, n, {"rotation"}, turn, true);
@@ -86,7 +105,8 @@ class Pointers {
   static Vec3 vec3(const Sample& s) { return {s[0], s[1], s[2]}; }
 
   /// Unless none of the fields is moved.
-  void add(std::string pointer, std::size_t width, NodeId source, std::initializer_list<std::string_view> fields, Property::Evaluate evaluate, bool straight) {
+  void add(std::string pointer, std::size_t width, NodeId source, std::initializer_list<std::string_view> fields,
+           Property::Evaluate evaluate, bool straight) {
     Property p{{}, std::move(pointer), width, {}, std::move(evaluate), straight};
     bool moved = false;
     for (auto f : fields) {

@@ -1,5 +1,5 @@
-// What KHR_animation_pointer moves: base colour with opacity, emission, metal and roughness of materials, colour and intensity
-// of lights, the angle of cameras, as the fields of VRML that they were made of.
+// What KHR_animation_pointer moves: base colour with opacity, emission, metal and roughness of materials, colour and
+// intensity of lights, the angle of cameras, as the fields of VRML that they were made of.
 #pragma once
 #include "writers/gltf/animations.h"
 #include "writers/gltf/hierarchy.h"

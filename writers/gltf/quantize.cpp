@@ -30,20 +30,24 @@ void add(Bounds& bounds, std::span<const float> v, bool first) {
 /// Between two directions, neither of which need have unit length.
 double angle(const float* a, const float* b) {
   double dot = 0, aa = 0, bb = 0;
-  for (std::size_t k = 0; k < 3; ++k) dot += double{a[k]} * b[k], aa += double{a[k]} * a[k], bb += double{b[k]} * b[k];
+  for (std::size_t k = 0; k < 3; ++k) {
+    dot += double{a[k]} * b[k];
+    aa += double{a[k]} * a[k];
+    bb += double{b[k]} * b[k];
+  }
   return std::acos(std::clamp(dot / std::sqrt(std::max(aa * bb, 1e-30)), -1.0, 1.0));
 }
 
 }  // namespace
 
-double grid_step(double tolerance) {
-  return std::exp2(std::floor(std::log2(2 * tolerance / std::numbers::sqrt3)));
-}
+double grid_step(double tolerance) { return std::exp2(std::floor(std::log2(2 * tolerance / std::numbers::sqrt3))); }
 
 std::vector<float> snapped(std::span<const float> values, std::size_t width, double step, double& error) {
   std::vector<float> out(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) out[i] = static_cast<float>(std::round(values[i] / step) * step + 0.0);  // no -0
-  for (std::size_t i = 0; i + width <= values.size(); i += width) error = std::max(error, distance(values.subspan(i, width), &out[i]));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    out[i] = static_cast<float>(std::round(values[i] / step) * step + 0.0);  // no -0
+  for (std::size_t i = 0; i + width <= values.size(); i += width)
+    error = std::max(error, distance(values.subspan(i, width), &out[i]));
   return out;
 }
 
@@ -57,8 +61,10 @@ Quantized on_grid(std::span<const float> values, std::size_t width, double step)
   Quantized out;
   const auto floats = snapped(values, width, step, out.error);
   out.bytes.reserve(floats.size() * 4);
-  for (float v : floats) put(out.bytes, exponent | (static_cast<std::uint32_t>(static_cast<std::int32_t>(v / step)) & 0xffffff));
-  for (std::size_t i = 0; i + width <= floats.size(); i += width) add(out.bounds, std::span(floats).subspan(i, width), i == 0);
+  for (float v : floats)
+    put(out.bytes, exponent | (static_cast<std::uint32_t>(static_cast<std::int32_t>(v / step)) & 0xffffff));
+  for (std::size_t i = 0; i + width <= floats.size(); i += width)
+    add(out.bounds, std::span(floats).subspan(i, width), i == 0);
   return out;
 }
 

@@ -1,5 +1,5 @@
-// Numbers with fewer bits. Positions of all meshes lie on one grid: its step is a power of two, and its points are whole
-// multiples of the step in every local frame. What two parts share they share afterwards, too: no cracks.
+// Numbers with fewer bits. Positions of all meshes lie on one grid: its step is a power of two, and its points are
+// whole multiples of the step in every local frame. What two parts share they share afterwards, too: no cracks.
 #pragma once
 #include <span>
 #include <string>
@@ -13,8 +13,8 @@ double grid_step(double tolerance);
 
 struct Quantized {
   std::string bytes;
-  Bounds bounds{};     // of positions: the numbers that are stored; with the filter, what it makes of them
-  double error = 0;    // largest distance that a value moved: length, or for normals the angle in radians
+  Bounds bounds{};   // of positions: the numbers that are stored; with the filter, what it makes of them
+  double error = 0;  // largest distance that a value moved: length, or for normals the angle in radians
 };
 
 /// Floats of `width` components on a grid, in the form from which the filter EXPONENTIAL makes floats: 24 bits of a

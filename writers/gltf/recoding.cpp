@@ -33,7 +33,8 @@ double psnr_of(const Image& a, const Image& b) {
   for (std::size_t i = 0; i < a.pixels.size(); i += n)
     for (std::size_t c = 0; c < n; ++c) {
       const bool is_color = c < colors && colors < n;
-      const double alpha_a = is_color ? a.pixels[i + colors] / 255.0 : 1, alpha_b = is_color ? b.pixels[i + colors] / 255.0 : 1;
+      const double alpha_a = is_color ? a.pixels[i + colors] / 255.0 : 1,
+                   alpha_b = is_color ? b.pixels[i + colors] / 255.0 : 1;
       const double d = a.pixels[i + c] * alpha_a - b.pixels[i + c] * alpha_b;
       sum += d * d;
     }
@@ -45,20 +46,24 @@ double psnr_of(const Image& a, const Image& b) {
 
 bool may_recode(const GltfTextures& options, const PlainFile& plain, int width, int height) {
   const bool smaller = options.size > 0 && std::max(width, height) > options.size;
-  const bool other = (options.format == Format::png && plain.mime != png) || (options.format == Format::jpeg && plain.mime != jpeg) || options.format == Format::webp;
+  const bool other = (options.format == Format::png && plain.mime != png) ||
+                     (options.format == Format::jpeg && plain.mime != jpeg) || options.format == Format::webp;
   return plain.mime.empty() || smaller || other;
 }
 
-std::optional<Recoded> recoded(const Image& original, PixelMeaning meaning, const PlainFile& plain, const GltfTextures& options, std::string& error) {
+std::optional<Recoded> recoded(const Image& original, PixelMeaning meaning, const PlainFile& plain,
+                               const GltfTextures& options, std::string& error) {
   const auto size = fitting_size(original, options.size);
   Recoded out{{}, target(original, meaning, plain, options.format), size != ImageSize{original.width, original.height}};
   if (out.mime == plain.mime && !out.resized) return std::nullopt;
   Image image = resized(original, size, meaning);
   const bool clear = alpha_of(image) != Alpha::opaque;
-  if (out.mime == jpeg || (out.mime == webp && !clear)) image = with_channels(std::move(image), image.channels < 3 ? 1 : 3);
+  if (out.mime == jpeg || (out.mime == webp && !clear))
+    image = with_channels(std::move(image), image.channels < 3 ? 1 : 3);
   auto bytes = encoded(image, out.mime, options.quality, error);
   if (!bytes) return std::nullopt;
-  if (!plain.mime.empty() && !out.resized && options.format != Format::png && bytes->size() >= plain.bytes) return std::nullopt;
+  if (!plain.mime.empty() && !out.resized && options.format != Format::png && bytes->size() >= plain.bytes)
+    return std::nullopt;
   out.bytes = std::move(*bytes);
   if (out.mime == png) return out;
   auto seen = decode_image(out.bytes, {}, error);

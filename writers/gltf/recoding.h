@@ -1,10 +1,13 @@
 // Pictures written anew, smaller.
 //
-// - Lossy formats are for colours: pictures of normals, roughness and the like keep their format and only become smaller.
-// - JPEG has no alpha: a picture that is clear somewhere keeps its format. WebP has no grey, which to VRML is something else than
+// - Lossy formats are for colours: pictures of normals, roughness and the like keep their format and only become
+// smaller.
+// - JPEG has no alpha: a picture that is clear somewhere keeps its format. WebP has no grey, which to VRML is something
+// else than
 //   colours: grey pictures become JPEG instead, or keep their format if they have alpha.
 // - A picture that would not get smaller stays as it is, unless its size was to change.
-// - WebP stands alone (EXT_texture_webp, required): a second picture for viewers that do not know it would take more than
+// - WebP stands alone (EXT_texture_webp, required): a second picture for viewers that do not know it would take more
+// than
 //   what WebP saves. For those there is JPEG.
 #pragma once
 #include <optional>

@@ -14,34 +14,33 @@ constexpr std::size_t max_vertices_16 = 65535;
 const ViewInfo& info(View v) {
   using enum Filter;
   constexpr bool yes = true, no = false;
-  static constexpr ViewInfo table[n_views] = {
-      {12, float_, yes, no, no, "VEC3", none, "positions"},
-      {12, float_, yes, no, no, "VEC3", none, "normals"},
-      {12, float_, yes, no, no, "VEC3", none, "colors"},
-      {16, float_, yes, no, no, "VEC4", none, "colors"},
-      {8, float_, yes, no, no, "VEC2", none, "texcoords"},
-      {2, unsigned_short, no, yes, no, "SCALAR", none, "indices"},
-      {4, unsigned_int, no, yes, no, "SCALAR", none, "indices"},
-      {4, float_, no, no, no, "SCALAR", none, "animation"},
-      {4, float_, no, no, no, "SCALAR", none, "animation"},
-      {8, float_, no, no, no, "VEC2", none, "animation"},
-      {12, float_, no, no, no, "VEC3", none, "places"},
-      {16, float_, no, no, no, "VEC4", none, "places"},
-      {8, short_, yes, no, no, "VEC3", none, "positions"},
-      {4, byte, yes, no, yes, "VEC3", none, "normals"},
-      {8, unsigned_short, yes, no, yes, "VEC3", none, "colors"},
-      {8, unsigned_short, yes, no, yes, "VEC4", none, "colors"},
-      {4, unsigned_short, yes, no, yes, "VEC2", none, "texcoords"},
-      {12, float_, yes, no, no, "VEC3", exponential, "positions"},
-      {4, byte, yes, no, yes, "VEC3", octahedral, "normals"},
-      {8, float_, yes, no, no, "VEC2", exponential, "texcoords"},
-      {2, unsigned_short, no, yes, no, "SCALAR", none, "indices"},
-      {4, unsigned_int, no, yes, no, "SCALAR", none, "indices"},
-      {4, float_, yes, no, no, "SCALAR", none, "features"},
-      {4, float_, no, no, no, "SCALAR", none, "features"},
-      {12, float_, no, no, no, "VEC3", exponential, "places"},
-      {16, float_, no, no, no, "VEC4", exponential, "places"},
-      {4, unsigned_short, yes, no, no, "SCALAR", none, "features"}};
+  static constexpr ViewInfo table[n_views] = {{12, float_, yes, no, no, "VEC3", none, "positions"},
+                                              {12, float_, yes, no, no, "VEC3", none, "normals"},
+                                              {12, float_, yes, no, no, "VEC3", none, "colors"},
+                                              {16, float_, yes, no, no, "VEC4", none, "colors"},
+                                              {8, float_, yes, no, no, "VEC2", none, "texcoords"},
+                                              {2, unsigned_short, no, yes, no, "SCALAR", none, "indices"},
+                                              {4, unsigned_int, no, yes, no, "SCALAR", none, "indices"},
+                                              {4, float_, no, no, no, "SCALAR", none, "animation"},
+                                              {4, float_, no, no, no, "SCALAR", none, "animation"},
+                                              {8, float_, no, no, no, "VEC2", none, "animation"},
+                                              {12, float_, no, no, no, "VEC3", none, "places"},
+                                              {16, float_, no, no, no, "VEC4", none, "places"},
+                                              {8, short_, yes, no, no, "VEC3", none, "positions"},
+                                              {4, byte, yes, no, yes, "VEC3", none, "normals"},
+                                              {8, unsigned_short, yes, no, yes, "VEC3", none, "colors"},
+                                              {8, unsigned_short, yes, no, yes, "VEC4", none, "colors"},
+                                              {4, unsigned_short, yes, no, yes, "VEC2", none, "texcoords"},
+                                              {12, float_, yes, no, no, "VEC3", exponential, "positions"},
+                                              {4, byte, yes, no, yes, "VEC3", octahedral, "normals"},
+                                              {8, float_, yes, no, no, "VEC2", exponential, "texcoords"},
+                                              {2, unsigned_short, no, yes, no, "SCALAR", none, "indices"},
+                                              {4, unsigned_int, no, yes, no, "SCALAR", none, "indices"},
+                                              {4, float_, yes, no, no, "SCALAR", none, "features"},
+                                              {4, float_, no, no, no, "SCALAR", none, "features"},
+                                              {12, float_, no, no, no, "VEC3", exponential, "places"},
+                                              {16, float_, no, no, no, "VEC4", exponential, "places"},
+                                              {4, unsigned_short, yes, no, no, "SCALAR", none, "features"}};
   return table[static_cast<std::size_t>(v)];
 }
 
@@ -104,7 +103,10 @@ std::uint32_t Store::add(View view, const void* data, std::size_t n_bytes) {
   auto hash = static_cast<std::uint32_t>(whole ^ whole >> 32) + static_cast<std::uint32_t>(view);
   Slot& slot = find(view, data, n_bytes, hash);
   if (slot.accessor != none) return slot.accessor;
-  if (bytes() + n_bytes > limit) return full_ = true, none;
+  if (bytes() + n_bytes > limit) {
+    full_ = true;
+    return none;
+  }
   auto& blocks = views_[static_cast<std::size_t>(view)];
   Accessor a{static_cast<std::uint32_t>(blocks.size()), static_cast<std::uint32_t>(n_bytes / info(view).element), none,
              view};

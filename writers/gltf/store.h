@@ -17,13 +17,34 @@ namespace wrlkit::gltf {
 inline constexpr std::uint32_t none = 0xffffffffu;
 
 enum class View : std::uint8_t {
-  position, normal, rgb, rgba, texcoord, index16, index32, time, moving1, moving2, moving3, moving4,
+  position,
+  normal,
+  rgb,
+  rgba,
+  texcoord,
+  index16,
+  index32,
+  time,
+  moving1,
+  moving2,
+  moving3,
+  moving4,
   // Quantised (gltf_packing.h). "grid": floats on a grid; "sequence": indices that are not those of triangles.
-  short_position, byte_normal, short_rgb, short_rgba, short_texcoord, grid_position, oct_normal, grid_texcoord, sequence16, sequence32,
+  short_position,
+  byte_normal,
+  short_rgb,
+  short_rgba,
+  short_texcoord,
+  grid_position,
+  oct_normal,
+  grid_texcoord,
+  sequence16,
+  sequence32,
   feature,  // numbers of parts, of vertices
   part,     // the same, of places
-  place3, place4,  // of instances, on a grid
-  short_feature    // in the data of Draco
+  place3,
+  place4,        // of instances, on a grid
+  short_feature  // in the data of Draco
 };
 inline constexpr std::size_t n_views = 27;
 

@@ -45,7 +45,8 @@ std::optional<Picture> untouched(const std::shared_ptr<const Blob>& blob, std::s
   Picture p{honest_name(blob->name, mime), mime, blob->bytes, blob};
   if (portable.cleaned) {
     auto bytes = std::make_shared<const std::string>(std::move(*portable.cleaned));
-    p.bytes = *bytes, p.owner = bytes;
+    p.bytes = *bytes;
+    p.owner = bytes;
   }
   return p;
 }
@@ -88,7 +89,8 @@ TextureUse Textures::make(NodeId n, PixelMeaning meaning) {
 }
 
 std::shared_ptr<const Image> Textures::image(NodeId n) {
-  if (scene_.is(n, nodes::ImageTexture) && resources_) return resources_->image(scene_.get(n, nodes::image_texture::url), scene_.where(n), diag_);
+  if (scene_.is(n, nodes::ImageTexture) && resources_)
+    return resources_->image(scene_.get(n, nodes::image_texture::url), scene_.where(n), diag_);
   auto pixels = scene_.is(n, nodes::PixelTexture) ? image_of(scene_.get(n, nodes::pixel_texture::image)) : std::nullopt;
   return pixels ? std::make_shared<const Image>(std::move(*pixels)) : nullptr;
 }
@@ -104,7 +106,10 @@ TextureUse Textures::brightness(NodeId n, double scale) {
     double y = scale * (0.2126 * part(0) + 0.7152 * part(1) + 0.0722 * part(2));  // ITU-R BT.709
     grey.pixels.push_back(static_cast<std::uint8_t>(unit_range(y) * 255 + 0.5));
   }
-  return at->second = make(n, stored(n, scene_.name(n).empty() ? "light" : std::string(scene_.name(n)) + "_light", grey, PixelMeaning::data), {false, false});
+  return at->second = make(n,
+                           stored(n, scene_.name(n).empty() ? "light" : std::string(scene_.name(n)) + "_light", grey,
+                                  PixelMeaning::data),
+                           {false, false});
 }
 
 TextureUse Textures::make(NodeId n, const Loaded& loaded, Sampler sampler) {
@@ -132,7 +137,8 @@ Textures::Loaded Textures::load_file(NodeId n, PixelMeaning meaning) {
   const auto header = read_image_header(blob->bytes, blob->name);
   auto plain = header ? untouched(blob, header->mime) : std::nullopt;
   Loaded loaded;
-  if (plain && !header->alpha && !may_recode(options_, {plain->mime, plain->bytes.size()}, header->width, header->height))
+  if (plain && !header->alpha &&
+      !may_recode(options_, {plain->mime, plain->bytes.size()}, header->width, header->height))
     loaded = {add(std::move(*plain)), header->channels, Alpha::opaque};
   else if (auto image = resources_->image(urls, scene_.where(n), diag_))
     loaded = stored(n, blob->name, *image, meaning, blob->bytes.size(), std::move(plain));
@@ -152,7 +158,8 @@ Textures::Loaded Textures::load_pixels(NodeId n, PixelMeaning meaning) {
 }
 
 /// In the format and size that are asked for, of a file of so many bytes; `plain`: glTF would take that.
-Textures::Loaded Textures::stored(NodeId n, const std::string& name, const Image& image, PixelMeaning meaning, std::size_t bytes_before, std::optional<Picture> plain) {
+Textures::Loaded Textures::stored(NodeId n, const std::string& name, const Image& image, PixelMeaning meaning,
+                                  std::size_t bytes_before, std::optional<Picture> plain) {
   const PlainFile file{plain ? plain->mime : std::string_view(), plain ? plain->bytes.size() : bytes_before};
   std::string error;
   auto made = recoded(image, meaning, file, options_, error);
@@ -161,8 +168,10 @@ Textures::Loaded Textures::stored(NodeId n, const std::string& name, const Image
   const Alpha alpha = alpha_of(image);
   if (!made) return {add(std::move(*plain)), image.channels, alpha};
   if (file.bytes > 0 || made->resized || made->psnr > 0) {
-    ++recoding_.pictures, recoding_.resized += made->resized;
-    recoding_.before += file.bytes, recoding_.after += made->bytes.size();
+    ++recoding_.pictures;
+    recoding_.resized += made->resized;
+    recoding_.before += file.bytes;
+    recoding_.after += made->bytes.size();
     if (made->psnr > 0) recoding_.psnr = recoding_.psnr > 0 ? std::min(recoding_.psnr, made->psnr) : made->psnr;
   }
   auto bytes = std::make_shared<const std::string>(std::move(made->bytes));

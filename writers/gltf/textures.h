@@ -71,7 +71,8 @@ class Textures {
   Loaded load_file(NodeId, PixelMeaning);
   std::shared_ptr<const Image> image(NodeId);
   Loaded load_pixels(NodeId, PixelMeaning);
-  Loaded stored(NodeId, const std::string& name, const Image&, PixelMeaning, std::size_t bytes = 0, std::optional<Picture> plain = {});
+  Loaded stored(NodeId, const std::string& name, const Image&, PixelMeaning, std::size_t bytes = 0,
+                std::optional<Picture> plain = {});
   std::uint32_t add(Picture);
 
   const Scene& scene_;

@@ -88,7 +88,8 @@ std::optional<Trs> trs_of(const Matrix& m) {
     t.translation[static_cast<std::size_t>(c)] = m(c, 3);
   }
   for (int c = 0; c < 3; ++c)
-    if (std::abs(r(0, c) * r(0, (c + 1) % 3) + r(1, c) * r(1, (c + 1) % 3) + r(2, c) * r(2, (c + 1) % 3)) > square) return std::nullopt;
+    if (std::abs(r(0, c) * r(0, (c + 1) % 3) + r(1, c) * r(1, (c + 1) % 3) + r(2, c) * r(2, (c + 1) % 3)) > square)
+      return std::nullopt;
   if (!(r.determinant() > 0)) return std::nullopt;
   // The largest of the four is found first, so that nothing is divided by a small number.
   const double xx = r(0, 0), yy = r(1, 1), zz = r(2, 2);
@@ -97,7 +98,8 @@ std::optional<Trs> trs_of(const Matrix& m) {
   const double s = 2 * std::sqrt(std::max(quarter[static_cast<std::size_t>(most)] + 1, 0.0));
   const double wx = (r(2, 1) - r(1, 2)) / s, wy = (r(0, 2) - r(2, 0)) / s, wz = (r(1, 0) - r(0, 1)) / s;
   const double xy = (r(0, 1) + r(1, 0)) / s, xz = (r(0, 2) + r(2, 0)) / s, yz = (r(1, 2) + r(2, 1)) / s;
-  const std::array<Quaternion, 4> all{{{wx, wy, wz, s / 4}, {s / 4, xy, xz, wx}, {xy, s / 4, yz, wy}, {xz, yz, s / 4, wz}}};
+  const std::array<Quaternion, 4> all{
+      {{wx, wy, wz, s / 4}, {s / 4, xy, xz, wx}, {xy, s / 4, yz, wy}, {xz, yz, s / 4, wz}}};
   t.rotation = all[static_cast<std::size_t>(most)];
   for (double* v : {&t.rotation.x, &t.rotation.y, &t.rotation.z, &t.rotation.w})
     if (std::abs(*v) < square) *v = 0;
@@ -111,8 +113,13 @@ double largest_scale(const Matrix& m) {
   double largest = 0, sum = 0, dots = 0;
   for (int c = 0; c < 3; ++c) {
     double square = 0, dot = 0;
-    for (int r = 0; r < 3; ++r) square += m(r, c) * m(r, c), dot += m(r, c) * m(r, (c + 1) % 3);
-    largest = std::max(largest, square), sum += square, dots = std::max(dots, std::abs(dot));
+    for (int r = 0; r < 3; ++r) {
+      square += m(r, c) * m(r, c);
+      dot += m(r, c) * m(r, (c + 1) % 3);
+    }
+    largest = std::max(largest, square);
+    sum += square;
+    dots = std::max(dots, std::abs(dot));
   }
   return std::sqrt(dots <= 1e-9 * sum ? largest : sum);
 }

@@ -4,9 +4,12 @@
 
 namespace wrlkit {
 
-std::vector<std::string> led_urls(const Scene& scene, Span where, std::span<const std::string_view> urls, std::string_view file, const PlaceMade& place) {
+std::vector<std::string> led_urls(const Scene& scene, Span where, std::span<const std::string_view> urls,
+                                  std::string_view file, const PlaceMade& place) {
   namespace fs = std::filesystem;
-  auto folder = [](std::string_view f) { return (fs::absolute("." / fs::path(f).parent_path()) / "").lexically_normal(); };
+  auto folder = [](std::string_view f) {
+    return (fs::absolute("." / fs::path(f).parent_path()) / "").lexically_normal();
+  };
   std::vector<std::string> led(urls.begin(), urls.end());
   const auto is_made = [](std::string_view url) { return url.starts_with(made_scheme); };
   if (place && std::ranges::any_of(urls, is_made)) {

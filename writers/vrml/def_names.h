@@ -1,5 +1,5 @@
-// What the writers of VRML and X3D have in common: the order of what is printed, names that a USE finds again, and urls that
-// still lead to their files.
+// What the writers of VRML and X3D have in common: the order of what is printed, names that a USE finds again, and urls
+// that still lead to their files.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -13,16 +13,20 @@
 
 namespace wrlkit {
 
-/// Calls proto(ProtoId) and node(NodeId) in the order in which a scope is printed: prototypes first, but those whose name
-/// means something else as well, where they stood: one that is declared again, of the standard, or of nodes that nobody knew.
+/// Calls proto(ProtoId) and node(NodeId) in the order in which a scope is printed: prototypes first, but those whose
+/// name means something else as well, where they stood: one that is declared again, of the standard, or of nodes that
+/// nobody knew.
 template <class P, class N>
-void for_each_statement(const Scene& scene, Dialect dialect, const std::unordered_set<std::string_view>& unknown, const Scope& s, P&& proto, N&& node) {
+void for_each_statement(const Scene& scene, Dialect dialect, const std::unordered_set<std::string_view>& unknown,
+                        const Scope& s, P&& proto, N&& node) {
   std::unordered_set<std::string_view> declared;
   std::vector<ProtoId> later;
   for (ProtoId p : s.protos) {
     auto name = scene.type(scene.proto(p).type).name;
-    if (declared.insert(name).second && later.empty() && !unknown.contains(name) && !find_builtin(name, dialect)) proto(p);
-    else later.push_back(p);
+    if (declared.insert(name).second && later.empty() && !unknown.contains(name) && !find_builtin(name, dialect))
+      proto(p);
+    else
+      later.push_back(p);
   }
   auto next = later.begin();
   for (std::size_t i = 0; i < s.roots.size(); ++i) {
@@ -33,8 +37,8 @@ void for_each_statement(const Scene& scene, Dialect dialect, const std::unordere
 }
 
 /// Output names of a scope and of the bodies of its prototypes, which are scopes of their own: what stands in one and
-/// outside is printed in both. A name may be defined several times: USE means the last one before it (4.4.3). Nodes are met in
-/// the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own.
+/// outside is printed in both. A name may be defined several times: USE means the last one before it (4.4.3). Nodes are
+/// met in the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own.
 class Names {
  public:
   Names(const Scene& scene, Dialect dialect, bool own_fields)
@@ -49,23 +53,29 @@ class Names {
   void scope(const Scope& s) {
     ++scope_;
     last_.clear();
-    auto defaults = [&](ProtoId p) { for (auto& f : scene_.type(scene_.proto(p).type).fields) meet(f.default_value.node_span()); };
+    auto defaults = [&](ProtoId p) {
+      for (auto& f : scene_.type(scene_.proto(p).type).fields) meet(f.default_value.node_span());
+    };
     for_each_statement(scene_, dialect_, unknown_, s, defaults, [&](NodeId n) { meet({&n, 1}); });
     for (auto& i : s.imports) {
       referred(i.inline_node);
       if (auto name = scene_.name(i.node); !last_.try_emplace(name, i.node).second) given_[i.node.value] = fresh(name);
     }
-    for (auto& r : s.routes) referred(r.from), referred(r.to);
+    for (auto& r : s.routes) {
+      referred(r.from);
+      referred(r.to);
+    }
     for (auto& e : s.exports) referred(e.node);
-    for_each_statement(scene_, dialect_, unknown_, s, [&](ProtoId p) { scope(scene_.proto(p).body); }, [](NodeId) {});
+    for_each_statement(
+        scene_, dialect_, unknown_, s, [&](ProtoId p) { scope(scene_.proto(p).body); }, [](NodeId) {});
   }
   std::string_view operator[](NodeId n) const {
     auto i = given_.find(n.value);
     return i == given_.end() ? scene_.name(n) : std::string_view(i->second);
   }
 
-  /// Written fields in the order of the table, unknown ones behind; in X3D metadata before all. Without `own_fields` those
-  /// that no standard has are left out.
+  /// Written fields in the order of the table, unknown ones behind; in X3D metadata before all. Without `own_fields`
+  /// those that no standard has are left out.
   std::vector<const Value*> printed_order(NodeId n) const {
     const auto& t = scene_.type(n);
     auto hidden = [&](const Value& f) { return !own_fields_ && !scene_.is_extra(f) && t.fields[f.slot].is_own(); };
@@ -75,7 +85,9 @@ class Names {
     auto by_slot = [](const Value* a, const Value* b) { return a->slot < b->slot; };
     if (!std::ranges::is_sorted(v, by_slot)) std::ranges::stable_sort(v, by_slot);
     if (dialect_ == Dialect::x3d && !v.empty())
-      std::stable_partition(v.begin(), v.end(), [&](const Value* f) { return !scene_.is_extra(*f) && t.fields[f->slot].name == "metadata"; });
+      std::stable_partition(v.begin(), v.end(), [&](const Value* f) {
+        return !scene_.is_extra(*f) && t.fields[f->slot].name == "metadata";
+      });
     return v;
   }
 
@@ -86,7 +98,10 @@ class Names {
       NodeId n = stack.back();
       stack.pop_back();
       if (!n) continue;
-      if (std::exchange(met_[n.value], scope_) == scope_) { referred(n); continue; }
+      if (std::exchange(met_[n.value], scope_) == scope_) {
+        referred(n);
+        continue;
+      }
       if (auto name = scene_.name(n); !name.empty()) last_[name] = n;
       auto mark = stack.size();
       for_each_printed_child(n, [&](NodeId c) { stack.push_back(c); });
@@ -133,6 +148,7 @@ class Names {
 
 /// Urls are relative to the file that they stand in. Those of an inlined world, and those of a world that is written
 /// to `file`, elsewhere, are led to the folder they mean; those of a list that a pass has written to what it has made.
-std::vector<std::string> led_urls(const Scene&, Span where, std::span<const std::string_view> urls, std::string_view file, const PlaceMade& place);
+std::vector<std::string> led_urls(const Scene&, Span where, std::span<const std::string_view> urls,
+                                  std::string_view file, const PlaceMade& place);
 
 }  // namespace wrlkit

@@ -12,10 +12,18 @@ namespace {
 class Writer {
  public:
   Writer(const Scene& scene, const VrmlOptions& options, const Sink& sink)
-      : scene_(scene), options_(options), out_(sink), names_(scene, Dialect::vrml97, options.own_fields), printed_(scene.node_count(), 0) {}
+      : scene_(scene),
+        options_(options),
+        out_(sink),
+        names_(scene, Dialect::vrml97, options.own_fields),
+        printed_(scene.node_count(), 0) {}
 
   void file() {
-    out_ << (!vrml1_ ? "#VRML V2.0 utf8" : scene_.header.empty() ? "#VRML V1.0 ascii" : scene_.header) << '\n' << scene_.comment;
+    out_ << (!vrml1_                 ? "#VRML V2.0 utf8"
+             : scene_.header.empty() ? "#VRML V1.0 ascii"
+                                     : scene_.header)
+         << '\n'
+         << scene_.comment;
     names_.scope(scene_.main);
     scope(scene_.main);
   }
@@ -32,7 +40,16 @@ class Writer {
   }
 
   void scope(const Scope& s) {
-    for_each_statement(scene_, Dialect::vrml97, names_.unknown(), s, [&](ProtoId p) { line_start(); proto(scene_.proto(p)); }, [&](NodeId n) { line_start(); node(n); });
+    for_each_statement(
+        scene_, Dialect::vrml97, names_.unknown(), s,
+        [&](ProtoId p) {
+          line_start();
+          proto(scene_.proto(p));
+        },
+        [&](NodeId n) {
+          line_start();
+          node(n);
+        });
     for (auto& r : s.routes) {
       if (printed_[r.from.value] != scope_ || printed_[r.to.value] != scope_) continue;
       line_start();
@@ -54,12 +71,18 @@ class Writer {
     for (const auto& f : t.fields) {
       line();
       declaration(f);
-      if (!p.external && f.has_value()) { out_ << ' '; value(f.default_value); }
+      if (!p.external && f.has_value()) {
+        out_ << ' ';
+        value(f.default_value);
+      }
     }
     --depth_;
     if (!t.fields.empty()) line();
     out_ << "] ";
-    if (p.external) { urls(p.where, p.urls); return; }
+    if (p.external) {
+      urls(p.where, p.urls);
+      return;
+    }
     out_ << '{';
     ++depth_;
     body(p.body);
@@ -83,10 +106,16 @@ class Writer {
   }
 
   void node(NodeId n) {
-    if (!n) { out_ << "NULL"; return; }
+    if (!n) {
+      out_ << "NULL";
+      return;
+    }
     auto name = names_[n];
     auto& printed = printed_[n.value];
-    if (printed == scope_) { out_ << "USE " << name; return; }
+    if (printed == scope_) {
+      out_ << "USE " << name;
+      return;
+    }
     if (printed) again_.emplace_back(n.value, printed);
     printed = scope_;
     if (!name.empty()) out_ << "DEF " << name << ' ';
@@ -98,7 +127,10 @@ class Writer {
     const auto written = names_.printed_order(n);
     for (const Value* v : written)
       if (v->slot < own) empty &= !field(n, *v);
-    for (std::size_t i = own; i < scene_.type(n).fields.size(); ++i) own_field(n, static_cast<std::uint16_t>(i)), empty = false;
+    for (std::size_t i = own; i < scene_.type(n).fields.size(); ++i) {
+      own_field(n, static_cast<std::uint16_t>(i));
+      empty = false;
+    }
     for (const bool children : {true, false})  // before fields without a value, which would take a node for it
       for (const Value* v : written)
         if (scene_.is_extra(*v) && is_children(n, *v) == children) empty &= !field(n, *v);
@@ -111,11 +143,14 @@ class Writer {
   bool declarations(NodeId n) {
     std::vector<const ExtraField*> own;
     for (const Value& v : scene_.fields(n))
-      if (scene_.is_extra(v) && v.extra->value.type != FieldType::verbatim && info(v.extra->value.type).element != Element::node && v.extra->name != "isA") own.push_back(v.extra);
+      if (scene_.is_extra(v) && v.extra->value.type != FieldType::verbatim &&
+          info(v.extra->value.type).element != Element::node && v.extra->name != "isA")
+        own.push_back(v.extra);
     if (own.empty()) return false;
     line();
     out_ << "fields [ ";
-    for (std::size_t i = 0; i < own.size(); ++i) out_ << (i ? ", " : "") << info(own[i]->value.type).name << ' ' << own[i]->name;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      out_ << (i ? ", " : "") << info(own[i]->value.type).name << ' ' << own[i]->name;
     out_ << " ]";
     return true;
   }
@@ -123,7 +158,10 @@ class Writer {
   /// VRML 1.0: children have no field in the file. False: these are none.
   bool children(NodeId n, const Value& v) {
     if (!is_children(n, v)) return false;
-    for (NodeId c : scene_.content(v).node_span()) { line(); node(c); }
+    for (NodeId c : scene_.content(v).node_span()) {
+      line();
+      node(c);
+    }
     return true;
   }
 
@@ -139,15 +177,20 @@ class Writer {
     if (scene_.is_extra(v)) {
       line();
       out_ << v.extra->name;
-      if (const auto& c = v.extra->value; c.is || c.type != FieldType::verbatim || c.count) { out_ << ' '; unknown_content(c); }
+      if (const auto& c = v.extra->value; c.is || c.type != FieldType::verbatim || c.count) {
+        out_ << ' ';
+        unknown_content(c);
+      }
       return true;
     }
     const auto& f = t.fields[v.slot];
     if (t.kind != NodeKind::proto && !v.is && equal_default(v, f)) return false;
     line();
     out_ << f.name_in(t.dialects & static_cast<DialectSet>(Dialect::vrml1) ? Dialect::vrml1 : Dialect::vrml97) << ' ';
-    if (!v.is && v.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url"))) urls(scene_.where(n), v.text_span());
-    else content(v);
+    if (!v.is && v.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url")))
+      urls(scene_.where(n), v.text_span());
+    else
+      content(v);
     return true;
   }
 
@@ -161,8 +204,13 @@ class Writer {
     const auto& f = scene_.type(n).fields[slot];
     line();
     declaration(f);
-    if (const Value* v = scene_.find(n, slot)) { out_ << ' '; content(*v); }
-    else if (f.has_value()) { out_ << ' '; value(f.default_value); }
+    if (const Value* v = scene_.find(n, slot)) {
+      out_ << ' ';
+      content(*v);
+    } else if (f.has_value()) {
+      out_ << ' ';
+      value(f.default_value);
+    }
   }
 
   /// Where the fields that a Script declares itself begin.
@@ -177,8 +225,10 @@ class Writer {
   }
 
   void content(const Value& v) {
-    if (v.is) out_ << "IS " << v.text();
-    else value(v);
+    if (v.is)
+      out_ << "IS " << v.text();
+    else
+      value(v);
   }
 
   /// Of an unknown field: nothing but the brackets tells a list of one node from a node.
@@ -192,29 +242,44 @@ class Writer {
   void value(const Value& v) {
     const auto& t = info(v.type);
     switch (t.element) {
-      case Element::node: return t.multiple ? node_list(v.node_span()) : node(v.node);
+      case Element::node:
+        return t.multiple ? node_list(v.node_span()) : node(v.node);
       case Element::text:
-        if (v.type == FieldType::verbatim || v.type == FieldType::SFEnum) out_ << v.text();
-        else if (v.type == FieldType::SFBitMask) out_ << '(' << v.text() << ')';
-        else if (t.multiple) strings(v.text_span());
-        else string(v.text());
+        if (v.type == FieldType::verbatim || v.type == FieldType::SFEnum)
+          out_ << v.text();
+        else if (v.type == FieldType::SFBitMask)
+          out_ << '(' << v.text() << ')';
+        else if (t.multiple)
+          strings(v.text_span());
+        else
+          string(v.text());
         return;
-      case Element::image: return bare(v.integer_span(), [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });
+      case Element::image:
+        return bare(v.integer_span(), [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });
       case Element::integer:
-        if (v.type == FieldType::SFBool) out_ << (v.integer ? "TRUE" : "FALSE");
-        else if (v.type == FieldType::MFBool) list(v.integer_span(), 1, [&](std::int32_t b) { out_ << (b ? "TRUE" : "FALSE"); });
-        else if (t.multiple) list(v.integer_span(), 1, [&](std::int32_t i) { out_.integer(i); });
-        else out_.integer(v.integer);
+        if (v.type == FieldType::SFBool)
+          out_ << (v.integer ? "TRUE" : "FALSE");
+        else if (v.type == FieldType::MFBool)
+          list(v.integer_span(), 1, [&](std::int32_t b) { out_ << (b ? "TRUE" : "FALSE"); });
+        else if (t.multiple)
+          list(v.integer_span(), 1, [&](std::int32_t i) { out_.integer(i); });
+        else
+          out_.integer(v.integer);
         return;
       case Element::number:
-        if (t.multiple) list(v.number_span(), t.arity, [&](double d) { out_.number(d, options_.precision); });
-        else bare(v.number_span(), [&](double d) { out_.number(d, options_.precision); });
+        if (t.multiple)
+          list(v.number_span(), t.arity, [&](double d) { out_.number(d, options_.precision); });
+        else
+          bare(v.number_span(), [&](double d) { out_.number(d, options_.precision); });
     }
   }
 
   template <class T, class Print>
   void bare(std::span<const T> values, Print print) {
-    for (std::size_t i = 0; i < values.size(); ++i) { if (i) out_ << ' '; print(values[i]); }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i) out_ << ' ';
+      print(values[i]);
+    }
   }
 
   /// [ ... ], wrapped between tuples at some hundred characters.
@@ -226,8 +291,11 @@ class Writer {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (i) {
         if (i % arity == 0 && vrml1_) out_ << ',';
-        if (i % arity == 0 && out_.size() - start > width) { out_ << '\n'; start = out_.size(); }
-        else out_ << ' ';
+        if (i % arity == 0 && out_.size() - start > width) {
+          out_ << '\n';
+          start = out_.size();
+        } else
+          out_ << ' ';
       }
       print(values[i]);
     }
@@ -236,7 +304,10 @@ class Writer {
 
   /// Four components do not fit into a decimal int32.
   void pixel(std::uint32_t p) {
-    if (p <= 0x7fffffffu) return void(out_.integer(p));
+    if (p <= 0x7fffffffu) {
+      out_.integer(p);
+      return;
+    }
     char b[16] = "0x";
     *std::to_chars(b + 2, b + sizeof b, p, 16).ptr = 0;
     out_ << std::string_view(b);
@@ -257,7 +328,10 @@ class Writer {
   void strings(std::span<const std::string_view> v) {
     if (v.size() == 1) return string(v[0]);
     out_ << '[';
-    for (std::size_t i = 0; i < v.size(); ++i) { if (i) out_ << (vrml1_ ? ", " : " "); string(v[i]); }
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (i) out_ << (vrml1_ ? ", " : " ");
+      string(v[i]);
+    }
     out_ << ']';
   }
 
@@ -265,7 +339,10 @@ class Writer {
     if (v.size() == 1 && v[0]) return node(v[0]);
     out_ << '[';
     ++depth_;
-    for (NodeId n : v) { line(); node(n); }
+    for (NodeId n : v) {
+      line();
+      node(n);
+    }
     --depth_;
     if (!v.empty()) line();
     out_ << ']';
@@ -276,8 +353,8 @@ class Writer {
   VrmlOptions options_;
   TextOut out_;
   Names names_;
-  std::vector<std::uint32_t> printed_;                            // the scope that printed the node last, from 1
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> again_;    // nodes printed once more in a body, and where before
+  std::vector<std::uint32_t> printed_;                          // the scope that printed the node last, from 1
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> again_;  // nodes printed once more in a body, and where before
   std::uint32_t scope_ = 1, scopes_ = 1;
   int depth_ = 0;
   bool first_ = true;
@@ -285,7 +362,9 @@ class Writer {
 
 }  // namespace
 
-void write_vrml(const Scene& scene, const VrmlOptions& options, const Sink& sink, Diagnostics&) { Writer(scene, options, sink).file(); }
+void write_vrml(const Scene& scene, const VrmlOptions& options, const Sink& sink, Diagnostics&) {
+  Writer(scene, options, sink).file();
+}
 
 std::string node_text(const Scene& scene, NodeId n, Diagnostics&) {
   std::string text;

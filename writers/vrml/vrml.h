@@ -3,17 +3,18 @@
 #include <string>
 
 #include "base/diagnostics.h"
+#include "base/io/sink.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
-#include "base/io/sink.h"
 
 namespace wrlkit {
 
 struct VrmlOptions {
-  int precision = 0;  // significant digits of real numbers; 0: as many as it takes to read the same number back
+  int precision = 0;        // significant digits of real numbers; 0: as many as it takes to read the same number back
   bool own_fields = false;  // those of the table that no standard has: for people who look, and for wrlkit itself
-  std::string file;   // that is written: relative urls are led from its folder. Empty: they stay as they are for the input's
-  PlaceMade place;    // names the files that passes have made; none: their urls stay
+  std::string
+      file;  // that is written: relative urls are led from its folder. Empty: they stay as they are for the input's
+  PlaceMade place;  // names the files that passes have made; none: their urls stay
 };
 
 /// Canonical VRML97 (ISO/IEC 14772-1): fields in the order of the node table, values that equal their default left out,

@@ -3,19 +3,21 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text/xml_text.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/x3d_version.h"
 #include "writers/vrml/def_names.h"
 #include "writers/x3d/x3d_profile.h"
-#include "base/text/xml_text.h"
 
 namespace wrlkit {
 namespace {
 
 constexpr std::string_view access_words[] = {"initializeOnly", "inputOutput", "inputOnly", "outputOnly"};
 
-bool number_like(std::string_view s) { return s == "true" || s == "false" || s.find_first_not_of("+-.0123456789eE, ") == s.npos; }
+bool number_like(std::string_view s) {
+  return s == "true" || s == "false" || s.find_first_not_of("+-.0123456789eE, ") == s.npos;
+}
 
 std::string_view trim_end(std::string_view s) {
   while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
@@ -25,7 +27,13 @@ std::string_view trim_end(std::string_view s) {
 class Writer {
  public:
   Writer(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag)
-      : scene_(scene), options_(options), diag_(diag), out_(sink), names_(scene, Dialect::x3d, options.own_fields), version_(x3d_version(scene)), printed_(scene.node_count(), 0) {}
+      : scene_(scene),
+        options_(options),
+        diag_(diag),
+        out_(sink),
+        names_(scene, Dialect::x3d, options.own_fields),
+        version_(x3d_version(scene)),
+        printed_(scene.node_count(), 0) {}
 
   void file() {
     const auto profile = x3d_profile(scene_);
@@ -33,9 +41,10 @@ class Writer {
     out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE X3D PUBLIC \"ISO//Web3D//DTD X3D " << version
          << "//EN\" \"https://www.web3d.org/specifications/x3d-" << version << ".dtd\">\n";
     comment();
-    out_ << "<X3D profile='" << profile.name
-         << "' version='" << version << "' xmlns:xsd='http://www.w3.org/2001/XMLSchema-instance' "
-            "xsd:noNamespaceSchemaLocation='https://www.web3d.org/specifications/x3d-" << version << ".xsd'>";
+    out_ << "<X3D profile='" << profile.name << "' version='" << version
+         << "' xmlns:xsd='http://www.w3.org/2001/XMLSchema-instance' "
+            "xsd:noNamespaceSchemaLocation='https://www.web3d.org/specifications/x3d-"
+         << version << ".xsd'>";
     head(profile);
     ++depth_;
     line() << "<Scene>";
@@ -101,7 +110,9 @@ class Writer {
   }
 
   void scope(const Scope& s) {
-    for_each_statement(scene_, Dialect::x3d, names_.unknown(), s, [&](ProtoId p) { proto(scene_.proto(p)); }, [&](NodeId n) { node(n, {}); });
+    for_each_statement(
+        scene_, Dialect::x3d, names_.unknown(), s, [&](ProtoId p) { proto(scene_.proto(p)); },
+        [&](NodeId n) { node(n, {}); });
     for (auto& i : s.imports) {
       if (printed_[i.inline_node.value] != scope_) continue;
       printed_[i.node.value] = scope_;
@@ -146,12 +157,22 @@ class Writer {
     const auto& t = scene_.type(p.type);
     line() << (p.external ? "<ExternProtoDeclare" : "<ProtoDeclare");
     attribute("name", t.name);
-    if (p.external) out_ << " url='", urls(p.where, p.urls), out_ << '\'';
+    if (p.external) {
+      out_ << " url='";
+      urls(p.where, p.urls);
+      out_ << '\'';
+    }
     out_ << '>';
     ++depth_;
-    if (!p.external && !t.fields.empty()) line() << "<ProtoInterface>", ++depth_;
+    if (!p.external && !t.fields.empty()) {
+      line() << "<ProtoInterface>";
+      ++depth_;
+    }
     for (const auto& f : t.fields) declaration(f, p.external ? nullptr : &f.default_value);
-    if (!p.external && !t.fields.empty()) --depth_, line() << "</ProtoInterface>";
+    if (!p.external && !t.fields.empty()) {
+      --depth_;
+      line() << "</ProtoInterface>";
+    }
     if (!p.external) body(p.body);
     --depth_;
     line() << (p.external ? "</ExternProtoDeclare>" : "</ProtoDeclare>");
@@ -181,8 +202,15 @@ class Writer {
   /// The value of a field or fieldValue element, and its end.
   void end_with_value(std::string_view element, const Value* v) {
     const bool nodes = v && info(v->type).element == Element::node;
-    if (v && !nodes) out_ << " value='", value(*v), out_ << '\'';
-    if (!nodes || v->node_span().empty()) { out_ << "/>"; return; }
+    if (v && !nodes) {
+      out_ << " value='";
+      value(*v);
+      out_ << '\'';
+    }
+    if (!nodes || v->node_span().empty()) {
+      out_ << "/>";
+      return;
+    }
     out_ << '>';
     ++depth_;
     for (NodeId n : v->node_span()) node(n, {});
@@ -202,7 +230,8 @@ class Writer {
     return t->container_field.empty() ? std::string_view("children") : t->container_field;
   }
 
-  /// `field`: of the node around it; empty where no field needs to be named. Of metadata the default depends on the version.
+  /// `field`: of the node around it; empty where no field needs to be named. Of metadata the default depends on the
+  /// version.
   void node(NodeId n, std::string_view field) {
     if (!n) return;
     const auto& t = scene_.type(n);
@@ -215,11 +244,17 @@ class Writer {
     const bool use = printed == scope_;
     if (!name.empty()) attribute(use ? "USE" : "DEF", name);
     if (!field.empty() && (field != container_of(n) || t.is_a("X3DMetadataObject"))) attribute("containerField", field);
-    if (use) { out_ << "/>"; return; }
+    if (use) {
+      out_ << "/>";
+      return;
+    }
     if (printed) again_.emplace_back(n.value, printed);
     printed = scope_;
     if (!instance) attributes(n);
-    if (!has_content(n)) { out_ << "/>"; return; }
+    if (!has_content(n)) {
+      out_ << "/>";
+      return;
+    }
     out_ << '>';
     ++depth_;
     instance ? field_values(n) : children(n);
@@ -254,20 +289,27 @@ class Writer {
     return equal_plain(v, f.x3d_default_in(version_));
   }
 
-  static bool is_url(const FieldDef& f) { return f.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url")); }
+  static bool is_url(const FieldDef& f) {
+    return f.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url"));
+  }
 
   void attributes(NodeId n) {
     const auto& t = scene_.type(n);
     const auto own = own_fields(t);
     for (const Value* v : names_.printed_order(n)) {
-      if (scene_.is_extra(*v)) { extra_attribute(n, *v); continue; }
+      if (scene_.is_extra(*v)) {
+        extra_attribute(n, *v);
+        continue;
+      }
       const auto& f = t.fields[v->slot];
-      if (v->slot >= own || v->is || info(v->type).element == Element::node || says_default(*v, f) || program(n, *v)) continue;
+      if (v->slot >= own || v->is || info(v->type).element == Element::node || says_default(*v, f) || program(n, *v))
+        continue;
       field_attribute(n, f, *v);
     }
     if (t.kind != NodeKind::builtin) return;
     for (const auto& f : t.fields)  // what the reader would take for another default
-      if (f.x3d_from && version_ >= f.x3d_from && !scene_.find(n, f.x3d_default.slot)) field_attribute(n, f, f.default_value);
+      if (f.x3d_from && version_ >= f.x3d_from && !scene_.find(n, f.x3d_default.slot))
+        field_attribute(n, f, f.default_value);
   }
 
   void field_attribute(NodeId n, const FieldDef& f, const Value& v) {
@@ -279,19 +321,26 @@ class Writer {
   /// A field that nobody knows.
   void extra_attribute(NodeId n, const Value& v) {
     const auto& c = v.extra->value;
-    if (c.is || (info(c.type).element == Element::node && is_xml_name(v.extra->name))) return;  // stands among the children
+    if (c.is || (info(c.type).element == Element::node && is_xml_name(v.extra->name)))
+      return;  // stands among the children
     const auto name = v.extra->name;
-    const bool reserved = name == "DEF" || name == "USE" || name == "containerField" || name == "class" || name == "id" || name == "style";
-    if (!is_xml_name(name) || reserved || c.type != FieldType::verbatim) return diag_.report(Diag::no_x3d_value, scene_.where(n), name, scene_.type(n).name);
+    const bool reserved = name == "DEF" || name == "USE" || name == "containerField" || name == "class" ||
+                          name == "id" || name == "style";
+    if (!is_xml_name(name) || reserved || c.type != FieldType::verbatim)
+      return diag_.report(Diag::no_x3d_value, scene_.where(n), name, scene_.type(n).name);
     attribute(name, as_xml(c.text()));
   }
 
-  /// A value whose type nobody knows, as VRML writes it: a single string needs no quotes here, and truth is written small.
+  /// A value whose type nobody knows, as VRML writes it: a single string needs no quotes here, and truth is written
+  /// small.
   static std::string_view as_xml(std::string_view s) {
     if (s == "TRUE") return "true";
     if (s == "FALSE") return "false";
     const bool string = s.size() > 2 && s.front() == '"' && s.find_first_of("\"\\", 1) == s.size() - 1;
-    return string && s.find_first_of("[{\"", 1) == s.size() - 1 && s[1] > ' ' && s[s.size() - 2] > ' ' && !number_like(s.substr(1, s.size() - 2)) ? s.substr(1, s.size() - 2) : s;
+    return string && s.find_first_of("[{\"", 1) == s.size() - 1 && s[1] > ' ' && s[s.size() - 2] > ' ' &&
+                   !number_like(s.substr(1, s.size() - 2))
+               ? s.substr(1, s.size() - 2)
+               : s;
   }
 
   void children(NodeId n) {
@@ -306,7 +355,9 @@ class Writer {
     for (const Value* v : written) {
       const auto& c = scene_.content(*v);
       const bool extra = scene_.is_extra(*v);
-      if (c.is || info(c.type).element != Element::node || (!extra && v->slot >= own) || (extra && !is_xml_name(v->extra->name))) continue;
+      if (c.is || info(c.type).element != Element::node || (!extra && v->slot >= own) ||
+          (extra && !is_xml_name(v->extra->name)))
+        continue;
       for (NodeId m : c.node_span()) node(m, extra ? v->extra->name : t.fields[v->slot].name);
     }
     for (const Value* v : written)
@@ -318,18 +369,27 @@ class Writer {
     for (const Value* v : written) {
       const auto& c = scene_.content(*v);
       if (!c.is) continue;
-      if (!std::exchange(any, true)) line() << "<IS>", ++depth_;
+      if (!std::exchange(any, true)) {
+        line() << "<IS>";
+        ++depth_;
+      }
       line() << "<connect";
-      attribute("nodeField", scene_.is_extra(*v) ? event(n, v->extra->name) : std::string(scene_.type(n).fields[v->slot].name));
+      attribute("nodeField",
+                scene_.is_extra(*v) ? event(n, v->extra->name) : std::string(scene_.type(n).fields[v->slot].name));
       attribute("protoField", c.text());
       out_ << "/>";
     }
-    if (any) --depth_, line() << "</IS>";
+    if (any) {
+      --depth_;
+      line() << "</IS>";
+    }
   }
 
   /// The program of a Script that can stand in the file as it is: nothing of it would be lost behind CDATA.
   bool program(NodeId n, const Value& v) const {
-    if (scene_.type(n).name != "Script" || scene_.is_extra(v) || v.is || v.slot != nodes::script::url.slot || v.count != 1) return false;
+    if (scene_.type(n).name != "Script" || scene_.is_extra(v) || v.is || v.slot != nodes::script::url.slot ||
+        v.count != 1)
+      return false;
     const auto s = v.text_span()[0];
     const bool inside = s.starts_with("javascript:") || s.starts_with("ecmascript:") || s.starts_with("vrmlscript:");
     return inside && s.find("]]>") == s.npos && s.find('\r') == s.npos && !trim_end(s).empty();
@@ -354,19 +414,28 @@ class Writer {
   void value(const Value& v) {
     const auto& t = info(v.type);
     switch (t.element) {
-      case Element::node: return;
+      case Element::node:
+        return;
       case Element::text:
-        if (t.multiple) strings(v.text_span());
-        else xml_attribute_text(out_, v.text());
+        if (t.multiple)
+          strings(v.text_span());
+        else
+          xml_attribute_text(out_, v.text());
         return;
-      case Element::image: return list(v.integer_span(), 1, [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });
+      case Element::image:
+        return list(v.integer_span(), 1, [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });
       case Element::integer:
-        if (v.type == FieldType::SFBool) out_ << (v.integer ? "true" : "false");
-        else if (v.type == FieldType::MFBool) list(v.integer_span(), 1, [&](std::int32_t b) { out_ << (b ? "true" : "false"); });
-        else if (t.multiple) list(v.integer_span(), 1, [&](std::int32_t i) { out_.integer(i); });
-        else out_.integer(v.integer);
+        if (v.type == FieldType::SFBool)
+          out_ << (v.integer ? "true" : "false");
+        else if (v.type == FieldType::MFBool)
+          list(v.integer_span(), 1, [&](std::int32_t b) { out_ << (b ? "true" : "false"); });
+        else if (t.multiple)
+          list(v.integer_span(), 1, [&](std::int32_t i) { out_.integer(i); });
+        else
+          out_.integer(v.integer);
         return;
-      case Element::number: list(v.number_span(), t.arity, [&](double d) { out_.number(d, options_.precision); });
+      case Element::number:
+        list(v.number_span(), t.arity, [&](double d) { out_.number(d, options_.precision); });
     }
   }
 
@@ -376,8 +445,11 @@ class Writer {
     auto start = out_.size();
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (i) {
-        if (i % arity == 0 && out_.size() - start > width) { out_ << '\n'; start = out_.size(); }
-        else out_ << ' ';
+        if (i % arity == 0 && out_.size() - start > width) {
+          out_ << '\n';
+          start = out_.size();
+        } else
+          out_ << ' ';
       }
       print(values[i]);
     }
@@ -385,7 +457,10 @@ class Writer {
 
   /// Four components do not fit into a decimal int32.
   void pixel(std::uint32_t p) {
-    if (p <= 0x7fffffffu) return void(out_.integer(p));
+    if (p <= 0x7fffffffu) {
+      out_.integer(p);
+      return;
+    }
     char b[16] = "0x";
     *std::to_chars(b + 2, b + sizeof b, p, 16).ptr = 0;
     out_ << std::string_view(b);
@@ -408,7 +483,9 @@ class Writer {
     }
   }
 
-  void urls(Span where, std::span<const std::string_view> list) { strings(led_urls(scene_, where, list, options_.file, options_.place)); }
+  void urls(Span where, std::span<const std::string_view> list) {
+    strings(led_urls(scene_, where, list, options_.file, options_.place));
+  }
 
   const Scene& scene_;
   const X3dOptions& options_;
@@ -424,6 +501,8 @@ class Writer {
 
 }  // namespace
 
-void write_x3d(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag) { Writer(scene, options, sink, diag).file(); }
+void write_x3d(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag) {
+  Writer(scene, options, sink, diag).file();
+}
 
 }  // namespace wrlkit

@@ -14,8 +14,30 @@ struct Component {
 };
 
 // ISO/IEC 19775-1, annexes B and E.
-constexpr Component interchange[] = {{"Core", 1}, {"Time", 1}, {"Networking", 1}, {"Grouping", 1}, {"Rendering", 3}, {"Shape", 1}, {"Geometry3D", 2}, {"Lighting", 1}, {"Texturing", 2}, {"Interpolation", 2}, {"Navigation", 1}, {"EnvironmentalEffects", 1}};
-constexpr Component immersive[] = {{"Core", 2}, {"Time", 1}, {"Networking", 3}, {"Grouping", 2}, {"Rendering", 3}, {"Shape", 2}, {"Geometry3D", 4}, {"Geometry2D", 1}, {"Text", 1}, {"Sound", 1}, {"Lighting", 2}, {"Texturing", 3}, {"Interpolation", 2}, {"PointingDeviceSensor", 1}, {"KeyDeviceSensor", 2}, {"EnvironmentalSensor", 2}, {"Navigation", 2}, {"EnvironmentalEffects", 2}, {"Scripting", 1}, {"EventUtilities", 1}};
+constexpr Component interchange[] = {{"Core", 1},          {"Time", 1},       {"Networking", 1},
+                                     {"Grouping", 1},      {"Rendering", 3},  {"Shape", 1},
+                                     {"Geometry3D", 2},    {"Lighting", 1},   {"Texturing", 2},
+                                     {"Interpolation", 2}, {"Navigation", 1}, {"EnvironmentalEffects", 1}};
+constexpr Component immersive[] = {{"Core", 2},
+                                   {"Time", 1},
+                                   {"Networking", 3},
+                                   {"Grouping", 2},
+                                   {"Rendering", 3},
+                                   {"Shape", 2},
+                                   {"Geometry3D", 4},
+                                   {"Geometry2D", 1},
+                                   {"Text", 1},
+                                   {"Sound", 1},
+                                   {"Lighting", 2},
+                                   {"Texturing", 3},
+                                   {"Interpolation", 2},
+                                   {"PointingDeviceSensor", 1},
+                                   {"KeyDeviceSensor", 2},
+                                   {"EnvironmentalSensor", 2},
+                                   {"Navigation", 2},
+                                   {"EnvironmentalEffects", 2},
+                                   {"Scripting", 1},
+                                   {"EventUtilities", 1}};
 
 using Levels = std::map<std::string_view, int>;
 
