@@ -273,7 +273,12 @@ std::string recipe_text(const GivenOptions& options, const std::vector<std::stri
   if (const auto python = std::ranges::find(options, "python", &GivenOptions::value_type::first);
       python != options.end())
     out += fmt::format("python = {}\n\n", list_of(python->second));
-  if (pipeline.empty()) out += "pipeline = \"\"\n\n";
+  // [input] says what `place` does, which is put in front again.
+  const bool is_placed =
+      std::ranges::any_of(options, [](const auto& o) { return o.first == "unit" || o.first == "up"; });
+  auto steps = pipeline.steps();
+  std::erase_if(steps, [&](const auto& step) { return is_placed && step.name == "place"; });
+  if (steps.empty()) out += "pipeline = \"\"\n\n";
   for (auto section : sections) {
     std::string keys;
     for (const auto& [name, values] : options)
@@ -284,7 +289,7 @@ std::string recipe_text(const GivenOptions& options, const std::vector<std::stri
       keys += names_behind(warnings, "error=", "error") + names_behind(warnings, "no-", "ignore");
     if (!keys.empty()) out += fmt::format("[{}]\n{}\n", section, keys);
   }
-  for (const auto& step : pipeline.steps()) {
+  for (const auto& step : steps) {
     out += fmt::format("[[pass]]\nname = \"{}\"\n", step.name);
     for (const auto& o : step.options) out += fmt::format("{} = {}\n", o.name, toml_value(o.value));
     out += '\n';
