@@ -1,7 +1,7 @@
 // Converts every world of VRML97, VRML 1.0 and X3D to glTF and has the official Khronos validator look at each result: it must find no error and
 // no warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
 // missing, a message.
-//   node validate_gltf.mjs WRLKIT FOLDER [NAMES] [PIPELINE] [FLAGS-OF-CONVERT...]
+//   node validate_gltf.mjs WRLKIT FOLDER [NAMES] [PIPELINE] [FLAGS-OF-CONVERT...]      PIPELINE: - is the default one
 //   node validate_gltf.mjs WRLKIT FOLDER [NAMES] optimize [FLAGS-OF-OPTIMIZE...]      NAMES: a regular expression
 import fs from 'node:fs';
 import path from 'node:path';
@@ -47,7 +47,7 @@ function check_end(world, result, out) {
 
 async function check(world) {
   const out = path.join(folder, `${counts.worlds++}.glb`);
-  const result = await run(wrlkit, pipeline === 'optimize' ? ['optimize', world.file, out, ...flags] : ['convert', world.file, out, ...(pipeline ? ['-p', pipeline] : []), ...flags], 60);
+  const result = await run(wrlkit, pipeline === 'optimize' ? ['optimize', world.file, out, ...flags] : ['convert', world.file, out, ...(pipeline && pipeline !== '-' ? ['-p', pipeline] : []), ...flags], 60);
   if (world.broken) ++counts.broken;
   if (check_end(world, result, out)) await check_result(world, result, out);
   fs.rmSync(out, {force: true});
