@@ -4,7 +4,8 @@
 // other. The counts, over corpus/ and tests/gltf and over a part of the found corpus (WRLKIT_SHARED, or ../shared), are
 // the tables in docs/conformance.md.
 //
-//   gltf_roundtrip --check own|found     fails when a table in docs/conformance.md says something else; ends with 77 when
+//   gltf_roundtrip --check own|found     fails when a table in docs/conformance.md says something else; ends with 77
+//   when
 //                                        the found corpus is not there
 //   gltf_roundtrip --update own|found    writes them there; not when more is lost than before, but with --more-is-lost
 //   gltf_roundtrip FOLDER...             counts for the VRML97 worlds below other folders, through glTF
@@ -352,7 +353,8 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The last column of each row of tables, by the table's title and the row's name: how often something comes back otherwise.
+/// The last column of each row of tables, by the table's title and the row's name: how often something comes back
+/// otherwise.
 std::map<std::string, long> losses_of(const std::string& tables) {
   std::map<std::string, long> losses;
   std::istringstream in(tables);
@@ -432,7 +434,8 @@ int check_page(const Command& command) {
   if (before == made) return 0;
   const bool more = more_is_lost(before, made);
   if (!command.update) {
-    std::printf("docs/conformance.md says otherwise than this; gltf_roundtrip --update writes it there\n%s", made.c_str());
+    std::printf("docs/conformance.md says otherwise than this; gltf_roundtrip --update writes it there\n%s",
+                made.c_str());
     return 1;
   }
   if (more && !command.more_is_lost) return 1;
@@ -448,7 +451,6 @@ int main(int argc, char** argv) {
   const auto has = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
   if (has("--check") || has("--update"))
     return check_page({.update = has("--update"), .found = has("found"), .more_is_lost = has("--more-is-lost")});
-  for (const auto& folder : words)
-    std::fputs(table("VRML97 -> glTF -> VRML97", folder, through_gltf).c_str(), stdout);
+  for (const auto& folder : words) std::fputs(table("VRML97 -> glTF -> VRML97", folder, through_gltf).c_str(), stdout);
   return words.empty();
 }

@@ -1,7 +1,8 @@
 // For every world of VRML97 or VRML 1.0 below some folders: what is written reads back as the same scene, and written
 // again it is the same text. Says of each world that breaks this what differs, and fails.
 //
-//   roundtrip FOLDER...    --found: the corpus of the folder WRLKIT_SHARED, or of ../shared. Ends with 77 where a folder
+//   roundtrip FOLDER...    --found: the corpus of the folder WRLKIT_SHARED, or of ../shared. Ends with 77 where a
+//   folder
 //                          is not there
 #include <algorithm>
 #include <cstdio>

@@ -309,11 +309,11 @@ TEST_CASE("deviation: the distance to a triangle that is known") {
   Surface s;
   for (const auto& p : t) s.corners.push_back(s.add(p[0], p[1], p[2]));
   const ClosestPoint surface(s.view());
-  const std::pair<Vec3, double> known[] = {{{0.5, 0.5, 3}, 3},                   // above it
-                                           {{-3, -4, 0}, 5},                     // at a corner
-                                           {{1, -2, 0}, 2},                      // at an edge
-                                           {{2, 2, 0}, std::sqrt(2.0)},          // at the long edge
-                                           {{2, 2, 1}, std::sqrt(3.0)},          // the same, from above
+  const std::pair<Vec3, double> known[] = {{{0.5, 0.5, 3}, 3},           // above it
+                                           {{-3, -4, 0}, 5},             // at a corner
+                                           {{1, -2, 0}, 2},              // at an edge
+                                           {{2, 2, 0}, std::sqrt(2.0)},  // at the long edge
+                                           {{2, 2, 1}, std::sqrt(3.0)},  // the same, from above
                                            {{5, 0, 4}, 5}};
   for (const auto& [p, distance] : known) {
     CHECK(surface.nearest(p, {}).distance == Approx(distance));
