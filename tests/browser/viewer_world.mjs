@@ -67,11 +67,19 @@ async function display() {
   const {page, faults, close} = await open_page(browser, html);
   await page.getByRole('tab', {name: 'View'}).click();
   const plain = await picture(page);
-  const differs = async what => { await page.waitForTimeout(150); assert(!plain.equals(await picture(page)), what); };
+  const seen = [plain];
+  const settled = async () => { await page.waitForTimeout(150); return picture(page); };
+  // Each of them shows what none before has shown, and without it all is as it was.
+  const differs = async what => {
+    const now = await settled();
+    assert(!seen.some(other => other.equals(now)), what);
+    seen.push(now);
+  };
   for (const label of ['Edges (hidden lines removed)', 'Bounding boxes', 'Sky of the world']) {
     await page.getByLabel(label).check();
     await differs(label);
     await page.getByLabel(label).uncheck();
+    assert(plain.equals(await settled()), `${label}, taken back`);
   }
   await page.getByLabel('Off', {exact: true}).check({force: true});
   await differs('light off');
