@@ -2,7 +2,11 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include <atomic>
+#include <thread>
+
 #include "parsers/parsers.h"
+#include "passes/pipeline/pass_info.h"
 #include "passes/pipeline/pipeline.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -47,6 +51,18 @@ std::vector<float> corners_of(const Mesh& mesh) {
   }
   return out;
 }
+
+struct NameOptions {
+  std::string name = "first";
+  void fields(auto&& f) { f("name", name, "DEF name of the first root"); }
+};
+
+Outcome name_root(Scene& scene, const NameOptions& options, PassContext&) {
+  scene.set_name(scene.main.roots.at(0), options.name);
+  return Outcome::changed;
+}
+
+Outcome name_nothing(Scene&, const NameOptions&, PassContext&) { return Outcome::unchanged; }
 
 }  // namespace
 
@@ -132,4 +148,41 @@ TEST_CASE("pipeline: a pass that changes nothing says so and changes nothing", "
     CHECK(outcome == Outcome::unchanged);
     CHECK(before == text_of(world->scene));
   }
+}
+
+TEST_CASE("pipeline: passes that a program adds", "[pipeline]") {
+  constexpr auto naming = pass<name_root, NameOptions>("test-name", "name a root", Level::authored, Level::authored);
+  constexpr auto taken = pass<name_root, NameOptions>("weld", "a name that is taken", Level::authored, Level::authored);
+  CHECK_FALSE(add_pass(taken));
+  REQUIRE(add_pass(naming));
+  std::string why;
+  auto pipeline = Pipeline::parse("prune,test-name{name=A}", why);
+  REQUIRE(pipeline);
+  CHECK(pipeline->text() == "prune,test-name{name=A}");
+
+  // A pipeline keeps the pass that it was made with.
+  REQUIRE(add_pass(pass<name_nothing, NameOptions>("test-name", "another", Level::authored, Level::authored)));
+  CHECK(find_pass("test-name")->summary == "another");
+  CHECK(pipeline->text() == "prune,test-name{name=A}");
+  Diagnostics diag;
+  Statistics stats;
+  PassContext ctx{diag, stats};
+  auto world = read("Group { children Shape { geometry Box { } } }", diag);
+  REQUIRE(pipeline->run(world->scene, ctx));
+  CHECK(world->scene.name(world->scene.main.roots.at(0)) == "A");
+}
+
+TEST_CASE("pipeline: passes are added and found by several threads", "[pipeline]") {
+  std::vector<std::thread> threads;
+  std::atomic<int> found = 0;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&found, t] {
+      for (int i = 0; i < 200; ++i) {
+        static const std::string names[] = {"test-a", "test-b", "test-c", "test-d"};
+        add_pass(pass<name_nothing, NameOptions>(names[t], "of one thread", Level::authored, Level::authored));
+        if (find_pass(names[t])) ++found;
+      }
+    });
+  for (auto& t : threads) t.join();
+  CHECK(found == 800);
 }
