@@ -10,7 +10,7 @@
 #include "passes/lower_vrml1/lower_vrml1.h"
 #include "scenegraph/nodes.h"
 #include "tools/cli/print_diagnostics.h"
-#include "tools/embedded_pictures.h"
+#include "convert/embedded_pictures.h"
 #include "writers/vrml/vrml.h"
 
 namespace wrlkit {

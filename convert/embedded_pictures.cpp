@@ -1,4 +1,4 @@
-#include "tools/embedded_pictures.h"
+#include "convert/embedded_pictures.h"
 
 #include <map>
 
