@@ -200,8 +200,16 @@ bool Culling::may_be_clear(const Use& use) const {
   if (!use.appearance) return false;
   if (!scene_.is(use.appearance, nodes::Appearance) || scene_.get(use.appearance, nodes::appearance::texture))
     return true;
-  const NodeId material = scene_.get(use.appearance, nodes::appearance::material);
-  return material && (!scene_.is(material, nodes::Material) || scene_.get(material, nodes::material::transparency) > 0);
+  const NodeId m = scene_.get(use.appearance, nodes::appearance::material);
+  if (scene_.is(m, nodes::Material))
+    return scene_.get(m, nodes::material::transparency) > 0 || scene_.get(m, nodes::material::diffuseTexture);
+  if (scene_.is(m, nodes::PhysicalMaterial))
+    return scene_.get(m, nodes::physical_material::transparency) > 0 ||
+           scene_.get(m, nodes::physical_material::baseTexture);
+  if (scene_.is(m, nodes::UnlitMaterial))
+    return scene_.get(m, nodes::unlit_material::transparency) > 0 ||
+           scene_.get(m, nodes::unlit_material::emissiveTexture);
+  return static_cast<bool>(m);
 }
 
 void Culling::find_hidden() {

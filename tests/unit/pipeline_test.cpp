@@ -69,6 +69,12 @@ Outcome name_nothing(Scene&, const NameOptions&, PassContext&) { return Outcome:
 TEST_CASE("pipeline: text and back", "[pipeline]") {
   for (auto& n : named_pipelines()) CHECK(canonical(canonical(n.name)) == canonical(n.name));
   CHECK(canonical("prune , inline{depth=3}") == "prune,inline{depth=3,limit=500000}");
+  CHECK(canonical("gltf,prune") == canonical("gltf") + ",prune");
+  const std::string merged = "merge{max-draws=500,instanced=false,parts=false,csv=";
+  CHECK(canonical(R"(merge{ csv = "a,b}.csv" })") == merged + R"("a,b}.csv"})");
+  CHECK(canonical(R"(merge{csv="a \"b\" \\c"})") == merged + R"("a \"b\" \\c"})");
+  CHECK(canonical(canonical(R"(merge{csv="a,\"\\{"},prune)")) == merged + R"("a,\"\\{"},prune)");
+  CHECK(canonical(R"(merge{csv=5".csv})") == merged + R"("5\".csv"})");
   CHECK(canonical("") == "");
 }
 
@@ -86,6 +92,40 @@ TEST_CASE("pipeline: what is wrong with a text", "[pipeline]") {
   CHECK(canonical("lightmap{format=bmp}") ==
         "error: pass 'lightmap' option 'format': 'bmp' is no value for it: png, jpg or webp");
   CHECK(canonical("inline{depth=3") == "error: '}' is missing behind 'inline'");
+  CHECK(canonical(R"(merge{csv="a)") == "error: '}' is missing behind 'merge'");
+  CHECK(canonical(R"(merge{csv="a"b})") == "error: pass 'merge' option 'csv': a quote is missing");
+}
+
+namespace {
+
+std::string names_of(Pipeline& p) {
+  std::string out;
+  for (const auto& s : p.steps()) out += (out.empty() ? "" : ",") + std::string(s.name);
+  return out;
+}
+
+std::string completed(const char* text, const char* standard) {
+  std::string why;
+  auto p = Pipeline::parse(text, why);
+  p->complete(standard);
+  return names_of(*p);
+}
+
+}  // namespace
+
+TEST_CASE("pipeline: what a pass needs is put in front of it", "[pipeline]") {
+  CHECK(completed("cull", "vrml") == "lower-vrml1,expand,lower-x3d,cull,combine-lightmap,lower-x3d");
+  CHECK(completed("expand,cull", "x3d") == "lower-vrml1,expand,combine-lightmap,keep-colors,cull");
+  CHECK(completed("cull", "gltf") ==
+        "lower-vrml1,expand,lower-x3d,prune,cull,combine-lightmap,tessellate,normals,triangulate");
+  CHECK(completed("inline,expand-protos,cull", "none") == "inline,expand-protos,cull");
+  CHECK(completed("expand-protos,inline,cull", "none") == "expand-protos,inline,expand,cull");
+  std::string why;
+  auto p = Pipeline::parse("prune,merge,tessellate,normals", why);
+  p->meet_needs();
+  CHECK(names_of(*p) == "prune,expand,merge,tessellate,normals");
+  p->meet_needs();
+  CHECK(names_of(*p) == "prune,expand,merge,tessellate,normals");
 }
 
 TEST_CASE("pipeline: lazily and at once are the same", "[pipeline]") {

@@ -618,6 +618,8 @@ std::uint64_t size_of(const std::string& s) {
   char* end = nullptr;
   double v = std::strtod(s.c_str(), &end);
   std::string unit = end;
+  if (!unit.empty() && (unit.back() == 'B' || unit.back() == 'b')) unit.pop_back();
+  if (unit.ends_with('i')) unit.pop_back();
   double factor = unit == "G" || unit == "g"   ? 1 << 30
                   : unit == "M" || unit == "m" ? 1 << 20
                   : unit == "K" || unit == "k" ? 1 << 10
@@ -677,6 +679,18 @@ Flags conversion_flags(const Recipe& recipe) {
   return flags;
 }
 
+/// The verbs of `wrlkit corpus`; what it asks for without one of them.
+static int corpus_help(const std::vector<std::string>& words) {
+  const bool asked = words.size() > 1 && (words[1] == "--help" || words[1] == "-h");
+  std::string text = "wrlkit corpus: many files at once\n\n";
+  for (const Verb& v : verbs)
+    if (std::string_view(v.name).starts_with("corpus-"))
+      text += "  wrlkit corpus " + std::string(v.name).substr(7) + "\n      " + v.help + "\n";
+  text += "\n'wrlkit corpus run --help' lists the options of one.\n";
+  std::fputs(text.c_str(), asked ? stdout : stderr);
+  return asked ? done : usage;
+}
+
 int run_command_line(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const auto warnings = take_warning_flags(words);
@@ -684,6 +698,7 @@ int run_command_line(int argc, char** argv) {
     words[0] += "-" + words[1];
     words.erase(words.begin() + 1);
   }
+  if (!words.empty() && words[0] == "corpus") return corpus_help(words);
   if (!words.empty() && !words[0].starts_with('-') && !find_verb(words[0])) {
     std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str());
     return usage;

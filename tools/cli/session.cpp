@@ -8,12 +8,23 @@
 #include "base/io/output.h"
 #include "base/text/json.h"
 #include "passes/lower_vrml1/lower_vrml1.h"
-#include "scenegraph/nodes.h"
 #include "tools/cli/print_diagnostics.h"
 #include "convert/embedded_pictures.h"
 #include "writers/vrml/vrml.h"
 
 namespace wrlkit {
+namespace {
+
+/// Options of the pass `place`.
+std::vector<std::pair<std::string, std::string>> placing(std::string_view unit, std::string_view up) {
+  std::vector<std::pair<std::string, std::string>> out;
+  if (!unit.empty() && unit != "m") out.emplace_back("unit", unit);
+  if (!up.empty() && up != "y") out.emplace_back("up", up);
+  return out;
+}
+
+}  // namespace
+
 /// A file that another one refers to, in the nodes of VRML97.
 std::shared_ptr<const Scene> Session::parse_inlined(const std::string& path, Diagnostics& diag) {
   auto world = read_world(path, {.lookups = &buffers_}, diag);
@@ -84,7 +95,10 @@ World* Session::read(const std::string& path, const FileText& file) {
   return world_.get();
 }
 
-void Session::place(Scene& scene) const { place_world(scene, flags_.unit, flags_.up); }
+/// A pipeline has it; verbs without one see the world as it is placed all the same.
+void Session::place(Scene& scene) const {
+  if (!pipeline_) place_world(scene, flags_.unit, flags_.up);
+}
 
 bool Session::choose_pipeline(std::string_view standard) {
   std::string why;
@@ -94,6 +108,10 @@ bool Session::choose_pipeline(std::string_view standard) {
     return false;
   }
   if (flags_.pipeline_given) pipeline_->complete(standard);
+  if (!world_ && !pipeline_->put_first("place", placing(flags_.unit, flags_.up), why)) {
+    fmt::print(stderr, "wrlkit: --unit, --up: {}\n", why);
+    return false;
+  }
   const auto& after = flags_.print_after;
   if (!after.empty() && after != "all" && !find_pass(after)) {
     fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));
@@ -161,15 +179,13 @@ bool write_text_file(const std::string& path, std::string_view text) {
 }
 
 void place_world(Scene& scene, std::string_view unit, std::string_view up) {
-  double scale = unit == "cm" ? 0.01 : unit == "mm" ? 0.001 : unit == "in" ? 0.0254 : unit == "ft" ? 0.3048 : 1;
-  if (scale == 1 && (up.empty() || up == "y")) return;
-  constexpr double quarter = 1.5707963267948966;
-  NodeId root = scene.add(nodes::Transform);
-  if (scale != 1) scene.set(root, nodes::transform::scale, Vec3{scale, scale, scale});
-  if (up == "z") scene.set(root, nodes::transform::rotation, Vec4{1, 0, 0, -quarter});
-  if (up == "x") scene.set(root, nodes::transform::rotation, Vec4{0, 0, 1, quarter});
-  scene.set(root, nodes::transform::children, scene.main.roots);
-  scene.main.roots = {root};
+  Pipeline placed;
+  std::string why;
+  if (!placed.put_first("place", placing(unit, up), why) || placed.empty()) return;
+  Diagnostics unheard;
+  Statistics uncounted;
+  PassContext ctx{unheard, uncounted};
+  placed.run(scene, ctx);
 }
 
 }  // namespace wrlkit

@@ -83,6 +83,8 @@ std::string pass_text(const PassInfo& p) {
                                 level_word(p.leaves));
   for (auto& o : p.make()->options())
     out += fmt::format("  {:<18} {:<28} {:<14} {}\n", o.name, o.type_and_range(), o.value, o.help);
+  if (!p.statistics.empty()) out += "  counts, for --stats:\n";
+  for (const auto& s : p.statistics) out += fmt::format("  {:<33} {}\n", s.name, s.help);
   if (!p.doc.empty()) out += fmt::format("\n{}\n", p.doc);
   return out;
 }
@@ -136,6 +138,16 @@ std::string passes_json() {
       json.end_object();
     }
     json.end_array();
+    json.key("statistics");
+    json.begin_array();
+    for (const auto& s : p.statistics) {
+      json.begin_object();
+      json.member("name", s.name);
+      json.member("help", s.help);
+      json.end_object();
+    }
+    json.end_array();
+    json.member("doc", p.doc);
     json.end_object();
   }
   json.end_array();
@@ -157,14 +169,16 @@ std::string nodes_page() {
 
 std::string passes_page() {
   std::string out =
-      "# Passes\n\nGenerated from the registry by `script/docs`; do not edit. Each header in `passes/` says more, with "
-      "an example.\n";
+      "# Passes\n\nGenerated from the registry by `script/docs`; do not edit. `wrlkit passes NAME` shows the same.\n";
   for (auto& p : passes()) {
     out += fmt::format("\n## {}\n\n{}. Needs level *{}*, leaves level *{}*.\n", p.name, p.summary, level_word(p.needs),
                        level_word(p.leaves));
+    if (!p.doc.empty()) out += fmt::format("\n{}\n", p.doc);
     auto options = p.make()->options();
     if (!options.empty()) out += "\n| option | type | default | |\n|---|---|---|---|\n";
     for (auto& o : options) out += fmt::format("| {} | {} | {} | {} |\n", o.name, o.type_and_range(), o.value, o.help);
+    if (!p.statistics.empty()) out += "\n| counts | |\n|---|---|\n";
+    for (const auto& s : p.statistics) out += fmt::format("| {} | {} |\n", s.name, s.help);
   }
   out += "\n## Pipelines with a name\n\n| name | passes | |\n|---|---|---|\n";
   for (auto& n : named_pipelines()) out += fmt::format("| {} | `{}` | {} |\n", n.name, n.text, n.summary);

@@ -121,7 +121,7 @@ void print(Session& s, std::size_t n_faces, const std::vector<Written>& files, c
 /// Surfaces without loose faces; and baked light in the textures, where VRML is written for browsers.
 std::string_view standard_pipeline(const Flags& flags) {
   if (flags.pipeline_given) return flags.progressive || flags.dump ? "lower-vrml1,lower-x3d{vrml97=true}" : "vrml";
-  if (flags.progressive) return "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
+  if (flags.progressive) return "lower-vrml1,expand,lower-x3d{vrml97=true},weld";
   return flags.dump ? "lower-vrml1,lower-x3d{vrml97=true},weld"
                     : "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap,weld";
 }

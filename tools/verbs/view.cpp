@@ -21,8 +21,7 @@ namespace wrlkit {
 namespace {
 
 /// Surfaces without loose faces, as `simplify --progressive` makes them.
-constexpr std::string_view surfaces_pipeline =
-    "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
+constexpr std::string_view surfaces_pipeline = "lower-vrml1,expand,lower-x3d{vrml97=true},weld";
 /// Baked light stays apart from the colours, so that each can be looked at alone.
 constexpr std::string_view world_pipeline = "gltf-light";
 
@@ -76,6 +75,7 @@ class Viewer {
     Diagnostics unheard(s_.diag().shared_sources());
     PassContext silent{unheard, s_.context().stats, &s_.resources()};
     std::string why;
+    place_world(scene, s_.flags().unit, s_.flags().up);
     if (!Pipeline::parse(surfaces_pipeline, why)->run(scene, silent)) return;
     const auto surfaces = progressive_surfaces(scene, criterion.value, silent);
     if (!surfaces.empty()) page_.collapses.push_back({name, write_progressive_world(surfaces)});
