@@ -20,6 +20,8 @@
 #include "passes/normals/normals.h"
 #include "passes/pipeline/pass_info.h"
 #include "passes/prune/prune.h"
+#include "passes/smooth/smooth.h"
+#include "passes/subdivide/subdivide.h"
 #include "passes/tessellate/tessellate.h"
 #include "passes/triangulate/triangulate.h"
 #include "passes/weld/weld.h"
@@ -54,6 +56,10 @@ constexpr PassInfo all_passes[] = {
                                         Level::expanded, Level::mesh),
     pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet",
                             Level::authored, Level::authored),
+    pass<smooth, SmoothOptions>("smooth", "move points to the mean of their neighbours", Level::authored,
+                                Level::authored),
+    pass<subdivide, SubdivideOptions>("subdivide", "make smooth surfaces of coarse polygons", Level::authored,
+                                      Level::authored),
     pass<lod, LodOptions>("lod", "make levels of detail of each Shape", Level::authored, Level::authored),
     pass<lightmap, LightmapOptions>("lightmap", "compute light and put it onto the surfaces as textures",
                                     Level::expanded, Level::expanded),
