@@ -24,6 +24,8 @@
 #include "passes/pipeline/pass_info.h"
 #include "passes/place/place.h"
 #include "passes/prune/prune.h"
+#include "passes/smooth/smooth.h"
+#include "passes/subdivide/subdivide.h"
 #include "passes/tessellate/tessellate.h"
 #include "passes/triangulate/triangulate.h"
 #include "passes/weld/weld.h"
@@ -66,6 +68,8 @@ constexpr PassInfo all_passes[] = {
                                         tessellate_doc, tessellate_statistics),
     pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", authored,
                             authored),
+    pass<smooth, SmoothOptions>("smooth", "move points to the mean of their neighbours", authored, authored),
+    pass<subdivide, SubdivideOptions>("subdivide", "make smooth surfaces of coarse polygons", authored, authored),
     pass<lod, LodOptions>("lod", "make levels of detail of each Shape", authored, authored),
     pass<lightmap, LightmapOptions>("lightmap", "compute light and put it onto the surfaces as textures", authored,
                                     authored),

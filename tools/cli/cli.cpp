@@ -57,6 +57,16 @@ void placing(CLI::App& verb, Flags& f) {
   verb.add_option("--up", f.up, "which axis of the input points up: y, z, x")->check(CLI::IsMember({"y", "z", "x"}));
 }
 
+/// One of the names; of a criterion that this build does without, the reason.
+CLI::Validator a_criterion() {
+  const CLI::Validator member = CLI::IsMember(criterion_names());
+  return {[member](std::string& text) {
+            const auto missing = CriterionName::missing(text);
+            return missing.empty() ? member(text) : missing;
+          },
+          member.get_description()};
+}
+
 void python(CLI::App& verb, Flags& f) {
   verb.add_option("--python", f.python,
                   "a file with passes in Python, which then have a name like all others; see docs/python.md")
@@ -337,7 +347,7 @@ const Verb verbs[] = {
        v.add_flag("--progressive", f.progressive,
                   "instead of worlds, one .wpm file: from coarse to exactly the original, for viewers that show what "
                   "has come in");
-       v.add_option("--criterion", f.criterion, "which edges collapse first")->check(CLI::IsMember(criterion_names()));
+       v.add_option("--criterion", f.criterion, "which edges collapse first")->check(a_criterion());
        v.add_option("--pixels", f.pixels,
                     "error that may be seen on a screen of 1080 pixels, for the ranges of the LOD nodes")
            ->check(CLI::PositiveNumber)
@@ -360,9 +370,7 @@ const Verb verbs[] = {
                     "instead of that, shares of the triangles; as a rule 0.5,0.25,0.1,0.05,0.02,0.01")
            ->delimiter(',')
            ->check(CLI::Range(0.0, 1.0));
-       v.add_option("--criteria", f.criteria, "which; as a rule all")
-           ->delimiter(',')
-           ->check(CLI::IsMember(criterion_names()));
+       v.add_option("--criteria", f.criteria, "which; as a rule all")->delimiter(',')->check(a_criterion());
        v.add_flag("--bare", f.bare, "the criterion alone decides: creases and borders are edges like others");
        v.add_option("--size", f.picture_size, "pixels along each side of a picture")
            ->check(CLI::Range(16, 2048))
@@ -435,7 +443,7 @@ const Verb verbs[] = {
                     "criteria whose collapses are shown step by step; as a rule three of a single world of up to "
                     "300,000 triangles")
            ->delimiter(',')
-           ->check(CLI::IsMember(criterion_names()));
+           ->check(a_criterion());
        pipeline(v, f);
        placing(v, f);
      },

@@ -38,8 +38,8 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
     fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios, --error and --progressive is needed\n");
     return std::nullopt;
   }
-  if (f.progressive && criterion.value == Criterion::meshopt) {
-    fmt::print(stderr, "wrlkit simplify: --progressive: meshopt keeps no record of its steps\n");
+  if (f.progressive && !info(criterion.value).keeps_record) {
+    fmt::print(stderr, "wrlkit simplify: --progressive: {} keeps no record of its steps\n", criterion.print());
     return std::nullopt;
   }
   for (const auto& text : f.errors) {

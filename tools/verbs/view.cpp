@@ -70,7 +70,7 @@ class Viewer {
   void add_collapse(Scene scene, const std::string& name) {
     CriterionName criterion;
     criterion.read(name);
-    if (criterion.value == Criterion::meshopt || page_.worlds.size() > 1) return;
+    if (!info(criterion.value).keeps_record || page_.worlds.size() > 1) return;
     s_.progress().begin("collapsing by " + name, 0, "");
     Diagnostics unheard(s_.diag().shared_sources());
     PassContext silent{unheard, s_.context().stats, &s_.resources()};
@@ -102,8 +102,8 @@ bool is_usable(const Flags& f) {
     return false;
   }
   for (const auto& name : f.criteria)
-    if (name == "meshopt") {
-      fmt::print(stderr, "wrlkit view: --criteria: meshopt keeps no record of its steps\n");
+    if (CriterionName criterion; criterion.read(name) && !info(criterion.value).keeps_record) {
+      fmt::print(stderr, "wrlkit view: --criteria: {} keeps no record of its steps\n", name);
       return false;
     }
   return true;
