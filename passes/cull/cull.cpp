@@ -14,6 +14,7 @@
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
 #include "passes/cull/visibility.h"
+#include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -200,8 +201,9 @@ bool Culling::may_be_clear(const Use& use) const {
   if (!use.appearance) return false;
   if (!scene_.is(use.appearance, nodes::Appearance) || scene_.get(use.appearance, nodes::appearance::texture))
     return true;
-  const NodeId material = scene_.get(use.appearance, nodes::appearance::material);
-  return material && (!scene_.is(material, nodes::Material) || scene_.get(material, nodes::material::transparency) > 0);
+  const NodeId n = scene_.get(use.appearance, nodes::appearance::material);
+  const auto material = read_material(scene_, n);
+  return n && (!material || material->color_picture || material->transparency > 0);
 }
 
 void Culling::find_hidden() {
