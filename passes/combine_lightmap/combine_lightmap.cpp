@@ -55,7 +55,7 @@ std::array<double, N> mixed(const Attribute& a, std::uint32_t corner, const std:
 }
 
 /// Of texture coordinates: twice the area, without a sign.
-double picture_area(const Attribute& a, std::uint32_t corner, const drawing::TexcoordMap& map) {
+double picture_area(const Attribute& a, std::uint32_t corner, const TexcoordMap& map) {
   const float *p = a.at(a.index[corner]), *q = a.at(a.index[corner + 1]), *r = a.at(a.index[corner + 2]);
   return std::abs((double{q[0]} - p[0]) * (double{r[1]} - p[1]) - (double{r[0]} - p[0]) * (double{q[1]} - p[1])) *
          std::abs(map.determinant());

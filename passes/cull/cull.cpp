@@ -14,6 +14,7 @@
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
 #include "passes/cull/visibility.h"
+#include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -200,16 +201,9 @@ bool Culling::may_be_clear(const Use& use) const {
   if (!use.appearance) return false;
   if (!scene_.is(use.appearance, nodes::Appearance) || scene_.get(use.appearance, nodes::appearance::texture))
     return true;
-  const NodeId m = scene_.get(use.appearance, nodes::appearance::material);
-  if (scene_.is(m, nodes::Material))
-    return scene_.get(m, nodes::material::transparency) > 0 || scene_.get(m, nodes::material::diffuseTexture);
-  if (scene_.is(m, nodes::PhysicalMaterial))
-    return scene_.get(m, nodes::physical_material::transparency) > 0 ||
-           scene_.get(m, nodes::physical_material::baseTexture);
-  if (scene_.is(m, nodes::UnlitMaterial))
-    return scene_.get(m, nodes::unlit_material::transparency) > 0 ||
-           scene_.get(m, nodes::unlit_material::emissiveTexture);
-  return static_cast<bool>(m);
+  const NodeId n = scene_.get(use.appearance, nodes::appearance::material);
+  const auto material = read_material(scene_, n);
+  return n && (!material || material->color_picture || material->transparency > 0);
 }
 
 void Culling::find_hidden() {

@@ -13,6 +13,7 @@
 #include "passes/lightmap/witnesses.h"
 #include "passes/normals/normals.h"
 #include "passes/weld/points.h"
+#include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::bake {
@@ -189,9 +190,8 @@ class Finder {
 
  private:
   bool has_material(NodeId appearance) const {
-    if (!scene_.is(appearance, nodes::Appearance)) return false;
-    const NodeId m = scene_.get(appearance, nodes::appearance::material);
-    return scene_.is(m, nodes::Material) || scene_.is(m, nodes::PhysicalMaterial);
+    const auto m = material_of(scene_, appearance);
+    return m && m->kind != MaterialNode::Kind::unlit;
   }
 
   void read(Part& p) {

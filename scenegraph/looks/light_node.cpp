@@ -1,4 +1,4 @@
-#include "scenegraph/light_node.h"
+#include "scenegraph/looks/light_node.h"
 
 #include "scenegraph/nodes.h"
 
