@@ -30,8 +30,9 @@ FileResources resources_of(const std::string& path) {
   return {ResourceOptions{.input = path}, parse};
 }
 
-std::string glb_of(const std::string& path, const World& world, const char* front, const GltfOptions& options) {
-  Diagnostics diag;
+std::string glb_of(const std::string& path, const World& world, const char* front, const GltfOptions& options,
+                   std::shared_ptr<Sources> sources) {
+  Diagnostics diag(std::move(sources));
   Statistics stats;
   auto resources = resources_of(path);
   Scene scene = world.scene;
@@ -60,37 +61,36 @@ struct Way {
   GltfOptions options = {};
 };
 
-/// Not EXT_meshopt_compression: tinygltf 2.7 refuses its buffer without bytes. Nor KHR_animation_pointer, whose channels
-/// have no node.
+/// Not packed: tinygltf 2.7 refuses buffers without bytes (EXT_meshopt_compression), and this build of it knows no
+/// Draco. Nor KHR_animation_pointer, whose channels have no node.
 std::vector<Way> ways() {
-  std::vector<Way> all{{"plain"}, {"quantize"}, {"draco"}, {"table"}};
+  std::vector<Way> all{{"plain"}, {"quantize"}, {"table"}};
   all[1].options.compression.method = GltfCompression::Method::quantize;
-  all[2].options.compression.method = GltfCompression::Method::draco;
-  all[3].front = "dedup,instance";
-  all[3].options.names = GltfOptions::Names::table;
-  all[3].options.facts_only = true;
-  all[3].options.gpu_instancing = true;
+  all[2].front = "dedup,instance";
+  all[2].options.names = GltfOptions::Names::table;
+  all[2].options.facts_only = true;
+  all[2].options.gpu_instancing = true;
   return all;
 }
 
-std::string judge(const std::string& path, const World& world) {
+std::string judge(const std::string& path, const World& world, const std::shared_ptr<Sources>& sources) {
   for (const Way& way : ways()) {
-    const auto glb = glb_of(path, world, way.front, way.options);
+    const auto glb = glb_of(path, world, way.front, way.options, sources);
     if (glb.empty()) continue;  // nothing to be seen in this world
     if (const auto said = verdict(glb); !said.empty()) return std::string(way.name) + ": " + said;
   }
   return {};
 }
 
-std::string road(const std::string& path, const World& world) {
-  const auto glb = glb_of(path, world, "", {});
+std::string road(const std::string& path, const World& world, const std::shared_ptr<Sources>& sources) {
+  const auto glb = glb_of(path, world, "", {}, sources);
   if (glb.empty()) return {};
-  Diagnostics unheard;
+  Diagnostics of_file, of_world(sources), of_model;
   auto resources = resources_of(path);
-  const auto by_file = parse_world(glb, "by file", {}, unheard);
-  const auto model = to_tinygltf(world.scene, {}, &resources, unheard);
+  const auto by_file = parse_world(glb, "by file", {}, of_file);
+  const auto model = to_tinygltf(world.scene, {}, &resources, of_world);
   if (!model) return "there is no model";
-  const auto by_model = from_tinygltf(*model, {}, unheard);
+  const auto by_model = from_tinygltf(*model, {}, of_model);
   if (!by_file || !by_model) return by_file || by_model ? "only one of both ways leads back" : "";
   return difference(by_file->scene, by_model->scene);
 }
@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
     const auto world = read_world(path, {}, diag);
     if (!world) continue;
     ++n_worlds;
-    const auto fault = judging ? judge(path, *world) : road(path, *world);
+    const auto fault = judging ? judge(path, *world, diag.shared_sources()) : road(path, *world, diag.shared_sources());
     if (fault.empty()) continue;
     ++n_faults;
     std::printf("%s: %s\n", path.c_str(), fault.c_str());

@@ -2,6 +2,7 @@
 #include "passes/pipeline/pipeline.h"
 #include "passes/smooth/smooth.h"
 #include "passes/subdivide/subdivide.h"
+#include "scenegraph/nodes.h"
 
 #ifdef WRLKIT_OPENMESH
 #include "geometry/openmesh/openmesh.h"
@@ -19,6 +20,7 @@ namespace {
 /// A mesh pass on one mesh.
 struct Bench {
   Scene scene;
+  NodeId geometry = scene.add(nodes::IndexedFaceSet);
   Diagnostics diag;
   Statistics stats;
   Task task{diag, stats};
@@ -26,7 +28,7 @@ struct Bench {
 
   template <class Options>
   Outcome run(Outcome (*pass)(MeshJob&, const Options&), Mesh& mesh, const Options& options) {
-    MeshJob job{scene, NodeId{}, mesh, scratch, task};
+    MeshJob job{scene, geometry, mesh, scratch, task};
     return pass(job, options);
   }
 };
