@@ -7,6 +7,14 @@
 #endif
 
 namespace wrlkit {
+namespace {
+
+[[maybe_unused]] void report(MeshJob& job, std::string_view pass, const std::string& why) {
+  job.ctx.diag.report(Diag::verify, job.scene.where(job.geometry),
+                      std::string(pass) + " leaves this surface as it is: " + why);
+}
+
+}  // namespace
 
 bool is_for_openmesh(MeshJob& job, std::string_view pass) {
   if (job.driven || job.mesh.kind != Mesh::Kind::faces || job.mesh.corners.empty()) return false;
@@ -14,7 +22,7 @@ bool is_for_openmesh(MeshJob& job, std::string_view pass) {
   static_cast<void>(pass);
   return true;
 #else
-  job.ctx.diag.report(Diag::without_package, job.scene.where(job.geometry), pass, "OpenMesh");
+  report(job, pass, "this wrlkit was built without OpenMesh");
   return false;
 #endif
 }
@@ -32,7 +40,10 @@ std::optional<ToOpenMesh> manifold_of(MeshJob& job, std::string_view pass) {
   std::size_t n_touching = 0;
   for (auto v : surface.mesh.vertices()) n_touching += !surface.mesh.is_manifold(v);
   if (surface.faults.count() + n_touching == 0) return surface;
-  job.ctx.diag.report(Diag::not_manifold, job.scene.where(job.geometry), pass, surface.faults.count(), n_touching);
+  report(job, pass,
+         "it is not a manifold: " + std::to_string(surface.faults.count()) +
+             " faces at edges or points that have all their faces, " + std::to_string(n_touching) +
+             " points where faces only touch");
   return std::nullopt;
 }
 

@@ -194,8 +194,9 @@ bool is_within_limit(MeshJob& job, const SubdivideOptions& options) {
   const double more = triangles_of(job.mesh, options);
   auto& count = job.ctx.stats["subdivide.triangles"];
   if (static_cast<double>(count) + more > options.max_triangles) {
-    job.ctx.diag.report(Diag::subdivision_limit, job.scene.where(job.geometry), static_cast<std::uint64_t>(more),
-                        options.max_triangles);
+    const auto n = std::to_string(static_cast<std::uint64_t>(more) + count) + " triangles";
+    job.ctx.diag.report(Diag::too_large, job.scene.where(job.geometry), n, options.max_triangles,
+                        "subdivide leaves this surface as it is");
     return false;
   }
   count += static_cast<std::uint64_t>(more);

@@ -42,7 +42,7 @@ struct SubdivideOptions {
 ///   creaseAngle becomes pi: subdivide.dropped-normals.
 /// - The faces that a face becomes stand in its place. Borders are curves of their own: they become smooth, too, but
 ///   hang on nothing but the points of the border.
-/// - A surface that is no manifold stays as it is and is reported (not-manifold). Faces that only touch do not hang
+/// - A surface that is no manifold stays as it is and is reported. Faces that only touch do not hang
 ///   together: run `weld` before.
 ///
 /// Meshes of lines and points stay as they are, and so do primitives: `tessellate` makes faces of them. Statistics:

@@ -2,6 +2,7 @@
 #include "passes/pipeline/pipeline.h"
 #include "passes/smooth/smooth.h"
 #include "passes/subdivide/subdivide.h"
+#include "scenegraph/nodes.h"
 
 #ifdef WRLKIT_OPENMESH
 #include "geometry/openmesh/openmesh.h"
@@ -18,7 +19,8 @@ namespace {
 
 /// A mesh pass on one mesh.
 struct Bench {
-  Scene scene{std::make_shared<Sources>()};
+  Scene scene;
+  NodeId geometry = scene.add(nodes::IndexedFaceSet);
   Diagnostics diag;
   Statistics stats;
   Task task{diag, stats};
@@ -26,7 +28,7 @@ struct Bench {
 
   template <class Options>
   Outcome run(Outcome (*pass)(MeshJob&, const Options&), Mesh& mesh, const Options& options) {
-    MeshJob job{scene, scene.add(nodes::indexed_face_set::type), mesh, scratch, task};
+    MeshJob job{scene, geometry, mesh, scratch, task};
     return pass(job, options);
   }
 };
@@ -103,7 +105,7 @@ TEST_CASE("openmesh: a build without it says so") {
   Bench b;
   Mesh m = cube();
   CHECK(b.run(subdivide, m, {}) == (built_in ? Outcome::changed : Outcome::unchanged));
-  CHECK(b.diag.count(Diag::without_package) == (built_in ? 0 : 1));
+  CHECK(b.diag.count(Diag::verify) == (built_in ? 0 : 1));
   if (built_in) return;
   std::string why;
   CHECK_FALSE(Pipeline::parse("lod{criterion=openmesh}", why));
@@ -158,7 +160,7 @@ TEST_CASE("openmesh: what is no manifold is kept apart") {
     const auto corners = m.corners;
     CHECK(b.run(subdivide, m, {}) == Outcome::unchanged);
     CHECK(b.run(smooth, m, {}) == Outcome::unchanged);
-    CHECK(b.diag.count(Diag::not_manifold) == 2);
+    CHECK(b.diag.count(Diag::verify) == 2);
     CHECK(m.corners == corners);
   }
 }
@@ -236,7 +238,7 @@ TEST_CASE("subdivide: limits, borders, very many edges at a point") {
   Bench b;
   Mesh m = cube();
   CHECK(b.run(subdivide, m, {.levels = 8, .max_triangles = 1000}) == Outcome::unchanged);
-  CHECK(b.diag.count(Diag::subdivision_limit) == 1);
+  CHECK(b.diag.count(Diag::too_large) == 1);
   CHECK(b.run(subdivide, m, {.max_triangles = 48}) == Outcome::changed);
   CHECK(b.run(subdivide, m, {.max_triangles = 100}) == Outcome::unchanged);  // 48 and 192: one limit for all
 
@@ -268,7 +270,8 @@ TEST_CASE("smooth: noise on a plane goes, the border stays") {
   std::uniform_real_distribution<double> noise(-0.05, 0.05);
   Mesh m = sheet(20, [&](double x, double y) { return x > 0 && x < 1 && y > 0 && y < 1 ? noise(random) : 0.1 * x; });
   for (std::size_t i = 0; i < m.n_positions(); ++i)  // a border in the plane
-    if (m.positions[3 * i] == 0 || m.positions[3 * i] == 1 || m.positions[3 * i + 1] == 0 || m.positions[3 * i + 1] == 1)
+    if (m.positions[3 * i] == 0 || m.positions[3 * i] == 1 || m.positions[3 * i + 1] == 0 ||
+        m.positions[3 * i + 1] == 1)
       m.positions.edit()[3 * i + 2] = 0;
   decorate(m);
   const Mesh before = m;
