@@ -7,6 +7,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "base/text/csv.h"
 #include "base/text/json.h"
 #include "parsers/gltf/json.h"
 
@@ -47,13 +48,6 @@ ReportRow row_of(JournalLine&& l) {
   r.output_bytes = l.output_bytes;
   r.output_hash = l.output_hash;
   return r;
-}
-
-std::string csv_text(const std::string& s) {
-  if (s.find_first_of(",\"\n\r") == s.npos) return s;
-  std::string out = "\"";
-  for (char c : s) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
 }
 
 std::string number_or_nothing(const std::optional<Look>& look, double Look::*member) {

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "base/text/json.h"
+#include "scenegraph/range_text.h"
 
 namespace wrlkit {
 namespace {
@@ -18,12 +17,6 @@ std::string level_word(Level l) {
   return l == Level::authored ? "authored" : l == Level::expanded ? "expanded" : "mesh";
 }
 
-std::string range_text(const FieldRange& r) {
-  if (!r.bounded()) return "";
-  auto end = [](double v) { return std::isinf(v) ? std::string(v < 0 ? "-inf" : "inf") : fmt::format("{:g}", v); };
-  return fmt::format("{}{},{}{}", r.low_open ? "(" : "[", end(r.low), end(r.high), r.high_open ? ")" : "]");
-}
-
 std::string kinds_text(const FieldDef& f) {
   std::string out;
   for (auto k : f.kinds) out += (out.empty() ? "" : ", ") + std::string(k);
@@ -32,7 +25,7 @@ std::string kinds_text(const FieldDef& f) {
 
 /// Range, unit, kinds: what limits a value; and whether it is a field of wrlkit's own.
 std::string limits_text(const FieldDef& f) {
-  std::string out = range_text(f.range);
+  std::string out = f.range.bounded() ? range_text(f.range) : "";
   for (const auto& part : {std::string(f.unit), kinds_text(f), std::string(f.is_own() ? "(wrlkit's own)" : "")})
     if (!part.empty()) out += (out.empty() ? "" : " ") + part;
   return out;
