@@ -7,7 +7,7 @@
 #include "base/hashing.h"
 #include "base/silent_task.h"
 #include "geometry/geometry.h"
-#include "geometry/simplify/places.h"
+#include "geometry/simplify/surface_scales.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"

@@ -10,7 +10,6 @@
 #include <unordered_map>
 
 #include "geometry/geometry.h"
-#include "geometry/simplify/places.h"
 #include "geometry/tessellation.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/representatives.h"
@@ -21,6 +20,7 @@
 #include "passes/normals/normals.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
