@@ -5,9 +5,10 @@
 
 #include "base/parallel.h"
 #include "geometry/progressive/bytes.h"
-#include "geometry/simplify/places.h"
+#include "geometry/simplify/surfaces.h"
 #include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
 
 namespace wrlkit {
 namespace {

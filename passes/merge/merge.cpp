@@ -11,7 +11,6 @@
 
 #include "base/text/csv.h"
 #include "geometry/geometry.h"
-#include "geometry/simplify/places.h"
 #include "geometry/tessellation.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/representatives.h"
@@ -22,6 +21,7 @@
 #include "passes/normals/normals.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {

@@ -1,4 +1,4 @@
-#include "writers/vrml/def_names.h"
+#include "writers/text/names.h"
 
 #include <filesystem>
 
