@@ -125,12 +125,12 @@ class Pointers {
 
 }  // namespace
 
-void add_pointers(Animations& animations, const Scene& scene, const Materials& materials, const Hierarchy& hierarchy) {
+void add_pointers(Animations& animations, const Scene& scene, const Materials& materials, const Document& document) {
   Pointers p(animations, scene);
   for (const auto& m : materials.moved()) p.material(m);
-  for (std::size_t i = 0; i < hierarchy.lights().size(); ++i)
-    if (hierarchy.lights()[i].source) p.light(i, hierarchy.lights()[i], hierarchy.world());
-  for (std::size_t i = 0; i < hierarchy.cameras().size(); ++i) p.camera(i, hierarchy.cameras()[i].source);
+  for (std::size_t i = 0; i < document.lights.size(); ++i)
+    if (document.lights[i].source) p.light(i, document.lights[i], document.world);
+  for (std::size_t i = 0; i < document.cameras.size(); ++i) p.camera(i, document.cameras[i].source);
 }
 
 }  // namespace wrlkit::gltf
