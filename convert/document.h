@@ -32,6 +32,8 @@ class Document {
   /// A scene that is had from elsewhere, with what a pass is given: its messages and files. The context must outlive
   /// the document.
   Document(World world, const PassContext& context);
+  /// The same with messages of its own; files next to it are not known.
+  explicit Document(World world);
   Document(Document&&) noexcept;
   Document& operator=(Document&&) noexcept;
   ~Document();

@@ -46,6 +46,17 @@ std::string_view name_of(E value) {
   return value_names<E>[static_cast<std::size_t>(value)];
 }
 
+/// False when no value of the enumeration has that name.
+template <class E>
+bool read_value(std::string_view text, E& value) {
+  for (std::size_t i = 0; i < value_names<E>.size(); ++i)
+    if (value_names<E>[i] == text) {
+      value = static_cast<E>(i);
+      return true;
+    }
+  return false;
+}
+
 /// What fields() may add to the name, the value and the help of an option.
 struct OptionNote {
   OptionRange range = {};      // of a number
