@@ -58,9 +58,19 @@ Document::Document(LoadOptions options, Watch watch)
     : state_(std::make_unique<State>(std::move(options), std::move(watch))) {}
 Document::Document(World world, const PassContext& context)
     : state_(std::make_unique<State>(std::move(world), context)) {}
+Document::Document(World world) : Document(LoadOptions{}) {
+  state_->own_diag = Diagnostics(world.scene.sources);
+  state_->open_files(std::string(standard_input));
+  state_->take(std::make_unique<World>(std::move(world)));
+}
 Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
+
+void Document::leave_unplaced() {
+  state_->options.unit = {};
+  state_->options.up = {};
+}
 
 bool Document::read(const std::string& path) {
   if (auto* monitor = state_->context.monitor) monitor->begin("reading " + path, 0, "");

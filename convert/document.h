@@ -32,6 +32,8 @@ class Document {
   /// A scene that is had from elsewhere, with what a pass is given: its messages and files. The context must outlive
   /// the document.
   Document(World world, const PassContext& context);
+  /// The same with messages of its own; files next to it are not known.
+  explicit Document(World world);
   Document(Document&&) noexcept;
   Document& operator=(Document&&) noexcept;
   ~Document();
@@ -44,6 +46,9 @@ class Document {
   /// The same from memory, not gzipped; `name` is for messages. Files next to it are not known:
   /// LoadOptions::allow_paths says where relative urls may lead.
   bool parse(std::string_view bytes, std::string name);
+
+  /// What is read from now on is not placed by LoadOptions::unit and up: the pipeline that it goes through has `place`.
+  void leave_unplaced();
 
   /// Whether there is a scene.
   explicit operator bool() const;

@@ -99,10 +99,13 @@ std::vector<std::string_view> endings_of(const FileFormat& format) {
   return out;
 }
 
-std::vector<std::string_view> scene_endings() {
-  auto out = endings_where([](const FileFormat& f) { return f.parsed != Format::none; });
-  std::ranges::stable_sort(out, std::greater{}, &std::string_view::size);
-  return out;
+const std::vector<std::string_view>& scene_endings() {
+  static const auto all_endings = [] {
+    auto out = endings_where([](const FileFormat& f) { return f.parsed != Format::none; });
+    std::ranges::stable_sort(out, std::greater{}, &std::string_view::size);
+    return out;
+  }();
+  return all_endings;
 }
 
 std::vector<std::string_view> output_endings() {

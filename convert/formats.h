@@ -35,7 +35,7 @@ std::span<const FileFormat> formats();
 /// The endings of a row, one by one.
 std::vector<std::string_view> endings_of(const FileFormat&);
 /// Endings of files that hold scenes, the longest first: ".wrl.gz" before ".wrl".
-std::vector<std::string_view> scene_endings();
+const std::vector<std::string_view>& scene_endings();
 /// Endings of the files that `convert` writes.
 std::vector<std::string_view> output_endings();
 /// ".glb, .gltf, .wrl or .x3d": the usual ending of each format that is written, for messages.

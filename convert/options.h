@@ -13,12 +13,13 @@
 #include "base/image/image.h"
 #include "base/option_range.h"
 #include "passes/pipeline/length_option.h"
+#include "passes/place/place.h"
 #include "writers/gltf/gltf.h"
 
 namespace wrlkit {
 
-enum class Unit : std::uint8_t { m, cm, mm, in, ft };
-enum class UpAxis : std::uint8_t { y, z, x };
+using Unit = PlaceOptions::Unit;
+using UpAxis = PlaceOptions::Up;
 /// What VRML says and glTF cannot: kept whole, so that the same VRML can be made again; only what nodes say that draw
 /// nothing (links, descriptions); dropped.
 enum class Extras : std::uint8_t { all, facts, none };
@@ -44,6 +45,17 @@ WRLKIT_VALUE_NAMES(GltfOptions::Names, names, "nodes", "table")
 template <class E>
 std::string_view name_of(E value) {
   return value_names<E>[static_cast<std::size_t>(value)];
+}
+
+/// False when no value of the enumeration has that name.
+template <class E>
+bool read_value(std::string_view text, E& value) {
+  for (std::size_t i = 0; i < value_names<E>.size(); ++i)
+    if (value_names<E>[i] == text) {
+      value = static_cast<E>(i);
+      return true;
+    }
+  return false;
 }
 
 /// What fields() may add to the name, the value and the help of an option.

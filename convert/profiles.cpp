@@ -1,4 +1,4 @@
-#include "tools/profiles.h"
+#include "convert/profiles.h"
 
 #include <fmt/format.h>
 
@@ -10,17 +10,22 @@ namespace {
 #define WRLKIT_SHARING "dedup,instance"
 // Where vertices are packed, what has no name is better one mesh than many nodes.
 #define WRLKIT_PACKED WRLKIT_SHARING ",merge{parts=true}"
+using Method = GltfCompression::Method;
+using Pictures = GltfTextures::Format;
+using Names = GltfOptions::Names;
 constexpr Profile all[] = {
-    {"portable", "every viewer of glTF 2.0", "none", "facts", "keep", "nodes", WRLKIT_SHARING,
+    {"portable", "every viewer of glTF 2.0", Method::none, Extras::facts, Pictures::keep, Names::nodes, WRLKIT_SHARING,
      "core glTF: no extension that a viewer must know; equal parts share a mesh, each has a node"},
-    {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", "meshopt", "facts", "webp", "nodes", WRLKIT_PACKED,
+    {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", Method::meshopt, Extras::facts, Pictures::webp,
+     Names::nodes, WRLKIT_PACKED,
      "their decoder of meshopt is small and fast; it must be given to the loader (GLTFLoader.setMeshoptDecoder)"},
-    {"cesium", "CesiumJS", "meshopt", "facts", "webp", "table", WRLKIT_PACKED ",merge{instanced=true}",
+    {"cesium", "CesiumJS", Method::meshopt, Extras::facts, Pictures::webp, Names::table,
+     WRLKIT_PACKED ",merge{instanced=true}",
      "meshopt, quantised numbers and WebP are decoded without being asked for; names in a table are what it picks by: "
      "few draws, every part still found"},
-    {"unity", "Unity by glTFast", "quantize", "facts", "keep", "nodes", WRLKIT_SHARING,
+    {"unity", "Unity by glTFast", Method::quantize, Extras::facts, Pictures::keep, Names::nodes, WRLKIT_SHARING,
      "quantised numbers need no further package; meshopt and Draco do"},
-    {"godot", "Godot 4", "none", "facts", "webp", "nodes", WRLKIT_SHARING,
+    {"godot", "Godot 4", Method::none, Extras::facts, Pictures::webp, Names::nodes, WRLKIT_SHARING,
      "its importer knows WebP, but neither quantised numbers nor a decoder of meshopt or Draco"},
 };
 
@@ -60,21 +65,32 @@ const Profile* find_profile(std::string_view name) {
   return i == std::end(all) ? nullptr : i;
 }
 
+void apply_profile(SaveOptions& options, const Profile& profile, const std::function<bool(std::string_view)>& stays) {
+  const auto take = [&](std::string_view name, auto& option, auto chosen) {
+    if (!stays || !stays(name)) option = chosen;
+  };
+  take("compress", options.compress, profile.compress);
+  take("extras", options.extras, profile.extras);
+  take("texture-format", options.texture_format, profile.texture_format);
+  take("names", options.names, profile.names);
+}
+
 std::string profile_text(const Profile& p) {
   return fmt::format("{}: {}\n  --compress {} --extras {} --texture-format {} --names {}\n  optimize runs {}\n  {}\n",
-                     p.name, p.opens_in, p.compress, p.extras, p.texture_format, p.names, p.pipeline, p.why);
+                     p.name, p.opens_in, name_of(p.compress), name_of(p.extras), name_of(p.texture_format),
+                     name_of(p.names), p.pipeline, p.why);
 }
 
 std::string profiles_page() {
   std::string out =
-      "# Profiles\n\nGenerated from `tools/profiles.cpp` by `script/docs`; do not edit. `wrlkit optimize --profile "
+      "# Profiles\n\nGenerated from `convert/profiles.cpp` by `script/docs`; do not edit. `wrlkit optimize --profile "
       "NAME --print-profile` prints one.\n"
       "What an option says otherwise holds; `convert --profile NAME` takes the first four and runs no pass of its "
       "own.\n\n| profile | opens in | `--compress` | `--extras` | `--texture-format` | `--names` | `optimize` runs | "
       "why |\n|---|---|---|---|---|---|---|---|\n";
   for (const Profile& p : all)
-    out += fmt::format("| {} | {} | {} | {} | {} | {} | `{}` | {} |\n", p.name, p.opens_in, p.compress, p.extras,
-                       p.texture_format, p.names, p.pipeline, p.why);
+    out += fmt::format("| {} | {} | {} | {} | {} | {} | `{}` | {} |\n", p.name, p.opens_in, name_of(p.compress),
+                       name_of(p.extras), name_of(p.texture_format), name_of(p.names), p.pipeline, p.why);
   out += "\nWhere that can be read:\n\n";
   for (const Source& from : sources) out += fmt::format("- {}: {}.\n", from.profile, from.text);
   return out;
