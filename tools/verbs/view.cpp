@@ -9,6 +9,7 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
+#include "convert/placing.h"
 #include "geometry/progressive/progressive_world.h"
 #include "tools/cli/session.h"
 #include "tools/report/deviation_map.h"
