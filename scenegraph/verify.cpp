@@ -7,24 +7,11 @@
 
 #include "base/text/bit_mask.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/range_text.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
-
-std::string range_text(const FieldRange& r) {
-  auto number = [](double v) {
-    if (std::isinf(v)) return std::string(v < 0 ? "-inf" : "inf");
-    auto s = std::to_string(v);
-    while (s.find('.') != s.npos && (s.back() == '0' || s.back() == '.')) {
-      bool point = s.back() == '.';
-      s.pop_back();
-      if (point) break;
-    }
-    return s;
-  };
-  return (r.low_open ? "(" : "[") + number(r.low) + "," + number(r.high) + (r.high_open ? ")" : "]");
-}
 
 class ValueCheck {
  public:

@@ -66,7 +66,7 @@ geometries; the same result for any number of threads.)";
   void fields(auto&& f) {
     f("ratios", ratios, "triangles of each further level, as shares of the first");
     f("errors", errors, "instead of ratios: how far each further level may be from the first, in metres of the world");
-    f("criterion", criterion, "length-normal, melax, lindstrom-turk, quadric or meshopt");
+    f("criterion", criterion, CriterionName::help());
     f("pixels", pixels, "error of a level on the screen, in pixels, from which on it may be shown", at_least(0));
     f("screen-height", screen_height, "pixels", at_least(1));
     f("field-of-view", field_of_view, "of the screen's height, in radians", between(0.001, 3.141));

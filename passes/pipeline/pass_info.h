@@ -107,6 +107,8 @@ class PassOf final : public PassInstance {
       }
       why = "option '" + std::string(option) + "': '" + std::string(value) +
             "' is no value for it: " + option_text::describe(name, field, help, range).type_and_range();
+      if constexpr (requires { field.missing(value); })
+        if (const auto missing = field.missing(value); !missing.empty()) why = missing;
     });
     if (!found) why = "has no option '" + std::string(option) + "'" + nearest.question();
     return why.empty();

@@ -116,6 +116,7 @@ Level Pipeline::level_behind(std::size_t step) const {
 bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassContext& ctx,
                          const PipelineOptions& options) {
   for (std::size_t i = begin; i < end;) {
+    if (ctx.stop.stop_requested()) return false;
     std::size_t next = i + 1;
     // Mesh passes run together unless somebody wants to look between them.
     if (steps_[i].pass->is_mesh_pass() && !options.watched())
@@ -143,6 +144,7 @@ bool Pipeline::run_mesh_steps(std::size_t begin, std::size_t end, Scene& scene, 
   const auto driven = driven_geometry(scene);
   for (NodeId n : all_nodes(scene)) {
     if (!is_geometry(scene, n) || driven[n.value]) continue;
+    if (ctx.stop.stop_requested()) return false;
     MeshJob job{scene, n, mesh, scratch, ctx, textured[n.value] != 0};
     read_mesh(job);
     bool changed = false;

@@ -72,11 +72,13 @@ struct PassInfo {
 
 /// Every pass, in the order of the documentation (registry.cpp).
 std::span<const PassInfo> passes();
-/// Of the list, or one that was added.
+/// Of the list, or one that was added; null when there is none. It lives as long as the program. Any thread.
 const PassInfo* find_pass(std::string_view name);
-/// Adds a pass that is not in the list, in place of one that was added by that name before; `info` is kept by its
-/// address, for as long as the program runs. False when the list, or a named pipeline, has the name. For one thread,
-/// while no other uses passes.
+/// Adds a pass that is not in the list, in place of one that was added by that name before. Pipelines that have the one
+/// before keep it. False when the list, or a named pipeline, has the name. Any thread.
+bool add_pass(std::shared_ptr<const PassInfo> info);
+/// The same of what pass<f, Options>(...) gives (passes/pipeline/pass_info.h). Its texts are not copied: they must be
+/// literals, or live as long as the program.
 bool add_pass(const PassInfo& info);
 /// Those that were added, by name.
 std::vector<const PassInfo*> added_passes();

@@ -2,6 +2,8 @@
 // own.
 #include <algorithm>
 #include <map>
+#include <mutex>
+#include <shared_mutex>
 
 #include "passes/combine_lightmap/combine_lightmap.h"
 #include "passes/cull/cull.h"
@@ -22,6 +24,8 @@
 #include "passes/pipeline/pass_info.h"
 #include "passes/place/place.h"
 #include "passes/prune/prune.h"
+#include "passes/smooth/smooth.h"
+#include "passes/subdivide/subdivide.h"
 #include "passes/tessellate/tessellate.h"
 #include "passes/triangulate/triangulate.h"
 #include "passes/weld/weld.h"
@@ -64,6 +68,8 @@ constexpr PassInfo all_passes[] = {
                                         tessellate_doc, tessellate_statistics),
     pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", authored,
                             authored),
+    pass<smooth, SmoothOptions>("smooth", "move points to the mean of their neighbours", authored, authored),
+    pass<subdivide, SubdivideOptions>("subdivide", "make smooth surfaces of coarse polygons", authored, authored),
     pass<lod, LodOptions>("lod", "make levels of detail of each Shape", authored, authored),
     pass<lightmap, LightmapOptions>("lightmap", "compute light and put it onto the surfaces as textures", authored,
                                     authored),
@@ -94,9 +100,34 @@ constexpr NamedPipeline named[] = {
 };
 
 /// Passes that a program brings itself, as the Python package does.
-std::map<std::string, const PassInfo*, std::less<>>& added_by_name() {
-  static std::map<std::string, const PassInfo*, std::less<>> added;
-  return added;
+class AddedPasses {
+ public:
+  const PassInfo* find(std::string_view name) {
+    const std::shared_lock lock(mutex_);
+    const auto found = by_name_.find(name);
+    return found == by_name_.end() ? nullptr : found->second;
+  }
+  void add(std::shared_ptr<const PassInfo> info) {
+    const std::unique_lock lock(mutex_);
+    by_name_.insert_or_assign(std::string(info->name), info.get());
+    all_.push_back(std::move(info));
+  }
+  std::vector<const PassInfo*> by_name() {
+    const std::shared_lock lock(mutex_);
+    std::vector<const PassInfo*> out;
+    for (const auto& [name, info] : by_name_) out.push_back(info);
+    return out;
+  }
+
+ private:
+  std::shared_mutex mutex_;
+  std::map<std::string, const PassInfo*, std::less<>> by_name_;
+  std::vector<std::shared_ptr<const PassInfo>> all_;  // those that were replaced, too: pipelines may hold them
+};
+
+AddedPasses& added() {
+  static auto& passes = *new AddedPasses;  // never destroyed: it may hold objects of an interpreter that has ended
+  return passes;
 }
 
 }  // namespace
@@ -106,23 +137,20 @@ std::span<const NamedPipeline> named_pipelines() { return named; }
 
 const PassInfo* find_pass(std::string_view name) {
   if (auto i = std::ranges::find(all_passes, name, &PassInfo::name); i != std::end(all_passes)) return i;
-  const auto added = added_by_name().find(name);
-  return added == added_by_name().end() ? nullptr : added->second;
+  return added().find(name);
 }
 
-bool add_pass(const PassInfo& info) {
-  if (std::ranges::find(all_passes, info.name, &PassInfo::name) != std::end(all_passes) ||
-      std::ranges::find(named, info.name, &NamedPipeline::name) != std::end(named))
+bool add_pass(std::shared_ptr<const PassInfo> info) {
+  if (std::ranges::find(all_passes, info->name, &PassInfo::name) != std::end(all_passes) ||
+      std::ranges::find(named, info->name, &NamedPipeline::name) != std::end(named))
     return false;
-  added_by_name().insert_or_assign(std::string(info.name), &info);
+  added().add(std::move(info));
   return true;
 }
 
-std::vector<const PassInfo*> added_passes() {
-  std::vector<const PassInfo*> out;
-  for (const auto& [name, info] : added_by_name()) out.push_back(info);
-  return out;
-}
+bool add_pass(const PassInfo& info) { return add_pass(std::make_shared<const PassInfo>(info)); }
+
+std::vector<const PassInfo*> added_passes() { return added().by_name(); }
 
 std::string pass_question(std::string_view name) {
   NearestName nearest(name);

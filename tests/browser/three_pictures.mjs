@@ -12,7 +12,7 @@
 import fs from 'node:fs';
 import path from 'node:path';
 import {has_chromium, take_pictures} from './browser.mjs';
-import {expected, found_worlds_to_compare, is_compared} from './expectations.mjs';
+import {expected, is_compared} from './expectations.mjs';
 import {in_lanes, run} from './program.mjs';
 import {view_of} from './view.mjs';
 import {file_of, found_worlds, has_shared, own_worlds, plants_and_worlds} from './worlds.mjs';
@@ -91,8 +91,7 @@ function keep_picture({name, lighting, sheet}) {
 
 function worlds() {
   if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)];
-  const found = found_worlds_to_compare.map(name => ({name, file: file_of(name)})).filter(w => w.file);
-  return [...own_worlds(), ...with_levels, ...own_with_light, ...some_of(found_with_light.filter(w => is_compared(w.name))), ...found].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
+  return [...own_worlds(), ...with_levels, ...own_with_light, ...some_of(found_with_light.filter(w => is_compared(w.name)))].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
 }
 
 async function main() {

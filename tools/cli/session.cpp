@@ -7,97 +7,40 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
-#include "passes/lower_vrml1/lower_vrml1.h"
+#include "convert/placing.h"
 #include "tools/cli/print_diagnostics.h"
-#include "tools/embedded_pictures.h"
 #include "writers/vrml/vrml.h"
 
 namespace wrlkit {
-namespace {
+Session::Session(const Flags& flags)
+    : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(load_options(), {&progress_}) {}
 
-/// Options of the pass `place`.
-std::vector<std::pair<std::string, std::string>> placing(std::string_view unit, std::string_view up) {
-  std::vector<std::pair<std::string, std::string>> out;
-  if (!unit.empty() && unit != "m") out.emplace_back("unit", unit);
-  if (!up.empty() && up != "y") out.emplace_back("up", up);
+Session::Session(const Flags& flags, Document document)
+    : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(std::move(document)) {}
+
+/// What the flags say; not good when they name a message that there is not, which is printed.
+LoadOptions Session::load_options() {
+  LoadOptions out = flags_.load;
+  out.unpack_pictures = !flags_.output.empty() && flags_.output != "-";
+  for (const auto& w : flags_.warnings) {
+    if (apply_warning_flag(out, w)) continue;
+    fmt::print(stderr, "wrlkit: there is no message '{}' for -W{}\n", w.substr(w.find_first_of("=-") + 1), w);
+    good_ = false;
+    break;
+  }
   return out;
 }
 
-}  // namespace
-
-/// A file that another one refers to, in the nodes of VRML97.
-std::shared_ptr<const Scene> Session::parse_inlined(const std::string& path, Diagnostics& diag) {
-  auto world = read_world(path, {.lookups = &buffers_}, diag);
-  Statistics uncounted;
-  PassContext ctx{diag, uncounted};
-  if (world) lower_vrml1(world->scene, {}, ctx);
-  return world ? std::make_shared<const Scene>(std::move(world->scene)) : nullptr;
-}
-
-std::vector<FileLookup> Session::lookups() const {
-  auto all = resources_ ? resources_->lookups() : std::vector<FileLookup>();
-  all.insert(all.end(), buffers_.begin(), buffers_.end());
-  return all;
-}
-
-Session::Session(const Flags& flags)
-    : flags_(flags), threads_(flags.jobs), context_{diag_, stats_}, progress_(!flags.quiet) {
-  context_.monitor = &progress_;
-  good_ = apply_warning_flags();
-}
-
-Session::Session(const Flags& flags, std::unique_ptr<World> world, Resources& resources, Diagnostics& diag)
-    : flags_(flags),
-      threads_(flags.jobs),
-      diag_(diag),
-      world_(std::move(world)),
-      context_{diag_, stats_, &resources},
-      progress_(!flags.quiet) {}
-
-bool Session::apply_warning_flags() {
-  if (flags_.strict) diag_.warnings_are_errors();
-  for (const auto& w : flags_.warnings) {
-    if (w == "error") {
-      diag_.warnings_are_errors();
-      continue;
-    }
-    bool error = w.starts_with("error="), off = w.starts_with("no-");
-    Diag id{};
-    if ((!error && !off) || !find_diag(w.substr(error ? 6 : 3), id)) {
-      fmt::print(stderr, "wrlkit: there is no message '{}' for -W{}\n", w.substr(w.find_first_of("=-") + 1), w);
-      return false;
-    }
-    diag_.set_severity(id, error ? Severity::error : Severity::ignored);
+bool apply_warning_flag(LoadOptions& options, const std::string& flag) {
+  if (flag == "error") {
+    options.strict = true;
+    return true;
   }
+  const bool error = flag.starts_with("error=");
+  Diag id{};
+  if ((!error && !flag.starts_with("no-")) || !find_diag(flag.substr(error ? 6 : 3), id)) return false;
+  options.severities.emplace_back(id, error ? Severity::error : Severity::ignored);
   return true;
-}
-
-World* Session::read(const std::string& path) {
-  progress_.begin("reading " + path, 0, "");
-  world_.reset();
-  auto file = read_file(path, {}, diag_);
-  return file ? read(path, *file) : nullptr;
-}
-
-World* Session::read(const std::string& path, const FileText& file) {
-  world_.reset();
-  resources_ = std::make_unique<FileResources>(
-      ResourceOptions{.input = path, .allowed = flags_.allow_paths},
-      [this](const std::string& inlined, Diagnostics& diag) { return parse_inlined(inlined, diag); });
-  context_.resources = resources_.get();
-  world_ = parse_world(file, {.allowed = flags_.allow_paths, .lookups = &buffers_}, diag_);
-  if (world_) {
-    place(world_->scene);
-    if (world_->format == Format::gltf && !flags_.output.empty() && flags_.output != "-")
-      unpack_pictures(world_->scene, *resources_);
-    resources_->set_root({std::shared_ptr<const Scene>{}, &world_->scene});
-  }
-  return world_.get();
-}
-
-/// A pipeline has it; verbs without one see the world as it is placed all the same.
-void Session::place(Scene& scene) const {
-  if (!pipeline_) place_world(scene, flags_.unit, flags_.up);
 }
 
 bool Session::choose_pipeline(std::string_view standard) {
@@ -108,10 +51,8 @@ bool Session::choose_pipeline(std::string_view standard) {
     return false;
   }
   if (flags_.pipeline_given) pipeline_->complete(standard);
-  if (!world_ && !pipeline_->put_first("place", placing(flags_.unit, flags_.up), why)) {
-    fmt::print(stderr, "wrlkit: --unit, --up: {}\n", why);
-    return false;
-  }
+  if (!document_ && pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why))
+    document_.leave_unplaced();
   const auto& after = flags_.print_after;
   if (!after.empty() && after != "all" && !find_pass(after)) {
     fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));
@@ -129,7 +70,7 @@ PipelineOptions Session::pipeline_options() {
       progress_.clear();
       fmt::print(stderr, "# after {}\n", pass);
       write_vrml(
-          scene, {.own_fields = true}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag_);
+          scene, {.own_fields = true}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag());
     };
   if (flags_.time_passes) o.times = &times_;
   return o;
@@ -141,8 +82,8 @@ int Session::end(bool made) {
   if (flags_.time_passes)
     for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);
   if (flags_.stats)
-    for (auto& [name, n] : stats_) fmt::print(stderr, "{:>12}  {}\n", n, name);
-  std::fputs(messages_text(diag_, isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
+    for (auto& [name, n] : context().stats) fmt::print(stderr, "{:>12}  {}\n", n, name);
+  std::fputs(messages_text(diag(), isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
   if (!flags_.report.empty() && !write_report(code)) return usage;
   return code;
 }
@@ -160,10 +101,10 @@ bool Session::write_report(int code) {
   }
   json.key("statistics");
   json.begin_object();
-  for (auto& [name, n] : stats_) json.member(name, n);
+  for (auto& [name, n] : context().stats) json.member(name, n);
   json.end_object();
   json.key("messages");
-  json.raw(messages_json(diag_));
+  json.raw(messages_json(diag()));
   json.end_object();
   out += '\n';
   return write_text_file(flags_.report, out);
@@ -176,16 +117,6 @@ bool write_text_file(const std::string& path, std::string_view text) {
   if (file && file->commit(trouble)) return true;
   std::fputs(messages_text(trouble, false, false).c_str(), stderr);
   return false;
-}
-
-void place_world(Scene& scene, std::string_view unit, std::string_view up) {
-  Pipeline placed;
-  std::string why;
-  if (!placed.put_first("place", placing(unit, up), why) || placed.empty()) return;
-  Diagnostics unheard;
-  Statistics uncounted;
-  PassContext ctx{unheard, uncounted};
-  placed.run(scene, ctx);
 }
 
 }  // namespace wrlkit

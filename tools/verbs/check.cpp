@@ -46,7 +46,7 @@ int run_check(const Flags& flags) {
     one.inputs = {path};
     Session s(one);
     if (!s.good()) return usage;
-    bool readable = s.read(path) != nullptr;
+    bool readable = s.read(path);
     if (readable && !flags.parse_only) check_world(s);
     s.progress().clear();
     unreadable += !readable;
