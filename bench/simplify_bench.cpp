@@ -22,7 +22,7 @@ namespace {
 
 using namespace wrlkit;
 
-const char* const names[] = {"length-normal", "melax", "lindstrom-turk", "quadric", "meshopt"};
+const char* const names[] = {"length-normal", "melax", "lindstrom-turk", "quadric", "meshopt", "openmesh"};
 
 double cpu_seconds() {
   timespec t;
@@ -37,7 +37,7 @@ double peak_bytes() {
 }
 
 Criterion criterion(const std::string& name) {
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 6; ++i)
     if (name == names[i]) return static_cast<Criterion>(i);
   std::fprintf(stderr, "no criterion '%s'\n", name.c_str()), std::exit(2);
 }

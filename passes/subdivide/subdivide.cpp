@@ -84,18 +84,19 @@ class Refinement {
       for (auto v : surface_.fv_range(face)) coarse_.corners[corner++] = number(v);
   }
 
+  /// Not with the constructors that take a mesh: these call functions that are still pure virtual.
   void subdivide() {
     if (scheme_ == Scheme::catmull_clark) {
-      CatmullClark catmull_clark(surface_);
-      catmull_clark(1);
+      CatmullClark catmull_clark;
+      catmull_clark(surface_, 1);
       return;
     }
     // Its table of weights ends at 50 edges, which it does not check.
     std::size_t most = 0;
     for (auto v : surface_.vertices()) most = std::max<std::size_t>(most, surface_.valence(v));
-    Loop loop(surface_);
+    Loop loop;
     loop.init_weights(most + 1);
-    loop(1);
+    loop(surface_, 1);
   }
 
   std::size_t n_parts(std::size_t face) const {
