@@ -1,6 +1,7 @@
 #include "scenegraph/scene.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 namespace wrlkit {
@@ -47,8 +48,11 @@ const Value* Scene::find(NodeId n, std::uint16_t slot) const {
 }
 
 const Value& Scene::value(NodeId n, std::uint16_t slot) const {
-  auto* v = find(n, slot);
-  return v ? *v : type(n).fields[slot].default_value;
+  static const Value none;  // of no type, so that Scene::get gives the default of its key
+  if (auto* v = find(n, slot)) return *v;
+  const auto& defaults = type(n).fields;
+  assert(slot < defaults.size() && "a key of another node type");
+  return slot < defaults.size() ? defaults[slot].default_value : none;
 }
 
 std::string_view Scene::field_name(NodeId n, const Value& v) const {
@@ -56,6 +60,7 @@ std::string_view Scene::field_name(NodeId n, const Value& v) const {
 }
 
 void Scene::set_fields(NodeId n, std::span<const Value> fields) {
+  assert(fields.size() <= 0xffff && "SceneBuilder refuses more than 60,000");
   auto& node = nodes_[n.value];
   if (fields.size() <= node.n_fields) {
     std::ranges::copy(fields, fields_.begin() + node.first_field);
@@ -74,11 +79,19 @@ void Scene::set_fields(NodeId n, std::span<const Value> fields) {
 }
 
 void Scene::set(NodeId n, Value v) {
+  assert(v.slot == Value::extra_slot || v.slot < type(n).fields.size());
   if (v.slot != Value::extra_slot)
     if (auto* old = find(n, v.slot)) {
       fields_[static_cast<std::size_t>(old - fields_.data())] = v;
       return;
     }
+  auto& node = nodes_[n.value];
+  if (node.first_field + node.n_fields == fields_.size() && node.n_fields + 1 < NodeType::many_fields &&
+      node.n_fields > 0) {  // the last ones there are: k new fields in a row take k values, not k (k + 1) / 2
+    fields_.push_back(v);
+    ++node.n_fields;
+    return;
+  }
   auto now = fields(n);
   std::vector<Value> next(now.begin(), now.end());
   next.push_back(v);

@@ -35,6 +35,23 @@ TEST_CASE("scene: written fields and defaults", "[scene]") {
   CHECK(s.get(cone, nodes::cone::height) == 2);
 }
 
+TEST_CASE("scene: fields that are set one after another take one place each", "[scene]") {
+  Scene scene;
+  const NodeId a = scene.add(nodes::Material), b = scene.add(nodes::Material);
+  namespace f = nodes::material;
+  scene.set(a, f::transparency, 0.5);
+  scene.set(a, f::shininess, 0.5);
+  scene.set(a, f::ambientIntensity, 0.5);
+  scene.set(b, f::transparency, 0.25);
+  CHECK(scene.fields(a).size() == 3);
+  CHECK(scene.fields(b).data() == scene.fields(a).data() + 3);
+  scene.set(a, f::emissiveColor, Vec3{1, 0, 0});  // b's field is in the way
+  CHECK(scene.fields(a).size() == 4);
+  CHECK(scene.get(a, f::shininess) == 0.5);
+  CHECK(scene.get(a, f::emissiveColor) == Vec3{1, 0, 0});
+  CHECK(scene.get(b, f::transparency) == 0.25);
+}
+
 TEST_CASE("scene: a copy shares its arrays and nothing else", "[scene]") {
   auto s = scene_of("Shape { geometry PointSet { coord DEF C Coordinate { point [ 1 2 3, 4 5 6 ] } } }");
   NodeId coord = all_nodes(s).back();
