@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <random>
 #include <thread>
 
 #include "base/image/image_codecs.h"
+#include "tests/unit/skip.h"
 
 using namespace wrlkit;
 using namespace std::string_literals;
@@ -416,13 +416,12 @@ TEST_CASE("Pictures are decoded by several threads at once", "[image]") {
   CHECK(std::ranges::all_of(same, [](bool s) { return s; }));
 }
 
-TEST_CASE("Every picture of the corpus is decoded, or says why not", "[image][corpus]") {
+TEST_CASE("Every picture of the corpus is decoded, or says why not", "[image][found]") {
   namespace fs = std::filesystem;
   const char* shared = std::getenv("WRLKIT_SHARED");
   auto folder = (shared ? fs::path(shared) : fs::path(WRLKIT_SOURCE_DIR) / ".." / "shared") / "corpus";
   if (!fs::is_directory(folder)) {
-    std::cout << "skipped: no folder " << folder << " (WRLKIT_SHARED)\n";
-    return;
+    return skip("there is no folder " + folder.string() + " (WRLKIT_SHARED)");
   }
   constexpr std::string_view extensions[] = {".png", ".jpg", ".gif", ".dds"};
   int decoded = 0, refused = 0;

@@ -8,6 +8,7 @@
 
 #include "base/io/read_file.h"
 #include "base/text/json.h"
+#include "base/text/xml_text.h"
 #include "tools/corpus/report.h"
 #include "tools/report/chart.h"
 #include "tools/report/report_frame.h"
@@ -64,11 +65,11 @@ class Page {
   void changes() {
     if (r_.compared.empty()) return;
     const auto worse = std::ranges::count_if(r_.changes, &Change::worse);
-    put("<h2>Compared with {}</h2>\n<p>{} changes, {} of them for the worse.</p>\n{}", html_text(r_.compared),
+    put("<h2>Compared with {}</h2>\n<p>{} changes, {} of them for the worse.</p>\n{}", xml_text(r_.compared),
         r_.changes.size(), worse, table_begin("Changes"));
     for (std::size_t i = 0; i < std::min(most_failed, r_.changes.size()); ++i)
-      put("<tr><td class=\"text\">{}</td><td class=\"text{}\">{}</td></tr>\n", html_text(r_.changes[i].output),
-          r_.changes[i].worse ? " bad" : "", html_text(r_.changes[i].what));
+      put("<tr><td class=\"text\">{}</td><td class=\"text{}\">{}</td></tr>\n", xml_text(r_.changes[i].output),
+          r_.changes[i].worse ? " bad" : "", xml_text(r_.changes[i].what));
     out_ += table_end();
   }
 
@@ -78,7 +79,7 @@ class Page {
       if (is_made(r.state) || n == most_failed) continue;
       if (n++ == 0) put("<h2>Nothing could be made of</h2>\n{}", table_begin("Failures"));
       put("<tr><td class=\"text\">{}</td><td class=\"text bad\">{}</td><td class=\"text\">{}</td></tr>\n",
-          html_text(r.input), to_string(r.state), html_text(r.cause));
+          xml_text(r.input), to_string(r.state), xml_text(r.cause));
     }
     if (n) out_ += table_end();
   }
@@ -106,7 +107,7 @@ class Page {
          largest([](const ReportRow& r) { return r.look && r.look->of_diagonal > rounding ? r.look->of_diagonal : 0; }))
       put("<figure><div data-look=\"{}\"></div><figcaption>{}<br><span "
           "class=\"soft\">{}</span></figcaption></figure>\n",
-          look_index(*r), html_text(r->input),
+          look_index(*r), xml_text(r->input),
           std::isfinite(r->look->rms) ? fmt::format("{:.3g} m rms, {:.3g} m at most; {:.2g} of the diagonal",
                                                     r->look->rms, r->look->max, r->look->of_diagonal)
                                       : "one of the worlds shows no surface, or too large a one");
@@ -130,7 +131,7 @@ class Page {
     for (const auto& [name, k] : sorted)
       put("<tr><td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td "
           "class=\"text\">{}</td></tr>\n",
-          name, k->severity, k->files, k->times, html_text(k->example));
+          name, k->severity, k->files, k->times, xml_text(k->example));
     out_ += table_end();
   }
 
@@ -146,7 +147,7 @@ class Page {
     put("<h2>{}</h2>\n{}", title, table_begin(title));
     for (const auto* r : rows)
       put("<tr><td class=\"text\">{}</td><td>{}</td><td class=\"soft\">{:.0f} times the median</td><td>{}</td></tr>\n",
-          html_text(r->input), text(*r), median > 0 ? value(*r) / median : 0.0, readable_size(r->input_bytes));
+          xml_text(r->input), text(*r), median > 0 ? value(*r) / median : 0.0, readable_size(r->input_bytes));
     out_ += table_end();
   }
 

@@ -1,4 +1,5 @@
 #include "tools/report/report_frame.h"
+#include "base/text/xml_text.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ std::string report_begin(std::string_view title) {
       "<link rel=\"icon\" href=\"data:,\"><title>{0}: wrlkit</title>\n<style>\n{1}</style></head>\n"
       "<body>\n<header class=\"head\"><h1>{0}</h1><div class=\"tools\"><button type=\"button\" "
       "id=\"theme\">Dark</button></div></header>\n<main>\n",
-      html_text(title), asset(wrlkit_style_begin, wrlkit_style_end));
+      xml_text(title), asset(wrlkit_style_begin, wrlkit_style_end));
 }
 
 std::string report_end() {
@@ -36,7 +37,7 @@ std::string_view corpus_table_script() { return asset(wrlkit_corpus_table_begin,
 
 std::string table_begin(std::string_view name) {
   return fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>\n",
-                     html_text(name));
+                     xml_text(name));
 }
 
 std::string_view table_end() { return "</table></div>\n"; }
