@@ -61,9 +61,7 @@ std::vector<fs::path> module_paths() {
 
 struct Opened {
   const ImageModule* module = nullptr;
-  std::string error =
-      "the module wrlkit_images.so, which decodes and encodes pictures, is not installed; the environment variable "
-      "WRLKIT_IMAGES may name it by its absolute path";
+  std::string error = "the module of codecs, wrlkit_images.so, is not installed (WRLKIT_IMAGES may name it)";
 };
 
 Opened open_module() {
