@@ -14,9 +14,6 @@ namespace wrlkit {
 Session::Session(const Flags& flags)
     : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(load_options(), {&progress_}) {}
 
-Session::Session(const Flags& flags, Document document)
-    : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(std::move(document)) {}
-
 /// What the flags say; not good when they name a message that there is not, which is printed.
 LoadOptions Session::load_options() {
   LoadOptions out = flags_.load;

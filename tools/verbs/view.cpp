@@ -9,10 +9,10 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
+#include "convert/shown_surface.h"
 #include "geometry/progressive/progressive_world.h"
 #include "tools/cli/session.h"
 #include "tools/report/deviation_map.h"
-#include "tools/shown_surface.h"
 #include "tools/verbs/serve.h"
 #include "tools/verbs/viewer_page.h"
 #include "writers/gltf/gltf.h"
