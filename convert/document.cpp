@@ -1,7 +1,6 @@
 #include "convert/document.h"
 
 #include "convert/embedded_pictures.h"
-#include "convert/placing.h"
 #include "parsers/resources.h"
 #include "passes/lower_vrml1/lower_vrml1.h"
 
@@ -45,7 +44,10 @@ struct Document::State {
   bool take(std::unique_ptr<World> read) {
     world = std::move(read);
     if (!world) return false;
-    place_world(world->scene, options.unit, options.up);
+    PlaceOptions placing;
+    placing.unit.value = options.unit;
+    placing.up.value = options.up;
+    place(world->scene, placing, context);
     if (options.unpack_pictures && world->format == Format::gltf) unpack_pictures(world->scene, *files);
     files->set_root({std::shared_ptr<const Scene>{}, &world->scene});
     return true;
@@ -92,6 +94,7 @@ Document Document::copy() const {
   return out;
 }
 
+LoadOptions& Document::options() { return state_->options; }
 Document::operator bool() const { return state_->world != nullptr; }
 World& Document::world() { return *state_->world; }
 const World& Document::world() const { return *state_->world; }

@@ -38,6 +38,9 @@ class Document {
   Document& operator=(Document&&) noexcept;
   ~Document();
 
+  /// For what is read next.
+  LoadOptions& options();
+
   /// Reads a file in place of what was there; "-" is standard input. False when there is nothing of a scene to be had:
   /// messages() say why. O(bytes).
   bool read(const std::string& path);

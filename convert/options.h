@@ -13,12 +13,13 @@
 #include "base/image/image.h"
 #include "base/option_range.h"
 #include "passes/pipeline/length_option.h"
+#include "passes/place/place.h"
 #include "writers/gltf/gltf.h"
 
 namespace wrlkit {
 
-enum class Unit : std::uint8_t { m, cm, mm, in, ft };
-enum class UpAxis : std::uint8_t { y, z, x };
+using Unit = PlaceOptions::Unit;
+using UpAxis = PlaceOptions::Up;
 /// What VRML says and glTF cannot: kept whole, so that the same VRML can be made again; only what nodes say that draw
 /// nothing (links, descriptions); dropped.
 enum class Extras : std::uint8_t { all, facts, none };

@@ -8,8 +8,7 @@ WorldMeshes::WorldMeshes(Document& document)
   std::string why;
   Scene& scene = document.scene();
   PassContext& context = document.context();
-  if (!Pipeline::parse("lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d", why)->run(scene, context))
-    return;
+  if (!Pipeline::parse("lower-vrml1,expand,lower-x3d", why)->run(scene, context)) return;
   as_faces_ = Pipeline::parse("tessellate{triangles=false}", why);
   as_triangles_ = Pipeline::parse("tessellate", why);
   polygons = as_faces_->run_lazily(scene, silent_);

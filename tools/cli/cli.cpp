@@ -86,6 +86,16 @@ void input(CLI::App& verb, Flags& f) {
 
 void placing(CLI::App& verb, Flags& f) { f.load.placing_fields(AddOption{verb}); }
 
+/// One of the names; of a criterion that this build does without, the reason.
+CLI::Validator a_criterion() {
+  const CLI::Validator member = CLI::IsMember(criterion_names());
+  return {[member](std::string& text) {
+            const auto missing = CriterionName::missing(text);
+            return missing.empty() ? member(text) : missing;
+          },
+          member.get_description()};
+}
+
 void python(CLI::App& verb, Flags& f) {
   verb.add_option("--python", f.python,
                   "a file with passes in Python, which then have a name like all others; see docs/python.md")
@@ -315,7 +325,7 @@ const Verb verbs[] = {
        v.add_flag("--progressive", f.progressive,
                   "instead of worlds, one .wpm file: from coarse to exactly the original, for viewers that show what "
                   "has come in");
-       v.add_option("--criterion", f.criterion, "which edges collapse first")->check(CLI::IsMember(criterion_names()));
+       v.add_option("--criterion", f.criterion, "which edges collapse first")->check(a_criterion());
        v.add_option("--pixels", f.pixels,
                     "error that may be seen on a screen of 1080 pixels, for the ranges of the LOD nodes")
            ->check(CLI::PositiveNumber)
@@ -338,9 +348,7 @@ const Verb verbs[] = {
                     "instead of that, shares of the triangles; as a rule 0.5,0.25,0.1,0.05,0.02,0.01")
            ->delimiter(',')
            ->check(CLI::Range(0.0, 1.0));
-       v.add_option("--criteria", f.criteria, "which; as a rule all")
-           ->delimiter(',')
-           ->check(CLI::IsMember(criterion_names()));
+       v.add_option("--criteria", f.criteria, "which; as a rule all")->delimiter(',')->check(a_criterion());
        v.add_flag("--bare", f.bare, "the criterion alone decides: creases and borders are edges like others");
        v.add_option("--size", f.picture_size, "pixels along each side of a picture")
            ->check(CLI::Range(16, 2048))
@@ -413,7 +421,7 @@ const Verb verbs[] = {
                     "criteria whose collapses are shown step by step; as a rule three of a single world of up to "
                     "300,000 triangles")
            ->delimiter(',')
-           ->check(CLI::IsMember(criterion_names()));
+           ->check(a_criterion());
        pipeline(v, f);
        placing(v, f);
      },
@@ -596,6 +604,8 @@ std::uint64_t size_of(const std::string& s) {
   char* end = nullptr;
   double v = std::strtod(s.c_str(), &end);
   std::string unit = end;
+  if (!unit.empty() && (unit.back() == 'B' || unit.back() == 'b')) unit.pop_back();
+  if (unit.ends_with('i')) unit.pop_back();
   double factor = unit == "G" || unit == "g"   ? 1 << 30
                   : unit == "M" || unit == "m" ? 1 << 20
                   : unit == "K" || unit == "k" ? 1 << 10
@@ -655,6 +665,18 @@ Flags conversion_flags(const Recipe& recipe) {
   return flags;
 }
 
+/// The verbs of `wrlkit corpus`; what it asks for without one of them.
+static int corpus_help(const std::vector<std::string>& words) {
+  const bool asked = words.size() > 1 && (words[1] == "--help" || words[1] == "-h");
+  std::string text = "wrlkit corpus: many files at once\n\n";
+  for (const Verb& v : verbs)
+    if (std::string_view(v.name).starts_with("corpus-"))
+      text += "  wrlkit corpus " + std::string(v.name).substr(7) + "\n      " + v.help + "\n";
+  text += "\n'wrlkit corpus run --help' lists the options of one.\n";
+  std::fputs(text.c_str(), asked ? stdout : stderr);
+  return asked ? done : usage;
+}
+
 int run_command_line(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const auto warnings = take_warning_flags(words);
@@ -662,6 +684,7 @@ int run_command_line(int argc, char** argv) {
     words[0] += "-" + words[1];
     words.erase(words.begin() + 1);
   }
+  if (!words.empty() && words[0] == "corpus") return corpus_help(words);
   if (!words.empty() && !words[0].starts_with('-') && !find_verb(words[0])) {
     std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str());
     return usage;

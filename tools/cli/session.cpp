@@ -11,6 +11,18 @@
 #include "writers/vrml/vrml.h"
 
 namespace wrlkit {
+namespace {
+
+/// Options of the pass `place`.
+std::vector<std::pair<std::string, std::string>> placing(const LoadOptions& o) {
+  std::vector<std::pair<std::string, std::string>> out;
+  if (o.unit != Unit::m) out.emplace_back("unit", name_of(o.unit));
+  if (o.up != UpAxis::y) out.emplace_back("up", name_of(o.up));
+  return out;
+}
+
+}  // namespace
+
 Session::Session(const Flags& flags)
     : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(load_options(), {&progress_}) {}
 
@@ -47,6 +59,13 @@ bool Session::choose_pipeline(std::string_view standard) {
     return false;
   }
   if (flags_.pipeline_given) pipeline_->complete(standard);
+  // The pipeline places the world, so that it is not placed when it is read.
+  if (!pipeline_->put_first("place", placing(flags_.load), why)) {
+    fmt::print(stderr, "wrlkit: --unit, --up: {}\n", why);
+    return false;
+  }
+  document_.options().unit = Unit::m;
+  document_.options().up = UpAxis::y;
   const auto& after = flags_.print_after;
   if (!after.empty() && after != "all" && !find_pass(after)) {
     fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));

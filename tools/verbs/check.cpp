@@ -14,7 +14,7 @@ namespace {
 void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
   std::string why;
-  if (auto p = Pipeline::parse("expand", why)) p->run(s.world().scene, s.context());
+  if (auto p = Pipeline::parse("lower-vrml1,expand", why)) p->run(s.world().scene, s.context());
 }
 
 void print_text(const std::string& path, const Diagnostics& d) {

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "base/text/json.h"
 #include "convert/formats.h"
+#include "scenegraph/range_text.h"
 
 namespace wrlkit {
 namespace {
@@ -19,12 +18,6 @@ std::string level_word(Level l) {
   return l == Level::authored ? "authored" : l == Level::expanded ? "expanded" : "mesh";
 }
 
-std::string range_text(const FieldRange& r) {
-  if (!r.bounded()) return "";
-  auto end = [](double v) { return std::isinf(v) ? std::string(v < 0 ? "-inf" : "inf") : fmt::format("{:g}", v); };
-  return fmt::format("{}{},{}{}", r.low_open ? "(" : "[", end(r.low), end(r.high), r.high_open ? ")" : "]");
-}
-
 std::string kinds_text(const FieldDef& f) {
   std::string out;
   for (auto k : f.kinds) out += (out.empty() ? "" : ", ") + std::string(k);
@@ -33,7 +26,7 @@ std::string kinds_text(const FieldDef& f) {
 
 /// Range, unit, kinds: what limits a value; and whether it is a field of wrlkit's own.
 std::string limits_text(const FieldDef& f) {
-  std::string out = range_text(f.range);
+  std::string out = f.range.bounded() ? range_text(f.range) : "";
   for (const auto& part : {std::string(f.unit), kinds_text(f), std::string(f.is_own() ? "(wrlkit's own)" : "")})
     if (!part.empty()) out += (out.empty() ? "" : " ") + part;
   return out;
@@ -70,6 +63,8 @@ std::string pass_text(const PassInfo& p) {
                                 level_word(p.leaves));
   for (auto& o : p.make()->options())
     out += fmt::format("  {:<18} {:<28} {:<14} {}\n", o.name, o.type_and_range(), o.value, o.help);
+  if (!p.statistics.empty()) out += "  counts, for --stats:\n";
+  for (const auto& s : p.statistics) out += fmt::format("  {:<33} {}\n", s.name, s.help);
   if (!p.doc.empty()) out += fmt::format("\n{}\n", p.doc);
   return out;
 }
@@ -123,6 +118,16 @@ std::string passes_json() {
       json.end_object();
     }
     json.end_array();
+    json.key("statistics");
+    json.begin_array();
+    for (const auto& s : p.statistics) {
+      json.begin_object();
+      json.member("name", s.name);
+      json.member("help", s.help);
+      json.end_object();
+    }
+    json.end_array();
+    json.member("doc", p.doc);
     json.end_object();
   }
   json.end_array();
@@ -144,14 +149,16 @@ std::string nodes_page() {
 
 std::string passes_page() {
   std::string out =
-      "# Passes\n\nGenerated from the registry by `script/docs`; do not edit. Each header in `passes/` says more, with "
-      "an example.\n";
+      "# Passes\n\nGenerated from the registry by `script/docs`; do not edit. `wrlkit passes NAME` shows the same.\n";
   for (auto& p : passes()) {
     out += fmt::format("\n## {}\n\n{}. Needs level *{}*, leaves level *{}*.\n", p.name, p.summary, level_word(p.needs),
                        level_word(p.leaves));
+    if (!p.doc.empty()) out += fmt::format("\n{}\n", p.doc);
     auto options = p.make()->options();
     if (!options.empty()) out += "\n| option | type | default | |\n|---|---|---|---|\n";
     for (auto& o : options) out += fmt::format("| {} | {} | {} | {} |\n", o.name, o.type_and_range(), o.value, o.help);
+    if (!p.statistics.empty()) out += "\n| counts | |\n|---|---|\n";
+    for (const auto& s : p.statistics) out += fmt::format("| {} | {} |\n", s.name, s.help);
   }
   out += "\n## Pipelines with a name\n\n| name | passes | |\n|---|---|---|\n";
   for (auto& n : named_pipelines()) out += fmt::format("| {} | `{}` | {} |\n", n.name, n.text, n.summary);

@@ -37,8 +37,8 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
     fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios, --error and --progressive is needed\n");
     return std::nullopt;
   }
-  if (f.progressive && criterion.value == Criterion::meshopt) {
-    fmt::print(stderr, "wrlkit simplify: --progressive: meshopt keeps no record of its steps\n");
+  if (f.progressive && !info(criterion.value).keeps_record) {
+    fmt::print(stderr, "wrlkit simplify: --progressive: {} keeps no record of its steps\n", criterion.print());
     return std::nullopt;
   }
   for (const auto& text : f.errors) {
@@ -121,7 +121,7 @@ void print(Session& s, std::size_t n_faces, const std::vector<Written>& files, c
 /// Surfaces without loose faces; and baked light in the textures, where VRML is written for browsers.
 std::string_view standard_pipeline(const Flags& flags) {
   if (flags.pipeline_given) return flags.progressive || flags.save.dump ? "lower-vrml1,lower-x3d{vrml97=true}" : "vrml";
-  if (flags.progressive) return "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
+  if (flags.progressive) return "lower-vrml1,expand,lower-x3d{vrml97=true},weld";
   return flags.save.dump ? "lower-vrml1,lower-x3d{vrml97=true},weld"
                          : "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap,weld";
 }
