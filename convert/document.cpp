@@ -1,6 +1,7 @@
 #include "convert/document.h"
 
 #include "convert/embedded_pictures.h"
+#include "convert/placing.h"
 #include "parsers/resources.h"
 #include "passes/lower_vrml1/lower_vrml1.h"
 
@@ -44,10 +45,7 @@ struct Document::State {
   bool take(std::unique_ptr<World> read) {
     world = std::move(read);
     if (!world) return false;
-    PlaceOptions placing;
-    placing.unit.value = options.unit;
-    placing.up.value = options.up;
-    place(world->scene, placing, context);
+    place_world(world->scene, options.unit, options.up);
     if (options.unpack_pictures && world->format == Format::gltf) unpack_pictures(world->scene, *files);
     files->set_root({std::shared_ptr<const Scene>{}, &world->scene});
     return true;
@@ -68,6 +66,11 @@ Document::Document(World world) : Document(LoadOptions{}) {
 Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
+
+void Document::leave_unplaced() {
+  state_->options.unit = {};
+  state_->options.up = {};
+}
 
 bool Document::read(const std::string& path) {
   if (auto* monitor = state_->context.monitor) monitor->begin("reading " + path, 0, "");
@@ -94,7 +97,6 @@ Document Document::copy() const {
   return out;
 }
 
-LoadOptions& Document::options() { return state_->options; }
 Document::operator bool() const { return state_->world != nullptr; }
 World& Document::world() { return *state_->world; }
 const World& Document::world() const { return *state_->world; }

@@ -38,9 +38,6 @@ class Document {
   Document& operator=(Document&&) noexcept;
   ~Document();
 
-  /// For what is read next.
-  LoadOptions& options();
-
   /// Reads a file in place of what was there; "-" is standard input. False when there is nothing of a scene to be had:
   /// messages() say why. O(bytes).
   bool read(const std::string& path);
@@ -49,6 +46,9 @@ class Document {
   /// The same from memory, not gzipped; `name` is for messages. Files next to it are not known:
   /// LoadOptions::allow_paths says where relative urls may lead.
   bool parse(std::string_view bytes, std::string name);
+
+  /// What is read from now on is not placed by LoadOptions::unit and up: the pipeline that it goes through has `place`.
+  void leave_unplaced();
 
   /// Whether there is a scene.
   explicit operator bool() const;

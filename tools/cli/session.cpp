@@ -7,24 +7,16 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
+#include "convert/placing.h"
 #include "tools/cli/print_diagnostics.h"
 #include "writers/vrml/vrml.h"
 
 namespace wrlkit {
-namespace {
-
-/// Options of the pass `place`.
-std::vector<std::pair<std::string, std::string>> placing(const LoadOptions& o) {
-  std::vector<std::pair<std::string, std::string>> out;
-  if (o.unit != Unit::m) out.emplace_back("unit", name_of(o.unit));
-  if (o.up != UpAxis::y) out.emplace_back("up", name_of(o.up));
-  return out;
-}
-
-}  // namespace
-
 Session::Session(const Flags& flags)
     : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(load_options(), {&progress_}) {}
+
+Session::Session(const Flags& flags, Document document)
+    : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(std::move(document)) {}
 
 /// What the flags say; not good when they name a message that there is not, which is printed.
 LoadOptions Session::load_options() {
@@ -59,13 +51,8 @@ bool Session::choose_pipeline(std::string_view standard) {
     return false;
   }
   if (flags_.pipeline_given) pipeline_->complete(standard);
-  // The pipeline places the world, so that it is not placed when it is read.
-  if (!pipeline_->put_first("place", placing(flags_.load), why)) {
-    fmt::print(stderr, "wrlkit: --unit, --up: {}\n", why);
-    return false;
-  }
-  document_.options().unit = Unit::m;
-  document_.options().up = UpAxis::y;
+  if (!document_ && pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why))
+    document_.leave_unplaced();
   const auto& after = flags_.print_after;
   if (!after.empty() && after != "all" && !find_pass(after)) {
     fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));

@@ -75,7 +75,7 @@ class Viewer {
     Diagnostics unheard(s_.diag().shared_sources());
     PassContext silent{unheard, s_.context().stats, &s_.resources()};
     std::string why;
-    place_world(scene, s_.flags().unit, s_.flags().up);
+    place_world(scene, s_.flags().load.unit, s_.flags().load.up);
     if (!Pipeline::parse(surfaces_pipeline, why)->run(scene, silent)) return;
     const auto surfaces = progressive_surfaces(scene, criterion.value, silent);
     if (!surfaces.empty()) page_.collapses.push_back({name, write_progressive_world(surfaces)});
