@@ -9,6 +9,7 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
+#include "convert/placing.h"
 #include "convert/shown_surface.h"
 #include "geometry/progressive/progressive_world.h"
 #include "tools/cli/session.h"
