@@ -179,15 +179,12 @@ void PyWorld::save(const std::string& path, const py::kwargs& keywords) {
 }
 
 py::object PyWorld::info() {
-  Flags flags;
-  flags.json = flags.quiet = true;
   std::optional<std::string> text;
   {
     py::gil_scoped_release others;
     auto document = copy();
-    flags.inputs = {document.path()};
-    Session s(flags, std::move(document));
-    text = info_of(s);
+    const auto path = document.path();
+    if (const auto made = wrlkit::info(std::move(document))) text = info_json(path, *made, diag());
   }
   if (!text) fail("its figures cannot be had", views(diag()));
   return py::module_::import("json").attr("loads")(*text);

@@ -180,3 +180,37 @@ TEST_CASE("convert: options describe themselves") {
   CHECK(names.contains("texture-size"));
   CHECK(name_of(GltfCompression::Method::meshopt) == "meshopt");
 }
+
+TEST_CASE("convert: what is inside, what differs, what is small, what is lit") {
+  const Folder out;
+  const Document document = load(corpus("plant/pump_room_faces.wrl"));
+  REQUIRE(document);
+  const auto facts = info(document);
+  REQUIRE(facts);
+  CHECK(facts->geometry.shapes == 623);
+  CHECK(facts->geometry.triangles == 29836);
+  CHECK(facts->nodes.at("Viewpoint") == 4);
+  CHECK(!info(Document()));
+
+  const auto small = optimize(document, out / "small.glb");
+  REQUIRE(small);
+  CHECK(small.n_names == 239);
+  CHECK(small.lost.empty());
+  CHECK(!optimize(document, out / "small.wrl"));
+
+  const auto d = diff(document, load(out / "small.glb"));
+  REQUIRE(d);
+  CHECK(d->missing.empty());
+  CHECK(d->surface->max < 0.01);
+
+  auto lit = load_bytes(
+      "#VRML V2.0 utf8\nPointLight { location 0 3 0 }\n"
+      "Shape { appearance Appearance { material Material { } } geometry Box { } }\n",
+      "lit.wrl");
+  REQUIRE(bake(lit) == Ending::good);
+  REQUIRE(save(lit, out / "lit.wrl"));
+  std::size_t n_files = 0;
+  for (const auto& file : fs::directory_iterator(out.path))
+    n_files += file.path().string().find("lit.") != std::string::npos;
+  CHECK(n_files > 1);  // the world, and the picture of its light
+}

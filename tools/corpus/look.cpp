@@ -7,9 +7,10 @@
 #include "base/io/read_file.h"
 #include "base/text/base64.h"
 #include "base/text/json.h"
+#include "convert/diff.h"
 #include "light/render/render.h"
 #include "parsers/gltf/json.h"
-#include "tools/verbs/diff.h"
+#include "tools/cli/session.h"
 
 namespace wrlkit {
 namespace {
@@ -57,7 +58,9 @@ bool make_look(const Flags& flags, const std::string& out, const JournalLine& li
   Flags of_output = flags_to_read(flags, output, false);
   of_output.load.allow_paths.push_back(out);
   Session a(of_input), b(of_output);
-  auto facts_a = facts_of(a, line.input), facts_b = facts_of(b, output);
+  if (!a.read(line.input) || !b.read(output)) return false;
+  auto facts_a = facts_of(std::move(a.document()));
+  auto facts_b = facts_of(std::move(b.document()));
   if (!facts_a || !facts_b) return false;
   const auto d = difference(std::move(*facts_a), std::move(*facts_b));
   constexpr double none = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // wrlkit diff: how two worlds differ in what they show, and in their names and nodes. The keys of --json are stable.
 // The worlds are read one after the other; of the first one only what is compared is kept.
-#include "tools/verbs/diff.h"
+#include "convert/diff.h"
 
 #include <fmt/format.h>
 
@@ -10,60 +10,9 @@
 #include <set>
 
 #include "base/text/json.h"
-#include "scenegraph/nodes.h"
-#include "scenegraph/walk.h"
-#include "tools/world_meshes.h"
+#include "tools/cli/session.h"
 
 namespace wrlkit {
-
-std::optional<WorldFacts> facts_of(Session& s, const std::string& path) {
-  if (!s.read(path)) return std::nullopt;
-  WorldFacts facts;
-  const Scene& scene = s.world().scene;
-  for (NodeId n : all_nodes(scene)) ++facts.nodes[std::string(scene.type(n).name)];
-  WorldMeshes meshes(s);
-  if (!meshes.good()) return std::nullopt;
-  for (NodeId n : reachable(scene, scene.main)) {
-    if (!scene.name(n).empty()) facts.names.emplace(scene.name(n));
-    facts.materials += scene.is(n, nodes::Material);
-  }
-  auto& surface = facts.surface.emplace(scene, s.diag());
-  auto gathered = [&](NodeId geometry) -> const Mesh& {
-    const Mesh& mesh = meshes.triangles(geometry);
-    surface.add(geometry, mesh);
-    return mesh;
-  };
-  facts.geometry = count_geometry(scene, meshes.polygons, gathered);
-  return facts;
-}
-
-namespace {
-
-double apart(const Bounds& a, const Bounds& b) {
-  if (a.empty() && b.empty()) return 0;
-  if (a.empty() || b.empty()) return Bounds::inf;
-  double most = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    most = std::max({most, std::fabs(a.min[i] - b.min[i]), std::fabs(a.max[i] - b.max[i])});
-  return most;
-}
-
-double diagonal(const Bounds& b) {
-  return b.empty() ? 0 : std::hypot(b.max[0] - b.min[0], b.max[1] - b.min[1], b.max[2] - b.min[2]);
-}
-
-}  // namespace
-
-WorldDifference difference(WorldFacts a, WorldFacts b) {
-  WorldDifference d{.a = std::move(a), .b = std::move(b)};
-  std::ranges::set_difference(d.a.names, d.b.names, std::back_inserter(d.missing));
-  std::ranges::set_difference(d.b.names, d.a.names, std::back_inserter(d.added));
-  d.bounds = apart(d.a.geometry.bounds, d.b.geometry.bounds);
-  if (!d.a.surface->complete() || !d.b.surface->complete()) return d;
-  d.surface = measure_deviation(d.a.surface->triangles(), d.b.surface->triangles());
-  if (d.surface->rms > 0) d.of_diagonal = d.surface->rms / diagonal(d.a.geometry.bounds);
-  return d;
-}
 
 namespace {
 
@@ -159,9 +108,12 @@ std::string difference_text(const WorldDifference& d, const Flags& flags) {
 int run_diff(const Flags& flags) {
   Session s(flags);
   if (!s.good()) return usage;
-  auto a = facts_of(s, flags.inputs[0]);
+  const auto facts = [&](const std::string& path) {
+    return s.read(path) ? facts_of(std::move(s.document())) : std::nullopt;
+  };
+  auto a = facts(flags.inputs[0]);
   if (!a) return s.end(false);
-  auto b = facts_of(s, flags.inputs[1]);
+  auto b = facts(flags.inputs[1]);
   if (!b) return s.end(false);
   s.progress().begin("comparing", 0, "");
   const WorldDifference d = difference(std::move(*a), std::move(*b));

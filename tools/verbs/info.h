@@ -1,14 +1,12 @@
-// What is inside a world, for the verb and for Python.
+// What `wrlkit info --json` prints, for the verb and for Python.
 #pragma once
-#include <optional>
 #include <string>
 
-#include "tools/cli/session.h"
+#include "convert/info.h"
 
 namespace wrlkit {
 
-/// What `wrlkit info` prints of the session's world, with --json as one object; the world is expanded by it. Nothing
-/// when a pass fails.
-std::optional<std::string> info_of(Session&);
+/// One object without a line end. The keys are stable.
+std::string info_json(const std::string& file, const Info&, const Diagnostics&);
 
 }  // namespace wrlkit

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/text/json.h"
+#include "convert/geometry_census.h"
 #include "light/render/linear.h"
 #include "parsers/patches/patches.h"
-#include "tools/geometry_census.h"
 
 namespace wrlkit {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/geometry_census.h"
+#include "convert/geometry_census.h"
 
 #include <algorithm>
 #include <unordered_map>

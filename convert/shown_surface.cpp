@@ -1,4 +1,4 @@
-#include "tools/shown_surface.h"
+#include "convert/shown_surface.h"
 
 #include "scenegraph/places/ways.h"
 

@@ -1,4 +1,4 @@
-// What is compared of two worlds, and how they differ: for the verb and for reports of many.
+// How two worlds differ in what they show, and in their names and nodes.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "convert/document.h"
+#include "convert/shown_surface.h"
 #include "geometry/deviation.h"
-#include "tools/cli/session.h"
-#include "tools/shown_surface.h"
 
 namespace wrlkit {
 
@@ -31,8 +31,13 @@ struct WorldDifference {
   double of_diagonal = 0;
 };
 
-/// Reads a world with a session; nothing when there is none to be had.
-std::optional<WorldFacts> facts_of(Session&, const std::string& path);
+/// Nothing when the world cannot be expanded, which is reported. The document is expanded; what is measured stays when
+/// it is gone.
+std::optional<WorldFacts> facts_of(Document&&);
+/// Of two that were measured. O(n log n) in their triangles.
 WorldDifference difference(WorldFacts a, WorldFacts b);
+
+/// Nothing when one of the documents cannot be expanded; its messages say why.
+std::optional<WorldDifference> diff(const Document& a, const Document& b);
 
 }  // namespace wrlkit

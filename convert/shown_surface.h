@@ -1,8 +1,8 @@
 // All triangles that a world shows, in world coordinates: what can be measured.
 #pragma once
 #include "base/diagnostics.h"
+#include "convert/geometry_census.h"
 #include "geometry/closest_point.h"
-#include "tools/geometry_census.h"
 
 namespace wrlkit {
 

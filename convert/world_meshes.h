@@ -2,14 +2,15 @@
 #pragma once
 #include <optional>
 
-#include "tools/cli/session.h"
+#include "convert/document.h"
+#include "passes/pipeline/pipeline.h"
 
 namespace wrlkit {
 
 class WorldMeshes {
  public:
-  /// Expands the world of the session, which must stay until the sources have been asked for the last time.
-  explicit WorldMeshes(Session&);
+  /// Expands the document, which must stay until the sources have been asked for the last time.
+  explicit WorldMeshes(Document&);
 
   /// False when the world could not be expanded.
   bool good() const { return triangles != nullptr; }

@@ -1,0 +1,69 @@
+#include "convert/diff.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convert/world_meshes.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+
+std::optional<WorldFacts> facts_of(Document&& document) {
+  if (!document) return std::nullopt;
+  WorldFacts facts;
+  const Scene& scene = document.scene();
+  for (NodeId n : all_nodes(scene)) ++facts.nodes[std::string(scene.type(n).name)];
+  const WorldMeshes meshes(document);
+  if (!meshes.good()) return std::nullopt;
+  for (NodeId n : reachable(scene, scene.main)) {
+    if (!scene.name(n).empty()) facts.names.emplace(scene.name(n));
+    facts.materials += scene.is(n, nodes::Material);
+  }
+  auto& surface = facts.surface.emplace(scene, document.diag());
+  auto gathered = [&](NodeId geometry) -> const Mesh& {
+    const Mesh& mesh = meshes.triangles(geometry);
+    surface.add(geometry, mesh);
+    return mesh;
+  };
+  facts.geometry = count_geometry(scene, meshes.polygons, gathered);
+  return facts;
+}
+
+namespace {
+
+double apart(const Bounds& a, const Bounds& b) {
+  if (a.empty() && b.empty()) return 0;
+  if (a.empty() || b.empty()) return Bounds::inf;
+  double most = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    most = std::max({most, std::fabs(a.min[i] - b.min[i]), std::fabs(a.max[i] - b.max[i])});
+  return most;
+}
+
+double diagonal(const Bounds& b) {
+  return b.empty() ? 0 : std::hypot(b.max[0] - b.min[0], b.max[1] - b.min[1], b.max[2] - b.min[2]);
+}
+
+}  // namespace
+
+WorldDifference difference(WorldFacts a, WorldFacts b) {
+  WorldDifference d{.a = std::move(a), .b = std::move(b)};
+  std::ranges::set_difference(d.a.names, d.b.names, std::back_inserter(d.missing));
+  std::ranges::set_difference(d.b.names, d.a.names, std::back_inserter(d.added));
+  d.bounds = apart(d.a.geometry.bounds, d.b.geometry.bounds);
+  if (!d.a.surface->complete() || !d.b.surface->complete()) return d;
+  d.surface = measure_deviation(d.a.surface->triangles(), d.b.surface->triangles());
+  if (d.surface->rms > 0) d.of_diagonal = d.surface->rms / diagonal(d.a.geometry.bounds);
+  return d;
+}
+
+std::optional<WorldDifference> diff(const Document& a, const Document& b) {
+  if (!a || !b) return std::nullopt;
+  auto facts_a = facts_of(a.copy());
+  auto facts_b = facts_of(b.copy());
+  if (!facts_a || !facts_b) return std::nullopt;
+  return difference(std::move(*facts_a), std::move(*facts_b));
+}
+
+}  // namespace wrlkit
