@@ -10,6 +10,8 @@ they come behind the nodes, where no writer takes them for the world's leading c
 
   # RUN: wrlkit cat %s             a command for bash, run in the root of the project; %s is this file, %S its folder,
                                    %t a path in a folder that exists only while the test runs
+  # RUN-SCRIPT: name.sh            the same of the commands in a file beside the test; %s, %S and %t are put in there, too.
+                                   A RUN of more than 200 characters has to be one
   # | Shape {                      one line of the output; all such lines below a RUN are all of its output
   # OUTPUT                         there is output, but nobody has written it down yet: --update puts it here
   # CHECK: geometry Cone           a line further down in the output contains this; {{...}} is a regular expression
@@ -19,13 +21,15 @@ they come behind the nodes, where no writer takes them for the world's leading c
   # EXPECT-EXIT: 3                 exit code of the RUN above; otherwise 1 when an error is expected, else 0
   # EXPECT-ERROR [unknown-field] no field 'radius'
                                    the command reports this on this line of this file, on its error output; likewise
-                                   EXPECT-WARNING and EXPECT-LOST. Any other message fails the test.
+                                   EXPECT-WARNING and EXPECT-LOST. Any other message fails the test, and so do two of
+                                   different words at a place where one is expected, or one that a command says twice.
   # EXPECT-ERROR@-1 [syntax]       the same for the line above, @3 for line 3 of any file, @3:7 for a column of it,
                                    @:7 for a column of this line, @* for any place or none
 
 CHECK, EXPECT-EXIT and output belong to the RUN above them, EXPECT-ERROR, -WARNING and -LOST to the whole test.
 """
 import argparse
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 import difflib
@@ -38,10 +42,11 @@ import sys
 import tempfile
 
 ROOT = Path(__file__).resolve().parents[1]
-DIRECTIVE = re.compile(r'#\s*(RUN|CHECK|CHECK-NEXT|CHECK-NOT|EXPECT-EXIT):\s*(.*?)\s*$')
+DIRECTIVE = re.compile(r'#\s*(RUN|RUN-SCRIPT|CHECK|CHECK-NEXT|CHECK-NOT|EXPECT-EXIT):\s*(.*?)\s*$')
 EXPECT = re.compile(r'#\s*EXPECT-(ERROR|WARNING|LOST)(?:@(\*|[+-]?\d+)?(?::(\d+))?)?\s+\[([a-z0-9-]+)\]\s*(.*?)\s*$')
 OUTPUT = re.compile(r'# (?:\|(?: (.*))?|OUTPUT)$')
-NEARLY = re.compile(r'#\s*(RUN|CHECK|EXPECT)\b')
+LONGEST_RUN = 200
+NEARLY = re.compile(r'#\s*(RUN|RUN-SCRIPT|CHECK|EXPECT)\b')
 MESSAGE = re.compile(r'(?:(?P<file>.+?):(?:(?P<line>\d+):(?P<column>\d+):)? )?(?P<kind>error|warning|lost): (?P<text>.*) \[(?P<name>[a-z0-9-]+)\]$')
 
 
@@ -75,12 +80,12 @@ def can_run(path, options):
     return '# NEEDS: python\n' not in path.read_text(encoding='utf-8') or (options.wrlkit.parent / 'python/wrlkit/__main__.py').exists()
 
 
-def parse(lines):
+def parse(lines, folder):
     """The RUNs and expected messages of a test."""
     runs, expected = [], []
     for i, line in enumerate(lines):
         if found := DIRECTIVE.search(line):
-            add_directive(runs, *found.groups(), i)
+            add_directive(runs, *found.groups(), i, folder)
         elif found := EXPECT.search(line):
             expected.append(expectation(*found.groups(), i))
         elif found := OUTPUT.match(line):
@@ -94,9 +99,13 @@ def parse(lines):
     return runs, expected
 
 
-def add_directive(runs, kind, text, i):
+def add_directive(runs, kind, text, i, folder):
+    if kind == 'RUN' and len(text) > LONGEST_RUN:
+        raise Faulty(f'line {i + 1}: a RUN of {len(text)} characters; from {LONGEST_RUN} on it has to be a RUN-SCRIPT')
     if kind == 'RUN':
         return runs.append(Run(text, i))
+    if kind == 'RUN-SCRIPT':
+        return runs.append(Run((folder / text).read_text(encoding='utf-8'), i))
     if not runs:
         raise Faulty(f'line {i + 1}: no RUN stands above it')
     if kind == 'EXPECT-EXIT':
@@ -176,7 +185,7 @@ def check_lines(run, lines):
 
 
 def messages(text):
-    return list({m[0]: m for m in map(MESSAGE.match, text.splitlines()) if m}.values())
+    return [m for m in map(MESSAGE.match, text.splitlines()) if m]
 
 
 def satisfies(message, expected):
@@ -188,13 +197,28 @@ def satisfies(message, expected):
 
 
 def check_messages(text, expected):
-    found = messages(text)
+    found = list({m[0]: m for m in messages(text)}.values())
     for m in found:
         if not any(satisfies(m, e) for e in expected):
             yield f'unexpected message: {m[0]}'
     for e in expected:
+        fitting = [m for m in found if satisfies(m, e)]
+        alike = [other for other in expected if (other.kind, other.name, other.line, other.here) == (e.kind, e.name, e.line, e.here)]
+        if e.line is not None and len(fitting) > len(alike):
+            yield f'line {e.written_at + 1}: {len(fitting)} messages where {len(alike)} are expected: [{e.name}]'
+    for e in expected:
         if not any(satisfies(m, e) for m in found):
             yield f'line {e.written_at + 1}: expected but not reported: {e.kind} [{e.name}] {e.text}'
+
+
+def said_again(run, text):
+    """Messages that one command says twice, with the same words of the same place."""
+    commands = len(re.findall(r'\bwrlkit\b', run.command))
+    if re.search(r'\b(for|while|xargs)\b', run.command):
+        return
+    for line, n in Counter(m[0] for m in messages(text)).items():
+        if n > max(commands, 1):
+            yield f'said {n} times by {commands} commands: {line}'
 
 
 def updated(lines, runs, outputs):
@@ -223,14 +247,14 @@ def run_test(path, options):
         variables = {'%s': name, '%S': os.path.dirname(name), '%t': folder + '/t'}
         try:
             lines = text.split('\n')
-            runs, expected = parse(lines)
+            runs, expected = parse(lines, path.parent)
             faults, outputs, errors = [], [], ''
             fails = any(e.kind == 'error' for e in expected)
             for run in runs:
                 code, output, error = execute(run, variables, options)
                 outputs.append(output.split('\n')[:-1] if output.endswith('\n') else output.split('\n') if output else [])
                 errors += error
-                faults += [*check_run(run, code, outputs[-1], fails)]
+                faults += [*check_run(run, code, outputs[-1], fails), *said_again(run, error)]
             message_faults = [*check_messages(errors, expected)]
         except Faulty as fault:
             return [str(fault)]

@@ -123,7 +123,7 @@ def main():
     if os.path.isdir(shared):
         files += worlds(shared)
     else:
-        print('skipped: the found corpus is not there (WRLKIT_SHARED)')
+        print('the found corpus is not there (WRLKIT_SHARED): only worlds of this project')
     files = files[:: o.every]
     failed = unread = with_levels = levels = 0
     with ThreadPoolExecutor(os.cpu_count()) as pool:

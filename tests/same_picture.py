@@ -9,60 +9,45 @@ Draws worlds before and after, reads the pictures with nothing but zlib, and cou
   metre moves across the middle of a pixel), 0.05 levels in the mean. The surface may deviate by the tolerance of `instance`.
 - Several worlds, `optimize --tolerance 1mm`: one pixel in a hundred (edges that a millimetre moves), and two levels in the mean: normals
   of eight bits, highlights that are those of glTF's materials, pictures as WebP. The surface may deviate by the tolerance, and that of `instance`.
-  Worlds that are not there are left out, which is said.
+- `--found`: the same of worlds of ../shared/corpus (WRLKIT_SHARED); ends with 77 when that is not there.
 """
 import argparse
 import json
+import os
 from pathlib import Path
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
+
+from png import pixels
 
 ROOM = 'corpus/plant/pump_room_faces.wrl'
-SHARED = '../shared/corpus/plant/'
+SHARED = os.path.join(os.environ.get('WRLKIT_SHARED', '../shared'), 'corpus/plant/')
 EXACT, SMALL = (0.001, 0.05, 0.0002), (0.01, 2, 0.0012)  # parts of the pixels, levels, metres
 CASES = [(ROOM, ['convert', '-p', 'dedup,instance'], True, EXACT), (ROOM, ['convert', '-p', 'merge{max-draws=40}'], False, EXACT)]
-CASES += [(w, ['optimize', '--tolerance', '1mm', *more], keeps_names, SMALL) for w, keeps_names, *more in [
+
+
+def made_small(*worlds):
+    return [(w, ['optimize', '--tolerance', '1mm', *more], keeps_names, SMALL) for w, keeps_names, *more in worlds]
+
+
+CASES += made_small(
     (ROOM, True), ('corpus/features/mirrored_nested.wrl', True), ('corpus/features/lod.wrl', True), ('corpus/features/colour_per_face.wrl', True),
-    ('corpus/features/texture_repeat.wrl', True, '--texture-format', 'keep'), ('corpus/vrml1/Texture2Transform.wrl', True),
+    ('corpus/features/texture_repeat.wrl', True, '--texture-format', 'keep'), ('corpus/vrml1/Texture2Transform.wrl', True))
+FOUND = made_small(
     (SHARED + 'hairo-world-narrec/RobotTestPool/resource/wp_anark.wrl', True),
-    (SHARED + 'choreonoid/Labo1/resource/pipes.wrl', False)]]  # 139 of its geometries have a name, but nothing that is drawn
-
-
-def pixels(path):
-    """Width times channels, and the rows (PNG of 8 bits a channel, not interlaced)."""
-    data, at, packed = path.read_bytes(), 8, b''
-    while at < len(data):
-        size, kind = struct.unpack_from('>I4s', data, at)
-        body = data[at + 8:at + 8 + size]
-        at += 12 + size
-        if kind == b'IHDR':
-            width, height, depth, color, _, _, interlaced = struct.unpack('>IIBBBBB', body)
-            assert (depth, interlaced) == (8, 0)
-        packed += body if kind == b'IDAT' else b''
-    step = {0: 1, 2: 3, 4: 2, 6: 4}[color]
-    raw, row, out = zlib.decompress(packed), bytearray(width * step), []
-    for y in range(height):
-        start = y * (width * step + 1)
-        above, row, how = row, bytearray(raw[start + 1:start + 1 + width * step]), raw[start]
-        for i in range(len(row)):
-            a, b, c = (row[i - step], above[i], above[i - step]) if i >= step else (0, above[i], 0)
-            if how == 4:
-                pa, pb, pc = abs(b - c), abs(a - c), abs(a + b - 2 * c)
-                add = a if pa <= pb and pa <= pc else b if pb <= pc else c
-            else:
-                add = (0, a, b, (a + b) // 2)[how]
-            row[i] = (row[i] + add) & 255
-        out.append(bytes(row))
-    return step, b''.join(out)
+    (SHARED + 'choreonoid/Labo1/resource/pipes.wrl', False))  # 139 of its geometries have a name, but nothing that is drawn
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--wrlkit', required=True)
-    wrlkit = parser.parse_args().wrlkit
+    parser.add_argument('--found', action='store_true')
+    options = parser.parse_args()
+    wrlkit = options.wrlkit
+    if options.found and not Path(SHARED).exists():
+        print(f'skipped: there is no {SHARED}')
+        return 77
 
     def run(*command):
         return subprocess.run([wrlkit, *command], check=True, capture_output=True, text=True).stdout
@@ -72,11 +57,8 @@ def main():
         def picture(world):
             run('render', '-q', str(world), f'{folder}/a.png', '--width', '400', '--height', '250')
             return pixels(Path(folder, 'a.png'))
-        for world, command, keeps_names, (most_far, most_mean, most_deviation) in CASES:
+        for world, command, keeps_names, (most_far, most_mean, most_deviation) in (FOUND if options.found else CASES):
             what = f"{Path(world).name}, {' '.join(command)}"
-            if not Path(world).exists():
-                print(f'{what}: skipped: it is not there')
-                continue
             out = Path(folder, 'b.glb')
             run(command[0], '-q', world, str(out), *command[1:])
             step, before = picture(world)

@@ -182,7 +182,7 @@ NodeId Meshes::color_of(const Primitive& p, Streams& s, const Look& look, int va
 
 NodeId Meshes::texcoord_of(Streams& s, const Look& look, int variant) {
   auto change = [&](std::vector<double>& v) {
-    const auto a = look.bake.value_or(UvAffine{});
+    const auto a = look.bake.value_or(TexcoordMap{});
     for (std::size_t i = 0; i + 1 < v.size(); i += 2) {
       const double u = v[i], t = from_top(v[i + 1]);
       v[i] = look.bake ? a.xx * u + a.xy * t + a.x : u;

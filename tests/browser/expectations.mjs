@@ -49,7 +49,3 @@ export function expected(name, webp = false) {
   const e = exceptions.filter(e => e.worlds.test(name)).reduce((sum, e) => ({...sum, ...e, most: {...sum.most, ...e.most}}), usual);
   return webp ? {...e, most: {...e.most, vrml: Math.max(e.most.vrml, lossy)}} : e;
 }
-
-/// Worlds of the found corpus that are compared when it is there.
-export const found_worlds_to_compare = [
-];

@@ -12,7 +12,7 @@
 import fs from 'node:fs';
 import path from 'node:path';
 import {has_chromium, take_pictures} from './browser.mjs';
-import {expected, found_worlds_to_compare, is_compared} from './expectations.mjs';
+import {expected, is_compared} from './expectations.mjs';
 import {in_lanes, run} from './program.mjs';
 import {view_of} from './view.mjs';
 import {file_of, found_worlds, has_shared, own_worlds, plants_and_worlds} from './worlds.mjs';
@@ -28,7 +28,7 @@ const with_levels = ['corpus/paper/ellipsoid_hole.wrl']
   .map(name => ({name: `${name} with levels`, file: file_of(name), levels: true}));
 
 /// Worlds whose light is baked: three.js draws the glTF that the pass makes, wrlkit the VRML.
-const bake = ['-p', 'lightmap{quality=draft,max-size=128}'], bake_all_of_it = ['-p', 'inline,expand-protos,inline,lightmap{quality=draft,max-size=128}'];
+const bake = ['-p', 'lightmap{quality=draft,max-size=128}'], bake_all_of_it = ['-p', 'expand,lightmap{quality=draft,max-size=128}'];
 const baked = ({name, file}) => ({name: `${name} with light`, file, baked: true});
 const own_with_light = ['paper/stairs_room', 'paper/pipes', 'features/light_spot', 'features/use_nested', 'features/transparency', 'features/material_texture',
   'vrml1/PointLight'].map(name => `corpus/${name}.wrl`).map(name => baked({name, file: file_of(name)}));
@@ -91,8 +91,7 @@ function keep_picture({name, lighting, sheet}) {
 
 function worlds() {
   if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)];
-  const found = found_worlds_to_compare.map(name => ({name, file: file_of(name)})).filter(w => w.file);
-  return [...own_worlds(), ...with_levels, ...own_with_light, ...some_of(found_with_light.filter(w => is_compared(w.name))), ...found].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
+  return [...own_worlds(), ...with_levels, ...own_with_light, ...some_of(found_with_light.filter(w => is_compared(w.name)))].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
 }
 
 async function main() {

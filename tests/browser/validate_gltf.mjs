@@ -1,7 +1,7 @@
 // Converts every world of VRML97, VRML 1.0 and X3D to glTF and has the official Khronos validator look at each result: it must find no error and
 // no warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
 // missing, a message.
-//   node validate_gltf.mjs WRLKIT FOLDER [NAMES] [PIPELINE] [FLAGS-OF-CONVERT...]
+//   node validate_gltf.mjs WRLKIT FOLDER [NAMES] [PIPELINE] [FLAGS-OF-CONVERT...]      PIPELINE: - is the default one
 //   node validate_gltf.mjs WRLKIT FOLDER [NAMES] optimize [FLAGS-OF-OPTIMIZE...]      NAMES: a regular expression
 import fs from 'node:fs';
 import path from 'node:path';
@@ -10,7 +10,7 @@ import {in_lanes, run} from './program.mjs';
 import {found_to_draw, found_worlds, has_shared, own_worlds, every_format} from './worlds.mjs';
 
 const [wrlkit, folder, names = '', pipeline = '', ...flags] = process.argv.slice(2);
-const lanes = 2;
+const lanes = 2, skipped = 77;
 const to_draw = found_to_draw();
 const faults = [];
 const counts = {worlds: 0, broken: 0, valid: 0, bytes: 0};
@@ -47,7 +47,7 @@ function check_end(world, result, out) {
 
 async function check(world) {
   const out = path.join(folder, `${counts.worlds++}.glb`);
-  const result = await run(wrlkit, pipeline === 'optimize' ? ['optimize', world.file, out, ...flags] : ['convert', world.file, out, ...(pipeline ? ['-p', pipeline] : []), ...flags], 60);
+  const result = await run(wrlkit, pipeline === 'optimize' ? ['optimize', world.file, out, ...flags] : ['convert', world.file, out, ...(pipeline && pipeline !== '-' ? ['-p', pipeline] : []), ...flags], 60);
   if (world.broken) ++counts.broken;
   if (check_end(world, result, out)) await check_result(world, result, out);
   fs.rmSync(out, {force: true});
@@ -67,9 +67,9 @@ function print_kind(kind, all) {
 
 fs.rmSync(folder, {recursive: true, force: true});
 fs.mkdirSync(folder, {recursive: true});
-if (!has_shared) console.log('skipped: the found corpus is not there (WRLKIT_SHARED)');
+if (!has_shared) console.log('the found corpus is not there (WRLKIT_SHARED): only worlds of this project');
 const worlds = [...own_worlds(every_format), ...found_worlds(every_format)].filter(w => new RegExp(names).test(w.name));
 await in_lanes(worlds, lanes, check);
 print_faults();
 console.log(`${counts.worlds} worlds, ${counts.broken} of them damaged; ${counts.valid} results without error or warning, ${(counts.bytes / 1e6).toFixed(1)} MB`);
-process.exitCode = faults.length || counts.worlds === 0 ? 1 : 0;
+process.exitCode = counts.worlds === 0 && !has_shared ? skipped : faults.length || counts.worlds === 0 ? 1 : 0;

@@ -67,11 +67,24 @@ async function display() {
   const {page, faults, close} = await open_page(browser, html);
   await page.getByRole('tab', {name: 'View'}).click();
   const plain = await picture(page);
-  const differs = async what => { await page.waitForTimeout(150); assert(!plain.equals(await picture(page)), what); };
+  const seen = [plain];
+  // The last picture taken, as soon as it is as wanted, or after five seconds.
+  const shows = async (wanted, what) => {
+    let now = await picture(page);
+    for (let i = 0; i < 25 && !wanted(now); ++i) {
+      await page.waitForTimeout(200);
+      now = await picture(page);
+    }
+    assert(wanted(now), what);
+    return now;
+  };
+  // Each of them shows what none before has shown.
+  const differs = async what => { seen.push(await shows(now => !seen.some(other => other.equals(now)), what)); };
   for (const label of ['Edges (hidden lines removed)', 'Bounding boxes', 'Sky of the world']) {
     await page.getByLabel(label).check();
     await differs(label);
     await page.getByLabel(label).uncheck();
+    await shows(now => !now.equals(seen.at(-1)), `${label}, taken back`);
   }
   await page.getByLabel('Off', {exact: true}).check({force: true});
   await differs('light off');

@@ -1,8 +1,9 @@
 // For every world of VRML97 or VRML 1.0 below some folders: what is written reads back as the same scene, and written
 // again it is the same text. Says of each world that breaks this what differs, and fails.
 //
-//   roundtrip FOLDER...    folders that are not there are skipped, and named
-//   roundtrip              corpus/ of the project, and that of the folder WRLKIT_SHARED or of ../shared
+//   roundtrip FOLDER...    --found: the corpus of the folder WRLKIT_SHARED, or of ../shared. Ends with 77 where a
+//   folder
+//                          is not there
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -12,21 +13,12 @@
 
 #include "parsers/parsers.h"
 #include "scenegraph/equal.h"
+#include "tests/roundtrip/worlds.h"
 #include "writers/vrml/vrml.h"
 
 using namespace wrlkit;
 
 namespace {
-
-namespace fs = std::filesystem;
-
-std::vector<std::string> files_below(const fs::path& folder) {
-  std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) files.push_back(entry.path().string());
-  std::ranges::sort(files);
-  return files;
-}
 
 std::string text_of(const Scene& scene) {
   Diagnostics diag;
@@ -76,23 +68,13 @@ void check_folder(const std::string& folder, Count& count) {
   }
 }
 
-std::vector<std::string> standard_folders() {
-  const fs::path source = WRLKIT_SOURCE_DIR;
-  const char* shared = std::getenv("WRLKIT_SHARED");
-  return {(source / "corpus").string(),
-          ((shared ? fs::path(shared) : source.parent_path() / "shared") / "corpus").string()};
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
+  const auto folders = folders_of(argc, argv);
+  if (folders.empty()) return skipped;
   Count count;
-  for (const auto& folder : argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : standard_folders()) {
-    if (fs::is_directory(folder))
-      check_folder(folder, count);
-    else
-      std::printf("skipped: there is no %s\n", folder.c_str());
-  }
+  for (const auto& folder : folders) check_folder(folder, count);
   std::printf("%d worlds, %d of them come back otherwise\n", count.worlds, count.faulty);
   return count.worlds == 0 || count.faulty ? 1 : 0;
 }

@@ -1,8 +1,8 @@
 // VRML97 through X3D and back, and X3D through its own writer: the text in the end is the text in the beginning.
 // Differences that docs/conformance.md explains are told apart by what the world has; any other fails.
 //
-//   roundtrip_x3d FOLDER...    folders that are not there are skipped, and named
-//   roundtrip_x3d              corpus/ of the project, and that of the folder WRLKIT_SHARED or of ../shared
+//   roundtrip_x3d FOLDER...    --found: the corpus of the folder WRLKIT_SHARED, or of ../shared. Ends with 77 where a
+//                              folder is not there
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -14,14 +14,13 @@
 #include "parsers/parsers.h"
 #include "passes/lower_x3d/lower_x3d.h"
 #include "scenegraph/walk.h"
+#include "tests/roundtrip/worlds.h"
 #include "writers/vrml/vrml.h"
 #include "writers/x3d/x3d.h"
 
 using namespace wrlkit;
 
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string vrml_text(Scene scene) {
   Diagnostics diag;
@@ -115,28 +114,14 @@ void check_file(const std::string& path, Count& count) {
     report(path, difference_of(x3d, x3d_text(again->scene)), explained, count);
 }
 
-std::vector<std::string> standard_folders() {
-  const fs::path source = WRLKIT_SOURCE_DIR;
-  const char* shared = std::getenv("WRLKIT_SHARED");
-  return {(source / "corpus").string(),
-          ((shared ? fs::path(shared) : source.parent_path() / "shared") / "corpus").string()};
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
+  const auto folders = folders_of(argc, argv);
+  if (folders.empty()) return skipped;
   Count count;
-  for (const auto& folder : argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : standard_folders()) {
-    if (!fs::is_directory(folder)) {
-      std::printf("skipped: there is no %s\n", folder.c_str());
-      continue;
-    }
-    std::vector<std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (entry.is_regular_file()) files.push_back(entry.path().string());
-    std::ranges::sort(files);
-    for (const auto& f : files) check_file(f, count);
-  }
+  for (const auto& folder : folders)
+    for (const auto& f : files_below(folder)) check_file(f, count);
   std::printf("%d worlds of VRML97 and %d of X3D, %d come back otherwise for a known reason, %d for none\n", count.vrml,
               count.x3d, count.explained, count.faulty);
   return count.vrml + count.x3d == 0 || count.faulty ? 1 : 0;

@@ -10,12 +10,12 @@ passes when it ends without a signal, with exit code 0, 1 or 3, says what was dr
 the bad part of a world stands a node with the name Rest.
 """
 import argparse
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 import json
 import os
 from pathlib import Path
 import re
-import resource
 import signal
 import struct
 import subprocess
@@ -32,6 +32,7 @@ VERBS = ('check', 'cat', 'info', 'convert')
 EXPANDING = ('check', 'info', 'convert')  # what expands prototypes and loads Inlines
 MEMORY = 2 << 30
 SECONDS = 30          # of the processor
+LIMITED = ['prlimit', f'--as={MEMORY}', f'--cpu={SECONDS}', '--core=0']
 PATIENCE = 20          # times as much on the clock, for machines that are busy
 SMALL_JSON = 8 << 20   # bytes; larger ones are searched, not parsed
 MESSAGE = re.compile(r'(error|warning|lost): .* \[([a-z0-9-]+)\]$', re.M)
@@ -339,20 +340,14 @@ class Result:
     errors: str
 
 
-def limit():
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-
-
 def execute(wrlkit, verb, path, out):
     """Runs one verb; SIGKILL is the end of its time."""
     for old in out.glob('out.*'):
         old.unlink()
     stdout, stderr = out / 'stdout', out / 'stderr'
     with stdout.open('wb') as o, stderr.open('wb') as e:
-        process = subprocess.Popen([wrlkit, *command(verb, path, out)], cwd=path.parent, stdin=subprocess.DEVNULL, stdout=o,
-                                   stderr=e, preexec_fn=limit)
+        process = subprocess.Popen([*LIMITED, wrlkit, *command(verb, path, out)], cwd=path.parent, stdin=subprocess.DEVNULL,
+                                   stdout=o, stderr=e)
         alarm = threading.Timer(SECONDS * PATIENCE, process.kill)
         alarm.start()
         _, status, usage = os.wait4(process.pid, 0)
@@ -410,7 +405,7 @@ def complaint(case, verb, result):
 
 def run_case(case, folder, options):
     """Number of verbs that fail; prints a line for each."""
-    inputs, out = folder / case.name, folder / 'out'
+    inputs, out = folder / case.name, folder / f'{case.name}.out'
     inputs.mkdir()
     out.mkdir(exist_ok=True)
     path = case.make(inputs)
@@ -439,12 +434,14 @@ def main():
     parser.add_argument('--wrlkit', type=Path, default=Path('build/release/wrlkit'), help='the program')
     parser.add_argument('--verbs', type=lambda text: text.split(','), default=list(VERBS), help='check,cat,info,convert')
     parser.add_argument('--keep', type=Path, help='an empty folder for the worlds, which stay there')
+    parser.add_argument('--jobs', type=int, default=os.cpu_count(), help='cases at a time')
     parser.add_argument('--verbose', action='store_true', help='print the runs that pass, too')
     options = parser.parse_args()
     options.wrlkit = options.wrlkit.resolve()
     chosen = [c for c in CASES if not options.cases or any(word in c.name for word in options.cases)]
     with tempfile.TemporaryDirectory(prefix='limits_') as folder:
-        failed = sum(run_case(case, options.keep or Path(folder), options) for case in chosen)
+        with ThreadPoolExecutor(options.jobs) as pool:
+            failed = sum(pool.map(lambda case: run_case(case, options.keep or Path(folder), options), chosen))
     runs = len(chosen) * len(options.verbs)
     print(f'{runs - failed} of {runs} runs passed')
     return 1 if failed or not runs else 0

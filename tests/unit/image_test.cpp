@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <random>
 #include <thread>
+
+#include "base/image/image_codecs.h"
+#include "tests/unit/skip.h"
 
 using namespace wrlkit;
 using namespace std::string_literals;
@@ -414,13 +416,12 @@ TEST_CASE("Pictures are decoded by several threads at once", "[image]") {
   CHECK(std::ranges::all_of(same, [](bool s) { return s; }));
 }
 
-TEST_CASE("Every picture of the corpus is decoded, or says why not", "[image][corpus]") {
+TEST_CASE("Every picture of the corpus is decoded, or says why not", "[image][found]") {
   namespace fs = std::filesystem;
   const char* shared = std::getenv("WRLKIT_SHARED");
   auto folder = (shared ? fs::path(shared) : fs::path(WRLKIT_SOURCE_DIR) / ".." / "shared") / "corpus";
   if (!fs::is_directory(folder)) {
-    std::cout << "skipped: no folder " << folder << " (WRLKIT_SHARED)\n";
-    return;
+    return skip("there is no folder " + folder.string() + " (WRLKIT_SHARED)");
   }
   constexpr std::string_view extensions[] = {".png", ".jpg", ".gif", ".dds"};
   int decoded = 0, refused = 0;
@@ -439,4 +440,13 @@ TEST_CASE("Every picture of the corpus is decoded, or says why not", "[image][co
   }
   CHECK(decoded == 215);
   CHECK(refused == 2);  // DDS, which is none of the types
+}
+
+TEST_CASE("image: the codecs are named by an absolute path, and before they are used", "[image]") {
+  CHECK_FALSE(set_image_codecs("wrlkit_images.so"));
+  CHECK_FALSE(set_image_codecs(""));
+  std::string error;
+  auto bytes = encode_jpeg({1, 1, 3, {1, 2, 3}}, 90, error);
+  CHECK(bytes);
+  CHECK_FALSE(set_image_codecs("/nowhere/wrlkit_images.so"));
 }

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <random>
 #include <set>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "geometry/unwrap/unfold.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
+#include "tests/unit/skip.h"
 
 using namespace wrlkit;
 using namespace wrlkit::unwrap;
@@ -586,12 +586,11 @@ TEST_CASE("unwrap: the same on any number of threads") {
     CHECK(same(atlases[0].items[0].charts[k], atlases[1].items[0].charts[k]));
 }
 
-TEST_CASE("unwrap: scans and parts") {
+TEST_CASE("unwrap: scans and parts", "[found]") {
   const char* shared = std::getenv("WRLKIT_SHARED");
   auto folder = (shared ? fs::path(shared) : fs::path(WRLKIT_SOURCE_DIR) / ".." / "shared") / "meshes";
   if (!fs::exists(folder)) {
-    std::cout << "skipped: no folder " << folder << " (WRLKIT_SHARED)\n";
-    return;
+    return skip("there is no folder " + folder.string() + " (WRLKIT_SHARED)");
   }
   for (std::string name : {"bunny", "fandisk", "flange", "ibeam", "valve", "ellhole452"}) {
     INFO(name);

@@ -1,0 +1,15 @@
+set +o pipefail
+for verb in info cat 'diff %S/inputs/box.wrl' 'convert %t.glb' 'render %t.png' 'simplify --ratios 0.5 -o %t.d'
+do
+    set -- $verb
+    v=$1
+    shift
+    case $v in 
+        convert | render)
+            wrlkit $v %S/inputs/absent.wrl $* --json
+        ;;
+        *)
+            wrlkit $v $* %S/inputs/absent.wrl --json
+        ;;
+    esac 2>&1 | grep -c cannot-read
+done | uniq

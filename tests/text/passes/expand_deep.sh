@@ -1,0 +1,1 @@
+python3 -c "print('#VRML V2.0 utf8\nPROTO A [] {' + 'Group { children ' * 700 + 'Shape {}' + '}' * 700 + '}\nPROTO B [] {' + 'Group { children ' * 700 + 'A {}' + '}' * 700 + '}\nB {}\nShape { geometry Box {} }')" > %t.wrl
