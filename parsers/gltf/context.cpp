@@ -3,22 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenegraph/gltf_extensions.h"
+
 namespace wrlkit::gltf_reader {
 namespace {
-
-constexpr std::string_view known_extensions[] = {"KHR_draco_mesh_compression",
-                                                 "EXT_meshopt_compression",
-                                                 "KHR_meshopt_compression",
-                                                 "KHR_mesh_quantization",
-                                                 "KHR_texture_transform",
-                                                 "KHR_lights_punctual",
-                                                 "KHR_materials_unlit",
-                                                 "MOZ_lightmap",
-                                                 "EXT_mesh_gpu_instancing",
-                                                 "MSFT_lod",
-                                                 "KHR_animation_pointer",
-                                                 "KHR_materials_emissive_strength",
-                                                 "EXT_texture_webp"};
 
 /// ISO/IEC 14772-1, A.3: characters of a name; the first is no digit or sign either.
 bool in_name(unsigned char c) {
@@ -89,7 +77,7 @@ void Lost::keep(const File& file, Json element, std::string_view member) {
 
 void Lost::keep(const File& file, Json element) {
   for (Json e : element["extensions"].is_object() ? element["extensions"] : Json()) {
-    if (std::ranges::find(known_extensions, e.key()) != std::end(known_extensions)) continue;
+    if (reads_gltf_extension(e.key())) continue;
     add(e.key(), file.where(e));
     keep(file, e, std::string(element["name"].text()) + ": " + std::string(e.key()));
   }

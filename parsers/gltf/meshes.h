@@ -10,33 +10,19 @@
 
 #include "parsers/gltf/materials.h"
 #include "parsers/gltf/part_rows.h"
-#include "scenegraph/transform.h"
+#include "parsers/gltf/primitives.h"
 
 namespace wrlkit::gltf_reader {
 
-/// How a node shows a mesh.
-struct Pose {
-  std::vector<double> weights;  // of its morph targets; empty: those of the mesh
-  std::vector<Matrix> joints;   // of a skin: from the mesh to the node; empty: none
-  std::uint32_t skin = none;
-  Vec3 origin{0, 0, 0};  // what wrlkit has subtracted from the points
-  bool shared() const { return weights.empty() && joints.empty() && origin == Vec3{0, 0, 0}; }
-};
-
-/// A CoordinateInterpolator's material: the points of a Coordinate with each target at full weight.
-struct Morph {
-  NodeId coordinate;
-  std::vector<double> base;
-  std::vector<std::vector<double>> targets;  // displacements
-  std::vector<double> weights;               // as they are shown
-};
-
 class Meshes {
  public:
-  static constexpr std::uint64_t max_posed = 20'000'000;  // vertices of skinned and morphed meshes
-
   Meshes(const Context& c, Extras& extras, PartRows& rows)
-      : c_(c), extras_(extras), rows_(rows), materials_(c, extras), reported_(c.file.count(Table::meshes)) {}
+      : c_(c),
+        extras_(extras),
+        rows_(rows),
+        reader_(c),
+        materials_(c, extras),
+        reported_(c.file.count(Table::meshes)) {}
 
   struct Part {
     NodeId appearance, geometry;
@@ -51,47 +37,22 @@ class Meshes {
     return materials_.nodes_of(material);
   }
   /// Of the last call, one for each primitive with targets.
-  std::vector<Morph> take_morphs() { return std::move(morphs_); }
+  std::vector<Morph> take_morphs() { return std::move(reader_.morphs()); }
 
  private:
-  /// Values of one attribute: of an accessor, read when they are needed, or made here.
-  struct Stream {
-    std::uint32_t accessor = none;
-    std::size_t width = 0;
-    std::vector<double> values;
-    explicit operator bool() const { return accessor != none || !values.empty(); }
-  };
-  struct Streams {
-    Stream position, normal, color, texcoord, light, feature;  // feature: of Draco only
-    std::size_t n = 0;                                         // vertices
-    std::vector<std::uint32_t> index;
-    std::uint32_t index_accessor = none;
-    bool indexed = false, loose = false;  // loose: the values are not those of the accessors
-  };
-  /// Names of attributes: places in the picture and in the lightmap.
-  struct Sets {
-    std::string texcoord, light;
-  };
-  struct Primitive {
-    Json json, mesh;
-    std::uint32_t material = none;
-    int mode = 4;
-    bool faces() const { return mode >= 4; }
-  };
   std::optional<Part> part(const Primitive&, const Pose&);
   /// Of a mesh with feature ids the parts; none if it has no good ones.
   std::vector<Part> features(const Primitive&, const Part& whole);
   NodeId kept_whole(const Primitive&);
-  bool load(const Primitive&, const Pose&, const Sets&, Streams&);
-  bool load_draco(const Primitive&, const Sets&, Streams&);
-  Stream stream(const Primitive&, std::string_view name, std::size_t n, std::initializer_list<std::size_t> widths);
-  bool fill(Stream&, std::initializer_list<std::size_t> widths);
-  bool pose(const Primitive&, const Pose&, Streams&);
-  void morph(const Primitive&, const Pose&, Streams&);
-  bool skin(const Primitive&, const Pose&, Streams&);
-  /// Triangles, segments or points, as vertices.
-  std::vector<std::uint32_t> elements(const Primitive&, Streams&);
+  /// The nodes of one primitive of others' files; null where it has none of a kind.
+  struct Attributes {
+    NodeId coord, normal, color, texcoord, light;
+  };
   NodeId foreign(const Primitive&, Streams&, const Look&);
+  Attributes attributes_of(const Primitive&, Streams&, const Look&);
+  NodeId color_of(const Primitive&, Streams&, const Look&, int variant);
+  NodeId texcoord_of(Streams&, const Look&, int variant);
+  NodeId foreign_points(const Primitive&, const Streams&, Attributes, std::span<const std::uint32_t> corners);
   NodeId own(const Primitive&, Streams&, const Look&);
   void own_faces(NodeId, const Primitive&, const Streams&, const std::vector<std::uint32_t>& triangles);
   void note_first_vertices(NodeId, const Primitive&, const std::vector<std::uint32_t>& corners);
@@ -106,16 +67,14 @@ class Meshes {
   Context c_;
   Extras& extras_;
   PartRows& rows_;
+  PrimitiveReader reader_;
   Materials materials_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Part>> parts_;  // by mesh and primitive
   std::map<std::tuple<std::uint32_t, std::uint32_t, int>, NodeId> attributes_;  // by type, accessor and variant
   std::map<std::tuple<int, std::uint32_t, std::size_t>, Value> coord_index_;    // by mode, accessor and vertices
   std::map<std::string, NodeId> own_;                                           // by what they are made of
   std::map<std::uint32_t, std::vector<std::uint32_t>> first_vertex_;            // by geometry node: of each face
-  std::vector<double> unpacked_ids_;                                            // of the primitive at hand
-  std::vector<Morph> morphs_;
   std::vector<char> reported_;
-  std::uint64_t n_posed_ = 0;
 };
 
 }  // namespace wrlkit::gltf_reader

@@ -78,37 +78,61 @@ double distance(const Vec& p, const std::array<Vec, 3>& t) {
   return above ? std::abs(dot(minus(p, t[0]), normal)) / std::sqrt(dot(normal, normal)) : std::sqrt(nearest);
 }
 
-}  // namespace
+/// Triangles as they are, and on the grid.
+class Triangles {
+ public:
+  Triangles(std::span<const float> xyz, std::span<const std::uint32_t> corners, double step)
+      : xyz_(xyz), corners_(corners), step_(step) {}
 
-bool loses_faces(std::span<const float> xyz, std::span<const std::uint32_t> triangles, double step, double tolerance) {
-  auto corner = [&](std::size_t i) { return xyz.data() + std::size_t{triangles[i]} * 3; };
-  std::vector<std::size_t> gone;
-  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    const std::array<Point, 3> t{on_grid(corner(i), step), on_grid(corner(i + 1), step), on_grid(corner(i + 2), step)};
-    if (square_of_cross(t[0], t[1], t[2]) > 0) continue;
-    const std::array<std::array<double, 3>, 3> p{{{corner(i)[0], corner(i)[1], corner(i)[2]},
-                                                  {corner(i + 1)[0], corner(i + 1)[1], corner(i + 1)[2]},
-                                                  {corner(i + 2)[0], corner(i + 2)[1], corner(i + 2)[2]}}};
+  /// All but a rest that is no triangle, by the first corner.
+  std::size_t end() const { return corners_.size() - corners_.size() % 3; }
+  std::array<Vec, 3> at(std::size_t i) const { return {point(i), point(i + 1), point(i + 2)}; }
+  std::array<Point, 3> snapped(std::size_t i) const {
+    return {on_grid(corner(i), step_), on_grid(corner(i + 1), step_), on_grid(corner(i + 2), step_)};
+  }
+  double step() const { return step_; }
+
+ private:
+  const float* corner(std::size_t i) const { return xyz_.data() + std::size_t{corners_[i]} * 3; }
+  Vec point(std::size_t i) const { return {corner(i)[0], corner(i)[1], corner(i)[2]}; }
+
+  std::span<const float> xyz_;
+  std::span<const std::uint32_t> corners_;
+  double step_;
+};
+
+bool is_flat(const std::array<Point, 3>& t) { return !(square_of_cross(t[0], t[1], t[2]) > 0); }
+
+/// Those with an area that have none on the grid.
+std::vector<Flat> vanishing(const Triangles& all, double tolerance) {
+  std::vector<Flat> out;
+  for (std::size_t i = 0; i < all.end(); i += 3) {
+    const auto t = all.snapped(i);
+    if (!is_flat(t)) continue;
+    const auto p = all.at(i);
     const double longest = std::max({square(p[0], p[1]), square(p[1], p[2]), square(p[2], p[0])});
     if (longest > tolerance * tolerance && square_of_cross(p[0], p[1], p[2]) > flat * flat * longest * longest)
-      gone.push_back(i);
+      out.push_back(flat_of(t, i));
   }
-  if (gone.empty()) return false;
-  // Only sides that touch a flat triangle matter.
+  return out;
+}
+
+/// Sides of triangles that stay. Only those that touch a flat triangle matter.
+std::set<Edge> sides_beside(const Triangles& all, const std::vector<Flat>& flats) {
   std::set<Point> touched;
-  std::vector<Flat> open;
-  for (auto i : gone) {
-    const std::array<Point, 3> t{on_grid(corner(i), step), on_grid(corner(i + 1), step), on_grid(corner(i + 2), step)};
-    touched.insert(t.begin(), t.end());
-    open.push_back(flat_of(t, i));
-  }
-  std::set<Edge> covered;
-  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    const std::array<Point, 3> t{on_grid(corner(i), step), on_grid(corner(i + 1), step), on_grid(corner(i + 2), step)};
-    if (square_of_cross(t[0], t[1], t[2]) == 0) continue;
+  for (const Flat& f : flats) touched.insert({f.from, f.to, f.between});
+  std::set<Edge> out;
+  for (std::size_t i = 0; i < all.end(); i += 3) {
+    const auto t = all.snapped(i);
+    if (is_flat(t)) continue;
     for (std::size_t k = 0; k < 3; ++k)
-      if (touched.contains(t[k]) && touched.contains(t[(k + 1) % 3])) covered.insert(edge(t[k], t[(k + 1) % 3]));
+      if (touched.contains(t[k]) && touched.contains(t[(k + 1) % 3])) out.insert(edge(t[k], t[(k + 1) % 3]));
   }
+  return out;
+}
+
+/// Leaves those whose place no side of others takes.
+void remove_covered(std::vector<Flat>& open, std::set<Edge> covered) {
   constexpr int most_rounds = 8;  // slivers beside slivers
   for (int round = 0; round < most_rounds && !open.empty(); ++round) {
     const std::size_t before = open.size();
@@ -122,26 +146,38 @@ bool loses_faces(std::span<const float> xyz, std::span<const std::uint32_t> tria
     });
     if (open.size() == before) break;
   }
-  // What is still open may lie beside another face. A point of each is looked at: the middle.
+}
+
+/// Does a triangle that stays lie within the tolerance of a point?
+bool lies_beside_a_face(const Triangles& all, const Vec& point, double tolerance) {
+  for (std::size_t i = 0; i < all.end(); i += 3) {
+    const auto grid = all.snapped(i);
+    std::array<Vec, 3> t;
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 3; ++k) t[c][k] = static_cast<double>(grid[c][k]) * all.step();
+    bool beside = true;
+    for (std::size_t k = 0; k < 3 && beside; ++k)
+      beside = std::min({t[0][k], t[1][k], t[2][k]}) <= point[k] + tolerance &&
+               std::max({t[0][k], t[1][k], t[2][k]}) >= point[k] - tolerance;
+    if (beside && square_of_cross(t[0], t[1], t[2]) > 0 && distance(point, t) <= tolerance) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool loses_faces(std::span<const float> xyz, std::span<const std::uint32_t> triangles, double step, double tolerance) {
+  const Triangles all(xyz, triangles, step);
+  auto open = vanishing(all, tolerance);
+  if (open.empty()) return false;
+  remove_covered(open, sides_beside(all, open));
+  // What is still open may lie beside another face. A point of some of them is looked at: the middle.
   constexpr std::size_t most_looked_at = 32;
   for (std::size_t o = 0, by = open.size() / most_looked_at + 1; o < open.size(); o += by) {
+    const auto t = all.at(open[o].first);
     Vec middle{};
-    for (std::size_t k = 0; k < 3; ++k)
-      middle[k] = (double{corner(open[o].first)[k]} + corner(open[o].first + 1)[k] + corner(open[o].first + 2)[k]) / 3;
-    bool near = false;
-    for (std::size_t i = 0; i + 2 < triangles.size() && !near; i += 3) {
-      std::array<Vec, 3> t;
-      bool beside = true;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Point p = on_grid(corner(i + c), step);
-        for (std::size_t k = 0; k < 3; ++k) t[c][k] = static_cast<double>(p[k]) * step;
-      }
-      for (std::size_t k = 0; k < 3 && beside; ++k)
-        beside = std::min({t[0][k], t[1][k], t[2][k]}) <= middle[k] + tolerance &&
-                 std::max({t[0][k], t[1][k], t[2][k]}) >= middle[k] - tolerance;
-      near = beside && square_of_cross(t[0], t[1], t[2]) > 0 && distance(middle, t) <= tolerance;
-    }
-    if (!near) return true;
+    for (std::size_t k = 0; k < 3; ++k) middle[k] = (t[0][k] + t[1][k] + t[2][k]) / 3;
+    if (!lies_beside_a_face(all, middle, tolerance)) return true;
   }
   return false;
 }

@@ -14,7 +14,7 @@
 #include "writers/gltf/document/move_to_origin.h"
 #include "writers/gltf/document/place_tables.h"
 #include "writers/gltf/document/round_transforms.h"
-#include "writers/gltf/json.h"
+#include "writers/gltf/json/json.h"
 #include "writers/gltf/pointers.h"
 
 namespace wrlkit {

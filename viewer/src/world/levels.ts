@@ -3,7 +3,7 @@ import {MathUtils, MeshLambertMaterial, Vector3, type Box3, type Mesh, type Obje
 import type {Looks} from './looks';
 import type {Levels, World} from './world';
 
-/// VRML's standard field of view, in degrees, for which coverage is written (writers/gltf/hierarchy.h).
+/// VRML's standard field of view, in degrees, for which coverage is written (writers/gltf/document/levels.h).
 export const fieldOfView = MathUtils.radToDeg(0.785398);
 const tangent = Math.tan(0.785398 / 2);
 /// Height of the screen for which `wrlkit` chooses the ranges of levels: a level begins where it is wrong by a pixel of it.

@@ -5,6 +5,7 @@
 #include "base/io/sink.h"
 #include "writers/gltf/animations.h"
 #include "writers/gltf/document/document.h"
+#include "writers/gltf/extras.h"
 #include "writers/gltf/layout.h"
 #include "writers/gltf/packing.h"
 
@@ -25,6 +26,9 @@ struct Parts {
   bool facts_only;                        // see GltfOptions
   std::string buffer_uri;                 // none: the buffer is that of a GLB
   std::vector<std::string> picture_uris;  // of those that are not inside
+
+  /// Names of parts as a property table.
+  bool has_table() const { return names.columns() && !names.rows().empty(); }
 };
 
 /// Writes it in one line, a piece at a time. How many bytes each list of the file has.

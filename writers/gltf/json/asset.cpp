@@ -1,0 +1,95 @@
+#include "writers/gltf/json/lists.h"
+
+#include "writers/gltf/json/part.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+class AssetJson : public JsonPart {
+ public:
+  using JsonPart::JsonPart;
+
+  void asset() {
+    const auto& parts = p_.names.rows();
+    const bool listed = !p_.names.columns() && !parts.empty();
+    object("asset", [&] {
+      json_.member("version", "2.0");
+      json_.member("generator", "wrlkit");
+      if (!p_.extras && !listed) return;
+      object("extras", [&] {
+        if (listed) list("features", parts.size(), [&](std::size_t i) { json_.value(parts[i].name); });
+        if (p_.extras) object("vrml97", [&] { said_of_file(); });
+      });
+    });
+  }
+
+  void extensions() {
+    if (d_.lights.empty() && !p_.has_table()) return;
+    object("extensions", [&] {
+      if (p_.has_table()) table();
+      if (!d_.lights.empty()) {
+        object("KHR_lights_punctual", [&] {
+          list("lights", d_.lights.size(),
+               [&](std::size_t i) { write_light(json_, p_.scene, d_.lights[i], d_.world); });
+        });
+      }
+    });
+  }
+
+ private:
+  void said_of_file() {
+    if (p_.facts_only) json_.member("facts", true);
+    if (!p_.scene.comment.empty()) json_.member("comment", p_.scene.comment);
+    if (d_.world_info) p_.extras->node(json_, d_.world_info, {});
+  }
+
+  /// EXT_structural_metadata: a row for each part and group.
+  void table() {
+    const bool packed = p_.packing.uses_meshopt(), parents = p_.names.any_parent();
+    const std::size_t n = p_.names.rows().size();
+    const auto no_parent = PartTable::no_parent(packed, n);
+    auto schema = [&] {
+      json_.member("id", "parts");
+      object("classes", [&] {
+        object("part", [&] {
+          object("properties", [&] {
+            json_.key("name");
+            json_.raw(R"({"type":"STRING","semantic":"NAME","required":true})");
+            if (parents)
+              object("parent", [&] {
+                json_.member("type", "SCALAR");
+                json_.member("componentType", no_parent == none ? "UINT32" : "UINT16");
+                json_.member("noData", no_parent);
+              });
+          });
+        });
+      });
+    };
+    auto columns = [&] {
+      object("name", [&] {
+        json_.member("values", p_.layout.of_column(0));
+        json_.member("stringOffsets", p_.layout.of_column(1));
+        if (p_.layout.stride_of_column(1) != 4) json_.member("stringOffsetType", "UINT16");
+      });
+      if (parents) object("parent", [&] { json_.member("values", p_.layout.of_column(2)); });
+    };
+    object("EXT_structural_metadata", [&] {
+      object("schema", schema);
+      list("propertyTables", 1, [&](std::size_t) {
+        json_.begin_object();
+        json_.member("class", "part");
+        json_.member("count", n);
+        object("properties", columns);
+        json_.end_object();
+      });
+    });
+  }
+};
+
+}  // namespace
+
+void write_asset(JsonOut& json, const Parts& parts) { AssetJson(json, parts).asset(); }
+
+void write_extensions(JsonOut& json, const Parts& parts) { AssetJson(json, parts).extensions(); }
+
+}  // namespace wrlkit::gltf
