@@ -1,9 +1,10 @@
-"""The compiled part of the wheel. CMake builds it (preset release); WRLKIT_PACKAGE names a folder python/ that was built already."""
+"""The compiled part of the wheel. CMake builds it for the Python that runs this; WRLKIT_PACKAGE names a folder python/ that was built already."""
 import os
 import pathlib
 import re
 import shutil
 import subprocess
+import sys
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -17,9 +18,11 @@ class Build(build_ext):
     def run(self):
         package = os.environ.get('WRLKIT_PACKAGE')
         if not package:
-            subprocess.run(['cmake', '--preset', 'release'], cwd=ROOT, check=True)
-            subprocess.run(['cmake', '--build', ROOT / 'build/release', '--target', 'python_package'], check=True)
-            package = ROOT / 'build/release/python'
+            build = ROOT / 'build/wheel'
+            options = ['-DWRLKIT_TESTS=OFF', f'-DWRLKIT_PYTHON_EXECUTABLE={sys.executable}']
+            subprocess.run(['cmake', '--preset', 'release', '-B', build, *options], cwd=ROOT, check=True)
+            subprocess.run(['cmake', '--build', build, '--target', 'python_package'], check=True)
+            package = build / 'python'
         target = pathlib.Path(self.build_lib) / 'wrlkit'
         target.mkdir(parents=True, exist_ok=True)
         for path in pathlib.Path(package, 'wrlkit').iterdir():

@@ -1,12 +1,13 @@
 // Sums of light: what arrives at a place, and from where.
 #pragma once
 #include <algorithm>
+#include <numbers>
 
 #include "light/color.h"
 
 namespace wrlkit::light {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// A place that light falls on.
 struct Receiver {

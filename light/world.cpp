@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "light/render/attributes.h"
 #include "light/render/gather.h"
@@ -18,7 +19,7 @@ constexpr int most_layers = 32;  // of transparent things, one behind the other
 constexpr double least_of_lamp =
     0.2140;  // radiance: lin(0.5); CAD programs give a surface emission of a tenth or two for its looks
 constexpr double least_light = 1.0 / 256;  // radiance that a display hardly tells from black
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 V3 reflectance(const V3& display) { return min(linear(display), V3(most_reflected)); }
 

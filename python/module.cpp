@@ -93,7 +93,8 @@ std::map<std::string, std::pair<std::string, std::vector<std::pair<std::string, 
 }
 
 void define_message(py::class_<MessageView>& type) {
-  type.def_readonly("severity", &MessageView::severity, "error, warning or lost")
+  type.def_property_readonly(
+          "severity", [](const MessageView& m) { return to_string(m.severity); }, "error, warning or lost")
       .def_readonly("name", &MessageView::name, "of the kind of message, as in docs/diagnostics.md")
       .def_readonly("text", &MessageView::text, "in words")
       .def_readonly("file", &MessageView::file, "where it is, or ''")
@@ -196,7 +197,7 @@ PYBIND11_MODULE(_wrlkit, m) {
   m.doc() = "Worlds of VRML, X3D and glTF; see wrlkit.load.";
   define_error(m);
   // Classes first, so that the signatures of all functions name them.
-  py::class_<MessageView> message(
+  py::class_<wrlkit::MessageView> message(
       m, "Message", "What was wrong, repaired or lost. line and column count from 1; 0: the file as a whole.");
   py::class_<PyNode> node(m, "Node",
                           "A node of a world. Its fields are attributes: node.diffuseColor = 1, 0, 0. Fields that were "

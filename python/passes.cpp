@@ -2,7 +2,7 @@
 // types, what reads them and what calls it. Here the definition becomes a pass among the others, which pipelines,
 // recipes and the command line know by name.
 #include <algorithm>
-#include <deque>
+#include <memory>
 #include <new>
 #include <unordered_map>
 
@@ -15,7 +15,7 @@
 namespace wrlkit::python {
 namespace {
 
-/// Everything that was defined, for good: pipelines may hold it.
+/// What was defined; the list of passes keeps it for good.
 struct Definition : PassInfo {
   std::string name_text, summary_text, doc_text;
   py::object python;                // wrlkit.definitions.Definition
@@ -111,8 +111,8 @@ class PythonPass final : public PassInstance {
 
 /// `python`: a wrlkit.definitions.Definition.
 void define(const py::object& python) {
-  static auto& all = *new std::deque<Definition>;
-  auto& d = all.emplace_back();
+  const auto definition = std::make_shared<Definition>();
+  auto& d = *definition;
   d.python = python;
   d.name_text = python.attr("name").cast<std::string>();
   d.summary_text = python.attr("summary").cast<std::string>();
@@ -127,7 +127,8 @@ void define(const py::object& python) {
                                  return std::make_unique<PythonPass>(static_cast<const Definition&>(info));
                                },
                                d.doc_text};
-  if (!add_pass(d)) throw py::value_error("there is a pass '" + d.name_text + "' already; give this one another name");
+  if (!add_pass(definition))
+    throw py::value_error("there is a pass '" + d.name_text + "' already; give this one another name");
 }
 
 bool load_file(const std::string& path, std::string& why) {

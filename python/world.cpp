@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "base/text/nearest_name.h"
-#include "passes/lower_vrml1/lower_vrml1.h"
-#include "tools/cli/cli.h"
-#include "tools/cli/lengths.h"
+#include "convert/convert.h"
+#include "convert/load.h"
+#include "convert/option_text.h"
+#include "convert/profiles.h"
 #include "tools/cli/python_passes.h"
-#include "tools/gltf_output.h"
-#include "tools/verbs/convert.h"
+#include "tools/cli/session.h"
 #include "tools/verbs/info.h"
 
 namespace wrlkit::python {
@@ -18,67 +18,54 @@ namespace {
 PyObject* error_type = nullptr;
 py::object* cause = nullptr;
 
-std::shared_ptr<const Scene> parse_inlined(const std::string& file, Diagnostics& diag) {
-  auto read = read_world(file, {}, diag);
-  Statistics uncounted;
-  PassContext ctx{diag, uncounted};
-  if (read) lower_vrml1(read->scene, {}, ctx);
-  return read ? std::make_shared<const Scene>(std::move(read->scene)) : nullptr;
-}
-
 std::string text_of(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   return py::str(value);
 }
 
-/// Adds options of `convert`; those of the sections alone when there are some.
-void add_options(Recipe& recipe, const GivenOptions& options, std::initializer_list<std::string_view> sections) {
-  const auto known = options_of("convert");
-  const auto fits = [&](std::string_view name) {
-    return std::ranges::find(sections, recipe_section(name)) != sections.end();
-  };
-  for (const auto& [name, values] : options) {
+const Profile& profile_of(const std::vector<std::string>& names) {
+  const Profile* profile = names.size() == 1 ? find_profile(names[0]) : nullptr;
+  if (!profile) throw py::value_error("profile: there is no profile '" + (names.empty() ? "" : names[0]) + "'");
+  return *profile;
+}
+
+/// Sets options; a profile gives those that are not given otherwise.
+void set_options(ConvertOptions& options, const GivenOptions& given) {
+  for (const auto& [name, values] : given)
+    if (name == "profile") apply_profile(options.save, profile_of(values));
+  for (const auto& [name, values] : given) {
     std::string why;
-    NearestName nearest(name);
-    for (const auto& o : known)
-      if (fits(o.name)) nearest.consider(o.name);
-    if (std::ranges::find(known, name, &OptionHelp::name) == known.end() || !fits(name))
-      throw py::type_error("there is no option '" + name + "'" + nearest.question());
-    if (!check_option("convert", name, values, why)) throw py::value_error(why);
-    std::erase_if(recipe.options, [&](const auto& o) { return o.first == name; });
-    recipe.options.emplace_back(name, values);
+    if (!set_option(options.load, name, values, why) || !set_option(options.save, name, values, why))
+      throw py::value_error(why);
   }
 }
 
-Flags flags_of(const Recipe& recipe, const std::string& target) {
-  if (!is_output_name(target))
-    throw py::value_error("'" + target + "': worlds are written as .wrl, .wrz, .x3d, .x3dz, .gltf or .glb");
-  Flags flags = conversion_flags(recipe);
-  if (!flags.tolerance.empty() && !(length_of(flags.tolerance) > 0))
-    throw py::value_error("tolerance: '" + flags.tolerance + "' is no length");
-  flags.output = target;
-  flags.quiet = true;
-  apply_profile(flags);
-  return flags;
+/// Keywords of Python, which must all be options.
+void check_names(const GivenOptions& given, bool of_input_too) {
+  for (const auto& [name, values] : given) {
+    NearestName nearest(name);
+    nearest.consider("profile");
+    bool known = has_option<SaveOptions>(name, nearest) || name == "profile";
+    if (of_input_too) known |= has_option<LoadOptions>(name, nearest);
+    if (!known) throw py::type_error("there is no option '" + name + "'" + nearest.question());
+  }
+}
+
+void check_output(const std::string& target) {
+  if (!output_of(target))
+    throw py::value_error("'" + target + "': the name of an output ends in " + output_endings_text());
+}
+
+/// Those of `more` take the place of those of the same name.
+GivenOptions together(GivenOptions options, const GivenOptions& more) {
+  for (const auto& option : more) {
+    std::erase_if(options, [&](const auto& o) { return o.first == option.first; });
+    options.push_back(option);
+  }
+  return options;
 }
 
 }  // namespace
-
-std::string MessageView::str() const {
-  return (file.empty() ? "" : file + (line ? ":" + std::to_string(line) + ":" + std::to_string(column) : "") + ": ") +
-         severity + ": " + text + " [" + name + "]";
-}
-
-std::vector<MessageView> views(const Diagnostics& diag) {
-  std::vector<MessageView> out;
-  for (const auto& m : diag.messages()) {
-    const Place p = diag.sources().locate(m.where);
-    const bool exact = p.line && m.where.length;
-    out.push_back({std::string(to_string(m.severity)), info(m.id).name, m.text(), std::string(p.file),
-                   exact ? p.line : 0, exact ? p.column : 0});
-  }
-  return out;
-}
 
 void define_error(py::module_& module) {
   error_type = PyErr_NewExceptionWithDoc(
@@ -93,7 +80,7 @@ void set_cause(py::object exception) { *cause = std::move(exception); }
 void fail(const std::string& otherwise, const std::vector<MessageView>& messages) {
   std::string text = otherwise;
   for (const auto& m : messages)
-    if (m.severity == "error") {
+    if (m.severity == Severity::error) {
       text = m.str();
       break;
     }
@@ -119,43 +106,31 @@ GivenOptions options_of_keywords(const py::kwargs& keywords) {
   return out;
 }
 
-void PyWorld::own(std::unique_ptr<World> world) {
-  own_world_ = std::move(world);
-  scene_ = &own_world_->scene;
-  own_resources_->set_root({std::shared_ptr<const Scene>{}, scene_});
-  resources_ = own_resources_.get();
-}
-
 std::shared_ptr<PyWorld> PyWorld::load(const std::string& path, std::vector<std::string> allow, const std::string& unit,
                                        const std::string& up) {
-  for (const auto& [option, value] : {std::pair("unit", unit), std::pair("up", up)})
-    if (std::string why; !value.empty() && !check_option("convert", option, {value}, why)) throw py::value_error(why);
-  auto w = std::make_shared<PyWorld>();
-  w->path_ = path;
-  std::unique_ptr<World> world;
-  {
+  ConvertOptions options;
+  options.load.allow_paths = std::move(allow);
+  if (!unit.empty()) set_options(options, {{"unit", {unit}}});
+  if (!up.empty()) set_options(options, {{"up", {up}}});
+  auto document = [&] {
     py::gil_scoped_release others;
-    w->own_resources_ =
-        std::make_unique<FileResources>(ResourceOptions{.input = path, .allowed = allow}, parse_inlined);
-    world = read_world(path, {.allowed = std::move(allow)}, w->own_diag_);
-    if (world) place_world(world->scene, unit, up);
-  }
-  if (!world) fail(path + ": there is no world in it", views(w->own_diag_));
-  w->own(std::move(world));
-  return w;
+    return wrlkit::load(path, std::move(options.load));
+  }();
+  if (!document) fail(path + ": there is no world in it", document.messages());
+  return std::make_shared<PyWorld>(std::move(document));
 }
 
 PyWorld::Counts PyWorld::run(Pipeline& pipeline) {
   Statistics stats;
   bool good = false;
-  const auto said_before = diag_->messages().size();
+  const auto said_before = diag().messages().size();
   {
     py::gil_scoped_release others;
     auto ctx = context(stats);
     good = pipeline.run(scene(), ctx);
   }
   if (!good) {
-    auto said = views(*diag_);
+    auto said = views(diag());
     said.erase(said.begin(), said.begin() + static_cast<std::ptrdiff_t>(std::min(said_before, said.size())));
     fail("the pipeline has failed", said);
   }
@@ -182,64 +157,64 @@ PyWorld::Counts PyWorld::apply(const std::string& pass, const py::kwargs& keywor
   return run(pipeline);
 }
 
-std::unique_ptr<World> PyWorld::copy() const {
-  auto world = std::make_unique<World>();
-  if (own_world_)
-    *world = *own_world_;
-  else
-    world->scene = *scene_;
-  return world;
+Document PyWorld::copy() const {
+  if (!lent_) return document_->copy();
+  World world;
+  world.scene = *lent_;
+  return Document(std::move(world), *context_);
 }
 
-void PyWorld::save(const std::string& path, const py::kwargs& options) {
-  Recipe recipe;
-  add_options(recipe, options_of_keywords(options), {"output"});
-  const Flags flags = flags_of(recipe, path);
-  bool good = false;
+void PyWorld::save(const std::string& path, const py::kwargs& keywords) {
+  const auto given = options_of_keywords(keywords);
+  check_names(given, false);
+  check_output(path);
+  ConvertOptions options;
+  set_options(options, given);
+  Saved saved;
   {
     py::gil_scoped_release others;
-    Session s(flags, copy(), *resources_, *diag_);  // what the format needs is done to a copy: its arrays are shared
-    good = prepare_conversion(s) && write_world(s);
+    saved = wrlkit::save(copy(), path, options.save);
   }
-  if (!good) fail(path + ": it could not be written", views(*diag_));
+  if (!saved) fail(path + ": it could not be written", views(diag()));
 }
 
 py::object PyWorld::info() {
   Flags flags;
   flags.json = flags.quiet = true;
-  flags.inputs = {path_};
   std::optional<std::string> text;
   {
     py::gil_scoped_release others;
-    Session s(flags, copy(), *resources_, *diag_);
+    auto document = copy();
+    flags.inputs = {document.path()};
+    Session s(flags, std::move(document));
     text = info_of(s);
   }
-  if (!text) fail(path_ + ": its figures cannot be had", views(*diag_));
+  if (!text) fail("its figures cannot be had", views(diag()));
   return py::module_::import("json").attr("loads")(*text);
 }
 
 void PyWorld::report(const std::string& severity, const std::string& text, const py::object& node) {
   const Span where = node.is_none() ? Span{} : scene().where(node.cast<const PyNode&>().id);
   if (severity == "error")
-    diag_->report(Diag::python_error, where, text);
+    diag().report(Diag::python_error, where, text);
   else if (severity == "warning")
-    diag_->report(Diag::python_warning, where, text);
+    diag().report(Diag::python_warning, where, text);
   else if (severity == "lost")
-    diag_->report(Diag::python_lost, where, text);
+    diag().report(Diag::python_lost, where, text);
   else
     throw py::value_error("'" + severity + "' is no severity: error, warning or lost");
 }
 
 void PyWorld::detach() {
-  if (own_world_) return;
-  own_diag_ = Diagnostics(diag_->shared_sources());
-  diag_ = &own_diag_;
-  own_resources_ = std::make_unique<FileResources>(ResourceOptions{}, parse_inlined);
-  own(copy());
+  if (!lent_) return;
+  World world;
+  world.scene = *lent_;
+  document_.emplace(std::move(world));
+  lent_ = nullptr;
 }
 
 std::vector<MessageView> convert(const std::string& source, const std::string& target, const std::string& recipe_path,
-                                 const std::optional<std::string>& pipeline, const py::kwargs& options) {
+                                 const std::optional<std::string>& pipeline, const py::kwargs& keywords) {
   std::string why;
   Recipe recipe;
   if (!recipe_path.empty()) {
@@ -247,23 +222,21 @@ std::vector<MessageView> convert(const std::string& source, const std::string& t
     if (!read) throw py::value_error(why);
     recipe = std::move(*read);
   }
-  if (pipeline) {
-    if (!Pipeline::parse(*pipeline, why)) throw py::value_error(why);
-    recipe.pipeline = pipeline;
-  }
-  add_options(recipe, options_of_keywords(options), {"input", "output", "messages"});
-  Flags flags = flags_of(recipe, target);
-  flags.inputs = {source};
-  std::vector<MessageView> said;
-  bool good = false;
+  if (pipeline && !Pipeline::parse(*pipeline, why)) throw py::value_error(why);
+  const auto given = options_of_keywords(keywords);
+  check_names(given, true);
+  check_output(target);
+  ConvertOptions options;
+  set_options(options, together(std::move(recipe.options), given));
+  options.save.pipeline = pipeline ? pipeline : recipe.pipeline;
+  for (const auto& flag : recipe.warnings) apply_warning_flag(options.load, flag);
+  Converted made;
   {
     py::gil_scoped_release others;
-    Session s(flags);
-    good = prepare_conversion(s) && convert_world(s);
-    said = views(s.diag());
+    made = wrlkit::convert(source, target, options);
   }
-  if (!good) fail(source + ": nothing could be made of it", said);
-  return said;
+  if (!made) fail(source + ": nothing could be made of it", made.messages);
+  return made.messages;
 }
 
 }  // namespace wrlkit::python

@@ -14,24 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "parsers/parsers.h"
-#include "parsers/resources.h"
+#include "convert/document.h"
 #include "passes/pipeline/pipeline.h"
 #include "tools/cli/recipe.h"
 
 namespace wrlkit::python {
 
 namespace py = pybind11;
-
-/// A message as Python has it.
-struct MessageView {
-  std::string severity, name, text, file;
-  std::size_t line, column;
-
-  std::string str() const;
-};
-
-std::vector<MessageView> views(const Diagnostics& diag);
 
 /// Makes wrlkit.Error.
 void define_error(py::module_& module);
@@ -47,17 +36,19 @@ GivenOptions options_of_keywords(const py::kwargs& keywords);
 /// A world with all that reading and passes need beside it.
 class PyWorld : public std::enable_shared_from_this<PyWorld> {
  public:
-  PyWorld() = default;
+  explicit PyWorld(Document document) : document_(std::move(document)) {}
   /// Of a pass that is being run.
-  PyWorld(Scene& scene, PassContext& ctx) : scene_(&scene), diag_(&ctx.diag), resources_(ctx.resources) {}
+  PyWorld(Scene& scene, PassContext& ctx) : lent_(&scene), context_(&ctx) {}
   PyWorld(const PyWorld&) = delete;
 
   static std::shared_ptr<PyWorld> load(const std::string& path, std::vector<std::string> allow, const std::string& unit,
                                        const std::string& up);
 
-  Scene& scene() const { return *scene_; }
-  Diagnostics& diag() const { return *diag_; }
-  PassContext context(Statistics& stats) const { return {*diag_, stats, resources_}; }
+  Scene& scene() { return lent_ ? *lent_ : document_->scene(); }
+  Diagnostics& diag() const { return lent_ ? context_->diag : document_->diag(); }
+  PassContext context(Statistics& stats) {
+    return {diag(), stats, lent_ ? context_->resources : document_->resources()};
+  }
 
   using Counts = std::map<std::string, std::uint64_t>;
   Counts run(const std::string& pipeline);
@@ -70,16 +61,12 @@ class PyWorld : public std::enable_shared_from_this<PyWorld> {
 
  private:
   Counts run(Pipeline& pipeline);
-  void own(std::unique_ptr<World> world);
-  std::unique_ptr<World> copy() const;
+  /// With the same scene, whose arrays are shared.
+  Document copy() const;
 
-  std::string path_;
-  Diagnostics own_diag_;
-  std::unique_ptr<World> own_world_;
-  std::unique_ptr<FileResources> own_resources_;
-  Scene* scene_ = nullptr;
-  Diagnostics* diag_ = &own_diag_;
-  Resources* resources_ = nullptr;
+  std::optional<Document> document_;
+  Scene* lent_ = nullptr;  // by a pass that is being run, with its context
+  PassContext* context_ = nullptr;
 };
 
 /// A node of a world. Two are equal when they are the same node.

@@ -67,6 +67,7 @@ class Comparison {
       std::vector<const ExtraField*> v;
       for (auto& f : s.fields(n))
         if (s.is_extra(f)) v.push_back(f.extra);
+      std::ranges::stable_sort(v, {}, &ExtraField::name);
       return v;
     };
     auto x = list(a_, a), y = list(b_, b);

@@ -7,24 +7,11 @@
 
 #include "base/text/bit_mask.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/range_text.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
-
-std::string range_text(const FieldRange& r) {
-  auto number = [](double v) {
-    if (std::isinf(v)) return std::string(v < 0 ? "-inf" : "inf");
-    auto s = std::to_string(v);
-    while (s.find('.') != s.npos && (s.back() == '0' || s.back() == '.')) {
-      bool point = s.back() == '.';
-      s.pop_back();
-      if (point) break;
-    }
-    return s;
-  };
-  return (r.low_open ? "(" : "[") + number(r.low) + "," + number(r.high) + (r.high_open ? ")" : "]");
-}
 
 class ValueCheck {
  public:
@@ -104,8 +91,11 @@ class Invariants {
   Invariants(const Scene& s, Level level, Diagnostics& diag) : s_(s), level_(level), diag_(diag) {}
 
   bool run() {
-    for (NodeId n : all_nodes(s_)) ids(n);
+    for (NodeId n{0}; n.value < s_.node_count(); ++n.value) ids(n);
+    scope(s_.main);
+    for (std::uint32_t i = 0; i < s_.proto_count(); ++i) prototype(s_.proto(ProtoId{i}));
     if (!good_) return false;
+    cycles();
     for (const auto& r : s_.main.routes) events_.insert(r.to.value);
     if (level_ != Level::authored)
       for (NodeId n : reachable(s_, s_.main)) expanded(n);
@@ -117,15 +107,82 @@ class Invariants {
     diag_.report(Diag::verify, s_.where(n), std::string(s_.type(n).name) + ": " + what);
     good_ = false;
   }
+  void breach(const std::string& what) {
+    diag_.report(Diag::verify, Span{}, what);
+    good_ = false;
+  }
+
+  bool is_node(NodeId n) const { return n && n.value < s_.node_count(); }
+  bool is_type(TypeId t) const { return t && t.value < builtin_nodes().size() + s_.own_types().size(); }
 
   void ids(NodeId n) {
+    if (!is_type(s_.type_id(n))) return breach("a node of a type that is not there");
+    if (s_.type(n).kind == NodeKind::proto && s_.type(n).proto.value >= s_.proto_count())
+      breach(n, "an instance of a prototype that is not there");
+    std::vector<std::uint16_t> slots;
     for (auto& v : s_.fields(n)) {
+      if (!s_.is_extra(v)) slots.push_back(v.slot);
       if (!s_.is_extra(v) && v.slot >= s_.type(n).fields.size())
         breach(n, "a field that its type does not have");
       else if (!s_.is_extra(v) && v.type != s_.type(n).fields[v.slot].type)
         breach(n, "field " + std::string(s_.field_name(n, v)) + " has another type");
       for (NodeId c : s_.content(v).node_span())
-        if (c && c.value >= s_.node_count()) breach(n, "a child that is no node");
+        if (c && !is_node(c)) breach(n, "a child that is not a node");
+    }
+    if (s_.fields(n).size() >= NodeType::many_fields && !std::ranges::is_sorted(slots))
+      breach(n, "many fields that are not in their order");
+    std::ranges::sort(slots);
+    if (std::ranges::adjacent_find(slots) != slots.end()) breach(n, "two values of one field");
+  }
+
+  void scope(const Scope& scope) {
+    for (NodeId n : scope.roots)
+      if (!is_node(n)) breach("a root that is not a node");
+    for (const auto& r : scope.routes)
+      if (!is_node(r.from) || !is_node(r.to) || r.event_out.empty() || r.event_in.empty())
+        breach("a ROUTE without its nodes or events");
+    for (const auto& i : scope.imports)
+      if (!is_node(i.inline_node) || !is_node(i.node)) breach("an IMPORT without its nodes");
+    for (const auto& e : scope.exports)
+      if (!is_node(e.node)) breach("an EXPORT without its node");
+    for (ProtoId p : scope.protos)
+      if (p.value >= s_.proto_count()) breach("a declaration of a prototype that is not there");
+  }
+
+  void prototype(const Proto& p) {
+    if (!is_type(p.type) || s_.type(p.type).kind != NodeKind::proto) return breach("a prototype without an interface");
+    scope(p.body);
+    for (const auto& f : s_.type(p.type).fields)
+      for (NodeId n : f.default_value.node_span())
+        if (n && !is_node(n)) breach("a default that is not a node");
+  }
+
+  /// What a Script or an instance may hold is said nowhere (4.12.8); all else goes down.
+  bool goes_down(NodeId n) const {
+    const auto kind = s_.type(n).kind;
+    return kind != NodeKind::script && kind != NodeKind::proto && s_.type(n).name != "Script";
+  }
+
+  void cycles() {
+    enum : char { fresh, open, done };
+    std::vector<char> state(s_.node_count(), fresh);
+    std::vector<NodeId> todo;
+    for (NodeId start{0}; start.value < s_.node_count(); ++start.value) {
+      todo.push_back(start);
+      while (!todo.empty()) {
+        const NodeId n = todo.back();
+        if (state[n.value] != fresh) {
+          state[n.value] = done;
+          todo.pop_back();
+          continue;
+        }
+        state[n.value] = open;
+        if (!goes_down(n)) continue;
+        for_each_child(s_, n, [&](NodeId c) {
+          if (state[c.value] == open) breach(n, "a node that is below itself");
+          if (state[c.value] == fresh) todo.push_back(c);
+        });
+      }
     }
   }
 

@@ -86,7 +86,7 @@ class Judge:
         return subprocess.run([self.wrlkit, verb, '-q', *map(str, words)], capture_output=True, text=True, errors='replace', timeout=600)
 
     def bake(self, source, lit, from_viewpoint):
-        done = self.run('convert', source, lit, '-p', 'inline,expand-protos,inline,lightmap{quality=draft,max-size=256}', '--allow-path', source.parent.parent)
+        done = self.run('convert', source, lit, '-p', 'expand,lightmap{quality=draft,max-size=256}', '--allow-path', source.parent.parent)
         if done.returncode not in (0, 1) or not lit.exists():
             return f'exit code {done.returncode}: {done.stderr.strip()[:200]}'
         text = lit.read_text(errors='surrogateescape')

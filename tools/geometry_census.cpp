@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -97,23 +98,9 @@ Bounds box_of_boxes(const Scene& scene, const std::vector<NodeId>& order,
 }  // namespace
 
 bool find_places(const Scene& scene, Places& out) {
-  std::vector<std::pair<NodeId, Matrix>> stack;
-  for (auto r = scene.main.roots.rbegin(); r != scene.main.roots.rend(); ++r) stack.emplace_back(*r, Matrix{});
-  std::size_t visits = 0, n_places = 0;
-  while (!stack.empty()) {
-    auto [n, m] = stack.back();
-    stack.pop_back();
-    if (!n) continue;
-    if (++visits > most_places * 4) return false;
-    if (NodeId g = geometry_of(scene, n)) {
-      if (++n_places > most_places) return false;
-      out[g.value].push_back(m);
-      continue;
-    }
-    Matrix here = scene.is(n, nodes::Transform) ? m * local_matrix(scene, n) : m;
-    for (NodeId c : shown_children(scene, n)) stack.emplace_back(c, here);
-  }
-  return true;
+  return for_each_place(scene, Shown::now, [&](NodeId shape, const Matrix& m) {
+    if (const NodeId g = geometry_of(scene, shape)) out[g.value].push_back(m);
+  });
 }
 
 GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, const MeshSource& triangles) {

@@ -33,9 +33,8 @@ struct GeometryCensus {
 /// millions of places the bounds are those of boxes in boxes.
 GeometryCensus count_geometry(const Scene&, const MeshSource& polygons, const MeshSource& triangles);
 
-/// The matrices of all places where a geometry is shown, by its NodeId; false when there are more than can be kept.
+/// The matrices of all places where a geometry is shown, by its NodeId; false when there are too many (most_visits).
 using Places = std::unordered_map<std::uint32_t, std::vector<Matrix>>;
-constexpr std::size_t most_places = 2'000'000;
 bool find_places(const Scene&, Places&);
 
 }  // namespace wrlkit

@@ -1,9 +1,11 @@
 #include "tools/shown_surface.h"
 
+#include "scenegraph/places/ways.h"
+
 namespace wrlkit {
 
 ShownSurface::ShownSurface(const Scene& scene, Diagnostics& diag) : diag_(diag) {
-  if (!find_places(scene, places_)) give_up(most_places, "places of geometry");
+  if (!find_places(scene, places_)) give_up(most_visits, "nodes when every USE is followed");
 }
 
 void ShownSurface::add(NodeId geometry, const Mesh& mesh) {

@@ -6,8 +6,7 @@ WorldMeshes::WorldMeshes(Session& s)
     : unheard_(s.diag().shared_sources()), silent_{unheard_, s.context().stats, s.context().resources} {
   std::string why;
   Scene& scene = s.world().scene;
-  if (!Pipeline::parse("lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d", why)->run(scene, s.context()))
-    return;
+  if (!Pipeline::parse("lower-vrml1,expand,lower-x3d", why)->run(scene, s.context())) return;
   as_faces_ = Pipeline::parse("tessellate{triangles=false}", why);
   as_triangles_ = Pipeline::parse("tessellate", why);
   polygons = as_faces_->run_lazily(scene, silent_);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
 
 #include "base/image/image_codecs.h"
@@ -28,31 +29,50 @@ fs::path own_folder() {
   return fs::canonical(library ? object->l_name : "/proc/self/exe", ec).parent_path();
 }
 
-/// Where the module may be: in the build tree beside the program or above it, installed in a folder of libraries.
+constexpr std::string_view module_name = "wrlkit_images.so";
+
+/// As set_image_codecs was told; empty: not at all.
+fs::path& chosen_module() {
+  static fs::path chosen;
+  return chosen;
+}
+
+/// By a variable that the user has set; a program with more rights than its user does not listen to it.
+fs::path module_of_environment() {
+  const char* path = secure_getenv("WRLKIT_IMAGES");
+  return path ? path : "";
+}
+
+/// Where the module may be, the best first: see set_image_codecs.
 std::vector<fs::path> module_paths() {
-  const fs::path folder = own_folder(), name = "wrlkit_images.so", lib = folder / ".." / "lib";
+  const fs::path folder = own_folder(), name = module_name, lib = folder / ".." / "lib";
   std::vector<fs::path> paths{folder / name, folder / ".." / name, folder / ".." / ".." / name,
                               folder / "wrlkit" / name, lib / "wrlkit" / name};
   std::error_code ec;
   for (fs::directory_iterator i(lib, ec), end; !ec && i != end; i.increment(ec))  // lib/x86_64-linux-gnu
-    if (auto path = i->path() / "wrlkit" / name; fs::exists(path, ec)) paths.push_back(path);
+    paths.push_back(i->path() / "wrlkit" / name);
+  paths.push_back(chosen_module());
+  paths.push_back(WRLKIT_INSTALLED_IMAGES);
+  paths.push_back(module_of_environment());
+  // A relative path would name another file in every working directory.
+  std::erase_if(paths, [&](const fs::path& path) { return !path.is_absolute() || !fs::exists(path, ec); });
   return paths;
 }
 
 struct Opened {
   const ImageModule* module = nullptr;
-  std::string error = "the module wrlkit_images.so, which decodes and encodes pictures, is not installed";
+  std::string error =
+      "the module wrlkit_images.so, which decodes and encodes pictures, is not installed; the environment variable "
+      "WRLKIT_IMAGES may name it by its absolute path";
 };
 
 Opened open_module() {
   Opened opened;
-  std::error_code ec;
   for (auto& path : module_paths()) {
-    if (!fs::exists(path, ec)) continue;
     void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     auto entry = handle ? reinterpret_cast<decltype(&wrlkit_images)>(dlsym(handle, "wrlkit_images")) : nullptr;
     if (entry) return {entry(), {}};
-    opened.error = "wrlkit_images.so cannot be loaded: " + std::string(dlerror());
+    opened.error = path.string() + " cannot be loaded: " + dlerror();
   }
   return opened;
 }
@@ -170,6 +190,12 @@ std::optional<Image> decode_image(std::string_view bytes, std::string_view name,
   if (header && header->alpha && (mime == "image/bmp" || mime == "image/x-tga") && alpha_is_nothing(image))
     image = with_channels(with_channels(std::move(image), header->channels - 1), header->channels);
   return image;
+}
+
+bool set_image_codecs(const std::string& path) {
+  if (loaded || !fs::path(path).is_absolute()) return false;
+  chosen_module() = path;
+  return true;
 }
 
 void load_image_codecs() { image_module(); }

@@ -1,28 +1,30 @@
 #include "base/image/png.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <new>
 #include <vector>
 
 namespace wrlkit {
 namespace {
 
-constexpr auto crc_table = [] {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t n = 0; n < 256; ++n) {
-    std::uint32_t c = n;
-    for (int k = 0; k < 8; ++k) c = c & 1 ? 0xedb88320u ^ (c >> 1) : c >> 1;
-    table[n] = c;
-  }
-  return table;
-}();
-
 std::uint32_t crc(std::string_view s) {
-  std::uint32_t c = ~0u;
-  for (unsigned char b : s) c = crc_table[(c ^ b) & 0xff] ^ (c >> 8);
-  return ~c;
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(s.data()), s.size()));
+}
+
+/// Bytes as zlib data (RFC 1950).
+std::string zlib_packed(std::string_view bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
+                Z_DEFAULT_COMPRESSION) != Z_OK)
+    throw std::bad_alloc();
+  out.resize(size);
+  return out;
 }
 
 std::uint32_t big_endian(std::string_view s) {

@@ -17,7 +17,4 @@ std::optional<std::string> essential_png(std::string_view png);
 /// numbers, as the standard advises (12.8). Nothing but the pixels is written.
 std::string png_of(const Image& image);
 
-/// Bytes as zlib data (RFC 1950); defined where zlib is known (base/io/zlib_pack.cpp).
-std::string zlib_packed(std::string_view bytes);
-
 }  // namespace wrlkit

@@ -1,10 +1,9 @@
 #include "base/io/url.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdint>
 
+#include "base/text/base64.h"
 #include "base/text/blanks.h"
 
 namespace wrlkit {
@@ -39,33 +38,6 @@ std::string percent_decode(std::string_view s) {
       out += static_cast<char>(high << 4 | low);
       i += 2;
     }
-  }
-  return out;
-}
-
-constexpr auto base64_digits = [] {
-  std::array<signed char, 256> table{};
-  table.fill(-1);
-  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < alphabet.size(); ++i)
-    table[static_cast<unsigned char>(alphabet[i])] = static_cast<signed char>(i);
-  table['-'] = 62;
-  table['_'] = 63;
-  return table;
-}();
-
-/// RFC 4648, both alphabets; blanks are skipped, padding may be missing.
-std::optional<std::string> base64_decode(std::string_view s) {
-  std::string out;
-  std::uint32_t bits = 0;
-  int n_bits = 0;
-  for (unsigned char c : s) {
-    if (c <= ' ') continue;
-    if (c == '=') break;
-    if (base64_digits[c] < 0) return std::nullopt;
-    bits = bits << 6 | static_cast<std::uint32_t>(base64_digits[c]);
-    n_bits += 6;
-    if (n_bits >= 8) out += static_cast<char>(bits >> (n_bits -= 8) & 0xff);
   }
   return out;
 }

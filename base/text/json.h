@@ -1,15 +1,47 @@
 // JSON text, written in order: objects, arrays, numbers as short as they can be, strings safe for any bytes. Appends to
 // a string of the caller; nothing is kept but how deep it is and whether a comma is due.
+//
+// A struct that describes itself becomes an object, so that a report is its data and one line a member:
+//
+//   struct Share {
+//     std::string kind;
+//     std::uint64_t bytes;
+//     void fields(auto&& f) const {
+//       f("kind", kind);
+//       f("bytes", bytes);
+//     }
+//   };
+//   std::string text = json_of(std::vector<Share>{...});
 #pragma once
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace wrlkit {
+
+/// Has `void fields(auto&& f) const`, which calls f(name, value) for each member of a JSON object.
+template <class T>
+concept Described = requires(const T& t) {
+  t.fields([](std::string_view, const auto&) {});
+};
+
+/// A list of names and values, such as std::map<std::string, int>: the members of an object.
+template <class T>
+concept Dictionary = std::ranges::range<T> && requires(std::ranges::range_reference_t<const T> entry) {
+  { entry.first } -> std::convertible_to<std::string_view>;
+  entry.second;
+};
+
+/// Text that is JSON already.
+struct JsonText {
+  std::string_view text;
+};
 
 class JsonOut {
  public:
@@ -42,12 +74,27 @@ class JsonOut {
     char b[40];
     raw({b, static_cast<std::size_t>(std::to_chars(b, b + sizeof b, v).ptr - b)});
   }
-  template <class T, std::size_t E>
-  void value(std::span<const T, E> list) {
+  /// An enumeration by the name that to_string gives it.
+  template <class E>
+  requires std::is_enum_v<E>
+  void value(E e) { value(std::string_view(to_string(e))); }
+  void value(const Described auto& described) {
+    begin_object();
+    described.fields([&](std::string_view k, const auto& v) { member(k, v); });
+    end_object();
+  }
+  void value(const Dictionary auto& entries) {
+    begin_object();
+    for (const auto& [k, v] : entries) member(k, v);
+    end_object();
+  }
+  template <std::ranges::range R>
+  requires(!std::convertible_to<R, std::string_view> && !Dictionary<R> && !Described<R>) void value(const R& list) {
     begin_array();
     for (const auto& v : list) value(v);
     end_array();
   }
+  void value(JsonText json) { raw(json.text); }
   /// Text that is JSON already.
   void raw(std::string_view json) {
     if (comma_) out_ += ',';
@@ -59,6 +106,11 @@ class JsonOut {
   void member(std::string_view k, const T& v) {
     key(k);
     value(v);
+  }
+  /// None when there is no value.
+  template <class T>
+  void member(std::string_view k, const std::optional<T>& v) {
+    if (v) member(k, *v);
   }
 
  private:
@@ -76,5 +128,11 @@ class JsonOut {
   std::string& out_;
   bool comma_ = false;
 };
+
+std::string json_of(const auto& value) {
+  std::string out;
+  JsonOut(out).value(value);
+  return out;
+}
 
 }  // namespace wrlkit

@@ -1,5 +1,6 @@
 // Text inside XML.
 #pragma once
+#include <string>
 #include <string_view>
 
 #include "base/io/sink.h"
@@ -33,6 +34,29 @@ inline void xml_attribute_text(TextOut& out, std::string_view s) {
       default:
         out << (static_cast<unsigned char>(c) < ' ' ? ' ' : c);
     }
+}
+
+/// Into text, or an attribute between quotation marks, of XML or HTML. Control characters that XML cannot hold become
+/// blanks; those that it can stay, and are blanks to who reads an attribute.
+inline std::string xml_text(std::string_view s) {
+  std::string out;
+  for (char c : s) switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r' ? ' ' : c;
+    }
+  return out;
 }
 
 /// A Name of XML without a colon, as far as ASCII goes.

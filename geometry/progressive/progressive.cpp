@@ -252,7 +252,7 @@ ProgressiveRecord make_progressive(const Mesh& mesh, const CollapseRecord& recor
 }
 
 std::optional<ProgressiveRecord> make_progressive(const Mesh& mesh, Criterion criterion, std::size_t base_faces) {
-  if (criterion == Criterion::meshopt) return {};
+  if (!info(criterion).keeps_record) return {};
   Collapser c(mesh, {.criterion = criterion, .record = true});
   c.run_to(base_faces);
   return make_progressive(mesh, c.record());

@@ -75,7 +75,7 @@ struct ProgressiveRecord {
 /// Turns a record of collapses of `mesh` round, which has no lightcoord. O(n log n).
 ProgressiveRecord make_progressive(const Mesh& mesh, const CollapseRecord& record);
 /// Collapses a mesh of triangles (Mesh::is_triangles) until at most `base_faces` are left, or none may go any more, and
-/// turns the record round. Nothing for Criterion::meshopt, which keeps no record.
+/// turns the record round. Nothing for a criterion that keeps no record.
 std::optional<ProgressiveRecord> make_progressive(const Mesh& mesh, Criterion criterion,
                                                   std::size_t base_faces = faces_of_a_box);
 

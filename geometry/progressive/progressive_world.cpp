@@ -5,8 +5,10 @@
 
 #include "base/parallel.h"
 #include "geometry/progressive/bytes.h"
-#include "geometry/simplify/places.h"
+#include "geometry/simplify/surfaces.h"
+#include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
 
 namespace wrlkit {
 namespace {
@@ -21,15 +23,11 @@ struct Placed {
 };
 
 std::array<std::uint8_t, 4> color_of(const Scene& scene, NodeId shape) {
-  const NodeId appearance = scene.get(shape, nodes::shape::appearance);
-  const NodeId material =
-      scene.is(appearance, nodes::Appearance) ? scene.get(appearance, nodes::appearance::material) : NodeId{};
-  if (!scene.is(material, nodes::Material)) return {255, 255, 255, 255};
+  const auto m = material_of(scene, scene.get(shape, nodes::shape::appearance));
+  if (!m) return {255, 255, 255, 255};
   auto byte = [](double x) { return static_cast<std::uint8_t>(x > 0 ? std::lround(255 * std::min(x, 1.)) : 0); };
-  const Vec3 d = scene.get(material, nodes::material::diffuseColor),
-             e = scene.get(material, nodes::material::emissiveColor);
-  return {byte(d[0] + e[0]), byte(d[1] + e[1]), byte(d[2] + e[2]),
-          byte(1 - scene.get(material, nodes::material::transparency))};
+  const Vec3 &c = m->color, e = m->kind == MaterialNode::Kind::unlit ? Vec3{0, 0, 0} : m->emissive;
+  return {byte(c[0] + e[0]), byte(c[1] + e[1]), byte(c[2] + e[2]), byte(1 - m->transparency)};
 }
 
 /// The geometries of the Shapes that are shown, in the order in which they are met first.

@@ -29,6 +29,9 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/mesh.h"
@@ -36,12 +39,18 @@
 namespace wrlkit {
 
 enum class Criterion : std::uint8_t {
-  length_normal,   // local: length of the edge by the cosine of its dihedral angle (Lazanyi, formula 1)
-  melax,           // local, asymmetric: length by curvature (Melax 1998; Lazanyi, formula 2)
-  lindstrom_turk,  // memoryless: distance from the faces around, volume kept (Lindstrom and Turk 1998)
-  quadric,         // global: distance to the planes of the original, attributes included (Garland and Heckbert 1997)
-  meshopt,         // meshoptimizer's, as a baseline; keeps the original positions, has no steps and no record
+#define PRICER(name) name,
+#define SIMPLIFIER(name) name,
+#include "geometry/simplify/criteria.def"
 };
+
+struct CriterionInfo {
+  std::string name;
+  bool keeps_record;         // has steps, and a record of them (CollapseOptions::record)
+  std::string_view missing;  // the package that it needs and this build does without; empty: none
+};
+const CriterionInfo& info(Criterion);
+std::span<const Criterion> all_criteria();
 
 struct CollapseOptions {
   Criterion criterion = Criterion::lindstrom_turk;

@@ -52,16 +52,12 @@ Option Pricer::placed(const Ring& ring, int spoke, Placement where) const {
 
 std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface, const Wedges& wedges) {
   switch (criterion) {
-    case Criterion::length_normal:
-      return length_normal(surface);
-    case Criterion::melax:
-      return melax(surface);
-    case Criterion::lindstrom_turk:
-      return lindstrom_turk(surface);
-    case Criterion::quadric:
-      return quadric(surface, wedges);
-    case Criterion::meshopt:
-      break;
+#define PRICER(name)    \
+  case Criterion::name: \
+    return name(surface, wedges);
+#define SIMPLIFIER(name) case Criterion::name:
+#include "geometry/simplify/criteria.def"
+    break;
   }
   return nullptr;
 }

@@ -1,4 +1,5 @@
-// A criterion prices the edges of one vertex. Each is a class in a source of its own; criterion.cpp lists them.
+// A criterion prices the edges of one vertex. Each is a class in a source of its own;
+// criteria.def lists them.
 #pragma once
 #include <memory>
 #include <vector>
@@ -53,9 +54,8 @@ class Pricer {
 };
 
 std::unique_ptr<Pricer> make_pricer(Criterion criterion, const Surface& surface, const Wedges& wedges);
-std::unique_ptr<Pricer> length_normal(const Surface& surface);
-std::unique_ptr<Pricer> melax(const Surface& surface);
-std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface);
-std::unique_ptr<Pricer> quadric(const Surface& surface, const Wedges& wedges);
+#define PRICER(name) std::unique_ptr<Pricer> name(const Surface& surface, const Wedges& wedges);
+#define SIMPLIFIER(name)
+#include "geometry/simplify/criteria.def"
 
 }  // namespace wrlkit::simplify

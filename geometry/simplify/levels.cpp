@@ -10,17 +10,6 @@
 namespace wrlkit {
 namespace {
 
-constexpr struct {
-  std::string_view name;
-  Criterion value;
-} criteria[] = {
-    {"length-normal", Criterion::length_normal},
-    {"melax", Criterion::melax},
-    {"lindstrom-turk", Criterion::lindstrom_turk},
-    {"quadric", Criterion::quadric},
-    {"meshopt", Criterion::meshopt},
-};
-
 /// To six decimals of the extent, which no eye can tell and a text file is a third shorter for. Positions that were
 /// printed with fewer digits stay as they are, and so do those that neighbours have too.
 void round_positions(Mesh& mesh, const std::vector<Vec3>& fixed) {
@@ -116,19 +105,37 @@ class Levels {
 }  // namespace
 
 bool CriterionName::read(std::string_view text) {
-  auto i = std::ranges::find(criteria, text, [](const auto& c) { return c.name; });
-  if (i == std::end(criteria)) return false;
-  value = i->value;
-  return true;
+  for (Criterion c : all_criteria())
+    if (info(c).name == text && info(c).missing.empty()) {
+      value = c;
+      return true;
+    }
+  return false;
 }
 
-std::string CriterionName::print() const {
-  return std::string(std::ranges::find(criteria, value, [](const auto& c) { return c.value; })->name);
+std::string CriterionName::print() const { return info(value).name; }
+
+std::string CriterionName::missing(std::string_view text) {
+  for (Criterion c : all_criteria())
+    if (info(c).name == text && !info(c).missing.empty())
+      return "'" + std::string(text) + "' needs " + std::string(info(c).missing) +
+             ", which this wrlkit was built without";
+  return {};
+}
+
+std::string CriterionName::help() {
+  std::string text;
+  for (Criterion c : all_criteria()) {
+    if (!text.empty()) text += c == all_criteria().back() ? " or " : ", ";
+    text += info(c).name;
+  }
+  return text;
 }
 
 std::vector<std::string> criterion_names() {
   std::vector<std::string> names;
-  for (const auto& c : criteria) names.emplace_back(c.name);
+  for (Criterion c : all_criteria())
+    if (info(c).missing.empty()) names.push_back(info(c).name);
   return names;
 }
 

@@ -9,14 +9,20 @@
 
 namespace wrlkit {
 
-/// A criterion by its name: length-normal, melax, lindstrom-turk, quadric, meshopt.
+/// A criterion by its name, which criteria.def lists.
 struct CriterionName {
   static constexpr std::string_view type = "criterion";
   Criterion value = Criterion::lindstrom_turk;
 
   bool read(std::string_view text);
   std::string print() const;
+
+  /// Why a criterion of that name cannot be chosen in this build; empty when it can, or when there is none.
+  static std::string missing(std::string_view text);
+  /// All names, for people.
+  static std::string help();
 };
+/// Of the criteria that this build has.
 std::vector<std::string> criterion_names();
 
 /// A part of a world is not simplified further than to what a box has, which could stand for it.

@@ -191,6 +191,8 @@ Vec3 LindstromTurk::best(const Matrix& planes, const Vec3& linear, const Vec3& n
 
 }  // namespace
 
-std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface) { return std::make_unique<LindstromTurk>(surface); }
+std::unique_ptr<Pricer> lindstrom_turk(const Surface& surface, const Wedges&) {
+  return std::make_unique<LindstromTurk>(surface);
+}
 
 }  // namespace wrlkit::simplify

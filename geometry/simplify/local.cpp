@@ -84,7 +84,9 @@ class Melax final : public HalfEdges {
 
 }  // namespace
 
-std::unique_ptr<Pricer> length_normal(const Surface& surface) { return std::make_unique<LengthNormal>(surface); }
-std::unique_ptr<Pricer> melax(const Surface& surface) { return std::make_unique<Melax>(surface); }
+std::unique_ptr<Pricer> length_normal(const Surface& surface, const Wedges&) {
+  return std::make_unique<LengthNormal>(surface);
+}
+std::unique_ptr<Pricer> melax(const Surface& surface, const Wedges&) { return std::make_unique<Melax>(surface); }
 
 }  // namespace wrlkit::simplify

@@ -58,8 +58,8 @@ class Meshopt final : public Simplifier {
 
 }  // namespace
 
-std::unique_ptr<Simplifier> meshopt_simplifier(const Mesh& mesh, bool lock_borders) {
-  return std::make_unique<Meshopt>(mesh, lock_borders);
-}
+const OwnSimplifier meshopt{[](const Mesh& mesh, const CollapseOptions& options) -> std::unique_ptr<Simplifier> {
+  return std::make_unique<Meshopt>(mesh, !options.fixed.empty());
+}};
 
 }  // namespace wrlkit::simplify

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "scenegraph/places/places.h"
+
 namespace wrlkit {
 namespace {
 

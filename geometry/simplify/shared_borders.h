@@ -1,7 +1,7 @@
 // Where open borders of several parts of a world meet. What lies there must stay where it is while each part is
 // simplified for itself, or there were cracks between them, and between different levels of detail.
 #pragma once
-#include "geometry/simplify/places.h"
+#include "geometry/simplify/surface_scales.h"
 
 namespace wrlkit {
 

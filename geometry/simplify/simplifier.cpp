@@ -1,6 +1,37 @@
 #include "geometry/simplify/simplifier.h"
 
+#include <algorithm>
+
 #include "geometry/simplify/engine.h"
+
+namespace wrlkit {
+namespace {
+
+CriterionInfo described(std::string name, bool keeps_record, std::string_view missing) {
+  std::ranges::replace(name, '_', '-');
+  return {std::move(name), keeps_record, missing};
+}
+
+constexpr Criterion listed[] = {
+#define PRICER(name) Criterion::name,
+#define SIMPLIFIER(name) Criterion::name,
+#include "geometry/simplify/criteria.def"
+};
+
+}  // namespace
+
+std::span<const Criterion> all_criteria() { return listed; }
+
+const CriterionInfo& info(Criterion criterion) {
+  static const CriterionInfo infos[] = {
+#define PRICER(name) described(#name, true, {}),
+#define SIMPLIFIER(name) described(#name, false, simplify::name.missing),
+#include "geometry/simplify/criteria.def"
+  };
+  return infos[static_cast<std::size_t>(criterion)];
+}
+
+}  // namespace wrlkit
 
 namespace wrlkit::simplify {
 
@@ -22,7 +53,17 @@ void Simplifier::write(Mesh& mesh) const {
 }
 
 std::unique_ptr<Simplifier> make_simplifier(const Mesh& mesh, const CollapseOptions& options) {
-  if (options.criterion == Criterion::meshopt) return meshopt_simplifier(mesh, !options.fixed.empty());
+  switch (options.criterion) {
+#define PRICER(name) case Criterion::name:
+#define SIMPLIFIER(name)
+#include "geometry/simplify/criteria.def"
+    break;
+#define PRICER(name)
+#define SIMPLIFIER(name) \
+  case Criterion::name:  \
+    return name.make(mesh, options);
+#include "geometry/simplify/criteria.def"
+  }
   return std::make_unique<Engine>(mesh, options);
 }
 

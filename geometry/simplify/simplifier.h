@@ -1,4 +1,4 @@
-// What stands behind a Collapser: the engine, or meshoptimizer as a baseline.
+// What stands behind a Collapser: the engine, or another library as a baseline.
 #pragma once
 #include "geometry/simplify/collapse.h"
 #include "geometry/simplify/recorder.h"
@@ -30,6 +30,14 @@ class Simplifier {
 };
 
 std::unique_ptr<Simplifier> make_simplifier(const Mesh& mesh, const CollapseOptions& options);
-std::unique_ptr<Simplifier> meshopt_simplifier(const Mesh& mesh, bool lock_borders);
+
+/// A criterion that simplifies by itself.
+struct OwnSimplifier {
+  std::unique_ptr<Simplifier> (*make)(const Mesh& mesh, const CollapseOptions& options);
+  std::string_view missing = {};  // as in CriterionInfo
+};
+#define PRICER(name)
+#define SIMPLIFIER(name) extern const OwnSimplifier name;
+#include "geometry/simplify/criteria.def"
 
 }  // namespace wrlkit::simplify

@@ -4,12 +4,13 @@
 #include "geometry/unwrap/joints.h"
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace wrlkit::unwrap {
 namespace {
 
-constexpr double full_turn = 6.283185307179586;
+constexpr double full_turn = 2 * std::numbers::pi;
 constexpr double flat_angle = 2e-4, bent_angle = 2e-3;  // radians that are missing, or too many, around a point
 constexpr std::uint32_t many = 8;                       // flat points
 constexpr double slender = 3;                           // length by width

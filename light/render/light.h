@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "light/render/stage.h"
-#include "scenegraph/light_node.h"
+#include "scenegraph/looks/light_node.h"
 
 namespace wrlkit::drawing {
 

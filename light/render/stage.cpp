@@ -40,30 +40,25 @@ class Walk {
         level_of_(options.level_of),
         diag_(diag),
         limits_(options.limits),
+        ways_(scene, options.limits.visits),
+        most_visits_(options.limits.visits + scene.node_count()),
         n_uses_(scene.node_count()) {
-    limits_.visits += scene.node_count();
     limits_.shapes += scene.node_count();
   }
 
   Stage run() {
-    push_children(scene_.main.roots, 0, 0, 0);
-    for (std::size_t visits = 0; !stack_.empty(); ++visits) {
-      if (visits == limits_.visits) {
-        report("nodes when every USE is followed", limits_.visits);
-        break;
-      }
-      Item i = stack_.back();
-      stack_.pop_back();
-      if (i.node && may_visit(i.node) && !visit(i)) break;
-    }
+    push_children(scene_.main.roots, {0, 0, 0});
+    while (const auto way = ways_.next())
+      if (may_visit(way->node) && !visit(*way)) break;
+    if (ways_.too_many()) report("nodes when every USE is followed", most_visits_);
     return std::move(stage_);
   }
 
  private:
-  struct Item {
-    NodeId node;
+  struct Handed {  // down to children
     std::uint32_t frame, lights, name;
   };
+  using Item = Ways<Handed>::Step;
 
   void report(std::string_view what, std::size_t limit) { diag_.report(Diag::expansion_limit, {}, limit, what); }
 
@@ -81,7 +76,7 @@ class Walk {
     TypeId t = scene_.type_id(i.node);
     std::uint32_t name = name_below(i);
     if (t == nodes::Shape) return add_shape(i, name);
-    Placed here{i.node, i.frame};
+    Placed here{i.node, i.state.frame};
     if (t == nodes::PointLight || t == nodes::SpotLight)
       add_light(here);
     else if (t == nodes::Viewpoint)
@@ -93,7 +88,7 @@ class Walk {
     else if (t == nodes::NavigationInfo)
       bind(stage_.navigation, here);
     else
-      push_children(shown_children(scene_, i.node, level(i)), frame_below(i), i.lights, name);
+      push_children(shown_children(scene_, i.node, level(i)), {frame_below(i), i.state.lights, name});
     return true;
   }
 
@@ -108,7 +103,8 @@ class Walk {
       report("Shapes when every USE is followed", limits_.shapes);
       return false;
     }
-    stage_.uses.push_back({geometry, scene_.get(i.node, nodes::shape::appearance), i.node, i.frame, i.lights, name});
+    stage_.uses.push_back(
+        {geometry, scene_.get(i.node, nodes::shape::appearance), i.node, i.state.frame, i.state.lights, name});
     return true;
   }
 
@@ -123,23 +119,23 @@ class Walk {
 
   /// The name of what stands at or below a node.
   std::uint32_t name_below(const Item& i) {
-    if (scene_.name(i.node).empty()) return i.name;
-    stage_.names.push_back({i.node, i.name});
+    if (scene_.name(i.node).empty()) return i.state.name;
+    stage_.names.push_back({i.node, i.state.name});
     return static_cast<std::uint32_t>(stage_.names.size() - 1);
   }
 
   std::size_t level(const Item& i) const {
-    return level_of_ && scene_.is(i.node, nodes::LOD) ? level_of_(i.node, stage_.frames[i.frame]) : 0;
+    return level_of_ && scene_.is(i.node, nodes::LOD) ? level_of_(i.node, stage_.frames[i.state.frame]) : 0;
   }
 
   /// The frame of the children of a node.
   std::uint32_t frame_below(const Item& i) {
-    const Affine& above = stage_.frames[i.frame];
+    const Affine& above = stage_.frames[i.state.frame];
     if (scene_.is(i.node, nodes::Transform)) return add_frame(above * local_frame(scene_, i.node));
-    if (!scene_.is(i.node, nodes::Billboard)) return i.frame;
+    if (!scene_.is(i.node, nodes::Billboard)) return i.state.frame;
     stage_.billboards = true;
     return viewer_ ? add_frame(above * turned_to(*viewer_, scene_.get(i.node, nodes::billboard::axisOfRotation), above))
-                   : i.frame;
+                   : i.state.frame;
   }
 
   std::uint32_t add_frame(const Affine& a) {
@@ -148,10 +144,10 @@ class Walk {
   }
 
   /// Children in the order of the file, under the DirectionalLights that are among them.
-  void push_children(std::span<const NodeId> children, std::uint32_t frame, std::uint32_t lights, std::uint32_t name) {
+  void push_children(std::span<const NodeId> children, Handed below) {
     for (NodeId c : children)
-      if (scene_.is(c, nodes::DirectionalLight)) lights = scope_with({c, frame}, lights);
-    for (auto c = children.rbegin(); c != children.rend(); ++c) stack_.push_back({*c, frame, lights, name});
+      if (scene_.is(c, nodes::DirectionalLight)) below.lights = scope_with({c, below.frame}, below.lights);
+    ways_.push(children, below);
   }
 
   std::uint32_t scope_with(const Placed& light, std::uint32_t parent) {
@@ -173,7 +169,8 @@ class Walk {
   Diagnostics& diag_;
   StageLimits limits_;
   Stage stage_;
-  std::vector<Item> stack_;
+  Ways<Handed> ways_;
+  std::size_t most_visits_;
   std::vector<std::uint32_t> n_uses_;  // by node
   bool uses_reported_ = false, lights_reported_ = false, depth_reported_ = false;
 };

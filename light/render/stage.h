@@ -10,7 +10,7 @@
 
 #include "base/diagnostics.h"
 #include "light/render/linear.h"
-#include "scenegraph/scene.h"
+#include "scenegraph/places/ways.h"
 
 namespace wrlkit::drawing {
 
@@ -59,7 +59,7 @@ struct Stage {
 
 /// Visits and Shapes are allowed so many beyond the nodes of the scene: a world without USE is always drawn whole.
 struct StageLimits {
-  std::size_t visits = 4'000'000;
+  std::size_t visits = most_visits;
   std::size_t shapes = 1'000'000;
   std::uint32_t uses = 100'000;    // of one node; a world that doubles itself forty times shows its other things, too
   std::size_t lights = 1000;       // PointLights and SpotLights

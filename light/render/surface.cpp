@@ -2,51 +2,23 @@
 
 #include <algorithm>
 
+#include "scenegraph/looks/picture_color.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/picture_color.h"
 
 namespace wrlkit::drawing {
 namespace {
 
 /// Metals are as dull as all else; their colour is what they reflect.
-void read_material(Surface& s, const Scene& scene, NodeId n) {
-  auto read = [&](auto color, auto transparency) {
-    s.material.diffuse = scene.get(n, color);
-    s.alpha = 1 - std::clamp(scene.get(n, transparency), 0.0, 1.0);
-  };
-  namespace m = nodes::material;
-  namespace p = nodes::physical_material;
-  namespace u = nodes::unlit_material;
-  s.shines = scene.is(n, nodes::UnlitMaterial);
-  if (s.shines) return read(u::emissiveColor, u::transparency);
-  s.lit = true;
-  if (scene.is(n, nodes::PhysicalMaterial)) {
-    read(p::baseColor, p::transparency);
-    s.material.specular = {};
-    s.emissive = scene.get(n, p::emissiveColor);
-    return;
-  }
-  read(m::diffuseColor, m::transparency);
-  s.material.specular = scene.get(n, m::specularColor);
-  s.material.ambient = scene.get(n, m::ambientIntensity);
-  s.material.shininess = std::clamp(scene.get(n, m::shininess), 0.0, 1.0);
-  s.emissive = scene.get(n, m::emissiveColor);
-}
-
-bool is_material(const Scene& scene, NodeId n) {
-  return scene.is(n, nodes::Material) || scene.is(n, nodes::PhysicalMaterial) || scene.is(n, nodes::UnlitMaterial);
-}
-
-/// TextureTransform (6.49): Tc' = -C S R C T Tc.
-TexcoordMap texcoord_map(const Scene& scene, NodeId n) {
-  namespace f = nodes::texture_transform;
-  auto center = scene.get(n, f::center), scale = scene.get(n, f::scale), shift = scene.get(n, f::translation);
-  double c = std::cos(scene.get(n, f::rotation)), s = std::sin(scene.get(n, f::rotation));
-  double x = shift[0] + center[0], y = shift[1] + center[1];
-  TexcoordMap m{scale[0] * c, -scale[0] * s, 0, scale[1] * s, scale[1] * c, 0};
-  m.c = m.a * x + m.b * y - center[0];
-  m.f = m.d * x + m.e * y - center[1];
-  return m;
+void set_material(Surface& s, const MaterialNode& m) {
+  s.shines = m.kind == MaterialNode::Kind::unlit;
+  s.lit = !s.shines;
+  s.material.diffuse = m.color;
+  s.alpha = 1 - std::clamp(m.transparency, 0.0, 1.0);
+  if (s.shines) return;
+  s.material.specular = m.specular;
+  s.material.ambient = m.ambient_intensity;
+  s.material.shininess = std::clamp(m.shininess, 0.0, 1.0);
+  s.emissive = m.emissive;
 }
 
 }  // namespace
@@ -88,25 +60,24 @@ std::uint32_t Surfaces::of(NodeId appearance) {
 Surface Surfaces::make(NodeId appearance) {
   namespace f = nodes::appearance;
   Surface s;
-  NodeId material = scene_.get(appearance, f::material), map = scene_.get(appearance, f::textureTransform);
+  const auto material = material_of(scene_, appearance);
   s.modulates = multiplies_picture(scene_, appearance);
-  if (is_material(scene_, material)) read_material(s, scene_, material);
-  if (scene_.is(map, nodes::TextureTransform)) s.texcoords = texcoord_map(scene_, map);
+  if (material) set_material(s, *material);
+  s.texcoords = read_texture_transform(scene_, scene_.get(appearance, f::textureTransform)).map();
   const NodeId texture = scene_.get(appearance, f::texture);
-  s.picture = layer(texture ? texture : own_picture(scene_, material));
-  if (scene_.is(material, nodes::Material)) further_pictures(s, material);
+  s.picture = layer(texture || !material ? texture : material->color_picture);
+  if (s.lit) further_pictures(s, *material);
   read_alpha_mode(s, appearance);
   s.baked = baked_light(appearance);
   return s;
 }
 
-void Surfaces::further_pictures(Surface& s, NodeId n) {
-  namespace f = nodes::material;
-  s.glow = layer(scene_.get(n, f::emissiveTexture));
-  s.shadow = layer(scene_.get(n, f::occlusionTexture));
-  s.bumps = layer(scene_.get(n, f::normalTexture));
-  s.bump_scale = scene_.get(n, f::normalScale);
-  s.shadow_strength = std::clamp(scene_.get(n, f::occlusionStrength), 0.0, 1.0);
+void Surfaces::further_pictures(Surface& s, const MaterialNode& m) {
+  s.glow = layer(m.emissive_picture);
+  s.shadow = layer(m.occlusion_picture);
+  s.bumps = layer(m.normal_picture);
+  s.bump_scale = m.normal_scale;
+  s.shadow_strength = std::clamp(m.occlusion_strength, 0.0, 1.0);
 }
 
 void Surfaces::read_alpha_mode(Surface& s, NodeId appearance) const {
@@ -121,8 +92,7 @@ BakedLight Surfaces::baked_light(NodeId appearance) {
   b.light = layer(scene_.get(appearance, f::lightmap));
   if (!b) return b;
   b.scale = scene_.get(appearance, f::lightmapScale);
-  if (NodeId map = scene_.get(appearance, f::lightmapTransform); scene_.is(map, nodes::TextureTransform))
-    b.places = texcoord_map(scene_, map);
+  b.places = read_texture_transform(scene_, scene_.get(appearance, f::lightmapTransform)).map();
   auto direction = scene_.get(appearance, f::lightmapDirection);
   if (direction.size() != b.direction.size()) return b;
   std::ranges::transform(direction, b.direction.begin(), [&](NodeId n) { return layer(n); });

@@ -9,17 +9,11 @@
 
 #include "light/render/light.h"
 #include "light/render/texture.h"
+#include "scenegraph/looks/material_node.h"
+#include "scenegraph/looks/texture_transform_node.h"
 #include "scenegraph/resources.h"
 
 namespace wrlkit::drawing {
-
-/// TextureTransform as a map of the plane: s' = a s + b t + c; t' = d s + e t + f.
-struct TexcoordMap {
-  double a = 1, b = 0, c = 0, d = 0, e = 1, f = 0;
-
-  std::array<double, 2> operator()(double s, double t) const { return {a * s + b * t + c, d * s + e * t + f}; }
-  double determinant() const { return a * e - b * d; }
-};
 
 /// A picture that is laid over a surface.
 struct Layer {
@@ -81,7 +75,7 @@ class Surfaces {
   Layer layer(NodeId texture);
   Layer make_layer(NodeId texture);
   BakedLight baked_light(NodeId appearance);
-  void further_pictures(Surface&, NodeId material);
+  void further_pictures(Surface&, const MaterialNode&);
   void read_alpha_mode(Surface&, NodeId appearance) const;
   std::shared_ptr<const Texture> picture(const std::shared_ptr<const Image>& image);
 

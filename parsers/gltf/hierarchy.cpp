@@ -477,7 +477,7 @@ NodeId Hierarchy::light(Json node, const Place& place, const Matrix& world) {
     light_fields(n, light, place);
     return n;
   }
-  light_fields(n, light, decompose(world));
+  light_fields(n, light, place_of(world));
   if (c_.scene.name(n).empty()) c_.set_name(n, light["name"].text().empty() ? node["name"] : light["name"]);
   suns_.push_back(n);
   return {};

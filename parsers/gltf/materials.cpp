@@ -33,30 +33,17 @@ Vec3 display_color(const Vec3& l) { return {display(l[0]), display(l[1]), displa
 
 double unit_range(double v) { return v >= 0 ? std::min(v, 1.0) : 0.0; }
 
-/// -C S R C T (ISO/IEC 14772-1, 6.49).
-UvAffine affine_of(const Scene& scene, NodeId n) {
-  namespace f = nodes::texture_transform;
-  auto [cx, cy] = scene.get(n, f::center);
-  auto [sx, sy] = scene.get(n, f::scale);
-  auto [tx, ty] = scene.get(n, f::translation);
-  const double r = scene.get(n, f::rotation), c = std::cos(r), s = std::sin(r);
-  UvAffine a{sx * c, -sx * s, sy * s, sy * c, 0, 0};
-  a.x = a.xx * (tx + cx) + a.xy * (ty + cy) - cx;
-  a.y = a.yx * (tx + cx) + a.yy * (ty + cy) - cy;
-  return a;
-}
-
-std::optional<UvAffine> inverse(const UvAffine& a) {
-  const double d = a.xx * a.yy - a.xy * a.yx;
+std::optional<TexcoordMap> inverse(const TexcoordMap& a) {
+  const double d = a.determinant();
   if (!(std::abs(d) > 0) || !std::isfinite(1 / d)) return std::nullopt;
-  UvAffine b{a.yy / d, -a.xy / d, -a.yx / d, a.xx / d, 0, 0};
+  TexcoordMap b{a.yy / d, -a.xy / d, -a.yx / d, a.xx / d, 0, 0};
   b.x = -(b.xx * a.x + b.xy * a.y);
   b.y = -(b.yx * a.x + b.yy * a.y);
   return b;
 }
 
 /// The coordinates of glTF count from the top: the map between them is flipped on both sides.
-UvAffine affine_of(Json transform) {
+TexcoordMap affine_of(Json transform) {
   auto offset = vector<2>(transform["offset"], {0, 0}), scale = vector<2>(transform["scale"], {1, 1});
   double r = transform["rotation"].number(), c = std::cos(r), s = std::sin(r);
   double xx = c * scale[0], xy = s * scale[1], yx = -s * scale[0], yy = c * scale[1];
@@ -337,31 +324,26 @@ NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {
     extras_.fields(n, kept);
     c_.set_name(n, kept["DEF"]);
     if (said || !s.given_texcoord) return n;
-    look.bake = inverse(affine_of(c_.scene, n));  // it was applied to the coordinates, and is taken from them again
+    look.bake = inverse(
+        read_texture_transform(c_.scene, n).map());  // it was applied to the coordinates, and is taken from them again
     return look.bake ? n : NodeId{};
   }
-  const UvAffine a = affine_of(said);
-  if (!said || a == UvAffine{}) return {};
+  const TexcoordMap a = affine_of(said);
+  if (!said || a == TexcoordMap{}) return {};
   const NodeId n = transform_node(a, said);
   if (!n) look.bake = a;
   return n;
 }
 
 /// Null where VRML cannot say it.
-NodeId Materials::transform_node(const UvAffine& a, Json said) {
+NodeId Materials::transform_node(const TexcoordMap& a, Json said) {
   namespace f = nodes::texture_transform;
-  const double sx = std::hypot(a.xx, a.xy), sy = std::hypot(a.yx, a.yy);
-  // VRML turns before it scales, so the rows must be at right angles.
-  if (!(sx > 0 && sy > 0) || std::abs(a.xx * a.yx + a.xy * a.yy) > 1e-9 * sx * sy ||
-      !std::isfinite(sx + sy + a.x + a.y))
-    return {};
-  const double r = std::atan2(-a.xy, a.xx), c = std::cos(r), sn = std::sin(r), signed_sy = a.yx * sn + a.yy * c;
-  const double x = a.x / sx, y = a.y / signed_sy;
-  NodeId n = c_.add(nodes::TextureTransform, said);
-  auto rounded = [](double v) { return std::round(v * 1e12) / 1e12; };
-  set(c_.scene, n, f::scale, Vec2{rounded(sx), rounded(signed_sy)});
-  set(c_.scene, n, f::rotation, rounded(r));
-  set(c_.scene, n, f::translation, Vec2{rounded(c * x + sn * y), rounded(c * y - sn * x)});
+  const auto fields = texture_transform_of(a);
+  if (!fields) return {};
+  const NodeId n = c_.add(nodes::TextureTransform, said);
+  set(c_.scene, n, f::scale, fields->scale);
+  set(c_.scene, n, f::rotation, fields->rotation);
+  set(c_.scene, n, f::translation, fields->translation);
   return n;
 }
 
@@ -381,7 +363,7 @@ void Materials::set_light(NodeId appearance, Json m) {
   for (Json d : light["directions"].elements())
     if (const NodeId n = picture(d)) directions.push_back(n);
   if (directions.size() == 3) c_.scene.set(appearance, a::lightmapDirection, directions);
-  if (const UvAffine moved = affine_of(said); said && moved != UvAffine{}) {
+  if (const TexcoordMap moved = affine_of(said); said && moved != TexcoordMap{}) {
     const NodeId n = transform_node(moved, said);
     if (n)
       c_.scene.set(appearance, a::lightmapTransform, n);

@@ -12,14 +12,9 @@
 #include <tuple>
 
 #include "parsers/gltf/extras.h"
+#include "scenegraph/looks/texture_transform_node.h"
 
 namespace wrlkit::gltf_reader {
-
-/// (s, t) -> (xx s + xy t + x, yx s + yy t + y), in VRML's coordinates.
-struct UvAffine {
-  double xx = 1, xy = 0, yx = 0, yy = 1, x = 0, y = 0;
-  bool operator==(const UvAffine&) const = default;
-};
 
 /// What a geometry brings to its material.
 struct SurfaceKind {
@@ -36,7 +31,7 @@ struct Look {
   Vec3 color_factor{1, 1, 1};  // linear; of the geometry's colours
   std::uint32_t texcoord = 0;  // TEXCOORD_n that the picture uses
   bool textured = false;
-  std::optional<UvAffine> bake;  // to be applied to the texture coordinates
+  std::optional<TexcoordMap> bake;  // to be applied to the texture coordinates
 };
 
 class Materials {
@@ -61,7 +56,7 @@ class Materials {
   NodeId pixel_texture(Json texture, Json image);
   std::vector<std::string> urls(Json texture, std::uint32_t image);
   NodeId texture_transform(Json info, SurfaceKind, Look&);
-  NodeId transform_node(const UvAffine&, Json said);
+  NodeId transform_node(const TexcoordMap&, Json said);
   void set_light(NodeId appearance, Json material);
   void report_lost(Json);
   bool is_multiplied(Json, SurfaceKind, NodeId material) const;

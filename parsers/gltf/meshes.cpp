@@ -421,7 +421,7 @@ NodeId Meshes::foreign(const Primitive& p, Streams& s, const Look& look) {
   if (s.texcoord && p.faces() && look.textured)
     texcoord = attribute(nodes::TextureCoordinate, nodes::texture_coordinate::point.slot, FieldType::MFVec2f,
                          s.texcoord, variant, s.loose, [&](std::vector<double>& v) {
-                           const auto a = look.bake.value_or(UvAffine{});
+                           const auto a = look.bake.value_or(TexcoordMap{});
                            for (std::size_t i = 0; i + 1 < v.size(); i += 2) {
                              const double u = v[i], t = std::round((1 - v[i + 1]) * 1e9) / 1e9;
                              v[i] = look.bake ? a.xx * u + a.xy * t + a.x : u;

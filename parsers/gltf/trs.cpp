@@ -1,18 +1,13 @@
 #include "parsers/gltf/trs.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "base/math/digits.h"
+#include "scenegraph/decompose.h"
 
 namespace wrlkit::gltf_reader {
 namespace {
-
-double to_15_digits(double v) {
-  char text[40];
-  auto end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 15).ptr;
-  std::from_chars(text, end, v);
-  return v + 0.0;
-}
 
 Vec3 column(const Matrix& m, int c) { return {m(0, c), m(1, c), m(2, c)}; }
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -47,29 +42,6 @@ Vec4 axis_angle_of(const Matrix& m) {
   return axis_angle(q);
 }
 
-/// Eigenvectors of a symmetric matrix, as columns of a rotation, by Jacobi's method.
-Matrix eigenvectors(Matrix a) {
-  Matrix v;
-  for (int sweep = 0; sweep < 20; ++sweep)
-    for (auto [p, q] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
-      if (a(p, q) == 0) continue;
-      const double theta = (a(q, q) - a(p, p)) / (2 * a(p, q));
-      const double t = (theta < 0 ? -1.0 : 1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1)),
-                   c = 1 / std::sqrt(t * t + 1), s = t * c;
-      Matrix g;
-      g(p, p) = g(q, q) = c;
-      g(p, q) = s;
-      g(q, p) = -s;
-      Matrix gt;
-      gt(p, p) = gt(q, q) = c;
-      gt(p, q) = -s;
-      gt(q, p) = s;
-      a = gt * a * g;
-      v = v * g;
-    }
-  return v;
-}
-
 bool finite(const std::vector<double>& v) {
   return std::ranges::all_of(v, [](double x) { return std::isfinite(x); });
 }
@@ -79,7 +51,7 @@ bool finite(const std::vector<double>& v) {
 Vec4 axis_angle(Quaternion q) {
   double n = std::hypot(q.x, q.y, q.z);
   if (!(n > 0) || !std::isfinite(n)) return {0, 0, 1, 0};
-  if (q.w < 0) q = {-q.x, -q.y, -q.z, -q.w};
+  if (q.w < 0) q = -q;
   const double angle = 2 * std::atan2(n, q.w);
   return {to_15_digits(q.x / n), to_15_digits(q.y / n), to_15_digits(q.z / n), to_15_digits(angle)};
 }
@@ -92,7 +64,7 @@ Matrix Place::matrix() const {
   return scaled() ? m * rotation_matrix(o) * scale_matrix(scale) * rotation_matrix({o[0], o[1], o[2], -o[3]}) : m;
 }
 
-Place decompose(const Matrix& m) {
+Place place_of(const Matrix& m) {
   Place p;
   p.translation = column(m, 3);
   Vec3 x = column(m, 0), y = column(m, 1), z = column(m, 2);
@@ -111,46 +83,10 @@ Place decompose(const Matrix& m) {
       if (std::abs(std::abs(s) - 1) < 1e-7) s = s < 0 ? -1 : 1;  // rounding of single precision
     return p;
   }
-  // M = R V D V^T; a mirror goes into D.
-  Matrix square_of;
-  for (int r = 0; r < 3; ++r)
-    for (int k = 0; k < 3; ++k) square_of(r, k) = dot(column(m, r), column(m, k));
-  Matrix v = eigenvectors(square_of), linear = m;
-  for (int r = 0; r < 3; ++r) linear(r, 3) = 0;
-  Matrix mv = linear * v;
-  std::array<Vec3, 3> axes;
-  std::array<std::size_t, 3> order{0, 1, 2};
-  Vec3 size;
-  for (std::size_t i = 0; i < 3; ++i) size[i] = length(column(mv, static_cast<int>(i)));
-  std::ranges::sort(order, std::greater{}, [&](std::size_t i) { return size[i]; });
-  for (std::size_t i = 0; i < 3; ++i) {
-    Vec3 d = column(mv, static_cast<int>(i));
-    for (double& k : d) k = size[i] > 0 ? sign * k / size[i] : 0;
-    axes[i] = d;
-  }
-  // Directions without extent: at right angles to the others.
-  if (!(size[order[0]] > 0)) {
-    p.scale = {0, 0, 0};
-    return p;
-  }
-  if (!(size[order[1]] > 1e-12 * size[order[0]])) {
-    const Vec3& d = axes[order[0]];
-    Vec3 other = std::abs(d[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n = cross(d, other);
-    const double l = length(n);
-    for (double& k : n) k /= l;
-    axes[order[1]] = n;
-    size[order[1]] = 0;
-  }
-  if (!(size[order[2]] > 1e-12 * size[order[0]])) {
-    axes[order[2]] = cross(axes[order[0]], axes[order[1]]);
-    size[order[2]] = 0;
-    if (v.determinant() * of_columns(axes[0], axes[1], axes[2]).determinant() < 0)
-      for (double& k : axes[order[2]]) k = -k;
-  }
-  Matrix vt = of_columns({v(0, 0), v(0, 1), v(0, 2)}, {v(1, 0), v(1, 1), v(1, 2)}, {v(2, 0), v(2, 1), v(2, 2)});
-  p.rotation = axis_angle_of(of_columns(axes[0], axes[1], axes[2]) * vt);
-  p.scale_orientation = axis_angle_of(v);
-  p.scale = {to_15_digits(sign * size[0]), to_15_digits(sign * size[1]), to_15_digits(sign * size[2])};
+  const TransformFields f = decompose(m);
+  p.rotation = f.rotation;
+  p.scale = f.scale;
+  p.scale_orientation = f.scale_orientation;
   return p;
 }
 
@@ -159,7 +95,7 @@ Place place_of(Json node) {
     Matrix m;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 4; ++c) m(r, c) = v[static_cast<std::size_t>(c * 4 + r)];
-    return decompose(m);
+    return place_of(m);
   }
   Place p;
   if (auto t = node["translation"].numbers(); t.size() == 3) p.translation = {t[0], t[1], t[2]};

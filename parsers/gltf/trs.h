@@ -1,13 +1,10 @@
 // Where a node of glTF is: translation, rotation and scale, or a matrix, as the fields of a Transform.
 #pragma once
+#include "base/math/quaternion.h"
 #include "parsers/gltf/json.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit::gltf_reader {
-
-struct Quaternion {
-  double x = 0, y = 0, z = 0, w = 1;
-};
 
 /// Axis and angle from 0 to pi, to 15 digits, so that what was a short number is one again; 0 0 1 0 for none.
 Vec4 axis_angle(Quaternion);
@@ -27,7 +24,7 @@ struct Place {
 /// left out.
 Place place_of(Json node);
 /// A Transform can say every matrix: T R SR S -SR is the polar decomposition, whatever its shear and mirroring.
-Place decompose(const Matrix&);
+Place place_of(const Matrix&);
 Matrix inverse(const Matrix&);
 
 }  // namespace wrlkit::gltf_reader

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <limits>
 
+#include "base/text/length_unit.h"
 #include "parsers/vrml/number.h"
 #include "parsers/vrml/text_encoding.h"
 #include "parsers/x3d/xml.h"
@@ -277,12 +278,7 @@ class PatchParser {
   }
 
   double metres_of(const XmlTag::Attribute& a) {
-    constexpr struct {
-      std::string_view name;
-      double metres;
-    } units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
-    for (auto& u : units)
-      if (a.value == u.name) return u.metres;
+    if (const auto metres = metres_in(a.value)) return *metres;
     say(Diag::unknown_unit, a.where, a.value);
     return 1;
   }

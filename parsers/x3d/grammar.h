@@ -58,7 +58,6 @@ class Parser : private AttributeValues {
   void put(const XmlNode&, NodeId, Element&);
   bool put_into_slot(std::uint16_t slot, NodeId, Span);
   std::optional<std::uint16_t> slot_by_kind(NodeId) const;
-  std::string_view container_of(NodeId) const;
   void program(const Element&);
   void extras(Element&);
 

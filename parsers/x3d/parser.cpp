@@ -5,6 +5,7 @@
 #include "base/text/blanks.h"
 #include "parsers/x3d/grammar.h"
 #include "parsers/x3d/page.h"
+#include "scenegraph/container_field.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::x3d {
@@ -204,20 +205,10 @@ void Parser::child_node(const XmlNode& c, Element& e) {
   if (id) put(c, id, e);
 }
 
-std::string_view Parser::container_of(NodeId n) const {
-  const NodeType* t = &scene_.type(n);
-  for (int i = 0; t->kind == NodeKind::proto && i < 100; ++i) {
-    const auto& p = scene_.proto(t->proto);
-    if (p.external || p.body.roots.empty()) return "children";
-    t = &scene_.type(p.body.roots[0]);
-  }
-  return t->container_field.empty() ? std::string_view("children") : t->container_field;
-}
-
 void Parser::put(const XmlNode& c, NodeId id, Element& e) {
   const auto& type = build_.current_type();
   auto said = raw(c, "containerField");
-  auto name = said ? plain(*said) : container_of(id);
+  auto name = said ? plain(*said) : container_field(scene_, id);
   // Since version 4.0 what stands in a MetadataSet is one of its values.
   if (!said && scene_.x3d.version >= 40 && type.name == "MetadataSet") name = "value";
   auto slot = type.find(name, Dialect::x3d);

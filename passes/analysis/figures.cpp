@@ -1,7 +1,7 @@
 #include "passes/analysis/figures.h"
 
-#include "geometry/simplify/places.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {

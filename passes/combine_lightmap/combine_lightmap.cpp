@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "base/image/srgb_table.h"
+#include "base/silent_task.h"
 #include "geometry/tessellation.h"
 #include "light/render/baked.h"
 #include "light/render/surface.h"
@@ -55,7 +56,7 @@ std::array<double, N> mixed(const Attribute& a, std::uint32_t corner, const std:
 }
 
 /// Of texture coordinates: twice the area, without a sign.
-double picture_area(const Attribute& a, std::uint32_t corner, const drawing::TexcoordMap& map) {
+double picture_area(const Attribute& a, std::uint32_t corner, const TexcoordMap& map) {
   const float *p = a.at(a.index[corner]), *q = a.at(a.index[corner + 1]), *r = a.at(a.index[corner + 2]);
   return std::abs((double{q[0]} - p[0]) * (double{r[1]} - p[1]) - (double{r[0]} - p[0]) * (double{q[1]} - p[1])) *
          std::abs(map.determinant());
@@ -81,12 +82,7 @@ bool has_clear_colors(const Scene& scene, NodeId geometry) {
 class Combining {
  public:
   Combining(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx)
-      : scene_(scene),
-        options_(options),
-        ctx_(ctx),
-        surfaces_(scene, ctx.resources, ctx.diag),
-        unheard_(ctx.diag.shared_sources()),
-        reading_{unheard_, unheard_counts_, ctx.resources} {}
+      : scene_(scene), options_(options), ctx_(ctx), surfaces_(scene, ctx.resources, ctx.diag), silent_(ctx) {}
 
   Outcome run() {
     find_shapes();
@@ -119,9 +115,7 @@ class Combining {
   const CombineLightmapOptions& options_;
   PassContext& ctx_;
   drawing::Surfaces surfaces_;
-  Diagnostics unheard_;  // who draws a geometry says what is wrong with it
-  Statistics unheard_counts_;
-  PassContext reading_;
+  SilentTask silent_;
   MeshScratch scratch_;
   std::vector<Group> groups_;
   std::vector<Mesh> meshes_;  // of the group at work, by Shape
@@ -171,7 +165,7 @@ void Combining::read_meshes(const Group& group) {
   meshes_.assign(group.shapes.size(), {});
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
     bool textured = surfaces_[group.shapes[i].surface].picture.texture != nullptr;
-    MeshJob job{scene_, group.shapes[i].geometry, meshes_[i], scratch_, reading_, textured};
+    MeshJob job{scene_, group.shapes[i].geometry, meshes_[i], scratch_, silent_, textured};
     make_mesh(job, {.texcoords = true});
     if (!meshes_[i].is_triangles() || !meshes_[i].lightcoord.present()) meshes_[i].clear();
   }

@@ -1,26 +1,4 @@
-// Pass `combine-lightmap`: a surface's own colour times its baked light, in one picture. VRML has one texture a Shape,
-// so what was two, at two places, becomes one at the places of the lightmap:
-//
-//   Shape {                                                   Shape {
-//     appearance Appearance {                                   appearance Appearance {
-//       material Material { diffuseColor 0.9 0.7 0.5 }            texture ImageTexture { url "room.baked_0.png" ... }
-//       texture ImageTexture { url "brick.png" }                  textureTransform TextureTransform { ... }
-//       lightmap ImageTexture { url "light.png" }               }
-//       lightmapTransform TextureTransform { ... }        ->    geometry IndexedFaceSet {
-//     }                                                           texCoord TextureCoordinate { point [ 0.1 0.1, ... ] }
-//     geometry IndexedFaceSet {                                   ...
-//       texCoord ...                                            }
-//       lightCoord TextureCoordinate { point [ 0.1 0.1, ... ] } }
-//     }
-//   }
-//
-// There is no Material any more: without one a Shape is not lit (ISO/IEC 14772-1, table 4.5) and shows its texture as
-// it is; with one it would be lit twice. What a Material emits is added to the picture; its highlights are lost.
-// Transparency becomes alpha of the picture. Opaque Shapes do not share a picture with transparent ones: browsers would
-// blend them.
-//
-// A page of light becomes one combined page (two, when it has transparent Shapes), larger by a whole factor, so that
-// textures keep their detail. Nodes that other Shapes use, which have no light, are copied before they change.
+// Pass `combine-lightmap`: its documentation stands in its options.
 #pragma once
 #include "base/option_range.h"
 #include "passes/picture_format/picture_format.h"
@@ -52,6 +30,38 @@ struct CombinedFormat {
 };
 
 struct CombineLightmapOptions {
+  static constexpr std::string_view doc = R"(
+A surface's own colour times its baked light, in one picture. VRML has one texture a Shape, so what was two, at two
+places, becomes one at the places of the lightmap:
+
+    Shape {                                                   Shape {
+      appearance Appearance {                                   appearance Appearance {
+        material Material { diffuseColor 0.9 0.7 0.5 }            texture ImageTexture { url "room.baked_0.png" ... }
+        texture ImageTexture { url "brick.png" }                  textureTransform TextureTransform { ... }
+        lightmap ImageTexture { url "light.png" }               }
+        lightmapTransform TextureTransform { ... }        ->    geometry IndexedFaceSet {
+      }                                                           texCoord TextureCoordinate { point [ 0.1 0.1, ... ] }
+      geometry IndexedFaceSet {                                   ...
+        texCoord ...                                            }
+        lightCoord TextureCoordinate { point [ 0.1 0.1, ... ] } }
+      }
+    }
+
+There is no Material any more: without one a Shape is not lit (ISO/IEC 14772-1, table 4.5) and shows its texture as it
+is; with one it would be lit twice. What a Material emits is added to the picture; its highlights are lost.
+Transparency becomes alpha of the picture. Opaque Shapes do not share a picture with transparent ones: browsers would
+blend them.
+
+A page of light becomes one combined page (two, when it has transparent Shapes), larger by a whole factor, so that
+textures keep their detail. Nodes that other Shapes use, which have no light, are copied before they change.
+
+A scene without lightmaps is left alone, in O(nodes); so is any without resources, which hold the pictures.)";
+  static constexpr StatisticInfo statistics[] = {
+      {"combine-lightmap.shapes", "Shapes that have one texture now"},
+      {"combine-lightmap.pages", "pictures"},
+      {"combine-lightmap.texels", "their texels"},
+  };
+
   TexelFactor scale;
   int max_size = 4096;
   CombineTarget into;
@@ -67,8 +77,6 @@ struct CombineLightmapOptions {
   }
 };
 
-/// A scene without lightmaps is left alone, in O(nodes); so is any without resources, which hold the pictures.
-/// Statistics: combine-lightmap.shapes, .pages, .texels.
 Outcome combine_lightmap(Scene&, const CombineLightmapOptions&, PassContext&);
 
 }  // namespace wrlkit

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/silent_task.h"
 #include "geometry/geometry.h"
 #include "geometry/tessellation.h"
 #include "light/render/gather.h"
@@ -14,6 +15,7 @@
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
 #include "passes/cull/visibility.h"
+#include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -28,16 +30,15 @@ class Culling {
       : scene_(scene),
         options_(options),
         ctx_(ctx),
-        unheard_(ctx.diag.shared_sources()),
-        reading_{unheard_, unheard_counts_},
+        silent_(ctx),
         usage_(scene),
-        stage_(set_stage(scene, unheard_)) {}
+        stage_(set_stage(scene, silent_.diag)) {}
 
   Outcome run() {
     const auto before = figures_of(scene_);
     mesh_of_ = Gatherer(
                    scene_, [this](NodeId n) -> const Mesh& { return triangles(n); }, pool_)
-                   .meshes_of(stage_, unheard_);
+                   .meshes_of(stage_, silent_.diag);
     find_fixed();
     gone_.resize(stage_.uses.size());
     if (options_.smaller.metres > 0) {
@@ -71,9 +72,7 @@ class Culling {
   Scene& scene_;
   const CullOptions& options_;
   PassContext& ctx_;
-  Diagnostics unheard_;
-  Statistics unheard_counts_;
-  PassContext reading_;
+  SilentTask silent_;
   Usage usage_;
   Stage stage_;
   MeshPool pool_;
@@ -89,7 +88,7 @@ class Culling {
 
 const Mesh& Culling::triangles(NodeId geometry) {
   mesh_.clear();
-  MeshJob job{scene_, geometry, mesh_, scratch_, reading_};
+  MeshJob job{scene_, geometry, mesh_, scratch_, silent_};
   make_mesh(job, {});
   return mesh_;
 }
@@ -200,8 +199,9 @@ bool Culling::may_be_clear(const Use& use) const {
   if (!use.appearance) return false;
   if (!scene_.is(use.appearance, nodes::Appearance) || scene_.get(use.appearance, nodes::appearance::texture))
     return true;
-  const NodeId material = scene_.get(use.appearance, nodes::appearance::material);
-  return material && (!scene_.is(material, nodes::Material) || scene_.get(material, nodes::material::transparency) > 0);
+  const NodeId n = scene_.get(use.appearance, nodes::appearance::material);
+  const auto material = read_material(scene_, n);
+  return n && (!material || material->color_picture || material->transparency > 0);
 }
 
 void Culling::find_hidden() {

@@ -1,8 +1,4 @@
-// Leaves out what is too small to matter, or what nobody can ever see: bolts in an overview of a plant, the inner tubes
-// of a heat exchanger.
-//
-//   before   Shape { geometry Box { size 9 9 9 } }   DEF Core Shape { geometry Sphere { } }
-//   after    Shape { geometry Box { size 9 9 9 } }     # cull{hidden=true}: the sphere was inside
+// Pass `cull`: its documentation stands in its options.
 #pragma once
 #include <string>
 
@@ -13,6 +9,37 @@
 namespace wrlkit {
 
 struct CullOptions {
+  static constexpr std::string_view doc = R"(
+Leaves out what is too small to matter, or what nobody can ever see: bolts in an overview of a plant, the inner tubes
+of a heat exchanger.
+
+    before   Shape { geometry Box { size 9 9 9 } }   DEF Core Shape { geometry Sphere { } }
+    after    Shape { geometry Box { size 9 9 9 } }     # cull{hidden=true}: the sphere was inside
+
+Removes Shapes from the groups that hold them, if that goes for all places where they are shown.
+
+- `smaller`: the extent is the longest diagonal of the box around a part, in the largest of its places. Shapes without
+  a name that share points and stand in one frame are one part: a solid may be written as one Shape a face.
+- `hidden`: rays go from points all over the part, evenly by area, in all directions. A part is seen when one reaches
+  the outside, a Viewpoint or a walkway. So what is left out was not seen by so many rays; a part behind a hole of a
+  thousandth of its sky may be among it. Nothing hides behind what has transparency or a picture.
+- Left alone: what a ROUTE, a Script, an IS or an instance of a prototype may change, with all below it; what stands
+  below a LOD or Switch, or is held otherwise than by a group; lines and points, by `hidden`.
+
+Groups stay, also empty ones: run `prune` behind it. What is left out is said (culled), with the first names; `list`
+gets all. The same result for any number of threads.)";
+  static constexpr StatisticInfo statistics[] = {
+      {"cull.small", "Shapes that were too small"},
+      {"cull.hidden", "Shapes that were never seen"},
+      {"cull.triangles", "triangles of both"},
+      {"cull.draws-before", "Shapes as they are shown before the pass"},
+      {"cull.draws-after", "Shapes as they are shown behind it"},
+      {"cull.nodes-before", "nodes of the world before the pass"},
+      {"cull.nodes-after", "nodes of the world behind it"},
+      {"cull.meshes-before", "geometry nodes that are drawn before the pass"},
+      {"cull.meshes-after", "geometry nodes that are drawn behind it"},
+  };
+
   LengthOption smaller;
   bool hidden = false, walkways = true;
   int rays = 256;
@@ -29,21 +56,6 @@ struct CullOptions {
   }
 };
 
-/// Removes Shapes from the groups that hold them, if that goes for all places where they are shown.
-///
-/// - `smaller`: the extent is the longest diagonal of the box around a part, in the largest of its places. Shapes
-/// without a
-///   name that share points and stand in one frame are one part: a solid may be written as one Shape a face.
-/// - `hidden`: rays go from points all over the part, evenly by area, in all directions (cull/visibility.h). A part is
-/// seen
-///   when one reaches the outside, a Viewpoint or a walkway. So what is left out was not seen by so many rays; a part
-///   behind a hole of a thousandth of its sky may be among it. Nothing hides behind what has transparency or a picture.
-/// - Left alone: what a ROUTE, a Script, an IS or an instance of a prototype may change, with all below it; what stands
-///   below a LOD or Switch, or is held otherwise than by a group; lines and points, by `hidden`.
-///
-/// Groups stay, also empty ones: run `prune` behind it. What is left out is said (culled), with the first names; `list`
-/// gets all. Counted: cull.small, cull.hidden (Shapes), cull.triangles, and figures.h. The same result for any number
-/// of threads.
 Outcome cull(Scene&, const CullOptions&, PassContext&);
 
 }  // namespace wrlkit

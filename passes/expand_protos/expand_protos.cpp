@@ -87,13 +87,13 @@ class Key {
 
 class Expansion {
  public:
-  Expansion(Scene& scene, const ExpandProtosOptions& options, PassContext& ctx)
+  Expansion(Scene& scene, const ExpandProtosOptions& options, PassContext& ctx, ExpansionBudget& budget)
       : scene_(scene),
         options_(options),
         ctx_(ctx),
         prototypes_(scene, ctx),
-        routes_(scene.main.routes),
-        budget_(static_cast<std::size_t>(options.limit) + 16 * scene.node_count()) {}
+        budget_(budget),
+        routes_(scene.main.routes) {}
 
   Outcome run() {
     visit_all({scene_.main.roots.begin(), scene_.main.roots.end()});
@@ -150,7 +150,7 @@ class Expansion {
 
   /// The instance has the same nodes as another one.
   void expand_like(NodeId n, const Known& other) {
-    spent_ += cost_of_copy(scene_, other.node);
+    budget_.spent += cost_of_copy(scene_, other.node);
     scene_.become(n, scene_.type_id(other.node), scene_.fields(other.node));
     bool moved = scene_.where(other.node).begin != other.where.begin;
     if (moved) scene_.set_where(n, scene_.where(other.node));
@@ -201,7 +201,7 @@ class Expansion {
   // ---- nodes -------------------------------------------------------------------------------------------------------
   /// Gives `to` the type and fields of `from`, with the values of the instance where the body says IS.
   void fill(Instance& i, NodeId from, NodeId to) {
-    spent_ += cost_of_copy(scene_, from);
+    budget_.spent += cost_of_copy(scene_, from);
     std::vector<Value> fields;
     const std::vector<Value> source(scene_.fields(from).begin(), scene_.fields(from).end());
     bool urls_given = false, urls_here = false;
@@ -322,12 +322,12 @@ class Expansion {
   // ---- limits and the end ------------------------------------------------------------------------------------------
   /// False, which is reported once, when the limit has been reached.
   bool spend(std::size_t cost, Span where) {
-    if (spent_ + cost > budget_) {
-      if (!std::exchange(full_, true))
-        ctx_.diag.report(Diag::expansion_limit, where, budget_, "nodes and ROUTEs of prototypes");
+    if (budget_.spent + cost > budget_.most) {
+      if (!std::exchange(budget_.full, true))
+        ctx_.diag.report(Diag::expansion_limit, where, budget_.most, "nodes and ROUTEs of prototypes");
       return false;
     }
-    spent_ += cost;
+    budget_.spent += cost;
     return true;
   }
 
@@ -358,18 +358,27 @@ class Expansion {
   const ExpandProtosOptions& options_;
   PassContext& ctx_;
   Prototypes prototypes_;
+  ExpansionBudget& budget_;
   RouteTable routes_;
   std::unordered_map<std::string, Known> known_;  // by Key
   std::vector<char> seen_;
   std::vector<NodeId> hidden_;
-  std::size_t budget_, spent_ = 0;
-  bool full_ = false, expanded_ = false;
+  bool expanded_ = false;
 };
 
 }  // namespace
 
+ExpansionBudget expansion_budget(const Scene& scene, const ExpandProtosOptions& options) {
+  return {.most = static_cast<std::size_t>(options.limit) + 16 * scene.node_count()};
+}
+
+Outcome expand_within(Scene& scene, const ExpandProtosOptions& options, PassContext& ctx, ExpansionBudget& budget) {
+  return Expansion(scene, options, ctx, budget).run();
+}
+
 Outcome expand_protos(Scene& scene, const ExpandProtosOptions& options, PassContext& ctx) {
-  return Expansion(scene, options, ctx).run();
+  auto budget = expansion_budget(scene, options);
+  return expand_within(scene, options, ctx, budget);
 }
 
 }  // namespace wrlkit

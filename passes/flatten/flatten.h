@@ -1,29 +1,40 @@
-// Transforms that never move, multiplied into the points: for tools that know no hierarchy of transformations.
-//
-//   before   DEF Pump Transform { translation 5 0 0 children Shape { geometry IndexedFaceSet { coord Coordinate { point
-//   [ 0 0 0, ... after    DEF Pump Group { children Shape { geometry IndexedFaceSet { coord Coordinate { point [ 5 0 0,
-//   ...
+// Pass `flatten`: its documentation stands in its options.
 #pragma once
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
 
 struct FlattenOptions {
+  static constexpr std::string_view doc = R"(
+Transforms that never move, multiplied into the points: for tools that know no hierarchy of transformations.
+
+    before   DEF Pump Transform { translation 5 0 0 children Shape { geometry IndexedFaceSet { ... [ 0 0 0, ...
+    after    DEF Pump Group { children Shape { geometry IndexedFaceSet { ... [ 5 0 0, ...
+
+Makes a Group of each Transform that holds nothing but Shapes, Groups and such Transforms, and moves the Shapes. What
+is shared is written for each place (as by `lightmap`; names of copies are numbered). Faces get their normals first,
+so what is drawn stays the same; curved forms become faces as by `tessellate`.
+
+- A Transform stays if a ROUTE, a Script or an IS touches it or something below it, or if it holds lights, Viewpoints,
+  sensors, LODs or anything else with a place of its own. What is below it is moved to its frame.
+- A Transform that moves nothing stays, too.
+- Names stay where they were, but for those of geometry and Coordinates that were shared.
+
+Files become larger by it: run it on request only. Linear in what is drawn, which is there once for each place.)";
+  static constexpr StatisticInfo statistics[] = {
+      {"flatten.transforms", "Transforms that became Groups"},
+      {"flatten.shapes", "Shapes that were moved"},
+      {"flatten.draws-before", "Shapes as they are shown before the pass"},
+      {"flatten.draws-after", "Shapes as they are shown behind it"},
+      {"flatten.nodes-before", "nodes of the world before the pass"},
+      {"flatten.nodes-after", "nodes of the world behind it"},
+      {"flatten.meshes-before", "geometry nodes that are drawn before the pass"},
+      {"flatten.meshes-after", "geometry nodes that are drawn behind it"},
+  };
+
   void fields(auto&&) {}
 };
 
-/// Makes a Group of each Transform that holds nothing but Shapes, Groups and such Transforms, and moves the Shapes.
-/// What is shared is written for each place (as by `lightmap`; names of copies are numbered). Faces get their normals
-/// first, so what is drawn stays the same; curved forms become faces as by `tessellate`.
-///
-/// - A Transform stays if a ROUTE, a Script or an IS touches it or something below it, or if it holds lights,
-/// Viewpoints,
-///   sensors, LODs or anything else with a place of its own. What is below it is moved to its frame.
-/// - A Transform that moves nothing stays, too.
-/// - Names stay where they were, but for those of geometry and Coordinates that were shared.
-///
-/// Files become larger by it: run it on request only. Counted: flatten.transforms, flatten.shapes, and figures.h.
-/// Linear in what is drawn, which is there once for each place.
 Outcome flatten(Scene&, const FlattenOptions&, PassContext&);
 
 }  // namespace wrlkit

@@ -22,17 +22,15 @@ struct Imported {
 
 class Inliner {
  public:
-  Inliner(Scene& scene, const InlineOptions& options, PassContext& ctx) : scene_(scene), options_(options), ctx_(ctx) {}
+  Inliner(Scene& scene, const InlineOptions& options, PassContext& ctx, InlineRuns& runs)
+      : scene_(scene), options_(options), ctx_(ctx), runs_(runs) {}
 
   Outcome run() {
     const auto n_protos = static_cast<std::uint32_t>(scene_.proto_count());
     note_names();
     load_all(scene_.main.roots, scene_.main);
-    for (std::uint32_t i = 0; i < n_protos; ++i) {
-      Proto& p = scene_.proto(ProtoId{i});
-      for (const auto& f : scene_.type(p.type).fields) load_all(f.default_value.node_span(), p.body);
-      load_all(p.body.roots, p.body);
-    }
+    load_bodies(0, n_protos);
+    ++runs_.n_runs;
     if (changed_) limit_nesting(scene_, ctx_.diag);
     return changed_ ? Outcome::changed : Outcome::unchanged;
   }
@@ -47,6 +45,14 @@ class Inliner {
     connect(scope);
   }
 
+  void load_bodies(std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      Proto& p = scene_.proto(ProtoId{i});
+      for (const auto& f : scene_.type(p.type).fields) load_all(f.default_value.node_span(), p.body);
+      load_all(p.body.roots, p.body);
+    }
+  }
+
   void load(NodeId n, Scope& scope) {
     auto urls = scene_.get(n, nodes::inline_::url);
     if (urls.empty() || !ctx_.resources || !scene_.get(n, nodes::inline_::load)) return;
@@ -54,24 +60,45 @@ class Inliner {
     if (!world) return;
     if (world.get() == &scene_ || std::ranges::find(chain_, world.get()) != chain_.end())
       return ctx_.diag.report(Diag::url_cycle, scene_.where(n), urls[0]);
-    if (chain_.size() >= static_cast<std::size_t>(options_.depth))
+    if (chain_.size() + static_cast<std::size_t>(runs_.n_runs) >= static_cast<std::size_t>(options_.depth))
       return ctx_.diag.report(Diag::expansion_limit, scene_.where(n), options_.depth, "Inlines inside each other");
     auto known = imported_.find(world.get());
-    if (known == imported_.end())
-      become_group(n, first_use(world), scope);
-    else
+    if (known == imported_.end()) {
+      if (may_import(world, scene_.where(n))) become_group(n, first_use(world), scope);
+    } else
       become_group(n, further_use(known->second, scene_.where(n)), scope);
   }
 
+  /// A file that an earlier run brought in comes again as a copy.
+  bool may_import(const std::shared_ptr<const Scene>& world, Span where) {
+    if (runs_.files.emplace(world.get(), world).second) {
+      runs_.n_first += world->node_count();
+      return true;
+    }
+    if (is_full(where)) return false;
+    runs_.n_copied += world->node_count();
+    return true;
+  }
+
+  /// True, which is reported once, when the limit has been reached.
+  bool is_full(Span where) {
+    if (runs_.n_copied < static_cast<std::size_t>(options_.limit)) return false;
+    if (!std::exchange(runs_.full, true))
+      ctx_.diag.report(Diag::expansion_limit, where, options_.limit, "copies of nodes and ROUTEs of inlined worlds");
+    return true;
+  }
+
   const Scope& first_use(const std::shared_ptr<const Scene>& world) {
-    kept_.push_back(world);
     Scope& scope = imported_[world.get()].scope;
     const auto n_nodes = static_cast<std::uint32_t>(scene_.node_count());
+    const auto n_protos = static_cast<std::uint32_t>(scene_.proto_count());
     scope = scene_.import(*world);
+    const auto end = static_cast<std::uint32_t>(scene_.proto_count());
     rename_protos(scope, n_nodes);
     scene_.main.protos.insert(scene_.main.protos.begin(), scope.protos.begin(), scope.protos.end());
     chain_.push_back(world.get());
     load_all(scope.roots, scope);
+    load_bodies(n_protos, end);
     chain_.pop_back();
     return scope;
   }
@@ -112,11 +139,7 @@ class Inliner {
   Scope further_use(Imported& file, Span where) {
     if (!std::exchange(file.marked, true)) file.has_state = mark(file.scope);
     if (!file.has_state) return {file.scope.roots, {}, {}};
-    if (n_copied_ >= static_cast<std::size_t>(options_.limit)) {
-      if (!std::exchange(full_, true))
-        ctx_.diag.report(Diag::expansion_limit, where, options_.limit, "copies of nodes and ROUTEs of inlined worlds");
-      return {file.scope.roots, {}, {}};
-    }
+    if (is_full(where)) return {file.scope.roots, {}, {}};
     return copy(file.scope);
   }
 
@@ -134,16 +157,19 @@ class Inliner {
       const std::vector<Value> source(scene_.fields(from).begin(), scene_.fields(from).end());
       for (const Value& v : source) fields.push_back(copies.of(v));
       scene_.set_fields(to, fields);
-      n_copied_ += cost_of_copy(scene_, from);
+      runs_.n_copied += cost_of_copy(scene_, from);
     }
-    n_copied_ += out.routes.size() + out.exports.size();
+    runs_.n_copied += out.routes.size() + out.exports.size();
     return out;
   }
 
   bool mark(const Scope& scope) {
-    // A body holds only instances of prototypes that are declared before its own. What an EXTERNPROTO is is not known
-    // here.
-    auto has_state = [&](NodeId n) { return proto_has_state_[scene_.type(n).proto.value] != 0; };
+    // A body holds instances of prototypes that are declared before its own, and of those that came with an Inline,
+    // of which nothing is known yet. What an EXTERNPROTO is is not known here.
+    auto has_state = [&](NodeId n) {
+      const auto proto = scene_.type(n).proto.value;
+      return proto >= proto_has_state_.size() || proto_has_state_[proto] != 0;
+    };
     for (auto i = static_cast<std::uint32_t>(proto_has_state_.size()); i < scene_.proto_count(); ++i) {
       const Proto& p = scene_.proto(ProtoId{i});
       proto_has_state_.push_back(0);
@@ -196,8 +222,8 @@ class Inliner {
   Scene& scene_;
   const InlineOptions& options_;
   PassContext& ctx_;
+  InlineRuns& runs_;
   std::unordered_map<const Scene*, Imported> imported_;
-  std::vector<std::shared_ptr<const Scene>> kept_;
   std::unordered_map<std::uint32_t, std::unordered_map<std::string_view, NodeId>> exports_;  // of the file of an Inline
   std::vector<const Scene*> chain_;             // files that are being loaded, each inlined by the one before
   std::unordered_set<std::string_view> taken_;  // names of prototypes
@@ -205,14 +231,18 @@ class Inliner {
   std::uint32_t n_noted_ = 0;
   std::vector<char> met_, proto_has_state_;
   OwnNodes own_;
-  std::size_t n_copied_ = 0;
-  bool full_ = false, changed_ = false;
+  bool changed_ = false;
 };
 
 }  // namespace
 
+Outcome inline_within(Scene& scene, const InlineOptions& options, PassContext& ctx, InlineRuns& runs) {
+  return Inliner(scene, options, ctx, runs).run();
+}
+
 Outcome inline_worlds(Scene& scene, const InlineOptions& options, PassContext& ctx) {
-  return Inliner(scene, options, ctx).run();
+  InlineRuns runs;
+  return inline_within(scene, options, ctx, runs);
 }
 
 }  // namespace wrlkit

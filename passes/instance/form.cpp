@@ -1,5 +1,7 @@
 #include "passes/instance/form.h"
 
+#include "base/math/eigen.h"
+
 #include <algorithm>
 #include <bit>
 

@@ -5,8 +5,9 @@
 #include <utility>
 
 #include "base/hashing.h"
+#include "base/silent_task.h"
 #include "geometry/geometry.h"
-#include "geometry/simplify/places.h"
+#include "geometry/simplify/surface_scales.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
@@ -24,13 +25,7 @@ constexpr std::size_t most_compared = 16;  // groups of equal invariants that a 
 class Instancing {
  public:
   Instancing(Scene& scene, const InstanceOptions& options, PassContext& ctx)
-      : scene_(scene),
-        options_(options),
-        ctx_(ctx),
-        unheard_(ctx.diag.shared_sources()),
-        reading_{unheard_, unheard_counts_},
-        usage_(scene),
-        textured_(textured_geometry(scene)) {}
+      : scene_(scene), options_(options), ctx_(ctx), silent_(ctx), usage_(scene), textured_(textured_geometry(scene)) {}
 
   Outcome run() {
     const auto before = figures_of(scene_);
@@ -76,9 +71,7 @@ class Instancing {
   Scene& scene_;
   const InstanceOptions& options_;
   PassContext& ctx_;
-  Diagnostics unheard_;  // whoever draws a mesh will say what is wrong with it
-  Statistics unheard_counts_;
-  PassContext reading_;
+  SilentTask silent_;
   Usage usage_;
   std::vector<char> textured_;
   std::vector<ShapeSurface> surfaces_;
@@ -137,7 +130,7 @@ void Instancing::choose() {
 
 bool Instancing::read(std::uint32_t surface, Mesh& mesh, Form& form) {
   mesh.clear();
-  MeshJob job{scene_, surfaces_[surface].geometry, mesh, scratch_, reading_};
+  MeshJob job{scene_, surfaces_[surface].geometry, mesh, scratch_, silent_};
   read_mesh(job);
   if (mesh.kind == Mesh::Kind::none || mesh.corners.empty()) return false;
   form.take(mesh);

@@ -1,12 +1,4 @@
-// The same part in many places, written each time anew: found and written once. CAD exporters know no DEF and USE, and
-// put the coordinates of each bolt where it stands.
-//
-//   before   Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 2 0 ] } coordIndex [ 0 1 2 -1
-//   ] } }
-//            Shape { geometry IndexedFaceSet { coord Coordinate { point [ 5 0 0, 5 1 0, 3 0 0 ] } coordIndex [ 0 1 2 -1
-//            ] } }
-//   after    Shape { geometry DEF _1 IndexedFaceSet { ... } }
-//            Transform { translation 5 0 0 rotation 0 0 1 1.570796 children Shape { geometry USE _1 } }
+// Pass `instance`: its documentation stands in its options.
 #pragma once
 #include <string>
 #include <string_view>
@@ -27,6 +19,45 @@ struct ScalingName {
 };
 
 struct InstanceOptions {
+  static constexpr std::string_view doc = R"(
+The same part in many places, written each time anew: found and written once. CAD exporters know no DEF and USE, and
+put the coordinates of each bolt where it stands.
+
+    before   Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 2 0 ] } ... } }
+             Shape { geometry IndexedFaceSet { coord Coordinate { point [ 5 0 0, 5 1 0, 3 0 0 ] } ... } }
+    after    Shape { geometry DEF _1 IndexedFaceSet { ... } }
+             Transform { translation 5 0 0 rotation 0 0 1 1.570796 children Shape { geometry USE _1 } }
+
+Shares geometry (IndexedFaceSet, IndexedLineSet, PointSet) that is the same but for a rotation, a translation and a
+scale: the first keeps its geometry, the Shapes of the others stand in a new Transform and USE it.
+
+- Found without names and in any order of faces, points and corners, with points shared or not. Meshes are compared by
+  what a motion does not change, then vertex by vertex. Every corner is within `tolerance` of where it was, in the
+  largest of its places; its colour is the same, its normal within 0.3 degrees, its texture coordinate within 0.00001.
+  ccw, solid, convex and creaseAngle agree. `axis` finds only copies whose corners stand in the same order, and needs
+  normals in the file or a creaseAngle of 0.
+- A mirror image has its faces the other way round, and a scale with a negative factor turns them.
+- Geometry far from its origin, where single precision is coarser than the tolerance, is moved to the origin, and its
+  own Shape gets a Transform, too.
+- Not worth it: what saves less than `min-saving` bytes over all copies. A vertex is 24 bytes, an index 2, a Transform
+  150.
+- The DEF name of a geometry goes to the Transform. Shapes keep theirs, and groups stay as they are.
+- Left alone: what a ROUTE, a Script or an IS touches; geometry with baked light; textures that lie by the extent of
+  the geometry; Shapes that are held otherwise than by a group; bodies of prototypes.
+
+Run `weld`, and for one Shape a face `join`, before it. Names that go are said (names-lost). Expected linear in the
+corners, n log n where copies differ in their order.)";
+  static constexpr StatisticInfo statistics[] = {
+      {"instance.groups", "geometries that are shared now"},
+      {"instance.copies", "geometries that are no more"},
+      {"instance.draws-before", "Shapes as they are shown before the pass"},
+      {"instance.draws-after", "Shapes as they are shown behind it"},
+      {"instance.nodes-before", "nodes of the world before the pass"},
+      {"instance.nodes-after", "nodes of the world behind it"},
+      {"instance.meshes-before", "geometry nodes that are drawn before the pass"},
+      {"instance.meshes-after", "geometry nodes that are drawn behind it"},
+  };
+
   double tolerance = 0.0002;
   ScalingName scaling;
   bool mirror = false, named = false;
@@ -42,29 +73,6 @@ struct InstanceOptions {
   }
 };
 
-/// Shares geometry (IndexedFaceSet, IndexedLineSet, PointSet) that is the same but for a rotation, a translation and a
-/// scale: the first keeps its geometry, the Shapes of the others stand in a new Transform and USE it.
-///
-/// - Found without names and in any order of faces, points and corners, with points shared or not. Meshes are compared
-/// by
-///   what a motion does not change (instance/form.h), then vertex by vertex (instance/match.h). Every corner is within
-///   `tolerance` of where it was, in the largest of its places; its colour is the same, its normal within 0.3 degrees,
-///   its texture coordinate within 0.00001. ccw, solid, convex and creaseAngle agree. `axis` finds only copies whose
-///   corners stand in the same order, and needs normals in the file or a creaseAngle of 0.
-/// - A mirror image has its faces the other way round, and a scale with a negative factor turns them.
-/// - Geometry far from its origin, where single precision is coarser than the tolerance, is moved to the origin, and
-/// its
-///   own Shape gets a Transform, too.
-/// - Not worth it: what saves less than `min-saving` bytes over all copies. A vertex is 24 bytes, an index 2, a
-/// Transform 150.
-/// - The DEF name of a geometry goes to the Transform. Shapes keep theirs, and groups stay as they are.
-/// - Left alone: what a ROUTE, a Script or an IS touches; geometry with baked light; textures that lie by the extent of
-/// the
-///   geometry; Shapes that are held otherwise than by a group; bodies of prototypes.
-///
-/// Run `weld`, and for one Shape a face `join`, before it. Counted: instance.groups, instance.copies (geometries that
-/// are no more), and figures.h. Names that go are said (names-lost). Expected linear in the corners, n log n where
-/// copies differ in their order.
 Outcome instance(Scene&, const InstanceOptions&, PassContext&);
 
 }  // namespace wrlkit

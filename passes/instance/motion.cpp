@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "passes/lower_vrml1/placement.h"
+#include "base/math/eigen.h"
+#include "scenegraph/decompose.h"
 
 namespace wrlkit::instancing {
 namespace {
@@ -86,7 +87,7 @@ Matrix fit(std::span<const Vec3> from, std::span<const Vec3> to, Scaling scaling
 }
 
 TransformFields in_few_digits(const Matrix& linear, const Vec3& from, const Vec3& to, double reach, double step) {
-  TransformFields f = vrml1::decompose(linear);
+  TransformFields f = decompose(linear);
   const double share = step / 4, turn = std::min(share / std::max(reach, 1e-300), 1e-3);
   if (std::abs(f.rotation[3]) < turn / 2) f.rotation = {0, 0, 1, 0};
   for (double& v : f.rotation) v = rounded(v, turn / 2);

@@ -97,7 +97,7 @@ void Levels::add(NodeId shape) {
 }
 
 void Levels::own_what_is_lit() {
-  Diagnostics unheard;
+  Diagnostics silent;
   std::unordered_map<std::uint32_t, NodeId> copies;
   auto own = [&](NodeId shape, auto field) {
     const NodeId n = scene_.get(shape, field);
@@ -107,7 +107,7 @@ void Levels::own_what_is_lit() {
     scene_.set(shape, field, copy);
   };
   const std::size_t before = seen_.size();
-  for (const auto& use : drawing::set_stage(scene_, unheard, {.level_of = level_of()}).uses) {
+  for (const auto& use : drawing::set_stage(scene_, silent, {.level_of = level_of()}).uses) {
     seen_.insert(use.shape.value);
     if (is_lit(use.shape)) continue;
     own(use.shape, nodes::shape::appearance);

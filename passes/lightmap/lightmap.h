@@ -1,14 +1,4 @@
-// Pass `lightmap`: computes the light in the world and puts it onto its surfaces, as textures (Lazanyi, section 3).
-//
-//   before   PointLight { ... }  DEF Wall Shape { appearance Appearance { material Material { ... } } geometry Box {
-//   ... } } after    PointLight { ... }  DEF Wall Shape { appearance Appearance { material Material { ... }
-//                                                                         lightmap ImageTexture { url "lightmap_0.png"
-//                                                                         } }
-//                                                 geometry IndexedFaceSet { ... lightCoord TextureCoordinate { ... } }
-//                                                 }
-//
-// The surface keeps its own colour and texture; what VRML97 can say, one texture, is made of both by
-// `combine-lightmap`.
+// Pass `lightmap`: its documentation stands in its options.
 #pragma once
 #include <string>
 #include <utility>
@@ -44,6 +34,58 @@ struct NamedDensities {
 };
 
 struct LightmapOptions {
+  static constexpr std::string_view doc = R"(
+Computes the light in the world and puts it onto its surfaces, as textures (Lazanyi, section 3).
+
+    before   PointLight { ... }
+             DEF Wall Shape { appearance Appearance { material Material { ... } } geometry Box { ... } }
+    after    PointLight { ... }
+             DEF Wall Shape { appearance Appearance { material Material { ... }
+                                                      lightmap ImageTexture { url "lightmap_0.png" } }
+                              geometry IndexedFaceSet { ... lightCoord TextureCoordinate { ... } } }
+
+The surface keeps its own colour and texture; what VRML97 can say, one texture, is made of both by `combine-lightmap`.
+
+Lights every surface with a Material that a browser would show, as it stands at the start.
+
+- The world as light sees it, in which units, is in docs/lighting.md.
+- Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays
+  shared among those that show it in one size and density. What events can reach is not copied: it has the light of
+  its first place.
+- Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get
+  faces.
+- Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels a
+  level. LODs within levels have light at all of theirs, too: as many views are lit as there are levels one behind the
+  other, 64 at the most.
+- Text becomes faces, too, unless events, a Script or a prototype may write it.
+- Left alone: Shapes without a Material, lines, points, other choices of a Switch.
+- With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only
+  `smooth` and `format` count. Shapes show their first level of detail only; further ones stay without light.
+- What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `expand` before.
+- There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach
+  (density-limit).
+- A world without any light, or with too little to see it by, is lit by a white sky, which is reported (no-light).
+
+Needs resources, which take the pictures. O(texels * rays * log triangles). The same result for any number of
+threads.)";
+  static constexpr StatisticInfo statistics[] = {
+      {"lightmap.shapes", "Shapes that have light"},
+      {"lightmap.charts", "pieces of surface on the pages"},
+      {"lightmap.pages", "pictures"},
+      {"lightmap.texels", "texels of surface"},
+      {"lightmap.samples", "texels that were computed"},
+      {"lightmap.rays", "rays that were traced"},
+      {"lightmap.inside", "texels inside of something solid"},
+      {"lightmap.leaks", "texels through which light could leak"},
+      {"lightmap.black", "texels without any light"},
+      {"lightmap.holes", "specks of dark texels"},
+      {"lightmap.seam-places", "places along seams that were compared"},
+      {"lightmap.jumps", "those where the light jumps"},
+      {"lightmap.patches", "patches that were drawn"},
+      {"lightmap.orphans", "patches without a Shape"},
+      {"lightmap.bare-triangles", "triangles without a patch"},
+  };
+
   BakeQuality quality;
   double error = 0, density = 0;
   NamedDensities densities;
@@ -79,33 +121,6 @@ struct LightmapOptions {
   }
 };
 
-/// Lights every surface with a Material that a browser would show, as it stands at the start.
-///
-/// - The world as light sees it, in which units, is in docs/lighting.md.
-/// - Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays
-/// shared
-///   (lightmap/own_shapes.h) among those that show it in one size and density (lightmap/sizes.h). What events can reach
-///   is not copied: it has the light of its first place.
-/// - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get
-/// faces.
-/// - Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels
-/// a level. LODs within
-///   levels have light at all of theirs, too: as many views are lit as there are levels one behind the other
-///   (lightmap/levels.h), 64 at the most.
-/// - Text becomes faces, too, unless events, a Script or a prototype may write it.
-/// - Left alone: Shapes without a Material, lines, points, other choices of a Switch.
-/// - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only
-/// `smooth`
-///   and `format` count. Shapes show their first level of detail only; further ones stay without light.
-/// - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `inline` and
-/// `expand-protos` before.
-/// - There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach
-/// (density-limit).
-/// - A world without any light, or with too little to see it by, is lit by a white sky, which is reported (no-light).
-///
-/// Needs resources, which take the pictures. Statistics: lightmap.shapes, .charts, .pages, .texels, .samples, .rays,
-/// and for judging the result .inside, .leaks, .black, .holes, .seam-places, .jumps (lightmap/bake.h). O(texels * rays
-/// * log triangles). The same result for any number of threads.
 Outcome lightmap(Scene& scene, const LightmapOptions& options, PassContext& ctx);
 
 }  // namespace wrlkit

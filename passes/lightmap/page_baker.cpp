@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "passes/lightmap/cut_off.h"
 #include "passes/lightmap/leaks.h"
@@ -14,7 +15,7 @@ using drawing::V3;
 using light::Irradiance;
 using light::Point;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr float within = 0.5f;  // share of rays that meet backs, from which on a point lies inside something
 
 Vec vec(const V3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }

@@ -7,12 +7,14 @@
 #include <unordered_set>
 
 #include "base/parallel.h"
+#include "base/silent_task.h"
 #include "geometry/simplify/surfaces.h"
 #include "geometry/unwrap/unfold.h"
 #include "passes/analysis/driven.h"
 #include "passes/lightmap/witnesses.h"
 #include "passes/normals/normals.h"
 #include "passes/weld/points.h"
+#include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::bake {
@@ -162,9 +164,8 @@ class Finder {
         world_(world),
         stage_(world.stage()),
         witnesses_(scene, world),
-        unheard_(ctx.diag.shared_sources()),
-        reading_{unheard_, unheard_counts_},
-        reader_(scene, reading_) {
+        silent_(ctx),
+        reader_(scene, silent_) {
     const auto driven = driven_geometry(scene);  // a Script may write what it likes
     for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take, OfText::take))
       if (!scene.is(s.geometry, nodes::Text) || !driven[s.geometry.value]) lit_.emplace(s.geometry.value, s);
@@ -189,9 +190,8 @@ class Finder {
 
  private:
   bool has_material(NodeId appearance) const {
-    if (!scene_.is(appearance, nodes::Appearance)) return false;
-    const NodeId m = scene_.get(appearance, nodes::appearance::material);
-    return scene_.is(m, nodes::Material) || scene_.is(m, nodes::PhysicalMaterial);
+    const auto m = material_of(scene_, appearance);
+    return m && m->kind != MaterialNode::Kind::unlit;
   }
 
   void read(Part& p) {
@@ -253,7 +253,7 @@ class Finder {
 
   void add_normals(Part& p) {
     shaded_ = p.mesh;
-    MeshJob job{scene_, p.geometry, shaded_, scratch_, reading_};
+    MeshJob job{scene_, p.geometry, shaded_, scratch_, silent_};
     normals(job, {});
     p.normals.resize(3 * p.mesh.corners.size());
     for (std::size_t c = 0; c < p.mesh.corners.size(); ++c) {
@@ -269,9 +269,7 @@ class Finder {
   const light::LightWorld& world_;
   const Stage& stage_;
   Witnesses witnesses_;
-  Diagnostics unheard_;  // whoever draws the geometry says what is wrong with it
-  Statistics unheard_counts_;
-  PassContext reading_;
+  SilentTask silent_;
   SurfaceReader reader_;
   std::unordered_map<std::uint32_t, ShapeSurface> lit_;
   Mesh shaded_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <unordered_set>
 
@@ -132,7 +133,7 @@ NodeId Storing::texture(const std::string& name, const Image& image) {
 /// ISO/IEC 14772-1, 6.49: moved, then turned, then scaled.
 NodeId Storing::transform(const ShapePlace& p, const PageLayout& page) {
   namespace f = nodes::texture_transform;
-  constexpr double quarter = 1.57079632679489662;
+  constexpr double quarter = std::numbers::pi / 2;
   const double x = p.x / p.unit, y = p.y / p.unit;
   const double moved[4][2] = {{x, y}, {y, -x}, {-x, -y}, {-y, x}};  // turned back
   const auto& m = moved[p.quarter_turns & 3];

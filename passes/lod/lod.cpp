@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/silent_task.h"
 #include "geometry/simplify/lod_nodes.h"
 #include "geometry/simplify/shared_borders.h"
 
@@ -22,10 +23,9 @@ class Lod {
       : scene_(scene),
         options_(options),
         ctx_(ctx),
-        unheard_(ctx.diag.shared_sources()),
-        reading_{unheard_, unheard_counts_},
+        silent_(ctx),
         surfaces_(surfaces_of(scene)),
-        reader_(scene, reading_),
+        reader_(scene, silent_),
         nodes_(scene) {}
 
   Outcome run() {
@@ -103,9 +103,7 @@ class Lod {
   const LodOptions& options_;
   PassContext& ctx_;
   // The first level stays as it is: whoever draws it will say what is wrong with it.
-  Diagnostics unheard_;
-  Statistics unheard_counts_;
-  PassContext reading_;
+  SilentTask silent_;
   std::vector<ShapeSurface> surfaces_;
   SurfaceReader reader_;
   LodNodes nodes_;

@@ -1,11 +1,4 @@
-// Levels of detail: each Shape that is worth it becomes a LOD node with the Shape as its first level and simplified
-// ones behind it (Lazanyi, section 2; ISO/IEC 14772-1, 6.26).
-//
-//   before   DEF Tank Shape { appearance Appearance { ... } geometry IndexedFaceSet { ... } }
-//   after    LOD { center 0 1 0 range [ 8.2, 31 ]
-//                  level [ DEF Tank Shape { appearance DEF A Appearance { ... } geometry IndexedFaceSet { ... } }
-//                          Shape { appearance USE A geometry IndexedFaceSet { ... } }  # half of its triangles
-//                          Shape { appearance USE A geometry IndexedFaceSet { ... } } ] }  # a tenth of them
+// Pass `lod`: its documentation stands in its options.
 #pragma once
 #include <string>
 #include <string_view>
@@ -27,6 +20,42 @@ struct NumberList {
 };
 
 struct LodOptions {
+  static constexpr std::string_view doc = R"(
+Levels of detail: each Shape that is worth it becomes a LOD node with the Shape as its first level and simplified ones
+behind it (Lazanyi, section 2; ISO/IEC 14772-1, 6.26).
+
+    before   DEF Tank Shape { appearance Appearance { ... } geometry IndexedFaceSet { ... } }
+    after    LOD { center 0 1 0 range [ 8.2, 31 ]
+                   level [ DEF Tank Shape { appearance DEF A Appearance { ... } geometry IndexedFaceSet { ... } }
+                           Shape { appearance USE A geometry IndexedFaceSet { ... } }  # half of its triangles
+                           Shape { appearance USE A geometry IndexedFaceSet { ... } } ] }  # a tenth of them
+
+Makes levels of detail of the Shapes of a scene, in the bodies of prototypes too.
+
+- Each level is made from the one before it, and how far it is from the first is measured. A level that saves less
+  than `min-saving` is not written, nor one that is smaller than the bounding box that could stand for it: twelve
+  triangles.
+- `center` is the middle of the bounds. A `range` is the distance from which on the error of the next level, seen at
+  the near side of the bounding sphere, is below `pixels`: radius + error * screen-height / (2 tan(field-of-view / 2)
+  pixels). Ranges ascend.
+- Distances of VRML are in the coordinates of the LOD (6.26), so `range` and `center` are in those of the geometry,
+  however large the Transforms above show it. `errors` are metres of the world: where a geometry stands several times,
+  in the largest of its places.
+- What open borders of several parts have in common stays where it is, so that parts meet at any of their levels.
+- A Shape that is shared is simplified once, and so is a geometry that several Shapes share. The levels share the
+  Appearance.
+- Left alone: Shapes below an authored LOD; those whose geometry is text, lines, points, the end of a ROUTE or an IS;
+  and everything else in the world. The Shape keeps its name; a parent holds the LOD in its place.
+
+Polygons that only touch have no common edges: run `weld` before. O(n log n) in the triangles, parallel over the
+geometries; the same result for any number of threads.)";
+  static constexpr StatisticInfo statistics[] = {
+      {"lod.shapes", "Shapes that have levels"},
+      {"lod.levels", "levels behind the first"},
+      {"lod.triangles", "triangles of these"},
+      {"lod.too-small", "Shapes that were left as they are"},
+  };
+
   NumberList ratios{{0.5, 0.25, 0.1}};
   NumberList errors;
   CriterionName criterion;
@@ -37,7 +66,7 @@ struct LodOptions {
   void fields(auto&& f) {
     f("ratios", ratios, "triangles of each further level, as shares of the first");
     f("errors", errors, "instead of ratios: how far each further level may be from the first, in metres of the world");
-    f("criterion", criterion, "length-normal, melax, lindstrom-turk, quadric or meshopt");
+    f("criterion", criterion, CriterionName::help());
     f("pixels", pixels, "error of a level on the screen, in pixels, from which on it may be shown", at_least(0));
     f("screen-height", screen_height, "pixels", at_least(1));
     f("field-of-view", field_of_view, "of the screen's height, in radians", between(0.001, 3.141));
@@ -49,30 +78,6 @@ struct LodOptions {
   }
 };
 
-/// Makes levels of detail of the Shapes of a scene, in the bodies of prototypes too.
-///
-/// - Each level is made from the one before it (simplify/collapse.h says what is kept), and how far it is from the
-/// first is
-///   measured (deviation.h). A level that saves less than `min-saving` is not written, nor one that is smaller than the
-///   bounding box that could stand for it: twelve triangles.
-/// - `center` is the middle of the bounds. A `range` is the distance from which on the error of the next level, seen at
-///   the near side of the bounding sphere, is below `pixels`: radius + error * screen-height / (2 tan(field-of-view /
-///   2) pixels). Ranges ascend.
-/// - Distances of VRML are in the coordinates of the LOD (6.26), so `range` and `center` are in those of the geometry,
-///   however large the Transforms above show it. `errors` are metres of the world: where a geometry stands several
-///   times, in the largest of its places.
-/// - What open borders of several parts have in common stays where it is (simplify/shared_borders.h), so that parts
-/// meet at
-///   any of their levels.
-/// - A Shape that is shared is simplified once, and so is a geometry that several Shapes share. The levels share the
-///   Appearance.
-/// - Left alone: Shapes below an authored LOD; those whose geometry is text, lines, points, the end of a ROUTE or an
-/// IS;
-///   and everything else in the world. The Shape keeps its name; a parent holds the LOD in its place.
-///
-/// Polygons that only touch have no common edges: run `weld` before. Statistics: lod.shapes, lod.levels, lod.triangles
-/// (of all levels behind the first), lod.too-small. O(n log n) in the triangles, parallel over the geometries; the same
-/// result for any number of threads.
 Outcome lod(Scene& scene, const LodOptions& options, PassContext& ctx);
 
 }  // namespace wrlkit

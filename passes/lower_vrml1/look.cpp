@@ -220,42 +220,31 @@ std::uint32_t Looks::then(std::uint32_t map, NodeId n) {
   namespace f = v1::texture2transform;
   const auto t = scene_.get(n, f::translation), c = scene_.get(n, f::center), k = scene_.get(n, f::scaleFactor);
   const double cosine = std::cos(scene_.get(n, f::rotation)), sine = std::sin(scene_.get(n, f::rotation));
-  UvMap own{{cosine * k[0], -sine * k[1], sine * k[0], cosine * k[1]}, {0, 0}};
+  TexcoordMap own{cosine * k[0], -sine * k[1], sine * k[0], cosine * k[1], 0, 0};
   const auto moved = own(-c[0], -c[1]);
-  own.b = {moved[0] + c[0] + t[0], moved[1] + c[1] + t[1]};
-  const UvMap& before = maps_[map];
-  UvMap all{{before.a[0] * own.a[0] + before.a[1] * own.a[2], before.a[0] * own.a[1] + before.a[1] * own.a[3],
-             before.a[2] * own.a[0] + before.a[3] * own.a[2], before.a[2] * own.a[1] + before.a[3] * own.a[3]},
-            before(own.b[0], own.b[1])};
+  own.x = moved[0] + c[0] + t[0];
+  own.y = moved[1] + c[1] + t[1];
+  const TexcoordMap all = maps_[map] * own;
   auto [i, fresh] = map_numbers_.emplace(all, static_cast<std::uint32_t>(maps_.size()));
   if (fresh) maps_.push_back(all);
   return i->second;
 }
 
-bool Looks::can_say(std::uint32_t map) const {
-  const auto& a = maps_[map].a;
-  const double first = std::hypot(a[0], a[1]), second = std::hypot(a[2], a[3]);
-  return first > 0 && second > 0 && std::abs(a[0] * a[2] + a[1] * a[3]) <= 1e-9 * first * second;
-}
+bool Looks::can_say(std::uint32_t map) const { return texture_transform_of(maps_[map]).has_value(); }
 
-// VRML97: tc' = S R (tc + T), with the center at the origin. So the rows of the map are turned and then scaled.
 NodeId Looks::texture_transform(std::uint32_t map) {
-  if (maps_[map] == UvMap{}) return {};
+  if (maps_[map] == TexcoordMap{}) return {};
   auto& n = transforms_[map];
   if (n) return n;
-  if (!can_say(map)) {
+  const auto fields = texture_transform_of(maps_[map]);
+  if (!fields) {
     diag_.report(Diag::no_vrml97_value, {}, "Texture2Transform", "scaleFactor");
     return NodeId{};
   }
-  const auto& [a, b] = maps_[map];
-  auto tidy = [](double v) { return std::round(v * 1e12) / 1e12 + 0.0; };
-  const double angle = std::atan2(-a[1], a[0]), determinant = a[0] * a[3] - a[1] * a[2];
-  const Vec2 scale{tidy(std::hypot(a[0], a[1])), tidy(a[2] * std::sin(angle) + a[3] * std::cos(angle))};
-  const Vec2 moved{tidy((a[3] * b[0] - a[1] * b[1]) / determinant), tidy((a[0] * b[1] - a[2] * b[0]) / determinant)};
   n = scene_.add(nodes::TextureTransform);
-  scene_.set(n, nodes::texture_transform::rotation, tidy(angle));
-  scene_.set(n, nodes::texture_transform::scale, scale);
-  scene_.set(n, nodes::texture_transform::translation, moved);
+  scene_.set(n, nodes::texture_transform::rotation, fields->rotation);
+  scene_.set(n, nodes::texture_transform::scale, fields->scale);
+  scene_.set(n, nodes::texture_transform::translation, fields->translation);
   return n;
 }
 

@@ -10,7 +10,7 @@
 
 #include "base/diagnostics.h"
 #include "passes/lower_vrml1/state.h"
-#include "scenegraph/scene.h"
+#include "scenegraph/looks/texture_transform_node.h"
 
 namespace wrlkit::vrml1 {
 
@@ -26,14 +26,6 @@ struct Palette {
   std::size_t kind_of(std::size_t k) const { return kind.empty() ? 0 : kind[k % size]; }
 };
 
-/// tc' = a tc + b.
-struct UvMap {
-  std::array<double, 4> a{1, 0, 0, 1};
-  Vec2 b{0, 0};
-  auto operator<=>(const UvMap&) const = default;
-  Vec2 operator()(double u, double v) const { return {a[0] * u + a[1] * v + b[0], a[2] * u + a[3] * v + b[1]}; }
-};
-
 class Looks {
  public:
   Looks(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
@@ -47,7 +39,7 @@ class Looks {
 
   /// A Texture2Transform behind those in force: its number.
   std::uint32_t then(std::uint32_t map, NodeId texture_transform);
-  const UvMap& uv_map(std::uint32_t i) const { return maps_[i]; }
+  const TexcoordMap& uv_map(std::uint32_t i) const { return maps_[i]; }
   /// Whether a TextureTransform can say it; VRML97 scales last, VRML 1.0 first.
   bool can_say(std::uint32_t map) const;
   bool has_texture(NodeId texture2) const;
@@ -68,8 +60,8 @@ class Looks {
   std::map<std::tuple<NodeId, NodeId, std::uint32_t>, NodeId> appearances_;
   std::map<NodeId, NodeId> textures_;
   std::map<std::uint32_t, NodeId> transforms_;
-  std::vector<UvMap> maps_{UvMap{}};
-  std::map<UvMap, std::uint32_t> map_numbers_;
+  std::vector<TexcoordMap> maps_{TexcoordMap{}};
+  std::map<TexcoordMap, std::uint32_t> map_numbers_;
 };
 
 }  // namespace wrlkit::vrml1

@@ -26,10 +26,4 @@ class Placement {
   std::optional<TransformFields> fields_ = TransformFields{};  // while they say it
 };
 
-/// The Transform of a matrix: R V S V', where A V has columns square to each other (singular values). A mirrored matrix
-/// has one negative scale; one that flattens still has a rotation; one that is not finite is the identity.
-TransformFields decompose(const Matrix&);
-/// What is nothing beside the largest component becomes 0.
-void without_noise(Vec3&);
-
 }  // namespace wrlkit::vrml1

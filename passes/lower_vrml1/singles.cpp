@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "passes/lower_vrml1/placement.h"
+#include "scenegraph/decompose.h"
 
 #include "base/text/blanks.h"
 

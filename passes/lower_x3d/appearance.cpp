@@ -2,8 +2,8 @@
 
 #include "passes/lower_x3d/geometry.h"
 #include "scenegraph/equal.h"
+#include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/picture_color.h"
 
 namespace wrlkit::x3d {
 namespace {
@@ -74,7 +74,8 @@ bool take_picture(Scene& scene, NodeId n, Diagnostics& diag) {
     scene.unset(n, a::backMaterial.slot);
     changed = true;
   }
-  const NodeId picture = first_of(scene, own_picture(scene, scene.get(n, a::material)), diag);
+  const auto material = material_of(scene, n);
+  const NodeId picture = material ? first_of(scene, material->color_picture, diag) : NodeId{};
   if (!picture || scene.get(n, a::texture)) return changed;
   scene.set(n, a::texture, picture);
   return true;

@@ -1,5 +1,7 @@
 #include "passes/lower_x3d/interpolators.h"
 
+#include "base/math/quaternion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -151,67 +153,46 @@ struct Spline {
 // ---- rotations (19.4.13)
 // ----------------------------------------------------------------------------------------------
 
-using Quaternion = Vec4;  // x, y, z, w
-
-Quaternion quaternion(const Vec4& r) {
-  const double l = std::hypot(r[0], r[1], r[2]), s = l > 0 ? std::sin(r[3] / 2) / l : 0;
-  return {r[0] * s, r[1] * s, r[2] * s, l > 0 ? std::cos(r[3] / 2) : 1};
-}
-
-Quaternion times(const Quaternion& a, const Quaternion& b) {
-  return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] + a[1] * b[3] + a[2] * b[0] - a[0] * b[2],
-          a[3] * b[2] + a[2] * b[3] + a[0] * b[1] - a[1] * b[0], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
-}
-
-double dot(const Quaternion& a, const Quaternion& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
-
-Quaternion slerp(const Quaternion& a, const Quaternion& b, double t) {
-  const double angle = std::acos(std::clamp(dot(a, b), -1.0, 1.0)), s = std::sin(angle);
-  const double wa = s > 1e-9 ? std::sin((1 - t) * angle) / s : 1 - t, wb = s > 1e-9 ? std::sin(t * angle) / s : t;
-  return {wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2], wa * a[3] + wb * b[3]};
-}
-
 /// Half the turn from a to b, as a vector.
 Vec3 logarithm(const Quaternion& a, const Quaternion& b) {
-  const Quaternion d = times({-a[0], -a[1], -a[2], a[3]}, b);
-  const double s = std::hypot(d[0], d[1], d[2]), angle = std::atan2(s, d[3]), f = s > 0 ? angle / s : 0;
-  return {d[0] * f, d[1] * f, d[2] * f};
+  const Quaternion d = inverse(a) * b;
+  const double s = std::hypot(d.x, d.y, d.z), angle = std::atan2(s, d.w), f = s > 0 ? angle / s : 0;
+  return {d.x * f, d.y * f, d.z * f};
 }
 
 Vec4 turn(const Quaternion& q) {
-  const double s = std::hypot(q[0], q[1], q[2]);
+  const double s = std::hypot(q.x, q.y, q.z);
   if (s < 1e-15) return {0, 0, 1, 0};
-  return {q[0] / s, q[1] / s, q[2] / s, 2 * std::atan2(s, q[3])};
+  return {q.x / s, q.y / s, q.z / s, 2 * std::atan2(s, q.w)};
 }
+
+Values values_of(const Quaternion& q) { return {q.x, q.y, q.z, q.w}; }
 
 Keys squad(std::span<const double> key, std::span<const double> value) {
   const std::size_t n = std::min(key.size(), value.size() / 4);
   std::vector<Quaternion> q;
   for (std::size_t i = 0; i < n; ++i) {
-    q.push_back(quaternion({value[4 * i], value[4 * i + 1], value[4 * i + 2], value[4 * i + 3]}));
-    if (i && dot(q[i - 1], q[i]) < 0)
-      for (double& x : q[i]) x = -x;
+    q.push_back(quaternion_of({value[4 * i], value[4 * i + 1], value[4 * i + 2], value[4 * i + 3]}));
+    if (i && dot(q[i - 1], q[i]) < 0) q[i] = -q[i];
   }
   std::vector<Quaternion> inner = q;
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const Vec3 a = logarithm(q[i], q[i + 1]), b = logarithm(q[i], q[i - 1]),
                s{-(a[0] + b[0]) / 4, -(a[1] + b[1]) / 4, -(a[2] + b[2]) / 4};
     const double angle = std::hypot(s[0], s[1], s[2]), f = angle > 0 ? std::sin(angle) / angle : 0;
-    inner[i] = times(q[i], {s[0] * f, s[1] * f, s[2] * f, std::cos(angle)});
+    inner[i] = q[i] * Quaternion{s[0] * f, s[1] * f, s[2] * f, std::cos(angle)};
   }
   auto between = [&](std::size_t i) -> Between {
     return [&q, &inner, i](double t) {
-      const Quaternion r = slerp(slerp(q[i], q[i + 1], t), slerp(inner[i], inner[i + 1], t), 2 * t * (1 - t));
-      return Values(r.begin(), r.end());
+      return values_of(slerp(slerp(q[i], q[i + 1], t), slerp(inner[i], inner[i + 1], t), 2 * t * (1 - t)));
     };
   };
   auto mix = [](const Values& a, const Values& b, double t) {
-    const Quaternion r = slerp({a[0], a[1], a[2], a[3]}, {b[0], b[1], b[2], b[3]}, t);
-    return Values(r.begin(), r.end());
+    return values_of(slerp({a[0], a[1], a[2], a[3]}, {b[0], b[1], b[2], b[3]}, t));
   };
   Keys out;
   if (n == 1)
-    out.add(key[0], Values(q[0].begin(), q[0].end()));
+    out.add(key[0], values_of(q[0]));
   else
     out = cut(key.first(n), between, mix, part);
   for (std::size_t i = 0; i < out.key.size(); ++i) {

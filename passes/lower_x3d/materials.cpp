@@ -6,8 +6,8 @@
 #include <unordered_set>
 
 #include "passes/lower_x3d/geometry.h"
+#include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/picture_color.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit::x3d {
@@ -47,10 +47,10 @@ class Lowering {
   }
 
   void physical(NodeId n) {
-    namespace p = nodes::physical_material;
     namespace m = nodes::material;
-    const Vec3 base = scene_.get(n, p::baseColor);
-    const double metal = scene_.get(n, p::metallic), rough = scene_.get(n, p::roughness);
+    const MaterialNode said = *read_material(scene_, n);
+    const Vec3& base = said.color;
+    const double metal = said.metallic, rough = said.roughness;
     Vec3 diffuse, specular;
     for (std::size_t i = 0; i < 3; ++i) {
       diffuse[i] = base[i] * (1 - metal / 2);
@@ -61,8 +61,8 @@ class Lowering {
     fields.push_back(scene_.make(FieldType::SFColor, m::diffuseColor.slot, diffuse));
     fields.push_back(scene_.make(FieldType::SFColor, m::specularColor.slot, specular));
     fields.push_back(scene_.make(FieldType::SFFloat, m::shininess.slot, shininess));
-    if (const NodeId picture = own_picture(scene_, n))
-      fields.push_back(scene_.make(FieldType::SFNode, m::diffuseTexture.slot, picture));
+    if (said.color_picture)
+      fields.push_back(scene_.make(FieldType::SFNode, m::diffuseTexture.slot, said.color_picture));
     become(n, nodes::Material, fields);
   }
 

@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "base/image/image.h"
+#include "scenegraph/looks/picture_color.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/picture_color.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit::x3d {
@@ -23,19 +23,13 @@ int channels_of(const Scene& scene, NodeId texture, PassContext& ctx) {
     return image.size() > 2 ? image[2] : 0;
   }
   if (!scene.is(texture, nodes::ImageTexture) || !ctx.resources) return 0;
-  Diagnostics unheard(ctx.diag.shared_sources());  // whoever needs the picture itself says that it is missing
-  const auto blob = ctx.resources->bytes(scene.get(texture, nodes::image_texture::url), scene.where(texture), unheard);
+  Diagnostics silent(ctx.diag.shared_sources());  // who shows the picture reports that it is missing
+  const auto blob = ctx.resources->bytes(scene.get(texture, nodes::image_texture::url), scene.where(texture), silent);
   const auto header = blob ? read_image_header(blob->bytes, blob->name) : std::nullopt;
   return header ? header->channels : 0;
 }
 
 bool in_color(int channels) { return channels != 1 && channels != 2; }
-
-Vec3 color_of(const Scene& scene, NodeId material) {
-  if (scene.is(material, nodes::Material)) return scene.get(material, nodes::material::diffuseColor);
-  if (scene.is(material, nodes::PhysicalMaterial)) return scene.get(material, nodes::physical_material::baseColor);
-  return scene.is(material, nodes::UnlitMaterial) ? scene.get(material, nodes::unlit_material::emissiveColor) : white;
-}
 
 /// Appearances of geometry that has colours of its own.
 std::set<NodeId> colored_appearances(const Scene& scene) {
@@ -66,11 +60,11 @@ class Products {
 
  private:
   void appearance(NodeId n) {
-    const NodeId texture = scene_.get(n, nodes::appearance::texture),
-                 material = scene_.get(n, nodes::appearance::material);
+    const NodeId texture = scene_.get(n, nodes::appearance::texture);
     if (!texture || !in_color(channels_of(scene_, texture, ctx_))) return;
     const bool by_vertex = colored_.contains(n);
-    const Vec3 color = color_of(scene_, material);
+    const auto material = material_of(scene_, n);
+    const Vec3 color = material ? material->color : white;
     if (!by_vertex && color == white) return;
     if (by_vertex || !scene_.is(texture, nodes::PixelTexture))
       return ctx_.diag.report(Diag::no_vrml97_product, scene_.where(texture));
@@ -103,11 +97,9 @@ class Products {
 
   /// It is its Appearance's.
   void forget_picture(NodeId material) {
-    if (!own_picture(scene_, material)) return;
-    const auto slot = scene_.is(material, nodes::Material)           ? nodes::material::diffuseTexture.slot
-                      : scene_.is(material, nodes::PhysicalMaterial) ? nodes::physical_material::baseTexture.slot
-                                                                     : nodes::unlit_material::emissiveTexture.slot;
-    scene_.unset(material, slot);
+    const auto said = read_material(scene_, material);
+    if (!said || !said->color_picture) return;
+    scene_.unset(material, said->color_picture_slot);
     changed_ = true;
   }
 
@@ -129,8 +121,8 @@ bool whiten_replaced(Scene& scene, PassContext& ctx) {
     if (!scene.is(n, nodes::Appearance) || multiplies_picture(scene, n)) continue;
     const NodeId texture = scene.get(n, nodes::appearance::texture),
                  material = scene.get(n, nodes::appearance::material);
-    if (!texture || !scene.is(material, nodes::Material) || color_of(scene, material) == white ||
-        !in_color(channels_of(scene, texture, ctx)))
+    if (!texture || !scene.is(material, nodes::Material) ||
+        scene.get(material, nodes::material::diffuseColor) == white || !in_color(channels_of(scene, texture, ctx)))
       continue;
     NodeId& copy = white_of[material];
     if (!copy) {

@@ -9,8 +9,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "base/text/csv.h"
 #include "geometry/geometry.h"
-#include "geometry/simplify/places.h"
 #include "geometry/tessellation.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/representatives.h"
@@ -21,6 +21,7 @@
 #include "passes/normals/normals.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -443,11 +444,6 @@ void Merging::report_draws_left(const SceneFigures& left) {
 
 void Merging::write_csv() const {
   if (options_.csv.empty()) return;
-  auto quoted = [](std::string_view s) {
-    std::string out = "\"";
-    for (char c : s) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + '"';
-  };
   errno = 0;
   std::ofstream out(options_.csv, std::ios::binary);
   out << "id,name,appearance\n";
@@ -463,8 +459,8 @@ void Merging::write_csv() const {
       const auto name = parts->names[i];
       const auto id = ids.try_emplace(name, ids.size()).first->second;
       if (parts->faces[i] > 0 && said.emplace(id, appearance).second)
-        out << id << ',' << quoted(name) << ',' << quoted(appearance ? scene_.name(appearance) : std::string_view())
-            << '\n';
+        out << id << ',' << csv_quoted(name) << ','
+            << csv_quoted(appearance ? scene_.name(appearance) : std::string_view()) << '\n';
     }
   });
   if (!out.flush())

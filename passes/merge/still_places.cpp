@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "geometry/simplify/places.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -23,7 +22,8 @@ StillPlaces::StillPlaces(const Scene& scene, const Usage& usage, bool by_name)
       zone_at_(scene.node_count()),
       listed_(scene.node_count()),
       fixed_(scene.node_count()),
-      named_(scene.node_count()) {
+      named_(scene.node_count()),
+      ways_(scene) {
   find_bound();
   walk();
   // A Shape that has to stay somewhere stays everywhere.
@@ -44,15 +44,8 @@ void StillPlaces::find_bound() {
 void StillPlaces::walk() {
   for (NodeId n : scene_.main.roots)
     if (n) ++takers_[n.value];
-  for (auto n = scene_.main.roots.rbegin(); n != scene_.main.roots.rend(); ++n)
-    if (*n) stack_.push_back({*n, 0, {}, 0, true});
-  const std::size_t most = most_visits + scene_.node_count();
-  for (std::size_t visits = 0; !stack_.empty(); ++visits) {
-    if ((too_many_ = visits == most)) return;
-    const Item i = stack_.back();
-    stack_.pop_back();
-    visit(i);
-  }
+  ways_.push(scene_.main.roots, {.zone = 0, .frame = {}, .path = 0, .shown = true});
+  while (const auto way = ways_.next()) visit(way->node, way->state);
 }
 
 bool StillPlaces::is_plain(NodeId n) const {
@@ -82,54 +75,54 @@ bool StillPlaces::may_take(NodeId shape) const {
   return plain && !(scene_.is(g, nodes::IndexedFaceSet) && scene_.get(g, nodes::indexed_face_set::lightCoord));
 }
 
-void StillPlaces::visit(const Item& i) {
+void StillPlaces::visit(NodeId node, const Handed& i) {
   const auto path_below = [&] {
-    if (scene_.name(i.node).empty()) return i.path;
-    paths_.push_back({scene_.name(i.node), i.path});
+    if (scene_.name(node).empty()) return i.path;
+    paths_.push_back({scene_.name(node), i.path});
     return static_cast<std::uint32_t>(paths_.size() - 1);
   };
-  if (scene_.is(i.node, nodes::Shape)) {
-    const NodeId g = scene_.get(i.node, nodes::shape::geometry);
+  if (scene_.is(node, nodes::Shape)) {
+    const NodeId g = scene_.get(node, nodes::shape::geometry);
     if (!g) return;
-    if (!may_take(i.node)) fixed_[i.node.value] = 1;
-    Item at = i;
+    if (!may_take(node)) fixed_[node.value] = 1;
+    Handed at = i;
     at.path = path_below();
     // The name of a geometry tells parts apart that have no other; where they have, it is kept with the first.
     const bool first = !std::exchange(named_[g.value], 1);
-    if ((first || scene_.name(i.node).empty()) && !scene_.name(g).empty()) {
+    if ((first || scene_.name(node).empty()) && !scene_.name(g).empty()) {
       paths_.push_back({scene_.name(g), at.path});
       at.path = static_cast<std::uint32_t>(paths_.size() - 1);
     }
     if (i.zone != no_zone)
-      places_.push_back({i.node, i.zone, i.frame, at.path});
+      places_.push_back({node, i.zone, i.frame, at.path});
     else {
       n_fixed_ += i.shown;
-      fixed_[i.node.value] = 1;
+      fixed_[node.value] = 1;
     }
     return;
   }
-  const auto& type = scene_.type(i.node);
-  if (hierarchy_children(scene_, i.node).empty()) return;
+  const auto& type = scene_.type(node);
+  if (hierarchy_children(scene_, node).empty()) return;
   const bool known = type.kind == NodeKind::builtin &&
-                     (type.is_a("X3DGroupingNode") || scene_.is(i.node, nodes::StaticGroup)) && !bound_[i.node.value];
-  Item below = i;
+                     (type.is_a("X3DGroupingNode") || scene_.is(node, nodes::StaticGroup)) && !bound_[node.value];
+  Handed below = i;
   below.path = path_below();
   if (!known) {
     below.zone = no_zone;
-    return children(i.node, below);
+    return children(node, below);
   }
-  if (scene_.is(i.node, nodes::Switch) || scene_.is(i.node, nodes::LOD)) return alternatives(below);
-  below.frame = i.frame * local_matrix(scene_, i.node);
-  if (is_apart(i.node)) {
+  if (scene_.is(node, nodes::Switch) || scene_.is(node, nodes::LOD)) return alternatives(node, below);
+  below.frame = i.frame * local_matrix(scene_, node);
+  if (is_apart(node)) {
     bool fresh;
-    below.zone = zone_of(i.node, i.shown, fresh);
+    below.zone = zone_of(node, i.shown, fresh);
     below.frame = {};
     if (!fresh) return;
   }
-  children(i.node, below);
+  children(node, below);
 }
 
-void StillPlaces::children(NodeId group, Item as) {
+void StillPlaces::children(NodeId group, const Handed& as) {
   const auto list = hierarchy_children(scene_, group);
   if (as.zone != no_zone && !std::exchange(listed_[group.value], 1)) {
     groups_.push_back(group);
@@ -138,28 +131,23 @@ void StillPlaces::children(NodeId group, Item as) {
       if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode)
         for (NodeId c : v.node_span()) ++takers_[c.value];
   }
-  for (auto n = list.rbegin(); n != list.rend(); ++n)
-    if (*n) {
-      as.node = *n;
-      stack_.push_back(as);
-    }
+  ways_.push(list, as);
 }
 
 /// Each child of a Switch or LOD is a world of its own.
-void StillPlaces::alternatives(const Item& i) {
-  const auto shown = shown_children(scene_, i.node);
-  const auto list = hierarchy_children(scene_, i.node);
+void StillPlaces::alternatives(NodeId node, const Handed& i) {
+  const auto shown = shown_children(scene_, node);
+  const auto list = hierarchy_children(scene_, node);
   for (auto n = list.rbegin(); n != list.rend(); ++n) {
     if (!*n) continue;
-    Item below = i;
-    below.node = *n;
+    Handed below = i;
     below.shown = i.shown && std::ranges::find(shown, *n) != shown.end();
     const bool group = !scene_.is(*n, nodes::Shape) && scene_.type(*n).kind == NodeKind::builtin &&
                        scene_.type(*n).is_a("X3DGroupingNode") && !scene_.is(*n, nodes::Switch) &&
                        !scene_.is(*n, nodes::LOD) && !bound_[n->value];
     if (!group) {
       below.zone = no_zone;
-      stack_.push_back(below);
+      ways_.push(*n, below);
       continue;
     }
     bool fresh;

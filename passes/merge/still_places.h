@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "passes/analysis/usage.h"
+#include "scenegraph/places/ways.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit {
@@ -27,7 +28,7 @@ class StillPlaces {
   StillPlaces(const Scene& scene, const Usage& usage, bool by_name = false);
 
   /// More places than anybody wants to see: nothing can be said.
-  bool too_many() const { return too_many_; }
+  bool too_many() const { return ways_.too_many(); }
   const std::vector<Zone>& zones() const { return zones_; }
   /// Of Shapes that may be taken out of their groups, all places of each; in the order of the file.
   const std::vector<StillPlace>& places() const { return places_; }
@@ -43,8 +44,7 @@ class StillPlaces {
     std::string_view name;
     std::uint32_t above;
   };
-  struct Item {
-    NodeId node;
+  struct Handed {  // down to children
     std::uint32_t zone;
     Matrix frame;
     std::uint32_t path;
@@ -52,9 +52,9 @@ class StillPlaces {
   };
   void find_bound();
   void walk();
-  void visit(const Item&);
-  void children(NodeId group, Item as);
-  void alternatives(const Item&);
+  void visit(NodeId node, const Handed&);
+  void children(NodeId group, const Handed& as);
+  void alternatives(NodeId node, const Handed&);
   std::uint32_t zone_of(NodeId holder, bool shown, bool& fresh);
   bool may_take(NodeId shape) const;
   bool is_plain(NodeId n) const;
@@ -71,9 +71,8 @@ class StillPlaces {
   std::vector<StillPlace> places_;
   std::vector<NodeId> groups_;
   std::vector<Step> paths_{Step{}};
-  std::vector<Item> stack_;
+  Ways<Handed> ways_;
   std::size_t n_fixed_ = 0;
-  bool too_many_ = false;
 };
 
 }  // namespace wrlkit

@@ -1,7 +1,13 @@
-// What a pass is: a free function over a scene, or over one mesh, with an options aggregate that describes itself.
+// What a pass is: a free function over a scene, or over one mesh, with an options aggregate that describes itself, the
+// pass and what it counts.
 //
-//   struct PruneOptions { bool empty_groups = true; void fields(auto&& f) { f("empty-groups", empty_groups, "..."); }
-//   }; Outcome prune(Scene&, const PruneOptions&, PassContext&);
+//   struct JoinOptions {
+//     static constexpr std::string_view doc = "One Shape of many that look the same ...";
+//     static constexpr StatisticInfo statistics[] = {{"join.shapes", "how many fewer there are"}};
+//     bool named = false;
+//     void fields(auto&& f) { f("named", named, "also what has a DEF name"); }
+//   };
+//   Outcome join(Scene&, const JoinOptions&, PassContext&);
 //
 // A mesh pass sees one geometry at a time and nothing of its neighbours, so the pipeline runs several of them on a
 // geometry while it is in the cache.
@@ -17,6 +23,11 @@
 namespace wrlkit {
 
 enum class Outcome : std::uint8_t { unchanged, changed, failed };
+
+/// A count of a pass, by its whole name: "weld.joined-points".
+struct StatisticInfo {
+  std::string_view name, help;
+};
 
 /// What a pass is given besides the scene and its options.
 struct PassContext : Task {

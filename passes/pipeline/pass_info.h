@@ -107,6 +107,8 @@ class PassOf final : public PassInstance {
       }
       why = "option '" + std::string(option) + "': '" + std::string(value) +
             "' is no value for it: " + option_text::describe(name, field, help, range).type_and_range();
+      if constexpr (requires { field.missing(value); })
+        if (const auto missing = field.missing(value); !missing.empty()) why = missing;
     });
     if (!found) why = "has no option '" + std::string(option) + "'" + nearest.question();
     return why.empty();
@@ -124,11 +126,22 @@ class PassOf final : public PassInstance {
   Options options_;
 };
 
+/// Without the line break at its begin.
+constexpr std::string_view text_of(std::string_view doc) { return doc.substr(doc.starts_with('\n') ? 1 : 0); }
+
 template <auto Function, class Options>
-constexpr PassInfo pass(std::string_view name, std::string_view summary, Level needs, Level leaves) {
-  return {name, summary, needs, leaves, [](const PassInfo&) -> std::unique_ptr<PassInstance> {
-            return std::make_unique<PassOf<Function, Options>>();
-          }};
+constexpr PassInfo pass(std::string_view name, std::string_view summary, Level needs, Level leaves,
+                        PassTraits traits = {}, std::string_view doc = {},
+                        std::span<const StatisticInfo> statistics = {}) {
+  PassInfo info{name, summary, needs, leaves, [](const PassInfo&) -> std::unique_ptr<PassInstance> {
+                  return std::make_unique<PassOf<Function, Options>>();
+                }};
+  info.doc = text_of(doc);
+  info.statistics = statistics;
+  if constexpr (requires { Options::doc; }) info.doc = text_of(Options::doc);
+  if constexpr (requires { Options::statistics; }) info.statistics = Options::statistics;
+  info.traits = traits;
+  return info;
 }
 
 }  // namespace wrlkit

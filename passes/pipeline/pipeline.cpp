@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/text/blanks.h"
 #include "geometry/geometry.h"
+#include "geometry/mesh_check.h"
 #include "passes/analysis/driven.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
@@ -15,34 +15,11 @@
 namespace wrlkit {
 namespace {
 
-/// Up to the first of `stops` outside of braces, and what follows it.
-std::string_view cut(std::string_view& rest, char stop) {
-  int depth = 0;
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    if (rest[i] == '{') ++depth;
-    if (rest[i] == '}') --depth;
-    if (rest[i] == stop && depth == 0) {
-      auto head = rest.substr(0, i);
-      rest.remove_prefix(i + 1);
-      return trim(head);
-    }
-  }
-  return trim(std::exchange(rest, {}));
-}
-
-bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
-  while (!trim(list).empty()) {
-    auto option = cut(list, ',');
-    auto equals = option.find('=');
-    auto name = trim(option.substr(0, equals));
-    auto value = equals == option.npos ? std::string_view("true") : trim(option.substr(equals + 1));
-    if (!pass.set(name, value, why)) return false;
-  }
-  return true;
-}
-
-std::string no_such_pass(std::string_view name) {
-  return "there is no pass '" + std::string(name) + "'" + pass_question(name);
+/// What is gathered is as its files have it. Faces of what is still to be expanded make no scene of meshes.
+Level level_after(Level level, const PassInfo& info) {
+  if (info.traits.phase == Phase::gather) return info.leaves;
+  const bool next = static_cast<int>(info.leaves) == static_cast<int>(level) + 1;
+  return next ? info.leaves : level;
 }
 
 class Timer {
@@ -61,129 +38,85 @@ class Timer {
 
 }  // namespace
 
-std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why) {
-  for (auto& n : named_pipelines())
-    if (n.name == trim(text)) text = n.text;
-  Pipeline p;
-  while (!trim(text).empty()) {
-    auto item = cut(text, ',');
-    auto brace = item.find('{');
-    auto name = trim(item.substr(0, brace));
-    auto* info = find_pass(name);
-    if (!info) {
-      why = no_such_pass(name);
-      return std::nullopt;
-    }
-    Step s{info, info->make()};
-    if (brace != item.npos) {
-      if (item.back() != '}') {
-        why = "'}' is missing behind '" + std::string(name) + "'";
-        return std::nullopt;
-      }
-      if (!set_options(*s.pass, item.substr(brace + 1, item.size() - brace - 2), why)) {
-        why = "pass '" + std::string(name) + "' " + why;
-        return std::nullopt;
-      }
-    }
-    p.steps_.push_back(std::move(s));
-  }
-  return p;
-}
-
-bool Pipeline::add(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options,
-                   std::string& why) {
-  auto* info = find_pass(name);
-  if (!info) {
-    why = no_such_pass(name);
-    return false;
-  }
-  Step s{info, info->make()};
-  for (const auto& [option, value] : options)
-    if (!s.pass->set(option, value, why)) {
-      why = "pass '" + std::string(name) + "' " + why;
-      return false;
-    }
-  steps_.push_back(std::move(s));
-  return true;
-}
-
-void Pipeline::complete(std::string_view named) {
-  std::string why;
-  auto standard = parse(named, why);
-  auto at = [&](std::string_view name) {
-    return std::ranges::find(standard->steps_, name, [](const Step& s) { return s.info->name; });
+/// By itself, or by parts.
+bool Pipeline::has_in_effect(const PassInfo& info) const {
+  auto has = [&](std::string_view name) {
+    return std::ranges::any_of(steps_, [&](const Step& s) { return s.info->name == name; });
   };
-  const auto split = at("tessellate"), combine = std::min(at("combine-lightmap"), split);
-  std::vector<const PassInfo*> chosen;
-  for (const Step& s : steps_) chosen.push_back(s.info);
+  if (has(info.name)) return true;
+  for (auto rest = info.traits.parts; !rest.empty();) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    if (!has(rest.substr(0, comma))) return false;
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return !info.traits.parts.empty();
+}
+
+void Pipeline::complete(std::string_view text) {
+  std::string why;
+  auto standard = parse(text, why);
+  auto first_of = [&](Phase phase) {
+    return std::ranges::find_if(standard->steps_, [&](const Step& s) { return s.info->traits.phase >= phase; });
+  };
+  const auto light = first_of(Phase::light), mesh = first_of(Phase::mesh), end = standard->steps_.end();
+  Level reached = Level::authored;
+  std::vector<bool> lacking;
+  for (const Step& s : standard->steps_) lacking.push_back(!has_in_effect(*s.info));
+  for (auto s = standard->steps_.begin(); s != light; ++s)
+    if (lacking[static_cast<std::size_t>(s - standard->steps_.begin())]) reached = std::max(reached, s->info->leaves);
+  meet_needs(reached);
   auto missing = [&](auto from, auto to) {
     std::vector<Step> out;
     for (; from != to; ++from)
-      if (std::ranges::find(chosen, from->info) == chosen.end()) out.push_back(std::move(*from));
+      if (lacking[static_cast<std::size_t>(from - standard->steps_.begin())]) out.push_back(std::move(*from));
     return out;
   };
   auto insert = [&](auto where, std::vector<Step>&& all) {
     steps_.insert(where, std::make_move_iterator(all.begin()), std::make_move_iterator(all.end()));
   };
-  auto front = missing(standard->steps_.begin(), combine);
-  auto last_over_scene =
+  auto front = missing(standard->steps_.begin(), light);
+  const auto last_over_scene =
       std::ranges::find_if(steps_.rbegin(), steps_.rend(), [](const Step& s) { return !s.pass->is_mesh_pass(); });
-  insert(last_over_scene.base(), missing(combine, split));
-  // Where nothing is drawn, what the standard pipeline does to a world is done to those that Inlines bring in as well,
-  // and to the metadata that `merge` makes.
-  auto brings_in = [](const Step& s) {
-    return s.info->name == "inline" || s.info->name == "expand-protos" || s.info->name == "merge";
-  };
-  if (split == standard->steps_.end() && std::ranges::any_of(steps_, brings_in)) {
-    if (!front.empty() && front[0].info->name == "lower-vrml1") {
-      steps_.insert(steps_.begin(), std::move(front[0]));
-      front.erase(front.begin());
-    }  // Inlines are found behind it
-    return insert(std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base(), std::move(front));
+  insert(last_over_scene.base(), missing(light, mesh));
+  // Where nothing is drawn, what the standard pipeline does to a world is done to what other passes bring in as well.
+  auto brings_in = [](const Step& s) { return s.info->traits.brings_in; };
+  if (mesh == end && std::ranges::any_of(steps_, brings_in)) {
+    const auto start =
+        std::ranges::stable_partition(front, [](const Step& s) { return s.info->traits.phase == Phase::start; });
+    std::vector<Step> behind(std::make_move_iterator(start.begin()), std::make_move_iterator(start.end()));
+    front.erase(start.begin(), start.end());
+    insert(std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base(), std::move(behind));
   }
   insert(steps_.begin(), std::move(front));
-  insert(steps_.end(), missing(split, standard->steps_.end()));
+  insert(steps_.end(), missing(mesh, end));
 }
 
-std::vector<Pipeline::StepInfo> Pipeline::steps() const {
-  std::vector<StepInfo> out;
-  for (const auto& s : steps_) out.push_back({s.info->name, s.pass->options()});
-  return out;
-}
-
-std::vector<std::string> Pipeline::files() const {
-  std::vector<std::string> out;
-  for (const auto& s : steps_)
-    for (auto& file : s.pass->files()) out.push_back(std::move(file));
-  return out;
-}
-
-std::string Pipeline::text() const {
-  std::string out;
-  for (const auto& [name, options] : steps()) {
-    out += (out.empty() ? "" : ",") + std::string(name);
-    for (std::size_t i = 0; i < options.size(); ++i) out += (i ? "," : "{") + options[i].name + "=" + options[i].value;
-    if (!options.empty()) out += "}";
+void Pipeline::meet_needs(Level level) {
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const auto& info = *steps_[i].info;
+    if (level < info.needs) {
+      const auto reaches = std::ranges::find(passes(), info.needs, &PassInfo::leaves);
+      steps_.insert(steps_.begin() + static_cast<std::ptrdiff_t>(i), Step{&*reaches, reaches->make()});
+    }
+    level = level_after(level, *steps_[i].info);
   }
-  return out;
 }
 
 bool Pipeline::run(Scene& scene, PassContext& ctx, const PipelineOptions& options) {
-  return run_steps(0, steps_.size(), scene, ctx, options, ctx.diag);
+  meet_needs();
+  return run_steps(0, steps_.size(), scene, ctx, options);
 }
 
-/// A pass that does not find the level it needs leaves what it finds: normals in front of tessellate make no mesh of a
-/// Box.
 Level Pipeline::level_behind(std::size_t step) const {
   Level level = Level::authored;
-  for (std::size_t i = 0; i <= step; ++i)
-    if (level >= steps_[i].info->needs) level = steps_[i].info->leaves;
+  for (std::size_t i = 0; i <= step; ++i) level = level_after(level, *steps_[i].info);
   return level;
 }
 
 bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassContext& ctx,
-                         const PipelineOptions& options, Diagnostics& breaches) {
+                         const PipelineOptions& options) {
   for (std::size_t i = begin; i < end;) {
+    if (ctx.stop.stop_requested()) return false;
     std::size_t next = i + 1;
     // Mesh passes run together unless somebody wants to look between them.
     if (steps_[i].pass->is_mesh_pass() && !options.watched())
@@ -196,7 +129,7 @@ bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassC
       if (!good) return false;
     }
     const auto& done = *steps_[next - 1].info;
-    if (options.verify_each && !verify(scene, level_behind(next - 1), breaches)) return false;
+    if (options.verify_each && !verify(scene, level_behind(next - 1), ctx.diag)) return false;
     if (options.print && (options.print_after == done.name || options.print_after == "all"))
       options.print(std::string(done.name), scene);
     i = next;
@@ -211,6 +144,7 @@ bool Pipeline::run_mesh_steps(std::size_t begin, std::size_t end, Scene& scene, 
   const auto driven = driven_geometry(scene);
   for (NodeId n : all_nodes(scene)) {
     if (!is_geometry(scene, n) || driven[n.value]) continue;
+    if (ctx.stop.stop_requested()) return false;
     MeshJob job{scene, n, mesh, scratch, ctx, textured[n.value] != 0};
     read_mesh(job);
     bool changed = false;
@@ -224,42 +158,69 @@ bool Pipeline::run_mesh_steps(std::size_t begin, std::size_t end, Scene& scene, 
   return true;
 }
 
+/// What mesh passes need to know of the whole scene, and the mesh they work on.
+struct Pipeline::LazyState {
+  Scene& scene;
+  PassContext& ctx;
+  bool verify;
+  std::vector<PassTime>* times;
+  std::size_t first_time;  // of these passes in `times`
+  std::vector<char> textured, driven;
+  Mesh mesh;
+  MeshScratch scratch;
+};
+
+const Mesh& Pipeline::run_tail(std::size_t tail, NodeId n, LazyState& state) {
+  const bool known = n.value < state.textured.size();
+  MeshJob job{state.scene,
+              n,
+              state.mesh,
+              state.scratch,
+              state.ctx,
+              known && state.textured[n.value] != 0,
+              known && state.driven[n.value] != 0};
+  read_mesh(job);
+  for (std::size_t i = tail; i < steps_.size(); ++i) {
+    state.mesh.cut.clear();
+    const auto start = state.times ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point();
+    steps_[i].pass->run(job);
+    if (state.times)
+      (*state.times)[state.first_time + i - tail].seconds +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!state.verify) continue;
+    if (const auto breach = breach_of(state.mesh); !breach.empty())
+      state.ctx.diag.report(Diag::verify, state.scene.where(n), std::string(steps_[i].info->name) + ": " + breach);
+  }
+  return state.mesh;
+}
+
 MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOptions& options) {
+  meet_needs();
   std::size_t tail = steps_.size();
   while (tail > 0 && steps_[tail - 1].pass->is_mesh_pass()) --tail;
-  if (!run_steps(0, tail, scene, ctx, options, ctx.diag)) return nullptr;
-  // Who wants to look between the mesh passes sees them on a copy: what is written does not depend on being watched.
-  if (options.watched()) {
+  if (!run_steps(0, tail, scene, ctx, options)) return nullptr;
+  // The scene between the last passes is never there as a whole; who wants to see it is shown a copy.
+  if (options.print) {
     Scene copy = scene;
     Diagnostics quiet(ctx.diag.shared_sources());
     Statistics uncounted;
     PassContext watching{quiet, uncounted, ctx.resources};
-    if (!run_steps(tail, steps_.size(), copy, watching, options, ctx.diag)) return nullptr;
+    if (!run_steps(tail, steps_.size(), copy, watching, {.print_after = options.print_after, .print = options.print}))
+      return nullptr;
   }
-  struct State {
-    Mesh mesh;
-    MeshScratch scratch;
-    std::vector<char> textured, driven;
-  };
-  auto state = std::make_shared<State>();
-  state->textured = textured_geometry(scene);
-  state->driven = driven_geometry(scene);
-  return [this, tail, &scene, &ctx, state](NodeId n) -> const Mesh& {
-    const bool known = n.value < state->textured.size();
-    MeshJob job{scene,
-                n,
-                state->mesh,
-                state->scratch,
-                ctx,
-                known && state->textured[n.value] != 0,
-                known && state->driven[n.value] != 0};
-    read_mesh(job);
-    for (std::size_t i = tail; i < steps_.size(); ++i) {
-      state->mesh.cut.clear();
-      steps_[i].pass->run(job);
-    }
-    return state->mesh;
-  };
+  const auto first_time = options.times ? options.times->size() : 0;
+  if (options.times)
+    for (std::size_t i = tail; i < steps_.size(); ++i) options.times->push_back({std::string(steps_[i].info->name), 0});
+  auto state = std::make_shared<LazyState>(LazyState{.scene = scene,
+                                                     .ctx = ctx,
+                                                     .verify = options.verify_each,
+                                                     .times = options.times,
+                                                     .first_time = first_time,
+                                                     .textured = textured_geometry(scene),
+                                                     .driven = driven_geometry(scene),
+                                                     .mesh = {},
+                                                     .scratch = {}});
+  return [this, tail, state](NodeId n) -> const Mesh& { return run_tail(tail, n, *state); };
 }
 
 }  // namespace wrlkit

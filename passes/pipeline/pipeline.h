@@ -39,11 +39,32 @@ class PassInstance {
   virtual std::vector<std::string> files() const { return {}; }
 };
 
+/// Where a pass has its place among others: what a pipeline lacks for its writer goes there.
+enum class Phase : std::uint8_t {
+  start,   // before anything is looked for in the scene
+  gather,  // all of the world in one scene
+  lower,   // nodes that others do not know, as those that they know
+  world,   // whatever is wanted of the whole world
+  light,   // behind the last pass over the scene, which may be the one that makes the light
+  mesh,    // at the end, one geometry after the other
+};
+
+/// What else a pipeline has to know of a pass.
+struct PassTraits {
+  Phase phase = Phase::world;
+  bool brings_in = false;       // nodes come in that passes before it have not seen
+  bool idempotent = false;      // a second run with the same options changes nothing
+  std::string_view parts = {};  // passes that together do what this one does: "inline,expand-protos"
+};
+
 struct PassInfo {
   std::string_view name, summary;
-  Level needs, leaves;
+  Level needs;   // it is refused, or what is missing is put in front of it, where the pipeline has not reached that
+  Level leaves;  // what it makes of the level before; it lowers none
   std::unique_ptr<PassInstance> (*make_of)(const PassInfo&);
-  std::string_view doc = {};  // of a pass that was added: all that it says of itself
+  std::string_view doc = {};  // all that it says of itself, with an example
+  std::span<const StatisticInfo> statistics = {};
+  PassTraits traits = {};
 
   /// With its default options.
   std::unique_ptr<PassInstance> make() const { return make_of(*this); }
@@ -51,11 +72,13 @@ struct PassInfo {
 
 /// Every pass, in the order of the documentation (registry.cpp).
 std::span<const PassInfo> passes();
-/// Of the list, or one that was added.
+/// Of the list, or one that was added; null when there is none. It lives as long as the program. Any thread.
 const PassInfo* find_pass(std::string_view name);
-/// Adds a pass that is not in the list, in place of one that was added by that name before; `info` is kept by its
-/// address, for as long as the program runs. False when the list, or a named pipeline, has the name. For one thread,
-/// while no other uses passes.
+/// Adds a pass that is not in the list, in place of one that was added by that name before. Pipelines that have the one
+/// before keep it. False when the list, or a named pipeline, has the name. Any thread.
+bool add_pass(std::shared_ptr<const PassInfo> info);
+/// The same of what pass<f, Options>(...) gives (passes/pipeline/pass_info.h). Its texts are not copied: they must be
+/// literals, or live as long as the program.
 bool add_pass(const PassInfo& info);
 /// Those that were added, by name.
 std::vector<const PassInfo*> added_passes();
@@ -67,6 +90,9 @@ struct NamedPipeline {
 };
 std::span<const NamedPipeline> named_pipelines();
 
+/// As the text of a pipeline has the value of an option: in quotes where it must be.
+std::string quoted_value(std::string_view);
+
 struct PassTime {
   std::string name;
   double seconds;
@@ -76,6 +102,7 @@ struct PipelineOptions {
   bool verify_each = false;
   std::string print_after;  // a pass, or "all"
   std::function<void(const std::string& pass, const Scene&)> print;
+  /// Seconds of each pass; those of run_lazily grow while meshes are asked for, and must outlive its source.
   std::vector<PassTime>* times = nullptr;
 
   /// Whether passes have to run one by one over the whole scene.
@@ -85,18 +112,24 @@ struct PipelineOptions {
 class Pipeline {
  public:
   /// Null when the text is no pipeline; `why` says what is wrong with it.
+  /// Names of pipelines stand for their passes: "gltf,weld". Values with commas, braces or quotes stand in quotes, in
+  /// which a backslash is put before quotes and backslashes: merge{csv="a,b.csv"}.
   static std::optional<Pipeline> parse(std::string_view text, std::string& why);
   /// Adds a pass at the end, with these options. False, and why, when there is none, or an option is wrong.
   bool add(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options, std::string& why);
-  /// Adds the passes of a named pipeline that this one lacks, by name: those before `tessellate` in front, the others
-  /// at the end. So a writer has what it needs whatever was chosen: `weld` for glTF is
-  /// `inline,...,weld,tessellate,...`. `combine-lightmap` comes behind the last pass over the scene, which may be the
-  /// one that makes the light; what the named one has over the scene behind it stays behind it.
-  void complete(std::string_view named);
+  /// The same at the begin, where there are options at all and the pass is not in it yet.
+  bool put_first(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options,
+                 std::string& why);
+  /// Adds the passes of another pipeline, which a writer needs, as far as this one lacks them, by phase: those before
+  /// `light` in front, those of `light` and what stands behind them behind the last pass over the scene, those of
+  /// `mesh` at the end. So `weld` for glTF is `expand,...,weld,combine-lightmap,tessellate,...`. Then as meet_needs.
+  void complete(std::string_view standard);
+  /// Where a pass needs a level that the passes before it do not reach, one that reaches it is put in front of it.
+  void meet_needs() { meet_needs(Level::authored); }
   /// The whole text, every option spelled out; parse(text()) is this pipeline again.
   std::string text() const;
 
-  /// Runs every pass. False when one failed.
+  /// Runs every pass, after meet_needs. False when one failed.
   bool run(Scene&, PassContext&, const PipelineOptions& = {});
   /// Runs every pass but the last group of mesh passes, which the returned source runs for each mesh that it is asked
   /// for. The scene, the context and this pipeline must outlive it. Null when a pass failed.
@@ -118,10 +151,13 @@ class Pipeline {
     const PassInfo* info;
     std::unique_ptr<PassInstance> pass;
   };
-  /// `breaches` is told what --verify-each finds.
-  bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&,
-                 Diagnostics& breaches);
+  bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&);
   bool run_mesh_steps(std::size_t begin, std::size_t end, Scene&, PassContext&);
+  struct LazyState;
+  const Mesh& run_tail(std::size_t tail, NodeId, LazyState&);
+  bool append(std::string_view text, std::string& why);
+  void meet_needs(Level before);
+  bool has_in_effect(const PassInfo&) const;
   Level level_behind(std::size_t step) const;
   std::vector<Step> steps_;
 };

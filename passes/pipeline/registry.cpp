@@ -2,10 +2,13 @@
 // own.
 #include <algorithm>
 #include <map>
+#include <mutex>
+#include <shared_mutex>
 
 #include "passes/combine_lightmap/combine_lightmap.h"
 #include "passes/cull/cull.h"
 #include "passes/dedup/dedup.h"
+#include "passes/expand/expand.h"
 #include "passes/expand_protos/expand_protos.h"
 #include "passes/flatten/flatten.h"
 #include "passes/inline/inline.h"
@@ -19,7 +22,10 @@
 #include "passes/merge/merge.h"
 #include "passes/normals/normals.h"
 #include "passes/pipeline/pass_info.h"
+#include "passes/place/place.h"
 #include "passes/prune/prune.h"
+#include "passes/smooth/smooth.h"
+#include "passes/subdivide/subdivide.h"
 #include "passes/tessellate/tessellate.h"
 #include "passes/triangulate/triangulate.h"
 #include "passes/weld/weld.h"
@@ -27,48 +33,56 @@
 namespace wrlkit {
 namespace {
 
+constexpr auto authored = Level::authored, expanded = Level::expanded;
+
 constexpr PassInfo all_passes[] = {
+    pass<place, PlaceOptions>("place", "scale the world to metres and turn it Y up", authored, authored,
+                              {.phase = Phase::start}),
     pass<lower_vrml1, LowerVrml1Options>("lower-vrml1", "turn a world of VRML 1.0 or Inventor into one of VRML97",
-                                         Level::authored, Level::authored),
-    pass<inline_worlds, InlineOptions>("inline", "put the worlds that Inline nodes name into this one", Level::authored,
-                                       Level::authored),
+                                         authored, authored, {.phase = Phase::start, .idempotent = true}),
+    pass<expand, ExpandOptions>(
+        "expand", "put all Inlines and prototype instances into this world, however nested", authored, expanded,
+        {.phase = Phase::gather, .brings_in = true, .idempotent = true, .parts = "inline,expand-protos"}),
+    pass<inline_worlds, InlineOptions>("inline", "put the worlds that Inline nodes name into this one", authored,
+                                       authored, {.phase = Phase::gather, .brings_in = true}),
     pass<expand_protos, ExpandProtosOptions>("expand-protos", "turn prototype instances into the nodes they stand for",
-                                             Level::authored, Level::expanded),
+                                             authored, expanded, {.phase = Phase::gather, .brings_in = true}),
     pass<keep_colors, KeepColorsOptions>(
-        "keep-colors", "keep X3D 4.0 from multiplying pictures by colours that they take the place of", Level::authored,
-        Level::authored),
-    pass<lower_x3d, LowerX3dOptions>("lower-x3d", "turn nodes that only X3D has into those of VRML97", Level::authored,
-                                     Level::authored),
-    pass<prune, PruneOptions>("prune", "remove what has no effect", Level::authored, Level::authored),
-    pass<join, JoinOptions>("join", "make one Shape of many that look the same", Level::authored, Level::authored),
-    pass<dedup, DedupOptions>("dedup", "share what is written several times and says the same", Level::authored,
-                              Level::authored),
+        "keep-colors", "keep X3D 4.0 from multiplying pictures by colours that they take the place of", authored,
+        authored, {.phase = Phase::lower, .idempotent = true}),
+    pass<lower_x3d, LowerX3dOptions>("lower-x3d", "turn nodes that only X3D has into those of VRML97", authored,
+                                     authored, {.phase = Phase::lower, .idempotent = true}),
+    pass<prune, PruneOptions>("prune", "remove what has no effect", authored, authored, {.idempotent = true}),
+    pass<join, JoinOptions>("join", "make one Shape of many that look the same", authored, authored),
+    pass<dedup, DedupOptions>("dedup", "share what is written several times and says the same", authored, authored,
+                              {.idempotent = true}),
     pass<instance, InstanceOptions>("instance", "share geometry that is the same but for a motion and a scale",
-                                    Level::authored, Level::authored),
-    pass<cull, CullOptions>("cull", "leave out what is small, or never seen", Level::expanded, Level::expanded),
-    pass<merge, MergeOptions>("merge", "few Shapes of many, each part still known by its name", Level::expanded,
-                              Level::expanded),
-    pass<flatten, FlattenOptions>("flatten", "multiply transformations that never change into the points",
-                                  Level::expanded, Level::expanded),
+                                    authored, authored),
+    pass<cull, CullOptions>("cull", "leave out what is small, or never seen", expanded, expanded),
+    pass<merge, MergeOptions>("merge", "few Shapes of many, each part still known by its name", expanded, expanded,
+                              {.brings_in = true}),
+    pass<flatten, FlattenOptions>("flatten", "multiply transformations that never change into the points", expanded,
+                                  expanded),
     pass<tessellate, TessellateOptions>("tessellate", "turn every geometry node into faces, and faces into triangles",
-                                        Level::expanded, Level::mesh),
-    pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet",
-                            Level::authored, Level::authored),
-    pass<lod, LodOptions>("lod", "make levels of detail of each Shape", Level::authored, Level::authored),
-    pass<lightmap, LightmapOptions>("lightmap", "compute light and put it onto the surfaces as textures",
-                                    Level::expanded, Level::expanded),
+                                        authored, Level::mesh, {.phase = Phase::mesh, .idempotent = true},
+                                        tessellate_doc, tessellate_statistics),
+    pass<weld, WeldOptions>("weld", "join equal points, so that faces share them, and repair how faces meet", authored,
+                            authored),
+    pass<smooth, SmoothOptions>("smooth", "move points to the mean of their neighbours", authored, authored),
+    pass<subdivide, SubdivideOptions>("subdivide", "make smooth surfaces of coarse polygons", authored, authored),
+    pass<lod, LodOptions>("lod", "make levels of detail of each Shape", authored, authored),
+    pass<lightmap, LightmapOptions>("lightmap", "compute light and put it onto the surfaces as textures", authored,
+                                    authored),
     pass<combine_lightmap, CombineLightmapOptions>("combine-lightmap",
                                                    "make one texture of a surface's own colour and its baked light",
-                                                   Level::authored, Level::authored),
-    pass<normals, NormalsOptions>("normals", "compute normals by creaseAngle where the file gives none", Level::mesh,
-                                  Level::mesh),
-    pass<triangulate, TriangulateOptions>("triangulate", "cut polygons into triangles", Level::mesh, Level::mesh),
+                                                   authored, authored, {.phase = Phase::light, .idempotent = true}),
+    pass<normals, NormalsOptions>("normals", "compute normals by creaseAngle where the file gives none", authored,
+                                  authored, {.phase = Phase::mesh, .idempotent = true}),
+    pass<triangulate, TriangulateOptions>("triangulate", "cut polygons into triangles", authored, authored,
+                                          {.phase = Phase::mesh, .idempotent = true}),
 };
 
-// A prototype may hold Inlines, and an inlined world instances of prototypes: both are looked for twice.
-#define WRLKIT_GLTF_FRONT                                                                                            \
-  "lower-vrml1,inline,expand-protos{keep-declarations=true},inline,expand-protos{keep-declarations=true},lower-x3d," \
-  "prune,"
+#define WRLKIT_GLTF_FRONT "lower-vrml1,expand{keep-declarations=true},lower-x3d,prune,"
 #define WRLKIT_GLTF_END "tessellate{triangles=false,texcoords=true},normals,triangulate"
 constexpr NamedPipeline named[] = {
     {"gltf", WRLKIT_GLTF_FRONT "combine-lightmap," WRLKIT_GLTF_END, "what convert does for glTF"},
@@ -79,17 +93,41 @@ constexpr NamedPipeline named[] = {
      "what convert and cat do for VRML97"},
     {"x3d", "lower-vrml1,combine-lightmap,keep-colors", "what convert does for X3D"},
     {"picture",
-     "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{triangles=false,"
+     "lower-vrml1,expand,lower-x3d{materials=true},tessellate{triangles=false,"
      "texcoords=true},normals,triangulate",
      "what render does"},
-    {"expand", "lower-vrml1,inline,expand-protos,inline,expand-protos", "everything in one world, without prototypes"},
     {"none", "", "nothing: the file as it is"},
 };
 
 /// Passes that a program brings itself, as the Python package does.
-std::map<std::string, const PassInfo*, std::less<>>& added_by_name() {
-  static std::map<std::string, const PassInfo*, std::less<>> added;
-  return added;
+class AddedPasses {
+ public:
+  const PassInfo* find(std::string_view name) {
+    const std::shared_lock lock(mutex_);
+    const auto found = by_name_.find(name);
+    return found == by_name_.end() ? nullptr : found->second;
+  }
+  void add(std::shared_ptr<const PassInfo> info) {
+    const std::unique_lock lock(mutex_);
+    by_name_.insert_or_assign(std::string(info->name), info.get());
+    all_.push_back(std::move(info));
+  }
+  std::vector<const PassInfo*> by_name() {
+    const std::shared_lock lock(mutex_);
+    std::vector<const PassInfo*> out;
+    for (const auto& [name, info] : by_name_) out.push_back(info);
+    return out;
+  }
+
+ private:
+  std::shared_mutex mutex_;
+  std::map<std::string, const PassInfo*, std::less<>> by_name_;
+  std::vector<std::shared_ptr<const PassInfo>> all_;  // those that were replaced, too: pipelines may hold them
+};
+
+AddedPasses& added() {
+  static auto& passes = *new AddedPasses;  // never destroyed: it may hold objects of an interpreter that has ended
+  return passes;
 }
 
 }  // namespace
@@ -99,23 +137,20 @@ std::span<const NamedPipeline> named_pipelines() { return named; }
 
 const PassInfo* find_pass(std::string_view name) {
   if (auto i = std::ranges::find(all_passes, name, &PassInfo::name); i != std::end(all_passes)) return i;
-  const auto added = added_by_name().find(name);
-  return added == added_by_name().end() ? nullptr : added->second;
+  return added().find(name);
 }
 
-bool add_pass(const PassInfo& info) {
-  if (std::ranges::find(all_passes, info.name, &PassInfo::name) != std::end(all_passes) ||
-      std::ranges::find(named, info.name, &NamedPipeline::name) != std::end(named))
+bool add_pass(std::shared_ptr<const PassInfo> info) {
+  if (std::ranges::find(all_passes, info->name, &PassInfo::name) != std::end(all_passes) ||
+      std::ranges::find(named, info->name, &NamedPipeline::name) != std::end(named))
     return false;
-  added_by_name().insert_or_assign(std::string(info.name), &info);
+  added().add(std::move(info));
   return true;
 }
 
-std::vector<const PassInfo*> added_passes() {
-  std::vector<const PassInfo*> out;
-  for (const auto& [name, info] : added_by_name()) out.push_back(info);
-  return out;
-}
+bool add_pass(const PassInfo& info) { return add_pass(std::make_shared<const PassInfo>(info)); }
+
+std::vector<const PassInfo*> added_passes() { return added().by_name(); }
 
 std::string pass_question(std::string_view name) {
   NearestName nearest(name);

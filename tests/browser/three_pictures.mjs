@@ -28,7 +28,7 @@ const with_levels = ['corpus/paper/ellipsoid_hole.wrl']
   .map(name => ({name: `${name} with levels`, file: file_of(name), levels: true}));
 
 /// Worlds whose light is baked: three.js draws the glTF that the pass makes, wrlkit the VRML.
-const bake = ['-p', 'lightmap{quality=draft,max-size=128}'], bake_all_of_it = ['-p', 'inline,expand-protos,inline,lightmap{quality=draft,max-size=128}'];
+const bake = ['-p', 'lightmap{quality=draft,max-size=128}'], bake_all_of_it = ['-p', 'expand,lightmap{quality=draft,max-size=128}'];
 const baked = ({name, file}) => ({name: `${name} with light`, file, baked: true});
 const own_with_light = ['paper/stairs_room', 'paper/pipes', 'features/light_spot', 'features/use_nested', 'features/transparency', 'features/material_texture',
   'vrml1/PointLight'].map(name => `corpus/${name}.wrl`).map(name => baked({name, file: file_of(name)}));

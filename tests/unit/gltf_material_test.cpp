@@ -188,13 +188,14 @@ TEST_CASE("A picture that cannot be had leaves the material, and its node in ext
 
 namespace {
 
-gltf::UvAffine affine(std::string_view fields) {
+TexcoordMap affine(std::string_view fields) {
   Diagnostics diag;
   auto world = parse(
       "Shape { appearance Appearance { textureTransform TextureTransform { " + std::string(fields) + " } } }", diag);
   Scene& s = world->scene;
-  return gltf::uv_affine(s,
-                         s.get(s.get(s.main.roots[0], nodes::shape::appearance), nodes::appearance::textureTransform));
+  return read_texture_transform(
+             s, s.get(s.get(s.main.roots[0], nodes::shape::appearance), nodes::appearance::textureTransform))
+      .map();
 }
 
 /// The matrix of KHR_texture_transform, T R S, on coordinates of glTF.

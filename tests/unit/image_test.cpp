@@ -9,6 +9,7 @@
 #include <random>
 #include <thread>
 
+#include "base/image/image_codecs.h"
 #include "tests/unit/skip.h"
 
 using namespace wrlkit;
@@ -439,4 +440,13 @@ TEST_CASE("Every picture of the corpus is decoded, or says why not", "[image][fo
   }
   CHECK(decoded == 215);
   CHECK(refused == 2);  // DDS, which is none of the types
+}
+
+TEST_CASE("image: the codecs are named by an absolute path, and before they are used", "[image]") {
+  CHECK_FALSE(set_image_codecs("wrlkit_images.so"));
+  CHECK_FALSE(set_image_codecs(""));
+  std::string error;
+  auto bytes = encode_jpeg({1, 1, 3, {1, 2, 3}}, 90, error);
+  CHECK(bytes);
+  CHECK_FALSE(set_image_codecs("/nowhere/wrlkit_images.so"));
 }

@@ -423,7 +423,7 @@ TEST_CASE("combine-lightmap: a pipeline has it behind the last pass over the sce
     }
     return names;
   };
-  const std::string front = "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d,prune,",
+  const std::string front = "lower-vrml1,expand,lower-x3d,prune,",
                     end = ",tessellate,normals,triangulate";
   CHECK(completed("weld", "gltf") == front + "combine-lightmap,weld" + end);
   CHECK(completed("weld,lod", "gltf") == front + "weld,lod,combine-lightmap" + end);

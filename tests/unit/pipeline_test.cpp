@@ -2,7 +2,11 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include <atomic>
+#include <thread>
+
 #include "parsers/parsers.h"
+#include "passes/pipeline/pass_info.h"
 #include "passes/pipeline/pipeline.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -48,11 +52,29 @@ std::vector<float> corners_of(const Mesh& mesh) {
   return out;
 }
 
+struct NameOptions {
+  std::string name = "first";
+  void fields(auto&& f) { f("name", name, "DEF name of the first root"); }
+};
+
+Outcome name_root(Scene& scene, const NameOptions& options, PassContext&) {
+  scene.set_name(scene.main.roots.at(0), options.name);
+  return Outcome::changed;
+}
+
+Outcome name_nothing(Scene&, const NameOptions&, PassContext&) { return Outcome::unchanged; }
+
 }  // namespace
 
 TEST_CASE("pipeline: text and back", "[pipeline]") {
   for (auto& n : named_pipelines()) CHECK(canonical(canonical(n.name)) == canonical(n.name));
   CHECK(canonical("prune , inline{depth=3}") == "prune,inline{depth=3,limit=500000}");
+  CHECK(canonical("gltf,prune") == canonical("gltf") + ",prune");
+  const std::string merged = "merge{max-draws=500,instanced=false,parts=false,csv=";
+  CHECK(canonical(R"(merge{ csv = "a,b}.csv" })") == merged + R"("a,b}.csv"})");
+  CHECK(canonical(R"(merge{csv="a \"b\" \\c"})") == merged + R"("a \"b\" \\c"})");
+  CHECK(canonical(canonical(R"(merge{csv="a,\"\\{"},prune)")) == merged + R"("a,\"\\{"},prune)");
+  CHECK(canonical(R"(merge{csv=5".csv})") == merged + R"("5\".csv"})");
   CHECK(canonical("") == "");
 }
 
@@ -70,6 +92,40 @@ TEST_CASE("pipeline: what is wrong with a text", "[pipeline]") {
   CHECK(canonical("lightmap{format=bmp}") ==
         "error: pass 'lightmap' option 'format': 'bmp' is no value for it: png, jpg or webp");
   CHECK(canonical("inline{depth=3") == "error: '}' is missing behind 'inline'");
+  CHECK(canonical(R"(merge{csv="a)") == "error: '}' is missing behind 'merge'");
+  CHECK(canonical(R"(merge{csv="a"b})") == "error: pass 'merge' option 'csv': a quote is missing");
+}
+
+namespace {
+
+std::string names_of(Pipeline& p) {
+  std::string out;
+  for (const auto& s : p.steps()) out += (out.empty() ? "" : ",") + std::string(s.name);
+  return out;
+}
+
+std::string completed(const char* text, const char* standard) {
+  std::string why;
+  auto p = Pipeline::parse(text, why);
+  p->complete(standard);
+  return names_of(*p);
+}
+
+}  // namespace
+
+TEST_CASE("pipeline: what a pass needs is put in front of it", "[pipeline]") {
+  CHECK(completed("cull", "vrml") == "lower-vrml1,expand,lower-x3d,cull,combine-lightmap,lower-x3d");
+  CHECK(completed("expand,cull", "x3d") == "lower-vrml1,expand,combine-lightmap,keep-colors,cull");
+  CHECK(completed("cull", "gltf") ==
+        "lower-vrml1,expand,lower-x3d,prune,cull,combine-lightmap,tessellate,normals,triangulate");
+  CHECK(completed("inline,expand-protos,cull", "none") == "inline,expand-protos,cull");
+  CHECK(completed("expand-protos,inline,cull", "none") == "expand-protos,inline,expand,cull");
+  std::string why;
+  auto p = Pipeline::parse("prune,merge,tessellate,normals", why);
+  p->meet_needs();
+  CHECK(names_of(*p) == "prune,expand,merge,tessellate,normals");
+  p->meet_needs();
+  CHECK(names_of(*p) == "prune,expand,merge,tessellate,normals");
 }
 
 TEST_CASE("pipeline: lazily and at once are the same", "[pipeline]") {
@@ -132,4 +188,41 @@ TEST_CASE("pipeline: a pass that changes nothing says so and changes nothing", "
     CHECK(outcome == Outcome::unchanged);
     CHECK(before == text_of(world->scene));
   }
+}
+
+TEST_CASE("pipeline: passes that a program adds", "[pipeline]") {
+  constexpr auto naming = pass<name_root, NameOptions>("test-name", "name a root", Level::authored, Level::authored);
+  constexpr auto taken = pass<name_root, NameOptions>("weld", "a name that is taken", Level::authored, Level::authored);
+  CHECK_FALSE(add_pass(taken));
+  REQUIRE(add_pass(naming));
+  std::string why;
+  auto pipeline = Pipeline::parse("prune,test-name{name=A}", why);
+  REQUIRE(pipeline);
+  CHECK(pipeline->text() == "prune,test-name{name=A}");
+
+  // A pipeline keeps the pass that it was made with.
+  REQUIRE(add_pass(pass<name_nothing, NameOptions>("test-name", "another", Level::authored, Level::authored)));
+  CHECK(find_pass("test-name")->summary == "another");
+  CHECK(pipeline->text() == "prune,test-name{name=A}");
+  Diagnostics diag;
+  Statistics stats;
+  PassContext ctx{diag, stats};
+  auto world = read("Group { children Shape { geometry Box { } } }", diag);
+  REQUIRE(pipeline->run(world->scene, ctx));
+  CHECK(world->scene.name(world->scene.main.roots.at(0)) == "A");
+}
+
+TEST_CASE("pipeline: passes are added and found by several threads", "[pipeline]") {
+  std::vector<std::thread> threads;
+  std::atomic<int> found = 0;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&found, t] {
+      for (int i = 0; i < 200; ++i) {
+        static const std::string names[] = {"test-a", "test-b", "test-c", "test-d"};
+        add_pass(pass<name_nothing, NameOptions>(names[t], "of one thread", Level::authored, Level::authored));
+        if (find_pass(names[t])) ++found;
+      }
+    });
+  for (auto& t : threads) t.join();
+  CHECK(found == 800);
 }

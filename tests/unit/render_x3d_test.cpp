@@ -22,6 +22,8 @@ std::string picture(const std::string& field, const std::string& pixel) {
 
 TEST_CASE("render: a picture of emission is multiplied by emissiveColor") {
   CHECK(seen("diffuseColor 0 0 0 emissiveColor 1 1 0 " + picture("emissiveTexture", "0x804020")) == Rgb{128, 64, 0});
+  const std::string physical = "baseColor 0 0 0 emissiveColor 1 1 0 " + picture("emissiveTexture", "0x804020");
+  CHECK(seen("", "material PhysicalMaterial { " + physical + "}") == Rgb{128, 64, 0});
 }
 
 TEST_CASE("render: occlusion dims the ambient light by its strength") {

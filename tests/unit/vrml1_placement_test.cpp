@@ -4,6 +4,7 @@
 #include <random>
 
 #include "passes/lower_vrml1/placement.h"
+#include "scenegraph/decompose.h"
 
 using namespace wrlkit;
 using namespace wrlkit::vrml1;
@@ -38,6 +39,10 @@ TEST_CASE("decompose: flat matrices keep what is left of them", "[vrml1]") {
   for (int i = 0; i < 1000; ++i) {
     const Matrix m = random_matrix(random) * scale_matrix({1, 1, 0});
     REQUIRE(difference(matrix_of(decompose(m)), m) < 1e-6);
+  }
+  for (int i = 0; i < 1000; ++i) {
+    const Matrix m = random_matrix(random) * scale_matrix({0, 1, 0}) * rotation_matrix({1, 2, 3, 0.1 * i});
+    REQUIRE(difference(matrix_of(decompose(m)), m) < 1e-6);  // to a line
   }
   for (double v : matrix_of(decompose(scale_matrix({0, 0, 0}))).m) CHECK(v == 0);
 }

@@ -35,7 +35,7 @@ struct Meshes {
   MeshScratch scratch;
 
   explicit Meshes(const fs::path& path,
-                  const std::string& passes = "inline,expand-protos,inline,expand-protos,tessellate{triangles=false}") {
+                  const std::string& passes = "expand,tessellate{triangles=false}") {
     world = read_world(path.string(), {}, diag);
     if (world) run(passes);
   }

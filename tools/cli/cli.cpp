@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "base/image/image.h"
+#include "convert/formats.h"
+#include "convert/profiles.h"
 #include "geometry/simplify/levels.h"
 #include "tools/cli/python_passes.h"
 #include "tools/cli/recipe.h"
-#include "tools/profiles.h"
 
 #ifndef WRLKIT_VERSION
 #define WRLKIT_VERSION "unknown"
@@ -29,14 +29,47 @@ std::vector<std::string> take_warning_flags(std::vector<std::string>& words) {
   return out;
 }
 
+/// Adds options that describe themselves (convert/options.h) to a verb. A number that is 0 is not set.
+struct AddOption {
+  CLI::App& verb;
+
+  void operator()(std::string_view name, bool& field, std::string_view help) const {
+    verb.add_flag("--" + std::string(name), field, std::string(help));
+  }
+  void operator()(std::string_view name, int& field, std::string_view help, OptionNote note) const {
+    auto* option = verb.add_option("--" + std::string(name), field, std::string(help));
+    option->check(CLI::Range(static_cast<int>(note.range.least), static_cast<int>(note.range.most)));
+    if (!note.type.empty()) option->type_name(std::string(note.type));
+    if (field != 0) option->capture_default_str();
+  }
+  void operator()(std::string_view name, LengthOption& field, std::string_view help, OptionNote note) const {
+    const auto read = [&field](const std::string& text) { field.read(text); };
+    const auto fault = [](const std::string& text) {
+      LengthOption length;
+      return length.read(text) && length.metres > 0 ? "" : "'" + text + "' is no length";
+    };
+    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
+        ->type_name(std::string(note.type))
+        ->check(fault, "", "");
+  }
+  template <class E>
+  requires std::is_enum_v<E>
+  void operator()(std::string_view name, E& field, std::string_view help) const {
+    const auto read = [&field](const std::string& text) { read_value(text, field); };
+    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
+        ->check(CLI::IsMember(std::vector<std::string>(value_names<E>.begin(), value_names<E>.end())))
+        ->default_str(std::string(name_of(field)));
+  }
+};
+
 void common(CLI::App& verb, Flags& f) {
   auto* g = verb.add_option_group("every verb");
   g->add_flag("-q,--quiet", f.quiet, "print no warnings and no progress, only errors");
   g->add_flag("-v,--verbose", f.verbose, "print what is done");
   g->add_flag("--json", f.json, "print for machines");
-  g->add_flag("--strict", f.strict, "every repair is an error");
+  g->add_flag("--strict", f.load.strict, "every repair is an error");
   g->add_option("--report", f.report, "write what happened to this file, as JSON")->type_name("FILE");
-  g->add_option("--allow-path", f.allow_paths, "files below this folder may be read, too (Inline, textures)")
+  g->add_option("--allow-path", f.load.allow_paths, "files below this folder may be read, too (Inline, textures)")
       ->type_name("DIR")
       ->allow_extra_args(false);
   g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
@@ -51,10 +84,16 @@ void input(CLI::App& verb, Flags& f) {
       ->required();
 }
 
-void placing(CLI::App& verb, Flags& f) {
-  verb.add_option("--unit", f.unit, "what one unit of the input is: m, cm, mm, in, ft")
-      ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
-  verb.add_option("--up", f.up, "which axis of the input points up: y, z, x")->check(CLI::IsMember({"y", "z", "x"}));
+void placing(CLI::App& verb, Flags& f) { f.load.placing_fields(AddOption{verb}); }
+
+/// One of the names; of a criterion that this build does without, the reason.
+CLI::Validator a_criterion() {
+  const CLI::Validator member = CLI::IsMember(criterion_names());
+  return {[member](std::string& text) {
+            const auto missing = CriterionName::missing(text);
+            return missing.empty() ? member(text) : missing;
+          },
+          member.get_description()};
 }
 
 void python(CLI::App& verb, Flags& f) {
@@ -76,13 +115,7 @@ void pipeline(CLI::App& verb, Flags& f) {
   verb.add_flag("--stats", f.stats, "print what the passes counted");
 }
 
-void vrml_output(CLI::App& verb, Flags& f) {
-  verb.add_flag("--gzip", f.gzip, "compress VRML output");
-  verb.add_flag("--dump", f.dump,
-                "VRML output with wrlkit's own fields, which no browser knows: the scene as passes leave it");
-  verb.add_option("--precision", f.precision, "significant digits of VRML output; 0: all that are needed")
-      ->check(CLI::Range(0, 17));
-}
+void vrml_output(CLI::App& verb, Flags& f) { f.save.text_fields(AddOption{verb}); }
 
 std::vector<std::string> profile_names() {
   std::vector<std::string> out;
@@ -91,57 +124,19 @@ std::vector<std::string> profile_names() {
 }
 
 void small_gltf(CLI::App& verb, Flags& f) {
-  verb.add_option("--compress", f.compress,
-                  "vertices in glTF: none, as floats; quantize, in fewer bits; meshopt, that and packed; draco, packed "
-                  "smaller, each mesh by itself")
-      ->check(CLI::IsMember({"none", "quantize", "meshopt", "draco"}))
-      ->capture_default_str();
-  auto* tolerance = verb.add_option("--tolerance", f.tolerance,
-                                    "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; "
-                                    "as a rule 1mm, or less in a small world")
-                        ->type_name("LENGTH");
-  verb.add_option("--position-bits", f.position_bits, "instead of that, bits of the extent of each mesh")
-      ->check(CLI::Range(1, 16))
-      ->excludes(tolerance);
-  verb.add_option("--normal-bits", f.normal_bits, "of each component")->check(CLI::Range(2, 8))->capture_default_str();
-  verb.add_option("--texcoord-bits", f.texcoord_bits, "of a picture's width and height; of a lightmap's two more")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str();
-  verb.add_option("--draco-level", f.draco_level, "0: fast, 10: small")
-      ->check(CLI::Range(0, 10))
-      ->capture_default_str();
-  verb.add_option("--extras", f.extras,
-                  "what VRML says and glTF cannot, kept in extras: all, so that the same VRML can be made again; "
-                  "facts, what nodes say that draw nothing, links and descriptions; none")
-      ->check(CLI::IsMember({"all", "facts", "none"}))
-      ->capture_default_str();
-  verb.add_option("--texture-format", f.texture_format,
-                  "pictures in glTF: keep, PNG and JPEG as they are; png; jpeg, of colours without alpha, where it is "
-                  "smaller; webp, of colours, where it is smaller (EXT_texture_webp)")
-      ->check(CLI::IsMember({"keep", "png", "jpeg", "webp"}))
-      ->capture_default_str();
-  verb.add_option("--texture-quality", f.texture_quality, "of JPEG and WebP")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  verb.add_option("--texture-size", f.texture_size,
-                  "pictures in glTF have so many pixels along their longer side, at most; 0: as they are")
-      ->check(CLI::Range(0, static_cast<int>(max_image_side)))
-      ->type_name("PIXELS")
-      ->capture_default_str();
-  verb.add_flag("--gpu-instancing", f.gpu_instancing,
-                "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call "
-                "(EXT_mesh_gpu_instancing; not every viewer knows it)");
-  verb.add_option("--names", f.names,
-                  "names of parts in glTF: nodes, each part is one; table, a table of names and groups that places and "
-                  "merged meshes refer to (EXT_structural_metadata, EXT_mesh_gpu_instancing; with --extras facts)")
-      ->check(CLI::IsMember({"nodes", "table"}))
-      ->capture_default_str();
+  f.save.size_fields(AddOption{verb});
+  verb.get_option("--position-bits")->excludes(verb.get_option("--tolerance"));
   verb.add_option("--profile", f.profile,
                   "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")
       ->check(CLI::IsMember(profile_names()));
-  verb.add_option("--color-bits", f.color_bits, "of each component, in linear light")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str();
+}
+
+/// Endings of outputs without their dots, the usual one first.
+std::vector<std::string> output_kinds() {
+  std::vector<std::string> out{"glb"};
+  for (auto ending : output_endings())
+    if (ending != ".glb") out.emplace_back(ending.substr(1));
+  return out;
 }
 
 bool is_level(const std::string& s) {
@@ -175,7 +170,7 @@ void corpus_inputs(CLI::App& verb, Flags& f) {
       ->required()
       ->type_name("DIR");
   verb.add_option("--format", f.format, "ending of the outputs")
-      ->check(CLI::IsMember({"glb", "gltf", "wrl", "wrz", "wrl.gz", "x3d", "x3dz"}))
+      ->check(CLI::IsMember(output_kinds()))
       ->capture_default_str();
   verb.add_option("--include", f.include, "of folders, only files like these: '*.wrl', 'unit_1/**'")->type_name("GLOB");
   verb.add_option("--exclude", f.exclude, "of folders, no files like these")->type_name("GLOB");
@@ -200,20 +195,13 @@ const Verb verbs[] = {
      "wrlkit convert old.wrl.gz new.wrl -p inline,expand-protos --gzip",
      [](CLI::App& v, Flags& f) {
        input(v, f);
-       v.add_option("OUT", f.output, "file.glb, .gltf, .wrl, .wrz")->required();
+       v.add_option("OUT", f.output, "the output; its name ends in " + output_endings_text())->required();
        pipeline(v, f);
        v.add_option("--recipe", f.recipe,
                     "passes and options from a recipe, as far as they are not given here; see docs/recipes.md")
            ->type_name("FILE");
        v.add_flag("--print-recipe", f.print_recipe, "print the whole pipeline and all options as a recipe, and end");
-       v.add_option("--lightmap-as", f.lightmap_as,
-                    "baked light in glTF: base-color, in the texture of unlit materials; emissive; occlusion, its "
-                    "brightness alone; moz, as MOZ_lightmap; extras, for programs that look there")
-           ->check(CLI::IsMember({"base-color", "emissive", "occlusion", "moz", "extras"}))
-           ->capture_default_str();
-       v.add_flag("--animation-pointer", f.animation_pointer,
-                  "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few "
-                  "viewers know");
+       f.save.light_fields(AddOption{v});
        small_gltf(v, f);
        placing(v, f);
        vrml_output(v, f);
@@ -337,7 +325,7 @@ const Verb verbs[] = {
        v.add_flag("--progressive", f.progressive,
                   "instead of worlds, one .wpm file: from coarse to exactly the original, for viewers that show what "
                   "has come in");
-       v.add_option("--criterion", f.criterion, "which edges collapse first")->check(CLI::IsMember(criterion_names()));
+       v.add_option("--criterion", f.criterion, "which edges collapse first")->check(a_criterion());
        v.add_option("--pixels", f.pixels,
                     "error that may be seen on a screen of 1080 pixels, for the ranges of the LOD nodes")
            ->check(CLI::PositiveNumber)
@@ -360,9 +348,7 @@ const Verb verbs[] = {
                     "instead of that, shares of the triangles; as a rule 0.5,0.25,0.1,0.05,0.02,0.01")
            ->delimiter(',')
            ->check(CLI::Range(0.0, 1.0));
-       v.add_option("--criteria", f.criteria, "which; as a rule all")
-           ->delimiter(',')
-           ->check(CLI::IsMember(criterion_names()));
+       v.add_option("--criteria", f.criteria, "which; as a rule all")->delimiter(',')->check(a_criterion());
        v.add_flag("--bare", f.bare, "the criterion alone decides: creases and borders are edges like others");
        v.add_option("--size", f.picture_size, "pixels along each side of a picture")
            ->check(CLI::Range(16, 2048))
@@ -435,7 +421,7 @@ const Verb verbs[] = {
                     "criteria whose collapses are shown step by step; as a rule three of a single world of up to "
                     "300,000 triangles")
            ->delimiter(',')
-           ->check(CLI::IsMember(criterion_names()));
+           ->check(a_criterion());
        pipeline(v, f);
        placing(v, f);
      },
@@ -618,6 +604,8 @@ std::uint64_t size_of(const std::string& s) {
   char* end = nullptr;
   double v = std::strtod(s.c_str(), &end);
   std::string unit = end;
+  if (!unit.empty() && (unit.back() == 'B' || unit.back() == 'b')) unit.pop_back();
+  if (unit.ends_with('i')) unit.pop_back();
   double factor = unit == "G" || unit == "g"   ? 1 << 30
                   : unit == "M" || unit == "m" ? 1 << 20
                   : unit == "K" || unit == "k" ? 1 << 10
@@ -677,6 +665,18 @@ Flags conversion_flags(const Recipe& recipe) {
   return flags;
 }
 
+/// The verbs of `wrlkit corpus`; what it asks for without one of them.
+static int corpus_help(const std::vector<std::string>& words) {
+  const bool asked = words.size() > 1 && (words[1] == "--help" || words[1] == "-h");
+  std::string text = "wrlkit corpus: many files at once\n\n";
+  for (const Verb& v : verbs)
+    if (std::string_view(v.name).starts_with("corpus-"))
+      text += "  wrlkit corpus " + std::string(v.name).substr(7) + "\n      " + v.help + "\n";
+  text += "\n'wrlkit corpus run --help' lists the options of one.\n";
+  std::fputs(text.c_str(), asked ? stdout : stderr);
+  return asked ? done : usage;
+}
+
 int run_command_line(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const auto warnings = take_warning_flags(words);
@@ -684,6 +684,7 @@ int run_command_line(int argc, char** argv) {
     words[0] += "-" + words[1];
     words.erase(words.begin() + 1);
   }
+  if (!words.empty() && words[0] == "corpus") return corpus_help(words);
   if (!words.empty() && !words[0].starts_with('-') && !find_verb(words[0])) {
     std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str());
     return usage;

@@ -5,17 +5,18 @@
 #include <utility>
 #include <vector>
 
+#include "convert/options.h"
+
 namespace wrlkit {
 
 struct Flags {
   // every verb
-  bool quiet = false, verbose = false, json = false, strict = false;
+  bool quiet = false, verbose = false, json = false;
+  LoadOptions load;
   std::string report;                 // file for a JSON report
   std::vector<std::string> warnings;  // -Werror=NAME, -Wno-NAME, -Werror
-  std::vector<std::string> allow_paths;
   int jobs = 0;
   std::string memory;  // "8G"
-  std::string unit, up;
 
   // what the verb works on
   std::vector<std::string> inputs;
@@ -28,25 +29,12 @@ struct Flags {
   bool print_pipeline = false, verify_each = false, time_passes = false, stats = false;
   std::string print_after;
   std::vector<std::string> python;  // files with passes
-  bool gzip = false, dump = false;
-  int precision = 0;
+  SaveOptions save;  // but for the pipeline
   std::string recipe;
   bool print_recipe = false;
   std::vector<std::pair<std::string, std::vector<std::string>>> given;  // every option that was given, by name
-  bool animation_pointer = false, gpu_instancing = false;
-  std::string names = "nodes";
-  std::string lightmap_as = "base-color";  // what becomes of baked light in glTF
-
-  // glTF that is to be small
-  std::string compress = "none";
-  std::string tolerance;  // a length: 1mm
-  std::string profile, extras = "all";
+  std::string profile;
   bool print_profile = false;
-  std::string texture_format = "keep";
-  int texture_quality = 85, texture_size = 0;
-  int position_bits = 0, normal_bits = 8, texcoord_bits = 12, color_bits = 10, draco_level = 7;
-
-  bool keep_urls = false;  // of VRML and X3D output: what they mean stands beside the output, too
 
   bool parse_only = false;  // check
 

@@ -151,14 +151,14 @@ class Reader {
       if (!instance->set(o.key, value, fault))
         return fail(fault.starts_with("has no option") ? o.key_place : o.place,
                     fmt::format("pass '{}' {}", name->text, fault));
-      options += fmt::format("{}{}={}", options.empty() ? "" : ",", o.key, value);
+      options += fmt::format("{}{}={}", options.empty() ? "" : ",", o.key, quoted_value(value));
     }
     passes_ +=
         fmt::format("{}{}{}", passes_.empty() ? "" : ",", name->text, options.empty() ? "" : "{" + options + "}");
     return only_one_pipeline(node.place);
   }
 
-  /// As the text of a pipeline has it: lists have colons between their items.
+  /// Lists have colons between their items.
   bool value_of_pass(const TomlNode& node, std::string& value) {
     using enum TomlNode::Kind;
     if (node.kind == table) return want(node, text);
@@ -168,8 +168,6 @@ class Reader {
         return fail(item.place, fmt::format("{} cannot stand here", to_string(item.kind)));
       value += (value.empty() ? "" : ":") + item.text;
     }
-    if (value.find_first_of(",{}") != value.npos)
-      return fail(node.place, "a value of a pass has no comma and no brace in it");
     return true;
   }
 

@@ -7,84 +7,41 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
-#include "passes/lower_vrml1/lower_vrml1.h"
-#include "scenegraph/nodes.h"
+#include "convert/placing.h"
 #include "tools/cli/print_diagnostics.h"
-#include "tools/embedded_pictures.h"
 #include "writers/vrml/vrml.h"
 
 namespace wrlkit {
-/// A file that another one refers to, in the nodes of VRML97.
-std::shared_ptr<const Scene> Session::parse_inlined(const std::string& path, Diagnostics& diag) {
-  auto world = read_world(path, {.lookups = &buffers_}, diag);
-  Statistics uncounted;
-  PassContext ctx{diag, uncounted};
-  if (world) lower_vrml1(world->scene, {}, ctx);
-  return world ? std::make_shared<const Scene>(std::move(world->scene)) : nullptr;
-}
-
-std::vector<FileLookup> Session::lookups() const {
-  auto all = resources_ ? resources_->lookups() : std::vector<FileLookup>();
-  all.insert(all.end(), buffers_.begin(), buffers_.end());
-  return all;
-}
-
 Session::Session(const Flags& flags)
-    : flags_(flags), threads_(flags.jobs), context_{diag_, stats_}, progress_(!flags.quiet) {
-  context_.monitor = &progress_;
-  good_ = apply_warning_flags();
+    : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(load_options(), {&progress_}) {}
+
+Session::Session(const Flags& flags, Document document)
+    : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(std::move(document)) {}
+
+/// What the flags say; not good when they name a message that there is not, which is printed.
+LoadOptions Session::load_options() {
+  LoadOptions out = flags_.load;
+  out.unpack_pictures = !flags_.output.empty() && flags_.output != "-";
+  for (const auto& w : flags_.warnings) {
+    if (apply_warning_flag(out, w)) continue;
+    fmt::print(stderr, "wrlkit: there is no message '{}' for -W{}\n", w.substr(w.find_first_of("=-") + 1), w);
+    good_ = false;
+    break;
+  }
+  return out;
 }
 
-Session::Session(const Flags& flags, std::unique_ptr<World> world, Resources& resources, Diagnostics& diag)
-    : flags_(flags),
-      threads_(flags.jobs),
-      diag_(diag),
-      world_(std::move(world)),
-      context_{diag_, stats_, &resources},
-      progress_(!flags.quiet) {}
-
-bool Session::apply_warning_flags() {
-  if (flags_.strict) diag_.warnings_are_errors();
-  for (const auto& w : flags_.warnings) {
-    if (w == "error") {
-      diag_.warnings_are_errors();
-      continue;
-    }
-    bool error = w.starts_with("error="), off = w.starts_with("no-");
-    Diag id{};
-    if ((!error && !off) || !find_diag(w.substr(error ? 6 : 3), id)) {
-      fmt::print(stderr, "wrlkit: there is no message '{}' for -W{}\n", w.substr(w.find_first_of("=-") + 1), w);
-      return false;
-    }
-    diag_.set_severity(id, error ? Severity::error : Severity::ignored);
+bool apply_warning_flag(LoadOptions& options, const std::string& flag) {
+  if (flag == "error") {
+    options.strict = true;
+    return true;
   }
+  const bool error = flag.starts_with("error=");
+  Diag id{};
+  if ((!error && !flag.starts_with("no-")) || !find_diag(flag.substr(error ? 6 : 3), id)) return false;
+  options.severities.emplace_back(id, error ? Severity::error : Severity::ignored);
   return true;
 }
-
-World* Session::read(const std::string& path) {
-  progress_.begin("reading " + path, 0, "");
-  world_.reset();
-  auto file = read_file(path, {}, diag_);
-  return file ? read(path, *file) : nullptr;
-}
-
-World* Session::read(const std::string& path, const FileText& file) {
-  world_.reset();
-  resources_ = std::make_unique<FileResources>(
-      ResourceOptions{.input = path, .allowed = flags_.allow_paths},
-      [this](const std::string& inlined, Diagnostics& diag) { return parse_inlined(inlined, diag); });
-  context_.resources = resources_.get();
-  world_ = parse_world(file, {.allowed = flags_.allow_paths, .lookups = &buffers_}, diag_);
-  if (world_) {
-    place(world_->scene);
-    if (world_->format == Format::gltf && !flags_.output.empty() && flags_.output != "-")
-      unpack_pictures(world_->scene, *resources_);
-    resources_->set_root({std::shared_ptr<const Scene>{}, &world_->scene});
-  }
-  return world_.get();
-}
-
-void Session::place(Scene& scene) const { place_world(scene, flags_.unit, flags_.up); }
 
 bool Session::choose_pipeline(std::string_view standard) {
   std::string why;
@@ -94,6 +51,8 @@ bool Session::choose_pipeline(std::string_view standard) {
     return false;
   }
   if (flags_.pipeline_given) pipeline_->complete(standard);
+  if (!document_ && pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why))
+    document_.leave_unplaced();
   const auto& after = flags_.print_after;
   if (!after.empty() && after != "all" && !find_pass(after)) {
     fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));
@@ -111,7 +70,7 @@ PipelineOptions Session::pipeline_options() {
       progress_.clear();
       fmt::print(stderr, "# after {}\n", pass);
       write_vrml(
-          scene, {.own_fields = true}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag_);
+          scene, {.own_fields = true}, [](std::string_view s) { std::fwrite(s.data(), 1, s.size(), stderr); }, diag());
     };
   if (flags_.time_passes) o.times = &times_;
   return o;
@@ -123,8 +82,8 @@ int Session::end(bool made) {
   if (flags_.time_passes)
     for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);
   if (flags_.stats)
-    for (auto& [name, n] : stats_) fmt::print(stderr, "{:>12}  {}\n", n, name);
-  std::fputs(messages_text(diag_, isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
+    for (auto& [name, n] : context().stats) fmt::print(stderr, "{:>12}  {}\n", n, name);
+  std::fputs(messages_text(diag(), isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
   if (!flags_.report.empty() && !write_report(code)) return usage;
   return code;
 }
@@ -142,10 +101,10 @@ bool Session::write_report(int code) {
   }
   json.key("statistics");
   json.begin_object();
-  for (auto& [name, n] : stats_) json.member(name, n);
+  for (auto& [name, n] : context().stats) json.member(name, n);
   json.end_object();
   json.key("messages");
-  json.raw(messages_json(diag_));
+  json.raw(messages_json(diag()));
   json.end_object();
   out += '\n';
   return write_text_file(flags_.report, out);
@@ -158,18 +117,6 @@ bool write_text_file(const std::string& path, std::string_view text) {
   if (file && file->commit(trouble)) return true;
   std::fputs(messages_text(trouble, false, false).c_str(), stderr);
   return false;
-}
-
-void place_world(Scene& scene, std::string_view unit, std::string_view up) {
-  double scale = unit == "cm" ? 0.01 : unit == "mm" ? 0.001 : unit == "in" ? 0.0254 : unit == "ft" ? 0.3048 : 1;
-  if (scale == 1 && (up.empty() || up == "y")) return;
-  constexpr double quarter = 1.5707963267948966;
-  NodeId root = scene.add(nodes::Transform);
-  if (scale != 1) scene.set(root, nodes::transform::scale, Vec3{scale, scale, scale});
-  if (up == "z") scene.set(root, nodes::transform::rotation, Vec4{1, 0, 0, -quarter});
-  if (up == "x") scene.set(root, nodes::transform::rotation, Vec4{0, 0, 1, quarter});
-  scene.set(root, nodes::transform::children, scene.main.roots);
-  scene.main.roots = {root};
 }
 
 }  // namespace wrlkit

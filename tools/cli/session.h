@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "parsers/parsers.h"
-#include "parsers/resources.h"
+#include "convert/document.h"
 #include "passes/pipeline/pipeline.h"
 #include "tools/cli/flags.h"
 #include "tools/cli/progress.h"
@@ -18,25 +17,21 @@ namespace wrlkit {
 class Session {
  public:
   explicit Session(const Flags&);
-  /// Over a world that was read elsewhere, with its files; what there is to say goes to `diag`.
-  Session(const Flags&, std::unique_ptr<World>, Resources&, Diagnostics& diag);
+  /// Over a world that was read elsewhere.
+  Session(const Flags&, Document);
 
   /// False when a flag makes no sense; that was printed.
   bool good() const { return good_; }
   const Flags& flags() const { return flags_; }
-  Diagnostics& diag() { return diag_; }
-  Resources& resources() { return *context_.resources; }
-  PassContext& context() { return context_; }
+  Diagnostics& diag() { return document_.diag(); }
+  Document& document() { return document_; }
+  Resources& resources() { return *document_.resources(); }
+  PassContext& context() { return document_.context(); }
   Progress& progress() { return progress_; }
 
-  /// Reads a world, in place of the one before, and applies --unit and --up; null when nothing can be had.
-  World* read(const std::string& path);
-  /// The same of a file that was read already.
-  World* read(const std::string& path, const FileText& file);
-  /// The files that were asked for beside it, found or not.
-  std::vector<FileLookup> lookups() const;
-  /// What `read` gave.
-  World& world() { return *world_; }
+  /// Reads a world, in place of the one before; false when nothing can be had.
+  bool read(const std::string& path) { return document_.read(path); }
+  World& world() { return document_.world(); }
   /// -p with what it lacks of `standard`, or else `standard`; false when it is no pipeline, which was printed.
   bool choose_pipeline(std::string_view standard);
   Pipeline& pipeline() { return *pipeline_; }
@@ -45,36 +40,28 @@ class Session {
   /// For --report: facts beside the messages, as JSON.
   void fact(std::string name, std::string json) { facts_.emplace_back(std::move(name), std::move(json)); }
 
-  int exit_code(bool made) const { return !made ? nothing : diag_.has_errors() ? partly : done; }
+  int exit_code(bool made) const { return !made ? nothing : document_.diag().has_errors() ? partly : done; }
   /// Prints the messages, writes the report and gives the exit code. `made`: there is an output.
   int end(bool made);
 
  private:
-  bool apply_warning_flags();
-  std::shared_ptr<const Scene> parse_inlined(const std::string& path, Diagnostics&);
-  void place(Scene&) const;
+  LoadOptions load_options();
   bool write_report(int code);
 
   const Flags& flags_;
   ThreadLimit threads_;
-  Diagnostics own_diag_;
-  Diagnostics& diag_ = own_diag_;
-  Statistics stats_;
-  std::unique_ptr<World> world_;
-  std::unique_ptr<FileResources> resources_;
-  std::vector<FileLookup> buffers_;
-  PassContext context_;
+  bool good_ = true;
+  Progress progress_;
+  Document document_;
   std::optional<Pipeline> pipeline_;
   std::vector<PassTime> times_;
   std::vector<std::pair<std::string, std::string>> facts_;
-  Progress progress_;
-  bool good_ = true;
 };
+
+/// What stands behind -W: "error", "error=NAME", "no-NAME". False when there is no message of that name.
+bool apply_warning_flag(LoadOptions&, const std::string& flag);
 
 /// Whole or not at all; false when not, which was printed.
 bool write_text_file(const std::string& path, std::string_view text);
-
-/// A scene whose root is scaled to metres and turned Y up; see --unit and --up.
-void place_world(Scene&, std::string_view unit, std::string_view up);
 
 }  // namespace wrlkit

@@ -6,11 +6,11 @@
 #include <filesystem>
 
 #include "base/io/output.h"
+#include "convert/formats.h"
 #include "tools/cli/cli.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/recipe.h"
 #include "tools/corpus/written_names.h"
-#include "tools/gltf_output.h"
 #include "tools/verbs/convert.h"
 
 namespace wrlkit {
@@ -31,7 +31,7 @@ std::string program() {
 }
 
 std::vector<std::string> allowed_folders(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job) {
-  auto all = work.flags.allow_paths;
+  auto all = work.flags.load.allow_paths;
   all.push_back(plan.roots[job.input.root]);
   return all;
 }
@@ -69,11 +69,11 @@ bool convert(const Flags& flags, const std::function<void(Scene&)>& last, Journa
     line.cause = "the recipe does not fit";
     return false;
   }
-  const bool made = read_input(s) && write_world(s, last);
+  const bool made = read_input(s) && write_world(s, save_options(flags), last);
   line.state = !made ? JobState::failed : s.diag().has_errors() ? JobState::made_partly : JobState::made;
   line.messages = messages_json(s.diag());
   if (!made) line.cause = cause_in(s.diag());
-  for (const auto& lookup : s.lookups()) use(lookup, line);
+  for (const auto& lookup : s.document().lookups()) use(lookup, line);
   return made;
 }
 
@@ -84,15 +84,14 @@ std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& wh
   if (!recipe) return std::nullopt;
   CorpusWork work{.flags = conversion_flags(*recipe), .out = corpus_flags.output};
   auto& f = work.flags;
-  apply_profile(f);
   f.warnings = corpus_flags.warnings;
-  f.allow_paths = corpus_flags.allow_paths;
-  f.strict = corpus_flags.strict;
+  f.load.allow_paths = corpus_flags.load.allow_paths;
+  f.load.strict = corpus_flags.load.strict;
   f.quiet = true;
   f.jobs = 1;
   f.memory.clear();
   f.output = "out." + corpus_flags.format;
-  work.text = corpus_flags.format.starts_with("wr") || corpus_flags.format.starts_with("x3d");
+  work.text = output_of(f.output)->format->is_text;
   Session s(f);
   if (!prepare_conversion(s)) {
     why.clear();
@@ -102,7 +101,7 @@ std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& wh
   std::erase_if(options, [](const auto& o) { return o.first == "python"; });
   std::string files;
   for (const auto& file : s.pipeline().files()) files += hash_of_file(file).value_or(ContentHash{}).hex() + "\n";
-  work.hash = hash_of(program() + "\n" + corpus_flags.format + "\n" + (f.strict ? "strict\n" : "") + files +
+  work.hash = hash_of(program() + "\n" + corpus_flags.format + "\n" + (f.load.strict ? "strict\n" : "") + files +
                       recipe_text(options, f.warnings, s.pipeline()));
   return work;
 }
@@ -114,7 +113,7 @@ bool write_run_recipe(const CorpusWork& work, const CorpusPlan& plan) {
   if (!prepare_conversion(s)) return false;
   auto options = work.flags.given;
   std::erase_if(options, [](const auto& o) { return o.first == "allow-path"; });
-  auto folders = work.flags.allow_paths;
+  auto folders = work.flags.load.allow_paths;
   folders.insert(folders.end(), plan.roots.begin(), plan.roots.end());
   options.emplace_back("allow-path", std::move(folders));
   return write_text_file(run_recipe(work.out), recipe_text(options, work.flags.warnings, s.pipeline()));
@@ -131,11 +130,11 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
     Flags flags = work.flags;
     flags.inputs = {job.input.path};
     flags.output = target;
-    flags.allow_paths = allowed_folders(work, plan, job);
-    flags.keep_urls = work.text && job.input.mirrored;
+    flags.load.allow_paths = allowed_folders(work, plan, job);
+    flags.save.keep_urls = work.text && job.input.mirrored;
     convert(flags,
-            flags.keep_urls ? [&](Scene& scene) { name_written_files(scene, plan, job, flags.allow_paths); }
-                            : std::function<void(Scene&)>(),
+            flags.save.keep_urls ? [&](Scene& scene) { name_written_files(scene, plan, job, flags.load.allow_paths); }
+                                 : std::function<void(Scene&)>(),
             line);
   }
   if (is_made(line.state)) {

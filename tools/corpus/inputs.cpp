@@ -12,25 +12,18 @@
 #include <utility>
 #include <vector>
 
+#include "convert/formats.h"
+
 namespace wrlkit {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view world_endings[] = {".wrl.gz", ".x3d.gz", ".x3dv.gz", ".wrl", ".wrz",  ".vrml", ".x3d",
-                                              ".x3dz",   ".x3dv",   ".x3dvz",   ".iv",  ".gltf", ".glb"};
 constexpr std::string_view asset_endings[] = {".png",  ".jpg",  ".jpeg", ".gif", ".bmp", ".tga",  ".tif", ".tiff",
                                               ".webp", ".exr",  ".hdr",  ".dds", ".wav", ".mp3",  ".mid", ".midi",
                                               ".mpg",  ".mpeg", ".mp4",  ".avi", ".js",  ".class"};
 
-/// The ending of a name that is in the list; empty when none is.
-std::string_view ending_in(std::span<const std::string_view> list, std::string_view name) {
-  for (auto e : list)
-    if (name.size() > e.size() &&
-        std::ranges::equal(name.substr(name.size() - e.size()), e, {}, [](unsigned char c) { return std::tolower(c); }))
-      return e;
-  return {};
-}
+bool is_scene_name(std::string_view name) { return !ending_of(name, scene_endings()).empty(); }
 
 std::vector<std::string> names_of(const std::string& path) {
   std::vector<std::string> names;
@@ -159,8 +152,8 @@ class Gatherer {
       }
       if (is_folder || !i->is_regular_file(none)) continue;
       auto inside = i->path().lexically_relative(path).string();
-      const bool is_world = !ending_in(world_endings, name).empty(),
-                 is_asset = rules_.assets && !is_world && !ending_in(asset_endings, name).empty();
+      const bool is_world = is_scene_name(name),
+                 is_asset = rules_.assets && !is_world && !ending_of(name, asset_endings).empty();
       if (is_asset)
         add(i->path(), std::move(inside), at, true, true);
       else if (pattern.empty() ? is_world && wanted(inside) : match(parts, names_of(inside)) && wanted(inside))
@@ -210,7 +203,7 @@ bool glob_matches(const std::string& glob, const std::string& path) {
 }
 
 std::optional<std::string> without_ending(const std::string& path) {
-  const auto e = ending_in(world_endings, fs::path(path).filename().string());
+  const auto e = ending_of(fs::path(path).filename().string(), scene_endings());
   return e.empty() ? std::nullopt : std::optional(path.substr(0, path.size() - e.size()));
 }
 

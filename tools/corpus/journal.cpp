@@ -41,42 +41,7 @@ void end_cut_line(int fd) {
 
 std::string_view to_string(JobState s) { return states[static_cast<int>(s)]; }
 
-std::string to_json(const JournalLine& l) {
-  std::string out;
-  JsonOut json(out);
-  json.begin_object();
-  json.member("input", l.input);
-  json.member("output", l.output);
-  json.member("state", to_string(l.state));
-  if (!l.cause.empty()) json.member("cause", l.cause);
-  json.member("work", l.work.hex());
-  json.member("started", l.started);
-  json.member("seconds", l.seconds);
-  json.member("cpu", l.cpu);
-  json.member("memory", l.memory);
-  json.member("input_bytes", l.input_bytes);
-  json.member("input_hash", l.input_hash.hex());
-  if (is_made(l.state)) {
-    json.member("output_bytes", l.output_bytes);
-    json.member("output_hash", l.output_hash.hex());
-  }
-  if (l.codecs) json.member("codecs", true);
-  json.key("files");
-  json.begin_array();
-  for (const auto& f : l.files) {
-    json.begin_object();
-    json.member("referrer", f.referrer);
-    json.member("url", f.url);
-    json.member("path", f.path);
-    json.member("hash", f.hash.hex());
-    json.end_object();
-  }
-  json.end_array();
-  json.key("messages");
-  json.raw(l.messages.empty() ? "[]" : l.messages);
-  json.end_object();
-  return out;
-}
+std::string to_json(const JournalLine& l) { return json_of(l); }
 
 std::optional<JournalLine> journal_line(std::string_view text) {
   gltf_reader::JsonDocument doc;

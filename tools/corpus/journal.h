@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text/json.h"
 #include "tools/corpus/content_hash.h"
 #include "tools/corpus/plan.h"
 
@@ -24,6 +25,13 @@ struct UsedFile {
   std::string referrer, url;
   std::string path;  // empty: nothing was found
   ContentHash hash;
+
+  void fields(auto&& f) const {
+    f("referrer", referrer);
+    f("url", url);
+    f("path", path);
+    f("hash", hash.hex());
+  }
 };
 
 struct JournalLine {
@@ -38,6 +46,27 @@ struct JournalLine {
   std::vector<UsedFile> files;
   std::string messages;  // JSON, as --report has them
   bool codecs = false;   // a worker has loaded the codecs for pictures: told to the run, not kept
+
+  void fields(auto&& f) const {
+    f("input", input);
+    f("output", output);
+    f("state", state);
+    if (!cause.empty()) f("cause", cause);
+    f("work", work.hex());
+    f("started", started);
+    f("seconds", seconds);
+    f("cpu", cpu);
+    f("memory", memory);
+    f("input_bytes", input_bytes);
+    f("input_hash", input_hash.hex());
+    if (is_made(state)) {
+      f("output_bytes", output_bytes);
+      f("output_hash", output_hash.hex());
+    }
+    if (codecs) f("codecs", true);
+    f("files", files);
+    f("messages", JsonText{messages.empty() ? "[]" : messages});
+  }
 };
 
 std::string to_json(const JournalLine&);

@@ -36,10 +36,10 @@ Flags flags_to_read(const Flags& flags, const std::string& path, bool input) {
   f.quiet = true;
   f.jobs = 1;
   f.inputs = {path};
-  f.allow_paths = flags.allow_paths;
+  f.load.allow_paths = flags.load.allow_paths;
   if (input) {
-    f.unit = flags.unit;
-    f.up = flags.up;
+    f.load.unit = flags.load.unit;
+    f.load.up = flags.load.up;
   }
   return f;
 }
@@ -55,7 +55,7 @@ bool make_look(const Flags& flags, const std::string& out, const JournalLine& li
   const auto output = (fs::path(out) / line.output).string();
   const Flags of_input = flags_to_read(flags, line.input, true);
   Flags of_output = flags_to_read(flags, output, false);
-  of_output.allow_paths.push_back(out);
+  of_output.load.allow_paths.push_back(out);
   Session a(of_input), b(of_output);
   auto facts_a = facts_of(a, line.input), facts_b = facts_of(b, output);
   if (!facts_a || !facts_b) return false;

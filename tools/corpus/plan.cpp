@@ -6,6 +6,8 @@
 #include <queue>
 #include <unordered_map>
 
+#include "convert/formats.h"
+
 namespace wrlkit {
 namespace {
 
@@ -16,7 +18,8 @@ constexpr std::uint64_t process_bytes = 48 << 20, bytes_a_byte = 12, gzip_ratio 
 
 void estimate(CorpusJob& job) {
   const auto& name = job.input.path;
-  const bool packed = name.ends_with("z") || name.ends_with("Z") || name.ends_with(".glb");
+  const auto ending = ending_of(name, scene_endings());
+  const bool packed = is_packed_ending(ending) || ending == ".glb";
   const auto bytes = job.input.bytes * (packed ? gzip_ratio : 1);
   job.cost = process_seconds + seconds_a_byte * static_cast<double>(bytes);
   job.memory = process_bytes + bytes_a_byte * bytes;

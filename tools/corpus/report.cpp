@@ -7,6 +7,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "base/text/csv.h"
 #include "base/text/json.h"
 #include "parsers/gltf/json.h"
 
@@ -24,9 +25,11 @@ void count_messages(const JournalLine& line, ReportRow& row, std::map<std::strin
      : severity == "lost" ? row.lost
                           : row.warnings) += static_cast<std::uint32_t>(times);
     auto& kind = kinds[std::string(m["name"].text())];
-    if (kind.files == 0)
-      kind = {std::string(severity),
-              fmt::format("{}:{}: {}", m["file"].text(), m["line"].whole().value_or(0), m["text"].text())};
+    if (kind.files == 0) {
+      kind.name = m["name"].text();
+      kind.severity = severity;
+      kind.example = fmt::format("{}:{}: {}", m["file"].text(), m["line"].whole().value_or(0), m["text"].text());
+    }
     kind.files += 1;
     kind.times += times;
   }
@@ -47,13 +50,6 @@ ReportRow row_of(JournalLine&& l) {
   return r;
 }
 
-std::string csv_text(const std::string& s) {
-  if (s.find_first_of(",\"\n\r") == s.npos) return s;
-  std::string out = "\"";
-  for (char c : s) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
-}
-
 std::string number_or_nothing(const std::optional<Look>& look, double Look::*member) {
   return look && std::isfinite(*look.*member) ? fmt::format("{:g}", *look.*member) : "";
 }
@@ -62,6 +58,14 @@ std::string number_or_nothing(const std::optional<Look>& look, double Look::*mem
 
 std::size_t CorpusReport::n(JobState s) const {
   return static_cast<std::size_t>(std::ranges::count(rows, s, &ReportRow::state));
+}
+
+std::vector<std::pair<std::string_view, std::size_t>> CorpusReport::states() const {
+  std::vector<std::pair<std::string_view, std::size_t>> out;
+  for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout,
+                 JobState::no_memory})
+    out.emplace_back(to_string(s), n(s));
+  return out;
 }
 
 CorpusReport read_report(const std::string& out) {
@@ -137,68 +141,6 @@ std::string report_csv(const CorpusReport& report) {
   return out;
 }
 
-std::string report_json(const CorpusReport& report) {
-  std::string out;
-  JsonOut json(out);
-  json.begin_object();
-  json.member("folder", report.out);
-  json.key("states");
-  json.begin_object();
-  for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout,
-                 JobState::no_memory})
-    json.member(to_string(s), report.n(s));
-  json.end_object();
-  json.key("messages");
-  json.begin_array();
-  for (const auto& [name, k] : report.kinds) {
-    json.begin_object();
-    json.member("name", name);
-    json.member("severity", k.severity);
-    json.member("files", k.files);
-    json.member("times", k.times);
-    json.member("example", k.example);
-    json.end_object();
-  }
-  json.end_array();
-  json.key("files");
-  json.begin_array();
-  for (const auto& r : report.rows) {
-    json.begin_object();
-    json.member("input", r.input);
-    json.member("output", r.output);
-    json.member("state", to_string(r.state));
-    if (!r.cause.empty()) json.member("cause", r.cause);
-    json.member("seconds", r.seconds);
-    json.member("cpu", r.cpu);
-    json.member("memory", r.memory);
-    json.member("input_bytes", r.input_bytes);
-    json.member("output_bytes", r.output_bytes);
-    json.member("errors", r.errors);
-    json.member("warnings", r.warnings);
-    json.member("lost", r.lost);
-    if (r.look) {
-      json.member("rms", r.look->rms);
-      json.member("max", r.look->max);
-      json.member("of_diagonal", r.look->of_diagonal);
-    }
-    json.end_object();
-  }
-  json.end_array();
-  if (!report.compared.empty()) {
-    json.member("compared", report.compared);
-    json.key("changes");
-    json.begin_array();
-    for (const auto& c : report.changes) {
-      json.begin_object();
-      json.member("output", c.output);
-      json.member("what", c.what);
-      json.member("worse", c.worse);
-      json.end_object();
-    }
-    json.end_array();
-  }
-  json.end_object();
-  return out + '\n';
-}
+std::string report_json(const CorpusReport& report) { return json_of(report) + '\n'; }
 
 }  // namespace wrlkit

@@ -2,8 +2,10 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/corpus/journal.h"
@@ -19,18 +21,52 @@ struct ReportRow {
   std::uint32_t errors = 0, warnings = 0, lost = 0;
   ContentHash output_hash;
   std::optional<Look> look;
+
+  void fields(auto&& f) const {
+    f("input", input);
+    f("output", output);
+    f("state", state);
+    if (!cause.empty()) f("cause", cause);
+    f("seconds", seconds);
+    f("cpu", cpu);
+    f("memory", memory);
+    f("input_bytes", input_bytes);
+    f("output_bytes", output_bytes);
+    f("errors", errors);
+    f("warnings", warnings);
+    f("lost", lost);
+    if (!look) return;
+    f("rms", look->rms);
+    f("max", look->max);
+    f("of_diagonal", look->of_diagonal);
+  }
 };
 
 /// One kind of message over all files.
 struct ReportedKind {
-  std::string severity, example;  // "file:line: text"
+  std::string name, severity;
   std::uint64_t files = 0, times = 0;
+  std::string example;  // "file:line: text"
+
+  void fields(auto&& f) const {
+    f("name", name);
+    f("severity", severity);
+    f("files", files);
+    f("times", times);
+    f("example", example);
+  }
 };
 
 /// How a file has become worse, or otherwise different, than in the run that it is compared with.
 struct Change {
   std::string output, what;
   bool worse = false;
+
+  void fields(auto&& f) const {
+    f("output", output);
+    f("what", what);
+    f("worse", worse);
+  }
 };
 
 struct CorpusReport {
@@ -41,6 +77,17 @@ struct CorpusReport {
   std::vector<Change> changes;                             // those that are worse first
 
   std::size_t n(JobState s) const;
+  /// How many files came to each state.
+  std::vector<std::pair<std::string_view, std::size_t>> states() const;
+  void fields(auto&& f) const {
+    f("folder", out);
+    f("states", states());
+    f("messages", std::views::values(kinds));
+    f("files", rows);
+    if (compared.empty()) return;
+    f("compared", compared);
+    f("changes", changes);
+  }
 };
 
 /// The last line about each output. Memory: some 300 bytes a file.

@@ -8,6 +8,7 @@
 
 #include "base/io/read_file.h"
 #include "base/text/json.h"
+#include "base/text/xml_text.h"
 #include "tools/corpus/report.h"
 #include "tools/report/chart.h"
 #include "tools/report/report_frame.h"
@@ -17,30 +18,6 @@ namespace {
 
 constexpr std::size_t most_listed = 60, most_failed = 1000;
 constexpr double rounding = 1e-9;  // of the diagonal: nobody has moved that far
-
-constexpr std::string_view script = R"JS(
-const names=["input","state","seconds","cpu","memory","input_bytes","output_bytes","errors","warnings","lost","rms","max"];
-let by=0,down=false,page=0;const size=100;
-const $=id=>document.getElementById(id);
-const text=s=>{const e=document.createElement("span");e.textContent=s;return e.innerHTML};
-const bytes=n=>n<1e4?n+" B":n<1e7?(n/1e3).toFixed(0)+" kB":(n/1e6).toFixed(1)+" MB";
-const metres=v=>v===null?"":v===0?"0":v.toPrecision(3);
-function shown(){const q=$("q").value.toLowerCase(),s=$("s").value;
- return rows.filter(r=>(!q||(r[0]+r[13]).toLowerCase().includes(q))&&(s===""||states[r[1]]===s))
-  .sort((a,b)=>{let x=a[by],y=b[by];if(x===null)return y===null?0:1;if(y===null)return -1;return (x<y?-1:x>y?1:0)*(down?-1:1)})}
-function draw(){for(const b of document.querySelectorAll("#head button"))b.parentNode.ariaSort=b.dataset.i!=by?"none":down?"descending":"ascending";
- const all=shown(),last=Math.max(0,Math.ceil(all.length/size)-1);page=Math.min(page,last);
- $("n").textContent=all.length+" files, page "+(page+1)+" of "+(last+1);
- $("rows").innerHTML=all.slice(page*size,page*size+size).map(r=>"<tr><td class=text>"+text(r[0])+(r[13]?"<br><span class=bad>"+text(r[13])+"</span>":"")+"</td><td class=text>"+states[r[1]]+"</td><td>"+r[2].toFixed(3)+"</td><td>"+r[3].toFixed(3)+"</td><td>"+bytes(r[4])+"</td><td>"+bytes(r[5])+"</td><td>"+bytes(r[6])+"</td><td>"+r[7]+"</td><td>"+r[8]+"</td><td>"+r[9]+"</td><td>"+metres(r[10])+"</td><td>"+metres(r[11])+"</td><td>"+(r[12]===null?"":picture(r[12]))+"</td></tr>").join("")}
-const one=b=>b?'<img loading="lazy" alt="" src="data:image/jpeg;base64,'+b+'">':"";
-const picture=i=>"<div class=look>"+one(looks[i][0])+one(looks[i][1])+"</div>";
-$("head").innerHTML=names.map((n,i)=>'<th'+(i<2?' class=text':'')+'><button type="button" data-i="'+i+'">'+n.replace("_"," ")+'</button></th>').join("")+"<th class=text>before, after</th>";
-$("head").onclick=e=>{const i=e.target.dataset.i;if(i===undefined)return;down=by==i?!down:i>1;by=+i;page=0;draw()};
-$("q").oninput=$("s").onchange=()=>{page=0;draw()};$("back").onclick=()=>{page=Math.max(0,page-1);draw()};$("next").onclick=()=>{page++;draw()};
-for(const s of states)$("s").add(new Option(s,s));
-for(const e of document.querySelectorAll("[data-look]"))e.innerHTML=picture(+e.dataset.look);
-draw();
-)JS";
 
 class Page {
  public:
@@ -88,11 +65,11 @@ class Page {
   void changes() {
     if (r_.compared.empty()) return;
     const auto worse = std::ranges::count_if(r_.changes, &Change::worse);
-    put("<h2>Compared with {}</h2>\n<p>{} changes, {} of them for the worse.</p>\n{}", html_text(r_.compared),
+    put("<h2>Compared with {}</h2>\n<p>{} changes, {} of them for the worse.</p>\n{}", xml_text(r_.compared),
         r_.changes.size(), worse, table_begin("Changes"));
     for (std::size_t i = 0; i < std::min(most_failed, r_.changes.size()); ++i)
-      put("<tr><td class=\"text\">{}</td><td class=\"text{}\">{}</td></tr>\n", html_text(r_.changes[i].output),
-          r_.changes[i].worse ? " bad" : "", html_text(r_.changes[i].what));
+      put("<tr><td class=\"text\">{}</td><td class=\"text{}\">{}</td></tr>\n", xml_text(r_.changes[i].output),
+          r_.changes[i].worse ? " bad" : "", xml_text(r_.changes[i].what));
     out_ += table_end();
   }
 
@@ -102,7 +79,7 @@ class Page {
       if (is_made(r.state) || n == most_failed) continue;
       if (n++ == 0) put("<h2>Nothing could be made of</h2>\n{}", table_begin("Failures"));
       put("<tr><td class=\"text\">{}</td><td class=\"text bad\">{}</td><td class=\"text\">{}</td></tr>\n",
-          html_text(r.input), to_string(r.state), html_text(r.cause));
+          xml_text(r.input), to_string(r.state), xml_text(r.cause));
     }
     if (n) out_ += table_end();
   }
@@ -130,7 +107,7 @@ class Page {
          largest([](const ReportRow& r) { return r.look && r.look->of_diagonal > rounding ? r.look->of_diagonal : 0; }))
       put("<figure><div data-look=\"{}\"></div><figcaption>{}<br><span "
           "class=\"soft\">{}</span></figcaption></figure>\n",
-          look_index(*r), html_text(r->input),
+          look_index(*r), xml_text(r->input),
           std::isfinite(r->look->rms) ? fmt::format("{:.3g} m rms, {:.3g} m at most; {:.2g} of the diagonal",
                                                     r->look->rms, r->look->max, r->look->of_diagonal)
                                       : "one of the worlds shows no surface, or too large a one");
@@ -154,7 +131,7 @@ class Page {
     for (const auto& [name, k] : sorted)
       put("<tr><td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td "
           "class=\"text\">{}</td></tr>\n",
-          name, k->severity, k->files, k->times, html_text(k->example));
+          name, k->severity, k->files, k->times, xml_text(k->example));
     out_ += table_end();
   }
 
@@ -170,7 +147,7 @@ class Page {
     put("<h2>{}</h2>\n{}", title, table_begin(title));
     for (const auto* r : rows)
       put("<tr><td class=\"text\">{}</td><td>{}</td><td class=\"soft\">{:.0f} times the median</td><td>{}</td></tr>\n",
-          html_text(r->input), text(*r), median > 0 ? value(*r) / median : 0.0, readable_size(r->input_bytes));
+          xml_text(r->input), text(*r), median > 0 ? value(*r) / median : 0.0, readable_size(r->input_bytes));
     out_ += table_end();
   }
 
@@ -218,7 +195,7 @@ class Page {
     // "</script>" in a name would end the script.
     for (auto* text : {&rows, &looks})
       for (std::size_t at = 0; (at = text->find("</", at)) != text->npos; at += 3) text->replace(at, 2, "<\\/");
-    put("];\nconst rows={};\nconst looks={};\n{}</script>\n", rows, looks, script);
+    put("];\nconst rows={};\nconst looks={};\n{}</script>\n", rows, looks, corpus_table_script());
   }
 
   const CorpusReport& r_;

@@ -46,7 +46,8 @@ void look(const Flags& flags, std::size_t most) {
   std::string why;
   const auto recipe = read_recipe_options(run_recipe(out), why);
   Flags conversion = recipe ? conversion_flags(*recipe) : Flags{};
-  conversion.allow_paths.insert(conversion.allow_paths.end(), flags.allow_paths.begin(), flags.allow_paths.end());
+  auto& folders = conversion.load.allow_paths;
+  folders.insert(folders.end(), flags.load.allow_paths.begin(), flags.load.allow_paths.end());
   std::error_code none;
   fs::create_directories(corpus_folder(out) + "/looks", none);
   load_image_codecs();

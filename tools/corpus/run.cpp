@@ -229,9 +229,9 @@ class Run {
   JournalLine measured(std::uint32_t at) const {
     JournalLine line;
     const bool had_codecs = image_codecs_are_loaded();
-    const Usage before;
+    const ProcessUsage before;
     do_job(work_, plan_, plan_.jobs[at], line);
-    const Usage after;
+    const ProcessUsage after;
     line.codecs = !had_codecs && image_codecs_are_loaded();
     line.started = before.time;
     line.seconds = after.time - before.time;

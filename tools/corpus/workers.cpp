@@ -207,7 +207,7 @@ std::optional<WorkerEnd> Workers::wait(double seconds) {
   }
 }
 
-Usage::Usage() : time(clock_time()) {
+ProcessUsage::ProcessUsage() : time(clock_time()) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   cpu = cpu_of(usage);

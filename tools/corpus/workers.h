@@ -65,8 +65,8 @@ class Workers {
 };
 
 /// What this process has used up to now.
-struct Usage {
-  Usage();
+struct ProcessUsage {
+  ProcessUsage();
   double time, cpu;      // Unix time; processor seconds
   std::uint64_t memory;  // most at a time, bytes
 };

@@ -1,4 +1,5 @@
 #include "tools/report/chart.h"
+#include "base/text/xml_text.h"
 
 #include <fmt/format.h>
 
@@ -61,7 +62,7 @@ std::string mark_at(double x, double y, std::size_t k, std::string_view title) {
                                          "m0-4.5l4.5 8h-9z", "m0 4.5l4.5-8h-9z"};
   return fmt::format("<path class=\"mark s{}\" d=\"M{:.1f} {:.1f}{}\">{}</path>", k, x, y,
                      shapes[k % std::size(shapes)],
-                     title.empty() ? "" : fmt::format("<title>{}</title>", html_text(title)));
+                     title.empty() ? "" : fmt::format("<title>{}</title>", xml_text(title)));
 }
 
 std::string grid(const Axis& x, const Axis& y) {
@@ -98,34 +99,13 @@ std::string log_chart(std::string_view title, std::string_view unit, const std::
   const Axis x = axis_over(series, &ChartPoint::x, left + 8, right - 8),
              y = axis_over(series, &ChartPoint::y, bottom - 8, top + 8);
   std::string out = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}\n", width, height,
-                                html_text(title), grid(x, y));
+                                xml_text(title), grid(x, y));
   for (std::size_t k = 0; k < series.size(); ++k) out += line(series[k], k, x, y, unit);
   return out + "</svg>\n";
 }
 
 std::string chart_mark(std::size_t k) {
   return fmt::format("<svg class=\"key\" viewBox=\"0 0 12 12\" aria-hidden=\"true\">{}</svg>", mark_at(6, 6, k, ""));
-}
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
 }
 
 }  // namespace wrlkit

@@ -27,7 +27,4 @@ std::string log_chart(std::string_view title, std::string_view unit, const std::
 /// The mark of series k as a small <svg> element: for a legend.
 std::string chart_mark(std::size_t k);
 
-/// Text for HTML and SVG: & < > " are escaped.
-std::string html_text(std::string_view text);
-
 }  // namespace wrlkit

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/text/base64.h"
+#include "base/text/xml_text.h"
 #include "tools/report/chart.h"
 #include "tools/report/comparison.h"
 #include "tools/report/report_frame.h"
@@ -55,7 +56,7 @@ class Page {
         "lower is better; what lies on the lower edge is less than can be shown. Time is of the processor, for the "
         "collapses from the model on.</p>\n<ul class=\"keys\">");
     for (std::size_t k = 0; k < c_.criteria.size(); ++k)
-      put("<li>{}{}</li>", chart_mark(k), html_text(c_.criteria[k].name));
+      put("<li>{}{}</li>", chart_mark(k), xml_text(c_.criteria[k].name));
     put("</ul>\n<div class=\"charts\">\n");
     chart("Distance, root of the mean square", "", [](const InteractionPoint& p) { return p.rms; });
     chart("Distance, largest", "", [](const InteractionPoint& p) { return p.error; });
@@ -84,7 +85,7 @@ class Page {
         if (i < criterion.points.size()) {
           const auto& p = criterion.points[i];
           picture(criterion.pictures[i], "",
-                  fmt::format("<b>{}</b>, {} triangles, rms {:.3g}", html_text(criterion.name), p.n_faces, p.rms));
+                  fmt::format("<b>{}</b>, {} triangles, rms {:.3g}", xml_text(criterion.name), p.n_faces, p.rms));
         }
       put("</div>\n");
     }
@@ -99,7 +100,7 @@ class Page {
       for (const auto& p : criterion.points)
         put("<tr><td "
             "class=\"text\">{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.2g}</td><td>{:.3f}</td></tr>\n",
-            html_text(criterion.name), p.n_faces, p.rms, p.error, degrees(p.normals), p.seconds);
+            xml_text(criterion.name), p.n_faces, p.rms, p.error, degrees(p.normals), p.seconds);
     out_ += table_end();
   }
 

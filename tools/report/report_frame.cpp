@@ -1,17 +1,19 @@
 #include "tools/report/report_frame.h"
+#include "base/text/xml_text.h"
 
 #include <fmt/format.h>
 
 #include "tools/report/chart.h"
 
-extern "C" const char wrlkit_style_begin[], wrlkit_style_end[];  // tools/report/style.S
+// tools/report/assets.S
+extern "C" const char wrlkit_style_begin[], wrlkit_style_end[];
+extern "C" const char wrlkit_theme_begin[], wrlkit_theme_end[];
+extern "C" const char wrlkit_corpus_table_begin[], wrlkit_corpus_table_end[];
 
 namespace wrlkit {
 namespace {
 
-std::string_view style() {
-  return {wrlkit_style_begin, static_cast<std::size_t>(wrlkit_style_end - wrlkit_style_begin)};
-}
+std::string_view asset(const char* begin, const char* end) { return {begin, static_cast<std::size_t>(end - begin)}; }
 
 }  // namespace
 
@@ -24,27 +26,18 @@ std::string report_begin(std::string_view title) {
       "<link rel=\"icon\" href=\"data:,\"><title>{0}: wrlkit</title>\n<style>\n{1}</style></head>\n"
       "<body>\n<header class=\"head\"><h1>{0}</h1><div class=\"tools\"><button type=\"button\" "
       "id=\"theme\">Dark</button></div></header>\n<main>\n",
-      html_text(title), style());
+      xml_text(title), asset(wrlkit_style_begin, wrlkit_style_end));
 }
 
-std::string_view report_end() {
-  return R"HTML(</main>
-<script>
-{
-  const root = document.documentElement, button = document.getElementById("theme");
-  const dark = () => root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-  const say = () => { button.textContent = dark() ? "Light" : "Dark"; };
-  button.onclick = () => { root.dataset.theme = dark() ? "light" : "dark"; say(); };
-  say();
+std::string report_end() {
+  return fmt::format("</main>\n<script>\n{}</script>\n</body></html>\n", asset(wrlkit_theme_begin, wrlkit_theme_end));
 }
-</script>
-</body></html>
-)HTML";
-}
+
+std::string_view corpus_table_script() { return asset(wrlkit_corpus_table_begin, wrlkit_corpus_table_end); }
 
 std::string table_begin(std::string_view name) {
   return fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>\n",
-                     html_text(name));
+                     xml_text(name));
 }
 
 std::string_view table_end() { return "</table></div>\n"; }

@@ -9,10 +9,13 @@ namespace wrlkit {
 /// The page up to where its content begins.
 std::string report_begin(std::string_view title);
 /// What ends it.
-std::string_view report_end();
+std::string report_end();
 
 /// A table that is wide may be scrolled in a frame of its own, by keyboard too; `name` is read out.
 std::string table_begin(std::string_view name);
 std::string_view table_end();
+
+/// What sorts, searches and pages the table of `corpus report` (corpus_table.js).
+std::string_view corpus_table_script();
 
 }  // namespace wrlkit

@@ -1,21 +1,22 @@
 // wrlkit cat: the VRML97 writer on standard output.
 #include <fmt/format.h>
 
-#include "tools/cli/session.h"
-#include "tools/vrml_file.h"
+#include "tools/verbs/convert.h"
 
 namespace wrlkit {
 
 int run_cat(const Flags& flags) {
   Session s(flags);
-  if (!s.good() || !s.choose_pipeline(vrml_pipeline(flags))) return usage;
+  const auto options = save_options(flags);
+  auto to = *output_of(".wrl", options);
+  to.path = flags.output.empty() ? "-" : flags.output;
+  if (!s.good() || !s.choose_pipeline(to.format->pipeline(options))) return usage;
   if (flags.print_pipeline) {
     fmt::print("{}\n", s.pipeline().text());
     return done;
   }
-  if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))
-    return s.end(false);
-  return s.end(write_vrml_file(s, s.world().scene, flags.output.empty() ? "-" : flags.output, flags.gzip));
+  return s.end(s.read(flags.inputs[0]) &&
+               write_document(s.document(), s.pipeline(), to, options, {s.pipeline_options()}));
 }
 
 }  // namespace wrlkit

@@ -14,7 +14,7 @@ namespace {
 void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
   std::string why;
-  if (auto p = Pipeline::parse("expand", why)) p->run(s.world().scene, s.context());
+  if (auto p = Pipeline::parse("lower-vrml1,expand", why)) p->run(s.world().scene, s.context());
 }
 
 void print_text(const std::string& path, const Diagnostics& d) {
@@ -46,7 +46,7 @@ int run_check(const Flags& flags) {
     one.inputs = {path};
     Session s(one);
     if (!s.good()) return usage;
-    bool readable = s.read(path) != nullptr;
+    bool readable = s.read(path);
     if (readable && !flags.parse_only) check_world(s);
     s.progress().clear();
     unreadable += !readable;

@@ -1,21 +1,19 @@
-// A conversion, for the verb and for those who convert many files.
+// The steps of a conversion, as the command line and a run over a corpus take them.
 #pragma once
 #include <functional>
 
+#include "convert/save.h"
 #include "tools/cli/session.h"
 
 namespace wrlkit {
 
-/// Whether the end of a name says in which format a world is written there.
-bool is_output_name(const std::string& name);
-/// Chooses the pipeline by the flags and the name of the output; false when that cannot be done, which was printed.
+/// What the flags say, with what --profile chooses where they do not.
+SaveOptions save_options(const Flags&);
+/// Chooses the pipeline; false when a flag makes no sense, which was printed.
 bool prepare_conversion(Session&);
-/// Reads the input, runs the pipeline and writes the output; false when there is none. Messages are in the session.
-bool convert_world(Session&);
-
-/// The two halves of that: reads the input; runs the pipeline and writes the output. `last` sees the scene as it is
-/// written, as VRML or X3D.
+/// Reads the input; false when there is nothing to convert.
 bool read_input(Session&);
-bool write_world(Session&, const std::function<void(Scene&)>& last = {});
+/// Writes what was read. `last` is given the scene of a text format before it is written.
+Saved write_world(Session&, SaveOptions, const std::function<void(Scene&)>& last = {});
 
 }  // namespace wrlkit

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "base/text/json.h"
+#include "convert/formats.h"
+#include "scenegraph/range_text.h"
 
 namespace wrlkit {
 namespace {
@@ -18,12 +18,6 @@ std::string level_word(Level l) {
   return l == Level::authored ? "authored" : l == Level::expanded ? "expanded" : "mesh";
 }
 
-std::string range_text(const FieldRange& r) {
-  if (!r.bounded()) return "";
-  auto end = [](double v) { return std::isinf(v) ? std::string(v < 0 ? "-inf" : "inf") : fmt::format("{:g}", v); };
-  return fmt::format("{}{},{}{}", r.low_open ? "(" : "[", end(r.low), end(r.high), r.high_open ? ")" : "]");
-}
-
 std::string kinds_text(const FieldDef& f) {
   std::string out;
   for (auto k : f.kinds) out += (out.empty() ? "" : ", ") + std::string(k);
@@ -32,7 +26,7 @@ std::string kinds_text(const FieldDef& f) {
 
 /// Range, unit, kinds: what limits a value; and whether it is a field of wrlkit's own.
 std::string limits_text(const FieldDef& f) {
-  std::string out = range_text(f.range);
+  std::string out = f.range.bounded() ? range_text(f.range) : "";
   for (const auto& part : {std::string(f.unit), kinds_text(f), std::string(f.is_own() ? "(wrlkit's own)" : "")})
     if (!part.empty()) out += (out.empty() ? "" : " ") + part;
   return out;
@@ -48,20 +42,6 @@ std::string doc_text(const NodeType& t, const FieldDef& f) {
   if (f.x3d_from) out += fmt::format("; another default in X3D {}.{}", f.x3d_from / 10, f.x3d_from % 10);
   return out;
 }
-
-struct FormatRow {
-  std::string_view name, extensions, read, write;
-};
-constexpr FormatRow formats[] = {
-    {"VRML97", ".wrl .wrz .wrl.gz .vrml", "yes, gzip by its first bytes", "yes, --gzip"},
-    {"VRML 1.0", ".wrl .wrz .wrl.gz .iv", "yes, Inventor 2 ASCII too", "no"},
-    {"X3D XML", ".x3d .x3dz", "yes, versions 3.0 to 4.0, gzip", "yes, 3.3 or 4.0, --gzip"},
-    {"X3D VRML", ".x3dv .x3dvz", "yes, versions 3.0 to 4.0, gzip", "no"},
-    {"glTF 2.0", ".gltf", "yes, by its asset", "yes, --compress, optimize"},
-    {"GLB", ".glb", "yes, by its first bytes", "yes, --compress, optimize"},
-    {"patches", ".xml", "yes", "illuminate"},
-    {"pictures", "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR", "as textures", "PNG, JPEG, WebP, EXR"},
-};
 
 }  // namespace
 
@@ -83,6 +63,8 @@ std::string pass_text(const PassInfo& p) {
                                 level_word(p.leaves));
   for (auto& o : p.make()->options())
     out += fmt::format("  {:<18} {:<28} {:<14} {}\n", o.name, o.type_and_range(), o.value, o.help);
+  if (!p.statistics.empty()) out += "  counts, for --stats:\n";
+  for (const auto& s : p.statistics) out += fmt::format("  {:<33} {}\n", s.name, s.help);
   if (!p.doc.empty()) out += fmt::format("\n{}\n", p.doc);
   return out;
 }
@@ -94,7 +76,7 @@ std::string diagnostic_text(Diag d) {
 
 std::string formats_text() {
   std::string out = fmt::format("{:<10}{:<40}{:<32}{}\n", "format", "extensions", "read", "write");
-  for (auto& f : formats) out += fmt::format("{:<10}{:<40}{:<32}{}\n", f.name, f.extensions, f.read, f.write);
+  for (auto& f : formats()) out += fmt::format("{:<10}{:<40}{:<32}{}\n", f.name, f.endings, f.reads, f.writes);
   return out;
 }
 
@@ -102,12 +84,12 @@ std::string formats_json() {
   std::string out;
   JsonOut json(out);
   json.begin_array();
-  for (auto& f : formats) {
+  for (auto& f : formats()) {
     json.begin_object();
     json.member("name", f.name);
-    json.member("extensions", f.extensions);
-    json.member("read", f.read);
-    json.member("write", f.write);
+    json.member("extensions", f.endings);
+    json.member("read", f.reads);
+    json.member("write", f.writes);
     json.end_object();
   }
   json.end_array();
@@ -136,6 +118,16 @@ std::string passes_json() {
       json.end_object();
     }
     json.end_array();
+    json.key("statistics");
+    json.begin_array();
+    for (const auto& s : p.statistics) {
+      json.begin_object();
+      json.member("name", s.name);
+      json.member("help", s.help);
+      json.end_object();
+    }
+    json.end_array();
+    json.member("doc", p.doc);
     json.end_object();
   }
   json.end_array();
@@ -157,14 +149,16 @@ std::string nodes_page() {
 
 std::string passes_page() {
   std::string out =
-      "# Passes\n\nGenerated from the registry by `script/docs`; do not edit. Each header in `passes/` says more, with "
-      "an example.\n";
+      "# Passes\n\nGenerated from the registry by `script/docs`; do not edit. `wrlkit passes NAME` shows the same.\n";
   for (auto& p : passes()) {
     out += fmt::format("\n## {}\n\n{}. Needs level *{}*, leaves level *{}*.\n", p.name, p.summary, level_word(p.needs),
                        level_word(p.leaves));
+    if (!p.doc.empty()) out += fmt::format("\n{}\n", p.doc);
     auto options = p.make()->options();
     if (!options.empty()) out += "\n| option | type | default | |\n|---|---|---|---|\n";
     for (auto& o : options) out += fmt::format("| {} | {} | {} | {} |\n", o.name, o.type_and_range(), o.value, o.help);
+    if (!p.statistics.empty()) out += "\n| counts | |\n|---|---|\n";
+    for (const auto& s : p.statistics) out += fmt::format("| {} | {} |\n", s.name, s.help);
   }
   out += "\n## Pipelines with a name\n\n| name | passes | |\n|---|---|---|\n";
   for (auto& n : named_pipelines()) out += fmt::format("| {} | `{}` | {} |\n", n.name, n.text, n.summary);

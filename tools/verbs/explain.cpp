@@ -7,7 +7,7 @@
 #include "scenegraph/node_table.h"
 #include "tools/cli/flags.h"
 #include "tools/cli/recipe.h"
-#include "tools/profiles.h"
+#include "convert/profiles.h"
 #include "tools/verbs/documentation.h"
 
 namespace wrlkit {

@@ -134,8 +134,7 @@ int run_illuminate(const Flags& flags) {
   light::IlluminateOptions options;
   const auto light = light_options(flags);
   if (!s.good() || !light || !read_options(flags, options) || !is_safe(flags) ||
-      !s.choose_pipeline(
-          "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{materials=true},tessellate{texcoords=true}"))
+      !s.choose_pipeline("lower-vrml1,expand,lower-x3d{materials=true},tessellate{texcoords=true}"))
     return usage;
   if (!s.read(flags.inputs[0])) return s.end(false);
   auto file = OutputFile::open(flags.output, {.gzip = flags.output.ends_with(".gz")}, s.diag());

@@ -217,7 +217,7 @@ int run_info(const Flags& flags) {
   if (!s.good()) return usage;
   const auto file = read_file(flags.inputs[0], {}, s.diag());
   if (file && is_patch_file(file->view())) return print_patches_info(s, *file);
-  if (!file || !s.read(flags.inputs[0], *file)) return s.end(false);
+  if (!file || !s.document().read(flags.inputs[0], *file)) return s.end(false);
   const auto text = info_of(s);
   s.progress().clear();
   if (text) fmt::print("{}", *text);

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "base/text/json.h"
+#include "convert/profiles.h"
 #include "parsers/gltf/names.h"
 #include "passes/analysis/text_list.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
-#include "tools/cli/session.h"
-#include "tools/gltf_output.h"
-#include "tools/profiles.h"
+#include "tools/gltf_summary.h"
+#include "tools/verbs/convert.h"
 
 namespace wrlkit {
 namespace {
@@ -104,7 +104,6 @@ int run_optimize(const Flags& given) {
   Flags flags = given;
   const Profile* profile = find_profile(flags.profile.empty() ? "three" : flags.profile);
   flags.profile = profile->name;
-  apply_profile(flags);
   if (flags.print_profile) {
     fmt::print("{}", profile_text(*profile));
     return done;
@@ -118,8 +117,12 @@ int run_optimize(const Flags& given) {
     flags.pipeline_given = true;
   }
   Session s(flags);
-  auto options = gltf_options(flags);
-  if (!s.good() || !options || !s.choose_pipeline(gltf_pipeline(flags))) return usage;
+  auto options = save_options(flags);
+  if (!prepare_conversion(s)) return usage;
+  if (!output_of(flags.output)->format->meshes) {
+    fmt::print(stderr, "wrlkit: optimize writes .glb and .gltf, not '{}'\n", flags.output);
+    return usage;
+  }
   if (flags.print_pipeline) {
     fmt::print("{}\n", s.pipeline().text());
     return done;
@@ -128,9 +131,10 @@ int run_optimize(const Flags& given) {
   std::error_code ec;
   const auto size = std::filesystem::file_size(flags.inputs[0], ec);
   const Before before{ec ? 0 : size, names_of(s.world().scene)};
-  options->measure_gzip = !flags.quiet;
-  GltfSummary made;
-  if (!write_gltf_file(s, *options, made)) return s.end(false);
+  options.measure_gzip = !flags.quiet;
+  const auto saved = write_world(s, options);
+  if (!saved) return s.end(false);
+  const GltfSummary& made = *saved.gltf;
   // Standard output cannot be read again.
   const Lost lost = flags.output == "-" ? Lost{} : lost_of(before.names, flags.output);
   if (!lost.names.empty()) {

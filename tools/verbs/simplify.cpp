@@ -8,11 +8,11 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
+#include "convert/writing.h"
 #include "geometry/progressive/progressive_world.h"
 #include "geometry/simplify/world.h"
 #include "tools/cli/lengths.h"
 #include "tools/cli/session.h"
-#include "tools/vrml_file.h"
 
 namespace wrlkit {
 namespace {
@@ -22,8 +22,7 @@ namespace fs = std::filesystem;
 /// The name of the input without folder and endings: "plant" of "old/plant.wrl.gz".
 std::string stem_of(const std::string& path) {
   auto name = fs::path(path).filename().string();
-  for (std::string_view end : {".gz", ".wrl", ".wrz", ".vrml"})
-    if (name.size() > end.size() && name.ends_with(end)) name.resize(name.size() - end.size());
+  name.resize(name.size() - ending_of(name, scene_endings()).size());
   return name == "-" ? "world" : name;
 }
 
@@ -38,8 +37,8 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
     fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios, --error and --progressive is needed\n");
     return std::nullopt;
   }
-  if (f.progressive && criterion.value == Criterion::meshopt) {
-    fmt::print(stderr, "wrlkit simplify: --progressive: meshopt keeps no record of its steps\n");
+  if (f.progressive && !info(criterion.value).keeps_record) {
+    fmt::print(stderr, "wrlkit simplify: --progressive: {} keeps no record of its steps\n", criterion.print());
     return std::nullopt;
   }
   for (const auto& text : f.errors) {
@@ -57,13 +56,14 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
 }
 
 bool write_world(Session& s, const std::string& path, const Scene& scene) {
-  return write_vrml_file(s, scene, path, s.flags().gzip);
+  Saved saved;
+  return write_vrml_file({scene, {}, s.context(), s.flags().save, *output_of(path), nullptr, saved});
 }
 
 /// The world as one progressive file in place of many.
 int write_progressive_file(Session& s, Criterion criterion, const std::string& path) {
   const auto surfaces = progressive_surfaces(s.world().scene, criterion, s.context());
-  auto file = OutputFile::open(path, {.gzip = s.flags().gzip}, s.diag());
+  auto file = OutputFile::open(path, {.gzip = s.flags().save.gzip}, s.diag());
   if (!file) return s.end(false);
   const auto bytes = write_progressive_world(surfaces);
   file->write(bytes);
@@ -120,10 +120,10 @@ void print(Session& s, std::size_t n_faces, const std::vector<Written>& files, c
 
 /// Surfaces without loose faces; and baked light in the textures, where VRML is written for browsers.
 std::string_view standard_pipeline(const Flags& flags) {
-  if (flags.pipeline_given) return flags.progressive || flags.dump ? "lower-vrml1,lower-x3d{vrml97=true}" : "vrml";
-  if (flags.progressive) return "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
-  return flags.dump ? "lower-vrml1,lower-x3d{vrml97=true},weld"
-                    : "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap,weld";
+  if (flags.pipeline_given) return flags.progressive || flags.save.dump ? "lower-vrml1,lower-x3d{vrml97=true}" : "vrml";
+  if (flags.progressive) return "lower-vrml1,expand,lower-x3d{vrml97=true},weld";
+  return flags.save.dump ? "lower-vrml1,lower-x3d{vrml97=true},weld"
+                         : "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap,weld";
 }
 
 }  // namespace
@@ -142,9 +142,9 @@ int run_simplify(const Flags& flags) {
   std::error_code failed;
   fs::create_directories(flags.output, failed);
   const std::string base = (fs::path(flags.output) / stem_of(flags.inputs[0])).string(),
-                    ending = flags.gzip ? ".wrl.gz" : ".wrl";
+                    ending = flags.save.gzip ? ".wrl.gz" : ".wrl";
   if (flags.progressive)
-    return write_progressive_file(s, options->collapse.criterion, base + (flags.gzip ? ".wpm.gz" : ".wpm"));
+    return write_progressive_file(s, options->collapse.criterion, base + (flags.save.gzip ? ".wpm.gz" : ".wpm"));
 
   const SimplifiedWorld world(s.world().scene, *options, s.context());
   if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");

@@ -9,6 +9,7 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
+#include "convert/placing.h"
 #include "geometry/progressive/progressive_world.h"
 #include "tools/cli/session.h"
 #include "tools/report/deviation_map.h"
@@ -21,8 +22,7 @@ namespace wrlkit {
 namespace {
 
 /// Surfaces without loose faces, as `simplify --progressive` makes them.
-constexpr std::string_view surfaces_pipeline =
-    "lower-vrml1,inline,expand-protos,inline,expand-protos,lower-x3d{vrml97=true},weld";
+constexpr std::string_view surfaces_pipeline = "lower-vrml1,expand,lower-x3d{vrml97=true},weld";
 /// Baked light stays apart from the colours, so that each can be looked at alone.
 constexpr std::string_view world_pipeline = "gltf-light";
 
@@ -71,11 +71,12 @@ class Viewer {
   void add_collapse(Scene scene, const std::string& name) {
     CriterionName criterion;
     criterion.read(name);
-    if (criterion.value == Criterion::meshopt || page_.worlds.size() > 1) return;
+    if (!info(criterion.value).keeps_record || page_.worlds.size() > 1) return;
     s_.progress().begin("collapsing by " + name, 0, "");
     Diagnostics unheard(s_.diag().shared_sources());
     PassContext silent{unheard, s_.context().stats, &s_.resources()};
     std::string why;
+    place_world(scene, s_.flags().load.unit, s_.flags().load.up);
     if (!Pipeline::parse(surfaces_pipeline, why)->run(scene, silent)) return;
     const auto surfaces = progressive_surfaces(scene, criterion.value, silent);
     if (!surfaces.empty()) page_.collapses.push_back({name, write_progressive_world(surfaces)});
@@ -102,8 +103,8 @@ bool is_usable(const Flags& f) {
     return false;
   }
   for (const auto& name : f.criteria)
-    if (name == "meshopt") {
-      fmt::print(stderr, "wrlkit view: --criteria: meshopt keeps no record of its steps\n");
+    if (CriterionName criterion; criterion.read(name) && !info(criterion.value).keeps_record) {
+      fmt::print(stderr, "wrlkit view: --criteria: {} keeps no record of its steps\n", name);
       return false;
     }
   return true;

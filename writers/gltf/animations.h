@@ -1,4 +1,4 @@
-// Animations: each TimeSensor that moves something (gltf_motion.h) is one, as long as its cycleInterval.
+// Animations: each TimeSensor that moves something (motion.h) is one, as long as its cycleInterval.
 //
 // Both languages go along lines, and between rotations along the shorter arc, so keys become times and values stay what
 // they are. Keys that are equal are a jump: two times that are neighbours in single precision. An animation of glTF

@@ -7,6 +7,13 @@
 #include "base/io/gzip.h"
 #include "base/io/output.h"
 #include "base/io/uri.h"
+#include "scenegraph/nodes.h"
+#include "writers/gltf/document/dequantize.h"
+#include "writers/gltf/document/headlight.h"
+#include "writers/gltf/document/hierarchy.h"
+#include "writers/gltf/document/move_to_origin.h"
+#include "writers/gltf/document/place_tables.h"
+#include "writers/gltf/document/round_transforms.h"
 #include "writers/gltf/json.h"
 #include "writers/gltf/pointers.h"
 
@@ -78,8 +85,7 @@ class Writer {
         meshes_(scene, source, animations_.motion(), store_, parts_,
                 options.lightmaps != GltfOptions::Lightmaps::base_color,
                 options.compression.method == GltfCompression::Method::meshopt, diag),
-        hierarchy_(scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, parts_,
-                   diag) {}
+        makers_{scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag} {}
 
   bool write() {
     Files files(diag_);
@@ -108,8 +114,8 @@ class Writer {
   /// The nodes that show a geometry with morph targets have the weights.
   void add_morphs() {
     std::map<std::uint32_t, std::vector<std::uint32_t>> nodes;
-    for (std::uint32_t i = 0; i < hierarchy_.nodes().size(); ++i) {
-      const Node& n = hierarchy_.nodes()[i];
+    for (std::uint32_t i = 0; i < document_.nodes.size(); ++i) {
+      const Node& n = document_.nodes[i];
       if (n.attachment != Attachment::mesh) continue;
       const auto morph = meshes_.geometries()[meshes_.meshes()[n.attached].geometry].morph;
       if (morph != none) nodes[morph].push_back(i);
@@ -122,31 +128,47 @@ class Writer {
            (options_.images == GltfOptions::Images::automatic && options_.binary);
   }
 
+  /// The nodes, and with them the meshes, materials and pictures that they show.
+  void make_document() {
+    document_ = build_hierarchy(makers_);
+    add_headlight(document_, scene_);
+    move_to_origin(document_);
+    if (options_.names == GltfOptions::Names::table)
+      make_part_rows(document_, makers_, parts_);
+    else if (options_.gpu_instancing)
+      make_instances(document_, makers_);
+    store_instances(document_, store_);
+  }
+
+  /// What is left to do with the nodes once it is known how vertices are stored.
+  void finish_document(Packing& packing) {
+    auto moves = [&](NodeId source) { return animations_.moves(source); };
+    if (const double left = packing.tolerance_left(); left > 0)
+      packing.note_placement(
+          round_transforms(document_, {left, [&](std::uint32_t mesh) { return meshes_.reach(mesh); }, moves}));
+    // A Transform can come back only as it is.
+    auto keeps = [&](const Node& n) {
+      return moves(n.source) || (makers_.keeps_everything() && !(n.source && scene_.is(n.source, nodes::Shape)));
+    };
+    dequantize(
+        document_, [&](std::uint32_t mesh) { return packing.dequantization(meshes_.meshes()[mesh]); }, keeps);
+  }
+
   /// Makes what a file is written from and gives it to `put`.
   bool build(auto&& put) {
-    hierarchy_.build();
-    hierarchy_.store_instances(store_);
+    make_document();
     add_morphs();
-    add_pointers(animations_, scene_, materials_, hierarchy_);
-    animations_.store(store_, [&](std::uint32_t node) { return hierarchy_.offset(node); });
+    add_pointers(animations_, scene_, materials_, document_);
+    animations_.store(store_, [&](std::uint32_t node) { return offset_of(document_, scene_, node); });
     if (store_.full()) return report_too_large(store_.bytes(), diag_);
     static const std::vector<Picture> no_pictures;
-    Packing packing(options_.compression, store_, meshes_, hierarchy_);
+    Packing packing(options_.compression, store_, meshes_, document_);
+    finish_document(packing);
     const auto columns = table(packing.uses_meshopt());
     Layout layout(packing.store(), packing.blobs(), columns, pictures_inside() ? textures_.pictures() : no_pictures,
                   packing.uses_meshopt());
-    Parts parts{scene_,
-                hierarchy_,
-                meshes_,
-                packing,
-                materials_,
-                textures_,
-                layout,
-                animations_,
-                parts_,
-                options_.extras ? &extras_ : nullptr,
-                options_.facts_only,
-                {},
+    Parts parts{scene_, document_,   meshes_, packing,        materials_,          textures_,
+                layout, animations_, parts_,  makers_.extras, options_.facts_only, {},
                 {}};
     return put(parts);
   }
@@ -183,11 +205,11 @@ class Writer {
     s.geometry_shares = parts.layout.shares();
     for (auto* shares : {&s.json_shares, &s.geometry_shares})
       std::ranges::stable_sort(*shares, std::greater{}, &GltfSummary::Share::second);
-    s.nodes = hierarchy_.nodes().size();
+    s.nodes = document_.nodes.size();
     s.meshes = meshes_.meshes().size();
-    for (const Node& n : hierarchy_.nodes()) {
+    for (const Node& n : document_.nodes) {
       s.named += n.source && !scene_.name(n.source).empty();
-      const Instances* table = n.instances == none ? nullptr : &hierarchy_.instances()[n.instances];
+      const Instances* table = n.instances == none ? nullptr : &document_.instances[n.instances];
       if (table && !table->rows.empty())
         s.instances += table->places.size();
       else if (table) {
@@ -273,7 +295,8 @@ class Writer {
   Materials materials_;
   PartTable parts_;
   Meshes meshes_;
-  Hierarchy hierarchy_;
+  Makers makers_;
+  Document document_;
 };
 
 }  // namespace

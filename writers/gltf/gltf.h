@@ -1,7 +1,6 @@
-// A scene as glTF 2.0. What becomes of each node type is written in the headers that this one names: gltf_hierarchy
-// (grouping nodes, LOD, Switch), gltf_transform, gltf_meshes, gltf_materials, gltf_textures, gltf_texture_transform,
-// gltf_lights, gltf_cameras, gltf_motion (what ROUTEs move), gltf_animations, gltf_morphs, gltf_pointers, gltf_origin
-// (large coordinates), gltf_extras (everything else).
+// A scene as glTF 2.0. What becomes of each node type is written in the headers of this folder: document/hierarchy
+// (grouping nodes, LOD, Switch), transform, meshes, materials, textures, texture_transform, lights, cameras, motion
+// (what ROUTEs move), animations, morphs, pointers, origin (large coordinates), extras (everything else).
 #pragma once
 #include <string>
 #include <utility>
@@ -28,7 +27,7 @@ struct GltfCompression {
 };
 
 /// How pictures are stored. keep: PNG and JPEG as they are, others as PNG. jpeg, webp: colour pictures in that format
-/// where that is smaller, see gltf_recoding.h.
+/// where that is smaller, see recoding.h.
 struct GltfTextures {
   enum class Format : std::uint8_t { keep, png, jpeg, webp };
 
@@ -82,11 +81,11 @@ struct GltfOptions {
   bool lights = true, cameras = true, animations = true;
   bool animation_pointer = false;  // animations of colours and the like, by KHR_animation_pointer
   /// Where names of parts stand. table: in a property table (EXT_structural_metadata), with places of equal meshes as
-  /// tables, too; groups that only hold parts are rows then (gltf_parts.h).
+  /// tables, too; groups that only hold parts are rows then (parts.h).
   enum class Names : std::uint8_t { nodes, table };
   Names names = Names::nodes;
   bool gpu_instancing =
-      false;           // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (gltf_instances.h)
+      false;           // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (instances.h)
   bool extras = true;  // what glTF cannot say is kept
   bool facts_only =
       false;  // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make

@@ -6,9 +6,9 @@
 //   {"mesh": 3, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 7}}}, "extras": {"names":
 //   ["Bolt_1", "Bolt_2", ...]}}
 //
-// Those of several parents go together where names are in a table (gltf_part_rows.cpp), and have its rows as feature
-// ids. Without one, names stand in the order of the places, "" where there is none. Places are floats, whatever the
-// compression: the extension knows no smaller translations and scales. Not worth it below `least_instances`: the
+// Those of several parents go together where names are in a table (document/place_tables.h), and have its rows as
+// feature ids. Without one, names stand in the order of the places, "" where there is none. Places are floats, whatever
+// the compression: the extension knows no smaller translations and scales. Not worth it below `least_instances`: the
 // extension and its accessors take what three nodes do.
 #pragma once
 #include <vector>

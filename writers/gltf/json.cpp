@@ -19,7 +19,7 @@ bool is_parametric(const Scene& scene, NodeId n) {
 
 class Writer {
  public:
-  Writer(const Parts& parts, const Sink& sink) : p_(parts), h_(parts.hierarchy), sink_(sink) {}
+  Writer(const Parts& parts, const Sink& sink) : p_(parts), d_(parts.document), sink_(sink) {}
 
   std::vector<GltfSummary::Share> write() {
     json_.begin_object();
@@ -29,10 +29,10 @@ class Writer {
     extensions();
     json_.member("scene", 0);
     list("scenes", 1, [&](std::size_t) { scene(); });
-    measured("nodes", h_.nodes().size(), [&](std::size_t i) { node(static_cast<std::uint32_t>(i)); });
-    auto visible = visibility(p_.scene, h_.navigation_info());
-    measured("cameras", h_.cameras().size(),
-             [&](std::size_t i) { write_camera(json_, p_.scene, h_.cameras()[i], h_.world(), visible); });
+    measured("nodes", d_.nodes.size(), [&](std::size_t i) { node(static_cast<std::uint32_t>(i)); });
+    auto visible = visibility(p_.scene, d_.navigation_info);
+    measured("cameras", d_.cameras.size(),
+             [&](std::size_t i) { write_camera(json_, p_.scene, d_.cameras[i], d_.world, visible); });
     measured("meshes", p_.meshes.meshes().size(),
              [&](std::size_t i) { mesh(p_.meshes.meshes()[i], p_.packing.streams(static_cast<std::uint32_t>(i))); });
     measured("materials", p_.materials.materials().size(),
@@ -102,7 +102,7 @@ class Writer {
       json_.begin_object();
       if (p_.facts_only) json_.member("facts", true);
       if (!p_.scene.comment.empty()) json_.member("comment", p_.scene.comment);
-      if (h_.world_info()) p_.extras->node(json_, h_.world_info(), {});
+      if (d_.world_info) p_.extras->node(json_, d_.world_info, {});
       json_.end_object();
     }
     if (p_.extras || listed) json_.end_object();
@@ -112,15 +112,15 @@ class Writer {
   void extensions_used() {
     std::vector<std::string_view> used;
     if (p_.animations.uses_pointers()) used.push_back("KHR_animation_pointer");
-    if (!h_.lights().empty()) used.push_back("KHR_lights_punctual");
+    if (!d_.lights.empty()) used.push_back("KHR_lights_punctual");
     if (p_.materials.uses_unlit()) used.push_back("KHR_materials_unlit");
     if (p_.materials.uses_texture_transform()) used.push_back("KHR_texture_transform");
     if (p_.materials.uses_moz_lightmap()) used.push_back("MOZ_lightmap");
-    if (std::ranges::any_of(h_.instances(), [](const Instances& i) { return i.features != none; }))
+    if (std::ranges::any_of(d_.instances, [](const Instances& i) { return i.features != none; }))
       used.push_back("EXT_instance_features");
     if (p_.meshes.any_features()) used.push_back("EXT_mesh_features");
     if (has_table()) used.push_back("EXT_structural_metadata");
-    if (h_.uses_lod()) used.push_back("MSFT_lod");
+    if (!d_.lods.empty()) used.push_back("MSFT_lod");
     const auto needed = required();
     used.insert(used.end(), needed.begin(), needed.end());
     list("extensionsUsed", used.size(), [&](std::size_t i) { json_.value(used[i]); });
@@ -129,7 +129,7 @@ class Writer {
   /// What a reader must know to see anything.
   std::vector<std::string_view> required() const {
     std::vector<std::string_view> names;
-    if (!h_.instances().empty()) names.push_back("EXT_mesh_gpu_instancing");
+    if (!d_.instances.empty()) names.push_back("EXT_mesh_gpu_instancing");
     if (p_.packing.uses_quantization()) names.push_back("KHR_mesh_quantization");
     if (p_.layout.unpacked_size() > 0) names.push_back("EXT_meshopt_compression");
     if (!p_.packing.blobs().empty()) names.push_back("KHR_draco_mesh_compression");
@@ -143,15 +143,14 @@ class Writer {
   }
 
   void extensions() {
-    if (h_.lights().empty() && !has_table()) return;
+    if (d_.lights.empty() && !has_table()) return;
     json_.key("extensions");
     json_.begin_object();
     if (has_table()) table();
-    if (!h_.lights().empty()) {
+    if (!d_.lights.empty()) {
       json_.key("KHR_lights_punctual");
       json_.begin_object();
-      list("lights", h_.lights().size(),
-           [&](std::size_t i) { write_light(json_, p_.scene, h_.lights()[i], h_.world()); });
+      list("lights", d_.lights.size(), [&](std::size_t i) { write_light(json_, p_.scene, d_.lights[i], d_.world); });
       json_.end_object();
     }
     json_.end_object();
@@ -209,11 +208,11 @@ class Writer {
 
   void scene() {
     json_.begin_object();
-    if (h_.world_info()) {
-      auto title = p_.scene.get(h_.world_info(), nodes::world_info::title);
+    if (d_.world_info) {
+      auto title = p_.scene.get(d_.world_info, nodes::world_info::title);
       if (!title.empty()) json_.member("name", title);
     }
-    if (!h_.roots().empty()) numbers("nodes", std::span(h_.roots()));
+    if (!d_.roots.empty()) numbers("nodes", std::span(d_.roots));
     if (p_.extras) scene_extras();
     json_.end_object();
   }
@@ -221,15 +220,15 @@ class Writer {
   void scene_extras() {
     const auto& main = p_.scene.main;
     const bool protos = !main.protos.empty() && !p_.facts_only;  // what they made is there
-    if (!h_.navigation_info() && !h_.origin() && main.routes.empty() && !protos && main.imports.empty() &&
+    if (!d_.navigation_info && !d_.origin && main.routes.empty() && !protos && main.imports.empty() &&
         main.exports.empty())
       return;
     json_.key("extras");
     json_.begin_object();
     json_.key("vrml97");
     json_.begin_object();
-    if (h_.origin()) numbers("origin", std::span<const double>(*h_.origin()));
-    if (h_.navigation_info()) p_.extras->node(json_, h_.navigation_info(), {});
+    if (d_.origin) numbers("origin", std::span<const double>(*d_.origin));
+    if (d_.navigation_info) p_.extras->node(json_, d_.navigation_info, {});
     if (protos) p_.extras->protos(json_, main.protos);
     list("imports", main.imports.size(), [&](std::size_t i) { p_.extras->import(json_, main.imports[i]); });
     list("exports", main.exports.size(), [&](std::size_t i) { p_.extras->export_(json_, main.exports[i]); });
@@ -243,16 +242,16 @@ class Writer {
   }
 
   void node(std::uint32_t id) {
-    const Node& n = h_.nodes()[id];
+    const Node& n = d_.nodes[id];
     json_.begin_object();
     if (auto name = node_name(n); !name.empty()) json_.member("name", name);
-    if (n.transform != none) transform(h_.transforms()[n.transform]);
+    if (n.transform != none) transform(d_.transforms[n.transform]);
     if (n.attachment == Attachment::mesh) json_.member("mesh", n.attached);
     if (n.attachment == Attachment::camera) json_.member("camera", n.attached);
-    if (n.n_children > 0) numbers("children", h_.children(n));
+    if (n.n_children > 0) numbers("children", d_.children_of(n));
     if (n.attachment == Attachment::light || n.lod) node_extensions(n, id);
     if (n.instances != none)
-      instances(h_.instances()[n.instances]);
+      instances(d_.instances[n.instances]);
     else
       node_extras(n, id);
     json_.end_object();
@@ -287,7 +286,7 @@ class Writer {
     if (n.lod) {
       json_.key("MSFT_lod");
       json_.begin_object();
-      numbers("ids", std::span(h_.lod(id).levels));
+      numbers("ids", std::span(d_.lods.at(id).levels));
       json_.end_object();
     }
     json_.end_object();
@@ -332,7 +331,7 @@ class Writer {
 
   /// The type that a reader takes a node for.
   TypeId implied(const Node& n) const {
-    const bool stays = n.transform == none || h_.transforms()[n.transform].identity();
+    const bool stays = d_.place(n).identity();
     switch (n.attachment) {
       case Attachment::mesh:
         return stays ? nodes::Shape : nodes::Transform;
@@ -351,13 +350,13 @@ class Writer {
         p_.extras && (p_.facts_only ? is_fact(n)
                                     : !n.source || n.same_as != none ||
                                           p_.extras->says_more(n.source, implied(n), n.plain) || named_as_described(n));
-    bool coverage = n.lod && !h_.lod(id).coverage.empty();
+    bool coverage = n.lod && !d_.lods.at(id).coverage.empty();
     const bool unseen = p_.extras && p_.facts_only && !vrml97 && n.source && n.attachment == Attachment::nothing &&
                         p_.scene.is(n.source, nodes::Shape) && p_.extras->has_unseen_names(n.source);
     if (!vrml97 && !coverage && !unseen) return;
     json_.key("extras");
     json_.begin_object();
-    if (coverage) numbers("MSFT_screencoverage", std::span(h_.lod(id).coverage));
+    if (coverage) numbers("MSFT_screencoverage", std::span(d_.lods.at(id).coverage));
     if (unseen) p_.extras->unseen_names(json_, n.source);
     if (vrml97 && (!n.source || n.same_as != none)) {
       json_.key("vrml97");
@@ -622,7 +621,7 @@ class Writer {
   }
 
   const Parts& p_;
-  const Hierarchy& h_;
+  const Document& d_;
   const Sink& sink_;
   std::string text_;
   std::uint64_t written_ = 0;

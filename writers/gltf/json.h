@@ -3,7 +3,8 @@
 // vertices, and no more memory than the file has.
 #pragma once
 #include "base/io/sink.h"
-#include "writers/gltf/hierarchy.h"
+#include "writers/gltf/animations.h"
+#include "writers/gltf/document/document.h"
 #include "writers/gltf/layout.h"
 #include "writers/gltf/packing.h"
 
@@ -12,7 +13,7 @@ namespace wrlkit::gltf {
 /// Everything that a file is made of.
 struct Parts {
   const Scene& scene;
-  const Hierarchy& hierarchy;
+  const Document& document;
   const Meshes& meshes;
   const Packing& packing;
   const Materials& materials;

@@ -13,7 +13,7 @@
 #pragma once
 #include "base/diagnostics.h"
 #include "base/text/json.h"
-#include "scenegraph/light_node.h"
+#include "scenegraph/looks/light_node.h"
 #include "writers/gltf/box.h"
 #include "writers/gltf/motion.h"
 #include "writers/gltf/transform.h"

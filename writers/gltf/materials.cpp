@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "scenegraph/looks/material_node.h"
+#include "scenegraph/looks/picture_color.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/picture_color.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -25,13 +26,14 @@ double roughness(double shininess, const Vec3& specular) {
 
 /// An appearance on a kind of surface, once the tables of 4.14 are applied.
 struct Materials::Look {
+  std::optional<MaterialNode> says;  // what the material does
   NodeId appearance, material, texture_node, transform_node;
   TextureUse texture;
-  UvAffine uv;
+  TexcoordMap uv;
   SurfaceKind surface;
   TextureUse light;
   NodeId light_transform;
-  UvAffine light_uv;
+  TexcoordMap light_uv;
   bool lit = false, shows_color = false, shows_alpha = true;
   std::string_view base_field;          // of the material
   Vec3 base = white, emissive = black;  // display-referred
@@ -43,41 +45,23 @@ struct Materials::Look {
 
 namespace {
 
-bool is_material(const Scene& scene, NodeId n) {
-  return scene.is(n, nodes::Material) || scene.is(n, nodes::PhysicalMaterial) || scene.is(n, nodes::UnlitMaterial);
-}
-
-/// The picture of a material in a field that all materials of X3D 4.0 call the same; none where it has no such field.
-NodeId picture(const Scene& scene, NodeId material, std::string_view field) {
-  auto slot = scene.type(material).find(field, Dialect::x3d);
-  const Value* v = slot ? scene.find(material, *slot) : nullptr;
-  return v && !v->is && v->type == FieldType::SFNode ? v->node : NodeId{};
-}
-
 struct FurtherPicture {
-  std::string_view field;
+  NodeId MaterialNode::*node;
   PixelMeaning meaning;
 };
-constexpr FurtherPicture further[] = {{"normalTexture", PixelMeaning::data},
-                                      {"occlusionTexture", PixelMeaning::data},
-                                      {"emissiveTexture", PixelMeaning::color},
-                                      {"metallicRoughnessTexture", PixelMeaning::data}};
-
-/// Of an UnlitMaterial it is the colour itself.
-NodeId further_picture(const Scene& scene, NodeId material, std::string_view field) {
-  if (field == "emissiveTexture" && scene.is(material, nodes::UnlitMaterial)) return {};
-  return picture(scene, material, field);
-}
+constexpr FurtherPicture further[] = {{&MaterialNode::normal_picture, PixelMeaning::data},
+                                      {&MaterialNode::occlusion_picture, PixelMeaning::data},
+                                      {&MaterialNode::emissive_picture, PixelMeaning::color},
+                                      {&MaterialNode::metallic_roughness_picture, PixelMeaning::data}};
 
 }  // namespace
 
 bool Materials::has_picture(NodeId appearance) {
   if (!scene_.is(appearance, nodes::Appearance)) return false;
   if (textures_.get(scene_.get(appearance, nodes::appearance::texture)).texture != none) return true;
-  const NodeId m = scene_.get(appearance, nodes::appearance::material);
-  return is_material(scene_, m) && std::ranges::any_of(further, [&](auto f) {
-           return textures_.get(further_picture(scene_, m, f.field), f.meaning).texture != none;
-         });
+  const auto m = material_of(scene_, appearance);
+  return m &&
+         std::ranges::any_of(further, [&](auto f) { return textures_.get((*m).*f.node, f.meaning).texture != none; });
 }
 
 MaterialUse Materials::get(NodeId appearance, SurfaceKind s) {
@@ -116,13 +100,14 @@ Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
     l.texture_node = scene_.get(appearance, a::texture);
     l.transform_node = scene_.get(appearance, a::textureTransform);
   }
-  if (!is_material(scene_, l.material)) l.material = {};
+  l.says = wrlkit::read_material(scene_, l.material);
+  if (!l.says) l.material = {};
   if (!scene_.is(l.transform_node, nodes::TextureTransform)) l.transform_node = {};
   if (s.faces && s.texcoord) {
     l.texture = textures_.get(l.texture_node);
     further_pictures(l);
   }
-  if (s.faces && s.texcoord) l.uv = uv_affine(scene_, l.transform_node);
+  if (s.faces && s.texcoord) l.uv = read_texture_transform(scene_, l.transform_node).map();
   read_material(l);
   if (l.alpha < 1 || (s.color && s.opacity) || moves(l, "transparency")) l.mode = Alpha::blend;
   if (l.texture.channels % 2 == 0 && l.texture.channels > 0) {
@@ -137,32 +122,24 @@ Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
 
 void Materials::read_material(Look& l) {
   const SurfaceKind& s = l.surface;
-  const bool physical = scene_.is(l.material, nodes::PhysicalMaterial),
-             unlit = scene_.is(l.material, nodes::UnlitMaterial);
   const bool replaced = l.texture.channels >= 3 && !(l.appearance && multiplies_picture(scene_, l.appearance));
-  l.lit = l.material && s.faces && !unlit;
   l.shows_color = s.color && !replaced;
-  if (!l.material) return;
-  namespace p = nodes::physical_material;
-  namespace u = nodes::unlit_material;
-  const Vec3 emissive = physical ? scene_.get(l.material, p::emissiveColor)
-                        : unlit  ? scene_.get(l.material, u::emissiveColor)
-                                 : scene_.get(l.material, m::emissiveColor);
-  const Vec3 diffuse = physical ? scene_.get(l.material, p::baseColor)
-                       : unlit  ? emissive
-                                : scene_.get(l.material, m::diffuseColor);
-  if (!s.color && !replaced) l.base = s.faces ? diffuse : emissive;
-  if (!s.color && !replaced)
+  if (!l.says) return;
+  const MaterialNode& m = *l.says;
+  const bool physical = m.kind == MaterialNode::Kind::physical, unlit = m.kind == MaterialNode::Kind::unlit;
+  l.lit = s.faces && !unlit;
+  if (!s.color && !replaced) {
+    l.base = s.faces ? m.color : m.emissive;
     l.base_field = unlit || (!s.faces && !physical) ? "emissiveColor" : physical ? "baseColor" : "diffuseColor";
-  if (s.faces && !unlit) l.emissive = emissive;
-  l.alpha = 1 - unit_range(physical ? scene_.get(l.material, p::transparency)
-                           : unlit  ? scene_.get(l.material, u::transparency)
-                                    : scene_.get(l.material, m::transparency));
+  }
+  if (l.lit) l.emissive = m.emissive;
+  l.alpha = 1 - unit_range(m.transparency);
   if (physical) {
-    l.metallic = unit_range(scene_.get(l.material, p::metallic));
-    l.rough = unit_range(scene_.get(l.material, p::roughness));
-  } else if (l.lit)
-    l.rough = roughness(scene_.get(l.material, m::shininess), scene_.get(l.material, m::specularColor));
+    l.metallic = unit_range(m.metallic);
+    l.rough = unit_range(m.roughness);
+  } else if (l.lit) {
+    l.rough = roughness(m.shininess, m.specular);
+  }
 }
 
 void Materials::read_alpha_mode(Look& l) {
@@ -181,16 +158,12 @@ void Materials::read_alpha_mode(Look& l) {
 }
 
 void Materials::further_pictures(Look& l) {
-  if (!l.material) return;
+  if (!l.says) return;
   std::uint32_t* to[] = {&l.normal, &l.occlusion, &l.glow, &l.metal_rough};
   for (std::size_t i = 0; i < std::size(further); ++i)
-    *to[i] = textures_.get(further_picture(scene_, l.material, further[i].field), further[i].meaning).texture;
-  auto number = [&](std::string_view field) {
-    auto slot = scene_.type(l.material).find(field, Dialect::x3d);
-    return slot ? scene_.value(l.material, *slot).number : 1;
-  };
-  l.normal_scale = number("normalScale");
-  l.occlusion_strength = unit_range(number("occlusionStrength"));
+    *to[i] = textures_.get((*l.says).*further[i].node, further[i].meaning).texture;
+  l.normal_scale = l.says->normal_scale;
+  l.occlusion_strength = unit_range(l.says->occlusion_strength);
 }
 
 void Materials::look_at_light(Look& l) {
@@ -202,7 +175,7 @@ void Materials::look_at_light(Look& l) {
   if (l.light.texture == none) return;
   l.light_transform = scene_.get(l.appearance, a::lightmapTransform);
   if (!scene_.is(l.light_transform, nodes::TextureTransform)) l.light_transform = {};
-  l.light_uv = uv_affine(scene_, l.light_transform);
+  l.light_uv = read_texture_transform(scene_, l.light_transform).map();
   if (lightmaps_ == As::occlusion) l.occlusion = none;
   if (lightmaps_ != As::emissive) return;
   l.base = black;
@@ -336,12 +309,12 @@ void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name
   json.end_object();
 }
 
-void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::uint32_t set, const UvAffine& uv,
+void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::uint32_t set, const TexcoordMap& uv,
                                      bool moved) {
   json.member("index", texture);
   if (set > 0) json.member("texCoord", set);
   auto t = uv_transform(uv);
-  if (!t || (uv == UvAffine{} && !moved)) return;
+  if (!t || (uv == TexcoordMap{} && !moved)) return;
   texture_transform_ = true;
   json.key("extensions");
   json.begin_object();
@@ -373,8 +346,7 @@ std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
   std::vector<std::uint16_t> said{m::diffuseTexture.slot,   m::normalTexture.slot, m::emissiveTexture.slot,
                                   m::occlusionTexture.slot, m::normalScale.slot,   m::occlusionStrength.slot};
   // White with a picture could be either: a white material, or one that the picture replaces.
-  const bool one_color = l.surface.faces && !l.surface.color &&
-                         (l.texture.channels < 3 || own_picture(scene_, l.material)) &&
+  const bool one_color = l.surface.faces && !l.surface.color && (l.texture.channels < 3 || l.says->color_picture) &&
                          (l.texture.texture == none || l.base != white);
   if (one_color && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
   if (!replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
@@ -408,7 +380,7 @@ void Materials::extras(JsonOut& json, const Look& l) {
   bool transform = extras_ && l.transform_node && l.texture.texture == none;
   // Of a Material alone: a picture that is multiplied, not one that takes the place of the colour.
   bool multiplied =
-      extras_ && l.texture.texture != none && scene_.is(l.material, nodes::Material) && own_picture(scene_, l.material);
+      extras_ && l.texture.texture != none && scene_.is(l.material, nodes::Material) && l.says->color_picture;
   bool light = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::extras;
   for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
     if (n && extras_) extras_->set_placed(n);

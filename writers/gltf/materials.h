@@ -101,7 +101,7 @@ class Materials {
   void pbr(JsonOut&, const Look&);
   void texture_info(JsonOut&, const Look&, std::string_view name, std::uint32_t texture, const char* factor = nullptr,
                     double value = 1);
-  void texture_info_members(JsonOut&, std::uint32_t texture, std::uint32_t set, const UvAffine&, bool moved = false);
+  void texture_info_members(JsonOut&, std::uint32_t texture, std::uint32_t set, const TexcoordMap&, bool moved = false);
   void light_info(JsonOut&, const Look&);
   void extensions(JsonOut&, const Look&);
   void light_extras(JsonOut&, const Look&);

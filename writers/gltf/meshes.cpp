@@ -209,11 +209,11 @@ std::uint32_t Meshes::mesh(std::uint32_t geometry, const MaterialUse& use) {
 
 /// The texture transform is applied before V is turned round, so the coordinates are turned back and forth.
 std::uint32_t Meshes::baked(const Geometry& g, NodeId texture_transform, std::vector<float> Vertices::*places) {
-  auto affine = uv_affine(scene_, texture_transform);
+  const TexcoordMap map = read_texture_transform(scene_, texture_transform).map();
   split(mesh_of(g.source), g.texcoords != none);
   auto& uv = vertices_.*places;
   for (std::size_t i = 0; i + 1 < uv.size(); i += 2) {
-    auto [s, t] = affine(uv[i], 1.0 - uv[i + 1]);
+    auto [s, t] = map(uv[i], 1.0 - uv[i + 1]);
     uv[i] = static_cast<float>(s);
     uv[i + 1] = static_cast<float>(1 - t);
   }

@@ -35,17 +35,14 @@ Streams streams_of(const Geometry& g, const MeshRecord& m) {
 
 }  // namespace
 
-Packing::Packing(const GltfCompression& options, const Store& from, const Meshes& meshes, Hierarchy& hierarchy)
+Packing::Packing(const GltfCompression& options, const Store& from, const Meshes& meshes, const Document& document)
     : options_(options), from_(from), meshes_(meshes), store_(&from) {
   const auto& records = meshes.meshes();
   for (const MeshRecord& m : records) streams_.push_back(streams_of(meshes.geometries()[m.geometry], m));
-  if (options_.method == Method::none) {
-    if (options_.tolerance > 0) summary_.placement = hierarchy.round_transforms(options_.tolerance);
-    return;
-  }
+  if (options_.method == Method::none) return;
   store_ = &own_;
-  summary_.tolerance = tolerance_for(options, hierarchy.world());
-  note_uses(hierarchy);
+  summary_.tolerance = tolerance_for(options, document.world);
+  note_uses(document);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Geometry& g = meshes.geometries()[records[i].geometry];
     const bool still = g.mode == Mode::triangles && g.morph == none;
@@ -53,15 +50,17 @@ Packing::Packing(const GltfCompression& options, const Store& from, const Meshes
                   : still                          ? draco(streams_[i])
                                                    : copied(streams_[i]);
   }
-  double rest = summary_.tolerance - summary_.position;
-  if (options_.method == Method::meshopt && !hierarchy.instances().empty() && rest > 0)
-    rest -= summary_.placement = pack_places(hierarchy, rest / 2);
+  if (options_.method == Method::meshopt && !document.instances.empty() && tolerance_left() > 0)
+    summary_.placement = pack_places(document, tolerance_left() / 2);
   pack_others();
-  if (rest > 0) summary_.placement += hierarchy.round_transforms(rest);
-  hierarchy.dequantize([&](std::uint32_t mesh) { return dequantization(records[mesh]); });
 }
 
-void Packing::note_uses(const Hierarchy& hierarchy) {
+double Packing::tolerance_left() const {
+  if (options_.method == Method::none) return options_.tolerance;
+  return summary_.tolerance - summary_.position - summary_.placement;
+}
+
+void Packing::note_uses(const Document& document) {
   const std::size_t n = from_.accessors().size();
   to_.assign(n, none);
   scale_.assign(n, 0);
@@ -77,7 +76,7 @@ void Packing::note_uses(const Hierarchy& hierarchy) {
   for (const MeshRecord& m : meshes_.meshes())
     if (m.lightcoords != none) light_[m.lightcoords] = 1;
   // Metres cannot be made of whole numbers by a node whose places come behind it.
-  for (const Node& n : hierarchy.nodes()) {
+  for (const Node& n : document.nodes) {
     if (n.instances == none || options_.method != Method::quantize) continue;
     const auto positions = meshes_.geometries()[meshes_.meshes()[n.attached].geometry].positions;
     if (to_[positions] == none) {
@@ -173,23 +172,22 @@ Streams Packing::draco(const Streams& s) {
 }
 
 /// Half of it for translations, a quarter each for rotations and scales.
-double Packing::pack_places(const Hierarchy& hierarchy, double tolerance) {
-  const auto growth = hierarchy.growth(hierarchy.family());
+double Packing::pack_places(const Document& document, double tolerance) {
+  const auto growth = growth_of(document, family_of(document));
   std::map<std::uint32_t, double> steps;  // by accessor
   auto note = [&](std::uint32_t accessor, double step) {
     if (accessor != none) steps[accessor] = std::min(steps.try_emplace(accessor, step).first->second, step);
   };
-  for (std::uint32_t id = 0; id < hierarchy.nodes().size(); ++id) {
-    const Node& n = hierarchy.nodes()[id];
+  for (std::uint32_t id = 0; id < document.nodes.size(); ++id) {
+    const Node& n = document.nodes[id];
     if (n.instances == none) continue;
-    const Instances& all = hierarchy.instances()[n.instances];
-    double stretch = 0;
-    for (const Trs& t : all.places)
-      stretch = std::max({stretch, std::abs(t.scale[0]), std::abs(t.scale[1]), std::abs(t.scale[2])});
+    const Instances& all = document.instances[n.instances];
+    double largest = 0;
+    for (const Trs& t : all.places) largest = std::max(largest, stretch(t));
     const double reach = std::max(meshes_.reach(n.attached) * growth[id], 1e-9);
     note(all.translations, grid_step(tolerance / 2 / std::max(growth[id], 1e-9)));
     // A turn by four numbers that are each wrong by half a step moves a point by at most two steps of its distance.
-    note(all.rotations, grid_step(tolerance / 4 / (reach * std::max(stretch, 1e-9)) / 2));
+    note(all.rotations, grid_step(tolerance / 4 / (reach * std::max(largest, 1e-9)) / 2));
     note(all.scales, grid_step(tolerance / 4 / reach));
   }
   for (const auto& [accessor, step] : steps) {

@@ -2,8 +2,9 @@
 // is known how large the world is and how much every mesh is scaled where it is shown: the grid of a mesh is as fine as
 // the tolerance asks for in the world.
 #pragma once
+#include "writers/gltf/document/document.h"
 #include "writers/gltf/gltf.h"
-#include "writers/gltf/hierarchy.h"
+#include "writers/gltf/meshes.h"
 #include "writers/gltf/quantize.h"
 
 namespace wrlkit::gltf {
@@ -18,9 +19,7 @@ struct Streams {
 
 class Packing {
  public:
-  /// Reads `from` and the meshes; with 16-bit positions, nodes of the hierarchy get the scale that makes metres of
-  /// them.
-  Packing(const GltfCompression&, const Store& from, const Meshes&, Hierarchy&);
+  Packing(const GltfCompression&, const Store& from, const Meshes&, const Document&);
 
   const Store& store() const { return *store_; }
   const Streams& streams(std::uint32_t mesh) const { return streams_[mesh]; }
@@ -37,15 +36,19 @@ class Packing {
   /// Are there numbers of kinds that glTF knows by KHR_mesh_quantization only?
   bool uses_quantization() const;
   const GltfSummary::Quantization& quantization() const { return summary_; }
+  /// How far, in metres of the world, what is stored may still be moved; 0 or less: no further.
+  double tolerance_left() const;
+  /// It was moved so far by other numbers of nodes.
+  void note_placement(double moved) { summary_.placement += moved; }
 
  private:
-  void note_uses(const Hierarchy&);
+  void note_uses(const Document&);
   void keep_floats(const Geometry&);
   Streams packed(const Streams&);
   Streams copied(const Streams&);
   Streams draco(const Streams&);
   /// Tables of places on grids, so that nothing moves by more than the tolerance; how far it may.
-  double pack_places(const Hierarchy&, double tolerance);
+  double pack_places(const Document&, double tolerance);
   void pack_others();
   double step(std::uint32_t positions) const;
   std::vector<std::uint32_t> corners(std::uint32_t indices, std::size_t n_vertices) const;

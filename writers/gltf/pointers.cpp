@@ -74,17 +74,18 @@ class Pointers {
   /// KHR_texture_transform counts from the top, and scales before it turns: a turn has an even scale.
   void texture_transform(const std::string& at, NodeId n) {
     namespace f = nodes::texture_transform;
-    const Vec2 center = scene_.get(n, f::center), scale = scene_.get(n, f::scale),
-               shift = scene_.get(n, f::translation);
-    const double rotation = scene_.get(n, f::rotation);
+    const TextureTransformNode still = read_texture_transform(scene_, n);
+    const Vec2& scale = still.scale;
+    const double rotation = still.rotation;
     const bool turns = rotation != 0 || animations_.motion().moves(n, f::rotation.slot);
-    auto two = [](const Property::At& in, const Vec2& still) {
-      const Sample s = in.value({still[0], still[1]});
+    auto two = [](const Property::At& in, const Vec2& otherwise) {
+      const Sample s = in.value({otherwise[0], otherwise[1]});
       return Vec2{s[0], s[1]};
     };
     auto offset = [=](In in, Out& out) {
-      const UvAffine a =
-          uv_affine(two(in[0], center), two(in[1], scale), in[2].value({rotation})[0], two(in[3], shift));
+      const TexcoordMap a = TextureTransformNode{two(in[0], still.center), two(in[1], still.scale),
+                                                 two(in[3], still.translation), in[2].value({still.rotation})[0]}
+                                .map();
       out.push_back(a.xy + a.x);
       out.push_back(1 - a.yy - a.y);
     };
@@ -124,12 +125,12 @@ class Pointers {
 
 }  // namespace
 
-void add_pointers(Animations& animations, const Scene& scene, const Materials& materials, const Hierarchy& hierarchy) {
+void add_pointers(Animations& animations, const Scene& scene, const Materials& materials, const Document& document) {
   Pointers p(animations, scene);
   for (const auto& m : materials.moved()) p.material(m);
-  for (std::size_t i = 0; i < hierarchy.lights().size(); ++i)
-    if (hierarchy.lights()[i].source) p.light(i, hierarchy.lights()[i], hierarchy.world());
-  for (std::size_t i = 0; i < hierarchy.cameras().size(); ++i) p.camera(i, hierarchy.cameras()[i].source);
+  for (std::size_t i = 0; i < document.lights.size(); ++i)
+    if (document.lights[i].source) p.light(i, document.lights[i], document.world);
+  for (std::size_t i = 0; i < document.cameras.size(); ++i) p.camera(i, document.cameras[i].source);
 }
 
 }  // namespace wrlkit::gltf

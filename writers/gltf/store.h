@@ -29,7 +29,7 @@ enum class View : std::uint8_t {
   moving2,
   moving3,
   moving4,
-  // Quantised (gltf_packing.h). "grid": floats on a grid; "sequence": indices that are not those of triangles.
+  // Quantised (packing.h). "grid": floats on a grid; "sequence": indices that are not those of triangles.
   short_position,
   byte_normal,
   short_rgb,

@@ -41,12 +41,7 @@ std::optional<Vec3> axis_scale(const Quaternion& orientation, const Vec3& scale)
 
 }  // namespace
 
-Quaternion quaternion(const Vec4& r) {
-  double length = std::hypot(r[0], r[1], r[2]);
-  if (!(length > 0) || !fits_float(r)) return {};
-  double s = std::sin(r[3] / 2) / length;
-  return {r[0] * s, r[1] * s, r[2] * s, std::cos(r[3] / 2)};
-}
+Quaternion quaternion(const Vec4& r) { return fits_float(r) ? quaternion_of(r) : Quaternion(); }
 
 Quaternion looking_along(const Vec3& direction) {
   double length = std::hypot(direction[0], direction[1], direction[2]);
@@ -57,11 +52,6 @@ Quaternion looking_along(const Vec3& direction) {
   double w = 1 - z, n = std::sqrt(w * w + x * x + y * y);
   if (n < 1e-9) return {0, 1, 0, 0};
   return {y / n, -x / n, 0, w / n};
-}
-
-Quaternion operator*(const Quaternion& a, const Quaternion& b) {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
 Vec3 rotate(const Quaternion& q, const Vec3& v) { return matrix(Trs{{0, 0, 0}, q, {1, 1, 1}}).point(v); }
@@ -103,7 +93,7 @@ std::optional<Trs> trs_of(const Matrix& m) {
   t.rotation = all[static_cast<std::size_t>(most)];
   for (double* v : {&t.rotation.x, &t.rotation.y, &t.rotation.z, &t.rotation.w})
     if (std::abs(*v) < square) *v = 0;
-  if (t.rotation.w < 0) t.rotation = {-t.rotation.x, -t.rotation.y, -t.rotation.z, -t.rotation.w};
+  if (t.rotation.w < 0) t.rotation = -t.rotation;
   return t;
 }
 

@@ -4,22 +4,16 @@
 #pragma once
 #include <optional>
 
+#include "base/math/quaternion.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit::gltf {
 
-struct Quaternion {
-  double x = 0, y = 0, z = 0, w = 1;
-  bool identity() const { return x == 0 && y == 0 && z == 0; }
-};
-
-/// About an axis of any length; none when the axis is zero or a number is not finite.
+/// About an axis of any length; none when the axis is zero or a number is too large for glTF.
 Quaternion quaternion(const Vec4& axis_angle);
 /// Turns -Z, where lights and cameras of glTF look, into a direction of any length; none when that is zero.
 Quaternion looking_along(const Vec3& direction);
-Quaternion operator*(const Quaternion&, const Quaternion&);
 Vec3 rotate(const Quaternion&, const Vec3&);
-inline Quaternion inverse(const Quaternion& q) { return {-q.x, -q.y, -q.z, q.w}; }
 
 struct Trs {
   Vec3 translation{0, 0, 0};

@@ -2,29 +2,13 @@
 
 #include <cmath>
 
+#include "base/text/xml_text.h"
+
 namespace wrlkit {
 namespace {
 
 namespace word = patch_words;
 constexpr int coordinate_digits = 12, radiance_digits = 6;
-
-/// Text in an attribute: characters that XML reads otherwise are written as references, those it cannot hold as blanks.
-std::string escaped(std::string_view s) {
-  std::string out;
-  for (char c : s) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out;
-}
 
 class PatchWriter {
  public:
@@ -80,7 +64,7 @@ class PatchWriter {
   void begin(std::string_view attribute) { out_ << ' ' << attribute << "=\""; }
   void text(std::string_view attribute, std::string_view value) {
     begin(attribute);
-    out_ << escaped(value) << '"';
+    out_ << xml_text(value) << '"';
   }
   void integer(std::string_view attribute, std::uint32_t value) {
     begin(attribute);

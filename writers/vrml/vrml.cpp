@@ -4,19 +4,21 @@
 #include <utility>
 
 #include "scenegraph/equal.h"
-#include "writers/vrml/def_names.h"
+#include "writers/text/document.h"
 
 namespace wrlkit {
 namespace {
 
-class Writer {
+class Writer : TextDocument {
  public:
   Writer(const Scene& scene, const VrmlOptions& options, const Sink& sink)
-      : scene_(scene),
-        options_(options),
-        out_(sink),
-        names_(scene, Dialect::vrml97, options.own_fields),
-        printed_(scene.node_count(), 0) {}
+      : TextDocument(scene,
+                     {.dialect = Dialect::vrml97,
+                      .yes = "TRUE",
+                      .no = "FALSE",
+                      .between_tuples = scene.format == Format::vrml1 ? "," : ""},
+                     options.own_fields, options.precision, sink),
+        options_(options) {}
 
   void file() {
     out_ << (!vrml1_                 ? "#VRML V2.0 utf8"
@@ -34,11 +36,6 @@ class Writer {
   }
 
  private:
-  void line() {
-    out_ << '\n';
-    for (int i = 0; i < depth_; ++i) out_ << ' ';
-  }
-
   void scope(const Scope& s) {
     for_each_statement(
         scene_, Dialect::vrml97, names_.unknown(), s,
@@ -51,7 +48,7 @@ class Writer {
           node(n);
         });
     for (auto& r : s.routes) {
-      if (printed_[r.from.value] != scope_ || printed_[r.to.value] != scope_) continue;
+      if (!is_printed(r.from) || !is_printed(r.to)) continue;
       line_start();
       out_ << "ROUTE " << names_[r.from] << '.' << r.event_out << " TO " << names_[r.to] << '.' << r.event_in;
     }
@@ -85,19 +82,10 @@ class Writer {
     }
     out_ << '{';
     ++depth_;
-    body(p.body);
+    body([&] { scope(p.body); });
     --depth_;
     line();
     out_ << '}';
-  }
-
-  /// Knows nothing of what is printed around it, and leaves that known behind it.
-  void body(const Scope& s) {
-    const auto around = std::exchange(scope_, ++scopes_);
-    const auto mark = again_.size();
-    scope(s);
-    for (; again_.size() > mark; again_.pop_back()) printed_[again_.back().first] = again_.back().second;
-    scope_ = around;
   }
 
   void declaration(const FieldDef& f) {
@@ -111,13 +99,11 @@ class Writer {
       return;
     }
     auto name = names_[n];
-    auto& printed = printed_[n.value];
-    if (printed == scope_) {
+    if (is_printed(n)) {
       out_ << "USE " << name;
       return;
     }
-    if (printed) again_.emplace_back(n.value, printed);
-    printed = scope_;
+    set_printed(n);
     if (!name.empty()) out_ << "DEF " << name << ' ';
     out_ << scene_.type(n).name << " {";
     ++depth_;
@@ -187,7 +173,7 @@ class Writer {
     if (t.kind != NodeKind::proto && !v.is && equal_default(v, f)) return false;
     line();
     out_ << f.name_in(t.dialects & static_cast<DialectSet>(Dialect::vrml1) ? Dialect::vrml1 : Dialect::vrml97) << ' ';
-    if (!v.is && v.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url")))
+    if (!v.is && v.type == FieldType::MFString && is_url(f))
       urls(scene_.where(n), v.text_span());
     else
       content(v);
@@ -211,12 +197,6 @@ class Writer {
       out_ << ' ';
       value(f.default_value);
     }
-  }
-
-  /// Where the fields that a Script declares itself begin.
-  static std::size_t own_fields(const NodeType& t) {
-    if (t.kind != NodeKind::script) return t.fields.size();
-    return builtin_nodes()[find_builtin(t.name, Dialect::vrml97).value].fields.size();
   }
 
   static bool equal_default(const Value& v, const FieldDef& f) {
@@ -254,75 +234,15 @@ class Writer {
         else
           string(v.text());
         return;
-      case Element::image:
-        return bare(v.integer_span(), [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });
-      case Element::integer:
-        if (v.type == FieldType::SFBool)
-          out_ << (v.integer ? "TRUE" : "FALSE");
-        else if (v.type == FieldType::MFBool)
-          list(v.integer_span(), 1, [&](std::int32_t b) { out_ << (b ? "TRUE" : "FALSE"); });
-        else if (t.multiple)
-          list(v.integer_span(), 1, [&](std::int32_t i) { out_.integer(i); });
-        else
-          out_.integer(v.integer);
-        return;
-      case Element::number:
-        if (t.multiple)
-          list(v.number_span(), t.arity, [&](double d) { out_.number(d, options_.precision); });
-        else
-          bare(v.number_span(), [&](double d) { out_.number(d, options_.precision); });
+      default:
+        if (t.multiple) out_ << '[';
+        numbers(v);
+        if (t.multiple) out_ << ']';
     }
-  }
-
-  template <class T, class Print>
-  void bare(std::span<const T> values, Print print) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (i) out_ << ' ';
-      print(values[i]);
-    }
-  }
-
-  /// [ ... ], wrapped between tuples at some hundred characters.
-  template <class T, class Print>
-  void list(std::span<const T> values, std::size_t arity, Print print) {
-    constexpr std::uint64_t width = 110;
-    out_ << '[';
-    auto start = out_.size();
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (i) {
-        if (i % arity == 0 && vrml1_) out_ << ',';
-        if (i % arity == 0 && out_.size() - start > width) {
-          out_ << '\n';
-          start = out_.size();
-        } else
-          out_ << ' ';
-      }
-      print(values[i]);
-    }
-    out_ << ']';
-  }
-
-  /// Four components do not fit into a decimal int32.
-  void pixel(std::uint32_t p) {
-    if (p <= 0x7fffffffu) {
-      out_.integer(p);
-      return;
-    }
-    char b[16] = "0x";
-    *std::to_chars(b + 2, b + sizeof b, p, 16).ptr = 0;
-    out_ << std::string_view(b);
   }
 
   void string(std::string_view s) {
-    out_ << '"';
-    for (std::size_t from = 0;;) {
-      auto at = s.find_first_of("\"\\", from);
-      out_ << s.substr(from, at - from);
-      if (at == s.npos) break;
-      out_ << '\\' << s[at];
-      from = at + 1;
-    }
-    out_ << '"';
+    quoted(s, [&](std::string_view part) { out_ << part; });
   }
 
   void strings(std::span<const std::string_view> v) {
@@ -348,15 +268,8 @@ class Writer {
     out_ << ']';
   }
 
-  const Scene& scene_;
   const bool vrml1_ = scene_.format == Format::vrml1;
   VrmlOptions options_;
-  TextOut out_;
-  Names names_;
-  std::vector<std::uint32_t> printed_;                          // the scope that printed the node last, from 1
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> again_;  // nodes printed once more in a body, and where before
-  std::uint32_t scope_ = 1, scopes_ = 1;
-  int depth_ = 0;
   bool first_ = true;
 };
 

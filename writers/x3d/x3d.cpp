@@ -4,10 +4,11 @@
 #include <utility>
 
 #include "base/text/xml_text.h"
+#include "scenegraph/container_field.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/x3d_version.h"
-#include "writers/vrml/def_names.h"
+#include "writers/text/document.h"
 #include "writers/x3d/x3d_profile.h"
 
 namespace wrlkit {
@@ -24,16 +25,14 @@ std::string_view trim_end(std::string_view s) {
   return s;
 }
 
-class Writer {
+class Writer : TextDocument {
  public:
   Writer(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag)
-      : scene_(scene),
+      : TextDocument(scene, {.dialect = Dialect::x3d, .yes = "true", .no = "false", .wraps_images = true},
+                     options.own_fields, options.precision, sink),
         options_(options),
         diag_(diag),
-        out_(sink),
-        names_(scene, Dialect::x3d, options.own_fields),
-        version_(x3d_version(scene)),
-        printed_(scene.node_count(), 0) {}
+        version_(x3d_version(scene)) {}
 
   void file() {
     const auto profile = x3d_profile(scene_);
@@ -58,12 +57,6 @@ class Writer {
   }
 
  private:
-  TextOut& line() {
-    out_ << '\n';
-    for (int i = 0; i < depth_; ++i) out_ << ' ';
-    return out_;
-  }
-
   void attribute(std::string_view name, std::string_view text) {
     out_ << ' ' << name << "='";
     xml_attribute_text(out_, text);
@@ -114,8 +107,8 @@ class Writer {
         scene_, Dialect::x3d, names_.unknown(), s, [&](ProtoId p) { proto(scene_.proto(p)); },
         [&](NodeId n) { node(n, {}); });
     for (auto& i : s.imports) {
-      if (printed_[i.inline_node.value] != scope_) continue;
-      printed_[i.node.value] = scope_;
+      if (!is_printed(i.inline_node)) continue;
+      set_printed(i.node);
       line() << "<IMPORT";
       attribute("inlineDEF", names_[i.inline_node]);
       attribute("importedDEF", i.exported);
@@ -123,7 +116,7 @@ class Writer {
       out_ << "/>";
     }
     for (auto& r : s.routes) {
-      if (printed_[r.from.value] != scope_ || printed_[r.to.value] != scope_) continue;
+      if (!is_printed(r.from) || !is_printed(r.to)) continue;
       line() << "<ROUTE";
       attribute("fromNode", names_[r.from]);
       attribute("fromField", event(r.from, r.event_out));
@@ -132,7 +125,7 @@ class Writer {
       out_ << "/>";
     }
     for (auto& e : s.exports) {
-      if (printed_[e.node.value] != scope_) continue;
+      if (!is_printed(e.node)) continue;
       line() << "<EXPORT";
       attribute("localDEF", names_[e.node]);
       attribute("AS", e.name);
@@ -173,20 +166,15 @@ class Writer {
       --depth_;
       line() << "</ProtoInterface>";
     }
-    if (!p.external) body(p.body);
+    if (!p.external) proto_body(p.body);
     --depth_;
     line() << (p.external ? "</ExternProtoDeclare>" : "</ProtoDeclare>");
   }
 
-  /// Knows nothing of what is printed around it, and leaves that known behind it.
-  void body(const Scope& s) {
+  void proto_body(const Scope& s) {
     line() << "<ProtoBody>";
     ++depth_;
-    const auto around = std::exchange(scope_, ++scopes_);
-    const auto mark = again_.size();
-    scope(s);
-    for (; again_.size() > mark; again_.pop_back()) printed_[again_.back().first] = again_.back().second;
-    scope_ = around;
+    body([&] { scope(s); });
     --depth_;
     line() << "</ProtoBody>";
   }
@@ -220,16 +208,6 @@ class Writer {
 
   // ---- nodes ----
 
-  std::string_view container_of(NodeId n) const {
-    const NodeType* t = &scene_.type(n);
-    for (int i = 0; t->kind == NodeKind::proto && i < 100; ++i) {
-      const auto& p = scene_.proto(t->proto);
-      if (p.external || p.body.roots.empty()) return "children";
-      t = &scene_.type(p.body.roots[0]);
-    }
-    return t->container_field.empty() ? std::string_view("children") : t->container_field;
-  }
-
   /// `field`: of the node around it; empty where no field needs to be named. Of metadata the default depends on the
   /// version.
   void node(NodeId n, std::string_view field) {
@@ -240,16 +218,15 @@ class Writer {
     line() << '<' << element;
     if (instance) attribute("name", t.name);
     auto name = names_[n];
-    auto& printed = printed_[n.value];
-    const bool use = printed == scope_;
+    const bool use = is_printed(n);
     if (!name.empty()) attribute(use ? "USE" : "DEF", name);
-    if (!field.empty() && (field != container_of(n) || t.is_a("X3DMetadataObject"))) attribute("containerField", field);
+    if (!field.empty() && (field != container_field(scene_, n) || t.is_a("X3DMetadataObject")))
+      attribute("containerField", field);
     if (use) {
       out_ << "/>";
       return;
     }
-    if (printed) again_.emplace_back(n.value, printed);
-    printed = scope_;
+    set_printed(n);
     if (!instance) attributes(n);
     if (!has_content(n)) {
       out_ << "/>";
@@ -279,18 +256,9 @@ class Writer {
     return "Group";
   }
 
-  /// Where the fields that a Script declares itself begin.
-  static std::size_t own_fields(const NodeType& t) {
-    return t.kind == NodeKind::script ? builtin_nodes()[nodes::Script.value].fields.size() : t.fields.size();
-  }
-
   bool says_default(const Value& v, const FieldDef& f) const {
     if (info(v.type).element == Element::node) return v.node_span().empty();
     return equal_plain(v, f.x3d_default_in(version_));
-  }
-
-  static bool is_url(const FieldDef& f) {
-    return f.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url"));
   }
 
   void attributes(NodeId n) {
@@ -413,57 +381,13 @@ class Writer {
 
   void value(const Value& v) {
     const auto& t = info(v.type);
-    switch (t.element) {
-      case Element::node:
-        return;
-      case Element::text:
-        if (t.multiple)
-          strings(v.text_span());
-        else
-          xml_attribute_text(out_, v.text());
-        return;
-      case Element::image:
-        return list(v.integer_span(), 1, [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });
-      case Element::integer:
-        if (v.type == FieldType::SFBool)
-          out_ << (v.integer ? "true" : "false");
-        else if (v.type == FieldType::MFBool)
-          list(v.integer_span(), 1, [&](std::int32_t b) { out_ << (b ? "true" : "false"); });
-        else if (t.multiple)
-          list(v.integer_span(), 1, [&](std::int32_t i) { out_.integer(i); });
-        else
-          out_.integer(v.integer);
-        return;
-      case Element::number:
-        list(v.number_span(), t.arity, [&](double d) { out_.number(d, options_.precision); });
-    }
-  }
-
-  template <class T, class Print>
-  void list(std::span<const T> values, std::size_t arity, Print print) {
-    constexpr std::uint64_t width = 110;
-    auto start = out_.size();
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (i) {
-        if (i % arity == 0 && out_.size() - start > width) {
-          out_ << '\n';
-          start = out_.size();
-        } else
-          out_ << ' ';
-      }
-      print(values[i]);
-    }
-  }
-
-  /// Four components do not fit into a decimal int32.
-  void pixel(std::uint32_t p) {
-    if (p <= 0x7fffffffu) {
-      out_.integer(p);
-      return;
-    }
-    char b[16] = "0x";
-    *std::to_chars(b + 2, b + sizeof b, p, 16).ptr = 0;
-    out_ << std::string_view(b);
+    if (t.element == Element::node) return;
+    if (t.element != Element::text)
+      numbers(v);
+    else if (t.multiple)
+      strings(v.text_span());
+    else
+      xml_attribute_text(out_, v.text());
   }
 
   template <class S>
@@ -471,15 +395,7 @@ class Writer {
     bool first = true;
     for (std::string_view s : list) {
       if (!std::exchange(first, false)) out_ << ' ';
-      out_ << '"';
-      for (std::size_t from = 0;;) {
-        auto at = s.find_first_of("\"\\", from);
-        xml_attribute_text(out_, s.substr(from, at - from));
-        if (at == s.npos) break;
-        out_ << '\\' << s[at];
-        from = at + 1;
-      }
-      out_ << '"';
+      quoted(s, [&](std::string_view part) { xml_attribute_text(out_, part); });
     }
   }
 
@@ -487,16 +403,9 @@ class Writer {
     strings(led_urls(scene_, where, list, options_.file, options_.place));
   }
 
-  const Scene& scene_;
   const X3dOptions& options_;
   Diagnostics& diag_;
-  TextOut out_;
-  Names names_;
   int version_;
-  std::vector<std::uint32_t> printed_;                          // the scope that printed the node last, from 1
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> again_;  // nodes printed once more in a body, and where before
-  std::uint32_t scope_ = 1, scopes_ = 1;
-  int depth_ = 0;
 };
 
 }  // namespace

@@ -1,0 +1,22 @@
+// A task whose messages and counts nobody reads.
+#pragma once
+#include "base/task.h"
+
+namespace wrlkit {
+
+struct Unread {
+  Diagnostics messages;
+  Statistics counts;
+};
+
+/// For looking at something before those who write or draw it, who report what is wrong with it. It stops when
+/// `task` does.
+class SilentTask : private Unread, public Task {
+ public:
+  explicit SilentTask(const Task& task)
+      : Unread{Diagnostics(task.diag.shared_sources()), {}}, Task{messages, counts, nullptr, task.stop} {}
+  SilentTask(const SilentTask&) = delete;
+  SilentTask& operator=(const SilentTask&) = delete;
+};
+
+}  // namespace wrlkit

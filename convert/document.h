@@ -1,0 +1,81 @@
+// A file that was read, with all that belongs to it: its scene, the texts that messages point into, the files that it
+// refers to, and what there was to say of it.
+#pragma once
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/io/allowed_files.h"
+#include "base/io/read_file.h"
+#include "convert/messages.h"
+#include "convert/options.h"
+#include "parsers/parsers.h"
+#include "passes/pipeline/pass.h"
+
+namespace wrlkit {
+
+/// Who looks on while something takes long, and who may end it.
+struct Watch {
+  Monitor* monitor = nullptr;  // none: nobody looks on
+  std::stop_token stop{};      // checked between passes, between meshes and in the loops of light
+};
+
+/// How something has ended. partly: there is a result, but something of the input could not be used.
+enum class Ending : std::uint8_t { good, partly, failed, stopped };
+
+class Document {
+ public:
+  /// Empty until something is read.
+  explicit Document(LoadOptions options = {}, Watch watch = {});
+  /// A scene that is had from elsewhere, with what a pass is given: its messages and files. The context must outlive
+  /// the document.
+  Document(World world, const PassContext& context);
+  /// The same with messages of its own; files next to it are not known.
+  explicit Document(World world);
+  Document(Document&&) noexcept;
+  Document& operator=(Document&&) noexcept;
+  ~Document();
+
+  /// Reads a file in place of what was there; "-" is standard input. False when there is nothing of a scene to be had:
+  /// messages() say why. O(bytes).
+  bool read(const std::string& path);
+  /// The same of a file that was read already.
+  bool read(const std::string& path, const FileText& file);
+  /// The same from memory, not gzipped; `name` is for messages. Files next to it are not known:
+  /// LoadOptions::allow_paths says where relative urls may lead.
+  bool parse(std::string_view bytes, std::string name);
+
+  /// What is read from now on is not placed by LoadOptions::unit and up: the pipeline that it goes through has `place`.
+  void leave_unplaced();
+
+  /// Whether there is a scene.
+  explicit operator bool() const;
+  /// A document of its own with the same scene, whose arrays are shared; messages go to this one, which must outlive
+  /// it.
+  Document copy() const;
+
+  World& world();
+  const World& world() const;
+  Scene& scene() { return world().scene; }
+  const Scene& scene() const { return world().scene; }
+  const std::string& path() const;
+
+  Diagnostics& diag() const;
+  /// With their places.
+  std::vector<MessageView> messages() const { return views(diag()); }
+  /// Null until something was read.
+  Resources* resources() const;
+  /// For passes that are called directly, and for Pipeline::run. It stays where it is when the document is moved.
+  PassContext& context();
+  /// The files that were asked for besides it, found or not.
+  std::vector<FileLookup> lookups() const;
+  Ending ending(bool made) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wrlkit

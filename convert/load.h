@@ -1,0 +1,17 @@
+// From a file or from bytes to a document.
+#pragma once
+#include "convert/document.h"
+
+namespace wrlkit {
+
+/// Reads a file; "-" is standard input. Its first bytes decide the format, and whether it is gzipped. False as a bool
+/// when nothing of a scene could be had: messages() say why.
+///
+///   wrlkit::Document world = wrlkit::load("pump.wrl");
+///   if (!world)
+///     for (const auto& message : world.messages()) std::cerr << message.str() << '\n';
+Document load(const std::string& path, LoadOptions options = {}, Watch watch = {});
+/// The same from memory, not gzipped; `name` is for messages.
+Document load_bytes(std::string_view bytes, std::string name, LoadOptions options = {}, Watch watch = {});
+
+}  // namespace wrlkit

@@ -1,0 +1,65 @@
+// Options by their names, with values as texts: for recipes, and for languages that have no types.
+#pragma once
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/text/nearest_name.h"
+#include "convert/options.h"
+
+namespace wrlkit {
+namespace option_value {
+
+inline bool read(const std::string& text, bool& field, const OptionNote&) {
+  field = text == "true";
+  return field || text == "false";
+}
+inline bool read(const std::string& text, int& field, const OptionNote& note) {
+  int v = 0;
+  const auto r = std::from_chars(text.data(), text.data() + text.size(), v);
+  if (r.ec != std::errc{} || r.ptr != text.data() + text.size() || !note.range.contains(v)) return false;
+  field = v;
+  return true;
+}
+inline bool read(const std::string& text, LengthOption& field, const OptionNote&) {
+  return field.read(text) && field.metres > 0;
+}
+template <class E>
+requires std::is_enum_v<E>
+bool read(const std::string& text, E& field, const OptionNote&) { return read_value(text, field); }
+inline bool read(const std::string& text, std::vector<std::string>& field, const OptionNote&) {
+  field.push_back(text);
+  return true;
+}
+
+}  // namespace option_value
+
+/// Whether there is an option of that name; `nearest` is given the names of all.
+template <class Options>
+bool has_option(std::string_view name, NearestName& nearest) {
+  bool found = false;
+  Options options;
+  options.fields([&](std::string_view known, auto&, std::string_view, OptionNote = {}) {
+    nearest.consider(known);
+    found |= known == name;
+  });
+  return found;
+}
+
+/// Sets an option of that name, if there is one. False when one of the values is none for it; `why` says so.
+template <class Options>
+bool set_option(Options& options, std::string_view name, const std::vector<std::string>& values, std::string& why) {
+  bool good = true;
+  options.fields([&](std::string_view known, auto& field, std::string_view help, OptionNote note = {}) {
+    if (known != name) return;
+    for (const auto& value : values)
+      if (good && !option_value::read(value, field, note)) {
+        why = std::string(name) + ": '" + value + "' is not a valid value (" + std::string(help) + ")";
+        good = false;
+      }
+  });
+  return good;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,21 @@
+#include "convert/placing.h"
+
+namespace wrlkit {
+
+void place_world(Scene& scene, Unit unit, UpAxis up) {
+  if (place_options(unit, up).empty()) return;
+  Diagnostics silent;
+  Statistics uncounted;
+  PassContext ctx(silent, uncounted);
+  place(scene, {.unit = {unit}, .up = {up}}, ctx);
+}
+
+std::vector<std::pair<std::string, std::string>> place_options(Unit unit, UpAxis up) {
+  const PlaceOptions options{.unit = {unit}, .up = {up}};
+  std::vector<std::pair<std::string, std::string>> out;
+  if (unit != Unit{}) out.emplace_back("unit", options.unit.print());
+  if (up != UpAxis{}) out.emplace_back("up", options.up.print());
+  return out;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,18 @@
+// A scene in metres, Y up: the pass `place` for those who run no pipeline.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "convert/options.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit {
+
+/// Runs `place`; nothing where that changes nothing.
+void place_world(Scene& scene, Unit unit, UpAxis up);
+
+/// The options of `place` that differ from its defaults, as pipeline text has them; empty when none does.
+std::vector<std::pair<std::string, std::string>> place_options(Unit unit, UpAxis up);
+
+}  // namespace wrlkit

@@ -1,0 +1,72 @@
+#include "convert/save.h"
+
+#include "convert/writing.h"
+
+namespace wrlkit {
+namespace {
+
+Saved failed(const Document& document, const std::string& path, const std::string& why) {
+  document.diag().report(Diag::cannot_write, {}, path, why);
+  return {};
+}
+
+bool run_and_write(Document& document, Pipeline& pipeline, const Output& to, const SaveOptions& options,
+                   const SaveHooks& hooks, const Sink* sink, Saved& saved) {
+  Scene& scene = document.scene();
+  PassContext& ctx = document.context();
+  MeshSource meshes;
+  if (to.format->meshes) {
+    meshes = pipeline.run_lazily(scene, ctx, hooks.pipeline);
+    if (!meshes) return false;
+  } else {
+    if (!pipeline.run(scene, ctx, hooks.pipeline)) return false;
+    if (hooks.last) hooks.last(scene);
+  }
+  return to.format->write({scene, meshes, ctx, options, to, sink, saved});
+}
+
+Saved write_to(Document& document, Pipeline& pipeline, const Output& to, const SaveOptions& options,
+               const SaveHooks& hooks, const Sink* sink) {
+  Saved saved;
+  const bool made = run_and_write(document, pipeline, to, options, hooks, sink, saved);
+  saved.ending = document.ending(made);
+  return saved;
+}
+
+Saved save_to(Document&& document, const std::string& path, const SaveOptions& options, const Sink* sink) {
+  if (!document) return {};
+  const auto to = output_of(path, options);
+  if (!to) return failed(document, path, "its name should end in " + output_endings_text());
+  std::string why;
+  auto pipeline = pipeline_for(*to, options, why);
+  if (!pipeline) return failed(document, path, why);
+  return write_to(document, *pipeline, *to, options, {}, sink);
+}
+
+}  // namespace
+
+std::optional<Pipeline> pipeline_for(const Output& to, const SaveOptions& options, std::string& why) {
+  const auto standard = to.format->pipeline(options);
+  auto pipeline = Pipeline::parse(options.pipeline ? std::string_view(*options.pipeline) : standard, why);
+  if (pipeline && options.pipeline) pipeline->complete(standard);
+  return pipeline;
+}
+
+Saved write_document(Document& document, Pipeline& pipeline, const Output& to, const SaveOptions& options,
+                     const SaveHooks& hooks) {
+  return write_to(document, pipeline, to, options, hooks, nullptr);
+}
+
+Saved save(const Document& document, const std::string& path, const SaveOptions& options) {
+  return document ? save_to(document.copy(), path, options, nullptr) : Saved{};
+}
+
+Saved save(Document&& document, const std::string& path, const SaveOptions& options) {
+  return save_to(std::move(document), path, options, nullptr);
+}
+
+Saved save(const Document& document, const Sink& sink, const std::string& ending, const SaveOptions& options) {
+  return document ? save_to(document.copy(), ending, options, &sink) : Saved{};
+}
+
+}  // namespace wrlkit

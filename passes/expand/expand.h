@@ -1,0 +1,30 @@
+// Pass `expand`: its documentation stands in its options.
+#pragma once
+#include "passes/expand_protos/expand_protos.h"
+#include "passes/inline/inline.h"
+
+namespace wrlkit {
+
+struct ExpandOptions {
+  static constexpr std::string_view doc = R"(
+Everything in one world, without prototypes: `inline` and `expand-protos` in turn, until neither finds more.
+
+    PROTO Pump [ field MFString file [] ] { Inline { url IS file } }
+    Pump { file "pump.wrl" }   ->   Group { children [ ...nodes of pump.wrl, and of the Inlines in its prototypes... ]
+    }
+
+A prototype may hold Inlines, and an inlined world instances of prototypes, as deep as `depth` says. The limits hold
+for all turns together. Cost: that of both passes, for each level.)";
+
+  int depth = 16;
+  int limit = 500'000;
+  bool keep_declarations = false;
+  void fields(auto&& f) {
+    f("depth", depth, "how deep Inlines may be nested", at_least(0));
+    f("limit", limit, "how many nodes and ROUTEs may be copied for Inlines, and for instances", at_least(0));
+    f("keep-declarations", keep_declarations, "keep the declarations although nothing uses them any more");
+  }
+};
+Outcome expand(Scene&, const ExpandOptions&, PassContext&);
+
+}  // namespace wrlkit

@@ -1,0 +1,167 @@
+// The text form of pipelines.
+#include <algorithm>
+#include <utility>
+
+#include "base/text/blanks.h"
+#include "passes/pipeline/pipeline.h"
+
+namespace wrlkit {
+namespace {
+
+/// Up to the first `stop` outside of braces and quotes; the rest stays behind it. Quotes open where a value begins.
+std::string_view cut(std::string_view& rest, char stop) {
+  int depth = 0;
+  bool quoted = false;
+  char before = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const char c = rest[i];
+    if (quoted && c == '\\')
+      ++i;
+    else if (c == '"' && (quoted || before == '='))
+      quoted = !quoted;
+    if (static_cast<unsigned char>(c) > ' ') before = c;
+    if (quoted) continue;
+    if (c == '{') ++depth;
+    if (c == '}') --depth;
+    if (c == stop && depth == 0) {
+      const auto head = rest.substr(0, i);
+      rest.remove_prefix(i + 1);
+      return trim(head);
+    }
+  }
+  return trim(std::exchange(rest, {}));
+}
+
+/// False when its quotes do not end where it ends.
+bool unquote(std::string_view text, std::string& value) {
+  value.clear();
+  if (!text.starts_with('"')) {
+    value = text;
+    return true;
+  }
+  std::size_t i = 1;
+  for (; i < text.size() && text[i] != '"'; ++i) {
+    if (text[i] == '\\') ++i;
+    if (i < text.size()) value += text[i];
+  }
+  return i + 1 == text.size();
+}
+
+bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
+  std::string value;
+  while (!trim(list).empty()) {
+    const auto option = cut(list, ',');
+    const auto equals = option.find('=');
+    const auto name = trim(option.substr(0, equals));
+    if (!unquote(equals == option.npos ? "true" : trim(option.substr(equals + 1)), value)) {
+      why = "option '" + std::string(name) + "': a quote is missing";
+      return false;
+    }
+    if (!pass.set(name, value, why)) return false;
+  }
+  return true;
+}
+
+std::string no_such_pass(std::string_view name) {
+  return "there is no pass '" + std::string(name) + "'" + pass_question(name);
+}
+
+}  // namespace
+
+std::string quoted_value(std::string_view value) {
+  if (value.find_first_of(",{}\"\\") == value.npos && trim(value) == value) return std::string(value);
+  std::string out = "\"";
+  for (char c : value) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why) {
+  Pipeline p;
+  if (!p.append(text, why)) return std::nullopt;
+  return p;
+}
+
+bool Pipeline::append(std::string_view text, std::string& why) {
+  while (!trim(text).empty()) {
+    const auto item = cut(text, ',');
+    const auto brace = item.find('{');
+    const auto name = trim(item.substr(0, brace));
+    if (auto n = std::ranges::find(named_pipelines(), item, &NamedPipeline::name); n != named_pipelines().end()) {
+      if (!append(n->text, why)) return false;
+      continue;
+    }
+    const auto* info = find_pass(name);
+    if (!info) {
+      why = no_such_pass(name);
+      return false;
+    }
+    Step s{info, info->make()};
+    if (brace != item.npos) {
+      if (item.back() != '}') {
+        why = "'}' is missing behind '" + std::string(name) + "'";
+        return false;
+      }
+      if (!set_options(*s.pass, item.substr(brace + 1, item.size() - brace - 2), why)) {
+        why = "pass '" + std::string(name) + "' " + why;
+        return false;
+      }
+    }
+    steps_.push_back(std::move(s));
+  }
+  return true;
+}
+
+bool Pipeline::add(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options,
+                   std::string& why) {
+  auto* info = find_pass(name);
+  if (!info) {
+    why = no_such_pass(name);
+    return false;
+  }
+  Step s{info, info->make()};
+  for (const auto& [option, value] : options)
+    if (!s.pass->set(option, value, why)) {
+      why = "pass '" + std::string(name) + "' " + why;
+      return false;
+    }
+  steps_.push_back(std::move(s));
+  return true;
+}
+
+bool Pipeline::put_first(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options,
+                         std::string& why) {
+  const bool has = std::ranges::any_of(steps_, [&](const Step& s) { return s.info->name == name; });
+  if (has || options.empty()) return true;
+  if (!add(name, options, why)) return false;
+  std::ranges::rotate(steps_, steps_.end() - 1);
+  return true;
+}
+
+std::vector<Pipeline::StepInfo> Pipeline::steps() const {
+  std::vector<StepInfo> out;
+  for (const auto& s : steps_) out.push_back({s.info->name, s.pass->options()});
+  return out;
+}
+
+std::vector<std::string> Pipeline::files() const {
+  std::vector<std::string> out;
+  for (const auto& s : steps_)
+    for (auto& file : s.pass->files()) out.push_back(std::move(file));
+  return out;
+}
+
+std::string Pipeline::text() const {
+  std::string out;
+  for (const auto& [name, options] : steps()) {
+    out += (out.empty() ? "" : ",") + std::string(name);
+    for (std::size_t i = 0; i < options.size(); ++i)
+      out += (i ? "," : "{") + options[i].name + "=" + quoted_value(options[i].value);
+    if (!options.empty()) out += "}";
+  }
+  return out;
+}
+
+}  // namespace wrlkit

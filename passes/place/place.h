@@ -1,0 +1,30 @@
+// Metres, and Y upwards, for a world that was made in others.
+#pragma once
+#include "passes/pipeline/choice.h"
+#include "passes/pipeline/pass.h"
+
+namespace wrlkit {
+
+struct PlaceOptions {
+  enum class Unit : std::uint8_t { m, cm, mm, in, ft };
+  enum class Up : std::uint8_t { y, z, x };
+
+  static constexpr std::string_view doc =
+      R"(The world is put below a Transform that scales it to metres and turns it Y up.
+
+    before   Shape { geometry Box { size 250 250 40 } }     # millimetres, Z up
+    after    Transform { rotation 1 0 0 -1.5708 scale 0.001 0.001 0.001 children Shape { ... } }
+
+What `--unit` and `--up` put in front of a pipeline. Cost: constant.)";
+
+  Choice<Unit, "m", "cm", "mm", "in", "ft"> unit;
+  Choice<Up, "y", "z", "x"> up;
+
+  void fields(auto&& f) {
+    f("unit", unit, "of the lengths in the file");
+    f("up", up, "axis that points upwards in the file");
+  }
+};
+Outcome place(Scene&, const PlaceOptions&, PassContext&);
+
+}  // namespace wrlkit

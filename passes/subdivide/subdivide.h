@@ -1,0 +1,52 @@
+// Subdivision surfaces, by OpenMesh: coarse polygons become a smooth surface of more of them (Loop 1987; Catmull and
+// Clark 1978).
+//
+//   before   coordIndex [ 0 1 2 3 -1 ... ]                  a cube: 6 faces
+//   after    coordIndex [ 8 0 11 20 -1 8 20 9 1 -1 ... ]    24 faces, 96 with levels=2, nearly a ball
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "base/option_range.h"
+#include "passes/pipeline/pass.h"
+
+namespace wrlkit {
+
+/// loop or catmull-clark.
+struct SubdivisionScheme {
+  static constexpr std::string_view type = "loop or catmull-clark";
+  enum class Value : std::uint8_t { loop, catmull_clark };
+  Value value = Value::catmull_clark;
+
+  bool read(std::string_view text);
+  std::string print() const;
+};
+
+struct SubdivideOptions {
+  SubdivisionScheme scheme;
+  int levels = 1;
+  int max_triangles = 4'000'000;
+
+  void fields(auto&& f) {
+    f("scheme", scheme, "loop: triangles of triangles, polygons are cut first; catmull-clark: quadrilaterals");
+    f("levels", levels, "how often; each makes four times the faces", between(1, 8));
+    f("max-triangles", max_triangles, "of all surfaces together; those that would be more are left as they are",
+      at_least(0));
+  }
+};
+
+/// Subdivides job.mesh. Needs a build with OpenMesh.
+///
+/// - Colours, texture coordinates and places in lightmaps are interpolated along the edges and over the face that was
+///   cut, so seams stay. Normals are dropped, as those of the coarse faces are wrong for the smooth surface, and
+///   creaseAngle becomes pi: subdivide.dropped-normals.
+/// - The faces that a face becomes stand in its place. Borders are curves of their own: they become smooth, too, but
+///   hang on nothing but the points of the border.
+/// - A surface that is no manifold stays as it is and is reported. Faces that only touch do not hang
+///   together: run `weld` before.
+///
+/// Meshes of lines and points stay as they are, and so do primitives: `tessellate` makes faces of them. Statistics:
+/// subdivide.triangles, of all surfaces that were subdivided. Linear in the faces that come out.
+Outcome subdivide(MeshJob& job, const SubdivideOptions& options);
+
+}  // namespace wrlkit

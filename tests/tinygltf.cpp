@@ -1,0 +1,129 @@
+// tinygltf as a second judge of the glTF that is written, and as a neighbour (convert/tinygltf/tinygltf.h).
+//   tinygltf_tests judge FOLDER   every world below it, converted in several ways: tinygltf loads it without a word
+//   tinygltf_tests road FOLDER    every world becomes a tinygltf::Model and comes back as it does by way of a file
+// The exit code is 77 when there is no such folder.
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "convert/tinygltf/tinygltf.h"
+#include "parsers/resources.h"
+#include "passes/pipeline/pipeline.h"
+#include "scenegraph/equal.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace wrlkit;
+
+/// Resources of a world; what one conversion makes, the next does not see.
+FileResources resources_of(const std::string& path) {
+  auto parse = [](const std::string& file, Diagnostics& diag) -> std::shared_ptr<const Scene> {
+    std::shared_ptr<World> world = read_world(file, {}, diag);
+    return world ? std::shared_ptr<const Scene>(world, &world->scene) : nullptr;
+  };
+  return {ResourceOptions{.input = path}, parse};
+}
+
+std::string glb_of(const std::string& path, const World& world, const char* front, const GltfOptions& options,
+                   std::shared_ptr<Sources> sources) {
+  Diagnostics diag(std::move(sources));
+  Statistics stats;
+  auto resources = resources_of(path);
+  Scene scene = world.scene;
+  PassContext context{diag, stats, &resources};
+  std::string why, bytes;
+  auto pipeline = Pipeline::parse(front, why);
+  pipeline->complete("gltf");
+  const auto meshes = pipeline->run_lazily(scene, context);
+  const bool good = meshes && write_glb(
+                                  scene, meshes, options, &resources, [&](std::string_view b) { bytes += b; }, diag);
+  return good ? bytes : std::string();
+}
+
+/// What tinygltf says; pictures are decoded, too.
+std::string verdict(const std::string& glb) {
+  tinygltf::TinyGLTF loader;
+  tinygltf::Model model;
+  std::string error, warning;
+  const auto* data = reinterpret_cast<const unsigned char*>(glb.data());
+  const bool good = loader.LoadBinaryFromMemory(&model, &error, &warning, data, static_cast<unsigned>(glb.size()));
+  return good ? error + warning : "refused: " + error + warning;
+}
+
+struct Way {
+  const char *name, *front = "";
+  GltfOptions options = {};
+};
+
+/// Not packed: tinygltf 2.7 refuses buffers without bytes (EXT_meshopt_compression), and this build of it knows no
+/// Draco. Nor KHR_animation_pointer, whose channels have no node.
+std::vector<Way> ways() {
+  std::vector<Way> all{{"plain"}, {"quantize"}, {"table"}};
+  all[1].options.compression.method = GltfCompression::Method::quantize;
+  all[2].front = "dedup,instance";
+  all[2].options.names = GltfOptions::Names::table;
+  all[2].options.facts_only = true;
+  all[2].options.gpu_instancing = true;
+  return all;
+}
+
+std::string judge(const std::string& path, const World& world, const std::shared_ptr<Sources>& sources) {
+  for (const Way& way : ways()) {
+    const auto glb = glb_of(path, world, way.front, way.options, sources);
+    if (glb.empty()) continue;  // nothing to be seen in this world
+    if (const auto said = verdict(glb); !said.empty()) return std::string(way.name) + ": " + said;
+  }
+  return {};
+}
+
+std::string road(const std::string& path, const World& world, const std::shared_ptr<Sources>& sources) {
+  const auto glb = glb_of(path, world, "", {}, sources);
+  if (glb.empty()) return {};
+  Diagnostics of_file, of_world(sources), of_model;
+  auto resources = resources_of(path);
+  const auto by_file = parse_world(glb, "by file", {}, of_file);
+  const auto model = to_tinygltf(world.scene, {}, &resources, of_world);
+  if (!model) return "there is no model";
+  const auto by_model = from_tinygltf(*model, {}, of_model);
+  if (!by_file || !by_model) return by_file || by_model ? "only one of both ways leads back" : "";
+  return difference(by_file->scene, by_model->scene);
+}
+
+std::vector<std::string> worlds_in(const char* folder) {
+  std::vector<std::string> paths;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    for (const char* ending : {".wrl", ".wrz", ".x3d", ".x3dv", ".iv", ".wrl.gz", ".glb", ".gltf"})
+      if (entry.is_regular_file() && entry.path().string().ends_with(ending)) paths.push_back(entry.path().string());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  if (!fs::is_directory(argv[2])) {
+    std::printf("there is no folder %s\n", argv[2]);
+    return 77;
+  }
+  const bool judging = !std::strcmp(argv[1], "judge");
+  std::size_t n_worlds = 0, n_faults = 0;
+  for (const auto& path : worlds_in(argv[2])) {
+    Diagnostics diag;
+    const auto world = read_world(path, {}, diag);
+    if (!world) continue;
+    ++n_worlds;
+    const auto fault = judging ? judge(path, *world, diag.shared_sources()) : road(path, *world, diag.shared_sources());
+    if (fault.empty()) continue;
+    ++n_faults;
+    std::printf("%s: %s\n", path.c_str(), fault.c_str());
+  }
+  std::printf("%zu worlds, %zu faults\n", n_worlds, n_faults);
+  return n_faults > 0 || n_worlds == 0;
+}

@@ -1,0 +1,113 @@
+#include "tools/gltf_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "base/text/json.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+/// 1,234,567.
+std::string grouped(std::uint64_t n) {
+  std::string s = std::to_string(n);
+  for (auto i = static_cast<std::ptrdiff_t>(s.size()) - 3; i > 0; i -= 3) s.insert(static_cast<std::size_t>(i), ",");
+  return s;
+}
+
+void size_line(std::string& out, std::string_view what, std::uint64_t bytes, std::uint64_t gzip,
+               const std::vector<GltfSummary::Share>& shares = {}) {
+  out += fmt::format("  {:<10}{:>14} bytes", what, grouped(bytes));
+  if (gzip > 0) out += fmt::format("{:>14} gzipped", grouped(gzip));
+  std::string kinds;
+  for (const auto& [name, n] : shares) kinds += fmt::format("{}{} {}", kinds.empty() ? "  " : ", ", name, grouped(n));
+  out += kinds + '\n';
+}
+
+}  // namespace
+
+std::string summary_text(const GltfSummary& s) {
+  std::string out;
+  size_line(out, "JSON", s.json, s.json_gzip, s.json_shares);
+  size_line(out, "geometry", s.geometry, s.geometry_gzip, s.geometry_shares);
+  if (s.pictures > 0) size_line(out, "textures", s.pictures, s.pictures_gzip);
+  size_line(out, "together", s.bytes(), s.json_gzip + s.geometry_gzip + s.pictures_gzip);
+  out += fmt::format("  {} nodes, {} names; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named),
+                     grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
+  if (s.instances > 0) out += fmt::format("  {} instances in tables (EXT_mesh_gpu_instancing)\n", grouped(s.instances));
+  if (const auto& r = s.recoding; r.pictures > 0) {
+    out += fmt::format("  pictures: {} written anew, {} of them at another size; {} bytes became {}",
+                       grouped(r.pictures), grouped(r.resized), grouped(r.before), grouped(r.after));
+    out += r.psnr > 0 ? fmt::format(", PSNR at least {:.1f} dB\n", r.psnr) : "\n";
+  }
+  const auto& q = s.quantization;
+  if (q.tolerance <= 0) return out;
+  out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), places of nodes within {:.2g} mm",
+                     q.position * 1e3, q.tolerance * 1e3, q.placement * 1e3);
+  if (q.normal > 0) out += fmt::format(", normals {:.2g} degrees", q.normal * degrees);
+  if (q.texcoord > 0) out += fmt::format(", texture coordinates {:.2g}", q.texcoord);
+  if (q.color > 0) out += fmt::format(", colours {:.2g}", q.color);
+  out += '\n';
+  return out;
+}
+
+std::string summary_json(const GltfSummary& s) {
+  std::string out;
+  JsonOut json(out);
+  json.begin_object();
+  json.member("nodes", s.nodes);
+  json.member("named", s.named);
+  json.member("meshes", s.meshes);
+  json.member("draws", s.draws);
+  json.member("triangles", s.triangles);
+  if (s.instances > 0) json.member("instances", s.instances);
+  auto sizes = [&](std::string_view name, std::uint64_t text, std::uint64_t geometry, std::uint64_t pictures) {
+    json.key(name);
+    json.begin_object();
+    json.member("json", text);
+    json.member("geometry", geometry);
+    json.member("textures", pictures);
+    json.end_object();
+  };
+  sizes("bytes", s.json, s.geometry, s.pictures);
+  if (s.json_gzip > 0) sizes("gzip", s.json_gzip, s.geometry_gzip, s.pictures_gzip);
+  if (const auto& r = s.recoding; r.pictures > 0) {
+    json.key("pictures");
+    json.begin_object();
+    json.member("written_anew", r.pictures);
+    json.member("resized", r.resized);
+    json.member("bytes_before", r.before);
+    json.member("bytes_after", r.after);
+    if (r.psnr > 0) json.member("psnr", r.psnr);
+    json.end_object();
+  }
+  auto kinds = [&](std::string_view name, const std::vector<GltfSummary::Share>& shares) {
+    json.key(name);
+    json.begin_object();
+    for (const auto& [kind, n] : shares) json.member(kind, n);
+    json.end_object();
+  };
+  kinds("json_bytes", s.json_shares);
+  kinds("geometry_bytes", s.geometry_shares);
+  const auto& q = s.quantization;
+  if (q.tolerance > 0) {
+    json.key("quantization");
+    json.begin_object();
+    json.member("tolerance", q.tolerance);
+    json.member("position", q.position);
+    json.member("placement", q.placement);
+    json.member("normal_degrees", q.normal * degrees);
+    json.member("texcoord", q.texcoord);
+    json.member("color", q.color);
+    json.member("kept_as_floats", q.kept);
+    json.end_object();
+  }
+  json.end_object();
+  return out;
+}
+
+}  // namespace wrlkit

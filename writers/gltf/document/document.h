@@ -1,0 +1,76 @@
+// The nodes of a glTF file, as plain data. A node has one parent; what it shows is shared. build_hierarchy makes it,
+// and each step that changes it is a function with a file of its own in this folder; gltf.cpp puts them in order.
+#pragma once
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "writers/gltf/box.h"
+#include "writers/gltf/cameras.h"
+#include "writers/gltf/instances.h"
+#include "writers/gltf/lights.h"
+#include "writers/gltf/transform.h"
+
+namespace wrlkit::gltf {
+
+enum class Attachment : std::uint8_t { nothing, mesh, camera, light };
+
+struct Node {
+  NodeId source{};                                // none: a helper, without a name
+  std::uint32_t first_child = 0, n_children = 0;  // into Document::children
+  std::uint32_t transform = none;                 // into Document::transforms; none: the identity
+  std::uint32_t attached = none;
+  Attachment attachment = Attachment::nothing;
+  bool plain = true;               // the transform is what the fields of `source` say
+  bool lod = false;                // has an entry in Document::lods
+  std::uint32_t same_as = none;    // the node that `source` has become before
+  std::uint32_t instances = none;  // into Document::instances; such a node is nobody's, its rows have sources
+};
+
+struct Lod {
+  std::vector<std::uint32_t> levels;  // behind the first
+  std::vector<double> coverage;       // empty: not known
+};
+
+struct Document {
+  std::vector<Node> nodes;
+  std::vector<std::uint32_t> children, roots;
+  std::vector<Trs> transforms;
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
+  std::unordered_map<std::uint32_t, Lod> lods;  // by node
+  std::vector<Instances> instances;
+  Box world;
+  std::optional<Vec3> origin;  // what was subtracted from all coordinates
+  NodeId navigation_info, world_info;
+
+  std::span<const std::uint32_t> children_of(const Node& n) const {
+    return {children.data() + n.first_child, n.n_children};
+  }
+  Trs place(const Node& n) const { return n.transform == none ? Trs{} : transforms[n.transform]; }
+
+  /// Index of the new node.
+  std::uint32_t add(Node, std::span<const std::uint32_t> children = {});
+  /// None for the identity, unless it must be there.
+  std::uint32_t add_transform(const Trs&, bool always = false);
+  void set_only_child(Node& parent, std::uint32_t child);
+};
+
+/// Every node from the roots down, behind its parent; levels of detail beside the first.
+struct Family {
+  std::vector<std::uint32_t> order, parent;
+};
+Family family_of(const Document&);
+/// How much lengths grow on the way to the frame that each node is in, at most.
+std::vector<double> growth_of(const Document&, const Family&);
+/// The same of one transform.
+double stretch(const Trs&);
+
+/// Whether another node is the same once more, so that it has to stay; whether it has become a row of a table.
+enum class Mark : std::uint8_t { nothing, referred, row };
+/// Removes the nodes that are rows, of marks for all; the others move up. What each index has become, none for those
+/// that went.
+std::vector<std::uint32_t> remove_rows(Document&, std::span<const Mark>);
+
+}  // namespace wrlkit::gltf

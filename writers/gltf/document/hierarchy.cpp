@@ -1,0 +1,301 @@
+#include "writers/gltf/document/hierarchy.h"
+
+#include <map>
+
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+#include "writers/gltf/document/fold.h"
+#include "writers/gltf/document/group.h"
+#include "writers/gltf/document/levels.h"
+#include "writers/gltf/number.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+/// Nodes that have no counterpart and do not miss one: what they say is kept, and nothing changes for who looks.
+bool harmless(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline) ||
+         scene.type(n).is_a("X3DMetadataObject");
+}
+
+Vec3 position(const Matrix& m) { return {m.m[3], m.m[7], m.m[11]}; }
+
+class Builder {
+ public:
+  explicit Builder(const Makers& makers) : m_(makers), visited_(makers.scene.node_count(), 0) {}
+
+  Document build() {
+    frames_.push_back({.node = {}, .children = m_.scene.main.roots});
+    while (!frames_.empty()) {
+      Frame& f = frames_.back();
+      if (f.next == f.children.size())
+        leave();
+      else if (NodeId n = f.children[f.next++])
+        visit(n);
+    }
+    report_lost();
+    return std::move(d_);
+  }
+
+ private:
+  enum class Kind : std::uint8_t { not_known, group, shape, light, viewpoint, other };
+  struct Frame {
+    NodeId node{};
+    std::vector<NodeId> children{};
+    std::size_t next = 0;
+    std::size_t first_built = 0;  // into built_
+    NodeTransform local{};
+    Matrix world{};      // frame of the children
+    Box box{};           // of what they show
+    bool again = false;  // in something that was met before
+  };
+  Kind kind(NodeId);
+  bool one_too_many(NodeId);
+  void visit(NodeId);
+  void enter(NodeId);
+  void leave();
+  void set_same(std::uint32_t);
+  std::uint32_t group(const Frame&);
+  std::uint32_t shape(NodeId);
+  std::uint32_t light(NodeId);
+  std::uint32_t viewpoint(NodeId);
+  std::uint32_t other(NodeId);
+  /// In a level of a LOD behind the first?
+  bool in_coarse_level() const { return m_.scene.is(frames_.back().node, nodes::LOD) && frames_.back().next > 1; }
+  bool first_visit(NodeId, bool has_place = true);
+  void report_overflow(NodeId);
+  void report_texcoords(NodeId geometry);
+  void report_group(NodeId);
+  void add_lost(NodeId);
+  void report_lost();
+
+  const Makers& m_;
+  Document d_;
+  std::vector<Frame> frames_;
+  std::vector<std::uint32_t> built_;  // nodes that are not yet children of their parents
+  std::vector<Kind> kinds_;           // of types
+  std::vector<char> visited_;
+  std::unordered_map<std::uint32_t, std::uint32_t> became_;  // of nodes of VRML, the first of glTF
+  std::map<std::string_view, std::size_t> lost_;             // by type: each Script has one of its own, but one name
+  Span first_lost_;
+  bool full_ = false;
+};
+
+void Builder::enter(NodeId n) {
+  if (first_visit(n)) report_group(n);
+  Frame f{.node = n, .first_built = built_.size(), .world = frames_.back().world};
+  f.again = frames_.back().again || became_.contains(n.value);
+  f.children = m_.scene.is(n, nodes::LOD) ? hierarchy_children(m_.scene, n) : shown_children(m_.scene, n);
+  if (m_.scene.is(n, nodes::Transform)) {
+    f.local = node_transform(m_.scene, n);
+    f.world = f.world * matrix(f.local.outer);
+    if (f.local.inner) f.world = f.world * matrix(*f.local.inner);
+  }
+  frames_.push_back(std::move(f));
+}
+
+/// Of positions and the like: those of geometry are counted where they are stored.
+void Builder::report_overflow(NodeId n) {
+  for (const Value& v : m_.scene.fields(n)) {
+    const Value& c = m_.scene.content(v);
+    if (c.is || info(c.type).element != Element::number || info(c.type).multiple || fits_float(c.number_span()))
+      continue;
+    m_.diag.report(Diag::float_overflow, m_.scene.where(n),
+                   std::string(m_.scene.type(n).name) + "." + std::string(m_.scene.field_name(n, v)));
+  }
+}
+
+void Builder::report_group(NodeId n) {
+  if (does_something(m_.scene, n)) add_lost(n);
+  // Switches that no file has written only hold what prototypes leave behind.
+  bool hides =
+      m_.scene.is(n, nodes::Switch) && hierarchy_children(m_.scene, n).size() > shown_children(m_.scene, n).size();
+  if (hides && m_.scene.where(n)) m_.diag.report(Diag::no_gltf_choice, m_.scene.where(n));
+}
+
+/// Texture coordinates that a rule makes from where the viewer is.
+void Builder::report_texcoords(NodeId geometry) {
+  auto slot = m_.scene.type(geometry).find("texCoord", Dialect::x3d);
+  const Value* v = slot ? m_.scene.find(geometry, *slot) : nullptr;
+  if (v && !v->is && v->type == FieldType::SFNode && m_.scene.is(v->node, nodes::TextureCoordinateGenerator))
+    m_.diag.report(Diag::no_gltf_value, m_.scene.where(v->node), m_.scene.type(geometry).name,
+                   "texCoord (TextureCoordinateGenerator)");
+}
+
+std::uint32_t Builder::shape(NodeId n) {
+  first_visit(n);
+  Node node{.source = n};
+  NodeId geometry_node = m_.scene.get(n, nodes::shape::geometry);
+  if (!geometry_node) return d_.add(node);
+  NodeId appearance = m_.scene.get(n, nodes::shape::appearance);
+  auto geometry = m_.meshes.geometry(geometry_node, m_.materials.has_picture(appearance));
+  const Geometry& g = m_.meshes.geometries()[geometry];
+  if (first_visit(geometry_node, !g.empty())) report_texcoords(geometry_node);
+  if (g.empty()) return d_.add(node);
+  if (m_.extras) m_.extras->set_shown(n);
+  Frame& f = frames_.back();
+  m_.meshes.note_use(geometry, f.world);
+  if (!in_coarse_level()) f.box.add(m_.meshes.bounds(g, f.world));
+  if (g.origin != none) node.transform = d_.add_transform({.translation = m_.meshes.origins()[g.origin]});
+  auto material = m_.materials.get(appearance, g.surface());
+  node.attachment = Attachment::mesh;
+  node.attached = m_.meshes.mesh(geometry, material);
+  return d_.add(node);
+}
+
+std::uint32_t Builder::light(NodeId n) {
+  Node node{.source = n,
+            .transform = d_.add_transform(light_transform(m_.scene, n), m_.animations.moves(n, Path::translation))};
+  bool on = m_.options.lights && shines(m_.scene, n, m_.animations.motion());
+  if (first_visit(n) && on) report_lost_light(m_.scene, n, frames_.size() == 1, m_.diag);
+  if (on) {
+    const Matrix& frame = frames_.back().world;
+    node.attachment = Attachment::light;
+    node.attached = static_cast<std::uint32_t>(d_.lights.size());
+    double scale = mean_scale(frame);
+    d_.lights.push_back(
+        {n, position(frame * matrix(light_transform(m_.scene, n))), scale > 0 && std::isfinite(scale) ? scale : 1});
+  }
+  auto id = d_.add(node);
+  m_.animations.add_target(n, Path::translation, id);
+  return id;
+}
+
+std::uint32_t Builder::viewpoint(NodeId n) {
+  first_visit(n);
+  Node node{.source = n, .transform = d_.add_transform(camera_transform(m_.scene, n), m_.animations.moves(n))};
+  if (m_.options.cameras) {
+    node.attachment = Attachment::camera;
+    node.attached = static_cast<std::uint32_t>(d_.cameras.size());
+    d_.cameras.push_back({n, position(frames_.back().world * matrix(camera_transform(m_.scene, n)))});
+  }
+  auto id = d_.add(node);
+  add_targets(m_, n, id, id, id);
+  return id;
+}
+
+std::uint32_t Builder::other(NodeId n) {
+  if (first_visit(n) && !harmless(m_.scene, n) && !m_.animations.motion().expressed(n)) add_lost(n);
+  if (!d_.navigation_info && m_.scene.is(n, nodes::NavigationInfo)) d_.navigation_info = n;
+  if (!d_.world_info && m_.scene.is(n, nodes::WorldInfo)) d_.world_info = n;
+  return d_.add({.source = n});
+}
+
+void Builder::add_lost(NodeId n) {
+  if (lost_.empty()) first_lost_ = m_.scene.where(n);
+  ++lost_[m_.scene.type(n).name];
+}
+
+bool Builder::first_visit(NodeId n, bool has_place) {
+  if (visited_[n.value]) return false;
+  visited_[n.value] = 1;
+  report_overflow(n);
+  if (m_.extras && has_place) m_.extras->set_placed(n);
+  return true;
+}
+
+/// In one message: a world may have dozens of types that glTF does not know.
+void Builder::report_lost() {
+  std::string types;
+  for (const auto& [type, n] : lost_) {
+    if (!types.empty()) types += ", ";
+    types += type;
+    if (n > 1) types += " (" + std::to_string(n) + ")";
+  }
+  if (!lost_.empty()) m_.diag.report(Diag::no_gltf_node, first_lost_, types);
+  if (auto n = m_.scene.main.routes.size() - m_.animations.motion().n_expressed_routes())
+    m_.diag.report(Diag::no_gltf_route, {}, n);
+  if (auto n = m_.scene.main.imports.size() + m_.scene.main.exports.size()) m_.diag.report(Diag::no_gltf_import, {}, n);
+}
+
+Builder::Kind Builder::kind(NodeId n) {
+  auto id = m_.scene.type_id(n).value;
+  if (id >= kinds_.size()) kinds_.resize(id + 1, Kind::not_known);
+  if (kinds_[id] != Kind::not_known) return kinds_[id];
+  const auto& t = m_.scene.type(n);
+  if (t.kind == NodeKind::unknown) return hierarchy_children(m_.scene, n).empty() ? Kind::other : Kind::group;
+  return kinds_[id] = t.kind != NodeKind::builtin    ? Kind::other
+                      : t.is_a("X3DGroupingNode")    ? Kind::group
+                      : m_.scene.is(n, nodes::Shape) ? Kind::shape
+                      : t.is_a("X3DViewpointNode")   ? Kind::viewpoint
+                      : is_light(m_.scene, n)        ? Kind::light
+                                                     : Kind::other;
+}
+
+/// A few shared groups can stand for any number of nodes. Beyond the limit each node is shown once and no more.
+bool Builder::one_too_many(NodeId n) {
+  if (!visited_[n.value] || d_.nodes.size() + frames_.size() < m_.options.max_nodes) return false;
+  if (!full_) m_.diag.report(Diag::expansion_limit, m_.scene.where(n), m_.options.max_nodes, "nodes");
+  return full_ = true;
+}
+
+void Builder::visit(NodeId n) {
+  if (one_too_many(n)) return;
+  switch (kind(n)) {
+    case Kind::group:
+      return enter(n);
+    case Kind::shape:
+      built_.push_back(shape(n));
+      break;
+    case Kind::light:
+      built_.push_back(light(n));
+      break;
+    case Kind::viewpoint:
+      built_.push_back(viewpoint(n));
+      break;
+    case Kind::other:
+    case Kind::not_known:
+      built_.push_back(other(n));
+  }
+  set_same(built_.back());
+}
+
+/// Notes which node this one is once more; what lies in it need not be said.
+void Builder::set_same(std::uint32_t id) {
+  Node& n = d_.nodes[id];
+  auto [at, is_new] = became_.try_emplace(n.source.value, id);
+  if (!is_new && !frames_.back().again) n.same_as = at->second;
+}
+
+void Builder::leave() {
+  Frame f = std::move(frames_.back());
+  frames_.pop_back();
+  if (frames_.empty()) {
+    d_.roots = std::move(built_);
+    d_.world = f.box;
+    return;
+  }
+  const auto id = group(f);
+  built_.resize(f.first_built);
+  if (says_nothing(m_, d_.nodes[id]) && id + 1 == d_.nodes.size() && !m_.scene.is(frames_.back().node, nodes::LOD))
+    return d_.nodes.pop_back();
+  built_.push_back(id);
+  set_same(id);
+  if (!in_coarse_level()) frames_.back().box.add(f.box);
+}
+
+std::uint32_t Builder::group(const Frame& f) {
+  std::span<const std::uint32_t> children(built_.begin() + static_cast<std::ptrdiff_t>(f.first_built), built_.end());
+  if (children.size() == 1 && fold(d_, m_, f.node, f.local, children[0])) return children[0];
+  if (m_.scene.is(f.node, nodes::LOD) && children.size() > 1) {
+    make_levels(d_, children, m_.scene.get(f.node, nodes::lod::range), f.box.extent() / 2, mean_scale(f.world));
+    children = children.first(1);
+  }
+  return add_group(d_, m_, f.node, f.local, children);
+}
+
+}  // namespace
+
+Document build_hierarchy(const Makers& makers) { return Builder(makers).build(); }
+
+Vec3 offset_of(const Document& d, const Scene& scene, std::uint32_t id) {
+  const Node& n = d.nodes[id];
+  if (!n.source || n.transform == none) return {0, 0, 0};
+  const Vec3 field = scene.is(n.source, nodes::Transform)   ? scene.get(n.source, nodes::transform::translation)
+                     : scene.is(n.source, nodes::Viewpoint) ? scene.get(n.source, nodes::viewpoint::position)
+                                                            : light_transform(scene, n.source).translation;
+  const Vec3& at = d.transforms[n.transform].translation;
+  return {at[0] - field[0], at[1] - field[1], at[2] - field[2]};
+}
+
+}  // namespace wrlkit::gltf

@@ -1,0 +1,78 @@
+#include "writers/text/document.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace wrlkit {
+
+TextDocument::TextDocument(const Scene& scene, const Style& style, bool own_fields, int precision, const Sink& sink)
+    : scene_(scene),
+      out_(sink),
+      names_(scene, style.dialect, own_fields),
+      style_(style),
+      precision_(precision),
+      printed_(scene.node_count(), 0) {}
+
+TextOut& TextDocument::line() {
+  out_ << '\n';
+  for (int i = 0; i < depth_; ++i) out_ << ' ';
+  return out_;
+}
+
+void TextDocument::set_printed(NodeId n) {
+  auto& printed = printed_[n.value];
+  if (printed) again_.emplace_back(n.value, printed);
+  printed = scope_;
+}
+
+std::size_t TextDocument::own_fields(const NodeType& t) const {
+  if (t.kind != NodeKind::script) return t.fields.size();
+  return builtin_nodes()[find_builtin(t.name, style_.dialect).value].fields.size();
+}
+
+bool TextDocument::is_url(const FieldDef& f) {
+  return f.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url"));
+}
+
+void TextDocument::numbers(const Value& v) {
+  const auto& t = info(v.type);
+  if (t.element == Element::number)
+    list(v.number_span(), t.arity, [&](double d) { out_.number(d, precision_); });
+  else if (t.element == Element::image)
+    list(v.integer_span(), style_.wraps_images ? 1 : v.integer_span().size(),
+         [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });
+  else if (v.type == FieldType::SFBool || v.type == FieldType::MFBool)
+    list(v.integer_span(), 1, [&](std::int32_t b) { out_ << (b ? style_.yes : style_.no); });
+  else
+    list(v.integer_span(), 1, [&](std::int32_t i) { out_.integer(i); });
+}
+
+/// Wrapped between tuples at some hundred characters.
+template <class T, class Print>
+void TextDocument::list(std::span<const T> values, std::size_t arity, Print print) {
+  constexpr std::uint64_t width = 110;
+  auto start = out_.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0 && i % arity == 0) out_ << style_.between_tuples;
+    if (i > 0 && i % arity == 0 && out_.size() - start > width) {
+      out_ << '\n';
+      start = out_.size();
+    } else if (i > 0) {
+      out_ << ' ';
+    }
+    print(values[i]);
+  }
+}
+
+/// Four components do not fit into a decimal int32.
+void TextDocument::pixel(std::uint32_t p) {
+  if (p <= 0x7fffffffu) {
+    out_.integer(p);
+    return;
+  }
+  char text[16] = "0x";
+  const auto end = std::to_chars(text + 2, text + sizeof text, p, 16).ptr;
+  out_ << std::string_view(text, static_cast<std::size_t>(end - text));
+}
+
+}  // namespace wrlkit
