@@ -43,6 +43,15 @@ fs::path module_of_environment() {
   return path ? path : "";
 }
 
+/// Whether there is a file that nobody else can have put there: a relative path would name another one in every working
+/// directory, and in /tmp everyone may leave one.
+bool is_trusted(const fs::path& path) {
+  std::error_code ec;
+  if (!path.is_absolute() || !fs::exists(path, ec)) return false;
+  const auto folder = fs::status(path.parent_path(), ec).permissions();
+  return !ec && (folder & fs::perms::others_write) == fs::perms::none;
+}
+
 /// Where the module may be, the best first: see set_image_codecs.
 std::vector<fs::path> module_paths() {
   const fs::path folder = own_folder(), name = module_name, lib = folder / ".." / "lib";
@@ -54,8 +63,7 @@ std::vector<fs::path> module_paths() {
   paths.push_back(chosen_module());
   paths.push_back(WRLKIT_INSTALLED_IMAGES);
   paths.push_back(module_of_environment());
-  // A relative path would name another file in every working directory.
-  std::erase_if(paths, [&](const fs::path& path) { return !path.is_absolute() || !fs::exists(path, ec); });
+  std::erase_if(paths, [](const fs::path& path) { return !is_trusted(path); });
   return paths;
 }
 
