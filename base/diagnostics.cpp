@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/hashing.h"
+
 namespace wrlkit {
 namespace {
 
@@ -17,6 +19,15 @@ const std::vector<DiagInfo>& table() {
     return v;
   }();
   return rows;
+}
+
+std::uint64_t hash_of(Diag id, Span where, const std::vector<std::string>& args) {
+  auto h = mixed(where.begin, static_cast<std::uint64_t>(id));
+  for (const auto& a : args) {
+    for (char c : a) h = mixed(h, static_cast<unsigned char>(c));
+    h = mixed(h, 256);
+  }
+  return h;
 }
 
 }  // namespace
@@ -76,8 +87,11 @@ void Diagnostics::add(Diag id, Span where, std::vector<std::string> args) {
   auto s = severity_[static_cast<std::size_t>(id)];
   if (s == Severity::ignored) return;
   // A pass that runs twice says the same thing of the same place once.
-  auto same = [&](const Message& m) { return m.id == id && m.where.begin == where.begin && m.args == args; };
-  if (where && std::ranges::any_of(messages_, same)) return;
+  if (where) {
+    const auto hash = hash_of(id, where, args);
+    if (reported_.contains(hash)) return;
+    if (reported_.size() < remembered) reported_.insert(hash);
+  }
   ++by_severity_[static_cast<std::size_t>(s)];
   if (++by_name_[static_cast<std::size_t>(id)] <= kept_per_name) messages_.push_back({id, s, where, std::move(args)});
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "base/source.h"
@@ -43,6 +44,8 @@ class Diagnostics {
  public:
   /// Messages kept of one name; the others are only counted.
   static constexpr std::size_t kept_per_name = 3;
+  /// Messages that are known again when they are reported a second time; any beyond are counted each time.
+  static constexpr std::size_t remembered = 1'000'000;
 
   explicit Diagnostics(std::shared_ptr<Sources> sources = std::make_shared<Sources>()) : sources_(std::move(sources)) {
     for (std::size_t i = 0; i < severity_.size(); ++i) severity_[i] = info(static_cast<Diag>(i)).severity;
@@ -82,6 +85,7 @@ class Diagnostics {
   std::array<std::size_t, n_> by_name_{};
   std::array<std::size_t, 5> by_severity_{};
   std::vector<Message> messages_;
+  std::unordered_set<std::uint64_t> reported_;  // hashes of what has a place, as far as they are remembered
 };
 
 }  // namespace wrlkit

@@ -73,7 +73,7 @@ void Scene::set_fields(NodeId n, std::span<const Value> fields) {
     node.first_field = static_cast<std::uint32_t>(fields_.size());
     fields_.insert(fields_.end(), fields.begin(), fields.end());
   }
-  node.n_fields = static_cast<std::uint16_t>(std::min<std::size_t>(fields.size(), 0xffff));
+  node.n_fields = static_cast<std::uint32_t>(fields.size());
   if (node.n_fields >= NodeType::many_fields)
     std::ranges::stable_sort(std::span(fields_).subspan(node.first_field, node.n_fields), {}, &Value::slot);
 }

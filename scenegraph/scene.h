@@ -177,9 +177,8 @@ class Scene {
     std::uint32_t name = 0;  // into names_; 0: none
     std::uint32_t offset = Span::nowhere;
     std::uint32_t first_field = 0;
-    std::uint16_t n_fields = 0;
+    std::uint32_t n_fields = 0;
   };
-  Value node_array(Value v, std::span<const NodeId> ids);
 
   std::vector<Node> nodes_;
   std::vector<Value> fields_;

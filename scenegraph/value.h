@@ -14,19 +14,32 @@ namespace wrlkit {
 
 // The field types of ISO/IEC 14772-1 clause 5 and of 19775-1 clause 5; SFBitMask, SFEnum and SFMatrix are VRML 1.0's.
 // SF and MF of a kind are neighbours. `verbatim` is the source text of a value whose type nobody declared.
-#define WRLKIT_FIELD_TYPES(X)                                                                                       \
-  X(SFBool, integer, 1)                                                                                             \
-  X(MFBool, integer, 1) X(SFInt32, integer, 1) X(MFInt32, integer, 1) X(SFFloat, number, 1) X(MFFloat, number, 1)   \
-      X(SFDouble, number, 1) X(MFDouble, number, 1) X(SFTime, number, 1) X(MFTime, number, 1) X(SFVec2f, number, 2) \
-          X(MFVec2f, number, 2) X(SFVec2d, number, 2) X(MFVec2d, number, 2) X(SFVec3f, number, 3)                   \
-              X(MFVec3f, number, 3) X(SFVec3d, number, 3) X(MFVec3d, number, 3) X(SFVec4f, number, 4)               \
-                  X(MFVec4f, number, 4) X(SFVec4d, number, 4) X(MFVec4d, number, 4) X(SFColor, number, 3)           \
-                      X(MFColor, number, 3) X(SFColorRGBA, number, 4) X(MFColorRGBA, number, 4)                     \
-                          X(SFRotation, number, 4) X(MFRotation, number, 4) X(SFMatrix3f, number, 9)                \
-                              X(MFMatrix3f, number, 9) X(SFMatrix4f, number, 16) X(MFMatrix4f, number, 16)          \
-                                  X(SFString, text, 1) X(MFString, text, 1) X(SFNode, node, 1) X(MFNode, node, 1)   \
-                                      X(SFImage, image, 1) X(MFImage, image, 1) X(SFBitMask, text, 1)               \
-                                          X(SFEnum, text, 1) X(SFMatrix, number, 16) X(verbatim, text, 1)
+// clang-format off
+#define WRLKIT_FIELD_TYPES(X) \
+  X(SFBool, integer, 1) X(MFBool, integer, 1) \
+  X(SFInt32, integer, 1) X(MFInt32, integer, 1) \
+  X(SFFloat, number, 1) X(MFFloat, number, 1) \
+  X(SFDouble, number, 1) X(MFDouble, number, 1) \
+  X(SFTime, number, 1) X(MFTime, number, 1) \
+  X(SFVec2f, number, 2) X(MFVec2f, number, 2) \
+  X(SFVec2d, number, 2) X(MFVec2d, number, 2) \
+  X(SFVec3f, number, 3) X(MFVec3f, number, 3) \
+  X(SFVec3d, number, 3) X(MFVec3d, number, 3) \
+  X(SFVec4f, number, 4) X(MFVec4f, number, 4) \
+  X(SFVec4d, number, 4) X(MFVec4d, number, 4) \
+  X(SFColor, number, 3) X(MFColor, number, 3) \
+  X(SFColorRGBA, number, 4) X(MFColorRGBA, number, 4) \
+  X(SFRotation, number, 4) X(MFRotation, number, 4) \
+  X(SFMatrix3f, number, 9) X(MFMatrix3f, number, 9) \
+  X(SFMatrix4f, number, 16) X(MFMatrix4f, number, 16) \
+  X(SFString, text, 1) X(MFString, text, 1) \
+  X(SFNode, node, 1) X(MFNode, node, 1) \
+  X(SFImage, image, 1) X(MFImage, image, 1) \
+  X(SFBitMask, text, 1) \
+  X(SFEnum, text, 1) \
+  X(SFMatrix, number, 16) \
+  X(verbatim, text, 1)
+// clang-format on
 
 enum class FieldType : std::uint8_t {
 #define WRLKIT_X(name, element, arity) name,

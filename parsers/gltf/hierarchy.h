@@ -72,7 +72,6 @@ class Hierarchy {
   std::vector<State> state_;
   std::vector<NodeId> made_;
   std::map<std::uint32_t, std::vector<Morph>> morphs_;
-  std::map<std::uint32_t, std::vector<Matrix>> joints_;
   PartGroups* part_groups_ = nullptr;  // of the group whose children are made
   std::map<std::uint32_t, Nodes> lights_, cameras_;
   Nodes suns_;  // DirectionalLights: in VRML they light their group only

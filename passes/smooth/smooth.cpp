@@ -1,5 +1,7 @@
 #include "passes/smooth/smooth.h"
 
+#include <algorithm>
+
 #include "passes/analysis/manifold.h"
 
 #ifdef WRLKIT_OPENMESH
@@ -20,6 +22,10 @@ Outcome smooth(MeshJob& job, const SmoothOptions& options) {
   smoother.initialize(Smoother::Tangential_and_Normal, Smoother::C0);
   smoother.smooth(static_cast<unsigned>(options.iterations));
   auto faces = from_openmesh(surface->mesh);
+  // Where all points lie on borders nothing moves.
+  if (std::ranges::equal(faces.positions.span(), job.mesh.positions.span()) && faces.corners == job.mesh.corners &&
+      !job.mesh.primitive && !job.mesh.normal.present())
+    return Outcome::unchanged;
   job.mesh.positions = std::move(faces.positions);
   job.mesh.corners = std::move(faces.corners);
   job.mesh.primitive = false;

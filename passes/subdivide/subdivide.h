@@ -23,6 +23,19 @@ struct SubdivisionScheme {
 };
 
 struct SubdivideOptions {
+  static constexpr std::string_view doc =
+      R"(Coarse polygons become a smooth surface of more of them, by OpenMesh: Loop's scheme or that of Catmull and Clark.
+
+    before   coordIndex [ 0 1 2 3 -1 ... ]                  a cube: 6 faces
+    after    coordIndex [ 8 0 11 20 -1 8 20 9 1 -1 ... ]    24 faces, 96 with levels=2, nearly a ball
+
+Colours and texture coordinates are interpolated, normals are dropped. A surface that is not a manifold is reported and
+stays as it is; run `weld` before. Cost: linear in the faces that come out.)";
+  static constexpr StatisticInfo statistics[] = {
+      {"subdivide.triangles", "triangles of all surfaces that were subdivided"},
+      {"subdivide.dropped-normals", "surfaces whose normals were dropped, since they were those of the coarse faces"},
+  };
+
   SubdivisionScheme scheme;
   int levels = 1;
   int max_triangles = 4'000'000;

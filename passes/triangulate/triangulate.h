@@ -12,6 +12,9 @@ Polygons to triangles, before a mesh goes where there is nothing else.
     after    coordIndex [ 0 1 2 -1  0 2 3 -1  4 5 6 -1 ]
 
 Cuts the faces of job.mesh into triangles: geometry/triangulation.h.)";
+  static constexpr StatisticInfo statistics[] = {
+      {"triangulate.non-planar", "faces that were not planar"},
+  };
 
   void fields(auto&&) {}
 };

@@ -423,8 +423,7 @@ TEST_CASE("combine-lightmap: a pipeline has it behind the last pass over the sce
     }
     return names;
   };
-  const std::string front = "lower-vrml1,expand,lower-x3d,prune,",
-                    end = ",tessellate,normals,triangulate";
+  const std::string front = "lower-vrml1,expand,lower-x3d,prune,", end = ",tessellate,normals,triangulate";
   CHECK(completed("weld", "gltf") == front + "combine-lightmap,weld" + end);
   CHECK(completed("weld,lod", "gltf") == front + "weld,lod,combine-lightmap" + end);
   CHECK(completed("lod,weld", "gltf") == front + "lod,combine-lightmap,weld" + end);

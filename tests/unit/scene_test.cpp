@@ -153,3 +153,11 @@ TEST_CASE("verify: what a level promises", "[scene]") {
   CHECK(verify(box, Level::expanded, diag));
   CHECK_FALSE(verify(box, Level::mesh, diag));
 }
+
+TEST_CASE("scene: a node may have more fields than 16 bits count", "[scene]") {
+  Scene scene;
+  const NodeId n = scene.add(nodes::Group);
+  const std::vector<Value> fields(70'000, scene.make_extra("x", scene.make(FieldType::SFInt32, 0, 1)));
+  scene.set_fields(n, fields);
+  CHECK(scene.fields(n).size() == 70'000);
+}

@@ -34,8 +34,7 @@ struct Meshes {
   PassContext ctx{diag, stats};
   MeshScratch scratch;
 
-  explicit Meshes(const fs::path& path,
-                  const std::string& passes = "expand,tessellate{triangles=false}") {
+  explicit Meshes(const fs::path& path, const std::string& passes = "expand,tessellate{triangles=false}") {
     world = read_world(path.string(), {}, diag);
     if (world) run(passes);
   }

@@ -29,7 +29,7 @@ struct Flags {
   bool print_pipeline = false, verify_each = false, time_passes = false, stats = false;
   std::string print_after;
   std::vector<std::string> python;  // files with passes
-  SaveOptions save;  // but for the pipeline
+  SaveOptions save;                 // but for the pipeline
   std::string recipe;
   bool print_recipe = false;
   std::vector<std::pair<std::string, std::vector<std::string>>> given;  // every option that was given, by name

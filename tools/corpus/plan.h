@@ -26,7 +26,7 @@ struct CorpusPlan {
   std::vector<CorpusJob> jobs;                             // the dearest first
   std::unordered_map<std::string, std::uint32_t> by_path;  // the job of an input
   std::vector<std::pair<std::string, std::string>> kept;   // inputs whose outputs keep the input's ending in their
-                                                          // names, and the output that several of them would have had
+                                                           // names, and the output that several of them would have had
 };
 
 struct Shard {

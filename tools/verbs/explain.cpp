@@ -3,11 +3,11 @@
 
 #include "base/diagnostics.h"
 #include "base/text/nearest_name.h"
+#include "convert/profiles.h"
 #include "passes/pipeline/pipeline.h"
 #include "scenegraph/node_table.h"
 #include "tools/cli/flags.h"
 #include "tools/cli/recipe.h"
-#include "convert/profiles.h"
 #include "tools/verbs/documentation.h"
 
 namespace wrlkit {
