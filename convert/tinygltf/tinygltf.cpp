@@ -1,6 +1,7 @@
 #include "convert/tinygltf/tinygltf.h"
 
-// Compiled here, with the options that the target passes on: classes of Debian's library were found to be laid out otherwise.
+// Compiled here, with the options that the target passes on: the classes of Debian's library were found to be laid out
+// otherwise.
 #define TINYGLTF_IMPLEMENTATION
 #include <tiny_gltf.h>
 
