@@ -207,7 +207,8 @@ class WorldTrial {
     require(same || one->outcome == Outcome::changed, path_, info.name,
             "says unchanged, but there are " + first_difference(text_before, one->text));
     const bool lenient = std::ranges::find(says_changed_too_often, info.name) != std::end(says_changed_too_often);
-    require(!same || lenient || one->outcome == Outcome::unchanged, path_, info.name, "says changed, but the text is the same");
+    require(!same || lenient || one->outcome == Outcome::unchanged, path_, info.name,
+            "says changed, but the text is the same");
     require(one->text == two->text && one->files == two->files, path_, info.name,
             "other results on two threads: " + first_difference(one->text, two->text));
     check_level(info, scene);
