@@ -47,10 +47,10 @@ def results(program, only, jobs):
     if program.endswith('.json'):
         return json.loads(pathlib.Path(program).read_text())
     program = os.path.abspath(program)
-    todo = [(world, way) for world in worlds(only) for way in ways]
+    jobs_to_run = [(world, way) for world in worlds(only) for way in ways]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        made = pool.map(lambda t: convert(program, *t), todo)
-        return {f'{os.path.relpath(world, root)} {way}': m for (world, way), m in zip(todo, made)}
+        made = pool.map(lambda t: convert(program, *t), jobs_to_run)
+        return {f'{os.path.relpath(world, root)} {way}': m for (world, way), m in zip(jobs_to_run, made)}
 
 
 def main():

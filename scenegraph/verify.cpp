@@ -166,21 +166,21 @@ class Invariants {
   void cycles() {
     enum : char { fresh, open, done };
     std::vector<char> state(s_.node_count(), fresh);
-    std::vector<NodeId> todo;
+    std::vector<NodeId> path;
     for (NodeId start{0}; start.value < s_.node_count(); ++start.value) {
-      todo.push_back(start);
-      while (!todo.empty()) {
-        const NodeId n = todo.back();
+      path.push_back(start);
+      while (!path.empty()) {
+        const NodeId n = path.back();
         if (state[n.value] != fresh) {
           state[n.value] = done;
-          todo.pop_back();
+          path.pop_back();
           continue;
         }
         state[n.value] = open;
         if (!goes_down(n)) continue;
         for_each_child(s_, n, [&](NodeId c) {
           if (state[c.value] == open) breach(n, "a node that is below itself");
-          if (state[c.value] == fresh) todo.push_back(c);
+          if (state[c.value] == fresh) path.push_back(c);
         });
       }
     }
