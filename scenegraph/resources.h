@@ -11,6 +11,7 @@
 
 #include "base/diagnostics.h"
 #include "base/image/image.h"
+#include "base/io/files_read.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {
@@ -64,8 +65,13 @@ class Resources {
   /// Null when there is none of that url.
   const MadeFile* find_made(std::string_view url) const;
 
+  /// What was read from until now; outputs do not replace it.
+  FilesRead& files_read() { return files_read_; }
+  const FilesRead& files_read() const { return files_read_; }
+
  private:
   std::deque<MadeFile> made_;
+  FilesRead files_read_;
 };
 
 }  // namespace wrlkit
