@@ -22,7 +22,7 @@ struct Document::State {
     if (options.strict) own_diag.warnings_are_errors();
     for (const auto& [id, severity] : options.severities) own_diag.set_severity(id, severity);
   }
-  State(World w, const PassContext& c) : world(std::make_unique<World>(std::move(w))), context(c) {}
+  State(World w, PassContext c) : world(std::make_unique<World>(std::move(w))), context(std::move(c)) {}
 
   /// A file that another one refers to, in the nodes of VRML97. The only place where that is done.
   std::shared_ptr<const Scene> parse_inlined(const std::string& file, Diagnostics& diag) {

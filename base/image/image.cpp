@@ -61,7 +61,7 @@ std::vector<fs::path> module_paths() {
   for (fs::directory_iterator i(lib, ec), end; !ec && i != end; i.increment(ec))  // lib/x86_64-linux-gnu
     paths.push_back(i->path() / "wrlkit" / name);
   paths.push_back(chosen_module());
-  paths.push_back(WRLKIT_INSTALLED_IMAGES);
+  paths.emplace_back(WRLKIT_INSTALLED_IMAGES);
   paths.push_back(module_of_environment());
   std::erase_if(paths, [](const fs::path& path) { return !is_trusted(path); });
   return paths;
