@@ -69,6 +69,7 @@ struct LoadOptions {
   UpAxis up = UpAxis::y;                      // which of its axes points up
   std::vector<std::string> allow_paths = {};  // folders that pictures and Inlines may lie in, besides the file's own
   bool strict = false;                        // every warning is an error
+  bool show_all = false;                      // Switches that are off show everything
   bool in_place = false;                      // an output may take the place of the file that is read
   std::vector<std::pair<Diag, Severity>> severities = {};  // of single messages
   bool unpack_pictures = false;  // pictures inside a glTF file become files that a writer places next to its own
@@ -76,6 +77,7 @@ struct LoadOptions {
   void placing_fields(auto&& f) {
     f("unit", unit, "what one unit of the input is: m, cm, mm, in, ft");
     f("up", up, "which axis of the input points up: y, z, x");
+    f("show-all", show_all, "Switches that are off show all their children; see wrlkit passes switch");
   }
   void fields(auto&& f) {
     placing_fields(f);

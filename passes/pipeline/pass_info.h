@@ -95,6 +95,8 @@ class PassOf final : public PassInstance {
   bool set(std::string_view option, std::string_view value, std::string& why) override {
     bool found = false;
     NearestName nearest(option);
+    if constexpr (requires { options_.add_field(option); })
+      if (int number = 0; option_text::read(value, number)) options_.add_field(option);
     options_.fields([&](std::string_view name, auto& field, std::string_view help, OptionRange range = {}) {
       nearest.consider(name);
       if (name != option) return;
