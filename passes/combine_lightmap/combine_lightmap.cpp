@@ -285,8 +285,8 @@ Texel4 Combining::color(const Painted& t, const std::array<double, 3>& weights, 
   auto base = s.base(vertex, texel);
   const SrgbTable& table = SrgbTable::get();
   const auto light = s.baked.light.sample(place, 1).color;
-  auto shown = [&](double color, double texel, double emitted) {
-    return table.byte(table.linear(color) * s.baked.scale * table.linear(texel) + table.linear(emitted));
+  auto shown = [&](double color, double lit, double emitted) {
+    return table.byte(table.linear(color) * s.baked.scale * table.linear(lit) + table.linear(emitted));
   };
   const auto opacity =
       alpha ? static_cast<std::uint8_t>(std::clamp(base.alpha, 0.0, 1.0) * 255 + 0.5) : std::uint8_t{255};
@@ -365,7 +365,9 @@ bool CombinedFormat::read(std::string_view text) {
     value.clear();
     return true;
   }
-  return chosen.read(text) ? (value = chosen.value, true) : false;
+  if (!chosen.read(text)) return false;
+  value = chosen.value;
+  return true;
 }
 
 Outcome combine_lightmap(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx) {

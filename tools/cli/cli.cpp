@@ -25,7 +25,9 @@ namespace {
 std::vector<std::string> take_warning_flags(std::vector<std::string>& words) {
   std::vector<std::string> out;
   std::erase_if(words, [&](const std::string& w) {
-    return w.starts_with("-W") && w.size() > 2 && (out.push_back(w.substr(2)), true);
+    const bool is_one = w.starts_with("-W") && w.size() > 2;
+    if (is_one) out.push_back(w.substr(2));
+    return is_one;
   });
   return out;
 }
