@@ -19,4 +19,11 @@ const MadeFile* Resources::find_made(std::string_view url) const {
   return i == made_.end() ? nullptr : &*i;
 }
 
+void Resources::add_named(NamedFile file) {
+  std::erase_if(named_, [&](const NamedFile& n) { return n.path == file.path; });
+  named_.push_back(std::move(file));
+}
+
+bool Resources::is_input(const std::string&) const { return false; }
+
 }  // namespace wrlkit

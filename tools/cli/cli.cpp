@@ -52,12 +52,13 @@ struct AddOption {
         ->type_name(std::string(note.type))
         ->check(fault, "", "");
   }
-  template <class E>
-  requires std::is_enum_v<E>
+  template <Choice E>
   void operator()(std::string_view name, E& field, std::string_view help) const {
-    const auto read = [&field](const std::string& text) { read_value(text, field); };
-    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
-        ->check(CLI::IsMember(std::vector<std::string>(value_names<E>.begin(), value_names<E>.end())))
+    const auto read = [&field](const std::string& text) { read_choice(text, field); };
+    std::vector<std::string> names;
+    for (const auto& c : choices<E>) names.emplace_back(c.name);
+    verb.add_option_function<std::string>("--" + std::string(name), read, choice_help<E>(help))
+        ->check(CLI::IsMember(names))
         ->default_str(std::string(name_of(field)));
   }
 };
@@ -126,8 +127,7 @@ std::vector<std::string> profile_names() {
 void small_gltf(CLI::App& verb, Flags& f) {
   f.save.size_fields(AddOption{verb});
   verb.get_option("--position-bits")->excludes(verb.get_option("--tolerance"));
-  verb.add_option("--profile", f.profile,
-                  "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")
+  verb.add_option("--profile", f.profile, "who is to open it decides what is not said otherwise")
       ->check(CLI::IsMember(profile_names()));
 }
 
@@ -154,12 +154,7 @@ void pictures(CLI::App& verb, Flags& f) {
       ->check(CLI::IsMember({"on", "off"}));
   verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")
       ->check(CLI::Range(0.0, 179.0));
-  verb.add_option(
-          "--mode", f.mode,
-          "preview; path: with shadows and reflected light, as noisy as --samples are few; wireframe; albedo: no "
-          "light; and of lightmaps: the light alone, its texels as a checker, their density (texels a metre)")
-      ->check(CLI::IsMember({"preview", "path", "wireframe", "albedo", "lightmap", "checker", "density"}))
-      ->capture_default_str();
+  AddOption{verb}("mode", f.mode, "how it is drawn");
 }
 
 void corpus_inputs(CLI::App& verb, Flags& f) {
@@ -373,9 +368,7 @@ const Verb verbs[] = {
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.add_option("OUT", f.output, "file.xml or file.xml.gz; - is standard output")->required();
-       v.add_option("--method", f.method, "how: path, stochastic-iteration or progressive-radiosity")
-           ->check(CLI::IsMember({"path", "stochastic-iteration", "progressive-radiosity"}))
-           ->capture_default_str();
+       AddOption{v}("method", f.method, "how the light is found");
        v.add_option("--samples", f.light_samples, "rays a patch: the error falls with their square root or faster")
            ->check(CLI::Range(1, 1'000'000))
            ->capture_default_str();

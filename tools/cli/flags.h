@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "convert/options.h"
+#include "light/patches/methods.h"
+#include "light/render/render.h"
 
 namespace wrlkit {
 
@@ -50,7 +52,8 @@ struct Flags {
 
   // render
   int width = 1280, height = 960, samples = 4;
-  std::string viewpoint, mode = "preview", level = "0";
+  RenderOptions::Mode mode = RenderOptions::Mode::preview;
+  std::string viewpoint, level = "0";
   std::vector<double> look_at;  // eye, target, up
   bool fit = false;
   std::vector<double> background;  // r, g, b; empty: the world's
@@ -68,7 +71,7 @@ struct Flags {
   bool progressive = false;
 
   // illuminate
-  std::string method = "path";
+  light::Method method = light::Method::path;
   std::string max_edge;  // a length: 5cm
   double max_area = 0;   // square metres
   double gradient = 0;

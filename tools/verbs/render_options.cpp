@@ -2,8 +2,6 @@
 
 #include <numbers>
 #include <string>
-#include <string_view>
-#include <utility>
 
 namespace wrlkit {
 
@@ -12,13 +10,7 @@ RenderOptions render_options(const Flags& f) {
   o.width = f.width;
   o.height = f.height;
   o.samples = f.samples;
-  using Mode = RenderOptions::Mode;
-  constexpr std::pair<std::string_view, Mode> modes[] = {{"preview", Mode::preview},   {"wireframe", Mode::wireframe},
-                                                         {"lightmap", Mode::lightmap}, {"checker", Mode::checker},
-                                                         {"density", Mode::density},   {"albedo", Mode::albedo},
-                                                         {"path", Mode::path}};
-  for (auto [name, mode] : modes)
-    if (f.mode == name) o.mode = mode;
+  o.mode = f.mode;
   if (f.level == "auto")
     o.level.reset();
   else
