@@ -37,7 +37,7 @@ struct Document::State {
   void open_files(const std::string& input) {
     world.reset();
     files = std::make_unique<FileResources>(
-        ResourceOptions{.input = input, .allowed = options.allow_paths, .buffers = &buffers},
+        ResourceOptions{.input = input, .allowed = options.allow_paths},
         [this](const std::string& file, Diagnostics& diag) { return parse_inlined(file, diag); });
     context.resources = files.get();
   }
@@ -106,7 +106,9 @@ Resources* Document::resources() const { return state_->context.resources; }
 PassContext& Document::context() { return state_->context; }
 
 std::vector<FileLookup> Document::lookups() const {
-  return state_->files ? state_->files->lookups() : std::vector<FileLookup>();
+  auto all = state_->files ? state_->files->lookups() : std::vector<FileLookup>();
+  all.insert(all.end(), state_->buffers.begin(), state_->buffers.end());
+  return all;
 }
 
 Ending Document::ending(bool made) const {

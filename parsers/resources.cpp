@@ -198,14 +198,7 @@ std::vector<FileLookup> FileResources::lookups() const {
   std::vector<FileLookup> out;
   for (const auto& [asked, result] : looked_up_) out.push_back({asked.first, asked.second, result});
   for (const auto& path : patch_files_) out.push_back({"", path, {AllowedFiles::found, path, path}});
-  if (options_.buffers) out.insert(out.end(), options_.buffers->begin(), options_.buffers->end());
   return out;
-}
-
-bool FileResources::is_input(const std::string& path) const {
-  std::error_code none_there;
-  const auto is = [&](const std::string& file) { return std::filesystem::equivalent(path, file, none_there); };
-  return is(options_.input) || std::ranges::any_of(lookups(), [&](const FileLookup& l) { return is(l.result.path); });
 }
 
 std::shared_ptr<const PatchSet> FileResources::patches(const std::string& path, Diagnostics& diag) {

@@ -17,10 +17,9 @@
 namespace wrlkit {
 
 struct ResourceOptions {
-  std::string input = "-";                           // the file that is converted: files below its folder may be read
-  std::vector<std::string> allowed = {};             // and below these (--allow-path)
-  std::uint64_t max_bytes = 512 << 20;               // of one picture
-  const std::vector<FileLookup>* buffers = nullptr;  // of glTF, which the parsers look for themselves
+  std::string input = "-";                 // the file that is converted: files below its folder may be read
+  std::vector<std::string> allowed = {};   // and below these (--allow-path)
+  std::uint64_t max_bytes = 512 << 20;     // of one picture
   std::uint64_t cached_bytes = 512 << 20;  // of files and decoded pictures that are kept for the next who asks
 };
 
@@ -45,7 +44,6 @@ class FileResources final : public Resources {
   /// All that was asked for until now: what the result depends on beside the input. Who has no referrer was named by
   /// the user.
   std::vector<FileLookup> lookups() const;
-  bool is_input(const std::string& path) const override;
 
  private:
   struct Target;

@@ -24,6 +24,4 @@ void Resources::add_named(NamedFile file) {
   named_.push_back(std::move(file));
 }
 
-bool Resources::is_input(const std::string&) const { return false; }
-
 }  // namespace wrlkit

@@ -75,8 +75,6 @@ class Resources {
   void add_named(NamedFile);
   /// Those that were handed in since the last call.
   std::vector<NamedFile> take_named() { return std::exchange(named_, {}); }
-  /// Whether something of the scene was read from that file, so that nothing may be written there.
-  virtual bool is_input(const std::string& path) const;
 
  private:
   std::deque<MadeFile> made_;

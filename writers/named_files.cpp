@@ -6,11 +6,7 @@ namespace wrlkit {
 
 bool NamedFiles::write() {
   for (const NamedFile& file : resources_.take_named()) {
-    if (resources_.is_input(file.path)) {
-      diag_.report(Diag::cannot_write, {}, file.path, "it is an input");
-      return false;
-    }
-    auto out = OutputFile::open(file.path, {}, diag_);
+    auto out = OutputFile::open(file.path, {.inputs = &resources_.files_read()}, diag_);
     if (!out) return false;
     out->write(file.bytes);
     files_.push_back(std::move(*out));
