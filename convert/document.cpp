@@ -37,13 +37,14 @@ struct Document::State {
   void open_files(const std::string& input) {
     world.reset();
     files = std::make_unique<FileResources>(
-        ResourceOptions{.input = input, .allowed = options.allow_paths},
+        ResourceOptions{.input = input, .allowed = options.allow_paths, .in_place = options.in_place},
         [this](const std::string& file, Diagnostics& diag) { return parse_inlined(file, diag); });
     context.resources = files.get();
   }
 
   bool take(std::unique_ptr<World> read) {
     world = std::move(read);
+    for (const auto& buffer : buffers) files->files_read().add(buffer.result.canonical);
     if (!world) return false;
     place_world(world->scene, options.unit, options.up);
     if (options.unpack_pictures && world->format == Format::gltf) unpack_pictures(world->scene, *files);

@@ -39,6 +39,7 @@ struct LoadOptions {
   UpAxis up = UpAxis::y;                      // which of its axes points up
   std::vector<std::string> allow_paths = {};  // folders that pictures and Inlines may lie in, besides the file's own
   bool strict = false;                        // every warning is an error
+  bool in_place = false;                      // an output may take the place of the file that is read
   std::vector<std::pair<Diag, Severity>> severities = {};  // of single messages
   bool unpack_pictures = false;  // pictures inside a glTF file become files that a writer places next to its own
 

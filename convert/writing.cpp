@@ -25,7 +25,7 @@ bool write_text(const Writing& w, TextWriter<Options> write) {
     return write_named_files(*w.context.resources, diag);
   }
   const auto& path = w.to.path;
-  auto file = OutputFile::open(path, {.gzip = w.to.gzip}, diag);
+  auto file = OutputFile::open(path, {.gzip = w.to.gzip, .inputs = &w.context.resources->files_read()}, diag);
   if (!file) return false;
   if (w.context.monitor) w.context.monitor->begin(path == "-" ? "" : "writing " + path, 0, "");
   MadeFiles made(w.scene, *w.context.resources, path, diag);

@@ -12,6 +12,7 @@
 
 #include "base/diagnostics.h"
 #include "base/image/image.h"
+#include "base/io/files_read.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {
@@ -76,9 +77,14 @@ class Resources {
   /// Those that were handed in since the last call.
   std::vector<NamedFile> take_named() { return std::exchange(named_, {}); }
 
+  /// What was read from until now; outputs do not replace it.
+  FilesRead& files_read() { return files_read_; }
+  const FilesRead& files_read() const { return files_read_; }
+
  private:
   std::deque<MadeFile> made_;
   std::vector<NamedFile> named_;
+  FilesRead files_read_;
 };
 
 }  // namespace wrlkit

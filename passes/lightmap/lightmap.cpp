@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <system_error>
 #include <unordered_map>
 
 #include "base/image/image.h"
@@ -13,6 +11,7 @@
 #include "light/render/stage.h"
 #include "light/world.h"
 #include "passes/lightmap/bake.h"
+#include "passes/lightmap/checkpoint.h"
 #include "passes/lightmap/from_patches.h"
 #include "passes/lightmap/layout.h"
 #include "passes/lightmap/levels.h"
@@ -201,9 +200,8 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
     if (const Outcome one = bake_view(scene, levels, options, ctx); one != Outcome::unchanged) all = one;
     if (!options.patches.empty()) return all;
   }
-  std::error_code none_there;
   for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view)
-    std::filesystem::remove(checkpoint_of(options, view), none_there);
+    bake::Checkpoint::remove(checkpoint_of(options, view));
   if (levels.n_unseen())
     ctx.diag.report(Diag::expansion_limit, {}, Levels::most, "levels of detail one behind the other");
   return all;

@@ -10,6 +10,7 @@
 #include "convert/formats.h"
 #include "convert/profiles.h"
 #include "geometry/simplify/levels.h"
+#include "tools/cli/outputs.h"
 #include "tools/cli/python_passes.h"
 #include "tools/cli/recipe.h"
 
@@ -178,10 +179,15 @@ void corpus_inputs(CLI::App& verb, Flags& f) {
       ->type_name("I/N");
 }
 
+void in_place(CLI::App& verb, Flags& f) {
+  verb.add_flag("--in-place", f.load.in_place, "OUT may be IN, which is then kept as IN.bak");
+}
+
 struct Verb {
   const char *name, *help, *example;
   void (*flags)(CLI::App&, Flags&);
   int (*run)(const Flags&);
+  const char* endings = "";  // of outputs that have one format only, with blanks between them
 };
 
 const Verb verbs[] = {
@@ -200,6 +206,7 @@ const Verb verbs[] = {
        small_gltf(v, f);
        placing(v, f);
        vrml_output(v, f);
+       in_place(v, f);
      },
      run_convert},
     {"optimize",
@@ -215,6 +222,7 @@ const Verb verbs[] = {
        pipeline(v, f);
        small_gltf(v, f);
        placing(v, f);
+       in_place(v, f);
      },
      run_optimize},
     {"info", "what is inside: nodes, triangles, bounds, textures, lights", "wrlkit info plant.wrl --json",
@@ -236,7 +244,7 @@ const Verb verbs[] = {
        pipeline(v, f);
        vrml_output(v, f);
      },
-     run_cat},
+     run_cat, ".wrl .wrz .wrl.gz .vrml"},
     {"diff",
      "how two worlds differ: structure, names, materials, and the distance of their surfaces; exit code 0 when they "
      "do, too",
@@ -360,7 +368,7 @@ const Verb verbs[] = {
        pictures(v, f);
        pipeline(v, f);
      },
-     run_compare_lod},
+     run_compare_lod, ".html .png"},
     {"illuminate", "the light of a world by global illumination, as patches with a colour each",
      "wrlkit illuminate room.wrl patches.xml\n  wrlkit illuminate room.wrl patches.xml --method stochastic-iteration "
      "--max-edge 5cm --samples 64\n  wrlkit illuminate room.wrl.gz patches.xml.gz --gradient 0.2\n  wrlkit illuminate "
@@ -401,7 +409,7 @@ const Verb verbs[] = {
            ->capture_default_str();
        placing(v, f);
      },
-     run_illuminate},
+     run_illuminate, ".xml .xml.gz"},
     {"view", "a page to look at the world, or to compare two: one HTML file that needs no other and no network",
      "wrlkit view plant.wrl -o plant.html\n  wrlkit view plant.wrl simpler.wrl -o compared.html\n  wrlkit view "
      "valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view plant.wrl --serve",
@@ -418,7 +426,7 @@ const Verb verbs[] = {
        pipeline(v, f);
        placing(v, f);
      },
-     run_view},
+     run_view, ".html"},
     {"corpus-run", "one recipe over many files, each in a process of its own; what was done before is not done again",
      "wrlkit corpus run recipes/plant-web.toml plant/ -o web/\n  wrlkit corpus run recipes/archive.toml 'old/**/*.wrl' "
      "@more.txt -o new/ --jobs 8 --memory 32G --timeout 5m\n  wrlkit corpus run recipe.toml plant/ -o web/ --shard 2/8",
@@ -549,6 +557,7 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
   }
   for (auto* sub : app.get_subcommands()) {
     flags.given = given_options(*sub);
+    flags.can_replace = sub->get_option_no_throw("--in-place") != nullptr;
     if (auto* p = sub->get_option_no_throw("--pipeline")) flags.pipeline_given = p->count() > 0;
   }
   return done;
@@ -699,6 +708,7 @@ int run_command_line(int argc, char** argv) {
   if (!chosen) return code;
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
+  if (!check_outputs(flags, chosen->endings)) return usage;
   // A corpus run divides the memory among its workers.
   if (!std::string_view(chosen->name).starts_with("corpus")) limit_memory(flags);
   return chosen->run(flags);

@@ -34,6 +34,7 @@ struct Flags {
   SaveOptions save;                 // but for the pipeline
   std::string recipe;
   bool print_recipe = false;
+  bool can_replace = false;  // the verb has --in-place
   std::vector<std::pair<std::string, std::vector<std::string>>> given;  // every option that was given, by name
   std::string profile;
   bool print_profile = false;

@@ -7,6 +7,7 @@
 
 #include "convert/convert.h"
 #include "convert/profiles.h"
+#include "tools/cli/outputs.h"
 #include "tools/cli/recipe.h"
 #include "tools/cli/session.h"
 #include "tools/gltf_summary.h"
@@ -55,7 +56,13 @@ int run_convert(const Flags& flags) {
     fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline()));
     return done;
   }
+  Backup backup(flags);
+  if (!backup.why_not().empty()) {
+    fmt::print(stderr, "wrlkit: --in-place: {}\n", backup.why_not());
+    return nothing;
+  }
   const auto saved = read_input(s) ? write_world(s, save_options(flags)) : Saved{};
+  if (saved) backup.keep();
   s.progress().clear();
   if (saved && flags.verbose && saved.gltf) fmt::print(stderr, "{}", summary_text(*saved.gltf));
   if (saved && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);

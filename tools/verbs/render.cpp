@@ -25,7 +25,7 @@ Image draw(Session& s, const MeshSource& meshes, RenderOptions options, std::str
 namespace {
 
 bool write_bytes(Session& s, std::string_view bytes, const std::string& name) {
-  auto file = OutputFile::open(name, {}, s.diag());
+  auto file = OutputFile::open(name, {.inputs = &s.resources().files_read()}, s.diag());
   if (!file) return false;
   file->write(bytes);
   return file->commit(s.diag());
