@@ -71,9 +71,13 @@ struct Stage {
   }
 };
 
+/// With what the head of a file of its own format would say.
 std::string text_of(const Scene& scene) {
   Diagnostics unheard;
-  std::string text;
+  std::string text = std::to_string(static_cast<int>(scene.format)) + " " + scene.x3d.profile;
+  for (const auto& [name, level] : scene.x3d.components) text += " " + name + std::to_string(level);
+  for (const auto& [name, content] : scene.x3d.meta) text += " " + name + "=" + content;
+  text += "\n";
   write_vrml(
       scene, {.own_fields = true}, [&](std::string_view s) { text += s; }, unheard);
   return text;

@@ -1,15 +1,16 @@
-mkdir -p %t && cd %t && rm -f *
-cp %s world.wrl
+test=$PWD/%s
+rm -rf %t && mkdir -p %t && cd %t
+cp $test world.wrl
 wrlkit convert -q -p 'cull{smaller=40mm,list=list.txt}' world.wrl out.wrl
 cat list.txt
 echo '--- a list over the input'
 wrlkit convert -q -p 'cull{smaller=40mm,list=world.wrl}' world.wrl other.wrl 2>&1
-echo "code $?, $(cmp %s world.wrl && echo the input is as it was), $(test -e other.wrl || echo no output)"
+echo "code $?, $(cmp $test world.wrl && echo the input is as it was), $(test -e other.wrl || echo no output)"
 echo '--- over what an Inline names'
-cp %s part.wrl
+cp $test part.wrl
 printf '#VRML V2.0 utf8\nInline { url "part.wrl" }\n' > whole.wrl
 wrlkit convert -q -p 'cull{smaller=40mm,list=part.wrl}' whole.wrl other.glb 2>&1
-echo "code $?, $(cmp %s part.wrl && echo the input is as it was), $(test -e other.glb || echo no output)"
+echo "code $?, $(cmp $test part.wrl && echo the input is as it was), $(test -e other.glb || echo no output)"
 echo '--- where the output fails, there is no list either'
 wrlkit convert -q -p 'cull{smaller=40mm,list=later.txt}' world.wrl absent/other.wrl 2> /dev/null
 echo "code $?"
