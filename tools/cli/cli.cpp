@@ -55,12 +55,14 @@ struct AddOption {
   }
   template <Choice E>
   void operator()(std::string_view name, E& field, std::string_view help) const {
+    choice("--" + std::string(name), field, help)->default_str(std::string(name_of(field)));
+  }
+  template <Choice E>
+  CLI::Option* choice(const std::string& name, E& field, std::string_view help) const {
     const auto read = [&field](const std::string& text) { read_choice(text, field); };
     std::vector<std::string> names;
     for (const auto& c : choices<E>) names.emplace_back(c.name);
-    verb.add_option_function<std::string>("--" + std::string(name), read, choice_help<E>(help))
-        ->check(CLI::IsMember(names))
-        ->default_str(std::string(name_of(field)));
+    return verb.add_option_function<std::string>(name, read, choice_help<E>(help))->check(CLI::IsMember(names));
   }
 };
 
@@ -151,8 +153,7 @@ void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")
       ->expected(3)
       ->delimiter(',');
-  verb.add_option("--headlight", f.headlight, "on or off, whatever NavigationInfo says")
-      ->check(CLI::IsMember({"on", "off"}));
+  AddOption{verb}("headlight", f.headlight, "a light where the viewer is");
   verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")
       ->check(CLI::Range(0.0, 179.0));
   AddOption{verb}("mode", f.mode, "how it is drawn");
@@ -477,15 +478,8 @@ const Verb verbs[] = {
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",
      [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "node type, pass or message")->required(); },
      run_explain},
-    {"docs",
-     "a page of the documentation that is made from the tables: nodes, passes, diagnostics, recipes or profiles",
-     "wrlkit docs nodes",
-     [](CLI::App& v, Flags& f) {
-       v.add_option("PAGE", f.name, "nodes, passes, diagnostics, recipes or profiles")
-           ->required()
-           ->check(CLI::IsMember({"nodes", "passes", "diagnostics", "recipes", "profiles"}));
-     },
-     run_docs},
+    {"docs", "a page of the documentation that is made from the tables", "wrlkit docs nodes",
+     [](CLI::App& v, Flags& f) { AddOption{v}.choice("PAGE", f.page, "which page")->required(); }, run_docs},
 };
 
 void limit_memory(const Flags& f) {
