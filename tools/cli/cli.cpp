@@ -55,13 +55,16 @@ struct AddOption {
         ->type_name(std::string(note.type))
         ->check(fault, "", "");
   }
-  template <class E>
-  requires std::is_enum_v<E>
+  template <Choice E>
   void operator()(std::string_view name, E& field, std::string_view help) const {
-    const auto read = [&field](const std::string& text) { read_value(text, field); };
-    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
-        ->check(CLI::IsMember(std::vector<std::string>(value_names<E>.begin(), value_names<E>.end())))
-        ->default_str(std::string(name_of(field)));
+    choice("--" + std::string(name), field, help)->default_str(std::string(name_of(field)));
+  }
+  template <Choice E>
+  CLI::Option* choice(const std::string& name, E& field, std::string_view help) const {
+    const auto read = [&field](const std::string& text) { read_choice(text, field); };
+    std::vector<std::string> names;
+    for (const auto& c : choices<E>) names.emplace_back(c.name);
+    return verb.add_option_function<std::string>(name, read, choice_help<E>(help))->check(CLI::IsMember(names));
   }
 };
 
@@ -129,8 +132,7 @@ std::vector<std::string> profile_names() {
 void small_gltf(CLI::App& verb, Flags& f) {
   f.save.size_fields(AddOption{verb});
   verb.get_option("--position-bits")->excludes(verb.get_option("--tolerance"));
-  verb.add_option("--profile", f.profile,
-                  "who is to open it decides what is not said otherwise: portable, three, cesium, unity or godot")
+  verb.add_option("--profile", f.profile, "who is to open it decides what is not said otherwise")
       ->check(CLI::IsMember(profile_names()));
 }
 
@@ -153,16 +155,10 @@ void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")
       ->expected(3)
       ->delimiter(',');
-  verb.add_option("--headlight", f.headlight, "on or off, whatever NavigationInfo says")
-      ->check(CLI::IsMember({"on", "off"}));
+  AddOption{verb}("headlight", f.headlight, "a light where the viewer is");
   verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")
       ->check(CLI::Range(0.0, 179.0));
-  verb.add_option(
-          "--mode", f.mode,
-          "preview; path: with shadows and reflected light, as noisy as --samples are few; wireframe; albedo: no "
-          "light; and of lightmaps: the light alone, its texels as a checker, their density (texels a metre)")
-      ->check(CLI::IsMember({"preview", "path", "wireframe", "albedo", "lightmap", "checker", "density"}))
-      ->capture_default_str();
+  AddOption{verb}("mode", f.mode, "how it is drawn");
 }
 
 void corpus_inputs(CLI::App& verb, Flags& f) {
@@ -383,9 +379,7 @@ const Verb verbs[] = {
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.add_option("OUT", f.output, "file.xml or file.xml.gz; - is standard output")->required();
-       v.add_option("--method", f.method, "how: path, stochastic-iteration or progressive-radiosity")
-           ->check(CLI::IsMember({"path", "stochastic-iteration", "progressive-radiosity"}))
-           ->capture_default_str();
+       AddOption{v}("method", f.method, "how the light is found");
        v.add_option("--samples", f.light_samples, "rays a patch: the error falls with their square root or faster")
            ->check(CLI::Range(1, 1'000'000))
            ->capture_default_str();
@@ -486,15 +480,8 @@ const Verb verbs[] = {
     {"explain", "a node type, a pass or a message", "wrlkit explain Cone\n  wrlkit explain undefined-use",
      [](CLI::App& v, Flags& f) { v.add_option("NAME", f.name, "node type, pass or message")->required(); },
      run_explain},
-    {"docs",
-     "a page of the documentation that is made from the tables: nodes, passes, diagnostics, recipes or profiles",
-     "wrlkit docs nodes",
-     [](CLI::App& v, Flags& f) {
-       v.add_option("PAGE", f.name, "nodes, passes, diagnostics, recipes or profiles")
-           ->required()
-           ->check(CLI::IsMember({"nodes", "passes", "diagnostics", "recipes", "profiles"}));
-     },
-     run_docs},
+    {"docs", "a page of the documentation that is made from the tables", "wrlkit docs nodes",
+     [](CLI::App& v, Flags& f) { AddOption{v}.choice("PAGE", f.page, "which page")->required(); }, run_docs},
 };
 
 void limit_memory(const Flags& f) {

@@ -65,11 +65,8 @@ int run_passes(const Flags& flags) {
 }
 
 int run_docs(const Flags& flags) {
-  fmt::print("{}", flags.name == "nodes"      ? nodes_page()
-                   : flags.name == "passes"   ? passes_page()
-                   : flags.name == "recipes"  ? recipes_page()
-                   : flags.name == "profiles" ? profiles_page()
-                                              : diagnostics_page());
+  constexpr std::string (*pages[])() = {nodes_page, passes_page, diagnostics_page, recipes_page, profiles_page};
+  fmt::print("{}", pages[static_cast<std::size_t>(flags.page)]());
   return done;
 }
 
