@@ -83,7 +83,7 @@ void meshes(benchmark::State& state) {
     auto source = pipeline->run_lazily(world->scene, ctx);
     std::size_t corners = 0;
     for (std::uint32_t i = 0; i < world->scene.node_count(); ++i)
-      if (world->scene.type(NodeId{i}).is_a("X3DGeometryNode")) corners += source(NodeId{i}).corners.size();
+      if (world->scene.is(NodeId{i}, nodes::X3DGeometryNode)) corners += source(NodeId{i}).corners.size();
     benchmark::DoNotOptimize(corners);
   }
   count(state);

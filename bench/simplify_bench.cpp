@@ -61,7 +61,7 @@ Mesh read(const char* path) {
   MeshSource source = pipeline->run_lazily(world->scene, ctx);
   Mesh largest;
   for (std::uint32_t i = 0; i < world->scene.node_count(); ++i)
-    if (world->scene.type(NodeId{i}).is_a("X3DGeometryNode"))
+    if (world->scene.is(NodeId{i}, nodes::X3DGeometryNode))
       if (const Mesh& m = source(NodeId{i}); m.corners.size() > largest.corners.size()) {
         largest = m;
         largest.positions.edit();

@@ -34,8 +34,8 @@ bool write_text(const Writing& w, TextWriter<Options> write) {
 }
 
 std::size_t count_geometries(const Scene& scene) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      reachable(scene, scene.main), [&](NodeId n) { return scene.type(n).is_a("X3DGeometryNode"); }));
+  return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main),
+                                                        [&](NodeId n) { return scene.is(n, nodes::X3DGeometryNode); }));
 }
 
 /// A glTF without meshes is what some scenes deserve (lights, PROTO libraries), but nobody should find it out later.

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/box.h"
+#include "base/math/vec.h"
 
 namespace wrlkit {
 namespace {
@@ -47,16 +48,7 @@ double to_triangle(const std::array<Vec3, 3>& t, const Vec3& n) {
   return squared((1 / (weight[0] + weight[1] + weight[2])) * (weight[0] * t[0] + weight[1] * t[1] + weight[2] * t[2]));
 }
 
-struct Range {
-  std::array<float, 3> low{inf, inf, inf}, high{-inf, -inf, -inf};
-  static constexpr float inf = std::numeric_limits<float>::infinity();
-
-  void add(const Range& r) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], r.low[i]);
-      high[i] = std::max(high[i], r.high[i]);
-    }
-  }
+struct Range : BoxOf<float, 3> {
   double half_area() const {
     double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
     return x * y + y * z + z * x;
@@ -107,20 +99,16 @@ struct ClosestPoint::Builder {
   }
 
   void list_items() {
-    Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    wrlkit::Box box;
     for (std::size_t t = 0; t < tree.surface_.size(); ++t) {
       auto corners = tree.surface_[t];
       if (!is_usable(corners)) continue;
       items.push_back({{}, static_cast<std::uint32_t>(t)});
-      for (auto& p : corners)
-        for (std::size_t i = 0; i < 3; ++i) {
-          low[i] = std::min(low[i], p[i]);
-          high[i] = std::max(high[i], p[i]);
-        }
+      for (auto& p : corners) box.add(p);
     }
     if (items.empty()) return;
-    tree.centre_ = 0.5 * (low + high);
-    tree.same_ = 1e-10 * length(high - low);
+    tree.centre_ = box.centre();
+    tree.same_ = 1e-10 * diagonal(box);
     for (Item& item : items)
       for (auto& p : tree.surface_[item.triangle]) item.range.add(around(p - tree.centre_));
   }

@@ -8,8 +8,8 @@
 #include <functional>
 #include <optional>
 
+#include "base/math/vec.h"
 #include "base/parallel.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit {
 namespace {

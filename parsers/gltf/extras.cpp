@@ -297,7 +297,7 @@ void Extras::declare_fields(NodeId n, Json list) {
   NodeType t = c_.scene.type(n);
   if (t.name != "Script") return bad(list, "an interface");
   std::vector<FieldDef> all(t.fields.begin(), t.fields.end());
-  std::vector<Value> values(c_.scene.fields(n).begin(), c_.scene.fields(n).end());
+  auto values = c_.scene.copy_of_fields(n);
   for (auto& f : interface(list, all.size())) {
     if (f.has_value() || f.default_value.is) values.push_back(f.default_value);
     f.default_value = empty_value(c_.scene, f.type);

@@ -387,8 +387,7 @@ bool Parser::property_node(std::uint16_t slot, NodeId& out) {
     const auto& t = builtin_nodes()[i];
     const bool list = !t.fields.empty() && t.fields[0].has_value() && info(t.fields[0].type).multiple &&
                       info(t.fields[0].type).element == Element::number;
-    bool fits =
-        list && t.is_a("X3DGeometricPropertyNode") && std::ranges::any_of(def.kinds, [&](auto k) { return t.is_a(k); });
+    bool fits = list && t.is_a(nodes::X3DGeometricPropertyNode) && def.accepts(t);
     if (!fits) continue;
     Token first = lex_.peek();
     diag_.report(Diag::list_repaired, span(first), t.name);
@@ -432,7 +431,7 @@ bool Parser::holds_children(std::uint16_t slot) const {
 }
 
 NodeId Parser::shape_around(NodeId n) {
-  if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGeometryNode")) return n;
+  if (!scene_.is(n, nodes::X3DGeometryNode)) return n;
   diag_.report(Diag::shape_repaired, scene_.where(n), scene_.type(n).name);
   NodeId shape = scene_.add(nodes::Shape, scene_.where(n));
   scene_.set(shape, nodes::shape::geometry, n);

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 
 namespace wrlkit::bake {
 namespace {

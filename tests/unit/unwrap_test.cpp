@@ -603,7 +603,7 @@ TEST_CASE("unwrap: scans and parts", "[found]") {
     auto pipeline = Pipeline::parse("weld,triangulate", why);
     MeshSource source = pipeline->run_lazily(world->scene, ctx);
     for (std::uint32_t i = 0; i < world->scene.node_count(); ++i) {
-      if (!world->scene.type(NodeId{i}).is_a("X3DGeometryNode")) continue;
+      if (!world->scene.is(NodeId{i}, nodes::X3DGeometryNode)) continue;
       const Mesh& m = source(NodeId{i});
       Solid s;
       s.positions.assign(m.positions.span().begin(), m.positions.span().end());

@@ -220,7 +220,7 @@ class Writer : TextDocument {
     auto name = names_[n];
     const bool use = is_printed(n);
     if (!name.empty()) attribute(use ? "USE" : "DEF", name);
-    if (!field.empty() && (field != container_field(scene_, n) || t.is_a("X3DMetadataObject")))
+    if (!field.empty() && (field != container_field(scene_, n) || t.is_a(nodes::X3DMetadataObject)))
       attribute("containerField", field);
     if (use) {
       out_ << "/>";
