@@ -12,6 +12,7 @@
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
 #include "passes/weld/weld.h"
+#include "scenegraph/nodes.h"
 #include "writers/gltf/gltf.h"
 #include "writers/vrml/vrml.h"
 

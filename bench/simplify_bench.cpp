@@ -17,6 +17,7 @@
 #include "geometry/simplify/collapse.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/nodes.h"
 
 namespace {
 

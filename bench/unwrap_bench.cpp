@@ -15,6 +15,7 @@
 #include "geometry/unwrap/unfold.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/nodes.h"
 
 namespace {
 

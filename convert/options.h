@@ -117,7 +117,7 @@ struct SaveOptions {
       "vertices in glTF: none, as floats; quantize, in fewer bits; meshopt, that and packed; draco, packed smaller, "
       "each mesh by itself");
     f("tolerance", tolerance,
-      "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; as a rule 1mm, or less in a "
+      "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; default 1mm, or less in a "
       "small world",
       OptionNote{.type = "LENGTH"});
     f("position-bits", position_bits, "instead of that, bits of the extent of each mesh", OptionNote{between(1, 16)});
@@ -132,8 +132,7 @@ struct SaveOptions {
       "pictures in glTF: keep, PNG and JPEG as they are; png; jpeg, of colours without alpha, where it is smaller; "
       "webp, of colours, where it is smaller (EXT_texture_webp)");
     f("texture-quality", texture_quality, "of JPEG and WebP", OptionNote{between(1, 100)});
-    f("texture-size", texture_size,
-      "pictures in glTF have so many pixels along their longer side, at most; 0: as they are",
+    f("texture-size", texture_size, "most pixels along the longer side of pictures in glTF; 0: as they are",
       OptionNote{between(0, static_cast<double>(max_image_side)), "PIXELS"});
     f("gpu-instancing", gpu_instancing,
       "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call "

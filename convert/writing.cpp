@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/io/output.h"
+#include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "writers/made_files.h"
 #include "writers/vrml/vrml.h"
@@ -11,13 +12,11 @@
 namespace wrlkit {
 namespace {
 
-template <class Options>
-using TextWriter = void (*)(const Scene&, const Options&, const Sink&, Diagnostics&);
+using TextWriter = void (*)(const Scene&, const TextOptions&, const Sink&, Diagnostics&);
 
-template <class Options>
-bool write_text(const Writing& w, TextWriter<Options> write) {
+bool write_text(const Writing& w, TextWriter write) {
   auto& diag = w.context.diag;
-  Options options{.precision = w.options.precision, .own_fields = w.options.dump};
+  TextOptions options{.precision = w.options.precision, .own_fields = w.options.dump};
   if (w.sink) {
     write(w.scene, options, *w.sink, diag);
     return true;
@@ -53,8 +52,8 @@ struct Stopped {};
 
 }  // namespace
 
-bool write_vrml_file(const Writing& w) { return write_text<VrmlOptions>(w, write_vrml); }
-bool write_x3d_file(const Writing& w) { return write_text<X3dOptions>(w, write_x3d); }
+bool write_vrml_file(const Writing& w) { return write_text(w, write_vrml); }
+bool write_x3d_file(const Writing& w) { return write_text(w, write_x3d); }
 
 bool write_gltf_file(const Writing& w) {
   auto& ctx = w.context;

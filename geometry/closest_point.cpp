@@ -110,7 +110,7 @@ struct ClosestPoint::Builder {
     tree.centre_ = box.centre();
     tree.same_ = 1e-10 * diagonal(box);
     for (Item& item : items)
-      for (auto& p : tree.surface_[item.triangle]) item.range.add(around(p - tree.centre_));
+      for (auto& p : tree.surface_[item.triangle]) item.range.unite(around(p - tree.centre_));
   }
 
   static Range around(const Vec3& p) {
@@ -127,9 +127,9 @@ struct ClosestPoint::Builder {
   void split(std::uint32_t begin, std::uint32_t end, int depth) {
     Range all, middles;
     for (auto i = begin; i < end; ++i) {
-      all.add(items[i].range);
+      all.unite(items[i].range);
       std::array<float, 3> m{items[i].middle(0), items[i].middle(1), items[i].middle(2)};
-      middles.add({m, m});
+      middles.add(m);
     }
     std::size_t here = tree.boxes_.size();
     tree.boxes_.push_back({all.low, all.high, static_cast<std::uint32_t>(tree.order_.size()), end - begin});
@@ -164,7 +164,7 @@ struct ClosestPoint::Builder {
     Bin bins[n_bins];
     for (auto i = first; i != last; ++i) {
       Bin& b = bins[bin_of(*i)];
-      b.range.add(i->range);
+      b.range.unite(i->range);
       ++b.n;
     }
     int cut = cheapest_cut(bins);
@@ -178,9 +178,9 @@ struct ClosestPoint::Builder {
     Range before, after;
     std::uint32_t n_before = 0, n_after = 0;
     for (int i = 1; i < n_bins; ++i) {
-      before.add(bins[i - 1].range);
+      before.unite(bins[i - 1].range);
       n_before += bins[i - 1].n;
-      after.add(bins[n_bins - i].range);
+      after.unite(bins[n_bins - i].range);
       n_after += bins[n_bins - i].n;
       cost[i] += before.half_area() * n_before;
       cost[n_bins - i] += after.half_area() * n_after;

@@ -27,7 +27,7 @@ struct BoxOf {
     }
   }
   void add(const Point& p) { add(p.data()); }
-  void add(const BoxOf& b) {
+  void unite(const BoxOf& b) {
     for (std::size_t i = 0; i < N; ++i) {
       low[i] = std::min(low[i], b.low[i]);
       high[i] = std::max(high[i], b.high[i]);

@@ -1,46 +1,46 @@
-#include "parsers/vrml/text_encoding.h"
+#include "base/text/utf8.h"
 
 #include <algorithm>
 #include <cstdint>
 
-namespace wrlkit::vrml {
-namespace {
+namespace wrlkit {
 
-void append(std::string& out, std::uint32_t c) {
-  if (c < 0x80)
-    out += static_cast<char>(c);
-  else if (c < 0x800)
-    (out += static_cast<char>(0xc0 | c >> 6)) += static_cast<char>(0x80 | (c & 0x3f));
-  else if (c < 0x10000)
-    ((out += static_cast<char>(0xe0 | c >> 12)) += static_cast<char>(0x80 | (c >> 6 & 0x3f))) +=
-        static_cast<char>(0x80 | (c & 0x3f));
-  else
-    (((out += static_cast<char>(0xf0 | c >> 18)) += static_cast<char>(0x80 | (c >> 12 & 0x3f))) +=
-     static_cast<char>(0x80 | (c >> 6 & 0x3f))) += static_cast<char>(0x80 | (c & 0x3f));
+void append_utf8(std::string& out, std::uint32_t c) {
+  auto put = [&](std::uint32_t byte) { out += static_cast<char>(byte); };
+  auto tail = [&](int shift) { put(0x80 | (c >> shift & 0x3f)); };
+  if (c < 0x80) return put(c);
+  if (c < 0x800) {
+    put(0xc0 | c >> 6);
+  } else if (c < 0x10000) {
+    put(0xe0 | c >> 12);
+    tail(6);
+  } else {
+    put(0xf0 | c >> 18);
+    tail(12);
+    tail(6);
+  }
+  tail(0);
 }
 
-// Length of the well-formed sequence at s[i], 0 when it is none (Unicode, table 3-7).
-std::size_t sequence(std::string_view s, std::size_t i) {
-  auto b = [&](std::size_t k) { return i + k < s.size() ? static_cast<unsigned char>(s[i + k]) : 0u; };
-  auto tail = [&](std::size_t k) { return (b(k) & 0xc0) == 0x80; };
-  unsigned c = b(0);
-  if (c < 0x80) return 1;
+std::size_t utf8_sequence(std::string_view s) {
+  auto at = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0u; };
+  auto tail = [&](std::size_t i) { return (at(i) & 0xc0) == 0x80; };
+  const unsigned c = at(0);
+  if (c < 0x80) return s.empty() ? 0 : 1;
   if (c >= 0xc2 && c <= 0xdf) return tail(1) ? 2 : 0;
   if (c >= 0xe0 && c <= 0xef)
-    return tail(1) && tail(2) && !(c == 0xe0 && b(1) < 0xa0) && !(c == 0xed && b(1) > 0x9f) ? 3 : 0;
+    return tail(1) && tail(2) && !(c == 0xe0 && at(1) < 0xa0) && !(c == 0xed && at(1) > 0x9f) ? 3 : 0;
   if (c >= 0xf0 && c <= 0xf4)
-    return tail(1) && tail(2) && tail(3) && !(c == 0xf0 && b(1) < 0x90) && !(c == 0xf4 && b(1) > 0x8f) ? 4 : 0;
+    return tail(1) && tail(2) && tail(3) && !(c == 0xf0 && at(1) < 0x90) && !(c == 0xf4 && at(1) > 0x8f) ? 4 : 0;
   return 0;
 }
 
-}  // namespace
-
 bool is_utf8(std::string_view s) {
   if (std::ranges::all_of(s, [](char c) { return static_cast<unsigned char>(c) < 0x80; })) return true;
-  for (std::size_t i = 0; i < s.size();) {
-    auto n = sequence(s, i);
+  while (!s.empty()) {
+    const auto n = utf8_sequence(s);
     if (!n) return false;
-    i += n;
+    s.remove_prefix(n);
   }
   return true;
 }
@@ -48,7 +48,7 @@ bool is_utf8(std::string_view s) {
 std::string latin1_to_utf8(std::string_view s) {
   std::string out;
   out.reserve(s.size() * 2);
-  for (unsigned char c : s) append(out, c);
+  for (unsigned char c : s) append_utf8(out, c);
   return out;
 }
 
@@ -66,9 +66,9 @@ std::string utf16_to_utf8(std::string_view s) {
       i += 2;
     } else if (c >= 0xd800 && c < 0xe000)
       c = 0xfffd;
-    append(out, c);
+    append_utf8(out, c);
   }
   return out;
 }
 
-}  // namespace wrlkit::vrml
+}  // namespace wrlkit

@@ -289,7 +289,7 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
     t = rounded(a.yx * u + a.yy * v + a.y);
   }
   for (std::size_t i = 1; i < s.light.values.size(); i += 2)
-    s.light.values[i] = decimal(static_cast<float>(1 - s.light.values[i]));
+    s.light.values[i] = finite_decimal(static_cast<float>(1 - s.light.values[i]));
   if (s.color.width == 4) without_alpha(s.color.values);
   for (double& v : s.color.values) v = display(static_cast<float>(v));
   const TypeId type = p.faces()               ? nodes::IndexedFaceSet

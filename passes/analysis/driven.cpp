@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {

@@ -27,6 +27,7 @@
 #include "parsers/resources.h"
 #include "passes/lower_vrml1/lower_vrml1.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 #include "writers/vrml/vrml.h"

@@ -13,7 +13,7 @@ using namespace wrlkit;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-using Point = std::array<double, 3>;
+using Point = Vec3;
 using Face = std::vector<std::uint32_t>;
 
 /// One mesh and what the pass needs around it.
@@ -65,11 +65,6 @@ struct Bench {
 void check(const Point& a, const Point& b, double margin = 1e-6) {
   CAPTURE(a, b);
   for (int i = 0; i < 3; ++i) CHECK(a[i] == Approx(b[i]).margin(margin));
-}
-
-Point unit(Point p) {
-  double l = std::hypot(p[0], p[1], p[2]);
-  return {p[0] / l, p[1] / l, p[2] / l};
 }
 
 std::vector<Point> cube_points(const Point& centre = {}, double half = 1) {
@@ -499,13 +494,11 @@ struct Reference {
   static Point at(const Mesh& m, std::size_t c) {
     return {m.positions[3 * m.corners[c]], m.positions[3 * m.corners[c] + 1], m.positions[3 * m.corners[c] + 2]};
   }
-  static Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
   static double angle(const Point& a, const Point& b) {
     return std::acos(std::clamp(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -1., 1.));
   }
   static Point face(const Mesh& m, std::size_t f) {
-    Point a = minus(at(m, 3 * f + 1), at(m, 3 * f)), b = minus(at(m, 3 * f + 2), at(m, 3 * f));
-    return unit({a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]});
+    return unit(cross(at(m, 3 * f + 1) - at(m, 3 * f), at(m, 3 * f + 2) - at(m, 3 * f)));
   }
   void unite(std::size_t a, std::size_t b) {
     std::size_t from = group[a], to = group[b];

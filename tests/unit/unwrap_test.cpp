@@ -12,6 +12,7 @@
 #include "geometry/unwrap/unfold.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/nodes.h"
 #include "tests/unit/skip.h"
 
 using namespace wrlkit;

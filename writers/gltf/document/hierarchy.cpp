@@ -135,7 +135,7 @@ std::uint32_t Builder::shape(NodeId n) {
   if (m_.extras) m_.extras->set_shown(n);
   Frame& f = frames_.back();
   m_.meshes.note_use(geometry, f.world);
-  if (!in_coarse_level()) f.box.add(m_.meshes.bounds(g, f.world));
+  if (!in_coarse_level()) f.box.unite(m_.meshes.bounds(g, f.world));
   if (g.origin != none) node.transform = d_.add_transform({.translation = m_.meshes.origins()[g.origin]});
   auto material = m_.materials.get(appearance, g.surface());
   node.attachment = Attachment::mesh;
@@ -271,7 +271,7 @@ void Builder::leave() {
     return d_.nodes.pop_back();
   built_.push_back(id);
   set_same(id);
-  if (!in_coarse_level()) frames_.back().box.add(f.box);
+  if (!in_coarse_level()) frames_.back().box.unite(f.box);
 }
 
 std::uint32_t Builder::group(const Frame& f) {
