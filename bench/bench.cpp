@@ -1,4 +1,4 @@
-// The stages of the main road on one thread, in bytes of VRML text a CPU second, beside the floor: a bare fast_float
+// The stages of the main road on one thread, in bytes of VRML text a CPU second, and the floor: a bare fast_float
 // loop that finds the numbers of the same text and stores them.
 //   wrlkit_bench FILE.wrl [--benchmark_...]
 #include <benchmark/benchmark.h>

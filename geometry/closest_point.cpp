@@ -76,7 +76,7 @@ bool is_usable(const std::array<Vec3, 3>& corners) {
   return true;
 }
 
-/// Makes the tree; what it needs beside the result.
+/// Makes the tree; what it needs besides the result.
 struct ClosestPoint::Builder {
   struct Item {
     Range range;

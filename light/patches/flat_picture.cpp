@@ -65,7 +65,7 @@ class Drawing {
       for (int u = std::max(0, x - 1); u <= std::min(picture_.width - 1, x + 1); ++u) f(index(u, v));
   }
 
-  /// Ring by ring, texels beside those that have a colour get the mean of these.
+  /// Ring by ring, texels next to those that have a colour get the mean of these.
   void grow() {
     std::vector<std::size_t> ring, next;
     auto wait = [&](std::size_t i) {

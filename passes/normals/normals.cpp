@@ -161,7 +161,7 @@ FaceNormal Normals::face_normal(std::uint32_t begin, std::uint32_t end) const {
 
 // -- edges
 
-/// Positions are numbered anew when the mesh uses few of many; then nothing here costs more than its corners.
+/// Positions are numbered again when the mesh uses few of many; then nothing here costs more than its corners.
 void Normals::number_positions() {
   id_ = corners_;
   n_ids_ = mesh_.n_positions();

@@ -160,8 +160,7 @@ inline std::string material(double diffuse, double emissive = 0) {
 }
 
 inline drawing::V3 corner(const Mesh& m, std::size_t c) {
-  const double* p = m.positions.data() + std::size_t{3} * m.corners[c];
-  return {p[0], p[1], p[2]};
+  return vec3(m.positions.data() + std::size_t{3} * m.corners[c]);
 }
 
 inline const std::string floor_of_4 =

@@ -21,7 +21,7 @@ TEST_CASE("collapse: formula 1 is length by the cosine of the dihedral angle") {
 TEST_CASE("collapse: formula 2 is length by curvature") {
   CollapseOptions o{.criterion = Criterion::melax, .keep_creases = false};
   Collapser c(cube(), o);
-  // The diagonal 0 3 of the side z = 0. The faces of 0 beside that side are at right angles to both faces of the edge:
+  // The diagonal 0 3 of the side z = 0. The faces of 0 next to that side are at right angles to both faces of the edge:
   // (1 - 0) / 2 = 0.5, times the length.
   CHECK(c.cost(0, 3).value() == Approx(0.5 * std::sqrt(2)));
   // Asymmetric. The edge 1 5 lies between the sides y = 0 and x = 1; vertex 1 has one more face, on z = 0, which

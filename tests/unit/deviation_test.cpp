@@ -318,8 +318,7 @@ TEST_CASE("deviation: the distance to a triangle that is known") {
 TEST_CASE("deviation: the nearest point is that of trying every triangle") {
   auto s = sphere(17, 9, 1);
   const auto corner = [&](std::size_t c) {
-    const double* p = &s.positions[3 * s.corners[c]];
-    return Vec3{p[0], p[1], p[2]};
+    return vec3(&s.positions[3 * s.corners[c]]);
   };
   ClosestPoint all(s.view());
   for (int i = 0; i < 500; ++i) {

@@ -18,7 +18,7 @@ namespace {
 
 using Urls = std::vector<std::string_view>;
 
-/// A folder `world` with a file in it that refers to others, and a folder `other` beside it.
+/// A folder `world` with a file in it that refers to others, and a folder `other` next to it.
 struct World {
   TempFolder folder;
   Diagnostics diag;

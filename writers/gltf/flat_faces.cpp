@@ -128,7 +128,7 @@ std::set<Edge> sides_beside(const Triangles& all, const std::vector<Flat>& flats
 
 /// Leaves those whose place no side of others takes.
 void remove_covered(std::vector<Flat>& open, std::set<Edge> covered) {
-  constexpr int most_rounds = 8;  // slivers beside slivers
+  constexpr int most_rounds = 8;  // slivers next to slivers
   for (int round = 0; round < most_rounds && !open.empty(); ++round) {
     const std::size_t before = open.size();
     std::erase_if(open, [&](const Flat& f) {
@@ -166,7 +166,7 @@ bool loses_faces(std::span<const float> xyz, std::span<const std::uint32_t> tria
   auto open = vanishing(all, tolerance);
   if (open.empty()) return false;
   remove_covered(open, sides_beside(all, open));
-  // What is still open may lie beside another face. A point of some of them is looked at: the middle.
+  // What is still open may lie next to another face. A point of some of them is looked at: the middle.
   constexpr std::size_t most_looked_at = 32;
   for (std::size_t o = 0, by = open.size() / most_looked_at + 1; o < open.size(); o += by) {
     const auto t = all.at(open[o].first);

@@ -14,7 +14,7 @@ constexpr double usual_tolerance = 1e-3, usual_part_of_world = 8192;
 constexpr double least_steps =
     16;  // along the longest side of a mesh: what is smaller than the tolerance is still to be seen
 constexpr int most_halvings = 4;    // of a step on which faces would vanish
-constexpr int more_light_bits = 2;  // a lightmap's texels are small, and those of other charts lie beside them
+constexpr int more_light_bits = 2;  // a lightmap's texels are small, and those of other charts lie next to them
 
 double tolerance_for(const GltfCompression& options, const Box& world) {
   if (options.tolerance > 0) return options.tolerance;
