@@ -1,12 +1,48 @@
 #include "tools/cli/options.h"
 
+#include <CLI/CLI.hpp>
+
 #include "convert/formats.h"
+#include "convert/options.h"
 #include "convert/profiles.h"
 #include "geometry/simplify/levels.h"
 #include "tools/cli/amounts.h"
 
 namespace wrlkit::cli {
 namespace {
+
+/// Adds options that describe themselves (convert/options.h) to a verb. A number that is 0 is not set.
+struct AddOption {
+  CLI::App& verb;
+
+  void operator()(std::string_view name, bool& field, std::string_view help) const {
+    verb.add_flag("--" + std::string(name), field, std::string(help));
+  }
+  void operator()(std::string_view name, int& field, std::string_view help, OptionNote note) const {
+    auto* option = verb.add_option("--" + std::string(name), field, std::string(help));
+    option->check(CLI::Range(static_cast<int>(note.range.least), static_cast<int>(note.range.most)));
+    if (!note.type.empty()) option->type_name(std::string(note.type));
+    if (field != 0) option->capture_default_str();
+  }
+  void operator()(std::string_view name, LengthOption& field, std::string_view help, OptionNote note) const {
+    const auto read = [&field](const std::string& text) { field.read(text); };
+    const auto fault = [](const std::string& text) {
+      LengthOption length;
+      return length.read(text) && length.metres > 0 ? "" : "'" + text + "' is not a valid length";
+    };
+    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
+        ->type_name(std::string(note.type))
+        ->check(fault, "", "");
+  }
+  template <class E>
+  requires std::is_enum_v<E>
+  void operator()(std::string_view name, E& field, std::string_view help) const {
+    const auto read = [&field](const std::string& text) { read_value(text, field); };
+    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
+        ->check(CLI::IsMember(std::vector<std::string>(value_names<E>.begin(), value_names<E>.end())))
+        ->default_str(std::string(name_of(field)));
+  }
+};
 
 std::vector<std::string> profile_names() {
   std::vector<std::string> out;
@@ -79,6 +115,8 @@ void pipeline(CLI::App& verb, Flags& f) {
   verb.add_flag("--time-passes", f.time_passes, "print how long each pass took");
   verb.add_flag("--stats", f.stats, "print what the passes counted");
 }
+
+void light(CLI::App& verb, Flags& f) { f.save.light_fields(AddOption{verb}); }
 
 void vrml_output(CLI::App& verb, Flags& f) { f.save.text_fields(AddOption{verb}); }
 

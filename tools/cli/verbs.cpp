@@ -1,5 +1,6 @@
 #include "tools/cli/verbs.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "convert/formats.h"
@@ -22,7 +23,7 @@ constexpr Verb all_verbs[] = {
                     "passes and options from a recipe, as far as they are not given here; see docs/recipes.md")
            ->type_name("FILE");
        v.add_flag("--print-recipe", f.print_recipe, "print the whole pipeline and all options as a recipe, and end");
-       f.save.light_fields(AddOption{v});
+       light(v, f);
        small_gltf(v, f);
        placing(v, f);
        vrml_output(v, f);
