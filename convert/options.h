@@ -86,7 +86,7 @@ struct SaveOptions {
   void size_fields(auto&& f) {
     f("compress", compress, "vertices in glTF");
     f("tolerance", tolerance,
-      "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; as a rule 1mm, or less in a "
+      "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; default 1mm, or less in a "
       "small world",
       OptionNote{.type = "LENGTH"});
     f("position-bits", position_bits, "instead of that, bits of the extent of each mesh", OptionNote{between(1, 16)});
@@ -97,8 +97,7 @@ struct SaveOptions {
     f("extras", extras, "what VRML says and glTF cannot, kept in extras");
     f("texture-format", texture_format, "pictures in glTF");
     f("texture-quality", texture_quality, "of JPEG and WebP", OptionNote{between(1, 100)});
-    f("texture-size", texture_size,
-      "pictures in glTF have so many pixels along their longer side, at most; 0: as they are",
+    f("texture-size", texture_size, "most pixels along the longer side of pictures in glTF; 0: as they are",
       OptionNote{between(0, static_cast<double>(max_image_side)), "PIXELS"});
     f("gpu-instancing", gpu_instancing,
       "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call "
