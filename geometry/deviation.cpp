@@ -8,8 +8,8 @@
 #include <functional>
 #include <optional>
 
+#include "base/math/vec.h"
 #include "base/parallel.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit {
 namespace {
@@ -225,7 +225,7 @@ class Way {
     if (there != Vec3{0, 0, 0}) sums.add_angle(std::atan2(length(cross(normal, there)), dot(normal, there)));
   }
 
-  /// The largest distance lies between samples as a rule: uphill from the worst one within its triangle, by steps that
+  /// The largest distance usually lies between samples: uphill from the worst one within its triangle, by steps that
   /// are halved when none of the six ways leads up.
   void climb(Sample at, double spacing, Sums& sums) const {
     constexpr double ways[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};

@@ -38,6 +38,25 @@ class Tokens {
 
   // Messages.
   void expected(std::string_view what, Token found);
+  /// The same, and the token is read again by who comes next.
+  void reject(std::string_view what, Token found) {
+    expected(what, found);
+    lex_.seek(found.begin);
+  }
+  /// Behind DEF, USE and IS; if not, it is rejected.
+  bool is_word(Token name) {
+    if (name.kind == Kind::word) return true;
+    reject("a name", name);
+    return false;
+  }
+  /// Whether the next token ends what `opened` began: its bracket, which is taken, or the end of the text.
+  bool ends(Token next, Kind close, Token opened) {
+    if (next.kind == close)
+      lex_.next();
+    else if (next.kind == Kind::end)
+      unclosed(opened);
+    return next.kind == close || next.kind == Kind::end;
+  }
   /// At the end of the text everything open is unclosed; one message is enough.
   void unclosed(Token opened);
   void unclosed_string(Token);

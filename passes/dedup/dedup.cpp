@@ -10,11 +10,11 @@ namespace wrlkit {
 namespace {
 
 const char* kind_of(const NodeType& t) {
-  if (t.is_a("X3DAppearanceNode")) return "dedup.appearances";
-  if (t.is_a("X3DMaterialNode")) return "dedup.materials";
-  if (t.is_a("X3DTextureNode")) return "dedup.textures";
-  if (t.is_a("X3DGeometryNode")) return "dedup.geometries";
-  return t.is_a("X3DGeometricPropertyNode") ? "dedup.arrays" : "dedup.others";
+  if (t.is_a(nodes::X3DAppearanceNode)) return "dedup.appearances";
+  if (t.is_a(nodes::X3DMaterialNode)) return "dedup.materials";
+  if (t.is_a(nodes::X3DTextureNode)) return "dedup.textures";
+  if (t.is_a(nodes::X3DGeometryNode)) return "dedup.geometries";
+  return t.is_a(nodes::X3DGeometricPropertyNode) ? "dedup.arrays" : "dedup.others";
 }
 
 class Sharing {
@@ -40,7 +40,7 @@ class Sharing {
     const Representatives same(scene_, usage_, nodes, options_.named);
     for (NodeId n : nodes) replace_children(n, same);
     for (NodeId n : nodes) {
-      if (same.of(n) == n) continue;
+      if (n.value >= replaced_.size() || !replaced_[n.value]) continue;
       any_ = true;
       ++ctx_.stats[kind_of(scene_.type(n))];
       if (const auto name = scene_.name(n); !name.empty() && name != scene_.name(same.of(n))) lost_.add(name);
@@ -48,13 +48,16 @@ class Sharing {
   }
 
   void replace_children(NodeId n, const Representatives& same) {
-    for (const Value v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+    for (const Value v : scene_.copy_of_fields(n)) {
       if (scene_.is_extra(v) || v.is || info(v.type).element != Element::node) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       bool changed = false;
       for (NodeId& c : list) {
         const NodeId one = same.of(c);
-        changed |= one != c;
+        if (one == c) continue;
+        if (replaced_.size() <= c.value) replaced_.resize(scene_.node_count());
+        replaced_[c.value] = 1;
+        changed = true;
         c = one;
       }
       if (changed)
@@ -67,6 +70,7 @@ class Sharing {
   PassContext& ctx_;
   Usage usage_;
   TextList lost_;
+  std::vector<char> replaced_;  // by node: another one stands where it stood
   bool any_ = false;
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 
 namespace wrlkit::x3d {
 namespace {

@@ -5,9 +5,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/stop.h"
 #include "geometry/geometry.h"
 #include "geometry/mesh_check.h"
-#include "passes/analysis/driven.h"
+#include "scenegraph/driven.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
@@ -104,7 +105,16 @@ void Pipeline::meet_needs(Level level) {
 
 bool Pipeline::run(Scene& scene, PassContext& ctx, const PipelineOptions& options) {
   meet_needs();
-  return run_steps(0, steps_.size(), scene, ctx, options);
+  return run_until_stopped(steps_.size(), scene, ctx, options);
+}
+
+bool Pipeline::run_until_stopped(std::size_t end, Scene& scene, PassContext& ctx, const PipelineOptions& options) {
+  const StopScope scope(ctx.stop);
+  try {
+    return run_steps(0, end, scene, ctx, options);
+  } catch (const Stopped&) {
+    return false;
+  }
 }
 
 Level Pipeline::level_behind(std::size_t step) const {
@@ -198,7 +208,7 @@ MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOp
   meet_needs();
   std::size_t tail = steps_.size();
   while (tail > 0 && steps_[tail - 1].pass->is_mesh_pass()) --tail;
-  if (!run_steps(0, tail, scene, ctx, options)) return nullptr;
+  if (!run_until_stopped(tail, scene, ctx, options)) return nullptr;
   // The scene between the last passes is never there as a whole; who wants to see it is shown a copy.
   if (options.print) {
     Scene copy = scene;

@@ -37,7 +37,7 @@ const own_with_light = ['paper/stairs_room', 'paper/pipes', 'features/light_spot
   'vrml1/PointLight'].map(name => `corpus/${name}.wrl`).map(name => baked({name, file: file_of(name)}));
 const found_with_light = plants_and_worlds().map(baked);
 
-/// Pictures of found worlds lie beside the folder of the world.
+/// Pictures of found worlds lie next to the folder of the world.
 const beside = file => ['--allow-path', path.dirname(path.dirname(file))];
 
 /// The file that is drawn: the world, or the one with its levels of detail or its light.

@@ -265,30 +265,24 @@ TEST_CASE("deviation: triangles of sizes that halve make no deep tree") {
 
 namespace {
 
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = minus(b, a), ap = minus(p, a);
+  const Vec3 ab = b - a, ap = p - a;
   const double t = dot(ab, ab) > 0 ? std::clamp(dot(ap, ab) / dot(ab, ab), 0.0, 1.0) : 0;
-  const Vec3 off = minus(ap, {t * ab[0], t * ab[1], t * ab[2]});
+  const Vec3 off = ap - t * ab;
   return std::sqrt(dot(off, off));
 }
 
 /// By the definition, nothing of the program in it: to the plane where the foot lies within all edges, else to an edge.
 double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
-  const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
   double least = std::numeric_limits<double>::infinity();
   bool within = dot(n, n) > 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 &a = t[i], &b = t[(i + 1) % 3];
     least = std::min(least, to_segment(p, a, b));
-    within = within && dot(cross(minus(b, a), minus(p, a)), n) >= 0;
+    within = within && dot(cross(b - a, p - a), n) >= 0;
   }
-  return within ? std::min(least, std::abs(dot(minus(p, t[0]), n)) / std::sqrt(dot(n, n))) : least;
+  return within ? std::min(least, std::abs(dot(p - t[0], n)) / std::sqrt(dot(n, n))) : least;
 }
 
 Vec3 corner_of(const Surface& s, std::size_t c) {

@@ -42,7 +42,7 @@ Statistics figures_of(const std::string& text) {
   auto pipeline = Pipeline::parse("picture", why);
   auto meshes = pipeline->run_lazily(parsed->scene, ctx);
   light::LightWorld world(parsed->scene, meshes, nullptr, {.sky = light::LightOptions::Sky::none}, diag);
-  auto parts = find_parts(parsed->scene, world, ctx);
+  auto parts = find_parts(parsed->scene, world, {.texcoords = true}, ctx);
   REQUIRE(parts.size() == 3);
   for (std::size_t i : {0u, 1u}) world.seal(parts[i].uses[0], false);
   unfold_parts(parts, world.stage());

@@ -86,7 +86,7 @@ TEST_CASE("path tracing: shadows, reflected light, what is behind glass, and bac
   PathStudio s(41, 8);
   const std::string sun = "DirectionalLight { direction 0 0 -1 } ",
                     floor = shape(quad(-5, -5, 5, 5), "diffuseColor 0.5 0.5 0.5");
-  // Something that stands beside the line of sight, but in the light of a slanting sun.
+  // Something that stands next to the line of sight, but in the light of a slanting sun.
   const std::string slanting = "DirectionalLight { direction 1 0 -1 } ",
                     screen = shape(quad(-3, -1, -1, 1, 2, "solid FALSE"), "diffuseColor 0 0 0");
   CHECK(middle(s.render(view + slanting + floor)) == Rgb{108, 108, 108});

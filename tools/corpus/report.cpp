@@ -9,13 +9,13 @@
 
 #include "base/text/csv.h"
 #include "base/text/json.h"
-#include "parsers/gltf/json.h"
+#include "base/text/json_reader.h"
 
 namespace wrlkit {
 namespace {
 
 void count_messages(const JournalLine& line, ReportRow& row, std::map<std::string, ReportedKind, std::less<>>& kinds) {
-  gltf_reader::JsonDocument doc;
+  JsonDocument doc;
   if (line.messages.empty() || doc.parse(line.messages)) return;
   for (auto m : doc.root()) {
     const auto times = m["count"].whole().value_or(0);

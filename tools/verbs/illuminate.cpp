@@ -25,13 +25,8 @@
 namespace wrlkit {
 namespace {
 
-light::Method method_of(const std::string& name) {
-  if (name == "stochastic-iteration") return light::Method::stochastic_iteration;
-  return name == "path" ? light::Method::path : light::Method::progressive_radiosity;
-}
-
 bool read_options(const Flags& f, light::IlluminateOptions& o) {
-  o.method = method_of(f.method);
+  o.method = f.method;
   o.sizes.max_area = f.max_area;
   o.sizes.most_patches = static_cast<std::size_t>(f.max_patches);
   o.gradient = f.gradient;
@@ -145,7 +140,7 @@ int run_illuminate(const Flags& flags) {
   const auto begin = std::clock();
   const light::LightWorld world(s.world().scene, meshes, &s.resources(), *light, s.diag());
   constexpr int parts = 1000;
-  s.progress().begin(flags.method, parts, "parts");
+  s.progress().begin(std::string(name_of(flags.method)), parts, "parts");
   options.how.done = [&](double share) { s.progress().set(static_cast<std::uint64_t>(share * parts)); };
   auto set = light::illuminate(s.world().scene, world, options, s.diag());
   if (set.patches.empty()) {
@@ -153,7 +148,7 @@ int run_illuminate(const Flags& flags) {
     return s.end(false);
   }
   set.source = flags.inputs[0] == standard_input ? "" : std::filesystem::path(flags.inputs[0]).filename().string();
-  set.method = flags.method;
+  set.method = name_of(flags.method);
   write_patches(set, file->sink());
   if (!file->commit(s.diag())) return s.end(false);
   if (!flags.pictures.empty()) write_pictures(s, set, world);

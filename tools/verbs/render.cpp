@@ -133,7 +133,7 @@ int run_render(const Flags& flags) {
                     : flags.turntable > 0  ? Turntable(s).make()
                                            : render_one(s);
   s.progress().clear();
-  if (made && flags.verbose && flags.mode == "density")
+  if (made && flags.verbose && flags.mode == RenderOptions::Mode::density)
     fmt::print(stderr, "texels a metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n",
                most_texels_per_metre);
   return s.end(made);
