@@ -15,7 +15,7 @@
 namespace wrlkit {
 
 struct OutputOptions {
-  bool gzip = false;  // RFC 1952; without time and name, so that the same bytes give the same file
+  bool gzip = false;                  // RFC 1952; without time and name, so that the same bytes give the same file
   const FilesRead* inputs = nullptr;  // a file of these is not replaced; they must outlive the output
 };
 

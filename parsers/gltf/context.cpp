@@ -100,8 +100,7 @@ double display(double l) {
   const double guess = linear_to_srgb(l);
   // Writers convert either the number or the float that it is stored as.
   return shortest(guess, [f = static_cast<float>(l)](double d) {
-    return static_cast<float>(srgb_to_linear(d)) == f ||
-           static_cast<float>(srgb_to_linear(static_cast<float>(d))) == f;
+    return static_cast<float>(srgb_to_linear(d)) == f || static_cast<float>(srgb_to_linear(static_cast<float>(d))) == f;
   });
 }
 

@@ -112,9 +112,7 @@ class Joining {
     }
   }
 
-  Vec3 at(std::uint32_t corner) const {
-    return vec3(mesh_.positions.data() + std::size_t{3} * mesh_.corners[corner]);
-  }
+  Vec3 at(std::uint32_t corner) const { return vec3(mesh_.positions.data() + std::size_t{3} * mesh_.corners[corner]); }
 
   /// Seen along the sum of its triangles' normals it turns the same way everywhere.
   bool is_convex(std::size_t start) const {
