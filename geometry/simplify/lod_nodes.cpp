@@ -53,6 +53,16 @@ std::vector<double> ranges(const Sphere& sphere, std::span<const MeshLevel> leve
   return out;
 }
 
+/// Prototypes that a file of the scene would have; others are left over from instances that were expanded.
+std::vector<ProtoId> declared(const Scene& scene) {
+  std::vector<ProtoId> out = scene.main.protos;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto& inner = scene.proto(out[i]).body.protos;
+    out.insert(out.end(), inner.begin(), inner.end());
+  }
+  return out;
+}
+
 }  // namespace
 
 double ScreenBudget::per_pixel() const { return screen_height / (2 * std::tan(field_of_view / 2)); }
@@ -109,7 +119,7 @@ void LodNodes::for_lists(F f) {
     }
   }
   f(scene_.main.roots);
-  for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) f(scene_.proto(ProtoId{i}).body.roots);
+  for (ProtoId p : declared(scene_)) f(scene_.proto(p).body.roots);
 }
 
 LodNodes::LodNodes(Scene& scene) : scene_(scene), listed_(scene.node_count()) {
