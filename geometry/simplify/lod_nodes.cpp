@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "geometry/geometry.h"
+#include "scenegraph/declared_protos.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -50,16 +51,6 @@ std::vector<double> ranges(const Sphere& sphere, std::span<const MeshLevel> leve
   if (budget.vanish > 0) out.push_back(sphere.radius + 2 * sphere.radius / budget.vanish * budget.per_pixel());
   double least = 0;
   for (auto& r : out) least = r = round_up(std::max(r, least * 1.001));
-  return out;
-}
-
-/// Prototypes that a file of the scene would have; others are left over from instances that were expanded.
-std::vector<ProtoId> declared(const Scene& scene) {
-  std::vector<ProtoId> out = scene.main.protos;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const auto& inner = scene.proto(out[i]).body.protos;
-    out.insert(out.end(), inner.begin(), inner.end());
-  }
   return out;
 }
 
@@ -119,7 +110,7 @@ void LodNodes::for_lists(F f) {
     }
   }
   f(scene_.main.roots);
-  for (ProtoId p : declared(scene_)) f(scene_.proto(p).body.roots);
+  for (ProtoId p : declared_protos(scene_)) f(scene_.proto(p).body.roots);
 }
 
 LodNodes::LodNodes(Scene& scene) : scene_(scene), listed_(scene.node_count()) {
