@@ -17,6 +17,7 @@
 #include "geometry/simplify/levels.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/nodes.h"
 
 namespace {
 
@@ -62,7 +63,7 @@ Mesh read(const char* path) {
   MeshSource source = pipeline->run_lazily(world->scene, ctx);
   Mesh largest;
   for (std::uint32_t i = 0; i < world->scene.node_count(); ++i)
-    if (world->scene.type(NodeId{i}).is_a("X3DGeometryNode"))
+    if (world->scene.is(NodeId{i}, nodes::X3DGeometryNode))
       if (const Mesh& m = source(NodeId{i}); m.corners.size() > largest.corners.size()) {
         largest = m;
         largest.positions.edit();

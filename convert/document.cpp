@@ -46,6 +46,7 @@ struct Document::State {
     world = std::move(read);
     for (const auto& buffer : buffers) files->files_read().add(buffer.result.canonical);
     if (!world) return false;
+    if (options.show_all) show_all(world->scene);
     place_world(world->scene, options.unit, options.up);
     if (options.unpack_pictures && world->format == Format::gltf) unpack_pictures(world->scene, *files);
     files->set_root({std::shared_ptr<const Scene>{}, &world->scene});
@@ -69,6 +70,7 @@ Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
 void Document::leave_unplaced() {
+  state_->options.show_all = false;
   state_->options.unit = {};
   state_->options.up = {};
 }

@@ -39,6 +39,7 @@ struct LoadOptions {
   UpAxis up = UpAxis::y;                      // which of its axes points up
   std::vector<std::string> allow_paths = {};  // folders that pictures and Inlines may lie in, besides the file's own
   bool strict = false;                        // every warning is an error
+  bool show_all = false;                      // Switches that are off show everything
   bool in_place = false;                      // an output may take the place of the file that is read
   std::vector<std::pair<Diag, Severity>> severities = {};  // of single messages
   bool unpack_pictures = false;  // pictures inside a glTF file become files that a writer places next to its own
@@ -46,6 +47,7 @@ struct LoadOptions {
   void placing_fields(auto&& f) {
     f("unit", unit, "what one unit of the input is");
     f("up", up, "which axis of the input points up");
+    f("show-all", show_all, "Switches that are off show all their children; see wrlkit passes switch");
   }
   void fields(auto&& f) {
     placing_fields(f);
@@ -84,7 +86,7 @@ struct SaveOptions {
   void size_fields(auto&& f) {
     f("compress", compress, "vertices in glTF");
     f("tolerance", tolerance,
-      "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; as a rule 1mm, or less in a "
+      "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; default 1mm, or less in a "
       "small world",
       OptionNote{.type = "LENGTH"});
     f("position-bits", position_bits, "instead of that, bits of the extent of each mesh", OptionNote{between(1, 16)});
@@ -95,8 +97,7 @@ struct SaveOptions {
     f("extras", extras, "what VRML says and glTF cannot, kept in extras");
     f("texture-format", texture_format, "pictures in glTF");
     f("texture-quality", texture_quality, "of JPEG and WebP", OptionNote{between(1, 100)});
-    f("texture-size", texture_size,
-      "pictures in glTF have so many pixels along their longer side, at most; 0: as they are",
+    f("texture-size", texture_size, "most pixels along the longer side of pictures in glTF; 0: as they are",
       OptionNote{between(0, static_cast<double>(max_image_side)), "PIXELS"});
     f("gpu-instancing", gpu_instancing,
       "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call "

@@ -1,5 +1,7 @@
 #include "convert/placing.h"
 
+#include "passes/switch/switch.h"
+
 namespace wrlkit {
 
 void place_world(Scene& scene, Unit unit, UpAxis up) {
@@ -8,6 +10,13 @@ void place_world(Scene& scene, Unit unit, UpAxis up) {
   Statistics uncounted;
   PassContext ctx(silent, uncounted);
   place(scene, {.unit = unit, .up = up}, ctx);
+}
+
+void show_all(Scene& scene) {
+  Diagnostics silent;
+  Statistics uncounted;
+  PassContext ctx(silent, uncounted);
+  switch_on(scene, {.all = true, .choices = {}}, ctx);
 }
 
 std::vector<std::pair<std::string, std::string>> place_options(Unit unit, UpAxis up) {

@@ -4,6 +4,7 @@
 
 #include "base/io/output.h"
 #include "base/stop.h"
+#include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "writers/made_files.h"
 #include "writers/named_files.h"
@@ -13,13 +14,11 @@
 namespace wrlkit {
 namespace {
 
-template <class Options>
-using TextWriter = void (*)(const Scene&, const Options&, const Sink&, Diagnostics&);
+using TextWriter = void (*)(const Scene&, const TextOptions&, const Sink&, Diagnostics&);
 
-template <class Options>
-bool write_text(const Writing& w, TextWriter<Options> write) {
+bool write_text(const Writing& w, TextWriter write) {
   auto& diag = w.context.diag;
-  Options options{.precision = w.options.precision, .own_fields = w.options.dump};
+  TextOptions options{.precision = w.options.precision, .own_fields = w.options.dump};
   if (w.sink) {
     write(w.scene, options, *w.sink, diag);
     return write_named_files(*w.context.resources, diag);
@@ -37,8 +36,8 @@ bool write_text(const Writing& w, TextWriter<Options> write) {
 }
 
 std::size_t count_geometries(const Scene& scene) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      reachable(scene, scene.main), [&](NodeId n) { return scene.type(n).is_a("X3DGeometryNode"); }));
+  return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main),
+                                                        [&](NodeId n) { return scene.is(n, nodes::X3DGeometryNode); }));
 }
 
 /// A glTF without meshes is what some scenes deserve (lights, PROTO libraries), but nobody should find it out later.
@@ -53,8 +52,8 @@ void say_why_empty(const Scene& scene, Diagnostics& diag) {
 
 }  // namespace
 
-bool write_vrml_file(const Writing& w) { return write_text<VrmlOptions>(w, write_vrml); }
-bool write_x3d_file(const Writing& w) { return write_text<X3dOptions>(w, write_x3d); }
+bool write_vrml_file(const Writing& w) { return write_text(w, write_vrml); }
+bool write_x3d_file(const Writing& w) { return write_text(w, write_x3d); }
 
 bool write_gltf_file(const Writing& w) {
   auto& ctx = w.context;

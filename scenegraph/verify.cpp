@@ -72,7 +72,7 @@ class ValueCheck {
     for (NodeId c : v.node_span()) {
       auto* t = c ? kind_of(c) : nullptr;
       if (t && t->dialects == static_cast<DialectSet>(Dialect::vrml1)) continue;  // it will be another node there
-      if (t && std::ranges::none_of(f.kinds, [&](std::string_view k) { return t->is_a(k); }))
+      if (t && !f.accepts(*t))
         diag_.report(Diag::wrong_child, scene_.where(c), t->name, scene_.type(n).name, f.name_in(scene_.dialect()));
     }
   }
@@ -190,7 +190,7 @@ class Invariants {
     for (auto& v : s_.fields(n))
       if (s_.content(v).is) breach(n, "IS outside of a prototype");
     if (s_.type(n).kind == NodeKind::proto && !s_.proto(s_.type(n).proto).external) breach(n, "a prototype instance");
-    if (level_ == Level::mesh && !driven_[n.value] && s_.type(n).is_a("X3DGeometryNode") &&
+    if (level_ == Level::mesh && !driven_[n.value] && s_.is(n, nodes::X3DGeometryNode) &&
         !s_.is(n, nodes::IndexedFaceSet) && !s_.is(n, nodes::IndexedLineSet) && !s_.is(n, nodes::PointSet))
       breach(n, "geometry that is no mesh");
   }

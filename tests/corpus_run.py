@@ -69,7 +69,7 @@ def inputs(tmp):
     write(a / 'tex/a.png', 'a picture')
     write(a / 'tex/t.wrl', BOX.replace('geometry', 'appearance Appearance { texture ImageTexture { url "a.png" } } geometry'))
     corpus(ROOT / 'recipes/archive.toml', a, '-o', tmp / 'archive')
-    check('VRML keeps its urls, and what they mean is beside it',
+    check('VRML keeps its urls, and what they mean is next to it',
           (tmp / 'archive/tex/a.png').read_text() == 'a picture' and '"a.png"' in (tmp / 'archive/tex/t.wrl').read_text(), tree(tmp / 'archive'))
     p = tmp / 'parts'
     write(p / 'whole.wrl', '#VRML V2.0 utf8\nInline { url "sub/Part one.x3d#x" }\nInline { url [ "gone.wrz" "sub/PIPE.WRZ" ] }\nAnchor { url "whole.wrl" }\nInline { url "http://example.org/a.wrz" }\n'

@@ -86,7 +86,7 @@ std::size_t LodNodes::add(const ShapeSurface& surface, const Mesh& mesh, std::sp
 
 /// The same Shape with another geometry.
 NodeId LodNodes::shape_like(NodeId shape, NodeId geometry) {
-  const std::vector<Value> fields(scene_.fields(shape).begin(), scene_.fields(shape).end());
+  const auto fields = scene_.copy_of_fields(shape);
   NodeId n = scene_.add(nodes::Shape, scene_.where(shape));
   scene_.set_fields(n, fields);
   scene_.set(n, nodes::shape::geometry, geometry);
@@ -101,8 +101,8 @@ void LodNodes::replace(std::vector<NodeId>& list) const {
 template <class F>
 void LodNodes::for_lists(F f) {
   for (NodeId n : all_nodes(scene_)) {
-    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
-    for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
+    for (const Value& v : scene_.copy_of_fields(n)) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       f(list);

@@ -68,8 +68,8 @@ class Choice {
     return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return scene_.content(v).is; });
   }
   bool is_surface(NodeId g) const {
-    return g && scene_.type(g).kind == NodeKind::builtin && scene_.type(g).is_a("X3DGeometryNode") &&
-           !scene_.is(g, nodes::IndexedLineSet) && !scene_.is(g, nodes::PointSet);
+    return g && scene_.is(g, nodes::X3DGeometryNode) && !scene_.is(g, nodes::IndexedLineSet) &&
+           !scene_.is(g, nodes::PointSet);
   }
 
   /// Null for a Shape whose surface is known now and stays as it is.

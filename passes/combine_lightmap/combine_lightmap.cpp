@@ -296,8 +296,8 @@ Texel4 Combining::color(const Painted& t, const std::array<double, 3>& weights, 
   auto base = s.base(vertex, texel);
   const SrgbTable& table = SrgbTable::get();
   const auto light = s.baked.light.sample(place, 1).color;
-  auto shown = [&](double color, double texel, double emitted) {
-    return table.byte(table.linear(color) * s.baked.scale * table.linear(texel) + table.linear(emitted));
+  auto shown = [&](double color, double lit, double emitted) {
+    return table.byte(table.linear(color) * s.baked.scale * table.linear(lit) + table.linear(emitted));
   };
   const auto opacity =
       alpha ? static_cast<std::uint8_t>(std::clamp(base.alpha, 0.0, 1.0) * 255 + 0.5) : std::uint8_t{255};

@@ -114,7 +114,7 @@ void Culling::find_fixed() {
     }
     if (scene_.is(n, nodes::Billboard)) below(n, moving_);
     if (t.kind != NodeKind::builtin || scene_.is(n, nodes::LOD) || scene_.is(n, nodes::Switch)) below(n, fixed_);
-    if (t.kind != NodeKind::builtin || !t.is_a("X3DGroupingNode")) continue;
+    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
     for (const Value& v : scene_.fields(n))
       if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode)
         for (NodeId c : v.node_span()) ++held[c.value];
@@ -237,8 +237,8 @@ void Culling::leave_out(const char* counter, const std::string& why) {
 void Culling::remove_shapes() {
   auto is_gone = [&](NodeId n) { return n && shape_gone_[n.value]; };
   for (NodeId n : all_nodes(scene_)) {
-    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
-    for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
+    for (const Value& v : scene_.copy_of_fields(n)) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       if (std::erase_if(list, is_gone) > 0) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));

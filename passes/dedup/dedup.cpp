@@ -11,11 +11,11 @@ namespace wrlkit {
 namespace {
 
 const char* kind_of(const NodeType& t) {
-  if (t.is_a("X3DAppearanceNode")) return "dedup.appearances";
-  if (t.is_a("X3DMaterialNode")) return "dedup.materials";
-  if (t.is_a("X3DTextureNode")) return "dedup.textures";
-  if (t.is_a("X3DGeometryNode")) return "dedup.geometries";
-  return t.is_a("X3DGeometricPropertyNode") ? "dedup.arrays" : "dedup.others";
+  if (t.is_a(nodes::X3DAppearanceNode)) return "dedup.appearances";
+  if (t.is_a(nodes::X3DMaterialNode)) return "dedup.materials";
+  if (t.is_a(nodes::X3DTextureNode)) return "dedup.textures";
+  if (t.is_a(nodes::X3DGeometryNode)) return "dedup.geometries";
+  return t.is_a(nodes::X3DGeometricPropertyNode) ? "dedup.arrays" : "dedup.others";
 }
 
 class Sharing {
@@ -49,7 +49,7 @@ class Sharing {
   }
 
   void replace_children(NodeId n, const Representatives& same) {
-    for (const Value v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+    for (const Value v : scene_.copy_of_fields(n)) {
       if (scene_.is_extra(v) || v.is || info(v.type).element != Element::node) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       bool changed = false;

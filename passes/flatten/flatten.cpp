@@ -63,7 +63,7 @@ class Flattening {
     if (scene_.is(n, nodes::Shape)) {
       const NodeId g = scene_.get(n, nodes::shape::geometry);
       if (!g) return true;
-      bool plain = is_plain(g) && scene_.type(g).is_a("X3DGeometryNode");
+      bool plain = is_plain(g) && scene_.is(g, nodes::X3DGeometryNode);
       for_each_child(scene_, g,
                      [&](NodeId c) { plain &= is_plain(c) && !scene_.is(c, nodes::TextureCoordinateGenerator); });
       return plain && !(scene_.is(g, nodes::IndexedFaceSet) && scene_.get(g, nodes::indexed_face_set::lightCoord));

@@ -111,7 +111,7 @@ void Instancing::choose() {
   };
   hold(scene_.main.roots);
   for (NodeId n : nodes)
-    if (scene_.type(n).kind == NodeKind::builtin && scene_.type(n).is_a("X3DGroupingNode"))
+    if (scene_.is(n, nodes::X3DGroupingNode))
       for (const Value& v : scene_.fields(n))
         if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode) hold(v.node_span());
   for (NodeId n : nodes) {
@@ -243,8 +243,8 @@ bool Instancing::replace(std::span<NodeId> list) const {
 
 void Instancing::replace_shapes() {
   for (NodeId n : reachable(scene_, scene_.main)) {
-    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
-    for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
+    for (const Value& v : scene_.copy_of_fields(n)) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       if (replace(list)) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));

@@ -16,7 +16,7 @@ inline constexpr auto choices<instancing::Scaling> =
 
 struct InstanceOptions {
   static constexpr std::string_view doc = R"(
-The same part in many places, written each time anew: found and written once. CAD exporters know no DEF and USE, and
+The same part in many places, written again for each: found and written once. CAD exporters know no DEF and USE, and
 put the coordinates of each bolt where it stands.
 
     before   Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 2 0 ] } ... } }

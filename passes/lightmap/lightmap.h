@@ -105,7 +105,7 @@ threads.)";
       "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given",
       between(0, 32768));
     f("sky", sky, "what shines from beyond the world: its Background, nothing, or one radiance");
-    f("emission", emission, "emissiveColor shines so many times as bright as it looks", at_least(0));
+    f("emission", emission, "factor for the light that emissiveColor gives off", at_least(0));
     f("directional", directional, "keep from where the light comes, too");
     f("exr", exr, "write the light as OpenEXR, too");
     f("denoise", denoise, "take the noise out");

@@ -28,8 +28,7 @@ struct Part {
 
   std::size_t n_triangles() const { return mesh.corners.size() / 3; }
   drawing::V3 position(std::size_t corner) const {
-    const double* p = mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3;
-    return {p[0], p[1], p[2]};
+    return vec3(mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3);
   }
   drawing::V3 normal(std::size_t corner) const {
     return {normals[3 * corner], normals[3 * corner + 1], normals[3 * corner + 2]};

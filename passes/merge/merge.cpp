@@ -379,7 +379,7 @@ void Merging::remove_merged() {
   auto is_gone = [&](NodeId n) { return n && gone[n.value]; };
   for (auto g = still_.groups().rbegin(); g != still_.groups().rend(); ++g) {
     bool any = false, left = false;
-    for (const Value& v : std::vector<Value>(scene_.fields(*g).begin(), scene_.fields(*g).end())) {
+    for (const Value& v : scene_.copy_of_fields(*g)) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       if (std::erase_if(list, is_gone) > 0) {

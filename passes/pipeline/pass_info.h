@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "base/choice.h"
+#include "base/math/digits.h"
 #include "base/option_range.h"
 #include "base/text/nearest_name.h"
 #include "passes/pipeline/pipeline.h"
@@ -20,10 +21,7 @@ inline std::string_view type_name(const std::string&) { return "text"; }
 inline std::string print(bool v) { return v ? "true" : "false"; }
 inline std::string print(const std::string& v) { return v; }
 template <class N>
-requires std::is_arithmetic_v<N> std::string print(N v) {
-  char b[40];
-  return {b, std::to_chars(b, b + sizeof b, v).ptr};
-}
+requires std::is_arithmetic_v<N> std::string print(N v) { return shortest_text(v); }
 
 inline bool read(std::string_view s, bool& v) {
   if (s == "true" || s == "false") {
@@ -111,6 +109,8 @@ class PassOf final : public PassInstance {
   bool set(std::string_view option, std::string_view value, std::string& why) override {
     bool found = false;
     NearestName nearest(option);
+    if constexpr (requires { options_.add_field(option); })
+      if (int number = 0; option_text::read(value, number)) options_.add_field(option);
     options_.fields([&](std::string_view name, auto& field, std::string_view help, OptionRange range = {}) {
       nearest.consider(name);
       if (name != option) return;

@@ -82,10 +82,10 @@ void Pipeline::complete(std::string_view text) {
   // Where nothing is drawn, what the standard pipeline does to a world is done to what other passes bring in as well.
   auto brings_in = [](const Step& s) { return s.info->traits.brings_in; };
   if (mesh == end && std::ranges::any_of(steps_, brings_in)) {
-    const auto start =
-        std::ranges::stable_partition(front, [](const Step& s) { return s.info->traits.phase == Phase::start; });
-    std::vector<Step> behind(std::make_move_iterator(start.begin()), std::make_move_iterator(start.end()));
-    front.erase(start.begin(), start.end());
+    const auto rest = std::stable_partition(front.begin(), front.end(),
+                                            [](const Step& s) { return s.info->traits.phase == Phase::start; });
+    std::vector<Step> behind(std::make_move_iterator(rest), std::make_move_iterator(front.end()));
+    front.erase(rest, front.end());
     insert(std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base(), std::move(behind));
   }
   insert(steps_.begin(), std::move(front));

@@ -27,6 +27,7 @@
 #include "parsers/resources.h"
 #include "passes/lower_vrml1/lower_vrml1.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 #include "writers/vrml/vrml.h"
@@ -165,7 +166,7 @@ class WorldTrial {
       outcome = pass.run(scene, stage.ctx);
     else
       for (NodeId n : all_nodes(scene))
-        if (scene.type(n).is_a("X3DGeometryNode")) run_mesh(info, pass, scene, n, stage);
+        if (scene.is(n, nodes::X3DGeometryNode)) run_mesh(info, pass, scene, n, stage);
     if (outcome == Outcome::failed) return std::nullopt;
     for (const auto& [name, n] : stage.stats)
       if (name.starts_with(info.name))

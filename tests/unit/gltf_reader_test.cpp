@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "base/math/digits.h"
 #include "parsers/gltf/accessors.h"
 #include "parsers/gltf/context.h"
 #include "parsers/gltf/polygons.h"

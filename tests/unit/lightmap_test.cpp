@@ -226,7 +226,7 @@ TEST_CASE("page: texels belong to the triangle they lie in, then to the nearest"
   Image image = page.image(3);
   CHECK(pixel(image, 4, 2) == Rgb{100, 45, 0});
   CHECK(pixel(image, 7, 5) == Rgb{200, 75, 0});
-  CHECK(pixel(image, 3, 3) == Rgb{100, 35, 0});  // beside the first one
+  CHECK(pixel(image, 3, 3) == Rgb{100, 35, 0});  // next to the first one
   CHECK(pixel(image, 9, 4) == Rgb{200, 95, 0});
   CHECK(pixel(image, 15, 0)[0] > 165);  // nobody's: the colours around
   CHECK(pixel(image, 0, 7)[0] == 100);

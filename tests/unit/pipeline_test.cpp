@@ -40,7 +40,7 @@ std::string text_of(const Scene& scene) {
 std::vector<NodeId> geometries(const Scene& scene) {
   std::vector<NodeId> out;
   for (NodeId n : reachable(scene, scene.main))
-    if (scene.type(n).is_a("X3DGeometryNode")) out.push_back(n);
+    if (scene.is(n, nodes::X3DGeometryNode)) out.push_back(n);
   return out;
 }
 

@@ -11,12 +11,6 @@
 
 namespace wrlkit {
 
-/// A page of the documentation that is made from tables.
-enum class DocsPage : std::uint8_t { nodes, passes, diagnostics, recipes, profiles };
-template <>
-inline constexpr auto choices<DocsPage> =
-    choice_row({{"nodes"}, {"passes"}, {"diagnostics"}, {"recipes"}, {"profiles"}});
-
 enum class Headlight : std::uint8_t { automatic, on, off };
 template <>
 inline constexpr auto choices<Headlight> = choice_row({{"auto", "as NavigationInfo says"}, {"on"}, {"off"}});
@@ -34,7 +28,6 @@ struct Flags {
   std::vector<std::string> inputs;
   std::string output;
   std::string name;  // explain, passes
-  DocsPage page = DocsPage::nodes;
 
   // convert, cat, render
   std::string pipeline;  // -p; empty: what the format needs

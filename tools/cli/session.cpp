@@ -49,7 +49,9 @@ bool Session::choose_pipeline(std::string_view standard) {
     return false;
   }
   if (flags_.pipeline_given) pipeline_->complete(standard);
-  if (pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why)) document_.leave_unplaced();
+  pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why);
+  if (flags_.load.show_all) pipeline_->put_first("switch", {{"all", "true"}}, why);
+  document_.leave_unplaced();
   const auto& after = flags_.print_after;
   if (!after.empty() && after != "all" && !find_pass(after)) {
     fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));

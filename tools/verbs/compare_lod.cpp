@@ -55,7 +55,7 @@ std::vector<std::size_t> counts_of(const Flags& f, std::size_t n_faces) {
     add(usual);
   for (auto& n : out) n = std::clamp<std::size_t>(n, 1, n_faces);
   std::ranges::sort(out, std::greater{});
-  out.erase(std::ranges::unique(out).begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "convert/convert.h"
+#include "convert/hidden_geometry.h"
 #include "convert/profiles.h"
 #include "tools/cli/outputs.h"
 #include "tools/cli/recipe.h"
@@ -35,7 +36,13 @@ bool prepare_conversion(Session& s) {
   return s.good() && s.choose_pipeline(to->format->pipeline(options));
 }
 
-bool read_input(Session& s) { return s.read(s.flags().inputs[0]) && check_input(s.document()); }
+bool read_input(Session& s) {
+  if (!s.read(s.flags().inputs[0]) || !check_input(s.document())) return false;
+  const auto steps = s.pipeline().steps();
+  if (std::ranges::find(steps, "switch", &Pipeline::StepInfo::name) == steps.end())
+    report_hidden_geometry(s.world().scene, s.diag());
+  return true;
+}
 
 Saved write_world(Session& s, SaveOptions options, const std::function<void(Scene&)>& last) {
   options.measure_gzip |= s.flags().verbose || s.flags().json;

@@ -65,8 +65,11 @@ int run_passes(const Flags& flags) {
 }
 
 int run_docs(const Flags& flags) {
-  constexpr std::string (*pages[])() = {nodes_page, passes_page, diagnostics_page, recipes_page, profiles_page};
-  fmt::print("{}", pages[static_cast<std::size_t>(flags.page)]());
+  for (const auto& page : documentation_pages())
+    if (flags.name.empty())
+      fmt::print("{}\n", page.name);
+    else if (flags.name == page.name)
+      fmt::print("{}", page.text());
   return done;
 }
 

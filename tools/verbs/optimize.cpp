@@ -76,7 +76,7 @@ int run_optimize(const Flags& given) {
     fmt::print(stderr, "wrlkit: --in-place: {}\n", backup.why_not());
     return nothing;
   }
-  if (!s.read(flags.inputs[0])) return s.end(false);
+  if (!read_input(s)) return s.end(false);
   std::error_code ec;
   const auto size = std::filesystem::file_size(flags.inputs[0], ec);
   const std::uint64_t before = ec ? 0 : size;

@@ -1,4 +1,4 @@
-// wrlkit view: a page that shows a world, or two beside each other. The worlds go into it as glTF, with everything that
+// wrlkit view: a page that shows a world, or two side by side. The worlds go into it as glTF, with everything that
 // glTF cannot say in extras; what a simplification does goes into it as progressive meshes.
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@ namespace {
 
 class Writer : TextDocument {
  public:
-  Writer(const Scene& scene, const VrmlOptions& options, const Sink& sink)
+  Writer(const Scene& scene, const TextOptions& options, const Sink& sink)
       : TextDocument(scene,
                      {.dialect = Dialect::vrml97,
                       .yes = "TRUE",
@@ -264,13 +264,13 @@ class Writer : TextDocument {
   }
 
   const bool vrml1_ = scene_.format == Format::vrml1;
-  VrmlOptions options_;
+  TextOptions options_;
   bool first_ = true;
 };
 
 }  // namespace
 
-void write_vrml(const Scene& scene, const VrmlOptions& options, const Sink& sink, Diagnostics&) {
+void write_vrml(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics&) {
   Writer(scene, options, sink).file();
 }
 
