@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "geometry/geometry.h"
+#include "scenegraph/declared_protos.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -109,7 +110,7 @@ void LodNodes::for_lists(F f) {
     }
   }
   f(scene_.main.roots);
-  for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) f(scene_.proto(ProtoId{i}).body.roots);
+  for (ProtoId p : declared_protos(scene_)) f(scene_.proto(p).body.roots);
 }
 
 LodNodes::LodNodes(Scene& scene) : scene_(scene), listed_(scene.node_count()) {

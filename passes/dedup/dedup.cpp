@@ -3,6 +3,7 @@
 #include "passes/analysis/figures.h"
 #include "passes/analysis/representatives.h"
 #include "passes/analysis/text_list.h"
+#include "scenegraph/declared_protos.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -26,7 +27,7 @@ class Sharing {
     const auto before = figures_of(scene_);
     std::vector<char> seen;
     share(scene_.main, seen);
-    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) share(scene_.proto(ProtoId{i}).body, seen);
+    for (ProtoId p : declared_protos(scene_)) share(scene_.proto(p).body, seen);
     if (!any_) return Outcome::unchanged;
     if (!lost_.empty()) ctx_.diag.report(Diag::names_lost, {}, "dedup", lost_.count(), lost_.text());
     count_figures(ctx_, "dedup", before, figures_of(scene_));
