@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/image/image.h"
+#include "convert/hidden_geometry.h"
 #include "convert/world_meshes.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
@@ -91,6 +92,7 @@ std::optional<Info> info(Document&& document) {
   if (!document) return std::nullopt;
   const World& world = document.world();
   check_values(world.scene, document.diag());
+  report_hidden_geometry(world.scene, document.diag());
   Info out{.format = world.format, .gzip = world.gzip, .bytes = world.bytes};
   count_authored(world.scene, out);
   const WorldMeshes meshes(document);

@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "base/io/output.h"
+#include "base/stop.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "writers/made_files.h"
+#include "writers/named_files.h"
 #include "writers/vrml/vrml.h"
 #include "writers/x3d/x3d.h"
 
@@ -19,17 +21,18 @@ bool write_text(const Writing& w, TextWriter write) {
   TextOptions options{.precision = w.options.precision, .own_fields = w.options.dump};
   if (w.sink) {
     write(w.scene, options, *w.sink, diag);
-    return true;
+    return write_named_files(*w.context.resources, diag);
   }
   const auto& path = w.to.path;
-  auto file = OutputFile::open(path, {.gzip = w.to.gzip}, diag);
+  auto file = OutputFile::open(path, {.gzip = w.to.gzip, .inputs = &w.context.resources->files_read()}, diag);
   if (!file) return false;
   if (w.context.monitor) w.context.monitor->begin(path == "-" ? "" : "writing " + path, 0, "");
   MadeFiles made(w.scene, *w.context.resources, path, diag);
   options.file = path == "-" || w.options.keep_urls ? "" : path;
   options.place = [&](std::string_view url) { return made.place(url); };
   write(w.scene, options, file->sink(), diag);
-  return made.write() && made.commit() && file->commit(diag);
+  NamedFiles named(*w.context.resources, diag);
+  return made.write() && named.write() && made.commit() && named.commit() && file->commit(diag);
 }
 
 std::size_t count_geometries(const Scene& scene) {
@@ -47,9 +50,6 @@ void say_why_empty(const Scene& scene, Diagnostics& diag) {
     diag.report(Diag::nothing_drawn, Span{.begin = 0}, "it holds no node");
 }
 
-/// Ends the writer between two meshes.
-struct Stopped {};
-
 }  // namespace
 
 bool write_vrml_file(const Writing& w) { return write_text(w, write_vrml); }
@@ -61,17 +61,20 @@ bool write_gltf_file(const Writing& w) {
   if (n_geometries == 0) say_why_empty(w.scene, ctx.diag);
   if (ctx.monitor) ctx.monitor->begin("writing " + w.to.path, n_geometries, "shapes");
   const MeshSource counted = [&](NodeId n) -> const Mesh& {
-    if (ctx.stop.stop_requested()) throw Stopped{};
+    check_stop();
     if (ctx.monitor) ctx.monitor->step();
     return w.meshes(n);
   };
   const auto options = gltf_options(w.options, w.to.format->endings != ".gltf");
+  const StopScope scope(ctx.stop);
   try {
-    if (w.sink) return write_glb(w.scene, counted, options, ctx.resources, *w.sink, ctx.diag);
+    NamedFiles named(*ctx.resources, ctx.diag);
+    if (!named.write()) return false;
+    if (w.sink) return write_glb(w.scene, counted, options, ctx.resources, *w.sink, ctx.diag) && named.commit();
     MadeFiles beside(w.scene, *ctx.resources, w.to.path, ctx.diag);  // pictures are glTF's own matter
     return beside.write() &&
            write_gltf(w.scene, counted, options, ctx.resources, w.to.path, ctx.diag, &w.saved.gltf.emplace()) &&
-           beside.commit();
+           beside.commit() && named.commit();
   } catch (const Stopped&) {
     return false;
   }

@@ -191,15 +191,16 @@ class Way {
     constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
     auto fraction = [](double x) { return x - std::floor(x); };
     const double spacing = changed_area_ / static_cast<double>(n);
-    auto slot =
-        static_cast<std::size_t>(std::upper_bound(area_.begin(), area_.end(), (begin + 0.5) * spacing) - area_.begin());
+    auto slot = static_cast<std::size_t>(
+        std::upper_bound(area_.begin(), area_.end(), (static_cast<double>(begin) + 0.5) * spacing) - area_.begin());
     Sums sums;
     Sample sample, worst;
     for (std::size_t k = begin; k < end; ++k) {
-      while (slot + 1 < area_.size() && area_[slot] <= (k + 0.5) * spacing) ++slot;
+      const auto number = static_cast<double>(k);
+      while (slot + 1 < area_.size() && area_[slot] <= (number + 0.5) * spacing) ++slot;
       sample.triangle = changed_[slot];
-      sample.u = fraction(k * step_u);
-      sample.v = fraction(k * step_v);
+      sample.u = fraction(number * step_u);
+      sample.v = fraction(number * step_v);
       if (sample.u + sample.v > 1) {
         sample.u = 1 - sample.u;
         sample.v = 1 - sample.v;

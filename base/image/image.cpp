@@ -72,7 +72,10 @@ struct Opened {
   std::string error = "the module of codecs, wrlkit_images.so, is not installed (WRLKIT_IMAGES may name it)";
 };
 
+std::atomic<bool> loaded = false;
+
 Opened open_module() {
+  loaded = true;
   Opened opened;
   for (auto& path : module_paths()) {
     void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -83,10 +86,8 @@ Opened open_module() {
   return opened;
 }
 
-std::atomic<bool> loaded = false;
-
 const Opened& image_module() {
-  static const Opened opened = (loaded = true, open_module());
+  static const Opened opened = open_module();
   return opened;
 }
 

@@ -124,7 +124,8 @@ class JsonParser {
       open_.push_back(id);
       return true;
     }
-    bool good = c == '"' ? (i.kind = Kind::text, text(i.text)) : word(i);
+    if (c == '"') i.kind = Kind::text;
+    const bool good = c == '"' ? text(i.text) : word(i);
     if (!good) {
       items_.pop_back();
       return fails("a value");

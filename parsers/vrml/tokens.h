@@ -18,7 +18,11 @@ class Tokens {
   Span span(Token t) const { return {base_ + t.begin, t.end - t.begin}; }
   std::string_view text(Token t) const { return lex_.text(t); }
   std::string describe(Token t) const;
-  bool take(Kind k) { return lex_.peek().kind == k && (lex_.next(), true); }
+  bool take(Kind k) {
+    const bool is_next = lex_.peek().kind == k;
+    if (is_next) lex_.next();
+    return is_next;
+  }
   /// A name by the grammar's first character, or near to one.
   bool name_like(Token t) const {
     if (t.kind != Kind::word) return false;

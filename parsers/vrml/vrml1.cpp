@@ -91,7 +91,11 @@ class Vrml1Parser : private Values {
     auto w = text(t).substr(0, text(t).find('('));
     return !w.empty() && w.find_first_of("|=~)") == w.npos;
   }
-  bool take_word(std::string_view w) { return text(lex_.peek()) == w && (lex_.next(), true); }
+  bool take_word(std::string_view w) {
+    const bool is_next = text(lex_.peek()) == w;
+    if (is_next) lex_.next();
+    return is_next;
+  }
 
   ParseLimits limits_;
   SceneBuilder build_;

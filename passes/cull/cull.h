@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/option_range.h"
+#include "geometry/tessellation.h"
 #include "passes/pipeline/length_option.h"
 #include "passes/pipeline/pass.h"
 
@@ -44,6 +45,7 @@ gets all. The same result for any number of threads.)";
   bool hidden = false, walkways = true;
   int rays = 256;
   int seed = 1;
+  Tessellation faces;
   std::string list;
 
   void fields(auto&& f) {
@@ -52,6 +54,7 @@ gets all. The same result for any number of threads.)";
     f("walkways", walkways, "hidden: nor from where a visitor could stand, on whatever faces up and has room above it");
     f("rays", rays, "hidden: how many rays of a part have to end at others before it counts as hidden", at_least(1));
     f("seed", seed, "hidden: of the random numbers");
+    faces.fineness_fields(f);
     f("list", list, "file for the names of what is left out, one a line");
   }
 };

@@ -40,7 +40,7 @@ class Sharing {
     const Representatives same(scene_, usage_, nodes, options_.named);
     for (NodeId n : nodes) replace_children(n, same);
     for (NodeId n : nodes) {
-      if (same.of(n) == n) continue;
+      if (n.value >= replaced_.size() || !replaced_[n.value]) continue;
       any_ = true;
       ++ctx_.stats[kind_of(scene_.type(n))];
       if (const auto name = scene_.name(n); !name.empty() && name != scene_.name(same.of(n))) lost_.add(name);
@@ -54,7 +54,10 @@ class Sharing {
       bool changed = false;
       for (NodeId& c : list) {
         const NodeId one = same.of(c);
-        changed |= one != c;
+        if (one == c) continue;
+        if (replaced_.size() <= c.value) replaced_.resize(scene_.node_count());
+        replaced_[c.value] = 1;
+        changed = true;
         c = one;
       }
       if (changed)
@@ -67,6 +70,7 @@ class Sharing {
   PassContext& ctx_;
   Usage usage_;
   TextList lost_;
+  std::vector<char> replaced_;  // by node: another one stands where it stood
   bool any_ = false;
 };
 

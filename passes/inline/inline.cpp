@@ -153,8 +153,9 @@ class Inliner {
       out.imports.push_back({copies.of(i.inline_node), i.exported, copies.of(i.node)});
     for (const Export& e : scope.exports) out.exports.push_back({copies.of(e.node), e.name});
     for (NodeId from, to; copies.next(from, to);) {
-      std::vector<Value> fields;
       const auto source = scene_.copy_of_fields(from);
+      std::vector<Value> fields;
+      fields.reserve(source.size());
       for (const Value& v : source) fields.push_back(copies.of(v));
       scene_.set_fields(to, fields);
       runs_.n_copied += cost_of_copy(scene_, from);

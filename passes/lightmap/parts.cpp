@@ -10,10 +10,10 @@
 #include "base/silent_task.h"
 #include "geometry/simplify/surfaces.h"
 #include "geometry/unwrap/unfold.h"
-#include "passes/analysis/driven.h"
 #include "passes/lightmap/witnesses.h"
 #include "passes/normals/normals.h"
 #include "passes/weld/points.h"
+#include "scenegraph/driven.h"
 #include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
 
@@ -159,13 +159,13 @@ class Backs {
 
 class Finder {
  public:
-  Finder(const Scene& scene, const light::LightWorld& world, PassContext& ctx)
+  Finder(const Scene& scene, const light::LightWorld& world, const Tessellation& faces, PassContext& ctx)
       : scene_(scene),
         world_(world),
         stage_(world.stage()),
         witnesses_(scene, world),
         silent_(ctx),
-        reader_(scene, silent_) {
+        reader_(scene, silent_, faces) {
     const auto driven = driven_geometry(scene);  // a Script may write what it likes
     for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take, OfText::take))
       if (!scene.is(s.geometry, nodes::Text) || !driven[s.geometry.value]) lit_.emplace(s.geometry.value, s);
@@ -335,8 +335,9 @@ void unfold(Part& p, const Stage& stage) {
 
 }  // namespace
 
-std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, PassContext& ctx) {
-  return Finder(scene, world, ctx).run();
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, const Tessellation& faces,
+                             PassContext& ctx) {
+  return Finder(scene, world, faces, ctx).run();
 }
 
 void face_in(Part& part, std::vector<float>& coords) {

@@ -26,7 +26,7 @@ class Lod {
         ctx_(ctx),
         silent_(ctx),
         surfaces_(surfaces_of(scene)),
-        reader_(scene, silent_),
+        reader_(scene, silent_, options.faces),
         nodes_(scene) {}
 
   Outcome run() {

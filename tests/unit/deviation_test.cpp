@@ -251,17 +251,6 @@ TEST_CASE("deviation: a hundred thousand triangles in one place cost what one do
   CHECK(d.rms == Approx(0.5));
 }
 
-TEST_CASE("deviation: triangles that all pass through one another come to an end") {
-  Surface a, b;
-  double x = 0.5;
-  auto random = [&x] { return x = std::fmod(x * 997 + 0.123, 1); };
-  for (Surface* s : {&a, &b})
-    for (int i = 0; i < 9'000; ++i) s->corners.push_back(s->add(random(), random(), random()));
-  auto d = between(a, b, 2'000);
-  CHECK(d.max < 0.2);
-  CHECK(d.rms > 0);
-}
-
 TEST_CASE("deviation: triangles of sizes that halve make no deep tree") {
   Surface halves;
   for (int i = 0; i < 1000; ++i) {
@@ -296,6 +285,18 @@ double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
   return within ? std::min(least, std::abs(dot(p - t[0], n)) / std::sqrt(dot(n, n))) : least;
 }
 
+Vec3 corner_of(const Surface& s, std::size_t c) {
+  const double* p = &s.positions[3 * s.corners[c]];
+  return {p[0], p[1], p[2]};
+}
+
+double to_every_triangle(const Vec3& p, const Surface& s) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < s.corners.size(); t += 3)
+    least = std::min(least, to_triangle(p, {corner_of(s, t), corner_of(s, t + 1), corner_of(s, t + 2)}));
+  return least;
+}
+
 }  // namespace
 
 TEST_CASE("deviation: the distance to a triangle that is known") {
@@ -317,19 +318,28 @@ TEST_CASE("deviation: the distance to a triangle that is known") {
 
 TEST_CASE("deviation: the nearest point is that of trying every triangle") {
   auto s = sphere(17, 9, 1);
-  const auto corner = [&](std::size_t c) {
-    return vec3(&s.positions[3 * s.corners[c]]);
-  };
   ClosestPoint all(s.view());
   for (int i = 0; i < 500; ++i) {
     Vec3 p{2 * std::sin(i * 1.1), 2 * std::sin(i * 1.7 + 1), 2 * std::sin(i * 2.3 + 2)};
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t t = 0; t < s.corners.size(); t += 3) {
-      least = std::min(least, to_triangle(p, {corner(t), corner(t + 1), corner(t + 2)}));
-    }
-    CHECK(all.nearest(p, {}).distance == Approx(least).epsilon(1e-12).margin(1e-12));
+    CHECK(all.nearest(p, {}).distance == Approx(to_every_triangle(p, s)).epsilon(1e-12).margin(1e-12));
     CHECK(all.nearest(p, {}, static_cast<std::uint32_t>(i % 200)).distance == all.nearest(p, {}).distance);
   }
+}
+
+TEST_CASE("deviation: triangles that all pass through one another come to an end, and to the truth") {
+  Surface a, b;
+  double x = 0.5;
+  auto random = [&x] { return x = std::fmod(x * 997 + 0.123, 1); };
+  for (Surface* s : {&a, &b})
+    for (int i = 0; i < 9'000; ++i) s->corners.push_back(s->add(random(), random(), random()));
+  const auto d = between(a, b, 2'000);
+  CHECK(std::max(to_every_triangle(d.where, a), to_every_triangle(d.where, b)) == Approx(d.max).epsilon(1e-9));
+  for (std::size_t c = 0; c < 9'000; c += 30) {
+    CHECK(to_every_triangle(corner_of(a, c), b) <= d.max * (1 + 1e-9));
+    CHECK(to_every_triangle(corner_of(b, c), a) <= d.max * (1 + 1e-9));
+  }
+  CHECK(d.rms < d.max);
+  CHECK(d.rms > 0);
 }
 
 TEST_CASE("deviation: any number of threads gives the same figures") {

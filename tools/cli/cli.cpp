@@ -8,6 +8,7 @@
 
 #include "tools/cli/amounts.h"
 #include "tools/cli/options.h"
+#include "tools/cli/outputs.h"
 #include "tools/cli/python_passes.h"
 #include "tools/cli/verbs.h"
 
@@ -91,6 +92,7 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
   }
   for (auto* sub : app.get_subcommands()) {
     flags.given = given_options(*sub);
+    flags.can_replace = sub->get_option_no_throw("--in-place") != nullptr;
     if (auto* p = sub->get_option_no_throw("--pipeline")) flags.pipeline_given = p->count() > 0;
   }
   return done;
@@ -219,6 +221,7 @@ int run_command_line(int argc, char** argv) {
   if (!chosen) return code;
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
+  if (!check_outputs(flags, chosen->endings)) return usage;
   // A corpus run divides the memory among its workers.
   if (!std::string_view(chosen->name).starts_with("corpus")) limit_memory(flags);
   return chosen->run(flags);

@@ -34,12 +34,13 @@ struct AddOption {
         ->type_name(std::string(note.type))
         ->check(fault, "", "");
   }
-  template <class E>
-  requires std::is_enum_v<E>
+  template <Choice E>
   void operator()(std::string_view name, E& field, std::string_view help) const {
-    const auto read = [&field](const std::string& text) { read_value(text, field); };
-    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
-        ->check(CLI::IsMember(std::vector<std::string>(value_names<E>.begin(), value_names<E>.end())))
+    const auto read = [&field](const std::string& text) { read_choice(text, field); };
+    std::vector<std::string> names;
+    for (const auto& c : choices<E>) names.emplace_back(c.name);
+    verb.add_option_function<std::string>("--" + std::string(name), read, choice_help<E>(help))
+        ->check(CLI::IsMember(names))
         ->default_str(std::string(name_of(field)));
   }
 };
@@ -123,10 +124,15 @@ void vrml_output(CLI::App& verb, Flags& f) { f.save.text_fields(AddOption{verb})
 void small_gltf(CLI::App& verb, Flags& f) {
   f.save.size_fields(AddOption{verb});
   verb.get_option("--position-bits")->excludes(verb.get_option("--tolerance"));
-  verb.add_option("--profile", f.profile,
-                  "the program that will open it, which sets the defaults: portable, three, cesium, unity or godot")
+  verb.add_option("--profile", f.profile, "the program that will open it, which sets the defaults")
       ->check(CLI::IsMember(profile_names()));
 }
+
+void in_place(CLI::App& verb, Flags& f) {
+  verb.add_flag("--in-place", f.load.in_place, "OUT may be IN, which is then kept as IN.bak");
+}
+
+void method(CLI::App& verb, Flags& f) { AddOption{verb}("method", f.method, "how the light is found"); }
 
 void level(CLI::App& verb, Flags& f) {
   verb.add_option("--level", f.level,
@@ -147,16 +153,10 @@ void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")
       ->expected(3)
       ->delimiter(',');
-  verb.add_option("--headlight", f.headlight, "on or off, instead of what NavigationInfo says")
-      ->check(CLI::IsMember({"on", "off"}));
+  AddOption{verb}("headlight", f.headlight, "a light where the viewer is");
   verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")
       ->check(CLI::Range(0.0, 179.0));
-  verb.add_option(
-          "--mode", f.mode,
-          "preview; path: with shadows and reflected light, as noisy as --samples are few; wireframe; albedo: no "
-          "light; and of lightmaps: the light alone, its texels as a checker, their density (texels a metre)")
-      ->check(CLI::IsMember({"preview", "path", "wireframe", "albedo", "lightmap", "checker", "density"}))
-      ->capture_default_str();
+  AddOption{verb}("mode", f.mode, "how it is drawn");
 }
 
 void corpus_inputs(CLI::App& verb, Flags& f) {

@@ -21,6 +21,10 @@ void pipeline(CLI::App& verb, Flags&);
 void light(CLI::App& verb, Flags&);
 void vrml_output(CLI::App& verb, Flags&);
 void small_gltf(CLI::App& verb, Flags&);
+/// OUT may be IN.
+void in_place(CLI::App& verb, Flags&);
+/// How illuminate works.
+void method(CLI::App& verb, Flags&);
 void level(CLI::App& verb, Flags&);
 void pictures(CLI::App& verb, Flags&);
 void corpus_inputs(CLI::App& verb, Flags&);

@@ -27,6 +27,7 @@ constexpr Verb all_verbs[] = {
        small_gltf(v, f);
        placing(v, f);
        vrml_output(v, f);
+       in_place(v, f);
      },
      run_convert},
     {"optimize",
@@ -42,6 +43,7 @@ constexpr Verb all_verbs[] = {
        pipeline(v, f);
        small_gltf(v, f);
        placing(v, f);
+       in_place(v, f);
      },
      run_optimize},
     {"info", "what is inside: nodes, triangles, bounds, textures, lights", "wrlkit info plant.wrl --json",
@@ -63,7 +65,7 @@ constexpr Verb all_verbs[] = {
        pipeline(v, f);
        vrml_output(v, f);
      },
-     run_cat},
+     run_cat, ".wrl .wrz .wrl.gz .vrml"},
     {"diff",
      "how two worlds differ: structure, names, materials, and the distance of their surfaces; exit code 0 when they "
      "do, too",
@@ -172,7 +174,7 @@ constexpr Verb all_verbs[] = {
        pictures(v, f);
        pipeline(v, f);
      },
-     run_compare_lod},
+     run_compare_lod, ".html .png"},
     {"illuminate", "the light of a world by global illumination, as patches with a colour each",
      "wrlkit illuminate room.wrl patches.xml\n  wrlkit illuminate room.wrl patches.xml --method stochastic-iteration "
      "--max-edge 5cm --samples 64\n  wrlkit illuminate room.wrl.gz patches.xml.gz --gradient 0.2\n  wrlkit illuminate "
@@ -180,9 +182,7 @@ constexpr Verb all_verbs[] = {
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.add_option("OUT", f.output, "file.xml or file.xml.gz; - is standard output")->required();
-       v.add_option("--method", f.method, "how: path, stochastic-iteration or progressive-radiosity")
-           ->check(CLI::IsMember({"path", "stochastic-iteration", "progressive-radiosity"}))
-           ->capture_default_str();
+       method(v, f);
        v.add_option("--samples", f.light_samples, "rays a patch: the error falls with their square root or faster")
            ->check(CLI::Range(1, 1'000'000))
            ->capture_default_str();
@@ -215,7 +215,7 @@ constexpr Verb all_verbs[] = {
            ->capture_default_str();
        placing(v, f);
      },
-     run_illuminate},
+     run_illuminate, ".xml .xml.gz"},
     {"view", "a page to look at the world, or to compare two: one HTML file that needs no other and no network",
      "wrlkit view plant.wrl -o plant.html\n  wrlkit view plant.wrl simpler.wrl -o compared.html\n  wrlkit view "
      "valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view plant.wrl --serve",
@@ -232,7 +232,7 @@ constexpr Verb all_verbs[] = {
        pipeline(v, f);
        placing(v, f);
      },
-     run_view},
+     run_view, ".html"},
     {"corpus-run", "one recipe over many files, each in a process of its own; what was done before is not done again",
      "wrlkit corpus run recipes/plant-web.toml plant/ -o web/\n  wrlkit corpus run recipes/archive.toml 'old/**/*.wrl' "
      "@more.txt -o new/ --jobs 8 --memory 32G --timeout 5m\n  wrlkit corpus run recipe.toml plant/ -o web/ --shard 2/8",

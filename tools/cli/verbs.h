@@ -14,6 +14,7 @@ struct Verb {
   const char *name, *help, *example;
   void (*flags)(CLI::App&, Flags&);
   int (*run)(const Flags&);
+  const char* endings = "";  // of outputs that have one format only, with blanks between them
 };
 
 /// In the order of the help.

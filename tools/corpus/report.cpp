@@ -68,6 +68,13 @@ std::vector<std::pair<std::string_view, std::size_t>> CorpusReport::states() con
   return out;
 }
 
+std::vector<ReportedKind> CorpusReport::messages() const {
+  std::vector<ReportedKind> out;
+  out.reserve(kinds.size());
+  for (const auto& [name, kind] : kinds) out.push_back(kind);
+  return out;
+}
+
 CorpusReport read_report(const std::string& out) {
   // Which line counts is known when all have been read; messages are counted in a second reading.
   std::unordered_map<std::string, std::size_t> last;
@@ -127,7 +134,7 @@ void compare(CorpusReport& report, const CorpusReport& before) {
           true);
   }
   for (; old != before.rows.end(); ++old) add(old->output, "is no longer there", true);
-  std::ranges::stable_partition(report.changes, &Change::worse);
+  std::stable_partition(report.changes.begin(), report.changes.end(), [](const Change& c) { return c.worse; });
 }
 
 std::string report_csv(const CorpusReport& report) {

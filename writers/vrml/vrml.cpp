@@ -30,11 +30,6 @@ class Writer : TextDocument {
     scope(scene_.main);
   }
 
-  void single(NodeId n) {
-    names_.scope(Scope{{n}, {}, {}});
-    node(n);
-  }
-
  private:
   void scope(const Scope& s) {
     for_each_statement(
@@ -277,12 +272,6 @@ class Writer : TextDocument {
 
 void write_vrml(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics&) {
   Writer(scene, options, sink).file();
-}
-
-std::string node_text(const Scene& scene, NodeId n, Diagnostics&) {
-  std::string text;
-  Writer(scene, {}, [&](std::string_view s) { text += s; }).single(n);
-  return text;
 }
 
 }  // namespace wrlkit

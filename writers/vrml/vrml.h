@@ -14,7 +14,4 @@ namespace wrlkit {
 /// USE or ROUTE would mean another node then. What was read from VRML97 reads back as the same scene. O(scene).
 void write_vrml(const Scene&, const TextOptions&, const Sink&, Diagnostics&);
 
-/// One node and what it holds, without a header: for messages and for glTF extras.
-std::string node_text(const Scene&, NodeId, Diagnostics&);
-
 }  // namespace wrlkit

@@ -1,4 +1,4 @@
-#include "passes/analysis/driven.h"
+#include "scenegraph/driven.h"
 
 #include <algorithm>
 
