@@ -106,8 +106,8 @@ def odd(tmp):
     check('a report of them', code == 0 and 'star*[x]' in (tmp / 'odd.csv').read_text(errors='replace'), code)
     b, recipe = tmp / 'faults', tmp / 'faults.toml'
     write(b / 'in/a.wrl', BOX)
-    for text, why in (('passs = 1', "did you mean 'pass'"), ('[output]\nprecision = 99', 'not in range'), ('[limits]\ntimeout = "soon"', 'faults.toml:2:11: error: --timeout: \'soon\' is no time'),
-                      ('[limits]\nmemory = "much"', "'much' is no size"), ('[[pass]]\nname = "weld"\ntolerence = 1', "did you mean 'tolerance'"), ('[input', 'parsing table header')):
+    for text, why in (('passs = 1', "did you mean 'pass'"), ('[output]\nprecision = 99', 'not in range'), ('[limits]\ntimeout = "soon"', 'faults.toml:2:11: error: --timeout: \'soon\' is not a valid time'),
+                      ('[limits]\nmemory = "much"', "'much' is not a valid size"), ('[[pass]]\nname = "weld"\ntolerence = 1', "did you mean 'tolerance'"), ('[input', 'parsing table header')):
         write(recipe, text + '\n')
         code, _, err = corpus(recipe, b / 'in', '-o', b / 'out')
         check(f'a recipe with {text.split(chr(10))[-1]}', code == 2 and why in err and not (b / 'out').exists(), code, err)

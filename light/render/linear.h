@@ -1,8 +1,10 @@
 // Points, directions and affine maps of the renderer, in double: coordinates of a plant may lie a thousand kilometres
 // from the origin, and what goes to single precision is first brought near it.
+//
+// V3 and Affine are not Vec3 and Matrix: colours are V3, too, and multiply component by component; and maps by columns
+// make directions and normals of flat and mirrored frames plain sums. Boxes are those of base/math.
 #pragma once
 #include <cmath>
-#include <limits>
 
 #include "base/image/srgb.h"
 #include "base/math/box.h"

@@ -462,12 +462,12 @@ TEST_CASE("baked light with a direction: what faces it gets more, and it shines 
   s.lit = true;
   s.material.specular = V3(1);
   s.material.shininess = 0.5;
-  const V3 face{0, 0, 1}, slant = unit({1, 0, 1});
+  const V3 face{0, 0, 1}, slant = unit(V3{1, 0, 1});
   auto from = [](const V3& v) { return LightSample{V3(0.2), std::array<V3, 3>{V3(v.x), V3(v.y), V3(v.z)}}; };
   auto red = [&](const LightSample& light, const V3& normal, const V3& to_viewer) {
     return srgb_to_linear(baked_color(s, V3(1), light, {{}, normal, to_viewer}, face).x);
   };
-  const V3 aside = unit({0, 1, 0.01});
+  const V3 aside = unit(V3{0, 1, 0.01});
   // From all sides alike: normals make no difference.
   CHECK(red(from({0, 0, 0}), slant, aside) == Approx(0.2));
   CHECK(red({V3(0.2), {}}, slant, aside) == Approx(0.2));

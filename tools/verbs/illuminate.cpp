@@ -35,7 +35,7 @@ bool read_options(const Flags& f, light::IlluminateOptions& o) {
   if (f.max_edge.empty()) return true;
   o.sizes.max_edge = length_of(f.max_edge);
   if (o.sizes.max_edge > 0) return true;
-  fmt::print(stderr, "wrlkit illuminate: --max-edge: '{}' is no length\n", f.max_edge);
+  fmt::print(stderr, "wrlkit illuminate: --max-edge: '{}' is not a valid length\n", f.max_edge);
   return false;
 }
 

@@ -44,7 +44,7 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   for (const auto& text : f.errors) {
     const double e = length_of(text);
     if (!(e > 0)) {
-      fmt::print(stderr, "wrlkit simplify: --error: '{}' is no length\n", text);
+      fmt::print(stderr, "wrlkit simplify: --error: '{}' is not a valid length\n", text);
       return std::nullopt;
     }
     o.errors.push_back(e);
