@@ -27,7 +27,7 @@ struct RecognisedForm {
 
 struct Recognition {
   std::vector<RecognisedForm> forms;  // in the order of their first faces
-  std::vector<std::uint32_t> rest;    // faces in none of them, rising
+  std::vector<std::uint32_t> rest;    // faces in none of them, rising; those without an area left out
 };
 
 /// Finds forms among the faces of a mesh of polygons or triangles: loose or welded, one part or many, faces in any

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/forms/form_faces.h"
 #include "scenegraph/equal.h"
 #include "writers/text/document.h"
 
@@ -276,7 +277,8 @@ class Writer : TextDocument {
 }  // namespace
 
 void write_vrml(const Scene& scene, const VrmlOptions& options, const Sink& sink, Diagnostics&) {
-  Writer(scene, options, sink).file();
+  const auto faces = options.own_fields ? std::nullopt : with_form_faces(scene);
+  Writer(faces ? *faces : scene, options, sink).file();
 }
 
 std::string node_text(const Scene& scene, NodeId n, Diagnostics&) {
