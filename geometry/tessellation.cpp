@@ -28,6 +28,7 @@ constexpr struct {
 Maker find_maker(TypeId type) {
   for (const auto& m : makers)
     if (m.type == type) return m.make;
+  if (type.value < builtin_nodes().size() && builtin_nodes()[type.value].is_own()) return make_form;
   return nullptr;
 }
 

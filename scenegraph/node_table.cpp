@@ -51,7 +51,8 @@ TypeId find_builtin(std::string_view name, Dialect dialect) {
   }();
   auto [b, e] = by_name.equal_range(name);
   for (; b != e; ++b)
-    if (builtin_nodes()[b->second].dialects & static_cast<DialectSet>(dialect)) return TypeId{b->second};
+    if (const auto& row = builtin_nodes()[b->second]; (row.dialects & static_cast<DialectSet>(dialect)) || row.is_own())
+      return TypeId{b->second};
   return {};
 }
 

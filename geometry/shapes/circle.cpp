@@ -6,9 +6,10 @@
 
 namespace wrlkit {
 
-int circle_segments(double radius, const Tessellation& options) {
+int circle_segments(double radius, const Tessellation& options, int shown) {
   if (options.segments > 0) return std::clamp(options.segments, 3, 1024);
   const bool automatic = !(options.tolerance > 0);
+  if (automatic && shown > 0) return std::clamp(shown, 3, 1024);
   const double sagitta = automatic ? 0.005 * std::sqrt(radius) : options.tolerance;
   const double most = automatic ? 64 : 256;
   // sagitta = r (1 - cos(pi / n)) = 2 r sin(pi / 2n)^2, which keeps its digits where the sagitta is small

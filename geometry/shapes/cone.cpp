@@ -48,7 +48,7 @@ void make_cone(MeshJob& job, const Tessellation& options) {
   if (!side && !bottom) return report_no_surface(job, "none of its parts is drawn");
 
   auto &x = job.scratch.x, &z = job.scratch.y;
-  const int n = circle_segments(p.radius, options);
+  const int n = circle_segments(p.radius, options, job.scene.get(job.geometry, fields::segments));
   unit_circle(2 * n, x, z);
   for (int k = 0; k < n; ++k) out.position(p.radius * x[2 * k], -p.height / 2, p.radius * z[2 * k]);
   out.position(0, p.height / 2, 0);

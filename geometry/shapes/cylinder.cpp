@@ -40,7 +40,7 @@ void make_cylinder(MeshJob& job, const Tessellation& options) {
   if (!side && !top && !bottom) return report_no_surface(job, "none of its parts is drawn");
 
   auto &x = job.scratch.x, &z = job.scratch.y;
-  const int n = circle_segments(radius, options);
+  const int n = circle_segments(radius, options, job.scene.get(job.geometry, fields::segments));
   unit_circle(n, x, z);
   for (double y : {-height / 2, height / 2})
     for (int k = 0; k < n; ++k) out.position(radius * x[k], y, radius * z[k]);

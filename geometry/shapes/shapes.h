@@ -14,6 +14,7 @@ void make_cylinder(MeshJob& job, const Tessellation& options);
 void make_sphere(MeshJob& job, const Tessellation& options);
 void make_extrusion(MeshJob& job, const Tessellation& options);
 void make_elevation_grid(MeshJob& job, const Tessellation& options);
+void make_form(MeshJob& job, const Tessellation& options);
 
 /// Leaves the mesh without faces and reports degenerate-geometry.
 void report_no_surface(MeshJob& job, std::string_view why);

@@ -39,7 +39,9 @@ class Lowering {
 
  private:
   bool builtin(NodeId n) const { return scene_.type(n).kind == NodeKind::builtin; }
-  bool foreign(NodeId n) const { return n && builtin(n) && !(scene_.type(n).dialects & in_vrml97); }
+  bool foreign(NodeId n) const {
+    return n && builtin(n) && !(scene_.type(n).dialects & in_vrml97) && !scene_.type(n).is_own();
+  }
 
   void color(NodeId n) {
     if (!scene_.is(n, nodes::ColorRGBA)) return;

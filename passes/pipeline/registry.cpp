@@ -24,6 +24,7 @@
 #include "passes/pipeline/pass_info.h"
 #include "passes/place/place.h"
 #include "passes/prune/prune.h"
+#include "passes/recognise/recognise.h"
 #include "passes/smooth/smooth.h"
 #include "passes/subdivide/subdivide.h"
 #include "passes/switch/switch.h"
@@ -57,6 +58,8 @@ constexpr PassInfo all_passes[] = {
                                      authored, {.phase = Phase::lower, .idempotent = true}),
     pass<prune, PruneOptions>("prune", "remove what has no effect", authored, authored, {.idempotent = true}),
     pass<join, JoinOptions>("join", "make one Shape of many that look the same", authored, authored),
+    pass<recognise, RecogniseFormsOptions>("recognise", "find what parts are: cylinders, elbows, boxes, profiles",
+                                           authored, authored),
     pass<dedup, DedupOptions>("dedup", "share what is written several times and says the same", authored, authored,
                               {.idempotent = true}),
     pass<instance, InstanceOptions>("instance", "share geometry that is the same but for a motion and a scale",

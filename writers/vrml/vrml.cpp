@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/forms/form_faces.h"
 #include "scenegraph/equal.h"
 #include "writers/text/document.h"
 
@@ -271,7 +272,8 @@ class Writer : TextDocument {
 }  // namespace
 
 void write_vrml(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics&) {
-  Writer(scene, options, sink).file();
+  const auto faces = options.own_fields ? std::nullopt : with_form_faces(scene);
+  Writer(faces ? *faces : scene, options, sink).file();
 }
 
 }  // namespace wrlkit

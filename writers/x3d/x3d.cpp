@@ -5,6 +5,7 @@
 
 #include "base/text/xml_text.h"
 #include "scenegraph/access_word.h"
+#include "geometry/forms/form_faces.h"
 #include "scenegraph/container_field.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
@@ -410,7 +411,8 @@ class Writer : TextDocument {
 }  // namespace
 
 void write_x3d(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag) {
-  Writer(scene, options, sink, diag).file();
+  const auto faces = with_form_faces(scene);
+  Writer(faces ? *faces : scene, options, sink, diag).file();
 }
 
 }  // namespace wrlkit
