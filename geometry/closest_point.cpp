@@ -212,8 +212,10 @@ struct ClosestPoint::Search {
   double reach = infinity;  // squared distance up to which a triangle may be the answer
   double best_facing = -infinity;
   int n_equal = 0;
+  const std::function<bool(std::uint32_t)>* counts = nullptr;  // null: all of them
 
   void try_triangle(std::uint32_t triangle) {
+    if (counts && !(*counts)(triangle)) return;
     ++best.n_tried;
     auto t = tree.surface_[triangle];
     for (auto& corner : t) corner = corner - p;
@@ -278,6 +280,16 @@ ClosestPoint::Nearest ClosestPoint::nearest(const Vec3& p, const Vec3& facing, s
   if (boxes_.empty()) return search.best;
   if (guess != no_guess) search.try_triangle(guess);
   search.run();
+  return search.best;
+}
+
+ClosestPoint::Nearest ClosestPoint::nearest_of(const Vec3& p, double within,
+                                               const std::function<bool(std::uint32_t)>& counts) const {
+  const Vec3 facing{};
+  Search search{*this, p, facing};
+  search.reach = within * within;
+  search.counts = &counts;
+  if (!boxes_.empty()) search.run();
   return search.best;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,9 @@ class ClosestPoint {
   /// which it is known that it is near: the answer for the point before; it makes the search shorter. Any number of
   /// threads may ask.
   Nearest nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess = no_guess) const;
+
+  /// The same among the triangles that count, within a distance; infinite when there is none.
+  Nearest nearest_of(const Vec3& p, double within, const std::function<bool(std::uint32_t)>& counts) const;
 
   static constexpr std::uint32_t no_guess = 0xffffffffu;
 

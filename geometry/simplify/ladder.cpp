@@ -1,0 +1,161 @@
+#include "geometry/simplify/ladder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/shapes/vector.h"
+#include "geometry/simplify/fitted_surface.h"
+#include "geometry/simplify/inverse.h"
+
+namespace wrlkit::simplify {
+namespace {
+
+constexpr std::size_t fitted_below = 160;  // triangles
+constexpr double coarse_step = 0.7, fine_step = 0.85;
+
+bool has_looks(const Mesh& mesh) {
+  return mesh.color.present() || mesh.texcoord.present() || mesh.lightcoord.present();
+}
+
+void transform(Mesh& mesh, const Matrix& m) {
+  auto& p = mesh.positions.edit();
+  for (std::size_t i = 0; i + 2 < p.size(); i += 3) {
+    const Vec3 q = m.point({p[i], p[i + 1], p[i + 2]});
+    std::copy(q.begin(), q.end(), p.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+class Ladder {
+ public:
+  explicit Ladder(const LadderPart& part)
+      : part_(part), back_(inverse(part.frame)), metric_(part.mesh), nearest_(prepared()) {}
+
+  std::vector<Rung> run() {
+    rungs_.push_back({{}, metric_.n_faces(), {}, false});
+    const bool fits = !has_looks(metric_) && !part_.samples.empty();
+    const std::size_t last = fits ? fitted_below : 1;
+    PlainMesh coarse;
+    if (metric_.n_faces() > last)
+      coarse = collapse(last);
+    else
+      coarse = plain(metric_);
+    if (fits) fit(std::move(coarse));
+    return std::move(rungs_);
+  }
+
+ private:
+  Triangles prepared() {
+    transform(metric_, part_.frame);
+    return triangles_of(metric_);
+  }
+
+  static PlainMesh plain(const Mesh& mesh) {
+    PlainMesh out;
+    const auto triangles = triangles_of(mesh);
+    for (std::uint32_t i = 0; i < mesh.n_positions(); ++i) out.positions.push_back(triangles.position(i));
+    for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3)
+      out.faces.push_back({mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2]});
+    return out;
+  }
+
+  /// By the criterion; what is left at the end.
+  PlainMesh collapse(std::size_t last) {
+    Collapser c(metric_, part_.collapse);
+    Mesh level;
+    for (std::size_t n = metric_.n_faces(); n > last;) {
+      n = std::max(last, std::min(n - 1, static_cast<std::size_t>(coarse_step * static_cast<double>(n))));
+      const auto before = c.n_faces();
+      c.run_to(n);
+      if (c.n_faces() >= before || c.n_faces() == 0) break;
+      n = c.n_faces();
+      level = c.mesh();
+      add(level);
+    }
+    return plain(level.corners.empty() ? metric_ : level);
+  }
+
+  void add(const Mesh& level) {
+    const auto triangles = triangles_of(level);
+    const ClosestPoint nearest(triangles);
+    // As many questions as the level has triangles: its error is spread over its faces.
+    const std::size_t n = std::clamp<std::size_t>(2 * level.n_faces(), 200, 4000);
+    const auto some = strided(n);
+    const auto d = measure_distortion(triangles, nearest, some, nearest_, some.size());
+    rungs_.push_back({level, level.n_faces(), d, false});
+    transform(rungs_.back().mesh, back_);
+  }
+
+  std::vector<SurfaceSample> strided(std::size_t n) const {
+    const std::size_t stride = std::max<std::size_t>(1, part_.samples.size() / n);
+    std::vector<SurfaceSample> out;
+    for (std::size_t i = 0; i < part_.samples.size(); i += stride) {
+      out.push_back(part_.samples[i]);
+      out.back().weight *= static_cast<double>(stride);
+    }
+    return out;
+  }
+
+  void fit(PlainMesh coarse) {
+    const auto some = strided(std::clamp<std::size_t>(4 * coarse.faces.size(), 150, 400));
+    FittedSurface surface(std::move(coarse), nearest_, some);
+    std::size_t next = surface.n_faces() - 1;
+    while (surface.n_faces() > 1 && surface.step()) {
+      if (surface.n_faces() > next) continue;
+      surface.refine();
+      surface.refine();
+      add(surface);
+      const auto n = surface.n_faces();
+      next = std::min(n - 1, static_cast<std::size_t>(fine_step * static_cast<double>(n)));
+    }
+  }
+
+  void add(const FittedSurface& surface) {
+    const auto left = surface.mesh();
+    Rung rung{{}, left.faces.size(), surface.distortion(), true};
+    rung.mesh.kind = Mesh::Kind::faces;
+    auto& positions = rung.mesh.positions.edit();
+    for (const Vec3& p : left.positions) {
+      const Vec3 q = back_.point(p);
+      positions.insert(positions.end(), q.begin(), q.end());
+    }
+    for (const auto& f : left.faces) rung.mesh.corners.insert(rung.mesh.corners.end(), f.begin(), f.end());
+    rungs_.push_back(std::move(rung));
+  }
+
+  const LadderPart& part_;
+  Matrix back_;
+  Mesh metric_;
+  ClosestPoint nearest_;
+  std::vector<Rung> rungs_;
+};
+
+}  // namespace
+
+std::vector<Rung> make_ladder(const LadderPart& part) {
+  auto rungs = Ladder(part).run();
+  // From the coarsest up: a rung that is no nearer than a coarser one goes.
+  std::vector<Rung> out;
+  for (auto r = rungs.rbegin(); r + 1 != rungs.rend(); ++r)
+    if (out.empty() || (r->n_faces > out.back().n_faces && r->distortion.squares < out.back().distortion.squares))
+      out.push_back(std::move(*r));
+    else if (r->n_faces == out.back().n_faces && r->distortion.squares < out.back().distortion.squares)
+      out.back() = std::move(*r);
+  out.push_back(std::move(rungs.front()));
+  std::ranges::reverse(out);
+  return out;
+}
+
+std::vector<std::size_t> convex_hull(std::span<const Rung> rungs) {
+  std::vector<std::size_t> out;
+  auto slope = [&](std::size_t from, std::size_t to) {
+    return (rungs[to].distortion.squares - rungs[from].distortion.squares) /
+           static_cast<double>(rungs[from].n_faces - rungs[to].n_faces);
+  };
+  for (std::size_t i = 0; i < rungs.size(); ++i) {
+    while (out.size() > 1 && slope(out[out.size() - 2], i) <= slope(out[out.size() - 2], out.back())) out.pop_back();
+    out.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace wrlkit::simplify
