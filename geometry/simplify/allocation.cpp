@@ -28,11 +28,11 @@ Allocation::Allocation(const std::vector<AllocatedPart>& parts, const Neighbours
       part_of_[owner] = i;
     }
   parallel_for(parts.size(), [&](std::size_t i) {
-    hull_[i] = convex_hull(parts[i].rungs);
+    hull_[i] = convex_hull(*parts[i].rungs);
     leaving_[i] = price_of_leaving(static_cast<std::uint32_t>(i));
   });
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
-    n_drawn_ += parts[i].rungs[0].n_faces * parts[i].places.size();
+    n_drawn_ += (*parts[i].rungs)[0].n_faces * parts[i].places.size();
     queue_.push(next_of(i));
   }
 }
@@ -47,13 +47,13 @@ double Allocation::key_of(double slope, double max) const {
 /// The cheapest way down from where a part stands.
 Allocation::Step Allocation::next_of(std::uint32_t part) {
   const auto& p = parts_[part];
-  const auto& rung = p.rungs[at_[part]];
+  const auto& rung = (*p.rungs)[at_[part]];
   const double places = static_cast<double>(p.places.size()), now = p.weight * rung.distortion.squares;
   const double all = places * static_cast<double>(rung.n_faces);
   Step best{key_of((leaving_[part].squares - now) / all, leaving_[part].max), part, gone};
   for (auto h : hull_[part]) {
     if (h <= at_[part]) continue;
-    const auto& lower = p.rungs[h];
+    const auto& lower = (*p.rungs)[h];
     const double saved = places * static_cast<double>(rung.n_faces - lower.n_faces);
     const double key = key_of((p.weight * lower.distortion.squares - now) / saved, lower.distortion.max);
     if (key < best.key) best = {key, part, static_cast<std::uint32_t>(h)};
@@ -61,41 +61,47 @@ Allocation::Step Allocation::next_of(std::uint32_t part) {
   return best;
 }
 
-Neighbours::Found Allocation::nearest_left(const Vec3& p, std::uint32_t without, double within) const {
-  return neighbours_.nearest(p, within, [&](std::uint32_t owner) {
+Neighbours::Found Allocation::nearest_left(const Vec3& p, std::uint32_t without) const {
+  return neighbours_.nearest(p, std::numeric_limits<double>::infinity(), [&](std::uint32_t owner) {
     const auto part = part_of_[owner];
     return part != without && at_[part] != gone;
   });
 }
 
+double Allocation::squared_of(const LeavingSample& s, std::uint32_t look, const Neighbours::Found& found) const {
+  const double squared = found.distance * found.distance;
+  const bool same = found.owner != ClosestPoint::no_guess && parts_[part_of_[found.owner]].look == look;
+  return same ? squared : std::max(squared, s.least);
+}
+
 /// Of its own points, and of those that left before and are near to it.
 Allocation::Price Allocation::price_of_leaving(std::uint32_t part) const {
   Price out;
-  auto add = [&](const Vec3& p, double weight, double before) {
-    const double d = nearest_left(p, part, std::numeric_limits<double>::infinity()).distance;
-    out.squares += weight * (d * d - before);
-    out.max = std::max(out.max, d);
+  auto add = [&](const LeavingSample& s, std::uint32_t look, double before) {
+    const auto found = nearest_left(s.point, part);
+    out.squares += s.weight * (squared_of(s, look, found) - before);
+    out.max = std::max(out.max, found.distance);
   };
-  for (const auto& s : parts_[part].leaving) add(s.point, s.weight, 0);
-  for (const auto& o : orphans_[part]) add(o.point, o.weight, o.squared);
+  for (const auto& s : parts_[part].leaving) add(s, parts_[part].look, 0);
+  for (const auto& o : orphans_[part]) add(o.sample, o.look, o.squared);
   return out;
 }
 
 void Allocation::leave(std::uint32_t part) {
   at_[part] = gone;
   ++n_gone_;
-  auto attach = [&](const Vec3& p, double weight) {
-    const auto found = nearest_left(p, part, std::numeric_limits<double>::infinity());
+  auto attach = [&](const LeavingSample& s, std::uint32_t look) {
+    const auto found = nearest_left(s.point, part);
     if (found.owner != ClosestPoint::no_guess)
-      orphans_[part_of_[found.owner]].push_back({p, weight, found.distance * found.distance});
+      orphans_[part_of_[found.owner]].push_back({s, look, squared_of(s, look, found)});
   };
-  for (const auto& s : parts_[part].leaving) attach(s.point, s.weight);
-  for (const auto& o : std::exchange(orphans_[part], {})) attach(o.point, o.weight);
+  for (const auto& s : parts_[part].leaving) attach(s, parts_[part].look);
+  for (const auto& o : std::exchange(orphans_[part], {})) attach(o.sample, o.look);
 }
 
 void Allocation::take(const Step& step) {
   const auto& p = parts_[step.part];
-  const auto& rung = p.rungs[at_[step.part]];
+  const auto& rung = (*p.rungs)[at_[step.part]];
   squares_ -= p.weight * rung.distortion.squares;
   n_drawn_ -= p.places.size() * rung.n_faces;
   if (step.to == gone) {
@@ -104,7 +110,7 @@ void Allocation::take(const Step& step) {
     leave(step.part);
     return;
   }
-  const auto& lower = p.rungs[step.to];
+  const auto& lower = (*p.rungs)[step.to];
   squares_ += p.weight * lower.distortion.squares;
   max_ = std::max(max_, lower.distortion.max);
   n_drawn_ += p.places.size() * lower.n_faces;

@@ -9,12 +9,20 @@
 
 namespace wrlkit::simplify {
 
+/// A point of a part in the world: when the part leaves, it counts as far as from what is nearest then.
+struct LeavingSample {
+  Vec3 point;
+  double weight;  // area
+  double least;   // squared distance that it counts at least near to another look: it was seen
+};
+
 /// A part of a world in all its places.
 struct AllocatedPart {
-  std::vector<Rung> rungs;
-  std::vector<std::uint32_t> places;   // owners among the neighbours
-  double weight = 1;                   // of the distortion: over all places, those of the ladder counting 1
-  std::vector<SurfaceSample> leaving;  // in the world: what is to be near to others when it leaves
+  const std::vector<Rung>* rungs = nullptr;
+  std::vector<std::uint32_t> places;  // owners among the neighbours
+  double weight = 1;                  // of the distortion: over all places, those of the ladder counting 1
+  std::uint32_t look = 0;             // what is seen of it
+  std::vector<LeavingSample> leaving;
 };
 
 class Allocation {
@@ -43,8 +51,9 @@ class Allocation {
   };
   /// A point of a part that has left, and what it is near to now.
   struct Orphan {
-    Vec3 point;
-    double weight, squared;
+    LeavingSample sample;
+    std::uint32_t look;
+    double squared;
   };
   struct Price {
     double squares = 0, max = 0;
@@ -53,7 +62,8 @@ class Allocation {
   Step next_of(std::uint32_t part);
   double key_of(double slope, double max) const;
   Price price_of_leaving(std::uint32_t part) const;
-  Neighbours::Found nearest_left(const Vec3& p, std::uint32_t without, double within) const;
+  Neighbours::Found nearest_left(const Vec3& p, std::uint32_t without) const;
+  double squared_of(const LeavingSample& s, std::uint32_t look, const Neighbours::Found& found) const;
   void take(const Step& step);
   void leave(std::uint32_t part);
 

@@ -114,7 +114,7 @@ std::uint32_t FittedSurface::stamp_of(const Entry& e) const {
 
 void FittedSurface::enqueue_edge(std::uint32_t u, std::uint32_t v) {
   Merged m;
-  if (!evaluate(u, v, m)) return;
+  if (!evaluate(u, v, Price::at_least, m)) return;
   const auto saved = static_cast<double>(m.old.size() - m.faces.size());
   queue_.push({m.cost / saved, u, v, stamp_[u] + stamp_[v]});
 }
@@ -197,7 +197,7 @@ bool FittedSurface::turns_over(const Merged& m, std::uint32_t u, std::uint32_t v
   return false;
 }
 
-bool FittedSurface::evaluate(std::uint32_t u, std::uint32_t v, Merged& m) const {
+bool FittedSurface::evaluate(std::uint32_t u, std::uint32_t v, Price price, Merged& m) const {
   if (!gather(u, v, m)) return false;
   const std::size_t stride = (m.samples.size() + most_asked - 1) / most_asked;
   const auto step = std::max<std::size_t>(stride, 1);
@@ -224,7 +224,8 @@ bool FittedSurface::evaluate(std::uint32_t u, std::uint32_t v, Merged& m) const 
     better = moved;
   }
   if (turns_over(m, u, v)) return false;
-  for (const auto& f : m.faces) after += backward(corners_of(f, v, m.position));
+  if (price == Price::whole)
+    for (const auto& f : m.faces) after += backward(corners_of(f, v, m.position));
   m.cost = after - before;
   return std::isfinite(m.cost);
 }
@@ -326,11 +327,10 @@ bool FittedSurface::step() {
       return true;
     }
     if (faces_of_[e.from].empty() || faces_of_[e.to].empty()) continue;
-    const bool stale = e.stamp != stamp_of(e);
     Merged m;
-    if (!evaluate(e.from, e.to, m)) continue;
+    if (!evaluate(e.from, e.to, Price::whole, m)) continue;
     const double key = m.cost / static_cast<double>(m.old.size() - m.faces.size());
-    if (stale && !queue_.empty() && key > queue_.top().key) {
+    if (!queue_.empty() && key > queue_.top().key) {
       queue_.push({key, e.from, e.to, stamp_of(e)});
       continue;
     }

@@ -62,7 +62,9 @@ class FittedSurface {
   void enqueue_face(std::uint32_t f);
   std::uint32_t stamp_of(const Entry& e) const;
   bool gather(std::uint32_t u, std::uint32_t v, Merged& m) const;
-  bool evaluate(std::uint32_t u, std::uint32_t v, Merged& m) const;
+  /// What is known at once is less than the whole price, which asks the way back, too.
+  enum class Price : bool { at_least, whole };
+  bool evaluate(std::uint32_t u, std::uint32_t v, Price price, Merged& m) const;
   bool turns_over(const Merged& m, std::uint32_t u, std::uint32_t v) const;
   double forward(const Merged& m, std::uint32_t v, const Vec3& x, std::size_t stride, Vec3* better) const;
   std::array<Vec3, 3> corners_of(const Face& f, std::uint32_t v, const Vec3& x) const;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geometry/shapes/vector.h"
+#include "geometry/simplify/closest_on_triangle.h"
 #include "geometry/simplify/fitted_surface.h"
-#include "geometry/simplify/inverse.h"
 
 namespace wrlkit::simplify {
 namespace {
@@ -13,42 +13,24 @@ namespace {
 constexpr std::size_t fitted_below = 160;  // triangles
 constexpr double coarse_step = 0.7, fine_step = 0.85;
 
-bool has_looks(const Mesh& mesh) {
-  return mesh.color.present() || mesh.texcoord.present() || mesh.lightcoord.present();
-}
-
-void transform(Mesh& mesh, const Matrix& m) {
-  auto& p = mesh.positions.edit();
-  for (std::size_t i = 0; i + 2 < p.size(); i += 3) {
-    const Vec3 q = m.point({p[i], p[i + 1], p[i + 2]});
-    std::copy(q.begin(), q.end(), p.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-}
-
 class Ladder {
  public:
-  explicit Ladder(const LadderPart& part)
-      : part_(part), back_(inverse(part.frame)), metric_(part.mesh), nearest_(prepared()) {}
+  explicit Ladder(const LadderPart& part) : part_(part), nearest_(triangles_of(part.mesh)) {}
 
   std::vector<Rung> run() {
-    rungs_.push_back({{}, metric_.n_faces(), {}, false});
-    const bool fits = !has_looks(metric_) && !part_.samples.empty();
+    rungs_.push_back({{}, part_.mesh.n_faces(), {}, false});
+    const bool fits = !part_.mesh.lightcoord.present() && !part_.samples.empty();
     const std::size_t last = fits ? fitted_below : 1;
     PlainMesh coarse;
-    if (metric_.n_faces() > last)
+    if (part_.mesh.n_faces() > last)
       coarse = collapse(last);
     else
-      coarse = plain(metric_);
+      coarse = plain(part_.mesh);
     if (fits) fit(std::move(coarse));
     return std::move(rungs_);
   }
 
  private:
-  Triangles prepared() {
-    transform(metric_, part_.frame);
-    return triangles_of(metric_);
-  }
-
   static PlainMesh plain(const Mesh& mesh) {
     PlainMesh out;
     const auto triangles = triangles_of(mesh);
@@ -60,9 +42,9 @@ class Ladder {
 
   /// By the criterion; what is left at the end.
   PlainMesh collapse(std::size_t last) {
-    Collapser c(metric_, part_.collapse);
+    Collapser c(part_.mesh, part_.collapse);
     Mesh level;
-    for (std::size_t n = metric_.n_faces(); n > last;) {
+    for (std::size_t n = part_.mesh.n_faces(); n > last;) {
       n = std::max(last, std::min(n - 1, static_cast<std::size_t>(coarse_step * static_cast<double>(n))));
       const auto before = c.n_faces();
       c.run_to(n);
@@ -71,7 +53,7 @@ class Ladder {
       level = c.mesh();
       add(level);
     }
-    return plain(level.corners.empty() ? metric_ : level);
+    return plain(level.corners.empty() ? part_.mesh : level);
   }
 
   void add(const Mesh& level) {
@@ -82,7 +64,6 @@ class Ladder {
     const auto some = strided(n);
     const auto d = measure_distortion(triangles, nearest, some, nearest_, some.size());
     rungs_.push_back({level, level.n_faces(), d, false});
-    transform(rungs_.back().mesh, back_);
   }
 
   std::vector<SurfaceSample> strided(std::size_t n) const {
@@ -114,17 +95,43 @@ class Ladder {
     Rung rung{{}, left.faces.size(), surface.distortion(), true};
     rung.mesh.kind = Mesh::Kind::faces;
     auto& positions = rung.mesh.positions.edit();
-    for (const Vec3& p : left.positions) {
-      const Vec3 q = back_.point(p);
-      positions.insert(positions.end(), q.begin(), q.end());
-    }
+    for (const Vec3& p : left.positions) positions.insert(positions.end(), p.begin(), p.end());
     for (const auto& f : left.faces) rung.mesh.corners.insert(rung.mesh.corners.end(), f.begin(), f.end());
+    rung.mesh.crease_angle = part_.mesh.crease_angle;
+    rung.mesh.ccw = part_.mesh.ccw;
+    give_attributes(rung.mesh);
     rungs_.push_back(std::move(rung));
   }
 
+  /// Each corner gets what the part has there, seen from a little within its face.
+  void give_attributes(Mesh& level) const {
+    constexpr double within = 0.02;
+    const auto from = part_.mesh.attributes();
+    if (std::ranges::none_of(from, [](const Attribute* a) { return a->present(); })) return;
+    const auto to = level.attributes();
+    const auto surface = triangles_of(part_.mesh), faces = triangles_of(level);
+    for (std::size_t i = 0; i < level.corners.size(); ++i) {
+      const auto face = faces[i / 3];
+      const Vec3 middle = (1. / 3) * (face[0] + face[1] + face[2]);
+      const Vec3 p = (1 - within) * face[i % 3] + within * middle;
+      const auto found = nearest_.nearest(p, unit(area_normal(face))).triangle;
+      if (found == ClosestPoint::no_guess) return;
+      const auto at = closest_on_triangle(p, surface[found]).at;
+      for (std::size_t a = 0; a < from.size(); ++a) {
+        if (!from[a]->present()) continue;
+        to[a]->width = from[a]->width;
+        to[a]->index.push_back(static_cast<std::uint32_t>(i));
+        for (int k = 0; k < from[a]->width; ++k) {
+          double value = 0;
+          for (std::size_t c = 0; c < 3; ++c)
+            value += at[c] * static_cast<double>(from[a]->at(from[a]->index[std::size_t{3} * found + c])[k]);
+          to[a]->values.push_back(static_cast<float>(value));
+        }
+      }
+    }
+  }
+
   const LadderPart& part_;
-  Matrix back_;
-  Mesh metric_;
   ClosestPoint nearest_;
   std::vector<Rung> rungs_;
 };

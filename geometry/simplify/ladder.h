@@ -2,7 +2,6 @@
 #pragma once
 #include <vector>
 
-#include "base/math/matrix.h"
 #include "geometry/simplify/collapse.h"
 #include "geometry/simplify/samples.h"
 
@@ -10,7 +9,7 @@ namespace wrlkit::simplify {
 
 /// One of the surfaces that may stand for a part.
 struct Rung {
-  Mesh mesh;  // in the coordinates of the part; empty on the first rung, which is the part itself
+  Mesh mesh;  // empty on the first rung, which is the part itself
   std::size_t n_faces = 0;
   Distortion distortion;  // in metres
   bool loose = false;     // backs may show: it was fitted
@@ -18,15 +17,14 @@ struct Rung {
 
 /// A part that is simplified for itself.
 struct LadderPart {
-  const Mesh& mesh;                        // of triangles
-  Matrix frame;                            // to metres, with the origin near the part
-  std::span<const SurfaceSample> samples;  // in metres
+  const Mesh& mesh;  // of triangles, in metres, the origin near it
+  std::span<const SurfaceSample> samples;
   CollapseOptions collapse;
 };
 
 /// Rungs by falling numbers of triangles, each as near as it can be had; the first is the part. Edges collapse by the
-/// criterion to some hundred triangles, then on a FittedSurface; a part with colours, textures or lightmaps goes as far
-/// as the criterion goes. Those that are no better than another with fewer triangles are left out. O(n log n).
+/// criterion to some hundred triangles, then on a FittedSurface, which takes its attributes from the nearest points of
+/// the part; a part with a lightmap goes as far as the criterion goes. Those that are no better than another with fewer triangles are left out. O(n log n).
 std::vector<Rung> make_ladder(const LadderPart& part);
 
 /// Which rungs are on the lower convex hull of distortion over triangles: where each triangle saves more than the

@@ -22,7 +22,8 @@ void Neighbours::prepare() { tree_.emplace(Triangles{positions_, corners_}); }
 
 Neighbours::Found Neighbours::nearest(const Vec3& p, double within, const Counts& counts) const {
   const auto found = tree_->nearest_of(p, within, [&](std::uint32_t t) { return counts(owner_[t]); });
-  return {found.distance, found.triangle == ClosestPoint::no_guess ? ClosestPoint::no_guess : owner_[found.triangle]};
+  if (found.triangle == ClosestPoint::no_guess) return {found.distance, found.triangle, found.triangle};
+  return {found.distance, owner_[found.triangle], found.triangle};
 }
 
 }  // namespace wrlkit::simplify

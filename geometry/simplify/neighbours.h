@@ -15,6 +15,7 @@ class Neighbours {
   struct Found {
     double distance;      // infinite: there is none
     std::uint32_t owner;  // then ClosestPoint::no_guess
+    std::uint32_t triangle;
   };
 
   /// Triangles of a surface in a place, which belong to somebody; the faces are numbers of triangles.
@@ -25,6 +26,7 @@ class Neighbours {
   std::size_t n_triangles() const { return owner_.size(); }
   /// Of the triangles of the owners that count. Any number of threads may ask.
   Found nearest(const Vec3& p, double within, const Counts& counts) const;
+  std::array<Vec3, 3> corners(std::uint32_t triangle) const { return Triangles{positions_, corners_}[triangle]; }
 
  private:
   std::vector<double> positions_;

@@ -40,7 +40,7 @@ class Spread {
         v = 1 - v;
       }
       const auto c = surface_[t];
-      f(c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]), spacing);
+      f(c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]), spacing, t);
     }
   }
 
@@ -61,7 +61,9 @@ std::vector<SurfaceSample> sample_surface(const Triangles& surface, std::size_t 
   used.erase(std::unique(used.begin(), used.end()), used.end());
   const std::size_t stride = (used.size() + n - 1) / n, n_corners = (used.size() + stride - 1) / stride;
   out.reserve(n + n_corners);
-  spread.for_each(n, [&](const Vec3& p, double area) { out.push_back({p, area * (1 - share_of_corners)}); });
+  spread.for_each(n, [&](const Vec3& p, double area, std::size_t t) {
+    out.push_back({p, area * (1 - share_of_corners), unit(area_normal(surface[t]))});
+  });
   const double rest = share_of_corners * spread.area() / static_cast<double>(n_corners);
   for (std::size_t i = 0; i < used.size(); i += stride) {
     const Vec3 p = surface.position(used[i]);
@@ -84,7 +86,7 @@ Distortion measure_distortion(const Triangles& surface, const ClosestPoint& near
   guess = ClosestPoint::no_guess;
   const Spread spread(surface);
   if (spread.area() > 0)
-    spread.for_each(n, [&](const Vec3& p, double area) {
+    spread.for_each(n, [&](const Vec3& p, double area, std::size_t) {
       const auto found = original.nearest(p, {}, guess);
       guess = found.triangle;
       out.squares += area * found.distance * found.distance;

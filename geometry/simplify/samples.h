@@ -11,6 +11,7 @@ namespace wrlkit::simplify {
 struct SurfaceSample {
   Vec3 point;
   double weight;  // area that it stands for
+  Vec3 normal{};  // of length 1; none of a corner
   /// Squared distance of something else in the world that stays: the surface itself need not be nearer.
   double enough = std::numeric_limits<double>::infinity();
 };

@@ -8,6 +8,8 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
+#include "convert/geometry_census.h"
+#include "convert/world_meshes.h"
 #include "convert/writing.h"
 #include "geometry/progressive/progressive_world.h"
 #include "geometry/simplify/world_levels.h"
@@ -128,6 +130,15 @@ void print_table(const WrittenWorlds& all) {
   fmt::print("{:>58}\n", all.lod_file);
 }
 
+/// As `info` counts them. What there is to say of them is said when they are simplified.
+std::size_t drawn_triangles(const Document& document) {
+  Document copy(document.copy());
+  Diagnostics unheard(copy.diag().shared_sources());
+  Document silent({.scene = copy.scene()}, PassContext{unheard, copy.context().stats, copy.resources()});
+  const WorldMeshes meshes(silent);
+  return meshes.good() ? count_geometry(silent.scene(), meshes.triangles, meshes.triangles).triangles : 0;
+}
+
 /// As one world with one budget where there are several parts and the triangles are counted; else each surface for
 /// itself.
 bool simplify_world(Session& s, const WorldSimplifyOptions& options, WrittenWorlds& all, const auto& write) {
@@ -169,7 +180,9 @@ int run_simplify(const Flags& flags) {
     fmt::print("{}\n", s.pipeline().text());
     return done;
   }
-  if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))
+  if (!s.read(flags.inputs[0])) return s.end(false);
+  options->drawn = drawn_triangles(s.document());
+  if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))
     return s.end(false);
 
   std::error_code failed;
