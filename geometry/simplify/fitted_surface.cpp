@@ -242,6 +242,8 @@ std::vector<std::uint32_t> FittedSurface::around(std::uint32_t f) const {
 std::optional<double> FittedSurface::price_of_removal(std::uint32_t f) const {
   const auto others = around(f);
   if (others.empty()) return std::nullopt;
+  const double area = length(area_normal(corners_of(face_[f], none, {}))) / 2;
+  if (samples_of_[f].empty() && area > 1e-3 * spacing_ * spacing_) return std::nullopt;  // who knows
   double cost = -backward_[f];
   for (auto s : samples_of_[f]) {
     double least = samples_[s].enough;

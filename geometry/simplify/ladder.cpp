@@ -77,7 +77,7 @@ class Ladder {
   }
 
   void fit(PlainMesh coarse) {
-    const auto some = strided(std::clamp<std::size_t>(4 * coarse.faces.size(), 150, 400));
+    const auto some = strided(std::clamp<std::size_t>(8 * coarse.faces.size(), 200, 1000));
     FittedSurface surface(std::move(coarse), nearest_, some);
     std::size_t next = surface.n_faces() - 1;
     while (surface.n_faces() > 1 && surface.step()) {
