@@ -11,6 +11,8 @@ namespace wrlkit::simplify {
 namespace {
 
 constexpr double usual_peak = 8;  // largest distance over the root of the mean square, beyond which it is dearer
+constexpr double least_rms = 1e-6;  // of the root of the area
+constexpr double growth = 1.1;      // of the root of the mean square, after which all is priced again
 
 }  // namespace
 
@@ -31,16 +33,22 @@ Allocation::Allocation(const std::vector<AllocatedPart>& parts, const Neighbours
     hull_[i] = convex_hull(*parts[i].rungs);
     leaving_[i] = price_of_leaving(static_cast<std::uint32_t>(i));
   });
-  for (std::uint32_t i = 0; i < parts.size(); ++i) {
-    n_drawn_ += (*parts[i].rungs)[0].n_faces * parts[i].places.size();
-    queue_.push(next_of(i));
-  }
+  for (std::uint32_t i = 0; i < parts.size(); ++i) n_drawn_ += (*parts[i].rungs)[0].n_faces * parts[i].places.size();
+  price_all();
+}
+
+/// When larger distances have become usual.
+void Allocation::price_all() {
+  priced_at_ = std::max(rms(), least_rms * std::sqrt(area_));
+  queue_ = {};
+  for (std::uint32_t i = 0; i < parts_.size(); ++i)
+    if (at_[i] != gone) queue_.push(next_of(i));
 }
 
 double Allocation::rms() const { return area_ > 0 ? std::sqrt(std::max(squares_, 0.) / (2 * area_)) : 0; }
 
 double Allocation::key_of(double slope, double max) const {
-  const double over = max / (usual_peak * std::max(rms(), 1e-4));
+  const double over = max / (usual_peak * priced_at_);
   return slope * std::max(1., over * over);
 }
 
@@ -120,6 +128,7 @@ void Allocation::take(const Step& step) {
 
 bool Allocation::run_to(std::size_t n_drawn) {
   while (n_drawn_ > n_drawn) {
+    if (rms() > growth * priced_at_) price_all();
     if (queue_.empty()) return false;
     const Step step = queue_.top();
     queue_.pop();

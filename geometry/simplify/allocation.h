@@ -59,6 +59,7 @@ class Allocation {
     double squares = 0, max = 0;
   };
 
+  void price_all();
   Step next_of(std::uint32_t part);
   double key_of(double slope, double max) const;
   Price price_of_leaving(std::uint32_t part) const;
@@ -78,6 +79,7 @@ class Allocation {
   std::priority_queue<Step> queue_;
   std::size_t n_drawn_ = 0, n_gone_ = 0;
   double squares_ = 0, max_ = 0;
+  double priced_at_ = 1;  // root of the mean square that the keys are of
 };
 
 }  // namespace wrlkit::simplify

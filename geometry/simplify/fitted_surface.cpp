@@ -239,18 +239,29 @@ std::vector<std::uint32_t> FittedSurface::around(std::uint32_t f) const {
   return out;
 }
 
+/// Faces go that something hides, or that lie on others: of what is seen nothing is torn.
 std::optional<double> FittedSurface::price_of_removal(std::uint32_t f) const {
   const auto others = around(f);
   if (others.empty()) return std::nullopt;
-  const double area = length(area_normal(corners_of(face_[f], none, {}))) / 2;
-  if (samples_of_[f].empty() && area > 1e-3 * spacing_ * spacing_) return std::nullopt;  // who knows
-  double cost = -backward_[f];
+  auto squared_to_others = [&](const Vec3& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (auto o : others) least = std::min(least, closest_on_triangle(p, corners_of(face_[o], none, {})).squared);
+    return least;
+  };
+  const auto c = corners_of(face_[f], none, {});
+  const double area = length(area_normal(c)) / 2, same = 1e-4 * spacing_ * spacing_;
+  double cost = -backward_[f], seen = 0;
   for (auto s : samples_of_[f]) {
-    double least = samples_[s].enough;
-    for (auto o : others)
-      least = std::min(least, closest_on_triangle(samples_[s].point, corners_of(face_[o], none, {})).squared);
-    cost += samples_[s].weight * least - cost_of(s, squared_[s]);
+    const double squared = squared_to_others(samples_[s].point);
+    if (squared > same && squared < samples_[s].enough) seen += samples_[s].weight;
+    cost += cost_of(s, squared) - cost_of(s, squared_[s]);
   }
+  if (samples_of_[f].empty()) {
+    const Vec3 middle = (1. / 3) * (c[0] + c[1] + c[2]);
+    for (const Vec3& corner : c)
+      if (squared_to_others(0.5 * (corner + middle)) > same) seen += area / 3;
+  }
+  if (seen > 0.1 * area) return std::nullopt;
   return cost;
 }
 
