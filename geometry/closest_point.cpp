@@ -203,6 +203,27 @@ struct ClosestPoint::Builder {
 
 ClosestPoint::ClosestPoint(Triangles surface) : surface_(surface) { Builder{*this, {}}.run(); }
 
+ClosestPoint::ClosestPoint(Triangles surface, std::span<const std::uint32_t> labels) : ClosestPoint(surface) {
+  labels_ = labels;
+  label_boxes();
+}
+
+/// Children lie behind their parents.
+void ClosestPoint::label_boxes() {
+  box_label_.resize(boxes_.size());
+  for (std::size_t i = boxes_.size(); i-- > 0;) {
+    const Box& box = boxes_[i];
+    auto& label = box_label_[i];
+    if (box.n_triangles == 0) {
+      label = box_label_[i + 1] == box_label_[box.next] ? box_label_[i + 1] : many;
+      continue;
+    }
+    label = labels_[order_[box.next]];
+    for (auto k = box.next + 1; k < box.next + box.n_triangles; ++k)
+      if (labels_[order_[k]] != label) label = many;
+  }
+}
+
 /// One question on its way down the tree.
 struct ClosestPoint::Search {
   const ClosestPoint& tree;
@@ -215,7 +236,7 @@ struct ClosestPoint::Search {
   const std::function<bool(std::uint32_t)>* counts = nullptr;  // null: all of them
 
   void try_triangle(std::uint32_t triangle) {
-    if (counts && !(*counts)(triangle)) return;
+    if (counts && !(*counts)(tree.labels_[triangle])) return;
     ++best.n_tried;
     auto t = tree.surface_[triangle];
     for (auto& corner : t) corner = corner - p;
@@ -231,6 +252,10 @@ struct ClosestPoint::Search {
     best.distance = std::min(best.distance, d);
     double limit = best.distance + (n_equal < most_equal ? tree.same_ : -tree.same_);
     reach = limit < 0 ? -1 : limit * limit;
+  }
+
+  bool may_count(std::uint32_t box) const {
+    return !counts || tree.box_label_[box] == many || (*counts)(tree.box_label_[box]);
   }
 
   /// Squared distance to a box.
@@ -253,6 +278,7 @@ struct ClosestPoint::Search {
     std::uint32_t at = 0;
     for (double distance = to(tree.boxes_[0], q);;) {
       const Box& box = tree.boxes_[at];
+      if (!may_count(at)) distance = infinity;
       if (distance <= reach && !box.n_triangles) {
         std::uint32_t near = at + 1, far = box.next;
         double to_near = to(tree.boxes_[near], q), to_far = to(tree.boxes_[far], q);

@@ -18,10 +18,10 @@ void Neighbours::add(const Triangles& surface, std::span<const std::uint32_t> fa
   owner_.insert(owner_.end(), faces.size(), owner);
 }
 
-void Neighbours::prepare() { tree_.emplace(Triangles{positions_, corners_}); }
+void Neighbours::prepare() { tree_.emplace(Triangles{positions_, corners_}, owner_); }
 
 Neighbours::Found Neighbours::nearest(const Vec3& p, double within, const Counts& counts) const {
-  const auto found = tree_->nearest_of(p, within, [&](std::uint32_t t) { return counts(owner_[t]); });
+  const auto found = tree_->nearest_of(p, within, counts);
   if (found.triangle == ClosestPoint::no_guess) return {found.distance, found.triangle, found.triangle};
   return {found.distance, owner_[found.triangle], found.triangle};
 }

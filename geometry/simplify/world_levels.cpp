@@ -55,15 +55,6 @@ WorldLevels::WorldLevels(const Scene& scene, const WorldSimplifyOptions& options
   if (n_parts() < 2 || impl_->counts().empty()) return;
   impl_->world.make_ladders();
   impl_->allocate();
-  if (getenv("DBG"))
-    for (auto& p : impl_->world.parts) {
-      auto& rungs = *impl_->world.allocated[&p - impl_->world.parts.data()].rungs;
-      fprintf(stderr, "%s:", std::string(scene.name(impl_->world.surfaces[p.surface].surface.shapes[0])).c_str());
-      auto hull = simplify::convex_hull(rungs);
-      for (std::size_t i = 0; i < rungs.size(); ++i)
-        fprintf(stderr, " %zu%s=%.2g", rungs[i].n_faces, std::ranges::find(hull, i) != hull.end() ? "*" : "", rungs[i].distortion.squares);
-      fprintf(stderr, "\n");
-    }
 }
 
 WorldLevels::~WorldLevels() = default;
