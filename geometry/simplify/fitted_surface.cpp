@@ -9,7 +9,7 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::size_t most_asked = 48;      // samples that a price is made of
+constexpr std::size_t most_asked = 32;      // samples that a price is made of
 constexpr std::size_t most_removable = 64;  // faces from which on none is taken out by itself
 
 }  // namespace
@@ -94,7 +94,7 @@ std::array<Vec3, 3> FittedSurface::corners_of(const Face& f, std::uint32_t v, co
 double FittedSurface::backward(const std::array<Vec3, 3>& c) const {
   const double area = length(area_normal(c)) / 2;
   const double longest = std::max({length(c[1] - c[0]), length(c[2] - c[1]), length(c[0] - c[2])});
-  const int n = std::clamp(static_cast<int>(longest / (2 * spacing_)), 1, 3);
+  const int n = std::clamp(static_cast<int>(longest / (2 * spacing_)), 1, 2);
   double sum = 0;
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < 2 * i + 1; ++k) {
@@ -209,13 +209,14 @@ bool FittedSurface::evaluate(std::uint32_t u, std::uint32_t v, Price price, Merg
   Vec3 better{};
   for (const Vec3& x : starts) {
     Vec3 moved;
-    const double cost = forward(m, v, x, step, &moved);
+    const double cost = forward(m, v, x, 2 * step, &moved);
     if (after >= 0 && cost >= after) continue;
     after = cost;
     m.position = x;
     better = moved;
   }
-  for (int i = 0; i < 2; ++i) {
+  after = forward(m, v, m.position, step, nullptr);
+  for (int i = 0; i < (price == Price::whole ? 2 : 1); ++i) {
     Vec3 moved;
     const double cost = forward(m, v, better, step, &moved);
     if (cost >= after) break;
@@ -368,7 +369,8 @@ void FittedSurface::refine() {
       m.samples.insert(m.samples.end(), samples_of_[f].begin(), samples_of_[f].end());
     }
     Vec3 better;
-    const double before = forward(m, v, position_[v], 1, &better), after = forward(m, v, better, 1, nullptr);
+    const std::size_t stride = std::max<std::size_t>(1, m.samples.size() / (2 * most_asked));
+    const double before = forward(m, v, position_[v], stride, &better), after = forward(m, v, better, stride, nullptr);
     m.position = better;
     if (after < before && !turns_over(m, v, v)) position_[v] = better;
   }

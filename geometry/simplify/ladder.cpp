@@ -10,7 +10,9 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::size_t fitted_below = 160;  // triangles
+constexpr std::size_t fitted_below = 100;  // triangles
+constexpr std::size_t most_fitted = 12'000;  // where the criterion is held back
+constexpr double spoiling = 30;  // growth of the distortion from rung to rung
 constexpr double coarse_step = 0.7, fine_step = 0.85;
 
 class Ladder {
@@ -26,7 +28,7 @@ class Ladder {
       coarse = collapse(last);
     else
       coarse = plain(part_.mesh);
-    if (fits) fit(std::move(coarse));
+    if (fits && coarse.faces.size() <= most_fitted) fit(std::move(coarse));
     return std::move(rungs_);
   }
 
@@ -40,20 +42,39 @@ class Ladder {
     return out;
   }
 
-  /// By the criterion; what is left at the end.
+  /// By the criterion, and where features and topology hold that back, by meshoptimizer, which minds them less; what is
+  /// left at the end.
   PlainMesh collapse(std::size_t last) {
-    Collapser c(part_.mesh, part_.collapse);
-    Mesh level;
-    for (std::size_t n = part_.mesh.n_faces(); n > last;) {
+    Mesh level = run(part_.mesh, part_.collapse, last);
+    const auto freely = Criterion::meshopt;
+    if (level.n_faces() > most_fitted && part_.collapse.criterion != freely && info(freely).missing.empty() &&
+        !part_.mesh.lightcoord.present()) {
+      for (Attribute* a : level.attributes()) a->clear();
+      level = run(level, {.criterion = freely}, last);
+    }
+    return plain(level);
+  }
+
+  /// Rungs down to `last` triangles; the last of them that was not spoiled.
+  Mesh run(const Mesh& first, const CollapseOptions& options, std::size_t last) {
+    Collapser c(first, options);
+    Mesh level = first;
+    for (std::size_t n = first.n_faces(); n > last;) {
       n = std::max(last, std::min(n - 1, static_cast<std::size_t>(coarse_step * static_cast<double>(n))));
       const auto before = c.n_faces();
       c.run_to(n);
       if (c.n_faces() >= before || c.n_faces() == 0) break;
+      const double held_back = static_cast<double>(c.n_faces()) / static_cast<double>(n);
       n = c.n_faces();
-      level = c.mesh();
-      add(level);
+      Mesh next = c.mesh();
+      const double squares = rungs_.back().distortion.squares;
+      if (!next.normal.present() && !next.color.present() && !next.texcoord.present()) give_attributes(next);
+      add(next);
+      const bool spoiled = squares > 0 && rungs_.back().distortion.squares > spoiling * squares && rungs_.size() > 3;
+      if (spoiled || held_back > 1.2) break;
+      level = std::move(next);
     }
-    return plain(level.corners.empty() ? part_.mesh : level);
+    return level;
   }
 
   void add(const Mesh& level) {
@@ -77,16 +98,15 @@ class Ladder {
   }
 
   void fit(PlainMesh coarse) {
-    const auto some = strided(std::clamp<std::size_t>(8 * coarse.faces.size(), 200, 1000));
+    const auto some = strided(std::max<std::size_t>((coarse.faces.size() > 3000 ? 3 : 6) * coarse.faces.size(), 200));
     FittedSurface surface(std::move(coarse), nearest_, some);
     std::size_t next = surface.n_faces() - 1;
     while (surface.n_faces() > 1 && surface.step()) {
       if (surface.n_faces() > next) continue;
       surface.refine();
-      surface.refine();
       add(surface);
       const auto n = surface.n_faces();
-      next = std::min(n - 1, static_cast<std::size_t>(fine_step * static_cast<double>(n)));
+      next = std::min(n - 1, static_cast<std::size_t>((n > fitted_below ? coarse_step : fine_step) * static_cast<double>(n)));
     }
   }
 

@@ -17,6 +17,7 @@ namespace wrlkit::simplify {
 namespace {
 
 constexpr std::size_t most_places_asked = 4;    // of a ladder, for what hides it
+constexpr std::size_t most_samples = 20'000;    // of a ladder
 constexpr std::size_t samples_of_leaving = 32;  // of a part in a place
 
 double area_of(const Triangles& surface, std::span<const std::uint32_t> faces) {
@@ -225,7 +226,7 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
   const auto& members = members_[ladder];
   CollapseOptions options = options_;
   const Mesh mesh = in_metres(parts[members[0]], &options);
-  auto samples = sample_surface(triangles_of(mesh), std::clamp<std::size_t>(4 * mesh.n_faces(), 100, 4000));
+  auto samples = sample_surface(triangles_of(mesh), std::clamp<std::size_t>(4 * mesh.n_faces(), 100, most_samples));
   std::vector<Surroundings> around;
   const double width = half_width(samples);
   for (auto m : members)

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/io/output.h"
+#include "base/silent_task.h"
 #include "base/text/json.h"
 #include "convert/geometry_census.h"
 #include "convert/world_meshes.h"
@@ -88,7 +89,7 @@ int write_progressive_file(Session& s, Criterion criterion, const std::string& p
 
 struct Written {
   std::string file;
-  std::size_t n_drawn = 0, n_faces = 0;
+  std::size_t n_drawn = 0, n_faces = 0, n_gone = 0;
   double rms = 0, max = 0;
 };
 
@@ -112,6 +113,7 @@ void print_json(const WrittenWorlds& all) {
     json.member("file", p.file);
     json.member("triangles", p.n_drawn);
     json.member("unique", p.n_faces);
+    json.member("left_out", p.n_gone);
     json.member("rms", p.rms);
     json.member("max", p.max);
     json.end_object();
@@ -123,11 +125,12 @@ void print_json(const WrittenWorlds& all) {
 }
 
 void print_table(const WrittenWorlds& all) {
-  fmt::print("{:>10}  {:>10}  {:>10}  {:>10}  file\n{:>10}  {:>10}  {:>10}  {:>10}\n", "triangles", "unique", "rms",
-             "max", all.n_drawn, all.n_faces, 0, 0);
+  fmt::print("{:>10}  {:>10}  {:>8}  {:>10}  {:>10}  file\n", "triangles", "unique", "left out", "rms", "max");
+  fmt::print("{:>10}  {:>10}  {:>8}  {:>10}  {:>10}\n", all.n_drawn, all.n_faces, 0, 0, 0);
   for (const auto& p : all.points)
-    fmt::print("{:>10}  {:>10}  {:>10.3g}  {:>10.3g}  {}\n", p.n_drawn, p.n_faces, p.rms, p.max, p.file);
-  fmt::print("{:>58}\n", all.lod_file);
+    fmt::print("{:>10}  {:>10}  {:>8}  {:>10.3g}  {:>10.3g}  {}\n", p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max,
+               p.file);
+  fmt::print("{:>68}\n", all.lod_file);
 }
 
 /// As `info` counts them. What there is to say of them is said when they are simplified.
@@ -143,13 +146,15 @@ std::size_t drawn_triangles(const Document& document) {
 /// itself.
 bool simplify_world(Session& s, const WorldSimplifyOptions& options, WrittenWorlds& all, const auto& write) {
   if (options.errors.empty()) {
-    const WorldLevels world(s.world().scene, options, s.context());
+    SilentTask silent(s.context());
+    const WorldLevels world(s.world().scene, options, silent);
     if (world.n_parts() > 1) {
+      surfaces_of(s.world().scene, &s.diag());  // says what is left alone
       all.n_drawn = world.n_drawn();
       all.n_faces = world.n_faces();
       return write(world.points().size(), world, [&](std::size_t i) {
         const auto& p = world.points()[i];
-        return Written{{}, p.n_drawn, p.n_faces, p.rms, p.max};
+        return Written{{}, p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max};
       });
     }
   }
@@ -158,7 +163,7 @@ bool simplify_world(Session& s, const WorldSimplifyOptions& options, WrittenWorl
   if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
   return write(world.n_points(), world, [&](std::size_t i) {
     const auto& p = world.point(i);
-    return Written{{}, p.n_faces, p.n_faces, p.rms, p.error};
+    return Written{{}, p.n_faces, p.n_faces, 0, p.rms, p.error};
   });
 }
 
