@@ -191,6 +191,27 @@ struct ClosestPoint::Builder {
 
 ClosestPoint::ClosestPoint(Triangles surface) : surface_(surface) { Builder{*this, {}}.run(); }
 
+ClosestPoint::ClosestPoint(Triangles surface, std::span<const std::uint32_t> labels) : ClosestPoint(surface) {
+  labels_ = labels;
+  label_boxes();
+}
+
+/// Children lie behind their parents.
+void ClosestPoint::label_boxes() {
+  box_label_.resize(boxes_.size());
+  for (std::size_t i = boxes_.size(); i-- > 0;) {
+    const Box& box = boxes_[i];
+    auto& label = box_label_[i];
+    if (box.n_triangles == 0) {
+      label = box_label_[i + 1] == box_label_[box.next] ? box_label_[i + 1] : many;
+      continue;
+    }
+    label = labels_[order_[box.next]];
+    for (auto k = box.next + 1; k < box.next + box.n_triangles; ++k)
+      if (labels_[order_[k]] != label) label = many;
+  }
+}
+
 /// One question on its way down the tree.
 struct ClosestPoint::Search {
   const ClosestPoint& tree;
@@ -200,8 +221,10 @@ struct ClosestPoint::Search {
   double reach = infinity;  // squared distance up to which a triangle may be the answer
   double best_facing = -infinity;
   int n_equal = 0;
+  const std::function<bool(std::uint32_t)>* counts = nullptr;  // null: all of them
 
   void try_triangle(std::uint32_t triangle) {
+    if (counts && !(*counts)(tree.labels_[triangle])) return;
     ++best.n_tried;
     auto t = tree.surface_[triangle];
     for (auto& corner : t) corner = corner - p;
@@ -217,6 +240,10 @@ struct ClosestPoint::Search {
     best.distance = std::min(best.distance, d);
     double limit = best.distance + (n_equal < most_equal ? tree.same_ : -tree.same_);
     reach = limit < 0 ? -1 : limit * limit;
+  }
+
+  bool may_count(std::uint32_t box) const {
+    return !counts || tree.box_label_[box] == many || (*counts)(tree.box_label_[box]);
   }
 
   /// Squared distance to a box.
@@ -239,6 +266,7 @@ struct ClosestPoint::Search {
     std::uint32_t at = 0;
     for (double distance = to(tree.boxes_[0], q);;) {
       const Box& box = tree.boxes_[at];
+      if (!may_count(at)) distance = infinity;
       if (distance <= reach && !box.n_triangles) {
         std::uint32_t near = at + 1, far = box.next;
         double to_near = to(tree.boxes_[near], q), to_far = to(tree.boxes_[far], q);
@@ -266,6 +294,16 @@ ClosestPoint::Nearest ClosestPoint::nearest(const Vec3& p, const Vec3& facing, s
   if (boxes_.empty()) return search.best;
   if (guess != no_guess) search.try_triangle(guess);
   search.run();
+  return search.best;
+}
+
+ClosestPoint::Nearest ClosestPoint::nearest_of(const Vec3& p, double within,
+                                               const std::function<bool(std::uint32_t)>& counts) const {
+  const Vec3 facing{};
+  Search search{*this, p, facing};
+  search.reach = within * within;
+  search.counts = &counts;
+  if (!boxes_.empty()) search.run();
   return search.best;
 }
 

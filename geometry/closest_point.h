@@ -6,6 +6,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -53,12 +54,18 @@ class ClosestPoint {
 
   /// O(n log n), 24 bytes a triangle. The arrays that `surface` looks at must outlive this.
   explicit ClosestPoint(Triangles surface);
+  /// The same of triangles with labels, one for each, by which some may be left out of a question.
+  ClosestPoint(Triangles surface, std::span<const std::uint32_t> labels);
 
   /// Where `p` is nearest to the surface, O(log n) as a rule. On an edge or a corner several triangles are equally
   /// near: the one whose front faces most nearly along `facing` is given (of the first 32). `guess` is a triangle of
   /// which it is known that it is near: the answer for the point before; it makes the search shorter. Any number of
   /// threads may ask.
   Nearest nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess = no_guess) const;
+
+  /// The same among the triangles whose labels count, within a distance; infinite when there is none. Where neighbours
+  /// have one label, those that do not count are passed over together.
+  Nearest nearest_of(const Vec3& p, double within, const std::function<bool(std::uint32_t label)>& counts) const;
 
   static constexpr std::uint32_t no_guess = 0xffffffffu;
 
@@ -72,7 +79,12 @@ class ClosestPoint {
   struct Builder;
   struct Search;
 
+  static constexpr std::uint32_t many = 0xffffffffu;  // labels
+  void label_boxes();
+
   Triangles surface_;
+  std::span<const std::uint32_t> labels_;
+  std::vector<std::uint32_t> box_label_;
   Vec3 centre_{};    // boxes are relative to it
   double same_ = 0;  // distances that differ by less are equal
   std::vector<Box> boxes_;

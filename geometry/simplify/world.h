@@ -14,6 +14,7 @@ struct WorldSimplifyOptions {
   std::vector<std::size_t> counts;  // at these numbers of triangles
   std::vector<double> ratios;       // at these shares of the triangles
   std::vector<double> errors;       // with no surface farther than this from what it was, in metres of the world
+  std::size_t drawn = 0;            // of WorldLevels: triangles that the world draws; 0: those of its surfaces
   ScreenBudget budget;
 };
 

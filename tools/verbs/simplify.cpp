@@ -7,10 +7,13 @@
 #include <optional>
 
 #include "base/io/output.h"
+#include "base/silent_task.h"
 #include "base/text/json.h"
+#include "convert/geometry_census.h"
+#include "convert/world_meshes.h"
 #include "convert/writing.h"
 #include "geometry/progressive/progressive_world.h"
-#include "geometry/simplify/world.h"
+#include "geometry/simplify/world_levels.h"
 #include "tools/cli/lengths.h"
 #include "tools/cli/session.h"
 
@@ -86,36 +89,82 @@ int write_progressive_file(Session& s, Criterion criterion, const std::string& p
 
 struct Written {
   std::string file;
-  InteractionPoint point;
+  std::size_t n_drawn = 0, n_faces = 0, n_gone = 0;
+  double rms = 0, max = 0;
 };
 
-void print(Session& s, std::size_t n_faces, const std::vector<Written>& files, const std::string& lod_file) {
-  s.progress().clear();
-  if (s.flags().json) {
-    std::string text;
-    JsonOut json(text);
+/// What was made: the worlds by falling numbers of triangles, and the one of all levels.
+struct WrittenWorlds {
+  std::size_t n_drawn = 0, n_faces = 0;
+  std::vector<Written> points;
+  std::string lod_file;
+};
+
+void print_json(const WrittenWorlds& all) {
+  std::string text;
+  JsonOut json(text);
+  json.begin_object();
+  json.member("triangles", all.n_drawn);
+  json.member("unique", all.n_faces);
+  json.key("points");
+  json.begin_array();
+  for (const auto& p : all.points) {
     json.begin_object();
-    json.member("triangles", n_faces);
-    json.key("points");
-    json.begin_array();
-    for (const auto& [file, p] : files) {
-      json.begin_object();
-      json.member("file", file);
-      json.member("triangles", p.n_faces);
-      json.member("rms", p.rms);
-      json.member("max", p.error);
-      json.end_object();
-    }
-    json.end_array();
-    json.member("lod", lod_file);
+    json.member("file", p.file);
+    json.member("triangles", p.n_drawn);
+    json.member("unique", p.n_faces);
+    json.member("left_out", p.n_gone);
+    json.member("rms", p.rms);
+    json.member("max", p.max);
     json.end_object();
-    fmt::print("{}\n", text);
-  } else {
-    fmt::print("{:>10}  {:>10}  {:>10}  file\n{:>10}  {:>10}  {:>10}\n", "triangles", "rms", "max", n_faces, 0, 0);
-    for (const auto& [file, p] : files)
-      fmt::print("{:>10}  {:>10.3g}  {:>10.3g}  {}\n", p.n_faces, p.rms, p.error, file);
-    fmt::print("{:>46}\n", lod_file);
   }
+  json.end_array();
+  json.member("lod", all.lod_file);
+  json.end_object();
+  fmt::print("{}\n", text);
+}
+
+void print_table(const WrittenWorlds& all) {
+  fmt::print("{:>10}  {:>10}  {:>8}  {:>10}  {:>10}  file\n", "triangles", "unique", "left out", "rms", "max");
+  fmt::print("{:>10}  {:>10}  {:>8}  {:>10}  {:>10}\n", all.n_drawn, all.n_faces, 0, 0, 0);
+  for (const auto& p : all.points)
+    fmt::print("{:>10}  {:>10}  {:>8}  {:>10.3g}  {:>10.3g}  {}\n", p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max,
+               p.file);
+  fmt::print("{:>68}\n", all.lod_file);
+}
+
+/// As `info` counts them. What there is to say of them is said when they are simplified.
+std::size_t drawn_triangles(const Document& document) {
+  Document copy(document.copy());
+  Diagnostics unheard(copy.diag().shared_sources());
+  Document silent({.scene = copy.scene()}, PassContext{unheard, copy.context().stats, copy.resources()});
+  const WorldMeshes meshes(silent);
+  return meshes.good() ? count_geometry(silent.scene(), meshes.triangles, meshes.triangles).triangles : 0;
+}
+
+/// As one world with one budget where there are several parts and the triangles are counted; else each surface for
+/// itself.
+bool simplify_world(Session& s, const WorldSimplifyOptions& options, WrittenWorlds& all, const auto& write) {
+  if (options.errors.empty()) {
+    SilentTask silent(s.context());
+    const WorldLevels world(s.world().scene, options, silent);
+    if (world.n_parts() > 1) {
+      surfaces_of(s.world().scene, &s.diag());  // says what is left alone
+      all.n_drawn = world.n_drawn();
+      all.n_faces = world.n_faces();
+      return write(world.points().size(), world, [&](std::size_t i) {
+        const auto& p = world.points()[i];
+        return Written{{}, p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max};
+      });
+    }
+  }
+  const SimplifiedWorld world(s.world().scene, options, s.context());
+  all.n_drawn = all.n_faces = world.n_faces();
+  if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
+  return write(world.n_points(), world, [&](std::size_t i) {
+    const auto& p = world.point(i);
+    return Written{{}, p.n_faces, p.n_faces, 0, p.rms, p.error};
+  });
 }
 
 /// Surfaces without loose faces; and baked light in the textures, where VRML is written for browsers.
@@ -136,7 +185,9 @@ int run_simplify(const Flags& flags) {
     fmt::print("{}\n", s.pipeline().text());
     return done;
   }
-  if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))
+  if (!s.read(flags.inputs[0])) return s.end(false);
+  options->drawn = drawn_triangles(s.document());
+  if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))
     return s.end(false);
 
   std::error_code failed;
@@ -146,16 +197,20 @@ int run_simplify(const Flags& flags) {
   if (flags.progressive)
     return write_progressive_file(s, options->collapse.criterion, base + (flags.save.gzip ? ".wpm.gz" : ".wpm"));
 
-  const SimplifiedWorld world(s.world().scene, *options, s.context());
-  if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
-  std::vector<Written> files;
-  for (std::size_t i = 0; i < world.n_points(); ++i) {
-    files.push_back({base + '_' + std::to_string(world.point(i).n_faces) + ending, world.point(i)});
-    if (!write_world(s, files.back().file, world.scene_at(i))) return s.end(false);
-  }
-  const auto lod_file = base + "_lod" + ending;
-  if (!write_world(s, lod_file, world.scene_with_levels())) return s.end(false);
-  print(s, world.n_faces(), files, lod_file);
+  WrittenWorlds all;
+  const auto write = [&](std::size_t n_points, const auto& world, const auto& point) {
+    for (std::size_t i = 0; i < n_points; ++i) {
+      Written w = point(i);
+      w.file = base + '_' + std::to_string(w.n_drawn) + ending;
+      if (!write_world(s, w.file, world.scene_at(i))) return false;
+      all.points.push_back(std::move(w));
+    }
+    return write_world(s, all.lod_file, world.scene_with_levels());
+  };
+  all.lod_file = base + "_lod" + ending;
+  if (!simplify_world(s, *options, all, write)) return s.end(false);
+  s.progress().clear();
+  (flags.json ? print_json : print_table)(all);
   return s.end(true);
 }
 

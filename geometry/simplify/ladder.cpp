@@ -1,0 +1,188 @@
+#include "geometry/simplify/ladder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/shapes/vector.h"
+#include "geometry/simplify/closest_on_triangle.h"
+#include "geometry/simplify/fitted_surface.h"
+
+namespace wrlkit::simplify {
+namespace {
+
+constexpr std::size_t fitted_below = 100;  // triangles
+constexpr std::size_t most_fitted = 12'000;  // where the criterion is held back
+constexpr double spoiling = 30;  // growth of the distortion from rung to rung
+constexpr double coarse_step = 0.7, fine_step = 0.85;
+
+class Ladder {
+ public:
+  explicit Ladder(const LadderPart& part) : part_(part), nearest_(triangles_of(part.mesh)) {}
+
+  std::vector<Rung> run() {
+    rungs_.push_back({{}, part_.mesh.n_faces(), {}, false});
+    const bool fits = !part_.mesh.lightcoord.present() && !part_.samples.empty();
+    const std::size_t last = fits ? fitted_below : 1;
+    PlainMesh coarse;
+    if (part_.mesh.n_faces() > last)
+      coarse = collapse(last);
+    else
+      coarse = plain(part_.mesh);
+    if (fits && coarse.faces.size() <= most_fitted) fit(std::move(coarse));
+    return std::move(rungs_);
+  }
+
+ private:
+  static PlainMesh plain(const Mesh& mesh) {
+    PlainMesh out;
+    const auto triangles = triangles_of(mesh);
+    for (std::uint32_t i = 0; i < mesh.n_positions(); ++i) out.positions.push_back(triangles.position(i));
+    for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3)
+      out.faces.push_back({mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2]});
+    return out;
+  }
+
+  /// By the criterion, and where features and topology hold that back, by meshoptimizer, which minds them less; what is
+  /// left at the end.
+  PlainMesh collapse(std::size_t last) {
+    Mesh level = run(part_.mesh, part_.collapse, last);
+    const auto freely = Criterion::meshopt;
+    if (level.n_faces() > most_fitted && part_.collapse.criterion != freely && info(freely).missing.empty() &&
+        !part_.mesh.lightcoord.present()) {
+      for (Attribute* a : level.attributes()) a->clear();
+      level = run(level, {.criterion = freely}, last);
+    }
+    return plain(level);
+  }
+
+  /// Rungs down to `last` triangles; the last of them that was not spoiled.
+  Mesh run(const Mesh& first, const CollapseOptions& options, std::size_t last) {
+    Collapser c(first, options);
+    Mesh level = first;
+    for (std::size_t n = first.n_faces(); n > last;) {
+      n = std::max(last, std::min(n - 1, static_cast<std::size_t>(coarse_step * static_cast<double>(n))));
+      const auto before = c.n_faces();
+      c.run_to(n);
+      if (c.n_faces() >= before || c.n_faces() == 0) break;
+      const double held_back = static_cast<double>(c.n_faces()) / static_cast<double>(n);
+      n = c.n_faces();
+      Mesh next = c.mesh();
+      const double squares = rungs_.back().distortion.squares;
+      if (!next.normal.present() && !next.color.present() && !next.texcoord.present()) give_attributes(next);
+      add(next);
+      const bool spoiled = squares > 0 && rungs_.back().distortion.squares > spoiling * squares && rungs_.size() > 3;
+      if (spoiled || held_back > 1.2) break;
+      level = std::move(next);
+    }
+    return level;
+  }
+
+  void add(const Mesh& level) {
+    const auto triangles = triangles_of(level);
+    const ClosestPoint nearest(triangles);
+    // As many questions as the level has triangles: its error is spread over its faces.
+    const std::size_t n = std::clamp<std::size_t>(2 * level.n_faces(), 200, 4000);
+    const auto some = strided(n);
+    const auto d = measure_distortion(triangles, nearest, some, nearest_, some.size());
+    rungs_.push_back({level, level.n_faces(), d, false});
+  }
+
+  std::vector<SurfaceSample> strided(std::size_t n) const {
+    const std::size_t stride = std::max<std::size_t>(1, part_.samples.size() / n);
+    std::vector<SurfaceSample> out;
+    for (std::size_t i = 0; i < part_.samples.size(); i += stride) {
+      out.push_back(part_.samples[i]);
+      out.back().weight *= static_cast<double>(stride);
+    }
+    return out;
+  }
+
+  void fit(PlainMesh coarse) {
+    const auto some = strided(std::max<std::size_t>((coarse.faces.size() > 3000 ? 3 : 6) * coarse.faces.size(), 200));
+    FittedSurface surface(std::move(coarse), nearest_, some);
+    std::size_t next = surface.n_faces() - 1;
+    while (surface.n_faces() > 1 && surface.step()) {
+      if (surface.n_faces() > next) continue;
+      surface.refine();
+      add(surface);
+      const auto n = surface.n_faces();
+      next = std::min(n - 1, static_cast<std::size_t>((n > fitted_below ? coarse_step : fine_step) * static_cast<double>(n)));
+    }
+  }
+
+  void add(const FittedSurface& surface) {
+    const auto left = surface.mesh();
+    Rung rung{{}, left.faces.size(), surface.distortion(), true};
+    rung.mesh.kind = Mesh::Kind::faces;
+    auto& positions = rung.mesh.positions.edit();
+    for (const Vec3& p : left.positions) positions.insert(positions.end(), p.begin(), p.end());
+    for (const auto& f : left.faces) rung.mesh.corners.insert(rung.mesh.corners.end(), f.begin(), f.end());
+    rung.mesh.crease_angle = part_.mesh.crease_angle;
+    rung.mesh.ccw = part_.mesh.ccw;
+    give_attributes(rung.mesh);
+    rungs_.push_back(std::move(rung));
+  }
+
+  /// Each corner gets what the part has there, seen from a little within its face.
+  void give_attributes(Mesh& level) const {
+    constexpr double within = 0.02;
+    const auto from = part_.mesh.attributes();
+    if (std::ranges::none_of(from, [](const Attribute* a) { return a->present(); })) return;
+    const auto to = level.attributes();
+    const auto surface = triangles_of(part_.mesh), faces = triangles_of(level);
+    for (std::size_t i = 0; i < level.corners.size(); ++i) {
+      const auto face = faces[i / 3];
+      const Vec3 middle = (1. / 3) * (face[0] + face[1] + face[2]);
+      const Vec3 p = (1 - within) * face[i % 3] + within * middle;
+      const auto found = nearest_.nearest(p, unit(area_normal(face))).triangle;
+      if (found == ClosestPoint::no_guess) return;
+      const auto at = closest_on_triangle(p, surface[found]).at;
+      for (std::size_t a = 0; a < from.size(); ++a) {
+        if (!from[a]->present()) continue;
+        to[a]->width = from[a]->width;
+        to[a]->index.push_back(static_cast<std::uint32_t>(i));
+        for (int k = 0; k < from[a]->width; ++k) {
+          double value = 0;
+          for (std::size_t c = 0; c < 3; ++c)
+            value += at[c] * static_cast<double>(from[a]->at(from[a]->index[std::size_t{3} * found + c])[k]);
+          to[a]->values.push_back(static_cast<float>(value));
+        }
+      }
+    }
+  }
+
+  const LadderPart& part_;
+  ClosestPoint nearest_;
+  std::vector<Rung> rungs_;
+};
+
+}  // namespace
+
+std::vector<Rung> make_ladder(const LadderPart& part) {
+  auto rungs = Ladder(part).run();
+  // From the coarsest up: a rung that is no nearer than a coarser one goes.
+  std::vector<Rung> out;
+  for (auto r = rungs.rbegin(); r + 1 != rungs.rend(); ++r)
+    if (out.empty() || (r->n_faces > out.back().n_faces && r->distortion.squares < out.back().distortion.squares))
+      out.push_back(std::move(*r));
+    else if (r->n_faces == out.back().n_faces && r->distortion.squares < out.back().distortion.squares)
+      out.back() = std::move(*r);
+  out.push_back(std::move(rungs.front()));
+  std::ranges::reverse(out);
+  return out;
+}
+
+std::vector<std::size_t> convex_hull(std::span<const Rung> rungs) {
+  std::vector<std::size_t> out;
+  auto slope = [&](std::size_t from, std::size_t to) {
+    return (rungs[to].distortion.squares - rungs[from].distortion.squares) /
+           static_cast<double>(rungs[from].n_faces - rungs[to].n_faces);
+  };
+  for (std::size_t i = 0; i < rungs.size(); ++i) {
+    while (out.size() > 1 && slope(out[out.size() - 2], i) <= slope(out[out.size() - 2], out.back())) out.pop_back();
+    out.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace wrlkit::simplify

@@ -1,0 +1,34 @@
+// What may stand for a part of a world: from the part itself to very few triangles, each with what it costs.
+#pragma once
+#include <vector>
+
+#include "geometry/simplify/collapse.h"
+#include "geometry/simplify/samples.h"
+
+namespace wrlkit::simplify {
+
+/// One of the surfaces that may stand for a part.
+struct Rung {
+  Mesh mesh;  // empty on the first rung, which is the part itself
+  std::size_t n_faces = 0;
+  Distortion distortion;  // in metres
+  bool loose = false;     // backs may show: it was fitted
+};
+
+/// A part that is simplified for itself.
+struct LadderPart {
+  const Mesh& mesh;  // of triangles, in metres, the origin near it
+  std::span<const SurfaceSample> samples;
+  CollapseOptions collapse;
+};
+
+/// Rungs by falling numbers of triangles, each as near as it can be had; the first is the part. Edges collapse by the
+/// criterion to some hundred triangles, then on a FittedSurface, which takes its attributes from the nearest points of
+/// the part; a part with a lightmap goes as far as the criterion goes. Those that are no better than another with fewer triangles are left out. O(n log n).
+std::vector<Rung> make_ladder(const LadderPart& part);
+
+/// Which rungs are on the lower convex hull of distortion over triangles: where each triangle saves more than the
+/// next.
+std::vector<std::size_t> convex_hull(std::span<const Rung> rungs);
+
+}  // namespace wrlkit::simplify

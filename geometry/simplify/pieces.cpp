@@ -1,0 +1,148 @@
+#include "geometry/simplify/pieces.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "geometry/closest_point.h"
+#include "geometry/shapes/vector.h"
+#include "geometry/simplify/inverse.h"
+
+namespace wrlkit::simplify {
+namespace {
+
+constexpr std::uint32_t nobody = 0xffffffffu;
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> connected_pieces(const Mesh& mesh) {
+  std::vector<std::uint32_t> root(mesh.n_positions());
+  std::iota(root.begin(), root.end(), 0u);
+  auto find = [&](std::uint32_t v) {
+    while (root[v] != v) {
+      root[v] = root[root[v]];
+      v = root[v];
+    }
+    return v;
+  };
+  for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3)
+    for (std::size_t k = 1; k < 3; ++k) root[find(mesh.corners[i + k])] = find(mesh.corners[i]);
+  std::vector<std::uint32_t> number(mesh.n_positions(), nobody);
+  std::vector<std::vector<std::uint32_t>> out;
+  for (std::uint32_t f = 0; f < mesh.n_faces(); ++f) {
+    auto& n = number[find(mesh.corners[std::size_t{3} * f])];
+    if (n == nobody) {
+      n = static_cast<std::uint32_t>(out.size());
+      out.emplace_back();
+    }
+    out[n].push_back(f);
+  }
+  return out;
+}
+
+Mesh piece_of(const Mesh& mesh, std::span<const std::uint32_t> faces, std::vector<std::uint32_t>& original) {
+  Mesh out;
+  out.kind = Mesh::Kind::faces;
+  out.ccw = mesh.ccw;
+  out.solid = mesh.solid;
+  out.crease_angle = mesh.crease_angle;
+  original.clear();
+  for (auto f : faces)
+    for (std::size_t k = 0; k < 3; ++k) original.push_back(mesh.corners[std::size_t{3} * f + k]);
+  std::ranges::sort(original);
+  original.erase(std::unique(original.begin(), original.end()), original.end());
+  auto& positions = out.positions.edit();
+  for (auto p : original)
+    positions.insert(positions.end(), mesh.positions.data() + std::size_t{3} * p,
+                     mesh.positions.data() + std::size_t{3} * p + 3);
+  const auto from = mesh.attributes();
+  const auto to = out.attributes();
+  for (auto f : faces)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto c = std::size_t{3} * f + k;
+      const auto place = std::ranges::lower_bound(original, mesh.corners[c]);
+      out.corners.push_back(static_cast<std::uint32_t>(place - original.begin()));
+      for (std::size_t a = 0; a < from.size(); ++a) {
+        if (!from[a]->present()) continue;
+        to[a]->width = from[a]->width;
+        to[a]->index.push_back(static_cast<std::uint32_t>(to[a]->count()));
+        const float* v = from[a]->at(from[a]->index[c]);
+        to[a]->values.insert(to[a]->values.end(), v, v + from[a]->width);
+      }
+    }
+  return out;
+}
+
+void append(Mesh& to, const Mesh& from) {
+  const auto base = static_cast<std::uint32_t>(to.n_positions());
+  const bool first = to.corners.empty();
+  auto& positions = to.positions.edit();
+  positions.insert(positions.end(), from.positions.data(), from.positions.data() + from.positions.size());
+  for (auto c : from.corners) to.corners.push_back(base + c);
+  const auto a = to.attributes();
+  const auto b = from.attributes();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!b[i]->present() || (!first && !a[i]->present())) {
+      a[i]->clear();
+      continue;
+    }
+    const auto begin = static_cast<std::uint32_t>(first ? 0 : a[i]->count());
+    a[i]->width = b[i]->width;
+    a[i]->values.insert(a[i]->values.end(), b[i]->values.begin(), b[i]->values.end());
+    for (auto index : b[i]->index) a[i]->index.push_back(begin + index);
+  }
+}
+
+void transform(Mesh& mesh, const Matrix& m) {
+  auto& p = mesh.positions.edit();
+  for (std::size_t i = 0; i + 2 < p.size(); i += 3) {
+    const Vec3 q = m.point({p[i], p[i + 1], p[i + 2]});
+    std::copy(q.begin(), q.end(), p.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+std::uint64_t hash_of_corners(const Mesh& mesh) {
+  std::uint64_t h = mesh.n_positions();
+  for (auto c : mesh.corners) {
+    h = (h ^ c) * 0x9e3779b97f4a7c15u;
+    h ^= h >> 29;
+  }
+  return h;
+}
+
+std::optional<Matrix> congruence(const Mesh& from, const Mesh& to) {
+  if (from.corners != to.corners || from.n_positions() != to.n_positions()) return std::nullopt;
+  const Triangles a = triangles_of(from), b = triangles_of(to);
+  const auto n = static_cast<std::uint32_t>(from.n_positions());
+  // Three points far from one another.
+  std::uint32_t second = 0, third = 0;
+  double most = 0;
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (const double d = length(a.position(i) - a.position(0)); d > most) {
+      most = d;
+      second = i;
+    }
+  const double extent = most, within = 2e-3 * extent;
+  most = 0;
+  const Vec3 axis = unit(a.position(second) - a.position(0));
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (const double d = length(cross(axis, a.position(i) - a.position(0))); d > most) {
+      most = d;
+      third = i;
+    }
+  if (!(most > within)) return std::nullopt;
+  auto frame = [&](const Triangles& t) {
+    const Vec3 x = unit(t.position(second) - t.position(0));
+    const Vec3 z = unit(cross(x, t.position(third) - t.position(0))), y = cross(z, x), o = t.position(0);
+    Matrix m;
+    m.m = {x[0], y[0], z[0], o[0], x[1], y[1], z[1], o[1], x[2], y[2], z[2], o[2]};
+    return m;
+  };
+  const Matrix here = frame(a), there = frame(b);
+  if (!is_invertible(here) || !is_invertible(there)) return std::nullopt;
+  const Matrix m = there * inverse(here);
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (!(length(m.point(a.position(i)) - b.position(i)) <= within)) return std::nullopt;
+  return m;
+}
+
+}  // namespace wrlkit::simplify

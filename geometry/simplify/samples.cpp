@@ -1,0 +1,124 @@
+#include "geometry/simplify/samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/shapes/vector.h"
+
+namespace wrlkit::simplify {
+namespace {
+
+constexpr double share_of_corners = 0.05;  // of the weight
+
+double fraction(double x) { return x - std::floor(x); }
+
+/// Equal steps through the area; within a triangle the additive sequence of the plastic number.
+class Spread {
+ public:
+  explicit Spread(const Triangles& surface) : surface_(surface) {
+    end_.reserve(surface.size());
+    for (std::size_t t = 0; t < surface.size(); ++t) {
+      const auto corners = surface[t];
+      if (is_usable(corners)) area_ += length(area_normal(corners)) / 2;
+      end_.push_back(area_);
+    }
+  }
+
+  double area() const { return area_; }
+
+  template <class F>
+  void for_each(std::size_t n, F&& f) const {
+    const double spacing = area_ / static_cast<double>(n);
+    std::size_t t = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto at = static_cast<double>(k) + 0.5;
+      while (t + 1 < end_.size() && end_[t] <= at * spacing) ++t;
+      f(point_at(t, at), spacing, t);
+    }
+  }
+
+  /// The same, with at least one in each triangle.
+  template <class F>
+  void for_each_in_all(std::size_t n, F&& f) const {
+    double before = 0;
+    for (std::size_t t = 0; t < end_.size(); ++t) {
+      const double area = end_[t] - before;
+      before = end_[t];
+      if (!(area > 0)) continue;
+      const double some = std::max(1., std::round(static_cast<double>(n) * area / area_));
+      for (double k = 0; k < some; ++k) f(some > 1 ? point_at(t, k + 0.5) : point_in_middle(t), area / some, t);
+    }
+  }
+
+ private:
+  Vec3 point_at(std::size_t t, double k) const {
+    constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
+    double u = fraction(k * step_u), v = fraction(k * step_v);
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
+    const auto c = surface_[t];
+    return c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
+  }
+  Vec3 point_in_middle(std::size_t t) const {
+    const auto c = surface_[t];
+    return (1. / 3) * (c[0] + c[1] + c[2]);
+  }
+
+  const Triangles& surface_;
+  std::vector<double> end_;
+  double area_ = 0;
+};
+
+}  // namespace
+
+std::vector<SurfaceSample> sample_surface(const Triangles& surface, std::size_t n) {
+  std::vector<SurfaceSample> out;
+  const Spread spread(surface);
+  if (!(spread.area() > 0) || n == 0) return out;
+  std::vector<std::uint32_t> used(surface.corners.begin(), surface.corners.end());
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const std::size_t stride = (used.size() + n - 1) / n, n_corners = (used.size() + stride - 1) / stride;
+  out.reserve(n + n_corners);
+  const auto add = [&](const Vec3& p, double area, std::size_t t) {
+    out.push_back({p, area * (1 - share_of_corners), unit(area_normal(surface[t]))});
+  };
+  if (surface.size() <= n)
+    spread.for_each_in_all(n, add);
+  else
+    spread.for_each(n, add);
+  const double rest = share_of_corners * spread.area() / static_cast<double>(n_corners);
+  for (std::size_t i = 0; i < used.size(); i += stride) {
+    const Vec3 p = surface.position(used[i]);
+    if (is_usable({p, p, p})) out.push_back({p, rest});
+  }
+  return out;
+}
+
+Distortion measure_distortion(const Triangles& surface, const ClosestPoint& nearest_on_surface,
+                              std::span<const SurfaceSample> samples, const ClosestPoint& original, std::size_t n) {
+  Distortion out;
+  auto guess = ClosestPoint::no_guess;
+  for (const auto& s : samples) {
+    const auto found = nearest_on_surface.nearest(s.point, {}, guess);
+    guess = found.triangle;
+    const double squared = std::min(found.distance * found.distance, s.enough);
+    out.squares += s.weight * squared;
+    out.max = std::max(out.max, squared);
+  }
+  guess = ClosestPoint::no_guess;
+  const Spread spread(surface);
+  if (spread.area() > 0)
+    spread.for_each(n, [&](const Vec3& p, double area, std::size_t) {
+      const auto found = original.nearest(p, {}, guess);
+      guess = found.triangle;
+      out.squares += area * found.distance * found.distance;
+      out.max = std::max(out.max, found.distance * found.distance);
+    });
+  out.max = std::sqrt(out.max);
+  return out;
+}
+
+}  // namespace wrlkit::simplify

@@ -1,0 +1,41 @@
+// A whole world at falling numbers of triangles that are drawn: one budget for all of its parts.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "geometry/simplify/world.h"
+
+namespace wrlkit {
+
+class WorldLevels {
+ public:
+  /// Cuts the surfaces of a scene (surfaces_of) into connected parts, finds for each what might stand for it
+  /// (simplify/ladder.h), and shares the triangles out (simplify/allocation.h) at the numbers of triangles that the
+  /// options ask for, by `every`, `counts` or `ratios`. Each place of a shared geometry is drawn and counts; all of them
+  /// are simplified alike. Small parts leave. All meshes are in memory. `scene` must outlive this.
+  WorldLevels(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx);
+  ~WorldLevels();
+
+  /// Triangles of the surfaces in all places that are shown, and each surface once.
+  std::size_t n_drawn() const;
+  std::size_t n_faces() const;
+  /// Connected pieces of surfaces, each once.
+  std::size_t n_parts() const;
+
+  /// An interaction point: triangles as they are drawn, distances over all places, estimated from samples.
+  struct Point {
+    std::size_t n_drawn = 0, n_faces = 0;
+    std::size_t n_gone = 0;  // parts that have left
+    double rms = 0, max = 0;
+  };
+  const std::vector<Point>& points() const;
+  Scene scene_at(std::size_t i) const;
+  /// With LOD nodes that have the points as levels.
+  Scene scene_with_levels() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace wrlkit

@@ -1,0 +1,302 @@
+#include "geometry/simplify/world_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/parallel.h"
+#include "geometry/shapes/vector.h"
+#include "geometry/simplify/closest_on_triangle.h"
+#include "geometry/simplify/inverse.h"
+#include "geometry/simplify/pieces.h"
+#include "geometry/simplify/shared_borders.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
+
+namespace wrlkit::simplify {
+namespace {
+
+constexpr std::size_t most_places_asked = 4;    // of a ladder, for what hides it
+constexpr std::size_t most_samples = 20'000;    // of a ladder
+constexpr std::size_t samples_of_leaving = 32;  // of a part in a place
+
+double area_of(const Triangles& surface, std::span<const std::uint32_t> faces) {
+  double area = 0;
+  for (auto f : faces)
+    if (const auto c = surface[f]; is_usable(c)) area += length(area_normal(c)) / 2;
+  return area;
+}
+
+/// Half the width of a thing that is seen from its broad side: the middle one of the extents of its bounds.
+double half_width(std::span<const SurfaceSample> samples) {
+  Vec3 low{}, high{};
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = samples[i].point[k];
+      low[k] = i ? std::min(low[k], x) : x;
+      high[k] = i ? std::max(high[k], x) : x;
+    }
+  Vec3 extent = high - low;
+  std::ranges::sort(extent);
+  return extent[1] / 2;
+}
+
+/// Whether something nearby is in front of a sample, or faces it where they touch.
+bool is_hidden(const Vec3& point, const Vec3& normal, const std::array<Vec3, 3>& corners, double distance,
+               double width) {
+  if (distance > width / 2 || normal == Vec3{}) return false;
+  const auto at = closest_on_triangle(point, corners).at;
+  const Vec3 away = at[0] * corners[0] + at[1] * corners[1] + at[2] * corners[2] - point;
+  if (dot(away, normal) > 0.7 * distance && distance > 0.01 * width) return true;
+  return distance <= 0.02 * width && dot(unit(area_normal(corners)), normal) < -0.5;
+}
+
+Vec3 turned(const Matrix& m, const Vec3& v) { return m.point(v) - m.point({0, 0, 0}); }
+
+}  // namespace
+
+WorldParts::WorldParts(const Scene& scene, const CollapseOptions& options, Task& ctx)
+    : scene_(scene), options_(options) {
+  read(ctx);
+  find_looks();
+  cut();
+}
+
+void WorldParts::read(Task& ctx) {
+  SurfaceReader reader(scene_, ctx);
+  const auto found = surfaces_of(scene_, &ctx.diag);
+  SharedBorders borders;
+  Mesh mesh;
+  for (const auto& s : found) {
+    reader.read(s, mesh);
+    borders.add(mesh);
+    surfaces.push_back({.surface = s, .mesh = std::move(mesh)});
+  }
+  auto fixed = borders.find(scene_, found);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].fixed = std::move(fixed[i]);
+  const auto number = surface_numbers(scene_, found);
+  for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix& m) {
+    if (const auto i = number[shape.value]; i && is_invertible(m)) surfaces[i - 1].places.push_back(m);
+  });
+  count_left(found, reader);
+  std::erase_if(surfaces, [](const PlacedSurface& s) { return s.mesh.n_faces() == 0 || s.places.empty(); });
+  for (auto& s : surfaces) {
+    n_faces += s.mesh.n_faces();
+    n_drawn += s.mesh.n_faces() * s.places.size();
+    for (std::size_t i = 1; i < s.places.size(); ++i)
+      if (scale_of(s.places[i]) > scale_of(s.places[s.widest])) s.widest = i;
+    s.scale = scale_of(s.places[s.widest]);
+  }
+}
+
+/// Text, and what has levels already: it is drawn, and the budget has to pay for it.
+void WorldParts::count_left(const std::vector<ShapeSurface>& taken, SurfaceReader& reader) {
+  auto left = surfaces_of(scene_, nullptr, BelowLod::take, OfText::take);
+  std::vector<char> is_taken(scene_.node_count());
+  for (const auto& s : taken) is_taken[s.geometry.value] = 1;
+  std::erase_if(left, [&](const ShapeSurface& s) { return is_taken[s.geometry.value] != 0; });
+  if (left.empty()) return;
+  std::vector<std::size_t> n_faces_of(left.size());
+  Mesh mesh;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    reader.read(left[i], mesh);
+    n_faces_of[i] = mesh.n_faces();
+  }
+  const auto number = surface_numbers(scene_, left);
+  for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix&) {
+    if (const auto i = number[shape.value]) n_left += n_faces_of[i - 1];
+  });
+}
+
+/// Shapes look alike that have the same diffuse colour and the same texture.
+void WorldParts::find_looks() {
+  std::map<std::array<double, 4>, std::uint32_t> number;
+  for (auto& s : surfaces) {
+    std::array<double, 4> key{-1, -1, -1, 0};
+    const NodeId appearance = scene_.get(s.surface.shapes[0], nodes::shape::appearance);
+    if (scene_.is(appearance, nodes::Appearance)) {
+      const NodeId material = scene_.get(appearance, nodes::appearance::material);
+      if (scene_.is(material, nodes::Material)) {
+        const Vec3 color = scene_.get(material, nodes::material::diffuseColor);
+        std::ranges::copy(color, key.begin());
+      }
+      key[3] = scene_.get(appearance, nodes::appearance::texture).value;
+    }
+    s.look = number.try_emplace(key, static_cast<std::uint32_t>(number.size())).first->second;
+  }
+}
+
+/// Surfaces into pieces, each of which stands in the places of the surface.
+void WorldParts::cut() {
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+    auto& s = surfaces[i];
+    s.first_part = static_cast<std::uint32_t>(parts.size());
+    for (auto& faces : connected_pieces(s.mesh)) parts.push_back({.surface = i, .faces = std::move(faces)});
+    s.n_parts = static_cast<std::uint32_t>(parts.size()) - s.first_part;
+  }
+  allocated.resize(parts.size());
+  std::uint32_t owner = 0;
+  for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    const auto& s = surfaces[parts[i].surface];
+    const auto triangles = triangles_of(s.mesh);
+    parts[i].area = area_of(triangles, parts[i].faces) * s.scale * s.scale;
+    allocated[i].weight = 0;
+    allocated[i].look = s.look;
+    for (const Matrix& m : s.places) {
+      const double size = scale_of(m) / s.scale;
+      area += parts[i].area * size * size;
+      allocated[i].weight += std::pow(size, 4);
+      allocated[i].places.push_back(owner++);
+      neighbours.add(triangles, parts[i].faces, m, allocated[i].places.back());
+      part_of_.push_back(i);
+    }
+  }
+}
+
+/// From the surface to metres, in its widest place, with the origin at its first point.
+Matrix WorldParts::frame_of(const WorldPart& part) const {
+  const auto& s = surfaces[part.surface];
+  Matrix frame = s.places[s.widest];
+  const auto triangles = triangles_of(s.mesh);
+  const Vec3 origin = frame.point(triangles.position(triangles.corners[std::size_t{3} * part.faces[0]]));
+  for (int r = 0; r < 3; ++r) frame(r, 3) -= origin[static_cast<std::size_t>(r)];
+  return frame;
+}
+
+Mesh WorldParts::in_metres(const WorldPart& part, CollapseOptions* options) const {
+  const auto& s = surfaces[part.surface];
+  std::vector<std::uint32_t> original;
+  Mesh mesh = piece_of(s.mesh, part.faces, original);
+  transform(mesh, frame_of(part));
+  for (std::uint32_t k = 0; options && k < original.size(); ++k)
+    if (std::ranges::binary_search(s.fixed, original[k])) options->fixed.push_back(k);
+  return mesh;
+}
+
+/// Pieces of the same form are found by their corners first.
+void WorldParts::find_ladders() {
+  std::map<std::uint64_t, std::vector<std::uint32_t>> by_corners;  // ladders
+  std::vector<Mesh> first;                                         // of each ladder
+  for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    auto& part = parts[i];
+    CollapseOptions options;
+    Mesh mesh = in_metres(part, &options);
+    part.from_ladder = inverse(frame_of(part));
+    const auto attributes = mesh.attributes();
+    const bool plain = options.fixed.empty() &&
+                       std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
+    part.ladder = static_cast<std::uint32_t>(members_.size());
+    if (plain) {
+      auto& alike = by_corners[hash_of_corners(mesh)];
+      for (auto l : alike)
+        if (const auto same = congruence(first[l], mesh)) {
+          part.ladder = l;
+          part.from_ladder = part.from_ladder * *same;
+          break;
+        }
+      if (part.ladder == members_.size()) alike.push_back(part.ladder);
+    }
+    if (part.ladder == members_.size()) {
+      members_.emplace_back();
+      first.push_back(plain ? std::move(mesh) : Mesh{});
+    }
+    members_[part.ladder].push_back(i);
+  }
+}
+
+/// Where a ladder stands.
+struct WorldParts::Surroundings {
+  std::uint32_t owner;
+  Matrix place;  // from the ladder to the world
+  double width;
+};
+
+/// Nothing needs to be nearer to a sample that is hidden than what hides it.
+double WorldParts::enough(const Surroundings& around, const SurfaceSample& sample) const {
+  const Vec3 p = around.place.point(sample.point);
+  const auto found =
+      neighbours.nearest(p, around.width, [&](std::uint32_t owner) { return owner != around.owner; });
+  if (found.owner == ClosestPoint::no_guess) return std::numeric_limits<double>::infinity();
+  const Vec3 normal = unit(turned(around.place, sample.normal));
+  const bool hidden = is_hidden(p, normal, neighbours.corners(found.triangle), found.distance, around.width);
+  return hidden ? found.distance * found.distance : std::numeric_limits<double>::infinity();
+}
+
+void WorldParts::make_ladder_of(std::uint32_t ladder) {
+  const auto& members = members_[ladder];
+  CollapseOptions options = options_;
+  const Mesh mesh = in_metres(parts[members[0]], &options);
+  auto samples = sample_surface(triangles_of(mesh), std::clamp<std::size_t>(4 * mesh.n_faces(), 100, most_samples));
+  std::vector<Surroundings> around;
+  const double width = half_width(samples);
+  for (auto m : members)
+    for (std::size_t k = 0; k < allocated[m].places.size(); ++k)
+      around.push_back({allocated[m].places[k], surfaces[parts[m].surface].places[k] * parts[m].from_ladder, width});
+  const std::size_t stride = (around.size() + most_places_asked - 1) / most_places_asked;
+  for (auto& sample : samples) {
+    double least = 0;
+    for (std::size_t k = 0; k < around.size() && std::isfinite(least); k += stride)
+      least = std::max(least, enough(around[k], sample));
+    sample.enough = least;
+  }
+  ladders_[ladder] = make_ladder({mesh, samples, options});
+}
+
+/// Points of a part in all its places, for when it leaves.
+void WorldParts::find_leaving(std::uint32_t part) {
+  const Mesh mesh = in_metres(parts[part], nullptr);
+  const auto samples = sample_surface(triangles_of(mesh), samples_of_leaving);
+  const double width = half_width(samples);
+  const auto& s = surfaces[parts[part].surface];
+  const Matrix back = inverse(frame_of(parts[part]));
+  for (std::size_t k = 0; k < s.places.size(); ++k) {
+    const Surroundings around{allocated[part].places[k], s.places[k] * back, width};
+    const double grown = std::pow(scale_of(s.places[k]) / s.scale, 2);
+    for (const auto& sample : samples)
+      allocated[part].leaving.push_back({around.place.point(sample.point), sample.weight * grown,
+                                         std::isfinite(enough(around, sample)) ? 0 : width * width});
+  }
+}
+
+void WorldParts::make_ladders() {
+  neighbours.prepare();
+  find_ladders();
+  ladders_.resize(members_.size());
+  parallel_for(members_.size(), [&](std::size_t i) { make_ladder_of(static_cast<std::uint32_t>(i)); });
+  parallel_for(parts.size(), [&](std::size_t i) {
+    find_leaving(static_cast<std::uint32_t>(i));
+    allocated[i].rungs = &ladders_[parts[i].ladder];
+  });
+}
+
+bool WorldParts::is_changed(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const {
+  return std::any_of(rungs.begin() + s.first_part, rungs.begin() + s.first_part + s.n_parts,
+                     [](std::uint32_t rung) { return rung != 0; });
+}
+
+Mesh WorldParts::mesh_at(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const {
+  Mesh out;
+  out.kind = Mesh::Kind::faces;
+  std::vector<std::uint32_t> original;
+  bool loose = false;
+  for (std::uint32_t i = s.first_part; i < s.first_part + s.n_parts; ++i) {
+    if (rungs[i] == Allocation::gone) continue;
+    const auto& rung = (*allocated[i].rungs)[rungs[i]];
+    loose |= rung.loose;
+    if (rungs[i] == 0) {
+      append(out, piece_of(s.mesh, parts[i].faces, original));
+      continue;
+    }
+    Mesh piece = rung.mesh;
+    transform(piece, parts[i].from_ladder);
+    append(out, piece);
+  }
+  out.ccw = s.mesh.ccw;
+  out.solid = s.mesh.solid && !loose;
+  out.convex = true;
+  const bool lost_normals = s.mesh.normal.present() && !out.normal.present();
+  out.crease_angle = lost_normals ? options_.crease_angle : s.mesh.crease_angle;
+  return out;
+}
+
+}  // namespace wrlkit::simplify

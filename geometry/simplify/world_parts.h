@@ -1,0 +1,71 @@
+// The parts of a world: connected pieces of its surfaces, what may stand for each of them, and where they are.
+#pragma once
+#include <vector>
+
+#include "base/task.h"
+#include "geometry/simplify/allocation.h"
+#include "geometry/simplify/surfaces.h"
+
+namespace wrlkit::simplify {
+
+/// A surface in the places where it is shown.
+struct PlacedSurface {
+  ShapeSurface surface;
+  Mesh mesh;
+  std::vector<Matrix> places;  // to the world
+  std::size_t widest = 0;      // of the places: where it is largest
+  double scale = 1;            // metres of the world for its unit, there
+  std::vector<std::uint32_t> fixed;
+  std::uint32_t look = 0;
+  std::uint32_t first_part = 0, n_parts = 0;
+};
+
+/// A piece of a surface. Pieces of the same form have one ladder.
+struct WorldPart {
+  std::uint32_t surface;
+  std::vector<std::uint32_t> faces;
+  std::uint32_t ladder = 0;
+  Matrix from_ladder;  // from metres where the ladder is to the coordinates of the surface
+  double area = 0;     // in the widest place
+};
+
+class WorldParts {
+ public:
+  WorldParts(const Scene& scene, const CollapseOptions& options, Task& ctx);
+
+  /// Finds what may stand for the parts. O(n log n), on all threads.
+  void make_ladders();
+
+  std::size_t n_drawn = 0, n_faces = 0;  // of the surfaces, in all places and once
+  std::size_t n_left = 0;                // triangles that are drawn of what is left alone
+  double area = 0;                       // in the world
+  std::vector<PlacedSurface> surfaces;
+  std::vector<WorldPart> parts;
+  std::vector<AllocatedPart> allocated;  // of each part
+  Neighbours neighbours;
+
+  /// A surface with its parts on these rungs.
+  Mesh mesh_at(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const;
+  bool is_changed(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const;
+
+ private:
+  void read(Task& ctx);
+  void count_left(const std::vector<ShapeSurface>& taken, SurfaceReader& reader);
+  void find_looks();
+  void cut();
+  Matrix frame_of(const WorldPart& part) const;
+  Mesh in_metres(const WorldPart& part, CollapseOptions* options) const;
+  void find_ladders();
+  void make_ladder_of(std::uint32_t ladder);
+  void find_leaving(std::uint32_t part);
+  struct Surroundings;
+  double enough(const Surroundings& around, const SurfaceSample& sample) const;
+
+  const Scene& scene_;
+  CollapseOptions options_;
+  std::vector<std::vector<std::uint32_t>> members_;  // of each ladder
+  std::vector<std::vector<Rung>> ladders_;
+  std::vector<std::uint32_t> part_of_;  // of each owner
+};
+
+}  // namespace wrlkit::simplify

@@ -1,0 +1,306 @@
+// One budget for the parts of a world: what is drawn is counted, what matters stays, what little matters leaves.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "base/parallel.h"
+#include "convert/diff.h"
+#include "geometry/simplify/ladder.h"
+#include "geometry/simplify/pieces.h"
+#include "geometry/simplify/world_levels.h"
+#include "geometry/simplify/world_parts.h"
+#include "parsers/parsers.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+using namespace wrlkit;
+using namespace wrlkit::simplify;
+
+namespace {
+
+struct TestWorld {
+  Diagnostics diag;
+  Statistics stats;
+  PassContext ctx{diag, stats};
+  Scene scene;
+
+  explicit TestWorld(const std::string& text) {
+    auto world = parse_world("#VRML V2.0 utf8\n" + text, "test.wrl", {}, diag);
+    REQUIRE(world);
+    scene = std::move(world->scene);
+  }
+};
+
+WorldLevels levels_of(TestWorld& w, std::vector<std::size_t> counts) {
+  WorldSimplifyOptions options;
+  options.counts = std::move(counts);
+  return {w.scene, options, w.ctx};
+}
+
+std::string at(double x, double y, double z, const std::string& child) {
+  std::ostringstream out;
+  out.precision(12);
+  out << "Transform { translation " << x << ' ' << y << ' ' << z << " children " << child << " }\n";
+  return out.str();
+}
+
+/// A tank, a panel far from it, and bolts on the tank.
+std::string tank_with_bolts(int n_bolts) {
+  std::string text = "DEF Tank Shape { geometry Cylinder { radius 2 height 6 } }" +
+                     at(20, 0, 0, "DEF Panel Shape { geometry Box { size 4 4 0.2 } }");
+  for (int i = 0; i < n_bolts; ++i)
+    text += at(2, -2 + 4. * i / n_bolts, 0,
+               i ? "USE Bolt" : "DEF Bolt Shape { geometry Cylinder { radius 0.02 height 0.05 } }");
+  return text;
+}
+
+bool is_drawn(const Scene& scene, std::string_view name) {
+  for (NodeId n : all_nodes(scene))
+    if (scene.name(n) == name) return scene.get(n, nodes::shape::geometry) != NodeId{};
+  return false;
+}
+
+Deviation distance(const Scene& a, const Scene& b) {
+  World x{a}, y{b};
+  const auto d = diff(Document(std::move(x)), Document(std::move(y)));
+  REQUIRE(d);
+  REQUIRE(d->surface);
+  return *d->surface;
+}
+
+std::size_t drawn(const Scene& scene) {
+  World world{scene};
+  auto facts = facts_of(Document(std::move(world)));
+  REQUIRE(facts);
+  return facts->geometry.triangles;
+}
+
+Mesh grid_box(std::size_t n) {
+  TestWorld w("Shape { geometry Box { size 2 2 2 } }");
+  Mesh mesh;
+  SurfaceReader(w.scene, w.ctx).read(surfaces_of(w.scene)[0], mesh);
+  for (std::size_t round = 0; round < n; ++round) {
+    Mesh finer;
+    finer.kind = Mesh::Kind::faces;
+    auto& p = finer.positions.edit();
+    std::map<Vec3, std::uint32_t> number;
+    auto index = [&](const Vec3& v) {
+      const auto [found, is_new] = number.try_emplace(v, static_cast<std::uint32_t>(number.size()));
+      if (is_new) p.insert(p.end(), v.begin(), v.end());
+      return found->second;
+    };
+    const auto triangles = triangles_of(mesh);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto c = triangles[t];
+      auto middle = [&](int a, int b) {
+        Vec3 m;
+        for (std::size_t k = 0; k < 3; ++k) m[k] = (c[std::size_t(a)][k] + c[std::size_t(b)][k]) / 2;
+        return m;
+      };
+      const Vec3 ab = middle(0, 1), bc = middle(1, 2), ca = middle(2, 0);
+      for (const auto& f : {std::array{c[0], ab, ca}, std::array{ab, c[1], bc}, std::array{ca, bc, c[2]},
+                            std::array{ab, bc, ca}})
+        for (const auto& v : f) finer.corners.push_back(index(v));
+    }
+    mesh = std::move(finer);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("world levels: a budget counts what is drawn, in all places", "[levels]") {
+  TestWorld w(tank_with_bolts(30));
+  const auto whole = drawn(w.scene);
+  WorldSimplifyOptions options;
+  options.ratios = {0.5, 0.25, 0.1};
+  const WorldLevels levels(w.scene, options, w.ctx);
+  CHECK(levels.n_drawn() == whole);
+  CHECK(levels.n_faces() < whole / 5);
+  REQUIRE(levels.points().size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto n = drawn(levels.scene_at(i));
+    CHECK(n == levels.points()[i].n_drawn);
+    CHECK(static_cast<double>(n) <= options.ratios[i] * static_cast<double>(whole));
+    CHECK(static_cast<double>(n) >= 0.6 * options.ratios[i] * static_cast<double>(whole));
+  }
+}
+
+TEST_CASE("world levels: each is farther from the world than the one before, as the diff sees it", "[levels]") {
+  TestWorld w(tank_with_bolts(8));
+  const auto levels = levels_of(w, {200, 100, 60, 40, 20, 10});
+  REQUIRE(levels.points().size() == 6);
+  double said = 0, measured = 0;
+  for (std::size_t i = 0; i < levels.points().size(); ++i) {
+    const auto d = distance(w.scene, levels.scene_at(i));
+    CHECK(levels.points()[i].rms >= said);
+    CHECK(d.rms >= 0.95 * measured);
+    said = levels.points()[i].rms;
+    measured = d.rms;
+  }
+  CHECK(measured < 1);
+}
+
+TEST_CASE("world levels: bolts leave before tanks do, and names stay", "[levels]") {
+  TestWorld w(tank_with_bolts(20));
+  const auto levels = levels_of(w, {40});
+  REQUIRE(levels.points().size() == 1);
+  CHECK(levels.points()[0].n_gone == 1);
+  const Scene left = levels.scene_at(0);
+  CHECK(is_drawn(left, "Tank"));
+  CHECK(is_drawn(left, "Panel"));
+  CHECK_FALSE(is_drawn(left, "Bolt"));
+  std::size_t n_names = 0;
+  for (NodeId n : all_nodes(left)) n_names += !left.name(n).empty();
+  CHECK(n_names == 3);
+}
+
+TEST_CASE("world levels: a coarse cylinder lies around the chords of the fine one, not within", "[levels]") {
+  TestWorld w("Shape { geometry Cylinder { radius 1 height 8 top FALSE bottom FALSE } }" +
+              at(9, 0, 0, "Shape { geometry Box { } }"));
+  const auto levels = levels_of(w, {24});
+  REQUIRE(levels.points().size() == 1);
+  // Six sides within the circle are 0.134 away at most and 0.098 in the mean of squares; as large as it, 0.04.
+  CHECK(distance(w.scene, levels.scene_at(0)).rms < 0.07);
+}
+
+TEST_CASE("world levels: the caps where two pipes meet go first", "[levels]") {
+  TestWorld w("Shape { geometry Cylinder { height 4 } }" + at(0, 4, 0, "Shape { geometry Cylinder { height 4 } }"));
+  const auto whole = drawn(w.scene);
+  const auto levels = levels_of(w, {whole * 4 / 5});
+  REQUIRE(levels.points().size() == 1);
+  CHECK(distance(w.scene, levels.scene_at(0)).rms < 1e-3);
+}
+
+TEST_CASE("world levels: paint on a floor counts although it lies on it", "[levels]") {
+  const std::string floor = "Shape { appearance Appearance { material Material { diffuseColor 0.5 0.5 0.5 } } "
+                            "geometry Box { size 10 0.2 10 } }",
+                    stripe = at(0, 0.101, 0, "DEF Stripe Shape { appearance Appearance { material Material { "
+                                             "diffuseColor 1 1 0 } } geometry Box { size 9 0.002 0.5 } }"),
+                    ball = at(0, 2, 0, "Shape { geometry Sphere { radius 0.2 } }");
+  TestWorld w(floor + stripe + ball);
+  const auto levels = levels_of(w, {40});
+  REQUIRE(levels.points().size() == 1);
+  CHECK(is_drawn(levels.scene_at(0), "Stripe"));
+}
+
+TEST_CASE("world levels: any number is reached, and the last part stays", "[levels]") {
+  TestWorld w(tank_with_bolts(10));
+  const auto levels = levels_of(w, {12, 6, 3});
+  REQUIRE_FALSE(levels.points().empty());
+  CHECK(levels.points().back().n_drawn <= 12);
+  CHECK(levels.points().back().n_drawn > 0);
+}
+
+TEST_CASE("world levels: the same on any number of threads", "[levels]") {
+  auto meshes = [] {
+    TestWorld w(tank_with_bolts(10));
+    const auto levels = levels_of(w, {100, 30});
+    std::vector<double> out;
+    for (std::size_t i = 0; i < levels.points().size(); ++i) {
+      const Scene scene = levels.scene_at(i);
+      for (NodeId n : all_nodes(scene))
+        if (scene.is(n, nodes::Coordinate)) {
+          const auto p = scene.get(n, nodes::coordinate::point);
+          out.insert(out.end(), p.begin(), p.end());
+        }
+    }
+    return out;
+  };
+  std::vector<double> one;
+  {
+    const ThreadLimit limit(1);
+    one = meshes();
+  }
+  CHECK_FALSE(one.empty());
+  CHECK(meshes() == one);
+}
+
+TEST_CASE("world levels: bad worlds are borne", "[levels]") {
+  const std::string flat = "Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 2 0 0 ] } "
+                           "coordIndex [ 0 1 2 -1 ] } }",
+                    many = "Shape { geometry IndexedFaceSet { solid FALSE coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 "
+                           "0, 0 0 1, 0 -1 0 ] } coordIndex [ 0 1 2 -1 0 1 3 -1 0 1 4 -1 2 1 0 -1 ] } }",
+                    ball = "Shape { geometry DEF S Sphere { } }", again = "Shape { geometry USE S }";
+  const std::string worlds[] = {
+      flat + ball,
+      many + at(3, 0, 0, ball),
+      ball + "Transform { scale -1 1 1 translation 5 0 0 children " + again + " }" + at(9, 0, 0, "Shape { geometry Box { } }"),
+      ball + "Transform { scale 0 1 1 children " + again + " }" + at(4, 0, 0, "Shape { geometry Box { } }"),
+      ball + "Transform { scale 1 5 1 translation 9 0 0 children " + again + " }" + at(4, 0, 0, "Shape { geometry Box { } }"),
+      at(5e6, 5e6, 5e6, ball) + at(5e6 + 4, 5e6, 5e6, "Shape { geometry Box { } }"),
+      ball + ball + at(0, 0, 0, again)};
+  for (const auto& text : worlds) {
+    TestWorld w(text);
+    const auto whole = drawn(w.scene);
+    const auto levels = levels_of(w, {whole / 3, 8});
+    REQUIRE_FALSE(levels.points().empty());
+    for (std::size_t i = 0; i < levels.points().size(); ++i) {
+      const Scene level = levels.scene_at(i);
+      CHECK(drawn(level) <= levels.points()[i].n_drawn);
+      CHECK(std::isfinite(distance(w.scene, level).rms));
+    }
+  }
+}
+
+TEST_CASE("ladder: a box of many triangles becomes twelve without an error", "[levels]") {
+  const Mesh box = grid_box(2);
+  REQUIRE(box.n_faces() == 192);
+  const auto samples = sample_surface(triangles_of(box), 800);
+  double area = 0;
+  for (const auto& s : samples) area += s.weight;
+  CHECK(area == Approx(24));
+  const auto rungs = make_ladder({box, samples, {}});
+  REQUIRE(rungs.size() > 2);
+  CHECK(rungs[0].n_faces == 192);
+  for (std::size_t i = 1; i < rungs.size(); ++i) CHECK(rungs[i].n_faces < rungs[i - 1].n_faces);
+  for (std::size_t i = 2; i < rungs.size(); ++i)
+    CHECK(rungs[i].distortion.squares > rungs[i - 1].distortion.squares);
+  const auto exact = std::ranges::find_if(rungs, [](const Rung& r) { return r.n_faces <= 14; });
+  REQUIRE(exact != rungs.end());
+  CHECK(exact->distortion.squares < 1e-3);
+  const auto hull = convex_hull(rungs);
+  CHECK(hull.front() == 0);
+  CHECK(hull.back() == rungs.size() - 1);
+}
+
+TEST_CASE("pieces: what is connected, and the same form elsewhere", "[levels]") {
+  Mesh two = grid_box(0);
+  append(two, grid_box(0));
+  const auto pieces = connected_pieces(two);
+  REQUIRE(pieces.size() == 2);
+  CHECK(pieces[0].size() == 12);
+  std::vector<std::uint32_t> original;
+  const Mesh first = piece_of(two, pieces[0], original);
+  CHECK(first.n_positions() == 8);
+
+  Mesh moved = first;
+  const Matrix place = translation_matrix({3, 4, 5}) * rotation_matrix({1, 2, 3, 0.7});
+  transform(moved, place);
+  const auto found = congruence(first, moved);
+  REQUIRE(found);
+  for (std::size_t i = 0; i < 12; ++i) CHECK(found->m[i] == Approx(place.m[i]).margin(1e-9));
+  transform(moved, scale_matrix({1, 1.1, 1}));
+  CHECK_FALSE(congruence(first, moved));
+  Mesh mirrored = first;
+  transform(mirrored, scale_matrix({-1, 1, 1}));
+  CHECK(hash_of_corners(mirrored) == hash_of_corners(first));
+}
+
+TEST_CASE("nearest point: only labels that count", "[levels]") {
+  Mesh two = grid_box(1);
+  const std::size_t n = two.n_faces();
+  Mesh other = grid_box(1);
+  transform(other, translation_matrix({10, 0, 0}));
+  append(two, other);
+  std::vector<std::uint32_t> labels(2 * n);
+  std::fill(labels.begin() + static_cast<std::ptrdiff_t>(n), labels.end(), 1u);
+  const ClosestPoint tree(triangles_of(two), labels);
+  const double far = std::numeric_limits<double>::infinity();
+  CHECK(tree.nearest_of({1.5, 0, 0}, far, [](std::uint32_t) { return true; }).distance == Approx(0.5));
+  CHECK(tree.nearest_of({1.5, 0, 0}, far, [](std::uint32_t l) { return l == 1; }).distance == Approx(7.5));
+  CHECK(std::isinf(tree.nearest_of({1.5, 0, 0}, 7, [](std::uint32_t l) { return l == 1; }).distance));
+  CHECK(std::isinf(tree.nearest_of({1.5, 0, 0}, far, [](std::uint32_t) { return false; }).distance));
+}
