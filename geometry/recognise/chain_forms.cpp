@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/math/vec.h"
 #include "geometry/recognise/fits.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit::recognising {
 namespace {

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 #include "geometry/simplify/closest_on_triangle.h"
 #include "geometry/simplify/fitted_surface.h"
 
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::size_t fitted_below = 100;  // triangles
+constexpr std::size_t fitted_below = 100;    // triangles
 constexpr std::size_t most_fitted = 12'000;  // where the criterion is held back
-constexpr double spoiling = 30;  // growth of the distortion from rung to rung
+constexpr double spoiling = 30;              // growth of the distortion from rung to rung
 constexpr double coarse_step = 0.7, fine_step = 0.85;
 
 class Ladder {
@@ -106,7 +106,8 @@ class Ladder {
       surface.refine();
       add(surface);
       const auto n = surface.n_faces();
-      next = std::min(n - 1, static_cast<std::size_t>((n > fitted_below ? coarse_step : fine_step) * static_cast<double>(n)));
+      next = std::min(n - 1,
+                      static_cast<std::size_t>((n > fitted_below ? coarse_step : fine_step) * static_cast<double>(n)));
     }
   }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/math/vec.h"
 #include "base/parallel.h"
-#include "geometry/shapes/vector.h"
 #include "geometry/simplify/closest_on_triangle.h"
 #include "geometry/simplify/inverse.h"
 #include "geometry/simplify/pieces.h"
@@ -183,8 +183,8 @@ void WorldParts::find_ladders() {
     Mesh mesh = in_metres(part, &options);
     part.from_ladder = inverse(frame_of(part));
     const auto attributes = mesh.attributes();
-    const bool plain = options.fixed.empty() &&
-                       std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
+    const bool plain =
+        options.fixed.empty() && std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
     part.ladder = static_cast<std::uint32_t>(members_.size());
     if (plain) {
       auto& alike = by_corners[hash_of_corners(mesh)];
@@ -214,8 +214,7 @@ struct WorldParts::Surroundings {
 /// Nothing needs to be nearer to a sample that is hidden than what hides it.
 double WorldParts::enough(const Surroundings& around, const SurfaceSample& sample) const {
   const Vec3 p = around.place.point(sample.point);
-  const auto found =
-      neighbours.nearest(p, around.width, [&](std::uint32_t owner) { return owner != around.owner; });
+  const auto found = neighbours.nearest(p, around.width, [&](std::uint32_t owner) { return owner != around.owner; });
   if (found.owner == ClosestPoint::no_guess) return std::numeric_limits<double>::infinity();
   const Vec3 normal = unit(turned(around.place, sample.normal));
   const bool hidden = is_hidden(p, normal, neighbours.corners(found.triangle), found.distance, around.width);
