@@ -412,7 +412,7 @@ class Writer : TextDocument {
 }  // namespace
 
 void write_x3d(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag) {
-  const auto faces = with_form_faces(scene);
+  const auto faces = options.own_fields ? std::nullopt : with_form_faces(scene);
   Writer(faces ? *faces : scene, options, sink, diag).file();
 }
 
