@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/math/vec.h"
 #include "geometry/forms/cut.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit {
 namespace {

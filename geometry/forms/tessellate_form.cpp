@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/math/vec.h"
 #include "geometry/forms/cut.h"
 #include "geometry/forms/form_mesh.h"
 #include "geometry/polygon.h"
 #include "geometry/shapes/circle.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit {
 namespace {

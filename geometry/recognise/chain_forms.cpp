@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/math/vec.h"
 #include "geometry/recognise/fits.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit::recognising {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/math/matrix.h"
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 
 namespace wrlkit::recognising {
 

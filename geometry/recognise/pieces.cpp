@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/hashing.h"
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 
 namespace wrlkit::recognising {
 namespace {

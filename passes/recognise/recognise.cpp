@@ -99,7 +99,7 @@ void Recognising::choose() {
   };
   hold(scene_.main.roots);
   for (NodeId n : nodes)
-    if (scene_.type(n).kind == NodeKind::builtin && scene_.type(n).is_a("X3DGroupingNode"))
+    if (scene_.type(n).kind == NodeKind::builtin && scene_.type(n).is_a(nodes::X3DGroupingNode))
       for (const Value& v : scene_.fields(n))
         if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode) hold(v.node_span());
   for (NodeId n : nodes) {
@@ -251,7 +251,7 @@ bool Recognising::replace(std::span<NodeId> list) const {
 
 void Recognising::replace_shapes() {
   for (NodeId n : reachable(scene_, scene_.main)) {
-    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
+    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a(nodes::X3DGroupingNode)) continue;
     for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());

@@ -5,8 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "base/math/vec.h"
 #include "geometry/forms/form.h"
-#include "geometry/shapes/vector.h"
 
 using namespace wrlkit;
 using Catch::WithinAbs;

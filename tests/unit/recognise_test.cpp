@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
+#include "base/math/vec.h"
 #include "geometry/polygon.h"
 #include "geometry/recognise/recognise.h"
-#include "geometry/shapes/vector.h"
 
 using namespace wrlkit;
 
