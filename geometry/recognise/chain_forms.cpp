@@ -1,6 +1,7 @@
 #include "geometry/recognise/chain_forms.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/math/vec.h"
 #include "geometry/recognise/fits.h"
@@ -116,6 +117,7 @@ class Reader {
   bool whole();
   bool closed();
   bool flat();
+  Vec3 swept() const;
   bool flat_torus();
   void in_pieces();
   std::size_t dish_at_end();
@@ -161,11 +163,30 @@ bool Reader::flat_torus() {
   return false;
 }
 
+/// Four walls written one after the other around the part and two caps behind them, as a cylinder of four sides is and
+/// a box is not: the only way to tell them from each other. The direction from cap to cap; zero where it is not so.
+Vec3 Reader::swept() const {
+  const auto& walls = run_.bands[0];
+  const auto& at = run_.rings[0].at;
+  if (walls.size() != 4 || run_.first_cap.size() != 1 || run_.last_cap.size() != 1) return {};
+  std::array<std::pair<std::uint32_t, int>, 6> sides;  // face and the axis that it is across
+  for (std::size_t k = 0; k < 4; ++k) sides[k] = {walls[k], static_cast<int>(k % 2)};
+  sides[4] = {run_.first_cap[0], 2};
+  sides[5] = {run_.last_cap[0], 2};
+  std::ranges::sort(sides);
+  auto axis = [&](std::size_t k) { return sides[k].second; };
+  const bool around = axis(0) == axis(2) && axis(1) == axis(3) && axis(0) != axis(1) && axis(4) == axis(5);
+  if (!around) return {};
+  const Vec3 directions[] = {at[2] - at[1], at[1] - at[0], run_.rings[1].centre - run_.rings[0].centre};
+  return unit(directions[axis(4)]);
+}
+
 bool Reader::flat() {
   const std::size_t last = run_.rings.size() - 1, n = run_.rings[0].at.size();
   if (last == 1 && n == 4) {
     auto prism = fit_prism(part(0, 1), t_);
     const bool box = prism && std::holds_alternative<BoxForm>(prism->form.shape);
+    if (box) become_square_bar(prism->form, swept(), t_.flat());
     if (box) return take(0, 1, std::move(prism));
     out_.rank = 1;
     if (take(0, 1, fit_pyramid(part(0, 1), t_))) return true;

@@ -143,7 +143,7 @@ std::optional<Fit> as_box(const Extruded& e, const std::vector<Vec2>& p, double 
 /// m + 1 points on an outer arc, and as many back on an inner one.
 struct Sector {
   Vec2 centre{};
-  double inner = 0, outer = 0, begin = 0, angle = 0;
+  double inner = 0, outer = 0, begin = 0, angle = 0, residual = 0;
   std::size_t n = 0;
 };
 
@@ -176,7 +176,8 @@ std::optional<Sector> sector_at(const std::vector<Vec2>& p, std::size_t s, doubl
     for (bool outside : {true, false}) {
       const double r = outside ? f.outer : f.inner;
       const Vec2 there{f.centre[0] + r * direction[0], f.centre[1] + r * direction[1]};
-      if (length2(minus(there, outside ? out_at(k) : in_at(k))) > tolerance) return std::nullopt;
+      f.residual = std::max(f.residual, length2(minus(there, outside ? out_at(k) : in_at(k))));
+      if (f.residual > tolerance) return std::nullopt;
     }
   }
   return f;
@@ -195,7 +196,7 @@ std::optional<Fit> as_sector(const Extruded& e, const std::vector<Vec2>& p, doub
     form.shape = RectangularTorusForm{f->inner, f->outer, e.height, f->angle};
     form.segments = static_cast<int>(f->n);
     form.bottom = form.top = capped;
-    return Fit{std::move(form), e.residual + tolerance, e.turn > 0};
+    return Fit{std::move(form), e.residual + f->residual, e.turn > 0};
   }
   return std::nullopt;
 }
@@ -211,12 +212,33 @@ std::optional<Fit> fit_prism(std::span<const Ring> rings, const Tolerances& tole
   if (profile.size() < 3) return std::nullopt;
   if (auto box = as_box(*e, profile, tolerance)) return box;
   if (auto sector = as_sector(*e, profile, tolerance, true)) return sector;
+  const double left_out = e->profiles[0].size() > profile.size() ? tolerance / 2 : 0;
   Form form;
   form.frame = e->frame;
   PrismForm f{std::move(profile), {}, e->height, crease};
   f.ring_ends = {static_cast<std::uint32_t>(f.points.size())};
   form.shape = std::move(f);
-  return Fit{std::move(form), e->residual + (e->profiles[0].size() > profile.size() ? tolerance / 2 : 0), e->turn > 0};
+  return Fit{std::move(form), e->residual + left_out, e->turn > 0};
+}
+
+bool become_square_bar(Form& form, const Vec3& axis, double tolerance) {
+  const auto* box = std::get_if<BoxForm>(&form.shape);
+  if (!box) return false;
+  const Matrix& m = form.frame;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+    auto direction = [&](std::size_t c) {
+      const int column = static_cast<int>(c);
+      return Vec3{m(0, column), m(1, column), m(2, column)};
+    };
+    if (std::abs(dot(direction(k), axis)) < 0.9 || std::abs(box->size[a] - box->size[b]) > tolerance) continue;
+    const CylinderForm bar{(box->size[a] + box->size[b]) / 2 / std::numbers::sqrt2, box->size[k]};
+    form.frame = frame_of({m(0, 3), m(1, 3), m(2, 3)}, direction(k), unit(direction(a) + direction(b)));
+    form.shape = bar;
+    form.segments = 4;
+    return true;
+  }
+  return false;
 }
 
 std::optional<Fit> fit_pyramid(std::span<const Ring> rings, const Tolerances& tolerances) {
@@ -256,7 +278,7 @@ std::optional<Fit> fit_hollow(std::span<const Ring> low, std::span<const Ring> h
   const auto e = extrude(low, high, {}, tolerance);
   if (!e) return std::nullopt;
   Form form;
-  if (low.size() == 2 && low[0].round && low[1].round && low[0].at.size() == low[1].at.size() &&
+  if (low.size() == 2 && low[0].at.size() > 4 && low[0].round && low[1].round && low[0].at.size() == low[1].at.size() &&
       length(perpendicular(low[0].centre - low[1].centre, low[0].normal)) <= tolerance) {
     const Matrix& m = e->frame;
     const Vec3 y{m(0, 1), m(1, 1), m(2, 1)};

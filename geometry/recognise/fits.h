@@ -36,6 +36,9 @@ std::optional<Fit> fit_dish(std::span<const Ring> rings, const Tolerances& toler
 std::optional<Fit> fit_sphere(std::span<const Ring> rings, const Tolerances& tolerances);
 /// A box, a rectangular torus or a prism.
 std::optional<Fit> fit_prism(std::span<const Ring> rings, const Tolerances& tolerances);
+/// A box that is square across an axis as a cylinder with four sides, which looks the same. False, and nothing done,
+/// for others.
+bool become_square_bar(Form& form, const Vec3& axis, double tolerance);
 std::optional<Fit> fit_pyramid(std::span<const Ring> rings, const Tolerances& tolerances);
 /// Of several loops, the first of which is the outer one: from their lower to their upper rings.
 std::optional<Fit> fit_hollow(std::span<const Ring> low, std::span<const Ring> high, const Tolerances& tolerances);

@@ -21,7 +21,7 @@ Vec3 newell(const Piece& p, std::uint32_t face) {
 
 class Grower {
  public:
-  explicit Grower(Piece& p) : p_(p), flat_(1.5 * p.step + 2e-6 * p.size) {}
+  explicit Grower(Piece& p) : p_(p), flat_(2.5 * p.step + 2e-6 * p.size) {}
 
   void run() {
     std::vector<std::uint32_t> order(p_.n_faces());

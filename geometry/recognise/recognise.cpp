@@ -12,7 +12,7 @@ namespace {
 
 using namespace recognising;
 
-constexpr std::size_t most_readings = 24;  // of one piece
+constexpr std::size_t most_readings = 80;  // of one piece
 
 /// What is best explained: all faces, by the plainest kinds.
 class Search {

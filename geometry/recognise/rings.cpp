@@ -134,7 +134,7 @@ std::vector<RingWalk::Start> RingWalk::starts() const {
   add_borders(out);
   add_regions(out, 5, none - 1, 6);
   add_apices(out);
-  add_regions(out, 3, 4, 6);
+  add_regions(out, 3, 4, 64);
   add_straight_loops(out);
   return out;
 }

@@ -104,11 +104,11 @@ double reach_of_form(const Form& form) {
 
 void round_sizes(Form& form, double step) {
   if (!(step > 0)) return;
+  const double per = step < 1 ? std::round(1 / step) : 1 / step;  // decimals without noise behind them
   auto whole = [&](double& v) {
-    const double per = 1 / step, rounded = std::round(v * per) / per;
-    if (rounded != 0) v = rounded;
+    if (const double rounded = std::round(v * per) / per; rounded != 0) v = rounded;
   };
-  auto zero = [&](double& v) { v = std::abs(v) < step ? 0 : std::round(v / step) * step; };
+  auto zero = [&](double& v) { v = std::round(v * per) / per + 0.0; };
   auto angle = [&](double& v, double radius) {
     const double digits = std::pow(10, std::ceil(std::log10(std::max(radius / step, 1.0))) + 1);
     v = std::round(v * digits) / digits;
@@ -151,7 +151,7 @@ void round_sizes(Form& form, double step) {
                         },
                         [&](PrismForm& f) {
                           for (Vec2& p : f.points)
-                            for (double& c : p) c = std::round(c / step) * step;
+                            for (double& c : p) zero(c);
                           whole(f.height);
                         },
                         [&](RingForm& f) {

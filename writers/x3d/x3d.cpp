@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "base/text/xml_text.h"
-#include "scenegraph/access_word.h"
 #include "geometry/forms/form_faces.h"
+#include "scenegraph/access_word.h"
 #include "scenegraph/container_field.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
@@ -411,7 +411,7 @@ class Writer : TextDocument {
 }  // namespace
 
 void write_x3d(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag) {
-  const auto faces = with_form_faces(scene);
+  const auto faces = options.own_fields ? std::nullopt : with_form_faces(scene);
   Writer(faces ? *faces : scene, options, sink, diag).file();
 }
 
