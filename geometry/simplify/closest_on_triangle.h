@@ -1,5 +1,5 @@
-// The point of a triangle that is nearest to another point, by its barycentric coordinates (Ericson, Real-Time Collision
-// Detection, 5.1.5).
+// The point of a triangle that is nearest to another point, by its barycentric coordinates (Ericson, Real-Time
+// Collision Detection, 5.1.5).
 #pragma once
 #include <array>
 #include <limits>

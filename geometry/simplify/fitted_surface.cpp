@@ -9,8 +9,8 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::size_t most_asked = 32;      // samples that a price is made of
-constexpr std::size_t most_removable = 64;  // faces from which on none is taken out by itself
+constexpr std::size_t most_asked = 48;       // samples that a price is made of
+constexpr std::size_t most_removable = 256;  // faces from which on none is taken out by itself
 
 }  // namespace
 
@@ -36,9 +36,8 @@ FittedSurface::FittedSurface(PlainMesh mesh, const ClosestPoint& original, std::
     for (std::size_t k = 0; k < 3; ++k) {
       const auto u = face_[f][k], v = face_[f][(k + 1) % 3];
       const auto& others = faces_of_[u];
-      const bool first = std::ranges::none_of(others, [&](std::uint32_t o) {
-        return o < f && std::ranges::find(face_[o], v) != face_[o].end();
-      });
+      const bool first = std::ranges::none_of(
+          others, [&](std::uint32_t o) { return o < f && std::ranges::find(face_[o], v) != face_[o].end(); });
       if (first) enqueue_edge(u, v);
     }
     if (n_faces_ <= most_removable) enqueue_face(f);
@@ -149,8 +148,7 @@ bool FittedSurface::gather(std::uint32_t u, std::uint32_t v, Merged& m) const {
 
 /// The integral over the samples, and a better place for the vertex: where the squares are least while each sample
 /// stays where it is on the faces.
-double FittedSurface::forward(const Merged& m, std::uint32_t v, const Vec3& x, std::size_t stride,
-                              Vec3* better) const {
+double FittedSurface::forward(const Merged& m, std::uint32_t v, const Vec3& x, std::size_t stride, Vec3* better) const {
   double cost = 0, sum = 0, all = 0;
   Vec3 right{};
   std::vector<std::array<Vec3, 3>> corners;
@@ -348,9 +346,8 @@ bool FittedSurface::step() {
       queue_.push({key, e.from, e.to, stamp_of(e)});
       continue;
     }
-    const bool still_an_edge = std::ranges::any_of(faces_of_[e.from], [&](std::uint32_t f) {
-      return std::ranges::find(face_[f], e.to) != face_[f].end();
-    });
+    const bool still_an_edge = std::ranges::any_of(
+        faces_of_[e.from], [&](std::uint32_t f) { return std::ranges::find(face_[f], e.to) != face_[f].end(); });
     if (!still_an_edge) continue;
     merge(e.from, e.to, m);
     return true;

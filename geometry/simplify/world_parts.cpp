@@ -76,17 +76,26 @@ void WorldParts::read(Task& ctx) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].fixed = std::move(fixed[i]);
   const auto number = surface_numbers(scene_, found);
   for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix& m) {
-    if (const auto i = number[shape.value]; i && is_invertible(m)) surfaces[i - 1].places.push_back(m);
+    if (const auto i = number[shape.value]) surfaces[i - 1].places.push_back(m);
   });
   count_left(found, reader);
-  std::erase_if(surfaces, [](const PlacedSurface& s) { return s.mesh.n_faces() == 0 || s.places.empty(); });
-  for (auto& s : surfaces) {
+  std::erase_if(surfaces, [&](PlacedSurface& s) { return !measure_places(s); });
+  for (const auto& s : surfaces) {
     n_faces += s.mesh.n_faces();
     n_drawn += s.mesh.n_faces() * s.places.size();
-    for (std::size_t i = 1; i < s.places.size(); ++i)
-      if (scale_of(s.places[i]) > scale_of(s.places[s.widest])) s.widest = i;
-    s.scale = scale_of(s.places[s.widest]);
   }
+}
+
+/// False when there is nothing to see, or nothing with a size: that is drawn as it is.
+bool WorldParts::measure_places(PlacedSurface& s) {
+  s.scale = 0;
+  for (std::size_t i = 0; i < s.places.size(); ++i)
+    if (const double scale = scale_of(s.places[i]); is_invertible(s.places[i]) && scale > s.scale) {
+      s.widest = i;
+      s.scale = scale;
+    }
+  if (!(s.scale > 0)) n_left += s.mesh.n_faces() * s.places.size();
+  return s.scale > 0 && s.mesh.n_faces() > 0;
 }
 
 /// Text, and what has levels already: it is drawn, and the budget has to pay for it.
@@ -183,8 +192,8 @@ void WorldParts::find_ladders() {
     Mesh mesh = in_metres(part, &options);
     part.from_ladder = inverse(frame_of(part));
     const auto attributes = mesh.attributes();
-    const bool plain = options.fixed.empty() &&
-                       std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
+    const bool plain =
+        options.fixed.empty() && std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
     part.ladder = static_cast<std::uint32_t>(members_.size());
     if (plain) {
       auto& alike = by_corners[hash_of_corners(mesh)];
@@ -214,8 +223,7 @@ struct WorldParts::Surroundings {
 /// Nothing needs to be nearer to a sample that is hidden than what hides it.
 double WorldParts::enough(const Surroundings& around, const SurfaceSample& sample) const {
   const Vec3 p = around.place.point(sample.point);
-  const auto found =
-      neighbours.nearest(p, around.width, [&](std::uint32_t owner) { return owner != around.owner; });
+  const auto found = neighbours.nearest(p, around.width, [&](std::uint32_t owner) { return owner != around.owner; });
   if (found.owner == ClosestPoint::no_guess) return std::numeric_limits<double>::infinity();
   const Vec3 normal = unit(turned(around.place, sample.normal));
   const bool hidden = is_hidden(p, normal, neighbours.corners(found.triangle), found.distance, around.width);
@@ -245,7 +253,8 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
 /// Points of a part in all its places, for when it leaves.
 void WorldParts::find_leaving(std::uint32_t part) {
   const Mesh mesh = in_metres(parts[part], nullptr);
-  const auto samples = sample_surface(triangles_of(mesh), samples_of_leaving);
+  const auto samples =
+      sample_surface(triangles_of(mesh), std::clamp<std::size_t>(2 * mesh.n_faces(), 4, samples_of_leaving));
   const double width = half_width(samples);
   const auto& s = surfaces[parts[part].surface];
   const Matrix back = inverse(frame_of(parts[part]));
