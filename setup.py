@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent
 
 
 class Build(build_ext):
-    """The module, the codecs beside it, and the types that were made of both."""
+    """The module, the codecs next to it, and the types that were made of both."""
 
     def run(self):
         package = os.environ.get('WRLKIT_PACKAGE')

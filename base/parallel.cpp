@@ -5,6 +5,8 @@
 
 #include <atomic>
 
+#include "base/stop.h"
+
 namespace wrlkit {
 namespace {
 
@@ -15,8 +17,20 @@ std::atomic<int> limits_of_one = 0;
 bool only_one_thread() { return limits_of_one > 0; }
 
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& f) {
-  if (!only_one_thread()) return tbb::parallel_for(std::size_t{0}, n, f);
-  for (std::size_t i = 0; i < n; ++i) f(i);
+  if (only_one_thread()) {
+    for (std::size_t i = 0; i < n; ++i) {
+      check_stop();
+      f(i);
+    }
+    return;
+  }
+  const auto* stop = StopScope::current();
+  if (!stop) return tbb::parallel_for(std::size_t{0}, n, f);
+  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+    const StopScope scope(*stop);
+    check_stop();
+    f(i);
+  });
 }
 
 struct ThreadLimit::Control {

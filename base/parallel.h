@@ -8,7 +8,7 @@
 namespace wrlkit {
 
 /// Calls f(0) to f(n - 1), in no order, on as many threads as there may be. Calls within f are allowed. An exception of
-/// f is thrown here.
+/// f is thrown here, and Stopped between two calls (stop.h).
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& f);
 
 /// As long as one of these lives, parallel_for uses at most that many threads; 0: as many as there are cores.

@@ -1,4 +1,4 @@
-// The stages of the main road on one thread, in bytes of VRML text a CPU second, beside the floor: a bare fast_float
+// The stages of the main road on one thread, in bytes of VRML text a CPU second, and the floor: a bare fast_float
 // loop that finds the numbers of the same text and stores them.
 //   wrlkit_bench FILE.wrl [--benchmark_...]
 #include <benchmark/benchmark.h>
@@ -12,6 +12,7 @@
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
 #include "passes/weld/weld.h"
+#include "scenegraph/nodes.h"
 #include "writers/gltf/gltf.h"
 #include "writers/vrml/vrml.h"
 
@@ -83,7 +84,7 @@ void meshes(benchmark::State& state) {
     auto source = pipeline->run_lazily(world->scene, ctx);
     std::size_t corners = 0;
     for (std::uint32_t i = 0; i < world->scene.node_count(); ++i)
-      if (world->scene.type(NodeId{i}).is_a("X3DGeometryNode")) corners += source(NodeId{i}).corners.size();
+      if (world->scene.is(NodeId{i}, nodes::X3DGeometryNode)) corners += source(NodeId{i}).corners.size();
     benchmark::DoNotOptimize(corners);
   }
   count(state);

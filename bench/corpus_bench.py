@@ -5,7 +5,7 @@
                                                     the same bytes? nothing done twice? and what the workers used of the cores
   bench/corpus_bench.py WRLKIT scale [N ...]        planning, a run, a resumed run and a report of N small files (10000, 100000): seconds and peak memory,
                                                     which must grow as N does; the files are in a temporary folder, 200 bytes each
-  bench/corpus_bench.py WRLKIT overhead IN          what a file costs beside its conversion: the run against the sum of what its workers used; and how much of
+  bench/corpus_bench.py WRLKIT overhead IN          what a file costs on top of its conversion: the run against the sum of what its workers used; and how much of
                                                     the time as many workers as there are cores were there, which others on the machine do not change
 """
 import hashlib, json, os, pathlib, random, resource, signal, subprocess, sys, tempfile, time
@@ -94,7 +94,7 @@ def overhead(worlds):
         now = resource.getrusage(resource.RUSAGE_CHILDREN)
         loop = now.ru_utime + now.ru_stime - used.ru_utime - used.ru_stime
         in_run = sum(l['cpu'] for l in lines if l['input'] in set(sample))
-        print(f'{len(lines)} files, {cores} jobs: {wall:.1f} s, {cpu:.1f} CPU s, {100 * cpu / wall / cores:.0f} % of the cores, with a worker for each {100 * sum(l["seconds"] for l in lines) / wall / cores:.0f} % of the time; of the run itself, beside its workers: {1000 * (cpu - sum(l["cpu"] for l in lines)) / len(lines):.2f} ms CPU a file')
+        print(f'{len(lines)} files, {cores} jobs: {wall:.1f} s, {cpu:.1f} CPU s, {100 * cpu / wall / cores:.0f} % of the cores, with a worker for each {100 * sum(l["seconds"] for l in lines) / wall / cores:.0f} % of the time; of the run itself, next to its workers: {1000 * (cpu - sum(l["cpu"] for l in lines)) / len(lines):.2f} ms CPU a file')
         print(f'{len(sample)} of them by a shell loop over wrlkit convert: {1000 * loop / len(sample):.1f} ms CPU a file; in the run {1000 * in_run / len(sample):.1f} ms')
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Baked light beside that of Blender Cycles (3.4, `apt-get install blender`), over the same texels: CPU seconds and error.
+"""Baked light compared with that of Blender Cycles (3.4, `apt-get install blender`), over the same texels: CPU seconds and error.
 
   cycles_bake.py WRLKIT WORK [stairs,box,hall] [SAMPLES,...]
 

@@ -1,5 +1,5 @@
 // Rays and baking, in CPU seconds.
-//   light_bench rays IN.wrl [N]                     rays a second: nearest and occluded of the library beside Embree
+//   light_bench rays IN.wrl [N]                     rays a second: nearest and occluded, of the library and of Embree
 //   alone,
 //                                                   over the same triangles and the same rays, in one run
 //   light_bench bake IN.wrl TEXELS RAYS,... [SPP]   irradiance at about TEXELS points spread over all faces: CPU

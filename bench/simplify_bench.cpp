@@ -14,15 +14,14 @@
 #include <string>
 #include <vector>
 
-#include "geometry/simplify/collapse.h"
+#include "geometry/simplify/levels.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/nodes.h"
 
 namespace {
 
 using namespace wrlkit;
-
-const char* const names[] = {"length-normal", "melax", "lindstrom-turk", "quadric", "meshopt", "openmesh"};
 
 double cpu_seconds() {
   timespec t;
@@ -37,9 +36,12 @@ double peak_bytes() {
 }
 
 Criterion criterion(const std::string& name) {
-  for (int i = 0; i < 6; ++i)
-    if (name == names[i]) return static_cast<Criterion>(i);
-  std::fprintf(stderr, "no criterion '%s'\n", name.c_str()), std::exit(2);
+  CriterionName chosen;
+  if (!chosen.read(name)) {
+    std::fprintf(stderr, "no criterion '%s'\n", name.c_str());
+    std::exit(2);
+  }
+  return chosen.value;
 }
 
 std::vector<std::string> split(const std::string& s) {
@@ -61,7 +63,7 @@ Mesh read(const char* path) {
   MeshSource source = pipeline->run_lazily(world->scene, ctx);
   Mesh largest;
   for (std::uint32_t i = 0; i < world->scene.node_count(); ++i)
-    if (world->scene.type(NodeId{i}).is_a("X3DGeometryNode"))
+    if (world->scene.is(NodeId{i}, nodes::X3DGeometryNode))
       if (const Mesh& m = source(NodeId{i}); m.corners.size() > largest.corners.size()) {
         largest = m;
         largest.positions.edit();
@@ -119,7 +121,7 @@ void speed(const Mesh& mesh, Criterion by) {
   c.run_to(mesh.n_faces() / 10);
   double seconds = cpu_seconds() - begin;
   std::printf("%-15s faces=%zu to=%zu built=%.3f cpu=%.3f ktriangles/s=%.0f bytes/triangle=%.0f\n",
-              names[static_cast<int>(by)], mesh.n_faces(), c.n_faces(), built, seconds, n / seconds / 1e3,
+              info(by).name.c_str(), mesh.n_faces(), c.n_faces(), built, seconds, n / seconds / 1e3,
               (peak_bytes() - before) / n);
   std::fflush(stdout);
 }
@@ -135,6 +137,5 @@ int main(int argc, char** argv) {
   if (!std::strcmp(argv[1], "levels") && argc == 6)
     levels(mesh, argv[3], criterion(argv[4]), argv[5]);
   else
-    for (const std::string& name : split(argc > 3 ? argv[3] : "lindstrom-turk,melax,length-normal,quadric,meshopt"))
-      speed(mesh, criterion(name));
+    for (const std::string& name : argc > 3 ? split(argv[3]) : criterion_names()) speed(mesh, criterion(name));
 }

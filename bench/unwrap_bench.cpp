@@ -15,6 +15,7 @@
 #include "geometry/unwrap/unfold.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/nodes.h"
 
 namespace {
 
@@ -46,7 +47,7 @@ Soup read(const char* path) {
   MeshSource source = pipeline->run_lazily(world->scene, ctx);
   Soup all;
   for (std::uint32_t i = 0; i < world->scene.node_count(); ++i) {
-    if (!world->scene.type(NodeId{i}).is_a("X3DGeometryNode")) continue;
+    if (!world->scene.is(NodeId{i}, nodes::X3DGeometryNode)) continue;
     const Mesh& m = source(NodeId{i});
     if (!m.is_triangles()) continue;
     auto first = static_cast<std::uint32_t>(all.positions.size() / 3);

@@ -1,5 +1,6 @@
 #include "convert/bake.h"
 
+#include "base/stop.h"
 #include "passes/pipeline/pipeline.h"
 
 namespace wrlkit {
@@ -10,7 +11,12 @@ Ending bake(Document& document, const LightmapOptions& options) {
   std::string why;
   const bool expanded = Pipeline::parse("lower-vrml1,expand,lower-x3d", why)->run(document.scene(), ctx);
   if (!expanded || ctx.stop.stop_requested()) return document.ending(false);
-  return document.ending(lightmap(document.scene(), options, ctx) != Outcome::failed);
+  const StopScope scope(ctx.stop);
+  try {
+    return document.ending(lightmap(document.scene(), options, ctx) != Outcome::failed);
+  } catch (const Stopped&) {
+    return document.ending(false);
+  }
 }
 
 }  // namespace wrlkit

@@ -32,17 +32,13 @@ std::optional<WorldFacts> facts_of(Document&& document) {
 
 namespace {
 
-double apart(const Bounds& a, const Bounds& b) {
+double apart(const Box& a, const Box& b) {
   if (a.empty() && b.empty()) return 0;
-  if (a.empty() || b.empty()) return Bounds::inf;
+  if (a.empty() || b.empty()) return Box::inf;
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i)
-    most = std::max({most, std::fabs(a.min[i] - b.min[i]), std::fabs(a.max[i] - b.max[i])});
+    most = std::max({most, std::fabs(a.low[i] - b.low[i]), std::fabs(a.high[i] - b.high[i])});
   return most;
-}
-
-double diagonal(const Bounds& b) {
-  return b.empty() ? 0 : std::hypot(b.max[0] - b.min[0], b.max[1] - b.min[1], b.max[2] - b.min[2]);
 }
 
 }  // namespace

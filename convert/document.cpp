@@ -22,7 +22,7 @@ struct Document::State {
     if (options.strict) own_diag.warnings_are_errors();
     for (const auto& [id, severity] : options.severities) own_diag.set_severity(id, severity);
   }
-  State(World w, const PassContext& c) : world(std::make_unique<World>(std::move(w))), context(c) {}
+  State(World w, PassContext c) : world(std::make_unique<World>(std::move(w))), context(std::move(c)) {}
 
   /// A file that another one refers to, in the nodes of VRML97. The only place where that is done.
   std::shared_ptr<const Scene> parse_inlined(const std::string& file, Diagnostics& diag) {
@@ -37,14 +37,16 @@ struct Document::State {
   void open_files(const std::string& input) {
     world.reset();
     files = std::make_unique<FileResources>(
-        ResourceOptions{.input = input, .allowed = options.allow_paths},
+        ResourceOptions{.input = input, .allowed = options.allow_paths, .in_place = options.in_place},
         [this](const std::string& file, Diagnostics& diag) { return parse_inlined(file, diag); });
     context.resources = files.get();
   }
 
   bool take(std::unique_ptr<World> read) {
     world = std::move(read);
+    for (const auto& buffer : buffers) files->files_read().add(buffer.result.canonical);
     if (!world) return false;
+    if (options.show_all) show_all(world->scene);
     place_world(world->scene, options.unit, options.up);
     if (options.unpack_pictures && world->format == Format::gltf) unpack_pictures(world->scene, *files);
     files->set_root({std::shared_ptr<const Scene>{}, &world->scene});
@@ -68,6 +70,7 @@ Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
 void Document::leave_unplaced() {
+  state_->options.show_all = false;
   state_->options.unit = {};
   state_->options.up = {};
 }

@@ -47,7 +47,8 @@ class Document {
   /// LoadOptions::allow_paths says where relative urls may lead.
   bool parse(std::string_view bytes, std::string name);
 
-  /// What is read from now on is not placed by LoadOptions::unit and up: the pipeline that it goes through has `place`.
+  /// What is read from now on is left as it is by LoadOptions::unit, up and show_all: the pipeline that
+  /// it goes through has `place` and `switch`.
   void leave_unplaced();
 
   /// Whether there is a scene.

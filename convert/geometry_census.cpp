@@ -53,21 +53,19 @@ std::vector<std::uint64_t> times_shown(const Scene& scene, const std::vector<Nod
 
 /// The corners that a mesh uses, or the corners of their box when there are too many places for that.
 void add_bounds(const Mesh& mesh, const std::vector<Matrix>& where, StampedMap& seen, std::uint64_t& budget,
-                Bounds& bounds) {
+                Box& bounds) {
   std::vector<Vec3> points;
-  Bounds box;
+  Box box;
   seen.reset(mesh.n_positions());
   for (auto c : mesh.corners) {
     if (seen.contains(c)) continue;
     seen.set(c, 0);
-    points.push_back({mesh.positions[c * 3], mesh.positions[c * 3 + 1], mesh.positions[c * 3 + 2]});
+    points.push_back(vec3(&mesh.positions[c * std::size_t{3}]));
     box.add(points.back());
   }
   if (multiply(points.size(), where.size()) > budget) {
     points.clear();
-    for (int i = 0; i < 8; ++i)
-      points.push_back(
-          {i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1], i & 4 ? box.max[2] : box.min[2]});
+    for (int i = 0; i < 8; ++i) points.push_back(box.corner(i));
   } else {
     budget -= points.size() * where.size();
   }
@@ -76,13 +74,12 @@ void add_bounds(const Mesh& mesh, const std::vector<Matrix>& where, StampedMap& 
 }
 
 /// Boxes from below upwards: loose where there is rotation, but linear in the nodes however often they are shown.
-Bounds box_of_boxes(const Scene& scene, const std::vector<NodeId>& order,
-                    const std::unordered_map<std::uint32_t, Bounds>& geometry) {
-  std::vector<Bounds> box(scene.node_count());
-  Bounds all;
-  auto merge = [](Bounds& to, const Bounds& b, const Matrix& m) {
-    for (int i = 0; i < 8 && !b.empty(); ++i)
-      to.add(m.point({i & 1 ? b.max[0] : b.min[0], i & 2 ? b.max[1] : b.min[1], i & 4 ? b.max[2] : b.min[2]}));
+Box box_of_boxes(const Scene& scene, const std::vector<NodeId>& order,
+                 const std::unordered_map<std::uint32_t, Box>& geometry) {
+  std::vector<Box> box(scene.node_count());
+  Box all;
+  auto merge = [](Box& to, const Box& b, const Matrix& m) {
+    for (int i = 0; i < 8 && !b.empty(); ++i) to.add(m.point(b.corner(i)));
   };
   for (NodeId n : order) {
     if (NodeId g = geometry_of(scene, n)) box[n.value] = geometry.at(g.value);
@@ -117,7 +114,7 @@ GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, co
     }
   Places where;
   const bool exact = find_places(scene, where);
-  std::unordered_map<std::uint32_t, Bounds> boxes;
+  std::unordered_map<std::uint32_t, Box> boxes;
   StampedMap seen;
   std::uint64_t budget = most_points;
   for (NodeId g : geometries) {

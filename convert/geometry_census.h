@@ -1,31 +1,19 @@
 // What a world shows, counted: instances multiplied out, finest level of detail, chosen child of a Switch.
 #pragma once
 #include <cstdint>
-#include <limits>
 #include <unordered_map>
 #include <vector>
 
+#include "base/math/box.h"
 #include "geometry/mesh.h"
 #include "scenegraph/scene.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit {
 
-struct Bounds {
-  Vec3 min{inf, inf, inf}, max{-inf, -inf, -inf};
-  bool empty() const { return min[0] > max[0]; }
-  void add(const Vec3& p) {
-    for (int i = 0; i < 3; ++i) {
-      min[i] = p[i] < min[i] ? p[i] : min[i];
-      max[i] = p[i] > max[i] ? p[i] : max[i];
-    }
-  }
-  static constexpr double inf = std::numeric_limits<double>::infinity();
-};
-
 struct GeometryCensus {
   std::uint64_t shapes = 0, polygons = 0, triangles = 0, lines = 0, points = 0;
-  Bounds bounds;  // world, metres
+  Box bounds;  // world, metres
 };
 
 /// Counts saturate instead of overflowing: a node may be shown 2^40 times. Each source is asked once for each geometry

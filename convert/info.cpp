@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/image/image.h"
+#include "convert/hidden_geometry.h"
 #include "convert/world_meshes.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
@@ -26,7 +27,7 @@ void count_authored(const Scene& scene, Info& info) {
   std::set<std::uint32_t> driving;
   for (std::uint32_t i = 0; i < scene.proto_count(); ++i) info.routes += scene.proto(ProtoId{i}).body.routes.size();
   for (auto& r : scene.main.routes)
-    if (scene.type(r.from).is_a("X3DInterpolatorNode")) driving.insert(r.from.value);
+    if (scene.is(r.from, nodes::X3DInterpolatorNode)) driving.insert(r.from.value);
   info.animations = driving.size();
 }
 
@@ -55,11 +56,11 @@ void count_expanded(Document& document, Info& info) {
   const Scene& scene = document.scene();
   for (NodeId n : reachable(scene, scene.main)) {
     const auto& t = scene.type(n);
-    info.materials += t.is_a("X3DMaterialNode");
-    info.lights += t.is_a("X3DLightNode");
-    info.viewpoints += t.is_a("X3DViewpointNode");
+    info.materials += t.is_a(nodes::X3DMaterialNode);
+    info.lights += t.is_a(nodes::X3DLightNode);
+    info.viewpoints += t.is_a(nodes::X3DViewpointNode);
     info.lods += scene.is(n, nodes::LOD);
-    if (t.is_a("X3DTextureNode")) info.textures.push_back(texture_info(document, n));
+    if (t.is_a(nodes::X3DTextureNode)) info.textures.push_back(texture_info(document, n));
   }
 }
 
@@ -91,6 +92,7 @@ std::optional<Info> info(Document&& document) {
   if (!document) return std::nullopt;
   const World& world = document.world();
   check_values(world.scene, document.diag());
+  report_hidden_geometry(world.scene, document.diag());
   Info out{.format = world.format, .gzip = world.gzip, .bytes = world.bytes};
   count_authored(world.scene, out);
   const WorldMeshes meshes(document);

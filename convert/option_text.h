@@ -25,9 +25,18 @@ inline bool read(const std::string& text, int& field, const OptionNote& note) {
 inline bool read(const std::string& text, LengthOption& field, const OptionNote&) {
   return field.read(text) && field.metres > 0;
 }
-template <class E>
-requires std::is_enum_v<E>
-bool read(const std::string& text, E& field, const OptionNote&) { return read_value(text, field); }
+template <Choice E>
+bool read(const std::string& text, E& field, const OptionNote&) {
+  return read_choice(text, field);
+}
+template <class T>
+std::string help(const T&, std::string_view text) {
+  return std::string(text);
+}
+template <Choice E>
+std::string help(const E&, std::string_view text) {
+  return choice_help<E>(text);
+}
 inline bool read(const std::string& text, std::vector<std::string>& field, const OptionNote&) {
   field.push_back(text);
   return true;
@@ -55,7 +64,7 @@ bool set_option(Options& options, std::string_view name, const std::vector<std::
     if (known != name) return;
     for (const auto& value : values)
       if (good && !option_value::read(value, field, note)) {
-        why = std::string(name) + ": '" + value + "' is not a valid value (" + std::string(help) + ")";
+        why = std::string(name) + ": '" + value + "' is not a valid value (" + option_value::help(field, help) + ")";
         good = false;
       }
   });

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/choice.h"
 #include "base/diagnostics.h"
 #include "base/image/image.h"
 #include "base/option_range.h"
@@ -18,45 +19,14 @@
 
 namespace wrlkit {
 
-using Unit = PlaceOptions::Unit;
-using UpAxis = PlaceOptions::Up;
 /// What VRML says and glTF cannot: kept whole, so that the same VRML can be made again; only what nodes say that draw
 /// nothing (links, descriptions); dropped.
 enum class Extras : std::uint8_t { all, facts, none };
-
-/// The values of an enumeration as texts, in its order.
-template <class E>
-inline constexpr std::span<const std::string_view> value_names = {};
-
-#define WRLKIT_VALUE_NAMES(Enum, id, ...)                               \
-  inline constexpr std::string_view id##_value_names[] = {__VA_ARGS__}; \
-  template <>                                                           \
-  inline constexpr std::span<const std::string_view> value_names<Enum> = id##_value_names;
-
-WRLKIT_VALUE_NAMES(Unit, unit, "m", "cm", "mm", "in", "ft")
-WRLKIT_VALUE_NAMES(UpAxis, up_axis, "y", "z", "x")
-WRLKIT_VALUE_NAMES(Extras, extras, "all", "facts", "none")
-WRLKIT_VALUE_NAMES(GltfCompression::Method, compression, "none", "quantize", "meshopt", "draco")
-WRLKIT_VALUE_NAMES(GltfTextures::Format, texture_format, "keep", "png", "jpeg", "webp")
-WRLKIT_VALUE_NAMES(GltfOptions::Lightmaps, lightmaps, "base-color", "emissive", "occlusion", "moz", "extras")
-WRLKIT_VALUE_NAMES(GltfOptions::Names, names, "nodes", "table")
-#undef WRLKIT_VALUE_NAMES
-
-template <class E>
-std::string_view name_of(E value) {
-  return value_names<E>[static_cast<std::size_t>(value)];
-}
-
-/// False when no value of the enumeration has that name.
-template <class E>
-bool read_value(std::string_view text, E& value) {
-  for (std::size_t i = 0; i < value_names<E>.size(); ++i)
-    if (value_names<E>[i] == text) {
-      value = static_cast<E>(i);
-      return true;
-    }
-  return false;
-}
+template <>
+inline constexpr auto choices<Extras> = choice_row({{"all", "so that the same VRML can be made again"},
+                                                    {"facts",
+                                                     "what nodes say that draw nothing, links and descriptions"},
+                                                    {"none"}});
 
 /// What fields() may add to the name, the value and the help of an option.
 struct OptionNote {
@@ -69,12 +39,15 @@ struct LoadOptions {
   UpAxis up = UpAxis::y;                      // which of its axes points up
   std::vector<std::string> allow_paths = {};  // folders that pictures and Inlines may lie in, besides the file's own
   bool strict = false;                        // every warning is an error
+  bool show_all = false;                      // Switches that are off show everything
+  bool in_place = false;                      // an output may take the place of the file that is read
   std::vector<std::pair<Diag, Severity>> severities = {};  // of single messages
   bool unpack_pictures = false;  // pictures inside a glTF file become files that a writer places next to its own
 
   void placing_fields(auto&& f) {
-    f("unit", unit, "what one unit of the input is: m, cm, mm, in, ft");
-    f("up", up, "which axis of the input points up: y, z, x");
+    f("unit", unit, "what one unit of the input is");
+    f("up", up, "which axis of the input points up");
+    f("show-all", show_all, "Switches that are off show all their children; see wrlkit passes switch");
   }
   void fields(auto&& f) {
     placing_fields(f);
@@ -106,18 +79,14 @@ struct SaveOptions {
   bool keep_urls = false;  // what relative urls mean stands next to the output, too
 
   void light_fields(auto&& f) {
-    f("lightmap-as", lightmap_as,
-      "baked light in glTF: base-color, in the texture of unlit materials; emissive; occlusion, its brightness alone; "
-      "moz, as MOZ_lightmap; extras, for programs that look there");
+    f("lightmap-as", lightmap_as, "baked light in glTF");
     f("animation-pointer", animation_pointer,
       "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few viewers know");
   }
   void size_fields(auto&& f) {
-    f("compress", compress,
-      "vertices in glTF: none, as floats; quantize, in fewer bits; meshopt, that and packed; draco, packed smaller, "
-      "each mesh by itself");
+    f("compress", compress, "vertices in glTF");
     f("tolerance", tolerance,
-      "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; as a rule 1mm, or less in a "
+      "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; default 1mm, or less in a "
       "small world",
       OptionNote{.type = "LENGTH"});
     f("position-bits", position_bits, "instead of that, bits of the extent of each mesh", OptionNote{between(1, 16)});
@@ -125,22 +94,15 @@ struct SaveOptions {
     f("texcoord-bits", texcoord_bits, "of a picture's width and height; of a lightmap's two more",
       OptionNote{between(1, 16)});
     f("draco-level", draco_level, "0: fast, 10: small", OptionNote{between(0, 10)});
-    f("extras", extras,
-      "what VRML says and glTF cannot, kept in extras: all, so that the same VRML can be made again; facts, what nodes "
-      "say that draw nothing, links and descriptions; none");
-    f("texture-format", texture_format,
-      "pictures in glTF: keep, PNG and JPEG as they are; png; jpeg, of colours without alpha, where it is smaller; "
-      "webp, of colours, where it is smaller (EXT_texture_webp)");
+    f("extras", extras, "what VRML says and glTF cannot, kept in extras");
+    f("texture-format", texture_format, "pictures in glTF");
     f("texture-quality", texture_quality, "of JPEG and WebP", OptionNote{between(1, 100)});
-    f("texture-size", texture_size,
-      "pictures in glTF have so many pixels along their longer side, at most; 0: as they are",
+    f("texture-size", texture_size, "most pixels along the longer side of pictures in glTF; 0: as they are",
       OptionNote{between(0, static_cast<double>(max_image_side)), "PIXELS"});
     f("gpu-instancing", gpu_instancing,
       "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call "
       "(EXT_mesh_gpu_instancing; not every viewer knows it)");
-    f("names", names,
-      "names of parts in glTF: nodes, each part is one; table, a table of names and groups that places and merged "
-      "meshes refer to (EXT_structural_metadata, EXT_mesh_gpu_instancing; with --extras facts)");
+    f("names", names, "names of parts in glTF");
     f("color-bits", color_bits, "of each component, in linear light", OptionNote{between(1, 16)});
   }
   void text_fields(auto&& f) {

@@ -1,5 +1,7 @@
 #include "convert/placing.h"
 
+#include "passes/switch/switch.h"
+
 namespace wrlkit {
 
 void place_world(Scene& scene, Unit unit, UpAxis up) {
@@ -7,14 +9,20 @@ void place_world(Scene& scene, Unit unit, UpAxis up) {
   Diagnostics silent;
   Statistics uncounted;
   PassContext ctx(silent, uncounted);
-  place(scene, {.unit = {unit}, .up = {up}}, ctx);
+  place(scene, {.unit = unit, .up = up}, ctx);
+}
+
+void show_all(Scene& scene) {
+  Diagnostics silent;
+  Statistics uncounted;
+  PassContext ctx(silent, uncounted);
+  switch_on(scene, {.all = true, .choices = {}}, ctx);
 }
 
 std::vector<std::pair<std::string, std::string>> place_options(Unit unit, UpAxis up) {
-  const PlaceOptions options{.unit = {unit}, .up = {up}};
   std::vector<std::pair<std::string, std::string>> out;
-  if (unit != Unit{}) out.emplace_back("unit", options.unit.print());
-  if (up != UpAxis{}) out.emplace_back("up", options.up.print());
+  if (unit != Unit{}) out.emplace_back("unit", name_of(unit));
+  if (up != UpAxis{}) out.emplace_back("up", name_of(up));
   return out;
 }
 

@@ -1,4 +1,4 @@
-// A scene in metres, Y up: the pass `place` for those who run no pipeline.
+// What LoadOptions do to a scene that was read: the passes `switch` and `place` for those who run no pipeline.
 #pragma once
 #include <string>
 #include <utility>
@@ -11,6 +11,8 @@ namespace wrlkit {
 
 /// Runs `place`; nothing where that changes nothing.
 void place_world(Scene& scene, Unit unit, UpAxis up);
+/// Runs `switch{all=true}`.
+void show_all(Scene& scene);
 
 /// The options of `place` that differ from its defaults, as pipeline text has them; empty when none does.
 std::vector<std::pair<std::string, std::string>> place_options(Unit unit, UpAxis up);

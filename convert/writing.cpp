@@ -3,39 +3,41 @@
 #include <algorithm>
 
 #include "base/io/output.h"
+#include "base/stop.h"
+#include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "writers/made_files.h"
+#include "writers/named_files.h"
 #include "writers/vrml/vrml.h"
 #include "writers/x3d/x3d.h"
 
 namespace wrlkit {
 namespace {
 
-template <class Options>
-using TextWriter = void (*)(const Scene&, const Options&, const Sink&, Diagnostics&);
+using TextWriter = void (*)(const Scene&, const TextOptions&, const Sink&, Diagnostics&);
 
-template <class Options>
-bool write_text(const Writing& w, TextWriter<Options> write) {
+bool write_text(const Writing& w, TextWriter write) {
   auto& diag = w.context.diag;
-  Options options{.precision = w.options.precision, .own_fields = w.options.dump};
+  TextOptions options{.precision = w.options.precision, .own_fields = w.options.dump};
   if (w.sink) {
     write(w.scene, options, *w.sink, diag);
-    return true;
+    return write_named_files(*w.context.resources, diag);
   }
   const auto& path = w.to.path;
-  auto file = OutputFile::open(path, {.gzip = w.to.gzip}, diag);
+  auto file = OutputFile::open(path, {.gzip = w.to.gzip, .inputs = &w.context.resources->files_read()}, diag);
   if (!file) return false;
   if (w.context.monitor) w.context.monitor->begin(path == "-" ? "" : "writing " + path, 0, "");
   MadeFiles made(w.scene, *w.context.resources, path, diag);
   options.file = path == "-" || w.options.keep_urls ? "" : path;
   options.place = [&](std::string_view url) { return made.place(url); };
   write(w.scene, options, file->sink(), diag);
-  return made.write() && made.commit() && file->commit(diag);
+  NamedFiles named(*w.context.resources, diag);
+  return made.write() && named.write() && made.commit() && named.commit() && file->commit(diag);
 }
 
 std::size_t count_geometries(const Scene& scene) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      reachable(scene, scene.main), [&](NodeId n) { return scene.type(n).is_a("X3DGeometryNode"); }));
+  return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main),
+                                                        [&](NodeId n) { return scene.is(n, nodes::X3DGeometryNode); }));
 }
 
 /// A glTF without meshes is what some scenes deserve (lights, PROTO libraries), but nobody should find it out later.
@@ -48,13 +50,10 @@ void say_why_empty(const Scene& scene, Diagnostics& diag) {
     diag.report(Diag::nothing_drawn, Span{.begin = 0}, "it holds no node");
 }
 
-/// Ends the writer between two meshes.
-struct Stopped {};
-
 }  // namespace
 
-bool write_vrml_file(const Writing& w) { return write_text<VrmlOptions>(w, write_vrml); }
-bool write_x3d_file(const Writing& w) { return write_text<X3dOptions>(w, write_x3d); }
+bool write_vrml_file(const Writing& w) { return write_text(w, write_vrml); }
+bool write_x3d_file(const Writing& w) { return write_text(w, write_x3d); }
 
 bool write_gltf_file(const Writing& w) {
   auto& ctx = w.context;
@@ -62,17 +61,20 @@ bool write_gltf_file(const Writing& w) {
   if (n_geometries == 0) say_why_empty(w.scene, ctx.diag);
   if (ctx.monitor) ctx.monitor->begin("writing " + w.to.path, n_geometries, "shapes");
   const MeshSource counted = [&](NodeId n) -> const Mesh& {
-    if (ctx.stop.stop_requested()) throw Stopped{};
+    check_stop();
     if (ctx.monitor) ctx.monitor->step();
     return w.meshes(n);
   };
   const auto options = gltf_options(w.options, w.to.format->endings != ".gltf");
+  const StopScope scope(ctx.stop);
   try {
-    if (w.sink) return write_glb(w.scene, counted, options, ctx.resources, *w.sink, ctx.diag);
+    NamedFiles named(*ctx.resources, ctx.diag);
+    if (!named.write()) return false;
+    if (w.sink) return write_glb(w.scene, counted, options, ctx.resources, *w.sink, ctx.diag) && named.commit();
     MadeFiles beside(w.scene, *ctx.resources, w.to.path, ctx.diag);  // pictures are glTF's own matter
     return beside.write() &&
            write_gltf(w.scene, counted, options, ctx.resources, w.to.path, ctx.diag, &w.saved.gltf.emplace()) &&
-           beside.commit();
+           beside.commit() && named.commit();
   } catch (const Stopped&) {
     return false;
   }

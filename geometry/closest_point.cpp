@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/box.h"
+#include "base/math/vec.h"
 
 namespace wrlkit {
 namespace {
@@ -47,16 +48,7 @@ double to_triangle(const std::array<Vec3, 3>& t, const Vec3& n) {
   return squared((1 / (weight[0] + weight[1] + weight[2])) * (weight[0] * t[0] + weight[1] * t[1] + weight[2] * t[2]));
 }
 
-struct Range {
-  std::array<float, 3> low{inf, inf, inf}, high{-inf, -inf, -inf};
-  static constexpr float inf = std::numeric_limits<float>::infinity();
-
-  void add(const Range& r) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], r.low[i]);
-      high[i] = std::max(high[i], r.high[i]);
-    }
-  }
+struct Range : BoxOf<float, 3> {
   double half_area() const {
     double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
     return x * y + y * z + z * x;
@@ -84,7 +76,7 @@ bool is_usable(const std::array<Vec3, 3>& corners) {
   return true;
 }
 
-/// Makes the tree; what it needs beside the result.
+/// Makes the tree; what it needs besides the result.
 struct ClosestPoint::Builder {
   struct Item {
     Range range;
@@ -107,22 +99,18 @@ struct ClosestPoint::Builder {
   }
 
   void list_items() {
-    Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    wrlkit::Box box;
     for (std::size_t t = 0; t < tree.surface_.size(); ++t) {
       auto corners = tree.surface_[t];
       if (!is_usable(corners)) continue;
       items.push_back({{}, static_cast<std::uint32_t>(t)});
-      for (auto& p : corners)
-        for (std::size_t i = 0; i < 3; ++i) {
-          low[i] = std::min(low[i], p[i]);
-          high[i] = std::max(high[i], p[i]);
-        }
+      for (auto& p : corners) box.add(p);
     }
     if (items.empty()) return;
-    tree.centre_ = 0.5 * (low + high);
-    tree.same_ = 1e-10 * length(high - low);
+    tree.centre_ = box.centre();
+    tree.same_ = 1e-10 * diagonal(box);
     for (Item& item : items)
-      for (auto& p : tree.surface_[item.triangle]) item.range.add(around(p - tree.centre_));
+      for (auto& p : tree.surface_[item.triangle]) item.range.unite(around(p - tree.centre_));
   }
 
   static Range around(const Vec3& p) {
@@ -139,9 +127,9 @@ struct ClosestPoint::Builder {
   void split(std::uint32_t begin, std::uint32_t end, int depth) {
     Range all, middles;
     for (auto i = begin; i < end; ++i) {
-      all.add(items[i].range);
+      all.unite(items[i].range);
       std::array<float, 3> m{items[i].middle(0), items[i].middle(1), items[i].middle(2)};
-      middles.add({m, m});
+      middles.add(m);
     }
     std::size_t here = tree.boxes_.size();
     tree.boxes_.push_back({all.low, all.high, static_cast<std::uint32_t>(tree.order_.size()), end - begin});
@@ -176,7 +164,7 @@ struct ClosestPoint::Builder {
     Bin bins[n_bins];
     for (auto i = first; i != last; ++i) {
       Bin& b = bins[bin_of(*i)];
-      b.range.add(i->range);
+      b.range.unite(i->range);
       ++b.n;
     }
     int cut = cheapest_cut(bins);
@@ -190,9 +178,9 @@ struct ClosestPoint::Builder {
     Range before, after;
     std::uint32_t n_before = 0, n_after = 0;
     for (int i = 1; i < n_bins; ++i) {
-      before.add(bins[i - 1].range);
+      before.unite(bins[i - 1].range);
       n_before += bins[i - 1].n;
-      after.add(bins[n_bins - i].range);
+      after.unite(bins[n_bins - i].range);
       n_after += bins[n_bins - i].n;
       cost[i] += before.half_area() * n_before;
       cost[n_bins - i] += after.half_area() * n_after;

@@ -8,8 +8,8 @@
 #include <functional>
 #include <optional>
 
+#include "base/math/vec.h"
 #include "base/parallel.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit {
 namespace {
@@ -191,15 +191,16 @@ class Way {
     constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
     auto fraction = [](double x) { return x - std::floor(x); };
     const double spacing = changed_area_ / static_cast<double>(n);
-    auto slot =
-        static_cast<std::size_t>(std::upper_bound(area_.begin(), area_.end(), (begin + 0.5) * spacing) - area_.begin());
+    auto slot = static_cast<std::size_t>(
+        std::upper_bound(area_.begin(), area_.end(), (static_cast<double>(begin) + 0.5) * spacing) - area_.begin());
     Sums sums;
     Sample sample, worst;
     for (std::size_t k = begin; k < end; ++k) {
-      while (slot + 1 < area_.size() && area_[slot] <= (k + 0.5) * spacing) ++slot;
+      const auto number = static_cast<double>(k);
+      while (slot + 1 < area_.size() && area_[slot] <= (number + 0.5) * spacing) ++slot;
       sample.triangle = changed_[slot];
-      sample.u = fraction(k * step_u);
-      sample.v = fraction(k * step_v);
+      sample.u = fraction(number * step_u);
+      sample.v = fraction(number * step_v);
       if (sample.u + sample.v > 1) {
         sample.u = 1 - sample.u;
         sample.v = 1 - sample.v;
@@ -224,7 +225,7 @@ class Way {
     if (there != Vec3{0, 0, 0}) sums.add_angle(std::atan2(length(cross(normal, there)), dot(normal, there)));
   }
 
-  /// The largest distance lies between samples as a rule: uphill from the worst one within its triangle, by steps that
+  /// The largest distance usually lies between samples: uphill from the worst one within its triangle, by steps that
   /// are halved when none of the six ways leads up.
   void climb(Sample at, double spacing, Sums& sums) const {
     constexpr double ways[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};

@@ -180,7 +180,7 @@ bool has_picture(const Scene& scene, NodeId appearance) {
   if (!material) return false;
   return std::ranges::any_of(scene.fields(material), [&](const Value& v) {
     return !scene.is_extra(v) && v.type == FieldType::SFNode && !v.is && v.node &&
-           scene.type(v.node).is_a("X3DTextureNode");
+           scene.is(v.node, nodes::X3DTextureNode);
   });
 }
 

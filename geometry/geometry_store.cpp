@@ -4,22 +4,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/math/digits.h"
 #include "geometry/geometry.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
 namespace {
-
-// The double that has the digits of the float, so that 0.1f is written as 0.1 and not as 0.10000000149011612. Read
-// back it is the same float.
-double widen(float f) {
-  if (f == std::trunc(f)) return f;
-  char text[32];
-  double d = f;
-  auto end = std::to_chars(text, text + sizeof text, f).ptr;
-  std::from_chars(text, end, d);
-  return d;
-}
 
 bool identical(const std::vector<std::uint32_t>& index) {
   for (std::size_t i = 0; i < index.size(); ++i)
@@ -127,7 +117,7 @@ class Store {
     std::vector<double> values;
     values.reserve(a.count() * width);
     for (std::size_t i = 0; i < a.count(); ++i)
-      for (std::size_t k = 0; k < width; ++k) values.push_back(widen(a.values[i * a.width + k]));
+      for (std::size_t k = 0; k < width; ++k) values.push_back(decimal(a.values[i * a.width + k]));
     NodeId n = scene_.add(key.node, scene_.where(geometry_));
     scene_.set(n, key, values);
     return n;

@@ -70,19 +70,14 @@ void Outline::measure(Ring& ring) const {
   auto& p = ring.points;
   while (p.size() > 1 && p.front() == p.back()) p.pop_back();
   if (p.empty()) return;
-  ring.low = ring.high = p[0];
-  for (std::size_t i = 0; i < p.size(); ++i)
-    for (int k = 0; k < 2; ++k) {
-      ring.low[k] = std::min(ring.low[k], p[i][k]);
-      ring.high[k] = std::max(ring.high[k], p[i][k]);
-    }
+  for (const Vec2& point : p) ring.box.add(point);
   for (std::size_t i = 1; i + 1 < p.size(); ++i) ring.area += orientation(p[0], p[i], p[i + 1]);
 }
 
 /// Whether all of the inner ring is inside the outer one, as far as some of its points tell.
 bool Outline::contains(const Ring& outer, const Ring& inner) {
   for (int k = 0; k < 2; ++k)
-    if (inner.low[k] < outer.low[k] || inner.high[k] > outer.high[k]) return false;
+    if (inner.box.low[k] < outer.box.low[k] || inner.box.high[k] > outer.box.high[k]) return false;
   std::size_t step = 1 + (inner.points.size() - 1) / probes, out = 0;
   for (std::size_t i = 0; i < inner.points.size(); i += step)
     if (!inside(outer.points, inner.points[i]) && ++out > 1) return false;  // one may touch the boundary

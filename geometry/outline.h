@@ -1,6 +1,7 @@
 // Closed outlines, as fonts have them, as triangles. What is inside follows the nonzero rule: outlines that run against
 // the one around them are holes, whichever way that is.
 #pragma once
+#include "base/math/box.h"
 #include "geometry/polygon.h"
 
 namespace wrlkit {
@@ -22,7 +23,7 @@ class Outline {
  private:
   struct Ring {
     std::vector<Vec2> points;
-    Vec2 low, high;
+    Box2 box{};
     double area = 0;                  // positive: anticlockwise
     int winding = 0;                  // of what is around it
     const Ring* inside_of = nullptr;  // the smallest around it

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "base/math/vec.h"
 #include "geometry/polygon/holes.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit {
 namespace {

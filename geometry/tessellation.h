@@ -21,10 +21,14 @@ struct Tessellation {
   bool triangles = true;
   bool texcoords = false;  // for a job that is `textured`
 
-  void fields(auto&& f) {
+  /// For passes that make meshes of what they change: how finely, so that their options show it.
+  void fineness_fields(auto&& f) {
     f("tolerance", tolerance, "largest distance between a curved surface and its faces, in metres; 0: by the size",
       at_least(0));
     f("segments", segments, "faces around Cone, Cylinder and Sphere; 0: by the tolerance", between(0, 4096));
+  }
+  void fields(auto&& f) {
+    fineness_fields(f);
     f("triangles", triangles, "cut all faces into triangles");
     f("texcoords", texcoords, "make the default texture coordinates where a texture needs them and the file has none");
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/utf8.h"
 #include "geometry/geometry_attributes.h"
 #include "scenegraph/nodes.h"
 
@@ -90,18 +91,12 @@ Style read_style(const Scene& scene, NodeId text) {
 
 /// Takes one character off UTF-8 text. A byte that begins none is U+FFFD.
 char32_t take_character(std::string_view& s) {
-  static constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-  auto first = static_cast<unsigned char>(s[0]);
-  std::size_t n = first < 0x80 ? 1 : first < 0xc0 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf8 ? 4 : 0;
-  char32_t c = n <= 1 ? first : first & (0x7fu >> n);
-  bool good = n >= 1 && n <= s.size();
-  for (std::size_t i = 1; good && i < n; ++i) {
-    good = (static_cast<unsigned char>(s[i]) & 0xc0u) == 0x80;
-    c = c << 6 | (static_cast<unsigned char>(s[i]) & 0x3fu);
-  }
-  good = good && c >= least[n] && c <= 0x10ffff && !(c >= 0xd800 && c < 0xe000);
-  s.remove_prefix(good ? n : 1);
-  return good ? c : 0xfffd;
+  const auto n = utf8_sequence(s);
+  const auto first = static_cast<unsigned char>(s[0]);
+  char32_t c = n == 0 ? 0xfffd : n == 1 ? first : first & (0x7fu >> n);
+  for (std::size_t i = 1; i < n; ++i) c = c << 6 | (static_cast<unsigned char>(s[i]) & 0x3fu);
+  s.remove_prefix(std::max<std::size_t>(n, 1));
+  return c;
 }
 
 bool is_control(char32_t c) { return c < 0x20 || (c >= 0x7f && c < 0xa0); }

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "base/math/vec.h"
 #include "geometry/geometry_attributes.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit {
 namespace {

@@ -67,7 +67,7 @@ std::uint32_t EmitterTree::build(std::span<const Emitter> emitters, std::span<st
     nodes_[id].emitter = order[0];
     leaf_of_[order[0]] = id;
   } else {
-    drawing::Box box;
+    Box box;
     for (auto i : order) box.add(middle_of(emitters[i]));
     V3 size = box.size();
     int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

@@ -29,7 +29,7 @@ using drawing::Ray;
 struct LightOptions {
   enum class Sky : std::uint8_t { background, constant, none };
 
-  double emission = 1;       // emissiveColor shines so many times as bright as it looks
+  double emission = 1;       // factor for the light that emissiveColor gives off
   bool unlit_emits = false;  // a Shape without Material emits its colour; else it reflects by it
   Sky sky = Sky::background;
   V3 sky_color{1};                        // constant: radiance, linear

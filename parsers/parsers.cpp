@@ -5,11 +5,11 @@
 
 #include "base/image/image.h"
 #include "base/text/blanks.h"
+#include "base/text/utf8.h"
 #include "parsers/gltf/gltf.h"
 #include "parsers/patches/patches.h"
 #include "parsers/patches/patches_scene.h"
 #include "parsers/vrml/parser.h"
-#include "parsers/vrml/text_encoding.h"
 #include "parsers/vrml/vrml1.h"
 #include "parsers/x3d/parser.h"
 #include "parsers/x3d/xml.h"
@@ -49,7 +49,7 @@ std::string leading_comment(std::string_view s) {
   for (s = trim(s); s.starts_with('#'); s = s.substr(std::min(s.size(), s.find_first_not_of("\r\n")))) {
     auto line = first_line(s);
     auto text = trim(line);
-    out += vrml::is_utf8(text) ? std::string(text) : vrml::latin1_to_utf8(text);
+    out += is_utf8(text) ? std::string(text) : latin1_to_utf8(text);
     out += '\n';
     s.remove_prefix(line.size());
     if (s.empty()) break;
@@ -135,7 +135,7 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   Span whole{base, 0}, first{base, static_cast<std::uint32_t>(std::min<std::size_t>(first_line(text).size(), 80))};
   if (has_utf16_bom(text)) {
     diag.report(Diag::encoding_repaired, whole, "UTF-16");
-    converted = vrml::utf16_to_utf8(text);
+    converted = utf16_to_utf8(text);
     text = converted;
   }
   auto body = without_bom(text);

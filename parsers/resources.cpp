@@ -49,7 +49,9 @@ struct FileResources::Slot {
 };
 
 FileResources::FileResources(ResourceOptions options, ParseWorld parse)
-    : options_(std::move(options)), parse_(std::move(parse)), files_(folders(options_)) {}
+    : options_(std::move(options)), parse_(std::move(parse)), files_(folders(options_)) {
+  if (!options_.in_place) files_read().add(options_.input);
+}
 
 std::shared_ptr<const Blob> FileResources::bytes(std::span<const std::string_view> urls, Span where,
                                                  Diagnostics& diag) {
@@ -113,7 +115,10 @@ FileResources::Target FileResources::locate(std::string_view url, Span where, co
   if (referrer.empty() || referrer == standard_input_name) referrer = options_.input;
   auto [at, is_new] = looked_up_.try_emplace({referrer, std::string(url)});
   auto& best = at->second;
-  if (is_new) best = find_url(files_, url, referrer);
+  if (is_new) {
+    best = find_url(files_, url, referrer);
+    if (best.state == AllowedFiles::found || best.state == AllowedFiles::repaired) files_read().add(best.canonical);
+  }
   return {best.state, best.path, best.canonical};
 }
 
@@ -203,6 +208,7 @@ std::vector<FileLookup> FileResources::lookups() const {
 
 std::shared_ptr<const PatchSet> FileResources::patches(const std::string& path, Diagnostics& diag) {
   patch_files_.insert(path);
+  files_read().add(path);
   auto read = read_patches(path, {}, diag);
   return read ? std::make_shared<const PatchSet>(std::move(*read)) : nullptr;
 }

@@ -19,6 +19,7 @@ namespace wrlkit {
 struct ResourceOptions {
   std::string input = "-";                 // the file that is converted: files below its folder may be read
   std::vector<std::string> allowed = {};   // and below these (--allow-path)
+  bool in_place = false;                   // the input may be replaced
   std::uint64_t max_bytes = 512 << 20;     // of one picture
   std::uint64_t cached_bytes = 512 << 20;  // of files and decoded pictures that are kept for the next who asks
 };

@@ -16,7 +16,8 @@ struct PyMesh {
 };
 
 std::unique_ptr<PyMesh> mesh_of(const PyNode& node) {
-  if (!node.type().is_a("X3DGeometryNode")) throw py::type_error(std::string(node.type().name) + " is no geometry");
+  if (!node.type().is_a(nodes::X3DGeometryNode))
+    throw py::type_error(std::string(node.type().name) + " is no geometry");
   auto out = std::make_unique<PyMesh>();
   out->world = node.world;
   MeshScratch scratch;
@@ -30,8 +31,7 @@ std::unique_ptr<PyMesh> mesh_of(const PyNode& node) {
 std::vector<PyNode> nodes_of(const std::shared_ptr<PyWorld>& world, const std::string& type) {
   std::vector<PyNode> out;
   for (NodeId n : reachable(world->scene(), world->scene().main))
-    if (type.empty() || world->scene().type(n).name == type || world->scene().type(n).is_a(type))
-      out.push_back({world, n});
+    if (type.empty() || world->scene().type(n).is_named(type)) out.push_back({world, n});
   return out;
 }
 
@@ -115,8 +115,8 @@ void define_node(py::class_<PyNode>& type) {
           "world", [](const PyNode& n) { return n.world; }, "The World that it is of.")
       .def_property_readonly("fields", &fields_of, "Names of all fields that a node of this type has.")
       .def(
-          "is_a", [](const PyNode& n, const std::string& base) { return n.type().name == base || n.type().is_a(base); },
-          py::arg("type"), "Whether it is of that type, or of a type that is one: X3DGeometryNode.")
+          "is_a", [](const PyNode& n, const std::string& base) { return n.type().is_named(base); }, py::arg("type"),
+          "Whether it is of that type, or of a type that is one: X3DGeometryNode.")
       .def("mesh", &mesh_of,
            "The mesh of a geometry node, as the passes see it. Empty before `tessellate` for Box and the like.")
       .def("__getattr__", &get_field)

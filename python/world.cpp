@@ -11,6 +11,7 @@
 #include "tools/cli/python_passes.h"
 #include "tools/cli/session.h"
 #include "tools/verbs/info.h"
+#include "writers/named_files.h"
 
 namespace wrlkit::python {
 namespace {
@@ -127,7 +128,7 @@ PyWorld::Counts PyWorld::run(Pipeline& pipeline) {
   {
     py::gil_scoped_release others;
     auto ctx = context(stats);
-    good = pipeline.run(scene(), ctx);
+    good = pipeline.run(scene(), ctx) && (!ctx.resources || write_named_files(*ctx.resources, ctx.diag));
   }
   if (!good) {
     auto said = views(diag());

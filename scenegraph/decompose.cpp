@@ -11,12 +11,6 @@ namespace {
 
 using Rows = std::array<Vec3, 3>;
 
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec3 scaled(const Vec3& a, double f) { return {a[0] * f, a[1] * f, a[2] * f}; }
-
 /// Jacobi's rotations of one side: the columns of `a` are turned until they are square to each other, and those of `v`
 /// along.
 void square_columns(Rows& a, Rows& v) {
@@ -54,15 +48,14 @@ void complete(std::array<Vec3, 3>& columns, std::array<bool, 3> known) {
   if (std::ranges::count(known, true) == 1) {
     const auto k = static_cast<std::size_t>(std::ranges::find(known, true) - known.begin());
     const Vec3 across = cross(columns[k], std::abs(columns[k][0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
-    columns[(k + 1) % 3] = scaled(across, 1 / std::sqrt(dot(across, across)));
+    columns[(k + 1) % 3] = 1 / fast_length(across) * across;
     known[(k + 1) % 3] = true;
   }
   for (std::size_t k = 0; k < 3; ++k) {
     if (known[k]) continue;
     const auto &a = columns[(k + 1) % 3], &b = columns[(k + 2) % 3];
     columns[k] = cross(a, b);
-    if (const double length = std::sqrt(dot(columns[k], columns[k])); length > 0)
-      columns[k] = scaled(columns[k], 1 / length);
+    if (const double length = std::sqrt(dot(columns[k], columns[k])); length > 0) columns[k] = 1 / length * columns[k];
   }
 }
 
@@ -92,13 +85,13 @@ TransformFields decompose(const Matrix& m) {
   const double largest = std::ranges::max(out.scale);
   for (std::size_t k = 0; k < 3; ++k)
     if ((known[k] = out.scale[k] > 1e-12 * largest))
-      u[k] = scaled(u[k], 1 / out.scale[k]);
+      u[k] = 1 / out.scale[k] * u[k];
     else
       u[k] = {};
   if (m.determinant() < 0) {  // mirrored along the axis that leaves the least to turn
     const std::array<double, 3> along{dot(u[0], axes[0]), dot(u[1], axes[1]), dot(u[2], axes[2])};
     const auto k = static_cast<std::size_t>(std::ranges::min_element(along) - along.begin());
-    u[k] = scaled(u[k], -1);
+    u[k] = -1 * u[k];
     out.scale[k] = -out.scale[k];
   }
   if (std::ranges::count(known, true) > 0) {

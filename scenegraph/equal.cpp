@@ -49,11 +49,12 @@ class Comparison {
     if (ta.name != tb.name || ta.kind != tb.kind) return at(a, "type " + std::string(tb.name));
     if (a_.name(a) != b_.name(b)) return at(a, "name '" + std::string(b_.name(b)) + "'");
     if (ta.fields.size() != tb.fields.size()) return at(a, "other fields");
-    for (std::uint16_t i = 0; i < ta.fields.size(); ++i) {
+    for (std::size_t i = 0; i < ta.fields.size(); ++i) {
       const auto &fa = ta.fields[i], &fb = tb.fields[i];
       if (fa.name != fb.name || fa.type != fb.type || fa.access != fb.access)
         return at(a, "interface of " + std::string(fa.name));
-      auto *va = a_.find(a, i), *vb = b_.find(b, i);
+      const auto slot = static_cast<std::uint16_t>(i);  // no type has more fields than that
+      auto *va = a_.find(a, slot), *vb = b_.find(b, slot);
       if (!va && !vb) continue;
       if (!fa.has_value() && (!va || !vb)) return at(a, "IS of " + std::string(fa.name));
       if (!same(va ? *va : fa.default_value, vb ? *vb : fb.default_value))

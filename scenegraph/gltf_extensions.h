@@ -52,6 +52,10 @@ inline constexpr GltfExtensionInfo gltf_extensions[] = {
     {GltfExtension::khr_meshopt_compression, "KHR_meshopt_compression", true, true},
     {GltfExtension::emissive_strength, "KHR_materials_emissive_strength", false, true}};
 
+constexpr bool knows_gltf_extension(std::string_view name) {
+  return std::ranges::find(gltf_extensions, name, &GltfExtensionInfo::name) != std::end(gltf_extensions);
+}
+
 constexpr bool reads_gltf_extension(std::string_view name) {
   const auto* at = std::ranges::find(gltf_extensions, name, &GltfExtensionInfo::name);
   return at != std::end(gltf_extensions) && at->read;

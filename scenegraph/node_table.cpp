@@ -5,8 +5,12 @@
 
 namespace wrlkit {
 
-bool NodeType::is_a(std::string_view base) const {
-  return name == base || std::ranges::find(bases, base) != bases.end();
+bool FieldDef::accepts(const NodeType& t) const {
+  return std::ranges::any_of(kinds, [&](std::string_view k) { return t.is_named(k); });
+}
+
+bool NodeType::is_named(std::string_view name_or_base) const {
+  return name == name_or_base || std::ranges::find(bases, name_or_base) != bases.end();
 }
 
 std::optional<std::uint16_t> NodeType::find(std::string_view field, Dialect dialect, bool events) const {

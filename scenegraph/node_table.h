@@ -1,5 +1,5 @@
 // The table of node types: what the parser accepts, what the writers print, what `verify` checks and what `explain`
-// says all derive from it. The built-in rows are generated from scenegraph/nodes/*.nodes by tools/gen_nodes.cpp; a
+// says all derive from it. The built-in rows are generated from scenegraph/nodes/*.nodes by tools/gen_nodes; a
 // scene adds rows of the same shape for its PROTOs, Scripts and unknown nodes.
 #pragma once
 #include <limits>
@@ -29,6 +29,8 @@ struct FieldRange {
   }
 };
 
+struct NodeType;
+
 struct FieldDef {
   std::string_view name;         // of X3D, which is VRML97's unless `vrml97_name` says otherwise
   std::string_view vrml97_name;  // "choice" for Switch.children; empty: the same
@@ -51,9 +53,19 @@ struct FieldDef {
   const Value& x3d_default_in(int version) const {
     return x3d_from && version >= x3d_from ? x3d_default : default_value;
   }
+  /// Of a field of nodes: whether it may hold one of that type.
+  bool accepts(const NodeType&) const;
   std::string_view name_in(Dialect d) const {
     return d == Dialect::vrml97 && !vrml97_name.empty() ? vrml97_name : name;
   }
+};
+
+/// Abstract types of the standards, as bits: `nodes::X3DGeometryNode | nodes::X3DTextureNode` is either. The constants
+/// are generated.
+struct BaseSet {
+  std::uint64_t bits = 0;
+
+  friend constexpr BaseSet operator|(BaseSet a, BaseSet b) { return {a.bits | b.bits}; }
 };
 
 /// What a node type is, where the passes must tell apart; everything else is in `bases`.
@@ -65,6 +77,7 @@ struct NodeType {
   DialectSet dialects = 0;
   std::span<const FieldDef> fields;
   std::span<const std::string_view> bases;  // every direct and indirect base: "X3DGroupingNode", "X3DChildNode", ...
+  BaseSet base_set;                         // the same; empty but for built-in types
   std::string_view clauses;                 // "vrml97 6.11; x3d 13.3.2"
   std::string_view component;               // X3D component and level: "Geometry3D 1"
   std::string_view container_field;         // X3D XML
@@ -76,7 +89,9 @@ struct NodeType {
 
   static constexpr std::size_t many_fields = 32;
 
-  bool is_a(std::string_view base) const;
+  bool is_a(BaseSet any) const { return base_set.bits & any.bits; }
+  /// Of that name, or of a base of that name: for names that are not known when compiling.
+  bool is_named(std::string_view name_or_base) const;
   /// Index of the field of that name in that dialect, in O(log of many fields). Accepts `set_x` and `x_changed` for an
   /// inout field `x`, as ROUTE and IS do, when `events` is set.
   std::optional<std::uint16_t> find(std::string_view field, Dialect, bool events = false) const;

@@ -19,4 +19,9 @@ const MadeFile* Resources::find_made(std::string_view url) const {
   return i == made_.end() ? nullptr : &*i;
 }
 
+void Resources::add_named(NamedFile file) {
+  std::erase_if(named_, [&](const NamedFile& n) { return n.path == file.path; });
+  named_.push_back(std::move(file));
+}
+
 }  // namespace wrlkit

@@ -7,10 +7,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
 #include "base/image/image.h"
+#include "base/io/files_read.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {
@@ -31,6 +33,11 @@ struct MadeFile {
   std::string name;  // "lightmap_0.png"
   std::shared_ptr<const std::string> bytes;
   bool always = false;  // written even if the world that is written does not refer to it
+};
+
+/// A file that an option of a pass names: a list or a table, for people.
+struct NamedFile {
+  std::string path, bytes;
 };
 
 /// The name, beside the file that is written, of the file that has such a url.
@@ -64,8 +71,20 @@ class Resources {
   /// Null when there is none of that url.
   const MadeFile* find_made(std::string_view url) const;
 
+  /// Hands in a file that the user wants at `path`: it is written together with the other outputs, whole or not at all
+  /// (writers/named_files.h). The last one for a path counts.
+  void add_named(NamedFile);
+  /// Those that were handed in since the last call.
+  std::vector<NamedFile> take_named() { return std::exchange(named_, {}); }
+
+  /// What was read from until now; outputs do not replace it.
+  FilesRead& files_read() { return files_read_; }
+  const FilesRead& files_read() const { return files_read_; }
+
  private:
   std::deque<MadeFile> made_;
+  std::vector<NamedFile> named_;
+  FilesRead files_read_;
 };
 
 }  // namespace wrlkit

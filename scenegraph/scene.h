@@ -1,9 +1,11 @@
 // What a scene is: nodes in one pool, named by NodeId; each node stores its type, its DEF name, where it was read, and
 // only the fields that were written. Defaults live in the node table. DEF/USE makes it a directed graph: a node may be
-// held by several fields, and parents are computed when asked for (walk.h). Nothing moves when a node is added.
+// held by several fields, and parents are computed when asked for (walk.h). Ids and arrays stay when nodes are added;
+// what points into the fields of a node (fields, find, value) holds until the next field is set, of whatever node.
 //
 // Copying a scene copies the pools but shares the arrays (arena.h), which are immutable.
 #pragma once
+#include <cassert>
 #include <deque>
 #include <memory>
 #include <string>
@@ -83,6 +85,8 @@ class Scene {
   const NodeType& type(NodeId n) const { return type(nodes_[n.value].type); }
   const NodeType& type(TypeId t) const;
   bool is(NodeId n, TypeId t) const { return n && type_id(n) == t; }
+  /// Of any of these abstract types; never an instance of a prototype, a Script or a node that is not known.
+  bool is(NodeId n, BaseSet any) const { return n && type(n).is_a(any); }
   /// DEF name, or empty. Names need not be unique: USE means the last one before it (4.4.3), here it is an id.
   std::string_view name(NodeId n) const { return names_[nodes_[n.value].name]; }
   void set_name(NodeId, std::string_view);
@@ -94,11 +98,15 @@ class Scene {
   }
 
   /// Fields that were written, in the order they were written; of nodes with very many of them in the order of their
-  /// slots.
+  /// slots. Valid until a field of any node is set: loops that write take `copy_of_fields`.
   std::span<const Value> fields(NodeId n) const {
     return {fields_.data() + nodes_[n.value].first_field, nodes_[n.value].n_fields};
   }
-  /// The written value of a slot, or null.
+  std::vector<Value> copy_of_fields(NodeId n) const {
+    const auto now = fields(n);
+    return {now.begin(), now.end()};
+  }
+  /// The written value of a slot, or null. Valid as long as `fields`.
   const Value* find(NodeId, std::uint16_t slot) const;
   /// The value of a slot: written or default. Never null for fields that have values.
   const Value& value(NodeId, std::uint16_t slot) const;
@@ -193,6 +201,7 @@ class Scene {
 template <FieldType T>
 auto Scene::get(NodeId n, FieldKey<T> key) const {
   const Value* v = &value(n, key.slot);
+  assert(type(n).fields[key.slot].name == type(key.node).fields[key.slot].name && "a key of another node type");
   if (v->is || v->type != T) v = &type(key.node).fields[key.slot].default_value;
   if constexpr (T == FieldType::SFBool)
     return v->integer != 0;

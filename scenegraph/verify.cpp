@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "base/text/bit_mask.h"
+#include "scenegraph/driven.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/range_text.h"
 #include "scenegraph/walk.h"
@@ -72,7 +72,7 @@ class ValueCheck {
     for (NodeId c : v.node_span()) {
       auto* t = c ? kind_of(c) : nullptr;
       if (t && t->dialects == static_cast<DialectSet>(Dialect::vrml1)) continue;  // it will be another node there
-      if (t && std::ranges::none_of(f.kinds, [&](std::string_view k) { return t->is_a(k); }))
+      if (t && !f.accepts(*t))
         diag_.report(Diag::wrong_child, scene_.where(c), t->name, scene_.type(n).name, f.name_in(scene_.dialect()));
     }
   }
@@ -96,7 +96,7 @@ class Invariants {
     for (std::uint32_t i = 0; i < s_.proto_count(); ++i) prototype(s_.proto(ProtoId{i}));
     if (!good_) return false;
     cycles();
-    for (const auto& r : s_.main.routes) events_.insert(r.to.value);
+    if (level_ == Level::mesh) driven_ = driven_geometry(s_);
     if (level_ != Level::authored)
       for (NodeId n : reachable(s_, s_.main)) expanded(n);
     return good_;
@@ -190,7 +190,7 @@ class Invariants {
     for (auto& v : s_.fields(n))
       if (s_.content(v).is) breach(n, "IS outside of a prototype");
     if (s_.type(n).kind == NodeKind::proto && !s_.proto(s_.type(n).proto).external) breach(n, "a prototype instance");
-    if (level_ == Level::mesh && !events_.contains(n.value) && s_.type(n).is_a("X3DGeometryNode") &&
+    if (level_ == Level::mesh && !driven_[n.value] && s_.is(n, nodes::X3DGeometryNode) &&
         !s_.is(n, nodes::IndexedFaceSet) && !s_.is(n, nodes::IndexedLineSet) && !s_.is(n, nodes::PointSet))
       breach(n, "geometry that is no mesh");
   }
@@ -198,7 +198,7 @@ class Invariants {
   const Scene& s_;
   Level level_;
   Diagnostics& diag_;
-  std::unordered_set<std::uint32_t> events_;  // nodes that get some: geometry among them stays what takes them
+  std::vector<char> driven_;  // by node, at the level of meshes
   bool good_ = true;
 };
 

@@ -6,8 +6,8 @@
 namespace wrlkit {
 
 /// Levels of a scene. authored: as the file says. expanded: no PROTO instance and no Inline that could be loaded. mesh:
-/// every geometry is IndexedFaceSet, IndexedLineSet or PointSet, but what gets events. A pass names the level it needs
-/// and the one it leaves.
+/// every geometry is IndexedFaceSet, IndexedLineSet or PointSet, but what is driven (driven.h). A pass names the level
+/// it needs and the one it leaves.
 enum class Level : std::uint8_t { authored, expanded, mesh };
 
 /// What `check` says beside the parser: values out of their range, words that are none, nodes in places that cannot

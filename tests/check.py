@@ -10,7 +10,7 @@ they come behind the nodes, where no writer takes them for the world's leading c
 
   # RUN: wrlkit cat %s             a command for bash, run in the root of the project; %s is this file, %S its folder,
                                    %t a path in a folder that exists only while the test runs
-  # RUN-SCRIPT: name.sh            the same of the commands in a file beside the test; %s, %S and %t are put in there, too.
+  # RUN-SCRIPT: name.sh            the same of the commands in a file next to the test; %s, %S and %t are put in there, too.
                                    A RUN of more than 200 characters has to be one
   # | Shape {                      one line of the output; all such lines below a RUN are all of its output
   # OUTPUT                         there is output, but nobody has written it down yet: --update puts it here

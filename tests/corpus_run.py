@@ -69,7 +69,7 @@ def inputs(tmp):
     write(a / 'tex/a.png', 'a picture')
     write(a / 'tex/t.wrl', BOX.replace('geometry', 'appearance Appearance { texture ImageTexture { url "a.png" } } geometry'))
     corpus(ROOT / 'recipes/archive.toml', a, '-o', tmp / 'archive')
-    check('VRML keeps its urls, and what they mean is beside it',
+    check('VRML keeps its urls, and what they mean is next to it',
           (tmp / 'archive/tex/a.png').read_text() == 'a picture' and '"a.png"' in (tmp / 'archive/tex/t.wrl').read_text(), tree(tmp / 'archive'))
     p = tmp / 'parts'
     write(p / 'whole.wrl', '#VRML V2.0 utf8\nInline { url "sub/Part one.x3d#x" }\nInline { url [ "gone.wrz" "sub/PIPE.WRZ" ] }\nAnchor { url "whole.wrl" }\nInline { url "http://example.org/a.wrz" }\n'
@@ -106,8 +106,8 @@ def odd(tmp):
     check('a report of them', code == 0 and 'star*[x]' in (tmp / 'odd.csv').read_text(errors='replace'), code)
     b, recipe = tmp / 'faults', tmp / 'faults.toml'
     write(b / 'in/a.wrl', BOX)
-    for text, why in (('passs = 1', "did you mean 'pass'"), ('[output]\nprecision = 99', 'not in range'), ('[limits]\ntimeout = "soon"', 'faults.toml:2:11: error: --timeout: \'soon\' is no time'),
-                      ('[limits]\nmemory = "much"', "'much' is no size"), ('[[pass]]\nname = "weld"\ntolerence = 1', "did you mean 'tolerance'"), ('[input', 'parsing table header')):
+    for text, why in (('passs = 1', "did you mean 'pass'"), ('[output]\nprecision = 99', 'not in range'), ('[limits]\ntimeout = "soon"', 'faults.toml:2:11: error: --timeout: \'soon\' is not a valid time'),
+                      ('[limits]\nmemory = "much"', "'much' is not a valid size"), ('[[pass]]\nname = "weld"\ntolerence = 1', "did you mean 'tolerance'"), ('[input', 'parsing table header')):
         write(recipe, text + '\n')
         code, _, err = corpus(recipe, b / 'in', '-o', b / 'out')
         check(f'a recipe with {text.split(chr(10))[-1]}', code == 2 and why in err and not (b / 'out').exists(), code, err)

@@ -1,6 +1,7 @@
 // tinygltf as a second judge of the glTF that is written, and as a neighbour (convert/tinygltf/tinygltf.h).
-//   tinygltf_tests judge FOLDER   every world below it, converted in several ways: tinygltf loads it without a word
-//   tinygltf_tests road FOLDER    every world becomes a tinygltf::Model and comes back as it does by way of a file
+//   tinygltf_tests judge FOLDER MADE   every .glb below MADE (tests/convert_worlds.py), and every world below FOLDER,
+//                                      converted in other ways: tinygltf loads it without a word
+//   tinygltf_tests road FOLDER         every world becomes a tinygltf::Model and comes back as it does by way of a file
 // The exit code is 77 when there is no such folder.
 #include <tiny_gltf.h>
 
@@ -8,6 +9,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -71,12 +75,12 @@ struct Way {
 /// Not packed: tinygltf 2.7 refuses buffers without bytes (EXT_meshopt_compression), and this build of it knows no
 /// Draco. Nor KHR_animation_pointer, whose channels have no node.
 std::vector<Way> ways() {
-  std::vector<Way> all{{"plain"}, {"quantize"}, {"table"}};
-  all[1].options.compression.method = GltfCompression::Method::quantize;
-  all[2].front = "dedup,instance";
-  all[2].options.names = GltfOptions::Names::table;
-  all[2].options.facts_only = true;
-  all[2].options.gpu_instancing = true;
+  std::vector<Way> all{{"quantize"}, {"table"}};
+  all[0].options.compression.method = GltfCompression::Method::quantize;
+  all[1].front = "dedup,instance";
+  all[1].options.names = GltfOptions::Names::table;
+  all[1].options.facts_only = true;
+  all[1].options.gpu_instancing = true;
   return all;
 }
 
@@ -102,35 +106,50 @@ std::string road(const std::string& path, const World& world, const std::shared_
   return difference(by_file->scene, by_model->scene);
 }
 
-std::vector<std::string> worlds_in(const char* folder) {
+std::vector<std::string> files_in(const char* folder, std::initializer_list<const char*> endings) {
   std::vector<std::string> paths;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
-    for (const char* ending : {".wrl", ".wrz", ".x3d", ".x3dv", ".iv", ".wrl.gz", ".glb", ".gltf"})
+    for (const char* ending : endings)
       if (entry.is_regular_file() && entry.path().string().ends_with(ending)) paths.push_back(entry.path().string());
   std::ranges::sort(paths);
   return paths;
 }
 
-}  // namespace
+struct Count {
+  std::size_t n_files = 0, n_faults = 0;
 
-int main(int argc, char** argv) {
-  if (argc != 3) return 2;
-  if (!fs::is_directory(argv[2])) {
-    std::printf("there is no folder %s\n", argv[2]);
-    return 77;
-  }
-  const bool judging = !std::strcmp(argv[1], "judge");
-  std::size_t n_worlds = 0, n_faults = 0;
-  for (const auto& path : worlds_in(argv[2])) {
-    Diagnostics diag;
-    const auto world = read_world(path, {}, diag);
-    if (!world) continue;
-    ++n_worlds;
-    const auto fault = judging ? judge(path, *world, diag.shared_sources()) : road(path, *world, diag.shared_sources());
-    if (fault.empty()) continue;
+  void add(const std::string& path, const std::string& fault) {
+    ++n_files;
+    if (fault.empty()) return;
     ++n_faults;
     std::printf("%s: %s\n", path.c_str(), fault.c_str());
   }
-  std::printf("%zu worlds, %zu faults\n", n_worlds, n_faults);
-  return n_faults > 0 || n_worlds == 0;
+};
+
+void judge_made(const char* folder, Count& count) {
+  for (const auto& path : files_in(folder, {".glb"})) {
+    std::ifstream in(path, std::ios::binary);
+    count.add(path, verdict({std::istreambuf_iterator<char>(in), {}}));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool judging = argc == 4 && !std::strcmp(argv[1], "judge");
+  if (!judging && argc != 3) return 2;
+  for (int i = 2; i < argc; ++i) {
+    if (fs::is_directory(argv[i])) continue;
+    std::printf("skipped: there is no folder %s\n", argv[i]);
+    return 77;
+  }
+  Count made, worlds;
+  if (judging) judge_made(argv[3], made);
+  for (const auto& path : files_in(argv[2], {".wrl", ".wrz", ".x3d", ".x3dv", ".iv", ".wrl.gz", ".glb", ".gltf"})) {
+    Diagnostics diag;
+    const auto world = read_world(path, {}, diag);
+    if (world) worlds.add(path, (judging ? judge : road)(path, *world, diag.shared_sources()));
+  }
+  std::printf("%zu files and %zu worlds, %zu faults\n", made.n_files, worlds.n_files, made.n_faults + worlds.n_faults);
+  return made.n_faults + worlds.n_faults > 0 || worlds.n_files == 0 || (judging && made.n_files == 0);
 }

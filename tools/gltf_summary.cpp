@@ -40,7 +40,7 @@ std::string summary_text(const GltfSummary& s) {
                      grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
   if (s.instances > 0) out += fmt::format("  {} instances in tables (EXT_mesh_gpu_instancing)\n", grouped(s.instances));
   if (const auto& r = s.recoding; r.pictures > 0) {
-    out += fmt::format("  pictures: {} written anew, {} of them at another size; {} bytes became {}",
+    out += fmt::format("  pictures: {} written again, {} of them at another size; {} bytes became {}",
                        grouped(r.pictures), grouped(r.resized), grouped(r.before), grouped(r.after));
     out += r.psnr > 0 ? fmt::format(", PSNR at least {:.1f} dB\n", r.psnr) : "\n";
   }

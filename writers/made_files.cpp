@@ -64,7 +64,7 @@ bool MadeFiles::write() {
   for (Placed& p : placed_) {
     const auto path = (stem_of(output_).parent_path() / p.name).string();
     if (has_other_contents(path, *p.file->bytes)) diag_.report(Diag::file_replaced, {}, path);
-    p.output = OutputFile::open(path, {}, diag_);
+    p.output = OutputFile::open(path, {.inputs = &resources_.files_read()}, diag_);
     if (!p.output) return false;
     p.output->write(*p.file->bytes);
   }

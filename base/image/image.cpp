@@ -61,7 +61,7 @@ std::vector<fs::path> module_paths() {
   for (fs::directory_iterator i(lib, ec), end; !ec && i != end; i.increment(ec))  // lib/x86_64-linux-gnu
     paths.push_back(i->path() / "wrlkit" / name);
   paths.push_back(chosen_module());
-  paths.push_back(WRLKIT_INSTALLED_IMAGES);
+  paths.emplace_back(WRLKIT_INSTALLED_IMAGES);
   paths.push_back(module_of_environment());
   std::erase_if(paths, [](const fs::path& path) { return !is_trusted(path); });
   return paths;
@@ -72,7 +72,10 @@ struct Opened {
   std::string error = "the module of codecs, wrlkit_images.so, is not installed (WRLKIT_IMAGES may name it)";
 };
 
+std::atomic<bool> loaded = false;
+
 Opened open_module() {
+  loaded = true;
   Opened opened;
   for (auto& path : module_paths()) {
     void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -83,10 +86,8 @@ Opened open_module() {
   return opened;
 }
 
-std::atomic<bool> loaded = false;
-
 const Opened& image_module() {
-  static const Opened opened = (loaded = true, open_module());
+  static const Opened opened = open_module();
   return opened;
 }
 

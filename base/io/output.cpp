@@ -86,6 +86,8 @@ struct OutputFile::State {
   enum Kind { replace, standard_output, direct };
 
   std::string name;  // as the user said it
+  const FilesRead* inputs = nullptr;
+  bool is_input = false;
   fs::path target;
   fs::path temporary;  // where the file system knows no files without a name
   Kind kind = replace;
@@ -129,12 +131,21 @@ struct OutputFile::State {
     else if (!S_ISREG(there.st_mode)) {
       kind = direct;
       take(::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
-    } else if (access(target.c_str(), W_OK) != 0)
+    } else if (refuses_input())
+      return;
+    else if (access(target.c_str(), W_OK) != 0)
       error = errno;
     else {
       replaced = there;
       open_temporary();
     }
+  }
+
+  /// Whether the target is a file that was read.
+  bool refuses_input() {
+    is_input = inputs && inputs->has(target.string());
+    if (is_input) error = EEXIST;
+    return is_input;
   }
 
   void open_temporary() {
@@ -214,6 +225,7 @@ struct OutputFile::State {
 
   // A file without a name can be given a new one, but cannot replace another: it gets a temporary name first then.
   void put_in_place() {
+    if (refuses_input()) return;  // it may have been read since
     if (temporary.empty()) {
       auto self = "/proc/self/fd/" + std::to_string(fd);
       auto link = [&](const fs::path& to) {
@@ -238,7 +250,8 @@ struct OutputFile::State {
   }
 
   bool report(Diagnostics& diag) const {
-    if (error) diag.report(Diag::cannot_write, {}, name, reason(error, target));
+    const auto why = is_input ? "it is one of the files that were read; choose another name" : reason(error, target);
+    if (error) diag.report(Diag::cannot_write, {}, name, why);
     return error == 0;
   }
 };
@@ -252,6 +265,7 @@ std::optional<OutputFile> OutputFile::open(const std::string& path, OutputOption
   auto state = std::make_unique<State>();
   state->name = path;
   state->target = behind_links(path);
+  state->inputs = options.inputs;
   if (path == "-") state->kind = State::standard_output;
   if (options.gzip) state->gzip = std::make_unique<Gzip>();
   state->open();

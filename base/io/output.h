@@ -9,12 +9,14 @@
 #include <string_view>
 
 #include "base/diagnostics.h"
+#include "base/io/files_read.h"
 #include "base/io/sink.h"
 
 namespace wrlkit {
 
 struct OutputOptions {
-  bool gzip = false;  // RFC 1952; without time and name, so that the same bytes give the same file
+  bool gzip = false;                  // RFC 1952; without time and name, so that the same bytes give the same file
+  const FilesRead* inputs = nullptr;  // a file of these is not replaced; they must outlive the output
 };
 
 class OutputFile {

@@ -1,8 +1,28 @@
+// Numbers by their decimal digits.
 #pragma once
 #include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace wrlkit {
+
+/// The shortest text that reads back as the same number.
+template <class N>
+std::string shortest_text(N v) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, v).ptr};
+}
+
+/// The double that has the digits of the float: 0.1f is written as 0.1 and not as 0.10000000149011612. Read back it is
+/// the same float.
+inline double decimal(float f) {
+  if (f == std::trunc(f)) return f;
+  char text[32];
+  double d = f;
+  std::from_chars(text, std::to_chars(text, text + sizeof text, f).ptr, d);
+  return d;
+}
 
 /// The number with 15 significant digits, which is short again after some arithmetic: 0.1 + 0.2 becomes 0.3. Never -0.
 inline double to_15_digits(double v) {

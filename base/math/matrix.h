@@ -16,6 +16,7 @@ struct Matrix {
     return {m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3], m[4] * p[0] + m[5] * p[1] + m[6] * p[2] + m[7],
             m[8] * p[0] + m[9] * p[1] + m[10] * p[2] + m[11]};
   }
+  Vec3 column(int c) const { return {(*this)(0, c), (*this)(1, c), (*this)(2, c)}; }
   double determinant() const {
     return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
            m[2] * (m[4] * m[9] - m[5] * m[8]);
@@ -45,7 +46,7 @@ inline Matrix scale_matrix(const Vec3& s) {
 
 /// Axis and angle; an axis without length turns nothing.
 inline Matrix rotation_matrix(const Vec4& r) {
-  double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+  const double length = fast_length({r[0], r[1], r[2]});
   if (!(length > 0) || !std::isfinite(length)) return {};
   double x = r[0] / length, y = r[1] / length, z = r[2] / length, c = std::cos(r[3]), s = std::sin(r[3]), d = 1 - c;
   Matrix o;

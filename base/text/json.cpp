@@ -1,22 +1,11 @@
 #include "base/text/json.h"
 
+#include "base/text/utf8.h"
+
 namespace wrlkit {
 namespace {
 
 bool plain(unsigned char c) { return c >= ' ' && c < 0x80 && c != '"' && c != '\\'; }
-
-// Length of the well-formed UTF-8 sequence at the front (Unicode, table 3-7); 0: none.
-std::size_t sequence(std::string_view s) {
-  auto at = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0u; };
-  auto tail = [&](std::size_t i) { return (at(i) & 0xc0) == 0x80; };
-  unsigned c = at(0);
-  if (c >= 0xc2 && c <= 0xdf) return tail(1) ? 2 : 0;
-  if (c >= 0xe0 && c <= 0xef)
-    return tail(1) && tail(2) && !(c == 0xe0 && at(1) < 0xa0) && !(c == 0xed && at(1) > 0x9f) ? 3 : 0;
-  if (c >= 0xf0 && c <= 0xf4)
-    return tail(1) && tail(2) && tail(3) && !(c == 0xf0 && at(1) < 0x90) && !(c == 0xf4 && at(1) > 0x8f) ? 4 : 0;
-  return 0;
-}
 
 void escape(std::string& out, unsigned char c) {
   constexpr char hex[] = "0123456789abcdef";
@@ -57,7 +46,7 @@ void JsonOut::string(std::string_view s) {
     if (c < 0x80) {
       escape(out_, c);
       n = 1;
-    } else if ((n = sequence(s)))
+    } else if ((n = utf8_sequence(s)))
       out_ += s.substr(0, n);
     else {
       out_ += "\xef\xbf\xbd";

@@ -109,6 +109,23 @@ void restore_all(Json& json, const char* name, const Elements& elements) {
   restore_all(json, name, elements, [](Json&, const auto&) {});
 }
 
+/// The same of a member that is an element itself: the texture of a material, with its KHR_texture_transform.
+template <class Element>
+void restore_member(Json& json, const char* name, const Element& element) {
+  if (json.contains(name)) restore(json[name], element);
+}
+
+void restore_inside(Json& json, const tinygltf::Material& material) {
+  restore_member(json, "normalTexture", material.normalTexture);
+  restore_member(json, "occlusionTexture", material.occlusionTexture);
+  restore_member(json, "emissiveTexture", material.emissiveTexture);
+  if (!json.contains("pbrMetallicRoughness")) return;
+  const auto& pbr = material.pbrMetallicRoughness;
+  restore_member(json, "pbrMetallicRoughness", pbr);
+  restore_member(json["pbrMetallicRoughness"], "baseColorTexture", pbr.baseColorTexture);
+  restore_member(json["pbrMetallicRoughness"], "metallicRoughnessTexture", pbr.metallicRoughnessTexture);
+}
+
 void restore(Json& json, const tinygltf::Model& model) {
   restore<tinygltf::Model>(json, model);
   restore(json["asset"], model.asset);
@@ -117,7 +134,7 @@ void restore(Json& json, const tinygltf::Model& model) {
   restore_all(json, "bufferViews", model.bufferViews);
   restore_all(json, "cameras", model.cameras);
   restore_all(json, "images", model.images);
-  restore_all(json, "materials", model.materials);
+  restore_all(json, "materials", model.materials, restore_inside);
   restore_all(json, "nodes", model.nodes);
   restore_all(json, "samplers", model.samplers);
   restore_all(json, "scenes", model.scenes);

@@ -1,4 +1,4 @@
-"""The models of the paper whose system this project rebuilds, made anew from its figures.
+"""The models of the paper whose system this project rebuilds, rebuilt from its figures.
 
 Figures 9 and 10: an ellipsoidal shape with a cylindrical hole, 452 faces. Figure 11: a room with stairs and two
 lights. Figure 15: textured pipes. All are IndexedFaceSets; sizes in metres, Y up.

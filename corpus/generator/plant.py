@@ -68,7 +68,7 @@ class Room(Building, Equipment):
                 self.plate((x, y - 0.11, z), (0.16, 0.1, 0.1), STEEL)]
 
     def fire_main(self):
-        """P-102 under the platform to a hydrant by the back wall; a hose reel beside."""
+        """P-102 under the platform to a hydrant by the back wall; a hose reel next to it."""
         r, end = 0.07, (4.3, 0.9, -3.4)
         pipes = self.pipe(FIRE, r, [(2.2, 1.0, 0.8), (2.2, 1.95, 0.8), (2.2, 1.95, -3.4), (4.3, 1.95, -3.4), end])
         pipes += [self.straight(FIRE, r, end, (4.3, 0.02, -3.4)), self.tee(FIRE, r, end, Y, Z),

@@ -64,7 +64,7 @@ class Reader {
     require(std::isfinite(m.crease_angle), "the crease angle is no angle");
     in_.bytes(6 * sizeof(float));  // bounds
     error_ = out_.base_error = in_.fixed<float>();
-    require(std::isfinite(error_) && !std::signbit(error_), "the error of the base is no length");
+    require(std::isfinite(error_) && !std::signbit(error_), "the error of the base is not a valid length");
     n_base_vertices_ = count();
     n_base_wedges_ = count();
     n_base_faces_ = count();
@@ -204,7 +204,7 @@ class Reader {
     const std::uint32_t v = below(out_.vertices.size());
     if (head & split_bits::better) {
       const std::uint64_t step = in_.number(), now = static_cast<std::uint64_t>(ordered(error_));
-      require(step <= now, "an error is no length");
+      require(step <= now, "an error is not a valid length");
       error_ = from_ordered(static_cast<std::int64_t>(now - step));
     }
     const std::uint32_t number = index(out_.vertices[v].number, n_base_vertices_ + n_splits_);

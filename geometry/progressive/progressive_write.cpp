@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "base/math/box.h"
 #include "geometry/progressive/progressive_replay.h"
 #include "geometry/progressive/progressive_stream.h"
 
@@ -70,15 +71,11 @@ class Writer {
   /// Of the original: smallest x, y, z and largest, rounded outwards.
   void bounds() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    Point low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-    for (const Point& p : final_positions(in_))
-      for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], p[i]);
-        high[i] = std::max(high[i], p[i]);
-      }
-    if (in_.vertices.empty()) low = high = {};
-    for (double x : low) out_.fixed(outward(x, -infinity));
-    for (double x : high) out_.fixed(outward(x, infinity));
+    Box box;
+    for (const Point& p : final_positions(in_)) box.add(p);
+    if (in_.vertices.empty()) box = {{}, {}};
+    for (double x : box.low) out_.fixed(outward(x, -infinity));
+    for (double x : box.high) out_.fixed(outward(x, infinity));
   }
 
   static float outward(double x, float towards) {

@@ -1,43 +1,34 @@
 #include <algorithm>
 #include <array>
-#include <limits>
+#include "base/math/box.h"
 
 #include "geometry/tessellation.h"
 
 namespace wrlkit {
 namespace {
 
-struct Bounds {
-  Vec3 low, high;
-  double half(std::size_t axis) const { return high[axis] / 2 - low[axis] / 2; }  // of its length, which could overflow
-};
+/// Of its length, which could overflow.
+double half(const Box& b, std::size_t axis) { return b.high[axis] / 2 - b.low[axis] / 2; }
 
-Bounds bounds_of_corners(const Mesh& mesh) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Bounds b{{far, far, far}, {-far, -far, -far}};
-  const double* positions = mesh.positions.data();
-  for (auto p : mesh.corners)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double v = positions[std::size_t{p} * 3 + k];
-      b.low[k] = std::min(b.low[k], v);
-      b.high[k] = std::max(b.high[k], v);
-    }
+Box box_of_corners(const Mesh& mesh) {
+  Box b;
+  for (auto p : mesh.corners) b.add(&mesh.positions[std::size_t{p} * 3]);
   return b;
 }
 
 // S and T of a point.
 struct Projection {
-  Bounds bounds;
+  Box box;
   std::array<std::size_t, 3> axes{0, 1, 2};  // longest first
 
-  explicit Projection(const Bounds& b) : bounds(b) {
-    std::ranges::stable_sort(axes, [&](auto x, auto y) { return b.half(x) > b.half(y); });
+  explicit Projection(const Box& b) : box(b) {
+    std::ranges::stable_sort(axes, [&](auto x, auto y) { return half(b, x) > half(b, y); });
   }
 
   void project(const double* p, float* out) const {
-    const double longest = bounds.half(axes[0]);
+    const double longest = half(box, axes[0]);
     for (std::size_t k = 0; k < 2; ++k)
-      out[k] = longest > 0 ? static_cast<float>((p[axes[k]] / 2 - bounds.low[axes[k]] / 2) / longest) : 0;
+      out[k] = longest > 0 ? static_cast<float>((p[axes[k]] / 2 - box.low[axes[k]] / 2) / longest) : 0;
   }
 };
 
@@ -45,7 +36,7 @@ struct Projection {
 
 void default_texcoords(Mesh& mesh) {
   if (mesh.kind != Mesh::Kind::faces || mesh.corners.empty() || mesh.texcoord.present()) return;
-  const Projection projection(bounds_of_corners(mesh));
+  const Projection projection(box_of_corners(mesh));
   const double* positions = mesh.positions.data();
   auto& [values, index, width] = mesh.texcoord;
   if (mesh.n_positions() <= mesh.corners.size()) {

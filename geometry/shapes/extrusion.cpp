@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math/box.h"
 #include "geometry/geometry_attributes.h"
 #include "geometry/shapes/shapes.h"
 #include "geometry/shapes/spine.h"
-#include "geometry/shapes/vector.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
@@ -137,12 +137,9 @@ class Extruder {
   // The cross-section scaled into the texture square; S follows X, T follows Z.
   void write_cap_texcoords() {
     cap_texcoords_ = static_cast<std::uint32_t>(mesh_.texcoord.count());
-    Vec2 low = f_.crossSection[0], high = low;
-    for (auto& c : f_.crossSection)
-      for (std::size_t k = 0; k < 2; ++k) {
-        low[k] = std::min(low[k], c[k]);
-        high[k] = std::max(high[k], c[k]);
-      }
+    Box2 box;
+    for (auto& c : f_.crossSection) box.add(c);
+    const auto &low = box.low, &high = box.high;
     const double larger = std::max(high[0] / 2 - low[0] / 2, high[1] / 2 - low[1] / 2);  // halves do not overflow
     auto scaled = [&](std::uint32_t k, std::size_t axis) {
       return larger > 0 ? (f_.crossSection[k][axis] / 2 - low[axis] / 2) / larger : 0;

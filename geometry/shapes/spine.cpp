@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 
 namespace wrlkit {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stop.h"
 #include "geometry/simplify/features.h"
 #include "geometry/simplify/legality.h"
 #include "geometry/simplify/sweep.h"
@@ -142,6 +143,7 @@ void Engine::run_to(std::size_t n_faces, double max_error) {
   Move move;
   std::vector<std::uint32_t> too_far;  // for a later call
   while (surface_.n_faces() > n_faces && settle(move)) {
+    check_stop();
     std::uint32_t u = from_.center, v = to_.center;
     double d = std::max(deviation_[u], deviation_[v]) + deviation(surface_, from_, to_, move.position);
     if (d > max_error) {

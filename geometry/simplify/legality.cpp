@@ -35,7 +35,7 @@ bool folded(const Vec3& a, const Vec3& b) {
   return d < 0 && d * d > fold_cosine * fold_cosine * dot(a, a) * dot(b, b);
 }
 
-/// A face that is left, by the vertices beside the one that moves, and its normal before and after.
+/// A face that is left, by the vertices next to the one that moves, and its normal before and after.
 struct Turn {
   std::uint32_t face, next, prev;
   Vec3 before, after;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "geometry/geometry.h"
+#include "scenegraph/declared_protos.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -60,13 +62,15 @@ std::size_t LodNodes::add(const ShapeSurface& surface, const Mesh& mesh, std::sp
                           const ScreenBudget& budget) {
   const auto sphere = bounding_sphere(mesh);
   const auto range = ranges(sphere, levels, budget);
-  if (range.empty()) return 0;
+  std::vector<NodeId> shapes;
+  std::ranges::copy_if(surface.shapes, std::back_inserter(shapes), [&](NodeId n) { return listed_[n.value] != 0; });
+  if (range.empty() || shapes.empty()) return 0;
   std::vector<NodeId> geometries;
   for (const auto& level : levels) {
     geometries.push_back(scene_.add(nodes::IndexedFaceSet, scene_.where(surface.geometry)));
     store_mesh(scene_, geometries.back(), level.mesh);
   }
-  for (NodeId shape : surface.shapes) {
+  for (NodeId shape : shapes) {
     std::vector<NodeId> children{shape};
     for (NodeId g : geometries) children.push_back(shape_like(shape, g));
     if (budget.vanish > 0) children.push_back(scene_.add(nodes::Group, scene_.where(shape)));
@@ -77,12 +81,12 @@ std::size_t LodNodes::add(const ShapeSurface& surface, const Mesh& mesh, std::sp
     if (lod_of_.size() <= shape.value) lod_of_.resize(shape.value + std::size_t{1});
     lod_of_[shape.value] = n;
   }
-  return surface.shapes.size();
+  return shapes.size();
 }
 
 /// The same Shape with another geometry.
 NodeId LodNodes::shape_like(NodeId shape, NodeId geometry) {
-  const std::vector<Value> fields(scene_.fields(shape).begin(), scene_.fields(shape).end());
+  const auto fields = scene_.copy_of_fields(shape);
   NodeId n = scene_.add(nodes::Shape, scene_.where(shape));
   scene_.set_fields(n, fields);
   scene_.set(n, nodes::shape::geometry, geometry);
@@ -94,18 +98,30 @@ void LodNodes::replace(std::vector<NodeId>& list) const {
     if (n && n.value < lod_of_.size() && lod_of_[n.value]) n = lod_of_[n.value];
 }
 
-void LodNodes::replace_shapes() {
+template <class F>
+void LodNodes::for_lists(F f) {
   for (NodeId n : all_nodes(scene_)) {
-    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
-    for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
+    for (const Value& v : scene_.copy_of_fields(n)) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
-      replace(list);
+      f(list);
       if (!std::ranges::equal(list, v.node_span())) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));
     }
   }
-  replace(scene_.main.roots);
-  for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) replace(scene_.proto(ProtoId{i}).body.roots);
+  f(scene_.main.roots);
+  for (ProtoId p : declared_protos(scene_)) f(scene_.proto(p).body.roots);
+}
+
+LodNodes::LodNodes(Scene& scene) : scene_(scene), listed_(scene.node_count()) {
+  for_lists([&](const std::vector<NodeId>& list) {
+    for (NodeId n : list)
+      if (n) listed_[n.value] = 1;
+  });
+}
+
+void LodNodes::replace_shapes() {
+  for_lists([&](std::vector<NodeId>& list) { replace(list); });
 }
 
 }  // namespace wrlkit

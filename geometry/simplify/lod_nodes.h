@@ -19,10 +19,11 @@ struct ScreenBudget {
 
 class LodNodes {
  public:
-  explicit LodNodes(Scene& scene) : scene_(scene) {}
+  explicit LodNodes(Scene& scene);
 
-  /// Makes a LOD of each Shape that holds the surface, with the Shape as its first level. `mesh` is the surface;
-  /// nothing is made when there are no levels and it is not to vanish. Returns the number of LODs.
+  /// Makes a LOD of each Shape that holds the surface and stands in a list of nodes, with the Shape as its first level.
+  /// `mesh` is the surface; nothing is made when there are no levels and it is not to vanish. Returns the number of
+  /// LODs.
   std::size_t add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels,
                   const ScreenBudget& budget);
   /// Puts the LODs where their Shapes were: into grouping nodes, and among the roots of scopes. O(nodes).
@@ -31,8 +32,12 @@ class LodNodes {
  private:
   NodeId shape_like(NodeId shape, NodeId geometry);
   void replace(std::vector<NodeId>& list) const;
+  /// Calls f(list) for the lists that a LOD may stand in; f may change them.
+  template <class F>
+  void for_lists(F f);
 
   Scene& scene_;
+  std::vector<char> listed_;    // by node: stands in such a list
   std::vector<NodeId> lod_of_;  // by Shape
 };
 

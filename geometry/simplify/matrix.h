@@ -1,6 +1,6 @@
 // Symmetric 3 by 3 matrices: what the squared distances from planes and lines add up to.
 #pragma once
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 
 namespace wrlkit::simplify {
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math/box.h"
 #include "geometry/simplify/criterion.h"
 #include "geometry/simplify/matrix.h"
 
@@ -101,13 +102,9 @@ class GlobalQuadric final : public Pricer {
 
   /// Largest extent along an axis.
   double size() const {
-    Vec3 low{}, high{};
-    for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v)
-      for (int i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], point(v)[i]);
-        high[i] = std::max(high[i], point(v)[i]);
-      }
-    return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    Box box{{}, {}};
+    for (std::uint32_t v = 0; v < surface_.n_vertices(); ++v) box.add(point(v));
+    return std::ranges::max(box.size());
   }
 
   void add_face(std::uint32_t f) {

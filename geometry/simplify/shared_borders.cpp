@@ -26,7 +26,7 @@ struct Entry {
 };
 
 /// Cells are some times as wide as what counts as the same, so that equal positions have a cell in common although each
-/// is entered in one or two as a rule.
+/// is usually entered in one or two.
 class Cells {
  public:
   explicit Cells(double least) : least_(least) {}
@@ -58,7 +58,7 @@ class Cells {
 
 }  // namespace
 
-/// Around a vertex whose faces close, every neighbour is beside two of them. So the sum of numbers that stand for the
+/// Around a vertex whose faces close, every neighbour is next to two of them. So the sum of numbers that stand for the
 /// neighbours, without carry, is zero there, and nearly never on a border.
 void SharedBorders::add(const Mesh& mesh) {
   local_.reset(mesh.n_positions());

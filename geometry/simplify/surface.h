@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "base/math/vec.h"
 #include "geometry/mesh.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit::simplify {
 

@@ -4,7 +4,6 @@
 
 #include "geometry/geometry.h"
 #include "geometry/simplify/collapse.h"
-#include "geometry/tessellation.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -69,8 +68,8 @@ class Choice {
     return std::ranges::any_of(scene_.fields(n), [&](const Value& v) { return scene_.content(v).is; });
   }
   bool is_surface(NodeId g) const {
-    return g && scene_.type(g).kind == NodeKind::builtin && scene_.type(g).is_a("X3DGeometryNode") &&
-           !scene_.is(g, nodes::IndexedLineSet) && !scene_.is(g, nodes::PointSet);
+    return g && scene_.is(g, nodes::X3DGeometryNode) && !scene_.is(g, nodes::IndexedLineSet) &&
+           !scene_.is(g, nodes::PointSet);
   }
 
   /// Null for a Shape whose surface is known now and stays as it is.
@@ -110,13 +109,13 @@ std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag, Bel
   return Choice(scene, diag, below, text).run();
 }
 
-SurfaceReader::SurfaceReader(const Scene& scene, Task& ctx)
-    : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
+SurfaceReader::SurfaceReader(const Scene& scene, Task& ctx, const Tessellation& faces)
+    : scene_(scene), ctx_(ctx), faces_(faces), textured_(textured_geometry(scene)) {}
 
 void SurfaceReader::read(const ShapeSurface& surface, Mesh& mesh) {
   mesh.clear();
   MeshJob job{scene_, surface.geometry, mesh, scratch_, ctx_, textured_[surface.geometry.value] != 0};
-  make_mesh(job, {.texcoords = true});
+  make_mesh(job, faces_);
   if (!mesh.is_triangles()) return mesh.clear();
   if (!job.textured) mesh.texcoord.clear();
   if (mesh.primitive) {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "geometry/mesh_job.h"
+#include "geometry/tessellation.h"
 
 namespace wrlkit {
 
@@ -26,8 +26,8 @@ std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag = nu
 /// Makes triangles of them. One object for many surfaces, one after the other.
 class SurfaceReader {
  public:
-  /// `scene` must outlive it; nodes may be added.
-  SurfaceReader(const Scene& scene, Task& ctx);
+  /// `scene` must outlive it; nodes may be added. `faces`: what becomes of curved forms.
+  SurfaceReader(const Scene& scene, Task& ctx, const Tessellation& faces = {.texcoords = true});
 
   /// A mesh of triangles, or an empty one. What nobody sees and would hold a simplification back is left out: texture
   /// coordinates without a texture, and the exact normals of Box, Cone, Cylinder and Sphere, whose edges tell the same.
@@ -36,6 +36,7 @@ class SurfaceReader {
  private:
   const Scene& scene_;
   Task& ctx_;
+  Tessellation faces_;
   std::vector<char> textured_;
   MeshScratch scratch_;
 };

@@ -103,6 +103,7 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
     parallel_for(parts_.size(),
                  [&](std::size_t i) { curves[i].emplace(parts_[i].mesh, parts_[i].collapse, parts_[i].scale); });
     std::vector<FacesByError> all;
+    all.reserve(curves.size());
     for (auto& c : curves) all.push_back(std::move(*c));
     faces = share_out(all, counts);
   } else {

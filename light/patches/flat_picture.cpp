@@ -65,7 +65,7 @@ class Drawing {
       for (int u = std::max(0, x - 1); u <= std::min(picture_.width - 1, x + 1); ++u) f(index(u, v));
   }
 
-  /// Ring by ring, texels beside those that have a colour get the mean of these.
+  /// Ring by ring, texels next to those that have a colour get the mean of these.
   void grow() {
     std::vector<std::size_t> ring, next;
     auto wait = [&](std::size_t i) {
@@ -110,14 +110,7 @@ PictureFrame PictureFrame::facing(const V3& normal, const V3& origin) {
   return {origin, cross(up, normal), up};
 }
 
-void PlaneBox::add(const Place& p) {
-  for (std::size_t i = 0; i < 2; ++i) {
-    low[i] = std::min(low[i], p[i]);
-    high[i] = std::max(high[i], p[i]);
-  }
-}
-
-std::array<int, 2> picture_size(const PlaneBox& box, const PictureOptions& options) {
+std::array<int, 2> picture_size(const Box2& box, const PictureOptions& options) {
   constexpr double most = 1 << 24;
   auto side = [&](std::size_t i) {
     return static_cast<int>(std::clamp(std::ceil((box.high[i] - box.low[i]) / options.texel - 1e-6), 1.0, most)) +
@@ -126,7 +119,7 @@ std::array<int, 2> picture_size(const PlaneBox& box, const PictureOptions& optio
   return {side(0), side(1)};
 }
 
-FloatPicture draw(std::span<const FlatPatch> patches, const PlaneBox& box, const PictureOptions& options) {
+FloatPicture draw(std::span<const FlatPatch> patches, const Box2& box, const PictureOptions& options) {
   FloatPicture picture;
   const auto [width, height] = picture_size(box, options);
   picture.width = width;

@@ -5,12 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "base/math/box.h"
 #include "light/render/linear.h"
 
 namespace wrlkit::light {
 
 using drawing::V3;
-using Place = std::array<double, 2>;
+using Place = Vec2;
 
 /// The plane of a polygon as a picture has it: x to the right, y up. Walls stand upright; floors have -Z up, as seen
 /// from above.
@@ -19,13 +20,6 @@ struct PictureFrame {
 
   static PictureFrame facing(const V3& normal, const V3& origin);
   Place place(const V3& p) const { return {dot(p - origin, right), dot(p - origin, up)}; }
-};
-
-/// What a picture shows of a plane, metres.
-struct PlaneBox {
-  Place low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-
-  void add(const Place& p);
 };
 
 struct FlatPatch {
@@ -50,9 +44,9 @@ struct FloatPicture {
 };
 
 /// Texels that no patch covers go on as those around them. O(patches + texels * samples^2).
-FloatPicture draw(std::span<const FlatPatch> patches, const PlaneBox& box, const PictureOptions& options);
+FloatPicture draw(std::span<const FlatPatch> patches, const Box2& box, const PictureOptions& options);
 
 /// The size of that picture. Its lower left corner is that of the box, less the border.
-std::array<int, 2> picture_size(const PlaneBox& box, const PictureOptions& options);
+std::array<int, 2> picture_size(const Box2& box, const PictureOptions& options);
 
 }  // namespace wrlkit::light

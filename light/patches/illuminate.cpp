@@ -8,8 +8,7 @@
 namespace wrlkit::light {
 namespace {
 
-Vec3 numbers(const V3& v) { return {v.x, v.y, v.z}; }
-Corners corners_of(const std::array<V3, 3>& t) { return {numbers(t[0]), numbers(t[1]), numbers(t[2])}; }
+Corners corners_of(const std::array<V3, 3>& t) { return {Vec3(t[0]), Vec3(t[1]), Vec3(t[2])}; }
 
 /// The faces of a mesh by the triangles that they are pieces of: those of t are order[first[t]] to order[first[t + 1] -
 /// 1].

@@ -15,11 +15,19 @@
 #include <functional>
 #include <vector>
 
+#include "base/choice.h"
 #include "light/patches/patched_world.h"
 
-namespace wrlkit::light {
+namespace wrlkit {
 
+namespace light {
 enum class Method : std::uint8_t { path, stochastic_iteration, progressive_radiosity };
+}
+template <>
+inline constexpr auto choices<light::Method> =
+    choice_row({{"path"}, {"stochastic-iteration"}, {"progressive-radiosity"}});
+
+namespace light {
 
 struct MethodOptions {
   int samples = 256;  // rays a patch side: paths, steps, or rays for all the light of the world a side
@@ -42,4 +50,5 @@ inline V3 radiance(const PatchedWorld& world, std::uint32_t side, const V3& irra
 /// Calls f(s) for all sides, on all threads.
 void for_sides(std::uint32_t begin, std::uint32_t end, const std::function<void(std::uint32_t)>& f);
 
-}  // namespace wrlkit::light
+}  // namespace light
+}  // namespace wrlkit

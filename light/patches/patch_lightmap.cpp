@@ -46,7 +46,7 @@ std::uint32_t find_polygons(const std::vector<Triangle>& triangles, std::vector<
 /// A side of a polygon on its way to its place in the picture.
 struct Polygon {
   PictureFrame frame;
-  PlaneBox box;
+  Box2 box;
   std::vector<FlatPatch> patches;
   std::array<int, 2> size{};
   int x = 0, y = 0;  // of its upper left corner in the picture

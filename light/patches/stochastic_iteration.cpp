@@ -1,4 +1,4 @@
-// L(n+1) = Le + T*(n) L(n): see methods.h. T*(n) is a transport operator drawn anew for each step, with the mean T:
+// L(n+1) = Le + T*(n) L(n): see methods.h. T*(n) is a transport operator drawn again for each step, with the mean T:
 // every side sends one ray from a random place of its own in a random direction, and takes the light that the side
 // there had in the step before. L(n) does not converge, it wanders about the solution; the mean of all L(n) converges
 // to it, because what a side gathers has the right mean whatever the others have just now. As no ray brings more than

@@ -1,10 +1,13 @@
 // Points, directions and affine maps of the renderer, in double: coordinates of a plant may lie a thousand kilometres
 // from the origin, and what goes to single precision is first brought near it.
+//
+// V3 and Affine are not Vec3 and Matrix: colours are V3, too, and multiply component by component; and maps by columns
+// make directions and normals of flat and mirrored frames plain sums. Boxes are those of base/math.
 #pragma once
 #include <cmath>
-#include <limits>
 
 #include "base/image/srgb.h"
+#include "base/math/box.h"
 #include "scenegraph/value.h"
 
 namespace wrlkit::drawing {
@@ -17,6 +20,7 @@ struct V3 {
   constexpr V3(double a, double b, double c) : x(a), y(b), z(c) {}
   constexpr explicit V3(double all) : x(all), y(all), z(all) {}
   constexpr V3(const Vec3& v) : x(v[0]), y(v[1]), z(v[2]) {}
+  constexpr operator Vec3() const { return {x, y, z}; }
 
   V3& operator+=(const V3& b) {
     x += b.x;
@@ -48,20 +52,6 @@ inline V3 max(const V3& a, const V3& b) { return {std::fmax(a.x, b.x), std::fmax
 
 inline V3 to_linear(const V3& c) { return {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)}; }
 inline V3 to_srgb(const V3& c) { return {linear_to_srgb(c.x), linear_to_srgb(c.y), linear_to_srgb(c.z)}; }
-
-/// Axis-parallel box; empty when nothing was added.
-struct Box {
-  V3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-
-  bool empty() const { return !(low.x <= high.x); }
-  void add(const V3& p) {
-    low = min(low, p);
-    high = max(high, p);
-  }
-  V3 centre() const { return 0.5 * low + 0.5 * high; }
-  V3 size() const { return high - low; }
-  V3 corner(int i) const { return {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; }
-};
 
 /// x, y and z are the columns, t is the translation: point(p) = p.x * x + p.y * y + p.z * z + t.
 struct Affine {

@@ -7,8 +7,7 @@ namespace {
 constexpr double largest = 1e18;
 
 V3 position_of(const Mesh& mesh, std::uint32_t corner) {
-  const double* p = mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3;
-  return {p[0], p[1], p[2]};
+  return vec3(mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3);
 }
 
 bool usable(const V3& p) { return std::fabs(p.x) < largest && std::fabs(p.y) < largest && std::fabs(p.z) < largest; }

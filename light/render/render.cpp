@@ -80,10 +80,8 @@ Box bounds_of(const Scene& scene, const Stage& stage, const MeshSource& source, 
   return bounds(stage, pool, mesh_of);
 }
 
-Vec3 numbers(const V3& v) { return {v.x, v.y, v.z}; }
-
 RenderOptions seen_by(const Camera& c, RenderOptions options) {
-  options.look_at = LookAt{numbers(c.eye), numbers(c.eye - c.back), numbers(c.up)};
+  options.look_at = LookAt{c.eye, c.eye - c.back, c.up};
   options.field_of_view = 2 * std::atan(std::min(c.half_x, c.half_y));
   return options;
 }
@@ -94,8 +92,8 @@ Box room_to_turn(const Box& box) {
   const V3 size = box.size(), middle = box.centre();
   const double radius = 0.5 * std::hypot(size.x, size.z);
   Box out;
-  out.add({middle.x - radius, box.low.y, middle.z - radius});
-  out.add({middle.x + radius, box.high.y, middle.z + radius});
+  out.add({middle.x - radius, box.low[1], middle.z - radius});
+  out.add({middle.x + radius, box.high[1], middle.z + radius});
   return out;
 }
 
@@ -113,7 +111,7 @@ std::vector<RenderOptions> turntable(const Scene& scene, const MeshSource& sourc
   const Box box = bounds_of(scene, stage, source, diag);
   if (options.viewpoint.empty()) options.fit = true;
   const Camera first = choose_camera(scene, stage, options, diag, [&] { return room_to_turn(box); });
-  const V3 axis = box.empty() ? V3(0) : box.centre();
+  const V3 axis = box.empty() ? Vec3{} : box.centre();
   std::vector<RenderOptions> out;
   for (int i = 0; i < n; ++i) {
     const Affine turn = rotation({0, 1, 0, 2 * std::numbers::pi * i / n});

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/choice.h"
 #include "base/diagnostics.h"
 #include "geometry/mesh.h"
 #include "scenegraph/resources.h"
@@ -51,6 +52,15 @@ struct RenderOptions {
   std::optional<bool> headlight;     // instead of what NavigationInfo says
   std::function<void(double)> done;  // path: told now and then how much of the picture is there, up to 1
 };
+template <>
+inline constexpr auto choices<RenderOptions::Mode> =
+    choice_row({{"preview", "as in a browser"},
+                {"wireframe"},
+                {"lightmap", "the light of lightmaps alone"},
+                {"checker", "their texels as a checker"},
+                {"density", "their texels a metre"},
+                {"albedo", "without light"},
+                {"path", "with shadows and reflected light, as noisy as --samples are few"}});
 
 /// Draws the scene. `resources` gives the pictures of textures; without it, or where one cannot be had, the material
 /// shows. The picture is RGB and always there: an empty world gives its background.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/math/digits.h"
+
 namespace wrlkit::gltf_reader {
 namespace {
 
@@ -41,17 +43,17 @@ T raw(const char* p) {
 double component(const char* p, int type, bool normalized) {
   switch (type) {
     case byte:
-      return normalized ? decimal(std::max(raw<std::int8_t>(p) / 127.0f, -1.0f)) : raw<std::int8_t>(p);
+      return normalized ? finite_decimal(std::max(raw<std::int8_t>(p) / 127.0f, -1.0f)) : raw<std::int8_t>(p);
     case unsigned_byte:
-      return normalized ? decimal(raw<std::uint8_t>(p) / 255.0f) : raw<std::uint8_t>(p);
+      return normalized ? finite_decimal(raw<std::uint8_t>(p) / 255.0f) : raw<std::uint8_t>(p);
     case short_:
-      return normalized ? decimal(std::max(raw<std::int16_t>(p) / 32767.0f, -1.0f)) : raw<std::int16_t>(p);
+      return normalized ? finite_decimal(std::max(raw<std::int16_t>(p) / 32767.0f, -1.0f)) : raw<std::int16_t>(p);
     case unsigned_short:
-      return normalized ? decimal(raw<std::uint16_t>(p) / 65535.0f) : raw<std::uint16_t>(p);
+      return normalized ? finite_decimal(raw<std::uint16_t>(p) / 65535.0f) : raw<std::uint16_t>(p);
     case unsigned_int:
       return raw<std::uint32_t>(p);
     default:
-      return decimal(raw<float>(p));
+      return finite_decimal(raw<float>(p));
   }
 }
 
@@ -65,15 +67,7 @@ bool is_whole(int type) { return type == unsigned_byte || type == unsigned_short
 
 }  // namespace
 
-double decimal(float f) {
-  if (!std::isfinite(f)) return 0;
-  if (f == std::trunc(f) && std::abs(f) < 1e7f) return f;
-  char text[32];
-  auto end = std::to_chars(text, text + sizeof text, f).ptr;
-  double d = f;
-  std::from_chars(text, end, d);
-  return d;
-}
+double finite_decimal(float f) { return std::isfinite(f) ? decimal(f) : 0; }
 
 bool Accessors::fails(std::uint32_t index, std::string_view why) {
   file_.diag().report(Diag::gltf_no_data, file_.where(file_.at(Table::accessors, index)), word(Table::accessors), index,

@@ -6,7 +6,7 @@
 namespace wrlkit::gltf_reader {
 
 /// The number that a float was printed as, with the fewest digits.
-double decimal(float);
+double finite_decimal(float);
 
 struct Numbers {
   std::size_t width = 0;  // 1, 2, 3, 4, 16

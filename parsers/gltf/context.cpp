@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/image/srgb.h"
 #include "scenegraph/gltf_extensions.h"
 
 namespace wrlkit::gltf_reader {
@@ -93,15 +94,13 @@ void Context::set_name(NodeId n, Json name) const {
   scene.set_name(n, legal);
 }
 
-double linear(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-
 double display(double l) {
   if (!(l > 0)) return 0;
   if (l >= 1) return 1;
-  double guess = l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+  const double guess = linear_to_srgb(l);
   // Writers convert either the number or the float that it is stored as.
   return shortest(guess, [f = static_cast<float>(l)](double d) {
-    return static_cast<float>(linear(d)) == f || static_cast<float>(linear(static_cast<float>(d))) == f;
+    return static_cast<float>(srgb_to_linear(d)) == f || static_cast<float>(srgb_to_linear(static_cast<float>(d))) == f;
   });
 }
 

@@ -62,6 +62,5 @@ double shortest(double guess, Accepts accepts) {
 /// Display-referred colours of linear ones (IEC 61966-2-1), in [0, 1]: the shortest that is this linear one, as a
 /// float.
 double display(double linear);
-double linear(double display);
 
 }  // namespace wrlkit::gltf_reader

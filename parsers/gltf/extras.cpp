@@ -5,18 +5,13 @@
 #include <unordered_set>
 #include <utility>
 
+#include "scenegraph/access_word.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit::gltf_reader {
 namespace {
-
-std::optional<Access> access_of(std::string_view word) {
-  constexpr std::string_view words[] = {"field", "exposedField", "eventIn", "eventOut"};
-  auto i = std::ranges::find(words, word);
-  return i == std::end(words) ? std::nullopt : std::optional(static_cast<Access>(i - std::begin(words)));
-}
 
 Value empty_value(Scene& scene, FieldType t) {
   static constexpr double zeros[16] = {};
@@ -87,7 +82,7 @@ std::vector<FieldDef> Extras::interface(Json list, std::size_t first_slot) {
   for (Json row : list.elements()) {
     auto parts = row.elements();
     FieldDef f{};
-    auto access = parts.size() >= 3 ? access_of(parts[0].text()) : std::nullopt;
+    auto access = parts.size() >= 3 ? find_access(parts[0].text()) : std::nullopt;
     if (!access || !is_legal_name(parts[2].text()) || !find_field_type(parts[1].text(), f.type) ||
         out.size() >= 60'000) {
       bad(row, "a field of an interface");
@@ -297,7 +292,7 @@ void Extras::declare_fields(NodeId n, Json list) {
   NodeType t = c_.scene.type(n);
   if (t.name != "Script") return bad(list, "an interface");
   std::vector<FieldDef> all(t.fields.begin(), t.fields.end());
-  std::vector<Value> values(c_.scene.fields(n).begin(), c_.scene.fields(n).end());
+  auto values = c_.scene.copy_of_fields(n);
   for (auto& f : interface(list, all.size())) {
     if (f.has_value() || f.default_value.is) values.push_back(f.default_value);
     f.default_value = empty_value(c_.scene, f.type);

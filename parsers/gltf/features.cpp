@@ -86,7 +86,7 @@ class Parting {
 
   NodeId make(const std::vector<std::size_t>& faces) {
     const NodeId n = scene_.add(scene_.type_id(geometry_), scene_.where(geometry_));
-    const std::vector<Value> fields(scene_.fields(geometry_).begin(), scene_.fields(geometry_).end());
+    const auto fields = scene_.copy_of_fields(geometry_);
     scene_.set_fields(n, fields);
     std::vector<std::int32_t> coord;
     for (const Values& v : values_) {
@@ -124,7 +124,7 @@ class Parting {
 
   void put_values(NodeId n, const Values& v, const std::vector<std::int32_t>& order) {
     const NodeId to = scene_.add(scene_.type_id(v.node), scene_.where(v.node));
-    for (const Value& list : std::vector<Value>(scene_.fields(v.node).begin(), scene_.fields(v.node).end())) {
+    for (const Value& list : scene_.copy_of_fields(v.node)) {
       if (info(list.type).element != Element::number || !info(list.type).multiple) continue;
       const std::size_t width = info(list.type).arity;
       std::vector<double> some;

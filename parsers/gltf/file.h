@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "parsers/gltf/json.h"
+#include "base/text/json_reader.h"
 
 namespace wrlkit::gltf_reader {
 

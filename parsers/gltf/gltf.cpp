@@ -4,24 +4,15 @@
 
 #include "base/text/blanks.h"
 #include "parsers/gltf/animations.h"
+#include "scenegraph/gltf_extensions.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf_reader {
 namespace {
 
-constexpr std::string_view understood[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                           "KHR_meshopt_compression",    "KHR_mesh_quantization",
-                                           "KHR_texture_transform",      "KHR_lights_punctual",
-                                           "KHR_materials_unlit",        "MOZ_lightmap",
-                                           "EXT_mesh_gpu_instancing",    "MSFT_lod",
-                                           "EXT_texture_webp",           "KHR_materials_emissive_strength",
-                                           "EXT_instance_features",      "EXT_mesh_features",
-                                           "EXT_structural_metadata"};
-
 void check_required(File& file) {
   for (Json e : file.root()["extensionsRequired"].elements())
-    if (std::ranges::find(understood, e.text()) == std::end(understood))
-      file.diag().report(Diag::gltf_extension, file.where(e), e.text());
+    if (!knows_gltf_extension(e.text())) file.diag().report(Diag::gltf_extension, file.where(e), e.text());
 }
 
 /// Title and what is kept as text.

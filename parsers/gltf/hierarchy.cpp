@@ -25,7 +25,7 @@ bool is_said_by_gltf(TypeId t) {
 
 std::optional<std::uint16_t> children_slot(const NodeType& t) {
   auto f = std::ranges::find(t.fields, "children", &FieldDef::name);
-  if (f == t.fields.end() || !t.is_a("X3DGroupingNode")) return std::nullopt;
+  if (f == t.fields.end() || !t.is_a(nodes::X3DGroupingNode)) return std::nullopt;
   return static_cast<std::uint16_t>(f - t.fields.begin());
 }
 

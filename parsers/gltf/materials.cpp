@@ -7,6 +7,7 @@
 #include "base/io/url.h"
 #include "base/text/base64.h"
 #include "scenegraph/equal.h"
+#include "scenegraph/looks/shininess.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf_reader {
@@ -221,7 +222,7 @@ void Materials::set_highlight(NodeId n, Json m) {
     auto specular = vector<3>(kept["specularColor"], black);
     const double s = unit_range(std::max({specular[0], specular[1], specular[2]})),
                  shininess = unit_range(kept["shininess"].number(0.2));
-    const double expected = s <= peak ? 1 : std::pow(std::max(2 / (128 * shininess + 2), peak / s), 0.25);
+    const double expected = s <= peak ? 1 : std::pow(std::max(highlight_width(shininess), peak / s), 0.25);
     if (std::abs(expected - r) < 1e-4) return extras_.fields(n, kept);
   }
   if (r >= 1 || bright <= peak) return;
@@ -229,7 +230,7 @@ void Materials::set_highlight(NodeId n, Json m) {
   for (std::size_t i = 0; i < 3; ++i) specular[i] = bright * (1 - metallic) + bright * metallic * display(base[i]);
   auto rounded = [](double v) { return std::round(v * 1e6) / 1e6; };
   set(c_.scene, n, f::specularColor, Vec3{rounded(specular[0]), rounded(specular[1]), rounded(specular[2])});
-  set(c_.scene, n, f::shininess, rounded(unit_range((2 / wide - 2) / 128)));
+  set(c_.scene, n, f::shininess, rounded(unit_range(shininess_of_width(wide))));
 }
 
 // ---- pictures ------------------------------------------------------------------------------------------------------

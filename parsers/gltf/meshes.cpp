@@ -139,7 +139,7 @@ NodeId Meshes::kept_whole(const Primitive& p) {
   const Json kept = vrml97(p.mesh);
   for (Json e : kept.is_object() ? kept : Json()) {
     const TypeId t = find_builtin(e.key(), Dialect::vrml97);
-    if (!t || !builtin_nodes()[t.value].is_a("X3DGeometryNode")) continue;
+    if (!t || !builtin_nodes()[t.value].is_a(nodes::X3DGeometryNode)) continue;
     const bool partly = t == nodes::IndexedFaceSet   ? !e["coordIndex"]
                         : t == nodes::IndexedLineSet ? !e["coordIndex"]
                                                      : t == nodes::PointSet && !e["coord"]["Coordinate"]["point"];
@@ -289,7 +289,7 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
     t = rounded(a.yx * u + a.yy * v + a.y);
   }
   for (std::size_t i = 1; i < s.light.values.size(); i += 2)
-    s.light.values[i] = decimal(static_cast<float>(1 - s.light.values[i]));
+    s.light.values[i] = finite_decimal(static_cast<float>(1 - s.light.values[i]));
   if (s.color.width == 4) without_alpha(s.color.values);
   for (double& v : s.color.values) v = display(static_cast<float>(v));
   const TypeId type = p.faces()               ? nodes::IndexedFaceSet
@@ -351,7 +351,7 @@ void Meshes::name_attributes(NodeId n, Json kept) {
       if (!a || name.empty()) continue;
       // Equal values are one node here, but two names are two.
       if (const auto other = c_.scene.name(a); !other.empty() && other != name) {
-        const std::vector<Value> values(c_.scene.fields(a).begin(), c_.scene.fields(a).end());
+        const auto values = c_.scene.copy_of_fields(a);
         const NodeId own = c_.add(c_.scene.type_id(a), f);
         c_.scene.set_fields(own, values);
         c_.scene.set(n, c_.scene.make(FieldType::SFNode, *slot, own));

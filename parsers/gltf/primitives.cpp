@@ -95,7 +95,7 @@ bool PrimitiveReader::load(const Primitive& p, const Pose& how, const Sets& sets
   const bool moved = !how.joints.empty() || !how.weights.empty() || p.json["targets"] || how.origin != Vec3{0, 0, 0};
   if ((c_.file.is_whole() || moved) && !fill(s.position, three)) return false;
   if (const double step = c_.file.is_whole() ? vrml97(p.mesh)["step"].number(1) : 1; step != 1)
-    for (double& v : s.position.values) v = decimal(static_cast<float>(v * step));
+    for (double& v : s.position.values) v = finite_decimal(static_cast<float>(v * step));
   return !moved || pose(p, how, s);
 }
 
@@ -132,7 +132,7 @@ bool PrimitiveReader::load_draco(const Primitive& p, const Sets& sets, Streams& 
   for (std::size_t i = 0; i < used.size(); ++i) {
     used[i]->to->width = used[i]->width;
     used[i]->to->values = std::move(wanted[i].values);
-    for (double& v : used[i]->to->values) v = decimal(static_cast<float>(v));
+    for (double& v : used[i]->to->values) v = finite_decimal(static_cast<float>(v));
   }
   if (s.position.values.empty()) {
     c_.diag().report(Diag::gltf_bad_value, c_.file.where(p.json), "primitive without POSITION");
@@ -212,7 +212,7 @@ bool PrimitiveReader::skin(const Primitive& p, const Pose& how, Streams& s) {
     const Vec3 to = m.point({nv[0], nv[1], nv[2]}), from = m.point({0, 0, 0});
     Vec3 d{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
     const double length = std::hypot(d[0], d[1], d[2]);
-    for (std::size_t k = 0; k < 3 && length > 0; ++k) nv[k] = decimal(static_cast<float>(d[k] / length));
+    for (std::size_t k = 0; k < 3 && length > 0; ++k) nv[k] = finite_decimal(static_cast<float>(d[k] / length));
   }
   return true;
 }

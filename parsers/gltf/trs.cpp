@@ -9,13 +9,6 @@
 namespace wrlkit::gltf_reader {
 namespace {
 
-Vec3 column(const Matrix& m, int c) { return {m(0, c), m(1, c), m(2, c)}; }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Matrix of_columns(const Vec3& a, const Vec3& b, const Vec3& c) {
   Matrix m;
   for (int r = 0; r < 3; ++r) {
@@ -66,9 +59,9 @@ Matrix Place::matrix() const {
 
 Place place_of(const Matrix& m) {
   Place p;
-  p.translation = column(m, 3);
-  Vec3 x = column(m, 0), y = column(m, 1), z = column(m, 2);
-  const double a = length(x), b = length(y), c = length(z), sign = m.determinant() < 0 ? -1 : 1;
+  p.translation = m.column(3);
+  Vec3 x = m.column(0), y = m.column(1), z = m.column(2);
+  const double a = fast_length(x), b = fast_length(y), c = fast_length(z), sign = m.determinant() < 0 ? -1 : 1;
   constexpr double right_angle = 1e-6;
   const bool square = std::abs(dot(x, y)) <= right_angle * a * b && std::abs(dot(y, z)) <= right_angle * b * c &&
                       std::abs(dot(x, z)) <= right_angle * a * c;
@@ -108,14 +101,14 @@ Matrix inverse(const Matrix& m) {
   const double d = m.determinant();
   Matrix o;
   if (!(std::abs(d) > 0) || !std::isfinite(d)) return o;
-  const Vec3 x = column(m, 0), y = column(m, 1), z = column(m, 2), r0 = cross(y, z), r1 = cross(z, x), r2 = cross(x, y);
+  const Vec3 x = m.column(0), y = m.column(1), z = m.column(2), r0 = cross(y, z), r1 = cross(z, x), r2 = cross(x, y);
   for (int c = 0; c < 3; ++c) {
     const auto k = static_cast<std::size_t>(c);
     o(0, c) = r0[k] / d;
     o(1, c) = r1[k] / d;
     o(2, c) = r2[k] / d;
   }
-  const Vec3 t = o.point(column(m, 3));
+  const Vec3 t = o.point(m.column(3));
   for (int r = 0; r < 3; ++r) o(r, 3) = -t[static_cast<std::size_t>(r)];
   return o;
 }

@@ -1,7 +1,7 @@
 // Where a node of glTF is: translation, rotation and scale, or a matrix, as the fields of a Transform.
 #pragma once
 #include "base/math/quaternion.h"
-#include "parsers/gltf/json.h"
+#include "base/text/json_reader.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit::gltf_reader {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/text/length_unit.h"
+#include "base/text/utf8.h"
 #include "parsers/vrml/number.h"
-#include "parsers/vrml/text_encoding.h"
 #include "parsers/x3d/xml.h"
 
 namespace wrlkit {
@@ -138,9 +138,9 @@ class PatchParser {
 
   /// A value that is read by people.
   std::string text(const XmlTag::Attribute& a) {
-    if (vrml::is_utf8(a.value)) return std::string(a.value);
+    if (is_utf8(a.value)) return std::string(a.value);
     say(Diag::encoding_repaired, a.where, "Latin-1");
-    return vrml::latin1_to_utf8(a.value);
+    return latin1_to_utf8(a.value);
   }
 
   void begin_patches(const XmlTag& tag) {
@@ -301,7 +301,7 @@ std::optional<PatchSet> parse_text(std::string_view text, std::uint32_t base, Di
   std::string converted;
   if (is_utf16(text)) {
     diag.report(Diag::encoding_repaired, Span{base, 0}, "UTF-16");
-    text = converted = vrml::utf16_to_utf8(text);
+    text = converted = utf16_to_utf8(text);
   }
   const auto body = without_bom(text);
   return PatchParser(body, base + static_cast<std::uint32_t>(text.size() - body.size()), diag).parse();
@@ -311,7 +311,7 @@ std::optional<PatchSet> parse_text(std::string_view text, std::uint32_t base, Di
 
 bool is_patch_file(std::string_view text) {
   constexpr std::size_t enough = 1 << 16;  // for a declaration and comments
-  if (is_utf16(text)) return first_element(vrml::utf16_to_utf8(text.substr(0, enough))) == patch_words::patches;
+  if (is_utf16(text)) return first_element(utf16_to_utf8(text.substr(0, enough))) == patch_words::patches;
   return first_element(text) == patch_words::patches;
 }
 

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/image/srgb.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
 namespace {
-
-/// IEC 61966-2-1.
-double display(double linear) {
-  const double v = std::clamp(linear, 0.0, 1.0);
-  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
 
 struct Faces {
   std::vector<double> points, colors;
@@ -26,7 +21,7 @@ struct Faces {
       indices.push_back(first + static_cast<std::int32_t>(k));
     }
     indices.push_back(-1);
-    for (float c : p.rgb) colors.push_back(display(c));
+    for (float c : p.rgb) colors.push_back(linear_to_srgb(c));
   }
 };
 

@@ -5,14 +5,6 @@
 
 namespace wrlkit::vrml {
 
-std::optional<Access> find_access(std::string_view word) {
-  if (word == "eventIn" || word == "inputOnly") return Access::in;
-  if (word == "eventOut" || word == "outputOnly") return Access::out;
-  if (word == "field" || word == "initializeOnly") return Access::init;
-  if (word == "exposedField" || word == "inputOutput") return Access::inout;
-  return std::nullopt;
-}
-
 bool Parser::declaration_follows(Token access) {
   auto at = lex_.offset();
   lex_.seek(access.end);
@@ -61,8 +53,7 @@ Parser::Interface Parser::interface(bool with_values) {
       return out;
     }
     if (t.kind == Kind::open_brace || t.kind == Kind::close_brace) {
-      expected("']'", t);
-      lex_.seek(t.begin);
+      reject("']'", t);
       return out;
     }
     auto access = t.kind == Kind::word ? find_access(text(t)) : std::nullopt;
@@ -87,8 +78,7 @@ Parser::Interface Parser::interface(bool with_values) {
 void Parser::proto(Token keyword) {
   Token name = lex_.next();
   if (!name_like(name)) {
-    expected("a name", name);
-    lex_.seek(name.begin);
+    reject("a name", name);
     return;
   }
   auto proto_name = new_name(name);
@@ -119,8 +109,7 @@ void Parser::proto(Token keyword) {
 void Parser::externproto(Token keyword) {
   Token name = lex_.next();
   if (!name_like(name)) {
-    expected("a name", name);
-    lex_.seek(name.begin);
+    reject("a name", name);
     return;
   }
   auto declared = interface(false);

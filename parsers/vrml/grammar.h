@@ -8,6 +8,7 @@
 
 #include "parsers/vrml/values.h"
 #include "parsers/x3d/units.h"
+#include "scenegraph/access_word.h"
 #include "scenegraph/builder.h"
 
 namespace wrlkit::vrml {
@@ -88,8 +89,5 @@ class Parser : private Values {
   std::size_t scope_depth_ = 0, open_lists_ = 0;
   x3d::Units units_;
 };
-
-/// eventIn, eventOut, field and exposedField; also X3D's words, which occur in files that were converted half-way.
-std::optional<Access> find_access(std::string_view word);
 
 }  // namespace wrlkit::vrml

@@ -141,22 +141,14 @@ NodeId Parser::node_statement() {
   if (w == "NULL") return {};
   if (w == "USE") {
     Token name = lex_.next();
-    if (name.kind != Kind::word) {
-      expected("a name", name);
-      lex_.seek(name.begin);
-      return NodeId{};
-    }
+    if (!is_word(name)) return NodeId{};
     return build_.use(name_of(name), span(name));
   }
   std::string_view def;
   while (text(t) == "DEF") {
     if (!def.empty()) diag_.report(Diag::def_without_node, span(t), def);
     Token name = lex_.next();
-    if (name.kind != Kind::word) {
-      expected("a name", name);
-      lex_.seek(name.begin);
-      return NodeId{};
-    }
+    if (!is_word(name)) return NodeId{};
     if (name_like(name) && !begins_statement(text(name)) &&
         lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing
       diag_.report(Diag::def_without_name, span(name));
@@ -167,8 +159,7 @@ NodeId Parser::node_statement() {
     t = lex_.next();
   }
   if (!def.empty() && (text(t) == "USE" || !name_like(t))) {
-    expected("a node", t);
-    lex_.seek(t.begin);
+    reject("a node", t);
     return NodeId{};
   }
   if (Token brace = lex_.peek(); brace.kind != Kind::open_brace) {
@@ -195,14 +186,7 @@ NodeId Parser::node(Token type_name, std::string_view def) {
 void Parser::node_body(Token opened) {
   for (;;) {
     Token t = lex_.peek();
-    if (t.kind == Kind::close_brace) {
-      lex_.next();
-      return;
-    }
-    if (t.kind == Kind::end) {
-      unclosed(opened);
-      return;
-    }
+    if (ends(t, Kind::close_brace, opened)) return;
     if (t.kind == Kind::close_bracket && open_lists_ > 0) {  // of a list that holds this node: its brace is missing
       expected("'}'", t);
       return;
@@ -286,11 +270,7 @@ bool Parser::is_clause(FieldType type, std::uint16_t slot) {
 Value Parser::is_value(Token is, FieldType type, std::uint16_t slot) {
   Value v;
   Token name = lex_.next();
-  if (name.kind != Kind::word) {
-    expected("a name", name);
-    lex_.seek(name.begin);
-    return v;
-  }
+  if (!is_word(name)) return v;
   if (interfaces_.empty()) {
     diag_.report(Diag::is_outside, span(is));
     return v;
@@ -387,8 +367,7 @@ bool Parser::property_node(std::uint16_t slot, NodeId& out) {
     const auto& t = builtin_nodes()[i];
     const bool list = !t.fields.empty() && t.fields[0].has_value() && info(t.fields[0].type).multiple &&
                       info(t.fields[0].type).element == Element::number;
-    bool fits =
-        list && t.is_a("X3DGeometricPropertyNode") && std::ranges::any_of(def.kinds, [&](auto k) { return t.is_a(k); });
+    bool fits = list && t.is_a(nodes::X3DGeometricPropertyNode) && def.accepts(t);
     if (!fits) continue;
     Token first = lex_.peek();
     diag_.report(Diag::list_repaired, span(first), t.name);
@@ -432,7 +411,7 @@ bool Parser::holds_children(std::uint16_t slot) const {
 }
 
 NodeId Parser::shape_around(NodeId n) {
-  if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGeometryNode")) return n;
+  if (!scene_.is(n, nodes::X3DGeometryNode)) return n;
   diag_.report(Diag::shape_repaired, scene_.where(n), scene_.type(n).name);
   NodeId shape = scene_.add(nodes::Shape, scene_.where(n));
   scene_.set(shape, nodes::shape::geometry, n);
@@ -442,14 +421,7 @@ NodeId Parser::shape_around(NodeId n) {
 void Parser::list_elements(Token opened) {
   for (;;) {
     Token t = lex_.peek();
-    if (t.kind == Kind::close_bracket) {
-      lex_.next();
-      return;
-    }
-    if (t.kind == Kind::end) {
-      unclosed(opened);
-      return;
-    }
+    if (ends(t, Kind::close_bracket, opened)) return;
     if (t.kind == Kind::close_brace) {
       expected("']'", t);
       return;

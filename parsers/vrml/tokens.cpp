@@ -1,6 +1,6 @@
 #include "parsers/vrml/tokens.h"
 
-#include "parsers/vrml/text_encoding.h"
+#include "base/text/utf8.h"
 
 namespace wrlkit::vrml {
 

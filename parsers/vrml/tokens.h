@@ -18,7 +18,11 @@ class Tokens {
   Span span(Token t) const { return {base_ + t.begin, t.end - t.begin}; }
   std::string_view text(Token t) const { return lex_.text(t); }
   std::string describe(Token t) const;
-  bool take(Kind k) { return lex_.peek().kind == k && (lex_.next(), true); }
+  bool take(Kind k) {
+    const bool is_next = lex_.peek().kind == k;
+    if (is_next) lex_.next();
+    return is_next;
+  }
   /// A name by the grammar's first character, or near to one.
   bool name_like(Token t) const {
     if (t.kind != Kind::word) return false;
@@ -34,6 +38,25 @@ class Tokens {
 
   // Messages.
   void expected(std::string_view what, Token found);
+  /// The same, and the token is read again by who comes next.
+  void reject(std::string_view what, Token found) {
+    expected(what, found);
+    lex_.seek(found.begin);
+  }
+  /// Behind DEF, USE and IS; if not, it is rejected.
+  bool is_word(Token name) {
+    if (name.kind == Kind::word) return true;
+    reject("a name", name);
+    return false;
+  }
+  /// Whether the next token ends what `opened` began: its bracket, which is taken, or the end of the text.
+  bool ends(Token next, Kind close, Token opened) {
+    if (next.kind == close)
+      lex_.next();
+    else if (next.kind == Kind::end)
+      unclosed(opened);
+    return next.kind == close || next.kind == Kind::end;
+  }
   /// At the end of the text everything open is unclosed; one message is enough.
   void unclosed(Token opened);
   void unclosed_string(Token);

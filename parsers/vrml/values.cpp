@@ -104,14 +104,7 @@ void Values::booleans(std::size_t most) {
 
 void Values::close_list(Token opened) {
   Token t = lex_.peek();
-  if (t.kind == Kind::close_bracket) {
-    lex_.next();
-    return;
-  }
-  if (t.kind == Kind::end) {
-    unclosed(opened);
-    return;
-  }
+  if (ends(t, Kind::close_bracket, opened)) return;
   expected("a number or ']'", t);
   if (t.kind == Kind::close_brace) return;  // the ']' is missing; the brace belongs to the node
   skip_list();

@@ -91,7 +91,11 @@ class Vrml1Parser : private Values {
     auto w = text(t).substr(0, text(t).find('('));
     return !w.empty() && w.find_first_of("|=~)") == w.npos;
   }
-  bool take_word(std::string_view w) { return text(lex_.peek()) == w && (lex_.next(), true); }
+  bool take_word(std::string_view w) {
+    const bool is_next = text(lex_.peek()) == w;
+    if (is_next) lex_.next();
+    return is_next;
+  }
 
   ParseLimits limits_;
   SceneBuilder build_;
@@ -117,21 +121,13 @@ NodeId Vrml1Parser::node_statement() {
   if (text(t) == "NULL") return {};
   if (text(t) == "USE") {
     Token name = lex_.next();
-    if (name.kind != Kind::word) {
-      expected("a name", name);
-      lex_.seek(name.begin);
-      return NodeId{};
-    }
+    if (!is_word(name)) return NodeId{};
     return build_.use(name_of(name), span(name));
   }
   std::string_view def;
   if (text(t) == "DEF") {
     Token name = lex_.next();
-    if (name.kind != Kind::word) {
-      expected("a name", name);
-      lex_.seek(name.begin);
-      return NodeId{};
-    }
+    if (!is_word(name)) return NodeId{};
     if (is_name(name) && lex_.peek().kind == Kind::open_brace) {
       diag_.report(Diag::def_without_name, span(name));
       lex_.next();
@@ -141,8 +137,7 @@ NodeId Vrml1Parser::node_statement() {
     t = lex_.next();
   }
   if (!is_name(t)) {
-    expected("a node", t);
-    lex_.seek(t.begin);
+    reject("a node", t);
     return NodeId{};
   }
   if (Token brace = lex_.peek(); brace.kind != Kind::open_brace) {
@@ -183,14 +178,7 @@ void Vrml1Parser::node_body(Token opened) {
   Body body;
   for (;;) {
     Token t = lex_.peek();
-    if (t.kind == Kind::end) {
-      unclosed(opened);
-      break;
-    }
-    if (t.kind == Kind::close_brace) {
-      lex_.next();
-      break;
-    }
+    if (ends(t, Kind::close_brace, opened)) break;
     if (is_name(t))
       element(t, body);
     else
@@ -261,15 +249,13 @@ void Vrml1Parser::stray() {
 void Vrml1Parser::own_fields(Body& body) {
   Token open = lex_.next();
   if (open.kind != Kind::open_bracket) {
-    expected("'['", open);
-    return lex_.seek(open.begin);
+    return reject("'['", open);
   }
   for (Token t = lex_.next(); t.kind != Kind::close_bracket; t = lex_.next()) {
     FieldType type{};
     if (t.kind == Kind::end) return unclosed(open);
     if (t.kind == Kind::close_brace) {
-      expected("']'", t);
-      return lex_.seek(t.begin);
+      return reject("']'", t);
     }
     if (!find_type(text(t), type)) {
       expected("a field type", t);
@@ -277,8 +263,7 @@ void Vrml1Parser::own_fields(Body& body) {
     }
     Token name = lex_.next();
     if (!name_like(name)) {
-      expected("a name", name);
-      lex_.seek(name.begin);
+      reject("a name", name);
       continue;
     }
     if (!build_.current_type().find(text(name), Dialect::vrml1) && body.own.size() < SceneBuilder::most_fields)

@@ -1,6 +1,7 @@
 // What a document declares: the interfaces of prototypes and Scripts, IS, ROUTEs, IMPORTs and EXPORTs.
 #include "parsers/vrml/grammar.h"
 #include "parsers/x3d/grammar.h"
+#include "scenegraph/access_word.h"
 
 namespace wrlkit::x3d {
 
@@ -58,7 +59,7 @@ std::optional<FieldDef> Parser::declaration(const XmlNode& n, bool with_value) {
     diag_.report(Diag::bad_value, where(n, "type"), "'" + std::string(type) + "'", "field type");
     return std::nullopt;
   }
-  auto access = vrml::find_access(get(n, "accessType"));
+  auto access = find_access(get(n, "accessType"));
   if (!access)
     diag_.report(Diag::bad_value, where(n, "accessType"), "'" + std::string(get(n, "accessType")) + "'", "access type");
   f.access = access.value_or(Access::inout);

@@ -221,7 +221,7 @@ void Parser::put(const XmlNode& c, NodeId id, Element& e) {
     put_into_slot(*other, id, where(c));
     return;
   }
-  if (auto children = type.find("children", Dialect::x3d); children && scene_.type(id).is_a("X3DGeometryNode")) {
+  if (auto children = type.find("children", Dialect::x3d); children && scene_.is(id, nodes::X3DGeometryNode)) {
     diag_.report(Diag::shape_repaired, where(c), scene_.type(id).name);
     NodeId shape = scene_.add(nodes::Shape, where(c));
     scene_.set(shape, nodes::shape::geometry, id);
@@ -248,8 +248,7 @@ std::optional<std::uint16_t> Parser::slot_by_kind(NodeId n) const {
   const auto& fields = build_.current_type().fields;
   const auto& t = scene_.type(n);
   for (std::size_t i = 0; i < fields.size(); ++i)
-    if (fields[i].has_value() && info(fields[i].type).element == wrlkit::Element::node &&
-        std::ranges::any_of(fields[i].kinds, [&](auto k) { return t.is_a(k); }))
+    if (fields[i].has_value() && info(fields[i].type).element == wrlkit::Element::node && fields[i].accepts(t))
       return static_cast<std::uint16_t>(i);
   return std::nullopt;
 }

@@ -53,9 +53,7 @@ class Applying {
     if (t.kind == NodeKind::proto) return &of_proto_[{scene_.type_id(n), slot}];
     const auto name = t.fields[slot].name;
     const bool values = name == "keyValue" || name == "keyVelocity" || name == "value_changed";
-    return t.kind == NodeKind::builtin && t.is_a("X3DInterpolatorNode") && values && t.fields[slot].unit.empty()
-               ? &of_values_[n]
-               : nullptr;
+    return t.is_a(nodes::X3DInterpolatorNode) && values && t.fields[slot].unit.empty() ? &of_values_[n] : nullptr;
   }
 
   Measure measure(NodeId n, std::uint16_t slot) {
@@ -131,7 +129,7 @@ class Applying {
   void node(NodeId n) {
     const auto kind = scene_.type(n).kind;
     if (kind != NodeKind::builtin && kind != NodeKind::proto) return;
-    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    const auto fields = scene_.copy_of_fields(n);
     for (const Value& v : fields) {
       if (scene_.is_extra(v) || v.is || info(v.type).element != Element::number) continue;
       const auto& f = scene_.type(n).fields[v.slot];

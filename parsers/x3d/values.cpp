@@ -3,36 +3,13 @@
 #include <charconv>
 
 #include "base/text/blanks.h"
-#include "parsers/vrml/text_encoding.h"
+#include "base/text/utf8.h"
 
 namespace wrlkit::x3d {
-namespace {
-
-void append_utf8(std::uint32_t c, std::string& out) {
-  auto tail = [&](int shift) { out += static_cast<char>(0x80 | (c >> shift & 0x3f)); };
-  if (c < 0x80)
-    out += static_cast<char>(c);
-  else if (c < 0x800) {
-    out += static_cast<char>(0xc0 | c >> 6);
-    tail(0);
-  } else if (c < 0x10000) {
-    out += static_cast<char>(0xe0 | c >> 12);
-    tail(6);
-    tail(0);
-  } else {
-    out += static_cast<char>(0xf0 | c >> 18);
-    tail(12);
-    tail(6);
-    tail(0);
-  }
-}
-
-}  // namespace
-
 // ---- text ----------------------------------------------------------------------------------------------------------
 
 std::string_view AttributeValues::utf8_of(std::string_view raw) {
-  if (latin1_ && !vrml::is_utf8(raw)) return scene_.keep(vrml::latin1_to_utf8(raw));
+  if (latin1_ && !is_utf8(raw)) return scene_.keep(latin1_to_utf8(raw));
   return utf8(raw, span_of(raw));
 }
 
@@ -78,7 +55,7 @@ void AttributeValues::entity(std::string_view s, std::size_t& at, std::string& o
     auto r = std::from_chars(digits.data(), digits.data() + digits.size(), c, hex ? 16 : 10);
     if (r.ec == std::errc{} && r.ptr == digits.data() + digits.size() && c > 0 && c < 0x110000 &&
         (c < 0xd800 || c > 0xdfff)) {
-      append_utf8(c, out);
+      append_utf8(out, c);
       at += end;
       return;
     }

@@ -19,11 +19,8 @@ std::uint64_t hash_of(std::string_view s) {
   return h;
 }
 
-bool is_shareable(const NodeType& t) {
-  constexpr std::string_view bases[] = {"X3DAppearanceNode", "X3DAppearanceChildNode", "X3DGeometryNode",
-                                        "X3DGeometricPropertyNode", "X3DFontStyleNode"};
-  return t.kind == NodeKind::builtin && std::ranges::any_of(bases, [&](auto b) { return t.is_a(b); });
-}
+constexpr BaseSet shareable = nodes::X3DAppearanceNode | nodes::X3DAppearanceChildNode | nodes::X3DGeometryNode |
+                              nodes::X3DGeometricPropertyNode | nodes::X3DFontStyleNode;
 
 }  // namespace
 
@@ -40,7 +37,7 @@ Representatives::Representatives(const Scene& scene, const Usage& usage, std::sp
 }
 
 bool Representatives::may_share(NodeId n) const {
-  return is_shareable(scene_.type(n)) && !usage_.touched(n) &&
+  return scene_.is(n, shareable) && !usage_.touched(n) &&
          std::ranges::none_of(scene_.fields(n), [&](const Value& v) { return v.is || scene_.is_extra(v); });
 }
 
@@ -132,7 +129,7 @@ bool Representatives::same(const Value& a, const Value& b) const {
 
 /// A relative url is relative to the file that the node was read from.
 std::string_view Representatives::folder(NodeId n) const {
-  if (!scene_.sources || !scene_.type(n).is_a("X3DUrlObject")) return {};
+  if (!scene_.sources || !scene_.is(n, nodes::X3DUrlObject)) return {};
   const auto file = scene_.sources->file(scene_.where(n).begin);
   return file.substr(0, file.rfind('/') + 1);
 }

@@ -99,6 +99,7 @@ class Combining {
   void find_shapes();
   std::optional<LitShape> lit_shape(NodeId shape);
   bool combine(Group& group);
+  std::string_view first_url(NodeId texture) const;
   std::string format_of(const Group& group) const;
   bool hand_in(Group& group, const Image& image);
   void read_meshes(const Group& group);
@@ -156,8 +157,9 @@ std::optional<LitShape> Combining::lit_shape(NodeId shape) {
   lit.surface = surfaces_.of(lit.appearance);
   const auto& s = surfaces_[lit.surface];
   if (!s.baked) return {};
-  lit.transparent = !options_.into.lightmap && (s.alpha < 1 || (s.picture.texture && s.picture.texture->has_alpha()) ||
-                                                has_clear_colors(scene_, lit.geometry));
+  lit.transparent =
+      options_.into != CombineTarget::lightmap &&
+      (s.alpha < 1 || (s.picture.texture && s.picture.texture->has_alpha()) || has_clear_colors(scene_, lit.geometry));
   return lit;
 }
 
@@ -166,7 +168,7 @@ void Combining::read_meshes(const Group& group) {
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
     bool textured = surfaces_[group.shapes[i].surface].picture.texture != nullptr;
     MeshJob job{scene_, group.shapes[i].geometry, meshes_[i], scratch_, silent_, textured};
-    make_mesh(job, {.texcoords = true});
+    make_mesh(job, {.texcoords = true});  // of an IndexedFaceSet: there is nothing curved
     if (!meshes_[i].is_triangles() || !meshes_[i].lightcoord.present()) meshes_[i].clear();
   }
 }
@@ -237,17 +239,26 @@ bool Combining::combine(Group& group) {
   return hand_in(group, page.image(group.transparent ? 4 : 3));
 }
 
+/// Of an ImageTexture; empty when there is none.
+std::string_view Combining::first_url(NodeId texture) const {
+  if (!scene_.is(texture, nodes::ImageTexture)) return {};
+  const auto urls = scene_.get(texture, nodes::image_texture::url);
+  return urls.empty() ? std::string_view() : urls[0];
+}
+
 /// Of a group's picture: the extension of its name.
 std::string Combining::format_of(const Group& group) const {
-  std::string format = options_.format.value;
-  const NodeId light = scene_.get(group.shapes[0].appearance, ap::lightmap);
-  if (format.empty() && scene_.is(light, nodes::ImageTexture)) {
-    PictureFormat of_light;
-    const auto urls = scene_.get(light, nodes::image_texture::url);
-    if (!urls.empty() && of_light.read(urls[0].substr(urls[0].rfind('.') + 1))) format = of_light.value;
+  std::string_view format = name_of(options_.format);
+  if (options_.format == CombinedFormat::as_light) {
+    format = name_of(PictureFormat::png);
+    const NodeId light = scene_.get(group.shapes[0].appearance, ap::lightmap);
+    PictureFormat of_light{};
+    if (const auto url = first_url(light);
+        read_choice(url.substr(url.rfind('.') + 1), of_light) && why_missing(of_light).empty())
+      format = name_of(of_light);
   }
-  const bool needs_alpha = group.transparent && format == "jpg";
-  return format.empty() || needs_alpha ? "png" : format;
+  const bool has_no_alpha = format == name_of(PictureFormat::jpg);
+  return std::string(group.transparent && has_no_alpha ? name_of(PictureFormat::png) : format);
 }
 
 bool Combining::hand_in(Group& group, const Image& image) {
@@ -285,8 +296,8 @@ Texel4 Combining::color(const Painted& t, const std::array<double, 3>& weights, 
   auto base = s.base(vertex, texel);
   const SrgbTable& table = SrgbTable::get();
   const auto light = s.baked.light.sample(place, 1).color;
-  auto shown = [&](double color, double texel, double emitted) {
-    return table.byte(table.linear(color) * s.baked.scale * table.linear(texel) + table.linear(emitted));
+  auto shown = [&](double color, double lit, double emitted) {
+    return table.byte(table.linear(color) * s.baked.scale * table.linear(lit) + table.linear(emitted));
   };
   const auto opacity =
       alpha ? static_cast<std::uint8_t>(std::clamp(base.alpha, 0.0, 1.0) * 255 + 0.5) : std::uint8_t{255};
@@ -298,7 +309,7 @@ void Combining::show(const LitShape& lit, NodeId texture) {
   NodeId appearance = writable(lit.appearance, appearances_);
   if (scene_.get(lit.shape, nodes::shape::appearance) != appearance)
     scene_.set(lit.shape, nodes::shape::appearance, appearance);
-  if (options_.into.lightmap) {
+  if (options_.into == CombineTarget::lightmap) {
     scene_.set(appearance, ap::lightmap, texture);
     return scene_.unset(appearance, ap::lightmapScale.slot);
   }
@@ -354,18 +365,9 @@ bool TexelFactor::read(std::string_view text) {
   return r.ec == std::errc{} && r.ptr == text.data() + text.size() && value >= 1 && value <= 64;
 }
 
-bool CombineTarget::read(std::string_view text) {
-  lightmap = text == "lightmap";
-  return lightmap || text == "texture";
-}
-
-bool CombinedFormat::read(std::string_view text) {
-  PictureFormat chosen;
-  if (text == "auto") {
-    value.clear();
-    return true;
-  }
-  return chosen.read(text) ? (value = chosen.value, true) : false;
+std::string why_missing(CombinedFormat format) {
+  PictureFormat picture{};
+  return read_choice(name_of(format), picture) ? why_missing(picture) : std::string();
 }
 
 Outcome combine_lightmap(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx) {

@@ -14,20 +14,19 @@ struct TexelFactor {
   std::string print() const { return value ? std::to_string(value) : "auto"; }
 };
 
-struct CombineTarget {
-  static constexpr std::string_view type = "texture or lightmap";
-  bool lightmap = false;
-  bool read(std::string_view text);
-  std::string print() const { return lightmap ? "lightmap" : "texture"; }
-};
+enum class CombineTarget : std::uint8_t { texture, lightmap };
+template <>
+inline constexpr auto choices<CombineTarget> =
+    choice_row({{"texture", "VRML's one texture"},
+                {"lightmap", "all stays as it is, and the lightmap shows the combined colours"}});
 
-/// Empty: that of the light.
-struct CombinedFormat {
-  static constexpr std::string_view type = "auto, png, jpg or webp";
-  std::string value;
-  bool read(std::string_view text);
-  std::string print() const { return value.empty() ? "auto" : value; }
-};
+enum class CombinedFormat : std::uint8_t { as_light, png, jpg, webp };
+template <>
+inline constexpr auto choices<CombinedFormat> =
+    choice_row({{"auto", "as those of the light, with JPEG only where there is no alpha"}, {"png"}, {"jpg"}, {"webp"}});
+
+/// Why this build cannot write it; empty when it can.
+std::string why_missing(CombinedFormat);
 
 struct CombineLightmapOptions {
   static constexpr std::string_view doc = R"(
@@ -64,16 +63,15 @@ A scene without lightmaps is left alone, in O(nodes); so is any without resource
 
   TexelFactor scale;
   int max_size = 4096;
-  CombineTarget into;
-  CombinedFormat format;
+  CombineTarget into = CombineTarget::texture;
+  CombinedFormat format = CombinedFormat::as_light;
 
   void fields(auto&& f) {
     f("scale", scale, "texels for each texel of the light, along each side; auto: as many as the textures have");
     f("max-size", max_size, "pixels along each side of a picture; a larger page of light keeps its size",
       between(1, 32768));
-    f("into", into,
-      "texture: VRML's one texture; lightmap: all stays as it is, and the lightmap shows the combined colours");
-    f("format", format, "of the pictures; auto: as those of the light; JPEG only where there is no alpha");
+    f("into", into, "where the combined picture goes");
+    f("format", format, "of the pictures");
   }
 };
 

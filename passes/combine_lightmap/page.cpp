@@ -129,7 +129,7 @@ class Page::Band {
       : page_(page), triangles_(triangles), begin_(begin), end_(end), owner_(std::size_t(end - begin) * page.width_) {}
 
   bool paint(const Paint& paint) {
-    // Most texels lie within a triangle, and are not looked at again when those beside one are sought.
+    // Most texels lie within a triangle, and are not looked at again when those next to one are sought.
     const bool whole = own(0) && own(page_.reach_);
     for (int y = begin_; y < end_; ++y)
       for (int x = 0; x < page_.width_; ++x) {

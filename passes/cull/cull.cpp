@@ -1,15 +1,11 @@
 #include "passes/cull/cull.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 #include <unordered_map>
 #include <utility>
 
 #include "base/silent_task.h"
 #include "geometry/geometry.h"
-#include "geometry/tessellation.h"
 #include "light/render/gather.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/text_list.h"
@@ -51,7 +47,7 @@ class Culling {
     }
     if (left_out_.empty()) return Outcome::unchanged;
     remove_shapes();
-    write_list();
+    hand_in_list();
     count_figures(ctx_, "cull", before, figures_of(scene_));
     return Outcome::changed;
   }
@@ -67,7 +63,7 @@ class Culling {
   bool may_be_clear(const Use& use) const;
   void leave_out(const char* counter, const std::string& why);
   void remove_shapes();
-  void write_list() const;
+  void hand_in_list() const;
 
   Scene& scene_;
   const CullOptions& options_;
@@ -89,7 +85,7 @@ class Culling {
 const Mesh& Culling::triangles(NodeId geometry) {
   mesh_.clear();
   MeshJob job{scene_, geometry, mesh_, scratch_, silent_};
-  make_mesh(job, {});
+  make_mesh(job, options_.faces);
   return mesh_;
 }
 
@@ -118,7 +114,7 @@ void Culling::find_fixed() {
     }
     if (scene_.is(n, nodes::Billboard)) below(n, moving_);
     if (t.kind != NodeKind::builtin || scene_.is(n, nodes::LOD) || scene_.is(n, nodes::Switch)) below(n, fixed_);
-    if (t.kind != NodeKind::builtin || !t.is_a("X3DGroupingNode")) continue;
+    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
     for (const Value& v : scene_.fields(n))
       if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode)
         for (NodeId c : v.node_span()) ++held[c.value];
@@ -241,8 +237,8 @@ void Culling::leave_out(const char* counter, const std::string& why) {
 void Culling::remove_shapes() {
   auto is_gone = [&](NodeId n) { return n && shape_gone_[n.value]; };
   for (NodeId n : all_nodes(scene_)) {
-    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
-    for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
+    for (const Value& v : scene_.copy_of_fields(n)) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       if (std::erase_if(list, is_gone) > 0) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));
@@ -251,13 +247,11 @@ void Culling::remove_shapes() {
   std::erase_if(scene_.main.roots, is_gone);
 }
 
-void Culling::write_list() const {
-  if (options_.list.empty()) return;
-  errno = 0;
-  std::ofstream out(options_.list, std::ios::binary);
-  for (const auto& name : left_out_) out << name << '\n';
-  if (!out.flush())
-    ctx_.diag.report(Diag::cannot_write, {}, options_.list, std::generic_category().message(errno ? errno : EIO));
+void Culling::hand_in_list() const {
+  if (options_.list.empty() || !ctx_.resources) return;
+  std::string out;
+  for (const auto& name : left_out_) out += name + '\n';
+  ctx_.resources->add_named({options_.list, std::move(out)});
 }
 
 }  // namespace

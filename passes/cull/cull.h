@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/option_range.h"
+#include "geometry/tessellation.h"
 #include "passes/pipeline/length_option.h"
 #include "passes/pipeline/pass.h"
 
@@ -21,7 +22,7 @@ Removes Shapes from the groups that hold them, if that goes for all places where
 - `smaller`: the extent is the longest diagonal of the box around a part, in the largest of its places. Shapes without
   a name that share points and stand in one frame are one part: a solid may be written as one Shape a face.
 - `hidden`: rays go from points all over the part, evenly by area, in all directions. A part is seen when one reaches
-  the outside, a Viewpoint or a walkway. So what is left out was not seen by so many rays; a part behind a hole of a
+  the outside, a Viewpoint or a walkway. So what is left out was not seen by that number of rays; a part behind a hole of a
   thousandth of its sky may be among it. Nothing hides behind what has transparency or a picture.
 - Left alone: what a ROUTE, a Script, an IS or an instance of a prototype may change, with all below it; what stands
   below a LOD or Switch, or is held otherwise than by a group; lines and points, by `hidden`.
@@ -44,6 +45,7 @@ gets all. The same result for any number of threads.)";
   bool hidden = false, walkways = true;
   int rays = 256;
   int seed = 1;
+  Tessellation faces;
   std::string list;
 
   void fields(auto&& f) {
@@ -52,6 +54,7 @@ gets all. The same result for any number of threads.)";
     f("walkways", walkways, "hidden: nor from where a visitor could stand, on whatever faces up and has room above it");
     f("rays", rays, "hidden: how many rays of a part have to end at others before it counts as hidden", at_least(1));
     f("seed", seed, "hidden: of the random numbers");
+    faces.fineness_fields(f);
     f("list", list, "file for the names of what is left out, one a line");
   }
 };

@@ -3,6 +3,7 @@
 #include "passes/analysis/figures.h"
 #include "passes/analysis/representatives.h"
 #include "passes/analysis/text_list.h"
+#include "scenegraph/declared_protos.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -10,11 +11,11 @@ namespace wrlkit {
 namespace {
 
 const char* kind_of(const NodeType& t) {
-  if (t.is_a("X3DAppearanceNode")) return "dedup.appearances";
-  if (t.is_a("X3DMaterialNode")) return "dedup.materials";
-  if (t.is_a("X3DTextureNode")) return "dedup.textures";
-  if (t.is_a("X3DGeometryNode")) return "dedup.geometries";
-  return t.is_a("X3DGeometricPropertyNode") ? "dedup.arrays" : "dedup.others";
+  if (t.is_a(nodes::X3DAppearanceNode)) return "dedup.appearances";
+  if (t.is_a(nodes::X3DMaterialNode)) return "dedup.materials";
+  if (t.is_a(nodes::X3DTextureNode)) return "dedup.textures";
+  if (t.is_a(nodes::X3DGeometryNode)) return "dedup.geometries";
+  return t.is_a(nodes::X3DGeometricPropertyNode) ? "dedup.arrays" : "dedup.others";
 }
 
 class Sharing {
@@ -26,7 +27,7 @@ class Sharing {
     const auto before = figures_of(scene_);
     std::vector<char> seen;
     share(scene_.main, seen);
-    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) share(scene_.proto(ProtoId{i}).body, seen);
+    for (ProtoId p : declared_protos(scene_)) share(scene_.proto(p).body, seen);
     if (!any_) return Outcome::unchanged;
     if (!lost_.empty()) ctx_.diag.report(Diag::names_lost, {}, "dedup", lost_.count(), lost_.text());
     count_figures(ctx_, "dedup", before, figures_of(scene_));
@@ -40,7 +41,7 @@ class Sharing {
     const Representatives same(scene_, usage_, nodes, options_.named);
     for (NodeId n : nodes) replace_children(n, same);
     for (NodeId n : nodes) {
-      if (same.of(n) == n) continue;
+      if (n.value >= replaced_.size() || !replaced_[n.value]) continue;
       any_ = true;
       ++ctx_.stats[kind_of(scene_.type(n))];
       if (const auto name = scene_.name(n); !name.empty() && name != scene_.name(same.of(n))) lost_.add(name);
@@ -48,13 +49,16 @@ class Sharing {
   }
 
   void replace_children(NodeId n, const Representatives& same) {
-    for (const Value v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+    for (const Value v : scene_.copy_of_fields(n)) {
       if (scene_.is_extra(v) || v.is || info(v.type).element != Element::node) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       bool changed = false;
       for (NodeId& c : list) {
         const NodeId one = same.of(c);
-        changed |= one != c;
+        if (one == c) continue;
+        if (replaced_.size() <= c.value) replaced_.resize(scene_.node_count());
+        replaced_[c.value] = 1;
+        changed = true;
         c = one;
       }
       if (changed)
@@ -67,6 +71,7 @@ class Sharing {
   PassContext& ctx_;
   Usage usage_;
   TextList lost_;
+  std::vector<char> replaced_;  // by node: another one stands where it stood
   bool any_ = false;
 };
 

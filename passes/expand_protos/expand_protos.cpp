@@ -203,7 +203,7 @@ class Expansion {
   void fill(Instance& i, NodeId from, NodeId to) {
     budget_.spent += cost_of_copy(scene_, from);
     std::vector<Value> fields;
-    const std::vector<Value> source(scene_.fields(from).begin(), scene_.fields(from).end());
+    const auto source = scene_.copy_of_fields(from);
     bool urls_given = false, urls_here = false;
     for (const Value& v : source) {
       const Value& content = scene_.content(v);

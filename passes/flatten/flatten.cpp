@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "geometry/geometry.h"
-#include "geometry/tessellation.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/usage.h"
 #include "passes/lightmap/own_shapes.h"
@@ -18,8 +17,9 @@ namespace {
 
 class Flattening {
  public:
-  Flattening(Scene& scene, PassContext& ctx)
+  Flattening(Scene& scene, const Tessellation& faces, PassContext& ctx)
       : scene_(scene),
+        faces_(faces),
         ctx_(ctx),
         usage_(scene),
         textured_(textured_geometry(scene)),
@@ -63,7 +63,7 @@ class Flattening {
     if (scene_.is(n, nodes::Shape)) {
       const NodeId g = scene_.get(n, nodes::shape::geometry);
       if (!g) return true;
-      bool plain = is_plain(g) && scene_.type(g).is_a("X3DGeometryNode");
+      bool plain = is_plain(g) && scene_.is(g, nodes::X3DGeometryNode);
       for_each_child(scene_, g,
                      [&](NodeId c) { plain &= is_plain(c) && !scene_.is(c, nodes::TextureCoordinateGenerator); });
       return plain && !(scene_.is(g, nodes::IndexedFaceSet) && scene_.get(g, nodes::indexed_face_set::lightCoord));
@@ -77,7 +77,7 @@ class Flattening {
     if (!g) return;
     mesh_.clear();
     MeshJob job{scene_, g, mesh_, scratch_, ctx_, textured_[g.value] != 0};
-    make_mesh(job, {.triangles = false, .texcoords = true});
+    make_mesh(job, faces_);
     normals(job, {});
     if (mesh_.kind == Mesh::Kind::none || mesh_.corners.empty()) return;
     moved_.clear();
@@ -103,6 +103,7 @@ class Flattening {
   }
 
   Scene& scene_;
+  const Tessellation& faces_;
   PassContext& ctx_;
   Usage usage_;
   std::vector<char> textured_;
@@ -114,10 +115,10 @@ class Flattening {
 
 }  // namespace
 
-Outcome flatten(Scene& scene, const FlattenOptions&, PassContext& ctx) {
+Outcome flatten(Scene& scene, const FlattenOptions& options, PassContext& ctx) {
   const auto before = figures_of(scene);
   const bool copied = bake::own_shapes(scene, ctx.diag) > 0;
-  if (!Flattening(scene, ctx).run()) return copied ? Outcome::changed : Outcome::unchanged;
+  if (!Flattening(scene, options.faces, ctx).run()) return copied ? Outcome::changed : Outcome::unchanged;
   count_figures(ctx, "flatten", before, figures_of(scene));
   return Outcome::changed;
 }

@@ -1,5 +1,6 @@
 // Pass `flatten`: its documentation stands in its options.
 #pragma once
+#include "geometry/tessellation.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
@@ -13,7 +14,7 @@ Transforms that never move, multiplied into the points: for tools that know no h
 
 Makes a Group of each Transform that holds nothing but Shapes, Groups and such Transforms, and moves the Shapes. What
 is shared is written for each place (as by `lightmap`; names of copies are numbered). Faces get their normals first,
-so what is drawn stays the same; curved forms become faces as by `tessellate`.
+so what is drawn stays the same; curved forms become faces as by `tessellate` with the same options.
 
 - A Transform stays if a ROUTE, a Script or an IS touches it or something below it, or if it holds lights, Viewpoints,
   sensors, LODs or anything else with a place of its own. What is below it is moved to its frame.
@@ -32,7 +33,9 @@ Files become larger by it: run it on request only. Linear in what is drawn, whic
       {"flatten.meshes-after", "geometry nodes that are drawn behind it"},
   };
 
-  void fields(auto&&) {}
+  Tessellation faces{.triangles = false, .texcoords = true};
+
+  void fields(auto&& f) { faces.fineness_fields(f); }
 };
 
 Outcome flatten(Scene&, const FlattenOptions&, PassContext&);

@@ -118,7 +118,7 @@ class Inliner {
     if (renamed.empty()) return;
     for (NodeId n{first_node}; n.value < scene_.node_count(); ++n.value)
       if (auto r = renamed.find(scene_.type_id(n).value); r != renamed.end()) {
-        const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+        const auto fields = scene_.copy_of_fields(n);
         scene_.become(n, r->second, fields);
       }
   }
@@ -153,8 +153,9 @@ class Inliner {
       out.imports.push_back({copies.of(i.inline_node), i.exported, copies.of(i.node)});
     for (const Export& e : scope.exports) out.exports.push_back({copies.of(e.node), e.name});
     for (NodeId from, to; copies.next(from, to);) {
+      const auto source = scene_.copy_of_fields(from);
       std::vector<Value> fields;
-      const std::vector<Value> source(scene_.fields(from).begin(), scene_.fields(from).end());
+      fields.reserve(source.size());
       for (const Value& v : source) fields.push_back(copies.of(v));
       scene_.set_fields(to, fields);
       runs_.n_copied += cost_of_copy(scene_, from);

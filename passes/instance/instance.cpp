@@ -98,7 +98,7 @@ bool Instancing::may_share(NodeId g) const {
   for_each_child(scene_, g, [&](NodeId c) { plain &= is_plain(c) && (options_.named || scene_.name(c).empty()); });
   if (!plain || !faces) return plain;
   if (scene_.get(g, ifs::lightCoord) || (textured_[g.value] && !scene_.get(g, ifs::texCoord))) return false;
-  return options_.scaling.value != Scaling::axis || scene_.get(g, ifs::normal) || scene_.get(g, ifs::creaseAngle) == 0;
+  return options_.scaling != Scaling::axis || scene_.get(g, ifs::normal) || scene_.get(g, ifs::creaseAngle) == 0;
 }
 
 /// Geometry of the main world whose Shapes all stand where a Transform can stand, too.
@@ -111,7 +111,7 @@ void Instancing::choose() {
   };
   hold(scene_.main.roots);
   for (NodeId n : nodes)
-    if (scene_.type(n).kind == NodeKind::builtin && scene_.type(n).is_a("X3DGroupingNode"))
+    if (scene_.is(n, nodes::X3DGroupingNode))
       for (const Value& v : scene_.fields(n))
         if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode) hold(v.node_span());
   for (NodeId n : nodes) {
@@ -140,7 +140,7 @@ bool Instancing::read(std::uint32_t surface, Mesh& mesh, Form& form) {
 /// Where a form is looked for: its own cell, and with `all` also the nearer neighbours in each direction.
 std::vector<std::uint64_t> Instancing::cells(const Form& form, double tolerance, bool all) const {
   std::vector<std::uint64_t> out{form.exact_key()};
-  for (double v : invariants(form, options_.scaling.value, tolerance)) {
+  for (double v : invariants(form, options_.scaling, tolerance)) {
     const double down = std::floor(v);
     const std::size_t n = out.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -157,7 +157,7 @@ void Instancing::sort_in(std::size_t surface) {
   const auto s = static_cast<std::uint32_t>(surface);
   if (!read(s, mesh_, form_)) return;
   const double tolerance = options_.tolerance / scale_[surface];
-  Matcher matcher({options_.scaling.value, options_.mirror, tolerance});
+  Matcher matcher({options_.scaling, options_.mirror, tolerance});
   const auto where = cells(form_, tolerance, true);
   std::size_t compared = 0;
   for (auto cell : where) {
@@ -243,8 +243,8 @@ bool Instancing::replace(std::span<NodeId> list) const {
 
 void Instancing::replace_shapes() {
   for (NodeId n : reachable(scene_, scene_.main)) {
-    if (scene_.type(n).kind != NodeKind::builtin || !scene_.type(n).is_a("X3DGroupingNode")) continue;
-    for (const Value& v : std::vector<Value>(scene_.fields(n).begin(), scene_.fields(n).end())) {
+    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
+    for (const Value& v : scene_.copy_of_fields(n)) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       if (replace(list)) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));
@@ -267,18 +267,6 @@ void Instancing::report_lost_names() {
 }
 
 }  // namespace
-
-bool ScalingName::read(std::string_view text) {
-  for (auto s : {Scaling::none, Scaling::uniform, Scaling::axis}) {
-    value = s;
-    if (print() == text) return true;
-  }
-  return false;
-}
-
-std::string ScalingName::print() const {
-  return value == Scaling::none ? "none" : value == Scaling::uniform ? "uniform" : "axis";
-}
 
 Outcome instance(Scene& scene, const InstanceOptions& options, PassContext& ctx) {
   return Instancing(scene, options, ctx).run();

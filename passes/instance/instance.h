@@ -3,24 +3,20 @@
 #include <string>
 #include <string_view>
 
+#include "base/choice.h"
 #include "base/option_range.h"
 #include "passes/instance/form.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
 
-/// none, uniform or axis.
-struct ScalingName {
-  static constexpr std::string_view type = "none, uniform or axis";
-  instancing::Scaling value = instancing::Scaling::uniform;
-
-  bool read(std::string_view text);
-  std::string print() const;
-};
+template <>
+inline constexpr auto choices<instancing::Scaling> =
+    choice_row({{"none"}, {"uniform", "by one factor"}, {"axis", "by a factor along each of three axes"}});
 
 struct InstanceOptions {
   static constexpr std::string_view doc = R"(
-The same part in many places, written each time anew: found and written once. CAD exporters know no DEF and USE, and
+The same part in many places, written again for each: found and written once. CAD exporters know no DEF and USE, and
 put the coordinates of each bolt where it stands.
 
     before   Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 2 0 ] } ... } }
@@ -59,14 +55,13 @@ corners, n log n where copies differ in their order.)";
   };
 
   double tolerance = 0.0002;
-  ScalingName scaling;
+  instancing::Scaling scaling = instancing::Scaling::uniform;
   bool mirror = false, named = false;
   double min_saving = 1000;
 
   void fields(auto&& f) {
     f("tolerance", tolerance, "how far a point may be from where it was, in metres of the world", at_least(0));
-    f("scaling", scaling,
-      "what a copy may be scaled by: none, one factor (uniform), or a factor along each of three axes (axis)");
+    f("scaling", scaling, "how a copy may be scaled");
     f("mirror", mirror, "also mirror images, by a negative scale, which VRML97 does not have");
     f("named", named, "also where a Coordinate or the like has a DEF name, which is lost");
     f("min-saving", min_saving, "bytes that a group of equal parts has to save to be shared, as glTF counts them");

@@ -10,27 +10,20 @@ constexpr int most_attempts = 200;                           // frames laid for 
 constexpr std::size_t most_likely = 64;                      // corners that may be the first one of a frame
 constexpr double same_direction = 0.005, same_place = 1e-5;  // of unit normals, of texture coordinates
 
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec3 times(const Vec3& a, double f) { return {a[0] * f, a[1] * f, a[2] * f}; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 double distance2(const Vec3& a, const Vec3& b) {
-  const Vec3 d = minus(a, b);
+  const Vec3 d = a - b;
   return dot(d, d);
 }
 
 /// Columns: along p, square to it towards q, and square to both.
 std::optional<std::array<Vec3, 3>> frame(const Vec3& p, const Vec3& q, bool mirrored) {
-  const double lp = length(p);
+  const double lp = fast_length(p);
   if (!(lp > 0)) return std::nullopt;
-  const Vec3 x = times(p, 1 / lp), y = minus(q, times(x, dot(q, x)));
-  const double ly = length(y);
+  const Vec3 x = 1 / lp * p, y = q - dot(q, x) * x;
+  const double ly = fast_length(y);
   if (!(ly > 1e-9 * lp)) return std::nullopt;
-  const Vec3 e = times(y, 1 / ly);
-  return std::array<Vec3, 3>{x, e, times(cross(x, e), mirrored ? -1 : 1)};
+  const Vec3 e = 1 / ly * y;
+  return std::array<Vec3, 3>{x, e, (mirrored ? -1 : 1) * cross(x, e)};
 }
 
 /// Some direction that is not that of p.
@@ -129,9 +122,9 @@ std::optional<TransformFields> Matcher::settle(const Pairs& pairs, bool mirrored
   for (std::size_t i = 0; i < pairs.size(); ++i) to[i] = to_->at[pairs[i]];
   const Matrix linear = fit(from_->at, to, options_.scaling, mirrored);
   if (!mirrored && linear.determinant() < 0) return std::nullopt;
-  if (!agree(translation_matrix(to_->centre) * linear * translation_matrix(times(from_->centre, -1)), pairs))
+  if (!agree(translation_matrix(to_->centre) * linear * translation_matrix(-1 * from_->centre), pairs))
     return std::nullopt;
-  const double far = from_->reach + length(from_->centre);
+  const double far = from_->reach + fast_length(from_->centre);
   auto fields = in_few_digits(linear, from_->centre, to_->centre, far, options_.tolerance / 4);
   if (!agree(matrix_of(fields), pairs)) fields = in_few_digits(linear, from_->centre, to_->centre, far, 0);
   if (!agree(matrix_of(fields), pairs)) return std::nullopt;
@@ -140,7 +133,7 @@ std::optional<TransformFields> Matcher::settle(const Pairs& pairs, bool mirrored
 
 bool Matcher::agree(const Matrix& m, const Pairs& pairs) const {
   // What the numbers of the file cannot tell apart.
-  const double rounding = 1e-13 * (from_->reach + to_->reach + length(from_->centre) + length(to_->centre));
+  const double rounding = 1e-13 * (from_->reach + to_->reach + fast_length(from_->centre) + fast_length(to_->centre));
   const double allowed = std::pow(options_.tolerance + rounding, 2);
   const auto &a = *from_->mesh, &b = *to_->mesh;
   const Matrix normal = normal_matrix(m);
@@ -165,9 +158,9 @@ bool Matcher::agree_in_attributes(const Matrix& normal, std::uint32_t i, std::ui
   if (!a.normal.present()) return true;
   const float *p = a.normal.at(a.normal.index[i]), *q = b.normal.at(b.normal.index[k]);
   const Vec3 turned = normal.point({p[0], p[1], p[2]}), wanted{q[0], q[1], q[2]};
-  const double n = length(turned), w = length(wanted);
+  const double n = fast_length(turned), w = fast_length(wanted);
   if (!(n > 0) || !(w > 0)) return !(n > 0) && !(w > 0);
-  return distance2(times(turned, 1 / n), times(wanted, 1 / w)) <= same_direction * same_direction;
+  return distance2(1 / n * turned, 1 / w * wanted) <= same_direction * same_direction;
 }
 
 // ---- other orders --------------------------------------------------------------------------------------------------
@@ -180,10 +173,10 @@ std::optional<TransformFields> Matcher::by_frames() {
   grid_.build(*to_, near);
   attempts_ = 0;
   const Vec3 p = from_->at[base_[0]], q = from_->at[base_[1]];
-  const double rp = length(p) * factor_, rq = length(q) * factor_, d = std::sqrt(distance2(p, q)) * factor_;
+  const double rp = fast_length(p) * factor_, rq = fast_length(q) * factor_, d = std::sqrt(distance2(p, q)) * factor_;
   std::vector<Vec3> likely;
   for (const Vec3& a : to_->at) {
-    if (std::abs(length(a) - rp) > near || std::ranges::find(likely, a) != likely.end()) continue;
+    if (std::abs(fast_length(a) - rp) > near || std::ranges::find(likely, a) != likely.end()) continue;
     likely.push_back(a);
     if (likely.size() == most_likely) break;
   }
@@ -195,7 +188,7 @@ std::optional<TransformFields> Matcher::by_frames() {
     }
     tried.clear();
     for (const Vec3& b : to_->at) {
-      if (std::abs(length(b) - rq) > near || std::abs(std::sqrt(distance2(a, b)) - d) > 2 * near ||
+      if (std::abs(fast_length(b) - rq) > near || std::abs(std::sqrt(distance2(a, b)) - d) > 2 * near ||
           std::ranges::find(tried, b) != tried.end())
         continue;
       tried.push_back(b);
@@ -232,15 +225,15 @@ bool Matcher::choose_base() {
   };
   const double least = 0.3 * from_->reach;
   auto first = rarest([&](const Vec3& p) {
-    const double r = length(p);
+    const double r = fast_length(p);
     return r >= least ? std::optional(r) : std::nullopt;
   });
   if (!first) return false;
   base_[0] = *first;
   const Vec3 p = at[*first];
   auto second = rarest([&](const Vec3& q) -> std::optional<double> {
-    const double r = length(q);
-    if (!(length(cross(p, q)) > 0.2 * length(p) * r) || r < 0.5 * least) return std::nullopt;
+    const double r = fast_length(q);
+    if (!(fast_length(cross(p, q)) > 0.2 * fast_length(p) * r) || r < 0.5 * least) return std::nullopt;
     return r + 1.618 * std::sqrt(distance2(p, q));
   });
   line_ = !second;

@@ -164,7 +164,7 @@ class Joining {
 
 void Joining::join_children(NodeId parent) {
   const auto& type = scene_.type(parent);
-  bool list = type.kind == NodeKind::builtin && type.is_a("X3DGroupingNode");
+  bool list = type.is_a(nodes::X3DGroupingNode);
   if (!list || scene_.is(parent, nodes::Switch) || scene_.is(parent, nodes::LOD)) return;
   for (const Value v : scene_.fields(parent)) {  // a copy, as joining adds nodes
     if (scene_.is_extra(v) || v.is || v.type != FieldType::MFNode || type.fields[v.slot].name != "children") continue;

@@ -18,6 +18,14 @@ void put(std::string& to, std::uint64_t v) { to.append(reinterpret_cast<const ch
 
 bool take(std::istream& in, std::uint64_t& v) { return bool(in.read(reinterpret_cast<char*>(&v), sizeof v)); }
 
+/// Whether a file has contents that are not a checkpoint's.
+bool is_foreign(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string there(magic.size(), '\0');
+  in.read(there.data(), static_cast<std::streamsize>(there.size()));
+  return in.gcount() > 0 && there != magic;
+}
+
 }  // namespace
 
 std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t hash) {
@@ -28,6 +36,8 @@ std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t hash)
 
 Checkpoint::Checkpoint(const std::string& path, std::uint64_t key) : path_(path) {
   if (path.empty()) return;
+  if (is_foreign(path))
+    throw std::system_error(std::make_error_code(std::errc::file_exists), path + " is not a checkpoint");
   std::string head(magic);
   put(head, key);
   std::uint64_t end = 0;
@@ -41,6 +51,11 @@ Checkpoint::Checkpoint(const std::string& path, std::uint64_t key) : path_(path)
   out_.open(path, std::ios::binary | (end ? std::ios::app : std::ios::trunc));
   if (!end) out_ << head << std::flush;
   if (!out_) throw std::system_error(errno ? errno : EIO, std::generic_category(), path);
+}
+
+void Checkpoint::remove(const std::string& path) {
+  std::error_code none_there;
+  if (!is_foreign(path)) std::filesystem::remove(path, none_there);
 }
 
 void Checkpoint::read(std::istream& in, std::uint64_t& end) {

@@ -17,8 +17,11 @@ namespace wrlkit::bake {
 class Checkpoint {
  public:
   /// Opens or makes the file; no path: nothing is kept. Tiles of a file with another key are forgotten: they are of
-  /// other work. Throws std::system_error when the file cannot be written.
+  /// other work. Throws std::system_error when the file cannot be written, or is something else than a checkpoint.
   Checkpoint(const std::string& path, std::uint64_t key);
+
+  /// Deletes the file if it is a checkpoint.
+  static void remove(const std::string& path);
 
   /// What a tile was when it was saved; null when it was not. Good as long as this object lives.
   const std::vector<char>* find(std::uint64_t tile) const;

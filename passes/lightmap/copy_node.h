@@ -9,7 +9,7 @@ namespace wrlkit::bake {
 /// Of the same type, with the same fields and without a name.
 inline NodeId copy_of(Scene& scene, NodeId n) {
   const NodeId copy = scene.add(scene.type_id(n), scene.where(n));
-  const std::vector<Value> fields(scene.fields(n).begin(), scene.fields(n).end());
+  const auto fields = scene.copy_of_fields(n);
   scene.set_fields(copy, fields);
   return copy;
 }

@@ -29,7 +29,7 @@ Layer half(const Layer& from) {
         }
       const std::size_t i = to.at(x, y);
       if (n) {
-        to.texels[i] = (1.0f / n) * sum;
+        to.texels[i] = (1.0f / static_cast<float>(n)) * sum;
         to.known[i] = 1;
       }
     }

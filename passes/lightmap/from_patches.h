@@ -1,6 +1,7 @@
 // Light from a patch file onto the Shapes of a world: the pipeline of the seed paper (Lazanyi, 3.2). Each Shape gets a
 // picture of its own.
 #pragma once
+#include "geometry/tessellation.h"
 #include "light/world.h"
 #include "passes/pipeline/pass.h"
 #include "scenegraph/patches.h"
@@ -10,6 +11,7 @@ namespace wrlkit::bake {
 struct FromPatchesOptions {
   bool smooth = false;  // colours between the corners of patches
   std::string extension = "png";
+  Tessellation faces{.texcoords = true};
 };
 
 /// `world` is that of `scene`. Patches that lie on no surface are reported (orphan-patches). Geometry that several

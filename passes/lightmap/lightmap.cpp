@@ -4,16 +4,14 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <system_error>
 #include <unordered_map>
 
 #include "base/image/image.h"
 #include "geometry/geometry.h"
-#include "geometry/tessellation.h"
 #include "light/render/stage.h"
 #include "light/world.h"
 #include "passes/lightmap/bake.h"
+#include "passes/lightmap/checkpoint.h"
 #include "passes/lightmap/from_patches.h"
 #include "passes/lightmap/layout.h"
 #include "passes/lightmap/levels.h"
@@ -33,12 +31,15 @@ using namespace bake;
 struct Work {
   int side, samples, rays;  // of a page; points a texel; rays a point
 };
-constexpr Work work_of[] = {{512, 1, 6}, {1024, 4, 16}, {4096, 4, 64}};
+Work work_of(BakeQuality quality) {
+  constexpr Work works[] = {{512, 1, 6}, {1024, 4, 16}, {4096, 4, 64}};
+  return works[static_cast<std::size_t>(quality)];
+}
 constexpr int side_for_density = 4096, smallest_side = 64;
 
 /// What is seen from further away needs half the texels, down to a hundredth of the first.
 LayoutOptions layout_options(const LightmapOptions& o, std::size_t depth) {
-  const int usual = o.density > 0 ? side_for_density : work_of[o.quality.value].side;
+  const int usual = o.density > 0 ? side_for_density : work_of(o.quality).side;
   const int side = o.max_size > 0 ? o.max_size : usual, halvings = static_cast<int>(std::min<std::size_t>(depth, 7));
   if (o.density > 0) return {.density = std::ldexp(o.density, -halvings), .side = side};
   return {.side = std::max(side >> halvings, std::min(side, smallest_side))};
@@ -58,14 +59,14 @@ std::string checkpoint_of(const LightmapOptions& o, std::size_t view) {
 }
 
 BakeOptions bake_options(const LightmapOptions& o, std::size_t view, std::string title) {
-  const Work& work = work_of[o.quality.value];
+  const Work work = work_of(o.quality);
   BakeOptions out;
   out.title = std::move(title);
   out.samples = work.samples;
   out.rays = out.integrator.rays = work.rays;
   out.integrator.seed = static_cast<std::uint64_t>(o.seed);
   out.error = o.error;
-  if (o.error > 0) out.integrator.rays = std::max(work_of[BakeQuality::normal].rays, work.rays);
+  if (o.error > 0) out.integrator.rays = std::max(work_of(BakeQuality::normal).rays, work.rays);
   out.directional = o.directional;
   out.denoise = o.denoise;
   out.checkpoint = checkpoint_of(o, view);
@@ -75,18 +76,20 @@ BakeOptions bake_options(const LightmapOptions& o, std::size_t view, std::string
 /// Geometry as light meets it: with normals, for shading.
 class Meshes {
  public:
-  Meshes(const Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), textured_(textured_geometry(scene)) {}
+  Meshes(const Scene& scene, const Tessellation& faces, PassContext& ctx)
+      : scene_(scene), faces_(faces), ctx_(ctx), textured_(textured_geometry(scene)) {}
 
   const Mesh& operator()(NodeId geometry) {
     MeshJob job{scene_, geometry, mesh_, scratch_, ctx_, textured_[geometry.value] != 0};
     mesh_.clear();
-    make_mesh(job, {.texcoords = true});
+    make_mesh(job, faces_);
     normals(job, {});
     return mesh_;
   }
 
  private:
   const Scene& scene_;
+  const Tessellation& faces_;
   PassContext& ctx_;
   std::vector<char> textured_;
   Mesh mesh_;
@@ -110,8 +113,10 @@ std::string_view name_of(const Part& p, const Scene& scene, const drawing::Stage
 Outcome take_patches(Scene& scene, const light::LightWorld& world, const LightmapOptions& options, PassContext& ctx) {
   const auto patches = ctx.resources->patches(options.patches, ctx.diag);
   if (!patches) return Outcome::failed;
-  return light_from_patches(scene, world, *patches, {options.smooth, options.format.value}, ctx) ? Outcome::changed
-                                                                                                 : Outcome::unchanged;
+  return light_from_patches(scene, world, *patches,
+                            {options.smooth, std::string(name_of(options.format)), options.faces}, ctx)
+             ? Outcome::changed
+             : Outcome::unchanged;
 }
 
 /// What nobody sees from within is sealed; what has light already stays as it is; each density and size is a part of
@@ -158,11 +163,11 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
   };
   say(": surfaces");
   levels.own_what_is_lit();
-  Meshes meshes(scene, ctx);
+  Meshes meshes(scene, options.faces, ctx);
   light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options, levels), ctx.diag);
   if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
   if (!levels.depth()) levels.find_shades(world);
-  auto parts = find_parts(scene, world, ctx);
+  auto parts = find_parts(scene, world, options.faces, ctx);
   prepare(parts, scene, world, levels, options, ctx.diag);
   if (parts.empty()) return Outcome::unchanged;
   if (!world.has_sky_of_its_own() && !levels.depth()) ctx.diag.report(Diag::no_light, {});
@@ -175,7 +180,7 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
   auto pages = bake::bake(parts, layout, world, bake_options(options, levels.view(), title), ctx);
   report_dark(pages, parts, scene, world.stage(), ctx.diag);
   say(": pictures");
-  store(scene, parts, layout, world.stage(), pages, {options.format.value, options.exr}, ctx);
+  store(scene, parts, layout, world.stage(), pages, {std::string(name_of(options.format)), options.exr}, ctx);
   for (const Part& p : parts) {
     for (std::uint32_t u : p.uses) levels.add(world.stage().uses[u].shape);
     ctx.stats["lightmap.shapes"] += p.uses.size();
@@ -195,26 +200,14 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
     if (const Outcome one = bake_view(scene, levels, options, ctx); one != Outcome::unchanged) all = one;
     if (!options.patches.empty()) return all;
   }
-  std::error_code none_there;
   for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view)
-    std::filesystem::remove(checkpoint_of(options, view), none_there);
+    bake::Checkpoint::remove(checkpoint_of(options, view));
   if (levels.n_unseen())
     ctx.diag.report(Diag::expansion_limit, {}, Levels::most, "levels of detail one behind the other");
   return all;
 }
 
 }  // namespace
-
-bool BakeQuality::read(std::string_view text) {
-  for (auto v : {draft, normal, high})
-    if (BakeQuality q{v}; q.print() == text) {
-      *this = q;
-      return true;
-    }
-  return false;
-}
-
-std::string BakeQuality::print() const { return value == draft ? "draft" : value == normal ? "normal" : "high"; }
 
 bool NamedDensities::read(std::string_view text) {
   all.clear();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/option_range.h"
+#include "geometry/tessellation.h"
 #include "light/sky_light.h"
 #include "passes/picture_format/picture_format.h"
 #include "passes/pipeline/pass.h"
@@ -12,14 +13,9 @@
 namespace wrlkit {
 
 /// How much work is done.
-struct BakeQuality {
-  static constexpr std::string_view type = "draft, normal or high";
-  enum Value : std::uint8_t { draft, normal, high };
-
-  Value value = normal;
-  bool read(std::string_view text);
-  std::string print() const;
-};
+enum class BakeQuality : std::uint8_t { draft, normal, high };
+template <>
+inline constexpr auto choices<BakeQuality> = choice_row({{"draft"}, {"normal"}, {"high"}});
 
 /// More or fewer texels for what has a name: "Floor=0.25" or, with an asterisk at the end for any name that begins so,
 /// "Sign*=4", several with colons between. The first that fits a Shape counts; Shapes have the names of the groups
@@ -86,14 +82,15 @@ threads.)";
       {"lightmap.bare-triangles", "triangles without a patch"},
   };
 
-  BakeQuality quality;
+  Tessellation faces{.texcoords = true};
+  BakeQuality quality = BakeQuality::normal;
   double error = 0, density = 0;
   NamedDensities densities;
   int max_size = 0;
   SkyLight sky;
   double emission = 1;
   bool directional = false, exr = false, denoise = true;
-  PictureFormat format;
+  PictureFormat format = PictureFormat::png;
   std::string checkpoint, patches;
   bool smooth = false;
   int seed = 1;
@@ -108,7 +105,7 @@ threads.)";
       "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given",
       between(0, 32768));
     f("sky", sky, "what shines from beyond the world: its Background, nothing, or one radiance");
-    f("emission", emission, "emissiveColor shines so many times as bright as it looks", at_least(0));
+    f("emission", emission, "factor for the light that emissiveColor gives off", at_least(0));
     f("directional", directional, "keep from where the light comes, too");
     f("exr", exr, "write the light as OpenEXR, too");
     f("denoise", denoise, "take the noise out");
@@ -118,6 +115,7 @@ threads.)";
     f("seed", seed, "of the random numbers");
     f("patches", patches, "patch file (wrlkit illuminate) to take the light from, instead of computing it");
     f("smooth", smooth, "colours of patches go over into one another");
+    faces.fineness_fields(f);
   }
 };
 

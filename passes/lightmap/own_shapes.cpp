@@ -73,7 +73,7 @@ class Unsharer {
 
   void own_children(NodeId n) {
     const auto shown = children_of(scene_, n, of_lod_);
-    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    const auto fields = scene_.copy_of_fields(n);
     for (const Value& v : fields) {
       if (scene_.is_extra(v) || v.is || info(v.type).element != Element::node) continue;
       std::vector<NodeId> ids(v.node_span().begin(), v.node_span().end());

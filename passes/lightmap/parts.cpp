@@ -10,10 +10,10 @@
 #include "base/silent_task.h"
 #include "geometry/simplify/surfaces.h"
 #include "geometry/unwrap/unfold.h"
-#include "passes/analysis/driven.h"
 #include "passes/lightmap/witnesses.h"
 #include "passes/normals/normals.h"
 #include "passes/weld/points.h"
+#include "scenegraph/driven.h"
 #include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
 
@@ -82,7 +82,7 @@ Volumes signed_volumes(const Part& p, const std::vector<std::uint32_t>& points) 
   constexpr double nothing = 1e-9;
   struct Piece {
     double six = 0;
-    drawing::Box box;
+    Box box;
   };
   const auto root = connected(points);
   std::vector<Piece> pieces(root.size());
@@ -97,7 +97,7 @@ Volumes signed_volumes(const Part& p, const std::vector<std::uint32_t>& points) 
     }
   }
   auto volume = [](const Piece& piece) {
-    const double size = length(piece.box.size());
+    const double size = drawing::length(piece.box.size());
     return std::fabs(piece.six) > nothing * size * size * size ? piece.six / 6 : 0;
   };
   Volumes out{volume(all), true};
@@ -159,13 +159,13 @@ class Backs {
 
 class Finder {
  public:
-  Finder(const Scene& scene, const light::LightWorld& world, PassContext& ctx)
+  Finder(const Scene& scene, const light::LightWorld& world, const Tessellation& faces, PassContext& ctx)
       : scene_(scene),
         world_(world),
         stage_(world.stage()),
         witnesses_(scene, world),
         silent_(ctx),
-        reader_(scene, silent_) {
+        reader_(scene, silent_, faces) {
     const auto driven = driven_geometry(scene);  // a Script may write what it likes
     for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take, OfText::take))
       if (!scene.is(s.geometry, nodes::Text) || !driven[s.geometry.value]) lit_.emplace(s.geometry.value, s);
@@ -232,8 +232,8 @@ class Finder {
         p.uses, [&](std::uint32_t u) { return world_.emitter_of(u, 0) || witnesses_.holds_another(box_of(p, u), u); });
   }
 
-  drawing::Box box_of(const Part& p, std::uint32_t use) const {
-    drawing::Box box;
+  Box box_of(const Part& p, std::uint32_t use) const {
+    Box box;
     for (std::size_t c = 0; c < p.mesh.corners.size(); ++c)
       box.add(stage_.frames[stage_.uses[use].frame].point(p.position(c)));
     return box;
@@ -284,7 +284,7 @@ unwrap::Charts charts_of_letters(const Part& p, const Affine& frame) {
   unwrap::Charts charts;
   for (const auto& [first, last, way] : {std::tuple{0u, n_fronts, 1.0}, std::tuple{n_fronts, n, -1.0}}) {
     if (first == last) continue;
-    drawing::Box box;
+    Box box;
     const auto begin = charts.places.size();
     std::vector<V3> places;
     for (std::size_t c = 3 * std::size_t{first}; c < 3 * std::size_t{last}; ++c) {
@@ -293,10 +293,10 @@ unwrap::Charts charts_of_letters(const Part& p, const Affine& frame) {
       box.add(places.back());
     }
     for (const V3& v : places)
-      charts.places.push_back({static_cast<float>(v.x - box.low.x), static_cast<float>(v.y - box.low.y)});
+      charts.places.push_back({static_cast<float>(v.x - box.low[0]), static_cast<float>(v.y - box.low[1])});
     charts.chart_of.resize(charts.places.size() / 3, static_cast<std::uint32_t>(charts.sizes.size()));
     charts.begin.push_back(static_cast<std::uint32_t>(begin / 3));
-    charts.sizes.push_back({static_cast<float>(box.size().x), static_cast<float>(box.size().y)});
+    charts.sizes.push_back({static_cast<float>(box.size(0)), static_cast<float>(box.size(1))});
   }
   charts.begin.push_back(n);
   charts.triangles.resize(n);
@@ -335,8 +335,9 @@ void unfold(Part& p, const Stage& stage) {
 
 }  // namespace
 
-std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, PassContext& ctx) {
-  return Finder(scene, world, ctx).run();
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, const Tessellation& faces,
+                             PassContext& ctx) {
+  return Finder(scene, world, faces, ctx).run();
 }
 
 void face_in(Part& part, std::vector<float>& coords) {

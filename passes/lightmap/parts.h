@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/tessellation.h"
 #include "geometry/unwrap/charts.h"
 #include "light/render/stage.h"
 #include "light/world.h"
@@ -27,16 +28,15 @@ struct Part {
 
   std::size_t n_triangles() const { return mesh.corners.size() / 3; }
   drawing::V3 position(std::size_t corner) const {
-    const double* p = mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3;
-    return {p[0], p[1], p[2]};
+    return vec3(mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3);
   }
   drawing::V3 normal(std::size_t corner) const {
     return {normals[3 * corner], normals[3 * corner + 1], normals[3 * corner + 2]};
   }
 };
 
-/// The parts of a world, in its order. Left out: what has no Material or PhysicalMaterial, as it is not lit; lines and
-/// points; geometry that events can change. O(triangles).
+/// The parts of a world, in its order; curved forms become `faces`. Left out: what has no Material or PhysicalMaterial,
+/// as it is not lit; lines and points; geometry that events can change. O(triangles).
 ///
 /// A face of `solid` FALSE is seen from both sides, which have light of their own. Where the surface is closed, and
 /// opaque, and neither a Viewpoint nor anything that shines stands in its box, nobody sees the inner side: it is
@@ -45,7 +45,8 @@ struct Part {
 /// face, and `solid` TRUE. A closed surface of `solid` TRUE that is wound inside out may be a room, and stays as it is
 /// where it shines, or holds something of these or some other Shape. Else it is a thing whose inner sides viewers show:
 /// it gets the light of its outside (`faces_in`).
-std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, PassContext& ctx);
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, const Tessellation& faces,
+                             PassContext& ctx);
 
 /// What faces inward does so again: its mesh, and two numbers for each of its corners.
 void face_in(Part& part, std::vector<float>& coords);

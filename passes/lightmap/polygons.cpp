@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 
 namespace wrlkit::bake {
 namespace {
@@ -112,10 +112,7 @@ class Joining {
     }
   }
 
-  Vec3 at(std::uint32_t corner) const {
-    const double* p = mesh_.positions.data() + std::size_t{3} * mesh_.corners[corner];
-    return {p[0], p[1], p[2]};
-  }
+  Vec3 at(std::uint32_t corner) const { return vec3(mesh_.positions.data() + std::size_t{3} * mesh_.corners[corner]); }
 
   /// Seen along the sum of its triangles' normals it turns the same way everywhere.
   bool is_convex(std::size_t start) const {

@@ -113,8 +113,10 @@ class TileRaster {
   void add_to(Cell& cell, const PlacedTriangle& t, std::uint32_t number, int x, int y) {
     if (!cell.samples.empty() && cell.chart != t.chart) return;
     bool first = cell.samples.empty();
+    const auto left = static_cast<float>(x), top = static_cast<float>(y), side = static_cast<float>(side_);
     for (int k = 0; k < side_ * side_; ++k) {
-      Spot2 p{x + (k % side_ + 0.5f) / side_, y + (k / side_ + 0.5f) / side_};
+      const auto column = static_cast<float>(k % side_), row = static_cast<float>(k / side_);
+      Spot2 p{left + (column + 0.5f) / side, top + (row + 0.5f) / side};
       Weights w = weights_at(t, p);
       if (inside(w)) cell.samples.push_back({rank_of(k % side_, k / side_), {number, {w.w[0], w.w[1], w.w[2]}}});
     }
@@ -122,12 +124,12 @@ class TileRaster {
       if (first) cell.chart = t.chart;
       return;
     }
-    OnEdge e = nearest_on_border(t, {x + 0.5f, y + 0.5f});
+    OnEdge e = nearest_on_border(t, {left + 0.5f, top + 0.5f});
     constexpr float reach2 = 2;  // the centre of a texel that is mixed is less than the diagonal of one away
     if (e.distance2 >= std::min(cell.nearest2, reach2)) return;
     cell.nearest2 = e.distance2;
     cell.chart = t.chart;
-    e.weights = pulled_in(t, {x + 0.5f, y + 0.5f}, e.weights);
+    e.weights = pulled_in(t, {left + 0.5f, top + 0.5f}, e.weights);
     cell.grazed = {number, {e.weights.w[0], e.weights.w[1], e.weights.w[2]}};
   }
 

@@ -14,8 +14,8 @@ bool is_proto(const Scene& scene, NodeId n) { return scene.type(n).kind == NodeK
 
 bool makes_surface(const Scene& scene, NodeId n) {
   if (scene.is(n, nodes::Inline)) return !scene.get(n, nodes::inline_::url).empty();
-  constexpr std::string_view bases[] = {"Shape", "Appearance", "X3DMaterialNode", "X3DGeometryNode"};
-  return std::ranges::any_of(bases, [&](std::string_view base) { return scene.type(n).is_a(base); });
+  return scene.is(n, nodes::Shape) || scene.is(n, nodes::Appearance) ||
+         scene.is(n, nodes::X3DMaterialNode | nodes::X3DGeometryNode);
 }
 
 /// By prototype. Those that hold instances of others have surfaces when these have.
@@ -51,8 +51,8 @@ bool is_foreign_surface(const NodeType& type) {
   constexpr std::string_view without_area[] = {"IndexedLineSet", "LineSet",    "PointSet",   "IndexedMarkerSet",
                                                "MarkerSet",      "NurbsCurve", "Polyline2D", "Polypoint2D",
                                                "Arc2D",          "Circle2D"};
-  if (type.kind != NodeKind::builtin || (type.dialects & static_cast<DialectSet>(Dialect::vrml97))) return false;
-  return (type.is_a("Vrml1ShapeNode") || type.is_a("X3DGeometryNode")) &&
+  if (type.dialects & static_cast<DialectSet>(Dialect::vrml97)) return false;
+  return type.is_a(nodes::Vrml1ShapeNode | nodes::X3DGeometryNode) &&
          std::ranges::find(without_area, type.name) == std::end(without_area);
 }
 

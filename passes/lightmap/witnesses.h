@@ -14,9 +14,9 @@ class Witnesses {
   Witnesses(const Scene& scene, const light::LightWorld& world);
 
   /// Whether any of them stands within the box; those that belong to `use` do not count.
-  bool within(const drawing::Box& box, std::uint32_t use) const;
+  bool within(const Box& box, std::uint32_t use) const;
   /// Whether the box holds the whole box of another use.
-  bool holds_another(const drawing::Box& box, std::uint32_t use) const;
+  bool holds_another(const Box& box, std::uint32_t use) const;
 
  private:
   struct Witness {
@@ -24,7 +24,7 @@ class Witnesses {
     std::uint32_t use;
   };
   struct Thing {
-    drawing::Box box;
+    Box box;
     std::uint32_t use;
   };
   std::vector<Witness> all_;   // by x

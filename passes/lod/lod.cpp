@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/math/digits.h"
 #include "base/parallel.h"
 #include "base/silent_task.h"
 #include "geometry/simplify/lod_nodes.h"
@@ -25,7 +26,7 @@ class Lod {
         ctx_(ctx),
         silent_(ctx),
         surfaces_(surfaces_of(scene)),
-        reader_(scene, silent_),
+        reader_(scene, silent_, options.faces),
         nodes_(scene) {}
 
   Outcome run() {
@@ -133,9 +134,8 @@ bool NumberList::read(std::string_view text) {
 std::string NumberList::print() const {
   std::string out;
   for (double v : values) {
-    char number[40];
     if (!out.empty()) out += ':';
-    out.append(number, std::to_chars(number, number + sizeof number, v).ptr);
+    out += shortest_text(v);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 
 #include "base/option_range.h"
 #include "geometry/simplify/levels.h"
+#include "geometry/tessellation.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
@@ -62,6 +63,7 @@ geometries; the same result for any number of threads.)";
   double pixels = 1, screen_height = 1080, field_of_view = 0.785398;
   double vanish = 0, min_saving = 0.3;
   int min_faces = 50;
+  Tessellation faces{.texcoords = true};
 
   void fields(auto&& f) {
     f("ratios", ratios, "triangles of each further level, as shares of the first");
@@ -75,6 +77,7 @@ geometries; the same result for any number of threads.)";
     f("min-saving", min_saving, "share of the triangles of the level before that a level has to save to be written",
       between(0, 1));
     f("min-faces", min_faces, "triangles below which a Shape is left as it is", at_least(0));
+    faces.fineness_fields(f);
   }
 };
 

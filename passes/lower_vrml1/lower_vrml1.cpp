@@ -161,19 +161,19 @@ void Lowering::visit(NodeId n, State& s, Frame& frame) {
   else if (is(n, v1::Environment))
     single([&] { return fog_of(scene_, n, diag_); });
   else if (property(n, s)) {
-  } else if (type.is_a("Vrml1TransformNode"))
+  } else if (type.is_a(nodes::Vrml1TransformNode))
     visit_transform(n, s, frame);
-  else if (type.is_a("Vrml1ShapeNode"))
+  else if (type.is_a(nodes::Vrml1ShapeNode))
     visit_shape(n, s, frame);
-  else if (type.is_a("Vrml1LightNode"))
+  else if (type.is_a(nodes::Vrml1LightNode))
     visit_light(n, frame);
-  else if (type.is_a("Vrml1CameraNode"))
+  else if (type.is_a(nodes::Vrml1CameraNode))
     single([&] { return viewpoint(scene_, n, diag_); });
-  else if (type.is_a("Vrml1InfoNode"))
+  else if (type.is_a(nodes::Vrml1InfoNode))
     single([&] { return info_of(scene_, n); });
   else if (is(n, v1::WWWInline) || is(n, v1::File))
     single([&] { return inline_of(scene_, n); });
-  else if (type.is_a("Vrml1SeparatorNode"))
+  else if (type.is_a(nodes::Vrml1SeparatorNode))
     visit_separator(n, s, frame);
   else if (is(n, v1::Switch) || is(n, v1::Blinker))
     visit_switch(n, s, frame);
@@ -181,7 +181,7 @@ void Lowering::visit(NodeId n, State& s, Frame& frame) {
     visit_lod(n, s, frame);
   else if (is(n, v1::Array) || is(n, v1::MultipleCopy))
     visit_copies(n, s, frame);
-  else if (type.is_a("Vrml1GroupNode"))
+  else if (type.is_a(nodes::Vrml1GroupNode))
     visit_group(n, children_of(n), s, frame);
   --depth_;
 }
@@ -248,7 +248,7 @@ bool Lowering::property(NodeId n, State& s) {
              t == v1::LinearProfile || t == v1::NurbsProfile) {
     diag_.report(Diag::no_vrml97_node, scene_.where(n), scene_.type(n).name);
   } else
-    return scene_.type(n).is_a("Vrml1PropertyNode");  // of no effect on what is there: Complexity, PickStyle
+    return scene_.is(n, nodes::Vrml1PropertyNode);  // of no effect on what is there: Complexity, PickStyle
   return true;
 }
 
@@ -428,7 +428,7 @@ void Lowering::visit_copies(NodeId n, const State& s, Frame& frame) {
 NodeId Lowering::known_base(NodeId n) {
   auto& made = bases_[n];
   if (made) return made;
-  const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+  const auto fields = scene_.copy_of_fields(n);
   for (const Value& v : fields) {
     if (!scene_.is_extra(v) || v.extra->name != "isA" || v.extra->value.type != FieldType::MFString) continue;
     for (auto base : v.extra->value.text_span()) {
@@ -461,15 +461,15 @@ void Lowering::visit_unknown(NodeId n, State& s, Frame& frame) {
 
 // Nodes of VRML97 stand for themselves; in their children the state is that around them.
 void Lowering::visit_vrml97(NodeId n, const State& s, Frame& frame) {
-  if (scene_.type(n).is_a("X3DGeometryNode")) return visit_shape(n, s, frame);
-  if (!scene_.type(n).is_a("X3DGroupingNode")) return frame.add(n);
+  if (scene_.is(n, nodes::X3DGeometryNode)) return visit_shape(n, s, frame);
+  if (!scene_.is(n, nodes::X3DGroupingNode)) return frame.add(n);
   auto known = effects_.find({n, s});
   if (known == effects_.end()) {
     const Frame inner = contents(children_of(n), s);
     const auto below = children(scene_, inner);
     NodeId made = scene_.add(scene_.type_id(n), scene_.where(n));
     scene_.set_name(made, scene_.name(n));
-    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    const auto fields = scene_.copy_of_fields(n);
     scene_.set_fields(made, fields);
     if (auto field = child_field(n)) scene_.set(made, scene_.make(FieldType::MFNode, field->slot, below));
     known = effects_.emplace(std::pair{n, s}, Effect{made, {}, {}, {}}).first;

@@ -33,11 +33,11 @@ std::vector<NodeId> Shapes::make(NodeId n, const State& s) {
     out = points(n, s);
   else if (scene_.is(n, v1::Text2) || scene_.is(n, v1::NurbsCurve) || scene_.is(n, v1::NurbsSurface))
     diag_.report(Diag::no_vrml97_node, scene_.where(n), scene_.type(n).name);
-  else if (scene_.type(n).is_a("X3DGeometryNode"))
+  else if (scene_.is(n, nodes::X3DGeometryNode))
     out = {shape(n, s, 0)};
   else
     out = polygons(n, s);
-  if (out.empty() || scene_.name(n).empty() || !scene_.type(n).is_a("Vrml1ShapeNode")) return out;
+  if (out.empty() || scene_.name(n).empty() || !scene_.is(n, nodes::Vrml1ShapeNode)) return out;
   if (out.size() > 1) {
     NodeId all = add(nodes::Group, n);
     scene_.set(all, nodes::group::children, out);

@@ -54,7 +54,7 @@ NodeId first_of(const Scene& scene, NodeId n, Diagnostics& diag) {
 bool first_only(Scene& scene, NodeId n, Diagnostics& diag) {
   bool changed = false;
   const auto& rows = scene.type(n).fields;
-  for (const Value& v : std::vector<Value>(scene.fields(n).begin(), scene.fields(n).end())) {
+  for (const Value& v : scene.copy_of_fields(n)) {
     if (scene.is_extra(v) || v.is || v.type != FieldType::SFNode || !v.node || !rows[v.slot].has_value()) continue;
     NodeId first = first_of(scene, v.node, diag);
     if (first == v.node) continue;

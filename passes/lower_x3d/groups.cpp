@@ -88,7 +88,7 @@ bool hide(Scene& scene, NodeId n) {
     return true;
   }
   NodeId copy = scene.add(scene.type_id(n), scene.where(n));  // a Shape or an Inline
-  scene.set_fields(copy, std::vector<Value>(scene.fields(n).begin(), scene.fields(n).end()));
+  scene.set_fields(copy, scene.copy_of_fields(n));
   scene.become(
       n, nodes::Switch,
       std::vector<Value>{scene.make(FieldType::MFNode, nodes::switch_::children.slot, std::vector<NodeId>{copy})});

@@ -7,6 +7,7 @@
 
 #include "passes/lower_x3d/geometry.h"
 #include "scenegraph/looks/material_node.h"
+#include "scenegraph/looks/shininess.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -57,7 +58,7 @@ class Lowering {
       specular[i] = (0.04 * (1 - metal) + base[i] * metal) * (1 - rough);
     }
     auto fields = fields_for(scene_, n, nodes::Material);
-    const double shininess = rough > 0 ? std::clamp((2 / std::pow(rough, 4) - 2) / 128, 0.0, 1.0) : 1;
+    const double shininess = rough > 0 ? std::clamp(shininess_of_width(std::pow(rough, 4)), 0.0, 1.0) : 1;
     fields.push_back(scene_.make(FieldType::SFColor, m::diffuseColor.slot, diffuse));
     fields.push_back(scene_.make(FieldType::SFColor, m::specularColor.slot, specular));
     fields.push_back(scene_.make(FieldType::SFFloat, m::shininess.slot, shininess));

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 
 namespace wrlkit::x3d {
 namespace {
@@ -147,6 +147,7 @@ double twist(const Surface& s, const std::vector<double>& u, const std::vector<d
   double most = 0;
   std::vector<Vec3> before, row(u.size());
   std::vector<BasisValues> along;
+  along.reserve(u.size());
   for (double t : u) along.push_back(values_at(s.u, t));
   for (double t : v) {
     const auto across = values_at(s.v, t);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/math/axis_angle.h"
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/nurbs.h"
 #include "scenegraph/nodes.h"

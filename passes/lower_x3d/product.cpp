@@ -78,7 +78,7 @@ class Products {
     if (n) return n;
     n = scene_.add(nodes::PixelTexture, scene_.where(texture));
     scene_.set_name(n, scene_.name(texture));
-    scene_.set_fields(n, std::vector<Value>(scene_.fields(texture).begin(), scene_.fields(texture).end()));
+    scene_.set_fields(n, scene_.copy_of_fields(texture));
     const auto old = scene_.get(texture, nodes::pixel_texture::image);
     std::vector<std::int32_t> image(old.begin(), old.end());
     const int alpha = image[2] == 4 ? 8 : 0;  // bits below red, green and blue
@@ -128,7 +128,7 @@ bool whiten_replaced(Scene& scene, PassContext& ctx) {
     if (!copy) {
       copy = scene.add(nodes::Material, scene.where(material));
       scene.set_name(copy, scene.name(material));
-      scene.set_fields(copy, std::vector<Value>(scene.fields(material).begin(), scene.fields(material).end()));
+      scene.set_fields(copy, scene.copy_of_fields(material));
       scene.set(copy, nodes::material::diffuseColor, white);
       ctx.diag.report(Diag::no_x3d_color, scene.where(material));
     }

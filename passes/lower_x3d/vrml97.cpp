@@ -68,10 +68,10 @@ class Lowering {
 
   /// Nodes that VRML97 does not have, in fields that it has.
   void foreign_children(NodeId n) {
-    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    const auto fields = scene_.copy_of_fields(n);
     for (const Value& v : fields) {
       if (scene_.is_extra(v) || v.is || info(v.type).element != Element::node) continue;
-      auto stays = [&](NodeId c) { return !foreign(c) || scene_.type(c).is_a("X3DChildNode"); };
+      auto stays = [&](NodeId c) { return !foreign(c) || scene_.is(c, nodes::X3DChildNode); };
       const auto held = v.node_span();
       if (std::ranges::all_of(held, stays)) continue;
       std::vector<NodeId> kept;
@@ -87,7 +87,7 @@ class Lowering {
   void foreign_fields(NodeId n) {
     const auto& t = scene_.type(n);
     if (t.kind != NodeKind::builtin && t.kind != NodeKind::script) return;
-    const std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    const auto fields = scene_.copy_of_fields(n);
     for (const Value& v : fields) {
       if (scene_.is_extra(v) || t.fields[v.slot].is_own() || (t.fields[v.slot].dialects & in_vrml97)) continue;
       const auto& f = t.fields[v.slot];
@@ -99,7 +99,7 @@ class Lowering {
 
   /// Children of groups: an empty Group of that name, so that USE still finds something.
   void foreign_node(NodeId n) {
-    if (!foreign(n) || !scene_.type(n).is_a("X3DChildNode")) return;
+    if (!foreign(n) || !scene_.is(n, nodes::X3DChildNode)) return;
     lose(n);
     dropped_.resize(scene_.node_count());
     dropped_[n.value] = 1;

@@ -4,6 +4,8 @@
 #include <map>
 #include <queue>
 
+#include "base/math/box.h"
+
 namespace wrlkit {
 namespace {
 
@@ -49,15 +51,11 @@ class Halving {
 
   void halve(std::size_t c) {
     Cell& cell = cells_[c];
-    Vec3 low = items_[cell[0]].at, high = low;
-    for (auto i : cell)
-      for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], items_[i].at[k]);
-        high[k] = std::max(high[k], items_[i].at[k]);
-      }
+    Box box;
+    for (auto i : cell) box.add(items_[i].at);
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
-      if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+      if (box.size(k) > box.size(axis)) axis = k;
     std::ranges::sort(cell, [&](auto a, auto b) {
       return items_[a].at[axis] != items_[b].at[axis] ? items_[a].at[axis] < items_[b].at[axis] : a < b;
     });

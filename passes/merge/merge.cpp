@@ -1,20 +1,17 @@
 #include "passes/merge/merge.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <map>
 #include <set>
-#include <system_error>
 #include <tuple>
 #include <unordered_map>
 
 #include "base/text/csv.h"
 #include "geometry/geometry.h"
-#include "geometry/tessellation.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/representatives.h"
 #include "passes/merge/cells.h"
+#include "passes/merge/gltf_cost.h"
 #include "passes/merge/moved.h"
 #include "passes/merge/part_cells.h"
 #include "passes/merge/still_places.h"
@@ -27,10 +24,6 @@
 namespace wrlkit {
 namespace {
 
-// Of compressed glTF, about: of each point and corner that is written once more; of a mesh with its table of places,
-// and of a place in it. A mesh by itself shares indices and normals with others, which halves it.
-constexpr double point_bytes = 8, corner_bytes = 0.7, place_bytes = 10, node_bytes = 120, table_bytes = 600,
-                 own_share = 0.4;
 constexpr double large_cell = 50'000;  // corners
 
 /// EXT_mesh_gpu_instancing knows translation, rotation and scale, and no mirror images.
@@ -82,7 +75,7 @@ class Merging {
     put_into_zones();
     remove_merged();
     if (!options_.parts) keep_lost_names();
-    write_csv();
+    hand_in_csv();
     ctx_.stats["merge.shapes"] += n_made_;
     const auto after = figures_of(scene_);
     if (!options_.parts) report_draws_left(after);
@@ -106,7 +99,7 @@ class Merging {
   std::set<std::string_view> names() const;
   void keep_lost_names();
   void report_draws_left(const SceneFigures&);
-  void write_csv() const;
+  void hand_in_csv() const;
   const StillPlace& place(std::uint32_t i) const { return still_.places()[i]; }
   NodeId geometry(std::uint32_t i) const { return scene_.get(place(i).shape, nodes::shape::geometry); }
 
@@ -134,7 +127,7 @@ class Merging {
 const Mesh& Merging::mesh_of(NodeId g) {
   mesh_.clear();
   MeshJob job{scene_, g, mesh_, scratch_, ctx_, textured_[g.value] != 0};
-  make_mesh(job, {.triangles = false, .texcoords = true});
+  make_mesh(job, options_.faces);
   normals(job, {});
   if (!job.textured) mesh_.texcoord.clear();
   return mesh_;
@@ -149,8 +142,8 @@ const Outline& Merging::outline(NodeId g) {
   o.kind = static_cast<std::uint64_t>(m.kind) * 64 + m.solid * 32 + m.color.present() * (m.color.width == 4 ? 16 : 8) +
            m.normal.present() * 2 + m.texcoord.present();
   o.corners = m.corners.size();
-  o.bytes = point_bytes * static_cast<double>(std::min(m.n_positions(), o.corners)) +
-            corner_bytes * static_cast<double>(o.corners);
+  o.bytes = gltf_cost::point * static_cast<double>(std::min(m.n_positions(), o.corners)) +
+            gltf_cost::corner * static_cast<double>(o.corners);
   Vec3 low{}, high{};
   for (std::size_t i = 0; i < m.corners.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -281,9 +274,9 @@ void Merging::keep_instances(std::vector<CellItem>& items, std::size_t budget) {
   std::vector<Sharing*> best;
   for (auto& [key, s] : known) {
     const double n = static_cast<double>(s.items.size());
-    s.saved = (n - own_share) * outline(geometry(items_[s.items[0]])).bytes -
-              table_bytes * static_cast<double>(s.in_zone.size()) - place_bytes * (n - static_cast<double>(s.odd)) -
-              node_bytes * static_cast<double>(s.odd);
+    s.saved = (n - gltf_cost::own_share) * outline(geometry(items_[s.items[0]])).bytes -
+              gltf_cost::table * static_cast<double>(s.in_zone.size()) -
+              gltf_cost::place * (n - static_cast<double>(s.odd)) - 2 * gltf_cost::node * static_cast<double>(s.odd);
     if (s.saved > 0) best.push_back(&s);
   }
   std::ranges::stable_sort(best, std::greater{}, &Sharing::saved);
@@ -386,7 +379,7 @@ void Merging::remove_merged() {
   auto is_gone = [&](NodeId n) { return n && gone[n.value]; };
   for (auto g = still_.groups().rbegin(); g != still_.groups().rend(); ++g) {
     bool any = false, left = false;
-    for (const Value& v : std::vector<Value>(scene_.fields(*g).begin(), scene_.fields(*g).end())) {
+    for (const Value& v : scene_.copy_of_fields(*g)) {
       if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
       std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
       if (std::erase_if(list, is_gone) > 0) {
@@ -442,11 +435,9 @@ void Merging::report_draws_left(const SceneFigures& left) {
                        std::to_string(fixed) + " have to stay as they are");
 }
 
-void Merging::write_csv() const {
-  if (options_.csv.empty()) return;
-  errno = 0;
-  std::ofstream out(options_.csv, std::ios::binary);
-  out << "id,name,appearance\n";
+void Merging::hand_in_csv() const {
+  if (options_.csv.empty() || !ctx_.resources) return;
+  std::string out = "id,name,appearance\n";
   // Numbers as those of glTF: by the order in which parts are drawn.
   std::map<std::string_view, std::size_t> ids;
   std::set<std::pair<std::size_t, NodeId>> said;
@@ -459,12 +450,11 @@ void Merging::write_csv() const {
       const auto name = parts->names[i];
       const auto id = ids.try_emplace(name, ids.size()).first->second;
       if (parts->faces[i] > 0 && said.emplace(id, appearance).second)
-        out << id << ',' << csv_quoted(name) << ','
-            << csv_quoted(appearance ? scene_.name(appearance) : std::string_view()) << '\n';
+        out += std::to_string(id) + ',' + csv_quoted(name) + ',' +
+               csv_quoted(appearance ? scene_.name(appearance) : std::string_view()) + '\n';
     }
   });
-  if (!out.flush())
-    ctx_.diag.report(Diag::cannot_write, {}, options_.csv, std::generic_category().message(errno ? errno : EIO));
+  ctx_.resources->add_named({options_.csv, std::move(out)});
 }
 
 }  // namespace

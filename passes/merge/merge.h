@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/option_range.h"
+#include "geometry/tessellation.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
@@ -39,7 +40,7 @@ than `max-draws` are drawn. Nothing happens where there are few enough already.
   is reported then. Names of what is merged and of the groups that are left without anything in them are only there,
   and names of Coordinates and the like as parts without faces.
 - What is drawn does not change: normals are computed before, texture coordinates by the extent of a geometry too, and
-  curved forms get their faces as by `tessellate`.
+  curved forms get their faces as by `tessellate` with the same `tolerance` and `segments`.
 - Not merged across: Anchor, Billboard, Collision, each child of Switch and LOD, groups with sensors or lights of
   their own, and what a ROUTE moves; below each of them it is merged. Left alone: Shapes that a ROUTE, a Script or an
   IS touches, and all below nodes that are not known; geometry with baked light or levels of detail in its own file;
@@ -60,6 +61,7 @@ in what is merged, which is there once for each place.)";
 
   int max_draws = 500;
   bool instanced = false, parts = false;
+  Tessellation faces{.triangles = false, .texcoords = true};
   std::string csv;
 
   void fields(auto&& f) {
@@ -72,6 +74,7 @@ in what is merged, which is there once for each place.)";
     f("parts", parts,
       "instead: Shapes of one part, without names below one name, that look alike become one where that makes "
       "compressed glTF smaller");
+    faces.fineness_fields(f);
     f("csv", csv, "file for a table of the parts: id, name, appearance");
   }
 };

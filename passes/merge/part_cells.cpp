@@ -4,12 +4,10 @@
 #include <map>
 #include <unordered_map>
 
+#include "passes/merge/gltf_cost.h"
+
 namespace wrlkit {
 namespace {
-
-// Of compressed glTF, about: a node in JSON; a mesh with its accessors there; how much of its vertices a mesh by itself
-// has, when what is equal in other meshes is left out.
-constexpr double node_bytes = 65, mesh_bytes = 280, own_share = 0.4;
 
 struct Copies {
   std::vector<std::uint32_t> items;
@@ -37,12 +35,13 @@ std::vector<std::vector<std::uint32_t>> part_cells(std::span<const PartItem> ite
       const PartItem& one = items[copies.items[0]];
       const double n = static_cast<double>(copies.items.size());
       const bool all = uses[geometry] == copies.items.size();
-      copies.saved = n * one.times * node_bytes + (all ? mesh_bytes + own_share * one.bytes : 0) - n * one.bytes;
+      copies.saved = n * one.times * gltf_cost::node + (all ? gltf_cost::mesh + gltf_cost::own_share * one.bytes : 0) -
+                     n * one.bytes;
       if (copies.saved <= 0) continue;
       saved += copies.saved;
       cell.insert(cell.end(), copies.items.begin(), copies.items.end());
     }
-    if (cell.size() < 2 || saved <= mesh_bytes + node_bytes * items[cell[0]].times) continue;
+    if (cell.size() < 2 || saved <= gltf_cost::mesh + gltf_cost::node * items[cell[0]].times) continue;
     std::ranges::sort(cell);
     out.push_back(std::move(cell));
   }

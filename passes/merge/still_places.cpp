@@ -60,14 +60,14 @@ bool StillPlaces::is_apart(NodeId n) const {
   bool apart = false;
   for_each_child(scene_, n, [&](NodeId c) {
     const auto& t = scene_.type(c);
-    apart |= t.is_a("X3DSensorNode") || scene_.is(c, nodes::DirectionalLight) || scene_.is(c, nodes::ClipPlane);
+    apart |= t.is_a(nodes::X3DSensorNode) || scene_.is(c, nodes::DirectionalLight) || scene_.is(c, nodes::ClipPlane);
   });
   return apart;
 }
 
 bool StillPlaces::may_take(NodeId shape) const {
   const NodeId g = scene_.get(shape, nodes::shape::geometry);
-  if (bound_[shape.value] || !is_plain(shape) || !is_plain(g) || !scene_.type(g).is_a("X3DGeometryNode")) return false;
+  if (bound_[shape.value] || !is_plain(shape) || !is_plain(g) || !scene_.is(g, nodes::X3DGeometryNode)) return false;
   bool plain = true;
   for_each_child(scene_, g, [&](NodeId c) {
     plain &= is_plain(c) && !scene_.is(c, nodes::TextureCoordinateGenerator) && !scene_.is(c, nodes::MetadataSet);
@@ -101,10 +101,9 @@ void StillPlaces::visit(NodeId node, const Handed& i) {
     }
     return;
   }
-  const auto& type = scene_.type(node);
   if (hierarchy_children(scene_, node).empty()) return;
-  const bool known = type.kind == NodeKind::builtin &&
-                     (type.is_a("X3DGroupingNode") || scene_.is(node, nodes::StaticGroup)) && !bound_[node.value];
+  const bool known =
+      (scene_.is(node, nodes::X3DGroupingNode) || scene_.is(node, nodes::StaticGroup)) && !bound_[node.value];
   Handed below = i;
   below.path = path_below();
   if (!known) {
@@ -142,9 +141,8 @@ void StillPlaces::alternatives(NodeId node, const Handed& i) {
     if (!*n) continue;
     Handed below = i;
     below.shown = i.shown && std::ranges::find(shown, *n) != shown.end();
-    const bool group = !scene_.is(*n, nodes::Shape) && scene_.type(*n).kind == NodeKind::builtin &&
-                       scene_.type(*n).is_a("X3DGroupingNode") && !scene_.is(*n, nodes::Switch) &&
-                       !scene_.is(*n, nodes::LOD) && !bound_[n->value];
+    const bool group = !scene_.is(*n, nodes::Shape) && scene_.is(*n, nodes::X3DGroupingNode) &&
+                       !scene_.is(*n, nodes::Switch) && !scene_.is(*n, nodes::LOD) && !bound_[n->value];
     if (!group) {
       below.zone = no_zone;
       ways_.push(*n, below);

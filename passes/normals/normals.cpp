@@ -37,12 +37,6 @@ T* room(std::vector<T>& v, std::size_t n) {
   return v.data();
 }
 
-Vec3 minus(const double* a, const double* b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Angle of the vector (x, y) to the x axis, in [0, 2 pi), to 2e-5; small angles to 2e-3 of themselves. That is plenty
 /// for a weight, and branches for reflex corners only. The rational u is the tangent of the angle to the diagonal.
 /// Vectors just below the axis have no angle rather than a full turn: they are spikes of a polygon.
@@ -95,7 +89,7 @@ class Normals {
   std::uint32_t after(std::uint32_t corner, std::uint32_t face) const {
     return corner + 1 == end(face) ? begin(face) : corner + 1;
   }
-  const double* point(std::uint32_t corner) const { return positions_ + std::size_t{3} * corners_[corner]; }
+  Vec3 point(std::uint32_t corner) const { return vec3(positions_ + std::size_t{3} * corners_[corner]); }
 
   bool face_normals();
   FaceNormal face_normal(std::uint32_t begin, std::uint32_t end) const;
@@ -150,10 +144,10 @@ bool Normals::face_normals() {
 /// large, the differences are taken before anything else.
 FaceNormal Normals::face_normal(std::uint32_t begin, std::uint32_t end) const {
   if (end - begin < 3) return {0, 0, 0, 0};
-  Vec3 a = minus(point(begin + 1), point(begin)), area{};
+  Vec3 a = point(begin + 1) - point(begin), area{};
   double size = dot(a, a);
   for (std::uint32_t c = begin + 2; c < end; ++c) {
-    Vec3 b = minus(point(c), point(begin)), t = cross(a, b);
+    Vec3 b = point(c) - point(begin), t = cross(a, b);
     for (int i = 0; i < 3; ++i) area[i] += t[i];
     size += dot(b, b);
     a = b;
@@ -167,7 +161,7 @@ FaceNormal Normals::face_normal(std::uint32_t begin, std::uint32_t end) const {
 
 // -- edges
 
-/// Positions are numbered anew when the mesh uses few of many; then nothing here costs more than its corners.
+/// Positions are numbered again when the mesh uses few of many; then nothing here costs more than its corners.
 void Normals::number_positions() {
   id_ = corners_;
   n_ids_ = mesh_.n_positions();
@@ -306,9 +300,9 @@ void Normals::add_up() {
     std::uint32_t first = begin(f), last = end(f);
     if (n.weight == 0) continue;
     const Vec3 up{newell * n.x, newell * n.y, newell * n.z};
-    Vec3 in = minus(point(first), point(last - 1));
+    Vec3 in = point(first) - point(last - 1);
     for (std::uint32_t c = first; c < last; ++c) {
-      Vec3 out = minus(point(c + 1 == last ? first : c + 1), point(c));
+      Vec3 out = point(c + 1 == last ? first : c + 1) - point(c);
       if (mixed[group[c]]) {
         float *v = values + std::size_t{3} * group[c], w = static_cast<float>(angle(in, out, up));
         v[0] += w * n.x;

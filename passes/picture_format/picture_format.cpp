@@ -1,15 +1,12 @@
 #include "passes/picture_format/picture_format.h"
 
-#include <algorithm>
-
 #include "base/image/image.h"
 
 namespace wrlkit {
 
-bool PictureFormat::read(std::string_view text) {
-  static constexpr std::string_view formats[] = {"png", "jpg", "webp"};
-  value = text;
-  return std::ranges::count(formats, text) && can_encode_as("." + value);
+std::string why_missing(PictureFormat format) {
+  const std::string name(name_of(format));
+  return can_encode_as("." + name) ? "" : "this wrlkit was built without a writer of " + name + " pictures";
 }
 
 }  // namespace wrlkit

@@ -1,17 +1,16 @@
 // The file format of pictures that a pass makes, as an option: format=png.
 #pragma once
-#include <string>
-#include <string_view>
+#include <cstdint>
+
+#include "base/choice.h"
 
 namespace wrlkit {
 
-struct PictureFormat {
-  static constexpr std::string_view type = "png, jpg or webp";
-  std::string value = "png";
+enum class PictureFormat : std::uint8_t { png, jpg, webp };
+template <>
+inline constexpr auto choices<PictureFormat> = choice_row({{"png"}, {"jpg"}, {"webp"}});
 
-  /// False also for a format that this build cannot write.
-  bool read(std::string_view text);
-  std::string print() const { return value; }
-};
+/// Why this build cannot write it; empty when it can.
+std::string why_missing(PictureFormat);
 
 }  // namespace wrlkit

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/math/digits.h"
 #include "base/text/length_unit.h"
 
 namespace wrlkit {
@@ -23,10 +24,7 @@ struct LengthOption {
     return true;
   }
   /// In metres.
-  std::string print() const {
-    char text[40];
-    return {text, std::to_chars(text, text + sizeof text, metres).ptr};
-  }
+  std::string print() const { return shortest_text(metres); }
 };
 
 }  // namespace wrlkit

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <type_traits>
 
+#include "base/choice.h"
+#include "base/math/digits.h"
 #include "base/option_range.h"
 #include "base/text/nearest_name.h"
 #include "passes/pipeline/pipeline.h"
@@ -19,10 +21,7 @@ inline std::string_view type_name(const std::string&) { return "text"; }
 inline std::string print(bool v) { return v ? "true" : "false"; }
 inline std::string print(const std::string& v) { return v; }
 template <class N>
-requires std::is_arithmetic_v<N> std::string print(N v) {
-  char b[40];
-  return {b, std::to_chars(b, b + sizeof b, v).ptr};
-}
+requires std::is_arithmetic_v<N> std::string print(N v) { return shortest_text(v); }
 
 inline bool read(std::string_view s, bool& v) {
   if (s == "true" || s == "false") {
@@ -55,6 +54,19 @@ bool in_range(const T& v, OptionRange r) {
     return true;
 }
 
+template <Choice E>
+std::string_view type_name(const E&) {
+  return choice_type<E>();
+}
+template <Choice E>
+std::string print(const E& v) {
+  return std::string(name_of(v));
+}
+template <Choice E>
+bool read(std::string_view s, E& v) {
+  return read_choice(s, v);
+}
+
 /// A type made for options says these itself: weld.h has one.
 template <class T>
 std::string_view type_name(const T&) {
@@ -69,7 +81,9 @@ bool read(std::string_view s, T& v) { return v.read(s); }
 
 template <class T>
 OptionInfo describe(std::string_view name, const T& value, std::string_view help, OptionRange range) {
-  return {std::string(name), std::string(type_name(value)), print(value), std::string(help), print(range)};
+  std::string more(help);
+  if constexpr (Choice<T>) more = choice_help<T>(help);
+  return {std::string(name), std::string(type_name(value)), print(value), std::move(more), print(range)};
 }
 
 }  // namespace option_text
@@ -95,14 +109,17 @@ class PassOf final : public PassInstance {
   bool set(std::string_view option, std::string_view value, std::string& why) override {
     bool found = false;
     NearestName nearest(option);
+    if constexpr (requires { options_.add_field(option); })
+      if (int number = 0; option_text::read(value, number)) options_.add_field(option);
     options_.fields([&](std::string_view name, auto& field, std::string_view help, OptionRange range = {}) {
       nearest.consider(name);
       if (name != option) return;
       found = true;
       auto given = field;
+      why.clear();
       if (option_text::read(value, given) && option_text::in_range(given, range)) {
-        why.clear();
-        field = std::move(given);
+        if constexpr (requires { why_missing(given); }) why = why_missing(given);
+        if (why.empty()) field = std::move(given);
         return;
       }
       why = "option '" + std::string(option) + "': '" + std::string(value) +

@@ -5,9 +5,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/stop.h"
 #include "geometry/geometry.h"
 #include "geometry/mesh_check.h"
-#include "passes/analysis/driven.h"
+#include "scenegraph/driven.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
@@ -81,10 +82,10 @@ void Pipeline::complete(std::string_view text) {
   // Where nothing is drawn, what the standard pipeline does to a world is done to what other passes bring in as well.
   auto brings_in = [](const Step& s) { return s.info->traits.brings_in; };
   if (mesh == end && std::ranges::any_of(steps_, brings_in)) {
-    const auto start =
-        std::ranges::stable_partition(front, [](const Step& s) { return s.info->traits.phase == Phase::start; });
-    std::vector<Step> behind(std::make_move_iterator(start.begin()), std::make_move_iterator(start.end()));
-    front.erase(start.begin(), start.end());
+    const auto rest = std::stable_partition(front.begin(), front.end(),
+                                            [](const Step& s) { return s.info->traits.phase == Phase::start; });
+    std::vector<Step> behind(std::make_move_iterator(rest), std::make_move_iterator(front.end()));
+    front.erase(rest, front.end());
     insert(std::ranges::find_if(steps_.rbegin(), steps_.rend(), brings_in).base(), std::move(behind));
   }
   insert(steps_.begin(), std::move(front));
@@ -104,7 +105,16 @@ void Pipeline::meet_needs(Level level) {
 
 bool Pipeline::run(Scene& scene, PassContext& ctx, const PipelineOptions& options) {
   meet_needs();
-  return run_steps(0, steps_.size(), scene, ctx, options);
+  return run_until_stopped(steps_.size(), scene, ctx, options);
+}
+
+bool Pipeline::run_until_stopped(std::size_t end, Scene& scene, PassContext& ctx, const PipelineOptions& options) {
+  const StopScope scope(ctx.stop);
+  try {
+    return run_steps(0, end, scene, ctx, options);
+  } catch (const Stopped&) {
+    return false;
+  }
 }
 
 Level Pipeline::level_behind(std::size_t step) const {
@@ -198,7 +208,7 @@ MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOp
   meet_needs();
   std::size_t tail = steps_.size();
   while (tail > 0 && steps_[tail - 1].pass->is_mesh_pass()) --tail;
-  if (!run_steps(0, tail, scene, ctx, options)) return nullptr;
+  if (!run_until_stopped(tail, scene, ctx, options)) return nullptr;
   // The scene between the last passes is never there as a whole; who wants to see it is shown a copy.
   if (options.print) {
     Scene copy = scene;

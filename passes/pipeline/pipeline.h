@@ -129,7 +129,8 @@ class Pipeline {
   /// The whole text, every option spelled out; parse(text()) is this pipeline again.
   std::string text() const;
 
-  /// Runs every pass, after meet_needs. False when one failed.
+  /// Runs every pass, after meet_needs. False when one failed, or was stopped (PassContext::stop): the scene is valid
+  /// then, but as far as it has come.
   bool run(Scene&, PassContext&, const PipelineOptions& = {});
   /// Runs every pass but the last group of mesh passes, which the returned source runs for each mesh that it is asked
   /// for. The scene, the context and this pipeline must outlive it. Null when a pass failed.
@@ -151,6 +152,7 @@ class Pipeline {
     const PassInfo* info;
     std::unique_ptr<PassInstance> pass;
   };
+  bool run_until_stopped(std::size_t end, Scene&, PassContext&, const PipelineOptions&);
   bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&);
   bool run_mesh_steps(std::size_t begin, std::size_t end, Scene&, PassContext&);
   struct LazyState;

@@ -136,7 +136,7 @@ bool Pipeline::put_first(std::string_view name, const std::vector<std::pair<std:
   const bool has = std::ranges::any_of(steps_, [&](const Step& s) { return s.info->name == name; });
   if (has || options.empty()) return true;
   if (!add(name, options, why)) return false;
-  std::ranges::rotate(steps_, steps_.end() - 1);
+  std::rotate(steps_.begin(), steps_.end() - 1, steps_.end());
   return true;
 }
 

@@ -26,6 +26,7 @@
 #include "passes/prune/prune.h"
 #include "passes/smooth/smooth.h"
 #include "passes/subdivide/subdivide.h"
+#include "passes/switch/switch.h"
 #include "passes/tessellate/tessellate.h"
 #include "passes/triangulate/triangulate.h"
 #include "passes/weld/weld.h"
@@ -38,6 +39,8 @@ constexpr auto authored = Level::authored, expanded = Level::expanded;
 constexpr PassInfo all_passes[] = {
     pass<place, PlaceOptions>("place", "scale the world to metres and turn it Y up", authored, authored,
                               {.phase = Phase::start}),
+    pass<switch_on, SwitchOptions>("switch", "choose what Switch nodes show, by their names", authored, authored,
+                                   {.phase = Phase::start, .idempotent = true}),
     pass<lower_vrml1, LowerVrml1Options>("lower-vrml1", "turn a world of VRML 1.0 or Inventor into one of VRML97",
                                          authored, authored, {.phase = Phase::start, .idempotent = true}),
     pass<expand, ExpandOptions>(

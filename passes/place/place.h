@@ -1,14 +1,19 @@
 // Metres, and Y upwards, for a world that was made in others.
 #pragma once
-#include "passes/pipeline/choice.h"
+#include "base/choice.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
 
-struct PlaceOptions {
-  enum class Unit : std::uint8_t { m, cm, mm, in, ft };
-  enum class Up : std::uint8_t { y, z, x };
+enum class Unit : std::uint8_t { m, cm, mm, in, ft };
+template <>
+inline constexpr auto choices<Unit> = choice_row({{"m"}, {"cm"}, {"mm"}, {"in"}, {"ft"}});
 
+enum class UpAxis : std::uint8_t { y, z, x };
+template <>
+inline constexpr auto choices<UpAxis> = choice_row({{"y"}, {"z"}, {"x"}});
+
+struct PlaceOptions {
   static constexpr std::string_view doc =
       R"(The world is put below a Transform that scales it to metres and turns it Y up.
 
@@ -17,8 +22,8 @@ struct PlaceOptions {
 
 What `--unit` and `--up` put in front of a pipeline. Cost: constant.)";
 
-  Choice<Unit, "m", "cm", "mm", "in", "ft"> unit;
-  Choice<Up, "y", "z", "x"> up;
+  Unit unit = Unit::m;
+  UpAxis up = UpAxis::y;
 
   void fields(auto&& f) {
     f("unit", unit, "of the lengths in the file");

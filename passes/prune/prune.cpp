@@ -55,7 +55,7 @@ class Pruning {
   void prune_children(NodeId n) {
     const auto& t = scene_.type(n);
     if (t.kind != NodeKind::builtin || scene_.is(n, nodes::Switch) || scene_.is(n, nodes::LOD)) return;
-    std::vector<Value> fields(scene_.fields(n).begin(), scene_.fields(n).end());
+    auto fields = scene_.copy_of_fields(n);
     bool any = false;
     for (auto& v : fields) {
       if (scene_.is_extra(v) || v.is || v.type != FieldType::MFNode) continue;

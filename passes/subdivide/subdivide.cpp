@@ -19,28 +19,11 @@
 
 namespace wrlkit {
 
-namespace {
-
-constexpr std::string_view scheme_names[] = {"loop", "catmull-clark"};
-
-}  // namespace
-
-bool SubdivisionScheme::read(std::string_view text) {
-  for (int i = 0; i < 2; ++i)
-    if (scheme_names[i] == text) {
-      value = static_cast<Value>(i);
-      return true;
-    }
-  return false;
-}
-
-std::string SubdivisionScheme::print() const { return std::string(scheme_names[static_cast<int>(value)]); }
-
 #ifdef WRLKIT_OPENMESH
 
 namespace {
 
-using Scheme = SubdivisionScheme::Value;
+using Scheme = SubdivisionScheme;
 using Loop = OpenMesh::Subdivider::Uniform::LoopT<OpenMeshPolygons>;
 using CatmullClark = OpenMesh::Subdivider::Uniform::CatmullClarkT<OpenMeshPolygons>;
 
@@ -183,7 +166,7 @@ class Refinement {
 /// Triangles that there will be.
 double triangles_of(const Mesh& mesh, const SubdivideOptions& options) {
   double quads = static_cast<double>(mesh.corners.size());
-  if (options.scheme.value == Scheme::loop) {
+  if (options.scheme == Scheme::loop) {
     // Each polygon of n corners is n - 2 triangles, four at the first level: two quads.
     quads = 2 * (quads - 2 * static_cast<double>(mesh.n_faces()));
   }
@@ -212,10 +195,10 @@ Outcome subdivide(MeshJob& job, const SubdivideOptions& options) {
   if (!surface || !is_within_limit(job, options)) return Outcome::unchanged;
   drop_normals(job, "subdivide");
   for (int i = 0; i < options.levels; ++i) {
-    const bool cut = i == 0 && options.scheme.value == Scheme::loop && !job.mesh.is_triangles();
+    const bool cut = i == 0 && options.scheme == Scheme::loop && !job.mesh.is_triangles();
     if (cut) cut_into_triangles(job);
     if (cut || i > 0) surface = to_openmesh(job.mesh, false);
-    Refinement(job.mesh, surface->mesh, options.scheme.value, job.scratch.map).run();
+    Refinement(job.mesh, surface->mesh, options.scheme, job.scratch.map).run();
   }
   job.mesh.cut.clear();
   job.mesh.primitive = false;

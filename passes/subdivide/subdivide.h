@@ -7,20 +7,16 @@
 #include <string>
 #include <string_view>
 
+#include "base/choice.h"
 #include "base/option_range.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
 
-/// loop or catmull-clark.
-struct SubdivisionScheme {
-  static constexpr std::string_view type = "loop or catmull-clark";
-  enum class Value : std::uint8_t { loop, catmull_clark };
-  Value value = Value::catmull_clark;
-
-  bool read(std::string_view text);
-  std::string print() const;
-};
+enum class SubdivisionScheme : std::uint8_t { loop, catmull_clark };
+template <>
+inline constexpr auto choices<SubdivisionScheme> =
+    choice_row({{"loop", "triangles of triangles, polygons are cut first"}, {"catmull-clark", "quadrilaterals"}});
 
 struct SubdivideOptions {
   static constexpr std::string_view doc =
@@ -36,12 +32,12 @@ stays as it is; run `weld` before. Cost: linear in the faces that come out.)";
       {"subdivide.dropped-normals", "surfaces whose normals were dropped, since they were those of the coarse faces"},
   };
 
-  SubdivisionScheme scheme;
+  SubdivisionScheme scheme = SubdivisionScheme::catmull_clark;
   int levels = 1;
   int max_triangles = 4'000'000;
 
   void fields(auto&& f) {
-    f("scheme", scheme, "loop: triangles of triangles, polygons are cut first; catmull-clark: quadrilaterals");
+    f("scheme", scheme, "what becomes of a face");
     f("levels", levels, "how often; each makes four times the faces", between(1, 8));
     f("max-triangles", max_triangles, "of all surfaces together; those that would be more are left as they are",
       at_least(0));

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "base/math/vec.h"
 #include "geometry/mesh.h"
-#include "geometry/shapes/vector.h"
 
 namespace wrlkit {
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/math/digits.h"
 #include "passes/weld/scratch.h"
 
 namespace wrlkit {
@@ -204,11 +205,7 @@ bool WeldTolerance::read(std::string_view text) {
   return r.ec == std::errc{} && r.ptr == text.data() + text.size() && length >= 0 && std::isfinite(length);
 }
 
-std::string WeldTolerance::print() const {
-  if (automatic) return "auto";
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, length).ptr};
-}
+std::string WeldTolerance::print() const { return automatic ? "auto" : shortest_text(length); }
 
 Outcome weld(MeshJob& job, const WeldOptions& options) {
   if (job.driven || job.mesh.kind != Mesh::Kind::faces || job.mesh.corners.empty()) return Outcome::unchanged;

@@ -174,5 +174,5 @@ def test_light_of_a_patch_file(tmp_path):
     world = wrlkit.load(str(path))
     counted = world.apply('lightmap', patches=patches, smooth=True)
     assert counted['lightmap.patches'] == 384 and counted['lightmap.orphans'] == 0
-    with pytest.raises(wrlkit.Error, match='no patch file'):
+    with pytest.raises(wrlkit.Error, match='not a patch file'):
         wrlkit.load(str(path)).apply('lightmap', patches=str(path))

@@ -197,7 +197,7 @@ loaded = {}   # file: module
 
 
 def load(path):
-    """Runs a file, once, so that the passes in it are known. It can import what lies beside it."""
+    """Runs a file, once, so that the passes in it are known. It can import what lies next to it."""
     path = os.path.realpath(path)
     if path in loaded:
         return

@@ -5,58 +5,59 @@
 namespace wrlkit {
 namespace {
 
-void read_directional(const Scene& scene, NodeId n, LightNode& to) {
-  namespace f = nodes::directional_light;
-  to.kind = LightNode::Kind::directional;
-  to.on = scene.get(n, f::on);
-  to.global = scene.get(n, f::global);
-  to.color = scene.get(n, f::color);
-  to.intensity = scene.get(n, f::intensity);
-  to.ambient_intensity = scene.get(n, f::ambientIntensity);
-  to.direction = scene.get(n, f::direction);
-}
+using Bool = FieldKey<FieldType::SFBool>;
+using Float = FieldKey<FieldType::SFFloat>;
+using Color = FieldKey<FieldType::SFColor>;
+using Vector = FieldKey<FieldType::SFVec3f>;
 
-void read_point(const Scene& scene, NodeId n, LightNode& to) {
-  namespace f = nodes::point_light;
-  to.kind = LightNode::Kind::point;
-  to.on = scene.get(n, f::on);
-  to.global = scene.get(n, f::global);
-  to.color = scene.get(n, f::color);
-  to.intensity = scene.get(n, f::intensity);
-  to.ambient_intensity = scene.get(n, f::ambientIntensity);
-  to.location = scene.get(n, f::location);
-  to.attenuation = scene.get(n, f::attenuation);
-  to.radius = scene.get(n, f::radius);
-}
+struct Reader {
+  const Scene& scene;
+  NodeId n;
+  LightNode to{};
 
-void read_spot(const Scene& scene, NodeId n, LightNode& to) {
-  namespace f = nodes::spot_light;
-  to.kind = LightNode::Kind::spot;
-  to.on = scene.get(n, f::on);
-  to.global = scene.get(n, f::global);
-  to.color = scene.get(n, f::color);
-  to.intensity = scene.get(n, f::intensity);
-  to.ambient_intensity = scene.get(n, f::ambientIntensity);
-  to.location = scene.get(n, f::location);
-  to.attenuation = scene.get(n, f::attenuation);
-  to.radius = scene.get(n, f::radius);
-  to.direction = scene.get(n, f::direction);
-  to.beam_width = scene.get(n, f::beamWidth);
-  to.cut_off_angle = scene.get(n, f::cutOffAngle);
-}
+  void common(LightNode::Kind kind, Bool on, Bool global, Color color, Float intensity, Float ambient_intensity) {
+    to.kind = kind;
+    to.on = scene.get(n, on);
+    to.global = scene.get(n, global);
+    to.color = scene.get(n, color);
+    to.intensity = scene.get(n, intensity);
+    to.ambient_intensity = scene.get(n, ambient_intensity);
+  }
+  void lamp(Vector location, Vector attenuation, Float radius) {
+    to.location = scene.get(n, location);
+    to.attenuation = scene.get(n, attenuation);
+    to.radius = scene.get(n, radius);
+  }
+  void directional() {
+    namespace f = nodes::directional_light;
+    common(LightNode::Kind::directional, f::on, f::global, f::color, f::intensity, f::ambientIntensity);
+    to.direction = scene.get(n, f::direction);
+  }
+  void point() {
+    namespace f = nodes::point_light;
+    common(LightNode::Kind::point, f::on, f::global, f::color, f::intensity, f::ambientIntensity);
+    lamp(f::location, f::attenuation, f::radius);
+  }
+  void spot() {
+    namespace f = nodes::spot_light;
+    common(LightNode::Kind::spot, f::on, f::global, f::color, f::intensity, f::ambientIntensity);
+    lamp(f::location, f::attenuation, f::radius);
+    to.direction = scene.get(n, f::direction);
+    to.beam_width = scene.get(n, f::beamWidth);
+    to.cut_off_angle = scene.get(n, f::cutOffAngle);
+  }
+};
 
 }  // namespace
 
-bool is_light(const Scene& scene, NodeId n) {
-  return scene.is(n, nodes::DirectionalLight) || scene.is(n, nodes::PointLight) || scene.is(n, nodes::SpotLight);
-}
+bool is_light(const Scene& scene, NodeId n) { return scene.is(n, nodes::X3DLightNode); }
 
 LightNode read_light(const Scene& scene, NodeId n) {
-  LightNode out;
-  if (scene.is(n, nodes::DirectionalLight)) read_directional(scene, n, out);
-  if (scene.is(n, nodes::PointLight)) read_point(scene, n, out);
-  if (scene.is(n, nodes::SpotLight)) read_spot(scene, n, out);
-  return out;
+  Reader r{scene, n};
+  if (scene.is(n, nodes::DirectionalLight)) r.directional();
+  if (scene.is(n, nodes::PointLight)) r.point();
+  if (scene.is(n, nodes::SpotLight)) r.spot();
+  return r.to;
 }
 
 }  // namespace wrlkit

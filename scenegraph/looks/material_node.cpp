@@ -5,56 +5,60 @@
 namespace wrlkit {
 namespace {
 
+using Float = FieldKey<FieldType::SFFloat>;
+using Color = FieldKey<FieldType::SFColor>;
+using Picture = FieldKey<FieldType::SFNode>;
+
+/// What all three have.
+MaterialNode read_common(const Scene& scene, NodeId n, Color color, Picture color_picture, Color emissive,
+                         Float transparency, Float normal_scale, Picture normal_picture) {
+  MaterialNode to;
+  to.color = scene.get(n, color);
+  to.color_picture = scene.get(n, color_picture);
+  to.color_picture_slot = color_picture.slot;
+  to.emissive = scene.get(n, emissive);
+  to.transparency = scene.get(n, transparency);
+  to.normal_scale = scene.get(n, normal_scale);
+  to.normal_picture = scene.get(n, normal_picture);
+  return to;
+}
+
+/// What Material and PhysicalMaterial have besides.
+void read_lit(const Scene& scene, NodeId n, MaterialNode& to, Picture emissive, Float occlusion_strength,
+              Picture occlusion) {
+  to.emissive_picture = scene.get(n, emissive);
+  to.occlusion_strength = scene.get(n, occlusion_strength);
+  to.occlusion_picture = scene.get(n, occlusion);
+}
+
 MaterialNode read_phong(const Scene& scene, NodeId n) {
   namespace f = nodes::material;
-  MaterialNode to;
-  to.color = scene.get(n, f::diffuseColor);
-  to.emissive = scene.get(n, f::emissiveColor);
+  MaterialNode to = read_common(scene, n, f::diffuseColor, f::diffuseTexture, f::emissiveColor, f::transparency,
+                                f::normalScale, f::normalTexture);
+  read_lit(scene, n, to, f::emissiveTexture, f::occlusionStrength, f::occlusionTexture);
   to.specular = scene.get(n, f::specularColor);
   to.ambient_intensity = scene.get(n, f::ambientIntensity);
   to.shininess = scene.get(n, f::shininess);
-  to.transparency = scene.get(n, f::transparency);
-  to.normal_scale = scene.get(n, f::normalScale);
-  to.occlusion_strength = scene.get(n, f::occlusionStrength);
-  to.color_picture = scene.get(n, f::diffuseTexture);
-  to.emissive_picture = scene.get(n, f::emissiveTexture);
-  to.normal_picture = scene.get(n, f::normalTexture);
-  to.occlusion_picture = scene.get(n, f::occlusionTexture);
-  to.color_picture_slot = f::diffuseTexture.slot;
   return to;
 }
 
 MaterialNode read_physical(const Scene& scene, NodeId n) {
   namespace f = nodes::physical_material;
-  MaterialNode to;
+  MaterialNode to = read_common(scene, n, f::baseColor, f::baseTexture, f::emissiveColor, f::transparency,
+                                f::normalScale, f::normalTexture);
+  read_lit(scene, n, to, f::emissiveTexture, f::occlusionStrength, f::occlusionTexture);
   to.kind = MaterialNode::Kind::physical;
-  to.color = scene.get(n, f::baseColor);
-  to.emissive = scene.get(n, f::emissiveColor);
   to.metallic = scene.get(n, f::metallic);
   to.roughness = scene.get(n, f::roughness);
-  to.transparency = scene.get(n, f::transparency);
-  to.normal_scale = scene.get(n, f::normalScale);
-  to.occlusion_strength = scene.get(n, f::occlusionStrength);
-  to.color_picture = scene.get(n, f::baseTexture);
-  to.emissive_picture = scene.get(n, f::emissiveTexture);
-  to.normal_picture = scene.get(n, f::normalTexture);
-  to.occlusion_picture = scene.get(n, f::occlusionTexture);
   to.metallic_roughness_picture = scene.get(n, f::metallicRoughnessTexture);
-  to.color_picture_slot = f::baseTexture.slot;
   return to;
 }
 
 MaterialNode read_unlit(const Scene& scene, NodeId n) {
   namespace f = nodes::unlit_material;
-  MaterialNode to;
+  MaterialNode to = read_common(scene, n, f::emissiveColor, f::emissiveTexture, f::emissiveColor, f::transparency,
+                                f::normalScale, f::normalTexture);
   to.kind = MaterialNode::Kind::unlit;
-  to.color = scene.get(n, f::emissiveColor);
-  to.emissive = to.color;
-  to.transparency = scene.get(n, f::transparency);
-  to.normal_scale = scene.get(n, f::normalScale);
-  to.color_picture = scene.get(n, f::emissiveTexture);
-  to.normal_picture = scene.get(n, f::normalTexture);
-  to.color_picture_slot = f::emissiveTexture.slot;
   return to;
 }
 

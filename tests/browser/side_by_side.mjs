@@ -1,5 +1,5 @@
 // For people: each world as view3dscene (Castle Game Engine) shows the source, as wrlkit renders it, and as three.js shows
-// the glTF, beside each other in one PNG. Without view3dscene (Debian package of that name, and xvfb) the others alone.
+// the glTF, next to each other in one PNG. Without view3dscene (Debian package of that name, and xvfb) the others alone.
 //   node side_by_side.mjs WRLKIT FOLDER WORLD...
 // A WORLD is corpus/plant/pump_room_faces.wrl, a path in the found corpus, or any file. It is seen from its first Viewpoint,
 // with --all-of-it from where all of it is seen.

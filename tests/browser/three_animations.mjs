@@ -1,4 +1,4 @@
-// Animations, played by three.js's AnimationMixer: pictures of the glTF at several times beside wrlkit's of the world as VRML
+// Animations, played by three.js's AnimationMixer: pictures of the glTF at several times next to wrlkit's of the world as VRML
 // has it then, which is computed here from the definition of the interpolators (ISO/IEC 14772-1, 4.6.8) and written down.
 //   node three_animations.mjs WRLKIT FOLDER
 // The rows of pictures are left in FOLDER/series.
@@ -25,7 +25,7 @@ function turn(a, b, t) {
   return s > 0 ? [q.x / s, q.y / s, q.z / s, 2 * Math.atan2(s, q.w)] : [0, 0, 1, 0];
 }
 
-/// What an interpolator says at a fraction: of its values, those beside the fraction and the way from one to the other.
+/// What an interpolator says at a fraction: of its values, those around the fraction and the way from one to the other.
 function value_at({key, keyValue, between = line}, fraction) {
   if (fraction >= key.at(-1)) return keyValue.at(-1);
   const i = Math.max(0, key.findIndex(k => k > fraction) - 1);

@@ -5,19 +5,22 @@
 // background that no world shows. Each is judged twice (page/show.mjs): lit by three.js, where only a loose bound can hold
 // because physically based light is another than VRML's, and lit as VRML does, where colours are the same but for a few
 // levels. Where a bound cannot hold, expectations.mjs says why.
-//   node three_pictures.mjs WRLKIT FOLDER [PART-OF-A-NAME | --all] [FLAGS-OF-CONVERT...]
-// PART-OF-A-NAME is a regular expression. Without one all worlds are compared, but of found plants and worlds with baked light some: " with light"
+//   node three_pictures.mjs WRLKIT FOLDER [PART-OF-A-NAME | --all] [FLAGS-OF-CONVERT... | converted MADE]
+// PART-OF-A-NAME is a regular expression. Without one, or with -, all worlds are compared, but of found plants and worlds with baked light some: " with light"
 // compares all of those (for people: ten minutes). Pictures of worlds that fail are left in FOLDER.
-// --all: the whole found corpus, too; for people, no bounds are known there.
+// MADE: what tests/convert_worlds.py has converted is taken from there. --all: the whole found corpus, too; for people, no bounds are known there.
 import fs from 'node:fs';
 import path from 'node:path';
 import {has_chromium, take_pictures} from './browser.mjs';
+import {converted_in} from './converted.mjs';
 import {expected, is_compared} from './expectations.mjs';
 import {in_lanes, run} from './program.mjs';
 import {view_of} from './view.mjs';
 import {file_of, found_worlds, has_shared, own_worlds, plants_and_worlds} from './worlds.mjs';
 
-const [wrlkit, folder, part = '', ...flags] = process.argv.slice(2);
+const [wrlkit, folder, name_part = '-', ...words] = process.argv.slice(2);
+const part = name_part === '-' ? '' : name_part;
+const made = words[0] === 'converted' ? converted_in(words[1]) : new Map(), flags = made.size ? [] : words;
 const size = {width: 320, height: 240};
 const key = [0.85, 0.25, 0.65];
 const skipped = 77, patience = 200;
@@ -34,7 +37,7 @@ const own_with_light = ['paper/stairs_room', 'paper/pipes', 'features/light_spot
   'vrml1/PointLight'].map(name => `corpus/${name}.wrl`).map(name => baked({name, file: file_of(name)}));
 const found_with_light = plants_and_worlds().map(baked);
 
-/// Pictures of found worlds lie beside the folder of the world.
+/// Pictures of found worlds lie next to the folder of the world.
 const beside = file => ['--allow-path', path.dirname(path.dirname(file))];
 
 /// The file that is drawn: the world, or the one with its levels of detail or its light.
@@ -48,11 +51,18 @@ async function source_of({file, levels, baked}, to) {
 /// One of ten, so that the test takes a minute; all when worlds are asked for by name.
 const some_of = list => part ? list : list.filter((_, i) => i % 10 === 0);
 
+/// The glTF of a world, as it was made before, or made now.
+async function convert(world, source, glb) {
+  const before = made.get(source);
+  if (before && !world.baked) return fs.copyFileSync(before.file, glb), before;
+  return await run(wrlkit, ['convert', '-q', world.baked ? world.file : source, glb, ...flags, ...beside(world.file), ...world.baked ? bake : []], patience);
+}
+
 /// Converts a world, draws it, and says what the page has to do; null when nothing was made.
 async function prepare(world, number) {
   const out = name => path.join(folder, `${number}${name}`);
   const source = await source_of(world, out(''));
-  const converted = await run(wrlkit, ['convert', '-q', world.baked ? world.file : source, out('.glb'), ...flags, ...beside(world.file), ...world.baked ? bake : []], patience);
+  const converted = await convert(world, source, out('.glb'));
   const view = view_of(wrlkit, world.file, out('.glb'), world.name.startsWith('corpus/'));
   const drawn = await run(wrlkit, ['render', '-q', world.baked ? source : world.file, out('.png'), '--width', size.width, '--height', size.height,
     '--samples', 1, '--background', key, ...beside(world.file), ...view.flags]);

@@ -1,11 +1,13 @@
-// Converts every world of VRML97, VRML 1.0 and X3D to glTF and has the official Khronos validator look at each result: it must find no error and
-// no warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
+// Has the official Khronos validator look at the glTF that is made of worlds of VRML97, VRML 1.0 and X3D: it must find no error and no
+// warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
 // missing, a message.
+//   node validate_gltf.mjs WRLKIT FOLDER NAMES converted MADE     what tests/convert_worlds.py has made in the folder MADE
 //   node validate_gltf.mjs WRLKIT FOLDER [NAMES] [PIPELINE] [FLAGS-OF-CONVERT...]      PIPELINE: - is the default one
 //   node validate_gltf.mjs WRLKIT FOLDER [NAMES] optimize [FLAGS-OF-OPTIMIZE...]      NAMES: a regular expression
 import fs from 'node:fs';
 import path from 'node:path';
 import validator from 'gltf-validator';
+import {converted_in} from './converted.mjs';
 import {in_lanes, run} from './program.mjs';
 import {found_to_draw, found_worlds, has_shared, own_worlds, every_format} from './worlds.mjs';
 
@@ -53,6 +55,15 @@ async function check(world) {
   fs.rmSync(out, {force: true});
 }
 
+/// How it ended has been judged by tests/convert_worlds.py.
+async function check_converted(world, made) {
+  ++counts.worlds;
+  if (world.broken) ++counts.broken;
+  if (!made) return fault(world, 'not converted');
+  if (made.code !== 3) await check_result(world, made, made.file);
+  else if (fs.existsSync(made.file)) fault(world, 'exit code 3 with output');
+}
+
 /// One line a kind of fault, with the first files that show it.
 function print_faults() {
   const kinds = new Map();
@@ -69,7 +80,12 @@ fs.rmSync(folder, {recursive: true, force: true});
 fs.mkdirSync(folder, {recursive: true});
 if (!has_shared) console.log('the found corpus is not there (WRLKIT_SHARED): only worlds of this project');
 const worlds = [...own_worlds(every_format), ...found_worlds(every_format)].filter(w => new RegExp(names).test(w.name));
-await in_lanes(worlds, lanes, check);
+if (pipeline === 'converted') {
+  const made = converted_in(flags[0]);
+  for (const world of worlds) await check_converted(world, made.get(world.file));
+} else {
+  await in_lanes(worlds, lanes, check);
+}
 print_faults();
 console.log(`${counts.worlds} worlds, ${counts.broken} of them damaged; ${counts.valid} results without error or warning, ${(counts.bytes / 1e6).toFixed(1)} MB`);
 process.exitCode = counts.worlds === 0 && !has_shared ? skipped : faults.length || counts.worlds === 0 ? 1 : 0;

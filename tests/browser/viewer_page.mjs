@@ -50,7 +50,7 @@ export async function judge(page, what) {
 // What Chromium says about drawing without a graphics card, in headless tests only.
 const of_the_machine = /GL Driver Message|GPU stall due to ReadPixels|Automatic fallback to software WebGL/;
 
-/// What the canvas shows, anew.
+/// What the canvas shows, again.
 export const picture_of = page => page.evaluate(async () => {
   const next = () => new Promise(done => requestAnimationFrame(done));
   window.viewer.mode.stage.invalidate();

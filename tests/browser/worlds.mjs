@@ -1,4 +1,4 @@
-// Where the worlds are: corpus/ of this project, and the corpus of found files beside the project, when it is there.
+// Where the worlds are: corpus/ of this project, and the corpus of found files next to the project, when it is there.
 import fs from 'node:fs';
 import path from 'node:path';
 

@@ -29,5 +29,11 @@ colors = [m.get('pbrMetallicRoughness', {}).get('baseColorFactor', [1, 1, 1, 1])
 assert any(max(abs(a - b) for a, b in zip(c, linear)) < 1e-4 for c in colors), (colors, linear)
 assert int((folder / 'pass.txt').read_text().split()[0]) > 0
 
+# tinygltf_rough.cpp
+if (folder / 'rough.glb').exists():
+    document, _ = glb('rough.glb')
+    assert int((folder / 'rough.txt').read_text().split()[0]) > 0
+    assert all(m['pbrMetallicRoughness']['roughnessFactor'] == 0.5 for m in document['materials']), document['materials']
+
 # writer.cpp: a Box has twelve triangles.
 assert (folder / 'box.stl').read_text().count('endfacet') == 12

@@ -1,5 +1,5 @@
 // What must hold of any bytes that are taken for glTF: reading, the passes and both writers do no harm, and what is
-// written as VRML is read again. Files beside are out of reach here.
+// written as VRML is read again. Files next to it are out of reach here.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

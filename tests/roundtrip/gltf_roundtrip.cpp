@@ -171,7 +171,7 @@ class Comparison {
     std::erase_if(out, [](auto& face) { return face.size() < 3; });
     for (auto& face : out) {
       if (!s.get(n, f::ccw)) std::ranges::reverse(face);
-      std::ranges::rotate(face, std::ranges::min_element(face));
+      std::rotate(face.begin(), std::ranges::min_element(face), face.end());
     }
     return out;
   }

@@ -90,7 +90,8 @@ struct Count {
 void report(const std::string& path, const std::string& fault, bool explained, Count& count) {
   if (fault.empty()) return;
   if (explained) {
-    (++count.explained, std::printf("known: %s: %s\n", path.c_str(), fault.c_str()));
+    ++count.explained;
+    std::printf("known: %s: %s\n", path.c_str(), fault.c_str());
     return;
   }
   ++count.faulty;

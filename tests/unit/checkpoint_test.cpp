@@ -8,10 +8,24 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "temp_folder.h"
 
 using wrlkit::bake::Checkpoint;
+
+TEST_CASE("checkpoint: a file that is something else is left as it is") {
+  TempFolder folder;
+  const auto path = (folder.path() / "scene.wrl").string();
+  std::ofstream(path) << "#VRML";
+  CHECK_THROWS_AS(Checkpoint(path, 7), std::system_error);
+  Checkpoint::remove(path);
+  CHECK(std::filesystem::file_size(path) == 5);
+  std::filesystem::resize_file(path, 0);
+  { Checkpoint empty(path, 7); }
+  Checkpoint::remove(path);
+  CHECK(!std::filesystem::exists(path));
+}
 
 TEST_CASE("checkpoint: tiles come back, those of other work do not") {
   TempFolder folder;

@@ -143,7 +143,7 @@ TEST_CASE("Extrusion: closed spine", "[geometry]") {
 }
 
 TEST_CASE("Extrusion: a surface of revolution around one point", "[geometry]") {
-  // The spine stands still, the orientation turns a section beside the axis: a torus (6.18.3).
+  // The spine stands still, the orientation turns a section next to the axis: a torus (6.18.3).
   std::string spine, orientation;
   for (int i = 0; i <= 12; ++i) {
     spine += "0 0 0, ";

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "base/math/box.h"
 #include "geometry/geometry.h"
 #include "parsers/vrml/parser.h"
 #include "passes/tessellate/tessellate.h"
@@ -47,22 +48,15 @@ struct Fixture {
 };
 
 inline Vec3 position(const Mesh& m, std::size_t corner) {
-  const double* p = m.positions.data() + 3 * std::size_t{m.corners[corner]};
-  return {p[0], p[1], p[2]};
+  return vec3(m.positions.data() + 3 * std::size_t{m.corners[corner]});
 }
-inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 // Newell's: half the sum of cross products; its length is the area of a planar polygon, concave or not.
 inline Vec3 area_vector(const Mesh& m, std::size_t face) {
   Vec3 sum{};
   const auto first = m.begin_of(face);
   for (auto c = first + 1; c + 1 < m.end_of(face); ++c) {
-    auto n = cross(minus(position(m, c), position(m, first)), minus(position(m, c + 1), position(m, first)));
+    auto n = cross(position(m, c) - position(m, first), position(m, c + 1) - position(m, first));
     for (int k = 0; k < 3; ++k) sum[k] += n[k] / 2;
   }
   return sum;
@@ -81,16 +75,9 @@ inline double volume(const Mesh& m) {
   return sum;
 }
 
-struct Bounds {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-};
-inline Bounds bounds(const Mesh& m) {
-  Bounds b;
-  for (std::size_t c = 0; c < m.corners.size(); ++c)
-    for (int k = 0; k < 3; ++k) {
-      b.low[k] = std::min(b.low[k], position(m, c)[k]);
-      b.high[k] = std::max(b.high[k], position(m, c)[k]);
-    }
+inline Box bounds(const Mesh& m) {
+  Box b;
+  for (std::size_t c = 0; c < m.corners.size(); ++c) b.add(position(m, c));
   return b;
 }
 
@@ -121,7 +108,7 @@ inline std::array<double, 2> texcoord_at(const Mesh& m, const Vec3& point, const
     auto n = area_vector(m, f);
     double off = 1 - dot(n, direction) / length(n) / length(direction);
     for (auto c = m.begin_of(f); c < m.end_of(f); ++c)
-      if (double d = length(minus(position(m, c), point)) + off; d < best) {
+      if (double d = length(position(m, c) - point) + off; d < best) {
         best = d;
         const float* t = m.texcoord.at(m.texcoord.index[c]);
         found = {t[0], t[1]};

@@ -103,6 +103,7 @@ struct Gltf {
       for (std::uint32_t i = 0; i < positions.size() / 3; ++i) index.push_back(i);
     }
     std::vector<std::array<float, 3>> out;
+    out.reserve(index.size());
     for (auto i : index) out.push_back({positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]});
     return out;
   }

@@ -193,14 +193,14 @@ TEST_CASE("A world far away is moved to the origin, which is kept", "[gltf]") {
 }
 
 TEST_CASE("Ordinary plant coordinates stay what they are", "[gltf]") {
-  gltf::Box plant{{2400, 0, 3900}, {2600, 40, 4100}}, bolt{{2500.00, 10, 4000}, {2500.02, 10.02, 4000.02}};
+  Box plant{{2400, 0, 3900}, {2600, 40, 4100}}, bolt{{2500.00, 10, 4000}, {2500.02, 10.02, 4000.02}};
   CHECK_FALSE(gltf::world_origin(plant));
   CHECK_FALSE(gltf::world_origin(bolt));
   CHECK_FALSE(gltf::mesh_origin(plant));
   CHECK(gltf::mesh_origin(bolt));
-  gltf::Box millimetres{{0, 0, 0}, {30000, 20000, 5000}};
+  Box millimetres{{0, 0, 0}, {30000, 20000, 5000}};
   CHECK_FALSE(gltf::world_origin(millimetres));
-  gltf::Box grid{{4500000, 300000, 0}, {4500200, 300200, 40}};
+  Box grid{{4500000, 300000, 0}, {4500200, 300200, 40}};
   REQUIRE(gltf::world_origin(grid));
   CHECK(*gltf::world_origin(grid) == Vec3{4500224, 300032, 0});  // multiples of 256, the power of two below its extent
 }

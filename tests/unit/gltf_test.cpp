@@ -1,4 +1,4 @@
-// The files that the glTF writer makes: chunks, names, pictures beside them; and what is kept in extras.
+// The files that the glTF writer makes: chunks, names, pictures next to them; and what is kept in extras.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/gltf_fixture.h"

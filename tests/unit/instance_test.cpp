@@ -15,7 +15,7 @@ using namespace wrlkit::instancing;
 
 namespace {
 
-Mesh mesh_of(std::vector<Vec3> points, const std::vector<std::vector<std::uint32_t>>& faces) {
+Mesh mesh_of(const std::vector<Vec3>& points, const std::vector<std::vector<std::uint32_t>>& faces) {
   Mesh m;
   m.kind = Mesh::Kind::faces;
   for (const Vec3& p : points) m.positions.edit().insert(m.positions.edit().end(), p.begin(), p.end());

@@ -226,7 +226,7 @@ TEST_CASE("page: texels belong to the triangle they lie in, then to the nearest"
   Image image = page.image(3);
   CHECK(pixel(image, 4, 2) == Rgb{100, 45, 0});
   CHECK(pixel(image, 7, 5) == Rgb{200, 75, 0});
-  CHECK(pixel(image, 3, 3) == Rgb{100, 35, 0});  // beside the first one
+  CHECK(pixel(image, 3, 3) == Rgb{100, 35, 0});  // next to the first one
   CHECK(pixel(image, 9, 4) == Rgb{200, 95, 0});
   CHECK(pixel(image, 15, 0)[0] > 165);  // nobody's: the colours around
   CHECK(pixel(image, 0, 7)[0] == 100);
@@ -462,12 +462,12 @@ TEST_CASE("baked light with a direction: what faces it gets more, and it shines 
   s.lit = true;
   s.material.specular = V3(1);
   s.material.shininess = 0.5;
-  const V3 face{0, 0, 1}, slant = unit({1, 0, 1});
+  const V3 face{0, 0, 1}, slant = unit(V3{1, 0, 1});
   auto from = [](const V3& v) { return LightSample{V3(0.2), std::array<V3, 3>{V3(v.x), V3(v.y), V3(v.z)}}; };
   auto red = [&](const LightSample& light, const V3& normal, const V3& to_viewer) {
     return srgb_to_linear(baked_color(s, V3(1), light, {{}, normal, to_viewer}, face).x);
   };
-  const V3 aside = unit({0, 1, 0.01});
+  const V3 aside = unit(V3{0, 1, 0.01});
   // From all sides alike: normals make no difference.
   CHECK(red(from({0, 0, 0}), slant, aside) == Approx(0.2));
   CHECK(red({V3(0.2), {}}, slant, aside) == Approx(0.2));

@@ -42,8 +42,6 @@ struct Sphere {
   }
 };
 
-double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
-
 }  // namespace
 
 TEST_CASE("nurbs: the polynomials sum up to 1, their slopes to 0, and slopes are what differences say", "[nurbs]") {

@@ -184,11 +184,11 @@ TEST_CASE("openmesh: very many faces at a point") {
 }
 
 TEST_CASE("subdivide: a cube becomes nearly a ball") {
-  for (auto scheme : {SubdivisionScheme::Value::catmull_clark, SubdivisionScheme::Value::loop}) {
-    const bool loop = scheme == SubdivisionScheme::Value::loop;
+  for (auto scheme : {SubdivisionScheme::catmull_clark, SubdivisionScheme::loop}) {
+    const bool loop = scheme == SubdivisionScheme::loop;
     Bench b;
     Mesh m = cube();
-    CHECK(b.run(subdivide, m, {.scheme = {scheme}, .levels = 4}) == Outcome::changed);
+    CHECK(b.run(subdivide, m, {.scheme = scheme, .levels = 4}) == Outcome::changed);
     CHECK(m.n_faces() == (loop ? 12u * 256 : 24u * 64));
     CHECK(b.stats["subdivide.triangles"] == 12u * 256);
     const auto [least, most] = radii(m);
@@ -196,7 +196,7 @@ TEST_CASE("subdivide: a cube becomes nearly a ball") {
     CHECK(most < 1.2);
     if (!loop) {
       const auto before = most / least;
-      CHECK(b.run(subdivide, m, {.scheme = {scheme}}) == Outcome::changed);
+      CHECK(b.run(subdivide, m, {.scheme = scheme}) == Outcome::changed);
       const auto next = radii(m);
       CHECK(next[1] / next[0] == Approx(before).epsilon(0.01));  // it converges
     }
@@ -204,7 +204,7 @@ TEST_CASE("subdivide: a cube becomes nearly a ball") {
 }
 
 TEST_CASE("subdivide: corner attributes are interpolated, normals are dropped") {
-  for (auto scheme : {SubdivisionScheme::Value::catmull_clark, SubdivisionScheme::Value::loop}) {
+  for (auto scheme : {SubdivisionScheme::catmull_clark, SubdivisionScheme::loop}) {
     Bench b;
     Mesh m = sheet(3, [](double, double) { return 0.0; });
     // Where the picture is the sheet itself, subdivision of the inside of a plane leaves it so along the borders of
@@ -218,7 +218,7 @@ TEST_CASE("subdivide: corner attributes are interpolated, normals are dropped") 
       m.texcoord.values.insert(m.texcoord.values.end(), {float(m.positions[3 * i]), float(m.positions[3 * i + 1])});
     m.color.values = {0, 0, 0, 1, 1, 1};
     m.normal.values = {0, 0, 1};
-    CHECK(b.run(subdivide, m, {.scheme = {scheme}, .levels = 2}) == Outcome::changed);
+    CHECK(b.run(subdivide, m, {.scheme = scheme, .levels = 2}) == Outcome::changed);
     CHECK_FALSE(m.normal.present());
     CHECK(b.stats["subdivide.dropped-normals"] == 1);
     REQUIRE(m.texcoord.index.size() == m.corners.size());
@@ -260,7 +260,7 @@ TEST_CASE("subdivide: limits, borders, very many edges at a point") {
   }
   Mesh cone = polygons(points, faces);
   cone.face_begin.clear();
-  CHECK(b.run(subdivide, cone, {.scheme = {SubdivisionScheme::Value::loop}}) == Outcome::changed);
+  CHECK(b.run(subdivide, cone, {.scheme = SubdivisionScheme::loop}) == Outcome::changed);
   CHECK(cone.n_faces() == 800);
   CHECK(radii(cone)[1] < 1.01);
 }

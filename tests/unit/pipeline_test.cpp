@@ -6,8 +6,11 @@
 #include <thread>
 
 #include "parsers/parsers.h"
+#include "passes/combine_lightmap/combine_lightmap.h"
+#include "passes/lightmap/lightmap.h"
 #include "passes/pipeline/pass_info.h"
 #include "passes/pipeline/pipeline.h"
+#include "passes/subdivide/subdivide.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "writers/vrml/vrml.h"
@@ -37,7 +40,7 @@ std::string text_of(const Scene& scene) {
 std::vector<NodeId> geometries(const Scene& scene) {
   std::vector<NodeId> out;
   for (NodeId n : reachable(scene, scene.main))
-    if (scene.type(n).is_a("X3DGeometryNode")) out.push_back(n);
+    if (scene.is(n, nodes::X3DGeometryNode)) out.push_back(n);
   return out;
 }
 
@@ -70,7 +73,7 @@ TEST_CASE("pipeline: text and back", "[pipeline]") {
   for (auto& n : named_pipelines()) CHECK(canonical(canonical(n.name)) == canonical(n.name));
   CHECK(canonical("prune , inline{depth=3}") == "prune,inline{depth=3,limit=500000}");
   CHECK(canonical("gltf,prune") == canonical("gltf") + ",prune");
-  const std::string merged = "merge{max-draws=500,instanced=false,parts=false,csv=";
+  const std::string merged = "merge{max-draws=500,instanced=false,parts=false,tolerance=0,segments=0,csv=";
   CHECK(canonical(R"(merge{ csv = "a,b}.csv" })") == merged + R"("a,b}.csv"})");
   CHECK(canonical(R"(merge{csv="a \"b\" \\c"})") == merged + R"("a \"b\" \\c"})");
   CHECK(canonical(canonical(R"(merge{csv="a,\"\\{"},prune)")) == merged + R"("a,\"\\{"},prune)");
@@ -188,6 +191,72 @@ TEST_CASE("pipeline: a pass that changes nothing says so and changes nothing", "
     CHECK(outcome == Outcome::unchanged);
     CHECK(before == text_of(world->scene));
   }
+}
+
+TEST_CASE("pipeline: times are those of the run whose meshes are written", "[pipeline]") {
+  Diagnostics diag;
+  Statistics stats;
+  PassContext ctx{diag, stats};
+  std::string why;
+  auto pipeline = Pipeline::parse("prune,tessellate,normals", why);
+  auto world = read("Shape { geometry Sphere { } } Shape { geometry Cone { } }", diag);
+  std::vector<PassTime> times;
+  const auto source = pipeline->run_lazily(world->scene, ctx, {.times = &times});
+  REQUIRE(times.size() == 3);
+  CHECK(times[1].name == "tessellate");
+  CHECK(times[1].seconds == 0);
+  CHECK(stats["tessellate.shapes"] == 0);
+  double before = 0;
+  for (NodeId n : geometries(world->scene)) {
+    source(n);
+    CHECK(times[1].seconds > before);
+    before = times[1].seconds;
+  }
+  CHECK(stats["tessellate.shapes"] == 2);  // once each, not on a copy as well
+  CHECK(times.size() == 3);
+}
+
+TEST_CASE("pipeline: what makes meshes says how finely", "[pipeline]") {
+  for (const char* name : {"tessellate", "merge", "flatten", "cull", "lod", "lightmap"}) {
+    INFO(name);
+    const auto text = canonical(std::string(name) + "{segments=7}");
+    CHECK(text.find("tolerance=0,segments=7") != std::string::npos);
+  }
+  Diagnostics diag;
+  Statistics stats;
+  PassContext ctx{diag, stats};
+  std::string why;
+  for (int segments : {8, 20}) {
+    auto world = read("DEF A Transform { translation 1 0 0 children Shape { geometry Cylinder { } } }", diag);
+    auto pipeline = Pipeline::parse("flatten{segments=" + std::to_string(segments) + "}", why);
+    REQUIRE(pipeline->run(world->scene, ctx));
+    const auto meshes = Pipeline::parse("", why)->run_lazily(world->scene, ctx);
+    CHECK(meshes(geometries(world->scene).at(0)).n_faces() == static_cast<std::size_t>(segments) + 2);
+  }
+}
+
+TEST_CASE("pipeline: an option that is one of several names has one row", "[pipeline]") {
+  CHECK(choice_type<SubdivisionScheme>() == "loop or catmull-clark");
+  CHECK(choice_type<PictureFormat>() == "png, jpg or webp");
+  CHECK(name_of(CombinedFormat::as_light) == "auto");
+  BakeQuality quality{};
+  CHECK(read_choice("high", quality));
+  CHECK(quality == BakeQuality::high);
+  CHECK_FALSE(read_choice("highest", quality));
+  CHECK(choice_help<SubdivisionScheme>("what") ==
+        "what: loop, triangles of triangles, polygons are cut first; catmull-clark, quadrilaterals");
+  CHECK(choice_help<BakeQuality>("how") == "how");
+  // In every pass each of the names is read and comes back.
+  for (const auto& p : passes())
+    for (const auto& option : p.make()->options()) {
+      const auto last = option.type.rfind(" or ");
+      if (last == std::string::npos || option.type.find_first_of(":=") != std::string::npos) continue;
+      const auto name = option.type.substr(last + 4);
+      if (name == "auto" || name == "webp" || name == "r") continue;
+      INFO(p.name << " " << option.name << " " << name);
+      CHECK(canonical(std::string(p.name) + "{" + option.name + "=" + name + "}").find(option.name + "=" + name) !=
+            std::string::npos);
+    }
 }
 
 TEST_CASE("pipeline: passes that a program adds", "[pipeline]") {

@@ -197,7 +197,7 @@ Polygon divided_square(int n, double angle) {
 }  // namespace
 
 TEST_CASE("the side of a line is exact", "[polygon]") {
-  // 2^-53 beside the diagonal, where the plain determinant is zero or wrong.
+  // 2^-53 next to the diagonal, where the plain determinant is zero or wrong.
   const double e = std::ldexp(1.0, -53);
   CHECK(orientation({0.5, 0.5}, {12, 12}, {24, 24}) == 0);
   CHECK(orientation({0.5 + e, 0.5}, {12, 12}, {24, 24}) < 0);

@@ -18,7 +18,7 @@ namespace {
 
 using Urls = std::vector<std::string_view>;
 
-/// A folder `world` with a file in it that refers to others, and a folder `other` beside it.
+/// A folder `world` with a file in it that refers to others, and a folder `other` next to it.
 struct World {
   TempFolder folder;
   Diagnostics diag;
@@ -94,7 +94,7 @@ TEST_CASE("When no url works, the first that is a file is told, once for a node"
   SECTION("elsewhere") {
     CHECK(w.text({"http://example.org/a.png", "urn:x:y"}) == "none");
     CHECK(w.message() ==
-          "url-network: 'http://example.org/a.png' is no local file; nothing is fetched from the network");
+          "url-network: 'http://example.org/a.png' is not a local file; nothing is fetched from the network");
   }
   SECTION("nothing asked for") {
     CHECK(w.text({}) == "none");
@@ -190,7 +190,7 @@ TEST_CASE("Paths of other systems are repaired, which is said", "[resources]") {
   auto found = w.folder / "world/Maps/Wood.PNG", valve = w.folder / "world/valve.wrl";
   SECTION("case") {
     CHECK(w.text({"maps/wood.png"}) == "wood");
-    CHECK(w.message() == "url-repaired: 'maps/wood.png' is not found; '" + found + "' beside the file is taken");
+    CHECK(w.message() == "url-repaired: 'maps/wood.png' is not found; '" + found + "' next to the file is used");
   }
   SECTION("backslashes alone are no reason for a message") {
     CHECK(w.text({"Maps\\Wood.PNG"}) == "wood");
@@ -198,7 +198,7 @@ TEST_CASE("Paths of other systems are repaired, which is said", "[resources]") {
   }
   SECTION("a drive") {
     CHECK(w.text({"D:\\plant\\VALVE.WRL"}) == "valve");
-    CHECK(w.message() == "url-repaired: 'D:\\plant\\VALVE.WRL' is not found; '" + valve + "' beside the file is taken");
+    CHECK(w.message() == "url-repaired: 'D:\\plant\\VALVE.WRL' is not found; '" + valve + "' next to the file is used");
   }
   SECTION("an absolute path") { CHECK(w.text({"/usr/people/me/valve.wrl"}) == "valve"); }
   SECTION("a path of the author's folders") { CHECK(w.text({"../../library/valve.wrl"}) == "valve"); }
@@ -239,7 +239,7 @@ TEST_CASE("Messages name files as the input was named", "[resources]") {
   CHECK(resources.world(Urls{"part.wrl"}, {diag.sources().add("plant.wrl", 1, nullptr), 1}, diag).scene);
   fs::current_path(before);
   CHECK(path == "Part.wrl");
-  CHECK(diag.messages()[0].text() == "'part.wrl' is not found; 'Part.wrl' beside the file is taken");
+  CHECK(diag.messages()[0].text() == "'part.wrl' is not found; 'Part.wrl' next to the file is used");
 }
 
 TEST_CASE("A world is parsed once, however it is called", "[resources]") {

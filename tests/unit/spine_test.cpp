@@ -11,7 +11,7 @@ using namespace wrlkit::geometry_tests;
 namespace {
 
 using Points = std::vector<Vec3>;
-bool close(const Vec3& a, const Vec3& b) { return length(minus(a, b)) < 1e-9; }
+bool close(const Vec3& a, const Vec3& b) { return length(a - b) < 1e-9; }
 
 }  // namespace
 
@@ -29,7 +29,7 @@ TEST_CASE("Spine: straight ones turn Y into their direction", "[geometry]") {
 TEST_CASE("Spine: six printed digits of a slanted line are straight", "[geometry]") {
   auto planes = spine_planes(Points{
       {0.123457, 0.234568, 0.345679}, {1.12346, 1.23457, 1.34568}, {2.12346, 2.23457, 2.34568}, {5, 5.11111, 5.22222}});
-  for (auto& p : planes) CHECK(length(minus(p.x, planes[0].x)) < 1e-4);
+  for (auto& p : planes) CHECK(length(p.x - planes[0].x) < 1e-4);
   CHECK(dot(planes[0].y, Vec3{1, 1, 1}) == Approx(std::sqrt(3)));
 }
 

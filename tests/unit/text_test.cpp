@@ -6,12 +6,13 @@
 #include <random>
 #include <thread>
 
-#include "geometry/outline.h"
 #include "passes/triangulate/triangulate.h"
 #include "scenegraph/nodes.h"
+#include "tests/unit/flat_fixture.h"
 #include "tests/unit/temp_folder.h"
 
 using namespace wrlkit;
+using namespace wrlkit::flat_tests;
 
 namespace {
 
@@ -64,11 +65,6 @@ void check_bounds(const Bounds& b, double left, double right, double bottom, dou
   CHECK(b.top == Approx(top).margin(1e-9));
 }
 
-struct Flat {
-  std::vector<Vec2> points;
-  std::vector<std::uint32_t> triangles;
-};
-
 Flat flat(const Mesh& mesh) {
   Flat out;
   for (std::size_t i = 0; i < mesh.n_positions(); ++i)
@@ -77,108 +73,7 @@ Flat flat(const Mesh& mesh) {
   return out;
 }
 
-double area(const Flat& f) {
-  double sum = 0;
-  for (std::size_t t = 0; t < f.triangles.size(); t += 3)
-    sum += orientation(f.points[f.triangles[t]], f.points[f.triangles[t + 1]], f.points[f.triangles[t + 2]]) / 2;
-  return sum;
-}
-
-/// Of how many triangles the point is inside.
-int covered(const Flat& f, const Vec2& p) {
-  int n = 0;
-  for (std::size_t t = 0; t < f.triangles.size(); t += 3) {
-    const Vec2 &a = f.points[f.triangles[t]], &b = f.points[f.triangles[t + 1]], &c = f.points[f.triangles[t + 2]];
-    n += orientation(a, b, p) > 0 && orientation(b, c, p) > 0 && orientation(c, a, p) > 0;
-  }
-  return n;
-}
-
-bool all_face_up(const Flat& f) {
-  for (std::size_t t = 0; t < f.triangles.size(); t += 3)
-    if (orientation(f.points[f.triangles[t]], f.points[f.triangles[t + 1]], f.points[f.triangles[t + 2]]) <= 0)
-      return false;
-  return true;
-}
-
-/// An axis-parallel square, anticlockwise, or not.
-void square(Outline& outline, double low, double high, bool clockwise) {
-  outline.move_to({low, low});
-  outline.line_to(clockwise ? Vec2{low, high} : Vec2{high, low});
-  outline.line_to({high, high});
-  outline.line_to(clockwise ? Vec2{high, low} : Vec2{low, high});
-}
-
-Flat cut(Outline& outline) {
-  Flat f;
-  outline.cut(f.points, f.triangles);
-  return f;
-}
-
 }  // namespace
-
-TEST_CASE("outlines against the outer one are holes, either way round", "[outline]") {
-  for (bool clockwise : {false, true}) {
-    Outline outline(0.1);
-    square(outline, -3, 3, !clockwise);
-    square(outline, -1, 1, clockwise);  // an island in the hole
-    square(outline, -5, 5, clockwise);
-    square(outline, 20, 21, clockwise);
-    auto f = cut(outline);
-    CHECK(area(f) == Approx(100 - 36 + 4 + 1));
-    CHECK(all_face_up(f));
-    CHECK(covered(f, {0.1, 0.2}) == 1);
-    CHECK(covered(f, {2, 0.1}) == 0);
-    CHECK(covered(f, {4, 0.1}) == 1);
-  }
-}
-
-TEST_CASE("outlines with the outer one are no holes, and crossing ones are kept", "[outline]") {
-  Outline nested(0.1);
-  square(nested, 0, 10, false);
-  square(nested, 2, 4, false);
-  CHECK(area(cut(nested)) == Approx(100));
-  Outline crossing(0.1);
-  square(crossing, 0, 10, false);
-  square(crossing, 5, 12, false);
-  auto f = cut(crossing);
-  CHECK(area(f) == Approx(100 + 49));
-  CHECK(covered(f, {7.5, 7.6}) == 2);
-  Outline nothing(0.1);
-  nothing.move_to({1, 1});
-  nothing.conic_to({1, 1}, {1, 1});
-  nothing.move_to({2, 2});
-  nothing.line_to({3, 3});
-  CHECK(cut(nothing).triangles.empty());
-}
-
-TEST_CASE("a hole may touch the outline around it", "[outline]") {
-  for (double x : {-5.0, 5.0}) {
-    Outline outline(0.1);
-    square(outline, -5, 5, false);
-    outline.move_to({x, 0});
-    outline.line_to({0.6 * x, x < 0 ? 1.0 : -1.0});
-    outline.line_to({0.6 * x, x < 0 ? -1.0 : 1.0});
-    CHECK(area(cut(outline)) == Approx(100 - 2));
-  }
-}
-
-TEST_CASE("curves stay within the tolerance", "[outline]") {
-  // y = x * (2 - x) as a conic and as the same cubic; half as many chords are too few.
-  for (double tolerance : {0.1, 0.01, 0.001}) {
-    Outline conic(tolerance), cubic(tolerance);
-    conic.move_to({0, 0});
-    conic.conic_to({1, 2}, {2, 0});
-    cubic.move_to({0, 0});
-    cubic.cubic_to({2.0 / 3, 4.0 / 3}, {4.0 / 3, 4.0 / 3}, {2, 0});
-    for (auto& f : {cut(conic), cut(cubic)}) {
-      double n = double(f.points.size()) - 1, exact = 4.0 / 3;
-      CHECK(1 / (n * n) <= tolerance);  // the sagitta of each chord
-      CHECK(1 / (n * n) > tolerance / 3);
-      CHECK(area(f) == Approx(exact - exact / (n * n)));
-    }
-  }
-}
 
 TEST_CASE("justify, in every direction", "[text]") {
   Job job;

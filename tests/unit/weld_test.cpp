@@ -62,10 +62,7 @@ struct Bench {
     }
     set(own, loose);
   }
-  Point at(std::size_t corner) const {
-    const double* p = mesh.positions.data() + std::size_t{3} * mesh.corners[corner];
-    return {p[0], p[1], p[2]};
-  }
+  Point at(std::size_t corner) const { return vec3(mesh.positions.data() + std::size_t{3} * mesh.corners[corner]); }
   std::vector<Face> faces() const {
     std::vector<Face> out;
     for (std::size_t f = 0; f < mesh.n_faces(); ++f)

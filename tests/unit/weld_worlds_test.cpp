@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
+#include "base/math/vec.h"
 #include "geometry/geometry.h"
-#include "geometry/shapes/vector.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
 #include "passes/triangulate/triangulate.h"

@@ -30,9 +30,4 @@ Flags conversion_flags(const Recipe& recipe);
 
 std::string_view program_version();
 
-/// "8G", "800M" to bytes; 0 when it is no size.
-std::uint64_t size_of(const std::string& text);
-/// "90s", "10m", "2h" in seconds; 0 when it is no time.
-double seconds_of(const std::string& text);
-
 }  // namespace wrlkit

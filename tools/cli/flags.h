@@ -6,8 +6,14 @@
 #include <vector>
 
 #include "convert/options.h"
+#include "light/patches/methods.h"
+#include "light/render/render.h"
 
 namespace wrlkit {
+
+enum class Headlight : std::uint8_t { automatic, on, off };
+template <>
+inline constexpr auto choices<Headlight> = choice_row({{"auto", "as NavigationInfo says"}, {"on"}, {"off"}});
 
 struct Flags {
   // every verb
@@ -32,6 +38,7 @@ struct Flags {
   SaveOptions save;                 // but for the pipeline
   std::string recipe;
   bool print_recipe = false;
+  bool can_replace = false;                                             // the verb has --in-place
   std::vector<std::pair<std::string, std::vector<std::string>>> given;  // every option that was given, by name
   std::string profile;
   bool print_profile = false;
@@ -50,13 +57,14 @@ struct Flags {
 
   // render
   int width = 1280, height = 960, samples = 4;
-  std::string viewpoint, mode = "preview", level = "0";
+  RenderOptions::Mode mode = RenderOptions::Mode::preview;
+  std::string viewpoint, level = "0";
   std::vector<double> look_at;  // eye, target, up
   bool fit = false;
   std::vector<double> background;  // r, g, b; empty: the world's
-  std::string headlight;           // "on", "off"; empty: as NavigationInfo says
-  int turntable = 0;               // pictures around the world
-  double field_of_view = 0;        // degrees; 0: the Viewpoint's
+  Headlight headlight = Headlight::automatic;
+  int turntable = 0;         // pictures around the world
+  double field_of_view = 0;  // degrees; 0: the Viewpoint's
 
   // simplify, compare-lod
   int every = 0;
@@ -68,7 +76,7 @@ struct Flags {
   bool progressive = false;
 
   // illuminate
-  std::string method = "path";
+  light::Method method = light::Method::path;
   std::string max_edge;  // a length: 5cm
   double max_area = 0;   // square metres
   double gradient = 0;

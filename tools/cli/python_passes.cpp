@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder with the package: beside the program in the build tree, installed in a folder of libraries. Empty: there
+/// The folder with the package: next to the program in the build tree, installed in a folder of libraries. Empty: there
 /// is none.
 std::string package_folder() {
   std::error_code none;

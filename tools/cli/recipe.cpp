@@ -42,7 +42,7 @@ std::vector<RecipeOption> recipe_options() {
   std::vector<RecipeOption> all;
   for (std::string_view verb : {"convert", "corpus-run"})
     for (auto& o : options_of(verb))
-      if (!recipe_section(o.name).empty() && !contains(all | std::views::transform(&OptionHelp::name), o.name))
+      if (!recipe_section(o.name).empty() && std::ranges::find(all, o.name, &OptionHelp::name) == all.end())
         all.push_back({std::move(o), verb});
   return all;
 }
@@ -91,7 +91,10 @@ class Reader {
     using enum TomlNode::Kind;
     if (!with_passes_ && contains(keys_of_passes, node.key)) return true;
     if (node.key == "python") return true;
-    if (node.key == "summary") return want(node, text) && (recipe_.summary = node.text, true);
+    if (node.key == "summary") {
+      recipe_.summary = node.text;
+      return want(node, text);
+    }
     if (node.key == "pipeline") return want(node, text) && pipeline(node);
     if (node.key == "pass") {
       if (node.kind != list) return fail(node.key_place, "passes are written as [[pass]]");

@@ -9,14 +9,12 @@
 #include "base/text/json.h"
 #include "convert/placing.h"
 #include "tools/cli/print_diagnostics.h"
+#include "writers/named_files.h"
 #include "writers/vrml/vrml.h"
 
 namespace wrlkit {
 Session::Session(const Flags& flags)
     : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(load_options(), {&progress_}) {}
-
-Session::Session(const Flags& flags, Document document)
-    : flags_(flags), threads_(flags.jobs), progress_(!flags.quiet), document_(std::move(document)) {}
 
 /// What the flags say; not good when they name a message that there is not, which is printed.
 LoadOptions Session::load_options() {
@@ -51,8 +49,9 @@ bool Session::choose_pipeline(std::string_view standard) {
     return false;
   }
   if (flags_.pipeline_given) pipeline_->complete(standard);
-  if (!document_ && pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why))
-    document_.leave_unplaced();
+  pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why);
+  if (flags_.load.show_all) pipeline_->put_first("switch", {{"all", "true"}}, why);
+  document_.leave_unplaced();
   const auto& after = flags_.print_after;
   if (!after.empty() && after != "all" && !find_pass(after)) {
     fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));
@@ -78,6 +77,7 @@ PipelineOptions Session::pipeline_options() {
 
 int Session::end(bool made) {
   progress_.clear();
+  if (made && document_.resources()) write_named_files(resources(), diag());
   const int code = exit_code(made);
   if (flags_.time_passes)
     for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);

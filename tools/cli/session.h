@@ -17,8 +17,6 @@ namespace wrlkit {
 class Session {
  public:
   explicit Session(const Flags&);
-  /// Over a world that was read elsewhere.
-  Session(const Flags&, Document);
 
   /// False when a flag makes no sense; that was printed.
   bool good() const { return good_; }

@@ -7,18 +7,14 @@
 
 #include <toml++/toml.h>
 
+#include "base/math/digits.h"
+
 namespace wrlkit {
 namespace {
 
 using Kind = TomlNode::Kind;
 
 TomlPlace place_of(const toml::source_region& r) { return {r.begin.line, r.begin.column}; }
-
-template <class N>
-std::string shortest(N v) {
-  char b[40];
-  return {b, std::to_chars(b, b + sizeof b, v).ptr};
-}
 
 TomlNode node_of(const toml::node& from);
 
@@ -48,7 +44,7 @@ TomlNode node_of(const toml::node& from) {
       to.text = *value ? "true" : "false";
     } else if constexpr (toml::is_integer<T> || toml::is_floating_point<T>) {
       to.kind = Kind::number;
-      to.text = shortest(*value);
+      to.text = shortest_text(*value);
     } else if constexpr (toml::is_string<T>) {
       to.kind = Kind::text;
       to.text = *value;

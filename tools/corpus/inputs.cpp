@@ -63,8 +63,8 @@ class Gatherer {
   Inputs take() {
     // Named twice, it is still one file.
     std::ranges::stable_sort(out_.files, {}, &InputFile::path);
-    const auto rest = std::ranges::unique(out_.files, {}, &InputFile::path);
-    out_.files.erase(rest.begin(), rest.end());
+    auto same = [](const InputFile& a, const InputFile& b) { return a.path == b.path; };
+    out_.files.erase(std::unique(out_.files.begin(), out_.files.end(), same), out_.files.end());
     return std::move(out_);
   }
 

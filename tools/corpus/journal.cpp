@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "base/text/json.h"
-#include "parsers/gltf/json.h"
+#include "base/text/json_reader.h"
 
 namespace wrlkit {
 namespace {
@@ -44,7 +44,7 @@ std::string_view to_string(JobState s) { return states[static_cast<int>(s)]; }
 std::string to_json(const JournalLine& l) { return json_of(l); }
 
 std::optional<JournalLine> journal_line(std::string_view text) {
-  gltf_reader::JsonDocument doc;
+  JsonDocument doc;
   if (doc.parse(text)) return std::nullopt;
   const auto json = doc.root();
   JournalLine l;

@@ -7,9 +7,9 @@
 #include "base/io/read_file.h"
 #include "base/text/base64.h"
 #include "base/text/json.h"
+#include "base/text/json_reader.h"
 #include "convert/diff.h"
 #include "light/render/render.h"
-#include "parsers/gltf/json.h"
 #include "tools/cli/session.h"
 
 namespace wrlkit {
@@ -82,7 +82,7 @@ bool make_look(const Flags& flags, const std::string& out, const JournalLine& li
 std::optional<Look> read_look(const std::string& path) {
   std::string why;
   const auto text = read_bytes(path, most_bytes, why);
-  gltf_reader::JsonDocument doc;
+  JsonDocument doc;
   if (!text || doc.parse(*text)) return std::nullopt;
   const auto json = doc.root();
   constexpr double none = std::numeric_limits<double>::infinity();

@@ -9,13 +9,13 @@
 
 #include "base/text/csv.h"
 #include "base/text/json.h"
-#include "parsers/gltf/json.h"
+#include "base/text/json_reader.h"
 
 namespace wrlkit {
 namespace {
 
 void count_messages(const JournalLine& line, ReportRow& row, std::map<std::string, ReportedKind, std::less<>>& kinds) {
-  gltf_reader::JsonDocument doc;
+  JsonDocument doc;
   if (line.messages.empty() || doc.parse(line.messages)) return;
   for (auto m : doc.root()) {
     const auto times = m["count"].whole().value_or(0);
@@ -65,6 +65,13 @@ std::vector<std::pair<std::string_view, std::size_t>> CorpusReport::states() con
   for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout,
                  JobState::no_memory})
     out.emplace_back(to_string(s), n(s));
+  return out;
+}
+
+std::vector<ReportedKind> CorpusReport::messages() const {
+  std::vector<ReportedKind> out;
+  out.reserve(kinds.size());
+  for (const auto& [name, kind] : kinds) out.push_back(kind);
   return out;
 }
 
@@ -127,7 +134,7 @@ void compare(CorpusReport& report, const CorpusReport& before) {
           true);
   }
   for (; old != before.rows.end(); ++old) add(old->output, "is no longer there", true);
-  std::ranges::stable_partition(report.changes, &Change::worse);
+  std::stable_partition(report.changes.begin(), report.changes.end(), [](const Change& c) { return c.worse; });
 }
 
 std::string report_csv(const CorpusReport& report) {

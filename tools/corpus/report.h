@@ -2,7 +2,6 @@
 #pragma once
 #include <map>
 #include <optional>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -79,10 +78,12 @@ struct CorpusReport {
   std::size_t n(JobState s) const;
   /// How many files came to each state.
   std::vector<std::pair<std::string_view, std::size_t>> states() const;
+  /// The kinds, by name.
+  std::vector<ReportedKind> messages() const;
   void fields(auto&& f) const {
     f("folder", out);
     f("states", states());
-    f("messages", std::views::values(kinds));
+    f("messages", messages());
     f("files", rows);
     if (compared.empty()) return;
     f("compared", compared);

@@ -18,6 +18,7 @@
 
 #include "base/image/image_codecs.h"
 #include "base/text/json.h"
+#include "tools/cli/amounts.h"
 #include "tools/cli/cli.h"
 #include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"

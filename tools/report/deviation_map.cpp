@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/math/box.h"
 #include "base/parallel.h"
 
 namespace wrlkit {
@@ -111,15 +112,7 @@ class Map {
       }
   }
 
-  Vec3 origin() const {
-    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (std::size_t i = 0; i < positions_.size(); ++i) {
-      low[i % 3] = std::min(low[i % 3], positions_[i]);
-      high[i % 3] = std::max(high[i % 3], positions_[i]);
-    }
-    if (positions_.empty()) return {};
-    return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
-  }
+  Vec3 origin() const { return positions_.empty() ? Vec3{} : box_of<3, double>(positions_).centre(); }
 
   std::string bytes() const {
     std::string out;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "base/text/json.h"
+#include "convert/hidden_geometry.h"
 #include "scenegraph/verify.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
@@ -13,6 +14,7 @@ namespace {
 /// Inlines and prototypes are followed, so that what is missing there is said.
 void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
+  report_hidden_geometry(s.world().scene, s.diag());
   std::string why;
   if (auto p = Pipeline::parse("lower-vrml1,expand", why)) p->run(s.world().scene, s.context());
 }

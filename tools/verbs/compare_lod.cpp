@@ -55,7 +55,7 @@ std::vector<std::size_t> counts_of(const Flags& f, std::size_t n_faces) {
     add(usual);
   for (auto& n : out) n = std::clamp<std::size_t>(n, 1, n_faces);
   std::ranges::sort(out, std::greater{});
-  out.erase(std::ranges::unique(out).begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 
@@ -157,12 +157,8 @@ bool write(const Comparison& c, Session& s) {
 }
 
 bool is_usable(const Flags& f) {
-  if (!f.counts.empty() && !f.ratios.empty()) {
-    fmt::print(stderr, "wrlkit compare-lod: --counts or --ratios, not both\n");
-    return false;
-  }
-  if (f.output.ends_with(".html") || f.output.ends_with(".png")) return true;
-  fmt::print(stderr, "wrlkit compare-lod: '{}': the comparison is written as .html or .png\n", f.output);
+  if (f.counts.empty() || f.ratios.empty()) return true;
+  fmt::print(stderr, "wrlkit compare-lod: --counts or --ratios, not both\n");
   return false;
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "convert/convert.h"
+#include "convert/hidden_geometry.h"
 #include "convert/profiles.h"
+#include "tools/cli/outputs.h"
 #include "tools/cli/recipe.h"
 #include "tools/cli/session.h"
 #include "tools/gltf_summary.h"
@@ -34,7 +36,13 @@ bool prepare_conversion(Session& s) {
   return s.good() && s.choose_pipeline(to->format->pipeline(options));
 }
 
-bool read_input(Session& s) { return s.read(s.flags().inputs[0]) && check_input(s.document()); }
+bool read_input(Session& s) {
+  if (!s.read(s.flags().inputs[0]) || !check_input(s.document())) return false;
+  const auto steps = s.pipeline().steps();
+  if (std::ranges::find(steps, "switch", &Pipeline::StepInfo::name) == steps.end())
+    report_hidden_geometry(s.world().scene, s.diag());
+  return true;
+}
 
 Saved write_world(Session& s, SaveOptions options, const std::function<void(Scene&)>& last) {
   options.measure_gzip |= s.flags().verbose || s.flags().json;
@@ -55,7 +63,13 @@ int run_convert(const Flags& flags) {
     fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline()));
     return done;
   }
+  Backup backup(flags);
+  if (!backup.why_not().empty()) {
+    fmt::print(stderr, "wrlkit: --in-place: {}\n", backup.why_not());
+    return nothing;
+  }
   const auto saved = read_input(s) ? write_world(s, save_options(flags)) : Saved{};
+  if (saved) backup.keep();
   s.progress().clear();
   if (saved && flags.verbose && saved.gltf) fmt::print(stderr, "{}", summary_text(*saved.gltf));
   if (saved && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);

@@ -29,9 +29,9 @@ std::string difference_json(const WorldDifference& d) {
   json.end_object();
   json.key("surface");
   json.begin_object();
-  json.member("rms", d.surface ? d.surface->rms : Bounds::inf);
-  json.member("max", d.surface ? d.surface->max : Bounds::inf);
-  json.member("of_diagonal", d.surface ? d.of_diagonal : Bounds::inf);
+  json.member("rms", d.surface ? d.surface->rms : Box::inf);
+  json.member("max", d.surface ? d.surface->max : Box::inf);
+  json.member("of_diagonal", d.surface ? d.of_diagonal : Box::inf);
   json.end_object();
   json.key("names");
   json.begin_object();

@@ -4,15 +4,13 @@
 
 #include "base/text/json.h"
 #include "convert/formats.h"
+#include "convert/profiles.h"
+#include "scenegraph/access_word.h"
 #include "scenegraph/range_text.h"
+#include "tools/cli/recipe.h"
 
 namespace wrlkit {
 namespace {
-
-std::string_view access_word(Access a) {
-  constexpr std::string_view words[] = {"field", "exposedField", "eventIn", "eventOut"};
-  return words[static_cast<int>(a)];
-}
 
 std::string level_word(Level l) {
   return l == Level::authored ? "authored" : l == Level::expanded ? "expanded" : "mesh";
@@ -134,6 +132,8 @@ std::string passes_json() {
   return out;
 }
 
+namespace {
+
 std::string nodes_page() {
   std::string out = "# Node types\n\nGenerated from `scenegraph/nodes/*.nodes` by `script/docs`; do not edit.\n";
   for (auto& t : builtin_nodes()) {
@@ -174,6 +174,17 @@ std::string diagnostics_page() {
     out += fmt::format("| {} | {} | {} |\n", d.name, to_string(d.severity), d.text);
   }
   return out;
+}
+
+}  // namespace
+
+std::span<const DocumentationPage> documentation_pages() {
+  static constexpr DocumentationPage pages[] = {{"nodes", nodes_page},
+                                                {"passes", passes_page},
+                                                {"diagnostics", diagnostics_page},
+                                                {"recipes", recipes_page},
+                                                {"profiles", profiles_page}};
+  return pages;
 }
 
 }  // namespace wrlkit

@@ -1,5 +1,6 @@
 // The tables as text: for the terminal, for JSON and for the generated pages of docs/.
 #pragma once
+#include <span>
 #include <string>
 
 #include "base/diagnostics.h"
@@ -15,9 +16,11 @@ std::string formats_text();
 std::string passes_json();
 std::string formats_json();
 
-// docs/nodes.md, docs/passes.md, docs/diagnostics.md; `wrlkit docs DIR` writes them, a test compares.
-std::string nodes_page();
-std::string passes_page();
-std::string diagnostics_page();
+/// A page of docs/, NAME.md; script/docs writes them all, a test compares.
+struct DocumentationPage {
+  std::string_view name;
+  std::string (*text)();
+};
+std::span<const DocumentationPage> documentation_pages();
 
 }  // namespace wrlkit

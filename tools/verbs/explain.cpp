@@ -65,11 +65,11 @@ int run_passes(const Flags& flags) {
 }
 
 int run_docs(const Flags& flags) {
-  fmt::print("{}", flags.name == "nodes"      ? nodes_page()
-                   : flags.name == "passes"   ? passes_page()
-                   : flags.name == "recipes"  ? recipes_page()
-                   : flags.name == "profiles" ? profiles_page()
-                                              : diagnostics_page());
+  for (const auto& page : documentation_pages())
+    if (flags.name.empty())
+      fmt::print("{}\n", page.name);
+    else if (flags.name == page.name)
+      fmt::print("{}", page.text());
   return done;
 }
 

@@ -25,13 +25,8 @@
 namespace wrlkit {
 namespace {
 
-light::Method method_of(const std::string& name) {
-  if (name == "stochastic-iteration") return light::Method::stochastic_iteration;
-  return name == "path" ? light::Method::path : light::Method::progressive_radiosity;
-}
-
 bool read_options(const Flags& f, light::IlluminateOptions& o) {
-  o.method = method_of(f.method);
+  o.method = f.method;
   o.sizes.max_area = f.max_area;
   o.sizes.most_patches = static_cast<std::size_t>(f.max_patches);
   o.gradient = f.gradient;
@@ -40,7 +35,7 @@ bool read_options(const Flags& f, light::IlluminateOptions& o) {
   if (f.max_edge.empty()) return true;
   o.sizes.max_edge = length_of(f.max_edge);
   if (o.sizes.max_edge > 0) return true;
-  fmt::print(stderr, "wrlkit illuminate: --max-edge: '{}' is no length\n", f.max_edge);
+  fmt::print(stderr, "wrlkit illuminate: --max-edge: '{}' is not a valid length\n", f.max_edge);
   return false;
 }
 
@@ -99,7 +94,7 @@ void write_pictures(Session& s, const PatchSet& set, const light::LightWorld& wo
     std::string why;
     const auto png = encode_png(as_seen(shape.picture), why);
     if (!png) return s.diag().report(Diag::cannot_write, {}, path, why);
-    auto file = OutputFile::open(path, {}, s.diag());
+    auto file = OutputFile::open(path, {.inputs = &s.resources().files_read()}, s.diag());
     if (!file) return;
     file->write(*png);
     if (!file->commit(s.diag())) return;
@@ -137,14 +132,15 @@ int run_illuminate(const Flags& flags) {
       !s.choose_pipeline("lower-vrml1,expand,lower-x3d{materials=true},tessellate{texcoords=true}"))
     return usage;
   if (!s.read(flags.inputs[0])) return s.end(false);
-  auto file = OutputFile::open(flags.output, {.gzip = flags.output.ends_with(".gz")}, s.diag());
+  auto file = OutputFile::open(
+      flags.output, {.gzip = flags.output.ends_with(".gz"), .inputs = &s.resources().files_read()}, s.diag());
   if (!file || !make_folder(s)) return s.end(false);
   const auto meshes = s.pipeline().run_lazily(s.world().scene, s.context(), s.pipeline_options());
   if (!meshes) return s.end(false);
   const auto begin = std::clock();
   const light::LightWorld world(s.world().scene, meshes, &s.resources(), *light, s.diag());
   constexpr int parts = 1000;
-  s.progress().begin(flags.method, parts, "parts");
+  s.progress().begin(std::string(name_of(flags.method)), parts, "parts");
   options.how.done = [&](double share) { s.progress().set(static_cast<std::uint64_t>(share * parts)); };
   auto set = light::illuminate(s.world().scene, world, options, s.diag());
   if (set.patches.empty()) {
@@ -152,7 +148,7 @@ int run_illuminate(const Flags& flags) {
     return s.end(false);
   }
   set.source = flags.inputs[0] == standard_input ? "" : std::filesystem::path(flags.inputs[0]).filename().string();
-  set.method = flags.method;
+  set.method = name_of(flags.method);
   write_patches(set, file->sink());
   if (!file->commit(s.diag())) return s.end(false);
   if (!flags.pictures.empty()) write_pictures(s, set, world);

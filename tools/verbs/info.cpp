@@ -13,12 +13,12 @@
 namespace wrlkit {
 namespace {
 
-void write_bounds(JsonOut& json, const Bounds& b) {
+void write_bounds(JsonOut& json, const Box& b) {
   json.key("bounds");
   if (b.empty()) return json.raw("null");
   json.begin_object();
-  json.member("min", std::span<const double>(b.min));
-  json.member("max", std::span<const double>(b.max));
+  json.member("min", std::span<const double>(b.low));
+  json.member("max", std::span<const double>(b.high));
   json.end_object();
 }
 
@@ -86,9 +86,9 @@ std::string info_text(const std::string& file, const Info& i) {
   out += fmt::format("  shapes {}, polygons {}, triangles {}, lines {}, points {}\n", i.geometry.shapes,
                      i.geometry.polygons, i.geometry.triangles, i.geometry.lines, i.geometry.points);
   if (!b.empty())
-    out += fmt::format("  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}: {:.6g} x {:.6g} x {:.6g} m\n", b.min[0],
-                       b.min[1], b.min[2], b.max[0], b.max[1], b.max[2], b.max[0] - b.min[0], b.max[1] - b.min[1],
-                       b.max[2] - b.min[2]);
+    out += fmt::format("  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}: {:.6g} x {:.6g} x {:.6g} m\n", b.low[0],
+                       b.low[1], b.low[2], b.high[0], b.high[1], b.high[2], b.high[0] - b.low[0], b.high[1] - b.low[1],
+                       b.high[2] - b.low[2]);
   out += fmt::format("  materials {}, textures {}, lights {}, viewpoints {}, LODs {}\n", i.materials, i.textures.size(),
                      i.lights, i.viewpoints, i.lods);
   out += fmt::format("  names {}, prototypes {}, routes {}, scripts {}, inlines {}, animations {}\n", i.names, i.protos,

@@ -5,6 +5,7 @@
 
 #include "base/text/json.h"
 #include "convert/optimize.h"
+#include "tools/cli/outputs.h"
 #include "tools/gltf_summary.h"
 #include "tools/verbs/convert.h"
 
@@ -70,13 +71,19 @@ int run_optimize(const Flags& given) {
     fmt::print("{}\n", s.pipeline().text());
     return done;
   }
-  if (!s.read(flags.inputs[0])) return s.end(false);
+  Backup backup(flags);
+  if (!backup.why_not().empty()) {
+    fmt::print(stderr, "wrlkit: --in-place: {}\n", backup.why_not());
+    return nothing;
+  }
+  if (!read_input(s)) return s.end(false);
   std::error_code ec;
   const auto size = std::filesystem::file_size(flags.inputs[0], ec);
   const std::uint64_t before = ec ? 0 : size;
   options.measure_gzip = !flags.quiet;
   const auto made = optimize(s.document(), s.pipeline(), *output_of(flags.output), options, {s.pipeline_options()});
   if (!made) return s.end(false);
+  backup.keep();
   s.fact("gltf", summary_json(*made.gltf));
   s.progress().clear();
   if (flags.json)

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/math/box.h"
 #include "base/text/json.h"
-#include "convert/geometry_census.h"
 #include "light/render/linear.h"
 #include "parsers/patches/patches.h"
 
@@ -13,7 +13,7 @@ namespace {
 using drawing::V3;
 
 struct PatchesInfo {
-  Bounds bounds;
+  Box bounds;
   double area = 0;
   Vec3 radiance{};  // mean over the area
   std::size_t n_back = 0;
@@ -64,8 +64,8 @@ std::string as_text(const std::string& path, const FileText& file, const PatchSe
   if (o.n_back) out += fmt::format(", of them {} on back sides", o.n_back);
   const auto& b = o.bounds;
   if (!b.empty())
-    out += fmt::format("\n  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}", b.min[0], b.min[1], b.min[2], b.max[0],
-                       b.max[1], b.max[2]);
+    out += fmt::format("\n  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}", b.low[0], b.low[1], b.low[2], b.high[0],
+                       b.high[1], b.high[2]);
   return out + fmt::format("\n  area {:.6g} m2, mean radiance {:.4g} {:.4g} {:.4g}\n", o.area, o.radiance[0],
                            o.radiance[1], o.radiance[2]);
 }

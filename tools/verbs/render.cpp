@@ -25,7 +25,7 @@ Image draw(Session& s, const MeshSource& meshes, RenderOptions options, std::str
 namespace {
 
 bool write_bytes(Session& s, std::string_view bytes, const std::string& name) {
-  auto file = OutputFile::open(name, {}, s.diag());
+  auto file = OutputFile::open(name, {.inputs = &s.resources().files_read()}, s.diag());
   if (!file) return false;
   file->write(bytes);
   return file->commit(s.diag());
@@ -133,7 +133,7 @@ int run_render(const Flags& flags) {
                     : flags.turntable > 0  ? Turntable(s).make()
                                            : render_one(s);
   s.progress().clear();
-  if (made && flags.verbose && flags.mode == "density")
+  if (made && flags.verbose && flags.mode == RenderOptions::Mode::density)
     fmt::print(stderr, "texels a metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n",
                most_texels_per_metre);
   return s.end(made);

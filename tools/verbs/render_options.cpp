@@ -2,8 +2,6 @@
 
 #include <numbers>
 #include <string>
-#include <string_view>
-#include <utility>
 
 namespace wrlkit {
 
@@ -12,13 +10,7 @@ RenderOptions render_options(const Flags& f) {
   o.width = f.width;
   o.height = f.height;
   o.samples = f.samples;
-  using Mode = RenderOptions::Mode;
-  constexpr std::pair<std::string_view, Mode> modes[] = {{"preview", Mode::preview},   {"wireframe", Mode::wireframe},
-                                                         {"lightmap", Mode::lightmap}, {"checker", Mode::checker},
-                                                         {"density", Mode::density},   {"albedo", Mode::albedo},
-                                                         {"path", Mode::path}};
-  for (auto [name, mode] : modes)
-    if (f.mode == name) o.mode = mode;
+  o.mode = f.mode;
   if (f.level == "auto")
     o.level.reset();
   else
@@ -27,7 +19,7 @@ RenderOptions render_options(const Flags& f) {
   o.fit = f.fit;
   o.field_of_view = f.field_of_view * std::numbers::pi / 180;
   if (f.background.size() == 3) o.background = Vec3{f.background[0], f.background[1], f.background[2]};
-  if (!f.headlight.empty()) o.headlight = f.headlight == "on";
+  if (f.headlight != Headlight::automatic) o.headlight = f.headlight == Headlight::on;
   if (const auto& l = f.look_at; l.size() == 9)
     o.look_at = LookAt{{l[0], l[1], l[2]}, {l[3], l[4], l[5]}, {l[6], l[7], l[8]}};
   return o;

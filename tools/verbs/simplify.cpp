@@ -47,7 +47,7 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
   for (const auto& text : f.errors) {
     const double e = length_of(text);
     if (!(e > 0)) {
-      fmt::print(stderr, "wrlkit simplify: --error: '{}' is no length\n", text);
+      fmt::print(stderr, "wrlkit simplify: --error: '{}' is not a valid length\n", text);
       return std::nullopt;
     }
     o.errors.push_back(e);
@@ -66,7 +66,7 @@ bool write_world(Session& s, const std::string& path, const Scene& scene) {
 /// The world as one progressive file in place of many.
 int write_progressive_file(Session& s, Criterion criterion, const std::string& path) {
   const auto surfaces = progressive_surfaces(s.world().scene, criterion, s.context());
-  auto file = OutputFile::open(path, {.gzip = s.flags().save.gzip}, s.diag());
+  auto file = OutputFile::open(path, {.gzip = s.flags().save.gzip, .inputs = &s.resources().files_read()}, s.diag());
   if (!file) return s.end(false);
   const auto bytes = write_progressive_world(surfaces);
   file->write(bytes);

@@ -1,4 +1,4 @@
-// wrlkit view: a page that shows a world, or two beside each other. The worlds go into it as glTF, with everything that
+// wrlkit view: a page that shows a world, or two side by side. The worlds go into it as glTF, with everything that
 // glTF cannot say in extras; what a simplification does goes into it as progressive meshes.
 #include <fmt/format.h>
 
@@ -131,7 +131,7 @@ std::string contents_json(const ViewerPage& page, const std::string& file, std::
 }
 
 bool write_page(Session& s, const ViewerPage& page) {
-  auto file = OutputFile::open(s.flags().output, {}, s.diag());
+  auto file = OutputFile::open(s.flags().output, {.inputs = &s.resources().files_read()}, s.diag());
   if (!file) return false;
   std::size_t n_bytes = 0;
   write_viewer_page(page, [&](std::string_view bytes) {

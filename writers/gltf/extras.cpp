@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scenegraph/access_word.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
@@ -10,11 +11,6 @@
 
 namespace wrlkit::gltf {
 namespace {
-
-std::string_view word(Access a) {
-  constexpr std::string_view words[] = {"field", "exposedField", "eventIn", "eventOut"};
-  return words[static_cast<std::size_t>(a)];
-}
 
 /// The fields that the type has in the node table; those behind them were declared by the node itself.
 std::size_t n_table_fields(const NodeType& t) {
@@ -295,7 +291,7 @@ void Extras::interface(JsonOut& json, const NodeType& t, NodeId n, std::size_t d
   for (std::size_t i = n_table_fields(t); i < t.fields.size(); ++i) {
     const auto& f = t.fields[i];
     json.begin_array();
-    json.value(word(f.access));
+    json.value(access_word(f.access));
     json.value(info(f.type).name);
     json.value(f.name_in(Dialect::vrml97));
     const Value* given = n ? scene_.find(n, static_cast<std::uint16_t>(i)) : nullptr;

@@ -7,12 +7,13 @@
 #include <set>
 #include <vector>
 
+#include "base/math/vec.h"
+
 namespace wrlkit::gltf {
 namespace {
 
 using Point = std::array<std::int64_t, 3>;
 using Edge = std::pair<Point, Point>;
-using Vec = std::array<double, 3>;
 
 constexpr double flat = 1e-6;  // height of a triangle, as part of its longest side
 
@@ -56,26 +57,20 @@ Flat flat_of(const std::array<Point, 3>& t, std::size_t first) {
   return {t[far], t[(far + 1) % 3], t[(far + 2) % 3], first};
 }
 
-double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// From a point to a triangle that has an area: its plane, if the point is above the triangle, otherwise the nearest
 /// side.
-double distance(const Vec& p, const std::array<Vec, 3>& t) {
-  const Vec normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+double distance(const Vec3& p, const std::array<Vec3, 3>& t) {
+  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
   bool above = true;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec side = minus(t[(k + 1) % 3], t[k]), to = minus(p, t[k]);
+    const Vec3 side = t[(k + 1) % 3] - t[k], to = p - t[k];
     above &= dot(cross(side, to), normal) >= 0;
     const double along = std::clamp(dot(side, to) / std::max(dot(side, side), 1e-300), 0.0, 1.0);
-    const Vec off{to[0] - along * side[0], to[1] - along * side[1], to[2] - along * side[2]};
+    const Vec3 off{to[0] - along * side[0], to[1] - along * side[1], to[2] - along * side[2]};
     nearest = std::min(nearest, dot(off, off));
   }
-  return above ? std::abs(dot(minus(p, t[0]), normal)) / std::sqrt(dot(normal, normal)) : std::sqrt(nearest);
+  return above ? std::abs(dot(p - t[0], normal)) / std::sqrt(dot(normal, normal)) : std::sqrt(nearest);
 }
 
 /// Triangles as they are, and on the grid.
@@ -86,7 +81,7 @@ class Triangles {
 
   /// All but a rest that is no triangle, by the first corner.
   std::size_t end() const { return corners_.size() - corners_.size() % 3; }
-  std::array<Vec, 3> at(std::size_t i) const { return {point(i), point(i + 1), point(i + 2)}; }
+  std::array<Vec3, 3> at(std::size_t i) const { return {point(i), point(i + 1), point(i + 2)}; }
   std::array<Point, 3> snapped(std::size_t i) const {
     return {on_grid(corner(i), step_), on_grid(corner(i + 1), step_), on_grid(corner(i + 2), step_)};
   }
@@ -94,7 +89,7 @@ class Triangles {
 
  private:
   const float* corner(std::size_t i) const { return xyz_.data() + std::size_t{corners_[i]} * 3; }
-  Vec point(std::size_t i) const { return {corner(i)[0], corner(i)[1], corner(i)[2]}; }
+  Vec3 point(std::size_t i) const { return {corner(i)[0], corner(i)[1], corner(i)[2]}; }
 
   std::span<const float> xyz_;
   std::span<const std::uint32_t> corners_;
@@ -133,7 +128,7 @@ std::set<Edge> sides_beside(const Triangles& all, const std::vector<Flat>& flats
 
 /// Leaves those whose place no side of others takes.
 void remove_covered(std::vector<Flat>& open, std::set<Edge> covered) {
-  constexpr int most_rounds = 8;  // slivers beside slivers
+  constexpr int most_rounds = 8;  // slivers next to slivers
   for (int round = 0; round < most_rounds && !open.empty(); ++round) {
     const std::size_t before = open.size();
     std::erase_if(open, [&](const Flat& f) {
@@ -149,10 +144,10 @@ void remove_covered(std::vector<Flat>& open, std::set<Edge> covered) {
 }
 
 /// Does a triangle that stays lie within the tolerance of a point?
-bool lies_beside_a_face(const Triangles& all, const Vec& point, double tolerance) {
+bool lies_beside_a_face(const Triangles& all, const Vec3& point, double tolerance) {
   for (std::size_t i = 0; i < all.end(); i += 3) {
     const auto grid = all.snapped(i);
-    std::array<Vec, 3> t;
+    std::array<Vec3, 3> t;
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t k = 0; k < 3; ++k) t[c][k] = static_cast<double>(grid[c][k]) * all.step();
     bool beside = true;
@@ -171,11 +166,11 @@ bool loses_faces(std::span<const float> xyz, std::span<const std::uint32_t> tria
   auto open = vanishing(all, tolerance);
   if (open.empty()) return false;
   remove_covered(open, sides_beside(all, open));
-  // What is still open may lie beside another face. A point of some of them is looked at: the middle.
+  // What is still open may lie next to another face. A point of some of them is looked at: the middle.
   constexpr std::size_t most_looked_at = 32;
   for (std::size_t o = 0, by = open.size() / most_looked_at + 1; o < open.size(); o += by) {
     const auto t = all.at(open[o].first);
-    Vec middle{};
+    Vec3 middle{};
     for (std::size_t k = 0; k < 3; ++k) middle[k] = (t[0][k] + t[1][k] + t[2][k]) / 3;
     if (!lies_beside_a_face(all, middle, tolerance)) return true;
   }

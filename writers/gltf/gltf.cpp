@@ -46,10 +46,10 @@ std::string without_folders(std::string name) {
 /// Files that take their places together, the first one last, because it refers to the others.
 class Files {
  public:
-  explicit Files(Diagnostics& diag) : diag_(diag) {}
+  Files(const FilesRead* inputs, Diagnostics& diag) : inputs_(inputs), diag_(diag) {}
 
   bool open(const std::filesystem::path& path) {
-    auto file = OutputFile::open(path.string(), {}, diag_);
+    auto file = OutputFile::open(path.string(), {.inputs = inputs_}, diag_);
     if (file) files_.push_back(std::move(*file));
     return file.has_value();
   }
@@ -64,6 +64,7 @@ class Files {
   }
 
  private:
+  const FilesRead* inputs_;
   Diagnostics& diag_;
   std::vector<OutputFile> files_;
 };
@@ -75,6 +76,7 @@ class Writer {
       : scene_(scene),
         options_(options),
         path_(path),
+        inputs_(resources ? &resources->files_read() : nullptr),
         diag_(diag),
         summary_(summary),
         textures_(scene, resources, options.textures, diag),
@@ -88,7 +90,7 @@ class Writer {
         makers_{scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag} {}
 
   bool write() {
-    Files files(diag_);
+    Files files(inputs_, diag_);
     if (!files.open(path_)) return false;
     return build([&](Parts& parts) {
       if (!pictures_inside() && !pictures_beside(parts, files)) return false;
@@ -286,6 +288,7 @@ class Writer {
   const Scene& scene_;
   const GltfOptions& options_;
   std::string path_;
+  const FilesRead* inputs_;
   Diagnostics& diag_;
   GltfSummary* summary_;
   Textures textures_;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/choice.h"
 #include "base/io/sink.h"
 #include "geometry/mesh.h"
 #include "scenegraph/resources.h"
@@ -25,6 +26,11 @@ struct GltfCompression {
   int normal_bits = 8, texcoord_bits = 12, color_bits = 10;
   int level = 7;  // of Draco: from 0, fast, to 10, small
 };
+template <>
+inline constexpr auto choices<GltfCompression::Method> = choice_row({{"none", "as floats"},
+                                                                     {"quantize", "in fewer bits"},
+                                                                     {"meshopt", "that and packed"},
+                                                                     {"draco", "packed smaller, each mesh by itself"}});
 
 /// How pictures are stored. keep: PNG and JPEG as they are, others as PNG. jpeg, webp: colour pictures in that format
 /// where that is smaller, see recoding.h.
@@ -35,6 +41,12 @@ struct GltfTextures {
   int quality = 85;  // of JPEG and WebP, from 1 to 100
   int size = 0;      // pixels along the longer side, at most; 0: as they are
 };
+template <>
+inline constexpr auto choices<GltfTextures::Format> =
+    choice_row({{"keep", "PNG and JPEG as they are"},
+                {"png"},
+                {"jpeg", "of colours without alpha, where it is smaller"},
+                {"webp", "of colours, where it is smaller (EXT_texture_webp)"}});
 
 /// What was written.
 struct GltfSummary {
@@ -92,6 +104,18 @@ struct GltfOptions {
               // the same VRML again. Groups without a name that hold one thing are then one node with it
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
 };
+template <>
+inline constexpr auto choices<GltfOptions::Lightmaps> = choice_row({{"base-color", "in the texture of unlit materials"},
+                                                                    {"emissive"},
+                                                                    {"occlusion", "its brightness alone"},
+                                                                    {"moz", "as MOZ_lightmap"},
+                                                                    {"extras", "for programs that look there"}});
+template <>
+inline constexpr auto choices<GltfOptions::Names> =
+    choice_row({{"nodes", "each part is one"},
+                {"table",
+                 "a table of names and groups that places and merged meshes refer to (EXT_structural_metadata, "
+                 "EXT_mesh_gpu_instancing; with --extras facts)"}});
 
 /// Writes a scene without instances of prototypes; Inlines that were loaded must have become groups. It is written
 /// whole or not at all; false, and a message, when it is not. Files beside are named after the output: room.gltf has

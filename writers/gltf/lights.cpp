@@ -14,7 +14,7 @@ constexpr double pi = std::numbers::pi;
 /// Root mean square of the distances from a point to those of a box.
 double mean_distance(const Vec3& p, const Box& box) {
   constexpr double mean_square = 1.0 / 12;  // of a coordinate in a unit interval about its middle
-  return std::sqrt(std::pow(distance(p, box.centre()), 2) + mean_square * std::pow(box.extent(), 2));
+  return std::sqrt(std::pow(length(p - box.centre()), 2) + mean_square * std::pow(diagonal(box), 2));
 }
 
 /// Candela of a light of intensity 1 whose brightness in VRML is right at one distance.

@@ -6,6 +6,7 @@
 
 #include "scenegraph/looks/material_node.h"
 #include "scenegraph/looks/picture_color.h"
+#include "scenegraph/looks/shininess.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf {
@@ -19,7 +20,7 @@ constexpr Vec3 black{0, 0, 0}, white{1, 1, 1};
 
 double roughness(double shininess, const Vec3& specular) {
   constexpr double peak = 0.01;  // of the highlight of a surface of alpha 1
-  double wide = 2 / (128 * unit_range(shininess) + 2);
+  const double wide = highlight_width(unit_range(shininess));
   double bright = unit_range(std::max({specular[0], specular[1], specular[2]}));
   return bright <= peak ? 1 : std::pow(std::max(wide, peak / bright), 0.25);
 }

@@ -158,12 +158,8 @@ bool Meshes::number_parts(NodeId n, const Mesh& mesh) {
 }
 
 std::uint32_t Meshes::move_near_origin(const Mesh& mesh, bool texcoords) {
-  Box box;
-  for (std::size_t i = 0; i < 3; ++i) {
-    box.low[i] = vertices_.min[i];
-    box.high[i] = vertices_.max[i];
-  }
-  auto origin = mesh_origin(box);
+  const auto &low = vertices_.min, &high = vertices_.max;
+  const auto origin = mesh_origin({{low[0], low[1], low[2]}, {high[0], high[1], high[2]}});
   if (!origin) return none;
   split(mesh, texcoords, *origin);
   origins_.push_back(*origin);

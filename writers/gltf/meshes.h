@@ -84,7 +84,7 @@ class Meshes {
   bool any_features() const { return any_features_; }
   /// How far a mesh goes from its origin.
   double reach(std::uint32_t mesh) const {
-    return bounds(geometries_[meshes_[mesh].geometry], {}).reach() * std::sqrt(3.0);
+    return gltf::reach(bounds(geometries_[meshes_[mesh].geometry], {})) * std::sqrt(3.0);
   }
   const Morphs& morphs() const { return morphs_; }
   /// Of a geometry that is not empty, in a frame.

@@ -15,22 +15,6 @@ NodeId node_in(const Scene& scene, NodeId n, std::string_view field) {
   return v && !v->is && v->type == FieldType::SFNode ? v->node : NodeId{};
 }
 
-Vec3 minus(const double* a, const double* b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
-
-Bounds bounds_of(const std::vector<float>& v) {
-  Bounds b{{v[0], v[1], v[2]}, {v[0], v[1], v[2]}};
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    b.low[i % 3] = std::min(b.low[i % 3], v[i]);
-    b.high[i % 3] = std::max(b.high[i % 3], v[i]);
-  }
-  return b;
-}
-
 }  // namespace
 
 struct Morphs::Source {
@@ -118,7 +102,7 @@ std::uint32_t Morphs::target(Morph& m, Source& s, std::span<const double> values
   for (std::size_t i = 0; i < n; ++i) {
     const auto& v = s.scratch.vertices[i];
     const double* to = &values[std::size_t{3} * (normals ? v.normal : v.position)];
-    const double size = normals ? length({to[0], to[1], to[2]}) : 1;
+    const double size = normals ? fast_length(vec3(to)) : 1;
     for (std::size_t k = 0; k < 3; ++k) {
       moved[3 * i + k] = to[k];
       if (normals)
@@ -133,7 +117,7 @@ std::uint32_t Morphs::target(Morph& m, Source& s, std::span<const double> values
   };
   if (still(position) && ((!normals && s.made_normals) || still(normal))) return none;  // normals are made to rounding
   Morph::Target t;
-  t.positions = store_.positions(position, bounds_of(position));
+  t.positions = store_.positions(position, box_of<3, float>(position));
   if (s.normals) t.normals = store_.vertices(View::normal, normal);
   auto [at, is_new] = s.known.try_emplace(t, static_cast<std::uint32_t>(m.targets.size()));
   if (is_new) m.targets.push_back(t);
@@ -149,8 +133,8 @@ std::vector<float> Morphs::normals_at(const Source& s, const std::vector<double>
     for (std::size_t k = 0; k < 3; ++k) {
       const double *a = &p[std::size_t{3} * index[t + k]], *b = &p[std::size_t{3} * index[t + (k + 1) % 3]],
                    *c = &p[std::size_t{3} * index[t + (k + 2) % 3]];
-      const Vec3 x = minus(b, a), y = minus(c, a), up = cross(x, y);
-      const double size = length(up), angle = std::atan2(size, dot(x, y));
+      const Vec3 x = vec3(b) - vec3(a), y = vec3(c) - vec3(a), up = cross(x, y);
+      const double size = fast_length(up), angle = std::atan2(size, dot(x, y));
       if (!(size > 0)) continue;
       Vec3& sum = sums[s.group[index[t + k]]];
       for (std::size_t i = 0; i < 3; ++i) sum[i] += up[i] / size * angle;
@@ -158,7 +142,7 @@ std::vector<float> Morphs::normals_at(const Source& s, const std::vector<double>
   std::vector<float> out(p.size(), 0);
   for (std::size_t v = 0; v < s.group.size(); ++v) {
     const Vec3& sum = sums[s.group[v]];
-    const double size = length(sum);
+    const double size = fast_length(sum);
     for (std::size_t i = 0; size > 0 && i < 3; ++i)
       out[3 * v + i] = static_cast<float>(sum[i] / size - s.vertices.normal[3 * v + i]);
   }

@@ -5,11 +5,11 @@ namespace {
 
 constexpr double rounding = 1.0 / (1 << 24), largest_loss = 1e-3, largest_relative_loss = 1e-4;
 
-bool loses_millimetres(const Box& b) { return b.reach() * rounding > largest_loss && b.reach() > 10 * b.extent(); }
+bool loses_millimetres(const Box& b) { return reach(b) * rounding > largest_loss && reach(b) > 10 * diagonal(b); }
 
 Vec3 round_centre(const Box& b) {
   // Steps of about the extent; of a millionth of the distance when there is none.
-  double step = std::exp2(std::floor(std::log2(std::max(b.extent(), b.reach() * 1e-6))));
+  double step = std::exp2(std::floor(std::log2(std::max(diagonal(b), reach(b) * 1e-6))));
   Vec3 c = b.centre();
   for (double& x : c) x = std::round(x / step) * step;
   return c;
@@ -18,14 +18,14 @@ Vec3 round_centre(const Box& b) {
 }  // namespace
 
 std::optional<Vec3> mesh_origin(const Box& b) {
-  if (b.empty() || !std::isfinite(b.extent()) || b.reach() == 0) return std::nullopt;
-  bool blurred = b.reach() * rounding > largest_relative_loss * b.extent() && b.extent() > 0;
+  if (b.empty() || !std::isfinite(diagonal(b)) || reach(b) == 0) return std::nullopt;
+  bool blurred = reach(b) * rounding > largest_relative_loss * diagonal(b) && diagonal(b) > 0;
   if (!blurred && !loses_millimetres(b)) return std::nullopt;
   return round_centre(b);
 }
 
 std::optional<Vec3> world_origin(const Box& b) {
-  if (b.empty() || !std::isfinite(b.extent()) || !loses_millimetres(b)) return std::nullopt;
+  if (b.empty() || !std::isfinite(diagonal(b)) || !loses_millimetres(b)) return std::nullopt;
   return round_centre(b);
 }
 

@@ -14,11 +14,11 @@ constexpr double usual_tolerance = 1e-3, usual_part_of_world = 8192;
 constexpr double least_steps =
     16;  // along the longest side of a mesh: what is smaller than the tolerance is still to be seen
 constexpr int most_halvings = 4;    // of a step on which faces would vanish
-constexpr int more_light_bits = 2;  // a lightmap's texels are small, and those of other charts lie beside them
+constexpr int more_light_bits = 2;  // a lightmap's texels are small, and those of other charts lie next to them
 
 double tolerance_for(const GltfCompression& options, const Box& world) {
   if (options.tolerance > 0) return options.tolerance;
-  const double extent = world.extent();
+  const double extent = diagonal(world);
   return extent > 0 && std::isfinite(extent) ? std::min(usual_tolerance, extent / usual_part_of_world)
                                              : usual_tolerance;
 }
@@ -154,11 +154,7 @@ Streams Packing::draco(const Streams& s) {
     return known->second = copied(s);
   }
   summary_.position = std::max(summary_.position, error * scale);
-  Bounds box{{xyz[0], xyz[1], xyz[2]}, {xyz[0], xyz[1], xyz[2]}};
-  for (std::size_t i = 0; i < xyz.size(); ++i) {
-    box.low[i % 3] = std::min(box.low[i % 3], xyz[i]);
-    box.high[i % 3] = std::max(box.high[i % 3], xyz[i]);
-  }
+  const auto box = box_of<3, float>(xyz);
   auto described = [&](std::uint32_t a) {
     return a == none ? none : own_.described(from_.accessors()[a].view, mesh->n_vertices);
   };

@@ -20,13 +20,6 @@ double distance(std::span<const float> a, const float* b) {
   return std::sqrt(sum);
 }
 
-void add(Bounds& bounds, std::span<const float> v, bool first) {
-  for (std::size_t k = 0; k < std::min<std::size_t>(v.size(), 3); ++k) {
-    bounds.low[k] = first ? v[k] : std::min(bounds.low[k], v[k]);
-    bounds.high[k] = first ? v[k] : std::max(bounds.high[k], v[k]);
-  }
-}
-
 /// Between two directions, neither of which need have unit length.
 double angle(const float* a, const float* b) {
   double dot = 0, aa = 0, bb = 0;
@@ -63,16 +56,14 @@ Quantized on_grid(std::span<const float> values, std::size_t width, double step)
   out.bytes.reserve(floats.size() * 4);
   for (float v : floats)
     put(out.bytes, exponent | (static_cast<std::uint32_t>(static_cast<std::int32_t>(v / step)) & 0xffffff));
-  for (std::size_t i = 0; i + width <= floats.size(); i += width)
-    add(out.bounds, std::span(floats).subspan(i, width), i == 0);
+  if (width == 3) out.bounds = box_of<3, float>(floats);
   return out;
 }
 
 ShortPositions short_positions(std::span<const float> xyz, double step) {
   ShortPositions out;
   const auto floats = snapped(xyz, 3, step, out.values.error);
-  Bounds box;
-  for (std::size_t i = 0; i + 3 <= floats.size(); i += 3) add(box, std::span(floats).subspan(i, 3), i == 0);
+  const auto box = box_of<3, float>(floats);
   for (std::size_t k = 0; k < 3; ++k) {
     const bool near = std::max(std::abs(box.low[k]), std::abs(box.high[k])) <= 32767 * step;
     out.origin[k] = near ? 0 : std::round((double{box.low[k]} + box.high[k]) / 2 / step) * step;
@@ -84,7 +75,7 @@ ShortPositions short_positions(std::span<const float> xyz, double step) {
       put(out.values.bytes, static_cast<std::int16_t>(q[k]));
     }
     put(out.values.bytes, std::int16_t{0});
-    add(out.values.bounds, q, i == 0);
+    out.values.bounds.add(q);
   }
   return out;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/io/blocks.h"
+#include "base/math/box.h"
 
 namespace wrlkit::gltf {
 
@@ -62,9 +63,7 @@ struct ViewInfo {
 const ViewInfo& info(View);
 
 /// Of the positions of one accessor, as the floats that are stored.
-struct Bounds {
-  std::array<float, 3> low, high;
-};
+using Bounds = BoxOf<float, 3>;
 
 struct Accessor {
   std::uint32_t offset, count;  // bytes, elements; no offset (none): the values are elsewhere, packed by Draco

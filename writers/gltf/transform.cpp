@@ -11,9 +11,7 @@ namespace {
 
 Vec3 fitting_or(const Vec3& v, const Vec3& fallback) { return fits_float(v) ? v : fallback; }
 
-Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec3 operator*(const Vec3& a, const Vec3& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
+Vec3 each_times(const Vec3& a, const Vec3& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
 
 /// Rows of the rotation matrix.
 std::array<double, 9> rows(const Quaternion& q) {
@@ -44,7 +42,7 @@ std::optional<Vec3> axis_scale(const Quaternion& orientation, const Vec3& scale)
 Quaternion quaternion(const Vec4& r) { return fits_float(r) ? quaternion_of(r) : Quaternion(); }
 
 Quaternion looking_along(const Vec3& direction) {
-  double length = std::hypot(direction[0], direction[1], direction[2]);
+  const double length = wrlkit::length(direction);
   if (!(length > 0) || !fits_float(direction)) return {};
   double x = direction[0] / length, y = direction[1] / length, z = direction[2] / length;
   if (z == -1) return {};
@@ -71,7 +69,7 @@ std::optional<Trs> trs_of(const Matrix& m) {
   Trs t;
   Matrix r = m;
   for (int c = 0; c < 3; ++c) {
-    const double length = std::hypot(m(0, c), m(1, c), m(2, c));
+    const double length = wrlkit::length(m.column(c));
     if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
     for (int k = 0; k < 3; ++k) r(k, c) /= length;
     t.scale[static_cast<std::size_t>(c)] = std::abs(length - 1) < square ? 1 : length;
@@ -128,7 +126,7 @@ NodeTransform node_transform(const Scene& scene, NodeId n) {
   if (c == zero && sr.identity()) return {{t, r, s}, {}, true};
   auto along_axes = sr.identity() ? s : axis_scale(sr, s);
   if (along_axes) {
-    Vec3 moved = r.identity() && *along_axes == one ? t : t + c - rotate(r, *along_axes * c);
+    Vec3 moved = r.identity() && *along_axes == one ? t : t + c - rotate(r, each_times(*along_axes, c));
     return {{fitting_or(moved, t), r, *along_axes}, {}, false};
   }
   Quaternion back = inverse(sr);

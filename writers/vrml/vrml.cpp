@@ -11,7 +11,7 @@ namespace {
 
 class Writer : TextDocument {
  public:
-  Writer(const Scene& scene, const VrmlOptions& options, const Sink& sink)
+  Writer(const Scene& scene, const TextOptions& options, const Sink& sink)
       : TextDocument(scene,
                      {.dialect = Dialect::vrml97,
                       .yes = "TRUE",
@@ -28,11 +28,6 @@ class Writer : TextDocument {
          << scene_.comment;
     names_.scope(scene_.main);
     scope(scene_.main);
-  }
-
-  void single(NodeId n) {
-    names_.scope(Scope{{n}, {}, {}});
-    node(n);
   }
 
  private:
@@ -269,20 +264,14 @@ class Writer : TextDocument {
   }
 
   const bool vrml1_ = scene_.format == Format::vrml1;
-  VrmlOptions options_;
+  TextOptions options_;
   bool first_ = true;
 };
 
 }  // namespace
 
-void write_vrml(const Scene& scene, const VrmlOptions& options, const Sink& sink, Diagnostics&) {
+void write_vrml(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics&) {
   Writer(scene, options, sink).file();
-}
-
-std::string node_text(const Scene& scene, NodeId n, Diagnostics&) {
-  std::string text;
-  Writer(scene, {}, [&](std::string_view s) { text += s; }).single(n);
-  return text;
 }
 
 }  // namespace wrlkit

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text/xml_text.h"
+#include "scenegraph/access_word.h"
 #include "scenegraph/container_field.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
@@ -13,8 +14,6 @@
 
 namespace wrlkit {
 namespace {
-
-constexpr std::string_view access_words[] = {"initializeOnly", "inputOutput", "inputOnly", "outputOnly"};
 
 bool number_like(std::string_view s) {
   return s == "true" || s == "false" || s.find_first_not_of("+-.0123456789eE, ") == s.npos;
@@ -27,7 +26,7 @@ std::string_view trim_end(std::string_view s) {
 
 class Writer : TextDocument {
  public:
-  Writer(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag)
+  Writer(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag)
       : TextDocument(scene, {.dialect = Dialect::x3d, .yes = "true", .no = "false", .wraps_images = true},
                      options.own_fields, options.precision, sink),
         options_(options),
@@ -183,7 +182,7 @@ class Writer : TextDocument {
     line() << "<field";
     attribute("name", f.name);
     attribute("type", info(f.type).name);
-    attribute("accessType", access_words[static_cast<int>(f.access)]);
+    attribute("accessType", access_word(f.access, Dialect::x3d));
     end_with_value("field", f.has_value() ? v : nullptr);
   }
 
@@ -220,7 +219,7 @@ class Writer : TextDocument {
     auto name = names_[n];
     const bool use = is_printed(n);
     if (!name.empty()) attribute(use ? "USE" : "DEF", name);
-    if (!field.empty() && (field != container_field(scene_, n) || t.is_a("X3DMetadataObject")))
+    if (!field.empty() && (field != container_field(scene_, n) || t.is_a(nodes::X3DMetadataObject)))
       attribute("containerField", field);
     if (use) {
       out_ << "/>";
@@ -403,14 +402,14 @@ class Writer : TextDocument {
     strings(led_urls(scene_, where, list, options_.file, options_.place));
   }
 
-  const X3dOptions& options_;
+  const TextOptions& options_;
   Diagnostics& diag_;
   int version_;
 };
 
 }  // namespace
 
-void write_x3d(const Scene& scene, const X3dOptions& options, const Sink& sink, Diagnostics& diag) {
+void write_x3d(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag) {
   Writer(scene, options, sink, diag).file();
 }
 

@@ -75,7 +75,7 @@ export function stack(pictures) {
   return c;
 }
 
-/// Pictures beside each other, with a line of text above each.
+/// Pictures next to each other, with a line of text above each.
 export function sheet(pictures, labels) {
   const gap = 4, head = 20;
   const c = canvas(pictures.reduce((sum, p) => sum + p.width + gap, -gap), head + Math.max(...pictures.map(p => p.height)));

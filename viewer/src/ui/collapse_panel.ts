@@ -1,4 +1,4 @@
-// Beside the collapse: its clock, its bookmarks, what is shown. And the labels on the picture.
+// Next to the collapse: its clock, its bookmarks, what is shown. And the labels on the picture.
 import type {CollapseMode, Lane} from '../modes/collapse';
 import {state} from '../state';
 import type {Detail, Shading} from '../collapse/run';

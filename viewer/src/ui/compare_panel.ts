@@ -1,4 +1,4 @@
-// Beside the comparison: how it is shown, figures of both worlds, the deviation with its scale. And what lies on the picture:
+// Next to the comparison: how it is shown, figures of both worlds, the deviation with its scale. And what lies on the picture:
 // names, divider, legend.
 import {heatColors} from '../compare/heat';
 import type {CompareMode, Layout} from '../modes/compare';

@@ -90,7 +90,7 @@ export class Tree {
     return row;
   }
 
-  /// What is said beside a name: the type, and of what was found where it is.
+  /// What is said next to a name: the type, and of what was found where it is.
   private about(part: Part): string {
     const type = part.name ? part.type : '', above = this.search.value.trim() ? namedAbove(part) : '';
     return above ? `${type} in ${above}`.trim() : type;

@@ -1,4 +1,4 @@
-// Beside the world: its figures, the selected part, how it is shown, its materials.
+// Next to the world: its figures, the selected part, how it is shown, its materials.
 import {Vector3, type MeshStandardMaterial, type Texture} from 'three';
 import type {WorldMode} from '../modes/world';
 import {state} from '../state';

@@ -5,7 +5,7 @@ import {directionsKey} from './directed_light';
 import type {Look, Looks} from './looks';
 import {isShown, type World} from './world';
 
-/// The layer of meshes that a batch draws. Cameras do not see it, rays that are told to do.
+/// The layer of meshes that a batch draws. Cameras do not see it, rays that are set to do.
 export const batchedLayer = 1;
 const few = 200;  // meshes that are drawn one by one
 

@@ -1,4 +1,4 @@
-// What the page reads of a glTF file itself, beside what three.js makes of it: names, types, sizes.
+// What the page reads of a glTF file itself, in addition to what three.js makes of it: names, types, sizes.
 
 export interface Accessor {
   bufferView?: number;
@@ -34,7 +34,7 @@ export interface GltfFile {
   scenes?: {nodes?: number[]; extras?: Record<string, unknown>}[];
 }
 
-/// What wrlkit keeps of VRML beside a part of glTF: {Transform: {...}, DEF: ...}.
+/// What wrlkit keeps of VRML next to a part of glTF: {Transform: {...}, DEF: ...}.
 export function vrmlOf(extras: Record<string, unknown> | undefined): Record<string, unknown> {
   const vrml = extras?.['vrml97'];
   return vrml && typeof vrml === 'object' ? vrml as Record<string, unknown> : {};

@@ -26,7 +26,7 @@ export class Lights {
     this.eye.quaternion.copy(camera.quaternion);
   }
 
-  /// Whether the world has lights beside the headlight.
+  /// Whether the world has lights other than the headlight.
   get hasWorldLights(): boolean { return this.world.lights.some(light => light !== this.own); }
 
   set(lighting: Lighting): void {

@@ -68,7 +68,7 @@ class Builder {
   }
 }
 
-/// Hangs the coarser levels beside the finest one (MSFT_lod), hidden.
+/// Hangs the coarser levels next to the finest one (MSFT_lod), hidden.
 async function loadLevels(gltf: GLTF, parts: Part[]): Promise<Levels[]> {
   const file = gltf.parser.json as GltfFile;
   const found: Levels[] = [];

@@ -70,7 +70,7 @@ export class PopMeter {
     return frame;
   }
 
-  /// Linear colours with alpha, half floats, the lowest row first. Which level is visible is settled anew before the next picture
+  /// Linear colours with alpha, half floats, the lowest row first. Which level is visible is settled again before the next picture
   /// of the page (LevelControl).
   private picture(level: Object3D, renderer: WebGLRenderer, {width, height}: Size): Uint16Array {
     level.visible = true;

@@ -55,7 +55,7 @@ bool fold(Document& d, const Makers& m, NodeId group, const NodeTransform& local
 
 bool says_nothing(const Makers& m, const Node& n) {
   if (!m.options.facts_only || !n.source || n.n_children > 0 || n.attachment != Attachment::nothing) return false;
-  const bool group = m.scene.type(n.source).is_a("X3DGroupingNode") || m.scene.is(n.source, nodes::Shape);
+  const bool group = m.scene.is(n.source, nodes::X3DGroupingNode) || m.scene.is(n.source, nodes::Shape);
   return group && m.scene.name(n.source).empty() && !has_unseen_names(m, n.source) &&
          !does_something(m.scene, n.source);
 }

@@ -15,7 +15,7 @@ namespace {
 /// Nodes that have no counterpart and do not miss one: what they say is kept, and nothing changes for who looks.
 bool harmless(const Scene& scene, NodeId n) {
   return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline) ||
-         scene.type(n).is_a("X3DMetadataObject");
+         scene.is(n, nodes::X3DMetadataObject);
 }
 
 Vec3 position(const Matrix& m) { return {m.m[3], m.m[7], m.m[11]}; }
@@ -135,7 +135,7 @@ std::uint32_t Builder::shape(NodeId n) {
   if (m_.extras) m_.extras->set_shown(n);
   Frame& f = frames_.back();
   m_.meshes.note_use(geometry, f.world);
-  if (!in_coarse_level()) f.box.add(m_.meshes.bounds(g, f.world));
+  if (!in_coarse_level()) f.box.unite(m_.meshes.bounds(g, f.world));
   if (g.origin != none) node.transform = d_.add_transform({.translation = m_.meshes.origins()[g.origin]});
   auto material = m_.materials.get(appearance, g.surface());
   node.attachment = Attachment::mesh;
@@ -214,12 +214,12 @@ Builder::Kind Builder::kind(NodeId n) {
   if (kinds_[id] != Kind::not_known) return kinds_[id];
   const auto& t = m_.scene.type(n);
   if (t.kind == NodeKind::unknown) return hierarchy_children(m_.scene, n).empty() ? Kind::other : Kind::group;
-  return kinds_[id] = t.kind != NodeKind::builtin    ? Kind::other
-                      : t.is_a("X3DGroupingNode")    ? Kind::group
-                      : m_.scene.is(n, nodes::Shape) ? Kind::shape
-                      : t.is_a("X3DViewpointNode")   ? Kind::viewpoint
-                      : is_light(m_.scene, n)        ? Kind::light
-                                                     : Kind::other;
+  return kinds_[id] = t.kind != NodeKind::builtin       ? Kind::other
+                      : t.is_a(nodes::X3DGroupingNode)  ? Kind::group
+                      : m_.scene.is(n, nodes::Shape)    ? Kind::shape
+                      : t.is_a(nodes::X3DViewpointNode) ? Kind::viewpoint
+                      : is_light(m_.scene, n)           ? Kind::light
+                                                        : Kind::other;
 }
 
 /// A few shared groups can stand for any number of nodes. Beyond the limit each node is shown once and no more.
@@ -271,14 +271,14 @@ void Builder::leave() {
     return d_.nodes.pop_back();
   built_.push_back(id);
   set_same(id);
-  if (!in_coarse_level()) frames_.back().box.add(f.box);
+  if (!in_coarse_level()) frames_.back().box.unite(f.box);
 }
 
 std::uint32_t Builder::group(const Frame& f) {
   std::span<const std::uint32_t> children(built_.begin() + static_cast<std::ptrdiff_t>(f.first_built), built_.end());
   if (children.size() == 1 && fold(d_, m_, f.node, f.local, children[0])) return children[0];
   if (m_.scene.is(f.node, nodes::LOD) && children.size() > 1) {
-    make_levels(d_, children, m_.scene.get(f.node, nodes::lod::range), f.box.extent() / 2, mean_scale(f.world));
+    make_levels(d_, children, m_.scene.get(f.node, nodes::lod::range), diagonal(f.box) / 2, mean_scale(f.world));
     children = children.first(1);
   }
   return add_group(d_, m_, f.node, f.local, children);

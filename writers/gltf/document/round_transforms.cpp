@@ -7,8 +7,6 @@
 namespace wrlkit::gltf {
 namespace {
 
-double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
-
 /// Digits behind the point, as the nearest double: 0.1 + 0.2 is written 0.3.
 double decimal(double v, int digits) {
   const double per_unit = std::pow(10, digits);
@@ -29,7 +27,7 @@ std::vector<double> reaches(const Document& d, const Family& family, const Round
       for (const Trs& t : d.instances[n.instances].places)
         reach[id] = std::max(reach[id], length(t.translation) + stretch(t) * rules.reach(n.attached));
     if (n.attachment == Attachment::camera || n.attachment == Attachment::light)
-      reach[id] = std::max(reach[id], d.world.extent());
+      reach[id] = std::max(reach[id], diagonal(d.world));
     const Trs t = d.place(n);
     if (parent != none) reach[parent] = std::max(reach[parent], length(t.translation) + stretch(t) * reach[id]);
   }
@@ -50,7 +48,7 @@ Trs rounded(const Trs& t, int digits, double scale, double reach) {
 /// How far a point at `reach` from the node may be from where it was, in the frame that the node is in.
 double moved_by(const Trs& t, const Trs& r, double reach) {
   const Quaternion &a = t.rotation, &b = r.rotation;
-  const double place = distance(t.translation, r.translation), grown = distance(t.scale, r.scale);
+  const double place = length(t.translation - r.translation), grown = length(t.scale - r.scale);
   const double turn = 2 * std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z) +
                                     (a.w - b.w) * (a.w - b.w));
   return place + (turn * stretch(t) + grown) * reach;

@@ -167,7 +167,7 @@ class NodeJson : public JsonPart {
   bool is_fact(const Node& n) const {
     if (!n.source || n.same_as != none || p_.scene.is(n.source, nodes::Switch) || p_.scene.is(n.source, nodes::LOD))
       return false;
-    const bool group = p_.scene.type(n.source).is_a("X3DGroupingNode") && !p_.scene.is(n.source, nodes::Anchor) &&
+    const bool group = p_.scene.is(n.source, nodes::X3DGroupingNode) && !p_.scene.is(n.source, nodes::Anchor) &&
                        !p_.scene.is(n.source, nodes::Billboard);
     return !group && !p_.scene.is(n.source, nodes::Shape) && p_.extras->says_more(n.source, implied(n), n.plain);
   }

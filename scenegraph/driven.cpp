@@ -1,14 +1,13 @@
-#include "passes/analysis/driven.h"
+#include "scenegraph/driven.h"
 
 #include <algorithm>
 
+#include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 
-bool is_geometry(const Scene& scene, NodeId n) {
-  return scene.type(n).kind == NodeKind::builtin && scene.type(n).is_a("X3DGeometryNode");
-}
+bool is_geometry(const Scene& scene, NodeId n) { return scene.is(n, nodes::X3DGeometryNode); }
 
 std::vector<char> driven_geometry(const Scene& scene) {
   std::vector<char> driven(scene.node_count());

@@ -1,5 +1,5 @@
 // JSON (RFC 8259) as a tree in one vector, parents before children. Every value knows where it stands, which is why
-// this is not a library's: messages about a glTF file name line and column. Texts without escapes are views into the
+// this is not a library's: messages about a file name line and column. Texts without escapes are views into the
 // source.
 #pragma once
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace wrlkit::gltf_reader {
+namespace wrlkit {
 
 class Json;
 
@@ -105,4 +105,4 @@ class Json {
   std::uint32_t at_ = 0;
 };
 
-}  // namespace wrlkit::gltf_reader
+}  // namespace wrlkit

@@ -1,28 +1,12 @@
-#include "parsers/gltf/json.h"
+#include "base/text/json_reader.h"
 
 #include <charconv>
 #include <cmath>
 
-namespace wrlkit::gltf_reader {
-namespace {
+#include "base/text/utf8.h"
 
-void append_utf8(std::string& out, std::uint32_t c) {
-  if (c < 0x80) {
-    out += static_cast<char>(c);
-  } else if (c < 0x800) {
-    out += static_cast<char>(0xc0 | c >> 6);
-    out += static_cast<char>(0x80 | (c & 0x3f));
-  } else if (c < 0x10000) {
-    out += static_cast<char>(0xe0 | c >> 12);
-    out += static_cast<char>(0x80 | (c >> 6 & 0x3f));
-    out += static_cast<char>(0x80 | (c & 0x3f));
-  } else {
-    out += static_cast<char>(0xf0 | c >> 18);
-    out += static_cast<char>(0x80 | (c >> 12 & 0x3f));
-    out += static_cast<char>(0x80 | (c >> 6 & 0x3f));
-    out += static_cast<char>(0x80 | (c & 0x3f));
-  }
-}
+namespace wrlkit {
+namespace {
 
 /// Four hexadecimal digits at a place.
 std::optional<std::uint32_t> hex4(std::string_view s, std::size_t at) {
@@ -140,7 +124,8 @@ class JsonParser {
       open_.push_back(id);
       return true;
     }
-    bool good = c == '"' ? (i.kind = Kind::text, text(i.text)) : word(i);
+    if (c == '"') i.kind = Kind::text;
+    const bool good = c == '"' ? text(i.text) : word(i);
     if (!good) {
       items_.pop_back();
       return fails("a value");
@@ -234,4 +219,4 @@ std::vector<double> Json::numbers() const {
   return all;
 }
 
-}  // namespace wrlkit::gltf_reader
+}  // namespace wrlkit

@@ -1,0 +1,121 @@
+#include "convert/hidden_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr double least_share = 0.1;
+constexpr std::size_t most_names = 4;
+
+double triangles_of_faces(std::span<const std::int32_t> indices) {
+  double out = 0;
+  std::size_t corners = 0;
+  for (const auto i : indices) {
+    if (i >= 0)
+      ++corners;
+    else
+      out += static_cast<double>(std::max<std::size_t>(corners, 2) - 2);
+    if (i < 0) corners = 0;
+  }
+  return out + static_cast<double>(std::max<std::size_t>(corners, 2) - 2);
+}
+
+/// About what a geometry becomes; 0 for other nodes.
+double triangles_of(const Scene& scene, NodeId n) {
+  if (scene.is(n, nodes::IndexedFaceSet)) return triangles_of_faces(scene.get(n, nodes::indexed_face_set::coordIndex));
+  if (scene.is(n, nodes::IndexedTriangleSet))
+    return static_cast<double>(scene.get(n, nodes::indexed_triangle_set::index).size()) / 3;
+  if (scene.is(n, nodes::Box)) return 12;
+  return scene.is(n, nodes::Cylinder) || scene.is(n, nodes::Cone) || scene.is(n, nodes::Sphere) ||
+                 scene.is(n, nodes::Extrusion) || scene.is(n, nodes::ElevationGrid)
+             ? 100
+             : 0;
+}
+
+/// Triangles below the nodes of a scene, each counted as often as it stands there.
+class Census {
+ public:
+  explicit Census(const Scene& scene) : scene_(scene), counts_(scene.node_count()) {
+    std::vector<char> seen(scene.node_count());
+    std::vector<NodeId> stack(scene.main.roots.begin(), scene.main.roots.end());
+    while (!stack.empty()) {  // children before parents
+      const NodeId n = stack.back();
+      if (seen[n.value]++) {
+        stack.pop_back();
+        if (seen[n.value] == 2) counts_[n.value] = count(n);
+        seen[n.value] = 3;
+        continue;
+      }
+      for_each_child(scene, n, [&](NodeId c) {
+        if (!seen[c.value]) stack.push_back(c);
+      });
+    }
+  }
+
+  double all() const { return sum(scene_.main.roots, &Count::all); }
+  double hidden() const { return sum(scene_.main.roots, &Count::hidden); }
+
+  /// The Switches that are off, those that hide most first.
+  std::vector<std::string> names() const {
+    std::map<std::string, double> by_name;
+    for (const NodeId n : reachable(scene_, scene_.main))
+      if (is_off(n) && counts_[n.value].all > 0) by_name[std::string(scene_.name(n))] += counts_[n.value].all;
+    std::vector<std::pair<double, std::string>> order;
+    for (auto& [name, hidden] : by_name) order.emplace_back(-hidden, name.empty() ? "without a name" : name);
+    std::ranges::sort(order);
+    std::vector<std::string> out;
+    for (auto& [hidden, name] : order) out.push_back(std::move(name));
+    return out;
+  }
+
+ private:
+  struct Count {
+    double all = 0, hidden = 0;
+  };
+
+  bool is_off(NodeId n) const { return scene_.is(n, nodes::Switch) && shown_children(scene_, n).empty(); }
+  double sum(std::span<const NodeId> nodes, double Count::*member) const {
+    double out = 0;
+    for (const NodeId n : nodes) out += counts_[n.value].*member;
+    return out;
+  }
+  Count count(NodeId n) const {
+    Count out{triangles_of(scene_, n), 0};
+    if (scene_.is(n, nodes::LOD)) {
+      const auto shown = shown_children(scene_, n);
+      return {sum(shown, &Count::all), sum(shown, &Count::hidden)};
+    }
+    for_each_child(scene_, n, [&](NodeId c) {
+      out.all += counts_[c.value].all;
+      out.hidden += counts_[c.value].hidden;
+    });
+    if (is_off(n)) out.hidden = out.all;
+    return out;
+  }
+
+  const Scene& scene_;
+  std::vector<Count> counts_;
+};
+
+}  // namespace
+
+void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
+  const Census census(scene);
+  const double all = census.all(), hidden = census.hidden();
+  if (!(hidden >= least_share * all) || hidden == 0 || !std::isfinite(all)) return;
+  const auto names = census.names();
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i) list += (i ? ", " : "") + names[i];
+  if (names.size() > most_names) list += ", ...";
+  diag.report(Diag::hidden_geometry, {}, static_cast<int>(std::lround(100 * hidden / all)), list);
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,183 @@
+#include "tools/cli/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "convert/formats.h"
+#include "convert/options.h"
+#include "convert/profiles.h"
+#include "geometry/simplify/levels.h"
+#include "tools/cli/amounts.h"
+
+namespace wrlkit::cli {
+namespace {
+
+/// Adds options that describe themselves (convert/options.h) to a verb. A number that is 0 is not set.
+struct AddOption {
+  CLI::App& verb;
+
+  void operator()(std::string_view name, bool& field, std::string_view help) const {
+    verb.add_flag("--" + std::string(name), field, std::string(help));
+  }
+  void operator()(std::string_view name, int& field, std::string_view help, OptionNote note) const {
+    auto* option = verb.add_option("--" + std::string(name), field, std::string(help));
+    option->check(CLI::Range(static_cast<int>(note.range.least), static_cast<int>(note.range.most)));
+    if (!note.type.empty()) option->type_name(std::string(note.type));
+    if (field != 0) option->capture_default_str();
+  }
+  void operator()(std::string_view name, LengthOption& field, std::string_view help, OptionNote note) const {
+    const auto read = [&field](const std::string& text) { field.read(text); };
+    const auto fault = [](const std::string& text) {
+      LengthOption length;
+      return length.read(text) && length.metres > 0 ? "" : "'" + text + "' is not a valid length";
+    };
+    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
+        ->type_name(std::string(note.type))
+        ->check(fault, "", "");
+  }
+  template <Choice E>
+  void operator()(std::string_view name, E& field, std::string_view help) const {
+    const auto read = [&field](const std::string& text) { read_choice(text, field); };
+    std::vector<std::string> names;
+    for (const auto& c : choices<E>) names.emplace_back(c.name);
+    verb.add_option_function<std::string>("--" + std::string(name), read, choice_help<E>(help))
+        ->check(CLI::IsMember(names))
+        ->default_str(std::string(name_of(field)));
+  }
+};
+
+std::vector<std::string> profile_names() {
+  std::vector<std::string> out;
+  for (const Profile& p : profiles()) out.emplace_back(p.name);
+  return out;
+}
+
+/// Endings of outputs without their dots, the usual one first.
+std::vector<std::string> output_kinds() {
+  std::vector<std::string> out{"glb"};
+  for (auto ending : output_endings())
+    if (ending != ".glb") out.emplace_back(ending.substr(1));
+  return out;
+}
+
+bool is_level(const std::string& s) {
+  return s == "auto" || (!s.empty() && s.size() <= 3 && s.find_first_not_of("0123456789") == std::string::npos);
+}
+
+}  // namespace
+
+void common(CLI::App& verb, Flags& f) {
+  auto* g = verb.add_option_group("every verb");
+  g->add_flag("-q,--quiet", f.quiet, "print no warnings and no progress, only errors");
+  g->add_flag("-v,--verbose", f.verbose, "print what is done");
+  g->add_flag("--json", f.json, "print for machines");
+  g->add_flag("--strict", f.load.strict, "every repair is an error");
+  g->add_option("--report", f.report, "write what happened to this file, as JSON")->type_name("FILE");
+  g->add_option("--allow-path", f.load.allow_paths, "files below this folder may be read, too (Inline, textures)")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+  g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")
+      ->type_name("SIZE")
+      ->check([](const std::string& s) { return size_of(s) ? "" : "'" + s + "' is not a valid size"; }, "", "");
+}
+
+void input(CLI::App& verb, Flags& f) {
+  verb.add_option_function<std::string>(
+          "IN", [&f](const std::string& path) { f.inputs = {path}; }, "the world; - is standard input")
+      ->required();
+}
+
+void placing(CLI::App& verb, Flags& f) { f.load.placing_fields(AddOption{verb}); }
+
+CLI::Validator a_criterion() {
+  const CLI::Validator member = CLI::IsMember(criterion_names());
+  return {[member](std::string& text) {
+            const auto missing = CriterionName::missing(text);
+            return missing.empty() ? member(text) : missing;
+          },
+          member.get_description()};
+}
+
+void python(CLI::App& verb, Flags& f) {
+  verb.add_option("--python", f.python,
+                  "a file with passes in Python, which then have a name like all others; see docs/python.md")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+}
+
+void pipeline(CLI::App& verb, Flags& f) {
+  verb.add_option("-p,--pipeline", f.pipeline, "passes to run, or the name of a pipeline; see wrlkit passes")
+      ->type_name("PASSES");
+  python(verb, f);
+  verb.add_flag("--print-pipeline", f.print_pipeline, "print the whole pipeline with all options, and end");
+  verb.add_flag("--verify-each", f.verify_each, "check the scene after each pass");
+  verb.add_option("--print-after", f.print_after, "print the scene as VRML after this pass, or after all")
+      ->type_name("PASS");
+  verb.add_flag("--time-passes", f.time_passes, "print how long each pass took");
+  verb.add_flag("--stats", f.stats, "print what the passes counted");
+}
+
+void light(CLI::App& verb, Flags& f) { f.save.light_fields(AddOption{verb}); }
+
+void vrml_output(CLI::App& verb, Flags& f) { f.save.text_fields(AddOption{verb}); }
+
+void small_gltf(CLI::App& verb, Flags& f) {
+  f.save.size_fields(AddOption{verb});
+  verb.get_option("--position-bits")->excludes(verb.get_option("--tolerance"));
+  verb.add_option("--profile", f.profile, "the program that will open it, which sets the defaults")
+      ->check(CLI::IsMember(profile_names()));
+}
+
+void in_place(CLI::App& verb, Flags& f) {
+  verb.add_flag("--in-place", f.load.in_place, "OUT may be IN, which is then kept as IN.bak");
+}
+
+void method(CLI::App& verb, Flags& f) { AddOption{verb}("method", f.method, "how the light is found"); }
+
+void level(CLI::App& verb, Flags& f) {
+  verb.add_option("--level", f.level,
+                  "of each LOD: that level, from 0, or its last; auto, by the distance, as browsers choose")
+      ->check(
+          [](const std::string& s) {
+            return is_level(s) ? "" : "'" + s + "' is neither a number from 0 to 999 nor auto";
+          },
+          "", "")
+      ->type_name("N|auto")
+      ->capture_default_str();
+}
+
+void pictures(CLI::App& verb, Flags& f) {
+  verb.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint");
+  verb.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
+  verb.add_option("--look-at", f.look_at, "eye, target and up: nine numbers")->expected(9)->delimiter(',');
+  verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")
+      ->expected(3)
+      ->delimiter(',');
+  AddOption{verb}("headlight", f.headlight, "a light where the viewer is");
+  verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")
+      ->check(CLI::Range(0.0, 179.0));
+  AddOption{verb}("mode", f.mode, "how it is drawn");
+}
+
+void corpus_inputs(CLI::App& verb, Flags& f) {
+  verb.add_option("RECIPE", f.recipe, "a recipe; see docs/recipes.md")->required();
+  verb.add_option("IN", f.inputs, "folders, globs, worlds, @FILE: a list of worlds; -: such a list on standard input")
+      ->required();
+  verb.add_option("-o,--output", f.output, "folder for the outputs, which stand in it as the inputs in theirs")
+      ->required()
+      ->type_name("DIR");
+  verb.add_option("--format", f.format, "ending of the outputs")
+      ->check(CLI::IsMember(output_kinds()))
+      ->capture_default_str();
+  verb.add_option("--include", f.include, "of folders, only files like these: '*.wrl', 'unit_1/**'")->type_name("GLOB");
+  verb.add_option("--exclude", f.exclude, "of folders, no files like these")->type_name("GLOB");
+  verb.add_option("--base", f.base,
+                  "files of lists stand in the output as below this folder; else as below the current one")
+      ->type_name("DIR");
+  verb.add_option(
+          "--shard", f.shard,
+          "only a part of the files: 2/8, the second of eight; auto, auto/8: by the environment of Slurm or Kubernetes")
+      ->type_name("I/N");
+}
+
+}  // namespace wrlkit::cli

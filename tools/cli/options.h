@@ -1,0 +1,32 @@
+// Options that several verbs have. This, verbs.cpp and cli.cpp are the files that know CLI11.
+#pragma once
+#include "tools/cli/flags.h"
+
+namespace CLI {
+class App;
+class Validator;
+}  // namespace CLI
+
+namespace wrlkit::cli {
+
+/// The group of options that every verb has.
+void common(CLI::App& verb, Flags&);
+/// IN, the world.
+void input(CLI::App& verb, Flags&);
+void placing(CLI::App& verb, Flags&);
+/// One of the names; of a criterion that this build does without, the reason.
+CLI::Validator a_criterion();
+void python(CLI::App& verb, Flags&);
+void pipeline(CLI::App& verb, Flags&);
+void light(CLI::App& verb, Flags&);
+void vrml_output(CLI::App& verb, Flags&);
+void small_gltf(CLI::App& verb, Flags&);
+/// OUT may be IN.
+void in_place(CLI::App& verb, Flags&);
+/// How illuminate works.
+void method(CLI::App& verb, Flags&);
+void level(CLI::App& verb, Flags&);
+void pictures(CLI::App& verb, Flags&);
+void corpus_inputs(CLI::App& verb, Flags&);
+
+}  // namespace wrlkit::cli

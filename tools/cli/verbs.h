@@ -1,0 +1,25 @@
+// The table of verbs.
+#pragma once
+#include <span>
+
+#include "tools/cli/flags.h"
+
+namespace CLI {
+class App;
+}
+
+namespace wrlkit::cli {
+
+struct Verb {
+  const char *name, *help, *example;
+  void (*flags)(CLI::App&, Flags&);
+  int (*run)(const Flags&);
+  const char* endings = "";  // of outputs that have one format only, with blanks between them
+};
+
+/// In the order of the help.
+std::span<const Verb> verbs();
+/// Null when there is none of that name.
+const Verb* find_verb(std::string_view name);
+
+}  // namespace wrlkit::cli
