@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 
 namespace wrlkit::simplify {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/shapes/vector.h"
+#include "base/math/vec.h"
 #include "geometry/simplify/closest_on_triangle.h"
 #include "geometry/simplify/fitted_surface.h"
 

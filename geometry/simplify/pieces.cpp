@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/math/vec.h"
 #include "geometry/closest_point.h"
-#include "geometry/shapes/vector.h"
 #include "geometry/simplify/inverse.h"
 
 namespace wrlkit::simplify {

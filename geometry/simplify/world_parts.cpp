@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/math/vec.h"
 #include "base/parallel.h"
-#include "geometry/shapes/vector.h"
 #include "geometry/simplify/closest_on_triangle.h"
 #include "geometry/simplify/inverse.h"
 #include "geometry/simplify/pieces.h"
