@@ -10,7 +10,7 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr double usual_peak = 8;  // largest distance over the root of the mean square, beyond which it is dearer
+constexpr double usual_peak = 8;    // largest distance over the root of the mean square, beyond which it is dearer
 constexpr double least_rms = 1e-6;  // of the root of the area
 constexpr double growth = 1.1;      // of the root of the mean square, after which all is priced again
 
@@ -23,16 +23,20 @@ Allocation::Allocation(const std::vector<AllocatedPart>& parts, const Neighbours
       at_(parts.size()),
       hull_(parts.size()),
       leaving_(parts.size()),
+      outdated_(parts.size()),
+      dependents_(parts.size()),
       orphans_(parts.size()) {
   for (std::uint32_t i = 0; i < parts.size(); ++i)
     for (auto owner : parts[i].places) {
       if (owner >= part_of_.size()) part_of_.resize(owner + std::size_t{1});
       part_of_[owner] = i;
     }
+  std::vector<std::vector<std::uint32_t>> near(parts.size());
   parallel_for(parts.size(), [&](std::size_t i) {
     hull_[i] = convex_hull(*parts[i].rungs);
-    leaving_[i] = price_of_leaving(static_cast<std::uint32_t>(i));
+    leaving_[i] = price_of_leaving(static_cast<std::uint32_t>(i), near[i]);
   });
+  for (std::uint32_t i = 0; i < parts.size(); ++i) depend(i, near[i]);
   for (std::uint32_t i = 0; i < parts.size(); ++i) n_drawn_ += (*parts[i].rungs)[0].n_faces * parts[i].places.size();
   price_all();
 }
@@ -83,25 +87,44 @@ double Allocation::squared_of(const LeavingSample& s, std::uint32_t look, const 
 }
 
 /// Of its own points, and of those that left before and are near to it.
-Allocation::Price Allocation::price_of_leaving(std::uint32_t part) const {
+Allocation::Price Allocation::price_of_leaving(std::uint32_t part, std::vector<std::uint32_t>& near) const {
   Price out;
   auto add = [&](const LeavingSample& s, std::uint32_t look, double before) {
     const auto found = nearest_left(s.point, part);
     out.squares += s.weight * (squared_of(s, look, found) - before);
     out.max = std::max(out.max, found.distance);
+    if (found.owner != ClosestPoint::no_guess) near.push_back(part_of_[found.owner]);
   };
   for (const auto& s : parts_[part].leaving) add(s, parts_[part].look, 0);
   for (const auto& o : orphans_[part]) add(o.sample, o.look, o.squared);
   return out;
 }
 
+void Allocation::depend(std::uint32_t part, std::vector<std::uint32_t>& near) {
+  std::ranges::sort(near);
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (auto n : near) dependents_[n].push_back(part);
+}
+
+/// Again if one of those that it was near to has left.
+void Allocation::price_leaving(std::uint32_t part) {
+  if (!outdated_[part]) return;
+  std::vector<std::uint32_t> near;
+  leaving_[part] = price_of_leaving(part, near);
+  depend(part, near);
+  outdated_[part] = 0;
+}
+
 void Allocation::leave(std::uint32_t part) {
   at_[part] = gone;
   ++n_gone_;
+  for (auto d : std::exchange(dependents_[part], {})) outdated_[d] = 1;
   auto attach = [&](const LeavingSample& s, std::uint32_t look) {
     const auto found = nearest_left(s.point, part);
-    if (found.owner != ClosestPoint::no_guess)
-      orphans_[part_of_[found.owner]].push_back({s, look, squared_of(s, look, found)});
+    if (found.owner == ClosestPoint::no_guess) return;
+    const auto near = part_of_[found.owner];
+    orphans_[near].push_back({s, look, squared_of(s, look, found)});
+    outdated_[near] = 1;
   };
   for (const auto& s : parts_[part].leaving) attach(s, parts_[part].look);
   for (const auto& o : std::exchange(orphans_[part], {})) attach(o.sample, o.look);
@@ -134,7 +157,7 @@ bool Allocation::run_to(std::size_t n_drawn) {
     queue_.pop();
     if (!std::isfinite(step.key)) return false;  // nothing would be left
     // Others have left since, and larger distances have become usual.
-    if (step.to == gone) leaving_[step.part] = price_of_leaving(step.part);
+    if (step.to == gone) price_leaving(step.part);
     const Step now = next_of(step.part);
     if (!queue_.empty() && queue_.top() < now) {
       if (queue_.top().key < now.key) {

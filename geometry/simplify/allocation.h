@@ -1,5 +1,5 @@
-// Where the triangles of a world go: which rung of its ladder each part stands on, so that the distortion of all is least
-// for a number of triangles (Shoham, Gersho: Efficient Bit Allocation for an Arbitrary Set of Quantizers, 1988).
+// Where the triangles of a world go: which rung of its ladder each part stands on, so that the distortion of all is
+// least for a number of triangles (Shoham, Gersho: Efficient Bit Allocation for an Arbitrary Set of Quantizers, 1988).
 #pragma once
 #include <queue>
 #include <vector>
@@ -62,7 +62,10 @@ class Allocation {
   void price_all();
   Step next_of(std::uint32_t part);
   double key_of(double slope, double max) const;
-  Price price_of_leaving(std::uint32_t part) const;
+  /// `near`: the parts that it would then be near to.
+  Price price_of_leaving(std::uint32_t part, std::vector<std::uint32_t>& near) const;
+  void price_leaving(std::uint32_t part);
+  void depend(std::uint32_t part, std::vector<std::uint32_t>& near);
   Neighbours::Found nearest_left(const Vec3& p, std::uint32_t without) const;
   double squared_of(const LeavingSample& s, std::uint32_t look, const Neighbours::Found& found) const;
   void take(const Step& step);
@@ -74,8 +77,10 @@ class Allocation {
   std::vector<std::uint32_t> part_of_;  // of each owner
   std::vector<std::uint32_t> at_;
   std::vector<std::vector<std::size_t>> hull_;
-  std::vector<Price> leaving_;  // as it was when it was asked last
-  std::vector<std::vector<Orphan>> orphans_;  // by the part that they are near to
+  std::vector<Price> leaving_;                          // as it was when it was asked last
+  std::vector<char> outdated_;                          // whether something has left since that matters to it
+  std::vector<std::vector<std::uint32_t>> dependents_;  // parts whose leaving was priced by being near to this one
+  std::vector<std::vector<Orphan>> orphans_;            // by the part that they are near to
   std::priority_queue<Step> queue_;
   std::size_t n_drawn_ = 0, n_gone_ = 0;
   double squares_ = 0, max_ = 0;

@@ -9,8 +9,8 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::size_t most_asked = 32;      // samples that a price is made of
-constexpr std::size_t most_removable = 64;  // faces from which on none is taken out by itself
+constexpr std::size_t most_asked = 48;       // samples that a price is made of
+constexpr std::size_t most_removable = 256;  // faces from which on none is taken out by itself
 
 }  // namespace
 

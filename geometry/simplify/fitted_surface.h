@@ -82,10 +82,10 @@ class FittedSurface {
   std::vector<Vec3> position_;
   std::vector<Face> face_;
   std::vector<char> alive_;
-  std::vector<double> backward_;                      // of each face
-  std::vector<std::vector<std::uint32_t>> faces_of_;  // of each vertex
+  std::vector<double> backward_;                        // of each face
+  std::vector<std::vector<std::uint32_t>> faces_of_;    // of each vertex
   std::vector<std::vector<std::uint32_t>> samples_of_;  // of each face
-  std::vector<double> squared_;                       // distance of each sample
+  std::vector<double> squared_;                         // distance of each sample
   std::vector<std::uint32_t> stamp_, face_stamp_;
   std::priority_queue<Entry> queue_;
   std::size_t n_faces_ = 0;

@@ -10,7 +10,8 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::size_t fitted_below = 100;    // triangles
+constexpr std::size_t every_below = 20;      // triangles from which on each number is a rung
+constexpr std::size_t fitted_below = 128;    // triangles
 constexpr std::size_t most_fitted = 12'000;  // where the criterion is held back
 constexpr double spoiling = 30;              // growth of the distortion from rung to rung
 constexpr double coarse_step = 0.7, fine_step = 0.85;
@@ -104,10 +105,11 @@ class Ladder {
     while (surface.n_faces() > 1 && surface.step()) {
       if (surface.n_faces() > next) continue;
       surface.refine();
+      if (surface.n_faces() < fitted_below) surface.refine();
       add(surface);
       const auto n = surface.n_faces();
-      next = std::min(n - 1,
-                      static_cast<std::size_t>((n > fitted_below ? coarse_step : fine_step) * static_cast<double>(n)));
+      const double step = n > fitted_below ? coarse_step : n > every_below ? fine_step : 1;
+      next = std::min(n - 1, static_cast<std::size_t>(step * static_cast<double>(n)));
     }
   }
 

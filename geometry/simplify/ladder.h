@@ -24,7 +24,8 @@ struct LadderPart {
 
 /// Rungs by falling numbers of triangles, each as near as it can be had; the first is the part. Edges collapse by the
 /// criterion to some hundred triangles, then on a FittedSurface, which takes its attributes from the nearest points of
-/// the part; a part with a lightmap goes as far as the criterion goes. Those that are no better than another with fewer triangles are left out. O(n log n).
+/// the part; a part with a lightmap goes as far as the criterion goes. Those that are no better than another with fewer
+/// triangles are left out. O(n log n).
 std::vector<Rung> make_ladder(const LadderPart& part);
 
 /// Which rungs are on the lower convex hull of distortion over triangles: where each triangle saves more than the

@@ -11,8 +11,8 @@ class WorldLevels {
  public:
   /// Cuts the surfaces of a scene (surfaces_of) into connected parts, finds for each what might stand for it
   /// (simplify/ladder.h), and shares the triangles out (simplify/allocation.h) at the numbers of triangles that the
-  /// options ask for, by `every`, `counts` or `ratios`. Each place of a shared geometry is drawn and counts; all of them
-  /// are simplified alike. Small parts leave. All meshes are in memory. `scene` must outlive this.
+  /// options ask for, by `every`, `counts` or `ratios`. Each place of a shared geometry is drawn and counts; all of
+  /// them are simplified alike. Small parts leave. All meshes are in memory. `scene` must outlive this.
   WorldLevels(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx);
   ~WorldLevels();
 

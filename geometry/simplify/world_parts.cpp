@@ -76,17 +76,26 @@ void WorldParts::read(Task& ctx) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].fixed = std::move(fixed[i]);
   const auto number = surface_numbers(scene_, found);
   for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix& m) {
-    if (const auto i = number[shape.value]; i && is_invertible(m)) surfaces[i - 1].places.push_back(m);
+    if (const auto i = number[shape.value]) surfaces[i - 1].places.push_back(m);
   });
   count_left(found, reader);
-  std::erase_if(surfaces, [](const PlacedSurface& s) { return s.mesh.n_faces() == 0 || s.places.empty(); });
-  for (auto& s : surfaces) {
+  std::erase_if(surfaces, [&](PlacedSurface& s) { return !measure_places(s); });
+  for (const auto& s : surfaces) {
     n_faces += s.mesh.n_faces();
     n_drawn += s.mesh.n_faces() * s.places.size();
-    for (std::size_t i = 1; i < s.places.size(); ++i)
-      if (scale_of(s.places[i]) > scale_of(s.places[s.widest])) s.widest = i;
-    s.scale = scale_of(s.places[s.widest]);
   }
+}
+
+/// False when there is nothing to see, or nothing with a size: that is drawn as it is.
+bool WorldParts::measure_places(PlacedSurface& s) {
+  s.scale = 0;
+  for (std::size_t i = 0; i < s.places.size(); ++i)
+    if (const double scale = scale_of(s.places[i]); is_invertible(s.places[i]) && scale > s.scale) {
+      s.widest = i;
+      s.scale = scale;
+    }
+  if (!(s.scale > 0)) n_left += s.mesh.n_faces() * s.places.size();
+  return s.scale > 0 && s.mesh.n_faces() > 0;
 }
 
 /// Text, and what has levels already: it is drawn, and the budget has to pay for it.
@@ -244,7 +253,8 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
 /// Points of a part in all its places, for when it leaves.
 void WorldParts::find_leaving(std::uint32_t part) {
   const Mesh mesh = in_metres(parts[part], nullptr);
-  const auto samples = sample_surface(triangles_of(mesh), samples_of_leaving);
+  const auto samples =
+      sample_surface(triangles_of(mesh), std::clamp<std::size_t>(2 * mesh.n_faces(), 4, samples_of_leaving));
   const double width = half_width(samples);
   const auto& s = surfaces[parts[part].surface];
   const Matrix back = inverse(frame_of(parts[part]));

@@ -50,6 +50,7 @@ class WorldParts {
 
  private:
   void read(Task& ctx);
+  bool measure_places(PlacedSurface& s);
   void count_left(const std::vector<ShapeSurface>& taken, SurfaceReader& reader);
   void find_looks();
   void cut();

@@ -100,8 +100,8 @@ Mesh grid_box(std::size_t n) {
         return m;
       };
       const Vec3 ab = middle(0, 1), bc = middle(1, 2), ca = middle(2, 0);
-      for (const auto& f : {std::array{c[0], ab, ca}, std::array{ab, c[1], bc}, std::array{ca, bc, c[2]},
-                            std::array{ab, bc, ca}})
+      for (const auto& f :
+           {std::array{c[0], ab, ca}, std::array{ab, c[1], bc}, std::array{ca, bc, c[2]}, std::array{ab, bc, ca}})
         for (const auto& v : f) finer.corners.push_back(index(v));
     }
     mesh = std::move(finer);
@@ -166,19 +166,25 @@ TEST_CASE("world levels: a coarse cylinder lies around the chords of the fine on
   CHECK(distance(w.scene, levels.scene_at(0)).rms < 0.07);
 }
 
-TEST_CASE("world levels: the caps where two pipes meet go first", "[levels]") {
-  TestWorld w("Shape { geometry Cylinder { height 4 } }" + at(0, 4, 0, "Shape { geometry Cylinder { height 4 } }"));
-  const auto whole = drawn(w.scene);
-  const auto levels = levels_of(w, {whole * 4 / 5});
-  REQUIRE(levels.points().size() == 1);
-  CHECK(distance(w.scene, levels.scene_at(0)).rms < 1e-3);
+TEST_CASE("ladder: a cap that something hides goes", "[levels]") {
+  Mesh box = grid_box(0);
+  auto samples = sample_surface(triangles_of(box), 100);
+  for (auto& s : samples)
+    if (s.normal[1] > 0.5) s.enough = 0;
+  const auto rungs = make_ladder({box, samples, {}});
+  const auto open = std::ranges::find_if(rungs, [](const Rung& r) { return r.n_faces == 10; });
+  REQUIRE(open != rungs.end());
+  CHECK(open->distortion.squares < 1e-9);
+  CHECK(open->loose);
 }
 
 TEST_CASE("world levels: paint on a floor counts although it lies on it", "[levels]") {
-  const std::string floor = "Shape { appearance Appearance { material Material { diffuseColor 0.5 0.5 0.5 } } "
-                            "geometry Box { size 10 0.2 10 } }",
-                    stripe = at(0, 0.101, 0, "DEF Stripe Shape { appearance Appearance { material Material { "
-                                             "diffuseColor 1 1 0 } } geometry Box { size 9 0.002 0.5 } }"),
+  const std::string floor =
+                        "Shape { appearance Appearance { material Material { diffuseColor 0.5 0.5 0.5 } } "
+                        "geometry Box { size 10 0.2 10 } }",
+                    stripe = at(0, 0.101, 0,
+                                "DEF Stripe Shape { appearance Appearance { material Material { "
+                                "diffuseColor 1 1 0 } } geometry Box { size 9 0.002 0.5 } }"),
                     ball = at(0, 2, 0, "Shape { geometry Sphere { radius 0.2 } }");
   TestWorld w(floor + stripe + ball);
   const auto levels = levels_of(w, {40});
@@ -219,17 +225,21 @@ TEST_CASE("world levels: the same on any number of threads", "[levels]") {
 }
 
 TEST_CASE("world levels: bad worlds are borne", "[levels]") {
-  const std::string flat = "Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 2 0 0 ] } "
-                           "coordIndex [ 0 1 2 -1 ] } }",
-                    many = "Shape { geometry IndexedFaceSet { solid FALSE coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 "
-                           "0, 0 0 1, 0 -1 0 ] } coordIndex [ 0 1 2 -1 0 1 3 -1 0 1 4 -1 2 1 0 -1 ] } }",
+  const std::string flat =
+                        "Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 2 0 0 ] } "
+                        "coordIndex [ 0 1 2 -1 ] } }",
+                    many =
+                        "Shape { geometry IndexedFaceSet { solid FALSE coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 "
+                        "0, 0 0 1, 0 -1 0 ] } coordIndex [ 0 1 2 -1 0 1 3 -1 0 1 4 -1 2 1 0 -1 ] } }",
                     ball = "Shape { geometry DEF S Sphere { } }", again = "Shape { geometry USE S }";
   const std::string worlds[] = {
-      flat + ball,
+      flat + ball + at(4, 0, 0, "Shape { geometry Box { } }"),
       many + at(3, 0, 0, ball),
-      ball + "Transform { scale -1 1 1 translation 5 0 0 children " + again + " }" + at(9, 0, 0, "Shape { geometry Box { } }"),
+      ball + "Transform { scale -1 1 1 translation 5 0 0 children " + again + " }" +
+          at(9, 0, 0, "Shape { geometry Box { } }"),
       ball + "Transform { scale 0 1 1 children " + again + " }" + at(4, 0, 0, "Shape { geometry Box { } }"),
-      ball + "Transform { scale 1 5 1 translation 9 0 0 children " + again + " }" + at(4, 0, 0, "Shape { geometry Box { } }"),
+      ball + "Transform { scale 1 5 1 translation 9 0 0 children " + again + " }" +
+          at(4, 0, 0, "Shape { geometry Box { } }"),
       at(5e6, 5e6, 5e6, ball) + at(5e6 + 4, 5e6, 5e6, "Shape { geometry Box { } }"),
       ball + ball + at(0, 0, 0, again)};
   for (const auto& text : worlds) {
@@ -239,7 +249,7 @@ TEST_CASE("world levels: bad worlds are borne", "[levels]") {
     REQUIRE_FALSE(levels.points().empty());
     for (std::size_t i = 0; i < levels.points().size(); ++i) {
       const Scene level = levels.scene_at(i);
-      CHECK(drawn(level) <= levels.points()[i].n_drawn);
+      CHECK(drawn(level) <= levels.points()[i].n_drawn + 1);  // one has no area
       CHECK(std::isfinite(distance(w.scene, level).rms));
     }
   }
@@ -256,8 +266,7 @@ TEST_CASE("ladder: a box of many triangles becomes twelve without an error", "[l
   REQUIRE(rungs.size() > 2);
   CHECK(rungs[0].n_faces == 192);
   for (std::size_t i = 1; i < rungs.size(); ++i) CHECK(rungs[i].n_faces < rungs[i - 1].n_faces);
-  for (std::size_t i = 2; i < rungs.size(); ++i)
-    CHECK(rungs[i].distortion.squares > rungs[i - 1].distortion.squares);
+  for (std::size_t i = 2; i < rungs.size(); ++i) CHECK(rungs[i].distortion.squares > rungs[i - 1].distortion.squares);
   const auto exact = std::ranges::find_if(rungs, [](const Rung& r) { return r.n_faces <= 14; });
   REQUIRE(exact != rungs.end());
   CHECK(exact->distortion.squares < 1e-3);

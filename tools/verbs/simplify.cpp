@@ -187,8 +187,7 @@ int run_simplify(const Flags& flags) {
   }
   if (!s.read(flags.inputs[0])) return s.end(false);
   options->drawn = drawn_triangles(s.document());
-  if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))
-    return s.end(false);
+  if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
 
   std::error_code failed;
   fs::create_directories(flags.output, failed);
