@@ -6,8 +6,6 @@
 //   seconds and
 //                                                   error against path tracing with SPP rays a point (default 8192)
 #include <embree3/rtcore.h>
-#include <sys/resource.h>
-#include <time.h>
 
 #include <cmath>
 #include <cstdio>
@@ -18,6 +16,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "bench/process_cost.h"
 #include "light/flux.h"
 #include "light/integrator.h"
 #include "light/random.h"
@@ -28,18 +27,6 @@ namespace {
 
 using namespace wrlkit;
 using namespace wrlkit::light;
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double peak_megabytes() {
-  rusage u;
-  getrusage(RUSAGE_SELF, &u);
-  return static_cast<double>(u.ru_maxrss) / 1024;
-}
 
 struct Loaded {
   Diagnostics diag;

@@ -1,10 +1,7 @@
 // Edge collapse: levels as PLY for measuring their quality elsewhere (simplify_quality.py), and triangles a CPU second.
 //   simplify_bench levels IN.wrl OUT CRITERION 0.5,0.25,...   writes OUT_0.5.ply, ...
-//   simplify_bench speed IN.wrl|TRIANGLES [CRITERION,...]     each criterion to 10 %, one line each; a number makes a
-//   torus
-//                                                             with bumps of so many triangles
-#include <sys/resource.h>
-#include <time.h>
+//   simplify_bench speed IN.wrl|N [CRITERION,...]             each criterion to 10 %, one line each; a number makes a
+//                                                             torus with bumps of N triangles
 
 #include <cmath>
 #include <cstdio>
@@ -14,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/process_cost.h"
 #include "geometry/simplify/levels.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
@@ -22,18 +20,6 @@
 namespace {
 
 using namespace wrlkit;
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double peak_bytes() {
-  rusage u;
-  getrusage(RUSAGE_SELF, &u);
-  return 1024. * static_cast<double>(u.ru_maxrss);
-}
 
 Criterion criterion(const std::string& name) {
   CriterionName chosen;
@@ -115,14 +101,14 @@ void levels(const Mesh& mesh, const std::string& out, Criterion by, const std::s
 }
 
 void speed(const Mesh& mesh, Criterion by) {
-  double before = peak_bytes(), begin = cpu_seconds(), n = static_cast<double>(mesh.n_faces());
+  double before = peak_megabytes(), begin = cpu_seconds(), n = static_cast<double>(mesh.n_faces());
   Collapser c(mesh, {.criterion = by});
   double built = cpu_seconds() - begin;
   c.run_to(mesh.n_faces() / 10);
   double seconds = cpu_seconds() - begin;
   std::printf("%-15s faces=%zu to=%zu built=%.3f cpu=%.3f ktriangles/s=%.0f bytes/triangle=%.0f\n",
               info(by).name.c_str(), mesh.n_faces(), c.n_faces(), built, seconds, n / seconds / 1e3,
-              (peak_bytes() - before) / n);
+              1048576 * (peak_megabytes() - before) / n);
   std::fflush(stdout);
 }
 

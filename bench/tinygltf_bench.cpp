@@ -6,13 +6,11 @@
 //   load wrlkit      bytes to a scene, with its meshes as nodes
 //   write tinygltf   that model to bytes
 //   write wrlkit     that scene to bytes, with all passes: faces, normals, equal geometry found
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -24,23 +22,12 @@
 #include <tiny_gltf.h>
 
 #include "base/parallel.h"
+#include "bench/process_cost.h"
 #include "convert/wrlkit.h"
 
 namespace {
 
 using namespace wrlkit;
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double peak_megabytes() {
-  rusage u;
-  getrusage(RUSAGE_SELF, &u);
-  return static_cast<double>(u.ru_maxrss) / 1024;
-}
 
 bool keep_bytes(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
                 void*) {

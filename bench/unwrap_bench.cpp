@@ -1,6 +1,5 @@
 // The UV atlas of a mesh: seconds, charts, coverage, stretch, faults.
 //   unwrap_bench IN.wrl SIDE [OUT.png]     all surfaces of the file, welded, on one page of that side
-#include <time.h>
 
 #include <cmath>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "base/image/image.h"
+#include "bench/process_cost.h"
 #include "geometry/unwrap/pack.h"
 #include "geometry/unwrap/rows.h"
 #include "geometry/unwrap/unfold.h"
@@ -23,12 +23,6 @@ using namespace wrlkit;
 using unwrap::Point2, unwrap::Triangle2;
 
 constexpr std::uint32_t none = 0xffffffffu;
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 struct Soup {
   std::vector<double> positions;

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "geometry/geometry.h"
+#include "scenegraph/child_lists.h"
 #include "scenegraph/declared_protos.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -100,15 +101,7 @@ void LodNodes::replace(std::vector<NodeId>& list) const {
 
 template <class F>
 void LodNodes::for_lists(F f) {
-  for (NodeId n : all_nodes(scene_)) {
-    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
-    for (const Value& v : scene_.copy_of_fields(n)) {
-      if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
-      std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
-      f(list);
-      if (!std::ranges::equal(list, v.node_span())) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));
-    }
-  }
+  edit_child_lists(scene_, all_nodes(scene_), f);
   f(scene_.main.roots);
   for (ProtoId p : declared_protos(scene_)) f(scene_.proto(p).body.roots);
 }

@@ -22,8 +22,8 @@ Removes Shapes from the groups that hold them, if that goes for all places where
 - `smaller`: the extent is the longest diagonal of the box around a part, in the largest of its places. Shapes without
   a name that share points and stand in one frame are one part: a solid may be written as one Shape a face.
 - `hidden`: rays go from points all over the part, evenly by area, in all directions. A part is seen when one reaches
-  the outside, a Viewpoint or a walkway. So what is left out was not seen by that number of rays; a part behind a hole of a
-  thousandth of its sky may be among it. Nothing hides behind what has transparency or a picture.
+  the outside, a Viewpoint or a walkway. What is left out was seen by none of them; a part behind a hole of a thousandth
+  of its sky may be among it. Nothing hides behind what has transparency or a picture.
 - Left alone: what a ROUTE, a Script, an IS or an instance of a prototype may change, with all below it; what stands
   below a LOD or Switch, or is held otherwise than by a group; lines and points, by `hidden`.
 

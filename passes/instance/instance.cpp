@@ -12,6 +12,7 @@
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
 #include "passes/instance/match.h"
+#include "scenegraph/child_lists.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -35,7 +36,7 @@ class Instancing {
     for (const auto& g : groups_)
       if (is_worth(g)) share(g);
     if (dropped_.empty()) return Outcome::unchanged;
-    replace_shapes();
+    replace_children(scene_, instead_);
     ctx_.stats["instance.copies"] += dropped_.size();
     report_lost_names();
     count_figures(ctx_, "instance", before, figures_of(scene_));
@@ -65,8 +66,6 @@ class Instancing {
   void share(const Group& g);
   void report_lost_names();
   void put(const ShapeSurface& surface, const TransformFields& where, std::string_view name);
-  void replace_shapes();
-  bool replace(std::span<NodeId> list) const;
 
   Scene& scene_;
   const InstanceOptions& options_;
@@ -229,28 +228,6 @@ void Instancing::put(const ShapeSurface& surface, const TransformFields& where, 
     scene_.set_name(t, std::exchange(name, {}));
     instead_[shape.value] = t;
   }
-}
-
-bool Instancing::replace(std::span<NodeId> list) const {
-  bool any = false;
-  for (NodeId& n : list)
-    if (auto t = n ? instead_.find(n.value) : instead_.end(); t != instead_.end()) {
-      n = t->second;
-      any = true;
-    }
-  return any;
-}
-
-void Instancing::replace_shapes() {
-  for (NodeId n : reachable(scene_, scene_.main)) {
-    if (!scene_.is(n, nodes::X3DGroupingNode)) continue;
-    for (const Value& v : scene_.copy_of_fields(n)) {
-      if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
-      std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
-      if (replace(list)) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));
-    }
-  }
-  replace(scene_.main.roots);
 }
 
 /// Of Coordinates and the like that nobody holds any more.

@@ -14,6 +14,7 @@
 #include "passes/analysis/usage.h"
 #include "passes/instance/motion.h"
 #include "passes/recognise/faces.h"
+#include "scenegraph/child_lists.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -42,7 +43,7 @@ class Recognising {
     find();
     for (std::size_t i = 0; i < surfaces_.size(); ++i) replace_geometry(i);
     if (instead_.empty()) return Outcome::unchanged;
-    replace_shapes();
+    replace_children(scene_, instead_);
     auto& residual = ctx_.stats["recognise.largest-residual"];
     residual = std::max(residual, static_cast<std::uint64_t>(std::ceil(residual_ * 1e6)));
     return Outcome::changed;
@@ -58,8 +59,6 @@ class Recognising {
   void replace_geometry(std::size_t surface);
   NodeId put(NodeId shape, NodeId geometry, const Form& form, double step);
   void count(const RecognisedForm& found, const Mesh& mesh, double scale);
-  bool replace(std::span<NodeId> list) const;
-  void replace_shapes();
 
   Scene& scene_;
   const RecogniseFormsOptions& options_;
@@ -98,10 +97,7 @@ void Recognising::choose() {
       if (n) ++held[n.value];
   };
   hold(scene_.main.roots);
-  for (NodeId n : nodes)
-    if (scene_.type(n).kind == NodeKind::builtin && scene_.is(n, nodes::X3DGroupingNode))
-      for (const Value& v : scene_.fields(n))
-        if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode) hold(v.node_span());
+  edit_child_lists(scene_, nodes, hold);
   for (NodeId n : nodes) {
     if (!scene_.is(n, nodes::Shape) || !is_plain(n) || held[n.value] != usage_.uses(n)) continue;
     const NodeId g = scene_.get(n, nodes::shape::geometry);
@@ -237,28 +233,6 @@ void Recognising::replace_geometry(std::size_t i) {
     scene_.set_name(shape, {});
     instead_[shape.value] = group;
   }
-}
-
-bool Recognising::replace(std::span<NodeId> list) const {
-  bool any = false;
-  for (NodeId& n : list)
-    if (auto t = n ? instead_.find(n.value) : instead_.end(); t != instead_.end()) {
-      n = t->second;
-      any = true;
-    }
-  return any;
-}
-
-void Recognising::replace_shapes() {
-  for (NodeId n : reachable(scene_, scene_.main)) {
-    if (scene_.type(n).kind != NodeKind::builtin || !scene_.is(n, nodes::X3DGroupingNode)) continue;
-    for (const Value& v : scene_.copy_of_fields(n)) {
-      if (v.type != FieldType::MFNode || v.is || scene_.is_extra(v)) continue;
-      std::vector<NodeId> list(v.node_span().begin(), v.node_span().end());
-      if (replace(list)) scene_.set(n, scene_.make(FieldType::MFNode, v.slot, list));
-    }
-  }
-  replace(scene_.main.roots);
 }
 
 }  // namespace

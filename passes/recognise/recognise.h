@@ -16,18 +16,18 @@ or without.
                children Shape { geometry Cylinder { radius 0.1 height 0.4 top FALSE bottom FALSE } } }
 
 By topology first: rings of equally many points with bands of faces between them, from a cap, a border or an apex. Then
-by a fit, which is compared with every point and every face of the part. Faces may be polygons or triangles, share
-points or not, point outwards or not; equal points are taken for one. Parts of one IndexedFaceSet are told apart, also
-where they touch; a pipe run in one piece is cut at its rings. Run `join` before it where each face is a Shape.
+by a fit, which is compared with every point and every face of the part. Faces may be polygons or triangles, may share
+points, and may point outwards or inwards; equal points count as one. Parts in one IndexedFaceSet are separated even
+where they touch; a pipe run in one piece is cut at its rings. Run `join` first where each face is a Shape.
 
-- Nothing is replaced by a form that is farther away than `tolerance`, both ways. With 0 that is a part of what the
-  chords of the part itself are away from the circle, or the step in which its coordinates were written.
+- Nothing is replaced by a form that is farther away than `tolerance`, both ways. By default that is a
+  fraction of the chord error that the part itself shows, or the step in which its coordinates were written.
 - A form keeps the number of segments that the part had, so that it is drawn with the same points; `tessellate` with a
-  tolerance cuts it anew. Walls are smooth, rims sharp. Sizes are rounded to the step of the coordinates.
+  tolerance chooses another number. Walls are smooth, rims sharp. Sizes are rounded to the step of the coordinates.
 - Where VRML97 has the form it becomes that node: Box, Cone, Cylinder, Extrusion. Other forms are nodes of our own
   (docs/nodes.md), which `--dump` shows and all writers write as faces.
 - The Shape stands in a new Transform, several forms of one Shape in a new Group that takes its name; what fits no form
-  stays an IndexedFaceSet beside them.
+  stays an IndexedFaceSet next to them.
 - Left alone: faces with colours, texture coordinates, baked light or a texture; normals that are not those of the
   form; faces that point inwards and are solid; what a ROUTE, a Script or an IS touches; bodies of prototypes; geometry
   whose name or whose Coordinate's name would be lost.

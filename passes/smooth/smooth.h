@@ -11,8 +11,8 @@ namespace wrlkit {
 
 struct SmoothOptions {
   static constexpr std::string_view doc =
-      R"(Each point moves half way to the mean of its neighbours, as often as `iterations` says, by OpenMesh: for scans and other
-noisy surfaces. Points of borders stay where they are, and the faces stay those that they were.
+      R"(Each point moves half way to the mean of its neighbours, `iterations` times, by OpenMesh: for scans and
+other noisy surfaces. Points of borders stay where they are, and the faces stay those that they were.
 
     before   a plane with points up to 0.1 off it
     after    the same faces, points nearer to the plane; its border as it was

@@ -20,7 +20,7 @@ inline constexpr auto choices<SubdivisionScheme> =
 
 struct SubdivideOptions {
   static constexpr std::string_view doc =
-      R"(Coarse polygons become a smooth surface of more of them, by OpenMesh: Loop's scheme or that of Catmull and Clark.
+      R"(Coarse polygons become a smooth surface of more of them, by OpenMesh: Loop's scheme or Catmull and Clark's.
 
     before   coordIndex [ 0 1 2 3 -1 ... ]                  a cube: 6 faces
     after    coordIndex [ 8 0 11 20 -1 8 20 9 1 -1 ... ]    24 faces, 96 with levels=2, nearly a ball

@@ -15,7 +15,7 @@ class PointJoiner {
   /// Replaces each index into `positions` (xyz, finite) by the number of its point, in the order of first appearance.
   /// `map` is working memory. Linear in the indices, whatever the number of positions that are not used.
   void join_equal(std::span<const double> positions, std::vector<std::uint32_t>& index, StampedMap& map);
-  /// Then joins the points within a tolerance, and numbers anew what is left.
+  /// Then joins the points within a tolerance, and numbers again what is left.
   void join_near(double tolerance, std::vector<std::uint32_t>& index);
   /// Forgets the points that are not indexed any more, and numbers the others by their first appearance.
   void drop_unused(std::vector<std::uint32_t>& index);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/math/vec.h"
+#include "form_fixture.h"
 #include "geometry/forms/form.h"
 
 using namespace wrlkit;
@@ -15,15 +16,6 @@ using Catch::WithinRel;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Form form_of(Form::Shape shape, int segments = 0, int rings = 0) {
-  Form form;
-  form.shape = std::move(shape);
-  form.frame = translation_matrix({3, -2, 7}) * rotation_matrix({1, 2, 3, 0.7});
-  form.segments = segments;
-  form.rings = rings;
-  return form;
-}
 
 std::vector<Form> some_of_each() {
   const PrismForm angle{{{0, 0}, {0, 4}, {1, 4}, {1, 1}, {3, 1}, {3, 0}}, {6}, 5, 0};

@@ -14,23 +14,11 @@
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
+#include "test_world.h"
 
 using namespace wrlkit;
 
 namespace {
-
-struct TestWorld {
-  Diagnostics diag;
-  Statistics stats;
-  PassContext ctx{diag, stats};
-  Scene scene;
-
-  explicit TestWorld(const std::string& text) {
-    auto world = parse_world("#VRML V2.0 utf8\n" + text, "test.wrl", {}, diag);
-    REQUIRE(world);
-    scene = std::move(world->scene);
-  }
-};
 
 /// A bumpy sheet of n by n quadrilaterals, one unit wide, as triangles.
 Mesh sheet(std::size_t n, double height) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/math/vec.h"
+#include "form_fixture.h"
 #include "geometry/polygon.h"
 #include "geometry/recognise/recognise.h"
 
@@ -18,15 +19,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 enum class Style { polygons, triangles, soup };
-
-Form form_of(Form::Shape shape, int segments = 0, int rings = 0) {
-  Form form;
-  form.shape = std::move(shape);
-  form.frame = translation_matrix({3, -2, 7}) * rotation_matrix({1, 2, 3, 0.7});
-  form.segments = segments;
-  form.rings = rings;
-  return form;
-}
 
 /// Appends the faces of a form, moved, in decimals if there are to be so many.
 void add(Mesh& to, const Form& form, const Matrix& where = {}, int decimals = -1, Style style = Style::polygons) {

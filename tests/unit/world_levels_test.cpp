@@ -14,24 +14,12 @@
 #include "parsers/parsers.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
+#include "test_world.h"
 
 using namespace wrlkit;
 using namespace wrlkit::simplify;
 
 namespace {
-
-struct TestWorld {
-  Diagnostics diag;
-  Statistics stats;
-  PassContext ctx{diag, stats};
-  Scene scene;
-
-  explicit TestWorld(const std::string& text) {
-    auto world = parse_world("#VRML V2.0 utf8\n" + text, "test.wrl", {}, diag);
-    REQUIRE(world);
-    scene = std::move(world->scene);
-  }
-};
 
 WorldLevels levels_of(TestWorld& w, std::vector<std::size_t> counts) {
   WorldSimplifyOptions options;

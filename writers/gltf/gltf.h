@@ -58,7 +58,7 @@ struct GltfSummary {
     double texcoord = 0, color = 0;      // parts of a picture; of the full range
     std::size_t kept = 0;                // accessors that had to stay floats
   };
-  /// Pictures that were decoded and written anew.
+  /// Pictures that were decoded and encoded again.
   struct Recoding {
     std::size_t pictures = 0, resized = 0;
     std::uint64_t before = 0, after = 0;  // bytes

@@ -10,7 +10,7 @@ namespace wrlkit::gltf {
 
 /// How a picture file becomes part of a glTF file.
 struct PortableImage {
-  bool usable = false;                 // false: it must be decoded and written anew
+  bool usable = false;                 // false: it must be decoded and encoded again
   std::optional<std::string> cleaned;  // present when chunks had to be left out; otherwise the file is good as it is
 };
 

@@ -1,4 +1,4 @@
-// Pictures written anew, smaller.
+// Pictures encoded again, smaller.
 //
 // - Lossy formats are for colours: pictures of normals, roughness and the like keep their format and only become
 // smaller.
