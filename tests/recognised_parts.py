@@ -13,105 +13,31 @@ import importlib.util
 import json
 import math
 import os
+import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 
-TOKEN = re.compile(r'#[^\n]*|"(?:[^"\\]|\\.)*"|[\[\]{}]|[^\s,\[\]{}"#]+')
-
-
-class World:
-    """Counts forms as they are drawn in VRML text: what is used twice counts twice."""
-
-    def __init__(self, text):
-        self.tokens = [t for t in TOKEN.findall(text) if not t.startswith('#')]
-        self.at = 0
-        self.names = {}
-        self.forms = collections.Counter()
-        for node in self.nodes_until(None):
-            self.count(node)
-
-    def take(self):
-        self.at += 1
-        return self.tokens[self.at - 1]
-
-    def nodes_until(self, end):
-        out = []
-        while self.at < len(self.tokens) and self.tokens[self.at] != end:
-            if self.tokens[self.at] == 'ROUTE':
-                self.at += 4
-            else:
-                out.append(self.node())
-        self.at += 1
-        return out
-
-    def node(self):
-        word = self.take()
-        if word == 'NULL':
-            return None
-        if word == 'USE':
-            return self.names[self.take()]
-        name = None
-        if word == 'DEF':
-            name, word = self.take(), self.take()
-        node = (word, {})
-        if name:
-            self.names[name] = node
-        assert self.take() == '{', word
-        while self.tokens[self.at] != '}':
-            field = self.take()
-            node[1][field] = self.value()
-        self.at += 1
-        return node
-
-    def value(self):
-        word = self.tokens[self.at]
-        if word == '[':
-            self.at += 1
-            first = self.tokens[self.at]
-            if first[0].isalpha() and first not in ('TRUE', 'FALSE'):
-                return self.nodes_until(']')
-            out = []
-            while self.tokens[self.at] != ']':
-                out.append(self.take())
-            self.at += 1
-            return out
-        following = self.tokens[self.at + 1]
-        if word in ('DEF', 'USE', 'NULL') or following == '{':
-            return [self.node()]
-        out = []
-        while self.tokens[self.at] not in ('}', ']') and (not out or self.is_number(self.tokens[self.at])):
-            out.append(self.take())
-        return out
-
-    @staticmethod
-    def is_number(text):
-        return text[0] in '+-.0123456789'
-
-    def count(self, node):
-        if not node:
-            return
-        form = form_of(*node)
-        if form:
-            self.forms[form] += 1
-        for value in node[1].values():
-            for child in value:
-                if isinstance(child, tuple):
-                    self.count(child)
-
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), '..', 'corpus', 'generator'))
+import census  # noqa: E402  (the second reader of VRML97)
 
 DEFAULTS = {'radius': 1, 'height': 2, 'bottomRadius': 1, 'topRadius': 0, 'bendRadius': 2, 'angle': 1.570796,
             'innerRadius': 1, 'outerRadius': 2}
 
 
+def numbers(fields, name, default=()):
+    """Of a field of one tuple or of a list, with brackets or without."""
+    return [v for some in census.many(fields[name]) for v in some] if name in fields else list(default)
+
+
 def form_of(kind, fields):
     """Kind and sizes in a fixed order; none of other nodes."""
     def number(name, default=None):
-        return float(fields[name][0]) if name in fields else DEFAULTS[name] if default is None else default
+        return numbers(fields, name, [DEFAULTS[name] if default is None else default])[0]
 
     def pair(name, default):
-        return [float(v) for v in fields[name]] if name in fields else default
+        return numbers(fields, name, default)
 
     if kind in ('Box', 'BoxForm'):
         return ('box', *sorted(pair('size', [2, 2, 2])))
@@ -129,14 +55,14 @@ def form_of(kind, fields):
     if kind == 'RingForm':
         return ('ring', number('innerRadius', 0.5), number('outerRadius', 1), number('height', 1))
     if kind == 'Extrusion':
-        return ('prism', len(fields.get('crossSection', [])) // 2 - 1, spine_length(fields))
+        return ('prism', len(numbers(fields, 'crossSection')) // 2 - 1, spine_length(fields))
     if kind == 'PrismForm':
-        return ('prism', len(fields.get('points', [])) // 2, number('height', 1))
+        return ('prism', len(numbers(fields, 'points')) // 2, number('height', 1))
     return None
 
 
 def spine_length(fields):
-    spine = [float(v) for v in fields.get('spine', [0, 0, 0, 0, 1, 0])]
+    spine = numbers(fields, 'spine', [0, 0, 0, 0, 1, 0])
     return spine[4] - spine[1]
 
 
@@ -160,13 +86,15 @@ def matched(truth, found, tolerance):
 
 
 def recognised(wrlkit, path, passes, folder):
-    out = os.path.join(folder, 'out.wrl')
+    out = pathlib.Path(folder, 'out.wrl')
     report = subprocess.run([wrlkit, 'cat', path, '-p', passes, '--dump', '--stats'], check=True,
                             capture_output=True, text=True)
-    with open(out, 'w', encoding='utf8') as file:
-        file.write(report.stdout)
+    out.write_text(report.stdout, encoding='utf8')
     residual = re.search(r'(\d+)\s+recognise\.largest-residual', report.stderr)
-    return World(report.stdout).forms, int(residual[1]) * 1e-6 if residual else math.inf
+    geometries = [census.geometry(shape) for shape in census.shapes(out)]
+    forms = collections.Counter(form_of(g.kind, g.fields) for g in geometries if g)
+    del forms[None]
+    return forms, int(residual[1]) * 1e-6 if residual else math.inf
 
 
 def check(name, truth, found, residual, least, tolerance, most):
@@ -208,7 +136,7 @@ def plant(wrlkit, shared, folder):
     made = generator.Plant.part
 
     def part(self, key, make, *rest, **more):
-        """What is made is written down beside."""
+        """What is made is noted, too."""
         made(self, key, make, *rest, **more)
         for form in plant_part(key, make()):
             truth[form] += 1
