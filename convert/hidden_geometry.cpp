@@ -40,6 +40,8 @@ double triangles_of(const Scene& scene, NodeId n) {
              : 0;
 }
 
+bool is_off(const Scene& scene, NodeId n) { return scene.is(n, nodes::Switch) && shown_children(scene, n).empty(); }
+
 /// Triangles below the nodes of a scene, each counted as often as it stands there.
 class Census {
  public:
@@ -67,7 +69,7 @@ class Census {
   std::vector<std::string> names() const {
     std::map<std::string, double> by_name;
     for (const NodeId n : reachable(scene_, scene_.main))
-      if (is_off(n) && counts_[n.value].all > 0) by_name[std::string(scene_.name(n))] += counts_[n.value].all;
+      if (is_off(scene_, n) && counts_[n.value].all > 0) by_name[std::string(scene_.name(n))] += counts_[n.value].all;
     std::vector<std::pair<double, std::string>> order;
     for (auto& [name, hidden] : by_name) order.emplace_back(-hidden, name.empty() ? "without a name" : name);
     std::ranges::sort(order);
@@ -81,7 +83,6 @@ class Census {
     double all = 0, hidden = 0;
   };
 
-  bool is_off(NodeId n) const { return scene_.is(n, nodes::Switch) && shown_children(scene_, n).empty(); }
   double sum(std::span<const NodeId> nodes, double Count::*member) const {
     double out = 0;
     for (const NodeId n : nodes) out += counts_[n.value].*member;
@@ -97,7 +98,7 @@ class Census {
       out.all += counts_[c.value].all;
       out.hidden += counts_[c.value].hidden;
     });
-    if (is_off(n)) out.hidden = out.all;
+    if (is_off(scene_, n)) out.hidden = out.all;
     return out;
   }
 
@@ -108,6 +109,9 @@ class Census {
 }  // namespace
 
 void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
+  const auto reached = reachable(scene, scene.main);
+  if (std::ranges::none_of(reached, [&](NodeId n) { return is_off(scene, n); }))
+    return;  // most worlds: nothing to count
   const Census census(scene);
   const double all = census.all(), hidden = census.hidden();
   if (!(hidden >= least_share * all) || hidden == 0 || !std::isfinite(all)) return;
