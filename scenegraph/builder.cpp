@@ -1,5 +1,7 @@
 #include "scenegraph/builder.h"
 
+#include "scenegraph/browser_nodes.h"
+
 #include <algorithm>
 
 #include "scenegraph/nodes.h"
@@ -199,7 +201,7 @@ bool SceneBuilder::try_link(const Link& l) {
 // The fields of a Script that is still open are not in its type yet; such a ROUTE is taken as it is.
 void SceneBuilder::check_event(NodeId n, std::string_view event, bool out, Span where) {
   const auto& t = scene_.type(n);
-  if (t.kind == NodeKind::unknown || std::ranges::any_of(open_, [&](const Open& o) { return o.node == n; })) return;
+  if (t.takes_any_field() || std::ranges::any_of(open_, [&](const Open& o) { return o.node == n; })) return;
   auto slot = t.find(event, scene_.dialect(), true);
   if (slot) {
     auto a = t.fields[*slot].access;
@@ -241,8 +243,16 @@ TypeId SceneBuilder::known_type(std::string_view name) const {
 
 TypeId SceneBuilder::type(std::string_view name, Span where) {
   if (TypeId t = known_type(name)) return t;
-  if (!unknown_.contains(name)) diag_.report(Diag::unknown_node, where, name);
+  if (TypeId t = foreign_type(name, where)) return t;
+  if (!unknown_.contains(name) && !find_browser_node(name)) diag_.report(Diag::unknown_node, where, name);
   return unknown_type(name);
+}
+
+TypeId SceneBuilder::foreign_type(std::string_view name, Span where) {
+  if (scene_.dialect() != Dialect::vrml97) return {};
+  const TypeId t = find_builtin(name, Dialect::x3d);
+  if (t && foreign_.insert(t.value).second) diag_.report(Diag::dialect_node, where, name, "X3D", "VRML97");
+  return t;
 }
 
 TypeId SceneBuilder::unknown_type(std::string_view name) {

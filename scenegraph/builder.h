@@ -68,6 +68,8 @@ class SceneBuilder {
   TypeId known_type(std::string_view name) const;
 
  private:
+  /// Of X3D in a file of VRML97, where programs that know both write it; TypeId{} when there is none.
+  TypeId foreign_type(std::string_view name, Span where);
   struct Open {
     NodeId node;
     std::size_t first_field;
@@ -112,6 +114,7 @@ class SceneBuilder {
   std::vector<Value> fields_;
   std::vector<Names> scopes_;
   std::unordered_map<std::string_view, TypeId> unknown_;
+  std::unordered_set<std::uint32_t> foreign_;  // types of X3D that were reported
 };
 
 }  // namespace wrlkit

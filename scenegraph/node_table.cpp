@@ -13,7 +13,12 @@ bool NodeType::is_named(std::string_view name_or_base) const {
   return name == name_or_base || std::ranges::find(bases, name_or_base) != bases.end();
 }
 
+bool NodeType::takes_any_field() const {
+  return kind == NodeKind::unknown || is_named("X3DShaderNode") || is_named("ShaderProgram");
+}
+
 std::optional<std::uint16_t> NodeType::find(std::string_view field, Dialect dialect, bool events) const {
+  if (kind == NodeKind::builtin && dialects == static_cast<DialectSet>(Dialect::x3d)) dialect = Dialect::x3d;
   if (!by_name.empty()) {
     auto i = std::ranges::lower_bound(by_name, field, {}, [&](std::uint16_t slot) { return fields[slot].name; });
     if (i != by_name.end() && fields[*i].name == field) return *i;

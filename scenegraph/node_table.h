@@ -91,6 +91,8 @@ struct NodeType {
   static constexpr std::size_t many_fields = 32;
 
   bool is_own() const { return dialects == static_cast<DialectSet>(Dialect::wrlkit); }
+  /// A file may give it fields that its type does not list: a node that is not known, or a program of a surface.
+  bool takes_any_field() const;
   bool is_a(BaseSet any) const { return base_set.bits & any.bits; }
   /// Of that name, or of a base of that name: for names that are not known when compiling.
   bool is_named(std::string_view name_or_base) const;

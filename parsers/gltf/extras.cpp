@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scenegraph/access_word.h"
+#include "scenegraph/browser_nodes.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -62,13 +63,14 @@ TypeId Extras::type(std::string_view name, Json at) {
     if (auto i = scopes_[s].types.find(name); i != scopes_[s].types.end()) return i->second;
     if (s == 0) break;
   }
-  if (TypeId t = find_builtin(name, Dialect::vrml97)) return t;
+  for (Dialect dialect : {Dialect::vrml97, Dialect::x3d})
+    if (TypeId t = find_builtin(name, dialect)) return t;
   if (auto i = unknown_.find(name); i != unknown_.end()) return i->second;
   if (!is_legal_name(name)) {
     bad(at, "a node type");
     return nodes::Group;
   }
-  c_.diag().report(Diag::unknown_node, c_.file.where(at), name);
+  if (!find_browser_node(name)) c_.diag().report(Diag::unknown_node, c_.file.where(at), name);
   NodeType t;
   t.name = c_.scene.keep(name);
   t.kind = NodeKind::unknown;

@@ -127,7 +127,7 @@ void Parser::externproto(Token keyword) {
 void Parser::script_declaration(Access access, Token keyword) {
   const auto& type = build_.current_type();
   if (type.name != "Script") {
-    if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, span(keyword), type.name, text(keyword));
+    if (!type.takes_any_field()) diag_.report(Diag::unknown_field, span(keyword), type.name, text(keyword));
     undeclarable(access, keyword);
     return;
   }

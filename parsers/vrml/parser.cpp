@@ -290,7 +290,7 @@ void Parser::unknown_field(Token name) {
   Value v;
   bool is = text(lex_.peek()) == "IS";
   // set_x IS y and x_changed IS y of an exposedField are in order.
-  if (type.kind != NodeKind::unknown && !(is && type.find(field_name, scene_.dialect(), true)))
+  if (!type.takes_any_field() && !(is && type.find(field_name, scene_.dialect(), true)))
     diag_.report(Diag::unknown_field, span(name), type.name, text(name));
   if (is) {
     v = is_value(lex_.next(), FieldType::verbatim, Value::extra_slot);

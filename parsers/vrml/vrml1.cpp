@@ -152,7 +152,7 @@ TypeId Vrml1Parser::type_of(Token name) {
   auto w = name_of(name);
   TypeId own = find_builtin(w, Dialect::vrml1), foreign = find_builtin(w, Dialect::vrml97);
   if (foreign && (in_vrml97_field_ || !own)) {
-    if (!in_vrml97_field_) diag_.report(Diag::dialect_node, span(name), w);
+    if (!in_vrml97_field_) diag_.report(Diag::dialect_node, span(name), w, "VRML97", "VRML 1.0");
     return foreign;
   }
   if (own) return own;
@@ -301,7 +301,7 @@ void Vrml1Parser::connection(Token name) {
 // value.
 void Vrml1Parser::unknown_field(Token name) {
   const auto& type = build_.current_type();
-  if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, span(name), type.name, text(name));
+  if (!type.takes_any_field()) diag_.report(Diag::unknown_field, span(name), type.name, text(name));
   Value v;
   Token t = lex_.peek();
   if (node_follows(t)) {

@@ -24,7 +24,7 @@ void Parser::connect(const XmlNode& c, Element& e) {
     v.slot = own != e.own.end() ? f.default_value.slot : *slot;
     return build_.field(v, where(c));
   }
-  if (type.kind != NodeKind::unknown && !type.find(field, Dialect::x3d, true))
+  if (!type.takes_any_field() && !type.find(field, Dialect::x3d, true))
     diag_.report(Diag::unknown_field, where(c, "nodeField"), type.name, field);
   build_.field(scene_.make_extra(field, v), where(c));
 }
@@ -71,7 +71,7 @@ std::optional<FieldDef> Parser::declaration(const XmlNode& n, bool with_value) {
 
 void Parser::script_field(const XmlNode& n, Element& e) {
   if (build_.current_type().name != "Script") {
-    if (build_.current_type().kind != NodeKind::unknown)
+    if (!build_.current_type().takes_any_field())
       diag_.report(Diag::unknown_field, where(n), build_.current_type().name, "field " + std::string(get(n, "name")));
     for_each_element(n, [&](const XmlNode& c) {
       if (NodeId id = node(c)) e.extra[scene_.keep(get(n, "name"))].push_back(id);
@@ -102,7 +102,7 @@ void Parser::field_value(const XmlNode& n) {
     if (element_value(n, f.type, *slot, f.name, f.default_value, v)) build_.field(v, where(n, "value"));
     return;
   }
-  if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, where(n, "name"), type.name, name);
+  if (!type.takes_any_field()) diag_.report(Diag::unknown_field, where(n, "name"), type.name, name);
   std::vector<NodeId> list;
   for_each_element(n, [&](const XmlNode& c) {
     if (NodeId id = node(c)) list.push_back(id);

@@ -166,7 +166,7 @@ void Parser::attribute(const XmlAttribute& a, Element&) {
     if (value(f.type, *slot, f.name, f.default_value, a.value, v)) build_.field(v, span_of(a.value));
     return;
   }
-  if (type.kind != NodeKind::unknown) diag_.report(Diag::unknown_field, span_of(a.name), type.name, a.name);
+  if (!type.takes_any_field()) diag_.report(Diag::unknown_field, span_of(a.name), type.name, a.name);
   v = scene_.make(FieldType::verbatim, Value::extra_slot, as_vrml(plain(a.value)));
   build_.field(scene_.make_extra(scene_.keep(verbatim_text(a.name)), v), span_of(a.value));
 }

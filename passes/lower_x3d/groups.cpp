@@ -1,6 +1,7 @@
 #include "passes/lower_x3d/groups.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "passes/lower_x3d/geometry.h"
 #include "scenegraph/nodes.h"
@@ -11,7 +12,8 @@ namespace {
 
 struct GroupRow {
   TypeId from, to;
-  std::uint16_t children;  // slot of `from`
+  std::uint16_t children;     // slot of `from`
+  bool does_nothing = false;  // what else it did is lost, and is said
 };
 
 constexpr GroupRow groups[] = {
@@ -24,6 +26,19 @@ constexpr GroupRow groups[] = {
     {nodes::LayerSet, nodes::Group, nodes::layer_set::layers.slot},
     {nodes::Layer, nodes::Group, nodes::layer::children.slot},
     {nodes::Viewport, nodes::Group, nodes::viewport::children.slot},
+    {nodes::HAnimHumanoid, nodes::Transform, nodes::h_anim_humanoid::skeleton.slot, true},
+    {nodes::HAnimJoint, nodes::Transform, nodes::h_anim_joint::children.slot},
+    {nodes::HAnimSite, nodes::Transform, nodes::h_anim_site::children.slot},
+    {nodes::HAnimSegment, nodes::Group, nodes::h_anim_segment::children.slot},
+    {nodes::EspduTransform, nodes::Transform, nodes::espdu_transform::children.slot, true},
+    {nodes::LayoutGroup, nodes::Group, nodes::layout_group::children.slot, true},
+    {nodes::LayoutLayer, nodes::Group, nodes::layout_layer::children.slot, true},
+    {nodes::ScreenGroup, nodes::Group, nodes::screen_group::children.slot, true},
+    {nodes::PickableGroup, nodes::Group, nodes::pickable_group::children.slot},
+    {nodes::RigidBodyCollection, nodes::Group, nodes::rigid_body_collection::bodies.slot, true},
+    {nodes::RigidBody, nodes::Group, nodes::rigid_body::geometry.slot},
+    {nodes::CollidableShape, nodes::Transform, nodes::collidable_shape::shape.slot},
+    {nodes::CollidableOffset, nodes::Transform, nodes::collidable_offset::collidable.slot},
 };
 
 /// A name that VRML can have, of one that a CAD program gave.
@@ -55,6 +70,10 @@ std::vector<NodeId> children_of(Scene& scene, NodeId n, const GroupRow& row) {
   const Value& v = scene.value(n, row.children);
   std::vector<NodeId> all(v.is ? nullptr : v.node_span().data(),
                           v.is ? nullptr : v.node_span().data() + v.node_span().size());
+  if (row.from == nodes::HAnimHumanoid) {
+    std::ranges::copy(scene.get(n, nodes::h_anim_humanoid::skin), std::back_inserter(all));
+    std::ranges::copy(scene.get(n, nodes::h_anim_humanoid::viewpoints), std::back_inserter(all));
+  }
   if (row.from != nodes::CADLayer) return all;
   const auto visible = scene.get(n, nodes::cad_layer::visible);
   for (std::size_t i = 0; i < std::min(all.size(), visible.size()); ++i)
@@ -62,9 +81,10 @@ std::vector<NodeId> children_of(Scene& scene, NodeId n, const GroupRow& row) {
   return all;
 }
 
-bool rename_group(Scene& scene, NodeId n) {
+bool rename_group(Scene& scene, NodeId n, Diagnostics& diag) {
   auto row = std::ranges::find(groups, scene.type_id(n), &GroupRow::from);
   if (row == std::end(groups)) return false;
+  if (row->does_nothing) diag.report(Diag::no_vrml97_node, scene.where(n), scene.type(n).name);
   take_name(scene, n);
   auto children = children_of(scene, n, *row);
   const auto slot = row->to == nodes::Transform ? nodes::transform::children.slot : nodes::group::children.slot;
@@ -97,8 +117,8 @@ bool hide(Scene& scene, NodeId n) {
 
 }  // namespace
 
-bool lower_group(Scene& scene, NodeId n) {
-  const bool renamed = rename_group(scene, n);
+bool lower_group(Scene& scene, NodeId n, Diagnostics& diag) {
+  const bool renamed = rename_group(scene, n, diag);
   return hide(scene, n) || renamed;
 }
 

@@ -4,7 +4,6 @@
 #include "passes/lower_x3d/geo.h"
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/groups.h"
-#include "passes/lower_x3d/hanim.h"
 #include "passes/lower_x3d/interpolators.h"
 #include "passes/lower_x3d/materials.h"
 #include "passes/lower_x3d/nurbs_geometry.h"
@@ -41,11 +40,10 @@ Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx
   changed |= lower_curves(scene, options, ctx.diag);
   changed |= x3d::lower_interpolators(scene, options.vrml97, ctx.diag);
   for (NodeId n : all_nodes(scene)) {
-    if (!options.vrml97) changed |= x3d::lower_humanoid(scene, n, ctx.diag);  // text keeps them
     if (scene.type(n).kind != NodeKind::builtin) continue;
     changed |= x3d::lower_geometry(scene, n);
     changed |= x3d::lower_appearance(scene, n, ctx.diag);
-    changed |= x3d::lower_group(scene, n);
+    changed |= x3d::lower_group(scene, n, ctx.diag);
   }
   const bool all = options.vrml97 && !options.defer_colors;
   if (all) changed |= x3d::lower_products(scene, ctx);
