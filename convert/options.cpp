@@ -18,7 +18,8 @@ GltfOptions gltf_options(const SaveOptions& o, bool binary) {
           .names = o.names,
           .gpu_instancing = o.gpu_instancing,
           .extras = o.extras != Extras::none,
-          .facts_only = o.names == GltfOptions::Names::table || o.extras != Extras::all};
+          .facts_only = o.names == GltfOptions::Names::table || o.extras != Extras::all,
+          .hidden = o.hidden};
 }
 
 }  // namespace wrlkit

@@ -28,6 +28,12 @@ inline constexpr auto choices<Extras> = choice_row({{"all", "so that the same VR
                                                      "what nodes say that draw nothing, links and descriptions"},
                                                     {"none"}});
 
+/// What becomes of a Background, which glTF has none of.
+enum class SkyAs : std::uint8_t { none, mesh };
+template <>
+inline constexpr auto choices<SkyAs> = choice_row({{"none", "kept in extras"},
+                                                   {"mesh", "a dome around the world, and a cube of its pictures"}});
+
 /// What fields() may add to the name, the value and the help of an option.
 struct OptionNote {
   OptionRange range = {};      // of a number
@@ -63,6 +69,8 @@ struct SaveOptions {
   // glTF
   GltfOptions::Lightmaps lightmap_as = GltfOptions::Lightmaps::base_color;
   bool animation_pointer = false;
+  SkyAs sky = SkyAs::none;
+  GltfOptions::Hidden hidden = GltfOptions::Hidden::dropped;
   GltfCompression::Method compress = GltfCompression::Method::none;
   LengthOption tolerance = {};  // 0: a millimetre, or less in a small scene
   int position_bits = 0, normal_bits = 8, texcoord_bits = 12, draco_level = 7, color_bits = 10;
@@ -82,6 +90,8 @@ struct SaveOptions {
     f("lightmap-as", lightmap_as, "baked light in glTF");
     f("animation-pointer", animation_pointer,
       "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few viewers know");
+    f("sky", sky, "the Background in glTF");
+    f("hidden", hidden, "what Switches do not show, in glTF");
   }
   void size_fields(auto&& f) {
     f("compress", compress, "vertices in glTF");

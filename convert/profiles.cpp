@@ -14,18 +14,19 @@ using Method = GltfCompression::Method;
 using Pictures = GltfTextures::Format;
 using Names = GltfOptions::Names;
 constexpr Profile all[] = {
-    {"portable", "every viewer of glTF 2.0", Method::none, Extras::facts, Pictures::keep, Names::nodes, WRLKIT_SHARING,
-     "core glTF: no extension that a viewer must know; equal parts share a mesh, each has a node"},
+    {"portable", "every viewer of glTF 2.0", Method::none, Extras::facts, Pictures::keep, Names::nodes, SkyAs::none,
+     WRLKIT_SHARING, "core glTF: no extension that a viewer must know; equal parts share a mesh, each has a node"},
     {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", Method::meshopt, Extras::facts, Pictures::webp,
-     Names::nodes, WRLKIT_PACKED,
-     "their decoder of meshopt is small and fast; it must be given to the loader (GLTFLoader.setMeshoptDecoder)"},
-    {"cesium", "CesiumJS", Method::meshopt, Extras::facts, Pictures::webp, Names::table,
+     Names::nodes, SkyAs::mesh, WRLKIT_PACKED,
+     "their decoder of meshopt is small and fast; it must be given to the loader (GLTFLoader.setMeshoptDecoder); they "
+     "show nothing behind the world"},
+    {"cesium", "CesiumJS", Method::meshopt, Extras::facts, Pictures::webp, Names::table, SkyAs::none,
      WRLKIT_PACKED ",merge{instanced=true}",
      "meshopt, quantised numbers and WebP are decoded without being asked for; names in a table are what it picks by: "
      "few draws, every part still found"},
-    {"unity", "Unity by glTFast", Method::quantize, Extras::facts, Pictures::keep, Names::nodes, WRLKIT_SHARING,
-     "quantised numbers need no further package; meshopt and Draco do"},
-    {"godot", "Godot 4", Method::none, Extras::facts, Pictures::webp, Names::nodes, WRLKIT_SHARING,
+    {"unity", "Unity by glTFast", Method::quantize, Extras::facts, Pictures::keep, Names::nodes, SkyAs::none,
+     WRLKIT_SHARING, "quantised numbers need no further package; meshopt and Draco do"},
+    {"godot", "Godot 4", Method::none, Extras::facts, Pictures::webp, Names::nodes, SkyAs::none, WRLKIT_SHARING,
      "its importer knows WebP, but neither quantised numbers nor a decoder of meshopt or Draco"},
 };
 
@@ -73,24 +74,28 @@ void apply_profile(SaveOptions& options, const Profile& profile, const std::func
   take("extras", options.extras, profile.extras);
   take("texture-format", options.texture_format, profile.texture_format);
   take("names", options.names, profile.names);
+  take("sky", options.sky, profile.sky);
 }
 
 std::string profile_text(const Profile& p) {
-  return fmt::format("{}: {}\n  --compress {} --extras {} --texture-format {} --names {}\n  optimize runs {}\n  {}\n",
-                     p.name, p.opens_in, name_of(p.compress), name_of(p.extras), name_of(p.texture_format),
-                     name_of(p.names), p.pipeline, p.why);
+  return fmt::format(
+      "{}: {}\n  --compress {} --extras {} --texture-format {} --names {} --sky {}\n  optimize runs {}\n  {}\n", p.name,
+      p.opens_in, name_of(p.compress), name_of(p.extras), name_of(p.texture_format), name_of(p.names), name_of(p.sky),
+      p.pipeline, p.why);
 }
 
 std::string profiles_page() {
   std::string out =
       "# Profiles\n\nGenerated from `convert/profiles.cpp` by `script/docs`; do not edit. `wrlkit optimize --profile "
       "NAME --print-profile` prints one.\n"
-      "What an option says otherwise holds; `convert --profile NAME` takes the first four and runs no pass of its "
-      "own.\n\n| profile | opens in | `--compress` | `--extras` | `--texture-format` | `--names` | `optimize` runs | "
-      "why |\n|---|---|---|---|---|---|---|---|\n";
+      "What an option says otherwise holds; `convert --profile NAME` takes the first five and runs no pass of its "
+      "own.\n\n| profile | opens in | `--compress` | `--extras` | `--texture-format` | `--names` | `--sky` | "
+      "`optimize` "
+      "runs | why |\n|---|---|---|---|---|---|---|---|---|\n";
   for (const Profile& p : all)
-    out += fmt::format("| {} | {} | {} | {} | {} | {} | `{}` | {} |\n", p.name, p.opens_in, name_of(p.compress),
-                       name_of(p.extras), name_of(p.texture_format), name_of(p.names), p.pipeline, p.why);
+    out +=
+        fmt::format("| {} | {} | {} | {} | {} | {} | {} | `{}` | {} |\n", p.name, p.opens_in, name_of(p.compress),
+                    name_of(p.extras), name_of(p.texture_format), name_of(p.names), name_of(p.sky), p.pipeline, p.why);
   out += "\nWhere that can be read:\n\n";
   for (const Source& from : sources) out += fmt::format("- {}: {}.\n", from.profile, from.text);
   return out;

@@ -16,6 +16,7 @@ struct Profile {
   Extras extras;
   GltfTextures::Format texture_format;
   GltfOptions::Names names;
+  SkyAs sky;
   std::string_view pipeline;  // what optimize runs in front of what glTF needs
   std::string_view why;
 };

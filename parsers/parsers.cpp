@@ -68,10 +68,10 @@ struct Header {
   bool exact = false, missing = false;
 };
 
-/// With the prefix of a namespace, or without an X3D element around it.
+/// With the prefix of a namespace, or without an X3D element around it: a Scene, or a node of a fragment.
 bool is_x3d_element(std::string_view name) {
   name.remove_prefix(name.find(':') + 1);
-  return name == "X3D" || name == "Scene" || name == "scene";
+  return name == "X3D" || name == "Scene" || name == "scene" || find_builtin(name, Dialect::x3d);
 }
 
 Header read_header(std::string_view text) {

@@ -246,7 +246,7 @@ void Parser::import_export(Token keyword) {
     name = new_name(t);
   }
   if (scene_.dialect() != Dialect::x3d)
-    diag_.report(Diag::dialect_statement, span(keyword), text(keyword));
+    diag_.report(Diag::dialect_statement, span(keyword), text(keyword), "it is dropped");
   else if (import)
     build_.import_name(node, exported, name, span(keyword));
   else

@@ -65,8 +65,9 @@ void Parser::statements(Kind until) {
 bool Parser::statement(Token t) {
   if (t.kind != Kind::word) return false;
   auto w = text(t);
-  if (begins_head(w) && scene_.dialect() == Dialect::x3d && !node_follows(t)) {
+  if (begins_head(w) && !node_follows(t)) {
     lex_.next();
+    if (scene_.dialect() != Dialect::x3d) diag_.report(Diag::dialect_statement, span(t), w, "it is read as in X3D");
     head_statement(t);
     return true;
   }

@@ -41,8 +41,9 @@ void Parser::document() {
   for_each_element(*x3d, [&](const XmlNode& n) {
     if (&n == scene || n.name == "head") return;
     if (is(n, "scene")) return roots(n);
-    if (scene || x3d == &top) return unknown(n);
-    diag_.report(Diag::x3d_repaired, where(n), "the Scene element is missing");
+    const bool fragment = x3d == &top && build_.known_type(n.name);
+    if (scene || (x3d == &top && !fragment)) return unknown(n);
+    if (!fragment) diag_.report(Diag::x3d_repaired, where(n), "the Scene element is missing");
     if (!statement(n))
       if (NodeId id = node(n)) build_.root(id);
   });

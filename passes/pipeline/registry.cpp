@@ -25,6 +25,7 @@
 #include "passes/place/place.h"
 #include "passes/prune/prune.h"
 #include "passes/recognise/recognise.h"
+#include "passes/sky/sky.h"
 #include "passes/smooth/smooth.h"
 #include "passes/subdivide/subdivide.h"
 #include "passes/switch/switch.h"
@@ -56,6 +57,7 @@ constexpr PassInfo all_passes[] = {
         authored, {.phase = Phase::lower, .idempotent = true}),
     pass<lower_x3d, LowerX3dOptions>("lower-x3d", "turn nodes that only X3D has into those of VRML97", authored,
                                      authored, {.phase = Phase::lower, .idempotent = true}),
+    pass<sky, SkyOptions>("sky", "make Shapes of the Background, for glTF", authored, authored, {.idempotent = true}),
     pass<prune, PruneOptions>("prune", "remove what has no effect", authored, authored, {.idempotent = true}),
     pass<join, JoinOptions>("join", "make one Shape of many that look the same", authored, authored),
     pass<recognise, RecogniseFormsOptions>("recognise", "find what parts are: cylinders, elbows, boxes, profiles",

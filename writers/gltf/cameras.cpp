@@ -67,13 +67,15 @@ std::string_view camera_name(const Scene& scene, NodeId n) {
                                             : scene.get(n, nodes::viewpoint::description);
 }
 
-void write_camera(JsonOut& json, const Scene& scene, const Camera& camera, const Box& world, const Visibility& v) {
+void write_camera(JsonOut& json, const Scene& scene, const Camera& camera, const Box& world, const Visibility& v,
+                  double reach) {
   constexpr double no_world = 100;
   const bool ortho = scene.is(camera.source, nodes::OrthoViewpoint);
   double zfar = 2 * farthest_corner(camera.position, world);
   if (!(zfar > 0) || !fits_float(zfar)) zfar = no_world;
   double znear = std::clamp(v.avatar_size / 2, zfar / 1e5, zfar / 1e3);
   if (v.limit > 0 && v.limit > 2 * znear) zfar = std::min(zfar, v.limit);
+  zfar = std::max(zfar, reach);
   json.begin_object();
   json.member("type", ortho ? "orthographic" : "perspective");
   if (auto name = camera_name(scene, camera.source); !name.empty()) json.member("name", name);

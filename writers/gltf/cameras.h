@@ -28,6 +28,7 @@ Visibility visibility(const Scene&, NodeId navigation_info);
 Trs camera_transform(const Scene&, NodeId viewpoint);
 /// DEF name, or else the description.
 std::string_view camera_name(const Scene&, NodeId viewpoint);
-void write_camera(JsonOut&, const Scene&, const Camera&, const Box& world, const Visibility&);
+/// `reach`: what is that far from the camera is seen in any case.
+void write_camera(JsonOut&, const Scene&, const Camera&, const Box& world, const Visibility&, double reach = 0);
 
 }  // namespace wrlkit::gltf

@@ -52,7 +52,8 @@ void array(JsonOut& json, std::span<const T> values) {
 
 }  // namespace
 
-Extras::Extras(const Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag), marks_(scene.node_count(), 0) {
+Extras::Extras(const Scene& scene, bool keeps_hidden, Diagnostics& diag)
+    : scene_(scene), keeps_hidden_(keeps_hidden), diag_(diag), marks_(scene.node_count(), 0) {
   name_what_is_referred_to();
 }
 
@@ -116,6 +117,8 @@ Extras::Said Extras::said_by_node(NodeId n, bool plain_transform) const {
   };
   if (scene_.is(n, Transform)) return Said(transform_slots, plain_transform ? 4 : 1);
   if (scene_.is(n, Shape) && !shown(n)) return {};
+  static constexpr std::uint16_t choices[] = {switch_::children.slot};
+  if (scene_.is(n, Switch) && keeps_hidden_) return choices;
   for (const Row& r : rows)
     if (scene_.is(n, r.type)) return Said(r.slots).first(r.n);
   return {};

@@ -36,7 +36,8 @@ class Extras {
   /// (serde_json).
   static constexpr std::size_t max_depth = 32;
 
-  Extras(const Scene& scene, Diagnostics& diag);
+  /// `keeps_hidden`: what Switches do not show has nodes of glTF, too.
+  Extras(const Scene& scene, bool keeps_hidden, Diagnostics& diag);
 
   /// DEF name, or the one that was given to what a ROUTE or Script refers to.
   std::string_view name(NodeId n) const;
@@ -113,6 +114,7 @@ class Extras {
   bool too_much(NodeId, std::size_t depth);
 
   const Scene& scene_;
+  bool keeps_hidden_;
   Diagnostics& diag_;
   std::vector<std::uint8_t> marks_;
   std::unordered_map<std::uint32_t, std::string> given_;

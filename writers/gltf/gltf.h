@@ -102,6 +102,9 @@ struct GltfOptions {
   bool facts_only =
       false;  // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
               // the same VRML again. Groups without a name that hold one thing are then one node with it
+  /// What Switches do not show. dropped: it is not in the hierarchy. invisible: by KHR_node_visibility.
+  enum class Hidden : std::uint8_t { dropped, invisible };
+  Hidden hidden = Hidden::dropped;
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
 };
 template <>
@@ -110,6 +113,10 @@ inline constexpr auto choices<GltfOptions::Lightmaps> = choice_row({{"base-color
                                                                     {"occlusion", "its brightness alone"},
                                                                     {"moz", "as MOZ_lightmap"},
                                                                     {"extras", "for programs that look there"}});
+template <>
+inline constexpr auto choices<GltfOptions::Hidden> =
+    choice_row({{"dropped", "not drawn by any viewer"},
+                {"invisible", "nodes that a viewer may show (KHR_node_visibility; others show them)"}});
 template <>
 inline constexpr auto choices<GltfOptions::Names> =
     choice_row({{"nodes", "each part is one"},

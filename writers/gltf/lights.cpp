@@ -62,13 +62,21 @@ Trs light_transform(const Scene& scene, NodeId n) {
   return placed_at(c.location, looking_along(c.direction));
 }
 
-void report_lost_light(const Scene& scene, NodeId n, bool at_top, Diagnostics& diag) {
-  auto c = read_light(scene, n);
-  auto type = scene.type(n).name;
+void LostLight::add(const Scene& scene, NodeId n, bool at_top) {
+  const auto c = read_light(scene, n);
+  const auto count = [&](Lost& lost) {
+    if (lost.n++ == 0) lost.first = scene.where(n);
+  };
+  const std::string type(scene.type(n).name);
   if (c.kind != LightNode::Kind::directional && (c.attenuation[0] != 0 || c.attenuation[1] != 0))
-    diag.report(Diag::no_gltf_value, scene.where(n), type, "attenuation");
-  if (c.ambient_intensity != 0) diag.report(Diag::no_gltf_value, scene.where(n), type, "ambientIntensity");
-  if (!at_top && !c.global) diag.report(Diag::no_gltf_light_scope, scene.where(n), type);
+    count(values_[type + ".attenuation"]);
+  if (c.ambient_intensity != 0) count(values_[type + ".ambientIntensity"]);
+  if (!at_top && !c.global) count(scope_);
+}
+
+void LostLight::report(Diagnostics& diag) const {
+  for (const auto& [what, lost] : values_) diag.report(Diag::no_gltf_light_value, lost.first, what, lost.n);
+  if (scope_.n > 0) diag.report(Diag::no_gltf_light_scope, scope_.first, scope_.n);
 }
 
 double full_intensity(const Scene& scene, const Light& light, const Box& world) {

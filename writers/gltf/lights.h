@@ -11,6 +11,9 @@
 // headlight (NavigationInfo, 6.29) is there when the world has lights of its own: a DirectionalLight with the first
 // camera.
 #pragma once
+#include <map>
+#include <string>
+
 #include "base/diagnostics.h"
 #include "base/text/json.h"
 #include "scenegraph/looks/light_node.h"
@@ -30,8 +33,21 @@ struct Light {
 bool shines(const Scene&, NodeId light, const Motion&);
 /// Location and direction as those of a node.
 Trs light_transform(const Scene&, NodeId light);
-/// What of a light cannot be said; `at_top`: it stands in no group.
-void report_lost_light(const Scene&, NodeId light, bool at_top, Diagnostics&);
+/// What of lights cannot be said: one message for each kind of loss, with the place of the first.
+class LostLight {
+ public:
+  /// `at_top`: it stands in no group.
+  void add(const Scene&, NodeId light, bool at_top);
+  void report(Diagnostics&) const;
+
+ private:
+  struct Lost {
+    Span first;
+    std::size_t n = 0;
+  };
+  std::map<std::string, Lost> values_;  // by type and field
+  Lost scope_;
+};
 /// The intensity of glTF for one of 1 in VRML.
 double full_intensity(const Scene&, const Light&, const Box& world);
 void write_light(JsonOut&, const Scene&, const Light&, const Box& world);

@@ -23,6 +23,7 @@ struct Node {
   std::uint32_t attached = none;
   Attachment attachment = Attachment::nothing;
   bool plain = true;               // the transform is what the fields of `source` say
+  bool hidden = false;             // not shown, nor what is below it (KHR_node_visibility)
   bool lod = false;                // has an entry in Document::lods
   std::uint32_t same_as = none;    // the node that `source` has become before
   std::uint32_t instances = none;  // into Document::instances; such a node is nobody's, its rows have sources
@@ -31,6 +32,14 @@ struct Node {
 struct Lod {
   std::vector<std::uint32_t> levels;  // behind the first
   std::vector<double> coverage;       // empty: not known
+};
+
+/// A dome around everything.
+struct Sky {
+  std::uint32_t node = none;
+  Matrix frame{};  // that its node is in
+  Vec3 centre{};   // world
+  double radius = 0;
 };
 
 struct Document {
@@ -42,6 +51,7 @@ struct Document {
   std::unordered_map<std::uint32_t, Lod> lods;  // by node
   std::vector<Instances> instances;
   Box world;
+  std::optional<Sky> sky;
   std::optional<Vec3> origin;  // what was subtracted from all coordinates
   NodeId navigation_info, world_info;
 

@@ -13,7 +13,7 @@ bool has_unseen_names(const Makers& m, NodeId n) {
 }
 
 bool can_be_one(const Makers& m, NodeId group, const Node& child) {
-  if (!child.source || child.lod) return false;
+  if (!child.source || child.lod || child.hidden) return false;
   if (child.attachment != Attachment::mesh && child.attachment != Attachment::nothing) return false;
   if (child.attachment == Attachment::nothing && has_unseen_names(m, child.source)) return false;
   if (m.animations.moves(child.source) || m.animations.moves(group)) return false;

@@ -7,6 +7,7 @@
 #include "writers/gltf/document/fold.h"
 #include "writers/gltf/document/group.h"
 #include "writers/gltf/document/levels.h"
+#include "writers/gltf/document/sky.h"
 #include "writers/gltf/number.h"
 
 namespace wrlkit::gltf {
@@ -48,6 +49,10 @@ class Builder {
     Matrix world{};      // frame of the children
     Box box{};           // of what they show
     bool again = false;  // in something that was met before
+    std::optional<std::size_t> shown{};  // the one child that is shown; none: all
+
+    /// The child at hand is not shown.
+    bool hides() const { return shown && next != *shown + 1; }
   };
   Kind kind(NodeId);
   bool one_too_many(NodeId);
@@ -60,8 +65,14 @@ class Builder {
   std::uint32_t light(NodeId);
   std::uint32_t viewpoint(NodeId);
   std::uint32_t other(NodeId);
-  /// In a level of a LOD behind the first?
-  bool in_coarse_level() const { return m_.scene.is(frames_.back().node, nodes::LOD) && frames_.back().next > 1; }
+  std::uint32_t background(NodeId, std::span<const NodeId> sky);
+  /// In a level of a LOD behind the first, or in what a Switch does not show?
+  bool is_aside() const {
+    const Frame& f = frames_.back();
+    return f.hides() || (m_.scene.is(f.node, nodes::LOD) && f.next > 1);
+  }
+  bool keeps_hidden() const { return m_.options.hidden == GltfOptions::Hidden::invisible; }
+  void add_built(std::uint32_t);
   bool first_visit(NodeId, bool has_place = true);
   void report_overflow(NodeId);
   void report_texcoords(NodeId geometry);
@@ -78,6 +89,7 @@ class Builder {
   std::unordered_map<std::uint32_t, std::uint32_t> became_;  // of nodes of VRML, the first of glTF
   std::map<std::string_view, std::size_t> lost_;             // by type: each Script has one of its own, but one name
   Span first_lost_;
+  LostLight lost_light_;
   bool full_ = false;
 };
 
@@ -85,7 +97,9 @@ void Builder::enter(NodeId n) {
   if (first_visit(n)) report_group(n);
   Frame f{.node = n, .first_built = built_.size(), .world = frames_.back().world};
   f.again = frames_.back().again || became_.contains(n.value);
-  f.children = m_.scene.is(n, nodes::LOD) ? hierarchy_children(m_.scene, n) : shown_children(m_.scene, n);
+  const bool chooses = keeps_hidden() && m_.scene.is(n, nodes::Switch);
+  f.children = chooses || m_.scene.is(n, nodes::LOD) ? hierarchy_children(m_.scene, n) : shown_children(m_.scene, n);
+  if (chooses) f.shown = static_cast<std::size_t>(std::max(-1, m_.scene.get(n, nodes::switch_::whichChoice)));
   if (m_.scene.is(n, nodes::Transform)) {
     f.local = node_transform(m_.scene, n);
     f.world = f.world * matrix(f.local.outer);
@@ -110,7 +124,7 @@ void Builder::report_group(NodeId n) {
   // Switches that no file has written only hold what prototypes leave behind.
   bool hides =
       m_.scene.is(n, nodes::Switch) && hierarchy_children(m_.scene, n).size() > shown_children(m_.scene, n).size();
-  if (hides && m_.scene.where(n)) m_.diag.report(Diag::no_gltf_choice, m_.scene.where(n));
+  if (hides && !keeps_hidden() && m_.scene.where(n)) m_.diag.report(Diag::no_gltf_choice, m_.scene.where(n));
 }
 
 /// Texture coordinates that a rule makes from where the viewer is.
@@ -135,7 +149,7 @@ std::uint32_t Builder::shape(NodeId n) {
   if (m_.extras) m_.extras->set_shown(n);
   Frame& f = frames_.back();
   m_.meshes.note_use(geometry, f.world);
-  if (!in_coarse_level()) f.box.unite(m_.meshes.bounds(g, f.world));
+  if (!is_aside()) f.box.unite(m_.meshes.bounds(g, f.world));
   if (g.origin != none) node.transform = d_.add_transform({.translation = m_.meshes.origins()[g.origin]});
   auto material = m_.materials.get(appearance, g.surface());
   node.attachment = Attachment::mesh;
@@ -147,7 +161,7 @@ std::uint32_t Builder::light(NodeId n) {
   Node node{.source = n,
             .transform = d_.add_transform(light_transform(m_.scene, n), m_.animations.moves(n, Path::translation))};
   bool on = m_.options.lights && shines(m_.scene, n, m_.animations.motion());
-  if (first_visit(n) && on) report_lost_light(m_.scene, n, frames_.size() == 1, m_.diag);
+  if (first_visit(n) && on) lost_light_.add(m_.scene, n, frames_.size() == 1);
   if (on) {
     const Matrix& frame = frames_.back().world;
     node.attachment = Attachment::light;
@@ -175,10 +189,22 @@ std::uint32_t Builder::viewpoint(NodeId n) {
 }
 
 std::uint32_t Builder::other(NodeId n) {
-  if (first_visit(n) && !harmless(m_.scene, n) && !m_.animations.motion().expressed(n)) add_lost(n);
+  const auto sky = sky_shapes(m_.scene, n);
+  const bool said = harmless(m_.scene, n) || !sky.empty() || m_.animations.motion().expressed(n);
+  if (first_visit(n) && !said) add_lost(n);
   if (!d_.navigation_info && m_.scene.is(n, nodes::NavigationInfo)) d_.navigation_info = n;
   if (!d_.world_info && m_.scene.is(n, nodes::WorldInfo)) d_.world_info = n;
-  return d_.add({.source = n});
+  return sky.empty() || d_.sky ? d_.add({.source = n}) : background(n, sky);
+}
+
+/// What shows it hangs below its node, which place_sky puts around the world when that is known.
+std::uint32_t Builder::background(NodeId n, std::span<const NodeId> sky) {
+  frames_.push_back({.node = n});
+  std::vector<std::uint32_t> children;
+  for (NodeId s : sky) children.push_back(shape(s));
+  frames_.pop_back();
+  d_.sky = Sky{d_.add({.source = n, .plain = false}, children), frames_.back().world};
+  return d_.sky->node;
 }
 
 void Builder::add_lost(NodeId n) {
@@ -203,6 +229,7 @@ void Builder::report_lost() {
     if (n > 1) types += " (" + std::to_string(n) + ")";
   }
   if (!lost_.empty()) m_.diag.report(Diag::no_gltf_node, first_lost_, types);
+  lost_light_.report(m_.diag);
   if (auto n = m_.scene.main.routes.size() - m_.animations.motion().n_expressed_routes())
     m_.diag.report(Diag::no_gltf_route, {}, n);
   if (auto n = m_.scene.main.imports.size() + m_.scene.main.exports.size()) m_.diag.report(Diag::no_gltf_import, {}, n);
@@ -235,19 +262,22 @@ void Builder::visit(NodeId n) {
     case Kind::group:
       return enter(n);
     case Kind::shape:
-      built_.push_back(shape(n));
-      break;
+      return add_built(shape(n));
     case Kind::light:
-      built_.push_back(light(n));
-      break;
+      return add_built(light(n));
     case Kind::viewpoint:
-      built_.push_back(viewpoint(n));
-      break;
+      return add_built(viewpoint(n));
     case Kind::other:
     case Kind::not_known:
-      built_.push_back(other(n));
+      return add_built(other(n));
   }
-  set_same(built_.back());
+}
+
+/// A child of the group at hand.
+void Builder::add_built(std::uint32_t id) {
+  d_.nodes[id].hidden = frames_.back().hides();
+  built_.push_back(id);
+  set_same(id);
 }
 
 /// Notes which node this one is once more; what lies in it need not be said.
@@ -263,15 +293,15 @@ void Builder::leave() {
   if (frames_.empty()) {
     d_.roots = std::move(built_);
     d_.world = f.box;
+    place_sky(d_);
     return;
   }
   const auto id = group(f);
   built_.resize(f.first_built);
   if (says_nothing(m_, d_.nodes[id]) && id + 1 == d_.nodes.size() && !m_.scene.is(frames_.back().node, nodes::LOD))
     return d_.nodes.pop_back();
-  built_.push_back(id);
-  set_same(id);
-  if (!in_coarse_level()) frames_.back().box.unite(f.box);
+  add_built(id);
+  if (!is_aside()) frames_.back().box.unite(f.box);
 }
 
 std::uint32_t Builder::group(const Frame& f) {

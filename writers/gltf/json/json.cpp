@@ -22,7 +22,9 @@ class Writer {
     measured("nodes", d_.nodes.size(), write_node);
     const auto visible = visibility(p_.scene, d_.navigation_info);
     measured("cameras", d_.cameras.size(), [&](JsonOut& json, const Parts& p, std::size_t i) {
-      write_camera(json, p.scene, d_.cameras[i], d_.world, visible);
+      const Camera& camera = d_.cameras[i];
+      const double reach = d_.sky ? d_.sky->radius + length(camera.position - d_.sky->centre) : 0;
+      write_camera(json, p.scene, camera, d_.world, visible, reach);
     });
     measured("meshes", p_.meshes.meshes().size(), write_mesh);
     const auto& materials = p_.materials.materials();
@@ -100,6 +102,8 @@ class Writer {
         return p_.has_table();
       case lod:
         return !d_.lods.empty();
+      case node_visibility:
+        return std::ranges::any_of(d_.nodes, &Node::hidden);
       case gpu_instancing:
         return !d_.instances.empty();
       case mesh_quantization:

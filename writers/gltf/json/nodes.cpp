@@ -33,7 +33,7 @@ class NodeJson : public JsonPart {
     if (n.attachment == Attachment::mesh) json_.member("mesh", n.attached);
     if (n.attachment == Attachment::camera) json_.member("camera", n.attached);
     if (n.n_children > 0) numbers("children", d_.children_of(n));
-    if (n.attachment == Attachment::light || n.lod) node_extensions(n, id);
+    if (n.attachment == Attachment::light || n.lod || n.hidden) node_extensions(n, id);
     if (n.instances != none)
       instances(d_.instances[n.instances]);
     else
@@ -87,6 +87,7 @@ class NodeJson : public JsonPart {
       if (n.lod) {
         object("MSFT_lod", [&] { numbers("ids", std::span(d_.lods.at(id).levels)); });
       }
+      if (n.hidden) object("KHR_node_visibility", [&] { json_.member("visible", false); });
     });
   }
 
