@@ -8,14 +8,19 @@
 namespace wrlkit {
 namespace {
 
-std::string_view gltf_pipeline(const SaveOptions& o) {
+std::string gltf_pipeline(const SaveOptions& o) {
   using As = GltfOptions::Lightmaps;
-  return o.lightmap_as == As::base_color ? "gltf" : o.lightmap_as == As::emissive ? "gltf-emissive" : "gltf-light";
+  const std::string name = o.lightmap_as == As::base_color ? "gltf"
+                           : o.lightmap_as == As::emissive ? "gltf-emissive"
+                                                           : "gltf-light";
+  if (o.sky == SkyAs::none) return name;
+  std::string text(std::ranges::find(named_pipelines(), name, &NamedPipeline::name)->text);
+  return text.insert(text.find("tessellate"), "sky,");
 }
 
 bool stays(const SaveOptions& o) { return o.dump || o.pipeline == "none"; }
-std::string_view vrml_pipeline(const SaveOptions& o) { return stays(o) ? "none" : "vrml"; }
-std::string_view x3d_pipeline(const SaveOptions& o) { return o.dump ? "none" : "x3d"; }
+std::string vrml_pipeline(const SaveOptions& o) { return stays(o) ? "none" : "vrml"; }
+std::string x3d_pipeline(const SaveOptions& o) { return o.dump ? "none" : "x3d"; }
 
 constexpr FileFormat all[] = {
     {.name = "VRML97",

@@ -24,8 +24,8 @@ struct FileFormat {
   // Of formats that `convert` writes:
   /// Writes a scene that has gone through the pipeline, whole or not at all; false, reported, when it could not be.
   bool (*write)(const Writing&) = nullptr;
-  /// The named pipeline that a scene goes through before.
-  std::string_view (*pipeline)(const SaveOptions&) = nullptr;
+  /// The pipeline that a scene goes through before.
+  std::string (*pipeline)(const SaveOptions&) = nullptr;
   bool meshes = false;   // the writer asks for meshes one by one
   bool is_text = false;  // refers to files next to it as VRML does
 };

@@ -17,9 +17,8 @@ constexpr Profile all[] = {
     {"portable", "every viewer of glTF 2.0", Method::none, Extras::facts, Pictures::keep, Names::nodes, SkyAs::none,
      WRLKIT_SHARING, "core glTF: no extension that a viewer must know; equal parts share a mesh, each has a node"},
     {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", Method::meshopt, Extras::facts, Pictures::webp,
-     Names::nodes, SkyAs::mesh, WRLKIT_PACKED,
-     "their decoder of meshopt is small and fast; it must be given to the loader (GLTFLoader.setMeshoptDecoder); they "
-     "show nothing behind the world"},
+     Names::nodes, SkyAs::none, WRLKIT_PACKED,
+     "their decoder of meshopt is small and fast; it must be given to the loader (GLTFLoader.setMeshoptDecoder)"},
     {"cesium", "CesiumJS", Method::meshopt, Extras::facts, Pictures::webp, Names::table, SkyAs::none,
      WRLKIT_PACKED ",merge{instanced=true}",
      "meshopt, quantised numbers and WebP are decoded without being asked for; names in a table are what it picks by: "

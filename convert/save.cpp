@@ -47,12 +47,8 @@ Saved save_to(Document&& document, const std::string& path, const SaveOptions& o
 
 std::optional<Pipeline> pipeline_for(const Output& to, const SaveOptions& options, std::string& why) {
   const auto standard = to.format->pipeline(options);
-  const bool sky = options.sky == SkyAs::mesh && to.format->meshes && options.pipeline != "none";
-  if (!options.pipeline && !sky) return Pipeline::parse(standard, why);
-  std::string text = sky ? "sky" : "";
-  if (options.pipeline && !options.pipeline->empty()) text += (sky ? "," : "") + *options.pipeline;
-  auto pipeline = Pipeline::parse(text, why);
-  if (pipeline) pipeline->complete(standard);
+  auto pipeline = Pipeline::parse(options.pipeline ? *options.pipeline : standard, why);
+  if (pipeline && options.pipeline) pipeline->complete(standard);
   return pipeline;
 }
 

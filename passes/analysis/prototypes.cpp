@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/analysis/native_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -51,6 +52,7 @@ bool Prototypes::is_missing(ProtoId p) const {
 }
 
 Prototype Prototypes::find_body(const Proto& external) {
+  if (const ProtoId native = native_proto(scene_, external)) return prepare(native);
   ProtoId far = busy_.size() < deepest ? find_external(external) : ProtoId{};
   return far ? prepare(far) : Prototype{.state = Prototype::missing};
 }

@@ -41,7 +41,15 @@ std::string doc_text(const NodeType& t, const FieldDef& f) {
   return out;
 }
 
+std::string_view fate_text(BrowserNode::Fate fate) {
+  return fate == BrowserNode::Fate::below ? "its children are drawn" : "kept";
+}
+
 }  // namespace
+
+std::string browser_node_text(const BrowserNode& n) {
+  return fmt::format("{}  ({})\n  {}: {}\n", n.name, n.browser, n.what, fate_text(n.fate));
+}
 
 std::string type_text(const NodeType& t) {
   std::string out = fmt::format("{}  ({})\n  {}\n", t.name, t.clauses, t.doc);
@@ -144,6 +152,11 @@ std::string nodes_page() {
       out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", access_word(f.access), info(f.type).name,
                          f.name_in(Dialect::vrml97), f.default_text, limits_text(f), doc_text(t, f));
   }
+  out +=
+      "\n## Nodes of browsers\n\nNo standard has these. They are kept as they are, with any field, and what stands "
+      "below them is drawn.\n\n| node | browser | what it is | what becomes of it |\n|---|---|---|---|\n";
+  for (const BrowserNode& n : browser_nodes())
+    out += fmt::format("| {} | {} | {} | {} |\n", n.name, n.browser, n.what, fate_text(n.fate));
   return out;
 }
 

@@ -5,11 +5,13 @@
 
 #include "base/diagnostics.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/browser_nodes.h"
 #include "scenegraph/node_table.h"
 
 namespace wrlkit {
 
 std::string type_text(const NodeType&);
+std::string browser_node_text(const BrowserNode&);
 std::string pass_text(const PassInfo&);
 std::string diagnostic_text(Diag);
 std::string formats_text();

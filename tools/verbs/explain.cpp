@@ -32,6 +32,10 @@ int run_explain(const Flags& flags) {
   if (type) fmt::print("{}", type_text(builtin_nodes()[type.value]));
   if (old) fmt::print("{}{}", type ? "\n" : "", type_text(builtin_nodes()[old.value]));
   if (type || old) return done;
+  if (const BrowserNode* n = find_browser_node(flags.name)) {
+    fmt::print("{}", browser_node_text(*n));
+    return done;
+  }
   if (auto* p = find_pass(flags.name)) {
     fmt::print("{}", pass_text(*p));
     return done;
