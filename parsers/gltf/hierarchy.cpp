@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "parsers/gltf/bounds.h"
+#include "parsers/gltf/visibility.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf_reader {
@@ -14,10 +15,6 @@ constexpr double pi = std::numbers::pi, half_field_of_view = 0.785398 / 2;
 
 Json light_of(Json node) { return node["extensions"]["KHR_lights_punctual"]["light"]; }
 Json instancing(Json node) { return node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]; }
-bool is_hidden(Json node) {
-  const Json visible = node["extensions"]["KHR_node_visibility"]["visible"];
-  return visible && !visible.boolean(true);
-}
 Json lod_of(Json node) { return node["extensions"]["MSFT_lod"]["ids"]; }
 
 /// Types that glTF has elements for: what another program made of those is believed, not the extras.
@@ -115,7 +112,7 @@ void Hierarchy::visit(std::uint32_t n, std::size_t depth, const Vec3& origin, No
   const auto before = out.size();
   make(n, depth, origin, out);
   if (out.size() == before + 1) made_[n] = out.back();
-  if (is_hidden(json) && !is_choice(n)) hide(json, before, out);
+  if (is_hidden(json) && !is_choice(n)) hide(c_, json, before, out);
   const Json levels = lod_of(json);
   if (levels && c_.file.is_whole()) {
     for (Json l : levels.elements())
@@ -129,16 +126,6 @@ void Hierarchy::visit(std::uint32_t n, std::size_t depth, const Vec3& origin, No
 /// A child of what comes back as a Switch, which hides it itself.
 bool Hierarchy::is_choice(std::uint32_t n) const {
   return c_.file.is_own() && parent_[n] != none && vrml97(c_.file.at(Table::nodes, parent_[n]))["Switch"];
-}
-
-/// In a Switch that shows none of them.
-void Hierarchy::hide(Json at, std::size_t from, Nodes& out) {
-  if (from == out.size()) return;
-  const auto first = out.begin() + static_cast<std::ptrdiff_t>(from);
-  const NodeId choice = c_.add(nodes::Switch, at);
-  c_.scene.set(choice, nodes::switch_::children, Nodes(first, out.end()));
-  out.erase(first, out.end());
-  out.push_back(choice);
 }
 
 Hierarchy::Nodes Hierarchy::children(std::uint32_t n, std::size_t depth, const Vec3& origin) {

@@ -42,7 +42,6 @@ class Hierarchy {
   /// What stands for a node is appended; `origin` is to be added to the first translation.
   void visit(std::uint32_t node, std::size_t depth, const Vec3& origin, Nodes& out);
   bool is_choice(std::uint32_t node) const;
-  void hide(Json at, std::size_t from, Nodes& out);
   void make(std::uint32_t node, std::size_t depth, Vec3 origin, Nodes& out);
   Nodes children(std::uint32_t node, std::size_t depth, const Vec3& origin);
   NodeId kept(std::uint32_t node, Json type_and_fields, const Place&, Nodes children);
