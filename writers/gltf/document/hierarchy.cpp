@@ -46,9 +46,9 @@ class Builder {
     std::size_t next = 0;
     std::size_t first_built = 0;  // into built_
     NodeTransform local{};
-    Matrix world{};      // frame of the children
-    Box box{};           // of what they show
-    bool again = false;  // in something that was met before
+    Matrix world{};                      // frame of the children
+    Box box{};                           // of what they show
+    bool again = false;                  // in something that was met before
     std::optional<std::size_t> shown{};  // the one child that is shown; none: all
 
     /// The child at hand is not shown.

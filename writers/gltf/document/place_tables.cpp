@@ -65,7 +65,8 @@ void store(Instances& all, Store& to) {
 }  // namespace
 
 bool only_places_a_mesh(const Makers& m, const Node& n, const Trs& t, double growth) {
-  if (n.attachment != Attachment::mesh || n.n_children > 0 || n.lod || n.hidden || !n.source || m.animations.moves(n.source))
+  if (n.attachment != Attachment::mesh || n.n_children > 0 || n.lod || n.hidden || !n.source ||
+      m.animations.moves(n.source))
     return false;
   if (!is_plain_group(m.scene, n.source) && !m.scene.is(n.source, nodes::Shape)) return false;
   const Geometry& g = m.meshes.geometries()[m.meshes.meshes()[n.attached].geometry];
