@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape
 from generator import nodes
 from generator.vrml import Node, Raw
 
-TABLES = nodes.TABLE, *(nodes.TABLE.with_name(name) for name in ('x3d.nodes', 'x3d_geo.nodes', 'x3d_nurbs.nodes'))
+TABLES = nodes.TABLE, *(nodes.TABLE.with_name(name) for name in ('x3d.nodes', 'x3d_components.nodes', 'x3d_geo.nodes', 'x3d_nurbs.nodes'))
 
 SPECIAL = {
     **{key: value.replace('"media/', '"../nodes/media/').replace('"Box.wrl', '"../nodes/Box.wrl') for key, value in nodes.SPECIAL.items()},
@@ -37,13 +37,19 @@ SPECIAL = {
     'GeoPositionInterpolator.keyValue': '[ 5762000 392000 30, 5762010 392000 30, 5762000 392000 30 ]',
     **{f'GeoElevationGrid.{name}': '2' for name in ('xDimension', 'zDimension')}, 'GeoElevationGrid.height': '[ 0.1, 0.2, 0.3, 0.4 ]',
     '*.rootUrl': '[ "../nodes/Box.wrl" ]', **{f'*.child{i}Url': '[ "../nodes/Box.wrl" ]' for i in range(1, 5)},
+    '*.inertia': '2 0 0 0 2 0 0 0 2', 'TextureTransformMatrix3D.matrix': '2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1',
+    'Matrix3VertexAttribute.value': '[ 2 0 0 0 2 0 0 0 2 ]', 'Matrix4VertexAttribute.value': '[ 2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1 ]',
+    'TextureCoordinate4D.point': '[ 0 0 0 1, 1 0 0 1, 1 1 0 1, 0 1 0 1 ]', 'Tangent.vector': '[ 1 0 0 1, 1 0 0 1, 1 0 0 1, 1 0 0 1 ]',
+    'PixelTexture3D.image': '[ 1 2 1 1 0 255 ]', 'PolylineEmitter.coordIndex': '[ 0 1 -1 ]', 'VolumeEmitter.coordIndex': '[ 0 1 2 -1 ]',
+    'HAnimDisplacer.coordIndex': '[ 0 1 2 ]', 'ShaderPart.type': '"FRAGMENT"', 'ShaderProgram.type': '"FRAGMENT"',
     '*.closureType': '"CHORD"', '*.visible': 'TRUE', '*.load': 'TRUE',
 }
 # Nodes that would hold each other without end, and what only shaders need.
-LEFT_OUT = {'attrib', 'shaders', 'navigationInfo', 'backMaterial', 'mapping', 'metadata'}
+LEFT_OUT = {'attrib', 'shaders', 'tangent', 'acousticProperties', 'navigationInfo', 'backMaterial', 'mapping', 'metadata', 'body1', 'body2', 'outputs'}
 FIRST = {**nodes.FIRST, 'X3DSingleTextureNode': 'PixelTexture', 'X3DUrlObject': 'Inline', 'X3DMetadataObject': 'MetadataString',
          'X3DViewpointNode': 'Viewpoint', 'X3DLayerNode': 'Layer', 'X3DViewportNode': 'Viewport', 'X3DGroupingNode': 'Group',
-         'X3DShapeNode': 'Shape', 'X3DOneSidedMaterialNode': 'Material'}
+         'X3DParticleEmitterNode': 'PointEmitter', 'X3DVolumeRenderStyleNode': 'OpacityMapVolumeStyle', 'X3DRigidJointNode': 'BallJoint',
+         'X3DTextureNode': 'PixelTexture', 'X3DShapeNode': 'Shape', 'X3DOneSidedMaterialNode': 'Material'}
 
 
 def look():
@@ -125,7 +131,8 @@ class Maker(nodes.Maker):
         if container == 'children' or name == 'LayerSet':
             return node
         fits = lambda f: set(f.kinds) & set(self.ancestors(name))
-        named = [(k, f) for k in self.nodes for f in k.fields if f.name == container and fits(f)]
+        named = [(k, f) for k in self.nodes for f in k.fields
+                 if f.name == container and fits(f) and self.container(k.name) != container]
         parent, field = named[0] if named else next((k, f) for k in self.nodes for f in k.fields if fits(f))
         inner = [node] if field.type == 'MFNode' else node
         return self.placed(parent.name, self.full(parent.name, field.name, inner))
