@@ -10,7 +10,7 @@
 namespace wrlkit {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int most_segments = 1024;
 
 template <class... F>

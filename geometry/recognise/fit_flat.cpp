@@ -9,7 +9,7 @@
 namespace wrlkit::recognising {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double crease = 0.5;  // radians: walls of a prism that are flatter to each other are smooth
 
 double cross2(const Vec2& a, const Vec2& b) { return a[0] * b[1] - a[1] * b[0]; }

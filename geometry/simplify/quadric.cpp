@@ -10,7 +10,7 @@
 
 #include "base/math/box.h"
 #include "geometry/simplify/criterion.h"
-#include "geometry/simplify/matrix.h"
+#include "geometry/simplify/symmetric_matrix.h"
 
 namespace wrlkit::simplify {
 namespace {
@@ -21,7 +21,7 @@ constexpr double attribute_size = 0.05;  // what a difference of 1 counts as, in
 
 /// x A x - 2 b x + c.
 struct Quadric {
-  Matrix planes;
+  SymmetricMatrix planes;
   Vec3 linear{};
   double constant = 0;
 
@@ -38,7 +38,7 @@ struct Quadric {
     constant += s * d * d;
   }
   void add_line(const Vec3& p, const Vec3& e, double weight) {
-    Matrix m = line_matrix(e, weight);
+    SymmetricMatrix m = line_matrix(e, weight);
     Vec3 b = m * p;
     planes.add(m, 1);
     linear = linear + b;

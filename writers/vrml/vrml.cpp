@@ -10,9 +10,9 @@
 namespace wrlkit {
 namespace {
 
-class Writer : TextDocument {
+class VrmlWriter : TextDocument {
  public:
-  Writer(const Scene& scene, const TextOptions& options, const Sink& sink)
+  VrmlWriter(const Scene& scene, const TextOptions& options, const Sink& sink)
       : TextDocument(scene,
                      {.dialect = Dialect::vrml97,
                       .yes = "TRUE",
@@ -273,7 +273,7 @@ class Writer : TextDocument {
 
 void write_vrml(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics&) {
   const auto faces = options.own_fields ? std::nullopt : with_form_faces(scene);
-  Writer(faces ? *faces : scene, options, sink).file();
+  VrmlWriter(faces ? *faces : scene, options, sink).file();
 }
 
 }  // namespace wrlkit

@@ -25,9 +25,9 @@ std::string_view trim_end(std::string_view s) {
   return s;
 }
 
-class Writer : TextDocument {
+class X3dWriter : TextDocument {
  public:
-  Writer(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag)
+  X3dWriter(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag)
       : TextDocument(scene, {.dialect = Dialect::x3d, .yes = "true", .no = "false", .wraps_images = true},
                      options.own_fields, options.precision, sink),
         options_(options),
@@ -412,7 +412,7 @@ class Writer : TextDocument {
 
 void write_x3d(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag) {
   const auto faces = options.own_fields ? std::nullopt : with_form_faces(scene);
-  Writer(faces ? *faces : scene, options, sink, diag).file();
+  X3dWriter(faces ? *faces : scene, options, sink, diag).file();
 }
 
 }  // namespace wrlkit
