@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/math/vec.h"
+#include "base/overloaded.h"
 #include "geometry/forms/cut.h"
 
 namespace wrlkit {
@@ -12,11 +13,6 @@ namespace {
 
 using std::numbers::pi;
 constexpr int most_segments = 1024;
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
 
 Vec3 direction(const Matrix& m, const Vec3& v) {
   return {m(0, 0) * v[0] + m(0, 1) * v[1] + m(0, 2) * v[2], m(1, 0) * v[0] + m(1, 1) * v[1] + m(1, 2) * v[2],

@@ -5,14 +5,10 @@
 #include <numbers>
 
 #include "base/math/vec.h"
+#include "base/overloaded.h"
 
 namespace wrlkit {
 namespace {
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
 
 Vec3 position(const Mesh& mesh, std::size_t corner) {
   const double* p = mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3;
