@@ -40,6 +40,9 @@ constexpr Verb all_verbs[] = {
        v.get_option("IN")->required(false);
        v.add_option("OUT", f.output, "file.glb or .gltf");
        v.add_flag("--print-profile", f.print_profile, "print what the profile chooses, and end");
+       v.add_flag("--recognise", f.recognise,
+                  "parts that are cylinders, boxes, elbows and the like share one of unit size; round walls become "
+                  "smooth; see wrlkit passes recognise");
        pipeline(v, f);
        small_gltf(v, f);
        placing(v, f);
