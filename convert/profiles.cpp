@@ -60,7 +60,9 @@ constexpr Source sources[] = {
 
 std::string recognising(const Profile& p) {
   static constexpr std::string_view sharing = WRLKIT_SHARING;
-  return "recognise{split=false}," WRLKIT_SHARING "{forms=true}" + std::string(p.pipeline.substr(sharing.size()));
+  const std::string_view places = p.names == Names::nodes ? ",form-places=32" : "";
+  return "recognise{split=false}," WRLKIT_SHARING "{forms=true" + std::string(places) + '}' +
+         std::string(p.pipeline.substr(sharing.size()));
 }
 
 std::span<const Profile> profiles() { return all; }

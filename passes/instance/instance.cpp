@@ -38,7 +38,7 @@ class Instancing {
     for (const auto& g : groups_)
       if (is_worth(g)) share(g);
     if (!dropped_.empty()) replace_children(scene_, instead_);
-    const std::size_t forms = options_.forms ? share_forms(scene_, options_.tolerance) : 0;
+    const std::size_t forms = options_.forms ? share_forms(scene_, options_.tolerance, options_.form_places) : 0;
     if (dropped_.empty() && forms == 0) return Outcome::unchanged;
     ctx_.stats["instance.copies"] += dropped_.size() + forms;
     if (forms > 0) ctx_.stats["instance.forms"] += forms;

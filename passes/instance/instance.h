@@ -61,6 +61,7 @@ corners, n log n where copies differ in their order.)";
   instancing::Scaling scaling = instancing::Scaling::uniform;
   bool mirror = false, named = false, forms = false;
   double min_saving = 1000;
+  int form_places = 0;
 
   void fields(auto&& f) {
     f("tolerance", tolerance, "how far a point may be from where it was, in metres of the world", at_least(0));
@@ -68,6 +69,10 @@ corners, n log n where copies differ in their order.)";
     f("mirror", mirror, "also mirror images, by a negative scale, which VRML97 does not have");
     f("named", named, "also where a Coordinate or the like has a DEF name, which is lost");
     f("forms", forms, "also Box, Cylinder and what recognise makes: forms that only a scale tells apart become one");
+    f("form-places", form_places,
+      "forms that stand in more places keep geometry of their own size: where each place is a node, its scale takes "
+      "more; 0: any number",
+      at_least(0));
     f("min-saving", min_saving, "bytes that a group of equal parts has to save to be shared, as glTF counts them");
   }
 };

@@ -27,8 +27,12 @@ struct Class {
 
 class Sharing {
  public:
-  Sharing(Scene& scene, double tolerance)
-      : scene_(scene), usage_(scene), tolerance_(tolerance), textured_(textured_geometry(scene)) {}
+  Sharing(Scene& scene, double tolerance, std::size_t most_places)
+      : scene_(scene),
+        usage_(scene),
+        tolerance_(tolerance),
+        most_places_(most_places),
+        textured_(textured_geometry(scene)) {}
 
   std::size_t run() {
     surfaces_ = placed_surfaces(scene_, usage_, [&](NodeId, NodeId g) { return may_share(g); });
@@ -61,7 +65,8 @@ class Sharing {
   void sort_in(std::uint32_t i, double world) {
     const NodeId g = surfaces_[i].geometry;
     const auto form = read_form(scene_, g);
-    auto unit = form ? unit_form(*form, is_solid(g)) : std::nullopt;
+    const bool often = most_places_ > 0 && surfaces_[i].shapes.size() > most_places_;
+    auto unit = form && !often ? unit_form(*form, is_solid(g)) : std::nullopt;
     units_.push_back(std::move(unit));
     if (!units_.back()) return;
     const UnitForm& u = *units_.back();
@@ -120,6 +125,7 @@ class Sharing {
   Scene& scene_;
   Usage usage_;
   double tolerance_;
+  std::size_t most_places_;
   std::vector<char> textured_;
   std::vector<ShapeSurface> surfaces_;
   std::vector<std::optional<UnitForm>> units_;
@@ -131,6 +137,8 @@ class Sharing {
 
 }  // namespace
 
-std::size_t share_forms(Scene& scene, double tolerance) { return Sharing(scene, tolerance).run(); }
+std::size_t share_forms(Scene& scene, double tolerance, int most_places) {
+  return Sharing(scene, tolerance, static_cast<std::size_t>(most_places)).run();
+}
 
 }  // namespace wrlkit::instancing
