@@ -65,8 +65,7 @@ class Recognising {
     for (std::size_t i = 0; i < surfaces_.size(); ++i) replace_geometry(i);
     if (instead_.empty()) return Outcome::unchanged;
     replace_children(scene_, instead_);
-    auto& residual = ctx_.stats["recognise.largest-residual"];
-    residual = std::max(residual, static_cast<std::uint64_t>(std::ceil(residual_ * 1e6)));
+    report();
     return Outcome::changed;
   }
 
@@ -77,6 +76,8 @@ class Recognising {
   bool may_color(NodeId shape) const;
   void find();
   void steps();
+  template <class F>
+  void in_batches(F&& f);
   void look_at(std::size_t surface, Mesh& mesh, MeshScratch& scratch, Task& task);
   void replace_geometry(std::size_t surface);
   NodeId replace_shape(NodeId shape, const Found& found, const std::vector<NodeId>& made);
@@ -84,6 +85,7 @@ class Recognising {
   NodeId copy_of(NodeId n);
   NodeId put(NodeId shape, NodeId geometry, NodeId appearance, const TransformFields& where);
   void count(const FoundForm& found, double scale);
+  void report() const;
 
   Scene& scene_;
   const RecogniseFormsOptions& options_;
@@ -95,6 +97,8 @@ class Recognising {
   std::vector<Found> found_;
   std::unordered_map<std::uint32_t, NodeId> instead_;  // of Shapes
   std::map<std::pair<NodeId, Vec4>, NodeId> colored_;  // Appearances by the one that was and the colour
+  std::map<std::string_view, std::size_t> kinds_;
+  std::size_t triangles_ = 0;
   double residual_ = 0;
 };
 
@@ -124,15 +128,26 @@ void Recognising::choose() {
 
 /// The step of each geometry, or that of most of them where a few round numbers would look like a coarser one.
 void Recognising::steps() {
-  step_.clear();
-  for (const auto& s : surfaces_) {
-    const NodeId coord = scene_.get(s.geometry, nodes::indexed_face_set::coord);
-    const bool points = coord && scene_.is(coord, nodes::Coordinate);
-    step_.push_back(points ? recognising::step_of(scene_.get(coord, nodes::coordinate::point)) : 0);
-  }
+  step_.assign(surfaces_.size(), 0);
+  in_batches([&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const NodeId coord = scene_.get(surfaces_[i].geometry, nodes::indexed_face_set::coord);
+      if (coord && scene_.is(coord, nodes::Coordinate))
+        step_[i] = recognising::step_of(scene_.get(coord, nodes::coordinate::point));
+    }
+  });
   auto sorted = step_;
-  std::ranges::sort(sorted);
-  for (double& s : step_) s = std::min(s, sorted[sorted.size() / 2]);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  for (double& s : step_) s = std::min(s, *middle);
+}
+
+/// f(begin, end) for surfaces in a row, in parallel.
+template <class F>
+void Recognising::in_batches(F&& f) {
+  constexpr std::size_t together = 64;
+  parallel_for((surfaces_.size() + together - 1) / together,
+               [&](std::size_t batch) { f(batch * together, std::min(surfaces_.size(), (batch + 1) * together)); });
 }
 
 void Recognising::look_at(std::size_t i, Mesh& mesh, MeshScratch& scratch, Task& task) {
@@ -164,20 +179,17 @@ void Recognising::look_at(std::size_t i, Mesh& mesh, MeshScratch& scratch, Task&
   f.rest = only_faces(mesh, rest);
 }
 
-/// All geometry, in parallel; results lie by geometry, so that threads make no difference.
+/// Results lie by geometry, so that threads make no difference.
 void Recognising::find() {
-  constexpr std::size_t together = 64;
   scale_ = largest_scales(scene_, surfaces_);
   found_.resize(surfaces_.size());
   if (surfaces_.empty()) return;
   steps();
-  parallel_for((surfaces_.size() + together - 1) / together, [&](std::size_t batch) {
+  in_batches([&](std::size_t begin, std::size_t end) {
     SilentTask silent(ctx_);
     MeshScratch scratch;
     Mesh mesh;
-    const std::size_t end = std::min(surfaces_.size(), (batch + 1) * together);
-    for (std::size_t i = batch * together; i < end && !ctx_.stop.stop_requested(); ++i)
-      look_at(i, mesh, scratch, silent);
+    for (std::size_t i = begin; i < end && !ctx_.stop.stop_requested(); ++i) look_at(i, mesh, scratch, silent);
   });
 }
 
@@ -217,12 +229,20 @@ NodeId Recognising::put(NodeId shape, NodeId geometry, NodeId appearance, const 
 }
 
 void Recognising::count(const FoundForm& found, double scale) {
-  const auto plural =
-      std::ranges::find(plurals, kind_of(found.form), &std::pair<std::string_view, std::string_view>::first);
-  ctx_.stats["recognise." + std::string(plural->second)] += 1;
-  ctx_.stats["recognise.forms"] += 1;
-  ctx_.stats["recognise.triangles"] += found.triangles;
+  ++kinds_[kind_of(found.form)];
+  triangles_ += found.triangles;
   residual_ = std::max(residual_, found.residual * scale);
+}
+
+void Recognising::report() const {
+  for (const auto& [kind, plural] : plurals)
+    if (const auto n = kinds_.find(kind); n != kinds_.end()) {
+      ctx_.stats["recognise." + std::string(plural)] += n->second;
+      ctx_.stats["recognise.forms"] += n->second;
+    }
+  if (triangles_ > 0) ctx_.stats["recognise.triangles"] += triangles_;
+  auto& residual = ctx_.stats["recognise.largest-residual"];
+  residual = std::max(residual, static_cast<std::uint64_t>(std::ceil(residual_ * 1e6)));
 }
 
 void Recognising::replace_geometry(std::size_t i) {
