@@ -49,9 +49,13 @@ constexpr Verb all_verbs[] = {
        in_place(v, f);
      },
      run_optimize},
-    {"info", "what is inside: nodes, triangles, bounds, textures, lights", "wrlkit info plant.wrl --json",
+    {"info", "what is inside: nodes, triangles, bounds, textures, lights",
+     "wrlkit info plant.wrl --json\n  wrlkit info plant.wrl --recognise",
      [](CLI::App& v, Flags& f) {
        input(v, f);
+       v.add_flag("--recognise", f.recognise,
+                  "what the parts are, too: how many cylinders, boxes, elbows and the like, and their share of the "
+                  "triangles; see wrlkit passes recognise");
        placing(v, f);
      },
      run_info},
