@@ -57,16 +57,11 @@ class Sharing {
     return alone && read_form(scene_, g);
   }
 
-  bool is_solid(NodeId g) const {
-    const auto slot = scene_.type(g).find("solid", Dialect::x3d);
-    return !slot || scene_.value(g, *slot).integer != 0;
-  }
-
   void sort_in(std::uint32_t i, double world) {
     const NodeId g = surfaces_[i].geometry;
     const auto form = read_form(scene_, g);
     const bool often = most_places_ > 0 && surfaces_[i].shapes.size() > most_places_;
-    auto unit = form && !often ? unit_form(*form, is_solid(g)) : std::nullopt;
+    auto unit = form && !often ? unit_form(*form, is_solid(scene_, g)) : std::nullopt;
     units_.push_back(std::move(unit));
     if (!units_.back()) return;
     const UnitForm& u = *units_.back();
@@ -101,7 +96,7 @@ class Sharing {
   void share(const Class& c) {
     const ShapeSurface& first = surfaces_[c.members[0]];
     const NodeId one =
-        add_form(scene_, units_[c.members[0]]->form, is_solid(first.geometry), scene_.where(first.geometry));
+        add_form(scene_, units_[c.members[0]]->form, is_solid(scene_, first.geometry), scene_.where(first.geometry));
     for (auto i : c.members) {
       const auto name = scene_.name(surfaces_[i].geometry);
       for (std::size_t k = 0; k < surfaces_[i].shapes.size(); ++k)
