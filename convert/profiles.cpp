@@ -58,6 +58,13 @@ constexpr Source sources[] = {
 
 }  // namespace
 
+std::string recognising(const Profile& p) {
+  static constexpr std::string_view sharing = WRLKIT_SHARING;
+  const std::string_view places = p.names == Names::nodes ? ",form-places=32" : "";
+  return "recognise{split=false}," WRLKIT_SHARING "{forms=true" + std::string(places) + '}' +
+         std::string(p.pipeline.substr(sharing.size()));
+}
+
 std::span<const Profile> profiles() { return all; }
 
 const Profile* find_profile(std::string_view name) {
@@ -86,7 +93,8 @@ std::string profiles_page() {
       "# Profiles\n\nGenerated from `convert/profiles.cpp` by `script/docs`; do not edit. `wrlkit optimize --profile "
       "NAME --print-profile` prints one.\n"
       "What an option says otherwise holds; `convert --profile NAME` takes the first four and runs no pass of its "
-      "own.\n\n| profile | opens in | `--compress` | `--extras` | `--texture-format` | `--names` | `optimize` runs | "
+      "own. `--recognise` puts `recognise{split=false}` in front, and has `instance` share forms.\n\n| profile | opens "
+      "in | `--compress` | `--extras` | `--texture-format` | `--names` | `optimize` runs | "
       "why |\n|---|---|---|---|---|---|---|---|\n";
   for (const Profile& p : all)
     out += fmt::format("| {} | {} | {} | {} | {} | {} | `{}` | {} |\n", p.name, p.opens_in, name_of(p.compress),

@@ -40,15 +40,22 @@ constexpr Verb all_verbs[] = {
        v.get_option("IN")->required(false);
        v.add_option("OUT", f.output, "file.glb or .gltf");
        v.add_flag("--print-profile", f.print_profile, "print what the profile chooses, and end");
+       v.add_flag("--recognise", f.recognise,
+                  "parts that are cylinders, boxes, elbows and the like share one of unit size; round walls become "
+                  "smooth; see wrlkit passes recognise");
        pipeline(v, f);
        small_gltf(v, f);
        placing(v, f);
        in_place(v, f);
      },
      run_optimize},
-    {"info", "what is inside: nodes, triangles, bounds, textures, lights", "wrlkit info plant.wrl --json",
+    {"info", "what is inside: nodes, triangles, bounds, textures, lights",
+     "wrlkit info plant.wrl --json\n  wrlkit info plant.wrl --recognise",
      [](CLI::App& v, Flags& f) {
        input(v, f);
+       v.add_flag("--recognise", f.recognise,
+                  "what the parts are, too: how many cylinders, boxes, elbows and the like, and their share of the "
+                  "triangles; see wrlkit passes recognise");
        placing(v, f);
      },
      run_info},

@@ -36,6 +36,40 @@ void write_textures(JsonOut& json, const std::vector<TextureInfo>& textures) {
   json.end_array();
 }
 
+std::uint64_t n_forms(const FormsCensus& f) {
+  std::uint64_t out = 0;
+  for (auto& [kind, n] : f.parts) out += n;
+  return out;
+}
+
+/// Of all triangles.
+double share_of_forms(const Info& i) {
+  const auto all = static_cast<double>(std::max<std::uint64_t>(i.geometry.triangles, 1));
+  return std::clamp(1 - static_cast<double>(i.forms->triangles_left) / all, 0.0, 1.0);
+}
+
+void write_forms(JsonOut& json, const Info& i) {
+  json.key("forms");
+  json.begin_object();
+  json.member("count", n_forms(*i.forms));
+  json.key("kinds");
+  json.begin_object();
+  for (auto& [kind, n] : i.forms->parts) json.member(kind, n);
+  json.end_object();
+  json.member("triangles_left", i.forms->triangles_left);
+  json.member("share", share_of_forms(i));
+  json.member("residual", i.forms->residual);
+  json.end_object();
+}
+
+std::string forms_text(const Info& i) {
+  if (i.forms->parts.empty()) return "  forms: none\n";
+  std::string kinds;
+  for (auto& [kind, n] : i.forms->parts) kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", kind, n);
+  return fmt::format("  forms {}, {:.1f} % of the triangles, within {:.2g} mm: {}\n", n_forms(*i.forms),
+                     100 * share_of_forms(i), 1000 * i.forms->residual, kinds);
+}
+
 }  // namespace
 
 std::string info_json(const std::string& file, const Info& i, const Diagnostics& diag) {
@@ -68,6 +102,7 @@ std::string info_json(const std::string& file, const Info& i, const Diagnostics&
   json.member("scripts", i.scripts);
   json.member("inlines", i.inlines);
   json.member("names", i.names);
+  if (i.forms) write_forms(json, i);
   json.key("diagnostics");
   json.begin_object();
   json.member("error", diag.count(Severity::error));
@@ -100,6 +135,7 @@ std::string info_text(const std::string& file, const Info& i) {
   out += "  nodes:";
   for (auto& [n, name] : types) out += fmt::format(" {} {}", n, name);
   out += "\n";
+  if (i.forms) out += forms_text(i);
   for (auto& t : i.textures)
     out += t.found ? fmt::format("  texture {} {} x {}\n", t.url.empty() ? "in the file" : t.url, t.width, t.height)
                    : fmt::format("  texture {} is missing\n", t.url);
@@ -114,7 +150,7 @@ int run_info(const Flags& flags) {
   const auto file = read_file(flags.inputs[0], {}, s.diag());
   if (file && is_patch_file(file->view())) return print_patches_info(s, *file);
   if (!file || !s.document().read(flags.inputs[0], *file)) return s.end(false);
-  const auto made = info(std::move(s.document()));
+  const auto made = info(std::move(s.document()), {flags.recognise});
   s.progress().clear();
   if (made && flags.json) fmt::print("{}\n", info_json(flags.inputs[0], *made, s.diag()));
   if (made && !flags.json) fmt::print("{}", info_text(flags.inputs[0], *made));

@@ -125,7 +125,7 @@ bool Extras::speaks(NodeId n, const Value& v, Said said) const {
   if (scene_.is_extra(v)) return true;
   if (std::ranges::find(said, v.slot) != said.end()) return false;
   const auto& t = scene_.type(n);
-  if (t.fields[v.slot].is_own()) return false;
+  if (!own_fields_ && t.fields[v.slot].is_own()) return false;
   return v.slot < n_table_fields(t) && (v.is || !equals_default(v, t.fields[v.slot]));
 }
 
@@ -145,6 +145,18 @@ void Extras::vrml97(JsonOut& json, NodeId n, Said said, bool with_name) {
   json.begin_object();
   node(json, n, said, with_name);
   json.end_object();
+}
+
+void Extras::form(JsonOut& json, NodeId n) {
+  own_fields_ = true;
+  json.key("extras");
+  json.begin_object();
+  json.key("wrlkit");
+  json.begin_object();
+  node(json, n, {});
+  json.end_object();
+  json.end_object();
+  own_fields_ = false;
 }
 
 /// Slots of a geometry whose values its vertices, indices and material say.

@@ -64,6 +64,8 @@ class Extras {
   void vrml97(JsonOut&, NodeId, Said said, bool with_name = false);
   /// The member extras: {vrml97: ...} of an object.
   void member(JsonOut&, NodeId, Said said);
+  /// The member extras: {wrlkit: {Type: {fields}}} of a form with fields of our own (scenegraph/nodes/wrlkit.nodes).
+  void form(JsonOut&, NodeId);
   /// The member vrml97: {Type: {fields}, polygons}: what the vertices of an IndexedFaceSet, IndexedLineSet or PointSet
   /// do not tell. A node in a field only says that it was there, and its name. `polygons` are pairs: so many triangles
   /// are one polygon, so often. `step`, unless it is 1: what positions are to be multiplied by; the scale of nodes with
@@ -117,6 +119,7 @@ class Extras {
   std::vector<std::uint8_t> marks_;
   std::unordered_map<std::uint32_t, std::string> given_;
   std::size_t n_written_ = 0;
+  bool own_fields_ = false;                     // those of our own are written, too
   std::unordered_set<std::string> said_names_;  // of Coordinates and the like, alone
   std::optional<std::unordered_set<std::uint32_t>>
       body_;  // nodes of the prototype that is written: names are its own there
