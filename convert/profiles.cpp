@@ -13,7 +13,7 @@ namespace {
 using Method = GltfCompression::Method;
 using Pictures = GltfTextures::Format;
 using Names = GltfOptions::Names;
-constexpr Profile all[] = {
+constexpr Profile known_profiles[] = {
     {"portable", "every viewer of glTF 2.0", Method::none, Extras::facts, Pictures::keep, Names::nodes, WRLKIT_SHARING,
      "core glTF: no extension that a viewer must know; equal parts share a mesh, each has a node"},
     {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", Method::meshopt, Extras::facts, Pictures::webp,
@@ -65,11 +65,11 @@ std::string recognising(const Profile& p) {
          std::string(p.pipeline.substr(sharing.size()));
 }
 
-std::span<const Profile> profiles() { return all; }
+std::span<const Profile> profiles() { return known_profiles; }
 
 const Profile* find_profile(std::string_view name) {
-  auto i = std::ranges::find(all, name, &Profile::name);
-  return i == std::end(all) ? nullptr : i;
+  auto i = std::ranges::find(known_profiles, name, &Profile::name);
+  return i == std::end(known_profiles) ? nullptr : i;
 }
 
 void apply_profile(SaveOptions& options, const Profile& profile, const std::function<bool(std::string_view)>& stays) {
@@ -96,7 +96,7 @@ std::string profiles_page() {
       "own. `--recognise` puts `recognise{split=false}` in front, and has `instance` share forms.\n\n| profile | opens "
       "in | `--compress` | `--extras` | `--texture-format` | `--names` | `optimize` runs | "
       "why |\n|---|---|---|---|---|---|---|---|\n";
-  for (const Profile& p : all)
+  for (const Profile& p : known_profiles)
     out += fmt::format("| {} | {} | {} | {} | {} | {} | `{}` | {} |\n", p.name, p.opens_in, name_of(p.compress),
                        name_of(p.extras), name_of(p.texture_format), name_of(p.names), p.pipeline, p.why);
   out += "\nWhere that can be read:\n\n";

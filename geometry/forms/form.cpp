@@ -84,10 +84,6 @@ double area_of_cut(const Form& form, const FormCut& cut) {
   return out;
 }
 
-bool is_straight(const FrustumForm& f) {
-  return f.offset == Vec2{} && f.bottom_slope == Vec2{} && f.top_slope == Vec2{};
-}
-
 double half_spheroid(double radius, double height) {
   const double a = radius, c = height;
   if (std::abs(a - c) < 1e-9 * a) return 2 * pi * a * a;
@@ -249,7 +245,7 @@ double area(const Form& form) {
   return std::visit(
       Overloaded{[&](const CylinderForm& f) { return 2 * pi * f.radius * f.height + caps * disc(f.radius); },
                  [&](const FrustumForm& f) {
-                   if (!is_straight(f)) return area_of_cut(form, {most_segments, 0});
+                   if (!f.is_straight()) return area_of_cut(form, {most_segments, 0});
                    const double slant = std::hypot(f.height, f.bottom_radius - f.top_radius);
                    return pi * (f.bottom_radius + f.top_radius) * slant + (form.bottom ? disc(f.bottom_radius) : 0) +
                           (form.top ? disc(f.top_radius) : 0);

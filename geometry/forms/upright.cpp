@@ -125,10 +125,6 @@ void turn_prism(Form& form) {
   form = std::move(best);
 }
 
-bool is_straight(const FrustumForm& f) {
-  return f.offset == Vec2{} && f.bottom_slope == Vec2{} && f.top_slope == Vec2{};
-}
-
 }  // namespace
 
 void turn_upright(Form& form) {
@@ -141,7 +137,7 @@ void turn_upright(Form& form) {
   const bool even = std::holds_alternative<CylinderForm>(form.shape) || std::holds_alternative<RingForm>(form.shape) ||
                     std::holds_alternative<SphereForm>(form.shape);
   if (even) put_head_up(form, about_z);
-  if (even || std::holds_alternative<DishForm>(form.shape) || (frustum && is_straight(*frustum)))
+  if (even || std::holds_alternative<DishForm>(form.shape) || (frustum && frustum->is_straight()))
     turn_segments(form, form.segments);
 }
 

@@ -12,8 +12,6 @@
 namespace wrlkit::gltf_reader {
 namespace {
 
-constexpr std::initializer_list<std::size_t> three{3}, two{2}, color_widths{3, 4};
-
 /// RGB of RGBA; was any of it transparent?
 bool without_alpha(std::vector<double>& v) {
   std::size_t to = 0;

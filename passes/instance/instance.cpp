@@ -62,9 +62,9 @@ class Instancing {
 
   bool is_plain(NodeId n) const { return wrlkit::is_plain(scene_, usage_, n); }
   bool may_share(NodeId geometry) const;
-  bool read(std::uint32_t surface, Mesh& mesh, Form& form);
+  bool read(std::uint32_t surface, Mesh& mesh, MeshForm& form);
   void sort_in(std::size_t surface);
-  std::vector<std::uint64_t> cells(const Form& form, double tolerance, bool all) const;
+  std::vector<std::uint64_t> cells(const MeshForm& form, double tolerance, bool all) const;
   bool is_worth(const Group& g) const;
   void share(const Group& g);
   void report_lost_names();
@@ -83,7 +83,7 @@ class Instancing {
   std::unordered_map<std::uint32_t, NodeId> instead_;  // of Shapes
   MeshScratch scratch_;
   Mesh mesh_, first_mesh_;
-  Form form_, first_form_;
+  MeshForm form_, first_form_;
   std::vector<NodeId> dropped_;
 };
 
@@ -98,7 +98,7 @@ bool Instancing::may_share(NodeId g) const {
   return options_.scaling != Scaling::axis || scene_.get(g, ifs::normal) || scene_.get(g, ifs::creaseAngle) == 0;
 }
 
-bool Instancing::read(std::uint32_t surface, Mesh& mesh, Form& form) {
+bool Instancing::read(std::uint32_t surface, Mesh& mesh, MeshForm& form) {
   mesh.clear();
   MeshJob job{scene_, surfaces_[surface].geometry, mesh, scratch_, silent_};
   read_mesh(job);
@@ -108,7 +108,7 @@ bool Instancing::read(std::uint32_t surface, Mesh& mesh, Form& form) {
 }
 
 /// Where a form is looked for: its own cell, and with `all` also the nearer neighbours in each direction.
-std::vector<std::uint64_t> Instancing::cells(const Form& form, double tolerance, bool all) const {
+std::vector<std::uint64_t> Instancing::cells(const MeshForm& form, double tolerance, bool all) const {
   std::vector<std::uint64_t> out{form.exact_key()};
   for (double v : invariants(form, options_.scaling, tolerance)) {
     const double down = std::floor(v);

@@ -15,7 +15,7 @@ bool fits(const Vec3& v, double growth) {
       v, [&](double x) { return std::abs(static_cast<double>(static_cast<float>(x)) - x) * growth <= 1e-4; });
 }
 
-bool is_plain_group(const Scene& scene, NodeId n) {
+bool is_plain_or_root(const Scene& scene, NodeId n) {
   return !n || scene.is(n, nodes::Transform) || scene.is(n, nodes::Group);
 }
 
@@ -67,7 +67,7 @@ void store(Instances& all, Store& to) {
 bool only_places_a_mesh(const Makers& m, const Node& n, const Trs& t, double growth) {
   if (n.attachment != Attachment::mesh || n.n_children > 0 || n.lod || !n.source || m.animations.moves(n.source))
     return false;
-  if (!is_plain_group(m.scene, n.source) && !m.scene.is(n.source, nodes::Shape)) return false;
+  if (!is_plain_or_root(m.scene, n.source) && !m.scene.is(n.source, nodes::Shape)) return false;
   const Geometry& g = m.meshes.geometries()[m.meshes.meshes()[n.attached].geometry];
   if (g.morph != none || g.features != none) return false;
   if (!fits(t.translation, growth) || !fits(t.scale, 1) || !(t.scale[0] * t.scale[1] * t.scale[2] > 0)) return false;
