@@ -43,7 +43,7 @@ struct Flags {
   std::string profile;
   bool print_profile = false;
 
-  bool parse_only = false;  // check
+  bool parse_only = false, quick = false;  // check
 
   // corpus
   std::string format = "glb";  // ending of the outputs
