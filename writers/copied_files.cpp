@@ -115,6 +115,7 @@ void CopiedFiles::place_all() {
   if (places_.empty()) return;
   fs::path common = fs::path(places_.begin()->first).parent_path();
   for (const auto& [path, place] : places_) common = common_folder(common, fs::path(path).parent_path());
+  for (const auto& path : fixed_) equal_file(path);
   for (auto& [path, place] : places_) {
     const std::string* equal = fixed_.contains(path) ? nullptr : equal_file(path);
     place = folder_ / fs::path(equal ? *equal : path).lexically_relative(common);
