@@ -84,7 +84,7 @@ void CopiedFiles::find_files(std::span<const std::string_view> urls, Span where,
     places_.try_emplace(target.path);
     if (use == UrlUse::world) add_of_world(target.path);
   }
-  if (!found && !outside.empty()) resources_.bytes({&outside, 1}, where, diag_);  // which reports it
+  if (!found && !outside.empty() && kinds_.textures) resources_.bytes({&outside, 1}, where, diag_);  // reports it
 }
 
 /// With what it refers to, and so on.

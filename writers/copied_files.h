@@ -27,7 +27,8 @@ struct CopiedKinds {
 class CopiedFiles {
  public:
   /// Looks for the files of the world that is written to `output`; nothing is written yet. The folder is named after
-  /// the output unless a name is given. A list of urls that leads only to where nothing may be read is reported.
+  /// the output unless a name is given. Where textures are copied, a list of urls that leads
+  /// only to where nothing may be read is reported.
   /// O(nodes), and parses worlds that come along.
   CopiedFiles(const Scene& scene, Resources& resources, const std::string& output, std::string folder,
               CopiedKinds kinds, Diagnostics& diag);
