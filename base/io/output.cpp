@@ -68,6 +68,7 @@ std::string reason(int error, const fs::path& path) {
   std::error_code ec;
   if (error == ENOENT) return "the folder '" + path.parent_path().string() + "' does not exist";
   if (error == EISDIR) return "it is a directory";
+  if (error == ENOTDIR) return "'" + path.parent_path().string() + "' is not a folder";
   if (error == EACCES) return "permission denied";
   if (error == ENOSPC) return "the disk is full";
   return std::generic_category().message(error);
