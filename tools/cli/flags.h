@@ -44,7 +44,7 @@ struct Flags {
   bool print_profile = false;
   bool recognise = false;  // optimize, info
 
-  bool parse_only = false;  // check
+  bool parse_only = false, quick = false;  // check
 
   // corpus
   std::string format = "glb";  // ending of the outputs

@@ -24,6 +24,7 @@
 #include "base/diagnostics.h"
 #include "base/text/json.h"
 #include "scenegraph/scene.h"
+#include "writers/led_urls.h"
 
 namespace wrlkit::gltf {
 
@@ -36,7 +37,8 @@ class Extras {
   /// (serde_json).
   static constexpr std::size_t max_depth = 32;
 
-  Extras(const Scene& scene, Diagnostics& diag);
+  /// `lead`: what urls are written as; none: as they are.
+  Extras(const Scene& scene, const LeadUrls& lead, Diagnostics& diag);
 
   /// DEF name, or the one that was given to what a ROUTE or Script refers to.
   std::string_view name(NodeId n) const;
@@ -114,7 +116,13 @@ class Extras {
   void content(JsonOut&, NodeId, std::size_t depth);
   bool too_much(NodeId, std::size_t depth);
 
+  /// The urls of a list as they are written; false when it is no such list.
+  bool urls(JsonOut&, Span where, TypeId, std::uint16_t slot, const Value&);
+  void urls(JsonOut&, Span where, std::span<const std::string_view>, UrlUse);
+
   const Scene& scene_;
+  const LeadUrls& lead_;
+  UrlFields url_fields_;
   Diagnostics& diag_;
   std::vector<std::uint8_t> marks_;
   std::unordered_map<std::uint32_t, std::string> given_;

@@ -11,6 +11,7 @@
 #include "geometry/mesh.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
+#include "writers/led_urls.h"
 
 namespace wrlkit {
 
@@ -102,6 +103,7 @@ struct GltfOptions {
   bool facts_only =
       false;  // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
               // the same VRML again. Groups without a name that hold one thing are then one node with it
+  LeadUrls lead_urls = {};             // what urls are written as that glTF has no place for; none: as they are
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
 };
 template <>

@@ -61,19 +61,22 @@ class VrmlWriter : TextDocument {
     const auto& t = scene_.type(p.type);
     out_ << (p.external ? "EXTERNPROTO " : "PROTO ") << t.name << " [";
     ++depth_;
-    for (const auto& f : t.fields) {
+    for (std::uint16_t slot = 0; slot < t.fields.size(); ++slot) {
+      const auto& f = t.fields[slot];
       line();
       declaration(f);
-      if (!p.external && f.has_value()) {
-        out_ << ' ';
+      if (p.external || !f.has_value()) continue;
+      out_ << ' ';
+      if (const auto use = url_use(p.type, slot, f.default_value); use != UrlUse::none)
+        urls(p.where, f.default_value.text_span(), use);
+      else
         value(f.default_value);
-      }
     }
     --depth_;
     if (!t.fields.empty()) line();
     out_ << "] ";
     if (p.external) {
-      urls(p.where, p.urls);
+      urls(p.where, p.urls, UrlUse::world);
       return;
     }
     out_ << '{';
@@ -169,15 +172,15 @@ class VrmlWriter : TextDocument {
     if (t.kind != NodeKind::proto && !v.is && equal_default(v, f)) return false;
     line();
     out_ << f.name_in(t.dialects & static_cast<DialectSet>(Dialect::vrml1) ? Dialect::vrml1 : Dialect::vrml97) << ' ';
-    if (!v.is && v.type == FieldType::MFString && is_url(f))
-      urls(scene_.where(n), v.text_span());
+    if (const auto use = url_use(scene_.type_id(n), v.slot, v); use != UrlUse::none)
+      urls(scene_.where(n), v.text_span(), use);
     else
       content(v);
     return true;
   }
 
-  void urls(Span where, std::span<const std::string_view> list) {
-    const auto led = led_urls(scene_, where, list, options_.file, options_.place);
+  void urls(Span where, std::span<const std::string_view> list, UrlUse use) {
+    const auto led = led_urls(scene_, where, list, use, {options_.file, options_.place, options_.copy});
     strings(std::vector<std::string_view>(led.begin(), led.end()));
   }
 
