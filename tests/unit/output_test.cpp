@@ -165,7 +165,7 @@ TEST_CASE("Where nothing can be written, that is said at once", "[output]") {
   SECTION("a file as folder") {
     folder.write("a", "");
     CHECK_FALSE(OutputFile::open(folder / "a/b.glb", {}, diag));
-    CHECK_THAT(only_message(diag), Catch::EndsWith("Not a directory"));
+    CHECK_THAT(only_message(diag), Catch::EndsWith("is not a folder"));
   }
   SECTION("no name") {
     CHECK_FALSE(OutputFile::open("", {}, diag));

@@ -156,7 +156,7 @@ bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& 
   Flags unused;
   const auto app = app_of(verb, unused);
   std::erase_if(recipe->options, [&](const auto& o) {
-    return !app->get_option_no_throw("--" + o.first) ||
+    return !app->get_option_no_throw("--" + o.first) || o.first == "format" ||  // of a corpus run
            std::ranges::find(flags.given, o.first, &GivenOptions::value_type::first) != flags.given.end();
   });
   const auto added = words_of(recipe->options);
