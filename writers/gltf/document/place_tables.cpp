@@ -83,7 +83,7 @@ void make_instances(Document& d, const Makers& m) {
     for (const Node& n : d.nodes)
       if (n.same_as != none) marks[n.same_as] = Mark::referred;
   for (Node& n : d.nodes)
-    if (!says_same || is_plain_group(m.scene, n.source))
+    if (!says_same || is_plain_or_root(m.scene, n.source))
       n.n_children =
           static_cast<std::uint32_t>(share_places(d, m, {d.children.data() + n.first_child, n.n_children}, marks));
   d.roots.resize(share_places(d, m, d.roots, marks));
