@@ -19,7 +19,7 @@ def steps_of(wrlkit, source, path):
     """(name, file, command) of everything that is compared; the peers read what the first step makes."""
     ours = lambda name, *options: (f'optimize{"".join(" " + o for o in options)}', path(f'_{name}.glb'), [wrlkit, 'optimize', '-q', source, path(f'_{name}.glb'), '--tolerance', '1mm', *options])
     steps = [('convert --extras none', path('.glb'), [wrlkit, 'convert', '-q', source, path('.glb'), '--extras', 'none'])]
-    steps += [ours('three'), ours('cesium', '--profile', 'cesium'), ours('draco', '--compress', 'draco')]
+    steps += [ours('three'), ours('cesium', '--profile', 'cesium'), ours('recognise', '--profile', 'cesium', '--recognise'), ours('draco', '--compress', 'draco')]
     if GLTFPACK:
         steps += [(f'gltfpack {" ".join(f)}', path('_pack.glb'), ['node', GLTFPACK, *f, '-i', path('.glb'), '-o', path('_pack.glb')]) for f in (['-cc'], ['-cc', '-kn', '-km'])]
     if TRANSFORM:

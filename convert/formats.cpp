@@ -22,7 +22,7 @@ bool stays(const SaveOptions& o) { return o.dump || o.pipeline == "none"; }
 std::string vrml_pipeline(const SaveOptions& o) { return stays(o) ? "none" : "vrml"; }
 std::string x3d_pipeline(const SaveOptions& o) { return o.dump ? "none" : "x3d"; }
 
-constexpr FileFormat all[] = {
+constexpr FileFormat file_formats[] = {
     {.name = "VRML97",
      .endings = ".wrl .wrz .wrl.gz .vrml .vrml.gz",
      .first_bytes = "#VRML V2.0 utf8",
@@ -79,11 +79,11 @@ constexpr FileFormat all[] = {
      .writes = "PNG, JPEG, WebP, EXR"},
 };
 
-const FileFormat& glb() { return *std::ranges::find(all, "GLB", &FileFormat::name); }
+const FileFormat& glb() { return *std::ranges::find(file_formats, "GLB", &FileFormat::name); }
 
 std::vector<std::string_view> endings_where(bool (*wanted)(const FileFormat&)) {
   std::vector<std::string_view> out;
-  for (const auto& format : all)
+  for (const auto& format : file_formats)
     if (wanted(format))
       for (auto e : endings_of(format))
         if (std::ranges::find(out, e) == out.end()) out.push_back(e);
@@ -92,7 +92,7 @@ std::vector<std::string_view> endings_where(bool (*wanted)(const FileFormat&)) {
 
 }  // namespace
 
-std::span<const FileFormat> formats() { return all; }
+std::span<const FileFormat> formats() { return file_formats; }
 
 std::vector<std::string_view> endings_of(const FileFormat& format) {
   std::vector<std::string_view> out;
@@ -120,7 +120,7 @@ std::vector<std::string_view> output_endings() {
 std::string output_endings_text() {
   std::string out;
   std::vector<std::string_view> usual;
-  for (const auto& format : all)
+  for (const auto& format : file_formats)
     if (format.write) usual.push_back(endings_of(format)[0]);
   for (std::size_t i = 0; i < usual.size(); ++i)
     out += (i == 0 ? "" : i + 1 == usual.size() ? " or " : ", ") + std::string(usual[i]);
@@ -141,7 +141,7 @@ std::optional<Output> output_of(const std::string& path, const SaveOptions& opti
   const FileFormat* best = nullptr;
   std::string_view ending;
   const std::string name = "x" + path;  // ".wrl" alone is a name, too
-  for (const auto& format : all) {
+  for (const auto& format : file_formats) {
     const auto found = format.write ? ending_of(name, endings_of(format)) : std::string_view();
     if (found.size() > ending.size()) {
       best = &format;

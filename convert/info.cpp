@@ -88,7 +88,7 @@ void count_levels(const Scene& scene, const WorldMeshes& meshes, Info& info) {
 
 }  // namespace
 
-std::optional<Info> info(Document&& document) {
+std::optional<Info> info(Document&& document, const InfoOptions& options) {
   if (!document) return std::nullopt;
   const World& world = document.world();
   check_values(world.scene, document.diag());
@@ -100,9 +100,12 @@ std::optional<Info> info(Document&& document) {
   count_expanded(document, out);
   out.geometry = count_geometry(world.scene, meshes.polygons, meshes.triangles);
   count_levels(world.scene, meshes, out);
+  if (options.recognise) out.forms = count_forms(document, meshes.triangles);
   return out;
 }
 
-std::optional<Info> info(const Document& document) { return document ? info(document.copy()) : std::nullopt; }
+std::optional<Info> info(const Document& document, const InfoOptions& options) {
+  return document ? info(document.copy(), options) : std::nullopt;
+}
 
 }  // namespace wrlkit

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "convert/document.h"
+#include "convert/forms_census.h"
 #include "convert/geometry_census.h"
 
 namespace wrlkit {
@@ -28,12 +29,17 @@ struct Info {
                 scripts = 0, inlines = 0, names = 0;
   std::vector<TextureInfo> textures;
   std::vector<std::uint64_t> levels;  // triangles with every LOD at its first level, its second, ...
+  std::optional<FormsCensus> forms;   // when it was asked for
+};
+
+struct InfoOptions {
+  bool recognise = false;  // what the parts are, too
 };
 
 /// Nothing when the world cannot be expanded; messages() of the document say why. Prototypes and Inlines are expanded
 /// in a copy. O(scene), and every geometry is tessellated once for the world and once more for each level of its LODs.
-std::optional<Info> info(const Document&);
+std::optional<Info> info(const Document&, const InfoOptions& = {});
 /// The same without the copy: the document is expanded.
-std::optional<Info> info(Document&&);
+std::optional<Info> info(Document&&, const InfoOptions& = {});
 
 }  // namespace wrlkit

@@ -16,12 +16,12 @@ namespace {
 
 /// All DEF names of the world, and those of what no Switch shows: glTF shows one of its children, and has no place for
 /// the others.
-struct Names {
+struct WorldNames {
   std::set<std::string> all, shown;
 };
 
-Names names_of(const Scene& scene) {
-  Names out;
+WorldNames names_of(const Scene& scene) {
+  WorldNames out;
   std::vector<char> seen(scene.node_count());
   std::vector<NodeId> open = scene.main.roots;
   while (!open.empty()) {
@@ -40,7 +40,7 @@ Names names_of(const Scene& scene) {
   return out;
 }
 
-void find_lost(const Names& names, const std::string& path, Optimized& out) {
+void find_lost(const WorldNames& names, const std::string& path, Optimized& out) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), {});
   Diagnostics unheard;
@@ -60,7 +60,7 @@ void report_lost(const std::vector<std::string>& lost, Diagnostics& diag) {
 
 Optimized optimize(Document& document, Pipeline& pipeline, const Output& to, const SaveOptions& options,
                    const SaveHooks& hooks) {
-  const Names names = names_of(document.scene());
+  const WorldNames names = names_of(document.scene());
   Optimized out;
   static_cast<Saved&>(out) = write_document(document, pipeline, to, options, hooks);
   out.n_names = names.all.size();

@@ -84,7 +84,10 @@ struct SaveOptions {
   // VRML and X3D
   bool gzip = false, dump = false;
   int precision = 0;
-  bool keep_urls = false;  // what relative urls mean stands next to the output, too
+  bool link = false;              // files that are referred to are not copied
+  bool embed = false;             // pictures become part of what is written
+  std::string files_folder = {};  // of copied files; empty: named after the output
+  bool keep_urls = false;         // what relative urls mean stands next to the output, too
 
   void light_fields(auto&& f) {
     f("lightmap-as", lightmap_as, "baked light in glTF");
@@ -115,6 +118,12 @@ struct SaveOptions {
     f("names", names, "names of parts in glTF");
     f("color-bits", color_bits, "of each component, in linear light", OptionNote{between(1, 16)});
   }
+  void file_fields(auto&& f) {
+    f("link", link,
+      "the output refers to files outside its folder where they are; without it they are copied into a folder next to "
+      "it, out/room_files for out/room.wrl");
+    f("embed", embed, "pictures of VRML and X3D, and in extras of glTF, stand in the output itself, as data urls");
+  }
   void text_fields(auto&& f) {
     f("gzip", gzip, "compress VRML output");
     f("dump", dump, "VRML output with wrlkit's own fields, which no browser knows: the scene as passes leave it");
@@ -123,6 +132,7 @@ struct SaveOptions {
   void fields(auto&& f) {
     light_fields(f);
     size_fields(f);
+    file_fields(f);
     text_fields(f);
   }
 };

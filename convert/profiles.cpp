@@ -13,7 +13,7 @@ namespace {
 using Method = GltfCompression::Method;
 using Pictures = GltfTextures::Format;
 using Names = GltfOptions::Names;
-constexpr Profile all[] = {
+constexpr Profile known_profiles[] = {
     {"portable", "every viewer of glTF 2.0", Method::none, Extras::facts, Pictures::keep, Names::nodes, SkyAs::none,
      WRLKIT_SHARING, "core glTF: no extension that a viewer must know; equal parts share a mesh, each has a node"},
     {"three", "three.js, Babylon.js, model-viewer, glTF-Transform", Method::meshopt, Extras::facts, Pictures::webp,
@@ -58,11 +58,18 @@ constexpr Source sources[] = {
 
 }  // namespace
 
-std::span<const Profile> profiles() { return all; }
+std::string recognising(const Profile& p) {
+  static constexpr std::string_view sharing = WRLKIT_SHARING;
+  const std::string_view places = p.names == Names::nodes ? ",form-places=32" : "";
+  return "recognise{split=false}," WRLKIT_SHARING "{forms=true" + std::string(places) + '}' +
+         std::string(p.pipeline.substr(sharing.size()));
+}
+
+std::span<const Profile> profiles() { return known_profiles; }
 
 const Profile* find_profile(std::string_view name) {
-  auto i = std::ranges::find(all, name, &Profile::name);
-  return i == std::end(all) ? nullptr : i;
+  auto i = std::ranges::find(known_profiles, name, &Profile::name);
+  return i == std::end(known_profiles) ? nullptr : i;
 }
 
 void apply_profile(SaveOptions& options, const Profile& profile, const std::function<bool(std::string_view)>& stays) {
@@ -88,10 +95,11 @@ std::string profiles_page() {
       "# Profiles\n\nGenerated from `convert/profiles.cpp` by `script/docs`; do not edit. `wrlkit optimize --profile "
       "NAME --print-profile` prints one.\n"
       "What an option says otherwise holds; `convert --profile NAME` takes the first five and runs no pass of its "
-      "own.\n\n| profile | opens in | `--compress` | `--extras` | `--texture-format` | `--names` | `--sky` | "
+      "own. `--recognise` puts `recognise{split=false}` in front, and has `instance` share forms.\n\n| profile | opens "
+      "in | `--compress` | `--extras` | `--texture-format` | `--names` | `--sky` | "
       "`optimize` "
       "runs | why |\n|---|---|---|---|---|---|---|---|---|\n";
-  for (const Profile& p : all)
+  for (const Profile& p : known_profiles)
     out +=
         fmt::format("| {} | {} | {} | {} | {} | {} | {} | `{}` | {} |\n", p.name, p.opens_in, name_of(p.compress),
                     name_of(p.extras), name_of(p.texture_format), name_of(p.names), name_of(p.sky), p.pipeline, p.why);

@@ -21,6 +21,9 @@ struct Profile {
   std::string_view why;
 };
 
+/// Its pipeline with forms recognised, and shared whatever their size.
+std::string recognising(const Profile&);
+
 std::span<const Profile> profiles();
 /// Null: there is none.
 const Profile* find_profile(std::string_view name);

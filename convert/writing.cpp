@@ -1,9 +1,11 @@
 #include "convert/writing.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "base/io/output.h"
 #include "base/stop.h"
+#include "convert/output_urls.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "writers/made_files.h"
@@ -30,9 +32,14 @@ bool write_text(const Writing& w, TextWriter write) {
   MadeFiles made(w.scene, *w.context.resources, path, diag);
   options.file = path == "-" || w.options.keep_urls ? "" : path;
   options.place = [&](std::string_view url) { return made.place(url); };
+  OutputUrls urls(w, true);
+  options.copy = std::ref(urls);
   write(w.scene, options, file->sink(), diag);
   NamedFiles named(*w.context.resources, diag);
-  return made.write() && named.write() && made.commit() && named.commit() && file->commit(diag);
+  const bool done =
+      made.write() && named.write() && urls.write() && made.commit() && named.commit() && file->commit(diag);
+  if (done) urls.keep();
+  return done;
 }
 
 std::size_t count_geometries(const Scene& scene) {
@@ -65,16 +72,25 @@ bool write_gltf_file(const Writing& w) {
     if (ctx.monitor) ctx.monitor->step();
     return w.meshes(n);
   };
-  const auto options = gltf_options(w.options, w.to.format->endings != ".gltf");
+  auto options = gltf_options(w.options, w.to.format->endings != ".gltf");
   const StopScope scope(ctx.stop);
   try {
     NamedFiles named(*ctx.resources, ctx.diag);
     if (!named.write()) return false;
     if (w.sink) return write_glb(w.scene, counted, options, ctx.resources, *w.sink, ctx.diag) && named.commit();
     MadeFiles beside(w.scene, *ctx.resources, w.to.path, ctx.diag);  // pictures are glTF's own matter
-    return beside.write() &&
-           write_gltf(w.scene, counted, options, ctx.resources, w.to.path, ctx.diag, &w.saved.gltf.emplace()) &&
-           beside.commit() && named.commit();
+    OutputUrls urls(w, false);
+    options.lead_urls = [&](Span where, std::span<const std::string_view> list, UrlUse use) {
+      std::vector<std::string> led;
+      for (auto url : list) led.push_back(urls(url, where, use).value_or(std::string(url)));
+      return led;
+    };
+    const bool done =
+        beside.write() && urls.write() &&
+        write_gltf(w.scene, counted, options, ctx.resources, w.to.path, ctx.diag, &w.saved.gltf.emplace()) &&
+        beside.commit() && named.commit();
+    if (done) urls.keep();
+    return done;
   } catch (const Stopped&) {
     return false;
   }

@@ -8,11 +8,13 @@
 
 #include "base/math/box.h"
 #include "base/math/vec.h"
+#include "base/parallel.h"
 
 namespace wrlkit {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
+constexpr std::uint32_t large = 100'000;  // triangles that are worth another thread
 constexpr int n_bins = 12;
 constexpr int balanced_below = 40;  // depth from which triangles are halved by number, so that the tree ends
 constexpr int most_depth = balanced_below + 32;
@@ -89,16 +91,34 @@ struct ClosestPoint::Builder {
   };
 
   ClosestPoint& tree;
-  std::vector<Item> items;
+  std::span<Item> items;
 
   void run() {
-    list_items();
     tree.order_.reserve(items.size());
     tree.boxes_.reserve(items.size() / 2 + 1);
     if (!items.empty()) split(0, static_cast<std::uint32_t>(items.size()), 0);
   }
 
-  void list_items() {
+  /// Both halves of a box at once, each as a tree of its own, which are put behind one another.
+  void split_halves(std::size_t box_of_both, const std::array<std::uint32_t, 3>& ends, int depth) {
+    ClosestPoint halves[] = {ClosestPoint(Triangles{}), ClosestPoint(Triangles{})};
+    parallel_for(2, [&](std::size_t i) {
+      Builder half{halves[i], items};
+      half.split(ends[i], ends[i + 1], depth);
+    });
+    for (const auto& half : halves) {
+      const auto n_boxes = static_cast<std::uint32_t>(tree.boxes_.size());
+      const auto n_triangles = static_cast<std::uint32_t>(tree.order_.size());
+      tree.boxes_[box_of_both].next = n_boxes;
+      for (Box box : half.boxes_) {
+        box.next += box.n_triangles ? n_triangles : n_boxes;
+        tree.boxes_.push_back(box);
+      }
+      tree.order_.insert(tree.order_.end(), half.order_.begin(), half.order_.end());
+    }
+  }
+
+  static void list(ClosestPoint& tree, std::vector<Item>& items) {
     wrlkit::Box box;
     for (std::size_t t = 0; t < tree.surface_.size(); ++t) {
       auto corners = tree.surface_[t];
@@ -138,6 +158,10 @@ struct ClosestPoint::Builder {
       return;
     }
     std::uint32_t middle = partition(begin, end, middles, depth);
+    if (end - begin > large) {
+      tree.boxes_[here].n_triangles = 0;
+      return split_halves(here, {begin, middle, end}, depth + 1);
+    }
     split(begin, middle, depth + 1);
     tree.boxes_[here].next = static_cast<std::uint32_t>(tree.boxes_.size());
     tree.boxes_[here].n_triangles = 0;
@@ -189,7 +213,11 @@ struct ClosestPoint::Builder {
   }
 };
 
-ClosestPoint::ClosestPoint(Triangles surface) : surface_(surface) { Builder{*this, {}}.run(); }
+ClosestPoint::ClosestPoint(Triangles surface) : surface_(surface) {
+  std::vector<Builder::Item> items;
+  Builder::list(*this, items);
+  Builder{*this, items}.run();
+}
 
 ClosestPoint::ClosestPoint(Triangles surface, std::span<const std::uint32_t> labels) : ClosestPoint(surface) {
   labels_ = labels;
@@ -217,11 +245,12 @@ struct ClosestPoint::Search {
   const ClosestPoint& tree;
   const Vec3& p;
   const Vec3& facing;
+  const bool faces_something = facing != Vec3{};
   Nearest best{infinity, no_guess};
   double reach = infinity;  // squared distance up to which a triangle may be the answer
   double best_facing = -infinity;
   int n_equal = 0;
-  const std::function<bool(std::uint32_t)>* counts = nullptr;  // null: all of them
+  const Counting* counts = nullptr;  // null: all of them
 
   void try_triangle(std::uint32_t triangle) {
     if (counts && !(*counts)(tree.labels_[triangle])) return;
@@ -231,7 +260,7 @@ struct ClosestPoint::Search {
     Vec3 n = area_normal(t);
     double d2 = to_triangle(t, n);
     if (!(d2 <= reach)) return;
-    double d = std::sqrt(d2), size = length(n), front = size > 0 ? dot(n, facing) / size : -infinity;
+    double d = std::sqrt(d2), front = faces_something ? turned_to(n) : 0;
     n_equal = d < best.distance - tree.same_ ? 0 : n_equal + 1;
     if (!n_equal || front > best_facing) {
       best.triangle = triangle;
@@ -240,6 +269,11 @@ struct ClosestPoint::Search {
     best.distance = std::min(best.distance, d);
     double limit = best.distance + (n_equal < most_equal ? tree.same_ : -tree.same_);
     reach = limit < 0 ? -1 : limit * limit;
+  }
+
+  double turned_to(const Vec3& n) const {
+    const double size = length(n);
+    return size > 0 ? dot(n, facing) / size : -infinity;
   }
 
   bool may_count(std::uint32_t box) const {
@@ -297,13 +331,15 @@ ClosestPoint::Nearest ClosestPoint::nearest(const Vec3& p, const Vec3& facing, s
   return search.best;
 }
 
-ClosestPoint::Nearest ClosestPoint::nearest_of(const Vec3& p, double within,
-                                               const std::function<bool(std::uint32_t)>& counts) const {
+ClosestPoint::Nearest ClosestPoint::nearest_of(const Vec3& p, double within, const Counting& counts,
+                                               std::uint32_t guess) const {
   const Vec3 facing{};
   Search search{*this, p, facing};
   search.reach = within * within;
   search.counts = &counts;
-  if (!boxes_.empty()) search.run();
+  if (boxes_.empty()) return search.best;
+  if (guess != no_guess) search.try_triangle(guess);
+  search.run();
   return search.best;
 }
 

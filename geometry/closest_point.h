@@ -6,7 +6,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -63,9 +62,18 @@ class ClosestPoint {
   /// threads may ask.
   Nearest nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess = no_guess) const;
 
+  /// Labels that count: all but those from `first` to before `end`, and of those that `left` lists, if it does, what is
+  /// not 0.
+  struct Counting {
+    std::span<const char> left{};
+    std::uint32_t first = 0, end = 0;
+    bool operator()(std::uint32_t label) const {
+      return (label < first || label >= end) && (left.empty() || left[label] != 0);
+    }
+  };
   /// The same among the triangles whose labels count, within a distance; infinite when there is none. Where neighbours
-  /// have one label, those that do not count are passed over together.
-  Nearest nearest_of(const Vec3& p, double within, const std::function<bool(std::uint32_t label)>& counts) const;
+  /// have one label, those that do not count are passed over together. `guess` as above.
+  Nearest nearest_of(const Vec3& p, double within, const Counting& counts, std::uint32_t guess = no_guess) const;
 
   static constexpr std::uint32_t no_guess = 0xffffffffu;
 

@@ -8,10 +8,10 @@
 namespace wrlkit {
 namespace {
 
-constexpr double flat = 1e-12;       // area by squared length of a polygon that counts as without area
-constexpr double clear_turn = 1e-6;  // sine of a turn from which a fan may start and end anywhere
-constexpr double reflex = 1e-2;      // sine of a turn that is no rounding error of the coordinates
-constexpr double planar = 1e-3;      // distance from the plane by length
+constexpr double flat_polygon = 1e-12;  // area by squared length of a polygon that counts as without area
+constexpr double clear_turn = 1e-6;     // sine of a turn from which a fan may start and end anywhere
+constexpr double reflex = 1e-2;         // sine of a turn that is no rounding error of the coordinates
+constexpr double planar = 1e-3;         // distance from the plane by length
 
 double sum_of_squares(const Vec3& a) { return dot(a, a); }
 double square(double v) { return v * v; }
@@ -120,7 +120,7 @@ PolygonCutter::Result PolygonCutter::cut(std::span<const Vec2> points, std::span
 bool PolygonCutter::project() {
   Plane plane = plane_of(polygon_);
   if (!std::isfinite(plane.extent) || !std::isfinite(sum_of_squares(plane.normal))) return false;
-  auto has_area = [&] { return sum_of_squares(plane.normal) > square(flat * plane.extent); };
+  auto has_area = [&] { return sum_of_squares(plane.normal) > square(flat_polygon * plane.extent); };
   if (!has_area()) {
     plane.normal = largest_normal(polygon_);
     if (!has_area()) return false;

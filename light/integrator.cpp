@@ -8,8 +8,8 @@
 namespace wrlkit::light {
 namespace {
 
-constexpr std::size_t block = 64;  // points that are done in one piece
-constexpr int lamp_rays = 16;
+constexpr std::size_t points_a_block = 64;  // points that are done in one piece
+constexpr int gather_lamp_rays = 16;
 constexpr double largest_cell = 0.1;  // of the cache, by the radius of the world
 
 Receiver receiver(const LightWorld& world, const Point& p) {
@@ -52,7 +52,7 @@ class Estimate {
         random_(first ? key_of(key, 4, first) : key),
         directions_(key_of(key, 1)),
         places_(key_of(key, 2)) {
-    direct_.lamps(at_, lamp_rays, random_, lamps_);
+    direct_.lamps(at_, gather_lamp_rays, random_, lamps_);
   }
 
   void trace(std::uint32_t n) {
@@ -122,8 +122,8 @@ std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, st
   const State& s = *state_;
   const bool all_emitters = s.options.mode == IntegratorOptions::Mode::cached && s.direct.has_few_emitters();
   std::vector<Irradiance> out(points.size());
-  parallel_for((points.size() + block - 1) / block, [&](std::size_t b) {
-    for (std::size_t i = b * block; i < std::min(points.size(), (b + 1) * block); ++i) {
+  parallel_for((points.size() + points_a_block - 1) / points_a_block, [&](std::size_t b) {
+    for (std::size_t i = b * points_a_block; i < std::min(points.size(), (b + 1) * points_a_block); ++i) {
       Estimate e(s.direct, s.transport, all_emitters, receiver(s.world, points[i]),
                  key_of(s.options.seed, 6, first + (round.numbers.empty() ? i : round.numbers[i])), round.first);
       e.trace(static_cast<std::uint32_t>(std::max(1, round.rays)));

@@ -7,7 +7,7 @@ namespace wrlkit::light {
 namespace {
 
 constexpr std::uint64_t seed = 1;
-constexpr std::size_t block = 64;  // pixels that are done in one piece
+constexpr std::size_t pixel_block = 64;  // pixels that are done in one piece
 constexpr std::size_t stretches = 100;
 
 void report(const LightWorld& world, Diagnostics& diag) {
@@ -59,10 +59,10 @@ Image path_picture(const Scene& scene, const MeshSource& source, const drawing::
       for (double v : {c.x, c.y, c.z}) *out++ = static_cast<std::uint8_t>(linear_to_srgb(v) * 255 + 0.5);
     }
   };
-  const std::size_t n_blocks = (n + block - 1) / block, stretch = (n_blocks + stretches - 1) / stretches;
+  const std::size_t n_blocks = (n + pixel_block - 1) / pixel_block, stretch = (n_blocks + stretches - 1) / stretches;
   for (std::size_t b = 0; b < n_blocks; b += stretch) {
     parallel_for(std::min(stretch, n_blocks - b),
-                 [&](std::size_t i) { paint((b + i) * block, std::min(n, (b + i + 1) * block)); });
+                 [&](std::size_t i) { paint((b + i) * pixel_block, std::min(n, (b + i + 1) * pixel_block)); });
     if (options.done)
       options.done(static_cast<double>(std::min(b + stretch, n_blocks)) / static_cast<double>(n_blocks));
   }

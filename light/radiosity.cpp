@@ -15,7 +15,7 @@ constexpr std::size_t block = 256;  // walks or cells that are done in one piece
 constexpr int warm_up = 5;          // iterations of fewer rays, before those that are counted
 constexpr int fewer_rays = 8, rays_a_cell = 16;
 constexpr std::ptrdiff_t often = 4;  // meetings that make a cell known
-constexpr int deepest = 6;           // reflections outside of cells
+constexpr int most_reflections = 6;  // reflections outside of cells
 
 /// How well the cells are known.
 struct Effort {
@@ -181,7 +181,7 @@ Solver::Gathered Solver::follow(const Receiver& at, Stream& random, int depth) c
   direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, f);
   double u = random.next(), v = random.next();
   V3 direction = cosine_direction(at.normal, u, v);
-  if (depth == deepest || !(dot(direction, at.face) > 0)) return {f.sum, {}};
+  if (depth == most_reflections || !(dot(direction, at.face) > 0)) return {f.sum, {}};
   Gathered more = look(at, {at.start, direction}, random, depth);
   return {f.sum + more.first, more.further};
 }

@@ -122,6 +122,21 @@ FileResources::Target FileResources::locate(std::string_view url, Span where, co
   return {best.state, best.path, best.canonical};
 }
 
+UrlTarget FileResources::target(std::string_view url, Span where, const Sources& sources) {
+  using Kind = UrlTarget::Kind;
+  const auto kind = url_kind(url);
+  if (kind == UrlKind::data || find_made(url)) return {Kind::content};
+  if (kind != UrlKind::file || is_blank(url)) return {};
+  const auto at = locate(url, where, sources);
+  if (at.state == AllowedFiles::outside) return {Kind::outside};
+  return at.state == AllowedFiles::missing ? UrlTarget{} : UrlTarget{Kind::file, at.key};
+}
+
+std::shared_ptr<const Scene> FileResources::look_into(const std::string& path) {
+  Diagnostics unseen;
+  return parse_(path, unseen);
+}
+
 /// The object of a target: that which is still in use somewhere, or a new one.
 template <class T, class Load>
 std::shared_ptr<const T> FileResources::once(Slots<T>& slots, const Target& target, std::string& why, Load load) {

@@ -41,6 +41,8 @@ class FileResources final : public Resources {
   /// Parsed worlds are kept. A world that asks for itself while it is being parsed is a cycle.
   LinkedWorld world(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
   std::shared_ptr<const PatchSet> patches(const std::string& path, Diagnostics&) override;
+  UrlTarget target(std::string_view url, Span where, const Sources&) override;
+  std::shared_ptr<const Scene> look_into(const std::string& path) override;
 
   /// All that was asked for until now: what the result depends on beside the input. Who has no referrer was named by
   /// the user.

@@ -11,6 +11,7 @@ import sys
 
 HEAD = '''"""Made by make_stubs.py when the package is built."""
 from typing import Any, Dict, List, Literal, Optional, Tuple, Union, overload
+import os
 import numpy
 import numpy.typing
 '''
@@ -30,7 +31,7 @@ def field_type(name):
 
 def plain(signature):
     """A signature of pybind11's in words of typing."""
-    signature = re.sub(r'\bwrlkit\._wrlkit\.', '', signature).replace('numpy.ndarray', 'numpy.typing.NDArray[Any]').replace('kwargs)', 'kwargs: Any)')
+    signature = re.sub(r'\bwrlkit\._wrlkit\.', '', signature).replace('numpy.ndarray', 'numpy.typing.NDArray[Any]').replace('kwargs)', 'kwargs: Any)').replace('os.PathLike', "Union[str, 'os.PathLike[str]']")
     signature = re.sub(r'\b(object|handle)\b', 'Any', signature)
     return re.sub(r'\bdict\b', 'Dict[str, Any]', signature)
 

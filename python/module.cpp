@@ -1,6 +1,11 @@
 // The Python module wrlkit._wrlkit: worlds, their nodes with the fields of the node table as attributes, meshes and
 // arrays of numbers as NumPy arrays that are the scene's own memory, passes by the text of a pipeline, conversions as
 // the command line does them.
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+
+#include "base/text/nearest_name.h"
 #include "geometry/geometry.h"
 #include "python/world.h"
 #include "scenegraph/nodes.h"
@@ -8,6 +13,8 @@
 
 namespace wrlkit::python {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// What a geometry node shows, as passes see it.
 struct PyMesh {
@@ -28,11 +35,35 @@ std::unique_ptr<PyMesh> mesh_of(const PyNode& node) {
   return out;
 }
 
+/// Raises when neither the node table nor the world has a type of that name.
+void check_type(const Scene& scene, const std::string& name) {
+  NearestName nearest(name);
+  bool found = name.empty();
+  const auto consider = [&](const NodeType& type) {
+    nearest.consider(type.name);
+    found |= type.is_named(name);
+  };
+  for (const auto& type : builtin_nodes()) consider(type);
+  for (const auto& type : scene.own_types()) consider(type);
+  if (!found) throw py::value_error("there is no node type '" + name + "'" + nearest.question());
+}
+
 std::vector<PyNode> nodes_of(const std::shared_ptr<PyWorld>& world, const std::string& type) {
+  check_type(world->scene(), type);
   std::vector<PyNode> out;
   for (NodeId n : reachable(world->scene(), world->scene().main))
     if (type.empty() || world->scene().type(n).is_named(type)) out.push_back({world, n});
   return out;
+}
+
+std::shared_ptr<PyWorld> load(const fs::path& path, const std::vector<fs::path>& allow, const std::string& unit,
+                              const std::string& up) {
+  return PyWorld::load(path.string(), {allow.begin(), allow.end()}, unit, up);
+}
+
+std::vector<MessageView> convert_paths(const fs::path& source, const fs::path& target, const fs::path& recipe,
+                                       const std::optional<std::string>& pipeline, const py::kwargs& options) {
+  return convert(source.string(), target.string(), recipe.string(), pipeline, options);
 }
 
 py::object find_node(const std::shared_ptr<PyWorld>& world, const std::string& name) {
@@ -175,9 +206,12 @@ void define_world(WorldClass& type) {
       .def("apply", &PyWorld::apply, py::arg("pass_name"),
            "Runs one pass with options by keyword, world.apply('lod', ratios=[0.3, 0.1], min_faces=200), and gives "
            "what it counted.")
-      .def("save", &PyWorld::save, py::arg("path"),
-           "Writes .wrl, .wrz, .x3d, .x3dz, .gltf or .glb, whole or not at all; what stands below [output] in "
-           "docs/recipes.md are keywords: compress='meshopt', tolerance='1mm'. The world stays as it is.")
+      .def(
+          "save",
+          [](PyWorld& world, const fs::path& path, const py::kwargs& options) { world.save(path.string(), options); },
+          py::arg("path"),
+          "Writes .wrl, .wrz, .x3d, .x3dz, .gltf or .glb, whole or not at all; what stands below [output] in "
+          "docs/recipes.md are keywords: compress='meshopt', tolerance='1mm'. The world stays as it is.")
       .def("info", &PyWorld::info,
            "What is inside, as `wrlkit info --json` says it, as a dict. The world stays as it is.")
       .def("report", &PyWorld::report, py::arg("severity"), py::arg("text"), py::arg("node") = py::none(),
@@ -210,11 +244,11 @@ PYBIND11_MODULE(_wrlkit, m) {
   define_mesh(mesh);
   define_world(world);
   define_passes(m);
-  m.def("load", &PyWorld::load, py::arg("path"), py::arg("allow") = std::vector<std::string>{}, py::arg("unit") = "",
+  m.def("load", &load, py::arg("path"), py::arg("allow") = std::vector<fs::path>{}, py::arg("unit") = "",
         py::arg("up") = "",
         "Reads a world. Files that it refers to are looked for beside it and below the folders in `allow`; `unit` and "
         "`up` are as --unit and --up of convert. Raises Error.");
-  m.def("convert", &convert, py::arg("source"), py::arg("target"), py::arg("recipe") = "",
+  m.def("convert", &convert_paths, py::arg("source"), py::arg("target"), py::arg("recipe") = "",
         py::arg("pipeline") = py::none(),
         "Converts a file as `wrlkit convert` does: by a recipe, a pipeline, and options by keyword, which come before "
         "what the recipe says. Gives what was said, as a list of Message; raises Error when nothing could be made.");

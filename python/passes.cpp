@@ -68,7 +68,7 @@ class PythonPass final : public PassInstance {
       if (!e.matches(PyExc_ValueError)) throw;
     }
     why = "option '" + std::string(option) + "': '" + std::string(value) +
-          "' is no value for it: " + at->type_and_range();
+          "' is not a valid value: " + at->type_and_range();
     return false;
   }
 

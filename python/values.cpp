@@ -47,8 +47,8 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
   const auto& t = info(field.type);
   Scene& scene = node.scene();
   const auto wrong = [&] {
-    return py::type_error(std::string(node.type().name) + "." + std::string(field.name) + " is a " +
-                          std::string(t.name));
+    return py::type_error(std::string(node.type().name) + "." + std::string(field.name) +
+                          (t.name[0] == 'S' || t.name[0] == 'M' ? " is an " : " is a ") + std::string(t.name));
   };
   try {
     switch (t.element) {

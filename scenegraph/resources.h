@@ -49,9 +49,22 @@ struct LinkedWorld {
   std::string_view url;
 };
 
+/// What a url leads to. content: it holds the data, or a pass has made the file.
+struct UrlTarget {
+  enum class Kind : std::uint8_t { nothing, content, file, outside };  // outside: of the folders that may be read
+  Kind kind = Kind::nothing;
+  std::string path = {};  // of a file: absolute, without links
+};
+
 class Resources {
  public:
   virtual ~Resources() = default;
+
+  /// Without opening or reporting anything.
+  virtual UrlTarget target(std::string_view, Span, const Sources&) { return {}; }
+  /// A world for those who want to know what it refers to, at a path that target() gave; null when there is nothing to
+  /// be had. Nothing is reported, nothing kept.
+  virtual std::shared_ptr<const Scene> look_into(const std::string&) { return nullptr; }
 
   /// The first of the urls that can be had, for a node that was read at `where` (relative urls are relative to that
   /// file). Reports and returns null when none can. Each file is read once; later calls return the same object.

@@ -136,7 +136,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         source, made = Path(folder) / 'plant.wrl', Path(folder) / 'plant.glb'
         source.write_text(text)
-        for pipeline in ('dedup', 'dedup,merge{instanced=true,max-draws=30}'):
+        for pipeline in ('dedup', 'dedup,merge{instanced=true,max-draws=30}', 'recognise,dedup,instance{forms=true},merge{instanced=true,max-draws=30}'):
             subprocess.run([args.wrlkit, 'convert', '-q', source, made, '-p', pipeline, '--names', 'table'], check=True)
             glb = Glb(made)
             found = corners_by_path(glb)

@@ -12,13 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "out/room" of out/room.wrl and of out/room.wrl.gz.
-fs::path stem_of(const std::string& output) {
-  fs::path p(output);
-  if (p.extension() == ".gz") p.replace_extension();
-  return p.replace_extension();
-}
-
 bool has_other_contents(const std::string& path, std::string_view bytes) {
   std::error_code none;
   if (!fs::is_regular_file(path, none)) return false;
@@ -28,6 +21,12 @@ bool has_other_contents(const std::string& path, std::string_view bytes) {
 }
 
 }  // namespace
+
+fs::path stem_of(const std::string& output) {
+  fs::path p(output);
+  if (p.extension() == ".gz") p.replace_extension();
+  return p.replace_extension();
+}
 
 MadeFiles::MadeFiles(const Scene& scene, const Resources& resources, std::string output, Diagnostics& diag)
     : resources_(resources), output_(std::move(output)), diag_(diag) {

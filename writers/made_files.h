@@ -1,5 +1,6 @@
 // Files that passes have made (Resources::made), beside the world that refers to them: room.wrl has room.baked_0.png.
 #pragma once
+#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>
@@ -10,6 +11,9 @@
 #include "scenegraph/scene.h"
 
 namespace wrlkit {
+
+/// "out/room" of out/room.wrl and of out/room.wrl.gz.
+std::filesystem::path stem_of(const std::string& output);
 
 class MadeFiles {
  public:

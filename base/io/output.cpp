@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/io/gzip.h"
 
@@ -67,6 +68,7 @@ std::string reason(int error, const fs::path& path) {
   std::error_code ec;
   if (error == ENOENT) return "the folder '" + path.parent_path().string() + "' does not exist";
   if (error == EISDIR) return "it is a directory";
+  if (error == ENOTDIR) return "'" + path.parent_path().string() + "' is not a folder";
   if (error == EACCES) return "permission denied";
   if (error == ENOSPC) return "the disk is full";
   return std::generic_category().message(error);
@@ -97,7 +99,23 @@ struct OutputFile::State {
   std::unique_ptr<Gzip> gzip;
   std::string gathered;
 
-  ~State() { discard(); }
+  std::vector<fs::path> made_folders;  // the outermost first
+
+  ~State() {
+    discard();
+    std::error_code none;
+    while (!made_folders.empty() && fs::remove(made_folders.back(), none)) made_folders.pop_back();
+  }
+
+  /// The folder of the target, where it is not there yet.
+  void make_folder() {
+    std::vector<fs::path> missing;
+    std::error_code fault;
+    for (auto at = folder(); !at.empty() && !fs::exists(fs::symlink_status(at, fault)); at = at.parent_path())
+      missing.push_back(at);
+    for (fault.clear(); !missing.empty() && !fault; missing.pop_back())
+      if (fs::create_directory(missing.back(), fault)) made_folders.push_back(missing.back());
+  }
 
   void discard() {
     if (!temporary.empty()) unlink(temporary.c_str());
@@ -150,6 +168,7 @@ struct OutputFile::State {
 
   void open_temporary() {
     constexpr mode_t everybody = 0666;  // less the umask
+    make_folder();
     bool can_get_name = access("/proc/self/fd", X_OK) == 0;
     if (can_get_name) fd = ::open(folder().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, everybody);
     if (!can_get_name || (fd < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL))) {
@@ -208,6 +227,7 @@ struct OutputFile::State {
     if (!error && kind == standard_output) copy_to_standard_output();
     if (!error && kind == replace) put_in_place();
     if (int late = fd.close(); late && !error) error = late;
+    if (!error) made_folders.clear();
   }
 
   void copy_to_standard_output() {

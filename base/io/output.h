@@ -21,7 +21,8 @@ struct OutputOptions {
 
 class OutputFile {
  public:
-  /// Begins to write `path`; "-" is standard output. Null when nothing can be written there, which is reported.
+  /// Begins to write `path`; "-" is standard output. Folders that are not there are made. Null when nothing can be
+  /// written there, which is reported.
   static std::optional<OutputFile> open(const std::string& path, OutputOptions, Diagnostics&);
 
   OutputFile(OutputFile&&) noexcept;

@@ -217,11 +217,15 @@ std::optional<std::string> read_bytes(const std::string& path, std::uint64_t lim
 std::string readable_size(std::uint64_t bytes) {
   constexpr std::string_view units[] = {" bytes", " KiB", " MiB", " GiB"};
   std::size_t unit = 0;
-  while (unit < 3 && bytes >= 1024 && (bytes % 1024 == 0 || bytes >= 10 * 1024)) {
-    bytes = (bytes + 512) / 1024;
+  auto tenths = static_cast<double>(bytes) * 10;
+  while (unit < 3 && tenths >= 10 * 1024 && (unit > 0 || bytes % 1024 == 0 || bytes >= 10 * 1024)) {
+    tenths /= 1024;
     ++unit;
   }
-  return std::to_string(bytes) + std::string(units[unit]);
+  auto n = static_cast<std::uint64_t>(tenths + 0.5);
+  if (n >= 100) n = static_cast<std::uint64_t>(tenths / 10 + 0.5) * 10;
+  const auto fraction = n % 10 ? "." + std::to_string(n % 10) : std::string();
+  return std::to_string(n / 10) + fraction + std::string(units[unit]);
 }
 
 }  // namespace wrlkit

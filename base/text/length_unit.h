@@ -5,14 +5,10 @@
 
 namespace wrlkit {
 
-/// Metres in one m, cm, mm, in or ft; none of another word.
-constexpr std::optional<double> metres_in(std::string_view unit) {
-  if (unit == "m") return 1;
-  if (unit == "cm") return 0.01;
-  if (unit == "mm") return 0.001;
-  if (unit == "in") return 0.0254;
-  if (unit == "ft") return 0.3048;
-  return std::nullopt;
-}
+/// How people write a length; part of messages about what is not one.
+inline constexpr std::string_view length_examples = "20mm, 2cm, 0.5in, or 0.02 in metres";
+
+/// Metres in one m, cm, mm, in or ft, by these names or whole ones, whatever their case; nothing for other text.
+std::optional<double> metres_in(std::string_view unit);
 
 }  // namespace wrlkit

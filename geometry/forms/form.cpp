@@ -5,18 +5,14 @@
 #include <numbers>
 
 #include "base/math/vec.h"
+#include "base/overloaded.h"
 #include "geometry/forms/cut.h"
 
 namespace wrlkit {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int most_segments = 1024;
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
 
 Vec3 direction(const Matrix& m, const Vec3& v) {
   return {m(0, 0) * v[0] + m(0, 1) * v[1] + m(0, 2) * v[2], m(1, 0) * v[0] + m(1, 1) * v[1] + m(1, 2) * v[2],
@@ -86,10 +82,6 @@ double area_of_cut(const Form& form, const FormCut& cut) {
     out += length(sum) / 2;
   }
   return out;
-}
-
-bool is_straight(const FrustumForm& f) {
-  return f.offset == Vec2{} && f.bottom_slope == Vec2{} && f.top_slope == Vec2{};
 }
 
 double half_spheroid(double radius, double height) {
@@ -253,7 +245,7 @@ double area(const Form& form) {
   return std::visit(
       Overloaded{[&](const CylinderForm& f) { return 2 * pi * f.radius * f.height + caps * disc(f.radius); },
                  [&](const FrustumForm& f) {
-                   if (!is_straight(f)) return area_of_cut(form, {most_segments, 0});
+                   if (!f.is_straight()) return area_of_cut(form, {most_segments, 0});
                    const double slant = std::hypot(f.height, f.bottom_radius - f.top_radius);
                    return pi * (f.bottom_radius + f.top_radius) * slant + (form.bottom ? disc(f.bottom_radius) : 0) +
                           (form.top ? disc(f.top_radius) : 0);

@@ -27,6 +27,9 @@ struct FrustumForm {
   double bottom_radius = 1, top_radius = 0, height = 2;
   Vec2 offset{};                     // from the middle of the bottom to that of the top, along X and Z
   Vec2 bottom_slope{}, top_slope{};  // how an end rises along X and Z
+
+  /// Both ends are square to the axis and around it.
+  bool is_straight() const { return offset == Vec2{} && bottom_slope == Vec2{} && top_slope == Vec2{}; }
 };
 
 /// An elbow, or a whole ring of round section.

@@ -386,6 +386,11 @@ std::optional<Form> read_form(const Scene& scene, NodeId geometry) {
   return geometry ? Reader(scene, geometry).read() : std::nullopt;
 }
 
+bool is_solid(const Scene& scene, NodeId geometry) {
+  const auto slot = scene.type(geometry).find("solid", Dialect::x3d);
+  return !slot || scene.value(geometry, *slot).integer != 0;
+}
+
 NodeId add_form(Scene& scene, const Form& form, bool solid, Span where) {
   return std::visit(Adder(scene, form, solid, where), form.shape);
 }

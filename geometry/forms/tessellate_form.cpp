@@ -12,7 +12,7 @@
 namespace wrlkit {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The unit circle and the radius by which a polygon of n sides stands for it.
 struct Circle {

@@ -7,7 +7,7 @@ namespace {
 
 // Areas and distances, as parts of squared lengths. A corner that is kept away from the diagonals of others by the
 // margin is never part of a triangle that counts as flat, and one that is clearly convex cannot be within the margin.
-constexpr double flat = 1e-12;
+constexpr double flat_triangle = 1e-12;
 constexpr double margin = 1e-11;
 constexpr double clearly_convex = 1e-10;
 constexpr double better_not_an_ear = 1e-6;
@@ -183,7 +183,7 @@ void EarClipper::remove(std::uint32_t node) {
 void EarClipper::emit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const Vec2 &p = rings_->at[a], &q = rings_->at[b], &r = rings_->at[c];
   double area = orientation(p, q, r);
-  if (!(std::abs(area) > flat * std::max({square(p, q), square(q, r), square(r, p)}))) return;
+  if (!(std::abs(area) > flat_triangle * std::max({square(p, q), square(q, r), square(r, p)}))) return;
   if (area < 0) crossing_ = true;
   for (auto node : {a, b, c}) corners_->push_back(rings_->nodes[node].point);
 }

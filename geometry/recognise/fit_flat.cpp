@@ -3,13 +3,14 @@
 #include <limits>
 
 #include "geometry/forms/cut.h"
+#include "geometry/polygon.h"
 #include "geometry/recognise/fits.h"
 #include "geometry/recognise/frame.h"
 
 namespace wrlkit::recognising {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double crease = 0.5;  // radians: walls of a prism that are flatter to each other are smooth
 
 double cross2(const Vec2& a, const Vec2& b) { return a[0] * b[1] - a[1] * b[0]; }
@@ -201,6 +202,12 @@ std::optional<Fit> as_sector(const Extruded& e, const std::vector<Vec2>& p, doub
   return std::nullopt;
 }
 
+/// Its caps could be cut in other ways than they were.
+bool crosses_itself(const PrismForm& f) {
+  PolygonCutter cutter;
+  return cutter.cut(f.points, f.ring_ends).crossing;
+}
+
 }  // namespace
 
 std::optional<Fit> fit_prism(std::span<const Ring> rings, const Tolerances& tolerances) {
@@ -217,6 +224,7 @@ std::optional<Fit> fit_prism(std::span<const Ring> rings, const Tolerances& tole
   form.frame = e->frame;
   PrismForm f{std::move(profile), {}, e->height, crease};
   f.ring_ends = {static_cast<std::uint32_t>(f.points.size())};
+  if (crosses_itself(f)) return std::nullopt;
   form.shape = std::move(f);
   return Fit{std::move(form), e->residual + left_out, e->turn > 0};
 }
@@ -308,6 +316,7 @@ std::optional<Fit> fit_hollow(std::span<const Ring> low, std::span<const Ring> h
     f.points.insert(f.points.end(), corners.begin(), corners.end());
     f.ring_ends.push_back(static_cast<std::uint32_t>(f.points.size()));
   }
+  if (crosses_itself(f)) return std::nullopt;
   form.frame = e->frame;
   form.shape = std::move(f);
   return Fit{std::move(form), e->residual, e->turn > 0};

@@ -8,7 +8,7 @@
 namespace wrlkit::recognising {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Points of a form as tessellate_form makes them, ring by ring.
 class Points {

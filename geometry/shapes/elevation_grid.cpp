@@ -80,7 +80,7 @@ class GridWriter {
   std::size_t n_not_finite_ = 0;
 };
 
-void read_flags(MeshJob& job) {
+void read_grid_flags(MeshJob& job) {
   job.mesh.kind = Mesh::Kind::faces;
   job.mesh.ccw = job.scene.get(job.geometry, fields::ccw);
   job.mesh.solid = job.scene.get(job.geometry, fields::solid);
@@ -103,7 +103,7 @@ void make_elevation_grid(MeshJob& job, const Tessellation&) {
   const Grid grid = read_dimensions(job, height.size());
   if (grid.nx < 2 || grid.nz < 2) return report_no_surface(job, "it has fewer than two rows or columns of heights");
 
-  read_flags(job);
+  read_grid_flags(job);
   GridWriter writer(job, grid);
   writer.write(height);
   const double last_x = job.mesh.positions[job.mesh.positions.size() - 3],

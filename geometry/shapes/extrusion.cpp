@@ -202,7 +202,7 @@ class Extruder {
   std::uint32_t cap_texcoords_ = 0;
 };
 
-void read_flags(MeshJob& job) {
+void read_extrusion_flags(MeshJob& job) {
   namespace fields = nodes::extrusion;
   job.mesh.kind = Mesh::Kind::faces;
   job.mesh.ccw = job.scene.get(job.geometry, fields::ccw);
@@ -227,7 +227,7 @@ void make_extrusion(MeshJob& job, const Tessellation&) {
     fields.crossSection.resize(std::min(fields.crossSection.size(), most_faces / 2));
     fields.spine.resize(std::min(fields.spine.size(), most_faces / fields.crossSection.size()));
   }
-  read_flags(job);
+  read_extrusion_flags(job);
   Extruder(job.mesh, fields).write();
   if (!all_finite(job.mesh.positions.span())) return report_no_surface(job, "its size is not finite");
   if (job.mesh.corners.empty()) report_no_surface(job, "all its points coincide");

@@ -12,33 +12,41 @@ namespace {
 
 constexpr double usual_peak = 8;    // largest distance over the root of the mean square, beyond which it is dearer
 constexpr double least_rms = 1e-6;  // of the root of the area
-constexpr double growth = 1.1;      // of the root of the mean square, after which all is priced again
+constexpr std::size_t least_rebuilt = 1000;  // triangles
+constexpr std::size_t asked_at_once = 64;    // parts
+constexpr std::size_t chunk = 128;           // samples that are asked one after another
+constexpr std::uint32_t most_orphans = 64;   // of a part
+constexpr double growth = 1.1;               // of the root of the mean square, after which all is priced again
 
 }  // namespace
 
-Allocation::Allocation(const std::vector<AllocatedPart>& parts, const Neighbours& neighbours, double area)
+Allocation::Allocation(std::vector<AllocatedPart>& parts, Neighbours& neighbours, double area)
     : parts_(parts),
       neighbours_(neighbours),
       area_(area),
       at_(parts.size()),
-      hull_(parts.size()),
+      stops_(parts.size()),
       leaving_(parts.size()),
-      outdated_(parts.size()),
-      dependents_(parts.size()),
-      orphans_(parts.size()) {
-  for (std::uint32_t i = 0; i < parts.size(); ++i)
-    for (auto owner : parts[i].places) {
-      if (owner >= part_of_.size()) part_of_.resize(owner + std::size_t{1});
-      part_of_[owner] = i;
-    }
-  std::vector<std::vector<std::uint32_t>> near(parts.size());
+      n_orphans_(parts.size()),
+      n_triangles_left_(neighbours.n_triangles()) {
+  for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    part_of_.insert(part_of_.end(), parts[i].n_places, i);
+    n_drawn_ += (*parts[i].rungs)[0].n_faces * parts[i].n_places;
+  }
+  left_.assign(part_of_.size(), 1);
   parallel_for(parts.size(), [&](std::size_t i) {
-    hull_[i] = convex_hull(*parts[i].rungs);
-    leaving_[i] = price_of_leaving(static_cast<std::uint32_t>(i), near[i]);
+    list_stops(static_cast<std::uint32_t>(i));
+    price_leaving(static_cast<std::uint32_t>(i));
   });
-  for (std::uint32_t i = 0; i < parts.size(); ++i) depend(i, near[i]);
-  for (std::uint32_t i = 0; i < parts.size(); ++i) n_drawn_ += (*parts[i].rungs)[0].n_faces * parts[i].places.size();
   price_all();
+}
+
+void Allocation::list_stops(std::uint32_t part) {
+  const auto& p = parts_[part];
+  for (const auto rung : convex_hull(*p.rungs, p.stretch)) {
+    const auto& d = (*p.rungs)[rung].distortion;
+    stops_[part].push_back({rung, {p.weight * p.stretch.squares(d), p.stretch.max(d)}});
+  }
 }
 
 /// When larger distances have become usual.
@@ -51,100 +59,143 @@ void Allocation::price_all() {
 
 double Allocation::rms() const { return area_ > 0 ? std::sqrt(std::max(squares_, 0.) / (2 * area_)) : 0; }
 
+std::vector<std::uint32_t> Allocation::rungs() const {
+  std::vector<std::uint32_t> out(at_.size(), gone);
+  for (std::size_t i = 0; i < at_.size(); ++i)
+    if (at_[i] != gone) out[i] = stops_[i][at_[i]].rung;
+  return out;
+}
+
 double Allocation::key_of(double slope, double max) const {
   const double over = max / (usual_peak * priced_at_);
   return slope * std::max(1., over * over);
 }
 
 /// The cheapest way down from where a part stands.
-Allocation::Step Allocation::next_of(std::uint32_t part) {
+Allocation::Step Allocation::next_of(std::uint32_t part) const {
   const auto& p = parts_[part];
-  const auto& rung = (*p.rungs)[at_[part]];
-  const double places = static_cast<double>(p.places.size()), now = p.weight * rung.distortion.squares;
-  const double all = places * static_cast<double>(rung.n_faces);
-  Step best{key_of((leaving_[part].squares - now) / all, leaving_[part].max), part, gone};
-  for (auto h : hull_[part]) {
-    if (h <= at_[part]) continue;
-    const auto& lower = (*p.rungs)[h];
-    const double saved = places * static_cast<double>(rung.n_faces - lower.n_faces);
-    const double key = key_of((p.weight * lower.distortion.squares - now) / saved, lower.distortion.max);
-    if (key < best.key) best = {key, part, static_cast<std::uint32_t>(h)};
+  const auto& stops = stops_[part];
+  const auto& now = stops[at_[part]];
+  const double places = static_cast<double>(p.n_places);
+  const auto n_faces = [&](std::uint32_t stop) { return (*p.rungs)[stops[stop].rung].n_faces; };
+  const double all = places * static_cast<double>(n_faces(at_[part]));
+  Step best{key_of((leaving_[part].squares - now.price.squares) / all, leaving_[part].max), part, gone};
+  for (std::uint32_t i = at_[part] + 1; i < stops.size(); ++i) {
+    const double saved = places * static_cast<double>(n_faces(at_[part]) - n_faces(i));
+    const double key = key_of((stops[i].price.squares - now.price.squares) / saved, stops[i].price.max);
+    if (key < best.key) best = {key, part, i};
   }
   return best;
 }
 
-Neighbours::Found Allocation::nearest_left(const Vec3& p, std::uint32_t without) const {
-  return neighbours_.nearest(p, std::numeric_limits<double>::infinity(), [&](std::uint32_t owner) {
-    const auto part = part_of_[owner];
-    return part != without && at_[part] != gone;
-  });
+/// Whether what it was near to has left.
+bool Allocation::must_ask(const LeavingSample& s) const {
+  return !s.is_asked || (s.near != ClosestPoint::no_guess && left_[s.near] == 0);
 }
 
-double Allocation::squared_of(const LeavingSample& s, std::uint32_t look, const Neighbours::Found& found) const {
-  const double squared = found.distance * found.distance;
-  const bool same = found.owner != ClosestPoint::no_guess && parts_[part_of_[found.owner]].look == look;
+double Allocation::squared_of(const LeavingSample& s) const {
+  const double squared = s.distance * s.distance;
+  const bool same = s.near != ClosestPoint::no_guess && parts_[part_of_[s.near]].look == s.look;
   return same ? squared : std::max(squared, s.least);
 }
 
+/// What is nearest to those of the samples that do not know.
+void Allocation::ask(std::span<LeavingSample> samples, std::uint32_t part) const {
+  const auto first = parts_[part].first_place;
+  auto guess = ClosestPoint::no_guess;
+  for (auto& s : samples) {
+    if (!must_ask(s)) continue;
+    const auto found = neighbours_.nearest(s.point, std::numeric_limits<double>::infinity(),
+                                           {left_, first, first + parts_[part].n_places}, guess);
+    guess = found.triangle;
+    s.near = found.owner;
+    s.distance = found.distance;
+    s.is_asked = true;
+  }
+}
+
 /// Of its own points, and of those that left before and are near to it.
-Allocation::Price Allocation::price_of_leaving(std::uint32_t part, std::vector<std::uint32_t>& near) const {
-  Price out;
-  auto add = [&](const LeavingSample& s, std::uint32_t look, double before) {
-    const auto found = nearest_left(s.point, part);
-    out.squares += s.weight * (squared_of(s, look, found) - before);
-    out.max = std::max(out.max, found.distance);
-    if (found.owner != ClosestPoint::no_guess) near.push_back(part_of_[found.owner]);
-  };
-  for (const auto& s : parts_[part].leaving) add(s, parts_[part].look, 0);
-  for (const auto& o : orphans_[part]) add(o.sample, o.look, o.squared);
-  return out;
-}
-
-void Allocation::depend(std::uint32_t part, std::vector<std::uint32_t>& near) {
-  std::ranges::sort(near);
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  for (auto n : near) dependents_[n].push_back(part);
-}
-
-/// Again if one of those that it was near to has left.
 void Allocation::price_leaving(std::uint32_t part) {
-  if (!outdated_[part]) return;
-  std::vector<std::uint32_t> near;
-  leaving_[part] = price_of_leaving(part, near);
-  depend(part, near);
-  outdated_[part] = 0;
+  const std::span<LeavingSample> all = parts_[part].leaving;
+  const auto n_chunks = (all.size() + chunk - 1) / chunk;
+  parallel_for(n_chunks,
+               [&](std::size_t i) { ask(all.subspan(i * chunk, std::min(chunk, all.size() - i * chunk)), part); });
+  Price out;
+  for (const auto& s : all) {
+    out.squares += s.weight * (squared_of(s) - s.counted);
+    out.max = std::max(out.max, s.distance);
+  }
+  leaving_[part] = out;
+}
+
+bool Allocation::is_outdated(const Step& step) const {
+  return step.to == gone &&
+         std::ranges::any_of(parts_[step.part].leaving, [&](const LeavingSample& s) { return must_ask(s); });
+}
+
+/// The price of leaving of a part, and of the next that will be asked for: the threads share the work.
+void Allocation::price_next(const Step& first) {
+  std::vector<Step> steps;
+  std::vector<std::uint32_t> outdated{first.part};
+  while (!queue_.empty() && steps.size() < asked_at_once) {
+    steps.push_back(queue_.top());
+    queue_.pop();
+    if (is_outdated(steps.back())) outdated.push_back(steps.back().part);
+  }
+  parallel_for(outdated.size(), [&](std::size_t i) { price_leaving(outdated[i]); });
+  for (const Step& s : steps) queue_.push(next_of(s.part));
+}
+
+/// Where there are many, every other one counts for the next, too.
+void Allocation::attach(std::uint32_t part, const LeavingSample& s) {
+  auto& all = parts_[part].leaving;
+  auto& n = n_orphans_[part];
+  if (n == most_orphans) {
+    const auto first = all.size() - n;
+    for (std::size_t i = 0; i < most_orphans / 2; ++i) {
+      const double weight = all[first + 2 * i].weight + all[first + 2 * i + 1].weight;
+      all[first + i] = all[first + 2 * i];
+      all[first + i].weight = weight;
+    }
+    n = most_orphans / 2;
+    all.resize(first + n);
+  }
+  auto& added = all.emplace_back(s);
+  added.counted = squared_of(s);
+  added.is_asked = false;
+  ++n;
 }
 
 void Allocation::leave(std::uint32_t part) {
+  const auto& p = parts_[part];
   at_[part] = gone;
   ++n_gone_;
-  for (auto d : std::exchange(dependents_[part], {})) outdated_[d] = 1;
-  auto attach = [&](const LeavingSample& s, std::uint32_t look) {
-    const auto found = nearest_left(s.point, part);
-    if (found.owner == ClosestPoint::no_guess) return;
-    const auto near = part_of_[found.owner];
-    orphans_[near].push_back({s, look, squared_of(s, look, found)});
-    outdated_[near] = 1;
-  };
-  for (const auto& s : parts_[part].leaving) attach(s, parts_[part].look);
-  for (const auto& o : std::exchange(orphans_[part], {})) attach(o.sample, o.look);
+  std::fill_n(left_.begin() + p.first_place, p.n_places, char{0});
+  n_triangles_left_ -= std::min(n_triangles_left_, (*p.rungs)[0].n_faces * p.n_places);
+  for (const auto& s : std::exchange(parts_[part].leaving, {}))
+    if (s.near != ClosestPoint::no_guess) attach(part_of_[s.near], s);
+  if (2 * n_triangles_left_ < neighbours_.n_triangles() && neighbours_.n_triangles() > least_rebuilt) {
+    neighbours_.keep(left_);
+    n_triangles_left_ = neighbours_.n_triangles();
+  }
 }
 
 void Allocation::take(const Step& step) {
   const auto& p = parts_[step.part];
-  const auto& rung = (*p.rungs)[at_[step.part]];
-  squares_ -= p.weight * rung.distortion.squares;
-  n_drawn_ -= p.places.size() * rung.n_faces;
+  const auto& stops = stops_[step.part];
+  const auto& now = stops[at_[step.part]];
+  squares_ -= now.price.squares;
+  n_drawn_ -= p.n_places * (*p.rungs)[now.rung].n_faces;
   if (step.to == gone) {
     squares_ += leaving_[step.part].squares;
     max_ = std::max(max_, leaving_[step.part].max);
     leave(step.part);
     return;
   }
-  const auto& lower = (*p.rungs)[step.to];
-  squares_ += p.weight * lower.distortion.squares;
-  max_ = std::max(max_, lower.distortion.max);
-  n_drawn_ += p.places.size() * lower.n_faces;
+  const auto& lower = stops[step.to];
+  squares_ += lower.price.squares;
+  max_ = std::max(max_, lower.price.max);
+  n_drawn_ += p.n_places * (*p.rungs)[lower.rung].n_faces;
   at_[step.part] = step.to;
   queue_.push(next_of(step.part));
 }
@@ -157,8 +208,9 @@ bool Allocation::run_to(std::size_t n_drawn) {
     queue_.pop();
     if (!std::isfinite(step.key)) return false;  // nothing would be left
     // Others have left since, and larger distances have become usual.
-    if (step.to == gone) price_leaving(step.part);
+    if (is_outdated(step)) price_next(step);
     const Step now = next_of(step.part);
+    if (!std::isfinite(now.key)) continue;
     if (!queue_.empty() && queue_.top() < now) {
       if (queue_.top().key < now.key) {
         queue_.push(now);

@@ -12,32 +12,40 @@ namespace wrlkit::simplify {
 /// A point of a part in the world: when the part leaves, it counts as far as from what is nearest then.
 struct LeavingSample {
   Vec3 point;
-  double weight;  // area
-  double least;   // squared distance that it counts at least near to another look: it was seen
+  double weight;         // area
+  double least;          // squared distance that it counts at least near to another look: it was seen
+  std::uint32_t look;    // of what it was seen on
+  std::uint32_t near;    // owner of what is nearest but for the part; ClosestPoint::no_guess: there is nothing
+  double distance;       // from there
+  double counted = 0;    // squared distance that it counts already
+  bool is_asked = true;  // whether `near` is known
 };
 
 /// A part of a world in all its places.
 struct AllocatedPart {
   const std::vector<Rung>* rungs = nullptr;
-  std::vector<std::uint32_t> places;  // owners among the neighbours
-  double weight = 1;                  // of the distortion: over all places, those of the ladder counting 1
-  std::uint32_t look = 0;             // what is seen of it
+  std::uint32_t first_place = 0, n_places = 0;  // owners among the neighbours
+  double weight = 1;                            // of the distortion: over all places, the widest counting 1
+  Stretch stretch;                              // from the ladder to there
+  std::uint32_t look = 0;                       // what is seen of it
   std::vector<LeavingSample> leaving;
+
+  double max(std::size_t rung) const { return stretch.max((*rungs)[rung].distortion); }
 };
 
 class Allocation {
  public:
   static constexpr std::uint32_t gone = 0xffffffffu;
 
-  /// `parts` and `neighbours` must outlive this. `area` is that of the world.
-  Allocation(const std::vector<AllocatedPart>& parts, const Neighbours& neighbours, double area);
+  /// `parts` and `neighbours` must outlive this; what leaves is taken from them. `area` is that of the world.
+  Allocation(std::vector<AllocatedPart>& parts, Neighbours& neighbours, double area);
 
   /// Steps down until at most so many triangles are drawn. False when nothing is left to be taken.
   bool run_to(std::size_t n_drawn);
 
   std::size_t n_drawn() const { return n_drawn_; }
   /// The rung of each part; gone: none.
-  const std::vector<std::uint32_t>& rungs() const { return at_; }
+  std::vector<std::uint32_t> rungs() const;
   /// Of both surfaces, root of the mean square; and the largest.
   double rms() const;
   double max() const { return max_; }
@@ -49,38 +57,39 @@ class Allocation {
     std::uint32_t part, to;
     bool operator<(const Step& o) const { return key != o.key ? key > o.key : part > o.part; }
   };
-  /// A point of a part that has left, and what it is near to now.
-  struct Orphan {
-    LeavingSample sample;
-    std::uint32_t look;
-    double squared;
-  };
   struct Price {
     double squares = 0, max = 0;
   };
+  /// A rung of the convex hull.
+  struct Stop {
+    std::uint32_t rung;
+    Price price;
+  };
 
   void price_all();
-  Step next_of(std::uint32_t part);
+  Step next_of(std::uint32_t part) const;
   double key_of(double slope, double max) const;
-  /// `near`: the parts that it would then be near to.
-  Price price_of_leaving(std::uint32_t part, std::vector<std::uint32_t>& near) const;
+  void list_stops(std::uint32_t part);
   void price_leaving(std::uint32_t part);
-  void depend(std::uint32_t part, std::vector<std::uint32_t>& near);
-  Neighbours::Found nearest_left(const Vec3& p, std::uint32_t without) const;
-  double squared_of(const LeavingSample& s, std::uint32_t look, const Neighbours::Found& found) const;
+  bool must_ask(const LeavingSample& s) const;
+  void ask(std::span<LeavingSample> samples, std::uint32_t part) const;
+  bool is_outdated(const Step& step) const;
+  void price_next(const Step& first);
+  double squared_of(const LeavingSample& s) const;
+  void attach(std::uint32_t part, const LeavingSample& s);
   void take(const Step& step);
   void leave(std::uint32_t part);
 
-  const std::vector<AllocatedPart>& parts_;
-  const Neighbours& neighbours_;
+  std::vector<AllocatedPart>& parts_;
+  Neighbours& neighbours_;
   double area_;
   std::vector<std::uint32_t> part_of_;  // of each owner
+  std::vector<char> left_;              // whether each owner is still there
   std::vector<std::uint32_t> at_;
-  std::vector<std::vector<std::size_t>> hull_;
-  std::vector<Price> leaving_;                          // as it was when it was asked last
-  std::vector<char> outdated_;                          // whether something has left since that matters to it
-  std::vector<std::vector<std::uint32_t>> dependents_;  // parts whose leaving was priced by being near to this one
-  std::vector<std::vector<Orphan>> orphans_;            // by the part that they are near to
+  std::vector<std::vector<Stop>> stops_;
+  std::vector<Price> leaving_;            // as it was when it was asked last
+  std::vector<std::uint32_t> n_orphans_;  // behind the part's own samples: of parts that have left, near to it now
+  std::size_t n_triangles_left_ = 0;      // among the neighbours
   std::priority_queue<Step> queue_;
   std::size_t n_drawn_ = 0, n_gone_ = 0;
   double squares_ = 0, max_ = 0;

@@ -2,6 +2,7 @@
 // Collision Detection, 5.1.5).
 #pragma once
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "base/math/vec.h"
@@ -38,6 +39,13 @@ inline ClosestOnTriangle closest_on_triangle(const Vec3& p, const std::array<Vec
   }
   const double all = 1 / (va + vb + vc);
   return found(vb * all, vc * all);
+}
+
+/// The way from a point to a triangle; none is longer than the root of `most`.
+inline Vec3 way_to(const Vec3& p, const std::array<Vec3, 3>& c, double most = std::numeric_limits<double>::infinity()) {
+  const auto found = closest_on_triangle(p, c);
+  const Vec3 way = found.at[0] * c[0] + found.at[1] * c[1] + found.at[2] * c[2] - p;
+  return found.squared > most ? std::sqrt(most / found.squared) * way : way;
 }
 
 }  // namespace wrlkit::simplify

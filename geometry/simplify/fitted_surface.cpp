@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/math/vec.h"
 #include "geometry/simplify/closest_on_triangle.h"
@@ -10,12 +11,15 @@ namespace wrlkit::simplify {
 namespace {
 
 constexpr std::size_t most_asked = 48;       // samples that a price is made of
+constexpr std::size_t few_faces = 32;        // which are asked one by one
 constexpr std::size_t most_removable = 256;  // faces from which on none is taken out by itself
 
 }  // namespace
 
-FittedSurface::FittedSurface(PlainMesh mesh, const ClosestPoint& original, std::span<const SurfaceSample> samples)
-    : original_(original),
+FittedSurface::FittedSurface(PlainMesh mesh, const Triangles& surface, const ClosestPoint& original,
+                             std::span<const SurfaceSample> samples)
+    : surface_(surface),
+      original_(original),
       samples_(samples),
       position_(std::move(mesh.positions)),
       face_(std::move(mesh.faces)),
@@ -24,13 +28,13 @@ FittedSurface::FittedSurface(PlainMesh mesh, const ClosestPoint& original, std::
       faces_of_(position_.size()),
       samples_of_(face_.size()),
       squared_(samples.size()),
-      stamp_(position_.size()),
       face_stamp_(face_.size()) {
   double area = 0;
   for (const auto& s : samples_) area += s.weight;
   spacing_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(samples_.size(), 1)));
   list_faces();
   assign_all();
+  measure_backward();
   for (std::uint32_t f = 0; f < face_.size(); ++f) {
     if (!alive_[f]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -68,7 +72,6 @@ void FittedSurface::assign_all() {
     if (!alive_[f]) continue;
     number.push_back(f);
     corners.insert(corners.end(), face_[f].begin(), face_[f].end());
-    backward_[f] = backward(corners_of(face_[f], none, {}));
   }
   if (number.empty()) return;
   const ClosestPoint nearest(Triangles{flat, corners});
@@ -82,6 +85,25 @@ void FittedSurface::assign_all() {
   }
 }
 
+/// Of all samples to all faces again.
+void FittedSurface::assign_again() {
+  if (n_faces_ > few_faces) return assign_all();
+  std::vector<std::uint32_t> faces, samples;
+  for (std::uint32_t f = 0; f < face_.size(); ++f) {
+    if (!alive_[f]) continue;
+    faces.push_back(f);
+    samples.insert(samples.end(), samples_of_[f].begin(), samples_of_[f].end());
+    samples_of_[f].clear();
+  }
+  assign(samples, faces);
+}
+
+void FittedSurface::measure_backward() {
+  backward_all_ = {};
+  for (std::uint32_t f = 0; f < face_.size(); ++f)
+    if (alive_[f]) backward_[f] = backward(corners_of(face_[f], none, {}), &backward_all_);
+}
+
 /// With `v` at `x`.
 std::array<Vec3, 3> FittedSurface::corners_of(const Face& f, std::uint32_t v, const Vec3& x) const {
   std::array<Vec3, 3> out;
@@ -90,9 +112,9 @@ std::array<Vec3, 3> FittedSurface::corners_of(const Face& f, std::uint32_t v, co
 }
 
 /// The integral of the squared distance from a face to the original, by the middles of equal parts of it.
-double FittedSurface::backward(const std::array<Vec3, 3>& c) const {
-  const double area = length(area_normal(c)) / 2;
-  const double longest = std::max({length(c[1] - c[0]), length(c[2] - c[1]), length(c[0] - c[2])});
+double FittedSurface::backward(const std::array<Vec3, 3>& c, Distortion* all) const {
+  const double area = fast_length(area_normal(c)) / 2;
+  const double longest = std::max({fast_length(c[1] - c[0]), fast_length(c[2] - c[1]), fast_length(c[0] - c[2])});
   const int n = std::clamp(static_cast<int>(longest / (2 * spacing_)), 1, 2);
   double sum = 0;
   for (int i = 0; i < n; ++i)
@@ -103,19 +125,30 @@ double FittedSurface::backward(const std::array<Vec3, 3>& c) const {
       const auto found = original_.nearest(p, {}, guess_);
       guess_ = found.triangle;
       sum += found.distance * found.distance;
+      if (all && guess_ != ClosestPoint::no_guess) all->add(way_to(p, surface_[guess_]), area / (n * n));
     }
   return area * sum / (n * n);
 }
 
-std::uint32_t FittedSurface::stamp_of(const Entry& e) const {
-  return e.from == e.to ? face_stamp_[e.from] : stamp_[e.from] + stamp_[e.to];
+void FittedSurface::Merged::clear() {
+  faces.clear();
+  old.clear();
+  slots.clear();
+  samples.clear();
+  backward.clear();
+}
+
+double FittedSurface::key_of_merged() const {
+  return merged_.cost / static_cast<double>(merged_.old.size() - merged_.faces.size());
 }
 
 void FittedSurface::enqueue_edge(std::uint32_t u, std::uint32_t v) {
-  Merged m;
-  if (!evaluate(u, v, Price::at_least, m)) return;
-  const auto saved = static_cast<double>(m.old.size() - m.faces.size());
-  queue_.push({m.cost / saved, u, v, stamp_[u] + stamp_[v]});
+  if (evaluate(u, v)) queue_.push({key_of_merged(), u, v, 0});
+}
+
+bool FittedSurface::has_edge(std::uint32_t u, std::uint32_t v) const {
+  return std::ranges::any_of(faces_of_[u],
+                             [&](std::uint32_t f) { return std::ranges::find(face_[f], v) != face_[f].end(); });
 }
 
 void FittedSurface::enqueue_face(std::uint32_t f) {
@@ -123,7 +156,9 @@ void FittedSurface::enqueue_face(std::uint32_t f) {
 }
 
 /// False when nothing would be left, or nothing saved.
-bool FittedSurface::gather(std::uint32_t u, std::uint32_t v, Merged& m) const {
+bool FittedSurface::gather(std::uint32_t u, std::uint32_t v) {
+  Merged& m = merged_;
+  m.clear();
   m.old = faces_of_[v];
   for (auto f : faces_of_[u])
     if (std::ranges::find(face_[f], v) == face_[f].end()) m.old.push_back(f);
@@ -133,11 +168,8 @@ bool FittedSurface::gather(std::uint32_t u, std::uint32_t v, Merged& m) const {
     for (auto& c : moved)
       if (c == u) c = v;
     if (moved[0] == moved[1] || moved[1] == moved[2] || moved[2] == moved[0]) continue;
-    Face sorted = moved;
-    std::ranges::sort(sorted);
-    const bool twice = std::ranges::any_of(m.faces, [&](Face o) {
-      std::ranges::sort(o);
-      return o == sorted;
+    const bool twice = std::ranges::any_of(m.faces, [&](const Face& o) {
+      return std::ranges::all_of(o, [&](std::uint32_t c) { return std::ranges::find(moved, c) != moved.end(); });
     });
     if (twice) continue;
     m.faces.push_back(moved);
@@ -146,36 +178,43 @@ bool FittedSurface::gather(std::uint32_t u, std::uint32_t v, Merged& m) const {
   return !m.faces.empty() && m.faces.size() < m.old.size();
 }
 
-/// The integral over the samples, and a better place for the vertex: where the squares are least while each sample
-/// stays where it is on the faces.
-double FittedSurface::forward(const Merged& m, std::uint32_t v, const Vec3& x, std::size_t stride, Vec3* better) const {
+/// Some of the samples of the faces that are merged; the first half of them is spread over all of them, too.
+void FittedSurface::ask(std::size_t most, const Vec3& origin) {
+  const auto& samples = merged_.samples;
+  const std::size_t stride = std::max<std::size_t>(1, (samples.size() + most - 1) / most);
+  stands_for_ = static_cast<double>(stride);
+  asked_.clear();
+  for (const std::size_t first : {std::size_t{0}, stride})
+    for (std::size_t i = first; i < samples.size(); i += 2 * stride) asked_.push_back(samples[i]);
+  points_.reset(origin);
+  for (auto s : asked_) points_.add(samples_[s].point);
+}
+
+/// The integral over the samples, by the first `n` of those asked, and a better place for the vertex: where the squares
+/// are least while each sample stays where it is on the faces.
+double FittedSurface::forward(std::uint32_t v, const Vec3& x, std::size_t n, Vec3* better) {
+  corners_.clear();
+  for (const auto& f : merged_.faces) corners_.push_back(corners_of(f, v, x));
+  nearest_faces(corners_, n, points_);
   double cost = 0, sum = 0, all = 0;
   Vec3 right{};
-  std::vector<std::array<Vec3, 3>> corners;
-  corners.reserve(m.faces.size());
-  for (const auto& f : m.faces) corners.push_back(corners_of(f, v, x));
-  for (std::size_t i = 0; i < m.samples.size(); i += stride) {
-    const auto s = m.samples[i];
-    const Vec3& p = samples_[s].point;
-    ClosestOnTriangle best;
-    std::size_t face = 0;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const auto here = closest_on_triangle(p, corners[k]);
-      if (here.squared < best.squared) {
-        best = here;
-        face = k;
-      }
-    }
-    cost += cost_of(s, best.squared);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto s = asked_[i];
+    const auto squared = static_cast<double>(points_.squared[i]);
+    cost += cost_of(s, squared);
+    if (!better) continue;
     const double w = samples_[s].weight;
     all += w;
-    if (best.squared > samples_[s].enough) continue;
-    const auto& f = m.faces[face];
+    if (squared > samples_[s].enough) continue;
+    const auto face = static_cast<std::size_t>(points_.face[i]);
+    const Vec3& p = samples_[s].point;
+    const auto at = closest_on_triangle(p, corners_[face]).at;
+    const auto& f = merged_.faces[face];
     const std::size_t k = f[0] == v ? 0 : f[1] == v ? 1 : 2;
-    const double b = best.at[k];
+    const double b = at[k];
     if (b <= 0) continue;
-    const auto &other = corners[face][(k + 1) % 3], &third = corners[face][(k + 2) % 3];
-    const Vec3 rest = best.at[(k + 1) % 3] * other + best.at[(k + 2) % 3] * third;
+    const auto &other = corners_[face][(k + 1) % 3], &third = corners_[face][(k + 2) % 3];
+    const Vec3 rest = at[(k + 1) % 3] * other + at[(k + 2) % 3] * third;
     sum += w * b * b;
     right = right + w * b * (p - rest);
   }
@@ -183,50 +222,50 @@ double FittedSurface::forward(const Merged& m, std::uint32_t v, const Vec3& x, s
     const double hold = 1e-3 * all;
     *better = sum + hold > 0 ? (1 / (sum + hold)) * (right + hold * x) : x;
   }
-  return cost * static_cast<double>(stride);
+  return cost * stands_for_ * static_cast<double>(asked_.size()) / static_cast<double>(std::max<std::size_t>(n, 1));
 }
 
-bool FittedSurface::turns_over(const Merged& m, std::uint32_t u, std::uint32_t v) const {
+bool FittedSurface::turns_over(std::uint32_t u, std::uint32_t v) const {
+  const Merged& m = merged_;
   for (std::size_t i = 0; i < m.faces.size(); ++i) {
     const Vec3 after = area_normal(corners_of(m.faces[i], v, m.position));
     const Vec3 before = area_normal(corners_of(face_[m.slots[i]], u, position_[u]));
-    if (dot(before, after) < -0.2 * length(before) * length(after)) return true;
+    if (dot(before, after) < -0.2 * fast_length(before) * fast_length(after)) return true;
   }
   return false;
 }
 
-bool FittedSurface::evaluate(std::uint32_t u, std::uint32_t v, Price price, Merged& m) const {
-  if (!gather(u, v, m)) return false;
-  const std::size_t stride = (m.samples.size() + most_asked - 1) / most_asked;
-  const auto step = std::max<std::size_t>(stride, 1);
+/// What it costs that two vertices become one, but for the way back, which takes longer to ask: it costs no less.
+bool FittedSurface::evaluate(std::uint32_t u, std::uint32_t v) {
+  if (!gather(u, v)) return false;
+  Merged& m = merged_;
+  ask(most_asked, position_[v]);
+  const std::size_t n = asked_.size(), half = (n + 1) / 2;
   double before = 0, after = -1;
-  for (std::size_t i = 0; i < m.samples.size(); i += step) before += cost_of(m.samples[i], squared_[m.samples[i]]);
-  before *= static_cast<double>(step);
+  for (auto s : asked_) before += cost_of(s, squared_[s]);
+  before *= stands_for_;
   for (auto f : m.old) before += backward_[f];
   const Vec3 starts[] = {0.5 * (position_[u] + position_[v]), position_[v], position_[u]};
   Vec3 better{};
   for (const Vec3& x : starts) {
     Vec3 moved;
-    const double cost = forward(m, v, x, 2 * step, &moved);
+    const double cost = forward(v, x, half, &moved);
     if (after >= 0 && cost >= after) continue;
     after = cost;
     m.position = x;
     better = moved;
   }
-  after = forward(m, v, m.position, step, nullptr);
-  for (int i = 0; i < (price == Price::whole ? 2 : 1); ++i) {
+  after = forward(v, m.position, n, nullptr);
+  for (int i = 0; i < 2; ++i) {
     Vec3 moved;
-    const double cost = forward(m, v, better, step, &moved);
+    const double cost = forward(v, better, n, i == 0 ? &moved : nullptr);
     if (cost >= after) break;
     after = cost;
     m.position = better;
     better = moved;
   }
-  if (turns_over(m, u, v)) return false;
-  if (price == Price::whole)
-    for (const auto& f : m.faces) after += backward(corners_of(f, v, m.position));
   m.cost = after - before;
-  return std::isfinite(m.cost);
+  return std::isfinite(m.cost) && !turns_over(u, v);
 }
 
 /// The faces that share a vertex with this one.
@@ -239,43 +278,44 @@ std::vector<std::uint32_t> FittedSurface::around(std::uint32_t f) const {
 }
 
 /// Faces go that something hides, or that lie on others: of what is seen nothing is torn.
-std::optional<double> FittedSurface::price_of_removal(std::uint32_t f) const {
+std::optional<double> FittedSurface::price_of_removal(std::uint32_t f) {
   const auto others = around(f);
   if (others.empty()) return std::nullopt;
-  auto squared_to_others = [&](const Vec3& p) {
-    double least = std::numeric_limits<double>::infinity();
-    for (auto o : others) least = std::min(least, closest_on_triangle(p, corners_of(face_[o], none, {})).squared);
-    return least;
-  };
   const auto c = corners_of(face_[f], none, {});
   const double area = length(area_normal(c)) / 2, same = 1e-4 * spacing_ * spacing_;
-  double cost = -backward_[f], seen = 0;
-  for (auto s : samples_of_[f]) {
-    const double squared = squared_to_others(samples_[s].point);
-    if (squared > same && squared < samples_[s].enough) seen += samples_[s].weight;
-    cost += cost_of(s, squared) - cost_of(s, squared_[s]);
+  merged_.samples = samples_of_[f];
+  ask(most_asked, c[0]);
+  const Vec3 middle = (1. / 3) * (c[0] + c[1] + c[2]);
+  for (const Vec3& corner : c) points_.add(0.5 * (corner + middle));
+  corners_.clear();
+  for (auto o : others) corners_.push_back(corners_of(face_[o], none, {}));
+  nearest_faces(corners_, points_.n, points_);
+  double cost = -backward_[f], seen = 0, known = 0;
+  for (std::size_t i = 0; i < asked_.size(); ++i) {
+    const auto s = asked_[i];
+    const auto squared = static_cast<double>(points_.squared[i]);
+    const double weight = stands_for_ * samples_[s].weight;
+    known += weight;
+    if (squared > same && squared < samples_[s].enough) seen += weight;
+    cost += stands_for_ * (cost_of(s, squared) - cost_of(s, squared_[s]));
   }
-  if (samples_of_[f].empty()) {
-    const Vec3 middle = (1. / 3) * (c[0] + c[1] + c[2]);
-    for (const Vec3& corner : c)
-      if (squared_to_others(0.5 * (corner + middle)) > same) seen += area / 3;
-  }
+  // Where hardly a sample lies, the face itself is asked.
+  for (std::size_t i = asked_.size(); i < points_.n && known < 0.5 * area; ++i)
+    if (static_cast<double>(points_.squared[i]) > same) seen += area / 3;
   if (seen > 0.1 * area) return std::nullopt;
   return cost;
 }
 
 void FittedSurface::assign(std::span<const std::uint32_t> samples, std::span<const std::uint32_t> faces) {
-  for (auto s : samples) {
-    double least = -1;
-    std::uint32_t best = 0;
-    for (auto f : faces) {
-      const double d = closest_on_triangle(samples_[s].point, corners_of(face_[f], none, {})).squared;
-      if (least >= 0 && d >= least) continue;
-      least = d;
-      best = f;
-    }
-    squared_[s] = least;
-    samples_of_[best].push_back(s);
+  if (samples.empty()) return;
+  points_.reset(samples_[samples[0]].point);
+  for (auto s : samples) points_.add(samples_[s].point);
+  corners_.clear();
+  for (auto f : faces) corners_.push_back(corners_of(face_[f], none, {}));
+  nearest_faces(corners_, points_.n, points_);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    squared_[samples[i]] = static_cast<double>(points_.squared[i]);
+    samples_of_[faces[static_cast<std::size_t>(points_.face[i])]].push_back(samples[i]);
   }
 }
 
@@ -284,7 +324,13 @@ void FittedSurface::unlink(std::uint32_t f) {
   samples_of_[f].clear();
 }
 
-void FittedSurface::merge(std::uint32_t u, std::uint32_t v, const Merged& m) {
+void FittedSurface::merge(std::uint32_t u, std::uint32_t v) {
+  const Merged m = merged_;
+  std::vector<std::uint32_t> known;  // neighbours of v whose edges are in the queue, and stay cheap or are asked again
+  if (n_faces_ <= few_faces)
+    known.push_back(v);
+  else
+    for (auto f : faces_of_[v]) known.insert(known.end(), face_[f].begin(), face_[f].end());
   for (auto f : m.old) {
     unlink(f);
     alive_[f] = 0;
@@ -296,18 +342,17 @@ void FittedSurface::merge(std::uint32_t u, std::uint32_t v, const Merged& m) {
     alive_[f] = 1;
     ++face_stamp_[f];
     for (auto c : face_[f]) faces_of_[c].push_back(f);
-    backward_[f] = backward(corners_of(face_[f], none, {}));
+    backward_[f] = m.backward[i];
   }
   n_faces_ -= m.old.size() - m.faces.size();
   assign(m.samples, m.slots);
   faces_of_[u].clear();
-  std::vector<std::uint32_t> neighbours;
   for (const auto& f : m.faces)
     for (auto c : f)
-      if (c != v && std::ranges::find(neighbours, c) == neighbours.end()) neighbours.push_back(c);
-  ++stamp_[v];
-  for (auto n : neighbours) ++stamp_[n];
-  for (auto n : neighbours) enqueue_edge(n, v);
+      if (std::ranges::find(known, c) == known.end()) {
+        known.push_back(c);
+        enqueue_edge(c, v);
+      }
   if (n_faces_ > most_removable) return;
   for (auto f : m.slots) enqueue_face(f);
 }
@@ -315,12 +360,10 @@ void FittedSurface::merge(std::uint32_t u, std::uint32_t v, const Merged& m) {
 void FittedSurface::remove(std::uint32_t f) {
   const auto others = around(f);
   const auto samples = samples_of_[f];
-  const auto face = face_[f];
   unlink(f);
   alive_[f] = 0;
   --n_faces_;
   assign(samples, others);
-  for (auto v : face) ++stamp_[v];
   for (auto o : others) {
     ++face_stamp_[o];
     enqueue_face(o);
@@ -331,58 +374,66 @@ bool FittedSurface::step() {
   while (!queue_.empty()) {
     const Entry e = queue_.top();
     queue_.pop();
-    const bool is_face = e.from == e.to;
-    if (is_face) {
-      if (!alive_[e.from] || e.stamp != stamp_of(e)) continue;
-      if (n_faces_ < 2) return false;
-      remove(e.from);
-      return true;
-    }
-    if (faces_of_[e.from].empty() || faces_of_[e.to].empty()) continue;
-    Merged m;
-    if (!evaluate(e.from, e.to, Price::whole, m)) continue;
-    const double key = m.cost / static_cast<double>(m.old.size() - m.faces.size());
-    if (!queue_.empty() && key > queue_.top().key) {
-      queue_.push({key, e.from, e.to, stamp_of(e)});
+    if (e.from != e.to) {
+      if (step_of_edge(e)) return true;
       continue;
     }
-    const bool still_an_edge = std::ranges::any_of(
-        faces_of_[e.from], [&](std::uint32_t f) { return std::ranges::find(face_[f], e.to) != face_[f].end(); });
-    if (!still_an_edge) continue;
-    merge(e.from, e.to, m);
+    if (!alive_[e.from] || e.stamp != face_stamp_[e.from]) continue;
+    if (n_faces_ < 2) return false;
+    remove(e.from);
     return true;
   }
   return false;
 }
 
+/// Much may have changed since the edge was priced: it goes back to the queue when another is cheaper now.
+bool FittedSurface::step_of_edge(const Entry& e) {
+  if (!has_edge(e.from, e.to) || !evaluate(e.from, e.to)) return false;
+  auto waits = [&] {
+    const double key = key_of_merged();
+    if (queue_.empty() || !(key > queue_.top().key)) return false;
+    queue_.push({key, e.from, e.to, 0});
+    return true;
+  };
+  if (waits()) return false;
+  for (const auto& f : merged_.faces)
+    merged_.cost += merged_.backward.emplace_back(backward(corners_of(f, e.to, merged_.position)));
+  if (!std::isfinite(merged_.cost) || waits()) return false;
+  merge(e.from, e.to);
+  return true;
+}
+
 /// Each vertex in turn to where the squares of the samples on its faces are least.
-void FittedSurface::refine() {
-  for (std::uint32_t v = 0; v < position_.size(); ++v) {
-    if (faces_of_[v].empty()) continue;
-    Merged m;
-    m.old = m.slots = faces_of_[v];
-    for (auto f : m.old) {
-      m.faces.push_back(face_[f]);
-      m.samples.insert(m.samples.end(), samples_of_[f].begin(), samples_of_[f].end());
+void FittedSurface::refine(int rounds) {
+  for (; rounds > 0; --rounds) {
+    for (std::uint32_t v = 0; v < position_.size(); ++v) {
+      if (faces_of_[v].empty()) continue;
+      Merged& m = merged_;
+      m.clear();
+      m.old = m.slots = faces_of_[v];
+      for (auto f : m.old) {
+        m.faces.push_back(face_[f]);
+        m.samples.insert(m.samples.end(), samples_of_[f].begin(), samples_of_[f].end());
+      }
+      ask(2 * most_asked, position_[v]);
+      Vec3 better;
+      const double before = forward(v, position_[v], asked_.size(), &better);
+      const double after = forward(v, better, asked_.size(), nullptr);
+      m.position = better;
+      if (after < before && !turns_over(v, v)) position_[v] = better;
     }
-    Vec3 better;
-    const std::size_t stride = std::max<std::size_t>(1, m.samples.size() / (2 * most_asked));
-    const double before = forward(m, v, position_[v], stride, &better), after = forward(m, v, better, stride, nullptr);
-    m.position = better;
-    if (after < before && !turns_over(m, v, v)) position_[v] = better;
+    assign_again();
   }
-  assign_all();
+  measure_backward();
 }
 
 Distortion FittedSurface::distortion() const {
-  Distortion out;
-  for (std::uint32_t s = 0; s < samples_.size(); ++s) {
-    out.squares += cost_of(s, squared_[s]);
-    out.max = std::max(out.max, std::min(squared_[s], samples_[s].enough));
-  }
+  Distortion out = backward_all_;
+  out.max = 0;
+  out.farthest = {};
   for (std::uint32_t f = 0; f < face_.size(); ++f)
-    if (alive_[f]) out.squares += backward_[f];
-  out.max = std::sqrt(out.max);
+    for (auto s : samples_of_[f])
+      out.add(way_to(samples_[s].point, corners_of(face_[f], none, {}), samples_[s].enough), samples_[s].weight);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/closest_point.h"
+#include "geometry/simplify/nearest_faces.h"
 #include "geometry/simplify/samples.h"
 #include "geometry/simplify/surface.h"
 
@@ -22,14 +23,16 @@ struct PlainMesh {
 
 class FittedSurface {
  public:
-  /// `original` and `samples`, which are of the same surface, must outlive this. O(n log n).
-  FittedSurface(PlainMesh mesh, const ClosestPoint& original, std::span<const SurfaceSample> samples);
+  /// `original` and `samples` are of `surface`; all must outlive this. O(n log n).
+  FittedSurface(PlainMesh mesh, const Triangles& surface, const ClosestPoint& original,
+                std::span<const SurfaceSample> samples);
 
   std::size_t n_faces() const { return n_faces_; }
   /// Does what adds least to the squared distances for each triangle that it saves. False when nothing may be done.
   bool step();
-  /// Moves the vertices to where the squares of the distances of the samples are least, and assigns these once more.
-  void refine();
+  /// Moves the vertices to where the squares of the distances of the samples are least, and assigns these once more;
+  /// so many times.
+  void refine(int rounds);
   /// Integrals of the squared distance over both surfaces, and the largest distance of a sample.
   Distortion distortion() const;
   /// Triangles that are left, with the vertices that they use.
@@ -44,7 +47,7 @@ class FittedSurface {
   struct Entry {
     double key;
     std::uint32_t from, to;  // equal: the face of that number goes
-    std::uint32_t stamp;
+    std::uint32_t stamp;     // of a face
     bool operator<(const Entry& o) const { return key > o.key; }
   };
   /// What is left of the faces around two vertices that become one.
@@ -52,31 +55,38 @@ class FittedSurface {
     std::vector<Face> faces;
     std::vector<std::uint32_t> old, slots;  // the faces before, and the old slot of each new one
     std::vector<std::uint32_t> samples;
+    std::vector<double> backward;  // of each new face, when the whole price was asked
     Vec3 position;
     double cost = 0;
+
+    void clear();
   };
 
   void list_faces();
   void assign_all();
+  void assign_again();
+  void measure_backward();
   void enqueue_edge(std::uint32_t u, std::uint32_t v);
   void enqueue_face(std::uint32_t f);
-  std::uint32_t stamp_of(const Entry& e) const;
-  bool gather(std::uint32_t u, std::uint32_t v, Merged& m) const;
-  /// What is known at once is less than the whole price, which asks the way back, too.
-  enum class Price : bool { at_least, whole };
-  bool evaluate(std::uint32_t u, std::uint32_t v, Price price, Merged& m) const;
-  bool turns_over(const Merged& m, std::uint32_t u, std::uint32_t v) const;
-  double forward(const Merged& m, std::uint32_t v, const Vec3& x, std::size_t stride, Vec3* better) const;
+  bool has_edge(std::uint32_t u, std::uint32_t v) const;
+  bool gather(std::uint32_t u, std::uint32_t v);
+  bool evaluate(std::uint32_t u, std::uint32_t v);
+  void ask(std::size_t most, const Vec3& origin);
+  double forward(std::uint32_t v, const Vec3& x, std::size_t n, Vec3* better);
+  bool turns_over(std::uint32_t u, std::uint32_t v) const;
+  double key_of_merged() const;
   std::array<Vec3, 3> corners_of(const Face& f, std::uint32_t v, const Vec3& x) const;
-  double backward(const std::array<Vec3, 3>& corners) const;
-  std::optional<double> price_of_removal(std::uint32_t f) const;
-  void merge(std::uint32_t u, std::uint32_t v, const Merged& m);
+  double backward(const std::array<Vec3, 3>& corners, Distortion* all = nullptr) const;
+  std::optional<double> price_of_removal(std::uint32_t f);
+  void merge(std::uint32_t u, std::uint32_t v);
   void remove(std::uint32_t f);
+  bool step_of_edge(const Entry& e);
   void assign(std::span<const std::uint32_t> samples, std::span<const std::uint32_t> faces);
   void unlink(std::uint32_t f);
   std::vector<std::uint32_t> around(std::uint32_t f) const;
   double cost_of(std::uint32_t sample, double squared) const;
 
+  Triangles surface_;
   const ClosestPoint& original_;
   std::span<const SurfaceSample> samples_;
   std::vector<Vec3> position_;
@@ -86,11 +96,18 @@ class FittedSurface {
   std::vector<std::vector<std::uint32_t>> faces_of_;    // of each vertex
   std::vector<std::vector<std::uint32_t>> samples_of_;  // of each face
   std::vector<double> squared_;                         // distance of each sample
-  std::vector<std::uint32_t> stamp_, face_stamp_;
+  std::vector<std::uint32_t> face_stamp_;
   std::priority_queue<Entry> queue_;
   std::size_t n_faces_ = 0;
   double spacing_ = 0;
+  Distortion backward_all_;  // when it was measured last
   mutable std::uint32_t guess_ = ClosestPoint::no_guess;
+  // Of the question at hand.
+  Merged merged_;
+  std::vector<std::uint32_t> asked_;  // samples
+  double stands_for_ = 1;             // samples for each of them
+  PointBatch points_;
+  std::vector<std::array<Vec3, 3>> corners_;
 };
 
 }  // namespace wrlkit::simplify

@@ -18,7 +18,7 @@ constexpr double coarse_step = 0.7, fine_step = 0.85;
 
 class Ladder {
  public:
-  explicit Ladder(const LadderPart& part) : part_(part), nearest_(triangles_of(part.mesh)) {}
+  explicit Ladder(const LadderPart& part) : part_(part), surface_(triangles_of(part.mesh)), nearest_(surface_) {}
 
   std::vector<Rung> run() {
     rungs_.push_back({{}, part_.mesh.n_faces(), {}, false});
@@ -84,7 +84,7 @@ class Ladder {
     // As many questions as the level has triangles: its error is spread over its faces.
     const std::size_t n = std::clamp<std::size_t>(2 * level.n_faces(), 200, 4000);
     const auto some = strided(n);
-    const auto d = measure_distortion(triangles, nearest, some, nearest_, some.size());
+    const auto d = measure_distortion(triangles, nearest, some, nearest_, surface_, some.size());
     rungs_.push_back({level, level.n_faces(), d, false});
   }
 
@@ -99,13 +99,12 @@ class Ladder {
   }
 
   void fit(PlainMesh coarse) {
-    const auto some = strided(std::max<std::size_t>((coarse.faces.size() > 3000 ? 3 : 6) * coarse.faces.size(), 200));
-    FittedSurface surface(std::move(coarse), nearest_, some);
+    const auto some = strided(std::max<std::size_t>(6 * coarse.faces.size(), 200));
+    FittedSurface surface(std::move(coarse), surface_, nearest_, some);
     std::size_t next = surface.n_faces() - 1;
     while (surface.n_faces() > 1 && surface.step()) {
       if (surface.n_faces() > next) continue;
-      surface.refine();
-      if (surface.n_faces() < fitted_below) surface.refine();
+      surface.refine(surface.n_faces() < fitted_below ? 2 : 1);
       add(surface);
       const auto n = surface.n_faces();
       const double step = n > fitted_below ? coarse_step : n > every_below ? fine_step : 1;
@@ -155,6 +154,7 @@ class Ladder {
   }
 
   const LadderPart& part_;
+  Triangles surface_;
   ClosestPoint nearest_;
   std::vector<Rung> rungs_;
 };
@@ -175,13 +175,14 @@ std::vector<Rung> make_ladder(const LadderPart& part) {
   return out;
 }
 
-std::vector<std::size_t> convex_hull(std::span<const Rung> rungs) {
-  std::vector<std::size_t> out;
+std::vector<std::uint32_t> convex_hull(std::span<const Rung> rungs, const Stretch& stretch) {
+  std::vector<double> squares;
+  for (const auto& r : rungs) squares.push_back(stretch.squares(r.distortion));
+  std::vector<std::uint32_t> out;
   auto slope = [&](std::size_t from, std::size_t to) {
-    return (rungs[to].distortion.squares - rungs[from].distortion.squares) /
-           static_cast<double>(rungs[from].n_faces - rungs[to].n_faces);
+    return (squares[to] - squares[from]) / static_cast<double>(rungs[from].n_faces - rungs[to].n_faces);
   };
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
+  for (std::uint32_t i = 0; i < rungs.size(); ++i) {
     while (out.size() > 1 && slope(out[out.size() - 2], i) <= slope(out[out.size() - 2], out.back())) out.pop_back();
     out.push_back(i);
   }

@@ -28,8 +28,8 @@ struct LadderPart {
 /// triangles are left out. O(n log n).
 std::vector<Rung> make_ladder(const LadderPart& part);
 
-/// Which rungs are on the lower convex hull of distortion over triangles: where each triangle saves more than the
-/// next.
-std::vector<std::size_t> convex_hull(std::span<const Rung> rungs);
+/// Which rungs are on the lower convex hull of distortion over triangles, where the part is stretched: where each
+/// triangle saves more than the next.
+std::vector<std::uint32_t> convex_hull(std::span<const Rung> rungs, const Stretch& stretch = {});
 
 }  // namespace wrlkit::simplify

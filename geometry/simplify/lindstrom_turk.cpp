@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "geometry/simplify/criterion.h"
-#include "geometry/simplify/matrix.h"
+#include "geometry/simplify/symmetric_matrix.h"
 
 namespace wrlkit::simplify {
 namespace {
@@ -22,7 +22,7 @@ constexpr double line_weight =
 constexpr double length_cost = 1e-12;  // of the squared length, which decides where the surface is flat
 
 struct Metric {
-  Matrix planes;
+  SymmetricMatrix planes;
   Vec3 normal{};  // sum of the faces' normals
 
   void add(const Metric& m, double s) {
@@ -122,7 +122,7 @@ class LindstromTurk final : public Pricer {
     if (!(surface_.face[f].features & 7)) return;
     for (int k = 0; k < 3; ++k) {
       if (!(surface_.face[f].features >> k & 1)) continue;
-      Matrix l = line_matrix(edge(f, k), line_weight);
+      SymmetricMatrix l = line_matrix(edge(f, k), line_weight);
       for (std::uint32_t w : {surface_.face[f].v[k], surface_.face[f].v[(k + 1) % 3]})
         if (w != u && w != v) metric_[w].planes.add(l, sign);
     }
@@ -141,7 +141,7 @@ class LindstromTurk final : public Pricer {
     return m;
   }
 
-  Vec3 best(const Matrix& planes, const Vec3& linear, const Vec3& normal, double volume, const Vec3& e,
+  Vec3 best(const SymmetricMatrix& planes, const Vec3& linear, const Vec3& normal, double volume, const Vec3& e,
             bool closed) const;
 
   std::vector<Metric> metric_;
@@ -154,7 +154,7 @@ Option LindstromTurk::option(const Ring& ring, int s, Placement where) const {
   std::uint32_t u = ring.center, v = ring.spokes[s].vertex;
   const Vec3 e = surface_.position(v) - surface_.position(u);
   const Metric &mu = metric_[u], &mv = metric_[v], both = common(ring, s);
-  Matrix planes = mu.planes;
+  SymmetricMatrix planes = mu.planes;
   planes.add(mv.planes, 1);
   planes.add(both.planes, -1);
   const Vec3 linear = mv.planes * e;  // the gradient at the centre, negated and halved
@@ -171,8 +171,8 @@ Option LindstromTurk::option(const Ring& ring, int s, Placement where) const {
 
 /// Where the metric has its minimum, drawn a little to the middle of the edge, which decides where the surface is flat;
 /// then along the normal to where the volume is what it was.
-Vec3 LindstromTurk::best(const Matrix& planes, const Vec3& linear, const Vec3& normal, double volume, const Vec3& e,
-                         bool closed) const {
+Vec3 LindstromTurk::best(const SymmetricMatrix& planes, const Vec3& linear, const Vec3& normal, double volume,
+                         const Vec3& e, bool closed) const {
   const Vec3 middle = 0.5 * e;
   const Minimum at(planes, linear, middle);
   if (!at.exists) return middle;

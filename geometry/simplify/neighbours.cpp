@@ -20,8 +20,22 @@ void Neighbours::add(const Triangles& surface, std::span<const std::uint32_t> fa
 
 void Neighbours::prepare() { tree_.emplace(Triangles{positions_, corners_}, owner_); }
 
-Neighbours::Found Neighbours::nearest(const Vec3& p, double within, const Counts& counts) const {
-  const auto found = tree_->nearest_of(p, within, counts);
+void Neighbours::keep(std::span<const char> left) {
+  tree_.reset();
+  std::size_t n = 0;
+  for (std::size_t t = 0; t < owner_.size(); ++t) {
+    if (left[owner_[t]] == 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) corners_[3 * n + k] = corners_[3 * t + k];
+    owner_[n++] = owner_[t];
+  }
+  corners_.resize(3 * n);
+  owner_.resize(n);
+  prepare();
+}
+
+Neighbours::Found Neighbours::nearest(const Vec3& p, double within, const ClosestPoint::Counting& counts,
+                                      std::uint32_t guess) const {
+  const auto found = tree_->nearest_of(p, within, counts, guess);
   if (found.triangle == ClosestPoint::no_guess) return {found.distance, found.triangle, found.triangle};
   return {found.distance, owner_[found.triangle], found.triangle};
 }

@@ -1,6 +1,5 @@
 // What else there is around a part of a world: how far away the nearest other part is.
 #pragma once
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -11,7 +10,6 @@ namespace wrlkit::simplify {
 
 class Neighbours {
  public:
-  using Counts = std::function<bool(std::uint32_t owner)>;
   struct Found {
     double distance;      // infinite: there is none
     std::uint32_t owner;  // then ClosestPoint::no_guess
@@ -23,9 +21,15 @@ class Neighbours {
   /// After the last was added, before the first question. O(n log n).
   void prepare();
 
+  /// Forgets the triangles of owners whose entry is 0. O(n log n) in those that are left.
+  void keep(std::span<const char> left);
+
   std::size_t n_triangles() const { return owner_.size(); }
-  /// Of the triangles of the owners that count. Any number of threads may ask.
-  Found nearest(const Vec3& p, double within, const Counts& counts) const;
+  std::uint32_t owner_of(std::uint32_t triangle) const { return owner_[triangle]; }
+  /// Of the triangles of the owners that count. `guess`: a triangle that is near. Any number of threads may
+  /// ask.
+  Found nearest(const Vec3& p, double within, const ClosestPoint::Counting& counts,
+                std::uint32_t guess = ClosestPoint::no_guess) const;
   std::array<Vec3, 3> corners(std::uint32_t triangle) const { return Triangles{positions_, corners_}[triangle]; }
 
  private:

@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/math/vec.h"
-#include "geometry/closest_point.h"
-#include "geometry/simplify/inverse.h"
-
 namespace wrlkit::simplify {
 namespace {
 
@@ -98,51 +94,6 @@ void transform(Mesh& mesh, const Matrix& m) {
     const Vec3 q = m.point({p[i], p[i + 1], p[i + 2]});
     std::copy(q.begin(), q.end(), p.begin() + static_cast<std::ptrdiff_t>(i));
   }
-}
-
-std::uint64_t hash_of_corners(const Mesh& mesh) {
-  std::uint64_t h = mesh.n_positions();
-  for (auto c : mesh.corners) {
-    h = (h ^ c) * 0x9e3779b97f4a7c15u;
-    h ^= h >> 29;
-  }
-  return h;
-}
-
-std::optional<Matrix> congruence(const Mesh& from, const Mesh& to) {
-  if (from.corners != to.corners || from.n_positions() != to.n_positions()) return std::nullopt;
-  const Triangles a = triangles_of(from), b = triangles_of(to);
-  const auto n = static_cast<std::uint32_t>(from.n_positions());
-  // Three points far from one another.
-  std::uint32_t second = 0, third = 0;
-  double most = 0;
-  for (std::uint32_t i = 0; i < n; ++i)
-    if (const double d = length(a.position(i) - a.position(0)); d > most) {
-      most = d;
-      second = i;
-    }
-  const double extent = most, within = 2e-3 * extent;
-  most = 0;
-  const Vec3 axis = unit(a.position(second) - a.position(0));
-  for (std::uint32_t i = 0; i < n; ++i)
-    if (const double d = length(cross(axis, a.position(i) - a.position(0))); d > most) {
-      most = d;
-      third = i;
-    }
-  if (!(most > within)) return std::nullopt;
-  auto frame = [&](const Triangles& t) {
-    const Vec3 x = unit(t.position(second) - t.position(0));
-    const Vec3 z = unit(cross(x, t.position(third) - t.position(0))), y = cross(z, x), o = t.position(0);
-    Matrix m;
-    m.m = {x[0], y[0], z[0], o[0], x[1], y[1], z[1], o[1], x[2], y[2], z[2], o[2]};
-    return m;
-  };
-  const Matrix here = frame(a), there = frame(b);
-  if (!is_invertible(here) || !is_invertible(there)) return std::nullopt;
-  const Matrix m = there * inverse(here);
-  for (std::uint32_t i = 0; i < n; ++i)
-    if (!(length(m.point(a.position(i)) - b.position(i)) <= within)) return std::nullopt;
-  return m;
 }
 
 }  // namespace wrlkit::simplify

@@ -1,6 +1,5 @@
-// Connected pieces of surfaces: cut out, put together, and found again where they stand elsewhere.
+// Connected pieces of surfaces: cut out and put together.
 #pragma once
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,12 +18,5 @@ Mesh piece_of(const Mesh& mesh, std::span<const std::uint32_t> faces, std::vecto
 void append(Mesh& to, const Mesh& from);
 
 void transform(Mesh& mesh, const Matrix& m);
-
-/// Equal for meshes whose corners use their positions in the same order.
-std::uint64_t hash_of_corners(const Mesh& mesh);
-
-/// The turn and shift that takes `from` to `to`, which have the same corners, within two thousandths of the extent: as
-/// far as files round. Nothing when there is none, or when the points lie on a line.
-std::optional<Matrix> congruence(const Mesh& from, const Mesh& to);
 
 }  // namespace wrlkit::simplify

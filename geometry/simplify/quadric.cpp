@@ -10,18 +10,18 @@
 
 #include "base/math/box.h"
 #include "geometry/simplify/criterion.h"
-#include "geometry/simplify/matrix.h"
+#include "geometry/simplify/symmetric_matrix.h"
 
 namespace wrlkit::simplify {
 namespace {
 
-constexpr double line_weight = 4;        // of a feature line, against planes
-constexpr double length_cost = 1e-12;    // of the squared length, which decides where the surface is flat
-constexpr double attribute_size = 0.05;  // what a difference of 1 counts as, in sizes of the mesh
+constexpr double feature_weight = 4;           // of a feature line, against planes
+constexpr double quadric_length_cost = 1e-12;  // of the squared length, which decides where the surface is flat
+constexpr double attribute_size = 0.05;        // what a difference of 1 counts as, in sizes of the mesh
 
 /// x A x - 2 b x + c.
 struct Quadric {
-  Matrix planes;
+  SymmetricMatrix planes;
   Vec3 linear{};
   double constant = 0;
 
@@ -38,7 +38,7 @@ struct Quadric {
     constant += s * d * d;
   }
   void add_line(const Vec3& p, const Vec3& e, double weight) {
-    Matrix m = line_matrix(e, weight);
+    SymmetricMatrix m = line_matrix(e, weight);
     Vec3 b = m * p;
     planes.add(m, 1);
     linear = linear + b;
@@ -93,7 +93,7 @@ class GlobalQuadric final : public Pricer {
       Minimum least(q.planes, q.linear + -1. * (q.planes * middle), Vec3{});  // about the middle
       if (least.exists && dot(least.x, least.x) <= 4 * dot(e, e)) x = middle + least.x;
     }
-    const double cost = std::max(q(x), 0.) + length_cost * q.planes.trace() * dot(e, e);
+    const double cost = std::max(q(x), 0.) + quadric_length_cost * q.planes.trace() * dot(e, e);
     return {s, cost, x + origin_};
   }
 
@@ -118,7 +118,7 @@ class GlobalQuadric final : public Pricer {
     for (int k = 0; k < 3; ++k)
       if ((t.features | t.features >> 3) >> k & 1)
         for (std::uint32_t v : {t.v[k], t.v[(k + 1) % 3]})
-          quadric_[v].add_line(point(t.v[k]), point(t.v[(k + 1) % 3]) - point(t.v[k]), line_weight);
+          quadric_[v].add_line(point(t.v[k]), point(t.v[(k + 1) % 3]) - point(t.v[k]), feature_weight);
     if (width_) add_attributes(f, n, area);
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/math/vec.h"
+#include "geometry/simplify/closest_on_triangle.h"
 
 namespace wrlkit::simplify {
 namespace {
@@ -97,16 +98,47 @@ std::vector<SurfaceSample> sample_surface(const Triangles& surface, std::size_t 
   return out;
 }
 
+void Distortion::add(const Vec3& way, double area) {
+  const double squared = dot(way, way);
+  squares += area * squared;
+  for (std::size_t k = 0; k < 3; ++k) {
+    products[k] += area * way[k] * way[k];
+    products[3 + k] += area * way[k] * way[(k + 1) % 3];
+  }
+  if (squared <= max * max) return;
+  max = std::sqrt(squared);
+  farthest = way;
+}
+
+Stretch::Stretch(const Matrix& m, double area) : area_(area) {
+  for (int k = 0; k < 3; ++k) {
+    gram_[static_cast<std::size_t>(k)] = dot(m.column(k), m.column(k));
+    gram_[static_cast<std::size_t>(3 + k)] = dot(m.column(k), m.column((k + 1) % 3));
+  }
+}
+
+double Stretch::squares(const Distortion& d) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += gram_[k] * d.products[k] + 2 * gram_[3 + k] * d.products[3 + k];
+  return area_ * std::max(sum, 0.);
+}
+
+double Stretch::max(const Distortion& d) const {
+  Distortion longest;
+  longest.add(d.farthest, 1);
+  return std::sqrt(Stretch(*this).squares(longest) / area_);
+}
+
 Distortion measure_distortion(const Triangles& surface, const ClosestPoint& nearest_on_surface,
-                              std::span<const SurfaceSample> samples, const ClosestPoint& original, std::size_t n) {
+                              std::span<const SurfaceSample> samples, const ClosestPoint& original,
+                              const Triangles& original_surface, std::size_t n) {
   Distortion out;
   auto guess = ClosestPoint::no_guess;
   for (const auto& s : samples) {
     const auto found = nearest_on_surface.nearest(s.point, {}, guess);
     guess = found.triangle;
-    const double squared = std::min(found.distance * found.distance, s.enough);
-    out.squares += s.weight * squared;
-    out.max = std::max(out.max, squared);
+    if (guess == ClosestPoint::no_guess) continue;
+    out.add(way_to(s.point, surface[guess], s.enough), s.weight);
   }
   guess = ClosestPoint::no_guess;
   const Spread spread(surface);
@@ -114,10 +146,8 @@ Distortion measure_distortion(const Triangles& surface, const ClosestPoint& near
     spread.for_each(n, [&](const Vec3& p, double area, std::size_t) {
       const auto found = original.nearest(p, {}, guess);
       guess = found.triangle;
-      out.squares += area * found.distance * found.distance;
-      out.max = std::max(out.max, found.distance * found.distance);
+      if (guess != ClosestPoint::no_guess) out.add(way_to(p, original_surface[guess]), area);
     });
-  out.max = std::sqrt(out.max);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/math/matrix.h"
 #include "geometry/closest_point.h"
 
 namespace wrlkit::simplify {
@@ -16,10 +17,30 @@ struct SurfaceSample {
   double enough = std::numeric_limits<double>::infinity();
 };
 
-/// How far two surfaces are apart.
+/// How far two surfaces are apart, and in which directions.
 struct Distortion {
   double squares = 0;  // integral of the squared distance over both of them
   double max = 0;
+  std::array<double, 6> products{};  // integrals of xx, yy, zz, xy, yz, zx of the ways from one to the other
+  Vec3 farthest{};                   // the longest of them
+
+  void add(const Vec3& way, double area);
+};
+
+/// What an affine map makes of distortions.
+class Stretch {
+ public:
+  Stretch() = default;
+  /// `area`: factor by which the area grows.
+  Stretch(const Matrix& m, double area);
+
+  /// No less than if it were measured: what is nearest may be another point in the map.
+  double squares(const Distortion& d) const;
+  double max(const Distortion& d) const;
+
+ private:
+  std::array<double, 6> gram_{1, 1, 1, 0, 0, 0};  // products of the columns, in the order of Distortion::products
+  double area_ = 1;
 };
 
 /// About `n` points, the same ones at each run, whose weights add up to the area, and the corners (of many, some of
@@ -28,6 +49,7 @@ std::vector<SurfaceSample> sample_surface(const Triangles& surface, std::size_t 
 
 /// Of a surface from the samples of another one, and back, with about `n` questions on the way back.
 Distortion measure_distortion(const Triangles& surface, const ClosestPoint& nearest_on_surface,
-                              std::span<const SurfaceSample> samples, const ClosestPoint& original, std::size_t n);
+                              std::span<const SurfaceSample> samples, const ClosestPoint& original,
+                              const Triangles& original_surface, std::size_t n);
 
 }  // namespace wrlkit::simplify

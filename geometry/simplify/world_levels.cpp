@@ -42,11 +42,10 @@ void WorldLevels::Impl::allocate() {
     if (allocation.n_drawn() == before) continue;
     before = allocation.n_drawn();
     Point point{before + world.n_left, world.n_left, allocation.n_gone(), allocation.rms(), allocation.max()};
+    const auto& at = rungs.emplace_back(allocation.rungs());
     for (std::size_t i = 0; i < world.parts.size(); ++i)
-      if (const auto at = allocation.rungs()[i]; at != simplify::Allocation::gone)
-        point.n_faces += (*world.allocated[i].rungs)[at].n_faces;
+      if (at[i] != simplify::Allocation::gone) point.n_faces += (*world.allocated[i].rungs)[at[i]].n_faces;
     points.push_back(point);
-    rungs.push_back(allocation.rungs());
   }
 }
 
@@ -90,8 +89,8 @@ Scene WorldLevels::scene_with_levels() const {
       if (!levels.empty() && levels.back().mesh.n_faces() == mesh.n_faces()) continue;
       double error = 0;
       for (std::uint32_t i = s.first_part; i < s.first_part + s.n_parts; ++i) {
-        const auto& rungs = *world.allocated[i].rungs;
-        error = std::max(error, rungs[std::min<std::size_t>(at[i], rungs.size() - 1)].distortion.max);
+        const auto& part = world.allocated[i];
+        error = std::max(error, part.max(std::min<std::size_t>(at[i], part.rungs->size() - 1)));
       }
       levels.push_back({std::move(mesh), 0, error / s.scale});
     }

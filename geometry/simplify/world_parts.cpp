@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 
+#include "base/math/box.h"
 #include "base/math/vec.h"
 #include "base/parallel.h"
 #include "geometry/simplify/closest_on_triangle.h"
 #include "geometry/simplify/inverse.h"
+#include "geometry/simplify/like_form.h"
 #include "geometry/simplify/pieces.h"
 #include "geometry/simplify/shared_borders.h"
 #include "scenegraph/nodes.h"
@@ -16,9 +19,12 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::size_t most_places_asked = 4;    // of a ladder, for what hides it
-constexpr std::size_t most_samples = 20'000;    // of a ladder
-constexpr std::size_t samples_of_leaving = 32;  // of a part in a place
+constexpr std::size_t most_places_asked = 4;  // of a ladder, for what hides it
+constexpr std::size_t most_samples = 20'000;  // of a ladder
+constexpr std::size_t parts_at_once = 4096;
+constexpr std::size_t most_alike = 64;  // forms with the same corners
+// Samples for when a part leaves, in a place: of large parts, of the others; and of all in all places.
+constexpr std::size_t of_large = 32, of_small = 12, most_leaving = 4'000'000;
 
 double area_of(const Triangles& surface, std::span<const std::uint32_t> faces) {
   double area = 0;
@@ -144,20 +150,19 @@ void WorldParts::cut() {
     s.n_parts = static_cast<std::uint32_t>(parts.size()) - s.first_part;
   }
   allocated.resize(parts.size());
-  std::uint32_t owner = 0;
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
     const auto& s = surfaces[parts[i].surface];
     const auto triangles = triangles_of(s.mesh);
     parts[i].area = area_of(triangles, parts[i].faces) * s.scale * s.scale;
     allocated[i].weight = 0;
+    allocated[i].first_place = n_owners_;
+    allocated[i].n_places = static_cast<std::uint32_t>(s.places.size());
     allocated[i].look = s.look;
     for (const Matrix& m : s.places) {
       const double size = scale_of(m) / s.scale;
       area += parts[i].area * size * size;
       allocated[i].weight += std::pow(size, 4);
-      allocated[i].places.push_back(owner++);
-      neighbours.add(triangles, parts[i].faces, m, allocated[i].places.back());
-      part_of_.push_back(i);
+      neighbours.add(triangles, parts[i].faces, m, n_owners_++);
     }
   }
 }
@@ -182,48 +187,78 @@ Mesh WorldParts::in_metres(const WorldPart& part, CollapseOptions* options) cons
   return mesh;
 }
 
-/// Pieces of the same form are found by their corners first.
+/// Ladders that are known, by the corners of their forms.
+struct WorldParts::Known {
+  LikeForm form;
+  std::vector<std::uint32_t> fixed;
+  std::uint32_t ladder;
+  double area;
+};
+
+/// A part as a mesh, and whether it may share a ladder: those with attributes have their own.
+struct WorldParts::Candidate {
+  Mesh mesh;
+  std::vector<std::uint32_t> fixed;
+  std::uint64_t hash = 0;
+  bool plain = false;
+};
+
+WorldParts::Candidate WorldParts::candidate(std::uint32_t part) const {
+  CollapseOptions options;
+  Candidate out{in_metres(parts[part], &options), {}, 0, false};
+  const auto attributes = out.mesh.attributes();
+  out.fixed = std::move(options.fixed);
+  out.plain = std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
+  out.hash = hash_of_corners(out.mesh);
+  return out;
+}
+
+void WorldParts::find_ladder_of(std::uint32_t i, Candidate mine, std::vector<Known>& alike) {
+  auto& part = parts[i];
+  part.from_ladder = inverse(frame_of(part));
+  part.ladder = static_cast<std::uint32_t>(members_.size());
+  for (std::size_t k = 0; mine.plain && k < alike.size(); ++k) {
+    const auto& known = alike[k];
+    const auto map = known.fixed == mine.fixed ? known.form.to(mine.mesh) : std::nullopt;
+    if (!map) continue;
+    part.ladder = known.ladder;
+    part.from_ladder = part.from_ladder * *map;
+    allocated[i].stretch = Stretch(*map, known.area > 0 ? part.area / known.area : 1);
+    break;
+  }
+  if (part.ladder == members_.size()) {
+    members_.emplace_back();
+    if (mine.plain && alike.size() < most_alike)
+      alike.push_back({LikeForm(std::move(mine.mesh)), std::move(mine.fixed), part.ladder, part.area});
+  }
+  members_[part.ladder].push_back(i);
+}
+
+/// The meshes of some parts are made at a time: all of them would take as much memory as the world.
 void WorldParts::find_ladders() {
-  std::map<std::uint64_t, std::vector<std::uint32_t>> by_corners;  // ladders
-  std::vector<Mesh> first;                                         // of each ladder
-  for (std::uint32_t i = 0; i < parts.size(); ++i) {
-    auto& part = parts[i];
-    CollapseOptions options;
-    Mesh mesh = in_metres(part, &options);
-    part.from_ladder = inverse(frame_of(part));
-    const auto attributes = mesh.attributes();
-    const bool plain =
-        options.fixed.empty() && std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
-    part.ladder = static_cast<std::uint32_t>(members_.size());
-    if (plain) {
-      auto& alike = by_corners[hash_of_corners(mesh)];
-      for (auto l : alike)
-        if (const auto same = congruence(first[l], mesh)) {
-          part.ladder = l;
-          part.from_ladder = part.from_ladder * *same;
-          break;
-        }
-      if (part.ladder == members_.size()) alike.push_back(part.ladder);
+  std::unordered_map<std::uint64_t, std::vector<Known>> by_corners;
+  for (std::size_t first = 0; first < parts.size(); first += parts_at_once) {
+    std::vector<Candidate> some(std::min(parts_at_once, parts.size() - first));
+    parallel_for(some.size(), [&](std::size_t i) { some[i] = candidate(static_cast<std::uint32_t>(first + i)); });
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      auto& alike = by_corners[some[i].hash];
+      find_ladder_of(static_cast<std::uint32_t>(first + i), std::move(some[i]), alike);
     }
-    if (part.ladder == members_.size()) {
-      members_.emplace_back();
-      first.push_back(plain ? std::move(mesh) : Mesh{});
-    }
-    members_[part.ladder].push_back(i);
   }
 }
 
 /// Where a ladder stands.
 struct WorldParts::Surroundings {
-  std::uint32_t owner;
-  Matrix place;  // from the ladder to the world
+  std::uint32_t first, end;  // owners that are itself
+  Matrix place;              // from the ladder to the world
   double width;
 };
 
 /// Nothing needs to be nearer to a sample that is hidden than what hides it.
-double WorldParts::enough(const Surroundings& around, const SurfaceSample& sample) const {
+double WorldParts::enough(const Surroundings& around, const SurfaceSample& sample, double within,
+                          Neighbours::Found& found) const {
   const Vec3 p = around.place.point(sample.point);
-  const auto found = neighbours.nearest(p, around.width, [&](std::uint32_t owner) { return owner != around.owner; });
+  found = neighbours.nearest(p, within, {{}, around.first, around.end}, found.triangle);
   if (found.owner == ClosestPoint::no_guess) return std::numeric_limits<double>::infinity();
   const Vec3 normal = unit(turned(around.place, sample.normal));
   const bool hidden = is_hidden(p, normal, neighbours.corners(found.triangle), found.distance, around.width);
@@ -237,14 +272,21 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
   auto samples = sample_surface(triangles_of(mesh), std::clamp<std::size_t>(4 * mesh.n_faces(), 100, most_samples));
   std::vector<Surroundings> around;
   const double width = half_width(samples);
-  for (auto m : members)
-    for (std::size_t k = 0; k < allocated[m].places.size(); ++k)
-      around.push_back({allocated[m].places[k], surfaces[parts[m].surface].places[k] * parts[m].from_ladder, width});
-  const std::size_t stride = (around.size() + most_places_asked - 1) / most_places_asked;
+  const std::size_t stride = (members.size() + most_places_asked - 1) / most_places_asked;
+  for (std::size_t i = 0; i < members.size(); i += stride) {
+    const auto m = members[i];
+    const auto& places = surfaces[parts[m].surface].places;
+    const std::size_t step = (stride * places.size() + most_places_asked - 1) / most_places_asked;
+    for (std::size_t k = 0; k < places.size(); k += std::max<std::size_t>(step, 1)) {
+      const auto owner = allocated[m].first_place + static_cast<std::uint32_t>(k);
+      around.push_back({owner, owner + 1, places[k] * parts[m].from_ladder, width});
+    }
+  }
+  Neighbours::Found found{0, ClosestPoint::no_guess, ClosestPoint::no_guess};
   for (auto& sample : samples) {
     double least = 0;
-    for (std::size_t k = 0; k < around.size() && std::isfinite(least); k += stride)
-      least = std::max(least, enough(around[k], sample));
+    for (std::size_t k = 0; k < around.size() && std::isfinite(least); ++k)
+      least = std::max(least, enough(around[k], sample, around[k].width, found));
     sample.enough = least;
   }
   ladders_[ladder] = make_ladder({mesh, samples, options});
@@ -253,17 +295,26 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
 /// Points of a part in all its places, for when it leaves.
 void WorldParts::find_leaving(std::uint32_t part) {
   const Mesh mesh = in_metres(parts[part], nullptr);
-  const auto samples =
-      sample_surface(triangles_of(mesh), std::clamp<std::size_t>(2 * mesh.n_faces(), 4, samples_of_leaving));
+  wrlkit::Box bounds;
+  for (std::uint32_t i = 0; i < mesh.n_positions(); ++i) bounds.add(triangles_of(mesh).position(i));
+  const double size = diagonal(bounds);
+  const bool large = size * size * static_cast<double>(n_owners_) > area;
+  const auto most = std::min(large ? of_large : of_small, std::max<std::size_t>(1, most_leaving / n_owners_));
+  const auto samples = sample_surface(triangles_of(mesh), std::min(2 * mesh.n_faces(), most));
   const double width = half_width(samples);
   const auto& s = surfaces[parts[part].surface];
   const Matrix back = inverse(frame_of(parts[part]));
+  auto& out = allocated[part];
+  constexpr double far = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < s.places.size(); ++k) {
-    const Surroundings around{allocated[part].places[k], s.places[k] * back, width};
+    const Surroundings around{out.first_place, out.first_place + out.n_places, s.places[k] * back, width};
     const double grown = std::pow(scale_of(s.places[k]) / s.scale, 2);
-    for (const auto& sample : samples)
-      allocated[part].leaving.push_back({around.place.point(sample.point), sample.weight * grown,
-                                         std::isfinite(enough(around, sample)) ? 0 : width * width});
+    Neighbours::Found near{0, ClosestPoint::no_guess, ClosestPoint::no_guess};
+    for (const auto& sample : samples) {
+      const bool hidden = std::isfinite(enough(around, sample, far, near));
+      out.leaving.push_back({around.place.point(sample.point), sample.weight * grown, hidden ? 0 : width * width,
+                             out.look, near.owner, near.distance});
+    }
   }
 }
 

@@ -20,12 +20,12 @@ struct PlacedSurface {
   std::uint32_t first_part = 0, n_parts = 0;
 };
 
-/// A piece of a surface. Pieces of the same form have one ladder.
+/// A piece of a surface. Pieces of like form have one ladder.
 struct WorldPart {
   std::uint32_t surface;
   std::vector<std::uint32_t> faces;
   std::uint32_t ladder = 0;
-  Matrix from_ladder;  // from metres where the ladder is to the coordinates of the surface
+  Matrix from_ladder;  // from metres where the ladder is to the coordinates of the surface: affine
   double area = 0;     // in the widest place
 };
 
@@ -56,17 +56,22 @@ class WorldParts {
   void cut();
   Matrix frame_of(const WorldPart& part) const;
   Mesh in_metres(const WorldPart& part, CollapseOptions* options) const;
+  struct Known;
+  struct Candidate;
+  Candidate candidate(std::uint32_t part) const;
+  void find_ladder_of(std::uint32_t part, Candidate mine, std::vector<Known>& alike);
   void find_ladders();
   void make_ladder_of(std::uint32_t ladder);
   void find_leaving(std::uint32_t part);
   struct Surroundings;
-  double enough(const Surroundings& around, const SurfaceSample& sample) const;
+  /// `found`: where the sample before was near to, and then this one.
+  double enough(const Surroundings& around, const SurfaceSample& sample, double within, Neighbours::Found& found) const;
 
   const Scene& scene_;
   CollapseOptions options_;
+  std::uint32_t n_owners_ = 0;  // places of parts
   std::vector<std::vector<std::uint32_t>> members_;  // of each ladder
   std::vector<std::vector<Rung>> ladders_;
-  std::vector<std::uint32_t> part_of_;  // of each owner
 };
 
 }  // namespace wrlkit::simplify

@@ -13,8 +13,6 @@ namespace {
 
 using Triangle = std::array<V3, 3>;
 
-V3 across(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
-
 /// For each triangle the polygon it belongs to; returns how many there are.
 std::uint32_t find_polygons(const std::vector<Triangle>& triangles, std::vector<std::uint32_t>& polygon_of) {
   constexpr double least_cosine = 1 - 1e-7;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <optional>
 
+#include "light/patches/patch_mesh.h"
 #include "light/random.h"
 
 namespace wrlkit::light {
 namespace {
 
 std::array<V3, 3> points(const Corners& c) { return {V3(c[0]), V3(c[1]), V3(c[2])}; }
-V3 across(const std::array<V3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 V3 centre(const std::array<V3, 3>& t) { return (1.0 / 3) * (t[0] + t[1] + t[2]); }
 
 class Matcher {

@@ -11,7 +11,6 @@ namespace {
 constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 
 /// The normal of a triangle, twice its area long.
-V3 across(const std::array<V3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
 struct PointHash {
   std::size_t operator()(const std::array<std::uint64_t, 3>& p) const {

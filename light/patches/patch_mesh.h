@@ -13,6 +13,9 @@ namespace wrlkit::light {
 
 using drawing::V3;
 
+/// Normal of a triangle, its length twice the area.
+inline V3 across(const std::array<V3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
 class PatchMesh {
  public:
   static constexpr std::uint32_t none = 0xffffffffu;

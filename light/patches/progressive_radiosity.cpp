@@ -11,7 +11,7 @@ namespace wrlkit::light {
 namespace {
 
 constexpr double enough = 1e-4;  // of the light is left when shooting ends
-constexpr int lamp_rays = 16;
+constexpr int rays_to_lamps = 16;
 
 struct Deposit {
   std::uint32_t side;
@@ -55,7 +55,7 @@ class Shooting {
       for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(options_.samples); ++i) {
         const auto [pu, pv, du, dv] = ways[i];
         const Receiver at = world_.receiver(s, pu, pv);
-        direct_.lamps(at, lamp_rays, random, f);
+        direct_.lamps(at, rays_to_lamps, random, f);
         if (!world_.world().has_sky()) continue;
         const Ray ray{at.start, cosine_direction(at.normal, du, dv)};
         f.sum += (pi * transport_.each_layer(ray, [](auto&&...) {})) * world_.world().sky(ray.direction);

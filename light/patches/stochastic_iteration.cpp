@@ -15,7 +15,7 @@
 namespace wrlkit::light {
 namespace {
 
-constexpr int lamp_rays = 2;
+constexpr int walk_lamp_rays = 2;
 constexpr double not_around = 1e-3;  // share of the light that may be on its way still when the mean begins to be taken
 constexpr int most_unheard = 1024;   // steps before that
 
@@ -103,7 +103,7 @@ class Iteration {
     Stream random(key_of(key, 3, i));
     const Receiver at = world_.receiver(s, pu, pv);
     Flux f;
-    direct_.lamps(at, lamp_rays, random, f);
+    direct_.lamps(at, walk_lamp_rays, random, f);
     direct_.emitters(at, Lattice<3>(key_of(key, 4)), i, 1, f);
     Gathered g = along(at, {at.start, cosine_direction(at.normal, du, dv)});
     g.made += f.sum;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/text/nearest_name.h"
 #include "light/path_picture.h"
 #include "light/render/gather.h"
 #include "light/render/inspect.h"
@@ -18,11 +19,22 @@ namespace {
 
 using namespace drawing;
 
+/// The name, and the one that may have been meant, to stand in quotes.
+std::string asked_for(const Scene& scene, const Stage& stage, const std::string& name) {
+  NearestName nearest(name);
+  for (const Placed& p : stage.viewpoints) {
+    nearest.consider(scene.name(p.node));
+    nearest.consider(scene.get(p.node, nodes::viewpoint::description));
+  }
+  return nearest.best().empty() ? name : name + "'; did you mean '" + std::string(nearest.best());
+}
+
 /// The Viewpoint that the options ask for; none: fit.
 std::optional<Placed> choose_viewpoint(const Scene& scene, const Stage& stage, const RenderOptions& options,
                                        Diagnostics& diag) {
   if (options.fit || stage.viewpoints.empty()) {
-    if (!options.viewpoint.empty() && !options.fit) diag.report(Diag::viewpoint_not_found, {}, options.viewpoint);
+    if (!options.viewpoint.empty() && !options.fit)
+      diag.report(Diag::viewpoint_not_found, {}, asked_for(scene, stage, options.viewpoint));
     return {};
   }
   if (options.viewpoint.empty()) return stage.viewpoints.front();
@@ -30,7 +42,7 @@ std::optional<Placed> choose_viewpoint(const Scene& scene, const Stage& stage, c
     if (scene.name(p.node) == options.viewpoint) return p;
   for (const Placed& p : stage.viewpoints)
     if (scene.get(p.node, nodes::viewpoint::description) == options.viewpoint) return p;
-  diag.report(Diag::viewpoint_not_found, {}, options.viewpoint);
+  diag.report(Diag::viewpoint_not_found, {}, asked_for(scene, stage, options.viewpoint));
   return stage.viewpoints.front();
 }
 

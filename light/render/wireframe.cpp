@@ -7,7 +7,7 @@ namespace {
 
 constexpr double half_width = 0.5;  // of an edge, pixels; the triangle on its other side draws the other half
 constexpr double crowded = 6;       // triangles less high than so many pixels have paler edges, or all would be black
-const V3 paper{0.9}, pen{0.12};
+const V3 sheet{0.9}, pen{0.12};
 
 }  // namespace
 
@@ -16,7 +16,7 @@ V3 Wireframe::color(double px, double py) const {
   Hit hit;
   if (!tracer_.nearest(ray, 0, hit)) return background_;
   if (drawing_.meshes[drawing_.mesh_of[hit.use]].kind != Mesh::Kind::faces) return pen;
-  V3 lit = (0.5 + 0.5 * std::fabs(dot(spot_at(drawing_, ray, hit).normal, ray.direction))) * paper;
+  V3 lit = (0.5 + 0.5 * std::fabs(dot(spot_at(drawing_, ray, hit).normal, ray.direction))) * sheet;
   return mix(lit, pen, ink(hit, px, py));
 }
 

@@ -59,7 +59,7 @@ std::optional<std::uint32_t> set_of(Json info) {
       std::min<std::uint64_t>((moved ? moved : info["texCoord"]).whole().value_or(0), 99));
 }
 
-Json light_of(Json material) {
+Json lightmap_of(Json material) {
   const Json moz = material["extensions"]["MOZ_lightmap"];
   return moz ? moz : material["extras"]["lightmap"];
 }
@@ -71,7 +71,7 @@ std::optional<std::uint32_t> Materials::texcoord_set(std::uint32_t material) con
 }
 
 std::optional<std::uint32_t> Materials::light_set(std::uint32_t material) const {
-  const Json light = light_of(c_.file.at(Table::materials, material));
+  const Json light = lightmap_of(c_.file.at(Table::materials, material));
   return light["index"] ? set_of(light) : std::nullopt;
 }
 
@@ -351,7 +351,7 @@ NodeId Materials::transform_node(const TexcoordMap& a, Json said) {
 /// `intensity` of MOZ_lightmap and `scale` of extras.lightmap are lightmapScale.
 void Materials::set_light(NodeId appearance, Json m) {
   namespace a = nodes::appearance;
-  const Json light = light_of(m), said = light["extensions"]["KHR_texture_transform"];
+  const Json light = lightmap_of(m), said = light["extensions"]["KHR_texture_transform"];
   auto picture = [&](Json number) {
     const auto index = c_.file.index(Table::textures, number);
     return index == none ? NodeId{} : texture(index);

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/forms/form_node.h"
 #include "parsers/gltf/features.h"
 #include "parsers/gltf/polygons.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf_reader {
 namespace {
-
-constexpr std::initializer_list<std::size_t> three{3}, two{2}, color_widths{3, 4};
 
 /// RGB of RGBA; was any of it transparent?
 bool without_alpha(std::vector<double>& v) {
@@ -80,7 +79,7 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
   NodeId geometry;
   if (is_whole) {
     std::string key = look.double_sided ? "2" : "1";
-    for (Json part : {attributes, p.json["indices"], p.json["mode"], p.mesh["name"], kept})
+    for (Json part : {attributes, p.json["indices"], p.json["mode"], p.mesh["name"], p.mesh["extras"]})
       (key += ' ') += part.source();
     NodeId& known = own_[key];
     if (known && how.shared()) return Part{look.appearance, known};
@@ -134,8 +133,25 @@ std::vector<Meshes::Part> Meshes::features(const Primitive& p, const Part& whole
   return out;
 }
 
+/// Forms with fields of our own.
+NodeId Meshes::recognised(const Primitive& p) {
+  const Json kept = p.mesh["extras"]["wrlkit"];
+  for (Json e : kept.is_object() ? kept : Json()) {
+    const TypeId own = find_builtin(e.key(), Dialect::wrlkit), t = own ? own : find_builtin(e.key(), Dialect::vrml97);
+    if (!t || !builtin_nodes()[t.value].is_a(nodes::X3DGeometryNode)) continue;
+    NodeId n = c_.add(t, e);
+    extras_.fields(n, e);
+    if (!read_form(c_.scene, n)) continue;
+    c_.set_name(n, p.mesh["name"]);
+    extras_.define(n);
+    return n;
+  }
+  return {};
+}
+
 /// Forms whose fields are all in extras; the mesh is what they look like.
 NodeId Meshes::kept_whole(const Primitive& p) {
+  if (NodeId form = recognised(p)) return form;
   const Json kept = vrml97(p.mesh);
   for (Json e : kept.is_object() ? kept : Json()) {
     const TypeId t = find_builtin(e.key(), Dialect::vrml97);

@@ -44,6 +44,7 @@ class Meshes {
   /// Of a mesh with feature ids the parts; none if it has no good ones.
   std::vector<Part> features(const Primitive&, const Part& whole);
   NodeId kept_whole(const Primitive&);
+  NodeId recognised(const Primitive&);
   /// The nodes of one primitive of others' files; null where it has none of a kind.
   struct Attributes {
     NodeId coord, normal, color, texcoord, light;

@@ -39,8 +39,6 @@ std::vector<std::uint32_t> list_of(int mode, std::uint32_t n) {
   return out;
 }
 
-constexpr std::initializer_list<std::size_t> three{3}, two{2}, color_widths{3, 4};
-
 }  // namespace
 
 bool PrimitiveReader::fill(Stream& s, std::initializer_list<std::size_t> widths) {

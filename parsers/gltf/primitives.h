@@ -1,12 +1,16 @@
 // Primitives of a mesh of glTF as they are read: vertices with their attributes, unpacked and posed. What nodes become
 // of them is not known here (meshes.h).
 #pragma once
+#include <initializer_list>
 #include <optional>
 
 #include "parsers/gltf/context.h"
 #include "scenegraph/transform.h"
 
 namespace wrlkit::gltf_reader {
+
+/// How many numbers an element of an accessor may have.
+constexpr std::initializer_list<std::size_t> three{3}, two{2}, color_widths{3, 4};
 
 /// How a node shows a mesh.
 struct Pose {

@@ -9,7 +9,7 @@
 namespace wrlkit {
 namespace {
 
-constexpr std::size_t deepest = 500;  // prototypes inside each other
+constexpr std::size_t most_nested = 500;  // prototypes inside each other
 const Prototype contains_itself{.state = Prototype::busy};
 
 }  // namespace
@@ -53,7 +53,7 @@ bool Prototypes::is_missing(ProtoId p) const {
 
 Prototype Prototypes::find_body(const Proto& external) {
   if (const ProtoId native = native_proto(scene_, external)) return prepare(native);
-  ProtoId far = busy_.size() < deepest ? find_external(external) : ProtoId{};
+  ProtoId far = busy_.size() < most_nested ? find_external(external) : ProtoId{};
   return far ? prepare(far) : Prototype{.state = Prototype::missing};
 }
 
@@ -106,10 +106,10 @@ void Prototypes::look_at(NodeId n) {
   if (type.kind == NodeKind::unknown && std::ranges::find(busy_, type.name) != busy_.end())
     ctx_.diag.report(Diag::proto_cycle, scene_.where(n), type.name);
   if (type.kind != NodeKind::proto) return;
-  const bool too_deep = busy_.size() >= deepest;
+  const bool too_deep = busy_.size() >= most_nested;
   if (!too_deep && prepare(type.proto).state != Prototype::busy) return;
   if (too_deep)
-    ctx_.diag.report(Diag::too_deep, scene_.where(n), deepest);
+    ctx_.diag.report(Diag::too_deep, scene_.where(n), most_nested);
   else
     ctx_.diag.report(Diag::proto_cycle, scene_.where(n), type.name);
   scene_.become(n, nodes::Group, {});

@@ -1,5 +1,7 @@
 #include "passes/analysis/usage.h"
 
+#include <algorithm>
+
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -47,6 +49,11 @@ void Usage::touch_below(const Scene& scene, std::vector<NodeId> open) {
     seen[n.value] = touched_[n.value] = 1;
     for_each_child(scene, n, [&](NodeId c) { open.push_back(c); });
   }
+}
+
+bool is_plain(const Scene& scene, const Usage& usage, NodeId n) {
+  return scene.type(n).kind == NodeKind::builtin && !usage.touched(n) &&
+         std::ranges::none_of(scene.fields(n), [&](const Value& v) { return v.is || scene.is_extra(v); });
 }
 
 }  // namespace wrlkit

@@ -26,4 +26,7 @@ class Usage {
   std::vector<char> touched_;
 };
 
+/// Of a type that is built in, with known fields only, and nothing that events or prototypes may change.
+bool is_plain(const Scene& scene, const Usage& usage, NodeId n);
+
 }  // namespace wrlkit

@@ -10,6 +10,7 @@
 #include "passes/analysis/figures.h"
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
+#include "passes/cull/facing_caps.h"
 #include "passes/cull/visibility.h"
 #include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
@@ -44,8 +45,9 @@ class Culling {
     if (options_.hidden) {
       find_hidden();
       leave_out("cull.hidden", "hidden");
+      open_ends();
     }
-    if (left_out_.empty()) return Outcome::unchanged;
+    if (left_out_.empty() && n_caps_ == 0) return Outcome::unchanged;
     remove_shapes();
     hand_in_list();
     count_figures(ctx_, "cull", before, figures_of(scene_));
@@ -62,6 +64,7 @@ class Culling {
   void find_hidden();
   bool may_be_clear(const Use& use) const;
   void leave_out(const char* counter, const std::string& why);
+  void open_ends();
   void remove_shapes();
   void hand_in_list() const;
 
@@ -80,6 +83,7 @@ class Culling {
   std::vector<std::uint32_t> part_;    // by use: another one of the same part
   std::vector<char> shape_gone_;       // by node
   std::vector<std::string> left_out_;  // names
+  std::size_t n_caps_ = 0;             // that went
 };
 
 const Mesh& Culling::triangles(NodeId geometry) {
@@ -232,6 +236,19 @@ void Culling::leave_out(const char* counter, const std::string& why) {
     names.add(left_out_.back().empty() ? "(no name)" : left_out_.back());
   }
   if (!names.empty()) ctx_.diag.report(Diag::culled, {}, names.count(), why, names.text());
+}
+
+/// Pipes that end at one another need no caps there.
+void Culling::open_ends() {
+  std::vector<char> clear(scene_.node_count());
+  for (const Use& use : stage_.uses) clear[use.shape.value] |= may_be_clear(use);
+  const auto dropped = drop_facing_caps(scene_, [&](NodeId n) {
+    return !fixed_[n.value] && !moving_[n.value] && !clear[n.value] && !shape_gone_[n.value];
+  });
+  n_caps_ = dropped.caps;
+  if (n_caps_ == 0) return;
+  ctx_.stats["cull.caps"] += n_caps_;
+  ctx_.stats["cull.triangles"] += dropped.triangles;
 }
 
 void Culling::remove_shapes() {

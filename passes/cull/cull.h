@@ -24,6 +24,7 @@ Removes Shapes from the groups that hold them, if that goes for all places where
 - `hidden`: rays go from points all over the part, evenly by area, in all directions. A part is seen when one reaches
   the outside, a Viewpoint or a walkway. What is left out was seen by none of them; a part behind a hole of a thousandth
   of its sky may be among it. Nothing hides behind what has transparency or a picture.
+  Of forms that `recognise` found, caps go that face one another, where a pipe goes on or a flange meets another.
 - Left alone: what a ROUTE, a Script, an IS or an instance of a prototype may change, with all below it; what stands
   below a LOD or Switch, or is held otherwise than by a group; lines and points, by `hidden`.
 
@@ -32,7 +33,8 @@ gets all. The same result for any number of threads.)";
   static constexpr StatisticInfo statistics[] = {
       {"cull.small", "Shapes that were too small"},
       {"cull.hidden", "Shapes that were never seen"},
-      {"cull.triangles", "triangles of both"},
+      {"cull.caps", "ends of pipes, elbows and flanges that stood against another"},
+      {"cull.triangles", "triangles of all"},
       {"cull.draws-before", "Shapes as they are shown before the pass"},
       {"cull.draws-after", "Shapes as they are shown behind it"},
       {"cull.nodes-before", "nodes of the world before the pass"},

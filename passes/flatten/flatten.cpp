@@ -46,10 +46,7 @@ class Flattening {
  private:
   enum class State : std::uint8_t { unknown, still, not_still };
 
-  bool is_plain(NodeId n) const {
-    return scene_.type(n).kind == NodeKind::builtin && !usage_.touched(n) &&
-           std::ranges::none_of(scene_.fields(n), [&](const Value& v) { return v.is || scene_.is_extra(v); });
-  }
+  bool is_plain(NodeId n) const { return wrlkit::is_plain(scene_, usage_, n); }
 
   /// Of a node that stands in one place: nothing below it has a place of its own but Shapes. Nesting is bounded
   /// (nesting.h).

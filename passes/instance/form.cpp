@@ -9,7 +9,7 @@
 
 namespace wrlkit::instancing {
 
-void Form::take(const Mesh& m) {
+void MeshForm::take(const Mesh& m) {
   mesh = &m;
   at.resize(m.corners.size());
   centre = {};
@@ -34,7 +34,7 @@ void Form::take(const Mesh& m) {
   std::ranges::sort(spread, std::greater<>());
 }
 
-std::uint64_t Form::exact_key() const {
+std::uint64_t MeshForm::exact_key() const {
   const Mesh& m = *mesh;
   std::uint64_t h = mixed(static_cast<std::uint64_t>(m.kind) * 8 + m.ccw * 4 + m.solid * 2 + m.convex,
                           std::bit_cast<std::uint64_t>(m.crease_angle));
@@ -51,7 +51,7 @@ std::uint64_t Form::exact_key() const {
   return mixed(mixed(h, sizes), colors);
 }
 
-std::vector<double> invariants(const Form& f, Scaling scaling, double tolerance) {
+std::vector<double> invariants(const MeshForm& f, Scaling scaling, double tolerance) {
   constexpr double steps = 64;
   if (!(f.size > 0)) return {};
   if (scaling == Scaling::axis) return {};

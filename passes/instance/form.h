@@ -12,7 +12,7 @@ namespace wrlkit::instancing {
 
 enum class Scaling : std::uint8_t { none, uniform, axis };
 
-struct Form {
+struct MeshForm {
   const Mesh* mesh = nullptr;
   std::vector<Vec3> at;            // of each corner, from the centre
   Vec3 centre{};                   // mean of the corners
@@ -28,6 +28,6 @@ struct Form {
 
 /// Numbers that a motion does not change, each with its step: those of two forms that may match are less than half a
 /// step apart.
-std::vector<double> invariants(const Form& form, Scaling scaling, double tolerance);
+std::vector<double> invariants(const MeshForm& form, Scaling scaling, double tolerance);
 
 }  // namespace wrlkit::instancing

@@ -9,9 +9,11 @@
 #include "geometry/geometry.h"
 #include "geometry/simplify/surface_scales.h"
 #include "passes/analysis/figures.h"
+#include "passes/analysis/placed_surfaces.h"
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
 #include "passes/instance/match.h"
+#include "passes/instance/share_forms.h"
 #include "scenegraph/child_lists.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -30,14 +32,16 @@ class Instancing {
 
   Outcome run() {
     const auto before = figures_of(scene_);
-    choose();
+    surfaces_ = placed_surfaces(scene_, usage_, [&](NodeId, NodeId g) { return may_share(g); });
     scale_ = largest_scales(scene_, surfaces_);
     for (std::size_t i = 0; i < surfaces_.size(); ++i) sort_in(i);
     for (const auto& g : groups_)
       if (is_worth(g)) share(g);
-    if (dropped_.empty()) return Outcome::unchanged;
-    replace_children(scene_, instead_);
-    ctx_.stats["instance.copies"] += dropped_.size();
+    if (!dropped_.empty()) replace_children(scene_, instead_);
+    const std::size_t forms = options_.forms ? share_forms(scene_, options_.tolerance, options_.form_places) : 0;
+    if (dropped_.empty() && forms == 0) return Outcome::unchanged;
+    ctx_.stats["instance.copies"] += dropped_.size() + forms;
+    if (forms > 0) ctx_.stats["instance.forms"] += forms;
     report_lost_names();
     count_figures(ctx_, "instance", before, figures_of(scene_));
     return Outcome::changed;
@@ -56,12 +60,11 @@ class Instancing {
     std::vector<Copy> copies;
   };
 
-  void choose();
-  bool is_plain(NodeId n) const;
+  bool is_plain(NodeId n) const { return wrlkit::is_plain(scene_, usage_, n); }
   bool may_share(NodeId geometry) const;
-  bool read(std::uint32_t surface, Mesh& mesh, Form& form);
+  bool read(std::uint32_t surface, Mesh& mesh, MeshForm& form);
   void sort_in(std::size_t surface);
-  std::vector<std::uint64_t> cells(const Form& form, double tolerance, bool all) const;
+  std::vector<std::uint64_t> cells(const MeshForm& form, double tolerance, bool all) const;
   bool is_worth(const Group& g) const;
   void share(const Group& g);
   void report_lost_names();
@@ -80,14 +83,9 @@ class Instancing {
   std::unordered_map<std::uint32_t, NodeId> instead_;  // of Shapes
   MeshScratch scratch_;
   Mesh mesh_, first_mesh_;
-  Form form_, first_form_;
+  MeshForm form_, first_form_;
   std::vector<NodeId> dropped_;
 };
-
-bool Instancing::is_plain(NodeId n) const {
-  return scene_.type(n).kind == NodeKind::builtin && !usage_.touched(n) &&
-         std::ranges::none_of(scene_.fields(n), [&](const Value& v) { return v.is || scene_.is_extra(v); });
-}
 
 bool Instancing::may_share(NodeId g) const {
   namespace ifs = nodes::indexed_face_set;
@@ -100,34 +98,7 @@ bool Instancing::may_share(NodeId g) const {
   return options_.scaling != Scaling::axis || scene_.get(g, ifs::normal) || scene_.get(g, ifs::creaseAngle) == 0;
 }
 
-/// Geometry of the main world whose Shapes all stand where a Transform can stand, too.
-void Instancing::choose() {
-  const auto nodes = reachable(scene_, scene_.main);
-  std::vector<std::uint32_t> held(scene_.node_count()), number(scene_.node_count()), shapes(scene_.node_count());
-  auto hold = [&](std::span<const NodeId> list) {
-    for (NodeId n : list)
-      if (n) ++held[n.value];
-  };
-  hold(scene_.main.roots);
-  for (NodeId n : nodes)
-    if (scene_.is(n, nodes::X3DGroupingNode))
-      for (const Value& v : scene_.fields(n))
-        if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode) hold(v.node_span());
-  for (NodeId n : nodes) {
-    if (!scene_.is(n, nodes::Shape) || !is_plain(n) || held[n.value] != usage_.uses(n)) continue;
-    const NodeId g = scene_.get(n, nodes::shape::geometry);
-    if (!g || !may_share(g)) continue;
-    auto& i = number[g.value];
-    if (!i) {
-      surfaces_.push_back({g, {}});
-      i = static_cast<std::uint32_t>(surfaces_.size());
-    }
-    surfaces_[i - 1].shapes.push_back(n);
-  }
-  std::erase_if(surfaces_, [&](const ShapeSurface& s) { return s.shapes.size() != usage_.uses(s.geometry); });
-}
-
-bool Instancing::read(std::uint32_t surface, Mesh& mesh, Form& form) {
+bool Instancing::read(std::uint32_t surface, Mesh& mesh, MeshForm& form) {
   mesh.clear();
   MeshJob job{scene_, surfaces_[surface].geometry, mesh, scratch_, silent_};
   read_mesh(job);
@@ -137,7 +108,7 @@ bool Instancing::read(std::uint32_t surface, Mesh& mesh, Form& form) {
 }
 
 /// Where a form is looked for: its own cell, and with `all` also the nearer neighbours in each direction.
-std::vector<std::uint64_t> Instancing::cells(const Form& form, double tolerance, bool all) const {
+std::vector<std::uint64_t> Instancing::cells(const MeshForm& form, double tolerance, bool all) const {
   std::vector<std::uint64_t> out{form.exact_key()};
   for (double v : invariants(form, options_.scaling, tolerance)) {
     const double down = std::floor(v);

@@ -33,6 +33,8 @@ scale: the first keeps its geometry, the Shapes of the others stand in a new Tra
   ccw, solid, convex and creaseAngle agree. `axis` finds only copies whose corners stand in the same order, and needs
   normals in the file or a creaseAngle of 0.
 - A mirror image has its faces the other way round, and a scale with a negative factor turns them.
+- `forms`: a pipe is a cylinder of radius and height 1 and a scale. Boxes, cylinders, rings and prisms are scaled along
+  and across their axis, others by one factor; all the same ratios, segments and caps.
 - Geometry far from its origin, where single precision is coarser than the tolerance, is moved to the origin, and its
   own Shape gets a Transform, too.
 - Not worth it: what saves less than `min-saving` bytes over all copies. A vertex is 24 bytes, an index 2, a Transform
@@ -46,6 +48,7 @@ corners, n log n where copies differ in their order.)";
   static constexpr StatisticInfo statistics[] = {
       {"instance.groups", "geometries that are shared now"},
       {"instance.copies", "geometries that are no more"},
+      {"instance.forms", "of those, forms"},
       {"instance.draws-before", "Shapes as they are shown before the pass"},
       {"instance.draws-after", "Shapes as they are shown behind it"},
       {"instance.nodes-before", "nodes of the world before the pass"},
@@ -56,14 +59,20 @@ corners, n log n where copies differ in their order.)";
 
   double tolerance = 0.0002;
   instancing::Scaling scaling = instancing::Scaling::uniform;
-  bool mirror = false, named = false;
+  bool mirror = false, named = false, forms = false;
   double min_saving = 1000;
+  int form_places = 0;
 
   void fields(auto&& f) {
     f("tolerance", tolerance, "how far a point may be from where it was, in metres of the world", at_least(0));
     f("scaling", scaling, "how a copy may be scaled");
     f("mirror", mirror, "also mirror images, by a negative scale, which VRML97 does not have");
     f("named", named, "also where a Coordinate or the like has a DEF name, which is lost");
+    f("forms", forms, "also Box, Cylinder and what recognise makes: forms that only a scale tells apart become one");
+    f("form-places", form_places,
+      "forms that stand in more places keep geometry of their own size: where each place is a node, its scale takes "
+      "more; 0: any number",
+      at_least(0));
     f("min-saving", min_saving, "bytes that a group of equal parts has to save to be shared, as glTF counts them");
   }
 };

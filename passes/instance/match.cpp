@@ -33,7 +33,7 @@ Vec3 aside(const Vec3& p) {
   return q;
 }
 
-Vec3 face_centre(const Form& f, std::size_t face) {
+Vec3 face_centre(const MeshForm& f, std::size_t face) {
   Vec3 c{};
   const auto begin = f.mesh->begin_of(face), end = f.mesh->end_of(face);
   for (auto i = begin; i < end; ++i)
@@ -69,7 +69,7 @@ std::uint64_t FaceGrid::cell(const Vec3& at, int dx, int dy, int dz) const {
   return h;
 }
 
-void FaceGrid::build(const Form& form, double near) {
+void FaceGrid::build(const MeshForm& form, double near) {
   near_ = near;
   entries_.clear();
   for (std::size_t f = 0; f < form.mesh->n_faces(); ++f)
@@ -99,7 +99,7 @@ bool FaceGrid::any_near(const Vec3& at, F&& f) const {
 
 // ---- comparing -----------------------------------------------------------------------------------------------------
 
-std::optional<TransformFields> Matcher::match(const Form& from, const Form& to) {
+std::optional<TransformFields> Matcher::match(const MeshForm& from, const MeshForm& to) {
   from_ = &from;
   to_ = &to;
   if (from.at.size() != to.at.size() || from.mesh->n_faces() != to.mesh->n_faces()) return std::nullopt;

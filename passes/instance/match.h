@@ -21,7 +21,7 @@ struct MatchOptions {
 class FaceGrid {
  public:
   /// `near`: what is looked for is at most that far from where it is.
-  void build(const Form& form, double near);
+  void build(const MeshForm& form, double near);
   /// Calls f(face) for each that may have its centre there until it returns true; no more than `most` of them.
   template <class F>
   bool any_near(const Vec3& at, F&& f) const;
@@ -44,7 +44,7 @@ class Matcher {
 
   /// The Transform from `from` to `to`; none when there is none that brings every corner, with its normal, colour and
   /// texture coordinate, to its counterpart. O(corners), and n log n if their order differs.
-  std::optional<TransformFields> match(const Form& from, const Form& to);
+  std::optional<TransformFields> match(const MeshForm& from, const MeshForm& to);
 
  private:
   /// For each corner of `from` the one of `to`.
@@ -61,7 +61,7 @@ class Matcher {
   bool pair_face(std::size_t a, std::size_t b, const Matrix& linear, bool mirrored);
 
   MatchOptions options_;
-  const Form *from_ = nullptr, *to_ = nullptr;
+  const MeshForm *from_ = nullptr, *to_ = nullptr;
   std::uint32_t base_[2]{};
   bool line_ = false;  // all corners lie on one line through the centre
   double factor_ = 1;  // to over from, in the search by frames

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t most_indices = std::numeric_limits<std::int32_t>::max() / 2;  // with room for the -1
 
 /// Text that is the same for the same things in the same order.
-class Key {
+class SurfaceKey {
  public:
   template <class T>
   void add(const T& v) {
@@ -60,7 +60,7 @@ class Contents {
   }
 
   std::string describe(NodeId n) {
-    Key key;
+    SurfaceKey key;
     if (!anonymous(n)) {
       key.add(n.value);
       return key.text();
@@ -76,7 +76,7 @@ class Contents {
     return key.text();
   }
 
-  void describe(const Value& v, Key& key) {
+  void describe(const Value& v, SurfaceKey& key) {
     key.add(v.count);
     const auto& type = info(v.type);
     switch (type.element) {
@@ -228,7 +228,7 @@ std::string Joining::key(NodeId shape) {
   namespace ifs = nodes::indexed_face_set;
   NodeId g = geometry_of(shape);
   const Parts parts = parts_of(g);
-  Key key;
+  SurfaceKey key;
   key.add(contents_(scene_.get(shape, nodes::shape::appearance)));
   key.add(scene_.type_id(g).value);
   key.add((own(parts.coord) ? NodeId{} : parts.coord).value);

@@ -20,13 +20,13 @@ void each_beside(const Page& page, const std::vector<char>& inside, int x, int y
 }
 
 /// A texel in the shade and one that is lit.
-struct Pair {
+struct TexelPair {
   std::size_t dark, lit;
 };
 
 /// Those in the shade take the mean of what the lit ones had. Pairs of one stand together.
 template <class T>
-void take_means(const std::vector<Pair>& pairs, std::vector<T>& values) {
+void take_means(const std::vector<TexelPair>& pairs, std::vector<T>& values) {
   std::vector<T> means;
   for (auto first = pairs.begin(), last = first; first != pairs.end(); first = last) {
     T sum{};
@@ -67,7 +67,7 @@ Shade shade_beside(float light, float other) {
 
 void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>& inside,
                      const light::LightWorld& world) {
-  std::vector<Pair> pairs;
+  std::vector<TexelPair> pairs;
   const V3 centre = world.centre();
   for (int y = 0; y < page.height; ++y)
     for (int x = 0; x < page.width; ++x) {

@@ -30,13 +30,13 @@ float likeness(const Place& a, const Place& b) {
 }
 
 /// Of a texel, or the mean of several.
-struct Pair {
+struct LightAndNoise {
   float light = 0, noise = 0;
 };
 
 /// Means over a texel and the eight around it that are `step` away, as far as they lie in one plane.
-std::vector<Pair> means(const Page& page, const std::vector<Pair>& of, int step) {
-  std::vector<Pair> out(page.size());
+std::vector<LightAndNoise> means(const Page& page, const std::vector<LightAndNoise>& of, int step) {
+  std::vector<LightAndNoise> out(page.size());
   parallel_for(static_cast<std::size_t>(page.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < page.width; ++x) {
@@ -60,11 +60,11 @@ std::vector<Pair> means(const Page& page, const std::vector<Pair>& of, int step)
 
 /// What tells noise from light: luminance and the standard deviation of it, over the texels around, as those of one
 /// texel are guesses.
-std::vector<Pair> guide(const Page& page, const Estimate& estimate) {
-  std::vector<Pair> own(page.size());
+std::vector<LightAndNoise> guide(const Page& page, const Estimate& estimate) {
+  std::vector<LightAndNoise> own(page.size());
   for (std::size_t i = 0; i < page.size(); ++i) own[i] = {luminance(estimate.light()[i]), estimate.variance[i]};
   own = means(page, own, 1);
-  for (Pair& p : own) p.noise = std::sqrt(p.noise);
+  for (LightAndNoise& p : own) p.noise = std::sqrt(p.noise);
   return own;
 }
 
@@ -105,7 +105,7 @@ class Filter {
 
   const Page& page_;
   const Estimate& estimate_;
-  std::vector<Pair> guide_;
+  std::vector<LightAndNoise> guide_;
   int step_;
   float contrast_;
 };
@@ -113,7 +113,7 @@ class Filter {
 /// What was taken out is noise, or light that changes from texel to texel, such as the edge of a shadow. Noise is as
 /// much as the variance says, and the share that is more than that comes back (the filter of Wiener).
 void give_back(const Page& page, const Estimate& noisy, Estimate& filtered) {
-  std::vector<Pair> taken(page.size());
+  std::vector<LightAndNoise> taken(page.size());
   for (std::size_t i = 0; i < page.size(); ++i) {
     const float d = luminance(noisy.light()[i]) - luminance(filtered.light()[i]);
     taken[i] = {d * d, noisy.variance[i]};

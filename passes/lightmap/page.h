@@ -8,11 +8,13 @@
 
 namespace wrlkit::bake {
 
+/// Its operators are friends, so that they do not hide those of Vec3 from this namespace.
 struct Vec {
   float x = 0, y = 0, z = 0;
+
+  friend Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend float dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 };
-inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline float dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// Where a texel lies: what the denoiser compares.
 struct Place {

@@ -122,8 +122,10 @@ bool NumberList::read(std::string_view text) {
     double v;
     auto r = std::from_chars(text.data(), text.data() + text.size(), v);
     if (r.ec != std::errc{} || !std::isfinite(v) || v <= 0) return false;
-    values.push_back(v);
     text.remove_prefix(static_cast<std::size_t>(r.ptr - text.data()));
+    const bool percent = text.starts_with('%');
+    text.remove_prefix(percent ? 1 : 0);
+    values.push_back(percent ? v / 100 : v);
     if (text.empty()) break;
     if (text[0] != ':') return false;
     text.remove_prefix(1);

@@ -230,9 +230,9 @@ Keys eased(std::span<const double> key, std::span<const double> pairs) {
   return cut(key, between, straight, part * std::max(key.back() - key.front(), 0.0));
 }
 
-class Lowering {
+class InterpolatorLowering {
  public:
-  Lowering(Scene& scene, bool report, Diagnostics& diag) : scene_(scene), report_(report), diag_(diag) {}
+  InterpolatorLowering(Scene& scene, bool report, Diagnostics& diag) : scene_(scene), report_(report), diag_(diag) {}
 
   bool run() {
     std::vector<NodeId> eases;
@@ -298,6 +298,8 @@ class Lowering {
 
 }  // namespace
 
-bool lower_interpolators(Scene& scene, bool report, Diagnostics& diag) { return Lowering(scene, report, diag).run(); }
+bool lower_interpolators(Scene& scene, bool report, Diagnostics& diag) {
+  return InterpolatorLowering(scene, report, diag).run();
+}
 
 }  // namespace wrlkit::x3d

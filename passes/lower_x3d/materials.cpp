@@ -14,9 +14,9 @@
 namespace wrlkit::x3d {
 namespace {
 
-class Lowering {
+class MaterialLowering {
  public:
-  Lowering(Scene& scene, bool vrml97, Diagnostics& diag) : scene_(scene), vrml97_(vrml97), diag_(diag) {}
+  MaterialLowering(Scene& scene, bool vrml97, Diagnostics& diag) : scene_(scene), vrml97_(vrml97), diag_(diag) {}
 
   bool run() {
     for (NodeId n : all_nodes(scene_)) note_colors(n);
@@ -124,6 +124,8 @@ class Lowering {
 
 }  // namespace
 
-bool lower_materials(Scene& scene, bool vrml97, Diagnostics& diag) { return Lowering(scene, vrml97, diag).run(); }
+bool lower_materials(Scene& scene, bool vrml97, Diagnostics& diag) {
+  return MaterialLowering(scene, vrml97, diag).run();
+}
 
 }  // namespace wrlkit::x3d

@@ -23,9 +23,9 @@ struct Faces {
   std::vector<std::int32_t> index;
 };
 
-class Lowering {
+class NurbsLowering {
  public:
-  Lowering(Scene& scene, NodeId n, double tolerance, Diagnostics& diag)
+  NurbsLowering(Scene& scene, NodeId n, double tolerance, Diagnostics& diag)
       : scene_(scene), n_(n), tolerance_(tolerance), diag_(diag) {}
 
   bool run() {
@@ -377,10 +377,10 @@ class Lowering {
 }  // namespace
 
 bool lower_nurbs(Scene& scene, NodeId n, double tolerance, Diagnostics& diag) {
-  return Lowering(scene, n, tolerance, diag).run();
+  return NurbsLowering(scene, n, tolerance, diag).run();
 }
 bool lower_nurbs_interpolator(Scene& scene, NodeId n, double tolerance, Diagnostics& diag) {
-  return Lowering(scene, n, tolerance, diag).interpolator();
+  return NurbsLowering(scene, n, tolerance, diag).interpolator();
 }
 
 }  // namespace wrlkit::x3d

@@ -18,9 +18,9 @@ bool equals_default(const Value& v, const FieldDef& f) {
   return equal_plain(v, f.default_value);
 }
 
-class Lowering {
+class Vrml97Lowering {
  public:
-  Lowering(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
+  Vrml97Lowering(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
 
   bool run() {
     const auto all = all_nodes(scene_);
@@ -207,6 +207,6 @@ class Lowering {
 
 }  // namespace
 
-bool lower_to_vrml97(Scene& scene, Diagnostics& diag) { return Lowering(scene, diag).run(); }
+bool lower_to_vrml97(Scene& scene, Diagnostics& diag) { return Vrml97Lowering(scene, diag).run(); }
 
 }  // namespace wrlkit::x3d

@@ -14,6 +14,7 @@
 #include "passes/merge/gltf_cost.h"
 #include "passes/merge/moved.h"
 #include "passes/merge/part_cells.h"
+#include "passes/merge/place_tables.h"
 #include "passes/merge/still_places.h"
 #include "passes/normals/normals.h"
 #include "scenegraph/features.h"
@@ -249,52 +250,18 @@ void Merging::divide_parts() {
 
 /// Takes what is drawn by tables of places out of the items.
 void Merging::keep_instances(std::vector<CellItem>& items, std::size_t budget) {
-  struct Sharing {
-    std::vector<std::size_t> items;
-    std::map<std::uint32_t, std::size_t> in_zone;  // places of a table
-    std::size_t odd = 0, odd_draws = 0;            // places that no table can say, and stay nodes
-    double saved = 0;
-  };
-  std::map<std::pair<std::uint32_t, NodeId>, Sharing> known;
-  std::map<std::uint32_t, std::size_t> kinds;
+  std::vector<TableItem> all;
   for (std::size_t i = 0; i < items.size(); ++i) {
     const StillPlace& p = place(items_[i]);
-    Sharing& s = known[{items[i].look, geometry(items_[i])}];
-    s.items.push_back(i);
-    if (can_be_instance(p.frame))
-      ++s.in_zone[p.zone];
-    else {
-      ++s.odd;
-      s.odd_draws += items[i].cost;
-    }
-    kinds[items[i].kind] = items[i].cost;
+    const NodeId g = geometry(items_[i]);
+    all.push_back(
+        {items[i].kind, items[i].look, g.value, p.zone, items[i].cost, can_be_instance(p.frame), outline(g).bytes});
   }
-  std::size_t draws = 0;
-  for (const auto& [kind, cost] : kinds) draws += cost;
-  std::vector<Sharing*> best;
-  for (auto& [key, s] : known) {
-    const double n = static_cast<double>(s.items.size());
-    s.saved = (n - gltf_cost::own_share) * outline(geometry(items_[s.items[0]])).bytes -
-              gltf_cost::table * static_cast<double>(s.in_zone.size()) -
-              gltf_cost::place * (n - static_cast<double>(s.odd)) - 2 * gltf_cost::node * static_cast<double>(s.odd);
-    if (s.saved > 0) best.push_back(&s);
-  }
-  std::ranges::stable_sort(best, std::greater{}, &Sharing::saved);
-  std::vector<char> kept(items.size());
-  for (const Sharing* s : best) {
-    std::size_t cost = s->odd_draws, saved = 0;
-    for (const auto& [zone, n] : s->in_zone) {
-      cost += still_.zones()[zone].times;
-      saved += (n - 1) * still_.zones()[zone].times;
-    }
-    if (draws + cost > budget) continue;
-    draws += cost;
-    n_shared_ += saved;
-    for (auto i : s->items) kept[i] = 1;
-  }
+  const PlaceTables tables = place_tables(all, budget);
+  n_shared_ += tables.saved_draws;
   std::size_t to = 0;
   for (std::size_t i = 0; i < items.size(); ++i)
-    if (!kept[i]) {
+    if (!tables.kept[i]) {
       items[to] = items[i];
       items_[to++] = items_[i];
     }

@@ -28,8 +28,9 @@ than `max-draws` are drawn. Nothing happens where there are few enough already.
 - A geometry that is shown often is there once for each place when it is merged. Where the writer makes tables of
   places, `instanced` leaves Shapes of one geometry and appearance as they are if that takes less space: some 600
   bytes and 10 a place, against 8 for each point and 0.7 for each corner of each copy. All of them are one draw then,
-  but for places that are mirrored or skewed, which stay by themselves. The rest is merged however few there are, and
-  cells are only halved above 50,000 corners: each one takes space, too.
+  but for places that are mirrored or skewed, which stay by themselves. The rest is merged however few there are,
+  unless a table in another look has the same geometry and a cell would take more; and cells are only halved above
+  50,000 corners: each one takes space, too.
 - `parts` asks for something else: no Shape with a name is merged, nothing is taken out of a group with a name, and
   there are no feature ids. What is merged are Shapes that nobody could tell apart by name, where their nodes and
   meshes would take more space than their vertices do once more: 65 bytes a node, 280 a mesh. Geometries go together

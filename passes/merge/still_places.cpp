@@ -48,11 +48,6 @@ void StillPlaces::walk() {
   while (const auto way = ways_.next()) visit(way->node, way->state);
 }
 
-bool StillPlaces::is_plain(NodeId n) const {
-  return scene_.type(n).kind == NodeKind::builtin && !usage_.touched(n) &&
-         std::ranges::none_of(scene_.fields(n), [&](const Value& v) { return v.is || scene_.is_extra(v); });
-}
-
 /// Something in it or of it goes for what is below, and for nothing else.
 bool StillPlaces::is_apart(NodeId n) const {
   if (!scene_.is(n, nodes::Group) && !scene_.is(n, nodes::Transform) && !scene_.is(n, nodes::StaticGroup)) return true;

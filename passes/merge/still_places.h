@@ -57,7 +57,7 @@ class StillPlaces {
   void alternatives(NodeId node, const Handed&);
   std::uint32_t zone_of(NodeId holder, bool shown, bool& fresh);
   bool may_take(NodeId shape) const;
-  bool is_plain(NodeId n) const;
+  bool is_plain(NodeId n) const { return wrlkit::is_plain(scene_, usage_, n); }
   bool is_apart(NodeId group) const;
 
   const Scene& scene_;

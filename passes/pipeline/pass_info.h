@@ -37,7 +37,10 @@ inline bool read(std::string_view s, std::string& v) {
 template <class N>
 requires std::is_arithmetic_v<N>
 bool read(std::string_view s, N& v) {
+  const bool percent = std::is_floating_point_v<N> && s.ends_with('%');
+  s.remove_suffix(percent ? 1 : 0);
   auto r = std::from_chars(s.data(), s.data() + s.size(), v);
+  if (percent) v /= 100;
   return r.ec == std::errc{} && r.ptr == s.data() + s.size();
 }
 
@@ -86,6 +89,14 @@ OptionInfo describe(std::string_view name, const T& value, std::string_view help
   return {std::string(name), std::string(type_name(value)), print(value), std::move(more), print(range)};
 }
 
+/// The option that may have been meant, or else those that there are.
+inline std::string question(const NearestName& nearest, const std::vector<OptionInfo>& options) {
+  if (!nearest.best().empty()) return nearest.question();
+  std::string out;
+  for (const auto& o : options) out += (out.empty() ? "; its options are " : ", ") + o.name;
+  return out.empty() ? "; it has no options" : out;
+}
+
 }  // namespace option_text
 
 template <auto Function, class Options>
@@ -123,11 +134,12 @@ class PassOf final : public PassInstance {
         return;
       }
       why = "option '" + std::string(option) + "': '" + std::string(value) +
-            "' is no value for it: " + option_text::describe(name, field, help, range).type_and_range();
+            "' is not a valid value: " + option_text::describe(name, field, help, range).type_and_range();
+      if constexpr (requires { given.examples; }) why += ", as " + std::string(given.examples);
       if constexpr (requires { field.missing(value); })
         if (const auto missing = field.missing(value); !missing.empty()) why = missing;
     });
-    if (!found) why = "has no option '" + std::string(option) + "'" + nearest.question();
+    if (!found) why = "has no option '" + std::string(option) + "'" + option_text::question(nearest, options());
     return why.empty();
   }
   std::vector<OptionInfo> options() const override {

@@ -47,6 +47,11 @@ bool unquote(std::string_view text, std::string& value) {
   return i + 1 == text.size();
 }
 
+bool has_option(const PassInstance& pass, std::string_view name) {
+  const auto options = pass.options();
+  return std::ranges::find(options, name, &OptionInfo::name) != options.end();
+}
+
 bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
   std::string value;
   while (!trim(list).empty()) {
@@ -57,13 +62,22 @@ bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
       why = "option '" + std::string(name) + "': a quote is missing";
       return false;
     }
+    // ratios=0.5,0.2 is ratios=0.5:0.2
+    for (auto rest = list; equals != option.npos && !trim(rest).empty(); list = rest) {
+      const auto item = cut(rest, ',');
+      if (item.empty() || item.find('=') != item.npos || has_option(pass, item)) break;
+      (value += ':') += item;
+    }
     if (!pass.set(name, value, why)) return false;
   }
   return true;
 }
 
 std::string no_such_pass(std::string_view name) {
-  return "there is no pass '" + std::string(name) + "'" + pass_question(name);
+  std::string out = "there is no pass '" + std::string(name) + "'";
+  const auto first = name.substr(0, name.find(' '));
+  if (first != name && find_pass(first)) return out + "; commas separate passes: weld,lod";
+  return out + pass_question(name);
 }
 
 }  // namespace
@@ -86,7 +100,12 @@ std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why)
 
 bool Pipeline::append(std::string_view text, std::string& why) {
   while (!trim(text).empty()) {
+    const bool ends_early = trim(text).ends_with(',');
     const auto item = cut(text, ',');
+    if (item.empty() || (ends_early && trim(text).empty())) {
+      why = "a pass is missing at a comma";
+      return false;
+    }
     const auto brace = item.find('{');
     const auto name = trim(item.substr(0, brace));
     if (auto n = std::ranges::find(named_pipelines(), item, &NamedPipeline::name); n != named_pipelines().end()) {

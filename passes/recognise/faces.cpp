@@ -5,14 +5,10 @@
 #include <numbers>
 
 #include "base/math/vec.h"
+#include "base/overloaded.h"
 
 namespace wrlkit {
 namespace {
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
 
 Vec3 position(const Mesh& mesh, std::size_t corner) {
   const double* p = mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3;
@@ -41,7 +37,12 @@ Mesh only_faces(const Mesh& mesh, std::span<const std::uint32_t> faces) {
   points.reset(mesh.n_positions());
   auto& positions = out.positions.edit();
   out.face_begin.push_back(0);
-  out.normal.values = mesh.normal.values;
+  const auto from = mesh.attributes();
+  const auto to = out.attributes();
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    to[k]->width = from[k]->width;
+    to[k]->values = from[k]->values;
+  }
   for (auto f : faces) {
     for (std::size_t c = mesh.begin_of(f); c < mesh.end_of(f); ++c) {
       const auto p = mesh.corners[c];
@@ -50,7 +51,8 @@ Mesh only_faces(const Mesh& mesh, std::span<const std::uint32_t> faces) {
         for (std::size_t k = 0; k < 3; ++k) positions.push_back(mesh.positions[std::size_t{p} * 3 + k]);
       }
       out.corners.push_back(points[p]);
-      if (mesh.normal.present()) out.normal.index.push_back(mesh.normal.index[c]);
+      for (std::size_t k = 0; k < to.size(); ++k)
+        if (from[k]->present()) to[k]->index.push_back(from[k]->index[c]);
     }
     out.face_begin.push_back(static_cast<std::uint32_t>(out.corners.size()));
   }
@@ -74,6 +76,18 @@ bool has_normals_of(const Mesh& mesh, std::span<const std::uint32_t> faces, cons
     }
   }
   return true;
+}
+
+std::optional<Vec4> color_of(const Mesh& mesh, std::span<const std::uint32_t> faces) {
+  const Attribute& color = mesh.color;
+  if (!color.present() || faces.empty()) return std::nullopt;
+  const float* first = color.at(color.index[mesh.begin_of(faces[0])]);
+  for (auto f : faces)
+    for (std::size_t c = mesh.begin_of(f); c < mesh.end_of(f); ++c)
+      if (!std::equal(first, first + color.width, color.at(color.index[c]))) return std::nullopt;
+  // As it was written, not as single precision has it.
+  auto decimal = [](float v) { return std::round(double{v} * 1e7) / 1e7; };
+  return Vec4{decimal(first[0]), decimal(first[1]), decimal(first[2]), color.width == 4 ? decimal(first[3]) : -1};
 }
 
 double reach_of_form(const Form& form) {

@@ -1,6 +1,7 @@
 // What the pass `recognise` asks of meshes and forms.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "geometry/forms/form.h"
@@ -16,6 +17,9 @@ Mesh only_faces(const Mesh& mesh, std::span<const std::uint32_t> faces);
 /// Whether normals that the file gives, if it does, point to the side of the form that each face is on: within the
 /// angle that its chords span.
 bool has_normals_of(const Mesh& mesh, std::span<const std::uint32_t> faces, const Form& form);
+
+/// The colour of all these faces; a fourth number of -1: without alpha. Nothing when they have several, or none.
+std::optional<Vec4> color_of(const Mesh& mesh, std::span<const std::uint32_t> faces);
 
 /// How far points of a form are from its origin, at most.
 double reach_of_form(const Form& form);

@@ -28,7 +28,9 @@ where they touch; a pipe run in one piece is cut at its rings. Run `join` first 
   (docs/nodes.md), which `--dump` shows and all writers write as faces.
 - The Shape stands in a new Transform, several forms of one Shape in a new Group that takes its name; what fits no form
   stays an IndexedFaceSet next to them.
-- Left alone: faces with colours, texture coordinates, baked light or a texture; normals that are not those of the
+- Faces of one colour get it as the diffuseColor of a Material of their own, where the Material that was there has no
+  name.
+- Left alone: parts of several colours; texture coordinates, baked light and textures; normals that are not those of the
   form; faces that point inwards and are solid; what a ROUTE, a Script or an IS touches; bodies of prototypes; geometry
   whose name or whose Coordinate's name would be lost.
 
@@ -52,9 +54,13 @@ Linear in the corners.)";
   };
 
   LengthOption tolerance;
+  bool split = true;
 
   void fields(auto&& f) {
     f("tolerance", tolerance, "largest distance from what was there, in metres of the world; 0: by what a part shows");
+    f("split", split,
+      "geometry of several parts becomes several Shapes; otherwise it stays, and only geometry that is one form in "
+      "whole becomes it, which takes fewest bytes");
   }
 };
 

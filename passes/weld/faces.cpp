@@ -9,7 +9,7 @@
 namespace wrlkit {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t no_face = 0xffffffffu;
 constexpr int most_starts = 8;  // of a face that comes through one point again and again; keeps the comparison linear
 
 using Corners = std::span<const std::uint32_t>;
@@ -83,7 +83,7 @@ void FaceCleaner::drop_degenerate(const Surface& s) {
 }
 
 void FaceCleaner::drop_duplicates(const Surface& s, bool both_ways) {
-  heads_.assign(std::bit_ceil(std::size_t{s.n_faces()} + 8), none);
+  heads_.assign(std::bit_ceil(std::size_t{s.n_faces()} + 8), no_face);
   next_.resize(s.n_faces());
   hashes_.resize(s.n_faces());
   corners_.clear();
@@ -93,8 +93,9 @@ void FaceCleaner::drop_duplicates(const Surface& s, bool both_ways) {
     std::uint64_t h = hash(face, both_ways);
     std::uint32_t& head = heads_[h & (heads_.size() - 1)];
     std::uint32_t other = head;
-    while (other != none && !(hashes_[other] == h && same_face(s.face(other), face, both_ways))) other = next_[other];
-    if (other != none) {
+    while (other != no_face && !(hashes_[other] == h && same_face(s.face(other), face, both_ways)))
+      other = next_[other];
+    if (other != no_face) {
       ++counts.duplicate_faces;
       counts.duplicate_triangles += face.size() - 2;
       continue;

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double most_levels = 24;         // shorter edges are treated like those of the lowest level
 constexpr std::size_t tests_a_point = 64;  // on average; real surfaces need one or two
-constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();  // by the largest coordinate
-constexpr double indistinct = std::numeric_limits<float>::epsilon();     // the same
-constexpr float shortest_normal = 1e-12f;                                // squared
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();   // by the largest coordinate
+constexpr double junction_slack = std::numeric_limits<float>::epsilon();  // the same
+constexpr float shortest_normal = 1e-12f;                                 // squared
 
-double cell_size(double level) { return std::ldexp(1, static_cast<int>(level)); }
+double size_of_cells(double level) { return std::ldexp(1, static_cast<int>(level)); }
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::size_t TJunctions::close(const Surface& s, const std::vector<SurfaceEdge>& 
   double largest = 0;
   for (double v : s.points) largest = std::max(largest, std::abs(v));
   near_ = std::max(tolerance, rounding * largest);
-  end_ = std::max(tolerance, indistinct * largest);
+  end_ = std::max(tolerance, junction_slack * largest);
   spread_edges(s);
   junctions_.clear();
   budget_ = tests_a_point * points_.size();
@@ -73,7 +73,7 @@ void TJunctions::spread_edges(const Surface& s) {
       low[i] = std::min(a[i], b[i]) - near_;
       high[i] = std::max(a[i], b[i]) + near_;
     }
-    for_each_cell(low, high, cell_size(e.level), [&](const Vec3& cell) { grid_.add(cell, e.corner, e.level); });
+    for_each_cell(low, high, size_of_cells(e.level), [&](const Vec3& cell) { grid_.add(cell, e.corner, e.level); });
   }
 }
 
@@ -81,7 +81,7 @@ void TJunctions::find_edges(const Surface& s, std::uint32_t point) {
   const Vec3 p = s.point(point);
   for (double level : levels_) {
     if (budget_ == 0) return;
-    for_each_cell(p, p, cell_size(level), [&](const Vec3& cell) {
+    for_each_cell(p, p, size_of_cells(level), [&](const Vec3& cell) {
       grid_.visit(
           cell, [&](std::uint32_t corner) { test(s, corner, point); }, level);
     });

@@ -8,7 +8,7 @@
 namespace wrlkit {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t no_normal = 0xffffffffu;
 
 bool against(const Surface& s, const SurfaceEdge& e) {
   return e.manifold() && s.mesh.corners[e.first] == s.mesh.corners[e.second];
@@ -26,7 +26,7 @@ void Winding::unify(const Surface& s, const std::vector<SurfaceEdge>& edges, boo
   sum_up(s, edges);
   for (std::uint32_t f = 0; f < s.n_faces(); ++f)
     if (links_[f] >> 1 == f) decide(parts_[f], s.mesh.ccw, outward);
-  opposite_.assign(s.mesh.normal.present() ? s.mesh.normal.count() : 0, none);
+  opposite_.assign(s.mesh.normal.present() ? s.mesh.normal.count() : 0, no_normal);
   for (std::uint32_t f = 0; f < s.n_faces(); ++f) {
     Place p = find(f);
     if (parts_[p.root].flip[p.against]) flip(s, f);
@@ -102,7 +102,7 @@ void Winding::flip_normals(const Surface& s, std::uint32_t f) {
     std::uint32_t i = normal.index[c];
     const float n[3] = {normal.at(i)[0], normal.at(i)[1], normal.at(i)[2]};
     if (!(n[0] * front[0] + n[1] * front[1] + n[2] * front[2] > 0)) continue;
-    if (opposite_[i] == none) {
+    if (opposite_[i] == no_normal) {
       opposite_[i] = static_cast<std::uint32_t>(normal.count());
       for (float x : n) normal.values.push_back(0 - x);
     }

@@ -14,7 +14,7 @@ PUMP_ROOM = str(ROOT / 'corpus/plant/pump_room_faces.wrl')
 
 
 def bytes_of(tmp_path, *words):
-    out = tmp_path / ('by_program' + pathlib.Path(words[0]).suffix)
+    out = tmp_path / 'by_program' / words[0]  # the name is in urls of files that come along
     subprocess.run([sys.executable, '-m', 'wrlkit', 'convert', PUMP_ROOM, str(out), *words[1:]], check=True, capture_output=True)
     return out.read_bytes()
 

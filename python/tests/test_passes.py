@@ -45,7 +45,7 @@ def test_a_function_is_a_pass_among_the_others():
 
 
 @pytest.mark.parametrize('options, fault', [
-    ('prefx=A', "has no option 'prefx'; did you mean 'prefix'"), ('first=-1', "'-1' is no value for it: integer at least 0"), ('first=2.5', 'integer'), ('step=fast', 'number'),
+    ('prefx=A', "has no option 'prefx'; did you mean 'prefix'"), ('first=-1', "'-1' is not a valid value: integer at least 0"), ('first=2.5', 'integer'), ('step=fast', 'number'),
     ('step=nan', 'number'), ('up=yes', 'bool'), ('kind=none', 'all or some'), ('sizes=1:x', 'number each')])
 def test_faults_of_options(options, fault):
     with pytest.raises(ValueError, match=fault):

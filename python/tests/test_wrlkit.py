@@ -115,8 +115,12 @@ def test_errors_have_places(tmp_path):
     world = world_of(tmp_path, 'Shape { geometry Sphere {\n  radiuss 2 } }')
     message, = world.messages
     assert (message.severity, message.name, message.line, message.column) == ('warning', 'unknown-field', 3, 3)
-    with pytest.raises(wrlkit.Error, match='does not exist'):
-        world.save(str(tmp_path / 'nowhere/out.wrl'))
+    with pytest.raises(wrlkit.Error, match='is not a folder'):
+        world.save(str(tmp_path / 'no.wrl/out.wrl'))
+    world.save(tmp_path / 'nowhere/out.wrl')  # a pathlib.Path, in a folder that is made
+    assert wrlkit.load(tmp_path / 'nowhere/out.wrl', allow=[tmp_path]).nodes('Sphere')
+    with pytest.raises(ValueError, match="no node type 'Spere'; did you mean 'Sphere'"):
+        world.nodes('Spere')
     with pytest.raises(ValueError):
         world.save(str(tmp_path / 'out.obj'))
 

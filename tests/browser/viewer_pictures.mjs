@@ -28,6 +28,7 @@ try {
   await picture('heaviest', [room, '--criteria', 'quadric'], {width: 1200, height: 720}, async page => {
     await page.locator('tbody').first().getByRole('button', {name: 'Tank_shell'}).hover();
   });
+  await picture('forms', [room, '-p', 'join,recognise,dedup'], {width: 1200, height: 720, fragment: '#look=form&panel=view'}, () => {});
   wrlkit(program, 'simplify', '-q', room, '--counts', '2500', '-o', folder);
   const simple = fs.readdirSync(folder).find(name => /pump_room_faces_\d+\.wrl$/.test(name));
   await picture('deviation', [room, path.join(folder, simple), '--allow-path', path.dirname(room)], {width: 1200, height: 720}, async page => {

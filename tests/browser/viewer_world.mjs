@@ -128,6 +128,29 @@ async function phone() {
   await close();
 }
 
+/// What `recognise` found, as `info` counts it, each kind in its colour; a world that says nothing of it has no such look.
+async function forms() {
+  const plain = await open_page(browser, html);
+  assert.equal(await plain.page.getByLabel('By form').count(), 0);
+  await plain.close();
+  const recognised = path.join(folder, 'recognised.html');
+  wrlkit(program, 'view', '-q', world, '-o', recognised, '-p', 'join,recognise,dedup');
+  const {kinds} = JSON.parse(wrlkit(program, 'info', '-q', '--json', '--recognise', world)).forms;
+  const {page, faults, close} = await open_page(browser, recognised, {fragment: '#panel=view'});
+  const before = await picture(page);
+  assert(!await page.locator('#forms').isVisible());
+  await page.getByLabel('By form').check({force: true});
+  await page.waitForTimeout(500);
+  assert(!(await picture(page)).equals(before));
+  assert(await page.locator('#forms').isVisible());
+  const rows = Object.fromEntries(await page.locator('#forms li').evaluateAll(all => all.map(row => [row.childNodes[1].textContent.trim(), Number(row.querySelector('.soft').textContent)])));
+  assert.equal(rows.cylinder, kinds.cylinder);
+  assert.equal(rows.box, kinds.box);
+  assert.equal(rows.elbow, kinds.torus);
+  assert.deepEqual(faults, []);
+  await close();
+}
+
 function bundle_is_small() {
   const bytes = fs.statSync(path.join(path.dirname(program), 'viewer/index.html')).size;
   assert(bytes < 1e6, `the page without a world has ${bytes} bytes`);
@@ -137,6 +160,7 @@ try {
   await figures_and_selection();
   await display();
   await phone();
+  await forms();
   bundle_is_small();
   console.log(`${info.triangles} triangles, ${fs.statSync(html).size} bytes`);
 } finally {

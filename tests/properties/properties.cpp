@@ -276,7 +276,8 @@ void try_random(int n, std::vector<std::string> worlds) {
   for (int i = 0; i < n && !worlds.empty(); ++i) {
     const auto& path = worlds[random() % worlds.size()];
     // As for every writer, what only other standards have is lowered first: no pass makes a mesh of a LineSet.
-    try_pipeline(path, "lower-vrml1,expand,lower-x3d," + random_pipeline(random));
+    const std::string passes = random_pipeline(random);  // maybe none
+    try_pipeline(path, "lower-vrml1,expand,lower-x3d" + (passes.empty() ? "" : "," + passes));
   }
 }
 

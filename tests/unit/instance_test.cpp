@@ -92,7 +92,7 @@ double farthest(const Mesh& from, const Matrix& m, const Mesh& to) {
 }
 
 std::optional<TransformFields> match(const Mesh& a, const Mesh& b, const MatchOptions& options) {
-  Form from, to;
+  MeshForm from, to;
   from.take(a);
   to.take(b);
   if (from.exact_key() != to.exact_key()) return std::nullopt;

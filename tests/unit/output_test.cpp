@@ -129,13 +129,30 @@ TEST_CASE("A symbolic link stays a link", "[output]") {
   CHECK(folder.read("real/a.wrl") == "new");
 }
 
+TEST_CASE("Folders are made, and stay with what is written only", "[output]") {
+  TempFolder folder;
+  Diagnostics diag;
+  {
+    auto file = OutputFile::open(folder / "new/below/a.glb", {}, diag);
+    REQUIRE(file);
+    file->write("given up");
+  }
+  CHECK_FALSE(fs::exists(folder / "new"));
+  auto file = OutputFile::open(folder / "new/below/a.glb", {}, diag);
+  REQUIRE(file);
+  file->write("whole");
+  CHECK(file->commit(diag));
+  CHECK(folder.read("new/below/a.glb") == "whole");
+}
+
 TEST_CASE("Where nothing can be written, that is said at once", "[output]") {
   TempFolder folder;
   Diagnostics diag;
-  SECTION("no folder") {
+  SECTION("below a file") {
+    folder.write("none", "");
     CHECK_FALSE(OutputFile::open(folder / "none/a.glb", {}, diag));
     CHECK(only_message(diag) ==
-          "cannot write '" + (folder / "none/a.glb") + "': the folder '" + (folder / "none") + "' does not exist");
+          "cannot write '" + (folder / "none/a.glb") + "': '" + (folder / "none") + "' is not a folder");
   }
   SECTION("a directory") {
     CHECK_FALSE(OutputFile::open(folder.path().string(), {}, diag));
@@ -148,7 +165,7 @@ TEST_CASE("Where nothing can be written, that is said at once", "[output]") {
   SECTION("a file as folder") {
     folder.write("a", "");
     CHECK_FALSE(OutputFile::open(folder / "a/b.glb", {}, diag));
-    CHECK_THAT(only_message(diag), Catch::EndsWith("Not a directory"));
+    CHECK_THAT(only_message(diag), Catch::EndsWith("is not a folder"));
   }
   SECTION("no name") {
     CHECK_FALSE(OutputFile::open("", {}, diag));

@@ -83,17 +83,17 @@ TEST_CASE("pipeline: text and back", "[pipeline]") {
 
 TEST_CASE("pipeline: what is wrong with a text", "[pipeline]") {
   CHECK(canonical("polish") == "error: there is no pass 'polish'");
-  CHECK(canonical("inline{deepness=3}") == "error: pass 'inline' has no option 'deepness'");
+  CHECK(canonical("inline{deepness=3}") == "error: pass 'inline' has no option 'deepness'; its options are depth, limit");
   CHECK(canonical("inline{depth=deep}") ==
-        "error: pass 'inline' option 'depth': 'deep' is no value for it: integer at least 0");
+        "error: pass 'inline' option 'depth': 'deep' is not a valid value: integer at least 0");
   CHECK(canonical("inline{depth=-1}") ==
-        "error: pass 'inline' option 'depth': '-1' is no value for it: integer at least 0");
+        "error: pass 'inline' option 'depth': '-1' is not a valid value: integer at least 0");
   CHECK(canonical("lod{min-saving=nan}") ==
-        "error: pass 'lod' option 'min-saving': 'nan' is no value for it: number 0 to 1");
+        "error: pass 'lod' option 'min-saving': 'nan' is not a valid value: number 0 to 1");
   CHECK(canonical("lod{min-saving=1.01}") ==
-        "error: pass 'lod' option 'min-saving': '1.01' is no value for it: number 0 to 1");
+        "error: pass 'lod' option 'min-saving': '1.01' is not a valid value: number 0 to 1");
   CHECK(canonical("lightmap{format=bmp}") ==
-        "error: pass 'lightmap' option 'format': 'bmp' is no value for it: png, jpg or webp");
+        "error: pass 'lightmap' option 'format': 'bmp' is not a valid value: png, jpg or webp");
   CHECK(canonical("inline{depth=3") == "error: '}' is missing behind 'inline'");
   CHECK(canonical(R"(merge{csv="a)") == "error: '}' is missing behind 'merge'");
   CHECK(canonical(R"(merge{csv="a"b})") == "error: pass 'merge' option 'csv': a quote is missing");

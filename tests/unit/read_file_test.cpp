@@ -309,6 +309,7 @@ TEST_CASE("Sizes are readable", "[read_file]") {
   CHECK(readable_size(0) == "0 bytes");
   CHECK(readable_size(1500) == "1500 bytes");
   CHECK(readable_size(64 << 20) == "64 MiB");
+  CHECK(readable_size(5504 << 10) == "5.4 MiB");
   CHECK(readable_size(ReadLimits::one_text) == "4 GiB");
   CHECK(readable_size(std::uint64_t{10} << 30) == "10 GiB");
 }

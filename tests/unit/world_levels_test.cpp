@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "convert/diff.h"
 #include "geometry/simplify/ladder.h"
+#include "geometry/simplify/like_form.h"
 #include "geometry/simplify/pieces.h"
 #include "geometry/simplify/world_levels.h"
 #include "geometry/simplify/world_parts.h"
@@ -276,14 +277,17 @@ TEST_CASE("pieces: what is connected, and the same form elsewhere", "[levels]") 
   Mesh moved = first;
   const Matrix place = translation_matrix({3, 4, 5}) * rotation_matrix({1, 2, 3, 0.7});
   transform(moved, place);
-  const auto found = congruence(first, moved);
+  const auto found = LikeForm(first).to(moved);
   REQUIRE(found);
   for (std::size_t i = 0; i < 12; ++i) CHECK(found->m[i] == Approx(place.m[i]).margin(1e-9));
   transform(moved, scale_matrix({1, 1.1, 1}));
-  CHECK_FALSE(congruence(first, moved));
+  CHECK(LikeForm(first).to(moved));
+  transform(moved, scale_matrix({1, 3, 1}));
+  CHECK_FALSE(LikeForm(first).to(moved));
   Mesh mirrored = first;
   transform(mirrored, scale_matrix({-1, 1, 1}));
   CHECK(hash_of_corners(mirrored) == hash_of_corners(first));
+  CHECK_FALSE(LikeForm(first).to(mirrored));
 }
 
 TEST_CASE("nearest point: only labels that count", "[levels]") {
@@ -296,8 +300,8 @@ TEST_CASE("nearest point: only labels that count", "[levels]") {
   std::fill(labels.begin() + static_cast<std::ptrdiff_t>(n), labels.end(), 1u);
   const ClosestPoint tree(triangles_of(two), labels);
   const double far = std::numeric_limits<double>::infinity();
-  CHECK(tree.nearest_of({1.5, 0, 0}, far, [](std::uint32_t) { return true; }).distance == Approx(0.5));
-  CHECK(tree.nearest_of({1.5, 0, 0}, far, [](std::uint32_t l) { return l == 1; }).distance == Approx(7.5));
-  CHECK(std::isinf(tree.nearest_of({1.5, 0, 0}, 7, [](std::uint32_t l) { return l == 1; }).distance));
-  CHECK(std::isinf(tree.nearest_of({1.5, 0, 0}, far, [](std::uint32_t) { return false; }).distance));
+  CHECK(tree.nearest_of({1.5, 0, 0}, far, {}).distance == Approx(0.5));
+  CHECK(tree.nearest_of({1.5, 0, 0}, far, {{}, 0, 1}).distance == Approx(7.5));
+  CHECK(std::isinf(tree.nearest_of({1.5, 0, 0}, 7, {{}, 0, 1}).distance));
+  CHECK(std::isinf(tree.nearest_of({1.5, 0, 0}, far, {{}, 0, 2}).distance));
 }

@@ -11,6 +11,7 @@
 #include "tools/cli/outputs.h"
 #include "tools/cli/python_passes.h"
 #include "tools/cli/verbs.h"
+#include "tools/cli/words.h"
 
 #ifndef WRLKIT_VERSION
 #define WRLKIT_VERSION "unknown"
@@ -68,8 +69,32 @@ GivenOptions given_options(const CLI::App& verb) {
   return out;
 }
 
+std::string fault_text(const CLI::ParseError& fault, const std::vector<std::string>& words) {
+  const Verb* verb = words.empty() ? nullptr : find_verb(words[0]);
+  std::string what = fault.what();
+  what = what.substr(0, what.find_last_not_of(".\n") + 1);
+  if (!verb) return "wrlkit: " + what + "; see wrlkit --help\n";
+  std::vector<std::string> options;
+  Flags unused;
+  const auto app = app_of(*verb, unused);
+  for (const auto* o : long_options(*app))
+    for (const auto& name : o->get_lnames()) options.push_back(name);
+  return option_fault(verb->name, words, options, what);
+}
+
+/// "corpus run" for "corpus-run".
+std::string with_spoken_verbs(std::string help) {
+  for (const Verb& v : verbs()) {
+    const std::string name = v.name, spoken = spoken_verb(name);
+    for (auto at = help.find(name); spoken != name && at != help.npos; at = help.find(name, at))
+      help.replace(at, name.size(), spoken);
+  }
+  return help;
+}
+
 /// One parse. Flags that CLI11 cannot set are set by the caller.
 int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
+  const auto given = words;
   std::ranges::reverse(words);
   CLI::App app(std::string(program_help), "wrlkit");
   app.set_version_flag("--version", std::string("wrlkit ") + WRLKIT_VERSION);
@@ -80,15 +105,22 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
     v.flags(*sub, flags);
     cli::common(*sub, flags);
     sub->footer(std::string("-Werror=NAME and -Wno-NAME set the severity of one message (wrlkit explain NAME), -Werror "
-                            "that of all warnings.\n\nExample:\n  ") +
+                            "that of all warnings, -Werror=lost that of all that is lost.\n\nExample:\n  ") +
                 v.example);
     sub->callback([&] { chosen = &v; });
   }
   try {
     app.parse(words);
+  } catch (const CLI::CallForHelp&) {
+    chosen = nullptr;
+    std::fputs(with_spoken_verbs(app.help()).c_str(), stdout);
+    return done;
+  } catch (const CLI::CallForVersion& e) {
+    return app.exit(e);
   } catch (const CLI::ParseError& e) {
     chosen = nullptr;
-    return app.exit(e) == 0 ? done : usage;
+    std::fputs(fault_text(e, given).c_str(), stderr);
+    return usage;
   }
   for (auto* sub : app.get_subcommands()) {
     flags.given = given_options(*sub);
@@ -124,7 +156,7 @@ bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& 
   Flags unused;
   const auto app = app_of(verb, unused);
   std::erase_if(recipe->options, [&](const auto& o) {
-    return !app->get_option_no_throw("--" + o.first) ||
+    return !app->get_option_no_throw("--" + o.first) || o.first == "format" ||  // of a corpus run
            std::ranges::find(flags.given, o.first, &GivenOptions::value_type::first) != flags.given.end();
   });
   const auto added = words_of(recipe->options);
@@ -180,30 +212,10 @@ Flags conversion_flags(const Recipe& recipe) {
   return flags;
 }
 
-/// The verbs of `wrlkit corpus`; what it asks for without one of them.
-static int corpus_help(const std::vector<std::string>& words) {
-  const bool asked = words.size() > 1 && (words[1] == "--help" || words[1] == "-h");
-  std::string text = "wrlkit corpus: many files at once\n\n";
-  for (const Verb& v : verbs())
-    if (std::string_view(v.name).starts_with("corpus-"))
-      text += "  wrlkit corpus " + std::string(v.name).substr(7) + "\n      " + v.help + "\n";
-  text += "\n'wrlkit corpus run --help' lists the options of one.\n";
-  std::fputs(text.c_str(), asked ? stdout : stderr);
-  return asked ? done : usage;
-}
-
 int run_command_line(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const auto warnings = take_warning_flags(words);
-  if (words.size() > 1 && words[0] == "corpus" && !words[1].starts_with('-')) {
-    words[0] += "-" + words[1];
-    words.erase(words.begin() + 1);
-  }
-  if (!words.empty() && words[0] == "corpus") return corpus_help(words);
-  if (!words.empty() && !words[0].starts_with('-') && !find_verb(words[0])) {
-    std::fprintf(stderr, "wrlkit: there is no verb '%s'; see wrlkit --help\n", words[0].c_str());
-    return usage;
-  }
+  if (const auto ended = put_verb_first(words)) return *ended;
   Flags flags;
   const Verb* chosen = nullptr;
   int code = parse(words, flags, chosen);

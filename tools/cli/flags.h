@@ -42,8 +42,9 @@ struct Flags {
   std::vector<std::pair<std::string, std::vector<std::string>>> given;  // every option that was given, by name
   std::string profile;
   bool print_profile = false;
+  bool recognise = false;  // optimize, info
 
-  bool parse_only = false;  // check
+  bool parse_only = false, quick = false;  // check
 
   // corpus
   std::string format = "glb";  // ending of the outputs

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/text/nearest_name.h"
 #include "convert/formats.h"
 #include "convert/options.h"
 #include "convert/profiles.h"
@@ -10,6 +11,28 @@
 
 namespace wrlkit::cli {
 namespace {
+
+/// The name of a value as it should have been written: in any case, and units by their other names.
+template <Choice E>
+std::string forgiven(const std::string& text) {
+  std::string lower = text;
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const auto& c : choices<E>) {
+    if (c.name == text || c.name == lower) return std::string(c.name);
+    if constexpr (std::is_same_v<E, Unit>)
+      if (metres_in(text) && metres_in(text) == metres_in(c.name)) return std::string(c.name);
+  }
+  return text;
+}
+
+template <Choice E>
+std::string choice_fault(const std::string& text) {
+  E value{};
+  if (read_choice(text, value)) return "";
+  NearestName nearest(text);
+  for (const auto& c : choices<E>) nearest.consider(c.name);
+  return "'" + text + "' is not a valid value: " + choice_type<E>() + nearest.question();
+}
 
 /// Adds options that describe themselves (convert/options.h) to a verb. A number that is 0 is not set.
 struct AddOption {
@@ -28,7 +51,9 @@ struct AddOption {
     const auto read = [&field](const std::string& text) { field.read(text); };
     const auto fault = [](const std::string& text) {
       LengthOption length;
-      return length.read(text) && length.metres > 0 ? "" : "'" + text + "' is not a valid length";
+      return length.read(text) && length.metres > 0
+                 ? ""
+                 : "'" + text + "' is not a valid length: " + std::string(length_examples);
     };
     verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
         ->type_name(std::string(note.type))
@@ -40,7 +65,12 @@ struct AddOption {
     std::vector<std::string> names;
     for (const auto& c : choices<E>) names.emplace_back(c.name);
     verb.add_option_function<std::string>("--" + std::string(name), read, choice_help<E>(help))
-        ->check(CLI::IsMember(names))
+        ->transform(CLI::Validator(
+            [](std::string& text) {
+              text = forgiven<E>(text);
+              return choice_fault<E>(text);
+            },
+            "{" + CLI::detail::join(names, ",") + "}"))
         ->default_str(std::string(name_of(field)));
   }
 };
@@ -63,6 +93,14 @@ bool is_level(const std::string& s) {
   return s == "auto" || (!s.empty() && s.size() <= 3 && s.find_first_not_of("0123456789") == std::string::npos);
 }
 
+std::string memory_fault(const std::string& text) {
+  constexpr std::uint64_t least = 1 << 20;
+  const auto bytes = size_of(text);
+  if (bytes >= least) return "";
+  const bool is_number = bytes > 0 && text.find_first_not_of("0123456789.") == text.npos;
+  return "'" + text + "' is not a valid size: 800M, 8G" + (is_number ? "; did you mean " + text + "G?" : "");
+}
+
 }  // namespace
 
 void common(CLI::App& verb, Flags& f) {
@@ -78,7 +116,7 @@ void common(CLI::App& verb, Flags& f) {
   g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
   g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")
       ->type_name("SIZE")
-      ->check([](const std::string& s) { return size_of(s) ? "" : "'" + s + "' is not a valid size"; }, "", "");
+      ->check(memory_fault, "", "");
 }
 
 void input(CLI::App& verb, Flags& f) {
@@ -121,6 +159,11 @@ void light(CLI::App& verb, Flags& f) { f.save.light_fields(AddOption{verb}); }
 
 void vrml_output(CLI::App& verb, Flags& f) { f.save.text_fields(AddOption{verb}); }
 
+void files(CLI::App& verb, Flags& f) {
+  f.save.file_fields(AddOption{verb});
+  verb.get_option("--link")->excludes(verb.get_option("--embed"));
+}
+
 void small_gltf(CLI::App& verb, Flags& f) {
   f.save.size_fields(AddOption{verb});
   verb.get_option("--position-bits")->excludes(verb.get_option("--tolerance"));
@@ -147,7 +190,8 @@ void level(CLI::App& verb, Flags& f) {
 }
 
 void pictures(CLI::App& verb, Flags& f) {
-  verb.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint");
+  verb.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint")
+      ->check([](const std::string& s) { return s.empty() ? "the name of a Viewpoint is missing" : ""; }, "", "");
   verb.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
   verb.add_option("--look-at", f.look_at, "eye, target and up: nine numbers")->expected(9)->delimiter(',');
   verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")
@@ -159,6 +203,10 @@ void pictures(CLI::App& verb, Flags& f) {
   AddOption{verb}("mode", f.mode, "how it is drawn");
 }
 
+void format(CLI::App& verb, Flags& f, const std::string& help) {
+  verb.add_option("--format", f.format, help)->check(CLI::IsMember(output_kinds()))->capture_default_str();
+}
+
 void corpus_inputs(CLI::App& verb, Flags& f) {
   verb.add_option("RECIPE", f.recipe, "a recipe; see docs/recipes.md")->required();
   verb.add_option("IN", f.inputs, "folders, globs, worlds, @FILE: a list of worlds; -: such a list on standard input")
@@ -166,9 +214,7 @@ void corpus_inputs(CLI::App& verb, Flags& f) {
   verb.add_option("-o,--output", f.output, "folder for the outputs, which stand in it as the inputs in theirs")
       ->required()
       ->type_name("DIR");
-  verb.add_option("--format", f.format, "ending of the outputs")
-      ->check(CLI::IsMember(output_kinds()))
-      ->capture_default_str();
+  format(verb, f, "ending of the outputs");
   verb.add_option("--include", f.include, "of folders, only files like these: '*.wrl', 'unit_1/**'")->type_name("GLOB");
   verb.add_option("--exclude", f.exclude, "of folders, no files like these")->type_name("GLOB");
   verb.add_option("--base", f.base,

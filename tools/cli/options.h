@@ -20,6 +20,8 @@ void python(CLI::App& verb, Flags&);
 void pipeline(CLI::App& verb, Flags&);
 void light(CLI::App& verb, Flags&);
 void vrml_output(CLI::App& verb, Flags&);
+/// What becomes of files that the output refers to.
+void files(CLI::App& verb, Flags&);
 void small_gltf(CLI::App& verb, Flags&);
 /// OUT may be IN.
 void in_place(CLI::App& verb, Flags&);
@@ -27,6 +29,8 @@ void in_place(CLI::App& verb, Flags&);
 void method(CLI::App& verb, Flags&);
 void level(CLI::App& verb, Flags&);
 void pictures(CLI::App& verb, Flags&);
+/// --format: an ending without its dot.
+void format(CLI::App& verb, Flags&, const std::string& help);
 void corpus_inputs(CLI::App& verb, Flags&);
 
 }  // namespace wrlkit::cli

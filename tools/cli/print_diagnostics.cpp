@@ -68,6 +68,20 @@ std::string messages_text(const Diagnostics& diag, bool colours, bool quiet) {
   return out;
 }
 
+std::string messages_brief(const Diagnostics& diag, bool colours, bool quiet) {
+  std::string out;
+  std::set<Diag> said;
+  for (const auto& m : diag.messages()) {
+    if ((quiet && m.severity != Severity::error) || !said.insert(m.id).second) continue;
+    const auto text = message_text(m, diag.sources(), colours);
+    out += text.substr(0, text.find('\n'));
+    out += diag.count(m.id) > 1 ? fmt::format(", {} in all\n", diag.count(m.id)) : "\n";
+  }
+  return out;
+}
+
+std::string counted(std::size_t n, std::string_view what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
 std::string messages_json(const Diagnostics& diag) {
   std::string out;
   JsonOut json(out);

@@ -189,11 +189,19 @@ class Reader {
     return true;
   }
 
+  /// Whether it is about how much is done at a time, which no recipe says.
+  static bool is_of_the_run(const std::string& name) {
+    return std::ranges::any_of(options_of("corpus-run"), [&](const OptionHelp& o) { return o.name == name; });
+  }
+
   bool option(std::string_view section, const TomlNode& node) {
     const auto known = recipe_options();
     NearestName nearest(node.key);
     for (const auto& o : known) nearest.consider(o.name);
     const auto found = std::ranges::find(known, node.key, &OptionHelp::name);
+    if (found == known.end() && is_of_the_run(node.key))
+      return fail(node.key_place,
+                  fmt::format("'{}' is an option of the command line: wrlkit corpus run --{}", node.key, node.key));
     if (found == known.end()) return unknown(node, fmt::format("[{}] has no '{}'", section, node.key), nearest);
     if (auto right = recipe_section(node.key); right != section)
       return fail(node.key_place, fmt::format("'{}' belongs to [{}]", node.key, right));
@@ -201,7 +209,10 @@ class Reader {
     std::string fault;
     if (found->type == flag_type && !want(node, TomlNode::Kind::boolean)) return false;
     if (!texts(node, values)) return false;
-    if (!check_option(found->verb, node.key, values, fault)) return fail(node.place, fault);
+    if (!check_option(found->verb, node.key, values, fault)) {
+      const auto option = fmt::format("--{}: ", node.key);
+      return fail(node.place, fault.starts_with(option) ? fault.substr(option.size()) : fault);
+    }
     recipe_.options.emplace_back(node.key, std::move(values));
     return true;
   }

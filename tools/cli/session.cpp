@@ -7,6 +7,7 @@
 
 #include "base/io/output.h"
 #include "base/text/json.h"
+#include "base/text/nearest_name.h"
 #include "convert/placing.h"
 #include "tools/cli/print_diagnostics.h"
 #include "writers/named_files.h"
@@ -22,7 +23,11 @@ LoadOptions Session::load_options() {
   out.unpack_pictures = !flags_.output.empty() && flags_.output != "-";
   for (const auto& w : flags_.warnings) {
     if (apply_warning_flag(out, w)) continue;
-    fmt::print(stderr, "wrlkit: there is no message '{}' for -W{}\n", w.substr(w.find_first_of("=-") + 1), w);
+    const auto name = w.substr(w.find_first_of("=-") + 1);
+    NearestName nearest(name);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i)
+      nearest.consider(info(static_cast<Diag>(i)).name);
+    fmt::print(stderr, "wrlkit: there is no message '{}' for -W{}{}\n", name, w, nearest.question());
     good_ = false;
     break;
   }
@@ -32,6 +37,12 @@ LoadOptions Session::load_options() {
 bool apply_warning_flag(LoadOptions& options, const std::string& flag) {
   if (flag == "error") {
     options.strict = true;
+    return true;
+  }
+  if (flag == "error=lost") {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i)
+      if (const auto each = static_cast<Diag>(i); info(each).severity == Severity::lost)
+        options.severities.emplace_back(each, Severity::error);
     return true;
   }
   const bool error = flag.starts_with("error=");
@@ -83,7 +94,9 @@ int Session::end(bool made) {
     for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);
   if (flags_.stats)
     for (auto& [name, n] : context().stats) fmt::print(stderr, "{:>12}  {}\n", n, name);
-  std::fputs(messages_text(diag(), isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
+  std::fflush(stdout);  // what it is about stands before the messages
+  const auto text = brief_ ? messages_brief : messages_text;
+  std::fputs(text(diag(), isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
   if (!flags_.report.empty() && !write_report(code)) return usage;
   return code;
 }

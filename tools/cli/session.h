@@ -39,6 +39,8 @@ class Session {
   void fact(std::string name, std::string json) { facts_.emplace_back(std::move(name), std::move(json)); }
 
   int exit_code(bool made) const { return !made ? nothing : document_.diag().has_errors() ? partly : done; }
+  /// Messages are printed as a line for each kind, unless --verbose says more.
+  void be_brief() { brief_ = !flags_.verbose; }
   /// Prints the messages, writes the report and gives the exit code. `made`: there is an output.
   int end(bool made);
 
@@ -48,7 +50,7 @@ class Session {
 
   const Flags& flags_;
   ThreadLimit threads_;
-  bool good_ = true;
+  bool good_ = true, brief_ = false;
   Progress progress_;
   Document document_;
   std::optional<Pipeline> pipeline_;
@@ -56,7 +58,7 @@ class Session {
   std::vector<std::pair<std::string, std::string>> facts_;
 };
 
-/// What stands behind -W: "error", "error=NAME", "no-NAME". False when there is no message of that name.
+/// What stands behind -W: "error", "error=lost" (all that is lost), "error=NAME", "no-NAME". False when there is no message of that name.
 bool apply_warning_flag(LoadOptions&, const std::string& flag);
 
 /// Whole or not at all; false when not, which was printed.

@@ -17,7 +17,9 @@ constexpr Verb all_verbs[] = {
      "wrlkit convert old.wrl.gz new.wrl -p inline,expand-protos --gzip",
      [](CLI::App& v, Flags& f) {
        input(v, f);
-       v.add_option("OUT", f.output, "the output; its name ends in " + output_endings_text())->required();
+       v.add_option("OUT", f.output, "the output; its name ends in " + output_endings_text() + "; - is standard output")
+           ->required();
+       format(v, f, "format of standard output, and of an output whose name has no ending");
        pipeline(v, f);
        v.add_option("--recipe", f.recipe,
                     "passes and options from a recipe, as far as they are not given here; see docs/recipes.md")
@@ -27,6 +29,7 @@ constexpr Verb all_verbs[] = {
        small_gltf(v, f);
        placing(v, f);
        vrml_output(v, f);
+       files(v, f);
        in_place(v, f);
      },
      run_convert},
@@ -40,21 +43,33 @@ constexpr Verb all_verbs[] = {
        v.get_option("IN")->required(false);
        v.add_option("OUT", f.output, "file.glb or .gltf");
        v.add_flag("--print-profile", f.print_profile, "print what the profile chooses, and end");
+       v.add_flag("--recognise", f.recognise,
+                  "parts that are cylinders, boxes, elbows and the like share one of unit size; round walls become "
+                  "smooth; see wrlkit passes recognise");
        pipeline(v, f);
        small_gltf(v, f);
+       for (const char* name : {"--compress", "--extras", "--texture-format", "--names"})
+         v.get_option(name)->default_str("as the profile");
+       v.get_option("--profile")->default_str("three");
+       files(v, f);
        placing(v, f);
        in_place(v, f);
      },
      run_optimize},
-    {"info", "what is inside: nodes, triangles, bounds, textures, lights", "wrlkit info plant.wrl --json",
+    {"info", "what is inside: nodes, triangles, bounds, textures, lights",
+     "wrlkit info plant.wrl --json\n  wrlkit info plant.wrl --recognise\n  wrlkit info plant/",
      [](CLI::App& v, Flags& f) {
-       input(v, f);
+       v.add_option("IN", f.inputs, "worlds, and folders of worlds; - is standard input")->required();
+       v.add_flag("--recognise", f.recognise,
+                  "what the parts are, too: how many cylinders, boxes, elbows and the like, and their share of the "
+                  "triangles; see wrlkit passes recognise");
        placing(v, f);
      },
      run_info},
-    {"check", "faults and doubtful places of worlds", "wrlkit check *.wrl",
+    {"check", "faults and doubtful places of worlds", "wrlkit check *.wrl\n  wrlkit check old/ --quick",
      [](CLI::App& v, Flags& f) {
-       v.add_option("IN", f.inputs, "worlds")->required();
+       v.add_option("IN", f.inputs, "worlds, and folders of worlds; - is standard input")->required();
+       v.add_flag("--quick", f.quick, "without geometry and pictures");
        v.add_flag("--parse-only", f.parse_only, "only read them: no values checked, no Inlines followed");
      },
      run_check},
@@ -64,6 +79,7 @@ constexpr Verb all_verbs[] = {
        v.add_option("-o,--output", f.output, "file instead of standard output");
        pipeline(v, f);
        vrml_output(v, f);
+       files(v, f);
      },
      run_cat, ".wrl .wrz .wrl.gz .vrml"},
     {"diff",
@@ -148,6 +164,7 @@ constexpr Verb all_verbs[] = {
            ->capture_default_str();
        pipeline(v, f);
        vrml_output(v, f);
+       files(v, f);
      },
      run_simplify},
     {"compare-lod", "what each criterion makes of a world: a page of errors, times and pictures, or one picture of all",

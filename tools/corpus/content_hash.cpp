@@ -34,7 +34,7 @@ std::optional<ContentHash> hash_of_file(const std::string& path) {
     const auto piece = std::make_unique_for_overwrite<char[]>(
         size);  // a worker that clears it would spend more on that than on most files
     ssize_t got = 0;
-    while ((got = read(fd, piece.get(), size)) > 0)
+    while ((got = ::read(fd, piece.get(), size)) > 0)
       XXH3_128bits_update(state.get(), piece.get(), static_cast<std::size_t>(got));
     if (got == 0) hash = of(XXH3_128bits_digest(state.get()));
   }

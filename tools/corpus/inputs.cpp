@@ -63,6 +63,7 @@ class Gatherer {
   Inputs take() {
     // Named twice, it is still one file.
     std::ranges::stable_sort(out_.files, {}, &InputFile::path);
+    std::ranges::sort(out_.left_out);
     auto same = [](const InputFile& a, const InputFile& b) { return a.path == b.path; };
     out_.files.erase(std::unique(out_.files.begin(), out_.files.end(), same), out_.files.end());
     return std::move(out_);
@@ -131,7 +132,6 @@ class Gatherer {
     fs::recursive_directory_iterator i(path, fs::directory_options::follow_directory_symlink, fault), end;
     if (fault) return fail("cannot read the folder '" + path + "': " + fault.message());
     std::vector<Identity> above{identity(path)};  // of the folders that lead to where the iterator is
-    std::string entered = path;
     for (; i != end; i.increment(fault)) {
       const auto name = i->path().filename().string();
       std::error_code none;
@@ -148,8 +148,10 @@ class Gatherer {
         if (std::ranges::find(above, folder) != above.end())
           i.disable_recursion_pending();  // a symbolic link that leads back
         above.push_back(folder);
-        entered = i->path().string();
+        if (!can_be_read(i->path())) i.disable_recursion_pending();
       }
+      if (i->is_symlink(none) && !fs::exists(i->path(), none) && is_scene_name(name))
+        out_.left_out.push_back("'" + i->path().string() + "' is a link to a file that is not there");
       if (is_folder || !i->is_regular_file(none)) continue;
       auto inside = i->path().lexically_relative(path).string();
       const bool is_world = is_scene_name(name),
@@ -160,7 +162,14 @@ class Gatherer {
         add(i->path(), std::move(inside), at, rules_.assets, false);
     }
     return !fault ||
-           fail("cannot read the folder '" + entered + "': " + fault.message());  // nothing is left out in silence
+           fail("cannot read the folder '" + path + "': " + fault.message());  // nothing is left out in silence
+  }
+
+  bool can_be_read(const fs::path& folder) {
+    std::error_code fault;
+    const fs::directory_iterator begun(folder, fault);
+    if (fault) out_.left_out.push_back("cannot read the folder '" + folder.string() + "': " + fault.message());
+    return !fault;
   }
 
   bool wanted(const std::string& inside) const {
@@ -195,6 +204,25 @@ std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const
   for (const auto& w : words)
     if (!gatherer.word(w)) return std::nullopt;
   return gatherer.take();
+}
+
+std::optional<std::vector<std::string>> worlds_in(const std::vector<std::string>& words, std::string& why) {
+  std::vector<std::string> out;
+  for (const auto& word : words) {
+    std::error_code none;
+    if (!fs::is_directory(word, none)) {
+      out.push_back(word);
+      continue;
+    }
+    const auto inputs = gather_inputs({word}, {}, why);
+    if (!inputs) return std::nullopt;
+    if (inputs->files.empty()) {
+      why = "there are no worlds in '" + word + "'";
+      return std::nullopt;
+    }
+    for (const auto& file : inputs->files) out.push_back(file.path);
+  }
+  return out;
 }
 
 bool glob_matches(const std::string& glob, const std::string& path) {

@@ -25,13 +25,17 @@ struct InputRules {
 };
 
 struct Inputs {
-  std::vector<std::string> roots;  // folders; files below them may refer to all that is there
-  std::vector<InputFile> files;    // by path, each once
+  std::vector<std::string> roots;     // folders; files below them may refer to all that is there
+  std::vector<InputFile> files;       // by path, each once
+  std::vector<std::string> left_out;  // folders that cannot be read and links that lead nowhere, as sentences
 };
 
 /// "plant/", "plant/**/*.wrl", "@list.txt", "-" (a list on standard input), "pump.wrl". In folders and globs only what
 /// has the ending of a world counts, and nothing that is hidden. Nothing, and why, when something named is not there.
 std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const InputRules& rules, std::string& why);
+
+/// Files as they are, folders as the worlds in them; for verbs of few worlds. Nothing, and why, when a folder has none.
+std::optional<std::vector<std::string>> worlds_in(const std::vector<std::string>& words, std::string& why);
 
 /// Whether a path below some folder is meant by a glob: "*" within a name, "**" across folders; without "/" it is about
 /// the last name alone.

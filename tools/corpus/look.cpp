@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int width = 160, height = 120, quality = 80;
+constexpr int thumbnail_width = 160, thumbnail_height = 120, quality = 80;
 constexpr std::uint64_t most_bytes = 1 << 20;
 
 /// A picture from the given place, or from the world's own, which is then the place for the next.
@@ -65,7 +65,7 @@ bool make_look(const Flags& flags, const std::string& out, const JournalLine& li
   const auto d = difference(std::move(*facts_a), std::move(*facts_b));
   constexpr double none = std::numeric_limits<double>::infinity();
   const bool both_empty = d.a.geometry.triangles == 0 && d.b.geometry.triangles == 0;
-  RenderOptions place{.width = width, .height = height, .samples = 2};
+  RenderOptions place{.width = thumbnail_width, .height = thumbnail_height, .samples = 2};
   Session before(of_input), after(of_output);
   std::string text;
   JsonOut json(text);

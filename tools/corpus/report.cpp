@@ -28,7 +28,9 @@ void count_messages(const JournalLine& line, ReportRow& row, std::map<std::strin
     if (kind.files == 0) {
       kind.name = m["name"].text();
       kind.severity = severity;
-      kind.example = fmt::format("{}:{}: {}", m["file"].text(), m["line"].whole().value_or(0), m["text"].text());
+      const auto line_number = m["line"].whole().value_or(0);
+      kind.example = fmt::format("{}{}: {}", m["file"].text().empty() ? line.input : m["file"].text(),
+                                 line_number ? fmt::format(":{}", line_number) : "", m["text"].text());
     }
     kind.files += 1;
     kind.times += times;

@@ -24,7 +24,7 @@ class Page {
   explicit Page(const CorpusReport& r) : r_(r) {}
 
   std::string write() {
-    out_ += report_begin(r_.out);
+    out_ += report_begin("Corpus run: " + r_.out);
     figures();
     changes();
     failures();
@@ -96,15 +96,21 @@ class Page {
     return rows;
   }
 
+  static double distance(const ReportRow& r) {
+    return r.look && r.look->of_diagonal > rounding ? r.look->of_diagonal : 0;
+  }
+
   void deviations() {
     const auto looked = std::ranges::count_if(r_.rows, [](const ReportRow& r) { return r.look.has_value(); });
     if (!looked) return;
-    put("<h2>Farthest from what they were</h2>\n<p>{} worlds were measured and drawn, before and after: the distance "
-        "of their surfaces as the root of the mean square, in metres and as a share of the diagonal.</p>\n<div "
-        "class=\"looks\">\n",
-        looked);
-    for (const auto* r :
-         largest([](const ReportRow& r) { return r.look && r.look->of_diagonal > rounding ? r.look->of_diagonal : 0; }))
+    const auto made = std::ranges::count_if(r_.rows, [](const ReportRow& r) { return is_made(r.state); });
+    const auto moved = std::ranges::count_if(r_.rows, [](const ReportRow& r) { return distance(r) > 0; });
+    const auto shown = largest(distance);
+    put("<h2>How far surfaces are from the input</h2>\n<p>{} of {} worlds that were made were measured and drawn, "
+        "before and after (--looks), the first by name; {} of them differ{}. The distance is the root of the mean "
+        "square, in metres and as a share of the diagonal.</p>\n<div class=\"looks\">\n",
+        looked, made, moved, shown.empty() ? "" : fmt::format(", and the {} farthest are shown", shown.size()));
+    for (const auto* r : shown)
       put("<figure><div data-look=\"{}\"></div><figcaption>{}<br><span "
           "class=\"soft\">{}</span></figcaption></figure>\n",
           look_index(*r), xml_text(r->input),

@@ -71,6 +71,7 @@ bool is_input_folder(const CorpusPlan& plan, const std::string& out) {
 
 struct Planned {
   CorpusPlan plan;
+  std::vector<std::string> left_out;
   Shard shard;
 };
 
@@ -95,9 +96,12 @@ std::optional<Planned> plan_of(const Flags& flags, bool assets) {
                               why);
   if (!inputs) return fail();
   if (inputs->files.empty()) {
+    for (const auto& fault : inputs->left_out) fmt::print(stderr, "wrlkit: {}\n", fault);
     why = "there are no worlds among the inputs";
     return fail();
   }
+  p.left_out = std::move(inputs->left_out);
+  for (const auto& fault : p.left_out) fmt::print(stderr, "wrlkit: {}\n", fault);
   auto plan = plan_corpus(std::move(*inputs), flags.format, p.shard.count, why);
   if (!plan) return fail();
   p.plan = std::move(*plan);
@@ -114,6 +118,7 @@ class Run {
       : flags_(flags),
         work_(work),
         plan_(planned.plan),
+        complete_(planned.left_out.empty()),
         journal_(std::move(journal)),
         before_(work, plan_),
         host_(host_name()) {
@@ -157,10 +162,9 @@ class Run {
       return nothing;
     }
     journal_.settle();
-    if (!Workers::interrupted()) status.end();
-    return status.n_made() == 0 && status.n_done() > 0   ? nothing
-           : status.n(JobState::made) == status.n_done() ? done
-                                                         : partly;
+    if (!Workers::interrupted()) status.end(work_.out);
+    if (status.n_made() == 0 && status.n_done() > 0) return nothing;
+    return complete_ && status.n(JobState::made) == status.n_done() ? done : partly;
   }
 
  private:
@@ -301,6 +305,7 @@ class Run {
                      : line.state == JobState::made_partly ? partly
                      : line.state == JobState::failed      ? nothing
                                                            : exit_code;
+    if (line.state == JobState::made_partly) status_->count_errors(line.messages);
     log(line, code, signal);
     status_->add(line.state, job.cost, false);
   }
@@ -363,6 +368,7 @@ class Run {
   const Flags& flags_;
   const CorpusWork& work_;
   const CorpusPlan& plan_;
+  bool complete_;  // nothing of the inputs was left out
   Journal journal_;
   DoneBefore before_;
   std::string host_;

@@ -4,8 +4,14 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <set>
 #include <utility>
+
+#include "base/text/json_reader.h"
+#include "base/text/utf8.h"
 
 namespace wrlkit {
 namespace {
@@ -15,6 +21,18 @@ std::string time_text(double seconds) {
   return s < 100    ? fmt::format("{} s", s)
          : s < 6000 ? fmt::format("{} min", (s + 30) / 60)
                     : fmt::format("{}:{:02} h", s / 3600, s % 3600 / 60);
+}
+
+/// Without what would move the cursor of a terminal or change its colours.
+std::string printable(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const auto length = utf8_sequence(text);
+    const bool shows = length > 0 && static_cast<unsigned char>(text[0]) >= ' ' && text[0] != 0x7f;
+    out += shows ? text.substr(0, length) : "?";
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out;
 }
 
 /// Of the terminal, less the place of the cursor.
@@ -47,7 +65,8 @@ void CorpusStatus::add(JobState state, double cost, bool again) {
 
 void CorpusStatus::failed(const std::string& input, const std::string& cause) {
   clear();
-  fmt::print(stderr, "{}: {}\n", input, cause);
+  const auto text = cause.starts_with(input + ":") ? cause : input + ": " + cause;
+  fmt::print(stderr, "{}\n", printable(text));
 }
 
 void CorpusStatus::clear() {
@@ -77,13 +96,32 @@ void CorpusStatus::show(const std::vector<std::string>& now) {
 
 CorpusStatus::~CorpusStatus() { clear(); }
 
-void CorpusStatus::end() {
+void CorpusStatus::count_errors(const std::string& messages) {
+  JsonDocument doc;
+  if (doc.parse(messages)) return;
+  std::set<std::string_view> names;
+  for (auto m : doc.root())
+    if (m["severity"].text() == "error") names.insert(m["name"].text());
+  for (auto name : names) ++errors_[std::string(name)];
+}
+
+void CorpusStatus::end(const std::string& out) {
   clear();
-  if (!quiet_) fmt::print(stderr, "{}", summary());
+  if (!quiet_) fmt::print(stderr, "{}{}", summary(), lacking(out));
+}
+
+std::string CorpusStatus::lacking(const std::string& out) const {
+  if (n(JobState::made_partly) == 0) return "";
+  std::vector<std::pair<std::size_t, std::string>> sorted;
+  for (const auto& [name, files] : errors_) sorted.emplace_back(files, name);
+  std::ranges::stable_sort(sorted, std::greater{}, &std::pair<std::size_t, std::string>::first);
+  std::string list;
+  for (const auto& [files, name] : sorted) list += fmt::format("{}{} in {}", list.empty() ? "" : ", ", name, files);
+  return fmt::format("not complete: {}'wrlkit corpus report {}' lists them\n", list.empty() ? "" : list + "; ", out);
 }
 
 std::string CorpusStatus::summary() const {
-  auto line = fmt::format("{} files: {} made", done_, n_made());
+  auto line = fmt::format("{} file{}: {} made", done_, done_ == 1 ? "" : "s", n_made());
   const auto part = [&](std::size_t n, std::string_view what) {
     if (n) line += fmt::format(", {} {}", n, what);
   };

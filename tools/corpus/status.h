@@ -2,6 +2,7 @@
 // said at once.
 #pragma once
 #include <chrono>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,10 @@ class CorpusStatus {
   void failed(const std::string& input, const std::string& cause);
   /// Says how far it is when it is time to.
   void show(const std::vector<std::string>& now);
-  /// The last line: what became of all files.
-  void end();
+  /// Of a file that was made without all that is in it; JSON, as --report has them.
+  void count_errors(const std::string& messages);
+  /// The last lines: what became of all files, and what the outputs lack.
+  void end(const std::string& out);
 
   std::size_t n(JobState s) const { return states_[static_cast<std::size_t>(s)]; }
   std::size_t n_made() const { return n(JobState::made) + n(JobState::made_partly); }
@@ -31,8 +34,10 @@ class CorpusStatus {
   using Clock = std::chrono::steady_clock;
   void clear();
   std::string summary() const;
+  std::string lacking(const std::string& out) const;
 
   std::size_t files_, done_ = 0, before_ = 0, states_[6] = {};
+  std::map<std::string, std::size_t> errors_;   // files, by the name of the message
   double cost_, done_cost_ = 0, cost_now_ = 0;  // now: without what was done before
   bool quiet_, terminal_, shown_ = false;
   Clock::time_point start_ = Clock::now(), last_ = start_;

@@ -38,7 +38,7 @@ std::uint64_t address_space() {
 
 void write_all(int fd, std::string_view text) {
   while (!text.empty()) {
-    const auto n = write(fd, text.data(), text.size());
+    const auto n = ::write(fd, text.data(), text.size());
     if (n < 0 && errno != EINTR) return;
     if (n > 0) text.remove_prefix(static_cast<std::size_t>(n));
   }

@@ -14,7 +14,7 @@
 namespace wrlkit {
 namespace {
 
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 class Page {
  public:
@@ -61,7 +61,7 @@ class Page {
     chart("Distance, root of the mean square", "", [](const InteractionPoint& p) { return p.rms; });
     chart("Distance, largest", "", [](const InteractionPoint& p) { return p.error; });
     chart("Angle between normals, mean, in degrees", "degrees",
-          [](const InteractionPoint& p) { return degrees(p.normals); });
+          [](const InteractionPoint& p) { return in_degrees(p.normals); });
     chart("Time, in seconds", "s", [](const InteractionPoint& p) { return p.seconds; });
     put("</div>\n");
   }
@@ -100,7 +100,7 @@ class Page {
       for (const auto& p : criterion.points)
         put("<tr><td "
             "class=\"text\">{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.2g}</td><td>{:.3f}</td></tr>\n",
-            xml_text(criterion.name), p.n_faces, p.rms, p.error, degrees(p.normals), p.seconds);
+            xml_text(criterion.name), p.n_faces, p.rms, p.error, in_degrees(p.normals), p.seconds);
     out_ += table_end();
   }
 

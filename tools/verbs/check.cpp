@@ -4,24 +4,42 @@
 
 #include "base/text/json.h"
 #include "convert/hidden_geometry.h"
+#include "convert/world_meshes.h"
+#include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
+#include "scenegraph/walk.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
+#include "tools/corpus/inputs.h"
 
 namespace wrlkit {
 namespace {
+
+/// Pictures are decoded and geometry is cut into triangles, as for a conversion.
+void check_contents(Session& s) {
+  const WorldMeshes meshes(s.document());
+  if (!meshes.good()) return;
+  const Scene& scene = s.world().scene;
+  for (NodeId n : reachable(scene, scene.main)) {
+    if (scene.is(n, nodes::X3DGeometryNode)) meshes.triangles(n);
+    if (scene.is(n, nodes::ImageTexture))
+      s.resources().image(scene.get(n, nodes::image_texture::url), scene.where(n), s.diag());
+  }
+}
 
 /// Inlines and prototypes are followed, so that what is missing there is said.
 void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
   report_hidden_geometry(s.world().scene, s.diag());
+  if (!s.flags().quick) return check_contents(s);
   std::string why;
   if (auto p = Pipeline::parse("lower-vrml1,expand", why)) p->run(s.world().scene, s.context());
 }
 
 void print_text(const std::string& path, const Diagnostics& d) {
   fmt::print("{}", messages_text(d, isatty(STDOUT_FILENO) != 0, false));
-  fmt::print("{}: {} errors, {} warnings\n", path, d.count(Severity::error), d.count(Severity::warning));
+  fmt::print("{}: {}, {}\n", path, counted(d.count(Severity::error), "error"),
+             counted(d.count(Severity::warning), "warning"));
 }
 
 std::string json_of(const std::string& path, const Diagnostics& d, bool readable) {
@@ -42,8 +60,13 @@ std::string json_of(const std::string& path, const Diagnostics& d, bool readable
 
 int run_check(const Flags& flags) {
   std::size_t unreadable = 0, faulty = 0;
-  std::string json;
-  for (const auto& path : flags.inputs) {
+  std::string json, why;
+  const auto inputs = worlds_in(flags.inputs, why);
+  if (!inputs) {
+    fmt::print(stderr, "wrlkit check: {}\n", why);
+    return usage;
+  }
+  for (const auto& path : *inputs) {
     Flags one = flags;
     one.inputs = {path};
     Session s(one);
@@ -58,7 +81,7 @@ int run_check(const Flags& flags) {
   }
   if (flags.json) fmt::print("{}]\n", json);
   if (!flags.report.empty() && !write_text_file(flags.report, json + "]\n")) return usage;
-  return unreadable == flags.inputs.size() ? nothing : faulty ? partly : done;
+  return unreadable == inputs->size() ? nothing : faulty ? partly : done;
 }
 
 }  // namespace wrlkit

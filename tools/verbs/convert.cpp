@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "base/text/nearest_name.h"
 #include "convert/convert.h"
 #include "convert/hidden_geometry.h"
 #include "convert/profiles.h"
@@ -15,22 +19,65 @@
 
 namespace wrlkit {
 
+namespace {
+
+bool is_given(const Flags& flags, std::string_view name) {
+  return std::ranges::find(flags.given, name, &GivenOptions::value_type::first) != flags.given.end();
+}
+
+/// The ending of the name decides; --format where it has none.
+std::optional<Output> output_of(const Flags& flags, const SaveOptions& options) {
+  auto named = output_of(flags.output, options);
+  if (!is_given(flags, "format") || (named && flags.output != "-")) return named;
+  auto to = output_of("x." + flags.format, options);
+  if (to) to->path = flags.output;
+  return to;
+}
+
+std::string no_format(const std::string& output) {
+  for (const auto& format : formats())
+    if (format.parsed != Format::none && !format.write && !ending_of(output, endings_of(format)).empty())
+      return fmt::format("'{}': {} can be read, not written; its name should end in {}", output, format.name,
+                         output_endings_text());
+  const auto dot = output.rfind('.');
+  NearestName nearest(dot == output.npos ? std::string_view() : std::string_view(output).substr(dot));
+  for (auto ending : output_endings()) nearest.consider(ending);
+  return fmt::format("'{}': its name should end in {}{}", output, output_endings_text(), nearest.question());
+}
+
+/// Names of options that have no effect on such an output, of those that were given.
+std::vector<std::string> idle_options(const Flags& flags, const Output& to) {
+  std::vector<std::string> names;
+  const auto add = [&](std::string_view name, auto&&...) {
+    if (is_given(flags, name)) names.emplace_back(name);
+  };
+  SaveOptions options;
+  if (to.format->is_text) {
+    options.light_fields(add);
+    options.size_fields(add);
+    add("profile");
+  } else {
+    options.text_fields(add);
+  }
+  return names;
+}
+
+}  // namespace
+
 SaveOptions save_options(const Flags& flags) {
   SaveOptions out = flags.save;
   if (flags.pipeline_given) out.pipeline = flags.pipeline;
-  const auto is_given = [&](std::string_view name) {
-    return std::ranges::find(flags.given, name, &GivenOptions::value_type::first) != flags.given.end();
-  };
-  if (const Profile* profile = find_profile(flags.profile)) apply_profile(out, *profile, is_given);
+  if (const Profile* profile = find_profile(flags.profile))
+    apply_profile(out, *profile, [&](std::string_view name) { return is_given(flags, name); });
   return out;
 }
 
 bool prepare_conversion(Session& s) {
   const auto& flags = s.flags();
   const auto options = save_options(flags);
-  const auto to = output_of(flags.output, options);
+  const auto to = output_of(flags, options);
   if (!to) {
-    fmt::print(stderr, "wrlkit: '{}': what format is that? See wrlkit formats\n", flags.output);
+    fmt::print(stderr, "wrlkit: {}\n", no_format(flags.output));
     return false;
   }
   return s.good() && s.choose_pipeline(to->format->pipeline(options));
@@ -46,7 +93,7 @@ bool read_input(Session& s) {
 
 Saved write_world(Session& s, SaveOptions options, const std::function<void(Scene&)>& last) {
   options.measure_gzip |= s.flags().verbose || s.flags().json;
-  const auto to = output_of(s.flags().output, options);
+  const auto to = output_of(s.flags(), options);
   auto saved = write_document(s.document(), s.pipeline(), *to, options, {s.pipeline_options(), last});
   if (saved && saved.gltf) s.fact("gltf", summary_json(*saved.gltf));
   return saved;
@@ -63,6 +110,9 @@ int run_convert(const Flags& flags) {
     fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline()));
     return done;
   }
+  if (!flags.quiet)
+    for (const auto& name : idle_options(flags, *output_of(flags, save_options(flags))))
+      fmt::print(stderr, "wrlkit: --{} has no effect on {} output\n", name, output_of(flags, {})->format->name);
   Backup backup(flags);
   if (!backup.why_not().empty()) {
     fmt::print(stderr, "wrlkit: --in-place: {}\n", backup.why_not());

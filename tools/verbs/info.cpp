@@ -8,6 +8,7 @@
 #include "base/text/json.h"
 #include "parsers/patches/patches.h"
 #include "tools/cli/session.h"
+#include "tools/corpus/inputs.h"
 #include "tools/verbs/patches_info.h"
 
 namespace wrlkit {
@@ -34,6 +35,40 @@ void write_textures(JsonOut& json, const std::vector<TextureInfo>& textures) {
     json.end_object();
   }
   json.end_array();
+}
+
+std::uint64_t n_forms(const FormsCensus& f) {
+  std::uint64_t out = 0;
+  for (auto& [kind, n] : f.parts) out += n;
+  return out;
+}
+
+/// Of all triangles.
+double share_of_forms(const Info& i) {
+  const auto all = static_cast<double>(std::max<std::uint64_t>(i.geometry.triangles, 1));
+  return std::clamp(1 - static_cast<double>(i.forms->triangles_left) / all, 0.0, 1.0);
+}
+
+void write_forms(JsonOut& json, const Info& i) {
+  json.key("forms");
+  json.begin_object();
+  json.member("count", n_forms(*i.forms));
+  json.key("kinds");
+  json.begin_object();
+  for (auto& [kind, n] : i.forms->parts) json.member(kind, n);
+  json.end_object();
+  json.member("triangles_left", i.forms->triangles_left);
+  json.member("share", share_of_forms(i));
+  json.member("residual", i.forms->residual);
+  json.end_object();
+}
+
+std::string forms_text(const Info& i) {
+  if (i.forms->parts.empty()) return "  forms: none\n";
+  std::string kinds;
+  for (auto& [kind, n] : i.forms->parts) kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", kind, n);
+  return fmt::format("  forms {}, {:.1f} % of the triangles, within {:.2g} mm: {}\n", n_forms(*i.forms),
+                     100 * share_of_forms(i), 1000 * i.forms->residual, kinds);
 }
 
 }  // namespace
@@ -68,6 +103,7 @@ std::string info_json(const std::string& file, const Info& i, const Diagnostics&
   json.member("scripts", i.scripts);
   json.member("inlines", i.inlines);
   json.member("names", i.names);
+  if (i.forms) write_forms(json, i);
   json.key("diagnostics");
   json.begin_object();
   json.member("error", diag.count(Severity::error));
@@ -80,6 +116,15 @@ std::string info_json(const std::string& file, const Info& i, const Diagnostics&
 
 namespace {
 
+/// Kilometres are seldom meant.
+std::string unit_hint(const Box& b) {
+  constexpr double wide = 2000;
+  double longest = 0;
+  for (std::size_t i = 0; i < 3 && !b.empty(); ++i) longest = std::max(longest, b.high[i] - b.low[i]);
+  if (longest < wide) return "";
+  return fmt::format("  {:.6g} m is wide: if the unit is another one, say so (--unit mm, --unit in)\n", longest);
+}
+
 std::string info_text(const std::string& file, const Info& i) {
   const auto& b = i.geometry.bounds;
   std::string out = fmt::format("{}: {}{}, {} bytes\n", file, to_string(i.format), i.gzip ? " (gzip)" : "", i.bytes);
@@ -89,6 +134,7 @@ std::string info_text(const std::string& file, const Info& i) {
     out += fmt::format("  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}: {:.6g} x {:.6g} x {:.6g} m\n", b.low[0],
                        b.low[1], b.low[2], b.high[0], b.high[1], b.high[2], b.high[0] - b.low[0], b.high[1] - b.low[1],
                        b.high[2] - b.low[2]);
+  out += unit_hint(b);
   out += fmt::format("  materials {}, textures {}, lights {}, viewpoints {}, LODs {}\n", i.materials, i.textures.size(),
                      i.lights, i.viewpoints, i.lods);
   out += fmt::format("  names {}, prototypes {}, routes {}, scripts {}, inlines {}, animations {}\n", i.names, i.protos,
@@ -100,6 +146,7 @@ std::string info_text(const std::string& file, const Info& i) {
   out += "  nodes:";
   for (auto& [n, name] : types) out += fmt::format(" {} {}", n, name);
   out += "\n";
+  if (i.forms) out += forms_text(i);
   for (auto& t : i.textures)
     out += t.found ? fmt::format("  texture {} {} x {}\n", t.url.empty() ? "in the file" : t.url, t.width, t.height)
                    : fmt::format("  texture {} is missing\n", t.url);
@@ -108,17 +155,46 @@ std::string info_text(const std::string& file, const Info& i) {
 
 }  // namespace
 
-int run_info(const Flags& flags) {
+namespace {
+
+int info_of_one(const Flags& flags) {
   Session s(flags);
   if (!s.good()) return usage;
+  s.be_brief();
   const auto file = read_file(flags.inputs[0], {}, s.diag());
   if (file && is_patch_file(file->view())) return print_patches_info(s, *file);
   if (!file || !s.document().read(flags.inputs[0], *file)) return s.end(false);
-  const auto made = info(std::move(s.document()));
+  const auto made = info(std::move(s.document()), {flags.recognise});
   s.progress().clear();
   if (made && flags.json) fmt::print("{}\n", info_json(flags.inputs[0], *made, s.diag()));
   if (made && !flags.json) fmt::print("{}", info_text(flags.inputs[0], *made));
   return s.end(made.has_value());
+}
+
+}  // namespace
+
+int run_info(const Flags& flags) {
+  std::string why;
+  const auto inputs = worlds_in(flags.inputs, why);
+  if (!inputs) {
+    fmt::print(stderr, "wrlkit info: {}\n", why);
+    return usage;
+  }
+  if (inputs->size() > 1 && !flags.report.empty()) {
+    fmt::print(stderr, "wrlkit info: --report is about one world\n");
+    return usage;
+  }
+  std::size_t unreadable = 0;
+  int worst = done;
+  for (const auto& path : *inputs) {
+    Flags one = flags;
+    one.inputs = {path};
+    const int code = info_of_one(one);
+    if (code == usage) return code;
+    unreadable += code == nothing;
+    worst = std::max(worst, code == nothing ? static_cast<int>(partly) : code);
+  }
+  return unreadable == inputs->size() ? static_cast<int>(nothing) : worst;
 }
 
 }  // namespace wrlkit

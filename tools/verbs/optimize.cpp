@@ -57,7 +57,7 @@ int run_optimize(const Flags& given) {
     return usage;
   }
   if (!flags.pipeline_given) {
-    flags.pipeline = profile->pipeline;
+    flags.pipeline = flags.recognise ? recognising(*profile) : std::string(profile->pipeline);
     flags.pipeline_given = true;
   }
   Session s(flags);

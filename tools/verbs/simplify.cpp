@@ -60,7 +60,9 @@ std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
 
 bool write_world(Session& s, const std::string& path, const Scene& scene) {
   Saved saved;
-  return write_vrml_file({scene, {}, s.context(), s.flags().save, *output_of(path), nullptr, saved});
+  SaveOptions options = s.flags().save;
+  options.files_folder = "files";  // that all of the worlds refer to
+  return write_vrml_file({scene, {}, s.context(), options, *output_of(path), nullptr, saved});
 }
 
 /// The world as one progressive file in place of many.

@@ -26,9 +26,9 @@ std::optional<std::uint16_t> slot_of(const Scene& scene, NodeId n, Path p) {
   return std::nullopt;
 }
 
-Sample quaternion_of(const std::vector<double>& v) { return {v[0], v[1], v[2], v[3]}; }
+Sample sample_of(const std::vector<double>& v) { return {v[0], v[1], v[2], v[3]}; }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
+double inner_product(const std::vector<double>& a, const std::vector<double>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
@@ -40,10 +40,10 @@ std::vector<Frame> continuous(const std::vector<Frame>& in) {
   for (Frame f : in) {
     if (!out.empty()) {
       const Frame last = out.back();
-      if (dot(last.value, f.value) < 0)
+      if (inner_product(last.value, f.value) < 0)
         for (double& v : f.value) v = -v;
-      if (dot(last.value, f.value) < distant && f.at > last.at) {
-        const Sample middle = mix(quaternion_of(last.value), quaternion_of(f.value), 0.5, true);
+      if (inner_product(last.value, f.value) < distant && f.at > last.at) {
+        const Sample middle = mix(sample_of(last.value), sample_of(f.value), 0.5, true);
         out.push_back({(last.at + f.at) / 2, {middle.begin(), middle.end()}});
       }
     }

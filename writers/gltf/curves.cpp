@@ -9,7 +9,7 @@
 namespace wrlkit::gltf {
 namespace {
 
-double dot(const Sample& a, const Sample& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
+double sample_dot(const Sample& a, const Sample& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
 /// Hue in sixths of the circle, saturation, value.
 std::array<double, 3> hsv(const Sample& c) {
@@ -75,7 +75,7 @@ std::size_t width_of(const Scene& scene, NodeId n) {
 Sample mix(const Sample& a, Sample b, double t, bool rotation) {
   double wa = 1 - t, wb = t;
   if (rotation) {
-    double c = dot(a, b);
+    double c = sample_dot(a, b);
     if (c < 0) {
       c = -c;
       b = {-b[0], -b[1], -b[2], -b[3]};

@@ -52,8 +52,13 @@ void array(JsonOut& json, std::span<const T> values) {
 
 }  // namespace
 
-Extras::Extras(const Scene& scene, bool keeps_hidden, Diagnostics& diag)
-    : scene_(scene), keeps_hidden_(keeps_hidden), diag_(diag), marks_(scene.node_count(), 0) {
+Extras::Extras(const Scene& scene, const LeadUrls& lead, bool keeps_hidden, Diagnostics& diag)
+    : scene_(scene),
+      lead_(lead),
+      url_fields_(scene),
+      keeps_hidden_(keeps_hidden),
+      diag_(diag),
+      marks_(scene.node_count(), 0) {
   name_what_is_referred_to();
 }
 
@@ -128,7 +133,7 @@ bool Extras::speaks(NodeId n, const Value& v, Said said) const {
   if (scene_.is_extra(v)) return true;
   if (std::ranges::find(said, v.slot) != said.end()) return false;
   const auto& t = scene_.type(n);
-  if (t.fields[v.slot].is_own()) return false;
+  if (!own_fields_ && t.fields[v.slot].is_own()) return false;
   return v.slot < n_table_fields(t) && (v.is || !equals_default(v, t.fields[v.slot]));
 }
 
@@ -148,6 +153,18 @@ void Extras::vrml97(JsonOut& json, NodeId n, Said said, bool with_name) {
   json.begin_object();
   node(json, n, said, with_name);
   json.end_object();
+}
+
+void Extras::form(JsonOut& json, NodeId n) {
+  own_fields_ = true;
+  json.key("extras");
+  json.begin_object();
+  json.key("wrlkit");
+  json.begin_object();
+  node(json, n, {});
+  json.end_object();
+  json.end_object();
+  own_fields_ = false;
 }
 
 /// Slots of a geometry whose values its vertices, indices and material say.
@@ -281,7 +298,8 @@ void Extras::fields(JsonOut& json, NodeId n, Said said, std::size_t depth, bool 
   for (const Value& v : scene_.fields(n)) {
     if (!speaks(n, v, said) || (only_short && is_long(scene_.content(v)))) continue;
     json.key(scene_.is_extra(v) ? v.extra->name : t.fields[v.slot].name_in(Dialect::vrml97));
-    value(json, scene_.content(v), depth);
+    if (scene_.is_extra(v) || !urls(json, scene_.where(n), scene_.type_id(n), v.slot, v))
+      value(json, scene_.content(v), depth);
   }
   if (only_short || n_table_fields(t) == t.fields.size()) return;
   json.key("interface");
@@ -331,7 +349,7 @@ void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in)
   interface(json, type, {}, 0);
   if (p.external) {
     json.key("url");
-    array(json, std::span<const std::string_view>(p.urls));
+    urls(json, p.where, p.urls, UrlUse::world);
   }
   auto list = [&](std::string_view name, const auto& items, auto write) {
     if (items.empty()) return;
@@ -346,6 +364,19 @@ void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in)
   list("routes", p.body.routes, [&](const Route& r) { route(json, r); });
   json.end_object();
   body_.reset();
+}
+
+bool Extras::urls(JsonOut& json, Span where, TypeId type, std::uint16_t slot, const Value& v) {
+  if (v.is || v.type != FieldType::MFString || !lead_) return false;
+  const auto use = url_fields_.use(type, slot);
+  if (use != UrlUse::none) urls(json, where, v.text_span(), use);
+  return use != UrlUse::none;
+}
+
+void Extras::urls(JsonOut& json, Span where, std::span<const std::string_view> list, UrlUse use) {
+  if (!lead_) return array(json, list);
+  const auto led = lead_(where, list, use);
+  array(json, std::span<const std::string>(led));
 }
 
 void Extras::route(JsonOut& json, const Route& r) const {

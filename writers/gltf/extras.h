@@ -24,6 +24,7 @@
 #include "base/diagnostics.h"
 #include "base/text/json.h"
 #include "scenegraph/scene.h"
+#include "writers/led_urls.h"
 
 namespace wrlkit::gltf {
 
@@ -36,8 +37,9 @@ class Extras {
   /// (serde_json).
   static constexpr std::size_t max_depth = 32;
 
-  /// `keeps_hidden`: what Switches do not show has nodes of glTF, too.
-  Extras(const Scene& scene, bool keeps_hidden, Diagnostics& diag);
+  /// `lead`: what urls are written as; none: as they are. `keeps_hidden`: what Switches do not show has nodes of glTF,
+  /// too.
+  Extras(const Scene& scene, const LeadUrls& lead, bool keeps_hidden, Diagnostics& diag);
 
   /// DEF name, or the one that was given to what a ROUTE or Script refers to.
   std::string_view name(NodeId n) const;
@@ -65,6 +67,8 @@ class Extras {
   void vrml97(JsonOut&, NodeId, Said said, bool with_name = false);
   /// The member extras: {vrml97: ...} of an object.
   void member(JsonOut&, NodeId, Said said);
+  /// The member extras: {wrlkit: {Type: {fields}}} of a form with fields of our own (scenegraph/nodes/wrlkit.nodes).
+  void form(JsonOut&, NodeId);
   /// The member vrml97: {Type: {fields}, polygons}: what the vertices of an IndexedFaceSet, IndexedLineSet or PointSet
   /// do not tell. A node in a field only says that it was there, and its name. `polygons` are pairs: so many triangles
   /// are one polygon, so often. `step`, unless it is 1: what positions are to be multiplied by; the scale of nodes with
@@ -113,12 +117,19 @@ class Extras {
   void content(JsonOut&, NodeId, std::size_t depth);
   bool too_much(NodeId, std::size_t depth);
 
+  /// The urls of a list as they are written; false when it is no such list.
+  bool urls(JsonOut&, Span where, TypeId, std::uint16_t slot, const Value&);
+  void urls(JsonOut&, Span where, std::span<const std::string_view>, UrlUse);
+
   const Scene& scene_;
+  const LeadUrls& lead_;
+  UrlFields url_fields_;
   bool keeps_hidden_;
   Diagnostics& diag_;
   std::vector<std::uint8_t> marks_;
   std::unordered_map<std::uint32_t, std::string> given_;
   std::size_t n_written_ = 0;
+  bool own_fields_ = false;                     // those of our own are written, too
   std::unordered_set<std::string> said_names_;  // of Coordinates and the like, alone
   std::optional<std::unordered_set<std::uint32_t>>
       body_;  // nodes of the prototype that is written: names are its own there

@@ -80,7 +80,7 @@ class Writer {
         diag_(diag),
         summary_(summary),
         textures_(scene, resources, options.textures, diag),
-        extras_(scene, options.hidden == GltfOptions::Hidden::invisible, diag),
+        extras_(scene, options.lead_urls, options.hidden == GltfOptions::Hidden::invisible, diag),
         animations_(scene, reach(options), diag),
         materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
         parts_(options.names == GltfOptions::Names::table),

@@ -11,6 +11,7 @@
 #include "geometry/mesh.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
+#include "writers/led_urls.h"
 
 namespace wrlkit {
 
@@ -102,6 +103,7 @@ struct GltfOptions {
   bool facts_only =
       false;  // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
               // the same VRML again. Groups without a name that hold one thing are then one node with it
+  LeadUrls lead_urls = {};  // what urls are written as that glTF has no place for; none: as they are
   /// What Switches do not show. dropped: it is not in the hierarchy. invisible: by KHR_node_visibility.
   enum class Hidden : std::uint8_t { dropped, invisible };
   Hidden hidden = Hidden::dropped;

@@ -7,6 +7,7 @@ namespace wrlkit {
 
 TextDocument::TextDocument(const Scene& scene, const Style& style, bool own_fields, int precision, const Sink& sink)
     : scene_(scene),
+      urls_(scene),
       out_(sink),
       names_(scene, style.dialect, own_fields),
       style_(style),
@@ -28,10 +29,6 @@ void TextDocument::set_printed(NodeId n) {
 std::size_t TextDocument::own_fields(const NodeType& t) const {
   if (t.kind != NodeKind::script) return t.fields.size();
   return builtin_nodes()[find_builtin(t.name, style_.dialect).value].fields.size();
-}
-
-bool TextDocument::is_url(const FieldDef& f) {
-  return f.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url"));
 }
 
 void TextDocument::numbers(const Value& v) {

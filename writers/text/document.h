@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/io/sink.h"
+#include "scenegraph/urls.h"
 #include "writers/text/names.h"
 
 namespace wrlkit {
@@ -39,7 +40,10 @@ class TextDocument {
 
   /// Where the fields that a Script declares itself begin.
   std::size_t own_fields(const NodeType& t) const;
-  static bool is_url(const FieldDef& f);
+  /// None: it is not a list of urls.
+  UrlUse url_use(TypeId type, std::uint16_t slot, const Value& v) const {
+    return v.is || v.type != FieldType::MFString ? UrlUse::none : urls_.use(type, slot);
+  }
 
   /// Numbers, images and truth, of one tuple or of many; without brackets.
   void numbers(const Value& v);
@@ -58,6 +62,7 @@ class TextDocument {
   }
 
   const Scene& scene_;
+  UrlFields urls_;
   TextOut out_;
   Names names_;
   int depth_ = 0;

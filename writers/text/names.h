@@ -1,5 +1,4 @@
-// What the writers of VRML and X3D have in common: the order of what is printed, names that a USE finds again, and urls
-// that still lead to their files.
+// What the writers of VRML and X3D have in common: the order of what is printed, and names that a USE finds again.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -8,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {
@@ -145,10 +143,5 @@ class Names {
   std::unordered_set<std::string> taken_;
   std::unordered_map<std::string, std::uint64_t> counter_;
 };
-
-/// Urls are relative to the file that they stand in. Those of an inlined world, and those of a world that is written
-/// to `file`, elsewhere, are led to the folder they mean; those of a list that a pass has written to what it has made.
-std::vector<std::string> led_urls(const Scene&, Span where, std::span<const std::string_view> urls,
-                                  std::string_view file, const PlaceMade& place);
 
 }  // namespace wrlkit

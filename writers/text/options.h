@@ -3,6 +3,7 @@
 #include <string>
 
 #include "scenegraph/resources.h"
+#include "writers/led_urls.h"
 
 namespace wrlkit {
 
@@ -12,6 +13,7 @@ struct TextOptions {
   std::string
       file;  // that is written: relative urls are led from its folder. Empty: they stay as they are for the input's
   PlaceMade place;  // names the files that passes have made; none: their urls stay
+  CopyOfUrl copy;   // of files that come along; none: urls lead to where files are
 };
 
 }  // namespace wrlkit

@@ -10,9 +10,9 @@
 namespace wrlkit {
 namespace {
 
-class Writer : TextDocument {
+class VrmlWriter : TextDocument {
  public:
-  Writer(const Scene& scene, const TextOptions& options, const Sink& sink)
+  VrmlWriter(const Scene& scene, const TextOptions& options, const Sink& sink)
       : TextDocument(scene,
                      {.dialect = Dialect::vrml97,
                       .yes = "TRUE",
@@ -61,19 +61,22 @@ class Writer : TextDocument {
     const auto& t = scene_.type(p.type);
     out_ << (p.external ? "EXTERNPROTO " : "PROTO ") << t.name << " [";
     ++depth_;
-    for (const auto& f : t.fields) {
+    for (std::uint16_t slot = 0; slot < t.fields.size(); ++slot) {
+      const auto& f = t.fields[slot];
       line();
       declaration(f);
-      if (!p.external && f.has_value()) {
-        out_ << ' ';
+      if (p.external || !f.has_value()) continue;
+      out_ << ' ';
+      if (const auto use = url_use(p.type, slot, f.default_value); use != UrlUse::none)
+        urls(p.where, f.default_value.text_span(), use);
+      else
         value(f.default_value);
-      }
     }
     --depth_;
     if (!t.fields.empty()) line();
     out_ << "] ";
     if (p.external) {
-      urls(p.where, p.urls);
+      urls(p.where, p.urls, UrlUse::world);
       return;
     }
     out_ << '{';
@@ -169,15 +172,15 @@ class Writer : TextDocument {
     if (t.kind != NodeKind::proto && !v.is && equal_default(v, f)) return false;
     line();
     out_ << f.name_in(t.dialects & static_cast<DialectSet>(Dialect::vrml1) ? Dialect::vrml1 : Dialect::vrml97) << ' ';
-    if (!v.is && v.type == FieldType::MFString && is_url(f))
-      urls(scene_.where(n), v.text_span());
+    if (const auto use = url_use(scene_.type_id(n), v.slot, v); use != UrlUse::none)
+      urls(scene_.where(n), v.text_span(), use);
     else
       content(v);
     return true;
   }
 
-  void urls(Span where, std::span<const std::string_view> list) {
-    const auto led = led_urls(scene_, where, list, options_.file, options_.place);
+  void urls(Span where, std::span<const std::string_view> list, UrlUse use) {
+    const auto led = led_urls(scene_, where, list, use, {options_.file, options_.place, options_.copy});
     strings(std::vector<std::string_view>(led.begin(), led.end()));
   }
 
@@ -273,7 +276,7 @@ class Writer : TextDocument {
 
 void write_vrml(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics&) {
   const auto faces = options.own_fields ? std::nullopt : with_form_faces(scene);
-  Writer(faces ? *faces : scene, options, sink).file();
+  VrmlWriter(faces ? *faces : scene, options, sink).file();
 }
 
 }  // namespace wrlkit

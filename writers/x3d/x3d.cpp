@@ -25,9 +25,9 @@ std::string_view trim_end(std::string_view s) {
   return s;
 }
 
-class Writer : TextDocument {
+class X3dWriter : TextDocument {
  public:
-  Writer(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag)
+  X3dWriter(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag)
       : TextDocument(scene, {.dialect = Dialect::x3d, .yes = "true", .no = "false", .wraps_images = true},
                      options.own_fields, options.precision, sink),
         options_(options),
@@ -152,7 +152,7 @@ class Writer : TextDocument {
     attribute("name", t.name);
     if (p.external) {
       out_ << " url='";
-      urls(p.where, p.urls);
+      urls(p.where, p.urls, UrlUse::world);
       out_ << '\'';
     }
     out_ << '>';
@@ -161,7 +161,7 @@ class Writer : TextDocument {
       line() << "<ProtoInterface>";
       ++depth_;
     }
-    for (const auto& f : t.fields) declaration(f, p.external ? nullptr : &f.default_value);
+    for (std::uint16_t slot = 0; slot < t.fields.size(); ++slot) parameter(p, slot);
     if (!p.external && !t.fields.empty()) {
       --depth_;
       line() << "</ProtoInterface>";
@@ -169,6 +169,17 @@ class Writer : TextDocument {
     if (!p.external) proto_body(p.body);
     --depth_;
     line() << (p.external ? "</ExternProtoDeclare>" : "</ProtoDeclare>");
+  }
+
+  void parameter(const Proto& p, std::uint16_t slot) {
+    const auto& f = scene_.type(p.type).fields[slot];
+    const auto use = url_use(p.type, slot, f.default_value);
+    if (p.external || !f.has_value() || use == UrlUse::none)
+      return declaration(f, p.external ? nullptr : &f.default_value);
+    begin_declaration(f);
+    out_ << " value='";
+    urls(p.where, f.default_value.text_span(), use);
+    out_ << "'/>";
   }
 
   void proto_body(const Scope& s) {
@@ -179,11 +190,15 @@ class Writer : TextDocument {
     line() << "</ProtoBody>";
   }
 
-  void declaration(const FieldDef& f, const Value* v) {
+  void begin_declaration(const FieldDef& f) {
     line() << "<field";
     attribute("name", f.name);
     attribute("type", info(f.type).name);
     attribute("accessType", access_word(f.access, Dialect::x3d));
+  }
+
+  void declaration(const FieldDef& f, const Value* v) {
+    begin_declaration(f);
     end_with_value("field", f.has_value() ? v : nullptr);
   }
 
@@ -272,17 +287,20 @@ class Writer : TextDocument {
       const auto& f = t.fields[v->slot];
       if (v->slot >= own || v->is || info(v->type).element == Element::node || says_default(*v, f) || program(n, *v))
         continue;
-      field_attribute(n, f, *v);
+      field_attribute(n, f, *v, url_use(scene_.type_id(n), v->slot, *v));
     }
     if (t.kind != NodeKind::builtin) return;
     for (const auto& f : t.fields)  // what the reader would take for another default
       if (f.x3d_from && version_ >= f.x3d_from && !scene_.find(n, f.x3d_default.slot))
-        field_attribute(n, f, f.default_value);
+        field_attribute(n, f, f.default_value, UrlUse::none);
   }
 
-  void field_attribute(NodeId n, const FieldDef& f, const Value& v) {
+  void field_attribute(NodeId n, const FieldDef& f, const Value& v, UrlUse use) {
     out_ << ' ' << f.name << "='";
-    is_url(f) ? urls(scene_.where(n), v.text_span()) : value(v);
+    if (use != UrlUse::none)
+      urls(scene_.where(n), v.text_span(), use);
+    else
+      value(v);
     out_ << '\'';
   }
 
@@ -399,8 +417,8 @@ class Writer : TextDocument {
     }
   }
 
-  void urls(Span where, std::span<const std::string_view> list) {
-    strings(led_urls(scene_, where, list, options_.file, options_.place));
+  void urls(Span where, std::span<const std::string_view> list, UrlUse use) {
+    strings(led_urls(scene_, where, list, use, {options_.file, options_.place, options_.copy}));
   }
 
   const TextOptions& options_;
@@ -412,7 +430,7 @@ class Writer : TextDocument {
 
 void write_x3d(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag) {
   const auto faces = options.own_fields ? std::nullopt : with_form_faces(scene);
-  Writer(faces ? *faces : scene, options, sink, diag).file();
+  X3dWriter(faces ? *faces : scene, options, sink, diag).file();
 }
 
 }  // namespace wrlkit

@@ -29,7 +29,7 @@ what_is() {
         echo text
     fi
 }
-for verb in $(wrlkit --help | sed '1,/^Subcommands:/d' | awk '/^  [a-z]/ { print $1 }'); do
+for verb in $(wrlkit --help | sed '1,/^Subcommands:/d' | sed 's/^  corpus /  corpus-/' | awk '/^  [a-z]/ { print $1 }'); do
     wrlkit $verb $(words_of $verb) --json > %t.json 2> %t.log || echo "$verb ends with $?: $(head -3 %t.log)"
     echo $verb $(what_is %t.json)
 done

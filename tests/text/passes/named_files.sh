@@ -12,7 +12,7 @@ printf '#VRML V2.0 utf8\nInline { url "part.wrl" }\n' > whole.wrl
 wrlkit convert -q -p 'cull{smaller=40mm,list=part.wrl}' whole.wrl other.glb 2>&1
 echo "code $?, $(cmp $test part.wrl && echo the input is as it was), $(test -e other.glb || echo no output)"
 echo '--- where the output fails, there is no list either'
-wrlkit convert -q -p 'cull{smaller=40mm,list=later.txt}' world.wrl absent/other.wrl 2> /dev/null
+wrlkit convert -q -p 'cull{smaller=40mm,list=later.txt}' world.wrl world.wrl/other.wrl 2> /dev/null
 echo "code $?"
 test -e later.txt || echo 'no list'
 echo '--- a picture, and a table'

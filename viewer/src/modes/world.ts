@@ -4,6 +4,7 @@ import {state} from '../state';
 import {Boxes, drawEdges, Flashes, Highlight} from '../view/overlay';
 import type {Mode, Stage} from '../view/stage';
 import {Batches, batchedLayer} from '../world/batches';
+import {Forms} from '../world/forms';
 import {fieldOfView, LevelControl} from '../world/levels';
 import {Lights, type Lighting} from '../world/lights';
 import {PopMeter, type Pop, type Switch} from '../world/popping';
@@ -16,6 +17,7 @@ export class WorldMode implements Mode {
   readonly scene = new Scene();
   readonly lights: Lights;
   readonly looks = new Looks();
+  readonly forms: Forms;
   private readonly batches: Batches;
   look: Look = 'full';
   private lighting: Lighting = 'world';
@@ -42,6 +44,7 @@ export class WorldMode implements Mode {
     this.scene.add(world.root);
     this.batches = new Batches(this.scene, world);
     this.lights = new Lights(this.scene, world);
+    this.forms = new Forms(world);
     this.highlight = new Highlight(this.scene);
     this.boxes = new Boxes(this.scene, world);
     this.levels = world.levels.length > 0 ? new LevelControl(world) : null;
@@ -100,9 +103,11 @@ export class WorldMode implements Mode {
   private paint(): void {
     const unlit: Partial<Record<Look, Look>> = this.lighting === 'off' ? {full: 'albedo', grey: 'flat'} : {};
     const look = this.tinted ? 'grey' : unlit[this.look] ?? this.look;
+    const byForm = look === 'form';
     if (this.tinted) this.levels?.tint(this.looks);
+    else if (byForm) this.forms.tint(this.world, this.looks);
     else this.looks.apply(this.world.root, look);
-    this.batches.setLook(this.looks, look);
+    this.batches.setLook(this.looks, look, byForm ? this.forms.colors : null);
     this.stage.invalidate();
   }
 

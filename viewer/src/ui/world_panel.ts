@@ -2,6 +2,7 @@
 import {Vector3, type MeshStandardMaterial, type Texture} from 'three';
 import type {WorldMode} from '../modes/world';
 import {state} from '../state';
+import {formOf, otherColor} from '../world/forms';
 import {lightOf} from '../world/lightmaps';
 import type {Lighting} from '../world/lights';
 import type {Look} from '../world/looks';
@@ -76,6 +77,8 @@ export class WorldPanel {
     const rows: [string, string | HTMLElement][] = [['Type', part.type], ['Triangles', h('output', {id: 'part-triangles'}, count(part.triangles))], ['Bytes', bytes(part.bytes)]];
     if (part.children.length > 0) rows.push(['Parts inside', count(countBelow(part))]);
     if (size.length() > 0) rows.push(['Size', `${length(size.x)} × ${length(size.y)} × ${length(size.z)}`]);
+    const form = formOf(this.mode.world.file, part.mesh);
+    if (form) rows.push(['Form', `${form.kind}, ${Object.entries(form.sizes).filter(([, v]) => typeof v === 'number').map(([k, v]) => `${k} ${significant(v as number, 4)}`).join(', ')}`]);
     if (materials.length > 0) rows.push([materials.length > 1 ? 'Materials' : 'Material', materials.slice(0, 6).join(', ') + (materials.length > 6 ? ` and ${materials.length - 6} more` : '')]);
     this.part.replaceChildren(
       section(labelOf(part), ...above(part, p => this.mode.select(p)), facts(rows),
@@ -117,7 +120,7 @@ export class WorldPanel {
     lighting.element.dataset['key'] = 'l';
     const parts: HTMLElement[] = [manner.element, lighting.element];
     if (world.parts.some(p => p.meshes.some(m => lightOf(mode.looks.original(m))))) parts.push(this.bakedLight());
-    else parts.push(keptChoice<Look>(`look${mode.suffix}`, 'Surface', [['full', 'As it is'], ['grey', 'Grey']], 'full', value => mode.setLook(value)).element);
+    else parts.push(this.surface([['full', 'As it is'], ['grey', 'Grey']], null));
     parts.push(keptCheck(`edges${mode.suffix}`, 'Edges (hidden lines removed)', false, on => mode.setEdges(on), 'x'));
     parts.push(keptCheck(`boxes${mode.suffix}`, 'Bounding boxes', false, on => mode.setBoxes(on), 'b'));
     if (world.sky) parts.push(keptCheck(`sky${mode.suffix}`, 'Sky of the world', false, on => mode.setSky(on)));
@@ -137,11 +140,21 @@ export class WorldPanel {
 
   private bakedLight(): HTMLElement {
     const legend = h('ul', {class: 'legend', hidden: true}, ...densityScale.map(([n, color]) => h('li', {}, h('i', {style: `background:${color}`}), `${n} texels a metre`)));
-    const looks = keptChoice<Look>(`look${this.mode.suffix}`, 'Surface', [['full', 'Both'], ['light', 'Baked light'], ['albedo', 'Colour'], ['checker', 'Texels'], ['density', 'Density']], 'full', value => {
+    return this.surface([['full', 'Both'], ['light', 'Baked light'], ['albedo', 'Colour'], ['checker', 'Texels'], ['density', 'Density']], legend);
+  }
+
+  /// `density`: the legend of that look.
+  private surface(options: readonly (readonly [Look, string])[], density: HTMLElement | null): HTMLElement {
+    const {forms, suffix} = this.mode;
+    const found = forms.legend.length > 0;
+    const legend = h('ul', {class: 'legend', id: `forms${suffix}`, hidden: true}, ...forms.legend.map(f => kindRow(f.color, f.kind, f.parts)),
+      ...(forms.others > 0 ? [kindRow(otherColor, 'other faces', forms.others)] : []));
+    const looks = keptChoice<Look>(`look${suffix}`, 'Surface', found ? [...options, ['form', 'By form']] : options, 'full', value => {
       this.mode.setLook(value);
-      legend.hidden = value !== 'density';
+      legend.hidden = value !== 'form';
+      if (density) density.hidden = value !== 'density';
     });
-    return h('div', {}, looks.element, legend);
+    return h('div', {}, looks.element, ...(density ? [density] : []), legend);
   }
 
   private materials(): HTMLElement {
@@ -177,6 +190,9 @@ function thumbnail(texture: Texture, what: string): HTMLElement {
   canvas.getContext('2d')?.drawImage(image, 0, 0, canvas.width, canvas.height);
   return h('div', {class: 'soft picture'}, canvas, `${what}: ${texture.name ? `${texture.name}, ` : ''}${image.width} × ${image.height}`);
 }
+
+const kindRow = (color: string, kind: string, parts: number): HTMLElement =>
+  h('li', {}, h('i', {style: `background:${color}`}), `${kind} `, h('span', {class: 'soft'}, count(parts)));
 
 const countBelow = (part: Part): number => part.children.reduce((n, p) => n + 1 + countBelow(p), 0);
 

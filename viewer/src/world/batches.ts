@@ -1,7 +1,8 @@
 // A plant is thousands of small meshes. Those that stand still are drawn by material, in one call each; materials that differ in nothing
 // but their colour are one. The meshes themselves stay in the tree, unseen, for everything else: picking, boxes, selection.
-import {BatchedMesh, Color, Group, Matrix4, type BufferAttribute, type BufferGeometry, type Material, type Mesh, type MeshBasicMaterial, type MeshStandardMaterial, type Object3D, type Scene} from 'three';
+import {BatchedMesh, Color, DoubleSide, Group, Matrix4, MeshLambertMaterial, type BufferAttribute, type BufferGeometry, type Material, type Mesh, type MeshBasicMaterial, type MeshStandardMaterial, type Object3D, type Scene} from 'three';
 import {directionsKey} from './directed_light';
+import {otherColor} from './forms';
 import type {Look, Looks} from './looks';
 import {isShown, type World} from './world';
 
@@ -14,9 +15,11 @@ interface Batch {
   material: Material;  // as in the file; white, when there are colours
   colors: Color[];     // by instance; empty: the material has it
   meshes: Mesh[];      // by instance
+  tinted: boolean;     // the instances have other colours than their own
 }
 
-const white = new Color(1, 1, 1);
+const white = new Color(1, 1, 1), grey = new Color(otherColor);
+const tinted = new MeshLambertMaterial({color: white, side: DoubleSide});
 
 export class Batches {
   private readonly group = new Group();
@@ -51,11 +54,15 @@ export class Batches {
     for (const {drawn, meshes} of this.batches) meshes.forEach((mesh, i) => drawn.setVisibleAt(i, isShown(mesh)));
   }
 
-  setLook(looks: Looks, look: Look): void {
+  /// `tints`: colours of meshes instead of their own; others are grey.
+  setLook(looks: Looks, look: Look, tints: Map<Mesh, Color> | null = null): void {
     const colored = look === 'full' || look === 'albedo';
-    for (const {drawn, material, colors} of this.batches) {
-      drawn.material = looks.variant(material, look);
-      colors.forEach((color, i) => drawn.setColorAt(i, colored ? color : white));
+    const plain = tints ? grey : white;
+    for (const batch of this.batches) {
+      const {drawn, material, colors, meshes} = batch;
+      drawn.material = tints ? tinted : looks.variant(material, look);
+      if (colors.length > 0 || tints || batch.tinted) meshes.forEach((mesh, i) => drawn.setColorAt(i, tints?.get(mesh) ?? (colored ? colors[i] : undefined) ?? plain));
+      batch.tinted = tints !== null;
     }
   }
 
@@ -77,7 +84,7 @@ export class Batches {
     }
     colors.forEach((color, i) => drawn.setColorAt(i, color));
     this.group.add(drawn);
-    this.batches.push({drawn, material, colors, meshes});
+    this.batches.push({drawn, material, colors, meshes, tinted: false});
   }
 }
 

@@ -40,9 +40,9 @@ export function vrmlOf(extras: Record<string, unknown> | undefined): Record<stri
   return vrml && typeof vrml === 'object' ? vrml as Record<string, unknown> : {};
 }
 
-/// The type of the VRML node that extras tell of.
+/// The type of the VRML node, or of the form of our own, that extras tell of.
 export function typeOf(extras: Record<string, unknown> | undefined): string | undefined {
-  return Object.keys(vrmlOf(extras)).find(key => /^[A-Z]/.test(key) && key !== 'DEF' && key !== 'USE');
+  return Object.keys({...vrmlOf(extras), ...extras?.['wrlkit'] as object}).find(key => /^[A-Z]/.test(key) && key !== 'DEF' && key !== 'USE');
 }
 
 const components: Record<string, number> = {SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16};

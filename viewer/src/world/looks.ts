@@ -4,7 +4,7 @@ import {Color, DoubleSide, MeshBasicMaterial, MeshLambertMaterial, type Material
 import {lightOf} from './lightmaps';
 import {checkered, densities} from './texels';
 
-export type Look = 'full' | 'albedo' | 'light' | 'grey' | 'flat' | 'checker' | 'density';
+export type Look = 'full' | 'albedo' | 'light' | 'grey' | 'flat' | 'checker' | 'density' | 'form';
 
 /// Of baked light, and of its texels: only for worlds that have it.
 export const lightLooks = ['light', 'checker', 'density'] as const;
@@ -27,7 +27,8 @@ function make(m: Material, look: Look): Material {
     case 'checker': return light ? checkered(light, m.side) : new MeshLambertMaterial({color: paper, side: m.side});
     case 'density': return light ? densities(light, m.side) : new MeshLambertMaterial({color: paper, side: m.side});
     case 'flat': return new MeshBasicMaterial({color: paper, side: DoubleSide});
-    case 'grey': return new MeshLambertMaterial({color: paper, side: DoubleSide});
+    case 'grey':
+    case 'form': return new MeshLambertMaterial({color: paper, side: DoubleSide});
   }
 }
 

@@ -15,7 +15,7 @@ bool fits(const Vec3& v, double growth) {
       v, [&](double x) { return std::abs(static_cast<double>(static_cast<float>(x)) - x) * growth <= 1e-4; });
 }
 
-bool is_plain_group(const Scene& scene, NodeId n) {
+bool is_plain_or_root(const Scene& scene, NodeId n) {
   return !n || scene.is(n, nodes::Transform) || scene.is(n, nodes::Group);
 }
 
@@ -68,7 +68,7 @@ bool only_places_a_mesh(const Makers& m, const Node& n, const Trs& t, double gro
   if (n.attachment != Attachment::mesh || n.n_children > 0 || n.lod || n.hidden || !n.source ||
       m.animations.moves(n.source))
     return false;
-  if (!is_plain_group(m.scene, n.source) && !m.scene.is(n.source, nodes::Shape)) return false;
+  if (!is_plain_or_root(m.scene, n.source) && !m.scene.is(n.source, nodes::Shape)) return false;
   const Geometry& g = m.meshes.geometries()[m.meshes.meshes()[n.attached].geometry];
   if (g.morph != none || g.features != none) return false;
   if (!fits(t.translation, growth) || !fits(t.scale, 1) || !(t.scale[0] * t.scale[1] * t.scale[2] > 0)) return false;
@@ -84,7 +84,7 @@ void make_instances(Document& d, const Makers& m) {
     for (const Node& n : d.nodes)
       if (n.same_as != none) marks[n.same_as] = Mark::referred;
   for (Node& n : d.nodes)
-    if (!says_same || is_plain_group(m.scene, n.source))
+    if (!says_same || is_plain_or_root(m.scene, n.source))
       n.n_children =
           static_cast<std::uint32_t>(share_places(d, m, {d.children.data() + n.first_child, n.n_children}, marks));
   d.roots.resize(share_places(d, m, d.roots, marks));

@@ -16,6 +16,13 @@ bool is_parametric(const Scene& scene, NodeId n) {
   return std::ranges::find(types, scene.type_id(n)) != std::end(types);
 }
 
+/// Cut as a part was that it was recognised in: only fields of our own say it.
+bool is_recognised(const Scene& scene, NodeId n) {
+  if (scene.is(n, nodes::Cylinder)) return scene.get(n, nodes::cylinder::segments) > 0;
+  if (scene.is(n, nodes::Cone)) return scene.get(n, nodes::cone::segments) > 0;
+  return scene.type(n).kind == NodeKind::builtin && scene.type(n).is_own();
+}
+
 class MeshJson : public JsonPart {
  public:
   using JsonPart::JsonPart;
@@ -106,7 +113,9 @@ class MeshJson : public JsonPart {
   void mesh_extras(const Geometry& g, bool in_order, const Dequantization* whole) {
     const double step = whole ? whole->step : 1;
     const auto polygons = in_order ? std::span<const std::uint32_t>(g.polygons) : std::span<const std::uint32_t>();
-    if (is_parametric(p_.scene, g.source) || points_move(g.source))
+    if (is_recognised(p_.scene, g.source))
+      p_.extras->form(json_, g.source);
+    else if (is_parametric(p_.scene, g.source) || points_move(g.source))
       p_.extras->member(json_, g.source, {});
     else if (!polygons.empty() || step != 1 || p_.extras->geometry_says_more(g.source))
       p_.extras->geometry(json_, g.source, polygons, step);

@@ -5,7 +5,7 @@
 namespace wrlkit::simplify {
 
 /// In the order xx xy xz yy yz zz.
-struct Matrix {
+struct SymmetricMatrix {
   double a[6] = {};
 
   Vec3 operator*(const Vec3& v) const {
@@ -13,7 +13,7 @@ struct Matrix {
             a[2] * v[0] + a[4] * v[1] + a[5] * v[2]};
   }
   double trace() const { return a[0] + a[3] + a[5]; }
-  void add(const Matrix& m, double s) {
+  void add(const SymmetricMatrix& m, double s) {
     for (int i = 0; i < 6; ++i) a[i] += s * m.a[i];
   }
   /// s v v^T.
@@ -31,15 +31,15 @@ struct Matrix {
     a[5] += s;
   }
   /// Times the determinant.
-  Matrix adjugate() const {
+  SymmetricMatrix adjugate() const {
     return {{a[3] * a[5] - a[4] * a[4], a[2] * a[4] - a[1] * a[5], a[1] * a[4] - a[2] * a[3], a[0] * a[5] - a[2] * a[2],
              a[1] * a[2] - a[0] * a[4], a[0] * a[3] - a[1] * a[1]}};
   }
 };
 
 /// Squared distance from the line along e, by its squared length, times a weight.
-inline Matrix line_matrix(const Vec3& e, double weight) {
-  Matrix m;
+inline SymmetricMatrix line_matrix(const Vec3& e, double weight) {
+  SymmetricMatrix m;
   m.add_identity(weight * dot(e, e));
   m.add_outer(e, -weight);
   return m;
@@ -49,11 +49,11 @@ inline Matrix line_matrix(const Vec3& e, double weight) {
 struct Minimum {
   bool exists = false;
   Vec3 x{};
-  Matrix inverse;  // of A, times a positive number
+  SymmetricMatrix inverse;  // of A, times a positive number
 
-  Minimum(const Matrix& a, const Vec3& b, const Vec3& middle) {
+  Minimum(const SymmetricMatrix& a, const Vec3& b, const Vec3& middle) {
     const double pull = 1e-7 * a.trace();
-    Matrix m = a;
+    SymmetricMatrix m = a;
     m.add_identity(pull);
     inverse = m.adjugate();
     const double determinant = m.a[0] * inverse.a[0] + m.a[1] * inverse.a[1] + m.a[2] * inverse.a[2];

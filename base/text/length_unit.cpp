@@ -1,0 +1,23 @@
+#include "base/text/length_unit.h"
+
+#include <algorithm>
+
+namespace wrlkit {
+
+std::optional<double> metres_in(std::string_view unit) {
+  struct Row {
+    std::string_view name;
+    double metres;
+  };
+  constexpr Row rows[] = {{"m", 1},         {"metre", 1},          {"metres", 1},         {"meter", 1},
+                          {"meters", 1},    {"cm", 0.01},          {"centimetre", 0.01},  {"centimeter", 0.01},
+                          {"mm", 0.001},    {"millimetre", 0.001}, {"millimeter", 0.001}, {"in", 0.0254},
+                          {"inch", 0.0254}, {"inches", 0.0254},    {"\"", 0.0254},        {"ft", 0.3048},
+                          {"foot", 0.3048}, {"feet", 0.3048},      {"'", 0.3048}};
+  const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + ('a' - 'A') : a) == b; };
+  for (const Row& r : rows)
+    if (std::ranges::equal(unit, r.name, same)) return r.metres;
+  return std::nullopt;
+}
+
+}  // namespace wrlkit

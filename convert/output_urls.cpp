@@ -1,0 +1,33 @@
+#include "convert/output_urls.h"
+
+#include "base/text/base64.h"
+
+namespace wrlkit {
+namespace {
+
+bool is_picture(UrlUse use) { return use == UrlUse::texture || use == UrlUse::picture; }
+
+}  // namespace
+
+OutputUrls::OutputUrls(const Writing& w, bool textures) : writing_(w), textures_(textures) {
+  const bool alone = w.sink || w.to.path == "-" || w.options.keep_urls || w.options.link;
+  if (!alone)
+    copies_.emplace(w.scene, *w.context.resources, w.to.path, w.options.files_folder,
+                    CopiedKinds{textures && !w.options.embed, !w.options.embed}, w.context.diag);
+}
+
+std::optional<std::string> OutputUrls::operator()(std::string_view url, Span where, UrlUse use) {
+  if (writing_.options.embed && is_picture(use) && (textures_ || use != UrlUse::texture))
+    if (auto data = data_of(url, where)) return data;
+  return copies_ ? copies_->url(url, where, use) : std::nullopt;
+}
+
+std::optional<std::string> OutputUrls::data_of(std::string_view url, Span where) {
+  auto& resources = *writing_.context.resources;
+  if (resources.target(url, where, *writing_.scene.sources).kind != UrlTarget::Kind::file) return std::nullopt;
+  const auto picture = resources.bytes({&url, 1}, where, writing_.context.diag);
+  if (!picture || picture->mime.empty()) return std::nullopt;
+  return "data:" + std::string(picture->mime) + ";base64," + base64(picture->bytes);
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,113 @@
+#include "tools/cli/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "base/text/nearest_name.h"
+#include "convert/formats.h"
+#include "tools/cli/flags.h"
+#include "tools/cli/verbs.h"
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+using cli::find_verb;
+using cli::Verb;
+using cli::verbs;
+
+constexpr std::string_view corpus = "corpus";
+
+int corpus_help(bool asked) {
+  std::string text = "wrlkit corpus: many files at once\n\n";
+  for (const Verb& v : verbs())
+    if (std::string_view(v.name).starts_with("corpus-"))
+      text += fmt::format("  wrlkit {}\n      {}\n", spoken_verb(v.name), v.help);
+  text += "\n'wrlkit corpus run --help' lists the options of one.\n";
+  std::fputs(text.c_str(), asked ? stdout : stderr);
+  return asked ? done : usage;
+}
+
+int say(const std::string& message) {
+  fmt::print(stderr, "wrlkit: {}\n", message);
+  return usage;
+}
+
+int no_such_verb(const std::string& word) {
+  NearestName nearest(word);
+  for (const Verb& v : verbs()) nearest.consider(v.name);
+  nearest.consider(corpus);
+  nearest.consider("help");
+  if (!ending_of(word, scene_endings()).empty()) return say(fmt::format("there is no file '{}'", word));
+  const bool near = !nearest.best().empty();
+  return say(fmt::format("there is no verb '{}'{}{}", spoken_verb(word),
+                         near ? fmt::format("; did you mean '{}'?", spoken_verb(std::string(nearest.best()))) : ";",
+                         near ? "" : " see wrlkit --help"));
+}
+
+bool is_file(const std::string& word) {
+  std::error_code none;
+  return word == "-" || fs::exists(word, none);
+}
+
+/// A file, or two, without a verb.
+std::optional<int> verb_of_files(std::vector<std::string>& words) {
+  const auto is_output = [](const std::string& word) { return !word.starts_with('-') && output_of(word).has_value(); };
+  const auto output = std::find_if(words.begin() + 1, words.end(), is_output);
+  if (output == words.end()) {
+    words.insert(words.begin(), "info");
+    return std::nullopt;
+  }
+  std::error_code none;
+  if (fs::exists(*output, none))
+    return say(fmt::format("'{}' exists; 'wrlkit convert {} {}' replaces it, 'wrlkit info' says what files are",
+                           *output, words[0], *output));
+  words.insert(words.begin(), "convert");
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string spoken_verb(const std::string& verb) {
+  return verb.starts_with("corpus-") ? "corpus " + verb.substr(7) : verb;
+}
+
+std::optional<int> put_verb_first(std::vector<std::string>& words) {
+  if (words.empty()) return std::nullopt;
+  if (words[0] == "version") words[0] = "--version";
+  const bool asks_help = words[0] == "help";
+  if (asks_help) words.erase(words.begin());
+  if (words.size() > 1 && words[0] == corpus && !words[1].starts_with('-')) {
+    words[0] += "-" + words[1];
+    words.erase(words.begin() + 1);
+  }
+  if (!words.empty() && words[0] == corpus)
+    return corpus_help(asks_help || (words.size() > 1 && (words[1] == "--help" || words[1] == "-h")));
+  if (asks_help) {
+    words.resize(std::min<std::size_t>(words.size(), 1));
+    words.emplace_back("--help");
+  }
+  if ((words[0].starts_with('-') && words[0] != "-") || find_verb(words[0])) return std::nullopt;
+  return is_file(words[0]) ? verb_of_files(words) : std::optional(no_such_verb(words[0]));
+}
+
+std::string option_fault(const std::string& verb, const std::vector<std::string>& words,
+                         const std::vector<std::string>& options, const std::string& what) {
+  const auto name = "wrlkit " + spoken_verb(verb);
+  for (const auto& word : words) {
+    if (!word.starts_with("--") || word.size() == 2) continue;
+    const auto option = word.substr(2, std::min(word.find('='), word.size()) - 2);
+    if (option == "help" || std::ranges::find(options, option) != options.end()) continue;
+    NearestName nearest(option);
+    for (const auto& o : options) nearest.consider(o);
+    const auto meant = nearest.best().empty() ? fmt::format("; see {} --help", name)
+                                              : fmt::format("; did you mean '--{}'?", nearest.best());
+    return fmt::format("{}: there is no option '--{}'{}\n", name, option, meant);
+  }
+  return fmt::format("{}: {}; see {} --help\n", name, what, name);
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,20 @@
+// What the words of a command line mean before their options are read: help, verbs of two words, files without a verb.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wrlkit {
+
+/// Puts the verb in front: "help convert" is "convert --help", "plant.wrl" is "info plant.wrl", "plant.wrl plant.glb"
+/// is "convert plant.wrl plant.glb". An exit code when that ends the command, which was printed.
+std::optional<int> put_verb_first(std::vector<std::string>& words);
+
+/// "corpus run" for "corpus-run", as users write it.
+std::string spoken_verb(const std::string& verb);
+
+/// What was wrong with options, in a line: "wrlkit convert: there is no option '--ratio'; did you mean '--ratios'?".
+std::string option_fault(const std::string& verb, const std::vector<std::string>& words,
+                         const std::vector<std::string>& options, const std::string& what);
+
+}  // namespace wrlkit

@@ -1,0 +1,49 @@
+#include "writers/led_urls.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_made(std::string_view url) { return url.starts_with(made_scheme); }
+
+fs::path folder_of(std::string_view file) {
+  return (fs::absolute("." / fs::path(file).parent_path()) / "").lexically_normal();
+}
+
+bool is_relative(std::string_view url) {
+  return !url.empty() && url[0] != '/' && url[0] != '#' && url.find(':') == url.npos;
+}
+
+/// From the folder of the output to that of the file in which urls stand; empty when they are the same.
+fs::path prefix_of(const Scene& scene, Span where, std::string_view file) {
+  const auto read = scene.sources->file(where.begin), main = scene.sources->file(0);
+  if (read.empty() || read == "-") return {};
+  const fs::path from = folder_of(read), here = folder_of(file.empty() ? main : file);
+  return from == here ? fs::path() : from.lexically_relative(here);
+}
+
+}  // namespace
+
+std::vector<std::string> led_urls(const Scene& scene, Span where, std::span<const std::string_view> urls, UrlUse use,
+                                  const UrlLeads& leads) {
+  std::vector<std::string> led(urls.begin(), urls.end());
+  if (leads.place && std::ranges::any_of(urls, is_made)) {
+    for (auto& url : led)
+      if (is_made(url)) url = leads.place(url);
+    return led;
+  }
+  const fs::path prefix = prefix_of(scene, where, leads.file);
+  for (auto& url : led) {
+    if (auto copy = leads.copy ? leads.copy(url, where, use) : std::nullopt)
+      url = std::move(*copy);
+    else if (is_relative(url) && !prefix.empty())
+      url = (prefix / url).lexically_normal().generic_string();
+  }
+  return led;
+}
+
+}  // namespace wrlkit
