@@ -10,9 +10,9 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::size_t most_asked = 48;       // samples that a price is made of
-constexpr std::size_t few_faces = 32;        // which are asked one by one
-constexpr std::size_t most_removable = 256;  // faces from which on none is taken out by itself
+constexpr std::size_t most_asked = 48;        // samples that a price is made of
+constexpr std::size_t few_fitted_faces = 32;  // which are asked one by one
+constexpr std::size_t most_removable = 256;   // faces from which on none is taken out by itself
 
 }  // namespace
 
@@ -87,7 +87,7 @@ void FittedSurface::assign_all() {
 
 /// Of all samples to all faces again.
 void FittedSurface::assign_again() {
-  if (n_faces_ > few_faces) return assign_all();
+  if (n_faces_ > few_fitted_faces) return assign_all();
   std::vector<std::uint32_t> faces, samples;
   for (std::uint32_t f = 0; f < face_.size(); ++f) {
     if (!alive_[f]) continue;
@@ -327,7 +327,7 @@ void FittedSurface::unlink(std::uint32_t f) {
 void FittedSurface::merge(std::uint32_t u, std::uint32_t v) {
   const Merged m = merged_;
   std::vector<std::uint32_t> known;  // neighbours of v whose edges are in the queue, and stay cheap or are asked again
-  if (n_faces_ <= few_faces)
+  if (n_faces_ <= few_fitted_faces)
     known.push_back(v);
   else
     for (auto f : faces_of_[v]) known.insert(known.end(), face_[f].begin(), face_[f].end());

@@ -69,7 +69,7 @@ class WorldParts {
 
   const Scene& scene_;
   CollapseOptions options_;
-  std::uint32_t n_owners_ = 0;  // places of parts
+  std::uint32_t n_owners_ = 0;                       // places of parts
   std::vector<std::vector<std::uint32_t>> members_;  // of each ladder
   std::vector<std::vector<Rung>> ladders_;
 };

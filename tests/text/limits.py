@@ -35,7 +35,7 @@ SECONDS = 30          # of the processor
 LIMITED = ['prlimit', f'--as={MEMORY}', f'--cpu={SECONDS}', '--core=0']
 PATIENCE = 20          # times as much on the clock, for machines that are busy
 SMALL_JSON = 8 << 20   # bytes; larger ones are searched, not parsed
-MESSAGE = re.compile(r'(error|warning|lost): .* \[([a-z0-9-]+)\]$', re.M)
+MESSAGE = re.compile(r'(error|warning|lost): .* \[([a-z0-9-]+)\](?:, \d+ in all)?$', re.M)
 
 
 @dataclass

@@ -83,7 +83,8 @@ TEST_CASE("pipeline: text and back", "[pipeline]") {
 
 TEST_CASE("pipeline: what is wrong with a text", "[pipeline]") {
   CHECK(canonical("polish") == "error: there is no pass 'polish'");
-  CHECK(canonical("inline{deepness=3}") == "error: pass 'inline' has no option 'deepness'; its options are depth, limit");
+  CHECK(canonical("inline{deepness=3}") ==
+        "error: pass 'inline' has no option 'deepness'; its options are depth, limit");
   CHECK(canonical("inline{depth=deep}") ==
         "error: pass 'inline' option 'depth': 'deep' is not a valid value: integer at least 0");
   CHECK(canonical("inline{depth=-1}") ==

@@ -156,7 +156,8 @@ bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& 
   Flags unused;
   const auto app = app_of(verb, unused);
   std::erase_if(recipe->options, [&](const auto& o) {
-    return !app->get_option_no_throw("--" + o.first) || o.first == "format" ||  // of a corpus run
+    const bool is_of_corpus = o.first == "format" && !std::string_view(verb.name).starts_with("corpus");
+    return !app->get_option_no_throw("--" + o.first) || is_of_corpus ||
            std::ranges::find(flags.given, o.first, &GivenOptions::value_type::first) != flags.given.end();
   });
   const auto added = words_of(recipe->options);

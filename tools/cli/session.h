@@ -58,7 +58,8 @@ class Session {
   std::vector<std::pair<std::string, std::string>> facts_;
 };
 
-/// What stands behind -W: "error", "error=lost" (all that is lost), "error=NAME", "no-NAME". False when there is no message of that name.
+/// What stands behind -W: "error", "error=lost" (all that is lost), "error=NAME", "no-NAME". False when there is no
+/// message of that name.
 bool apply_warning_flag(LoadOptions&, const std::string& flag);
 
 /// Whole or not at all; false when not, which was printed.

@@ -23,12 +23,12 @@ std::string time_text(double seconds) {
                     : fmt::format("{}:{:02} h", s / 3600, s % 3600 / 60);
 }
 
-/// Without what would move the cursor of a terminal or change its colours.
+/// Without what would move the cursor of a terminal or change its colours; what a worker printed keeps its lines.
 std::string printable(std::string_view text) {
   std::string out;
   while (!text.empty()) {
     const auto length = utf8_sequence(text);
-    const bool shows = length > 0 && static_cast<unsigned char>(text[0]) >= ' ' && text[0] != 0x7f;
+    const bool shows = text[0] == '\n' || (length > 0 && static_cast<unsigned char>(text[0]) >= ' ' && text[0] != 0x7f);
     out += shows ? text.substr(0, length) : "?";
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }
