@@ -11,7 +11,7 @@ namespace {
 const std::vector<DiagInfo>& table() {
   static const auto rows = [] {
     std::vector<DiagInfo> v{
-#define DIAG(severity, name, text) {#name, Severity::severity, text},
+#define DIAG(severity, name, text) {Diag::name, #name, Severity::severity, text},
 #include "base/diagnostics.def"
 #undef DIAG
     };
@@ -32,15 +32,15 @@ std::uint64_t hash_of(Diag id, Span where, const std::vector<std::string>& args)
 
 }  // namespace
 
+std::span<const DiagInfo> all_diags() { return table(); }
+
 const DiagInfo& info(Diag d) { return table()[static_cast<std::size_t>(d)]; }
 
 bool find_diag(std::string_view name, Diag& out) {
-  for (std::size_t i = 0; i < table().size(); ++i)
-    if (table()[i].name == name) {
-      out = static_cast<Diag>(i);
-      return true;
-    }
-  return false;
+  const auto found = std::ranges::find(table(), name, &DiagInfo::name);
+  if (found == table().end()) return false;
+  out = found->id;
+  return true;
 }
 
 std::string_view to_string(Severity s) {

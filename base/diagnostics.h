@@ -24,10 +24,13 @@ enum class Diag : std::uint8_t {
 };
 
 struct DiagInfo {
+  Diag id;
   std::string name;  // with '-'
   Severity severity;
   std::string_view text;
 };
+/// All of them, in the order of diagnostics.def.
+std::span<const DiagInfo> all_diags();
 const DiagInfo& info(Diag);
 bool find_diag(std::string_view name, Diag& out);
 std::string_view to_string(Severity);

@@ -1,8 +1,8 @@
 #include "convert/formats.h"
 
 #include <algorithm>
-#include <cctype>
 
+#include "base/text/letter_case.h"
 #include "convert/writing.h"
 
 namespace wrlkit {
@@ -128,9 +128,8 @@ std::string output_endings_text() {
 }
 
 std::string_view ending_of(std::string_view name, std::span<const std::string_view> endings) {
-  const auto same = [](unsigned char a, char b) { return std::tolower(a) == b; };
   for (auto e : endings)
-    if (name.size() > e.size() && std::ranges::equal(name.substr(name.size() - e.size()), e, same)) return e;
+    if (name.size() > e.size() && ends_with_ignoring_case(name, e)) return e;
   return {};
 }
 

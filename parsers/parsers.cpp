@@ -5,6 +5,7 @@
 
 #include "base/image/image.h"
 #include "base/text/blanks.h"
+#include "base/text/letter_case.h"
 #include "base/text/utf8.h"
 #include "parsers/gltf/gltf.h"
 #include "parsers/patches/patches.h"
@@ -24,8 +25,7 @@ std::string_view without_bom(std::string_view s) { return s.starts_with("\xef\xb
 bool has_utf16_bom(std::string_view s) { return s.starts_with("\xff\xfe") || s.starts_with("\xfe\xff"); }
 
 bool contains_nocase(std::string_view text, std::string_view lower) {
-  auto equal = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  return std::search(text.begin(), text.end(), lower.begin(), lower.end(), equal) != text.end();
+  return !std::ranges::search(text, lower, {}, to_lower).empty();
 }
 
 // Without a header: which dialect has the statement that begins behind the comments?

@@ -101,10 +101,12 @@ void CopiedFiles::add_of_world(const std::string& path) {
       for (auto url : use == UrlUse::link ? std::span<const std::string_view>() : urls) {
         const auto target = resources_.target(url, where, *scene->sources);
         if (target.kind != Kind::file) continue;
-        if (use == UrlUse::world)
+        if (use == UrlUse::world) {
           worlds.push_back(target.path);
-        else if (places_.try_emplace(target.path); true)
-          fixed_.insert(target.path);
+          continue;
+        }
+        places_.try_emplace(target.path);
+        fixed_.insert(target.path);
       }
     });
   }

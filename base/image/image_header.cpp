@@ -1,8 +1,8 @@
 // Types and sizes of pictures, from their first bytes.
 #include <algorithm>
-#include <cctype>
 
 #include "base/image/image.h"
+#include "base/text/letter_case.h"
 
 namespace wrlkit {
 namespace {
@@ -126,8 +126,7 @@ constexpr Magic magics[] = {
 bool is_tga(std::string_view bytes, std::string_view name) {
   constexpr auto footer = "TRUEVISION-XFILE.\0"sv;
   if (bytes.ends_with(footer)) return true;
-  auto extension = name.substr(std::min(name.size(), name.rfind('.')));
-  return std::ranges::equal(extension, ".tga"sv, {}, [](unsigned char c) { return std::tolower(c); }) && tga({bytes});
+  return ends_with_ignoring_case(name, ".tga") && tga({bytes});
 }
 
 const Magic* find_magic(std::string_view bytes) {

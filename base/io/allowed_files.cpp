@@ -4,17 +4,12 @@
 #include <filesystem>
 
 #include "base/io/url.h"
+#include "base/text/letter_case.h"
 
 namespace wrlkit {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string s) {
-  for (char& c : s)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
-  return s;
-}
 
 bool is_below(std::string_view path, std::string_view folder) {
   return path.starts_with(folder) &&
@@ -34,7 +29,7 @@ std::map<std::string, std::string> list(const std::string& folder) {
   std::error_code ec;
   for (fs::directory_iterator i(folder, ec), end; !ec && i != end; i.increment(ec)) {
     auto name = i->path().filename().string();
-    auto [at, is_new] = names.try_emplace(lower(name), name);
+    auto [at, is_new] = names.try_emplace(lower_case(name), name);
     if (!is_new) at->second = std::min(at->second, name);  // not the one that the system lists first
   }
   return names;
@@ -67,7 +62,7 @@ std::string AllowedFiles::name_in(const std::string& folder, const std::string& 
   if (fs::exists(fs::path(folder) / name, ec)) return name;
   auto known = listings_.find(folder);
   if (known == listings_.end()) known = listings_.emplace(folder, list(folder)).first;
-  auto at = known->second.find(lower(name));
+  auto at = known->second.find(lower_case(name));
   return at == known->second.end() ? std::string() : at->second;
 }
 

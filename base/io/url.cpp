@@ -5,6 +5,7 @@
 
 #include "base/text/base64.h"
 #include "base/text/blanks.h"
+#include "base/text/letter_case.h"
 
 namespace wrlkit {
 namespace {
@@ -16,8 +17,7 @@ std::string scheme(std::string_view url) {
   if (s.size() < 2 || s.size() == url.size() || !std::isalpha(static_cast<unsigned char>(s[0])) ||
       !std::ranges::all_of(s, allowed))
     return {};
-  std::ranges::transform(s, s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return s;
+  return lower_case(s);
 }
 
 int hex_digit(char c) {

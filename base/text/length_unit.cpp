@@ -1,6 +1,6 @@
 #include "base/text/length_unit.h"
 
-#include <algorithm>
+#include "base/text/letter_case.h"
 
 namespace wrlkit {
 
@@ -14,9 +14,8 @@ std::optional<double> metres_in(std::string_view unit) {
                           {"mm", 0.001},    {"millimetre", 0.001}, {"millimeter", 0.001}, {"in", 0.0254},
                           {"inch", 0.0254}, {"inches", 0.0254},    {"\"", 0.0254},        {"ft", 0.3048},
                           {"foot", 0.3048}, {"feet", 0.3048},      {"'", 0.3048}};
-  const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + ('a' - 'A') : a) == b; };
   for (const Row& r : rows)
-    if (std::ranges::equal(unit, r.name, same)) return r.metres;
+    if (equal_ignoring_case(unit, r.name)) return r.metres;
   return std::nullopt;
 }
 

@@ -3,26 +3,19 @@
 #include <algorithm>
 #include <map>
 
+#include "base/text/letter_case.h"
 #include "parsers/x3d/xml.h"
 #include "scenegraph/node_table.h"
 
 namespace wrlkit::x3d {
 namespace {
 
-std::string lower(std::string_view s) {
-  std::string out(s);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : static_cast<char>(c);
-  });
-  return out;
-}
-
 /// By their small letters.
 using Spelling = std::map<std::string, std::string_view>;
 
 Spelling spelled(std::initializer_list<std::string_view> words) {
   Spelling out;
-  for (auto w : words) out[lower(w)] = w;
+  for (auto w : words) out[lower_case(w)] = w;
   return out;
 }
 
@@ -32,7 +25,7 @@ const Spelling& elements() {
                             "ProtoInterface", "ProtoBody", "ProtoInstance", "ExternProtoDeclare", "IS", "connect",
                             "field", "fieldValue", "IMPORT", "EXPORT"});
     for (const auto& t : builtin_nodes())
-      if (t.dialects & static_cast<DialectSet>(Dialect::x3d)) out[lower(t.name)] = t.name;
+      if (t.dialects & static_cast<DialectSet>(Dialect::x3d)) out[lower_case(t.name)] = t.name;
     return out;
   }();
   return all;
@@ -43,7 +36,7 @@ const Spelling& attributes() {
     Spelling out;
     for (const auto& t : builtin_nodes())
       if (t.dialects & static_cast<DialectSet>(Dialect::x3d))
-        for (const auto& f : t.fields) out[lower(f.name)] = f.name;
+        for (const auto& f : t.fields) out[lower_case(f.name)] = f.name;
     out.merge(spelled({"DEF", "USE", "containerField", "fromNode", "fromField", "toNode", "toField", "nodeField",
                        "protoField", "accessType", "inlineDEF", "importedDEF", "exportedDEF", "localDEF", "AS",
                        "conversionFactor"}));
@@ -55,7 +48,8 @@ const Spelling& attributes() {
 bool blank(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
 void spell(std::string& xml, std::size_t at, std::size_t n, const Spelling& table) {
-  if (auto i = table.find(lower(std::string_view(xml).substr(at, n))); i != table.end()) xml.replace(at, n, i->second);
+  if (auto i = table.find(lower_case(std::string_view(xml).substr(at, n))); i != table.end())
+    xml.replace(at, n, i->second);
 }
 
 /// The attributes of the tag whose name ends at `at`; where it ends.
@@ -78,8 +72,8 @@ std::size_t tag(std::string& xml, std::size_t at) {
         ++at;
       while (!ends() && blank(xml[at]));
     const char quote = has_value && !ends() ? xml[at] : 0;
-    const bool of_page =
-        lower(std::string_view(xml).substr(name, std::min<std::size_t>(length, 2))) == "on" && length > 2;  // onclick
+    const bool of_page = lower_case(std::string_view(xml).substr(name, std::min<std::size_t>(length, 2))) == "on" &&
+                         length > 2;  // onclick
     if ((quote == '"' || quote == '\'') && !of_page) {
       spell(xml, name, length, attributes());
       at = std::min(xml.find(quote, at + 1), xml.size() - 1) + 1;
@@ -98,8 +92,8 @@ std::size_t tag(std::string& xml, std::size_t at) {
 }  // namespace
 
 std::optional<PageWorld> world_of_page(std::string_view text) {
-  if (lower(first_element(text)) != "html") return std::nullopt;
-  const std::string small = lower(text);
+  if (lower_case(first_element(text)) != "html") return std::nullopt;
+  const std::string small = lower_case(text);
   std::size_t begin = 0;
   do begin = small.find("<x3d", begin + 1);
   while (begin != small.npos && begin + 4 < small.size() && !blank(small[begin + 4]) && small[begin + 4] != '>');

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text/blanks.h"
+#include "base/text/letter_case.h"
 #include "parsers/x3d/grammar.h"
 #include "parsers/x3d/page.h"
 #include "scenegraph/container_field.h"
@@ -22,8 +23,7 @@ void Parser::document() {
        i = tree_.nodes[i].next)
     if (tree_.nodes[i].kind == XmlNode::Kind::comment) comment(tree_.nodes[i]);
   auto is = [](const XmlNode& n, std::string_view name) {
-    return n.kind == XmlNode::Kind::element &&
-           std::ranges::equal(n.name, name, {}, [](unsigned char c) { return std::tolower(c); });
+    return n.kind == XmlNode::Kind::element && equal_ignoring_case(n.name, name);
   };
   const XmlNode* x3d = find_element(top, "X3D");
   // A page has it somewhere within, in small letters.

@@ -1,7 +1,8 @@
 #include "tools/cli/amounts.h"
 
-#include <cctype>
 #include <cstdlib>
+
+#include "base/text/letter_case.h"
 
 namespace wrlkit {
 
@@ -11,7 +12,7 @@ namespace {
 std::string unit_behind(const char* number) {
   std::string out;
   for (; *number; ++number)
-    if (*number != ' ') out += static_cast<char>(std::tolower(static_cast<unsigned char>(*number)));
+    if (*number != ' ') out += to_lower(*number);
   return out;
 }
 

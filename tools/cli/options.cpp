@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/text/letter_case.h"
 #include "base/text/nearest_name.h"
 #include "convert/formats.h"
 #include "convert/options.h"
@@ -15,8 +16,7 @@ namespace {
 /// The name of a value as it should have been written: in any case, and units by their other names.
 template <Choice E>
 std::string forgiven(const std::string& text) {
-  std::string lower = text;
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string lower = lower_case(text);
   for (const auto& c : choices<E>) {
     if (c.name == text || c.name == lower) return std::string(c.name);
     if constexpr (std::is_same_v<E, Unit>)

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/text/letter_case.h"
+
 namespace wrlkit {
 namespace {
 
@@ -38,11 +40,10 @@ bool is_no_input(const Flags& flags, const std::string& output, std::string_view
   return true;
 }
 
-bool has_ending(std::string name, std::string_view endings) {
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+bool has_ending(std::string_view name, std::string_view endings) {
   while (!endings.empty()) {
     const auto end = std::min(endings.find(' '), endings.size());
-    if (name.ends_with(endings.substr(0, end))) return true;
+    if (ends_with_ignoring_case(name, endings.substr(0, end))) return true;
     endings.remove_prefix(std::min(end + 1, endings.size()));
   }
   return false;

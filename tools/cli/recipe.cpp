@@ -228,8 +228,7 @@ class Reader {
     for (const auto& name : names) {
       Diag id{};
       NearestName nearest(name);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i)
-        nearest.consider(info(static_cast<Diag>(i)).name);
+      for (const auto& d : all_diags()) nearest.consider(d.name);
       if (!find_diag(name, id))
         return fail(node.place, fmt::format("there is no message '{}'{}", name, nearest.question()));
       recipe_.warnings.push_back((node.key == "error" ? "error=" : "no-") + name);

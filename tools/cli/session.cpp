@@ -25,8 +25,7 @@ LoadOptions Session::load_options() {
     if (apply_warning_flag(out, w)) continue;
     const auto name = w.substr(w.find_first_of("=-") + 1);
     NearestName nearest(name);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i)
-      nearest.consider(info(static_cast<Diag>(i)).name);
+    for (const auto& d : all_diags()) nearest.consider(d.name);
     fmt::print(stderr, "wrlkit: there is no message '{}' for -W{}{}\n", name, w, nearest.question());
     good_ = false;
     break;
@@ -40,9 +39,8 @@ bool apply_warning_flag(LoadOptions& options, const std::string& flag) {
     return true;
   }
   if (flag == "error=lost") {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i)
-      if (const auto each = static_cast<Diag>(i); info(each).severity == Severity::lost)
-        options.severities.emplace_back(each, Severity::error);
+    for (const auto& d : all_diags())
+      if (d.severity == Severity::lost) options.severities.emplace_back(d.id, Severity::error);
     return true;
   }
   const bool error = flag.starts_with("error=");

@@ -62,6 +62,12 @@ std::vector<std::string> idle_options(const Flags& flags, const Output& to) {
   return names;
 }
 
+void warn_of_idle_options(const Flags& flags) {
+  const auto to = output_of(flags, save_options(flags));
+  for (const auto& name : idle_options(flags, *to))
+    fmt::print(stderr, "wrlkit: --{} has no effect on {} output\n", name, to->format->name);
+}
+
 }  // namespace
 
 SaveOptions save_options(const Flags& flags) {
@@ -110,9 +116,7 @@ int run_convert(const Flags& flags) {
     fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline()));
     return done;
   }
-  if (!flags.quiet)
-    for (const auto& name : idle_options(flags, *output_of(flags, save_options(flags))))
-      fmt::print(stderr, "wrlkit: --{} has no effect on {} output\n", name, output_of(flags, {})->format->name);
+  if (!flags.quiet) warn_of_idle_options(flags);
   Backup backup(flags);
   if (!backup.why_not().empty()) {
     fmt::print(stderr, "wrlkit: --in-place: {}\n", backup.why_not());

@@ -182,10 +182,7 @@ std::string diagnostics_page() {
   std::string out =
       "# Messages\n\nGenerated from `base/diagnostics.def` by `script/docs`; do not edit.\n\n| name | severity | text "
       "|\n|---|---|---|\n";
-  for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i) {
-    auto& d = info(static_cast<Diag>(i));
-    out += fmt::format("| {} | {} | {} |\n", d.name, to_string(d.severity), d.text);
-  }
+  for (const auto& d : all_diags()) out += fmt::format("| {} | {} | {} |\n", d.name, to_string(d.severity), d.text);
   return out;
 }
 

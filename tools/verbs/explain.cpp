@@ -18,8 +18,7 @@ std::string meant(std::string_view name) {
   for (auto& n : builtin_nodes()) nearest.consider(n.name);
   for (auto& p : passes()) nearest.consider(p.name);
   for (auto* p : added_passes()) nearest.consider(p->name);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(Diag::count_); ++i)
-    nearest.consider(info(static_cast<Diag>(i)).name);
+  for (const auto& d : all_diags()) nearest.consider(d.name);
   return nearest.question();
 }
 

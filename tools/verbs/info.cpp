@@ -153,10 +153,6 @@ std::string info_text(const std::string& file, const Info& i) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 int info_of_one(const Flags& flags) {
   Session s(flags);
   if (!s.good()) return usage;

@@ -6,13 +6,14 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <semaphore>
 #include <system_error>
 #include <thread>
+
+#include "base/text/letter_case.h"
 
 namespace wrlkit {
 namespace {
@@ -65,9 +66,8 @@ void set_patience(int client) {
 
 /// Only what asks for this address by its number or as localhost: a page of another site may give its name to
 /// 127.0.0.1.
-bool is_meant(std::string head, std::uint16_t port) {
-  std::ranges::transform(head, head.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+bool is_meant(std::string_view request, std::uint16_t port) {
+  const std::string head = lower_case(request);
   return head.find(fmt::format("\r\nhost: 127.0.0.1:{}\r\n", port)) != head.npos ||
          head.find(fmt::format("\r\nhost: localhost:{}\r\n", port)) != head.npos;
 }

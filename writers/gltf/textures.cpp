@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text/letter_case.h"
 #include "scenegraph/nodes.h"
 #include "writers/gltf/color.h"
 
@@ -29,10 +30,7 @@ std::string with_extension(const std::string& name, std::string_view extension) 
 
 /// The file name with the extension that belongs to its contents: readers go by it.
 std::string honest_name(const std::string& name, std::string_view mime) {
-  auto ends = [&](std::string_view e) {
-    return name.size() > e.size() && std::ranges::equal(name.substr(name.size() - e.size()), e,
-                                                        [](char a, char b) { return (a | 0x20) == b || a == b; });
-  };
+  auto ends = [&](std::string_view e) { return name.size() > e.size() && ends_with_ignoring_case(name, e); };
   for (auto [type, extension] : {std::pair{"image/png", ".png"}, {"image/webp", ".webp"}})
     if (mime == type) return ends(extension) ? name : with_extension(name, extension);
   return ends(".jpg") || ends(".jpeg") ? name : with_extension(name, ".jpg");
