@@ -37,7 +37,10 @@ struct Document::State {
   void open_files(const std::string& input) {
     world.reset();
     files = std::make_unique<FileResources>(
-        ResourceOptions{.input = input, .allowed = options.allow_paths, .in_place = options.in_place},
+        ResourceOptions{.input = input,
+                        .allowed = options.allow_paths,
+                        .project = options.project_files,
+                        .in_place = options.in_place},
         [this](const std::string& file, Diagnostics& diag) { return parse_inlined(file, diag); });
     context.resources = files.get();
   }
@@ -107,6 +110,11 @@ const std::string& Document::path() const { return state_->path; }
 Diagnostics& Document::diag() const { return state_->context.diag; }
 Resources* Document::resources() const { return state_->context.resources; }
 PassContext& Document::context() { return state_->context; }
+
+void Document::report_files_above() {
+  const std::size_t n = state_->files ? state_->files->files_above() : 0;
+  if (n) state_->context.diag.report(Diag::url_above, {}, n, state_->files->project());
+}
 
 std::vector<FileLookup> Document::lookups() const {
   auto all = state_->files ? state_->files->lookups() : std::vector<FileLookup>();

@@ -72,6 +72,8 @@ class Document {
   PassContext& context();
   /// The files that were asked for besides it, found or not.
   std::vector<FileLookup> lookups() const;
+  /// Reports how many files above the input's folder were found (LoadOptions::project_files), if any.
+  void report_files_above();
   Ending ending(bool made) const;
 
  private:

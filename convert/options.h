@@ -44,9 +44,12 @@ struct LoadOptions {
   Unit unit = Unit::m;                        // what one unit of the file is
   UpAxis up = UpAxis::y;                      // which of its axes points up
   std::vector<std::string> allow_paths = {};  // folders that pictures and Inlines may lie in, besides the file's own
-  bool strict = false;                        // every warning is an error
-  bool show_all = false;                      // Switches that are off show everything
-  bool in_place = false;                      // an output may take the place of the file that is read
+  /// Pictures, sounds, films and worlds above the file's own folder may be read, too: as far up as its project reaches
+  /// (base/io/project_folder.h). For people who open their own files; not for programs that open anybody's.
+  bool project_files = false;
+  bool strict = false;                                     // every warning is an error
+  bool show_all = false;                                   // Switches that are off show everything
+  bool in_place = false;                                   // an output may take the place of the file that is read
   std::vector<std::pair<Diag, Severity>> severities = {};  // of single messages
   bool unpack_pictures = false;  // pictures inside a glTF file become files that a writer places next to its own
 

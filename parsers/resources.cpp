@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/image/image.h"
+#include "base/io/project_folder.h"
 #include "base/io/url.h"
 #include "parsers/patches/patches.h"
 
@@ -51,6 +52,10 @@ struct FileResources::Slot {
 FileResources::FileResources(ResourceOptions options, ParseWorld parse)
     : options_(std::move(options)), parse_(std::move(parse)), files_(folders(options_)) {
   if (!options_.in_place) files_read().add(options_.input);
+  if (!options_.project) return;
+  const auto folder = fs::path(options_.input).parent_path().string();
+  project_ = project_folder(folder);
+  files_.allow_linked(folder, project_);
 }
 
 std::shared_ptr<const Blob> FileResources::bytes(std::span<const std::string_view> urls, Span where,
@@ -212,6 +217,13 @@ std::shared_ptr<const Scene> FileResources::parsed(const Target& target, std::st
   world.scene = parse_(target.path, diag);
   world.parsing = false;
   return world.scene;
+}
+
+std::size_t FileResources::files_above() const {
+  std::set<std::string_view> files;
+  for (const auto& [asked, result] : looked_up_)
+    if (result.above) files.insert(result.canonical);
+  return files.size();
 }
 
 std::vector<FileLookup> FileResources::lookups() const {

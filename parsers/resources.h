@@ -19,6 +19,7 @@ namespace wrlkit {
 struct ResourceOptions {
   std::string input = "-";                 // the file that is converted: files below its folder may be read
   std::vector<std::string> allowed = {};   // and below these (--allow-path)
+  bool project = false;                    // and linked files as far up as its project reaches (io/project_folder.h)
   bool in_place = false;                   // the input may be replaced
   std::uint64_t max_bytes = 512 << 20;     // of one picture
   std::uint64_t cached_bytes = 512 << 20;  // of files and decoded pictures that are kept for the next who asks
@@ -44,6 +45,9 @@ class FileResources final : public Resources {
   UrlTarget target(std::string_view url, Span where, const Sources&) override;
   std::shared_ptr<const Scene> look_into(const std::string& path) override;
 
+  /// How many files above the input's folder were found, and below which folder such files may lie.
+  std::size_t files_above() const;
+  const std::string& project() const { return project_; }
   /// All that was asked for until now: what the result depends on beside the input. Who has no referrer was named by
   /// the user.
   std::vector<FileLookup> lookups() const;
@@ -80,6 +84,7 @@ class FileResources final : public Resources {
   // added are then not searched. Order of locks: this one, one of a Slot (picture before blob), cache_mutex_.
   std::recursive_mutex mutex_;
   AllowedFiles files_;
+  std::string project_;
   std::map<std::pair<std::string, std::string>, AllowedFiles::Result> looked_up_;  // referrer and url
   std::set<std::string> patch_files_;
   std::map<std::string, ParsedWorld> worlds_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/io/linked_file.h"
 #include "base/io/url.h"
 #include "base/text/letter_case.h"
 
@@ -42,6 +43,14 @@ AllowedFiles::AllowedFiles(const std::vector<std::string>& folders) {
     if (auto c = canonical(f.empty() ? "." : f); !c.empty()) roots_.push_back({f, c});
 }
 
+void AllowedFiles::allow_linked(const std::string& folder, const std::string& top) {
+  const auto from = canonical(folder.empty() ? "." : folder);
+  if (top.empty() || from.empty() || from == top || !is_below(from, top)) return;
+  fs::path given = folder;
+  for (const auto& level : fs::path(from).lexically_relative(top)) given /= level.empty() ? "" : "..";
+  roots_.push_back({given.lexically_normal().string(), top, true});
+}
+
 const AllowedFiles::Root* AllowedFiles::root_of(const std::string& path) const {
   auto root = std::ranges::find_if(roots_, [&](const Root& r) { return is_below(path, r.canonical); });
   return root == roots_.end() ? nullptr : &*root;
@@ -52,8 +61,9 @@ AllowedFiles::Result AllowedFiles::exact(const std::string& path) const {
   auto file = canonical(path);
   if (file.empty() || !fs::is_regular_file(file, ec)) return {};
   auto* root = root_of(file);
-  if (!root) return {outside, {}, {}};
-  return {found, (fs::path(root->given) / fs::path(file).lexically_relative(root->canonical)).string(), file};
+  if (!root || (root->linked && !is_linked_kind(file))) return {outside, {}, {}};
+  const auto named = fs::path(root->given) / fs::path(file).lexically_relative(root->canonical);
+  return {found, named.string(), file, root->linked};
 }
 
 /// The name as the folder has it; empty when it has none like it.

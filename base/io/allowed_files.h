@@ -16,10 +16,15 @@ class AllowedFiles {
     State state = missing;
     std::string path;       // as the folder was given, so that messages do not depend on where a user keeps his files
     std::string canonical;  // the file's identity
+    bool above = false;     // below no folder that was allowed, but below that of linked files
   };
 
   /// An empty name is the current folder.
   explicit AllowedFiles(const std::vector<std::string>& folders);
+
+  /// Pictures, sounds, films and worlds below that folder, which lies above `folder`, may be read as well; what is of
+  /// another kind by its first bytes stays outside. `top` is absolute and without links.
+  void allow_linked(const std::string& folder, const std::string& top);
 
   /// Looks for `path`, which is relative to the folder of the file `referrer`: exactly; then without regard to case;
   /// then its last name beside the referrer (`repaired`). Only regular files count. `outside`: it exists, but neither
@@ -29,6 +34,7 @@ class AllowedFiles {
  private:
   struct Root {
     std::string given, canonical;
+    bool linked = false;  // only files of the kinds that worlds refer to
   };
   const Root* root_of(const std::string& canonical) const;
   Result exact(const std::string& path) const;

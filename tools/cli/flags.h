@@ -19,6 +19,7 @@ struct Flags {
   // every verb
   bool quiet = false, verbose = false, json = false;
   LoadOptions load;
+  bool strict_paths = false;          // nothing above the input's folder is read
   std::string report;                 // file for a JSON report
   std::vector<std::string> warnings;  // -Werror=NAME, -Wno-NAME, -Werror
   int jobs = 0;

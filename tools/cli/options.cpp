@@ -113,6 +113,8 @@ void common(CLI::App& verb, Flags& f) {
   g->add_option("--allow-path", f.load.allow_paths, "files below this folder may be read, too (Inline, textures)")
       ->type_name("DIR")
       ->allow_extra_args(false);
+  g->add_flag("--strict-paths", f.strict_paths,
+              "read nothing above the folder of the input but what --allow-path names");
   g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
   g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")
       ->type_name("SIZE")

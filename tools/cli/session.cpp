@@ -20,6 +20,7 @@ Session::Session(const Flags& flags)
 /// What the flags say; not good when they name a message that there is not, which is printed.
 LoadOptions Session::load_options() {
   LoadOptions out = flags_.load;
+  out.project_files = !flags_.strict_paths && !flags_.serve;  // not for those who are not asked
   out.unpack_pictures = !flags_.output.empty() && flags_.output != "-";
   for (const auto& w : flags_.warnings) {
     if (apply_warning_flag(out, w)) continue;
@@ -87,6 +88,7 @@ PipelineOptions Session::pipeline_options() {
 int Session::end(bool made) {
   progress_.clear();
   if (made && document_.resources()) write_named_files(resources(), diag());
+  document_.report_files_above();
   const int code = exit_code(made);
   if (flags_.time_passes)
     for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);

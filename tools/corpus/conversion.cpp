@@ -87,6 +87,7 @@ std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& wh
   f.warnings = corpus_flags.warnings;
   f.load.allow_paths = corpus_flags.load.allow_paths;
   f.load.strict = corpus_flags.load.strict;
+  f.strict_paths = true;
   f.quiet = true;
   f.jobs = 1;
   f.memory.clear();
