@@ -47,10 +47,23 @@ std::size_t count_geometries(const Scene& scene) {
                                                         [&](NodeId n) { return scene.is(n, nodes::X3DGeometryNode); }));
 }
 
+/// A node that is not known, or one of X3D that is drawn by browsers and not by us.
+bool should_be_drawn(const Scene& scene, NodeId n) {
+  return scene.type(n).kind == NodeKind::unknown || (scene.is(n, nodes::X3DShapeNode) && !scene.is(n, nodes::Shape));
+}
+
+std::string no_picture(std::string_view type) {
+  return "it has no geometry, but a node '" + std::string(type) + "', which is not drawn";
+}
+
 /// A glTF without meshes is what some scenes deserve (lights, PROTO libraries), but nobody should find it out later.
 void say_why_empty(const Scene& scene, Diagnostics& diag) {
   const auto& roots = scene.main.roots;
-  if (diag.count(Diag::unknown_node) > 0)
+  const auto all = reachable(scene, scene.main);
+  const auto undrawn = std::ranges::find_if(all, [&](NodeId n) { return should_be_drawn(scene, n); });
+  if (undrawn != all.end())
+    diag.report(Diag::nothing_drawn, scene.where(*undrawn), no_picture(scene.type(*undrawn).name));
+  else if (diag.count(Diag::unknown_node) > 0)
     diag.report(Diag::nothing_drawn, roots.empty() ? Span{} : scene.where(roots[0]),
                 "it has no geometry, but nodes that are not known");
   else if (roots.empty() && scene.proto_count() == 0)
