@@ -103,9 +103,12 @@ class NurbsLowering {
     return b;
   }
 
+  /// None without a message where nothing is given, as for an IndexedFaceSet without coordinates.
   std::optional<Curve> curve_of(NodeId n) {
+    if (!n) return std::nullopt;
     if (scene_.is(n, nodes::ContourPolyline2D)) {
       const auto p = scene_.get(n, nodes::contour_polyline2d::controlPoint);
+      if (p.empty()) return std::nullopt;
       bool replaced = false;
       auto b = make_basis(2, {}, p.size() / 2, replaced);
       if (!b) {
@@ -121,6 +124,7 @@ class NurbsLowering {
       return std::nullopt;
     }
     const auto p = flat ? numbers(n, "controlPoint") : control_points(n);
+    if (p.empty()) return std::nullopt;
     const std::size_t arity = flat ? 2 : 3;
     auto b = basis(n, p.size() / arity, "order", "knot");
     if (!b) return std::nullopt;
@@ -128,6 +132,7 @@ class NurbsLowering {
   }
 
   std::optional<Surface> surface_of(NodeId n, std::span<const double> p, std::size_t arity) {
+    if (p.empty()) return std::nullopt;
     const auto u = static_cast<std::size_t>(std::max(integer(n, "uDimension"), 0)),
                v = static_cast<std::size_t>(std::max(integer(n, "vDimension"), 0));
     if (u == 0 || v == 0 || p.size() / arity / u < v) {
