@@ -5,6 +5,7 @@
 #include <ctime>
 #include <limits>
 
+#include "base/text/nearest_name.h"
 #include "geometry/deviation.h"
 
 namespace wrlkit {
@@ -115,12 +116,16 @@ bool CriterionName::read(std::string_view text) {
 
 std::string CriterionName::print() const { return info(value).name; }
 
-std::string CriterionName::missing(std::string_view text) {
-  for (Criterion c : all_criteria())
-    if (info(c).name == text && !info(c).missing.empty())
-      return "'" + std::string(text) + "' needs " + std::string(info(c).missing) +
-             ", which this wrlkit was built without";
-  return {};
+std::string CriterionName::fault(std::string_view text) {
+  NearestName nearest(text);
+  for (Criterion c : all_criteria()) {
+    nearest.consider(info(c).name);
+    if (info(c).name == text)
+      return info(c).missing.empty() ? ""
+                                     : "'" + std::string(text) + "' needs " + std::string(info(c).missing) +
+                                           ", which this wrlkit was built without";
+  }
+  return "'" + std::string(text) + "' is not a valid value: " + help() + nearest.question();
 }
 
 std::string CriterionName::help() {

@@ -17,8 +17,8 @@ struct CriterionName {
   bool read(std::string_view text);
   std::string print() const;
 
-  /// Why a criterion of that name cannot be chosen in this build; empty when it can, or when there is none.
-  static std::string missing(std::string_view text);
+  /// Why no criterion of that name can be chosen in this build; empty when one can.
+  static std::string fault(std::string_view text);
   /// All names, for people.
   static std::string help();
 };

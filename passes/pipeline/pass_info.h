@@ -136,8 +136,9 @@ class PassOf final : public PassInstance {
       why = "option '" + std::string(option) + "': '" + std::string(value) +
             "' is not a valid value: " + option_text::describe(name, field, help, range).type_and_range();
       if constexpr (requires { given.examples; }) why += ", as " + std::string(given.examples);
-      if constexpr (requires { field.missing(value); })
-        if (const auto missing = field.missing(value); !missing.empty()) why = missing;
+      if constexpr (requires { field.fault(value); })
+        if (const auto fault = field.fault(value); !fault.empty())
+          why = "option '" + std::string(option) + "': " + fault;
     });
     if (!found) why = "has no option '" + std::string(option) + "'" + option_text::question(nearest, options());
     return why.empty();

@@ -100,8 +100,8 @@ TEST_CASE("openmesh: a build without it says so") {
   CriterionName criterion;
   const bool built_in = criterion.read("openmesh");
   CHECK(built_in == info(Criterion::openmesh).missing.empty());
-  CHECK(CriterionName::missing("openmesh").empty() == built_in);
-  CHECK(CriterionName::missing("melax").empty());
+  CHECK(CriterionName::fault("openmesh").empty() == built_in);
+  CHECK(CriterionName::fault("melax").empty());
   Bench b;
   Mesh m = cube();
   CHECK(b.run(subdivide, m, {}) == (built_in ? Outcome::changed : Outcome::unchanged));

@@ -1,6 +1,9 @@
 #include "tools/cli/options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "base/text/letter_case.h"
 #include "base/text/nearest_name.h"
@@ -129,13 +132,19 @@ void input(CLI::App& verb, Flags& f) {
 
 void placing(CLI::App& verb, Flags& f) { f.load.placing_fields(AddOption{verb}); }
 
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  const auto fault = [names](const std::string& text) {
+    if (std::ranges::find(names, text) != names.end()) return std::string();
+    NearestName nearest(text);
+    for (const auto& name : names) nearest.consider(name);
+    return fmt::format("'{}' is not one of {}{}", text, fmt::join(names, ", "), nearest.question());
+  };
+  return {fault, fmt::format("{{{}}}", fmt::join(names, ","))};
+}
+
 CLI::Validator a_criterion() {
-  const CLI::Validator member = CLI::IsMember(criterion_names());
-  return {[member](std::string& text) {
-            const auto missing = CriterionName::missing(text);
-            return missing.empty() ? member(text) : missing;
-          },
-          member.get_description()};
+  return {[](const std::string& text) { return CriterionName::fault(text); },
+          one_of(criterion_names()).get_description()};
 }
 
 void python(CLI::App& verb, Flags& f) {
@@ -170,7 +179,7 @@ void small_gltf(CLI::App& verb, Flags& f) {
   f.save.size_fields(AddOption{verb});
   verb.get_option("--position-bits")->excludes(verb.get_option("--tolerance"));
   verb.add_option("--profile", f.profile, "the program that will open it, which sets the defaults")
-      ->check(CLI::IsMember(profile_names()));
+      ->check(one_of(profile_names()));
 }
 
 void in_place(CLI::App& verb, Flags& f) {
@@ -206,7 +215,7 @@ void pictures(CLI::App& verb, Flags& f) {
 }
 
 void format(CLI::App& verb, Flags& f, const std::string& help) {
-  verb.add_option("--format", f.format, help)->check(CLI::IsMember(output_kinds()))->capture_default_str();
+  verb.add_option("--format", f.format, help)->check(one_of(output_kinds()))->capture_default_str();
 }
 
 void corpus_inputs(CLI::App& verb, Flags& f) {

@@ -14,6 +14,8 @@ void common(CLI::App& verb, Flags&);
 /// IN, the world.
 void input(CLI::App& verb, Flags&);
 void placing(CLI::App& verb, Flags&);
+/// One of those names.
+CLI::Validator one_of(const std::vector<std::string>& names);
 /// One of the names; of a criterion that this build does without, the reason.
 CLI::Validator a_criterion();
 void python(CLI::App& verb, Flags&);

@@ -308,7 +308,7 @@ constexpr Verb all_verbs[] = {
      [](CLI::App& v, Flags& f) {
        std::vector<std::string> names;
        for (const auto& page : documentation_pages()) names.emplace_back(page.name);
-       v.add_option("PAGE", f.name, "one of the pages")->check(CLI::IsMember(names));
+       v.add_option("PAGE", f.name, "one of the pages")->check(one_of(names));
      },
      run_docs},
 };
