@@ -175,8 +175,10 @@ std::vector<OptionHelp> options_of(std::string_view verb) {
   const auto app = app_of(*find_verb(verb), unused);
   std::vector<OptionHelp> out;
   for (auto* o : long_options(*app))
-    out.push_back(
-        {o->get_lnames()[0], is_flag(*o) ? std::string(flag_type) : o->get_type_name(), o->get_description()});
+    out.push_back({.name = o->get_lnames()[0],
+                   .type = is_flag(*o) ? std::string(flag_type) : o->get_type_name(),
+                   .help = o->get_description(),
+                   .letter = o->get_snames().empty() ? std::string() : o->get_snames()[0]});
   return out;
 }
 

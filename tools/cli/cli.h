@@ -18,6 +18,7 @@ struct OptionHelp {
   std::string name;  // the long one, without "--"
   std::string type;  // "FILE", "{m,cm,mm}", "UINT in [0 - 17]", flag_type
   std::string help;
+  std::string letter;  // the short name, without "-"; empty when it has none
 };
 /// The options of a verb, in the order of its help.
 std::vector<OptionHelp> options_of(std::string_view verb);

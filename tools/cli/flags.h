@@ -114,6 +114,8 @@ int run_passes(const Flags&);
 int run_formats(const Flags&);
 int run_explain(const Flags&);
 int run_docs(const Flags&);
+int run_completion(const Flags&);
+int run_manual(const Flags&);
 int run_corpus_run(const Flags&);
 int run_corpus_plan(const Flags&);
 int run_corpus_report(const Flags&);

@@ -311,6 +311,12 @@ constexpr Verb all_verbs[] = {
        v.add_option("PAGE", f.name, "one of the pages")->check(one_of(names));
      },
      run_docs},
+    {"completion", "what completes commands of wrlkit in a shell", "source <(wrlkit completion bash)",
+     [](CLI::App& v, Flags& f) {
+       v.add_option("SHELL", f.name, "bash, zsh or fish")->required()->check(one_of({"bash", "zsh", "fish"}));
+     },
+     run_completion},
+    {"manual", "the manual, for man", "wrlkit manual | man -l -", [](CLI::App&, Flags&) {}, run_manual},
 };
 
 }  // namespace
