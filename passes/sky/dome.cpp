@@ -7,7 +7,7 @@
 namespace wrlkit {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int segments = 48;
 constexpr double widest = pi / 30;  // between two rings: glTF blends linear light, VRML what the screen shows
 

@@ -31,8 +31,12 @@ class Sky {
  public:
   Sky(Scene& scene, NodeId background) : scene_(scene), background_(background) {}
 
+  bool is_made() const {
+    return !(has_textures() ? scene_.get(background_, t::sky) : scene_.get(background_, b::sky)).empty();
+  }
+
   void make() {
-    const bool textures = scene_.is(background_, nodes::TextureBackground);
+    const bool textures = has_textures();
     std::vector<NodeId> shapes{dome(textures)};
     for (const Side& side : sides)
       if (const NodeId picture = textures ? scene_.get(background_, side.texture) : image(side.url))
@@ -41,6 +45,7 @@ class Sky {
   }
 
  private:
+  bool has_textures() const { return scene_.is(background_, nodes::TextureBackground); }
   NodeId add(TypeId type) { return scene_.add(type, scene_.where(background_)); }
 
   Gradient gradient(FieldKey<FieldType::MFColor> color, FieldKey<FieldType::MFFloat> angle) const {
@@ -120,7 +125,9 @@ NodeId bound_background(const Scene& scene) {
 Outcome sky(Scene& scene, const SkyOptions&, PassContext&) {
   const NodeId background = bound_background(scene);
   if (!background) return Outcome::unchanged;
-  Sky(scene, background).make();
+  Sky made(scene, background);
+  if (made.is_made()) return Outcome::unchanged;
+  made.make();
   return Outcome::changed;
 }
 
