@@ -36,11 +36,12 @@ def commands_of(block):
 
 
 def matches(shown, printed):
-    """Whether the lines are those, where '...' stands for any."""
+    """Whether the lines are those, where '...' stands for any; how wide blanks are does not matter."""
     pattern = ''
+    shown, printed = ([' '.join(line.split()) for line in lines] for lines in (shown, printed))
     for line in shown:
-        pattern += r'(?:.*\n)*?' if line.strip() == '...' else re.escape(line.rstrip()).replace(r'\.\.\.', '.*') + r'[ ]*\n'
-    return re.fullmatch(pattern, ''.join(line.rstrip() + '\n' for line in printed)) is not None
+        pattern += r'(?:.*\n)*?' if line == '...' else re.escape(line).replace(r'\.\.\.', '.*') + r'\n'
+    return re.fullmatch(pattern, ''.join(line + '\n' for line in printed)) is not None
 
 
 def prepare(folder, wrlkit):
