@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t tiles_at_once = 16;
 // Distances are taken at points, and the largest may lie between them.
 constexpr double between_points = 1.1;
+constexpr double single_precision = 1.0 / (1 << 22);
 
 /// A cell with what has been made of it.
 struct Tile {
@@ -299,7 +300,7 @@ bool Making::publish() {
   for (const auto& tile : made_) hash = mixed(hash, tile.hash);
   const auto name = tiles_folder(hash);
   Tileset set{.tiles = {}, .error = diagonal(made_[0].box), .place = options_.place};
-  double grown = 0;
+  double grown = single_precision * diagonal(made_[0].box);
   for (const auto& tile : made_) grown = std::max(grown, 2 * tile.rounding);
   for (std::size_t i = 0; i < made_.size(); ++i) {
     const Tile& tile = made_[i];

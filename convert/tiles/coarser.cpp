@@ -81,7 +81,8 @@ class Coarser {
   /// Pieces that have left are in no Shape any more.
   std::vector<Piece> read(const Scene& scene) {
     std::vector<char> shown(scene.node_count());
-    for (const NodeId shape : scene.main.roots) shown[scene.get(shape, nodes::shape::geometry).value] = 1;
+    for (const NodeId shape : scene.main.roots)
+      if (const NodeId geometry = scene.get(shape, nodes::shape::geometry)) shown[geometry.value] = 1;
     SurfaceReader reader(scene, ctx_);
     std::vector<Piece> out;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
