@@ -7,6 +7,7 @@
 #include <iterator>
 #include <mutex>
 #include <set>
+#include <unordered_map>
 
 #include "base/hashing.h"
 #include "base/parallel.h"
@@ -26,15 +27,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t tiles_at_once = 16;
+constexpr std::size_t most_at_once = 1'500'000;  // triangles that are simplified together: some 400 MB
+constexpr std::size_t least_saving = 3;          // a coarse tile has at most one of so many triangles
 // Distances are taken at points, and the largest may lie between them.
 constexpr double between_points = 1.1;
 constexpr double single_precision = 1.0 / (1 << 22);
 
 /// A cell with what has been made of it.
 struct Tile {
-  std::vector<PieceStore::Entry> pieces;
-  Box own_box;  // of what it shows itself
-  Box box;      // and of its children
+  std::uint64_t n_full = 0;               // that is drawn when nothing is simplified
+  std::vector<PieceStore::Entry> pieces;  // of a coarse one
+  Box own_box;                            // of what it shows itself
+  Box box;                                // and of its children
   Vec3 origin{};
   double error = 0;     // metres, of the surface before it was rounded
   double rounding = 0;  // metres
@@ -107,7 +111,24 @@ class Making {
 
   bool gather(std::span<const TilesInput> inputs);
   bool make_levels();
-  bool make_tile(std::uint32_t cell, Task& ctx);
+  using Range = std::pair<std::uint32_t, std::uint32_t>;
+  /// Cells of which all coarse tiles are made at once.
+  struct Group {
+    std::vector<Piece> pieces;  // of what they are made from; in the end without meshes
+    std::size_t n_drawn = 0;
+    std::vector<std::vector<std::uint32_t>> levels;   // cells, those that are deepest first
+    std::unordered_map<std::uint32_t, Range> ranges;  // of each cell, in the pieces
+  };
+  bool fits(std::uint32_t cell) const;
+  std::size_t target(std::uint32_t cell) const;
+  std::size_t count_of(std::span<const std::uint32_t> level, std::size_t n_drawn) const;
+  bool make_group(std::uint32_t top);
+  Group gather_group(std::uint32_t top);
+  std::vector<std::uint32_t> cells_below(std::uint32_t top) const;
+  static std::vector<Piece> pieces_within(const Group& group, std::span<const Coarse> level, Range range);
+  bool make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& task);
+  bool write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task& task);
+  std::vector<PieceStore::Entry> entries_of(const Cell& cell) const;
   std::vector<Piece> read(const PieceStore& from, std::span<const PieceStore::Entry> entries) const;
   std::vector<Piece> pieces_of_cell(std::uint32_t cell) const;
   bool spill(std::uint32_t cell, std::span<const Piece> pieces);
@@ -191,28 +212,115 @@ bool Making::make_levels() {
   cells_ = cut_into_cells(entries_, options_.triangles);
   made_.resize(cells_.cells.size());
   if (ctx_.monitor) ctx_.monitor->begin("making tiles", made_.size(), "tiles");
-  std::vector<std::vector<std::uint32_t>> levels(cells_.depth + 1);
-  for (std::uint32_t i = 0; i < made_.size(); ++i) levels[cells_.cells[i].depth].push_back(i);
-  for (auto level = levels.rbegin(); level != levels.rend(); ++level)
-    if (!for_each(*level, [&](std::uint32_t i, Task& task) { return make_tile(i, task); })) return false;
+  std::vector<std::uint32_t> leaves;
+  for (std::uint32_t i = 0; i < made_.size(); ++i) {
+    const Cell& c = cells_.cells[i];
+    for (auto k = c.begin; k < c.end; ++k) made_[i].n_full += entries_[cells_.order[k]].n_drawn;
+    if (c.children.empty()) leaves.push_back(i);
+  }
+  const auto make_leaf = [&](std::uint32_t i, Task& task) { return write_tile(i, pieces_of_cell(i), task); };
+  if (!for_each(leaves, make_leaf)) return false;
+  // From the last level on, cells come before those that they are in.
+  for (auto i = static_cast<std::uint32_t>(made_.size()); i-- > 0;) {
+    const Cell& c = cells_.cells[i];
+    const bool is_with_others = fits(i) && i != c.parent && fits(c.parent);
+    if (!c.children.empty() && !is_with_others && !make_group(i)) return false;
+  }
   return true;
 }
 
+/// Whether all that is in a cell can be simplified at once.
+bool Making::fits(std::uint32_t cell) const { return made_[cell].n_full <= most_at_once; }
+
+/// What a coarse tile draws, at most.
+std::size_t Making::target(std::uint32_t cell) const {
+  return std::min<std::uint64_t>(options_.triangles, made_[cell].n_full / least_saving);
+}
+
+/// The coarse tiles from a cell downwards, as far as they are not made: all levels of one that fits, from the full
+/// pieces; of a larger one itself, from its children.
+bool Making::make_group(std::uint32_t top) {
+  Group group = gather_group(top);
+  std::vector<std::size_t> counts;
+  for (const auto& level : group.levels) counts.push_back(fits(top) ? count_of(level, group.n_drawn) : target(top));
+  auto coarse = coarser(group.pieces, counts, looks_, ctx_);
+  for (auto k = group.levels.size(); k-- > 0;) {
+    const auto make = [&](std::uint32_t i, Task& task) {
+      return make_coarse(i, pieces_within(group, coarse[k], group.ranges.at(i)), task);
+    };
+    if (!for_each(group.levels[k], make)) return false;
+    coarse[k].clear();
+  }
+  return true;
+}
+
+Making::Group Making::gather_group(std::uint32_t top) {
+  Group out;
+  const auto depth_of = [&](std::uint32_t i) { return cells_.cells[i].depth - cells_.cells[top].depth; };
+  const bool all = fits(top);
+  for (const auto i : cells_below(top)) {
+    const Cell& c = cells_.cells[i];
+    const bool is_source = all ? c.children.empty() : c.parent == top && i != top;
+    if (is_source) {
+      const auto begin = static_cast<std::uint32_t>(out.pieces.size());
+      std::ranges::move(pieces_of_cell(i), std::back_inserter(out.pieces));
+      // All cells that it is in.
+      for (auto above = c.parent;; above = cells_.cells[above].parent) {
+        auto& range = out.ranges.try_emplace(above, begin, begin).first->second;
+        range.second = static_cast<std::uint32_t>(out.pieces.size());
+        if (above == top) break;
+      }
+    } else if (!c.children.empty() && (all || i == top)) {
+      out.levels.resize(std::max<std::size_t>(out.levels.size(), depth_of(i) + 1));
+      out.levels[depth_of(i)].push_back(i);
+    }
+  }
+  // The finest level first: counts fall.
+  std::ranges::reverse(out.levels);
+  for (const auto& p : out.pieces) out.n_drawn += n_drawn(p.mesh);
+  return out;
+}
+
+/// Cells in the order in which a tree is walked.
+std::vector<std::uint32_t> Making::cells_below(std::uint32_t top) const {
+  std::vector<std::uint32_t> out, open{top};
+  while (!open.empty()) {
+    const auto i = open.back();
+    open.pop_back();
+    out.push_back(i);
+    const auto& children = cells_.cells[i].children;
+    open.insert(open.end(), children.rbegin(), children.rend());
+  }
+  return out;
+}
+
+/// Triangles of a whole group at which the tiles of a level have as many as they may have.
+std::size_t Making::count_of(std::span<const std::uint32_t> level, std::size_t n_drawn) const {
+  double full = 0, wanted = 0;
+  for (const auto i : level) {
+    full += static_cast<double>(made_[i].n_full);
+    wanted += static_cast<double>(target(i));
+  }
+  return static_cast<std::size_t>(static_cast<double>(n_drawn) * std::min(1.0, wanted / full));
+}
 std::vector<Piece> Making::read(const PieceStore& from, std::span<const PieceStore::Entry> entries) const {
   std::vector<Piece> out;
   for (const auto& e : entries) out.push_back(from.read(e));
   return out;
 }
 
+/// In the order of the files, so that pieces of a part stand together.
+std::vector<PieceStore::Entry> Making::entries_of(const Cell& cell) const {
+  std::vector<std::uint32_t> order(cells_.order.begin() + cell.begin, cells_.order.begin() + cell.end);
+  std::ranges::sort(order);
+  std::vector<PieceStore::Entry> out;
+  for (const auto i : order) out.push_back(entries_[i]);
+  return out;
+}
+
 std::vector<Piece> Making::pieces_of_cell(std::uint32_t cell) const {
   const Cell& c = cells_.cells[cell];
-  if (!c.children.empty()) return read(*coarse_, made_[cell].pieces);
-  // In the order of the files, so that pieces of a part stand together.
-  std::vector<std::uint32_t> order(cells_.order.begin() + c.begin, cells_.order.begin() + c.end);
-  std::ranges::sort(order);
-  std::vector<PieceStore::Entry> entries;
-  for (const auto i : order) entries.push_back(entries_[i]);
-  return read(*full_, entries);
+  return c.children.empty() ? read(*full_, entries_of(c)) : read(*coarse_, made_[cell].pieces);
 }
 
 bool Making::spill(std::uint32_t cell, std::span<const Piece> pieces) {
@@ -224,30 +332,41 @@ bool Making::spill(std::uint32_t cell, std::span<const Piece> pieces) {
   return stored;
 }
 
-bool Making::make_tile(std::uint32_t cell, Task& task) {
+std::vector<Piece> Making::pieces_within(const Group& group, std::span<const Coarse> level, Range range) {
+  std::vector<Piece> out;
+  const auto first = std::ranges::lower_bound(level, range.first, {}, &Coarse::from);
+  for (auto i = first; i != level.end() && i->from < range.second; ++i)
+    out.push_back({group.pieces[i->from].name, group.pieces[i->from].look, i->mesh});
+  return out;
+}
+
+bool Making::make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& task) {
+  std::size_t drawn = 0;
+  for (const auto& p : pieces) drawn += n_drawn(p.mesh);
+  if (const std::size_t most = options_.triangles; drawn > most) {
+    auto coarse = coarser(pieces, {&most, 1}, looks_, task);
+    std::vector<Piece> fewer;
+    for (auto& c : coarse[0]) fewer.push_back({pieces[c.from].name, pieces[c.from].look, std::move(c.mesh)});
+    pieces = std::move(fewer);
+  }
+  if (!spill(cell, pieces)) {
+    task.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
+    return false;
+  }
+  return write_tile(cell, pieces, task);
+}
+
+bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task& task) {
   const Cell& c = cells_.cells[cell];
   Tile& tile = made_[cell];
-  std::vector<Piece> pieces;
-  if (c.children.empty())
-    pieces = pieces_of_cell(cell);
-  else {
-    for (const auto child : c.children) std::ranges::move(pieces_of_cell(child), std::back_inserter(pieces));
-    std::size_t drawn = 0;
-    for (const auto& p : pieces) drawn += n_drawn(p.mesh);
-    pieces = coarser(std::move(pieces), std::min(options_.triangles, drawn / 2), looks_, task);
-    if (!spill(cell, pieces)) {
-      task.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
-      return false;
-    }
-  }
   std::set<std::string_view> names;
   for (const auto& p : pieces) {
     tile.own_box.unite(bounds_of(p.mesh));
     names.insert(p.name);
   }
-  tile.box = tile.own_box;
-  for (const auto child : c.children) tile.box.unite(made_[child].box);
-  tile.origin = origin_of(tile.box);
+  tile.figures.depth = c.depth;
+  if (pieces.empty()) return true;
+  tile.origin = origin_of(tile.own_box);
   GltfSummary summary;
   const auto path = staging_.path() + '/' + c.name + ".glb";
   if (!write_content(pieces, tile.origin, looks_, gltf_, *pictures_, path, task.diag, summary)) return false;
@@ -258,6 +377,11 @@ bool Making::make_tile(std::uint32_t cell, Task& task) {
 }
 
 bool Making::measure() {
+  for (auto i = made_.size(); i-- > 0;) {
+    made_[i].box = made_[i].own_box;
+    for (const auto child : cells_.cells[i].children) made_[i].box.unite(made_[child].box);
+    if (made_[i].own_box.empty()) made_[i].origin = origin_of(made_[i].box);
+  }
   std::vector<std::uint32_t> inner;
   for (std::uint32_t i = 0; i < made_.size(); ++i)
     if (!cells_.cells[i].children.empty()) inner.push_back(i);

@@ -18,106 +18,137 @@ constexpr std::size_t welded_at_once = 256;
 
 bool has_surface(const Piece& p) { return p.mesh.is_triangles(); }
 
-/// Lines and points that are too many, the smallest first.
-void leave_out_lines(std::vector<Piece>& pieces, std::size_t most) {
-  std::vector<std::pair<double, std::uint32_t>> lines;
+/// A piece that is no surface.
+struct Line {
+  double size;
+  std::uint32_t piece;
+  std::size_t n_drawn;
+};
+
+/// The largest first.
+std::vector<Line> lines_of(std::span<const Piece> pieces) {
+  std::vector<Line> out;
   for (std::uint32_t i = 0; i < pieces.size(); ++i)
-    if (!has_surface(pieces[i])) lines.emplace_back(-diagonal(bounds_of(pieces[i].mesh)), i);
-  std::ranges::sort(lines);
-  std::size_t n = 0;
-  for (const auto& [size, i] : lines)
-    if (n += n_drawn(pieces[i].mesh); n > most) pieces[i].mesh.clear();
-  std::erase_if(pieces, [](const Piece& p) { return p.mesh.corners.empty(); });
+    if (!has_surface(pieces[i])) out.push_back({diagonal(bounds_of(pieces[i].mesh)), i, n_drawn(pieces[i].mesh)});
+  std::ranges::stable_sort(out, std::greater{}, &Line::size);
+  return out;
 }
 
 class Coarser {
  public:
-  Coarser(std::vector<Piece> pieces, const Looks& looks, Task& ctx) : pieces_(std::move(pieces)), ctx_(ctx) {
+  Coarser(std::span<Piece> pieces, const Looks& looks, const Task& ctx)
+      : pieces_(pieces), lines_(lines_of(pieces_)), silent_(ctx), geometry_(pieces_.size()) {
     scene_.import(looks.scene());
     for (const auto& p : pieces_) box_.unite(bounds_of(p.mesh));
     prepare();
-    for (const auto& p : pieces_) geometry_.push_back(add(p, looks));
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      if (has_surface(pieces_[i])) geometry_[i] = add(pieces_[i], looks);
   }
 
-  std::vector<Piece> run(std::size_t most) {
+  std::vector<std::vector<Coarse>> run(std::span<const std::size_t> counts) {
+    std::vector<std::vector<Coarse>> out;
+    std::vector<std::size_t> of_surfaces;
+    for (const auto count : counts) of_surfaces.push_back(count - add_lines(out.emplace_back(), count));
     WorldSimplifyOptions options;
-    options.counts = {most};
-    const WorldLevels levels(scene_, options, ctx_);
-    if (!levels.points().empty()) return read(levels.scene_at(0));
-    const SimplifiedWorld world(scene_, options, ctx_);
-    if (world.n_points() > 0) return read(world.scene_at(0));
-    return read(scene_);
+    options.counts = of_surfaces;
+    const WorldLevels levels(scene_, options, silent_);
+    const auto n_drawn = [](const auto& point) { return point.n_drawn; };
+    if (!levels.points().empty())
+      read_all(levels, levels.points(), n_drawn, of_surfaces, out);
+    else {
+      const SimplifiedWorld world(scene_, options, silent_);
+      std::vector<InteractionPoint> points;
+      for (std::size_t i = 0; i < world.n_points(); ++i) points.push_back(world.point(i));
+      read_all(
+          world, points, [](const auto& point) { return point.n_faces; }, of_surfaces, out);
+    }
+    for (auto& level : out) std::ranges::sort(level, {}, &Coarse::from);
+    return out;
   }
 
  private:
+  /// How much they draw.
+  std::size_t add_lines(std::vector<Coarse>& to, std::size_t count) const {
+    std::size_t n = 0;
+    for (const auto& line : lines_) {
+      if (n + line.n_drawn > count / share_of_lines) continue;
+      n += line.n_drawn;
+      to.push_back({line.piece, pieces_[line.piece].mesh});
+      simplify::transform(to.back().mesh, translation_matrix(box_.centre()));
+    }
+    return n;
+  }
+
   /// Around the middle of all, where single precision is good; faces find their neighbours.
   void prepare() {
-    const Vec3 middle = box_.centre();
     for (std::size_t begin = 0; begin < pieces_.size(); begin += welded_at_once)
       parallel_for(std::min(welded_at_once, pieces_.size() - begin), [&](std::size_t i) {
         Mesh& mesh = pieces_[begin + i].mesh;
-        simplify::transform(mesh, translation_matrix(-1 * middle));
+        simplify::transform(mesh, translation_matrix(-1 * box_.centre()));
         if (mesh.primitive) {
           mesh.normal.clear();
           mesh.crease_angle = CollapseOptions{}.crease_angle;
           mesh.primitive = false;
         }
         MeshScratch scratch;
-        SilentTask silent(ctx_);
+        SilentTask silent(static_cast<const Task&>(silent_));
         MeshJob job{scene_, {}, mesh, scratch, silent};
         weld(job, {});
       });
   }
 
-  NodeId add(const Piece& p, const Looks& looks) {
+  NodeId add(Piece& p, const Looks& looks) {
     const NodeId shape = scene_.add(nodes::Shape), geometry = scene_.add(nodes::IndexedFaceSet);
     store_mesh(scene_, geometry, p.mesh);
+    p.mesh = {};
     scene_.set(shape, nodes::shape::geometry, geometry);
     if (const NodeId look = looks.appearance(p.look)) scene_.set(shape, nodes::shape::appearance, look);
     scene_.main.roots.push_back(shape);
     return geometry;
   }
 
+  /// For each count the first point that draws no more, or the last; the world itself where there is none.
+  void read_all(const auto& world, const auto& points, const auto& n_drawn, std::span<const std::size_t> counts,
+                std::vector<std::vector<Coarse>>& out) {
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      auto at = std::ranges::find_if(points, [&](const auto& point) { return n_drawn(point) <= counts[k]; });
+      if (at == points.end() && !points.empty()) --at;
+      if (at == points.end())
+        read(scene_, out[k]);
+      else
+        read(world.scene_at(static_cast<std::size_t>(at - points.begin())), out[k]);
+    }
+  }
+
   /// Pieces that have left are in no Shape any more.
-  std::vector<Piece> read(const Scene& scene) {
+  void read(const Scene& scene, std::vector<Coarse>& out) {
     std::vector<char> shown(scene.node_count());
     for (const NodeId shape : scene.main.roots)
       if (const NodeId geometry = scene.get(shape, nodes::shape::geometry)) shown[geometry.value] = 1;
-    SurfaceReader reader(scene, ctx_);
-    std::vector<Piece> out;
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      if (!shown[geometry_[i].value]) continue;
-      Piece p{pieces_[i].name, pieces_[i].look, {}};
-      reader.read({geometry_[i], {}}, p.mesh);
-      if (p.mesh.corners.empty()) continue;
-      simplify::transform(p.mesh, translation_matrix(box_.centre()));
-      out.push_back(std::move(p));
+    SurfaceReader reader(scene, silent_);
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+      if (!geometry_[i] || !shown[geometry_[i].value]) continue;
+      Coarse left{i, {}};
+      reader.read({geometry_[i], {}}, left.mesh);
+      if (left.mesh.corners.empty()) continue;
+      simplify::transform(left.mesh, translation_matrix(box_.centre()));
+      out.push_back(std::move(left));
     }
-    return out;
   }
 
-  std::vector<Piece> pieces_;
-  Task& ctx_;
+  std::span<Piece> pieces_;  // meshes of surfaces are in the scene
+  std::vector<Line> lines_;
+  SilentTask silent_;
   Scene scene_;
   Box box_;
-  std::vector<NodeId> geometry_;
+  std::vector<NodeId> geometry_;  // by piece
 };
 
 }  // namespace
 
-std::vector<Piece> coarser(std::vector<Piece> pieces, std::size_t most, const Looks& looks, Task& ctx) {
-  leave_out_lines(pieces, most / share_of_lines);
-  const auto lines = std::ranges::stable_partition(pieces, has_surface);
-  std::vector<Piece> kept(std::make_move_iterator(lines.begin()), std::make_move_iterator(lines.end()));
-  pieces.erase(lines.begin(), pieces.end());
-  std::size_t n_kept = 0;
-  for (const auto& p : kept) n_kept += n_drawn(p.mesh);
-  if (!pieces.empty()) {
-    SilentTask silent(ctx);
-    auto surfaces = Coarser(std::move(pieces), looks, silent).run(most - n_kept);
-    std::ranges::move(surfaces, std::back_inserter(kept));
-  }
-  return kept;
+std::vector<std::vector<Coarse>> coarser(std::span<Piece> pieces, std::span<const std::size_t> counts,
+                                         const Looks& looks, const Task& ctx) {
+  return Coarser(pieces, looks, ctx).run(counts);
 }
 
 }  // namespace wrlkit::tiles

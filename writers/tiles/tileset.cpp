@@ -41,10 +41,12 @@ class TilesetJson {
     json_.end_object();
     json_.member("geometricError", t.error);
     if (i == 0) json_.member("refine", "REPLACE");
-    json_.key("content");
-    json_.begin_object();
-    json_.member("uri", t.uri);
-    json_.end_object();
+    if (!t.uri.empty()) {
+      json_.key("content");
+      json_.begin_object();
+      json_.member("uri", t.uri);
+      json_.end_object();
+    }
     if (!t.children.empty()) {
       json_.key("children");
       json_.begin_array();
