@@ -9,7 +9,8 @@ namespace wrlkit::tiles {
 
 class Staging {
  public:
-  /// Makes a folder in `folder`, which is made as well where it is not there. False, reported, when that fails.
+  /// Makes a folder in `folder`, which is made as well where it is not there, and removes those that runs have left
+  /// that were killed. False, reported, when that fails.
   bool open(const std::string& folder, Diagnostics& diag);
   /// What was not published is gone.
   ~Staging();
@@ -20,8 +21,11 @@ class Staging {
   bool publish(const std::string& name, const std::string& tileset, Diagnostics& diag);
 
  private:
+  void remove_left_behind() const;
+
   std::filesystem::path folder_, at_;
   bool made_ = false;  // folder_
+  int lock_ = -1;      // as long as somebody has it, nobody removes the folder
 };
 
 /// Name of a folder of tiles by a hash of what is in them.

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "base/text/json.h"
+#include "tools/cli/print_diagnostics.h"
 #include "tools/cli/recipe.h"
 #include "tools/cli/session.h"
 #include "tools/corpus/inputs.h"
@@ -70,10 +73,9 @@ std::vector<Level> levels_of(const TilesMade& made) {
 }
 
 std::string text_of(const TilesMade& made, const std::string& folder) {
-  auto out = fmt::format("{} {} -> {}: {} tiles, {} bytes\n  {} triangles, {} parts\n", made.n_files,
-                         made.n_files == 1 ? "file" : "files",
-                         (folder.ends_with('/') ? folder : folder + '/') + "tileset.json", made.tiles.size(),
-                         made.bytes, made.triangles, made.parts);
+  auto out = fmt::format("{} -> {}: {}, {} bytes\n  {}, {}\n", counted(made.n_files, "file"),
+                         (std::filesystem::path(folder) / "tileset.json").string(), counted(made.tiles.size(), "tile"),
+                         made.bytes, counted(made.triangles, "triangle"), counted(made.parts, "part"));
   out += fmt::format("{:>7}  {:>6}  {:>11}  {:>11}  {:>11}\n", "level", "tiles", "triangles", "bytes", "error (m)");
   const auto levels = levels_of(made);
   for (std::size_t i = 0; i < levels.size(); ++i)
@@ -121,11 +123,18 @@ std::string json_of(const TilesMade& made) {
   return out;
 }
 
+/// False, which was printed, when it is no place on the Earth.
+bool check_place(const std::vector<double>& at) {
+  if (at.empty() || (std::abs(at[0]) <= 90 && std::abs(at[1]) <= 360)) return true;
+  fmt::print(stderr, "wrlkit tiles: --at: {},{} is not a valid latitude and longitude\n", at[0], at[1]);
+  return false;
+}
+
 }  // namespace
 
 int run_tiles(const Flags& flags) {
   Session s(flags);
-  if (!s.good()) return usage;
+  if (!s.good() || !check_place(flags.at)) return usage;
   const auto inputs = inputs_of(flags);
   if (inputs.empty()) return nothing;
   const auto made = make_tiles(inputs, flags.output, options_of(flags), s.document());

@@ -8,6 +8,8 @@
 namespace wrlkit {
 namespace {
 
+constexpr double noise = 1e-9;  // of angles, and metres on the Earth
+
 /// From y up to z up, as who shows a tile turns its content.
 Vec3 z_up(const Vec3& p) { return {p[0], 0 - p[2], p[1]}; }
 
@@ -64,7 +66,7 @@ class TilesetJson {
     if (m == Matrix{}) return;
     std::vector<double> numbers;
     for (int c = 0; c < 4; ++c) {
-      for (int r = 0; r < 3; ++r) numbers.push_back(m(r, c) + 0.0);  // no -0
+      for (int r = 0; r < 3; ++r) numbers.push_back(std::abs(m(r, c)) < noise ? 0 : m(r, c));
       numbers.push_back(c == 3 ? 1 : 0);
     }
     json_.member("transform", numbers);
