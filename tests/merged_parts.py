@@ -80,7 +80,7 @@ class Glb:
                 ids = [int(v[0]) for v in self.accessor(p['attributes'][f"_FEATURE_ID_{sets[0]['attribute']}"])]
                 assert sets[0]['featureCount'] == len(set(ids)), 'featureCount'
                 points = self.accessor(p['attributes']['POSITION'])
-                for (v,) in self.accessor(p['indices']):
+                for (v,) in self.accessor(p['indices']) if 'indices' in p else [(v,) for v in range(len(points))]:
                     found.setdefault(ids[v], []).append([points[v][i] + moved[i] for i in range(3)])
         return found
 

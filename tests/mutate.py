@@ -42,6 +42,7 @@ VERBS = {
     'lightmap': ['convert', 'IN', 'OUT.glb', '-p', 'lightmap{quality=draft,density=1,max-size=64}'],
     'optimize': ['optimize', 'IN', 'OUT.glb'],
     'recognise': ['optimize', 'IN', 'OUT.glb', '--recognise', '--profile', 'cesium'],
+    'tiles': ['tiles', 'IN', '-o', 'OUT.tiles'],
     'info': ['info', 'IN'],
 }
 

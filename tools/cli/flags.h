@@ -88,6 +88,10 @@ struct Flags {
   double emission = 1;
   std::string sky = "background";
 
+  // tiles
+  int tile_triangles = 50'000;
+  std::vector<double> at;  // latitude, longitude, height, heading
+
   bool serve = false;  // view
 
   std::vector<std::string> criteria;  // compare-lod, view
@@ -109,6 +113,7 @@ int run_render(const Flags&);
 int run_simplify(const Flags&);
 int run_compare_lod(const Flags&);
 int run_illuminate(const Flags&);
+int run_tiles(const Flags&);
 int run_view(const Flags&);
 int run_passes(const Flags&);
 int run_formats(const Flags&);

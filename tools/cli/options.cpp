@@ -218,6 +218,29 @@ void format(CLI::App& verb, Flags& f, const std::string& help) {
   verb.add_option("--format", f.format, help)->check(one_of(output_kinds()))->capture_default_str();
 }
 
+void globs(CLI::App& verb, Flags& f) {
+  verb.add_option("--include", f.include, "of folders, only files like these: '*.wrl', 'unit_1/**'")->type_name("GLOB");
+  verb.add_option("--exclude", f.exclude, "of folders, no files like these")->type_name("GLOB");
+}
+
+void tiles(CLI::App& verb, Flags& f) {
+  verb.add_option("--triangles", f.tile_triangles, "that a tile draws, at most")
+      ->check(CLI::Range(100, 10'000'000))
+      ->capture_default_str();
+  verb.add_option("--at", f.at,
+                  "where the origin of the world is on the Earth: latitude, longitude (degrees), metres above the "
+                  "ellipsoid, and, if need be, where its -z points to, in degrees from north towards east")
+      ->expected(3, 4)
+      ->delimiter(',')
+      ->type_name("LAT,LON,HEIGHT[,HEADING]");
+  constexpr std::string_view of_content[] = {"compress",       "tolerance",       "draco-level",
+                                             "texture-format", "texture-quality", "texture-size"};
+  f.save.size_fields([&](std::string_view name, auto& field, auto&&... about) {
+    if (std::ranges::find(of_content, name) != std::end(of_content)) AddOption{verb}(name, field, about...);
+  });
+  verb.get_option("--compress")->default_str("meshopt");
+}
+
 void corpus_inputs(CLI::App& verb, Flags& f) {
   verb.add_option("RECIPE", f.recipe, "a recipe; see docs/recipes.md")->required();
   verb.add_option("IN", f.inputs, "folders, globs, worlds, @FILE: a list of worlds; -: such a list on standard input")
@@ -226,8 +249,7 @@ void corpus_inputs(CLI::App& verb, Flags& f) {
       ->required()
       ->type_name("DIR");
   format(verb, f, "ending of the outputs");
-  verb.add_option("--include", f.include, "of folders, only files like these: '*.wrl', 'unit_1/**'")->type_name("GLOB");
-  verb.add_option("--exclude", f.exclude, "of folders, no files like these")->type_name("GLOB");
+  globs(verb, f);
   verb.add_option("--base", f.base,
                   "files of lists stand in the output as below this folder; else as below the current one")
       ->type_name("DIR");

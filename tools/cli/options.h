@@ -33,6 +33,10 @@ void level(CLI::App& verb, Flags&);
 void pictures(CLI::App& verb, Flags&);
 /// --format: an ending without its dot.
 void format(CLI::App& verb, Flags&, const std::string& help);
+/// Which files of folders are meant.
+void globs(CLI::App& verb, Flags&);
+/// How tiles are made.
+void tiles(CLI::App& verb, Flags&);
 void corpus_inputs(CLI::App& verb, Flags&);
 
 }  // namespace wrlkit::cli

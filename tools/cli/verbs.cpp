@@ -233,6 +233,20 @@ constexpr Verb all_verbs[] = {
        placing(v, f);
      },
      run_illuminate, ".xml .xml.gz"},
+    {"tiles",
+     "worlds of any size as 3D Tiles, with levels of detail whose errors are measured; parts are found by their names "
+     "at every level",
+     "wrlkit tiles plant.wrl -o tiles/\n  wrlkit tiles plant/ -o tiles/ --compress draco\n  wrlkit tiles @units.txt -o "
+     "tiles/ --at 50.1,8.6,112,30",
+     [](CLI::App& v, Flags& f) {
+       v.add_option("IN", f.inputs, "worlds, folders, globs, @FILE: a list of worlds; -: such a list on standard input")
+           ->required();
+       v.add_option("-o,--output", f.output, "folder for tileset.json and the tiles")->required()->type_name("DIR");
+       globs(v, f);
+       tiles(v, f);
+       placing(v, f);
+     },
+     run_tiles},
     {"view", "a page to look at the world, or to compare two: one HTML file that needs no other and no network",
      "wrlkit view plant.wrl -o plant.html\n  wrlkit view plant.wrl simpler.wrl -o compared.html\n  wrlkit view "
      "valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view plant.wrl --serve",

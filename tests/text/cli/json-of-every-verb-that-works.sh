@@ -11,6 +11,7 @@ words_of() {
         simplify) echo %t.wrl --ratios 0.5 -o %t.simplified ;;
         compare-lod) echo %t.wrl --ratios 0.5 -o %t.lod.html ;;
         illuminate) echo %t.wrl %t.xml --samples 1 --max-edge 1m ;;
+        tiles) echo %t.wrl -o %t.tiles ;;
         view) echo %t.wrl -o %t.html ;;
         corpus-run | corpus-plan) echo %t.toml %t.in -o %t.out ;;
         corpus-report) echo %t.out ;;

@@ -1,0 +1,59 @@
+// Worlds of any size as 3D Tiles: what `wrlkit tiles` does.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "convert/document.h"
+#include "convert/options.h"
+#include "writers/tiles/tileset.h"
+
+namespace wrlkit {
+
+struct TilesOptions {
+  std::size_t triangles = 50'000;  // that a tile draws, at most, and segments and points
+  SaveOptions save = {.compress = GltfCompression::Method::meshopt};  // how the content is stored
+  std::optional<EarthPlace> place = {};                               // none: in coordinates of its own
+};
+
+/// One of the files that make the world.
+struct TilesInput {
+  std::string path;
+  std::string name;  // what it is called in tables of names
+};
+
+/// One tile of the set.
+struct TileFigures {
+  std::string file;
+  std::uint32_t depth = 0;
+  double error = 0;  // metres that its surface is from the full one, at most
+  std::size_t triangles = 0, draws = 0;
+  std::size_t parts = 0;  // different names
+  std::uint64_t bytes = 0;
+};
+
+struct TilesMade {
+  Ending ending = Ending::failed;
+  std::vector<TileFigures> tiles = {};  // the root is the first
+  std::size_t depth = 0;                // levels behind the root
+  std::size_t n_files = 0, n_failed = 0;
+  std::size_t triangles = 0, parts = 0;    // of all files
+  std::size_t n_cut = 0;                   // pieces of surfaces that are too large for a tile
+  std::size_t n_lights = 0, n_routes = 0;  // that tiles cannot show
+  std::uint64_t bytes = 0;
+
+  explicit operator bool() const { return ending == Ending::good || ending == Ending::partly; }
+};
+
+/// Reads the files one after the other through `reader`, whose messages are then those of all of them; one that cannot
+/// be read costs itself. Writes `folder`/tileset.json, and its tiles into a folder next to it that is called after
+/// their contents; whole or not at all: tileset.json comes last, and what an earlier one referred to is removed then.
+///
+/// Memory: one file with its scene, then a tile with its children on each thread, and 50 bytes for each part; the rest
+/// lies in a temporary file in `folder`, about as large as the vertices of the world. The same bytes for any number of
+/// threads.
+TilesMade make_tiles(std::span<const TilesInput> inputs, const std::string& folder, const TilesOptions& options,
+                     Document& reader);
+
+}  // namespace wrlkit

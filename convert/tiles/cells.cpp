@@ -1,0 +1,87 @@
+#include "convert/tiles/cells.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace wrlkit::tiles {
+namespace {
+
+class Cutting {
+ public:
+  Cutting(std::span<const PieceStore::Entry> pieces, std::size_t most) : pieces_(pieces), most_(most) {}
+
+  Cells run() {
+    out_.order.resize(pieces_.size());
+    std::iota(out_.order.begin(), out_.order.end(), 0u);
+    out_.cells.push_back({.name = "r", .end = static_cast<std::uint32_t>(pieces_.size())});
+    for (std::uint32_t i = 0; i < out_.cells.size(); ++i) cut(i);
+    out_.depth = out_.cells.back().depth;  // breadth first
+    return std::move(out_);
+  }
+
+ private:
+  using Range = std::pair<std::uint32_t, std::uint32_t>;
+
+  std::uint64_t drawn(Range r) const {
+    std::uint64_t n = 0;
+    for (auto i = r.first; i < r.second; ++i) n += pieces_[out_.order[i]].n_drawn;
+    return n;
+  }
+  bool is_too_large(Range r) const { return r.second - r.first > 1 && drawn(r) > most_; }
+
+  void cut(std::uint32_t cell) {
+    const Range all{out_.cells[cell].begin, out_.cells[cell].end};
+    if (!is_too_large(all)) return;
+    const auto middle = halve(all);
+    for (const Range& half : {Range{all.first, middle}, Range{middle, all.second}}) {
+      if (!is_too_large(half)) {
+        add(cell, half);
+        continue;
+      }
+      const auto quarter = halve(half);
+      add(cell, {half.first, quarter});
+      add(cell, {quarter, half.second});
+    }
+  }
+
+  void add(std::uint32_t parent, Range r) {
+    const auto& above = out_.cells[parent];
+    Cell cell{.name = above.name + std::to_string(above.children.size()),
+              .parent = parent,
+              .depth = above.depth + 1,
+              .begin = r.first,
+              .end = r.second};
+    out_.cells[parent].children.push_back(static_cast<std::uint32_t>(out_.cells.size()));
+    out_.cells.push_back(std::move(cell));
+  }
+
+  /// Where the second half begins; neither is empty.
+  std::uint32_t halve(Range r) {
+    Box box;
+    for (auto i = r.first; i < r.second; ++i) box.add(pieces_[out_.order[i]].centre);
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (box.size(k) > box.size(axis)) axis = k;
+    std::sort(out_.order.begin() + r.first, out_.order.begin() + r.second, [&](std::uint32_t a, std::uint32_t b) {
+      const double x = pieces_[a].centre[axis], y = pieces_[b].centre[axis];
+      return x != y ? x < y : a < b;
+    });
+    const auto all = drawn(r);
+    std::uint64_t before = 0;
+    auto i = r.first;
+    while (i + 1 < r.second && 2 * before < all) before += pieces_[out_.order[i++]].n_drawn;
+    return std::max(i, r.first + 1);
+  }
+
+  std::span<const PieceStore::Entry> pieces_;
+  std::size_t most_;
+  Cells out_;
+};
+
+}  // namespace
+
+Cells cut_into_cells(std::span<const PieceStore::Entry> pieces, std::size_t most) {
+  return Cutting(pieces, most).run();
+}
+
+}  // namespace wrlkit::tiles

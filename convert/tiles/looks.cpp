@@ -1,0 +1,107 @@
+#include "convert/tiles/looks.h"
+
+#include "scenegraph/nodes.h"
+
+namespace wrlkit::tiles {
+namespace {
+
+/// What of a node belongs to its look.
+bool counts(const Scene& scene, NodeId n, const Value& v) {
+  return !v.is && !scene.is_extra(v) && scene.type(n).fields[v.slot].name != "metadata";
+}
+
+bool is_known(const Scene& scene, NodeId n) { return n && scene.type(n).kind == NodeKind::builtin; }
+
+/// Takes an Appearance to another scene. Nesting is bounded by the parser.
+class Taking {
+ public:
+  Taking(const Scene& from, Resources* resources) : from_(from), resources_(resources) {}
+
+  /// Everything that makes it what it is, as bytes.
+  std::string key(NodeId n) {
+    key_.clear();
+    add_key(n);
+    return std::move(key_);
+  }
+
+  NodeId copy(NodeId n, Scene& to) {
+    if (!is_known(from_, n)) return {};
+    const NodeId made = to.add(from_.type_id(n));
+    for (const Value& v : from_.copy_of_fields(n))
+      if (counts(from_, n, v)) to.set(made, copy(n, v, to));
+    return made;
+  }
+
+ private:
+  template <class T>
+  void add_bytes(std::span<const T> values) {
+    const std::uint64_t n = values.size();
+    key_.append(reinterpret_cast<const char*>(&n), sizeof n);
+    key_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  }
+  void add_text(std::string_view s) { add_bytes(std::span<const char>(s.data(), s.size())); }
+
+  void add_key(NodeId n) {
+    if (!is_known(from_, n)) return add_text("");
+    add_text(from_.type(n).name);
+    for (const Value& v : from_.fields(n)) {
+      if (!counts(from_, n, v)) continue;
+      key_ += static_cast<char>(v.slot);
+      const auto element = info(v.type).element;
+      if (element == Element::node)
+        for (NodeId c : v.node_span()) add_key(c);
+      else if (element == Element::number)
+        add_bytes(v.number_span());
+      else if (element == Element::integer || element == Element::image)
+        add_bytes(v.integer_span());
+      else if (v.type == FieldType::MFString)
+        for (const auto& text : texts(n, v)) add_text(text);
+      else
+        add_text(v.text());
+    }
+    key_ += '\xff';
+  }
+
+  Value copy(NodeId n, const Value& v, Scene& to) {
+    const auto element = info(v.type).element;
+    if (element == Element::node) {
+      std::vector<NodeId> nodes;
+      for (NodeId c : v.node_span())
+        if (const NodeId made = copy(c, to)) nodes.push_back(made);
+      if (info(v.type).multiple) return to.make(v.type, v.slot, nodes);
+      return to.make(v.type, v.slot, nodes.empty() ? NodeId{} : nodes[0]);
+    }
+    if (element == Element::number) return to.make(v.type, v.slot, v.number_span());
+    if (v.type == FieldType::SFBool || v.type == FieldType::SFInt32) return v;
+    if (element == Element::integer || element == Element::image) return to.make(v.type, v.slot, v.integer_span());
+    if (v.type != FieldType::MFString) return to.make(v.type, v.slot, v.text());
+    const auto all = texts(n, v);
+    return to.make(v.type, v.slot, std::vector<std::string_view>(all.begin(), all.end()));
+  }
+
+  /// Of urls, what they lead to from here.
+  std::vector<std::string> texts(NodeId n, const Value& v) {
+    std::vector<std::string> out;
+    const bool is_url = resources_ && from_.is(n, nodes::ImageTexture);
+    for (const auto text : v.text_span()) {
+      const auto target = is_url ? resources_->target(text, from_.where(n), *from_.sources) : UrlTarget{};
+      out.push_back(target.kind == UrlTarget::Kind::file ? target.path : std::string(text));
+    }
+    return out;
+  }
+
+  const Scene& from_;
+  Resources* resources_;
+  std::string key_;
+};
+
+}  // namespace
+
+std::uint32_t Looks::add(const Scene& scene, NodeId appearance, Resources* resources) {
+  Taking taking(scene, resources);
+  const auto [at, is_new] = known_.try_emplace(taking.key(appearance), static_cast<std::uint32_t>(appearances_.size()));
+  if (is_new) appearances_.push_back(taking.copy(appearance, scene_));
+  return at->second;
+}
+
+}  // namespace wrlkit::tiles

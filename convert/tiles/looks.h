@@ -1,0 +1,29 @@
+// The appearances of many worlds in one scene, each once.
+#pragma once
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "scenegraph/resources.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit::tiles {
+
+class Looks {
+ public:
+  /// Number of the look of an Appearance, which may be none. Equal ones have one number, whatever world they are from
+  /// and whatever their names. Urls of pictures become absolute paths. Linear in what is below the Appearance.
+  std::uint32_t add(const Scene& scene, NodeId appearance, Resources* resources);
+
+  std::size_t size() const { return appearances_.size(); }
+  /// Nodes of scene(); none: the look of a Shape without an Appearance.
+  NodeId appearance(std::uint32_t look) const { return appearances_[look]; }
+  const Scene& scene() const { return scene_; }
+
+ private:
+  Scene scene_;
+  std::vector<NodeId> appearances_;
+  std::unordered_map<std::string, std::uint32_t> known_;  // by all that is in it
+};
+
+}  // namespace wrlkit::tiles

@@ -1,0 +1,159 @@
+#include "convert/tiles/piece_store.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace wrlkit::tiles {
+namespace {
+
+class Packer {
+ public:
+  template <class T>
+  void number(T v) {
+    bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+  }
+  template <class T>
+  void list(std::span<const T> v) {
+    number(static_cast<std::uint32_t>(v.size()));
+    bytes.append(reinterpret_cast<const char*>(v.data()), v.size_bytes());
+  }
+  std::string bytes;
+};
+
+/// Of what Packer has packed; no more than there is.
+class Unpacker {
+ public:
+  explicit Unpacker(std::string_view bytes) : left_(bytes) {}
+
+  template <class T>
+  T number() {
+    T v{};
+    take(&v, sizeof v);
+    return v;
+  }
+  template <class List>
+  void list(List& v) {
+    using T = typename List::value_type;
+    const std::size_t n = std::min<std::size_t>(number<std::uint32_t>(), left_.size() / sizeof(T));
+    v.resize(n);
+    take(v.data(), n * sizeof(T));
+  }
+
+ private:
+  void take(void* to, std::size_t n) {
+    if (n > left_.size()) return;
+    if (n > 0) std::memcpy(to, left_.data(), n);
+    left_.remove_prefix(n);
+  }
+  std::string_view left_;
+};
+
+enum Flag : std::uint8_t { solid = 1, convex = 2, primitive = 4 };
+
+std::string pack(const Piece& piece) {
+  const Mesh& m = piece.mesh;
+  Packer out;
+  out.list(std::span<const char>(piece.name));
+  out.number(piece.look);
+  out.number(m.kind);
+  out.number(static_cast<std::uint8_t>(m.solid * solid + m.convex * convex + m.primitive * primitive));
+  out.number(m.crease_angle);
+  out.list(m.positions.span());
+  out.list(std::span<const std::uint32_t>(m.corners));
+  out.list(std::span<const std::uint32_t>(m.face_begin));
+  for (const Attribute* a : {&m.normal, &m.color, &m.texcoord}) {
+    out.number(static_cast<std::uint8_t>(a->width));
+    out.list(std::span<const float>(a->values));
+    out.list(std::span<const std::uint32_t>(a->index));
+  }
+  return std::move(out.bytes);
+}
+
+Piece unpack(std::string_view bytes) {
+  Unpacker in(bytes);
+  Piece piece;
+  Mesh& m = piece.mesh;
+  in.list(piece.name);
+  piece.look = in.number<std::uint32_t>();
+  m.kind = in.number<Mesh::Kind>();
+  const auto flags = in.number<std::uint8_t>();
+  m.solid = flags & solid;
+  m.convex = flags & convex;
+  m.primitive = flags & primitive;
+  m.crease_angle = in.number<double>();
+  in.list(m.positions.edit());
+  in.list(m.corners);
+  in.list(m.face_begin);
+  for (Attribute* a : {&m.normal, &m.color, &m.texcoord}) {
+    a->width = in.number<std::uint8_t>();
+    in.list(a->values);
+    in.list(a->index);
+  }
+  return piece;
+}
+
+bool write_all(int fd, std::string_view bytes, std::uint64_t at) {
+  while (!bytes.empty()) {
+    const auto n = pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(at));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+    at += static_cast<std::uint64_t>(n);
+  }
+  return true;
+}
+
+bool read_all(int fd, std::string& bytes, std::uint64_t at) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const auto n = pread(fd, bytes.data() + done, bytes.size() - done, static_cast<off_t>(at + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    done += static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+}  // namespace
+
+PieceStore::State::~State() {
+  if (fd >= 0) close(fd);
+}
+
+std::optional<PieceStore> PieceStore::open(const std::string& folder, std::string& why) {
+  PieceStore out;
+  out.state_ = std::make_unique<State>();
+  std::string name = folder + "/.pieces-XXXXXX";
+  out.state_->fd = mkostemp(name.data(), O_CLOEXEC);
+  if (out.state_->fd < 0) {
+    why = std::generic_category().message(errno);
+    return std::nullopt;
+  }
+  unlink(name.c_str());
+  return out;
+}
+
+bool PieceStore::add(const Piece& piece, Entry& entry) {
+  const auto bytes = pack(piece);
+  const Box box = bounds_of(piece.mesh);
+  {
+    const std::scoped_lock lock(state_->mutex);
+    entry = {state_->end, static_cast<std::uint32_t>(bytes.size()), static_cast<std::uint32_t>(n_drawn(piece.mesh)),
+             box.centre()};
+    state_->end += bytes.size();
+  }
+  const bool written = write_all(state_->fd, bytes, entry.offset);
+  const std::scoped_lock lock(state_->mutex);
+  state_->failed |= !written;
+  return !state_->failed;
+}
+
+Piece PieceStore::read(const Entry& entry) const {
+  std::string bytes(entry.bytes, '\0');
+  return read_all(state_->fd, bytes, entry.offset) ? unpack(bytes) : Piece{};
+}
+
+}  // namespace wrlkit::tiles

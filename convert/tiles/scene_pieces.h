@@ -1,0 +1,22 @@
+// The pieces of one world.
+#pragma once
+#include <functional>
+
+#include "convert/document.h"
+#include "convert/tiles/looks.h"
+#include "convert/tiles/piece.h"
+
+namespace wrlkit::tiles {
+
+struct SceneCounts {
+  std::size_t n_pieces = 0, n_cut = 0;     // n_cut: of those, made by cutting what is too large for a tile
+  std::size_t n_lights = 0, n_routes = 0;  // that tiles do not show
+};
+
+/// Expands the document, and hands out what each Shape shows in each place, in the order of the file. What has more
+/// than `most` triangles comes in several pieces, cut in space. `source` is what the file is called. False when the
+/// world could not be expanded or `put` has had enough. Memory: one mesh beside the document.
+bool pieces_of(Document& document, const std::string& source, std::size_t most, Looks& looks,
+               const std::function<bool(const Piece&)>& put, SceneCounts& counts);
+
+}  // namespace wrlkit::tiles

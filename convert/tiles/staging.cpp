@@ -1,0 +1,109 @@
+#include "convert/tiles/staging.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+#include <vector>
+
+#include "base/io/output.h"
+
+namespace wrlkit::tiles {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view prefix = "tiles-", unfinished = ".unfinished-";
+constexpr std::size_t digits = 16;
+
+bool is_tiles_folder(const std::string& name) {
+  return name.starts_with(prefix) && name.size() == prefix.size() + digits &&
+         std::all_of(name.begin() + prefix.size(), name.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
+void remove_others(const fs::path& folder, const std::string& name) {
+  std::error_code none;
+  std::vector<fs::path> others;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const auto other = entry.path().filename().string();
+    if (other != name && is_tiles_folder(other) && !entry.is_symlink(none) && entry.is_directory(none))
+      others.push_back(entry.path());
+  }
+  for (const auto& path : others) fs::remove_all(path, none);
+}
+
+/// -1: somebody else has it.
+int lock_of(const fs::path& folder) {
+  const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0 || flock(fd, LOCK_EX | LOCK_NB) == 0) return fd;
+  close(fd);
+  return -1;
+}
+
+}  // namespace
+
+std::string tiles_folder(std::uint64_t hash) { return fmt::format("{}{:0{}x}", prefix, hash, digits); }
+
+bool Staging::open(const std::string& folder, Diagnostics& diag) {
+  folder_ = folder;
+  std::error_code fault;
+  made_ = fs::create_directories(folder_, fault);
+  if (!fault && !fs::is_directory(folder_, fault)) fault = std::make_error_code(std::errc::not_a_directory);
+  remove_left_behind();
+  std::string name = (folder_ / (std::string(unfinished) + "XXXXXX")).string();
+  if (!fault && !mkdtemp(name.data())) fault = std::error_code(errno, std::generic_category());
+  if (fault) {
+    diag.report(Diag::cannot_write, {}, folder, fault.message());
+    return false;
+  }
+  at_ = name;
+  lock_ = lock_of(at_);
+  fs::permissions(at_, fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec,
+                  fs::perm_options::add, fault);
+  return true;
+}
+
+void Staging::remove_left_behind() const {
+  std::error_code none;
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::directory_iterator(folder_, none))
+    if (entry.path().filename().string().starts_with(unfinished)) left.push_back(entry.path());
+  for (const auto& path : left) {
+    const int lock = lock_of(path);
+    if (lock < 0) continue;
+    fs::remove_all(path, none);
+    close(lock);
+  }
+}
+
+Staging::~Staging() {
+  if (lock_ >= 0) close(lock_);
+  std::error_code none;
+  if (!at_.empty()) fs::remove_all(at_, none);
+  if (made_ && !folder_.empty()) fs::remove(folder_, none);  // as long as it is empty
+}
+
+bool Staging::publish(const std::string& name, const std::string& tileset, Diagnostics& diag) {
+  auto file = OutputFile::open((folder_ / "tileset.json").string(), {}, diag);
+  if (!file) return false;
+  file->write(tileset);
+  std::error_code fault;
+  const auto to = folder_ / name;
+  if (fs::exists(to, fault)) fs::remove_all(to, fault);  // the same tiles
+  fs::rename(at_, to, fault);
+  if (fault) {
+    diag.report(Diag::cannot_write, {}, to.string(), fault.message());
+    return false;
+  }
+  at_.clear();
+  if (!file->commit(diag)) return false;
+  remove_others(folder_, name);
+  return true;
+}
+
+}  // namespace wrlkit::tiles

@@ -1,0 +1,22 @@
+// How far a coarse tile is from all that it stands for, measured.
+#pragma once
+#include <functional>
+#include <span>
+
+#include "convert/tiles/piece.h"
+
+namespace wrlkit::tiles {
+
+/// Calls the function it is given with the pieces of one tile after the other, and with the box around them before; a
+/// tile whose box is refused is not read.
+struct FullTile {
+  Box box;
+  std::function<std::vector<Piece>()> read;
+};
+
+/// The largest distance between the surface of `coarse` and that of all the tiles together, from points of each to the
+/// other: every corner and two points for each triangle. A little less than the Hausdorff distance. Infinite when one
+/// of them has no surface. Memory: `coarse`, and one of the tiles at a time. O(n log n) in the triangles.
+double surface_error(std::span<const Piece> coarse, std::span<const FullTile> full);
+
+}  // namespace wrlkit::tiles

@@ -1,0 +1,151 @@
+// wrlkit tiles: worlds of any size as 3D Tiles.
+#include "convert/tiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "base/text/json.h"
+#include "tools/cli/print_diagnostics.h"
+#include "tools/cli/recipe.h"
+#include "tools/cli/session.h"
+#include "tools/corpus/inputs.h"
+
+namespace wrlkit {
+namespace {
+
+/// Nothing, which was printed, when something that is named is not there.
+std::vector<TilesInput> inputs_of(const Flags& flags) {
+  std::string why;
+  const InputRules rules{.include = flags.include, .exclude = flags.exclude, .base = {}, .output = flags.output};
+  const auto found = gather_inputs(flags.inputs, rules, why);
+  if (found && found->files.empty()) why = "there are no worlds in '" + flags.inputs[0] + "'";
+  if (!why.empty()) fmt::print(stderr, "wrlkit tiles: {}\n", why);
+  std::vector<TilesInput> out;
+  if (!found) return out;
+  for (const auto& left : found->left_out) fmt::print(stderr, "wrlkit tiles: {}\n", left);
+  std::set<std::string> inside;
+  for (const auto& file : found->files) inside.insert(file.inside);
+  const bool differ = inside.size() == found->files.size();
+  for (const auto& file : found->files) out.push_back({file.path, differ ? file.inside : file.path});
+  return out;
+}
+
+TilesOptions options_of(const Flags& flags) {
+  TilesOptions out{.triangles = static_cast<std::size_t>(flags.tile_triangles), .save = flags.save};
+  const auto is_given = [&](std::string_view name) {
+    return std::ranges::find(flags.given, name, &GivenOptions::value_type::first) != flags.given.end();
+  };
+  if (!is_given("compress")) out.save.compress = GltfCompression::Method::meshopt;
+  if (flags.at.size() < 3) return out;
+  out.place = {flags.at[0], flags.at[1], flags.at[2], flags.at.size() > 3 ? flags.at[3] : 0};
+  return out;
+}
+
+/// All tiles of one distance from the root.
+struct Level {
+  std::size_t n_tiles = 0, triangles = 0, parts = 0;
+  std::uint64_t bytes = 0;
+  double error = 0;
+
+  void fields(auto&& f) const {
+    f("tiles", n_tiles);
+    f("triangles", triangles);
+    f("bytes", bytes);
+    f("error", error);
+  }
+};
+
+std::vector<Level> levels_of(const TilesMade& made) {
+  std::vector<Level> out(made.depth + 1);
+  for (const auto& tile : made.tiles) {
+    auto& level = out[tile.depth];
+    ++level.n_tiles;
+    level.triangles += tile.triangles;
+    level.parts += tile.parts;
+    level.bytes += tile.bytes;
+    level.error = std::max(level.error, tile.error);
+  }
+  return out;
+}
+
+std::string text_of(const TilesMade& made, const std::string& folder) {
+  auto out = fmt::format("{} -> {}: {}, {} bytes\n  {}, {}\n", counted(made.n_files, "file"),
+                         (std::filesystem::path(folder) / "tileset.json").string(), counted(made.tiles.size(), "tile"),
+                         made.bytes, counted(made.triangles, "triangle"), counted(made.parts, "part"));
+  out += fmt::format("{:>7}  {:>6}  {:>11}  {:>11}  {:>11}\n", "level", "tiles", "triangles", "bytes", "error (m)");
+  const auto levels = levels_of(made);
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    out += fmt::format("{:>7}  {:>6}  {:>11}  {:>11}  {:>11.4g}\n", i, levels[i].n_tiles, levels[i].triangles,
+                       levels[i].bytes, levels[i].error);
+  out += fmt::format("  the root shows {} of {} parts\n", made.tiles[0].parts, made.parts);
+  if (made.n_failed > 0) out += fmt::format("  files that could not be read: {}\n", made.n_failed);
+  if (made.n_cut > 0) out += fmt::format("  pieces of surfaces that are too large for a tile: {}\n", made.n_cut);
+  if (made.n_lights > 0) out += fmt::format("  lights that tiles do not show: {}\n", made.n_lights);
+  if (made.n_routes > 0) out += fmt::format("  ROUTEs that tiles do not follow: {}\n", made.n_routes);
+  return out;
+}
+
+void write_tile(JsonOut& json, const TileFigures& tile) {
+  json.begin_object();
+  json.member("file", tile.file);
+  json.member("level", tile.depth);
+  json.member("error", tile.error);
+  json.member("triangles", tile.triangles);
+  json.member("draws", tile.draws);
+  json.member("parts", tile.parts);
+  json.member("bytes", tile.bytes);
+  json.end_object();
+}
+
+std::string json_of(const TilesMade& made) {
+  std::string out;
+  JsonOut json(out);
+  json.begin_object();
+  json.member("files", made.n_files);
+  json.member("failed", made.n_failed);
+  json.member("triangles", made.triangles);
+  json.member("parts", made.parts);
+  json.member("bytes", made.bytes);
+  json.member("depth", made.depth);
+  json.member("cut", made.n_cut);
+  json.member("lights", made.n_lights);
+  json.member("routes", made.n_routes);
+  json.member("levels", levels_of(made));
+  json.key("tiles");
+  json.begin_array();
+  for (const auto& tile : made.tiles) write_tile(json, tile);
+  json.end_array();
+  json.end_object();
+  return out;
+}
+
+/// False, which was printed, when it is no place on the Earth.
+bool check_place(const std::vector<double>& at) {
+  if (at.empty() || (std::abs(at[0]) <= 90 && std::abs(at[1]) <= 360)) return true;
+  fmt::print(stderr, "wrlkit tiles: --at: {},{} is not a valid latitude and longitude\n", at[0], at[1]);
+  return false;
+}
+
+}  // namespace
+
+int run_tiles(const Flags& flags) {
+  Session s(flags);
+  if (!s.good() || !check_place(flags.at)) return usage;
+  const auto inputs = inputs_of(flags);
+  if (inputs.empty()) return nothing;
+  const auto made = make_tiles(inputs, flags.output, options_of(flags), s.document());
+  s.progress().clear();
+  if (!made) return s.end(false);
+  s.fact("tiles", json_of(made));
+  if (flags.json)
+    fmt::print("{}\n", json_of(made));
+  else if (!flags.quiet)
+    fmt::print(stderr, "{}", text_of(made, flags.output));
+  return s.end(true);
+}
+
+}  // namespace wrlkit

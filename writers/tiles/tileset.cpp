@@ -1,0 +1,116 @@
+#include "writers/tiles/tileset.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/text/json.h"
+
+namespace wrlkit {
+namespace {
+
+constexpr double noise = 1e-9;  // of angles, and metres on the Earth
+
+/// From y up to z up, as who shows a tile turns its content.
+Vec3 z_up(const Vec3& p) { return {p[0], 0 - p[2], p[1]}; }
+
+class TilesetJson {
+ public:
+  explicit TilesetJson(const Tileset& set) : set_(set), json_(out_) {}
+
+  std::string run() {
+    json_.begin_object();
+    json_.key("asset");
+    json_.begin_object();
+    json_.member("version", "1.1");
+    json_.member("generator", "wrlkit");
+    json_.end_object();
+    json_.member("geometricError", set_.error);
+    json_.key("root");
+    tile(0, {});
+    json_.end_object();
+    return out_ + '\n';
+  }
+
+ private:
+  /// As deep as the tree of cells, which halves at each step.
+  void tile(std::size_t i, const Vec3& origin_above) {
+    const auto& t = set_.tiles[i];
+    json_.begin_object();
+    transform(i == 0, t.origin - origin_above);
+    json_.key("boundingVolume");
+    json_.begin_object();
+    box(t);
+    json_.end_object();
+    json_.member("geometricError", t.error);
+    if (i == 0) json_.member("refine", "REPLACE");
+    if (!t.uri.empty()) {
+      json_.key("content");
+      json_.begin_object();
+      json_.member("uri", t.uri);
+      json_.end_object();
+    }
+    if (!t.children.empty()) {
+      json_.key("children");
+      json_.begin_array();
+      for (const auto child : t.children) tile(child, t.origin);
+      json_.end_array();
+    }
+    json_.end_object();
+  }
+
+  /// In columns.
+  void transform(bool is_root, const Vec3& origin) {
+    const Vec3 up = z_up(origin);
+    Matrix m = translation_matrix(up);
+    if (is_root && set_.place) m = earth_matrix(*set_.place) * m;
+    if (m == Matrix{}) return;
+    std::vector<double> numbers;
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 3; ++r) numbers.push_back(std::abs(m(r, c)) < noise ? 0 : m(r, c));
+      numbers.push_back(c == 3 ? 1 : 0);
+    }
+    json_.member("transform", numbers);
+  }
+
+  void box(const TilesetTile& t) {
+    const Vec3 middle = z_up(t.box.centre() - t.origin);
+    std::vector<double> numbers(middle.begin(), middle.end());
+    const Vec3 half = 0.5 * t.box.size();
+    for (const double x : {half[0], 0., 0., 0., half[2], 0., 0., 0., half[1]}) numbers.push_back(x);
+    for (double& x : numbers) x += 0.0;
+    json_.member("box", numbers);
+  }
+
+  const Tileset& set_;
+  std::string out_;
+  JsonOut json_;
+};
+
+}  // namespace
+
+Matrix earth_matrix(const EarthPlace& place) {
+  constexpr double a = 6378137, flattening = 1 / 298.257223563, degree = std::numbers::pi / 180;
+  const double e2 = flattening * (2 - flattening);
+  const double lat = place.latitude * degree, lon = place.longitude * degree, heading = place.heading * degree;
+  const double n = a / std::sqrt(1 - e2 * std::sin(lat) * std::sin(lat));
+  const Vec3 at = {(n + place.height) * std::cos(lat) * std::cos(lon),
+                   (n + place.height) * std::cos(lat) * std::sin(lon), (n * (1 - e2) + place.height) * std::sin(lat)};
+  const Vec3 east = {-std::sin(lon), std::cos(lon), 0};
+  const Vec3 north = {-std::sin(lat) * std::cos(lon), -std::sin(lat) * std::sin(lon), std::cos(lat)};
+  const Vec3 up = {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+  const Vec3 x = std::cos(heading) * east - std::sin(heading) * north;
+  const Vec3 y = std::sin(heading) * east + std::cos(heading) * north;
+  Matrix m;
+  for (int r = 0; r < 3; ++r) {
+    const auto k = static_cast<std::size_t>(r);
+    m(r, 0) = x[k];
+    m(r, 1) = y[k];
+    m(r, 2) = up[k];
+    m(r, 3) = at[k];
+  }
+  return m;
+}
+
+std::string tileset_json(const Tileset& set) { return TilesetJson(set).run(); }
+
+}  // namespace wrlkit

@@ -1,0 +1,39 @@
+// A set of tiles as tileset.json: 3D Tiles 1.1 (OGC 22-025r4).
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/math/box.h"
+#include "base/math/matrix.h"
+
+namespace wrlkit {
+
+/// Where the origin of a world is on the Earth (WGS 84): degrees, metres above the ellipsoid, and where -z of the world
+/// points to, in degrees from north towards east.
+struct EarthPlace {
+  double latitude = 0, longitude = 0, height = 0, heading = 0;
+};
+
+struct TilesetTile {
+  std::string uri;                         // of the content, from where the tileset is
+  Vec3 origin{};                           // of the content
+  Box box;                                 // of it and of all children, both in the coordinates of the world, y up
+  double error = 0;                        // metres
+  std::vector<std::size_t> children = {};  // in the list
+};
+
+struct Tileset {
+  std::vector<TilesetTile> tiles;  // the root is the first
+  double error = 0;                // when nothing is shown
+  std::optional<EarthPlace> place;
+};
+
+/// From the world to the coordinates of the Earth, earth-centred and earth-fixed.
+Matrix earth_matrix(const EarthPlace& place);
+
+/// All tiles are refined by REPLACE. Coordinates of the set are z up: x, -z, y of the world, or those of the Earth; the
+/// transform of each tile puts its origin there, in double precision. O(tiles).
+std::string tileset_json(const Tileset& set);
+
+}  // namespace wrlkit
