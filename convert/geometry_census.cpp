@@ -4,8 +4,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/math/saturating.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/places/places.h"
+#include "scenegraph/places/times_shown.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -13,42 +15,8 @@ namespace {
 
 constexpr std::uint64_t most_points = 2'000'000'000;  // transformed for the bounds
 
-std::uint64_t add(std::uint64_t a, std::uint64_t b) { return a > ~b ? ~0ull : a + b; }
-std::uint64_t multiply(std::uint64_t a, std::uint64_t b) { return b && a > ~0ull / b ? ~0ull : a * b; }
-
-/// Nodes of the shown hierarchy, children before parents, each once.
-std::vector<NodeId> post_order(const Scene& scene) {
-  std::vector<NodeId> out;
-  std::vector<char> state(scene.node_count());
-  std::vector<std::pair<NodeId, bool>> stack;
-  for (auto r = scene.main.roots.rbegin(); r != scene.main.roots.rend(); ++r) stack.emplace_back(*r, false);
-  while (!stack.empty()) {
-    auto [n, done] = stack.back();
-    stack.pop_back();
-    if (done) {
-      out.push_back(n);
-      continue;
-    }
-    if (!n || std::exchange(state[n.value], 1)) continue;
-    stack.emplace_back(n, true);
-    for (NodeId c : shown_children(scene, n)) stack.emplace_back(c, false);
-  }
-  return out;
-}
-
 NodeId geometry_of(const Scene& scene, NodeId n) {
   return scene.is(n, nodes::Shape) ? scene.get(n, nodes::shape::geometry) : NodeId{};
-}
-
-/// How often each node is shown.
-std::vector<std::uint64_t> times_shown(const Scene& scene, const std::vector<NodeId>& order) {
-  std::vector<std::uint64_t> times(scene.node_count());
-  for (NodeId n : scene.main.roots)
-    if (n) times[n.value] = add(times[n.value], 1);
-  for (auto n = order.rbegin(); n != order.rend(); ++n)
-    for (NodeId c : shown_children(scene, *n))
-      if (c) times[c.value] = add(times[c.value], times[n->value]);
-  return times;
 }
 
 /// The corners that a mesh uses, or the corners of their box when there are too many places for that.
@@ -63,7 +31,7 @@ void add_bounds(const Mesh& mesh, const std::vector<Matrix>& where, StampedMap& 
     points.push_back(vec3(&mesh.positions[c * std::size_t{3}]));
     box.add(points.back());
   }
-  if (multiply(points.size(), where.size()) > budget) {
+  if (saturating_multiply(points.size(), where.size()) > budget) {
     points.clear();
     for (int i = 0; i < 8; ++i) points.push_back(box.corner(i));
   } else {
@@ -102,15 +70,15 @@ bool find_places(const Scene& scene, Places& out) {
 
 GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, const MeshSource& triangles) {
   GeometryCensus census;
-  const auto order = post_order(scene);
+  const auto order = shown_nodes(scene);
   const auto times = times_shown(scene, order);
   std::unordered_map<std::uint32_t, std::uint64_t> uses;  // of each geometry
   std::vector<NodeId> geometries;
   for (NodeId n : order)
     if (NodeId g = geometry_of(scene, n)) {
       if (!uses.count(g.value)) geometries.push_back(g);
-      uses[g.value] = add(uses[g.value], times[n.value]);
-      census.shapes = add(census.shapes, times[n.value]);
+      uses[g.value] = saturating_add(uses[g.value], times[n.value]);
+      census.shapes = saturating_add(census.shapes, times[n.value]);
     }
   Places where;
   const bool exact = find_places(scene, where);
@@ -118,7 +86,9 @@ GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, co
   StampedMap seen;
   std::uint64_t budget = most_points;
   for (NodeId g : geometries) {
-    auto sum = [&](std::uint64_t& to, std::uint64_t n) { to = add(to, multiply(n, uses[g.value])); };
+    auto sum = [&](std::uint64_t& to, std::uint64_t n) {
+      to = saturating_add(to, saturating_multiply(n, uses[g.value]));
+    };
     // Faces without area are no triangles, but their corners count for the bounds, as other readers have it.
     const Mesh& p = polygons(g);
     if (p.kind == Mesh::Kind::faces) sum(census.polygons, p.n_faces());
@@ -127,7 +97,10 @@ GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, co
     else
       add_bounds(p, {Matrix{}}, seen, budget, boxes[g.value]);
     const Mesh& m = triangles(g);
-    if (m.kind == Mesh::Kind::faces) sum(census.triangles, m.n_faces());
+    if (m.kind == Mesh::Kind::faces) {
+      sum(census.triangles, m.n_faces());
+      census.unique += m.n_faces();
+    }
     if (m.kind == Mesh::Kind::points) sum(census.points, m.corners.size());
     if (m.kind == Mesh::Kind::lines) sum(census.lines, m.corners.size() - m.n_faces());
   }

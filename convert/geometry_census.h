@@ -13,7 +13,8 @@ namespace wrlkit {
 
 struct GeometryCensus {
   std::uint64_t shapes = 0, polygons = 0, triangles = 0, lines = 0, points = 0;
-  Box bounds;  // world, metres
+  std::uint64_t unique = 0;  // triangles, those of each geometry once
+  Box bounds;                // world, metres
 };
 
 /// Counts saturate instead of overflowing: a node may be shown 2^40 times. Each source is asked once for each geometry

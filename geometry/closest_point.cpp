@@ -18,6 +18,7 @@ constexpr std::uint32_t large = 100'000;  // triangles that are worth another th
 constexpr int n_bins = 12;
 constexpr int balanced_below = 40;  // depth from which triangles are halved by number, so that the tree ends
 constexpr int most_depth = balanced_below + 32;
+constexpr std::uint32_t most_tried = 20'000;  // triangles among those with labels
 constexpr int most_equal = 32;  // triangles compared for where they face; there may be thousands in one place
 constexpr double largest = 1e18;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -221,22 +222,46 @@ ClosestPoint::ClosestPoint(Triangles surface) : surface_(surface) {
 
 ClosestPoint::ClosestPoint(Triangles surface, std::span<const std::uint32_t> labels) : ClosestPoint(surface) {
   labels_ = labels;
-  label_boxes();
+  box_labels_.resize(boxes_.size());
+  parent_.resize(boxes_.size(), none);
+  leaf_of_.resize(surface.size(), none);
+  for (auto i = static_cast<std::uint32_t>(boxes_.size()); i-- > 0;) {  // children lie behind their parents
+    const Box& box = boxes_[i];
+    box_labels_[i] = labels_in(i);
+    if (box.n_triangles == 0) parent_[i + 1] = parent_[box.next] = i;
+    for (auto k = box.next; k < box.next + box.n_triangles; ++k) leaf_of_[order_[k]] = i;
+  }
 }
 
-/// Children lie behind their parents.
-void ClosestPoint::label_boxes() {
-  box_label_.resize(boxes_.size());
-  for (std::size_t i = boxes_.size(); i-- > 0;) {
-    const Box& box = boxes_[i];
-    auto& label = box_label_[i];
-    if (box.n_triangles == 0) {
-      label = box_label_[i + 1] == box_label_[box.next] ? box_label_[i + 1] : many;
-      continue;
+ClosestPoint::Labels ClosestPoint::labels_in(std::uint32_t i) const {
+  const Box& box = boxes_[i];
+  Labels out;
+  if (box.n_triangles == 0) {
+    out = box_labels_[i + 1];
+    out.add(box_labels_[box.next]);
+  }
+  for (auto k = box.next; k < box.next + box.n_triangles; ++k) out.add({labels_[order_[k]], labels_[order_[k]]});
+  return out;
+}
+
+/// A leaf that has nothing left keeps one triangle and no labels.
+void ClosestPoint::forget(std::uint32_t first, std::uint32_t end) {
+  const auto begin = std::ranges::lower_bound(labels_, first) - labels_.begin();
+  for (auto t = static_cast<std::size_t>(begin); t < labels_.size() && labels_[t] < end; ++t) {
+    auto at = leaf_of_[t];
+    if (at == none) continue;
+    Box& leaf = boxes_[at];
+    const auto triangles = std::span(order_).subspan(leaf.next, leaf.n_triangles);
+    std::swap(*std::ranges::find(triangles, static_cast<std::uint32_t>(t)), triangles.back());
+    leaf_of_[t] = none;
+    if (leaf.n_triangles > 1) --leaf.n_triangles;
+    auto labels = triangles.size() > 1 ? labels_in(at) : Labels{};
+    while (labels != box_labels_[at]) {
+      box_labels_[at] = labels;
+      at = parent_[at];
+      if (at == none) break;
+      labels = labels_in(at);
     }
-    label = labels_[order_[box.next]];
-    for (auto k = box.next + 1; k < box.next + box.n_triangles; ++k)
-      if (labels_[order_[k]] != label) label = many;
   }
 }
 
@@ -277,7 +302,9 @@ struct ClosestPoint::Search {
   }
 
   bool may_count(std::uint32_t box) const {
-    return !counts || tree.box_label_[box] == many || (*counts)(tree.box_label_[box]);
+    if (!counts) return true;
+    const auto [least, most] = tree.box_labels_[box];
+    return least <= most && (least < counts->first || most >= counts->end);
   }
 
   /// Squared distance to a box.
@@ -300,8 +327,8 @@ struct ClosestPoint::Search {
     std::uint32_t at = 0;
     for (double distance = to(tree.boxes_[0], q);;) {
       const Box& box = tree.boxes_[at];
-      if (!may_count(at)) distance = infinity;
-      if (distance <= reach && !box.n_triangles) {
+      const bool may_be_here = distance <= reach && may_count(at);
+      if (may_be_here && !box.n_triangles) {
         std::uint32_t near = at + 1, far = box.next;
         double to_near = to(tree.boxes_[near], q), to_far = to(tree.boxes_[far], q);
         if (to_far < to_near) {
@@ -313,9 +340,9 @@ struct ClosestPoint::Search {
         distance = to_near;
         continue;
       }
-      if (distance <= reach)
+      if (may_be_here)
         for (auto i = box.next; i < box.next + box.n_triangles; ++i) try_triangle(tree.order_[i]);
-      if (!n_open) return;
+      if (!n_open || (counts && best.n_tried > most_tried)) return;
       --n_open;
       at = open[n_open].box;
       distance = open[n_open].distance;

@@ -53,7 +53,7 @@ class ClosestPoint {
 
   /// O(n log n), 24 bytes a triangle. The arrays that `surface` looks at must outlive this.
   explicit ClosestPoint(Triangles surface);
-  /// The same of triangles with labels, one for each, by which some may be left out of a question.
+  /// The same of triangles with labels, ascending, by which some may be left out of a question. 48 bytes a triangle.
   ClosestPoint(Triangles surface, std::span<const std::uint32_t> labels);
 
   /// Where `p` is nearest to the surface, O(log n) as a rule. On an edge or a corner several triangles are equally
@@ -62,18 +62,19 @@ class ClosestPoint {
   /// threads may ask.
   Nearest nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess = no_guess) const;
 
-  /// Labels that count: all but those from `first` to before `end`, and of those that `left` lists, if it does, what is
-  /// not 0.
+  /// Labels that count: all but those from `first` to before `end`.
   struct Counting {
-    std::span<const char> left{};
     std::uint32_t first = 0, end = 0;
-    bool operator()(std::uint32_t label) const {
-      return (label < first || label >= end) && (left.empty() || left[label] != 0);
-    }
+    bool operator()(std::uint32_t label) const { return label < first || label >= end; }
   };
   /// The same among the triangles whose labels count, within a distance; infinite when there is none. Where neighbours
-  /// have one label, those that do not count are passed over together. `guess` as above.
+  /// have labels near one another, those that do not count are passed over together. `guess` as above. Where thousands
+  /// are about equally near, the nearest of the first 20,000 that are tried.
   Nearest nearest_of(const Vec3& p, double within, const Counting& counts, std::uint32_t guess = no_guess) const;
+
+  /// Triangles with labels from `first` to before `end` will not be found again, nor cost anything. O(log n) for each
+  /// of them, mostly O(1).
+  void forget(std::uint32_t first, std::uint32_t end);
 
   static constexpr std::uint32_t no_guess = 0xffffffffu;
 
@@ -87,14 +88,24 @@ class ClosestPoint {
   struct Builder;
   struct Search;
 
-  static constexpr std::uint32_t many = 0xffffffffu;  // labels
-  void label_boxes();
+  static constexpr std::uint32_t none = 0xffffffffu;
+  /// Empty when `least` is above `most`.
+  struct Labels {
+    std::uint32_t least = none, most = 0;
+    void add(const Labels& o) {
+      least = o.least < least ? o.least : least;
+      most = o.most > most ? o.most : most;
+    }
+    bool operator==(const Labels&) const = default;
+  };
+  Labels labels_in(std::uint32_t box) const;
 
   Triangles surface_;
   std::span<const std::uint32_t> labels_;
-  std::vector<std::uint32_t> box_label_;
-  Vec3 centre_{};    // boxes are relative to it
-  double same_ = 0;  // distances that differ by less are equal
+  std::vector<Labels> box_labels_;
+  std::vector<std::uint32_t> parent_, leaf_of_;  // of each box, of each triangle; only where there are labels
+  Vec3 centre_{};                                // boxes are relative to it
+  double same_ = 0;                              // distances that differ by less are equal
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> order_;
 };

@@ -212,8 +212,9 @@ void define_world(WorldClass& type) {
           py::arg("path"),
           "Writes .wrl, .wrz, .x3d, .x3dz, .gltf or .glb, whole or not at all; what stands below [output] in "
           "docs/recipes.md are keywords: compress='meshopt', tolerance='1mm'. The world stays as it is.")
-      .def("info", &PyWorld::info,
-           "What is inside, as `wrlkit info --json` says it, as a dict. The world stays as it is.")
+      .def("info", &PyWorld::info, py::arg("recognise") = false,
+           "What is inside, as `wrlkit info --json` says it, as a dict. With `recognise` what the parts are, too: "
+           "'forms'. The world stays as it is.")
       .def("report", &PyWorld::report, py::arg("severity"), py::arg("text"), py::arg("node") = py::none(),
            "Says something of the world, as 'error', 'warning' or 'lost', at the place of a node. It is among the "
            "messages, in --report and in the report of a corpus run.")

@@ -179,13 +179,13 @@ void PyWorld::save(const std::string& path, const py::kwargs& keywords) {
   if (!saved) fail(path + ": it could not be written", views(diag()));
 }
 
-py::object PyWorld::info() {
+py::object PyWorld::info(bool recognise) {
   std::optional<std::string> text;
   {
     py::gil_scoped_release others;
     auto document = copy();
     const auto path = document.path();
-    if (const auto made = wrlkit::info(std::move(document))) text = info_json(path, *made, diag());
+    if (const auto made = wrlkit::info(std::move(document), {recognise})) text = info_json(path, *made, diag());
   }
   if (!text) fail("its figures cannot be had", views(diag()));
   return py::module_::import("json").attr("loads")(*text);

@@ -54,7 +54,7 @@ class PyWorld : public std::enable_shared_from_this<PyWorld> {
   Counts run(const std::string& pipeline);
   Counts apply(const std::string& pass, const py::kwargs& options);
   void save(const std::string& path, const py::kwargs& options);
-  py::object info();
+  py::object info(bool recognise);
   void report(const std::string& severity, const std::string& text, const py::object& node);
   /// The scene goes its own way: what Python still has of it is a copy from now on.
   void detach();

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/math/vec.h"
+#include "base/math/affine.h"
 #include "base/overloaded.h"
 #include "geometry/forms/cut.h"
 
@@ -13,11 +13,6 @@ namespace {
 
 using std::numbers::pi;
 constexpr int most_segments = 1024;
-
-Vec3 direction(const Matrix& m, const Vec3& v) {
-  return {m(0, 0) * v[0] + m(0, 1) * v[1] + m(0, 2) * v[2], m(1, 0) * v[0] + m(1, 1) * v[1] + m(1, 2) * v[2],
-          m(2, 0) * v[0] + m(2, 1) * v[1] + m(2, 2) * v[2]};
-}
 
 /// The angle that a dish, a sphere or a bend spans from its first ring to its last.
 double profile_angle(const DishForm& f) {

@@ -12,11 +12,10 @@ namespace {
 
 constexpr double usual_peak = 8;    // largest distance over the root of the mean square, beyond which it is dearer
 constexpr double least_rms = 1e-6;  // of the root of the area
-constexpr std::size_t least_rebuilt = 1000;  // triangles
-constexpr std::size_t asked_at_once = 64;    // parts
-constexpr std::size_t chunk = 128;           // samples that are asked one after another
-constexpr std::uint32_t most_orphans = 64;   // of a part
-constexpr double growth = 1.1;               // of the root of the mean square, after which all is priced again
+constexpr std::size_t asked_at_once = 64;   // parts
+constexpr std::size_t chunk = 128;          // samples that are asked one after another
+constexpr std::uint32_t most_orphans = 64;  // of a part
+constexpr double growth = 1.1;              // of the root of the mean square, after which all is priced again
 
 }  // namespace
 
@@ -27,13 +26,11 @@ Allocation::Allocation(std::vector<AllocatedPart>& parts, Neighbours& neighbours
       at_(parts.size()),
       stops_(parts.size()),
       leaving_(parts.size()),
-      n_orphans_(parts.size()),
-      n_triangles_left_(neighbours.n_triangles()) {
+      n_orphans_(parts.size()) {
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
-    part_of_.insert(part_of_.end(), parts[i].n_places, i);
+    part_of_.insert(part_of_.end(), parts[i].n_owners, i);
     n_drawn_ += (*parts[i].rungs)[0].n_faces * parts[i].n_places;
   }
-  left_.assign(part_of_.size(), 1);
   parallel_for(parts.size(), [&](std::size_t i) {
     list_stops(static_cast<std::uint32_t>(i));
     price_leaving(static_cast<std::uint32_t>(i));
@@ -66,6 +63,13 @@ std::vector<std::uint32_t> Allocation::rungs() const {
   return out;
 }
 
+std::vector<double> Allocation::maxima() const {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < at_.size(); ++i)
+    out.push_back(at_[i] == gone ? leaving_[i].max : stops_[i][at_[i]].price.max);
+  return out;
+}
+
 double Allocation::key_of(double slope, double max) const {
   const double over = max / (usual_peak * priced_at_);
   return slope * std::max(1., over * over);
@@ -90,7 +94,7 @@ Allocation::Step Allocation::next_of(std::uint32_t part) const {
 
 /// Whether what it was near to has left.
 bool Allocation::must_ask(const LeavingSample& s) const {
-  return !s.is_asked || (s.near != ClosestPoint::no_guess && left_[s.near] == 0);
+  return !s.is_asked || (s.near != ClosestPoint::no_guess && !neighbours_.is_left(s.near));
 }
 
 double Allocation::squared_of(const LeavingSample& s) const {
@@ -101,12 +105,11 @@ double Allocation::squared_of(const LeavingSample& s) const {
 
 /// What is nearest to those of the samples that do not know.
 void Allocation::ask(std::span<LeavingSample> samples, std::uint32_t part) const {
-  const auto first = parts_[part].first_place;
+  const auto first = parts_[part].first_owner, end = first + parts_[part].n_owners;
   auto guess = ClosestPoint::no_guess;
   for (auto& s : samples) {
     if (!must_ask(s)) continue;
-    const auto found = neighbours_.nearest(s.point, std::numeric_limits<double>::infinity(),
-                                           {left_, first, first + parts_[part].n_places}, guess);
+    const auto found = neighbours_.nearest(s.point, std::numeric_limits<double>::infinity(), {first, end}, guess);
     guess = found.triangle;
     s.near = found.owner;
     s.distance = found.distance;
@@ -170,14 +173,9 @@ void Allocation::leave(std::uint32_t part) {
   const auto& p = parts_[part];
   at_[part] = gone;
   ++n_gone_;
-  std::fill_n(left_.begin() + p.first_place, p.n_places, char{0});
-  n_triangles_left_ -= std::min(n_triangles_left_, (*p.rungs)[0].n_faces * p.n_places);
+  neighbours_.leave(p.first_owner, p.first_owner + p.n_owners);
   for (const auto& s : std::exchange(parts_[part].leaving, {}))
     if (s.near != ClosestPoint::no_guess) attach(part_of_[s.near], s);
-  if (2 * n_triangles_left_ < neighbours_.n_triangles() && neighbours_.n_triangles() > least_rebuilt) {
-    neighbours_.keep(left_);
-    n_triangles_left_ = neighbours_.n_triangles();
-  }
 }
 
 void Allocation::take(const Step& step) {
@@ -211,13 +209,9 @@ bool Allocation::run_to(std::size_t n_drawn) {
     if (is_outdated(step)) price_next(step);
     const Step now = next_of(step.part);
     if (!std::isfinite(now.key)) continue;
-    if (!queue_.empty() && queue_.top() < now) {
-      if (queue_.top().key < now.key) {
-        queue_.push(now);
-        continue;
-      }
-    }
-    if (now.to == gone && step.to != gone) {
+    // Of steps, the cheaper one is the larger.
+    const bool another_is_cheaper = !queue_.empty() && now < queue_.top();
+    if (another_is_cheaper || (now.to == gone && step.to != gone)) {
       queue_.push(now);
       continue;
     }

@@ -24,7 +24,8 @@ struct LeavingSample {
 /// A part of a world in all its places.
 struct AllocatedPart {
   const std::vector<Rung>* rungs = nullptr;
-  std::uint32_t first_place = 0, n_places = 0;  // owners among the neighbours
+  std::size_t n_places = 0;                     // where it is drawn
+  std::uint32_t first_owner = 0, n_owners = 0;  // among the neighbours: all its places, or some of very many
   double weight = 1;                            // of the distortion: over all places, the widest counting 1
   Stretch stretch;                              // from the ladder to there
   std::uint32_t look = 0;                       // what is seen of it
@@ -49,6 +50,8 @@ class Allocation {
   /// Of both surfaces, root of the mean square; and the largest.
   double rms() const;
   double max() const { return max_; }
+  /// Of each part, where it stands or since it has left: the largest distance.
+  std::vector<double> maxima() const;
   std::size_t n_gone() const { return n_gone_; }
 
  private:
@@ -84,12 +87,10 @@ class Allocation {
   Neighbours& neighbours_;
   double area_;
   std::vector<std::uint32_t> part_of_;  // of each owner
-  std::vector<char> left_;              // whether each owner is still there
   std::vector<std::uint32_t> at_;
   std::vector<std::vector<Stop>> stops_;
   std::vector<Price> leaving_;            // as it was when it was asked last
   std::vector<std::uint32_t> n_orphans_;  // behind the part's own samples: of parts that have left, near to it now
-  std::size_t n_triangles_left_ = 0;      // among the neighbours
   std::priority_queue<Step> queue_;
   std::size_t n_drawn_ = 0, n_gone_ = 0;
   double squares_ = 0, max_ = 0;

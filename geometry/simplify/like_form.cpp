@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/math/affine.h"
 #include "base/math/eigen.h"
-#include "geometry/simplify/inverse.h"
 
 namespace wrlkit::simplify {
 namespace {

@@ -45,24 +45,25 @@ Sphere bounding_sphere(const Mesh& mesh) {
   return s;
 }
 
-/// Each the distance from which on the error of the next level is not seen on the near side of the bounding sphere.
-std::vector<double> ranges(const Sphere& sphere, std::span<const MeshLevel> levels, const ScreenBudget& budget) {
+}  // namespace
+
+double ScreenBudget::per_pixel() const { return screen_height / (2 * std::tan(field_of_view / 2)); }
+
+std::vector<double> lod_ranges(double radius, std::span<const double> errors, const ScreenBudget& budget) {
   std::vector<double> out;
-  for (const auto& level : levels) out.push_back(sphere.radius + level.error / budget.pixels * budget.per_pixel());
-  if (budget.vanish > 0) out.push_back(sphere.radius + 2 * sphere.radius / budget.vanish * budget.per_pixel());
+  for (const double error : errors) out.push_back(radius + error / budget.pixels * budget.per_pixel());
+  if (budget.vanish > 0) out.push_back(radius + 2 * radius / budget.vanish * budget.per_pixel());
   double least = 0;
   for (auto& r : out) least = r = round_up(std::max(r, least * 1.001));
   return out;
 }
 
-}  // namespace
-
-double ScreenBudget::per_pixel() const { return screen_height / (2 * std::tan(field_of_view / 2)); }
-
 std::size_t LodNodes::add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels,
                           const ScreenBudget& budget) {
   const auto sphere = bounding_sphere(mesh);
-  const auto range = ranges(sphere, levels, budget);
+  std::vector<double> errors;
+  for (const auto& level : levels) errors.push_back(level.error);
+  const auto range = lod_ranges(sphere.radius, errors, budget);
   std::vector<NodeId> shapes;
   std::ranges::copy_if(surface.shapes, std::back_inserter(shapes), [&](NodeId n) { return listed_[n.value] != 0; });
   if (range.empty() || shapes.empty()) return 0;

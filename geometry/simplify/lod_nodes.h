@@ -17,6 +17,10 @@ struct ScreenBudget {
   double per_pixel() const;
 };
 
+/// Each the distance from which on the error of the next level is not seen on the near side of a sphere; and from which
+/// on the sphere itself is not, if it is to vanish. Ascending, of four digits.
+std::vector<double> lod_ranges(double radius, std::span<const double> errors, const ScreenBudget& budget);
+
 class LodNodes {
  public:
   explicit LodNodes(Scene& scene);

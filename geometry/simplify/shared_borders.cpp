@@ -10,6 +10,7 @@ namespace wrlkit {
 namespace {
 
 constexpr std::size_t most_entries = 20'000'000;  // of positions in places; the borders of what comes later are free
+constexpr std::size_t most_moved = 500'000'000;   // positions through matrices, with the same effect
 constexpr double tolerance = 0x1p-20;             // of the largest coordinate
 constexpr double near_origin = 0x1p-8;  // of the largest coordinate of the world, which counts as such at least
 
@@ -92,12 +93,15 @@ std::vector<std::vector<std::uint32_t>> SharedBorders::find(const Scene& scene,
   const auto number = surface_numbers(scene, surfaces);
   auto for_each_border = [&](auto f) {
     std::uint32_t part = 0;
+    std::size_t n_left = most_moved;
     for_each_place(scene, Shown::all, [&](NodeId shape, const Matrix& m) {
       const auto i = number[shape.value];
       if (i == 0) return;
       ++part;
-      for (std::size_t b = i > 1 ? end_[i - 2] : 0; b < end_[i - 1]; ++b)
-        f(m.point(point_[b]), part, static_cast<std::uint32_t>(b));
+      const std::size_t begin = i > 1 ? end_[i - 2] : 0;
+      if (end_[i - 1] - begin > n_left) return;
+      n_left -= end_[i - 1] - begin;
+      for (std::size_t b = begin; b < end_[i - 1]; ++b) f(m.point(point_[b]), part, static_cast<std::uint32_t>(b));
     });
   };
   double largest = 0;

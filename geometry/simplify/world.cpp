@@ -77,19 +77,21 @@ std::vector<std::vector<std::size_t>> share_out(const std::vector<FacesByError>&
   return out;
 }
 
-/// The numbers of triangles to stop at, falling, below that of the world.
-std::vector<std::size_t> counts_of(const WorldSimplifyOptions& options, std::size_t n_faces) {
+}  // namespace
+
+std::vector<std::size_t> counts_of(const WorldSimplifyOptions& options, std::size_t n) {
+  constexpr std::size_t most = 10'000;
   std::vector<std::size_t> out = options.counts;
-  if (options.every > 0 && n_faces > 0)
-    for (std::size_t n = (n_faces - 1) / options.every * options.every; n > 0; n -= options.every) out.push_back(n);
-  for (double r : options.ratios) out.push_back(static_cast<std::size_t>(r * static_cast<double>(n_faces)));
-  std::erase_if(out, [&](std::size_t n) { return n >= n_faces; });
+  if (options.every > 0 && n > 0) {
+    auto k = (n - 1) / options.every * options.every;
+    for (std::size_t i = 0; k > 0 && i < most; ++i, k -= options.every) out.push_back(k);
+  }
+  for (double r : options.ratios) out.push_back(static_cast<std::size_t>(r * static_cast<double>(n)));
+  std::erase_if(out, [&](std::size_t k) { return k >= n; });
   std::ranges::sort(out, std::greater{});
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
-
-}  // namespace
 
 SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx)
     : scene_(scene), budget_(options.budget) {

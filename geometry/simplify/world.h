@@ -18,6 +18,9 @@ struct WorldSimplifyOptions {
   ScreenBudget budget;
 };
 
+/// The numbers of triangles to stop at, falling, below `n`, which is what there are; of `every` the 10,000 largest.
+std::vector<std::size_t> counts_of(const WorldSimplifyOptions& options, std::size_t n);
+
 /// One interaction point. Counts and distances are over all surfaces, each counted once however often it is used, as
 /// large as the largest of its places in the world. Distances in metres.
 struct InteractionPoint {

@@ -1,8 +1,8 @@
 #include "geometry/simplify/world_levels.h"
 
 #include <algorithm>
-#include <functional>
 
+#include "base/math/saturating.h"
 #include "geometry/geometry.h"
 #include "geometry/simplify/world_parts.h"
 #include "scenegraph/nodes.h"
@@ -15,49 +15,46 @@ struct WorldLevels::Impl {
   simplify::WorldParts world;
   std::vector<Point> points{};
   std::vector<std::vector<std::uint32_t>> rungs{};  // by point, of each part
+  std::vector<std::vector<double>> errors{};        // by point, of each part, in metres
 
   /// Triangles of the world that shares are of.
-  std::size_t drawn() const { return options.drawn ? options.drawn : world.n_drawn + world.n_left; }
-  std::vector<std::size_t> counts() const;
+  std::size_t drawn() const { return options.drawn ? options.drawn : saturating_add(world.n_drawn, world.n_left); }
   void allocate();
+  double error(const simplify::PlacedSurface& s, std::size_t point) const;
 };
-
-std::vector<std::size_t> WorldLevels::Impl::counts() const {
-  const std::size_t n = drawn();
-  std::vector<std::size_t> out = options.counts;
-  if (options.every > 0 && n > 0)
-    for (std::size_t k = (n - 1) / options.every * options.every; k > 0; k -= options.every) out.push_back(k);
-  for (double r : options.ratios) out.push_back(static_cast<std::size_t>(r * static_cast<double>(n)));
-  std::erase_if(out, [&](std::size_t k) { return k >= n; });
-  std::ranges::sort(out, std::greater{});
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
 
 void WorldLevels::Impl::allocate() {
   simplify::Allocation allocation(world.allocated, world.neighbours, world.area);
   auto before = allocation.n_drawn();
-  for (const auto count : counts()) {
+  for (const auto count : counts_of(options, drawn())) {
     allocation.run_to(count > world.n_left ? count - world.n_left : 0);
     if (allocation.n_drawn() == before) continue;
     before = allocation.n_drawn();
     Point point{before + world.n_left, world.n_left, allocation.n_gone(), allocation.rms(), allocation.max()};
     const auto& at = rungs.emplace_back(allocation.rungs());
+    errors.push_back(allocation.maxima());
     for (std::size_t i = 0; i < world.parts.size(); ++i)
       if (at[i] != simplify::Allocation::gone) point.n_faces += (*world.allocated[i].rungs)[at[i]].n_faces;
     points.push_back(point);
   }
 }
 
+/// In the units of the surface.
+double WorldLevels::Impl::error(const simplify::PlacedSurface& s, std::size_t point) const {
+  const auto first = errors[point].begin() + s.first_part;
+  return *std::max_element(first, first + s.n_parts) / s.scale;
+}
+
 WorldLevels::WorldLevels(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx)
     : impl_(new Impl{scene, options, simplify::WorldParts(scene, options.collapse, ctx)}) {
-  if (n_parts() < 2 || impl_->counts().empty()) return;
+  if (n_parts() < 2 || counts_of(options, n_drawn()).empty()) return;
   impl_->world.make_ladders();
   impl_->allocate();
 }
 
 WorldLevels::~WorldLevels() = default;
 
+static_assert(WorldLevels::most_drawn == simplify::WorldParts::most_drawn);
 std::size_t WorldLevels::n_drawn() const { return impl_->drawn(); }
 std::size_t WorldLevels::n_faces() const { return impl_->world.n_faces + impl_->world.n_left; }
 std::size_t WorldLevels::n_parts() const { return impl_->world.parts.size(); }
@@ -83,20 +80,44 @@ Scene WorldLevels::scene_with_levels() const {
   const auto& world = impl_->world;
   for (const auto& s : world.surfaces) {
     std::vector<MeshLevel> levels;
-    for (const auto& at : impl_->rungs) {
-      if (!world.is_changed(s, at)) continue;
-      Mesh mesh = world.mesh_at(s, at);
+    for (std::size_t k = 0; k < impl_->rungs.size(); ++k) {
+      if (!world.is_changed(s, impl_->rungs[k])) continue;
+      Mesh mesh = world.mesh_at(s, impl_->rungs[k]);
       if (!levels.empty() && levels.back().mesh.n_faces() == mesh.n_faces()) continue;
-      double error = 0;
-      for (std::uint32_t i = s.first_part; i < s.first_part + s.n_parts; ++i) {
-        const auto& part = world.allocated[i];
-        error = std::max(error, part.max(std::min<std::size_t>(at[i], part.rungs->size() - 1)));
-      }
-      levels.push_back({std::move(mesh), 0, error / s.scale});
+      levels.push_back({std::move(mesh), 0, impl_->error(s, k)});
     }
     nodes.add(s.surface, s.mesh, levels, impl_->options.budget);
   }
   nodes.replace_shapes();
+  return out;
+}
+
+Scene WorldLevels::scene_with_lods(const ScopedLodOptions& options, ScopedLods& made) const {
+  Scene out = impl_->scene;
+  const auto& world = impl_->world;
+  std::vector<LeveledSurface> surfaces;
+  for (const auto& s : world.surfaces) {
+    const auto triangles = triangles_of(s.mesh);
+    LeveledSurface leveled{s.surface, {}, {{s.surface.geometry, 0, s.mesh.n_faces()}}};
+    for (const auto c : s.mesh.corners) leveled.bounds.add(triangles.position(c));
+    for (std::size_t k = 0; k < impl_->rungs.size(); ++k) {
+      const auto& at = impl_->rungs[k];
+      SurfaceLevel level = leveled.levels.back();
+      level.error = impl_->error(s, k);
+      if (world.is_changed(s, at, k ? &impl_->rungs[k - 1] : nullptr)) {
+        const Mesh mesh = world.mesh_at(s, at);
+        level.n_faces = mesh.n_faces();
+        level.geometry = {};
+        if (level.n_faces > 0) {
+          level.geometry = out.add(nodes::IndexedFaceSet, out.where(s.surface.geometry));
+          store_mesh(out, level.geometry, mesh);
+        }
+      }
+      leveled.levels.push_back(level);
+    }
+    surfaces.push_back(std::move(leveled));
+  }
+  made = add_scoped_lods(out, surfaces, options);
   return out;
 }
 

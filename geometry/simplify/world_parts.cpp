@@ -5,14 +5,16 @@
 #include <map>
 #include <unordered_map>
 
+#include "base/math/affine.h"
 #include "base/math/box.h"
+#include "base/math/saturating.h"
 #include "base/math/vec.h"
 #include "base/parallel.h"
 #include "geometry/simplify/closest_on_triangle.h"
-#include "geometry/simplify/inverse.h"
 #include "geometry/simplify/like_form.h"
 #include "geometry/simplify/pieces.h"
 #include "geometry/simplify/shared_borders.h"
+#include "geometry/simplify/surface_places.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/places/places.h"
 
@@ -25,6 +27,9 @@ constexpr std::size_t parts_at_once = 4096;
 constexpr std::size_t most_alike = 64;  // forms with the same corners
 // Samples for when a part leaves, in a place: of large parts, of the others; and of all in all places.
 constexpr std::size_t of_large = 32, of_small = 12, most_leaving = 4'000'000;
+// Of what is shown in very many places, some are looked at: triangles of all neighbours, places of a part that leaves.
+constexpr std::uint64_t most_neighbours = 8'000'000;
+constexpr std::size_t most_left_from = 1024;
 
 double area_of(const Triangles& surface, std::span<const std::uint32_t> faces) {
   double area = 0;
@@ -35,14 +40,10 @@ double area_of(const Triangles& surface, std::span<const std::uint32_t> faces) {
 
 /// Half the width of a thing that is seen from its broad side: the middle one of the extents of its bounds.
 double half_width(std::span<const SurfaceSample> samples) {
-  Vec3 low{}, high{};
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double x = samples[i].point[k];
-      low[k] = i ? std::min(low[k], x) : x;
-      high[k] = i ? std::max(high[k], x) : x;
-    }
-  Vec3 extent = high - low;
+  if (samples.empty()) return 0;
+  wrlkit::Box bounds;
+  for (const auto& s : samples) bounds.add(s.point);
+  Vec3 extent = bounds.size();
   std::ranges::sort(extent);
   return extent[1] / 2;
 }
@@ -57,7 +58,20 @@ bool is_hidden(const Vec3& point, const Vec3& normal, const std::array<Vec3, 3>&
   return distance <= 0.02 * width && dot(unit(area_normal(corners)), normal) < -0.5;
 }
 
-Vec3 turned(const Matrix& m, const Vec3& v) { return m.point(v) - m.point({0, 0, 0}); }
+/// Places of each surface with which all of them together have no more triangles than may be neighbours; at least 1.
+std::uint64_t most_places(std::span<const PlacedSurface> surfaces) {
+  std::uint64_t low = 1, high = most_neighbours;
+  while (low < high) {
+    const auto most = high - (high - low) / 2;
+    std::uint64_t n = 0;
+    for (const auto& s : surfaces) n += s.mesh.n_faces() * std::min<std::uint64_t>(s.n_places, most);
+    if (n <= most_neighbours)
+      low = most;
+    else
+      high = most - 1;
+  }
+  return low;
+}
 
 }  // namespace
 
@@ -80,16 +94,22 @@ void WorldParts::read(Task& ctx) {
   }
   auto fixed = borders.find(scene_, found);
   for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].fixed = std::move(fixed[i]);
-  const auto number = surface_numbers(scene_, found);
-  for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix& m) {
-    if (const auto i = number[shape.value]) surfaces[i - 1].places.push_back(m);
-  });
-  count_left(found, reader);
-  std::erase_if(surfaces, [&](PlacedSurface& s) { return !measure_places(s); });
-  for (const auto& s : surfaces) {
-    n_faces += s.mesh.n_faces();
-    n_drawn += s.mesh.n_faces() * s.places.size();
+  const ShownTimes shown(scene_);
+  find_places(shown, found);
+  count_left(shown, found, reader);
+}
+
+void WorldParts::find_places(const ShownTimes& shown, const std::vector<ShapeSurface>& found) {
+  for (auto& s : surfaces) {
+    s.n_places = shown.of(s.surface);
+    n_drawn = saturating_add(n_drawn, saturating_multiply(s.mesh.n_faces(), s.n_places));
   }
+  if (n_drawn > most_drawn) return surfaces.clear();
+  auto places = some_places(scene_, shown, found, most_places(surfaces));
+  for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].places = std::move(places[i]);
+  std::erase_if(surfaces, [&](PlacedSurface& s) { return !measure_places(s); });
+  n_drawn -= n_left;
+  for (const auto& s : surfaces) n_faces += s.mesh.n_faces();
 }
 
 /// False when there is nothing to see, or nothing with a size: that is drawn as it is.
@@ -100,27 +120,21 @@ bool WorldParts::measure_places(PlacedSurface& s) {
       s.widest = i;
       s.scale = scale;
     }
-  if (!(s.scale > 0)) n_left += s.mesh.n_faces() * s.places.size();
+  if (!(s.scale > 0)) n_left += s.mesh.n_faces() * s.n_places;
   return s.scale > 0 && s.mesh.n_faces() > 0;
 }
 
 /// Text, and what has levels already: it is drawn, and the budget has to pay for it.
-void WorldParts::count_left(const std::vector<ShapeSurface>& taken, SurfaceReader& reader) {
+void WorldParts::count_left(const ShownTimes& shown, const std::vector<ShapeSurface>& taken, SurfaceReader& reader) {
   auto left = surfaces_of(scene_, nullptr, BelowLod::take, OfText::take);
   std::vector<char> is_taken(scene_.node_count());
   for (const auto& s : taken) is_taken[s.geometry.value] = 1;
   std::erase_if(left, [&](const ShapeSurface& s) { return is_taken[s.geometry.value] != 0; });
-  if (left.empty()) return;
-  std::vector<std::size_t> n_faces_of(left.size());
   Mesh mesh;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    reader.read(left[i], mesh);
-    n_faces_of[i] = mesh.n_faces();
+  for (const auto& s : left) {
+    reader.read(s, mesh);
+    n_left = saturating_add(n_left, saturating_multiply(mesh.n_faces(), shown.of(s)));
   }
-  const auto number = surface_numbers(scene_, left);
-  for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix&) {
-    if (const auto i = number[shape.value]) n_left += n_faces_of[i - 1];
-  });
 }
 
 /// Shapes look alike that have the same diffuse colour and the same texture.
@@ -155,15 +169,19 @@ void WorldParts::cut() {
     const auto triangles = triangles_of(s.mesh);
     parts[i].area = area_of(triangles, parts[i].faces) * s.scale * s.scale;
     allocated[i].weight = 0;
-    allocated[i].first_place = n_owners_;
-    allocated[i].n_places = static_cast<std::uint32_t>(s.places.size());
+    allocated[i].n_places = s.n_places;
+    allocated[i].first_owner = n_owners_;
+    allocated[i].n_owners = static_cast<std::uint32_t>(s.places.size());
     allocated[i].look = s.look;
+    n_placed_ += static_cast<double>(s.n_places);
+    const double each = s.each(s.places.size());
     for (const Matrix& m : s.places) {
       const double size = scale_of(m) / s.scale;
-      area += parts[i].area * size * size;
-      allocated[i].weight += std::pow(size, 4);
+      area += parts[i].area * size * size * each;
+      allocated[i].weight += std::pow(size, 4) * each;
       neighbours.add(triangles, parts[i].faces, m, n_owners_++);
     }
+    neighbours.end_part();
   }
 }
 
@@ -258,9 +276,9 @@ struct WorldParts::Surroundings {
 double WorldParts::enough(const Surroundings& around, const SurfaceSample& sample, double within,
                           Neighbours::Found& found) const {
   const Vec3 p = around.place.point(sample.point);
-  found = neighbours.nearest(p, within, {{}, around.first, around.end}, found.triangle);
+  found = neighbours.nearest(p, within, {around.first, around.end}, found.triangle);
   if (found.owner == ClosestPoint::no_guess) return std::numeric_limits<double>::infinity();
-  const Vec3 normal = unit(turned(around.place, sample.normal));
+  const Vec3 normal = unit(direction(around.place, sample.normal));
   const bool hidden = is_hidden(p, normal, neighbours.corners(found.triangle), found.distance, around.width);
   return hidden ? found.distance * found.distance : std::numeric_limits<double>::infinity();
 }
@@ -278,7 +296,7 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
     const auto& places = surfaces[parts[m].surface].places;
     const std::size_t step = (stride * places.size() + most_places_asked - 1) / most_places_asked;
     for (std::size_t k = 0; k < places.size(); k += std::max<std::size_t>(step, 1)) {
-      const auto owner = allocated[m].first_place + static_cast<std::uint32_t>(k);
+      const auto owner = allocated[m].first_owner + static_cast<std::uint32_t>(k);
       around.push_back({owner, owner + 1, places[k] * parts[m].from_ladder, width});
     }
   }
@@ -292,13 +310,13 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
   ladders_[ladder] = make_ladder({mesh, samples, options});
 }
 
-/// Points of a part in all its places, for when it leaves.
+/// Points of a part in its places, for when it leaves.
 void WorldParts::find_leaving(std::uint32_t part) {
   const Mesh mesh = in_metres(parts[part], nullptr);
   wrlkit::Box bounds;
   for (std::uint32_t i = 0; i < mesh.n_positions(); ++i) bounds.add(triangles_of(mesh).position(i));
   const double size = diagonal(bounds);
-  const bool large = size * size * static_cast<double>(n_owners_) > area;
+  const bool large = size * size * n_placed_ > area;
   const auto most = std::min(large ? of_large : of_small, std::max<std::size_t>(1, most_leaving / n_owners_));
   const auto samples = sample_surface(triangles_of(mesh), std::min(2 * mesh.n_faces(), most));
   const double width = half_width(samples);
@@ -306,9 +324,11 @@ void WorldParts::find_leaving(std::uint32_t part) {
   const Matrix back = inverse(frame_of(parts[part]));
   auto& out = allocated[part];
   constexpr double far = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < s.places.size(); ++k) {
-    const Surroundings around{out.first_place, out.first_place + out.n_places, s.places[k] * back, width};
-    const double grown = std::pow(scale_of(s.places[k]) / s.scale, 2);
+  const std::size_t step = (s.places.size() + most_left_from - 1) / most_left_from;
+  const double each = s.each((s.places.size() + step - 1) / step);
+  for (std::size_t k = 0; k < s.places.size(); k += step) {
+    const Surroundings around{out.first_owner, out.first_owner + out.n_owners, s.places[k] * back, width};
+    const double grown = std::pow(scale_of(s.places[k]) / s.scale, 2) * each;
     Neighbours::Found near{0, ClosestPoint::no_guess, ClosestPoint::no_guess};
     for (const auto& sample : samples) {
       const bool hidden = std::isfinite(enough(around, sample, far, near));
@@ -329,9 +349,11 @@ void WorldParts::make_ladders() {
   });
 }
 
-bool WorldParts::is_changed(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const {
-  return std::any_of(rungs.begin() + s.first_part, rungs.begin() + s.first_part + s.n_parts,
-                     [](std::uint32_t rung) { return rung != 0; });
+bool WorldParts::is_changed(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs,
+                            const std::vector<std::uint32_t>* before) const {
+  for (std::uint32_t i = s.first_part; i < s.first_part + s.n_parts; ++i)
+    if (rungs[i] != (before ? (*before)[i] : 0)) return true;
+  return false;
 }
 
 Mesh WorldParts::mesh_at(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const {

@@ -4,7 +4,7 @@
 
 #include "base/task.h"
 #include "geometry/simplify/allocation.h"
-#include "geometry/simplify/surfaces.h"
+#include "geometry/simplify/surface_places.h"
 
 namespace wrlkit::simplify {
 
@@ -12,12 +12,16 @@ namespace wrlkit::simplify {
 struct PlacedSurface {
   ShapeSurface surface;
   Mesh mesh;
-  std::vector<Matrix> places;  // to the world
-  std::size_t widest = 0;      // of the places: where it is largest
-  double scale = 1;            // metres of the world for its unit, there
-  std::vector<std::uint32_t> fixed;
+  std::uint64_t n_places = 0;    // where it is shown
+  std::vector<Matrix> places{};  // all of them to the world, or some of very many
+  std::size_t widest = 0;        // of the places: where it is largest
+  double scale = 1;              // metres of the world for its unit, there
+  std::vector<std::uint32_t> fixed{};
   std::uint32_t look = 0;
   std::uint32_t first_part = 0, n_parts = 0;
+
+  /// Places that each of `some` stands for.
+  double each(std::size_t some) const { return static_cast<double>(n_places) / static_cast<double>(some); }
 };
 
 /// A piece of a surface. Pieces of like form have one ladder.
@@ -33,12 +37,16 @@ class WorldParts {
  public:
   WorldParts(const Scene& scene, const CollapseOptions& options, Task& ctx);
 
+  /// Triangles that a world may draw; of one that draws more there are no parts.
+  static constexpr std::uint64_t most_drawn = 1'000'000'000'000'000;
+
   /// Finds what may stand for the parts. O(n log n), on all threads.
   void make_ladders();
 
-  std::size_t n_drawn = 0, n_faces = 0;  // of the surfaces, in all places and once
-  std::size_t n_left = 0;                // triangles that are drawn of what is left alone
-  double area = 0;                       // in the world
+  std::uint64_t n_drawn = 0;  // of the surfaces, in all places; saturates
+  std::size_t n_faces = 0;    // of the surfaces, once
+  std::uint64_t n_left = 0;   // triangles that are drawn of what is left alone; saturates
+  double area = 0;            // in the world
   std::vector<PlacedSurface> surfaces;
   std::vector<WorldPart> parts;
   std::vector<AllocatedPart> allocated;  // of each part
@@ -46,12 +54,15 @@ class WorldParts {
 
   /// A surface with its parts on these rungs.
   Mesh mesh_at(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const;
-  bool is_changed(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const;
+  /// Against other rungs; without any, against the surface as it was.
+  bool is_changed(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs,
+                  const std::vector<std::uint32_t>* before = nullptr) const;
 
  private:
   void read(Task& ctx);
+  void find_places(const ShownTimes& shown, const std::vector<ShapeSurface>& found);
   bool measure_places(PlacedSurface& s);
-  void count_left(const std::vector<ShapeSurface>& taken, SurfaceReader& reader);
+  void count_left(const ShownTimes& shown, const std::vector<ShapeSurface>& taken, SurfaceReader& reader);
   void find_looks();
   void cut();
   Matrix frame_of(const WorldPart& part) const;
@@ -69,7 +80,8 @@ class WorldParts {
 
   const Scene& scene_;
   CollapseOptions options_;
-  std::uint32_t n_owners_ = 0;                       // places of parts
+  std::uint32_t n_owners_ = 0;                       // places of parts that are given
+  double n_placed_ = 0;                              // places of parts
   std::vector<std::vector<std::uint32_t>> members_;  // of each ladder
   std::vector<std::vector<Rung>> ladders_;
 };

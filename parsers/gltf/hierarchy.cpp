@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/math/affine.h"
 #include "parsers/gltf/bounds.h"
 #include "parsers/gltf/visibility.h"
 #include "scenegraph/nodes.h"

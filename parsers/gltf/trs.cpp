@@ -97,20 +97,4 @@ Place place_of(Json node) {
   return p;
 }
 
-Matrix inverse(const Matrix& m) {
-  const double d = m.determinant();
-  Matrix o;
-  if (!(std::abs(d) > 0) || !std::isfinite(d)) return o;
-  const Vec3 x = m.column(0), y = m.column(1), z = m.column(2), r0 = cross(y, z), r1 = cross(z, x), r2 = cross(x, y);
-  for (int c = 0; c < 3; ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    o(0, c) = r0[k] / d;
-    o(1, c) = r1[k] / d;
-    o(2, c) = r2[k] / d;
-  }
-  const Vec3 t = o.point(m.column(3));
-  for (int r = 0; r < 3; ++r) o(r, 3) = -t[static_cast<std::size_t>(r)];
-  return o;
-}
-
 }  // namespace wrlkit::gltf_reader

@@ -25,6 +25,5 @@ struct Place {
 Place place_of(Json node);
 /// A Transform can say every matrix: T R SR S -SR is the polar decomposition, whatever its shear and mirroring.
 Place place_of(const Matrix&);
-Matrix inverse(const Matrix&);
 
 }  // namespace wrlkit::gltf_reader

@@ -65,7 +65,7 @@ class Ends {
   Ends(Scene& scene, const std::function<bool(NodeId)>& may_change) : scene_(scene), may_change_(may_change) {}
 
   DroppedCaps run() {
-    for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix& m) { add(shape, m); });
+    if (!for_each_place(scene_, Shown::now, [&](NodeId shape, const Matrix& m) { add(shape, m); })) return {};
     hide([](const Cap& a, const Cap& b) { return are_equal(a, b); });
     hide([&](const Cap& a, const Cap& b) { return is_within(a, b) && !is_hidden(b); });
     return open();

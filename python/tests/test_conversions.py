@@ -57,6 +57,8 @@ def test_recipes(tmp_path):
 def test_info():
     facts = wrlkit.info(PUMP_ROOM)
     assert (facts['format'], facts['shapes'], facts['triangles'], facts['nodes']['Viewpoint']) == ('vrml97', 623, 29836, 4)
+    assert facts['unique'] < facts['triangles'] and 'forms' not in facts
+    assert wrlkit.info(PUMP_ROOM, recognise=True)['forms']['kinds']['cylinder'] > 400
     world = wrlkit.load(PUMP_ROOM, unit='mm', up='z')
     assert world.info()['bounds']['max'][0] == pytest.approx(0.016)
     assert len(world.nodes()) == len(wrlkit.load(PUMP_ROOM).nodes()) + 1    # looking has changed nothing

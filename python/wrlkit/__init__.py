@@ -16,6 +16,6 @@ from .definitions import Range, pass_
 __all__ = ['Error', 'Mesh', 'Message', 'Node', 'Range', 'World', 'convert', 'info', 'load', 'main', 'node_types', 'nodes', 'pass_', 'passes']
 
 
-def info(path: str, allow: Sequence[str] = (), unit: str = '', up: str = '') -> Dict[str, Any]:
-    """What is inside a world, as `wrlkit info --json` says it: a dict of format, nodes, triangles, bounds, textures and more."""
-    return load(path, list(allow), unit, up).info()
+def info(path: str, allow: Sequence[str] = (), unit: str = '', up: str = '', recognise: bool = False) -> Dict[str, Any]:
+    """What is inside a world, as `wrlkit info --json` says it: a dict of format, nodes, triangles, bounds, textures and more. With `recognise` what the parts are, too: 'forms'."""
+    return load(path, list(allow), unit, up).info(recognise)

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "base/image/srgb.h"
+#include "base/math/affine.h"
 #include "base/math/digits.h"
 #include "parsers/gltf/accessors.h"
 #include "parsers/gltf/context.h"

@@ -88,6 +88,7 @@ std::string info_json(const std::string& file, const Info& i, const Diagnostics&
   json.member("shapes", i.geometry.shapes);
   json.member("polygons", i.geometry.polygons);
   json.member("triangles", i.geometry.triangles);
+  json.member("unique", i.geometry.unique);
   json.member("lines", i.geometry.lines);
   json.member("points", i.geometry.points);
   write_bounds(json, i.geometry.bounds);
@@ -128,8 +129,10 @@ std::string unit_hint(const Box& b) {
 std::string info_text(const std::string& file, const Info& i) {
   const auto& b = i.geometry.bounds;
   std::string out = fmt::format("{}: {}{}, {} bytes\n", file, to_string(i.format), i.gzip ? " (gzip)" : "", i.bytes);
-  out += fmt::format("  shapes {}, polygons {}, triangles {}, lines {}, points {}\n", i.geometry.shapes,
-                     i.geometry.polygons, i.geometry.triangles, i.geometry.lines, i.geometry.points);
+  const auto& g = i.geometry;
+  const auto unique = g.unique == g.triangles ? "" : fmt::format(" ({} unique)", g.unique);
+  out += fmt::format("  shapes {}, polygons {}, triangles {}{}, lines {}, points {}\n", g.shapes, g.polygons,
+                     g.triangles, unique, g.lines, g.points);
   if (!b.empty())
     out += fmt::format("  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}: {:.6g} x {:.6g} x {:.6g} m\n", b.low[0],
                        b.low[1], b.low[2], b.high[0], b.high[1], b.high[2], b.high[0] - b.low[0], b.high[1] - b.low[1],

@@ -144,29 +144,57 @@ std::size_t drawn_triangles(const Document& document) {
   return meshes.good() ? count_geometry(silent.scene(), meshes.triangles, meshes.triangles).triangles : 0;
 }
 
+WrittenWorlds facts_of(const WorldLevels& world) {
+  WrittenWorlds all{world.n_drawn(), world.n_faces(), {}, {}};
+  for (const auto& p : world.points()) all.points.push_back({{}, p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max});
+  return all;
+}
+
+WrittenWorlds facts_of(const SimplifiedWorld& world) {
+  WrittenWorlds all{world.n_faces(), world.n_faces(), {}, {}};
+  for (std::size_t i = 0; i < world.n_points(); ++i) {
+    const auto& p = world.point(i);
+    all.points.push_back({{}, p.n_faces, p.n_faces, 0, p.rms, p.error});
+  }
+  return all;
+}
+
+/// Where the worlds go: NAME_TRIANGLES.wrl, and NAME_lod.wrl.
+struct Names {
+  std::string base, ending;
+};
+
+template <class World>
+bool write_worlds(Session& s, const World& world, const Names& names, WrittenWorlds& all) {
+  all = facts_of(world);
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    auto& p = all.points[i];
+    p.file = names.base + '_' + std::to_string(p.n_drawn) + names.ending;
+    if (!write_world(s, p.file, world.scene_at(i))) return false;
+  }
+  all.lod_file = names.base + "_lod" + names.ending;
+  return write_world(s, all.lod_file, world.scene_with_levels());
+}
+
 /// As one world with one budget where there are several parts and the triangles are counted; else each surface for
 /// itself.
-bool simplify_world(Session& s, const WorldSimplifyOptions& options, WrittenWorlds& all, const auto& write) {
+bool simplify_world(Session& s, const WorldSimplifyOptions& options, const Names& names, WrittenWorlds& all) {
+  const Scene& scene = s.world().scene;
   if (options.errors.empty()) {
     SilentTask silent(s.context());
-    const WorldLevels world(s.world().scene, options, silent);
+    const WorldLevels world(scene, options, silent);
+    if (world.n_drawn() > WorldLevels::most_drawn)
+      s.diag().report(Diag::not_simplified, {},
+                      fmt::format("a world of more than {} triangles as a whole, but each surface by itself",
+                                  WorldLevels::most_drawn));
     if (world.n_parts() > 1) {
-      surfaces_of(s.world().scene, &s.diag());  // says what is left alone
-      all.n_drawn = world.n_drawn();
-      all.n_faces = world.n_faces();
-      return write(world.points().size(), world, [&](std::size_t i) {
-        const auto& p = world.points()[i];
-        return Written{{}, p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max};
-      });
+      surfaces_of(scene, &s.diag());  // says what is left alone
+      return write_worlds(s, world, names, all);
     }
   }
-  const SimplifiedWorld world(s.world().scene, options, s.context());
-  all.n_drawn = all.n_faces = world.n_faces();
+  const SimplifiedWorld world(scene, options, s.context());
   if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
-  return write(world.n_points(), world, [&](std::size_t i) {
-    const auto& p = world.point(i);
-    return Written{{}, p.n_faces, p.n_faces, 0, p.rms, p.error};
-  });
+  return write_worlds(s, world, names, all);
 }
 
 /// Surfaces without loose faces; and baked light in the textures, where VRML is written for browsers.
@@ -188,28 +216,16 @@ int run_simplify(const Flags& flags) {
     return done;
   }
   if (!s.read(flags.inputs[0])) return s.end(false);
-  options->drawn = drawn_triangles(s.document());
+  if (options->errors.empty() && !flags.progressive) options->drawn = drawn_triangles(s.document());
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
 
   std::error_code failed;
   fs::create_directories(flags.output, failed);
-  const std::string base = (fs::path(flags.output) / stem_of(flags.inputs[0])).string(),
-                    ending = flags.save.gzip ? ".wrl.gz" : ".wrl";
+  const std::string base = (fs::path(flags.output) / stem_of(flags.inputs[0])).string();
   if (flags.progressive)
     return write_progressive_file(s, options->collapse.criterion, base + (flags.save.gzip ? ".wpm.gz" : ".wpm"));
-
   WrittenWorlds all;
-  const auto write = [&](std::size_t n_points, const auto& world, const auto& point) {
-    for (std::size_t i = 0; i < n_points; ++i) {
-      Written w = point(i);
-      w.file = base + '_' + std::to_string(w.n_drawn) + ending;
-      if (!write_world(s, w.file, world.scene_at(i))) return false;
-      all.points.push_back(std::move(w));
-    }
-    return write_world(s, all.lod_file, world.scene_with_levels());
-  };
-  all.lod_file = base + "_lod" + ending;
-  if (!simplify_world(s, *options, all, write)) return s.end(false);
+  if (!simplify_world(s, *options, {base, flags.save.gzip ? ".wrl.gz" : ".wrl"}, all)) return s.end(false);
   s.progress().clear();
   (flags.json ? print_json : print_table)(all);
   return s.end(true);
