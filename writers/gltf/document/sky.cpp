@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/simplify/inverse.h"
+#include "base/math/affine.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf {
@@ -22,9 +22,9 @@ void place_sky(Document& d) {
   for (const Camera& c : d.cameras) reach = std::max(reach, length(c.position - centre));
   d.sky->centre = centre;
   d.sky->radius = reach > 0 && std::isfinite(reach) ? room * reach : no_world;
-  if (!simplify::is_invertible(d.sky->frame)) return;
+  if (!is_invertible(d.sky->frame)) return;
   const double radius = d.sky->radius / mean_scale(d.sky->frame);
-  const Vec3 here = simplify::inverse(d.sky->frame).point(centre);
+  const Vec3 here = inverse(d.sky->frame).point(centre);
   d.nodes[d.sky->node].transform = d.add_transform({here, {}, {radius, radius, radius}});
 }
 
