@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "base/math/vec.h"
 #include "geometry/simplify/closest_on_triangle.h"
@@ -50,8 +52,15 @@ class Ladder {
     const auto freely = Criterion::meshopt;
     if (level.n_faces() > most_fitted && part_.collapse.criterion != freely && info(freely).missing.empty() &&
         !part_.mesh.lightcoord.present()) {
-      for (Attribute* a : level.attributes()) a->clear();
+      Mesh whole = part_.mesh;
+      for (Mesh* mesh : {&whole, &level})
+        for (Attribute* a : mesh->attributes()) a->clear();
+      auto from_level = std::exchange(rungs_, {rungs_.front()});
+      run(whole, {.criterion = freely}, level.n_faces());
+      std::swap(from_level, rungs_);
       level = run(level, {.criterion = freely}, last);
+      rungs_.insert(rungs_.begin() + 1, std::make_move_iterator(from_level.begin() + 1),
+                    std::make_move_iterator(from_level.end()));
     }
     return plain(level);
   }
@@ -163,6 +172,7 @@ class Ladder {
 
 std::vector<Rung> make_ladder(const LadderPart& part) {
   auto rungs = Ladder(part).run();
+  std::stable_sort(rungs.begin() + 1, rungs.end(), [](auto& a, auto& b) { return a.n_faces > b.n_faces; });
   // From the coarsest up: a rung that is no nearer than a coarser one goes.
   std::vector<Rung> out;
   for (auto r = rungs.rbegin(); r + 1 != rungs.rend(); ++r)

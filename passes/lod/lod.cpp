@@ -8,6 +8,7 @@
 #include "base/silent_task.h"
 #include "geometry/simplify/lod_nodes.h"
 #include "geometry/simplify/shared_borders.h"
+#include "geometry/simplify/world_levels.h"
 
 namespace wrlkit {
 namespace {
@@ -114,6 +115,37 @@ class Lod {
   std::vector<Part> batch_;
 };
 
+/// The world at the shares of the triangles, and LODs over what its groups are there.
+Outcome lods_of_groups(Scene& scene, const LodOptions& options, PassContext& ctx) {
+  if (!options.errors.values.empty()) {
+    ctx.diag.report(Diag::not_simplified, {}, "errors of lod are for scope=part; ratios are for all scopes");
+    return Outcome::unchanged;
+  }
+  WorldSimplifyOptions world;
+  world.collapse.criterion = options.criterion.value;
+  world.ratios = options.ratios.values;
+  SilentTask silent(ctx);
+  ScopedLods made;
+  Scene with_lods;
+  {
+    const WorldLevels levels(scene, world, silent);
+    if (levels.n_drawn() > WorldLevels::most_drawn)
+      ctx.diag.report(Diag::not_simplified, {},
+                      "a world of more than " + std::to_string(WorldLevels::most_drawn) + " triangles as a whole");
+    const ScopedLodOptions scoped{options.scope,
+                                  {options.pixels, options.screen_height, options.field_of_view, options.vanish},
+                                  options.min_saving,
+                                  static_cast<std::uint64_t>(options.min_faces)};
+    if (!levels.points().empty()) with_lods = levels.scene_with_lods(scoped, made);
+  }
+  ctx.stats["lod.groups"] += made.n_lods;
+  ctx.stats["lod.levels"] += made.n_levels;
+  ctx.stats["lod.too-small"] += made.n_too_small;
+  if (made.n_lods == 0) return Outcome::unchanged;
+  scene = std::move(with_lods);
+  return Outcome::changed;
+}
+
 }  // namespace
 
 bool NumberList::read(std::string_view text) {
@@ -142,6 +174,8 @@ std::string NumberList::print() const {
   return out;
 }
 
-Outcome lod(Scene& scene, const LodOptions& options, PassContext& ctx) { return Lod(scene, options, ctx).run(); }
+Outcome lod(Scene& scene, const LodOptions& options, PassContext& ctx) {
+  return options.scope == LodScope::part ? Lod(scene, options, ctx).run() : lods_of_groups(scene, options, ctx);
+}
 
 }  // namespace wrlkit

@@ -6,6 +6,7 @@
 
 #include "base/option_range.h"
 #include "geometry/simplify/levels.h"
+#include "geometry/simplify/scoped_lods.h"
 #include "geometry/tessellation.h"
 #include "passes/pipeline/pass.h"
 
@@ -48,15 +49,27 @@ Makes levels of detail of the Shapes of a scene, in the bodies of prototypes too
 - Left alone: Shapes below an authored LOD; those whose geometry is text, lines, points, the end of a ROUTE or an IS;
   and everything else in the world. The Shape keeps its name; a parent holds the LOD in its place.
 
+With `scope=group` the innermost groups that hold several Shapes become LODs, and other Shapes by themselves; with
+`scope=world` all that is drawn becomes one. The triangles of a level are shared out among all parts of the world by what
+is nearest to it (docs/plants.md), and small parts leave. A further level is a copy of the group without names, of what
+differs in it, and shares the rest with the first; Viewpoints and other bound nodes are in the first alone. Groups that a
+ROUTE reaches are not copied: what lies below them has LODs of its own, or stays as it is in the one for the world.
+
+    before   DEF Pump Group { children [ DEF Body Shape { ... } DEF Bolts Group { ... } ] }
+    after    LOD { level [ DEF Pump Group { children [ DEF Body Shape { ... } DEF Bolts Group { ... } ] }
+                           Group { children [ Shape { ... } ] } ] }   # the body with a tenth of its triangles
+
 Polygons that only touch have no common edges: run `weld` before. O(n log n) in the triangles, parallel over the
 geometries; the same result for any number of threads.)";
   static constexpr StatisticInfo statistics[] = {
       {"lod.shapes", "Shapes that have levels"},
       {"lod.levels", "levels behind the first"},
       {"lod.triangles", "triangles of these"},
-      {"lod.too-small", "Shapes that were left as they are"},
+      {"lod.groups", "groups that have levels"},
+      {"lod.too-small", "Shapes and groups that were left as they are"},
   };
 
+  LodScope scope = LodScope::part;
   NumberList ratios{{0.5, 0.25, 0.1}};
   NumberList errors;
   CriterionName criterion;
@@ -66,7 +79,10 @@ geometries; the same result for any number of threads.)";
   Tessellation faces{.texcoords = true};
 
   void fields(auto&& f) {
-    f("ratios", ratios, "triangles of each further level, as shares of the first");
+    f("scope", scope, "what a LOD is made for");
+    f("ratios", ratios,
+      "triangles of each further level, as shares of the first; with other scopes than part, of all that the world "
+      "draws");
     f("errors", errors, "instead of ratios: how far each further level may be from the first, in metres of the world");
     f("criterion", criterion, CriterionName::help());
     f("pixels", pixels, "error of a level on the screen, in pixels, from which on it may be shown", at_least(0));

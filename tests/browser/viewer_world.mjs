@@ -18,6 +18,8 @@ const info = JSON.parse(wrlkit(program, 'info', '-q', '--json', world));
 async function figures_and_selection() {
   const {page, faults, close} = await open_page(browser, html);
   assert.equal(number_of(await page.textContent('#world-triangles')), info.triangles);
+  const unique = number_of(await page.textContent('#world-unique'));
+  assert(unique > 0 && unique <= info.triangles);
   assert.equal(await page.title(), 'pump_room_faces.wrl: wrlkit');
 
   // The heaviest part is the first of the table, and one click away.

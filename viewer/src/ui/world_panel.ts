@@ -57,7 +57,8 @@ export class WorldPanel {
     const rows = heavy.map(row => [button(row.label, () => this.mode.select(row.part, true), {class: 'link'}), count(row.places), count(row.triangles), bytes(row.bytes)]);
     return h('div', {class: 'panel'},
       section('World', facts([
-        ['Triangles', h('output', {id: 'world-triangles'}, count(world.triangles))], ['Parts', count(world.parts.length)], ['Shapes', count(meshes)],
+        ['Triangles', h('output', {id: 'world-triangles'}, count(world.triangles))],
+        ['Triangles stored', h('output', {id: 'world-unique'}, count(world.unique))], ['Parts', count(world.parts.length)], ['Shapes', count(meshes)],
         ['Materials', count(world.file.materials?.length ?? 0)], ['Pictures', count(world.file.images?.length ?? 0)],
         ['Size', world.empty ? 'nothing is seen' : `${length(size.x)} × ${length(size.y)} × ${length(size.z)}`], ['As GLB', bytes(world.size)]])),
       section('Heaviest parts', heavy.length > 0

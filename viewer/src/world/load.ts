@@ -152,6 +152,12 @@ export async function loadWorld(name: string, bytes: ArrayBuffer): Promise<World
   return {
     name, size: bytes.byteLength, file, root: gltf.scene, parts: builder.parts, roots, levels, viewpoints: cameras, navigation: navigation(file),
     sky: sky(file), lights: allLights(gltf.scene), clips: gltf.animations, box, empty, triangles: roots.reduce((n, p) => n + p.triangles, 0),
+    unique: uniqueTriangles(file, builder.parts),
   };
+}
+
+function uniqueTriangles(file: GltfFile, parts: Part[]): number {
+  const meshes = new Set(parts.map(p => p.mesh).filter(mesh => mesh !== null));
+  return [...meshes].reduce((n, mesh) => n + trianglesOf(file, mesh), 0);
 }
 

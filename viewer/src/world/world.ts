@@ -53,6 +53,7 @@ export interface World {
   box: Box3;            // of a world that shows nothing: some metres around the origin
   empty: boolean;
   triangles: number;    // as shown: finest level
+  unique: number;       // the same, those of each mesh once
 }
 
 /// What a part is called where it has no name itself: by the nearest part above that has one.
