@@ -56,7 +56,8 @@ Lights every surface that a browser would show, as it stands at the start.
 - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get
   faces.
 - Further levels of a LOD have the light of the nearest place of the first one. Where that is far away, and with
-  `directional`, it is computed, where all LODs show that level, or their last. Half the texels a level. LODs within levels have light at all of theirs, too: as many views are lit as there are levels one behind the
+  `directional`, it is computed, where all LODs show that level, or their last. Half the texels a level. LODs within
+  levels have light at all of theirs, too: as many views are lit as there are levels one behind the
   other, 64 at the most.
 - Text becomes faces, too, unless events, a Script or a prototype may write it.
 - Shapes without a Material, which browsers show at full brightness, get light, too, where the world has lamps: their
