@@ -34,7 +34,7 @@ struct Work {
   int side, samples, rays;  // of a page; points a texel; rays a point
 };
 Work work_of(BakeQuality quality) {
-  constexpr Work works[] = {{512, 1, 6}, {1024, 4, 16}, {4096, 4, 64}};
+  constexpr Work works[] = {{512, 4, 4}, {1024, 4, 16}, {4096, 4, 64}};
   return works[static_cast<std::size_t>(quality)];
 }
 constexpr int side_for_density = 4096, smallest_side = 64;
