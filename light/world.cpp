@@ -101,8 +101,9 @@ void LightWorld::make_sky(const Scene& scene, Resources* resources, Diagnostics&
     background_.emplace(scene, stage_.background->node, stage_.frames[stage_.background->frame], resources, diag);
   const bool lit =
       !lamps_.empty() || std::any_of(scoped_.begin(), scoped_.end(), [](auto& l) { return l.has_value(); });
-  sky_stands_in_ = options_.sky == Option::background && !lit &&
-                   !(background_ && mean_radiance(*background_) >= least_light) && !glow_is_light();
+  has_lamps_ = lit || glow_is_light();
+  sky_stands_in_ =
+      options_.sky == Option::background && !has_lamps_ && !(background_ && mean_radiance(*background_) >= least_light);
   if (sky_stands_in_) {
     background_.reset();
     constant_sky_ = V3(1);

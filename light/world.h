@@ -111,6 +111,8 @@ class LightWorld {
   /// Or nothing shines, or too little to see the world by: a white sky of radiance 1 stands in (docs/lighting.md, "No
   /// light at all").
   bool has_sky_of_its_own() const { return !sky_stands_in_; }
+  /// A light node shines, or surfaces light the world as lamps do (docs/lighting.md, "No light at all").
+  bool has_lamps() const { return has_lamps_; }
 
   /// Where a ray that leaves a surface starts: off the face by more than the rounding of coordinates there, and of the
   /// corners of the triangle, of which `extent` is a long side.
@@ -181,7 +183,7 @@ class LightWorld {
   std::vector<Emitter> emitters_;
   std::optional<drawing::Sky> background_;
   V3 constant_sky_;
-  bool has_sky_ = false, sky_stands_in_ = false, emits_ = false, has_clear_ = false;
+  bool has_sky_ = false, has_lamps_ = false, sky_stands_in_ = false, emits_ = false, has_clear_ = false;
   std::optional<drawing::RayScene> rays_;
 };
 

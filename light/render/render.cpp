@@ -92,6 +92,18 @@ Box bounds_of(const Scene& scene, const Stage& stage, const MeshSource& source, 
   return bounds(stage, pool, mesh_of);
 }
 
+/// Pictures of lightmaps are grey all over where there is none.
+void report_no_lightmap(const Drawing& d, RenderOptions::Mode mode, Diagnostics& diag) {
+  using Mode = RenderOptions::Mode;
+  if (mode != Mode::lightmap && mode != Mode::checker && mode != Mode::density) return;
+  for (std::size_t u = 0; u < d.surface_of.size(); ++u)
+    if (d.surfaces[d.surface_of[u]].baked && d.meshes[d.mesh_of[u]].lightcoords != PooledMesh::absent) return;
+  diag.report(
+      Diag::no_lightmap, {},
+      "all is grey; light that is one picture with colour (VRML; glTF with --lightmap-as base-color) is seen in "
+      "the other modes");
+}
+
 RenderOptions seen_by(const Camera& c, RenderOptions options) {
   options.look_at = LookAt{c.eye, c.eye - c.back, c.up};
   options.field_of_view = 2 * std::atan(std::min(c.half_x, c.half_y));
@@ -170,6 +182,7 @@ Image render(const Scene& scene, const MeshSource& source, const RenderOptions& 
     return sample_picture(raster, [&](double x, double y) { return w.color(x, y); });
   }
   if (options.mode != RenderOptions::Mode::preview) {
+    report_no_lightmap(drawing, options.mode, diag);
     Inspector i(drawing, tracer, camera, options.mode, options.background ? V3(*options.background) : V3(0));
     return sample_picture(raster, [&](double x, double y) { return i.color(x, y); });
   }

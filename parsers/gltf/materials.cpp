@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/image/image.h"
+#include "base/image/srgb_table.h"
 #include "base/io/url.h"
 #include "base/text/base64.h"
 #include "scenegraph/equal.h"
@@ -59,9 +60,19 @@ std::optional<std::uint32_t> set_of(Json info) {
       std::min<std::uint64_t>((moved ? moved : info["texCoord"]).whole().value_or(0), 99));
 }
 
+/// Black but for a picture that shines is all that glTF has for light and colour in one picture: a white surface that
+/// has that light.
+bool shines_as_picture(Json material) {
+  const Json pbr = material["pbrMetallicRoughness"];
+  const auto base = vector<4>(pbr["baseColorFactor"], {1, 1, 1, 1});
+  return material["emissiveTexture"] && !pbr["baseColorTexture"] && Vec3{base[0], base[1], base[2]} == black &&
+         vector<3>(material["emissiveFactor"], black) == white;
+}
+
 Json lightmap_of(Json material) {
   const Json moz = material["extensions"]["MOZ_lightmap"];
-  return moz ? moz : material["extras"]["lightmap"];
+  if (moz) return moz;
+  return shines_as_picture(material) ? material["emissiveTexture"] : material["extras"]["lightmap"];
 }
 
 }  // namespace
@@ -180,6 +191,10 @@ NodeId Materials::material_node(Json m, SurfaceKind s, Look& look) {
     return n;
   }
   NodeId n = c_.add(nodes::Material, m);
+  if (s.light && shines_as_picture(m)) {
+    c_.scene.set(n, nodes::material::diffuseColor, white);
+    return n;
+  }
   set_color(n, m, s, look);
   if (s.faces && !unlit && !own) set_highlight(n, m);
   if (own) extras_.fields(n, extras);
@@ -241,9 +256,13 @@ NodeId Materials::texture(std::uint32_t index) {
   return i->second;
 }
 
-NodeId Materials::make_texture(Json t) {
+std::uint32_t Materials::image_of(Json t) const {
   const Json webp = t["extensions"]["EXT_texture_webp"]["source"];
-  auto image = c_.file.index(Table::images, t["source"] ? t["source"] : webp);
+  return c_.file.index(Table::images, t["source"] ? t["source"] : webp);
+}
+
+NodeId Materials::make_texture(Json t) {
+  const auto image = image_of(t);
   const Json extras = vrml97(t);
   if (image == none) {
     c_.lost.add("a texture without a picture", c_.file.where(t));
@@ -274,15 +293,38 @@ NodeId Materials::make_texture(Json t) {
   return n;
 }
 
-/// An SFImage (ISO/IEC 14772-1, 5.5) from the picture that it was written as.
-NodeId Materials::pixel_texture(Json t, Json image) {
+std::optional<Image> Materials::decoded(Json image) {
   auto view = c_.file.index(Table::bufferViews, image["bufferView"]);
   auto inside = view == none ? std::nullopt : c_.buffers.view(view);
   auto beside = inside || !image["uri"] ? std::nullopt : c_.buffers.load(image, image["uri"].text());
   std::string why;
-  auto picture = inside   ? decode_image(inside->bytes, "pixels.png", why)
-                 : beside ? decode_image(*beside, "pixels.png", why)
-                          : std::nullopt;
+  if (inside) return decode_image(inside->bytes, "pixels.png", why);
+  return beside ? decode_image(*beside, "pixels.png", why) : std::nullopt;
+}
+
+/// A picture of linear numbers, as occlusionTexture has them, as lightmaps are: display-referred.
+NodeId Materials::light_of_linear(std::uint32_t index) {
+  auto [at, is_new] = linear_lights_.try_emplace(index);
+  if (!is_new) return at->second;
+  const auto number = image_of(c_.file.at(Table::textures, index));
+  auto picture = number == none ? std::nullopt : decoded(c_.file.at(Table::images, number));
+  if (!picture) return {};
+  const SrgbTable& table = SrgbTable::get();
+  for (auto& v : picture->pixels) v = table.byte(v / 255.0);
+  std::string why;
+  const auto bytes = encode_as("light.png", *picture, why);
+  if (!bytes) return {};
+  const NodeId n = at->second = c_.add(nodes::ImageTexture, c_.file.at(Table::textures, index));
+  const std::string url = "data:image/png;base64," + base64(*bytes);
+  c_.scene.set(n, nodes::image_texture::url, std::vector<std::string_view>{url});
+  c_.scene.set(n, nodes::image_texture::repeatS, false);
+  c_.scene.set(n, nodes::image_texture::repeatT, false);
+  return n;
+}
+
+/// An SFImage (ISO/IEC 14772-1, 5.5) from the picture that it was written as.
+NodeId Materials::pixel_texture(Json t, Json image) {
+  const auto picture = decoded(image);
   if (!picture) return {};
   std::vector<std::int32_t> v{picture->width, picture->height, picture->channels};
   const auto row = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->channels);
@@ -348,13 +390,15 @@ NodeId Materials::transform_node(const TexcoordMap& a, Json said) {
   return n;
 }
 
-/// `intensity` of MOZ_lightmap and `scale` of extras.lightmap are lightmapScale.
+/// `intensity` of MOZ_lightmap and `scale` of extras.lightmap are lightmapScale. `linear` of the latter: the picture is
+/// that of an occlusionTexture.
 void Materials::set_light(NodeId appearance, Json m) {
   namespace a = nodes::appearance;
   const Json light = lightmap_of(m), said = light["extensions"]["KHR_texture_transform"];
   auto picture = [&](Json number) {
     const auto index = c_.file.index(Table::textures, number);
-    return index == none ? NodeId{} : texture(index);
+    if (index == none) return NodeId{};
+    return light["linear"].boolean() ? light_of_linear(index) : texture(index);
   };
   const NodeId map = picture(light["index"]);
   if (!map) return;
@@ -377,7 +421,7 @@ void Materials::report_lost(Json m) {
   const Span where = c_.file.where(m);
   if (!reported_.insert(m.offset()).second) return;
   for (std::string_view t : {"normalTexture", "occlusionTexture", "emissiveTexture"})
-    if (m[t]) c_.lost.add(t, where);
+    if (m[t] && !(t == "emissiveTexture" && shines_as_picture(m))) c_.lost.add(t, where);
   const Json pbr = m["pbrMetallicRoughness"];
   if (pbr["metallicRoughnessTexture"]) c_.lost.add("metallicRoughnessTexture", where);
   if (pbr["metallicFactor"].number(1) > 0 && !m["extensions"]["KHR_materials_unlit"])

@@ -5,12 +5,14 @@
 // and specularColor 0.01 / r^4, both up to 1; as rough as can be is black. Of metal, the highlight has the base colour.
 // What wrlkit wrote has the very fields in extras.
 //
-// Baked light, of MOZ_lightmap or extras.lightmap, is the lightmap of the Appearance (docs/lighting.md).
+// Baked light, of MOZ_lightmap or extras.lightmap, is the lightmap of the Appearance (docs/lighting.md). So is the
+// emissiveTexture of what is black else: colour and light in one, of a white surface.
 #pragma once
 #include <map>
 #include <optional>
 #include <tuple>
 
+#include "base/image/image.h"
 #include "parsers/gltf/extras.h"
 #include "scenegraph/looks/texture_transform_node.h"
 
@@ -54,6 +56,9 @@ class Materials {
   NodeId texture(std::uint32_t index);
   NodeId make_texture(Json);
   NodeId pixel_texture(Json texture, Json image);
+  std::uint32_t image_of(Json texture) const;
+  std::optional<Image> decoded(Json image);
+  NodeId light_of_linear(std::uint32_t texture);
   std::vector<std::string> urls(Json texture, std::uint32_t image);
   NodeId texture_transform(Json info, SurfaceKind, Look&);
   NodeId transform_node(const TexcoordMap&, Json said);
@@ -65,7 +70,7 @@ class Materials {
   Context c_;
   Extras& extras_;
   std::map<std::tuple<std::uint32_t, SurfaceKind>, Look> looks_;
-  std::map<std::uint32_t, NodeId> textures_;
+  std::map<std::uint32_t, NodeId> textures_, linear_lights_;
   std::map<std::uint32_t, std::string> image_urls_;
   std::map<std::pair<std::uint32_t, std::string>, NodeId> named_;
   std::set<std::uint32_t> reported_;

@@ -13,6 +13,8 @@
 #include "light/render/baked.h"
 #include "light/render/surface.h"
 #include "passes/combine_lightmap/page.h"
+#include "passes/lightmap/borders.h"
+#include "passes/lightmap/connected.h"
 #include "passes/lightmap/copy_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -104,6 +106,7 @@ class Combining {
   bool hand_in(Group& group, const Image& image);
   void read_meshes(const Group& group);
   int factor(const Group& group);
+  std::vector<std::uint16_t> charts_of(const Mesh& mesh);
   void list_triangles(const Group& group, std::uint32_t shape, int width, int height);
   double detail_of(const drawing::Surface& s, const Mesh& mesh) const;
   Texel4 color(const Painted& t, const std::array<double, 3>& weights, const std::array<double, 2>& place,
@@ -122,6 +125,7 @@ class Combining {
   std::vector<Mesh> meshes_;  // of the group at work, by Shape
   std::vector<PageTriangle> triangles_;
   std::vector<Painted> painted_;
+  std::uint32_t n_charts_ = 0;             // numbers that are taken
   std::vector<std::uint32_t> unlit_uses_;  // by node: Shapes without light that hold it
   std::unordered_map<std::uint32_t, NodeId> geometries_;
   std::unordered_map<std::uint32_t, NodeId> appearances_;
@@ -198,14 +202,27 @@ int Combining::factor(const Group& group) {
   return static_cast<int>(chosen);
 }
 
+/// By triangle. Those that have corners in common are one chart.
+std::vector<std::uint16_t> Combining::charts_of(const Mesh& mesh) {
+  const Attribute& places = mesh.lightcoord;
+  const auto root = bake::connected(places.index);
+  std::vector<std::uint16_t> out;
+  for (std::size_t c = 0; c < mesh.corners.size(); c += 3)
+    out.push_back(bake::chart_number(n_charts_ + root[places.index[c]]));
+  n_charts_ += static_cast<std::uint32_t>(root.size());
+  return out;
+}
+
 void Combining::list_triangles(const Group& group, std::uint32_t shape, int width, int height) {
   const auto& s = surfaces_[group.shapes[shape].surface];
   const Mesh& mesh = meshes_[shape];
   const double pixels = s.picture.texture && mesh.texcoord.present()
                             ? double(s.picture.texture->width()) * s.picture.texture->height()
                             : 0;
+  const auto charts = charts_of(mesh);
   for (std::uint32_t c = 0; c < mesh.corners.size(); c += 3) {
     PageTriangle t;
+    t.chart = charts[c / 3];
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const float* at = mesh.lightcoord.at(mesh.lightcoord.index[c + corner]);
       auto [u, v] = s.baked.places(at[0], at[1]);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "passes/lightmap/borders.h"
 
 namespace wrlkit::combine {
 namespace {
@@ -120,7 +121,8 @@ Page::Page(int width, int height, double reach)
       height_(height),
       reach_(reach),
       texels_(std::size_t(width) * height),
-      distance_(texels_.size(), nobody) {}
+      distance_(texels_.size(), nobody),
+      chart_(texels_.size()) {}
 
 /// A band of rows, by texel: how far its owner is, and who that is. Colours come last, so that each texel has one only.
 class Page::Band {
@@ -131,12 +133,15 @@ class Page::Band {
   bool paint(const Paint& paint) {
     // Most texels lie within a triangle, and are not looked at again when those next to one are sought.
     const bool whole = own(0) && own(page_.reach_);
+    constexpr double half_diagonal = 0.71;
+    const double touching = page_.reach_ > 0 ? 1 + half_diagonal / page_.reach_ * (nobody - 2) : 0;
     for (int y = begin_; y < end_; ++y)
       for (int x = 0; x < page_.width_; ++x) {
         const std::size_t at = std::size_t(y) * page_.width_ + x;
         if (page_.distance_[at] == nobody) continue;
         const auto owner = owner_[index(x, y)];
         const PageTriangle& t = triangles_[owner];
+        if (page_.distance_[at] <= touching) page_.chart_[at] = t.chart;
         page_.texels_[at] = paint(owner, position(t, t.area(), x + 0.5, y + 0.5).weights, x + 0.5, y + 0.5);
       }
     return whole;
@@ -215,6 +220,16 @@ bool Page::paint(std::span<const PageTriangle> triangles, const Paint& paint) {
   return whole;
 }
 
+/// One texel beyond a chart its surface goes on as a plane, which is better than what is copied.
+void Page::extend(std::vector<Texel4>& texels) const {
+  const bake::ChartMap map{chart_, width_, height_};
+  auto sources = bake::sources_beyond_borders(map, bake::last_separate_level(map));
+  const double beside = reach_ > 0 ? 1 + 1 / reach_ * (nobody - 2) : 0;
+  for (std::uint32_t i = 0; i < sources.size(); ++i)
+    if (distance_[i] <= beside) sources[i] = i;
+  bake::extend_borders(texels, sources);
+}
+
 Image Page::image(int channels) const {
   std::vector<char> known(distance_.size());
   for (std::size_t i = 0; i < known.size(); ++i) known[i] = distance_[i] != nobody;
@@ -222,6 +237,7 @@ Image Page::image(int channels) const {
   while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(half(levels.back()));
   if (!levels.back().known[0]) levels.back().texels[0] = {{0, 0, 0, 255}};
   for (std::size_t l = levels.size() - 1; l-- > 0;) fill(levels[l], levels[l + 1]);
+  extend(levels[0].texels);
   Image out{width_, height_, channels, {}};
   out.pixels.reserve(texels_.size() * channels);
   for (const Texel4& t : levels[0].texels)

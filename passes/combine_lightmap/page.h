@@ -1,7 +1,7 @@
 // A picture that triangles are painted into: who owns each texel, and what it shows. Texels within `reach` of a
 // triangle are painted, too, by the nearest one, as the plane of its values goes on: what lies beyond the border of a
 // chart is seen when a texture is filtered. Those further away take the colours around them, for smaller versions of
-// the picture.
+// the picture; beside charts those of the nearest one (passes/lightmap/borders.h).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -16,6 +16,7 @@ namespace wrlkit::combine {
 /// In texels, x to the right and y down from the upper left corner of the page.
 struct PageTriangle {
   std::array<double, 3> x, y;
+  std::uint16_t chart = 1;                                                                       // any number but 0
   double area() const { return (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]); }  // twice, with a sign
 };
 
@@ -42,11 +43,13 @@ class Page {
 
  private:
   class Band;
+  void extend(std::vector<Texel4>& texels) const;
 
   int width_, height_;
   double reach_;
   std::vector<Texel4> texels_;
   std::vector<std::uint8_t> distance_;  // to the owner; 0: within it, `nobody`: none
+  std::vector<std::uint16_t> chart_;    // of texels that a chart touches; 0: none does
 };
 
 }  // namespace wrlkit::combine

@@ -7,10 +7,14 @@
 #include <span>
 #include <system_error>
 
+#include "base/parallel.h"
+#include "passes/lightmap/borders.h"
 #include "passes/lightmap/checkpoint.h"
 #include "passes/lightmap/cut_off.h"
 #include "passes/lightmap/denoise.h"
 #include "passes/lightmap/fill.h"
+#include "passes/lightmap/finest_light.h"
+#include "passes/lightmap/hidden_charts.h"
 #include "passes/lightmap/page.h"
 #include "passes/lightmap/page_baker.h"
 #include "passes/lightmap/refine.h"
@@ -25,12 +29,61 @@ using light::Point;
 
 constexpr std::size_t most_cache_points = 100'000;
 
+/// What a page has of the light of finer levels.
+struct Inherited {
+  std::vector<Rgb> light;     // by texel
+  std::vector<char> missing;  // by texel: it has none. Empty: all have none
+};
+
+/// How far from the finer level a simpler one may be: of its box, and texels.
+double reach_of(const Part& p, const drawing::Affine& frame, double density) {
+  constexpr double of_box = 0.05, texels = 2;
+  Box box;
+  for (std::size_t c = 0; c < p.mesh.corners.size(); ++c) box.add(frame.point(p.position(c)));
+  return of_box * drawing::length(box.size()) + texels / (density * p.density);
+}
+
+Inherited inherit(PageBaker& from, const std::vector<double>& reach, const BakeOptions& options) {
+  Inherited out;
+  if (!options.finest) return out;
+  const PageLayout& page = from.page();
+  const std::size_t n = std::size_t(page.width) * page.height;
+  out.light.resize(n);
+  out.missing.assign(n, 1);
+  for (std::size_t tile = 0; tile < from.n_tiles(); ++tile) {
+    const auto& points = from.points(tile, 1, 1);
+    const auto texels = from.texels();
+    parallel_for(texels.size(), [&](std::size_t t) {
+      const Point& p = points[texels[t].first];
+      const NodeId shape = from.world().stage().uses[p.use].shape;
+      const auto light = options.finest->at(shape, p.position, p.normal, reach[p.use]);
+      if (!light) return;
+      const std::size_t i = std::size_t(texels[t].y) * page.width + texels[t].x;
+      out.light[i] = *light;
+      out.missing[i] = 0;
+    });
+  }
+  return out;
+}
+
+std::vector<Inherited> inherit_all(std::vector<PageBaker>& pages, const std::vector<Part>& parts, const Layout& layout,
+                                   const BakeOptions& options) {
+  std::vector<Inherited> out(pages.size());
+  if (!options.finest || pages.empty()) return out;
+  const auto& stage = pages[0].world().stage();
+  std::vector<double> reach(stage.uses.size());
+  for (const Part& p : parts)
+    for (const std::uint32_t u : p.uses) reach[u] = reach_of(p, stage.frames[stage.uses[u].frame], layout.density());
+  for (std::size_t i = 0; i < pages.size(); ++i) out[i] = inherit(pages[i], reach, options);
+  return out;
+}
+
 /// A fair choice of the points that will be lit, for the cache of reflected light.
-std::vector<Point> choose_points(std::vector<PageBaker>& pages) {
+std::vector<Point> choose_points(std::vector<PageBaker>& pages, const std::vector<Inherited>& inherited) {
   std::vector<Point> all;
-  for (PageBaker& p : pages)
-    for (std::size_t tile = 0; tile < p.n_tiles(); ++tile) {
-      const auto& points = p.points(tile, 1, 1);
+  for (std::size_t i = 0; i < pages.size(); ++i)
+    for (std::size_t tile = 0; tile < pages[i].n_tiles(); ++tile) {
+      const auto& points = pages[i].points(tile, 1, 1, inherited[i].missing);
       all.insert(all.end(), points.begin(), points.end());
     }
   if (all.size() <= most_cache_points) return all;
@@ -50,17 +103,51 @@ std::vector<char> packed(const std::vector<TexelLight>& texels) {
   return {p, p + texels.size() * sizeof(TexelLight)};
 }
 
-/// Texels within something have no light of their own. Where a whole chart is, it keeps what it sees.
-std::vector<char> known_texels(const Page& page, const std::vector<char>& inside) {
+/// By chart.
+std::vector<std::uint32_t> uses_of_charts(const PageLayout& page) {
+  std::vector<std::uint32_t> out;
+  for (std::size_t t = 0; t < page.triangles.size(); ++t) {
+    const auto chart = page.triangles[t].chart;
+    if (chart >= out.size()) out.resize(std::size_t{chart} + 1);
+    out[chart] = page.refs[t].use;
+  }
+  return out;
+}
+
+/// What lies within something though it stands for a finer level that did not, or is black, looks as the nearest place
+/// of that.
+void take_from_finest(const Page& page, PageLight& light, std::vector<char>& inside, const PageBaker& from,
+                      const BakeOptions& options) {
+  if (!options.finest) return;
+  const auto use_of = uses_of_charts(from.page());
+  const auto& uses = from.world().stage().uses;
+  parallel_for(page.size(), [&](std::size_t i) {
+    if (!page.covered(i) || (!inside[i] && luminance(light.at(i)) > 0)) return;
+    const Place& p = page.places[i];
+    const auto found = options.finest->anywhere(uses[use_of[p.chart]].shape,
+                                                V3(p.position.x, p.position.y, p.position.z) + from.world().centre(),
+                                                {p.normal.x, p.normal.y, p.normal.z});
+    if (!found) return;
+    light.direct.light()[i] = {};
+    light.gathered.light()[i] = *found;
+    light.direct.variance[i] = light.gathered.variance[i] = 0;
+    inside[i] = 0;
+  });
+}
+
+/// Texels within something have no light of their own. Where a whole chart is, it keeps what it sees, if it sees
+/// anything.
+std::vector<char> known_texels(const Page& page, const PageLight& light, const std::vector<char>& inside) {
+  constexpr char in_the_open = 2, sees = 1;
   std::vector<char> lit_charts, known(page.size());
   auto lit = [&](std::uint32_t chart) -> char& {
     if (chart >= lit_charts.size()) lit_charts.resize(std::size_t{chart} + 1);
     return lit_charts[chart];
   };
   for (std::size_t i = 0; i < page.size(); ++i)
-    if (page.covered(i) && !inside[i]) lit(page.places[i].chart) = 1;
+    if (page.covered(i)) lit(page.places[i].chart) |= !inside[i] ? in_the_open : luminance(light.at(i)) > 0 ? sees : 0;
   for (std::size_t i = 0; i < page.size(); ++i)
-    known[i] = page.covered(i) && (!inside[i] || !lit(page.places[i].chart));
+    known[i] = page.covered(i) && (!inside[i] || lit(page.places[i].chart) == sees);
   return known;
 }
 
@@ -105,9 +192,20 @@ std::vector<std::vector<Rgb>> directions(const Page& page, const PageLight& ligh
   return {std::make_move_iterator(whole.layers.begin() + 1), std::make_move_iterator(whole.layers.end())};
 }
 
-BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, const PageBaker& from,
+/// Where texels beside the charts that have light take theirs from.
+std::vector<std::uint32_t> beyond_borders(std::span<const std::uint32_t> chart, const std::vector<char>& known,
+                                          const Page& page) {
+  std::vector<std::uint16_t> number;
+  for (std::size_t i = 0; i < chart.size(); ++i)
+    number.push_back(known[i] && chart[i] != Place::nowhere ? chart_number(chart[i]) : 0);
+  const ChartMap map{number, page.width, page.height};
+  return sources_beyond_borders(map, last_separate_level(map));
+}
+
+BakedPage finish(Page page, PageLight light, std::vector<char> inside, const PageBaker& from,
                  const BakeOptions& options, Statistics& stats) {
   lighten_cut_off(page, light, inside, from.world());
+  take_from_finest(page, light, inside, from, options);
   const auto n_texels = static_cast<std::size_t>(
       std::ranges::count_if(page.places, [](const Place& p) { return p.chart != Place::nowhere; }));
   stats["lightmap.texels"] += n_texels;
@@ -116,7 +214,7 @@ BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, co
     const Rgb all = light.at(i);
     stats["lightmap.black"] += page.covered(i) && !inside[i] && !(all.r + all.g + all.b > 0);
   }
-  auto known = known_texels(page, inside);
+  auto known = known_texels(page, light, inside);
   std::vector<std::uint32_t> chart;
   for (const Place& p : page.places) chart.push_back(p.chart);
   for (std::size_t i = 0; i < page.size(); ++i)
@@ -126,7 +224,12 @@ BakedPage finish(Page page, PageLight light, const std::vector<char>& inside, co
   stats["lightmap.holes"] += count_specks(page, layers[0]);
   fill_charts(layers, known, chart, Place::nowhere, page.width, page.height);
   auto dark = dark_uses(from.page(), chart, layers[0]);
-  for (auto& layer : layers) fill(layer, known, page.width, page.height);
+  light_hidden_charts(page, chart, uses_of_charts(from.page()), known, layers[0]);
+  const auto sources = beyond_borders(chart, known, page);
+  for (auto& layer : layers) {
+    fill(layer, known, page.width, page.height);
+    extend_borders(layer, sources);
+  }
   BakedPage out{{page.width, page.height, std::move(layers[0]), inside}, {}, n_texels, std::move(dark)};
   for (std::size_t l = 1; l < layers.size(); ++l)
     out.direction.push_back({page.width, page.height, std::move(layers[l]), {}});
@@ -159,19 +262,21 @@ std::string title_of_page(const std::string& title, std::size_t page, std::size_
 /// rays as those before it.
 class Rounds {
  public:
-  Rounds(const light::Integrator& integrator, Checkpoint& checkpoint, const BakeOptions& options, std::uint64_t n_tiles,
+  /// `integrator` may be none where all light is inherited.
+  Rounds(const light::Integrator* integrator, Checkpoint& checkpoint, const BakeOptions& options, std::uint64_t n_tiles,
          PassContext& ctx)
       : integrator_(integrator), checkpoint_(checkpoint), options_(options), n_tiles_(n_tiles), ctx_(ctx) {}
 
   /// `first` is the number of the page's first tile.
-  BakedPage bake(PageBaker& from, std::uint64_t first, int width, int height, const std::string& name) {
+  BakedPage bake(PageBaker& from, std::uint64_t first, Inherited inherited, const std::string& name) {
     name_ = name;
-    Page page(width, height);
+    Page page(from.page().width, from.page().height);
     PageLight light(page, options_.directional);
-    std::vector<char> inside(page.size()), chosen;
+    std::vector<char> inside(page.size()), chosen = std::move(inherited.missing);
     const bool once = !(options_.error > 0);
     Halves halves(once ? 0 : page.size());
     const int rays = options_.rays;
+    if (!chosen.empty()) take_inherited(from, inherited.light, chosen, page, light, inside, halves);
     run(from, first, 0, {0, rays}, chosen, [&](const TexelLight& t) { take(t, page, light, inside, halves); });
     for (std::uint32_t round = 1; !once && rays << round <= most_rays; ++round) {
       auto next = unsettled(in_the_open(page, inside), light, halves, options_.error, options_.denoise);
@@ -213,8 +318,8 @@ class Rounds {
   std::vector<TexelLight> gather(const PageBaker& from, const std::vector<Point>& points, std::uint64_t number,
                                  const light::Integrator::Round& round) {
     auto ask = [&](std::uint64_t half, std::uint32_t share) {
-      const auto light = integrator_.irradiance(points, number + (half << 48),
-                                                {round.first / share, round.rays / int(share), from.numbers()});
+      const auto light = integrator_->irradiance(points, number + (half << 48),
+                                                 {round.first / share, round.rays / int(share), from.numbers()});
       for (const auto& l : light) ctx_.stats["lightmap.rays"] += l.rays;
       return from.gather(light);
     };
@@ -223,6 +328,21 @@ class Rounds {
     const auto others = ask(1, 2);
     for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = mean(texels[i], others[i]);
     return texels;
+  }
+
+  void take_inherited(PageBaker& from, const std::vector<Rgb>& inherited, const std::vector<char>& missing, Page& page,
+                      PageLight& light, std::vector<char>& inside, Halves& halves) {
+    for (std::size_t tile = 0; tile < from.n_tiles(); ++tile) {
+      from.points(tile, 1, 1);
+      for (const TexelSamples& t : from.texels()) {
+        const std::size_t i = page.at(t.x, t.y);
+        if (missing[i]) continue;
+        TexelLight texel = from.place(t);
+        texel.gathered = inherited[i];
+        take(texel, page, light, inside, halves);
+        ++ctx_.stats["lightmap.inherited"];
+      }
+    }
   }
 
   void take(const TexelLight& t, Page& page, PageLight& light, std::vector<char>& inside, Halves& halves) {
@@ -267,7 +387,7 @@ class Rounds {
     return page;
   }
 
-  const light::Integrator& integrator_;
+  const light::Integrator* integrator_;
   Checkpoint& checkpoint_;
   const BakeOptions& options_;
   std::uint64_t n_tiles_;
@@ -282,16 +402,18 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   std::vector<PageBaker> bakers;
   std::uint64_t n_tiles = 0;
   for (const auto& p : layout.pages()) n_tiles += bakers.emplace_back(parts, p, world, options.directional).n_tiles();
+  const auto inherited = inherit_all(bakers, parts, layout, options);
   if (ctx.monitor) ctx.monitor->begin(options.title + ": reflected light", 0, "");
-  const light::Integrator integrator(world, choose_points(bakers), options.integrator);
+  const auto points = choose_points(bakers, inherited);
+  std::optional<light::Integrator> integrator;
+  if (!points.empty()) integrator.emplace(world, points, options.integrator);
   Checkpoint checkpoint(options.checkpoint, options.checkpoint.empty() ? 0 : work_key(parts, layout, world, options));
-  Rounds rounds(integrator, checkpoint, options, n_tiles, ctx);
+  Rounds rounds(integrator ? &*integrator : nullptr, checkpoint, options, n_tiles, ctx);
 
   std::vector<BakedPage> out;
   std::uint64_t first = 0;
   for (std::size_t p = 0; p < bakers.size(); first += bakers[p++].n_tiles())
-    out.push_back(rounds.bake(bakers[p], first, layout.pages()[p].width, layout.pages()[p].height,
-                              title_of_page(options.title, p, bakers.size())));
+    out.push_back(rounds.bake(bakers[p], first, inherited[p], title_of_page(options.title, p, bakers.size())));
 
   if (checkpoint.error())
     ctx.diag.report(Diag::cannot_write, {}, options.checkpoint, std::generic_category().message(checkpoint.error()));

@@ -10,6 +10,8 @@
 
 namespace wrlkit::bake {
 
+class FinestLight;
+
 struct BakeOptions {
   int samples = 4;                      // points a texel
   int rays = 16;                        // a point, even; where an error is asked for, for a start
@@ -17,8 +19,9 @@ struct BakeOptions {
   double error = 0;  // relative standard error that is wanted of what is shown, after denoising; 0: none
   bool directional = false;
   bool denoise = true;
-  std::string title = "lightmap";  // of what a Monitor is told
-  std::string checkpoint;          // file in which finished tiles are kept, and stay; empty: none
+  std::string title = "lightmap";       // of what a Monitor is told
+  const FinestLight* finest = nullptr;  // light of the first levels of detail, for those behind them; null: none
+  std::string checkpoint;               // file in which finished tiles are kept, and stay; empty: none
 };
 
 /// Pictures of a page, linear, row 0 the lowest.
@@ -30,7 +33,8 @@ struct BakedPage {
 };
 
 /// One for each page of the layout. `world` must have been made of the stage that the layout's uses refer to.
-/// Statistics: lightmap.texels (covered), .samples, .rays, .inside (texels whose points lie within something, filled
+/// Statistics: lightmap.texels (covered), .samples, .rays, .inherited (those that
+/// have the light of a finer level instead), .inside (texels whose points lie within something, filled
 /// from their neighbours), .leaks (those of them on which a lamp shines, or a surface outside, though backs are all
 /// around), .black (texels in the open that no light reaches), .holes (those of them amid lit ones), .seam-places and
 /// .jumps (SeamReport). The same for any number of threads, and after an interruption.

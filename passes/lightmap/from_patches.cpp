@@ -8,6 +8,7 @@
 #include "passes/lightmap/copy_node.h"
 #include "passes/lightmap/parts.h"
 #include "passes/lightmap/store.h"
+#include "passes/lightmap/unlit_shapes.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::bake {
@@ -71,7 +72,7 @@ bool light_from_patches(Scene& scene, const light::LightWorld& world, const Patc
   }
   Storing storing(scene, pages, {options.extension}, ctx);
   std::unordered_set<std::uint32_t> taken;
-  for (Part& part : find_parts(scene, world, options.faces, ctx)) {
+  for (Part& part : find_parts(scene, world, UnlitShapes(scene, false), options.faces, ctx)) {
     std::vector<float> no_coords;
     face_in(part, no_coords);  // patches lie on the faces that the world has
     for (std::uint32_t use : part.uses) {

@@ -14,6 +14,10 @@ using unwrap::Point2;
 constexpr double usual_fill = 0.5;       // of a page
 constexpr double most_texels = 1 << 28;  // of all pages; 3 GiB of light
 
+/// Texels between charts that keep so many versions of a page apart: two of those of the last one. The first texel
+/// beside a chart is its own, as filters at its border mix it in.
+int padding_of(int mips) { return mips < 2 ? 2 : (1 << mips) + 2; }
+
 /// An edge of a triangle: its points in order of their numbers, and where it is.
 struct HalfEdge {
   std::uint32_t a, b, triangle, corner;
@@ -55,13 +59,41 @@ Layout::Layout(const std::vector<Part>& parts, const LayoutOptions& options)
       items_(parts.size()),
       piece_unit_(parts.size(), 1),
       density_(options.density > 0 ? options.density : 1) {
+  place_all(padding_of(std::max(options_.mips, 1)));
+  if (const int padding = affordable_padding(); options_.mips == 0 && padding > padding_) place_all(padding);
+  measure_pieces();
+  place_triangles();
+}
+
+void Layout::place_all(int padding) {
+  padding_ = padding;
+  pages_.clear();
+  density_ = 1;
   if (options_.density > 0) {
     density_ = possible_density();
     pack_all();
   } else
     pack(0, parts_.size(), options_.side);
-  measure_pieces();
-  place_triangles();
+}
+
+/// By the boxes of the charts as they are packed, with what lies between them.
+int Layout::affordable_padding() const {
+  constexpr double most = 1 / (0.9 * 0.9);  // times the area
+  constexpr int most_mips = 4;
+  auto area = [&](int padding) {
+    double sum = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      for (std::size_t c = 0; c < items_[i].charts.size(); ++c) {
+        const auto& size = parts_[i].charts.sizes[c];
+        const double scale = items_[i].charts[c].scale;
+        sum += (size.x * scale + padding) * (size.y * scale + padding) * static_cast<double>(parts_[i].uses.size());
+      }
+    return sum;
+  };
+  int padding = padding_;
+  for (int mips = 2; mips <= most_mips && area(padding_of(mips)) <= most * area(padding_); ++mips)
+    padding = padding_of(mips);
+  return padding;
 }
 
 unwrap::PackItem Layout::item(std::size_t part) const {
@@ -125,7 +157,7 @@ int Layout::larger(int side) const {
 void Layout::pack(std::size_t begin, std::size_t end, int side) {
   std::vector<unwrap::PackItem> items;
   for (std::size_t i = begin; i < end; ++i) items.push_back(item(i));
-  auto atlas = unwrap::pack(items, {options_.padding, std::max(options_.side, side), side});
+  auto atlas = unwrap::pack(items, {padding_, std::max(options_.side, side), side});
   auto whole = [](const unwrap::PackedItem& i) {
     return !i.crowded && std::ranges::all_of(i.charts, [&](const Placement& c) { return c.page == i.charts[0].page; });
   };

@@ -14,7 +14,8 @@ namespace wrlkit::bake {
 struct LayoutOptions {
   double density = 0;  // texels per metre; 0: as many as fit on one page of `side`
   int side = 2048;     // of that page, or the largest of a page
-  int padding = 2;
+  int mips = 0;  // versions of a page, each half of the one before, that keep charts apart: 2^mips + 2 texels between
+                 // them. 0: up to four, as many as cost no more than a tenth of the texels a metre
 };
 
 /// Which triangle of which part a placed triangle is, and whose.
@@ -61,6 +62,8 @@ class Layout {
   unwrap::PackItem item(std::size_t part) const;
   double texels(std::size_t part) const;
   double possible_density() const;
+  void place_all(int padding);
+  int affordable_padding() const;
   void pack_all();
   void pack(std::size_t begin, std::size_t end, int side);
   int larger(int side) const;
@@ -71,6 +74,7 @@ class Layout {
 
   const std::vector<Part>& parts_;
   LayoutOptions options_;
+  int padding_ = 2;                        // texels between charts
   std::vector<unwrap::PackedItem> items_;  // of each part
   std::vector<double> piece_unit_;         // of a part with copies: the larger side of the piece, texels
   std::vector<PageLayout> pages_;

@@ -12,6 +12,7 @@
 #include "light/world.h"
 #include "passes/lightmap/bake.h"
 #include "passes/lightmap/checkpoint.h"
+#include "passes/lightmap/finest_light.h"
 #include "passes/lightmap/from_patches.h"
 #include "passes/lightmap/layout.h"
 #include "passes/lightmap/levels.h"
@@ -20,6 +21,7 @@
 #include "passes/lightmap/sizes.h"
 #include "passes/lightmap/store.h"
 #include "passes/lightmap/unlit_nodes.h"
+#include "passes/lightmap/unlit_shapes.h"
 #include "passes/normals/normals.h"
 
 namespace wrlkit {
@@ -32,7 +34,7 @@ struct Work {
   int side, samples, rays;  // of a page; points a texel; rays a point
 };
 Work work_of(BakeQuality quality) {
-  constexpr Work works[] = {{512, 1, 6}, {1024, 4, 16}, {4096, 4, 64}};
+  constexpr Work works[] = {{512, 4, 4}, {1024, 4, 16}, {4096, 4, 64}};
   return works[static_cast<std::size_t>(quality)];
 }
 constexpr int side_for_density = 4096, smallest_side = 64;
@@ -41,8 +43,8 @@ constexpr int side_for_density = 4096, smallest_side = 64;
 LayoutOptions layout_options(const LightmapOptions& o, std::size_t depth) {
   const int usual = o.density > 0 ? side_for_density : work_of(o.quality).side;
   const int side = o.max_size > 0 ? o.max_size : usual, halvings = static_cast<int>(std::min<std::size_t>(depth, 7));
-  if (o.density > 0) return {.density = std::ldexp(o.density, -halvings), .side = side};
-  return {.side = std::max(side >> halvings, std::min(side, smallest_side))};
+  if (o.density > 0) return {.density = std::ldexp(o.density, -halvings), .side = side, .mips = o.mips};
+  return {.side = std::max(side >> halvings, std::min(side, smallest_side)), .mips = o.mips};
 }
 
 light::LightOptions light_options(const LightmapOptions& o, const Levels& levels) {
@@ -156,7 +158,8 @@ void report_dark(const std::vector<BakedPage>& pages, const std::vector<Part>& p
 }
 
 /// Lights what the view shows.
-Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, PassContext& ctx) {
+Outcome bake_view(Scene& scene, Levels& levels, UnlitShapes& unlit, FinestLight& finest, const LightmapOptions& options,
+                  PassContext& ctx) {
   const std::string title = levels.view() ? "lightmap, view " + std::to_string(levels.view() + 1) : "lightmap";
   auto say = [&](const char* what) {
     if (ctx.monitor) ctx.monitor->begin(title + what, 0, "");
@@ -167,7 +170,8 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
   light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options, levels), ctx.diag);
   if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
   if (!levels.depth()) levels.find_shades(world);
-  auto parts = find_parts(scene, world, options.faces, ctx);
+  unlit.look_at(world, ctx.diag);
+  auto parts = find_parts(scene, world, unlit, options.faces, ctx);
   prepare(parts, scene, world, levels, options, ctx.diag);
   if (parts.empty()) return Outcome::unchanged;
   if (!world.has_sky_of_its_own() && !levels.depth()) ctx.diag.report(Diag::no_light, {});
@@ -177,9 +181,12 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
   const Layout layout(parts, wanted);
   if (const auto coarse = layout.coarse(); coarse.n_shapes)
     ctx.diag.report(Diag::density_limit, {}, wanted.density, coarse.n_shapes, coarse.least * wanted.density);
-  auto pages = bake::bake(parts, layout, world, bake_options(options, levels.view(), title), ctx);
+  BakeOptions how = bake_options(options, levels.view(), title);
+  if (levels.view() && !options.directional) how.finest = &finest;
+  auto pages = bake::bake(parts, layout, world, how, ctx);
   report_dark(pages, parts, scene, world.stage(), ctx.diag);
   say(": pictures");
+  unlit.give_material(scene, parts, world.stage());
   store(scene, parts, layout, world.stage(), pages, {std::string(name_of(options.format)), options.exr}, ctx);
   for (const Part& p : parts) {
     for (std::uint32_t u : p.uses) levels.add(world.stage().uses[u].shape);
@@ -187,6 +194,7 @@ Outcome bake_view(Scene& scene, Levels& levels, const LightmapOptions& options, 
     ctx.stats["lightmap.charts"] += p.charts.size() * p.uses.size();
   }
   ctx.stats["lightmap.pages"] += pages.size();
+  if (!levels.view() && !options.directional) finest.keep(parts, layout, world.stage(), std::move(pages));
   return Outcome::changed;
 }
 
@@ -195,9 +203,11 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
   if (const auto n = foreign_surfaces(scene)) ctx.diag.report(Diag::not_lowered, {}, n);
   const auto n_copies = own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
   Levels levels(scene);
+  FinestLight finest(scene);
+  UnlitShapes unlit(scene, options.unlit == UnlitSurfaces::bake);
   Outcome all = n_copies ? Outcome::changed : Outcome::unchanged;
   while (all != Outcome::failed && levels.next()) {
-    if (const Outcome one = bake_view(scene, levels, options, ctx); one != Outcome::unchanged) all = one;
+    if (const Outcome one = bake_view(scene, levels, unlit, finest, options, ctx); one != Outcome::unchanged) all = one;
     if (!options.patches.empty()) return all;
   }
   for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view)

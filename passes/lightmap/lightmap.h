@@ -29,6 +29,11 @@ struct NamedDensities {
   double of(std::string_view name) const;
 };
 
+/// What becomes of Shapes without a Material in a world with lamps.
+enum class UnlitSurfaces : std::uint8_t { bake, keep };
+template <>
+inline constexpr auto choices<UnlitSurfaces> = choice_row({{"bake"}, {"keep"}});
+
 struct LightmapOptions {
   static constexpr std::string_view doc = R"(
 Computes the light in the world and puts it onto its surfaces, as textures (Lazanyi, section 3).
@@ -42,7 +47,7 @@ Computes the light in the world and puts it onto its surfaces, as textures (Laza
 
 The surface keeps its own colour and texture; what VRML97 can say, one texture, is made of both by `combine-lightmap`.
 
-Lights every surface with a Material that a browser would show, as it stands at the start.
+Lights every surface that a browser would show, as it stands at the start.
 
 - The world as light sees it, in which units, is in docs/lighting.md.
 - Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays
@@ -50,11 +55,15 @@ Lights every surface with a Material that a browser would show, as it stands at 
   its first place.
 - Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get
   faces.
-- Each level of a LOD has the light that falls on it where all LODs show that level, or their last; half the texels a
-  level. LODs within levels have light at all of theirs, too: as many views are lit as there are levels one behind the
+- Further levels of a LOD have the light of the nearest place of the first one. Where that is far away, and with
+  `directional`, it is computed, where all LODs show that level, or their last. Half the texels a level. LODs within
+  levels have light at all of theirs, too: as many views are lit as there are levels one behind the
   other, 64 at the most.
 - Text becomes faces, too, unless events, a Script or a prototype may write it.
-- Left alone: Shapes without a Material, lines, points, other choices of a Switch.
+- Shapes without a Material, which browsers show at full brightness, get light, too, where the world has lamps: their
+  picture or colour is what they reflect, and they get a white Material. That is reported (unlit-lit). Not those that
+  hang before the viewer, show films or are changed by events; `unlit=keep` leaves all as they are.
+- Left alone: UnlitMaterial, lines, points, other choices of a Switch.
 - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only
   `smooth` and `format` count. Shapes show their first level of detail only; further ones stay without light.
 - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `expand` before.
@@ -71,6 +80,7 @@ threads.)";
       {"lightmap.texels", "texels of surface"},
       {"lightmap.samples", "texels that were computed"},
       {"lightmap.rays", "rays that were traced"},
+      {"lightmap.inherited", "texels of further levels of detail that have the light of the first one"},
       {"lightmap.inside", "texels inside of something solid"},
       {"lightmap.leaks", "texels through which light could leak"},
       {"lightmap.black", "texels without any light"},
@@ -86,9 +96,10 @@ threads.)";
   BakeQuality quality = BakeQuality::normal;
   double error = 0, density = 0;
   NamedDensities densities;
-  int max_size = 0;
+  int max_size = 0, mips = 0;
   SkyLight sky;
   double emission = 1;
+  UnlitSurfaces unlit = UnlitSurfaces::bake;
   bool directional = false, exr = false, denoise = true;
   PictureFormat format = PictureFormat::png;
   std::string checkpoint, patches;
@@ -104,8 +115,14 @@ threads.)";
     f("max-size", max_size,
       "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given",
       between(0, 32768));
+    f("mips", mips,
+      "versions of a page, each half of the one before, that keep its charts apart; 0: up to 4, as many as cost no "
+      "more "
+      "than a tenth of the texels a metre",
+      between(0, 6));
     f("sky", sky, "what shines from beyond the world: its Background, nothing, or one radiance");
     f("emission", emission, "factor for the light that emissiveColor gives off", at_least(0));
+    f("unlit", unlit, "Shapes without a Material in a world with lamps: light them, or keep them at full brightness");
     f("directional", directional, "keep from where the light comes, too");
     f("exr", exr, "write the light as OpenEXR, too");
     f("denoise", denoise, "take the noise out");

@@ -64,19 +64,8 @@ std::vector<TexelLight> PageBaker::gather(std::vector<Irradiance> light) const {
     if (is_dark(light[i]) && is_enclosed(points_[i])) light[i].inside = 1;
   for (const auto& t : texels_.texels) {
     const std::span all(&light[t.first], t.count);
-    TexelLight texel{t.x,
-                     t.y,
-                     page_.triangles[texels_.samples[t.first].triangle].chart,
-                     site_of(all, t.first),
-                     {},
-                     {},
-                     {},
-                     0,
-                     0,
-                     {},
-                     {},
-                     {},
-                     {}};
+    TexelLight texel = place(t);
+    texel.site = site_of(all, t.first);
     float weight =
         0;  // of a point that lies within something, as far as it sees out; such light counts where there is no other
     for (const Irradiance& l : all) {
@@ -90,11 +79,19 @@ std::vector<TexelLight> PageBaker::gather(std::vector<Irradiance> light) const {
     for (Rgb& a : texel.along) a = scale * a;
     texel.direct_variance *= scale * scale;
     texel.gathered_variance *= scale * scale;
-    const Point& middle = points_[t.first + t.count / 2];
-    texel.position = vec(middle.position - world_.centre());
-    texel.normal = vec(middle.normal);
     out.push_back(texel);
   }
+  return out;
+}
+
+TexelLight PageBaker::place(const TexelSamples& t) const {
+  const Point& middle = points_[t.first + t.count / 2];
+  TexelLight out{};
+  out.x = t.x;
+  out.y = t.y;
+  out.chart = page_.triangles[texels_.samples[t.first].triangle].chart;
+  out.position = vec(middle.position - world_.centre());
+  out.normal = vec(middle.normal);
   return out;
 }
 

@@ -48,7 +48,11 @@ class PageBaker {
   /// Of those points, among all that the tile has.
   std::span<const std::uint32_t> numbers() const { return numbers_; }
 
-  /// The light of each texel of the tile whose points were asked for last.
+  /// The texels of the tile whose points were asked for last, and where those of each are.
+  std::span<const TexelSamples> texels() const { return texels_.texels; }
+  /// Where one of them lies; without light.
+  TexelLight place(const TexelSamples& t) const;
+  /// The light of each of them.
   std::vector<TexelLight> gather(std::vector<light::Irradiance> light) const;
 
  private:

@@ -10,6 +10,8 @@
 #include "base/silent_task.h"
 #include "geometry/simplify/surfaces.h"
 #include "geometry/unwrap/unfold.h"
+#include "passes/lightmap/connected.h"
+#include "passes/lightmap/unlit_shapes.h"
 #include "passes/lightmap/witnesses.h"
 #include "passes/normals/normals.h"
 #include "passes/weld/points.h"
@@ -60,23 +62,6 @@ struct Volumes {
   double all = 0;
   bool one_way = true;  // none is wound against another
 };
-
-/// By point: the least point of those that faces connect with it.
-std::vector<std::uint32_t> connected(const std::vector<std::uint32_t>& points) {
-  std::vector<std::uint32_t> root(points.empty() ? 0 : *std::ranges::max_element(points) + 1);
-  std::iota(root.begin(), root.end(), 0u);
-  auto find = [&](std::uint32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (std::size_t c = 0; c < points.size(); c += 3)
-    for (std::size_t k = 1; k < 3; ++k) {
-      const auto a = find(points[c]), b = find(points[c + k]);
-      root[std::max(a, b)] = std::min(a, b);
-    }
-  for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = find(i);
-  return root;
-}
 
 Volumes signed_volumes(const Part& p, const std::vector<std::uint32_t>& points) {
   constexpr double nothing = 1e-9;
@@ -159,9 +144,11 @@ class Backs {
 
 class Finder {
  public:
-  Finder(const Scene& scene, const light::LightWorld& world, const Tessellation& faces, PassContext& ctx)
+  Finder(const Scene& scene, const light::LightWorld& world, const UnlitShapes& unlit, const Tessellation& faces,
+         PassContext& ctx)
       : scene_(scene),
         world_(world),
+        unlit_(unlit),
         stage_(world.stage()),
         witnesses_(scene, world),
         silent_(ctx),
@@ -177,7 +164,7 @@ class Finder {
     std::unordered_set<std::uint32_t> shapes;
     for (std::uint32_t u = 0; u < stage_.uses.size(); ++u) {
       const auto& use = stage_.uses[u];
-      if (!lit_.contains(use.geometry.value) || !has_material(use.appearance)) continue;
+      if (!lit_.contains(use.geometry.value) || !takes_light(use)) continue;
       auto [at, added] = number.try_emplace(use.geometry.value, parts.size());
       if (added) parts.push_back({.geometry = use.geometry, .letters = scene_.is(use.geometry, nodes::Text)});
       if (finite(stage_.frames[use.frame]) && shapes.insert(use.shape.value).second)
@@ -189,9 +176,9 @@ class Finder {
   }
 
  private:
-  bool has_material(NodeId appearance) const {
-    const auto m = material_of(scene_, appearance);
-    return m && m->kind != MaterialNode::Kind::unlit;
+  bool takes_light(const drawing::Use& use) const {
+    const auto m = material_of(scene_, use.appearance);
+    return m ? m->kind != MaterialNode::Kind::unlit : unlit_.are_lit() && unlit_.is_one(use.shape, use.appearance);
   }
 
   void read(Part& p) {
@@ -267,6 +254,7 @@ class Finder {
 
   const Scene& scene_;
   const light::LightWorld& world_;
+  const UnlitShapes& unlit_;
   const Stage& stage_;
   Witnesses witnesses_;
   SilentTask silent_;
@@ -335,9 +323,9 @@ void unfold(Part& p, const Stage& stage) {
 
 }  // namespace
 
-std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, const Tessellation& faces,
-                             PassContext& ctx) {
-  return Finder(scene, world, faces, ctx).run();
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, const UnlitShapes& unlit,
+                             const Tessellation& faces, PassContext& ctx) {
+  return Finder(scene, world, unlit, faces, ctx).run();
 }
 
 void face_in(Part& part, std::vector<float>& coords) {

@@ -35,8 +35,10 @@ struct Part {
   }
 };
 
+class UnlitShapes;
+
 /// The parts of a world, in its order; curved forms become `faces`. Left out: what has no Material or PhysicalMaterial,
-/// as it is not lit; lines and points; geometry that events can change. O(triangles).
+/// unless the unlit are lit, too; lines and points; geometry that events can change. O(triangles).
 ///
 /// A face of `solid` FALSE is seen from both sides, which have light of their own. Where the surface is closed, and
 /// opaque, and neither a Viewpoint nor anything that shines stands in its box, nobody sees the inner side: it is
@@ -45,8 +47,8 @@ struct Part {
 /// face, and `solid` TRUE. A closed surface of `solid` TRUE that is wound inside out may be a room, and stays as it is
 /// where it shines, or holds something of these or some other Shape. Else it is a thing whose inner sides viewers show:
 /// it gets the light of its outside (`faces_in`).
-std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, const Tessellation& faces,
-                             PassContext& ctx);
+std::vector<Part> find_parts(const Scene& scene, const light::LightWorld& world, const UnlitShapes& unlit,
+                             const Tessellation& faces, PassContext& ctx);
 
 /// What faces inward does so again: its mesh, and two numbers for each of its corners.
 void face_in(Part& part, std::vector<float>& coords);

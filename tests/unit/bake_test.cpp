@@ -143,7 +143,7 @@ TEST_CASE("bake: the dark below a hood of single sheets makes no seam along its 
                             " } Transform { translation 0 1 0 rotation 0 1 0 0.4 children Shape { " + material(0.5) +
                             " geometry " + hood + " } }";
   for (const std::string quality : {"draft", "normal"}) {
-    Baked b(world, "sky=1:1:1,max-size=128,denoise=false,quality=" + quality);
+    Baked b(world, "sky=1:1:1,max-size=128,mips=1,denoise=false,quality=" + quality);
     Light floor(b, "Floor");
     double least = 1, most_within = 0;
     for (int k = 1; k < 100; ++k) {

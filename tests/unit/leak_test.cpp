@@ -5,6 +5,7 @@
 
 #include "parsers/parsers.h"
 #include "passes/lightmap/bake.h"
+#include "passes/lightmap/unlit_shapes.h"
 #include "passes/pipeline/pipeline.h"
 
 using namespace wrlkit;
@@ -42,11 +43,11 @@ Statistics figures_of(const std::string& text) {
   auto pipeline = Pipeline::parse("picture", why);
   auto meshes = pipeline->run_lazily(parsed->scene, ctx);
   light::LightWorld world(parsed->scene, meshes, nullptr, {.sky = light::LightOptions::Sky::none}, diag);
-  auto parts = find_parts(parsed->scene, world, {.texcoords = true}, ctx);
+  auto parts = find_parts(parsed->scene, world, UnlitShapes(parsed->scene, false), {.texcoords = true}, ctx);
   REQUIRE(parts.size() == 3);
   for (std::size_t i : {0u, 1u}) world.seal(parts[i].uses[0], false);
   unfold_parts(parts, world.stage());
-  const Layout layout(parts, {.side = 128});
+  const Layout layout(parts, {.side = 128, .mips = 1});
   PassContext baking{diag, out, nullptr};
   bake::bake(parts, layout, world, {.samples = 1, .rays = 6, .integrator = {.rays = 6}}, baking);
   return out;

@@ -328,12 +328,17 @@ void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::
   json.end_object();
 }
 
-/// {index, texCoord, ..., scale, directions: [3, 4, 5]}, the latter textures as index is.
+/// {index, texCoord, ..., scale, directions: [3, 4, 5]}, the latter textures as index is. Of what is written as
+/// occlusion, which nobody else would take for light: {index, texCoord, ..., linear: true}.
 void Materials::light_extras(JsonOut& json, const Look& l) {
   namespace a = nodes::appearance;
   json.key("lightmap");
   json.begin_object();
   texture_info_members(json, l.light.texture, l.surface.texcoord, l.light_uv);
+  if (lightmaps_ == GltfOptions::Lightmaps::occlusion) {
+    json.member("linear", true);
+    return json.end_object();
+  }
   json.member("scale", scene_.get(l.appearance, a::lightmapScale));
   std::vector<std::uint32_t> directions;
   for (NodeId n : scene_.get(l.appearance, a::lightmapDirection))
@@ -382,7 +387,8 @@ void Materials::extras(JsonOut& json, const Look& l) {
   // Of a Material alone: a picture that is multiplied, not one that takes the place of the colour.
   bool multiplied =
       extras_ && l.texture.texture != none && scene_.is(l.material, nodes::Material) && l.says->color_picture;
-  bool light = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::extras;
+  using As = GltfOptions::Lightmaps;
+  const bool light = l.light.texture != none && (lightmaps_ == As::extras || lightmaps_ == As::occlusion);
   for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
     if (n && extras_) extras_->set_placed(n);
   if (!material && !picture && !named && !transform && !multiplied && !light) return;
