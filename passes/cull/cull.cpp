@@ -32,6 +32,10 @@ class Culling {
         stage_(set_stage(scene, silent_.diag)) {}
 
   Outcome run() {
+    if (silent_.diag.count(Diag::expansion_limit) > 0) {  // what is hidden in all places seen may be visible in others
+      ctx_.diag.report(Diag::not_simplified, {}, "by cull: more places than can be looked at");
+      return Outcome::unchanged;
+    }
     const auto before = figures_of(scene_);
     mesh_of_ = Gatherer(
                    scene_, [this](NodeId n) -> const Mesh& { return triangles(n); }, pool_)
