@@ -14,9 +14,10 @@ struct FullTile {
   std::function<std::vector<Piece>()> read;
 };
 
-/// The largest distance between the surface of `coarse` and that of all the tiles together, from points of each to the
-/// other: every corner and two points for each triangle. A little less than the Hausdorff distance. Infinite when one
-/// of them has no surface. Memory: `coarse`, and one of the tiles at a time. O(n log n) in the triangles.
+/// The largest distance between the surface of `coarse` and that of all the tiles together, both ways. Of the full
+/// surface no point is farther than this, which is at most a fiftieth too much; of the coarse one the corners and two
+/// points of each triangle are asked. Infinite when one of them has no surface. Memory: `coarse`, and one of the tiles
+/// at a time. O(n log n) in the triangles.
 double surface_error(std::span<const Piece> coarse, std::span<const FullTile> full);
 
 }  // namespace wrlkit::tiles

@@ -17,6 +17,7 @@ async function series(job) {
 }
 
 async function work(job) {
+  if (job.tileset) return (await import('./tileset.mjs')).draw_tileset(job);
   if (job.frames) return series(job);
   const shown = picture_of(await show(job));
   if (!job.reference) return {shown: shown.toDataURL()};

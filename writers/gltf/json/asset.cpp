@@ -60,6 +60,8 @@ class AssetJson : public JsonPart {
                 json_.member("type", "SCALAR");
                 json_.member("componentType", no_parent == none ? "UINT32" : "UINT16");
                 json_.member("noData", no_parent);
+                // 3d-tiles-renderer takes 0 for no data where there is no default.
+                if (!p_.extras) json_.member("default", no_parent);
               });
           });
         });
