@@ -62,10 +62,13 @@ class ClosestPoint {
   /// threads may ask.
   Nearest nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess = no_guess) const;
 
-  /// Labels that count: all but those from `first` to before `end`.
+  /// Labels that count: all but those from `first` to before `end`, and those that are 0 in `left`, if that is given.
   struct Counting {
     std::uint32_t first = 0, end = 0;
-    bool operator()(std::uint32_t label) const { return label < first || label >= end; }
+    std::span<const char> left = {};
+    bool operator()(std::uint32_t label) const {
+      return (label < first || label >= end) && (left.empty() || left[label] != 0);
+    }
   };
   /// The same among the triangles whose labels count, within a distance; infinite when there is none. Where neighbours
   /// have labels near one another, those that do not count are passed over together. `guess` as above. Where thousands
