@@ -380,6 +380,8 @@ bool FittedSurface::step() {
     }
     if (!alive_[e.from] || e.stamp != face_stamp_[e.from]) continue;
     if (n_faces_ < 2) return false;
+    // Its neighbours may have left since.
+    if (!samples_of_[e.from].empty() && around(e.from).empty()) continue;
     remove(e.from);
     return true;
   }
