@@ -116,7 +116,8 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
   NodeId transform = picture ? texture_transform(info, s, look) : NodeId{};
   look.textured = bool(picture);
   look.texcoord = texcoord_set(index).value_or(0);
-  if (c_.file.is_own() && !picture)  // one that could not be shown
+  const bool shown_by_light = s.light && shines_as_picture(m);
+  if (c_.file.is_own() && !picture && !shown_by_light)  // one that could not be shown
     for (std::string_view type : {"ImageTexture", "PixelTexture", "MovieTexture", "TextureTransform"})
       if (extras[type]) {
         NodeId n = c_.add(find_builtin(type, Dialect::vrml97), extras[type]);

@@ -52,7 +52,7 @@ FinestLight::FinestLight(const Scene& scene) : lod_of_(scene.node_count()) {
   std::vector<char> met(scene.node_count());
   auto add = [&](NodeId n, std::uint32_t lod) {
     if (!n || std::exchange(met[n.value], 1)) return;
-    open.emplace_back(n, lod ? lod : scene.is(n, nodes::LOD) ? n.value : 0);
+    open.emplace_back(n, lod ? lod : scene.is(n, nodes::LOD) ? n.value + 1 : 0);
   };
   for (NodeId n : scene.main.roots) add(n, 0);
   while (!open.empty()) {

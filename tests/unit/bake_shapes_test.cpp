@@ -60,6 +60,23 @@ TEST_CASE("bake: LODs within levels have light at all of theirs, whichever level
   CHECK(b.stats["lightmap.shapes"] == 6);
 }
 
+TEST_CASE("bake: a simpler level looks as the first one, also where something hides it that does not hide the first",
+          "[bake]") {
+  const std::string worlds[] = {"", ",directional=true"};
+  std::size_t n_inherited[2];
+  for (int i = 0; i < 2; ++i) {
+    Baked b("LOD { range 10 level [ " + floor_named("Near") + " Transform { translation 0 -0.1 0 children " +
+                floor_named("Far") + " } ] } Transform { translation 0 -0.51 0 children Shape { " + material(0.5) +
+                " geometry Box { size 6 1 6 } } } PointLight { location 0 2 0 attenuation 0 0 1 }",
+            "quality=draft,max-size=128" + worlds[i]);
+    n_inherited[i] = b.stats["lightmap.inherited"];
+    CHECK(Light(b, "Near").on_floor(0.01, 0.01) == Approx(0.25).epsilon(0.05));
+    if (i == 0) CHECK(Light(b, "Far").on_floor(0.01, 0.01) == Approx(0.25).epsilon(0.05));
+  }
+  CHECK(n_inherited[0] > 500);
+  CHECK(n_inherited[1] == 0);
+}
+
 TEST_CASE(
     "bake: a LOD that is shown twice has light of its own in each place, at each level, and its levels in their order",
     "[bake]") {
