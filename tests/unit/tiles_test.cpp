@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "convert/tiles/cells.h"
+#include "convert/tiles/looks.h"
+#include "convert/tiles/piece_store.h"
+#include "convert/tiles/surface_error.h"
+#include "scenegraph/nodes.h"
+#include "tests/unit/temp_folder.h"
+#include "writers/tiles/tileset.h"
+
+using namespace wrlkit;
+
+namespace {
+
+/// A square of two triangles in the plane of x and z.
+Mesh square(double x, double y, double size) {
+  Mesh m;
+  m.kind = Mesh::Kind::faces;
+  m.positions.edit() = {x, y, 0, x, y, size, x + size, y, size, x + size, y, 0};
+  m.corners = {0, 1, 2, 0, 2, 3};
+  return m;
+}
+
+tiles::Piece piece(std::string name, Mesh mesh) { return {std::move(name), 0, std::move(mesh)}; }
+
+}  // namespace
+
+TEST_CASE("tiles: a piece comes back from the disk as it was", "[tiles]") {
+  const TempFolder folder;
+  std::string why;
+  auto store = tiles::PieceStore::open(folder.path().string(), why);
+  REQUIRE(store);
+  auto first = piece("plant.wrl/Pump", square(5e6, 1, 2)), second = piece("", square(0, 0, 1));
+  first.look = 7;
+  first.mesh.solid = false;
+  first.mesh.crease_angle = 0.5;
+  first.mesh.color.width = 4;
+  first.mesh.color.values = {0, 0.5, 1, 1};
+  first.mesh.color.index = {0, 0, 0, 0, 0, 0};
+  tiles::PieceStore::Entry a{}, b{};
+  REQUIRE(store->add(first, a));
+  REQUIRE(store->add(second, b));
+  CHECK(a.n_drawn == 2);
+  CHECK(a.centre == Vec3{5e6 + 1, 1, 1});
+  const auto back = store->read(a);
+  CHECK(back.name == first.name);
+  CHECK(back.look == 7);
+  CHECK_FALSE(back.mesh.solid);
+  CHECK(back.mesh.crease_angle == 0.5);
+  CHECK(back.mesh.corners == first.mesh.corners);
+  CHECK(std::ranges::equal(back.mesh.positions.span(), first.mesh.positions.span()));
+  CHECK(back.mesh.color.values == first.mesh.color.values);
+  CHECK(back.mesh.color.width == 4);
+  CHECK(store->read(b).mesh.corners.size() == 6);
+  CHECK(std::filesystem::is_empty(folder.path()));  // its file has no name
+}
+
+TEST_CASE("tiles: cells hold each piece once, within the budget, and are not empty", "[tiles]") {
+  std::vector<tiles::PieceStore::Entry> pieces;
+  for (std::uint32_t i = 0; i < 1000; ++i)
+    pieces.push_back({.offset = i, .bytes = 0, .n_drawn = 1 + i % 7, .centre = {double(i % 40), 0, double(i / 40)}});
+  const auto cells = tiles::cut_into_cells(pieces, 100);
+  std::vector<int> times(pieces.size());
+  for (const auto& c : cells.cells) {
+    REQUIRE(c.begin < c.end);
+    std::size_t drawn = 0;
+    for (auto i = c.begin; i < c.end; ++i) drawn += pieces[cells.order[i]].n_drawn;
+    if (!c.children.empty()) {
+      CHECK(drawn > 100);
+      CHECK(cells.cells[c.children.front()].begin == c.begin);
+      CHECK(cells.cells[c.children.back()].end == c.end);
+      continue;
+    }
+    CHECK(drawn <= 100);
+    for (auto i = c.begin; i < c.end; ++i) ++times[cells.order[i]];
+  }
+  CHECK(std::ranges::all_of(times, [](int n) { return n == 1; }));
+}
+
+TEST_CASE("tiles: pieces in one place are cut, too", "[tiles]") {
+  const std::vector<tiles::PieceStore::Entry> pieces(9, {.offset = 0, .bytes = 0, .n_drawn = 50, .centre = {1, 2, 3}});
+  for (const auto& c : tiles::cut_into_cells(pieces, 60).cells)
+    if (c.children.empty()) CHECK(c.end - c.begin == 1);
+}
+
+TEST_CASE("tiles: the error of a coarse surface is that of the farthest point, either way", "[tiles]") {
+  const std::vector<tiles::Piece> all{piece("a", square(0, 0, 1)), piece("b", square(3, 0, 1))};
+  const auto full = [&](std::size_t i) {
+    return tiles::FullTile{tiles::bounds_of(all[i].mesh), [&all, i] { return std::vector{all[i]}; }};
+  };
+  const std::vector<tiles::FullTile> both{full(0), full(1)};
+  SECTION("nothing is missing") { CHECK(tiles::surface_error(all, both) == Approx(0).margin(1e-5)); }
+  SECTION("a part has left") { CHECK(tiles::surface_error(std::span(all).first(1), both) == Approx(3).epsilon(0.03)); }
+  SECTION("a part is elsewhere") {
+    const std::vector<tiles::Piece> moved{all[0], piece("b", square(3, 0.5, 1))};
+    CHECK(tiles::surface_error(moved, both) == Approx(0.5).epsilon(0.03));
+  }
+  SECTION("there is more than there was") {
+    const std::vector<tiles::Piece> more{all[0], all[1], piece("c", square(0, 2, 1))};
+    CHECK(tiles::surface_error(more, both) == Approx(2).epsilon(0.03));
+  }
+}
+
+TEST_CASE("tiles: equal appearances are one look", "[tiles]") {
+  Scene a, b;
+  const auto red = [](Scene& s, double r) {
+    const NodeId appearance = s.add(nodes::Appearance), material = s.add(nodes::Material);
+    s.set(material, nodes::material::diffuseColor, Vec3{r, 0, 0});
+    s.set(appearance, nodes::appearance::material, material);
+    return appearance;
+  };
+  tiles::Looks looks;
+  const auto first = looks.add(a, red(a, 0.5), nullptr);
+  CHECK(looks.add(b, red(b, 0.5), nullptr) == first);
+  CHECK(looks.add(b, red(b, 0.6), nullptr) != first);
+  CHECK(looks.add(b, {}, nullptr) == 2);
+  CHECK_FALSE(looks.appearance(2));
+  const auto& scene = looks.scene();
+  CHECK(scene.get(scene.get(looks.appearance(first), nodes::appearance::material), nodes::material::diffuseColor)[0] ==
+        0.5);
+}
+
+TEST_CASE("tiles: places on the Earth", "[tiles]") {
+  const auto m = earth_matrix({.latitude = 52.0, .longitude = 5.0, .height = 10});
+  const Vec3 at{m(0, 3), m(1, 3), m(2, 3)};
+  CHECK(m(1, 3) / m(0, 3) == Approx(std::tan(5 * 3.14159265358979 / 180)));
+  CHECK(length(at) > 6.36e6);
+  CHECK(length(at) < 6.37e6);
+  for (int c = 0; c < 3; ++c) CHECK(length(m.column(c)) == Approx(1));
+  CHECK(m.determinant() == Approx(1));
+  CHECK(dot(m.column(2), unit(at)) > 0.9999);                             // up
+  CHECK(earth_matrix({.latitude = 90}).column(3 - 1)[2] == Approx(1));    // at the pole
+  CHECK(earth_matrix({.latitude = 90})(2, 3) == Approx(6356752.314245));  // the semi-minor axis
+  CHECK(earth_matrix({.heading = 90})(1, 1) == Approx(1));                // -z is east
+}
