@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t tiles_at_once = 16;
 constexpr std::size_t most_at_once = 1'500'000;  // triangles that are simplified together: some 400 MB
-constexpr std::size_t least_saving = 3;          // a coarse tile has at most one of so many triangles
+constexpr std::size_t least_saving = 3;          // a coarse tile has at most one triangle of that many
 // Distances are taken at points, and the largest may lie between them.
 constexpr double between_points = 1.05;
 constexpr double single_precision = 1.0 / (1 << 22);

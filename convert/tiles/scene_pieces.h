@@ -15,7 +15,7 @@ struct SceneCounts {
 
 /// Expands the document, and hands out what each Shape shows in each place, in the order of the file. What has more
 /// than `most` triangles comes in several pieces, cut in space. `source` is what the file is called. False when the
-/// world could not be expanded or `put` has had enough. Memory: one mesh beside the document.
+/// world could not be expanded or `put` has had enough. Memory: one mesh next to the document.
 bool pieces_of(Document& document, const std::string& source, std::size_t most, Looks& looks,
                const std::function<bool(const Piece&)>& put, SceneCounts& counts);
 

@@ -1,7 +1,7 @@
 // A picture that triangles are painted into: who owns each texel, and what it shows. Texels within `reach` of a
 // triangle are painted, too, by the nearest one, as the plane of its values goes on: what lies beyond the border of a
 // chart is seen when a texture is filtered. Those further away take the colours around them, for smaller versions of
-// the picture; beside charts those of the nearest one (passes/lightmap/borders.h).
+// the picture; next to charts those of the nearest one (passes/lightmap/borders.h).
 #pragma once
 #include <array>
 #include <cstdint>

@@ -192,7 +192,7 @@ std::vector<std::vector<Rgb>> directions(const Page& page, const PageLight& ligh
   return {std::make_move_iterator(whole.layers.begin() + 1), std::make_move_iterator(whole.layers.end())};
 }
 
-/// Where texels beside the charts that have light take theirs from.
+/// Where texels next to the charts that have light take theirs from.
 std::vector<std::uint32_t> beyond_borders(std::span<const std::uint32_t> chart, const std::vector<char>& known,
                                           const Page& page) {
   std::vector<std::uint16_t> number;

@@ -19,7 +19,7 @@ struct BakeOptions {
   double error = 0;  // relative standard error that is wanted of what is shown, after denoising; 0: none
   bool directional = false;
   bool denoise = true;
-  std::string title = "lightmap";       // of what a Monitor is told
+  std::string title = "lightmap";       // for the Monitor
   const FinestLight* finest = nullptr;  // light of the first levels of detail, for those behind them; null: none
   std::string checkpoint;               // file in which finished tiles are kept, and stay; empty: none
 };

@@ -28,7 +28,7 @@ Level half(const Level& from, int right = 0, int up = 0) {
 }
 
 bool is_separate(const Level& level) {
-  constexpr std::ptrdiff_t rare = 50;  // one in so many
+  constexpr std::ptrdiff_t rare = 50;  // one in that many
   const auto n_of_several = std::ranges::count(level.chart, Level::several);
   const auto n_of_any = std::ssize(level.chart) - std::ranges::count(level.chart, Level::none);
   return n_of_several * rare <= n_of_any;
@@ -70,7 +70,7 @@ class Blocks {
         if (map.chart[std::size_t(y) * map.width + x]) taken_[at(x >> level, y >> level)].add(x, y);
   }
 
-  /// Calls f(x, y, u, v) for each texel (x, y) of a block without a chart, with the place in the block beside it from
+  /// Calls f(x, y, u, v) for each texel (x, y) of a block without a chart, with the place in the next block from
   /// which a chart comes nearest.
   template <class F>
   void each_beside(F&& f) const {

@@ -18,14 +18,14 @@ struct ChartMap {
 /// The most levels for which the gaps of a page are seen to.
 inline constexpr int most_mips = 6;
 
-/// Of a chart in a ChartMap. Very many share numbers, those beside one another hardly ever.
+/// Of a chart in a ChartMap. Very many share numbers, neighbours hardly ever.
 inline std::uint16_t chart_number(std::uint32_t chart) { return static_cast<std::uint16_t>(1 + chart % 65521); }
 
 /// The last level whose texels are of one chart each, and have another one between those of two charts: what padding of
 /// twice its texels gives. One texel in fifty may differ. O(texels).
 int last_separate_level(const ChartMap& map);
 
-/// Texels of a level that no chart has a part of, but one beside them does: they are as the border of the nearest
+/// Texels of a level that no chart has a part of, but one next to them does: they are as the border of the nearest
 /// chart. Returns for each texel of the picture in these where its colour comes from, which is in a texel of the level
 /// that the chart has a part of; for others their own number. O(texels).
 std::vector<std::uint32_t> sources_beyond_borders(const ChartMap& map, int level);

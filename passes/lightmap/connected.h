@@ -10,7 +10,7 @@
 namespace wrlkit::bake {
 
 /// By point: the least point of those that triangles connect with it. `corners` are points, three a triangle; there
-/// are so many points as the largest number among them says.
+/// are as many points as the largest number among them says.
 inline std::vector<std::uint32_t> connected(std::span<const std::uint32_t> corners) {
   std::vector<std::uint32_t> root(corners.empty() ? 0 : *std::ranges::max_element(corners) + std::size_t{1});
   std::iota(root.begin(), root.end(), 0u);

@@ -14,8 +14,8 @@ using unwrap::Point2;
 constexpr double usual_fill = 0.5;       // of a page
 constexpr double most_texels = 1 << 28;  // of all pages; 3 GiB of light
 
-/// Texels between charts that keep so many versions of a page apart: two of those of the last one. The first texel
-/// beside a chart is its own, as filters at its border mix it in.
+/// Texels between charts that keep that many versions of a page apart: two of those of the last one. The first texel
+/// next to a chart is its own, as filters at its border mix it in.
 int padding_of(int mips) { return mips < 2 ? 2 : (1 << mips) + 2; }
 
 /// An edge of a triangle: its points in order of their numbers, and where it is.

@@ -141,7 +141,7 @@ void prepare(std::vector<Part>& parts, const Scene& scene, light::LightWorld& wo
 /// Where they are a part of what is seen, not only bolts that something hides.
 void report_dark(const std::vector<BakedPage>& pages, const std::vector<Part>& parts, const Scene& scene,
                  const drawing::Stage& stage, Diagnostics& diag) {
-  constexpr std::size_t some = 100;  // one in so many texels
+  constexpr std::size_t some = 100;  // one in that many texels
   std::size_t n_texels = 0, n_dark_texels = 0, n_dark = 0, n_shapes = 0;
   std::uint32_t first = 0xffffffff;
   for (const BakedPage& page : pages) {
