@@ -16,8 +16,8 @@ class Staging {
   ~Staging();
 
   std::string path() const { return at_.string(); }
-  /// Gives the folder its name and writes tileset.json next to it, which refers to it; then removes the folders of other
-  /// sets. False, reported, when that fails; the set that was there stays.
+  /// Gives the folder its name and writes tileset.json next to it, which refers to it; then removes the folders of
+  /// other sets. False, reported, when that fails; the set that was there stays.
   bool publish(const std::string& name, const std::string& tileset, Diagnostics& diag);
 
  private:
