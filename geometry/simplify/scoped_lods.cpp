@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "base/math/digits.h"
 #include "base/math/saturating.h"
 #include "scenegraph/child_lists.h"
 #include "scenegraph/nodes.h"
@@ -195,7 +196,7 @@ class ScopedLodMaker {
     }
     const NodeId lod = scene_.add(nodes::LOD, scene_.where(n));
     Vec3 center = here.bounds.centre();
-    for (double& x : center) x = static_cast<float>(x);
+    for (double& x : center) x = decimal(static_cast<float>(x));
     scene_.set(lod, nodes::lod::children, children);
     scene_.set(lod, nodes::lod::center, center);
     scene_.set(lod, nodes::lod::range, range);
