@@ -109,7 +109,7 @@ class Comparison {
     fields(x, y);
   }
 
-  /// Whether the coordinates of a geometry, if it has any, are a Coordinate: neither CoordinateDouble nor GeoCoordinate.
+  /// Whether the coordinates of a geometry, if it has any, are a Coordinate, not CoordinateDouble or GeoCoordinate.
   static bool has_points(const Scene& s, NodeId geometry) {
     const NodeId coord = s.is(geometry, nodes::IndexedFaceSet)   ? s.get(geometry, nodes::indexed_face_set::coord)
                          : s.is(geometry, nodes::IndexedLineSet) ? s.get(geometry, nodes::indexed_line_set::coord)
