@@ -66,8 +66,9 @@ void read_back(const Scene& scene) {
 
 void run_passes(Scene scene) {
   std::string why;
-  auto pipeline =
-      Pipeline::parse("lower-vrml1{limit=5000},expand-protos{limit=5000},prune,tessellate,normals,triangulate", why);
+  constexpr auto passes =
+      "lower-vrml1{limit=5000},expand-protos{limit=5000},lower-x3d{vrml97=true},prune,tessellate,normals,triangulate";
+  auto pipeline = Pipeline::parse(passes, why);
   require(pipeline.has_value(), why);
   Diagnostics diag;
   Statistics statistics;
