@@ -25,8 +25,8 @@ class ScopedLodMaker {
     const NodeId world = options_.scope == LodScope::world ? gather_roots() : NodeId{};
     shown_ = shown_nodes(scene_);
     nodes_.resize(scene_.node_count());
-    for (std::size_t i = 0; i < surfaces_.size(); ++i)
-      for (NodeId shape : surfaces_[i].surface.shapes) nodes_[shape.value].surface = &surfaces_[i];
+    for (auto& s : surfaces_)
+      for (NodeId shape : s.surface.shapes) nodes_[shape.value].surface = &s;
     for (NodeId n : shown_) measure(n);
     if (world)
       add_lod(world);
