@@ -1,4 +1,5 @@
 // One HTML file: script and style stand in it, so that it opens from disk and can be mailed.
+import {fileURLToPath} from 'node:url';
 import {defineConfig, type Plugin} from 'vite';
 
 function inline(): Plugin {
@@ -26,5 +27,6 @@ function inline(): Plugin {
 export default defineConfig({
   base: './',
   plugins: [inline()],
+  resolve: {alias: {'wrlkit-three': fileURLToPath(new URL('../integrations/three/src/index.ts', import.meta.url))}, dedupe: ['three']},
   build: {target: 'es2022', modulePreload: false, cssCodeSplit: false, assetsInlineLimit: 1e8, emptyOutDir: true, chunkSizeWarningLimit: 2000},
 });
