@@ -46,8 +46,9 @@ export class TilesMode implements Mode {
     });
     tiles.update();
     await root;
-    tiles.setCamera(this.stage.camera);
-    tiles.update();
+    const {camera, width, height} = this.stage;
+    tiles.setCamera(camera);
+    tiles.setResolution(camera, Math.max(1, width), Math.max(1, height));
     const local = new Box3(), matrix = new Matrix4();
     if (tiles.getOrientedBoundingBox(local, matrix)) this.box.copy(local).applyMatrix4(tiles.group.matrixWorld.clone().multiply(matrix));
     if (this.box.isEmpty()) this.box.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));

@@ -30,6 +30,9 @@ class Meter {
   readonly name = 'METER';
   bytes = 0;
 
+  /// At the root of a site 3d-tiles-renderer puts one slash too many before a name.
+  preprocessURL(url: string): string { return url.replace(/([^:])\/\/+/g, '$1/'); }
+
   async fetchData(url: string, options: RequestInit): Promise<Response> {
     const response = await fetch(url, options);
     if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);

@@ -76,7 +76,7 @@ export class Names {
     if (!siblings) this.byName.set(parent, siblings = new Map());
     const known = siblings.get(name);
     if (known) return known;
-    const made: NamedPart = {node: this.parts.length, name, type: 'part', extras: {}, parent, children: [], triangles: 0, box: new Box3()};
+    const made: NamedPart = {node: this.parts.length, name, type: '', extras: {}, parent, children: [], triangles: 0, box: new Box3()};
     siblings.set(name, made);
     this.parts.push(made);
     (parent?.children ?? this.roots).push(made);

@@ -12,7 +12,7 @@ import {Tabs} from './tabs';
 
 const usualError = 4;  // pixels
 const errors = [0, 0.5, 1, 2, 4, 8, 16, 32, 64, 128] as const;
-const budgets = [64e6, 128e6, usualBudget, 512e6, 1024e6];
+const budgets = [64e6, 128e6, usualBudget, 512e6];
 
 export class TilesPanel {
   readonly element: HTMLElement;
@@ -49,7 +49,7 @@ export class TilesPanel {
   }
 
   private budget(): HTMLElement {
-    const options = budgets.map(b => [String(b), bytes(b)] as const);
+    const options = budgets.map(b => [String(b), `${b / 1e6} MB`] as const);
     return keptChoice('memory', 'Memory', options, String(usualBudget), value => this.mode.setBudget(Number(value))).element;
   }
 
