@@ -247,11 +247,18 @@ constexpr Verb all_verbs[] = {
        placing(v, f);
      },
      run_tiles},
-    {"view", "a page to look at the world, or to compare two: one HTML file that needs no other and no network",
+    {"view",
+     "a page to look at the world, or to compare two: one HTML file that needs no other and no network; or at tiles, "
+     "which "
+     "it loads from next to it",
      "wrlkit view plant.wrl -o plant.html\n  wrlkit view plant.wrl simpler.wrl -o compared.html\n  wrlkit view "
-     "valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view plant.wrl --serve",
+     "valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view plant.wrl --serve\n  wrlkit view tiles/ "
+     "--serve\n  wrlkit view "
+     "tiles/ -o tiles/index.html",
      [](CLI::App& v, Flags& f) {
-       v.add_option("IN", f.inputs, "the world, or two worlds to be compared")->required()->expected(1, 2);
+       v.add_option("IN", f.inputs, "the world, or two worlds to be compared; or a folder with a tileset.json")
+           ->required()
+           ->expected(1, 2);
        v.add_option("-o,--output", f.output, "file.html; - is standard output")->type_name("FILE");
        v.add_flag("--serve", f.serve,
                   "show the page at an address of this machine, which nobody else can reach, until it is interrupted");

@@ -15,6 +15,7 @@
 #include "tools/cli/session.h"
 #include "tools/report/deviation_map.h"
 #include "tools/verbs/serve.h"
+#include "tools/verbs/view_tileset.h"
 #include "tools/verbs/viewer_page.h"
 #include "writers/gltf/gltf.h"
 
@@ -201,13 +202,17 @@ int run_view(const Flags& flags) {
                "(script/bootstrap)\n");
     return nothing;
   }
+  if (const auto folder = tileset_folder(flags.inputs); !folder.empty()) return view_tileset(s, folder);
   Viewer viewer(s);
   if (!viewer.fill()) return s.end(false);
   if (!flags.output.empty() && !write_page(s, viewer.page())) return s.end(false);
   const int code = s.end(true);
   if (!flags.serve) return code;
   LivePage live(flags, viewer.page());
-  fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_page([&] { return live.get(); }));
+  const auto site = [&](std::string_view address) {
+    return address == "/" ? std::optional(Served{html_type, live.get()}) : std::nullopt;
+  };
+  fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_site(site));
   return nothing;
 }
 
