@@ -10,6 +10,7 @@
 #include "tools/cli/options.h"
 #include "tools/cli/outputs.h"
 #include "tools/cli/python_passes.h"
+#include "tools/cli/time_limit.h"
 #include "tools/cli/verbs.h"
 #include "tools/cli/words.h"
 
@@ -35,8 +36,12 @@ std::vector<std::string> take_warning_flags(std::vector<std::string>& words) {
   return out;
 }
 
-void limit_memory(const Flags& f) {
-  if (f.memory.empty()) return;
+/// A corpus run has a time for each file, and divides the memory among its workers.
+void limit(const Verb& verb, const Flags& f) {
+  const std::string_view name = verb.name;
+  const bool is_given = std::ranges::find(f.given, "timeout", &GivenOptions::value_type::first) != f.given.end();
+  if (is_given && name != "corpus-run") limit_time(seconds_of(f.timeout));
+  if (f.memory.empty() || name.starts_with("corpus")) return;
   const rlim_t bytes = size_of(f.memory);
   const rlimit limit{bytes, bytes};
   setrlimit(RLIMIT_AS, &limit);
@@ -239,8 +244,7 @@ int run_command_line(int argc, char** argv) {
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
   if (!check_outputs(flags, chosen->endings)) return usage;
-  // A corpus run divides the memory among its workers.
-  if (!std::string_view(chosen->name).starts_with("corpus")) limit_memory(flags);
+  limit(*chosen, flags);
   return chosen->run(flags);
 }
 

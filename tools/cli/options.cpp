@@ -119,9 +119,17 @@ void common(CLI::App& verb, Flags& f) {
   g->add_flag("--strict-paths", f.strict_paths,
               "read nothing above the folder of the input but what --allow-path names");
   g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+  if (!verb.get_option_no_throw("--timeout")) timeout(*g, f, "give up what takes longer: 90s, 10m, 2h");
   g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")
       ->type_name("SIZE")
       ->check(memory_fault, "", "");
+}
+
+CLI::Option* timeout(CLI::App& verb, Flags& f, const char* help) {
+  auto fault = [](const std::string& s) {
+    return seconds_of(s) > 0 ? "" : "'" + s + "' is not a valid time; 90s, 10m, 2h";
+  };
+  return verb.add_option("--timeout", f.timeout, help)->type_name("TIME")->check(fault, "", "");
 }
 
 void input(CLI::App& verb, Flags& f) {

@@ -13,6 +13,7 @@ namespace wrlkit::cli {
 void common(CLI::App& verb, Flags&);
 /// IN, the world.
 void input(CLI::App& verb, Flags&);
+CLI::Option* timeout(CLI::App& verb, Flags&, const char* help);
 void placing(CLI::App& verb, Flags&);
 /// One of those names.
 CLI::Validator one_of(const std::vector<std::string>& names);

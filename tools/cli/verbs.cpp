@@ -276,14 +276,7 @@ constexpr Verb all_verbs[] = {
      "@more.txt -o new/ --jobs 8 --memory 32G --timeout 5m\n  wrlkit corpus run recipe.toml plant/ -o web/ --shard 2/8",
      [](CLI::App& v, Flags& f) {
        corpus_inputs(v, f);
-       v.add_option("--timeout", f.timeout, "a file that takes longer is given up: 90s, 10m, 2h")
-           ->type_name("TIME")
-           ->capture_default_str()
-           ->check(
-               [](const std::string& s) {
-                 return seconds_of(s) > 0 ? "" : "'" + s + "' is not a valid time; 90s, 10m, 2h";
-               },
-               "", "");
+       timeout(v, f, "a file that takes longer is given up: 90s, 10m, 2h")->capture_default_str();
        v.add_option("--joblog", f.joblog, "a line for each file as GNU parallel writes them, behind what is there")
            ->type_name("FILE");
        v.add_option(
