@@ -15,6 +15,7 @@
 #include "tools/cli/session.h"
 #include "tools/report/deviation_map.h"
 #include "tools/verbs/serve.h"
+#include "tools/verbs/view_gallery.h"
 #include "tools/verbs/viewer_page.h"
 #include "writers/gltf/gltf.h"
 
@@ -189,6 +190,7 @@ class LivePage {
 }  // namespace
 
 int run_view(const Flags& flags) {
+  if (is_gallery(flags)) return view_gallery(flags);
   Session s(flags);
   if (!is_usable(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;
   if (flags.print_pipeline) {
