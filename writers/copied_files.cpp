@@ -6,7 +6,9 @@
 #include <iterator>
 
 #include "base/io/output.h"
+#include "base/io/read_file.h"
 #include "base/io/uri.h"
+#include "base/text/json_reader.h"
 #include "writers/made_files.h"
 
 namespace wrlkit {
@@ -14,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Kind = UrlTarget::Kind;
+
+constexpr std::uint64_t most_gltf_bytes = 1 << 30;
 
 bool is_below(const fs::path& path, const fs::path& folder) {
   return std::ranges::mismatch(folder, path).in1 == folder.end();
@@ -80,9 +84,9 @@ void CopiedFiles::find_files(std::span<const std::string_view> urls, Span where,
     const auto target = resources_.target(url, where, *scene_.sources);
     if (target.kind == Kind::outside && outside.empty()) outside = url;
     found |= target.kind == Kind::content || target.kind == Kind::file;
-    if (target.kind != Kind::file || is_here(target.path) || is_gltf(target.path)) continue;
+    if (target.kind != Kind::file || is_here(target.path)) continue;
     places_.try_emplace(target.path);
-    if (use == UrlUse::world) add_of_world(target.path);
+    if (use == UrlUse::world || is_gltf(target.path)) add_of_world(target.path);
   }
   if (!found && !outside.empty() && kinds_.textures) resources_.bytes({&outside, 1}, where, diag_);  // reports it
 }
@@ -97,6 +101,7 @@ void CopiedFiles::add_of_world(const std::string& path) {
     if (!fixed_.insert(world).second) continue;
     const auto scene = resources_.look_into(world);
     if (!scene) continue;
+    if (is_gltf(world)) add_of_gltf(world, *scene);
     for_each_url_list(*scene, UrlFields(*scene), [&](Span where, std::span<const std::string_view> urls, UrlUse use) {
       for (auto url : use == UrlUse::link ? std::span<const std::string_view>() : urls) {
         const auto target = resources_.target(url, where, *scene->sources);
@@ -110,6 +115,24 @@ void CopiedFiles::add_of_world(const std::string& path) {
       }
     });
   }
+}
+
+/// Buffers and pictures, which the scene need not refer to.
+void CopiedFiles::add_of_gltf(const std::string& path, const Scene& scene) {
+  std::string why;
+  JsonDocument doc;
+  const auto text = read_bytes(path, most_gltf_bytes, why);
+  const auto nodes = all_nodes(scene);
+  if (!text || doc.parse(*text) || nodes.empty()) return;
+  for (const auto* table : {"buffers", "images"})
+    for (const Json entry : doc.root()[table]) {
+      const auto uri = entry["uri"].text();
+      if (uri.empty()) continue;
+      const auto target = resources_.target(uri, scene.where(nodes.front()), *scene.sources);
+      if (target.kind != Kind::file) continue;
+      places_.try_emplace(target.path);
+      fixed_.insert(target.path);
+    }
 }
 
 /// The files stand to each other as they did, below their common folder.

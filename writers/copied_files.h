@@ -48,6 +48,7 @@ class CopiedFiles {
   bool is_here(const std::string& path) const;
   void find_files(std::span<const std::string_view> urls, Span where, UrlUse use);
   void add_of_world(const std::string& path);
+  void add_of_gltf(const std::string& path, const Scene& scene);
   void place_all();
   const std::string* equal_file(const std::string& path);
   bool write(const std::string& from, const std::filesystem::path& to);

@@ -12,7 +12,7 @@ import {start_chromium, wrlkit} from './viewer_page.mjs';
 import {file_of} from './worlds.mjs';
 
 const [program, folder] = process.argv.slice(2);
-const root = path.resolve(import.meta.dirname, '../..'), three = path.join(root, 'integrations/three'), modules = path.join(root, 'viewer/node_modules');
+const root = path.resolve(path.dirname(new URL(import.meta.url).pathname), '../..'), three = path.join(root, 'integrations/three'), modules = path.join(root, 'viewer/node_modules');
 const size = {width: 400, height: 300};
 
 fs.rmSync(folder, {recursive: true, force: true});

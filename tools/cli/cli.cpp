@@ -49,14 +49,6 @@ void limit(const Verb& verb, const Flags& f) {
 
 constexpr std::string_view program_help = "wrlkit: legacy virtual worlds (VRML97) to glTF, and back to better VRML";
 
-/// The options of one verb, as an application of their own.
-std::unique_ptr<CLI::App> app_of(const Verb& verb, Flags& flags) {
-  auto app = std::make_unique<CLI::App>(verb.help, verb.name);
-  verb.flags(*app, flags);
-  cli::common(*app, flags);
-  return app;
-}
-
 std::vector<CLI::Option*> long_options(const CLI::App& app) {
   std::vector<CLI::Option*> out;
   for (auto* o : app.get_options([](const CLI::Option* o) { return !o->get_lnames().empty(); }))
@@ -64,6 +56,20 @@ std::vector<CLI::Option*> long_options(const CLI::App& app) {
   for (auto* group : app.get_subcommands([](const CLI::App* a) { return a->get_name().empty(); }))
     for (auto* o : long_options(*group)) out.push_back(o);
   return out;
+}
+
+/// An option takes one word, with commas in it where it is a list, so that the name of a file may follow.
+void add_options(CLI::App& app, const Verb& verb, Flags& flags) {
+  verb.flags(app, flags);
+  cli::common(app, flags);
+  for (auto* o : long_options(app)) o->allow_extra_args(false);
+}
+
+/// The options of one verb, as an application of their own.
+std::unique_ptr<CLI::App> app_of(const Verb& verb, Flags& flags) {
+  auto app = std::make_unique<CLI::App>(verb.help, verb.name);
+  add_options(*app, verb, flags);
+  return app;
 }
 
 bool is_flag(const CLI::Option& o) { return o.get_expected_min() == 0; }
@@ -109,8 +115,7 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
   app.failure_message(CLI::FailureMessage::simple);
   for (const Verb& v : verbs()) {
     auto* sub = app.add_subcommand(v.name, v.help);
-    v.flags(*sub, flags);
-    cli::common(*sub, flags);
+    add_options(*sub, v, flags);
     sub->footer(std::string("-Werror=NAME and -Wno-NAME set the severity of one message (wrlkit explain NAME), -Werror "
                             "that of all warnings, -Werror=lost that of all that is lost.\n\nExample:\n  ") +
                 v.example);

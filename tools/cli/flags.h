@@ -93,6 +93,7 @@ struct Flags {
   std::vector<double> at;  // latitude, longitude, height, heading
 
   bool serve = false;  // view
+  int limit = 500;     // worlds in a gallery
 
   std::vector<std::string> criteria;  // compare-lod, view
   bool bare = false;

@@ -238,7 +238,6 @@ void tiles(CLI::App& verb, Flags& f) {
   verb.add_option("--at", f.at,
                   "where the origin of the world is on the Earth: latitude, longitude (degrees), metres above the "
                   "ellipsoid, and, if need be, where its -z points to, in degrees from north towards east")
-      ->expected(3, 4)
       ->delimiter(',')
       ->type_name("LAT,LON,HEIGHT[,HEADING]");
   constexpr std::string_view of_content[] = {"compress",       "tolerance",       "draco-level",

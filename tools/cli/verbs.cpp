@@ -248,20 +248,22 @@ constexpr Verb all_verbs[] = {
      },
      run_tiles},
     {"view",
-     "a page to look at the world, or to compare two: one HTML file that needs no other and no network; or at tiles, "
-     "which "
-     "it loads from next to it",
+     "a page to look at the world, to compare two, or a gallery of many: one HTML file that needs no other and no "
+     "network; or at tiles, which it loads from next to it",
      "wrlkit view plant.wrl -o plant.html\n  wrlkit view plant.wrl simpler.wrl -o compared.html\n  wrlkit view "
-     "valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view plant.wrl --serve\n  wrlkit view tiles/ "
-     "--serve\n  wrlkit view "
-     "tiles/ -o tiles/index.html",
+     "archive/ -o gallery.html\n  wrlkit view valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view "
+     "plant.wrl --serve\n  wrlkit view tiles/ --serve\n  wrlkit view tiles/ -o tiles/index.html",
      [](CLI::App& v, Flags& f) {
-       v.add_option("IN", f.inputs, "the world, or two worlds to be compared; or a folder with a tileset.json")
-           ->required()
-           ->expected(1, 2);
+       v.add_option("IN", f.inputs,
+                    "the world, or two worlds to be compared; a folder with a tileset.json; for a gallery more worlds, "
+                    "folders, globs, @FILE: a list of worlds")
+           ->required();
        v.add_option("-o,--output", f.output, "file.html; - is standard output")->type_name("FILE");
        v.add_flag("--serve", f.serve,
                   "show the page at an address of this machine, which nobody else can reach, until it is interrupted");
+       v.add_option("--limit", f.limit, "most worlds of a gallery; the rest is counted")
+           ->check(CLI::Range(1, 100'000))
+           ->capture_default_str();
        v.add_option("--criteria", f.criteria,
                     "criteria whose collapses are shown step by step; default: three for a single world of up to "
                     "300,000 triangles")

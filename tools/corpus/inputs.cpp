@@ -206,6 +206,28 @@ std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const
   return gatherer.take();
 }
 
+bool means_many(const std::string& word) {
+  std::error_code none;
+  return word.starts_with('@') || fs::is_directory(word, none) ||
+         (word.find_first_of("*?") != word.npos && !fs::exists(word, none));
+}
+
+std::optional<std::vector<NamedWorld>> named_worlds(const std::vector<std::string>& words, std::string& why) {
+  std::vector<NamedWorld> out;
+  for (const auto& word : words) {
+    if (!means_many(word)) {
+      out.push_back({word, word == "-" ? "standard input" : fs::path(word).filename().string()});
+      continue;
+    }
+    auto found = gather_inputs({word}, {}, why);
+    if (!found) return std::nullopt;
+    for (auto& file : found->files) out.push_back({file.path, file.inside});
+  }
+  if (!out.empty()) return out;
+  why = "there is no world in " + words[0];
+  return std::nullopt;
+}
+
 std::optional<std::vector<std::string>> worlds_in(const std::vector<std::string>& words, std::string& why) {
   std::vector<std::string> out;
   for (const auto& word : words) {

@@ -34,6 +34,16 @@ struct Inputs {
 /// has the ending of a world counts, and nothing that is hidden. Nothing, and why, when something named is not there.
 std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const InputRules& rules, std::string& why);
 
+struct NamedWorld {
+  std::string path, name;  // of what a folder or a glob has: its path below that
+};
+
+/// A folder, a glob that is not the name of a file, or "@list.txt".
+bool means_many(const std::string& word);
+/// Files that are named stand as they are, even those that are not there; what `means_many` as the worlds in it.
+/// Nothing, and why, when there is no world at all.
+std::optional<std::vector<NamedWorld>> named_worlds(const std::vector<std::string>& words, std::string& why);
+
 /// Files as they are, folders as the worlds in them; for verbs of few worlds. Nothing, and why, when a folder has none.
 std::optional<std::vector<std::string>> worlds_in(const std::vector<std::string>& words, std::string& why);
 

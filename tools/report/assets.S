@@ -6,6 +6,8 @@
     .global wrlkit_theme_end
     .global wrlkit_corpus_table_begin
     .global wrlkit_corpus_table_end
+    .global wrlkit_gallery_begin
+    .global wrlkit_gallery_end
 wrlkit_style_begin:
     .incbin WRLKIT_REPORT_BASE_CSS
     .incbin WRLKIT_REPORT_CSS
@@ -16,4 +18,7 @@ wrlkit_theme_end:
 wrlkit_corpus_table_begin:
     .incbin WRLKIT_REPORT_CORPUS_TABLE
 wrlkit_corpus_table_end:
+wrlkit_gallery_begin:
+    .incbin WRLKIT_REPORT_GALLERY
+wrlkit_gallery_end:
     .section .note.GNU-stack,"",%progbits

@@ -9,6 +9,7 @@
 extern "C" const char wrlkit_style_begin[], wrlkit_style_end[];
 extern "C" const char wrlkit_theme_begin[], wrlkit_theme_end[];
 extern "C" const char wrlkit_corpus_table_begin[], wrlkit_corpus_table_end[];
+extern "C" const char wrlkit_gallery_begin[], wrlkit_gallery_end[];
 
 namespace wrlkit {
 namespace {
@@ -34,6 +35,8 @@ std::string report_end() {
 }
 
 std::string_view corpus_table_script() { return asset(wrlkit_corpus_table_begin, wrlkit_corpus_table_end); }
+
+std::string_view gallery_script() { return asset(wrlkit_gallery_begin, wrlkit_gallery_end); }
 
 std::string table_begin(std::string_view name) {
   return fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>\n",

@@ -45,9 +45,20 @@ bool write_picture(Session& s, const Image& picture, const std::string& name) {
 
 namespace {
 
+/// --viewpoint names one of the world that is open; else what it may have meant is reported.
+bool has_viewpoint(Session& s, const MeshSource& meshes) {
+  if (s.flags().viewpoint.empty()) return true;
+  const auto options = render_options(s.flags());
+  Diagnostics unheard(s.diag().shared_sources());
+  with_camera(s.world().scene, meshes, options, unheard);
+  if (unheard.count(Diag::viewpoint_not_found) == 0) return true;
+  with_camera(s.world().scene, meshes, options, s.diag());
+  return s.diag().count(Diag::viewpoint_not_found) == 0;  // -Wno-viewpoint-not-found: the first one will do
+}
+
 bool render_one(Session& s) {
   const auto meshes = open_world(s, s.flags().inputs[0]);
-  if (!meshes) return false;
+  if (!meshes || !has_viewpoint(s, meshes)) return false;
   return write_picture(s, draw(s, meshes, render_options(s.flags()), "picture"), s.flags().output);
 }
 
@@ -64,7 +75,7 @@ class Turntable {
 
   bool make() {
     const auto meshes = open_world(s_, s_.flags().inputs[0]);
-    if (!meshes) return false;
+    if (!meshes || !has_viewpoint(s_, meshes)) return false;
     // What is to be said about the world is said with the first picture.
     Diagnostics unheard(s_.diag().shared_sources());
     int i = 0;
@@ -120,9 +131,12 @@ bool is_usable(const Flags& f, bool sheet) {
 
 }  // namespace
 
-int run_render(const Flags& flags) {
+int run_render(const Flags& given) {
+  const bool sheet = is_sheet(given);
+  Flags flags = given;
+  // Of many worlds, some may not have it.
+  if (!sheet) flags.warnings.insert(flags.warnings.begin(), "error=viewpoint-not-found");
   Session s(flags);
-  const bool sheet = is_sheet(flags);
   if (!is_usable(flags, sheet) || !s.good() || !s.choose_pipeline("picture")) return usage;
   if (flags.print_pipeline) {
     fmt::print("{}\n", s.pipeline().text());
@@ -136,7 +150,8 @@ int run_render(const Flags& flags) {
   if (made && flags.verbose && flags.mode == RenderOptions::Mode::density)
     fmt::print(stderr, "texels a metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n",
                most_texels_per_metre);
-  return s.end(made);
+  const int code = s.end(made);
+  return !made && s.diag().count(Diag::viewpoint_not_found) > 0 ? usage : code;
 }
 
 }  // namespace wrlkit

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <optional>
 
 #include "base/text/json.h"
 #include "tools/corpus/inputs.h"
@@ -14,43 +12,11 @@
 namespace wrlkit {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Entry {
-  std::string path, name;
-};
-
-/// More files than itself are meant.
-bool is_many(const std::string& word) {
-  std::error_code ec;
-  return word.starts_with('@') || fs::is_directory(word, ec) ||
-         (word.find_first_of("*?") != std::string::npos && !fs::exists(word, ec));
-}
-
-/// Files that are named stand as they are; one that is not there has its place, too.
-std::optional<std::vector<Entry>> entries(const std::vector<std::string>& words, std::string& why) {
-  std::vector<Entry> out;
-  for (const auto& word : words) {
-    if (!is_many(word)) {
-      out.push_back({word, word == "-" ? "standard input" : fs::path(word).filename().string()});
-      continue;
-    }
-    auto found = gather_inputs({word}, {}, why);
-    if (!found) return std::nullopt;
-    for (auto& file : found->files) out.push_back({file.path, file.inside});
-  }
-  if (out.empty()) {
-    why = "there is no world in " + words[0];
-    return std::nullopt;
-  }
-  return out;
-}
-
 bool given(const Flags& f, std::string_view name) {
   return std::ranges::any_of(f.given, [&](const auto& g) { return g.first == name; });
 }
 
-std::string contents_json(const std::vector<Entry>& worlds, const std::vector<bool>& drawn) {
+std::string contents_json(const std::vector<NamedWorld>& worlds, const std::vector<bool>& drawn) {
   std::string text;
   JsonOut json(text);
   json.begin_array();
@@ -66,12 +32,12 @@ std::string contents_json(const std::vector<Entry>& worlds, const std::vector<bo
 
 }  // namespace
 
-bool is_sheet(const Flags& f) { return f.inputs.size() > 1 || is_many(f.inputs[0]); }
+bool is_sheet(const Flags& f) { return f.inputs.size() > 1 || means_many(f.inputs[0]); }
 
 int render_sheet(Session& s) {
   const Flags& f = s.flags();
   std::string why;
-  const auto worlds = entries(f.inputs, why);
+  const auto worlds = named_worlds(f.inputs, why);
   if (!worlds) {
     fmt::print(stderr, "wrlkit render: {}\n", why);
     return usage;

@@ -125,6 +125,10 @@ std::string json_of(const TilesMade& made) {
 
 /// False, which was printed, when it is no place on the Earth.
 bool check_place(const std::vector<double>& at) {
+  if (!at.empty() && at.size() != 3 && at.size() != 4) {
+    fmt::print(stderr, "wrlkit tiles: --at: three or four numbers are needed, LAT,LON,HEIGHT[,HEADING]\n");
+    return false;
+  }
   if (at.empty() || (std::abs(at[0]) <= 90 && std::abs(at[1]) <= 360)) return true;
   fmt::print(stderr, "wrlkit tiles: --at: {},{} is not a valid latitude and longitude\n", at[0], at[1]);
   return false;

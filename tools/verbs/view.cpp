@@ -15,6 +15,7 @@
 #include "tools/cli/session.h"
 #include "tools/report/deviation_map.h"
 #include "tools/verbs/serve.h"
+#include "tools/verbs/view_gallery.h"
 #include "tools/verbs/view_tileset.h"
 #include "tools/verbs/viewer_page.h"
 #include "writers/gltf/gltf.h"
@@ -190,6 +191,8 @@ class LivePage {
 }  // namespace
 
 int run_view(const Flags& flags) {
+  const auto tileset = tileset_folder(flags.inputs);
+  if (tileset.empty() && is_gallery(flags)) return view_gallery(flags);
   Session s(flags);
   if (!is_usable(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;
   if (flags.print_pipeline) {
@@ -202,7 +205,7 @@ int run_view(const Flags& flags) {
                "(script/bootstrap)\n");
     return nothing;
   }
-  if (const auto folder = tileset_folder(flags.inputs); !folder.empty()) return view_tileset(s, folder);
+  if (!tileset.empty()) return view_tileset(s, tileset);
   Viewer viewer(s);
   if (!viewer.fill()) return s.end(false);
   if (!flags.output.empty() && !write_page(s, viewer.page())) return s.end(false);

@@ -1,0 +1,179 @@
+#include "tools/verbs/view_gallery.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/image/image.h"
+#include "base/io/files_read.h"
+#include "base/io/output.h"
+#include "base/io/uri.h"
+#include "base/text/base64.h"
+#include "base/text/json.h"
+#include "convert/info.h"
+#include "tools/cli/session.h"
+#include "tools/corpus/inputs.h"
+#include "tools/report/gallery_page.h"
+#include "tools/verbs/render_sheets.h"
+
+namespace wrlkit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int width = 320, height = 240, quality = 80;
+
+/// A reference from the page to a file.
+std::string link_to(const std::string& path, const std::string& page) {
+  std::error_code fault;
+  const auto folder = page == "-" ? fs::current_path(fault) : fs::absolute(page, fault).parent_path();
+  const auto relative = fs::relative(path, folder, fault);
+  std::string out;
+  for (const auto& part : relative) out += (out.empty() ? "" : "/") + uri_of(part.string());
+  return out;
+}
+
+/// Flags to look at one of the worlds with.
+Flags flags_for(const Flags& flags, const std::string& path) {
+  Flags f = flags;
+  f.quiet = true;
+  f.inputs = {path};
+  f.output.clear();
+  f.report.clear();
+  return f;
+}
+
+std::string first_error(const Diagnostics& diag) {
+  for (const auto& m : diag.messages())
+    if (m.severity == Severity::error) return m.text();
+  return "nothing could be made of it";
+}
+
+void add_figures(const Flags& flags, GalleryWorld& out) {
+  Session s(flags);
+  if (!s.read(flags.inputs[0])) return;
+  const auto facts = info(std::move(s.document()));
+  if (!facts) return;
+  out.triangles = facts->geometry.triangles;
+  out.parts = facts->geometry.shapes;
+}
+
+void add_picture(const Flags& flags, GalleryWorld& out) {
+  Session s(flags);
+  const auto meshes = s.choose_pipeline("picture") ? open_world(s, flags.inputs[0]) : MeshSource();
+  std::string why;
+  if (meshes) {
+    const RenderOptions options{.width = width, .height = height, .samples = 2};
+    const auto picture = render(s.world().scene, meshes, options, &s.resources(), s.diag());
+    if (const auto bytes = encode_jpeg(picture, quality, why)) out.picture = base64(*bytes);
+  } else {
+    out.fault = first_error(s.diag());
+  }
+  out.errors = s.diag().count(Severity::error);
+  out.warnings = s.diag().count(Severity::warning);
+  out.lost = s.diag().count(Severity::lost);
+}
+
+GalleryWorld look_at(const Flags& flags, const NamedWorld& world) {
+  const Flags f = flags_for(flags, world.path);
+  std::error_code fault;
+  const auto bytes = fs::file_size(world.path, fault);
+  GalleryWorld out{.name = world.name, .link = link_to(world.path, flags.output), .bytes = fault ? 0 : bytes};
+  add_picture(f, out);
+  if (out.fault.empty()) add_figures(f, out);
+  return out;
+}
+
+/// The keys are stable.
+std::string contents_json(const Gallery& g, const std::string& file, std::size_t bytes) {
+  std::string text;
+  JsonOut json(text);
+  json.begin_object();
+  json.member("file", file);
+  json.member("bytes", bytes);
+  json.key("worlds");
+  json.begin_array();
+  for (const auto& w : g.worlds) {
+    json.begin_object();
+    json.member("name", w.name);
+    json.member("drawn", !w.picture.empty());
+    json.member("triangles", w.triangles);
+    json.member("errors", w.errors);
+    json.end_object();
+  }
+  json.end_array();
+  json.member("left_out", g.n_left_out);
+  json.end_object();
+  return text;
+}
+
+bool is_usable(const Flags& f) {
+  if (f.output.empty() || f.serve) {
+    fmt::print(stderr, "wrlkit view: a gallery needs -o FILE, without --serve\n");
+    return false;
+  }
+  return true;
+}
+
+Gallery gallery_of(Session& s, const std::vector<NamedWorld>& worlds) {
+  const Flags& flags = s.flags();
+  const auto n = std::min(worlds.size(), static_cast<std::size_t>(flags.limit));
+  Gallery out{.title = flags.inputs.size() == 1 ? flags.inputs[0] : fmt::format("{} worlds", worlds.size()),
+              .width = width,
+              .height = height,
+              .n_left_out = worlds.size() - n};
+  s.progress().begin("worlds", n, "");
+  for (std::size_t i = 0; i < n; ++i) {
+    out.worlds.push_back(look_at(flags, worlds[i]));
+    s.progress().set(i + 1);
+  }
+  s.progress().clear();
+  return out;
+}
+
+/// What the page says, too.
+void print_faults(const Gallery& g) {
+  for (const auto& w : g.worlds)
+    if (!w.fault.empty()) fmt::print(stderr, "wrlkit view: {}: {}\n", w.name, w.fault);
+  if (g.n_left_out > 0)
+    fmt::print(stderr, "wrlkit view: {} more worlds are left out; --limit {} takes them all\n", g.n_left_out,
+               g.n_left_out + g.worlds.size());
+}
+
+int exit_code_of(const Gallery& g) {
+  const auto faults = std::ranges::count_if(g.worlds, [](const GalleryWorld& w) { return !w.fault.empty(); });
+  if (faults == std::ssize(g.worlds)) return nothing;
+  const bool wrong = std::ranges::any_of(g.worlds, [](const GalleryWorld& w) { return w.errors > 0; });
+  return wrong || g.n_left_out > 0 ? partly : done;
+}
+
+}  // namespace
+
+bool is_gallery(const Flags& f) { return f.inputs.size() > 2 || std::ranges::any_of(f.inputs, means_many); }
+
+int view_gallery(const Flags& flags) {
+  Session s(flags);
+  if (!is_usable(flags) || !s.good() || !s.choose_pipeline("picture")) return usage;
+  std::string why;
+  const auto worlds = named_worlds(flags.inputs, why);
+  if (!worlds) {
+    fmt::print(stderr, "wrlkit view: {}\n", why);
+    return usage;
+  }
+  FilesRead inputs;
+  for (const auto& world : *worlds) inputs.add(world.path);
+  const Gallery gallery = gallery_of(s, *worlds);
+  const std::string page = gallery_page(gallery);
+  auto file = OutputFile::open(flags.output, {.inputs = &inputs}, s.diag());
+  if (file) file->write(page);
+  const bool made = file && file->commit(s.diag());
+  const auto contents = contents_json(gallery, flags.output, page.size());
+  if (made && flags.json && flags.output != "-") fmt::print("{}\n", contents);
+  s.fact("page", contents);
+  print_faults(gallery);
+  const int code = s.end(made);
+  return made ? std::max(code, exit_code_of(gallery)) : code;
+}
+
+}  // namespace wrlkit

@@ -1,0 +1,13 @@
+// wrlkit view FOLDER: a page of many worlds.
+#pragma once
+#include "tools/cli/flags.h"
+
+namespace wrlkit {
+
+/// The inputs are more than two worlds.
+bool is_gallery(const Flags&);
+/// Writes the page; returns the exit code. One world after the other is in memory, and no more of them than the limit
+/// are looked at.
+int view_gallery(const Flags&);
+
+}  // namespace wrlkit
