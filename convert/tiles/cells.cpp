@@ -58,12 +58,12 @@ class Cutting {
   /// Where the second half begins; neither is empty.
   std::uint32_t halve(Range r) {
     Box box;
-    for (auto i = r.first; i < r.second; ++i) box.add(pieces_[out_.order[i]].centre);
+    for (auto i = r.first; i < r.second; ++i) box.add(pieces_[out_.order[i]].box.centre());
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
       if (box.size(k) > box.size(axis)) axis = k;
     std::sort(out_.order.begin() + r.first, out_.order.begin() + r.second, [&](std::uint32_t a, std::uint32_t b) {
-      const double x = pieces_[a].centre[axis], y = pieces_[b].centre[axis];
+      const double x = pieces_[a].box.centre()[axis], y = pieces_[b].box.centre()[axis];
       return x != y ? x < y : a < b;
     });
     const auto all = drawn(r);

@@ -25,6 +25,12 @@ Mesh square(double x, double y, double size) {
 
 tiles::Piece piece(std::string name, Mesh mesh) { return {std::move(name), 0, std::move(mesh)}; }
 
+Box at(double x, double y, double z) {
+  Box out;
+  out.add({x, y, z});
+  return out;
+}
+
 }  // namespace
 
 TEST_CASE("tiles: a piece comes back from the disk as it was", "[tiles]") {
@@ -43,7 +49,7 @@ TEST_CASE("tiles: a piece comes back from the disk as it was", "[tiles]") {
   REQUIRE(store->add(first, a));
   REQUIRE(store->add(second, b));
   CHECK(a.n_drawn == 2);
-  CHECK(a.centre == Vec3{5e6 + 1, 1, 1});
+  CHECK(a.box.centre() == Vec3{5e6 + 1, 1, 1});
   const auto back = store->read(a);
   CHECK(back.name == first.name);
   CHECK(back.look == 7);
@@ -60,7 +66,7 @@ TEST_CASE("tiles: a piece comes back from the disk as it was", "[tiles]") {
 TEST_CASE("tiles: cells hold each piece once, within the budget, and are not empty", "[tiles]") {
   std::vector<tiles::PieceStore::Entry> pieces;
   for (std::uint32_t i = 0; i < 1000; ++i)
-    pieces.push_back({.offset = i, .bytes = 0, .n_drawn = 1 + i % 7, .centre = {double(i % 40), 0, double(i / 40)}});
+    pieces.push_back({.offset = i, .bytes = 0, .n_drawn = 1 + i % 7, .box = at(double(i % 40), 0, double(i / 40))});
   const auto cells = tiles::cut_into_cells(pieces, 100);
   std::vector<int> times(pieces.size());
   for (const auto& c : cells.cells) {
@@ -80,7 +86,7 @@ TEST_CASE("tiles: cells hold each piece once, within the budget, and are not emp
 }
 
 TEST_CASE("tiles: pieces in one place are cut, too", "[tiles]") {
-  const std::vector<tiles::PieceStore::Entry> pieces(9, {.offset = 0, .bytes = 0, .n_drawn = 50, .centre = {1, 2, 3}});
+  const std::vector<tiles::PieceStore::Entry> pieces(9, {.offset = 0, .bytes = 0, .n_drawn = 50, .box = at(1, 2, 3)});
   for (const auto& c : tiles::cut_into_cells(pieces, 60).cells)
     if (c.children.empty()) CHECK(c.end - c.begin == 1);
 }
