@@ -110,11 +110,15 @@ class Test:
         self.expect(inl.read_text() != text, 'nothing was changed')
         changed = self.make('update', '--update')
         self.expect(0 < changed['kept'] < n, f'{changed["kept"]} of {n} tiles were kept when one file had changed')
+        # A part comes: cells elsewhere are cut where they were.
+        (self.plant / 'parts' / 'unit_1.inl').write_text(inl.read_text() + 'DEF New Transform { translation 5000010 250 -2999990 children Shape { geometry Sphere { } } }\n')
+        more = self.make('update', '--update')
+        self.expect(more['kept'] > n / 2, f'{more["kept"]} of {n} tiles were kept when a part had come')
         self.make('changed')
         (self.folder / 'update' / '.wrlkit').rename(self.folder / 'aside')
-        self.same('update', 'changed', 'an update')
+        self.same('update', 'changed', 'updates')
         inl.write_text(text)
-        return changed['kept'], n
+        return changed['kept'], more['kept'], n
 
     def hostile(self):
         """One clear line, and nothing that is half written."""
@@ -131,6 +135,21 @@ class Test:
         self.expect(run.wait() == 0, 'the run that was there first fails')
         self.same('busy', 'once', 'a run that another one wanted to join')
 
+    def small_disk(self):
+        """A disk that is too small, for whom may make one: one line, and a set that was there stays."""
+        small = self.folder / 'small'
+        small.mkdir()
+        if subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=600k', 'tmpfs', small], capture_output=True).returncode:
+            return 'not tried'
+        try:
+            (small / 'tileset.json').write_text('{}')
+            said = self.make('small', code=3)
+            self.expect(len(said.strip().splitlines()) == 1 and ('full' in said or 'space' in said), f'a full disk: {said!r}')
+            self.expect((small / 'tileset.json').read_text() == '{}', 'a full disk costs the set that was there')
+        finally:
+            subprocess.run(['umount', small])
+        return 'tried'
+
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -144,8 +163,9 @@ def main():
             print('killed: kept {} of {} tiles'.format(*test.killed(jobs)))
         test.other_options()
         test.shards()
-        print('updated: kept {} of {} tiles'.format(*test.update()))
+        print('updated: kept {} and {} of {} tiles'.format(*test.update()))
         test.hostile()
+        print('a full disk:', test.small_disk())
     print('\n'.join(test.faults) or 'the same bytes, however they were made')
     return 1 if test.faults else 0
 
