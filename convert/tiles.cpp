@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <functional>
 #include <iterator>
 #include <mutex>
 #include <set>
@@ -12,12 +12,16 @@
 #include "base/hashing.h"
 #include "base/parallel.h"
 #include "base/stop.h"
+#include "convert/tiles/cell_keys.h"
 #include "convert/tiles/cells.h"
 #include "convert/tiles/coarser.h"
 #include "convert/tiles/content.h"
+#include "convert/tiles/kept_tiles.h"
+#include "convert/tiles/option_key.h"
 #include "convert/tiles/scene_pieces.h"
 #include "convert/tiles/staging.h"
 #include "convert/tiles/surface_error.h"
+#include "convert/tiles/tree.h"
 #include "parsers/resources.h"
 
 namespace wrlkit {
@@ -27,50 +31,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t tiles_at_once = 16;
-constexpr std::size_t most_at_once = 1'500'000;  // triangles that are simplified together: some 400 MB
-constexpr std::size_t least_saving = 3;          // a coarse tile has at most one triangle of that many
+constexpr std::size_t least_saving = 3;  // a coarse tile has at most one triangle of that many
 // Distances are taken at points, and the largest may lie between them.
 constexpr double between_points = 1.05;
-constexpr double single_precision = 1.0 / (1 << 22);
-
-/// A cell with what has been made of it.
-struct Tile {
-  std::uint64_t n_full = 0;               // that is drawn when nothing is simplified
-  std::vector<PieceStore::Entry> pieces;  // of a coarse one
-  Box own_box;                            // of what it shows itself
-  Box box;                                // and of its children
-  Vec3 origin{};
-  double error = 0;     // metres, of the surface before it was rounded
-  double rounding = 0;  // metres
-  std::uint64_t hash = 0;
-  TileFigures figures;
-};
-
-/// Near the middle, in few binary digits.
-Vec3 origin_of(const Box& box) {
-  const double step = std::exp2(std::floor(std::log2(std::max(diagonal(box), 1e-9))) - 6);
-  Vec3 out = box.centre();
-  for (double& x : out) x = std::round(x / step) * step;
-  return out;
-}
-
-std::uint64_t hash_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  std::uint64_t hash = mixed(0, bytes.size());
-  for (const unsigned char c : bytes) hash = mixed(hash, c);
-  return hash;
-}
-
-/// Says in `to` what was said in `from`.
-void pass_on(const Diagnostics& from, Diagnostics& to) {
-  for (const auto& m : from.messages()) {
-    const auto& a = m.args;
-    if (a.size() == 1) to.report(m.id, {}, a[0]);
-    if (a.size() == 2) to.report(m.id, {}, a[0], a[1]);
-    if (a.size() == 3) to.report(m.id, {}, a[0], a[1], a[2]);
-  }
-}
 
 class Making {
  public:
@@ -86,7 +49,7 @@ class Making {
     bool made = false;
     try {
       const StopScope scope(ctx_.stop);
-      made = open() && gather(inputs) && make_levels() && measure() && publish();
+      made = open() && gather(inputs) && make_all();
     } catch (const Stopped&) {
     }
     out_.ending = reader_.ending(made);
@@ -96,12 +59,12 @@ class Making {
  private:
   bool open() {
     if (!staging_.open(folder_, ctx_.diag)) return false;
+    if (!kept_.open((fs::path(folder_) / ".wrlkit").string(), {options_.shard, options_.shards}, ctx_.diag))
+      return false;
     std::string why;
     full_ = PieceStore::open(staging_.path(), why);
-    coarse_ = PieceStore::open(staging_.path(), why);
-    if (full_ && coarse_) return true;
-    ctx_.diag.report(Diag::cannot_write, {}, staging_.path(), why);
-    return false;
+    if (!full_) ctx_.diag.report(Diag::cannot_write, {}, staging_.path(), why);
+    return full_.has_value();
   }
 
   bool is_full(bool stored) {
@@ -110,6 +73,11 @@ class Making {
   }
 
   bool gather(std::span<const TilesInput> inputs);
+  bool make_all();
+  void plan();
+  void take_kept();
+  bool is_mine(std::uint32_t cell) const;
+  bool is_whole() const;
   bool make_levels();
   using Range = std::pair<std::uint32_t, std::uint32_t>;
   /// Cells of which all coarse tiles are made at once.
@@ -120,6 +88,7 @@ class Making {
     std::unordered_map<std::uint32_t, Range> ranges;  // of each cell, in the pieces
   };
   bool fits(std::uint32_t cell) const;
+  std::uint32_t top_of(std::uint32_t cell) const;
   std::size_t target(std::uint32_t cell) const;
   std::size_t count_of(std::span<const std::uint32_t> level, std::size_t n_drawn) const;
   bool make_group(std::uint32_t top);
@@ -128,10 +97,9 @@ class Making {
   static std::vector<Piece> pieces_within(const Group& group, std::span<const Coarse> level, Range range);
   bool make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& task);
   bool write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task& task);
+  bool save(std::uint32_t cell, Task& task);
   std::vector<PieceStore::Entry> entries_of(const Cell& cell) const;
-  std::vector<Piece> read(const PieceStore& from, std::span<const PieceStore::Entry> entries) const;
   std::vector<Piece> pieces_of_cell(std::uint32_t cell) const;
-  bool spill(std::uint32_t cell, std::span<const Piece> pieces);
   bool measure();
   double measured_error(std::uint32_t cell) const;
   void finish_errors();
@@ -145,11 +113,15 @@ class Making {
   PassContext& ctx_;
   GltfOptions gltf_;
   Staging staging_;
+  KeptTiles kept_;
+  std::mutex keeping_;  // kept_
   Looks looks_;
-  std::optional<PieceStore> full_, coarse_;
+  std::optional<PieceStore> full_;
   std::vector<PieceStore::Entry> entries_;  // of full_
   Cells cells_;
-  std::vector<Tile> made_;  // by cell
+  std::vector<Tile> made_;            // by cell
+  std::vector<std::uint32_t> turns_;  // by cell: leaves are counted, and of the others the largest that fit
+  bool is_last_ = false;              // of the shards
   std::vector<std::string> folders_;
   std::unique_ptr<FileResources> pictures_;
   TilesMade out_;
@@ -203,34 +175,105 @@ bool Making::for_each(std::span<const std::uint32_t> cells, const std::function<
       good &= done;
       if (ctx_.monitor) ctx_.monitor->step();
     });
-    for (const auto& diag : said) pass_on(diag, ctx_.diag);
+    for (const auto& diag : said) say(said_in(diag), ctx_.diag);
   }
   return good;
 }
 
-bool Making::make_levels() {
+bool Making::make_all() {
+  plan();
+  take_kept();
+  for (const auto& tile : made_) out_.n_kept += tile.is_made;
+  if (!make_levels() || !measure()) return false;
+  if (options_.shards > 1) {
+    is_last_ = kept_.become_last();
+    take_kept();
+    is_last_ = is_last_ && is_whole();
+    for (const auto& tile : made_) out_.n_left += !tile.is_made;
+    if (!is_last_) return true;
+    if (!make_levels() || !measure()) return false;
+  }
+  out_.whole = publish();
+  return out_.whole;
+}
+
+/// What there is to be made.
+void Making::plan() {
   cells_ = cut_into_cells(entries_, options_.triangles);
   made_.resize(cells_.cells.size());
-  if (ctx_.monitor) ctx_.monitor->begin("making tiles", made_.size(), "tiles");
-  std::vector<std::uint32_t> leaves;
   for (std::uint32_t i = 0; i < made_.size(); ++i) {
     const Cell& c = cells_.cells[i];
-    for (auto k = c.begin; k < c.end; ++k) made_[i].n_full += entries_[cells_.order[k]].n_drawn;
-    if (c.children.empty()) leaves.push_back(i);
+    for (auto k = c.begin; k < c.end; ++k) {
+      const auto& entry = entries_[cells_.order[k]];
+      made_[i].n_full += entry.n_drawn;
+      if (c.children.empty()) made_[i].full_box.unite(entry.box);
+    }
   }
-  const auto make_leaf = [&](std::uint32_t i, Task& task) { return write_tile(i, pieces_of_cell(i), task); };
-  if (!for_each(leaves, make_leaf)) return false;
-  // From the last level on, cells come before those that they are in.
-  for (auto i = static_cast<std::uint32_t>(made_.size()); i-- > 0;) {
-    const Cell& c = cells_.cells[i];
-    const bool is_with_others = fits(i) && i != c.parent && fits(c.parent);
-    if (!c.children.empty() && !is_with_others && !make_group(i)) return false;
+  const auto top = [this](std::uint32_t i) { return top_of(i); };
+  const auto keys = keys_of_cells(cells_, entries_, looks_, option_key(options_), top);
+  std::uint32_t n_leaves = 0, n_tops = 0;
+  for (std::uint32_t i = 0; i < made_.size(); ++i) {
+    made_[i].key = keys[i];
+    const bool is_leaf = cells_.cells[i].children.empty();
+    turns_.push_back(is_leaf ? n_leaves++ : top_of(i) == i ? n_tops++ : turns_[top_of(i)]);
   }
+}
+
+/// What was made before, by whomever.
+void Making::take_kept() {
+  if (options_.program.empty() && !is_last_) return;
+  for (auto& tile : made_) {
+    if (!tile.error) tile.error = kept_.error(tile.key);
+    const MadeTile* found = tile.is_made ? nullptr : kept_.find(tile.key);
+    if (!found) continue;
+    tile.made = *found;
+    tile.is_made = true;
+    say(tile.made.said, ctx_.diag);
+  }
+}
+
+/// Whether this process makes a tile when it is not there.
+bool Making::is_mine(std::uint32_t cell) const {
+  if (options_.shards <= 1 || is_last_) return true;
+  const bool is_leaf = cells_.cells[cell].children.empty();
+  return (is_leaf || fits(cell)) && turns_[cell] % options_.shards == options_.shard;
+}
+
+/// Whether all is there that shards make apart from one another.
+bool Making::is_whole() const {
+  for (std::uint32_t i = 0; i < made_.size(); ++i)
+    if (!made_[i].is_made && (cells_.cells[i].children.empty() || fits(i))) return false;
   return true;
 }
 
+bool Making::make_levels() {
+  std::vector<std::uint32_t> leaves, tops;
+  std::size_t n_tiles = 0;
+  for (auto i = static_cast<std::uint32_t>(made_.size()); i-- > 0;) {
+    if (made_[i].is_made || !is_mine(i)) continue;
+    ++n_tiles;
+    auto& list = cells_.cells[i].children.empty() ? leaves : tops;
+    if (const auto top = &list == &leaves ? i : top_of(i); std::ranges::find(list, top) == list.end())
+      list.push_back(top);
+  }
+  if (ctx_.monitor && n_tiles > 0) ctx_.monitor->begin("making tiles", n_tiles, "tiles");
+  const auto make_leaf = [&](std::uint32_t i, Task& task) {
+    return write_tile(i, pieces_of_cell(i), task) && save(i, task);
+  };
+  if (!for_each(leaves, make_leaf)) return false;
+  // From the last level on, cells come before those that they are in.
+  std::ranges::sort(tops, std::greater{});
+  return std::ranges::all_of(tops, [&](std::uint32_t i) { return make_group(i); });
+}
+
 /// Whether all that is in a cell can be simplified at once.
-bool Making::fits(std::uint32_t cell) const { return made_[cell].n_full <= most_at_once; }
+bool Making::fits(std::uint32_t cell) const { return made_[cell].n_full <= options_.at_once; }
+
+/// The largest cell that is made at once with this one.
+std::uint32_t Making::top_of(std::uint32_t cell) const {
+  while (cell != 0 && fits(cell) && fits(cells_.cells[cell].parent)) cell = cells_.cells[cell].parent;
+  return cell;
+}
 
 /// What a coarse tile draws, at most.
 std::size_t Making::target(std::uint32_t cell) const {
@@ -248,7 +291,10 @@ bool Making::make_group(std::uint32_t top) {
     const auto make = [&](std::uint32_t i, Task& task) {
       return make_coarse(i, pieces_within(group, coarse[k], group.ranges.at(i)), task);
     };
-    if (!for_each(group.levels[k], make)) return false;
+    std::vector<std::uint32_t> open;
+    for (const auto i : group.levels[k])
+      if (!made_[i].is_made) open.push_back(i);
+    if (!for_each(open, make)) return false;
     coarse[k].clear();
   }
   return true;
@@ -303,12 +349,6 @@ std::size_t Making::count_of(std::span<const std::uint32_t> level, std::size_t n
   }
   return static_cast<std::size_t>(static_cast<double>(n_drawn) * std::min(1.0, wanted / full));
 }
-std::vector<Piece> Making::read(const PieceStore& from, std::span<const PieceStore::Entry> entries) const {
-  std::vector<Piece> out;
-  for (const auto& e : entries) out.push_back(from.read(e));
-  return out;
-}
-
 /// In the order of the files, so that pieces of a part stand together.
 std::vector<PieceStore::Entry> Making::entries_of(const Cell& cell) const {
   std::vector<std::uint32_t> order(cells_.order.begin() + cell.begin, cells_.order.begin() + cell.end);
@@ -320,16 +360,10 @@ std::vector<PieceStore::Entry> Making::entries_of(const Cell& cell) const {
 
 std::vector<Piece> Making::pieces_of_cell(std::uint32_t cell) const {
   const Cell& c = cells_.cells[cell];
-  return c.children.empty() ? read(*full_, entries_of(c)) : read(*coarse_, made_[cell].pieces);
-}
-
-bool Making::spill(std::uint32_t cell, std::span<const Piece> pieces) {
-  bool stored = true;
-  for (const auto& p : pieces) {
-    auto& entry = made_[cell].pieces.emplace_back();
-    stored &= coarse_->add(p, entry);
-  }
-  return stored;
+  if (!c.children.empty()) return read_pieces(kept_.pieces_path(made_[cell].key));
+  std::vector<Piece> out;
+  for (const auto& entry : entries_of(c)) out.push_back(full_->read(entry));
+  return out;
 }
 
 std::vector<Piece> Making::pieces_within(const Group& group, std::span<const Coarse> level, Range range) {
@@ -349,99 +383,99 @@ bool Making::make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& ta
     for (auto& c : coarse[0]) fewer.push_back({pieces[c.from].name, pieces[c.from].look, std::move(c.mesh)});
     pieces = std::move(fewer);
   }
-  if (!spill(cell, pieces)) {
-    task.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
-    return false;
-  }
-  return write_tile(cell, pieces, task);
+  auto& stored = made_[cell].made.pieces_bytes;
+  stored = write_pieces(kept_.pieces_path(made_[cell].key), pieces);
+  if (!stored) task.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
+  return stored && write_tile(cell, pieces, task) && save(cell, task);
+}
+
+/// Writes down that a tile is made.
+bool Making::save(std::uint32_t cell, Task& task) {
+  Tile& tile = made_[cell];
+  tile.made.said = said_in(task.diag);
+  tile.is_made = true;
+  const std::scoped_lock lock(keeping_);
+  const bool saved = kept_.save(tile.key, tile.made);
+  if (!saved) task.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
+  return saved;
 }
 
 bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task& task) {
-  const Cell& c = cells_.cells[cell];
   Tile& tile = made_[cell];
+  MadeTile& made = tile.made;
   std::set<std::string_view> names;
   for (const auto& p : pieces) {
-    tile.own_box.unite(bounds_of(p.mesh));
+    made.box.unite(bounds_of(p.mesh));
     names.insert(p.name);
   }
-  tile.figures.depth = c.depth;
   if (pieces.empty()) return true;
-  tile.origin = origin_of(tile.own_box);
   GltfSummary summary;
-  const auto path = staging_.path() + '/' + c.name + ".glb";
-  if (!write_content(pieces, tile.origin, looks_, gltf_, *pictures_, path, task.diag, summary)) return false;
-  tile.rounding = summary.quantization.position;
-  tile.hash = hash_of_file(path);
-  tile.figures = {c.name + ".glb", c.depth, 0, summary.triangles, summary.draws, names.size(), summary.bytes()};
+  const auto path = kept_.tile_path(tile.key);
+  if (!write_content(pieces, origin_of(made.box), looks_, gltf_, *pictures_, path, task.diag, summary)) return false;
+  made.rounding = summary.quantization.position;
+  made.hash = hash_of_file(path).value_or(ContentHash{}).low;
+  made.triangles = summary.triangles;
+  made.draws = summary.draws;
+  made.parts = names.size();
+  std::error_code fault;
+  made.bytes = fs::file_size(path, fault);
   return true;
 }
 
+/// The errors of coarse tiles that are this process's matter.
 bool Making::measure() {
-  for (auto i = made_.size(); i-- > 0;) {
-    made_[i].box = made_[i].own_box;
-    for (const auto child : cells_.cells[i].children) made_[i].box.unite(made_[child].box);
-    if (made_[i].own_box.empty()) made_[i].origin = origin_of(made_[i].box);
-  }
-  std::vector<std::uint32_t> inner;
+  std::vector<std::uint32_t> open;
   for (std::uint32_t i = 0; i < made_.size(); ++i)
-    if (!cells_.cells[i].children.empty()) inner.push_back(i);
-  if (ctx_.monitor) ctx_.monitor->begin("measuring tiles", inner.size(), "tiles");
-  const auto measured = [&](std::uint32_t i, Task&) {
+    if (!cells_.cells[i].children.empty() && made_[i].is_made && !made_[i].error && is_mine(i)) open.push_back(i);
+  if (ctx_.monitor && !open.empty()) ctx_.monitor->begin("measuring tiles", open.size(), "tiles");
+  const auto measured = [&](std::uint32_t i, Task& task) {
     made_[i].error = measured_error(i);
-    return true;
+    const std::scoped_lock lock(keeping_);
+    const bool saved = kept_.save_error(made_[i].key, *made_[i].error);
+    if (!saved) task.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
+    return saved;
   };
-  for_each(inner, measured);
-  finish_errors();
-  return true;
+  return for_each(open, measured);
 }
 
 double Making::measured_error(std::uint32_t cell) const {
   std::vector<FullTile> full;
+  Box whole;
   std::vector<std::uint32_t> open{cell};
   while (!open.empty()) {
     const auto i = open.back();
     open.pop_back();
     const auto& children = cells_.cells[i].children;
     open.insert(open.end(), children.rbegin(), children.rend());
-    if (children.empty()) full.push_back({made_[i].own_box, [this, i] { return pieces_of_cell(i); }});
+    whole.unite(made_[i].full_box);
+    if (children.empty()) full.push_back({made_[i].full_box, [this, i] { return pieces_of_cell(i); }});
   }
   const double error = surface_error(pieces_of_cell(cell), full);
-  return std::isfinite(error) ? between_points * error : diagonal(made_[cell].box);
-}
-
-/// A tile is not nearer than its children, and rounding counts.
-void Making::finish_errors() {
-  for (std::size_t i = made_.size(); i-- > 0;) {
-    Tile& tile = made_[i];
-    const auto& children = cells_.cells[i].children;
-    if (!children.empty()) tile.figures.error = tile.error + tile.rounding;
-    for (const auto child : children) tile.figures.error = std::max(tile.figures.error, made_[child].figures.error);
-  }
+  return std::isfinite(error) ? between_points * error : diagonal(whole);
 }
 
 bool Making::publish() {
+  finish_tree(cells_, made_);
+  if (!link_tiles(cells_, made_, kept_, staging_.path(), ctx_.diag)) return false;
   std::uint64_t hash = 0;
-  for (const auto& tile : made_) hash = mixed(hash, tile.hash);
-  const auto name = tiles_folder(hash);
-  Tileset set{.tiles = {}, .error = diagonal(made_[0].box), .place = options_.place};
-  double grown = single_precision * diagonal(made_[0].box);
-  for (const auto& tile : made_) grown = std::max(grown, 2 * tile.rounding);
+  std::vector<ContentHash> keys;
   for (std::size_t i = 0; i < made_.size(); ++i) {
-    const Tile& tile = made_[i];
-    Box box = tile.box;
-    box.low = box.low - Vec3{grown, grown, grown};
-    box.high = box.high + Vec3{grown, grown, grown};
-    const auto& children = cells_.cells[i].children;
-    set.tiles.push_back(
-        {name + '/' + tile.figures.file, tile.origin, box, tile.figures.error, {children.begin(), children.end()}});
-    out_.tiles.push_back(tile.figures);
-    out_.bytes += tile.figures.bytes;
+    const auto& [cell, tile, made] = std::tie(cells_.cells[i], made_[i], made_[i].made);
+    hash = mixed(hash, made.hash);
+    keys.push_back(tile.key);
+    out_.tiles.push_back(
+        {file_of(cell, tile), cell.depth, tile.said_error, made.triangles, made.draws, made.parts, made.bytes});
+    out_.bytes += made.bytes;
   }
   out_.depth = cells_.depth;
-  set.error = std::max(set.error, made_[0].figures.error);
+  const auto name = tiles_folder(hash);
+  auto set = tileset_of(cells_, made_, name);
+  set.place = options_.place;
   const auto text = tileset_json(set);
   out_.bytes += text.size();
-  return staging_.publish(name, text, ctx_.diag);
+  if (!staging_.publish(name, text, ctx_.diag)) return false;
+  options_.update ? kept_.forget_others(keys) : kept_.forget();
+  return true;
 }
 
 }  // namespace

@@ -12,9 +12,15 @@
 namespace wrlkit {
 
 struct TilesOptions {
-  std::size_t triangles = 50'000;  // that a tile draws, at most, and segments and points
+  std::size_t triangles = 50'000;   // that a tile draws, at most, and segments and points
+  std::size_t at_once = 1'500'000;  // triangles that are simplified together: some 400 MB
   SaveOptions save = {.compress = GltfCompression::Method::meshopt};  // how the content is stored
   std::optional<EarthPlace> place = {};                               // none: in coordinates of its own
+  /// Which program this is: tiles are taken as they are only from runs of the same one. Empty: from none.
+  std::string program = {};
+  /// One of several processes that make a set together, in one folder, from the same files with the same options.
+  std::uint32_t shard = 0, shards = 1;
+  bool update = false;  // what has been made stays for the next run, which then makes again only what has changed
 };
 
 /// One of the files that make the world.
@@ -42,6 +48,9 @@ struct TilesMade {
   std::size_t n_cut = 0;                   // pieces of surfaces that are too large for a tile
   std::size_t n_lights = 0, n_routes = 0;  // that tiles cannot show
   std::uint64_t bytes = 0;
+  std::size_t n_kept = 0;  // tiles that were made before, from the same parts with the same options
+  bool whole = false;      // the set is there; it is not when other shards have something to make
+  std::size_t n_left = 0;  // tiles that were not there when this shard had made its own
 
   explicit operator bool() const { return ending == Ending::good || ending == Ending::partly; }
 };
@@ -50,7 +59,10 @@ struct TilesMade {
 /// be read costs itself. Writes `folder`/tileset.json, and its tiles into a folder next to it that is called after
 /// their contents; whole or not at all: tileset.json comes last, and what an earlier one referred to is removed then.
 ///
-/// Memory: one file with its scene, then a tile with its children on each thread, and 50 bytes for each part; the rest
+/// Tiles are kept in `folder`/.wrlkit until the set is whole: a run that was killed is gone on with by the next one,
+/// and shards find what the others have made. The last of them to end makes the tiles above, and the set.
+///
+/// Memory: one file with its scene, then a tile with its children on each thread, and 90 bytes for each part; the rest
 /// lies in a temporary file in `folder`, about as large as the vertices of the world. The same bytes for any number of
 /// threads.
 TilesMade make_tiles(std::span<const TilesInput> inputs, const std::string& folder, const TilesOptions& options,

@@ -8,3 +8,4 @@
 #include "convert/load.h"
 #include "convert/optimize.h"
 #include "convert/save.h"
+#include "convert/tiles.h"

@@ -1,10 +1,24 @@
 #include "convert/tiles/cells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace wrlkit::tiles {
 namespace {
+
+constexpr double least_share = 0.4;  // of what a cell draws, in each of its halves
+
+/// The number in (low, high] with the fewest binary digits.
+double roundest(double low, double high) {
+  if (!(low < high)) return high;
+  for (double step = std::exp2(std::ceil(std::log2(std::max({std::abs(low), std::abs(high), high - low}))));;
+       step /= 2) {
+    const double x = std::floor(high / step) * step;
+    if (x > low) return x;
+    if (step < 1e-3 * (high - low)) return high;
+  }
+}
 
 class Cutting {
  public:
@@ -58,18 +72,29 @@ class Cutting {
   /// Where the second half begins; neither is empty.
   std::uint32_t halve(Range r) {
     Box box;
-    for (auto i = r.first; i < r.second; ++i) box.add(pieces_[out_.order[i]].centre);
+    for (auto i = r.first; i < r.second; ++i) box.add(pieces_[out_.order[i]].box.centre());
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
       if (box.size(k) > box.size(axis)) axis = k;
     std::sort(out_.order.begin() + r.first, out_.order.begin() + r.second, [&](std::uint32_t a, std::uint32_t b) {
-      const double x = pieces_[a].centre[axis], y = pieces_[b].centre[axis];
+      const double x = pieces_[a].box.centre()[axis], y = pieces_[b].box.centre()[axis];
       return x != y ? x < y : a < b;
     });
-    const auto all = drawn(r);
-    std::uint64_t before = 0;
+    const auto all = static_cast<double>(drawn(r));
+    const auto low = reach(r, least_share * all), high = reach(r, (1 - least_share) * all);
+    const double plane = roundest(at(low - 1, axis), at(high, axis));
+    auto i = low;
+    while (i < high && at(i, axis) < plane) ++i;
+    return i;
+  }
+
+  double at(std::uint32_t i, std::size_t axis) const { return pieces_[out_.order[i]].box.centre()[axis]; }
+
+  /// Where what is before draws that much, or a little more; neither side is empty.
+  std::uint32_t reach(Range r, double wanted) const {
+    double before = 0;
     auto i = r.first;
-    while (i + 1 < r.second && 2 * before < all) before += pieces_[out_.order[i++]].n_drawn;
+    while (i + 1 < r.second && before < wanted) before += pieces_[out_.order[i++]].n_drawn;
     return std::max(i, r.first + 1);
   }
 

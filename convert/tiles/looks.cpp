@@ -24,6 +24,12 @@ class Taking {
     return std::move(key_);
   }
 
+  /// The same, with the contents of the pictures that key() has met.
+  ContentHash hash(std::string key) const {
+    for (const auto& path : pictures_) key += hash_of_file(path).value_or(ContentHash{}).hex();
+    return hash_of(key);
+  }
+
   NodeId copy(NodeId n, Scene& to) {
     if (!is_known(from_, n)) return {};
     const NodeId made = to.add(from_.type_id(n));
@@ -85,6 +91,7 @@ class Taking {
     const bool is_url = resources_ && from_.is(n, nodes::ImageTexture);
     for (const auto text : v.text_span()) {
       const auto target = is_url ? resources_->target(text, from_.where(n), *from_.sources) : UrlTarget{};
+      if (target.kind == UrlTarget::Kind::file) pictures_.push_back(target.path);
       out.push_back(target.kind == UrlTarget::Kind::file ? target.path : std::string(text));
     }
     return out;
@@ -93,6 +100,7 @@ class Taking {
   const Scene& from_;
   Resources* resources_;
   std::string key_;
+  std::vector<std::string> pictures_;
 };
 
 }  // namespace
@@ -100,7 +108,9 @@ class Taking {
 std::uint32_t Looks::add(const Scene& scene, NodeId appearance, Resources* resources) {
   Taking taking(scene, resources);
   const auto [at, is_new] = known_.try_emplace(taking.key(appearance), static_cast<std::uint32_t>(appearances_.size()));
-  if (is_new) appearances_.push_back(taking.copy(appearance, scene_));
+  if (!is_new) return at->second;
+  hashes_.push_back(taking.hash(at->first));
+  appearances_.push_back(taking.copy(appearance, scene_));
   return at->second;
 }
 

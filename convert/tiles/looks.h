@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/io/content_hash.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
 
@@ -16,6 +17,8 @@ class Looks {
   std::uint32_t add(const Scene& scene, NodeId appearance, Resources* resources);
 
   std::size_t size() const { return appearances_.size(); }
+  /// Of all that makes a look what it is, with the contents of its pictures.
+  const ContentHash& hash(std::uint32_t look) const { return hashes_[look]; }
   /// Nodes of scene(); none: the look of a Shape without an Appearance.
   NodeId appearance(std::uint32_t look) const { return appearances_[look]; }
   const Scene& scene() const { return scene_; }
@@ -23,6 +26,7 @@ class Looks {
  private:
   Scene scene_;
   std::vector<NodeId> appearances_;
+  std::vector<ContentHash> hashes_;
   std::unordered_map<std::string, std::uint32_t> known_;  // by all that is in it
 };
 

@@ -58,7 +58,6 @@ std::string pack(const Piece& piece) {
   const Mesh& m = piece.mesh;
   Packer out;
   out.list(std::span<const char>(piece.name));
-  out.number(piece.look);
   out.number(m.kind);
   out.number(static_cast<std::uint8_t>(m.solid * solid + m.convex * convex + m.primitive * primitive));
   out.number(m.crease_angle);
@@ -70,6 +69,7 @@ std::string pack(const Piece& piece) {
     out.list(std::span<const float>(a->values));
     out.list(std::span<const std::uint32_t>(a->index));
   }
+  out.number(piece.look);  // the last: the hash is of what stands before
   return std::move(out.bytes);
 }
 
@@ -78,7 +78,6 @@ Piece unpack(std::string_view bytes) {
   Piece piece;
   Mesh& m = piece.mesh;
   in.list(piece.name);
-  piece.look = in.number<std::uint32_t>();
   m.kind = in.number<Mesh::Kind>();
   const auto flags = in.number<std::uint8_t>();
   m.solid = flags & solid;
@@ -93,6 +92,7 @@ Piece unpack(std::string_view bytes) {
     in.list(a->values);
     in.list(a->index);
   }
+  piece.look = in.number<std::uint32_t>();
   return piece;
 }
 
@@ -138,11 +138,14 @@ std::optional<PieceStore> PieceStore::open(const std::string& folder, std::strin
 
 bool PieceStore::add(const Piece& piece, Entry& entry) {
   const auto bytes = pack(piece);
-  const Box box = bounds_of(piece.mesh);
+  entry = {.bytes = static_cast<std::uint32_t>(bytes.size()),
+           .n_drawn = static_cast<std::uint32_t>(n_drawn(piece.mesh)),
+           .box = bounds_of(piece.mesh),
+           .hash = hash_of(std::string_view(bytes).substr(0, bytes.size() - sizeof piece.look)),
+           .look = piece.look};
   {
     const std::scoped_lock lock(state_->mutex);
-    entry = {state_->end, static_cast<std::uint32_t>(bytes.size()), static_cast<std::uint32_t>(n_drawn(piece.mesh)),
-             box.centre()};
+    entry.offset = state_->end;
     state_->end += bytes.size();
   }
   const bool written = write_all(state_->fd, bytes, entry.offset);
@@ -154,6 +157,39 @@ bool PieceStore::add(const Piece& piece, Entry& entry) {
 Piece PieceStore::read(const Entry& entry) const {
   std::string bytes(entry.bytes, '\0');
   return read_all(state_->fd, bytes, entry.offset) ? unpack(bytes) : Piece{};
+}
+
+std::optional<std::uint64_t> write_pieces(const std::string& path, std::span<const Piece> pieces) {
+  std::string name = path + "-XXXXXX";
+  const int fd = mkostemp(name.data(), O_CLOEXEC);
+  if (fd < 0) return std::nullopt;
+  std::uint64_t end = 0;
+  bool written = true;
+  for (const auto& p : pieces) {
+    const auto bytes = pack(p);
+    Packer head;
+    head.number(static_cast<std::uint32_t>(bytes.size()));
+    written = written && write_all(fd, head.bytes, end) && write_all(fd, bytes, end + head.bytes.size());
+    end += head.bytes.size() + bytes.size();
+  }
+  close(fd);
+  if (written && rename(name.c_str(), path.c_str()) == 0) return end;
+  unlink(name.c_str());
+  return std::nullopt;
+}
+
+std::vector<Piece> read_pieces(const std::string& path) {
+  std::vector<Piece> out;
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  std::string head(sizeof(std::uint32_t), '\0'), bytes;
+  for (std::uint64_t at = 0; fd >= 0 && read_all(fd, head, at);) {
+    bytes.resize(Unpacker(head).number<std::uint32_t>());
+    if (!read_all(fd, bytes, at + head.size())) break;
+    out.push_back(unpack(bytes));
+    at += head.size() + bytes.size();
+  }
+  if (fd >= 0) close(fd);
+  return out;
 }
 
 }  // namespace wrlkit::tiles

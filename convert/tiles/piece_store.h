@@ -4,20 +4,24 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "base/io/content_hash.h"
 #include "convert/tiles/piece.h"
 
 namespace wrlkit::tiles {
 
 class PieceStore {
  public:
-  /// Where a piece is, and what is known of it without reading it. 40 bytes.
+  /// Where a piece is, and what is known of it without reading it. 88 bytes.
   struct Entry {
-    std::uint64_t offset;
-    std::uint32_t bytes, n_drawn;
-    Vec3 centre;
+    std::uint64_t offset = 0;
+    std::uint32_t bytes = 0, n_drawn = 0;
+    Box box = {};
+    ContentHash hash = {};  // of all but its look
+    std::uint32_t look = 0;
   };
 
   /// In a folder that must be there. Nothing, and why, when no file can be made in it.
@@ -39,5 +43,10 @@ class PieceStore {
   };
   std::unique_ptr<State> state_;
 };
+
+/// Writes pieces into a file of their own, whole or not at all. Its size, or nothing when it cannot be written.
+std::optional<std::uint64_t> write_pieces(const std::string& path, std::span<const Piece> pieces);
+/// What write_pieces has written; fewer when the disk fails.
+std::vector<Piece> read_pieces(const std::string& path);
 
 }  // namespace wrlkit::tiles

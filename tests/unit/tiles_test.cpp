@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
 
+#include "convert/tiles.h"
 #include "convert/tiles/cells.h"
 #include "convert/tiles/looks.h"
 #include "convert/tiles/piece_store.h"
@@ -25,6 +29,33 @@ Mesh square(double x, double y, double size) {
 
 tiles::Piece piece(std::string name, Mesh mesh) { return {std::move(name), 0, std::move(mesh)}; }
 
+/// Boxes in a row, in a file.
+TilesInput row_of_boxes(const TempFolder& folder, int n) {
+  std::ofstream file(folder / "row.wrl");
+  file << "#VRML V2.0 utf8\n";
+  for (int i = 0; i < n; ++i)
+    file << "DEF B" << i << " Transform { translation " << 3 * i << " 0 " << i % 7
+         << " children Shape { geometry Cylinder { } } }\n";
+  return {folder / "row.wrl", "row.wrl"};
+}
+
+/// All files below a folder with what is in them.
+std::map<std::string, std::string> files_of(const std::string& folder) {
+  std::map<std::string, std::string> out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    if (entry.is_regular_file())
+      out[entry.path().lexically_relative(folder).string()] = {std::istreambuf_iterator<char>(file), {}};
+  }
+  return out;
+}
+
+Box at(double x, double y, double z) {
+  Box out;
+  out.add({x, y, z});
+  return out;
+}
+
 }  // namespace
 
 TEST_CASE("tiles: a piece comes back from the disk as it was", "[tiles]") {
@@ -43,7 +74,7 @@ TEST_CASE("tiles: a piece comes back from the disk as it was", "[tiles]") {
   REQUIRE(store->add(first, a));
   REQUIRE(store->add(second, b));
   CHECK(a.n_drawn == 2);
-  CHECK(a.centre == Vec3{5e6 + 1, 1, 1});
+  CHECK(a.box.centre() == Vec3{5e6 + 1, 1, 1});
   const auto back = store->read(a);
   CHECK(back.name == first.name);
   CHECK(back.look == 7);
@@ -60,7 +91,7 @@ TEST_CASE("tiles: a piece comes back from the disk as it was", "[tiles]") {
 TEST_CASE("tiles: cells hold each piece once, within the budget, and are not empty", "[tiles]") {
   std::vector<tiles::PieceStore::Entry> pieces;
   for (std::uint32_t i = 0; i < 1000; ++i)
-    pieces.push_back({.offset = i, .bytes = 0, .n_drawn = 1 + i % 7, .centre = {double(i % 40), 0, double(i / 40)}});
+    pieces.push_back({.offset = i, .bytes = 0, .n_drawn = 1 + i % 7, .box = at(double(i % 40), 0, double(i / 40))});
   const auto cells = tiles::cut_into_cells(pieces, 100);
   std::vector<int> times(pieces.size());
   for (const auto& c : cells.cells) {
@@ -79,8 +110,56 @@ TEST_CASE("tiles: cells hold each piece once, within the budget, and are not emp
   CHECK(std::ranges::all_of(times, [](int n) { return n == 1; }));
 }
 
+TEST_CASE("tiles: a piece more or less leaves cells elsewhere as they are", "[tiles]") {
+  std::vector<tiles::PieceStore::Entry> pieces;
+  for (std::uint32_t i = 0; i < 2000; ++i)
+    pieces.push_back({.n_drawn = 10, .box = at(0.37 * i, 0, 0.01 * (i % 50)), .look = i});
+  const auto leaves = [&] {
+    const auto cells = tiles::cut_into_cells(pieces, 400);
+    std::set<std::set<std::uint32_t>> out;
+    for (const auto& c : cells.cells) {
+      std::set<std::uint32_t> looks;
+      for (auto i = c.begin; i < c.end; ++i) looks.insert(pieces[cells.order[i]].look);
+      if (c.children.empty()) out.insert(std::move(looks));
+    }
+    return out;
+  };
+  const auto before = leaves();
+  pieces.erase(pieces.begin() + 700);
+  const auto after = leaves();
+  std::vector<std::set<std::uint32_t>> same;
+  std::ranges::set_intersection(before, after, std::back_inserter(same));
+  CHECK(same.size() + 2 >= before.size());
+}
+
+TEST_CASE("tiles: shards make what one run makes, of tiles that are made of tiles, too", "[tiles]") {
+  const TempFolder folder;
+  const auto input = row_of_boxes(folder, 200);
+  TilesOptions options{.triangles = 200, .at_once = 900, .program = "test"};
+  Document reader;
+  const auto once = make_tiles({&input, 1}, folder / "once", options, reader);
+  REQUIRE(once.whole);
+  REQUIRE(once.depth >= 2);
+  options.shards = 3;
+  for (const std::uint32_t shard : {2u, 0u, 1u}) {
+    options.shard = shard;
+    CHECK(make_tiles({&input, 1}, folder / "shards", options, reader).whole == (shard == 1));
+  }
+  CHECK(files_of(folder / "once") == files_of(folder / "shards"));
+  SECTION("an update makes nothing again") {
+    options.shards = 1;
+    options.shard = 0;
+    options.update = true;
+    CHECK(make_tiles({&input, 1}, folder / "shards", options, reader).n_kept == 0);
+    const auto again = make_tiles({&input, 1}, folder / "shards", options, reader);
+    CHECK(again.n_kept == again.tiles.size());
+    options.save.compress = GltfCompression::Method::none;
+    CHECK(make_tiles({&input, 1}, folder / "shards", options, reader).n_kept == 0);
+  }
+}
+
 TEST_CASE("tiles: pieces in one place are cut, too", "[tiles]") {
-  const std::vector<tiles::PieceStore::Entry> pieces(9, {.offset = 0, .bytes = 0, .n_drawn = 50, .centre = {1, 2, 3}});
+  const std::vector<tiles::PieceStore::Entry> pieces(9, {.offset = 0, .bytes = 0, .n_drawn = 50, .box = at(1, 2, 3)});
   for (const auto& c : tiles::cut_into_cells(pieces, 60).cells)
     if (c.children.empty()) CHECK(c.end - c.begin == 1);
 }

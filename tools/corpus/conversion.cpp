@@ -20,16 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t largest_asset = std::uint64_t{4} << 30;
 
-/// Version, and contents of the file that this code is in: builds of one version may differ.
-std::string program() {
-  Dl_info info{};
-  std::string file = "/proc/self/exe";
-  if (dladdr(reinterpret_cast<void*>(&corpus_work), &info) &&
-      std::string_view(info.dli_fname).find(".so") != std::string_view::npos)
-    file = info.dli_fname;
-  return std::string(program_version()) + hash_of_file(file).value_or(ContentHash{}).hex();
-}
-
 std::vector<std::string> allowed_folders(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job) {
   auto all = work.flags.load.allow_paths;
   all.push_back(plan.roots[job.input.root]);
@@ -79,6 +69,15 @@ bool convert(const Flags& flags, const std::function<void(Scene&)>& last, Journa
 
 }  // namespace
 
+std::string program_identity() {
+  Dl_info info{};
+  std::string file = "/proc/self/exe";
+  if (dladdr(reinterpret_cast<void*>(&program_identity), &info) &&
+      std::string_view(info.dli_fname).find(".so") != std::string_view::npos)
+    file = info.dli_fname;
+  return std::string(program_version()) + hash_of_file(file).value_or(ContentHash{}).hex();
+}
+
 std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& why) {
   const auto recipe = read_recipe(corpus_flags.recipe, why);
   if (!recipe) return std::nullopt;
@@ -102,8 +101,8 @@ std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& wh
   std::erase_if(options, [](const auto& o) { return o.first == "python"; });
   std::string files;
   for (const auto& file : s.pipeline().files()) files += hash_of_file(file).value_or(ContentHash{}).hex() + "\n";
-  work.hash = hash_of(program() + "\n" + corpus_flags.format + "\n" + (f.load.strict ? "strict\n" : "") + files +
-                      recipe_text(options, f.warnings, s.pipeline()));
+  work.hash = hash_of(program_identity() + "\n" + corpus_flags.format + "\n" + (f.load.strict ? "strict\n" : "") +
+                      files + recipe_text(options, f.warnings, s.pipeline()));
   return work;
 }
 

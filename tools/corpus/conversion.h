@@ -17,6 +17,9 @@ struct CorpusWork {
   bool text = false;  // outputs are VRML or X3D, which refer to files beside them
 };
 
+/// Version, and contents of the file that this code is in: builds of one version may differ.
+std::string program_identity();
+
 /// Where a run writes down its whole recipe.
 std::string run_recipe(const std::string& out);
 /// Writes it, with the folders of the inputs; false when it cannot be written, which was printed.

@@ -1,17 +1,8 @@
 #include "tools/corpus/journal.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <utility>
 
 #include "base/text/json.h"
 #include "base/text/json_reader.h"
@@ -19,23 +10,7 @@
 namespace wrlkit {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::string_view states[] = {"made", "made-partly", "failed", "crashed", "timeout", "no-memory"};
-
-bool lock(int fd) {
-  // Workers of a run that was killed a moment ago hold it until they are gone, too.
-  for (int i = 0; i < 50; ++i, usleep(100'000))
-    if (flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
-  return false;
-}
-
-/// A line that was cut off stays what it is, and the next one begins on a line of its own.
-void end_cut_line(int fd) {
-  const auto size = lseek(fd, 0, SEEK_END);
-  char last = '\n';
-  if (size > 0 && pread(fd, &last, 1, size - 1) == 1 && last != '\n' && write(fd, "\n", 1) != 1) return;
-}
 
 }  // namespace
 
@@ -81,59 +56,19 @@ std::string name_in_journal(const std::string& name) {
 }
 
 std::optional<Journal> Journal::open(const std::string& folder, Shard shard, std::string& why) {
-  std::error_code fault;
-  fs::create_directories(folder, fault);
-  const auto path = fmt::format("{}/journal-{}-of-{}.jsonl", folder, shard.index + 1, shard.count);
-  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (fd < 0 && fault) {
-    why = folder + ": " + fault.message();
-    return std::nullopt;
-  }
-  if (fd < 0) {
-    why = path + ": " + std::strerror(errno);
-    return std::nullopt;
-  }
-  Journal journal(fd);
-  if (!lock(fd)) {
-    why = path + ": another run is writing it";
-    return std::nullopt;
-  }
-  end_cut_line(fd);
-  return journal;
+  auto lines = LineJournal::open(fmt::format("{}/journal-{}-of-{}.jsonl", folder, shard.index + 1, shard.count), why);
+  if (!lines) return std::nullopt;
+  return Journal(std::move(*lines));
 }
 
-Journal::Journal(Journal&& o) noexcept : fd_(std::exchange(o.fd_, -1)) {}
+bool Journal::append(const JournalLine& l) { return lines_.append(to_json(l)); }
 
-Journal::~Journal() {
-  if (fd_ >= 0) {
-    settle();
-    close(fd_);
-  }
-}
-
-bool Journal::append(const JournalLine& l) {
-  const auto text = to_json(l) + '\n';
-  const auto n = write(fd_, text.data(), text.size());
-  if (n >= 0 && n < static_cast<ssize_t>(text.size())) errno = ENOSPC;  // the half line is none
-  return n == static_cast<ssize_t>(text.size());
-}
-
-void Journal::settle() { fdatasync(fd_); }
+void Journal::settle() { lines_.settle(); }
 
 void read_journals(const std::string& folder, const std::function<void(JournalLine&&)>& take) {
-  std::vector<fs::path> paths;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    const auto name = entry.path().filename().string();
-    if (name.starts_with("journal-") && name.ends_with(".jsonl")) paths.push_back(entry.path());
-  }
-  // The journal that was written last has the last word.
-  std::ranges::sort(paths, {}, [&](const fs::path& p) { return std::pair(fs::last_write_time(p, none), p); });
-  for (const auto& path : paths) {
-    std::ifstream in(path);
-    for (std::string text; std::getline(in, text);)
-      if (auto l = journal_line(text)) take(std::move(*l));
-  }
+  read_journal_lines(folder, [&](const std::string& text) {
+    if (auto l = journal_line(text)) take(std::move(*l));
+  });
 }
 
 std::string corpus_folder(const std::string& out) { return out + "/.wrlkit"; }

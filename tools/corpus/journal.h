@@ -1,6 +1,5 @@
-// What has been done, a line of JSON a file, in OUT/.wrlkit/. A line is written at once behind the last one and nothing
-// is ever changed, so whatever ends a run leaves whole lines and at most one half, which is no line. Each shard has a
-// journal of its own; who reads takes all of them, and the last line about an output counts.
+// What has been done, a line of JSON a file (base/io/line_journal.h), in OUT/.wrlkit/. Each shard has a journal of its
+// own; who reads takes all of them, and the last line about an output counts.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -9,8 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/io/content_hash.h"
+#include "base/io/line_journal.h"
 #include "base/text/json.h"
-#include "tools/corpus/content_hash.h"
 #include "tools/corpus/plan.h"
 
 namespace wrlkit {
@@ -80,8 +80,6 @@ class Journal {
   /// Opens a shard's journal to write behind what it has. Nothing, and why, when it cannot be written or another run
   /// has it.
   static std::optional<Journal> open(const std::string& folder, Shard shard, std::string& why);
-  Journal(Journal&&) noexcept;
-  ~Journal();
 
   /// False when the line could not be written; errno says why.
   bool append(const JournalLine&);
@@ -89,8 +87,8 @@ class Journal {
   void settle();
 
  private:
-  explicit Journal(int fd) : fd_(fd) {}
-  int fd_;
+  explicit Journal(LineJournal lines) : lines_(std::move(lines)) {}
+  LineJournal lines_;
 };
 
 /// Every line of every journal of a run, journal by journal, in order. Memory: one line.

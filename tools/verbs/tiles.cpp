@@ -12,6 +12,7 @@
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/recipe.h"
 #include "tools/cli/session.h"
+#include "tools/corpus/conversion.h"
 #include "tools/corpus/inputs.h"
 
 namespace wrlkit {
@@ -34,11 +35,24 @@ std::vector<TilesInput> inputs_of(const Flags& flags) {
   return out;
 }
 
-TilesOptions options_of(const Flags& flags) {
-  TilesOptions out{.triangles = static_cast<std::size_t>(flags.tile_triangles), .save = flags.save};
+/// Nothing, which was printed, when --shard is not valid.
+std::optional<Shard> shard_of(const Flags& flags) {
+  std::string why;
+  const auto out = flags.shard.empty() ? Shard{} : parse_shard(flags.shard, why);
+  if (!out) fmt::print(stderr, "wrlkit tiles: --shard: {}\n", why);
+  return out;
+}
+
+TilesOptions options_of(const Flags& flags, Shard shard) {
+  TilesOptions out{.triangles = static_cast<std::size_t>(flags.tile_triangles),
+                   .save = flags.save,
+                   .program = program_identity(),
+                   .shard = shard.index,
+                   .shards = shard.count};
   const auto is_given = [&](std::string_view name) {
     return std::ranges::find(flags.given, name, &GivenOptions::value_type::first) != flags.given.end();
   };
+  out.update = is_given("update");
   if (!is_given("compress")) out.save.compress = GltfCompression::Method::meshopt;
   if (flags.at.size() < 3) return out;
   out.place = {flags.at[0], flags.at[1], flags.at[2], flags.at.size() > 3 ? flags.at[3] : 0};
@@ -73,6 +87,9 @@ std::vector<Level> levels_of(const TilesMade& made) {
 }
 
 std::string text_of(const TilesMade& made, const std::string& folder) {
+  if (!made.whole)
+    return fmt::format("{}: this shard has made its tiles; {} are left to others\n", folder,
+                       counted(made.n_left, "tile"));
   auto out = fmt::format("{} -> {}: {}, {} bytes\n  {}, {}\n", counted(made.n_files, "file"),
                          (std::filesystem::path(folder) / "tileset.json").string(), counted(made.tiles.size(), "tile"),
                          made.bytes, counted(made.triangles, "triangle"), counted(made.parts, "part"));
@@ -81,6 +98,7 @@ std::string text_of(const TilesMade& made, const std::string& folder) {
   for (std::size_t i = 0; i < levels.size(); ++i)
     out += fmt::format("{:>7}  {:>6}  {:>11}  {:>11}  {:>11.4g}\n", i, levels[i].n_tiles, levels[i].triangles,
                        levels[i].bytes, levels[i].error);
+  if (made.n_kept > 0) out += fmt::format("  tiles that were made before: {} of {}\n", made.n_kept, made.tiles.size());
   out += fmt::format("  the root shows {} of {} parts\n", made.tiles[0].parts, made.parts);
   if (made.n_failed > 0) out += fmt::format("  files that could not be read: {}\n", made.n_failed);
   if (made.n_cut > 0) out += fmt::format("  pieces of surfaces that are too large for a tile: {}\n", made.n_cut);
@@ -111,10 +129,13 @@ std::string json_of(const TilesMade& made) {
   json.member("parts", made.parts);
   json.member("bytes", made.bytes);
   json.member("depth", made.depth);
+  json.member("whole", made.whole);
+  json.member("kept", made.n_kept);
+  json.member("left", made.n_left);
   json.member("cut", made.n_cut);
   json.member("lights", made.n_lights);
   json.member("routes", made.n_routes);
-  json.member("levels", levels_of(made));
+  json.member("levels", made.whole ? levels_of(made) : std::vector<Level>());
   json.key("tiles");
   json.begin_array();
   for (const auto& tile : made.tiles) write_tile(json, tile);
@@ -139,9 +160,11 @@ bool check_place(const std::vector<double>& at) {
 int run_tiles(const Flags& flags) {
   Session s(flags);
   if (!s.good() || !check_place(flags.at)) return usage;
+  const auto shard = shard_of(flags);
+  if (!shard) return usage;
   const auto inputs = inputs_of(flags);
   if (inputs.empty()) return nothing;
-  const auto made = make_tiles(inputs, flags.output, options_of(flags), s.document());
+  const auto made = make_tiles(inputs, flags.output, options_of(flags, *shard), s.document());
   s.progress().clear();
   if (!made) return s.end(false);
   s.fact("tiles", json_of(made));

@@ -1,4 +1,4 @@
-#include "tools/corpus/content_hash.h"
+#include "base/io/content_hash.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
