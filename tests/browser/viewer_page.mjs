@@ -1,4 +1,4 @@
-// A page of `wrlkit view` in Chromium, opened from disk. Whatever it says on the console or asks of a network is a fault.
+// A page of `wrlkit view` in Chromium, opened from disk or from a server. Whatever it says on the console or asks of another site is a fault.
 import assert from 'node:assert';
 import {spawnSync} from 'node:child_process';
 import fs from 'node:fs';
@@ -19,15 +19,17 @@ export function wrlkit(program, ...args) {
   return run.stdout;
 }
 
-/// {page, faults}: the page when all of it is there; faults fills while it lives.
+/// {page, faults}: the page, a file or an address, when all of it is there; faults fills while it lives.
 export async function open_page(browser, file, {width = 1000, height = 640, fragment = '', dark = false, touch = false, ready = 'html[data-ready]'} = {}) {
   const context = await browser.newContext({viewport: {width, height}, colorScheme: dark ? 'dark' : 'light', hasTouch: touch});
   const page = await context.newPage();
   const faults = [];
   page.on('console', message => { if (['error', 'warning'].includes(message.type()) && !of_the_machine.test(message.text())) faults.push(`${message.type()}: ${message.text()}`); });
   page.on('pageerror', error => faults.push(`exception: ${error.stack ?? error}`));
-  page.on('request', request => { if (!/^(file|data|blob):/.test(request.url())) faults.push(`asks for ${request.url()}`); });
-  await page.goto(pathToFileURL(path.resolve(file)).href + fragment, {timeout: 120_000});
+  const served = file.startsWith('http:'), address = served ? file : pathToFileURL(path.resolve(file)).href;
+  const own = served ? url => url.startsWith(new URL(file).origin) : url => url.startsWith('file:');
+  page.on('request', request => { if (!/^(data|blob):/.test(request.url()) && !own(request.url())) faults.push(`asks for ${request.url()}`); });
+  await page.goto(address + fragment, {timeout: 120_000});
   try {
     await page.waitForSelector(ready, {timeout: 120_000, state: 'attached'});
   } catch (error) {
@@ -47,8 +49,8 @@ export async function judge(page, what) {
   return violations.length;
 }
 
-// What Chromium says about drawing without a graphics card, in headless tests only.
-const of_the_machine = /GL Driver Message|GPU stall due to ReadPixels|Automatic fallback to software WebGL/;
+// What Chromium says about drawing without a graphics card, in headless tests only; what 3d-tiles-renderer says about every tileset of 3D Tiles 1.1.
+const of_the_machine = /tiles versions at 1.1 or higher|GL Driver Message|GPU stall due to ReadPixels|Automatic fallback to software WebGL/;
 
 /// What the canvas shows, again.
 export const picture_of = page => page.evaluate(async () => {

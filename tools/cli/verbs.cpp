@@ -249,14 +249,14 @@ constexpr Verb all_verbs[] = {
      run_tiles},
     {"view",
      "a page to look at the world, to compare two, or a gallery of many: one HTML file that needs no other and no "
-     "network",
+     "network; or at tiles, which it loads from next to it",
      "wrlkit view plant.wrl -o plant.html\n  wrlkit view plant.wrl simpler.wrl -o compared.html\n  wrlkit view "
      "archive/ -o gallery.html\n  wrlkit view valve.wrl -o valve.html --criteria length-normal,melax\n  wrlkit view "
-     "plant.wrl --serve",
+     "plant.wrl --serve\n  wrlkit view tiles/ --serve\n  wrlkit view tiles/ -o tiles/index.html",
      [](CLI::App& v, Flags& f) {
        v.add_option("IN", f.inputs,
-                    "the world, or two worlds to be compared; for a gallery more of them, folders, globs, @FILE: a "
-                    "list of worlds")
+                    "the world, or two worlds to be compared; or a folder with a tileset.json; for a gallery more "
+                    "worlds, folders, globs, @FILE: a list of worlds")
            ->required();
        v.add_option("-o,--output", f.output, "file.html; - is standard output")->type_name("FILE");
        v.add_flag("--serve", f.serve,

@@ -72,15 +72,26 @@ bool is_meant(std::string_view request, std::uint16_t port) {
          head.find(fmt::format("\r\nhost: localhost:{}\r\n", port)) != head.npos;
 }
 
-void answer(int to, std::uint16_t port, const PageSource& page) {
+/// The address that a GET or HEAD asks for; empty: something else.
+std::string_view address_of(std::string_view head) {
+  const auto line = head.substr(0, head.find("\r\n"));
+  const auto begin = line.find(' ');
+  const auto method = line.substr(0, begin);
+  if (begin == line.npos || (method != "GET" && method != "HEAD")) return {};
+  const auto address = line.substr(begin + 1);
+  return address.substr(0, address.find(' '));
+}
+
+void answer(int to, std::uint16_t port, const Site& site) {
   set_patience(to);
   const auto head = head_of_request(to);
-  const bool known = is_meant(head, port) && (head.starts_with("GET / ") || head.starts_with("HEAD / "));
-  const auto html = known ? page() : nullptr;
-  const std::string_view body = html ? *html : std::string_view("not found\n");
-  send_all(to, fmt::format("HTTP/1.1 {}\r\nContent-Type: {}; charset=utf-8\r\nContent-Length: {}\r\nCache-Control: "
-                           "no-store\r\nConnection: close\r\n\r\n",
-                           known ? "200 OK" : "404 Not Found", known ? "text/html" : "text/plain", body.size()));
+  const auto address = is_meant(head, port) ? address_of(head) : std::string_view();
+  const auto found = address.starts_with('/') ? site(address) : std::nullopt;
+  const std::string_view body = found ? *found->bytes : std::string_view("not found\n");
+  send_all(to, fmt::format("HTTP/1.1 {}\r\nContent-Type: {}\r\nContent-Length: {}\r\nCache-Control: no-store\r\n"
+                           "X-Content-Type-Options: nosniff\r\nConnection: close\r\n\r\n",
+                           found ? "200 OK" : "404 Not Found", found ? found->type : "text/plain; charset=utf-8",
+                           body.size()));
   if (!head.starts_with("HEAD ")) send_all(to, body);
 }
 
@@ -88,7 +99,7 @@ std::string reason() { return std::generic_category().message(errno); }
 
 }  // namespace
 
-std::string serve_page(const PageSource& page) {
+std::string serve_site(const Site& site) {
   constexpr int most_clients = 32;  // at one time
   const Socket listener(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_in here{};
@@ -102,15 +113,15 @@ std::string serve_page(const PageSource& page) {
   const auto port = ntohs(here.sin_port);
   fmt::print("http://127.0.0.1:{}/\n", port);
   std::fflush(stdout);
-  // The source outlives the threads: nothing but the end of the process ends this loop as long as the listener is
+  // The site outlives the threads: nothing but the end of the process ends this loop as long as the listener is
   // there.
   static std::counting_semaphore<most_clients> places(most_clients);
   for (;;) {
     places.acquire();
     const int client = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
     if (client >= 0) {
-      std::thread([client, port, &page] {
-        answer(client, port, page);
+      std::thread([client, port, &site] {
+        answer(client, port, site);
         ::close(client);
         places.release();
       }).detach();

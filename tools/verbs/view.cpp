@@ -16,6 +16,7 @@
 #include "tools/report/deviation_map.h"
 #include "tools/verbs/serve.h"
 #include "tools/verbs/view_gallery.h"
+#include "tools/verbs/view_tileset.h"
 #include "tools/verbs/viewer_page.h"
 #include "writers/gltf/gltf.h"
 
@@ -190,7 +191,8 @@ class LivePage {
 }  // namespace
 
 int run_view(const Flags& flags) {
-  if (is_gallery(flags)) return view_gallery(flags);
+  const auto tiles = tileset_folder(flags.inputs);
+  if (tiles.empty() && is_gallery(flags)) return view_gallery(flags);
   Session s(flags);
   if (!is_usable(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;
   if (flags.print_pipeline) {
@@ -203,13 +205,17 @@ int run_view(const Flags& flags) {
                "(script/bootstrap)\n");
     return nothing;
   }
+  if (!tiles.empty()) return view_tileset(s, tiles);
   Viewer viewer(s);
   if (!viewer.fill()) return s.end(false);
   if (!flags.output.empty() && !write_page(s, viewer.page())) return s.end(false);
   const int code = s.end(true);
   if (!flags.serve) return code;
   LivePage live(flags, viewer.page());
-  fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_page([&] { return live.get(); }));
+  const auto site = [&](std::string_view address) {
+    return address == "/" ? std::optional(Served{html_type, live.get()}) : std::nullopt;
+  };
+  fmt::print(stderr, "wrlkit view: --serve: {}\n", serve_site(site));
   return nothing;
 }
 

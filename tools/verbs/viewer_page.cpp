@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "base/io/gzip.h"
 #include "base/text/base64.h"
 #include "base/text/json.h"
 
 #ifdef WRLKIT_VIEWER
-extern "C" const char wrlkit_viewer_begin[], wrlkit_viewer_end[];  // tools/verbs/viewer_template.S
+// tools/verbs/viewer_template.S
+extern "C" const char wrlkit_viewer_begin[], wrlkit_viewer_end[], wrlkit_tiles_begin[], wrlkit_tiles_end[];
 #endif
 
 namespace wrlkit {
@@ -17,6 +20,15 @@ namespace {
 std::string_view page_template() {
 #ifdef WRLKIT_VIEWER
   return {wrlkit_viewer_begin, static_cast<std::size_t>(wrlkit_viewer_end - wrlkit_viewer_begin)};
+#else
+  return {};
+#endif
+}
+
+/// The same for a tileset.
+std::string_view tiles_template() {
+#ifdef WRLKIT_VIEWER
+  return {wrlkit_tiles_begin, static_cast<std::size_t>(wrlkit_tiles_end - wrlkit_tiles_begin)};
 #else
   return {};
 #endif
@@ -45,6 +57,12 @@ class Files {
 std::string without_tags(std::string json) {
   for (std::size_t i = 0; (i = json.find('<', i)) != json.npos;) json.replace(i, 1, "\\u003c");
   return json;
+}
+
+void write_contents(std::string json, const Sink& sink) {
+  sink("<script type=\"application/json\" id=\"contents\">");
+  sink(without_tags(std::move(json)));
+  sink("</script>\n");
 }
 
 void write_apart(const ViewerPage::Apart& apart, Files& files, JsonOut& json) {
@@ -94,9 +112,15 @@ void write_data(const ViewerPage& page, const Sink& sink) {
   json.end_array();
   if (page.apart) write_apart(*page.apart, files, json);
   json.end_object();
-  sink("<script type=\"application/json\" id=\"contents\">");
-  sink(without_tags(std::move(text)));
-  sink("</script>\n");
+  write_contents(std::move(text), sink);
+}
+
+/// A page, with what `write_middle` writes where its mark is.
+void write_filled(std::string_view html, const std::function<void()>& write_middle, const Sink& sink) {
+  const auto at = html.find(mark);
+  sink(html.substr(0, at));
+  write_middle();
+  sink(html.substr(at + mark.size()));
 }
 
 }  // namespace
@@ -104,11 +128,19 @@ void write_data(const ViewerPage& page, const Sink& sink) {
 bool has_viewer() { return !page_template().empty(); }
 
 void write_viewer_page(const ViewerPage& page, const Sink& sink) {
-  const auto html = page_template();
-  const auto at = html.find(mark);
-  sink(html.substr(0, at));
-  write_data(page, sink);
-  sink(html.substr(at + mark.size()));
+  write_filled(
+      page_template(), [&] { write_data(page, sink); }, sink);
+}
+
+void write_tiles_page(const std::string& name, const std::string& tileset, const Sink& sink) {
+  std::string text;
+  JsonOut json(text);
+  json.begin_object();
+  json.member("name", name);
+  json.member("tileset", tileset);
+  json.end_object();
+  write_filled(
+      tiles_template(), [&] { write_contents(std::move(text), sink); }, sink);
 }
 
 }  // namespace wrlkit

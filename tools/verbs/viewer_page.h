@@ -1,5 +1,5 @@
-// The page that `view` writes: the viewer (viewer/, built by Vite and linked into the program as one HTML text) with
-// the worlds that it shows. What stands in the page is read by viewer/src/data.ts.
+// The pages that `view` writes: the viewer (viewer/, built by Vite and linked into the program as HTML texts) with the
+// worlds that it shows, or for a tileset. What stands in the page is read by viewer/src/data.ts and tiles_main.ts.
 #pragma once
 #include <optional>
 #include <string>
@@ -35,5 +35,8 @@ bool has_viewer();
 
 /// One HTML file. The data are packed (gzip) and written as base64.
 void write_viewer_page(const ViewerPage&, const Sink&);
+
+/// The page of a tileset, which it loads from `tileset`: an address, as seen from the page.
+void write_tiles_page(const std::string& name, const std::string& tileset, const Sink&);
 
 }  // namespace wrlkit

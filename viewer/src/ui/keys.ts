@@ -1,6 +1,15 @@
 // Keys that act wherever the focus is, but in a field that takes text.
-import type {WorldMode} from '../modes/world';
+import type {Mode, Stage} from '../view/stage';
 import type {Shell} from './shell';
+
+/// What keys act on.
+export interface KeyMode<P = unknown> extends Mode {
+  readonly stage: Stage;
+  readonly selected: P | null;
+  lookAt(part: P): void;
+  select(part: P | null): void;
+  goToNext?(by: 1 | -1): void;
+}
 
 /// Clicks what the page has for it, so that keys and buttons are the same thing.
 function press(selector: string): void {
@@ -8,7 +17,7 @@ function press(selector: string): void {
 }
 
 /// `world` is the one that is looked at.
-export function listenToKeys(shell: Shell, world: () => WorldMode): void {
+export function listenToKeys<P>(shell: Shell, world: () => KeyMode<P>): void {
   const keys: Record<string, () => void> = {
     '?': () => shell.openHelp(),
     '/': () => document.querySelector<HTMLInputElement>('.search input')?.focus(),
@@ -18,8 +27,8 @@ export function listenToKeys(shell: Shell, world: () => WorldMode): void {
       if (selected && stage.shows(world())) world().lookAt(selected);
       else stage.frameAll();
     },
-    v: () => world().goToNext(1),
-    V: () => world().goToNext(-1),
+    v: () => world().goToNext?.(1),
+    V: () => world().goToNext?.(-1),
     Escape: () => world().select(null),
     x: () => press('[data-key=x]'),
     b: () => press('[data-key=b]'),

@@ -2,39 +2,58 @@
 // parts scrolls.
 import {count} from './format';
 import {h} from './dom';
-import {namedAbove, type Part, type World} from '../world/world';
 
 const rowHeight = 24;
 
-interface Row {
-  part: Part;
+/// What a row shows.
+export interface TreePart<P> {
+  readonly node: number;      // no other has it
+  readonly name: string;      // empty when it has none
+  readonly type: string;
+  readonly extras: Record<string, unknown>;
+  readonly parent: P | null;
+  readonly children: readonly P[];
+  readonly triangles: number; // 0: not said
+}
+
+interface Row<P> {
+  part: P;
   depth: number;
 }
 
-export class Tree {
+/// The name of the nearest part above that has one; empty when there is none.
+export function namedAbove<P extends TreePart<P>>(part: P): string {
+  for (let above = part.parent; above; above = above.parent) if (above.name) return above.name;
+  return '';
+}
+
+export class Tree<P extends TreePart<P>> {
   readonly element: HTMLElement;
   private readonly search: HTMLInputElement;
   private readonly found = h('p', {class: 'found', role: 'status'});
   private readonly list: HTMLElement;
   private readonly space = h('div', {class: 'space', role: 'presentation'});
-  private readonly open = new Set<Part>();
-  private readonly texts = new Map<Part, string>();
-  private rows: Row[] = [];
-  private selected: Part | null = null;
+  private readonly open = new Set<P>();
+  private readonly texts = new Map<P, string>();
+  private rows: Row<P>[] = [];
+  private selected: P | null = null;
 
-  constructor(private readonly world: World, private readonly pick: (part: Part, closer: boolean) => void) {
+  /// `parts` may grow; refresh() shows what is new.
+  constructor(private readonly world: {readonly roots: readonly P[]; readonly parts: readonly P[]}, private readonly pick: (part: P, closer: boolean) => void) {
     this.search = h('input', {type: 'search', placeholder: 'Search names, types, extras', 'aria-label': 'Search parts', input: () => this.fill(), keydown: (e: KeyboardEvent) => this.searchKey(e)});
     this.list = h('div', {class: 'rows', role: 'tree', tabindex: 0, 'aria-label': 'Parts', scroll: () => this.draw(), keydown: (e: KeyboardEvent) => this.key(e)}, this.space);
     this.element = h('div', {class: 'tree'}, h('div', {class: 'search'}, this.search, this.found), this.list);
-    for (const part of world.roots) if (world.roots.length < 4) this.open.add(part);
     new ResizeObserver(() => this.draw()).observe(this.list);
+    this.refresh();
+  }
+
+  refresh(): void {
+    if (this.world.roots.length < 4 && this.open.size === 0) for (const part of this.world.roots) this.open.add(part);
     this.fill();
   }
 
-  focusSearch(): void { this.search.focus(); }
-
   /// Shows a part as selected, and where it is in the tree.
-  select(part: Part | null): void {
+  select(part: P | null): void {
     this.selected = part;
     for (let above = part?.parent; above; above = above.parent) this.open.add(above);
     if (part && !this.matches(part)) this.search.value = '';
@@ -43,13 +62,13 @@ export class Tree {
     if (i >= 0) this.reveal(i);
   }
 
-  private matches(part: Part): boolean {
+  private matches(part: P): boolean {
     const wanted = this.search.value.trim().toLowerCase();
     return !wanted || part.type.toLowerCase().startsWith(wanted) || this.textOf(part).includes(wanted);
   }
 
   /// Its name, and what is said in its extras: titles, addresses, metadata.
-  private textOf(part: Part): string {
+  private textOf(part: P): string {
     let text = this.texts.get(part);
     if (text === undefined) this.texts.set(part, text = [part.name, ...wordsOf(part.extras)].join('\n').toLowerCase());
     return text;
@@ -58,7 +77,7 @@ export class Tree {
   private fill(): void {
     const wanted = this.search.value.trim();
     this.rows = wanted ? this.world.parts.filter(p => this.matches(p)).map(part => ({part, depth: 0})) : [];
-    const add = (part: Part, depth: number): void => {
+    const add = (part: P, depth: number): void => {
       this.rows.push({part, depth});
       if (this.open.has(part)) for (const child of part.children) add(child, depth + 1);
     };
@@ -77,7 +96,7 @@ export class Tree {
     else this.list.removeAttribute('aria-activedescendant');
   }
 
-  private row({part, depth}: Row, index: number): HTMLElement {
+  private row({part, depth}: Row<P>, index: number): HTMLElement {
     const branch = part.children.length > 0 && !this.search.value.trim();
     const twist = h('span', {class: branch ? this.open.has(part) ? 'twist open' : 'twist' : 'twist leaf', 'aria-hidden': 'true'});
     const row = h('div', {
@@ -91,12 +110,12 @@ export class Tree {
   }
 
   /// What is said next to a name: the type, and of what was found where it is.
-  private about(part: Part): string {
+  private about(part: P): string {
     const type = part.name ? part.type : '', above = this.search.value.trim() ? namedAbove(part) : '';
     return above ? `${type} in ${above}`.trim() : type;
   }
 
-  private toggle(part: Part): void {
+  private toggle(part: P): void {
     if (!this.open.delete(part)) this.open.add(part);
     this.fill();
   }

@@ -11,8 +11,8 @@ function nearer<T extends Material>(material: T): T {
 }
 
 const edgeMaterial = nearer(new MeshBasicMaterial({wireframe: true, color: 0x14181d, transparent: true, opacity: 0.4}));
-const glow = nearer(new MeshBasicMaterial({color: 0x2f7bff, transparent: true, opacity: 0.28, depthWrite: false}));
-const glowEdges = nearer(new MeshBasicMaterial({color: 0x1e62e0, wireframe: true, transparent: true, opacity: 0.5}));
+export const glow = nearer(new MeshBasicMaterial({color: 0x2f7bff, transparent: true, opacity: 0.28, depthWrite: false}));
+export const glowEdges = nearer(new MeshBasicMaterial({color: 0x1e62e0, wireframe: true, transparent: true, opacity: 0.5}));
 
 /// Over the picture of a scene.
 export function drawEdges(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
@@ -26,13 +26,13 @@ export function drawEdges(renderer: WebGLRenderer, scene: Scene, camera: Perspec
   scene.overrideMaterial = null;
 }
 
-function marked<T extends Object3D>(o: T): T {
+export function marked<T extends Object3D>(o: T): T {
   o.userData['overlay'] = true;
   return o;
 }
 
 /// A copy of a mesh where it is, in another material.
-function copy(mesh: Mesh, material: Material): Mesh {
+export function copy(mesh: Mesh, material: Material): Mesh {
   const made = marked(new Mesh(mesh.geometry, material));
   made.matrixAutoUpdate = false;
   mesh.updateWorldMatrix(true, false);

@@ -11,7 +11,7 @@ export class Lights {
 
   private readonly eye = new Group();      // goes with the camera
 
-  constructor(scene: Scene, private readonly world: World) {
+  constructor(scene: Scene, private readonly world: Pick<World, 'lights' | 'navigation'>) {
     this.own = world.lights.find(light => light.name === 'headlight' || light.parent?.name === 'headlight');
     this.headlight.position.set(0, 0, 0);
     this.headlight.target.position.set(0, 0, -1);

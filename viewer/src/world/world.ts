@@ -2,6 +2,7 @@
 // which is a grouping node or a Shape of VRML.
 import {LevelSet} from 'wrlkit-three';
 import {Box3, type AnimationClip, type Light, type Mesh, type Object3D, type PerspectiveCamera} from 'three';
+import {namedAbove} from '../ui/tree';
 import type {GltfFile} from './file';
 
 export interface Part {
@@ -61,12 +62,6 @@ export function labelOf(part: Part): string {
   if (part.name) return part.name;
   const above = namedAbove(part);
   return above ? `${part.type} in ${above}` : part.type;
-}
-
-/// The name of the nearest part above that has one; empty when there is none.
-export function namedAbove(part: Part): string {
-  for (let above = part.parent; above; above = above.parent) if (above.name) return above.name;
-  return '';
 }
 
 /// The part to which an object of the scene belongs.
