@@ -43,6 +43,7 @@ ThreadLimit::ThreadLimit(int threads) : one_(threads == 1) {
   if (one_)
     ++limits_of_one;
   else if (threads > 0)
+    // NOLINTNEXTLINE(modernize-make-unique): makes no aggregates
     control_.reset(new Control{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
 }
 ThreadLimit::~ThreadLimit() {

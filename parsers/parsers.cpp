@@ -25,7 +25,8 @@ std::string_view without_bom(std::string_view s) { return s.starts_with("\xef\xb
 bool has_utf16_bom(std::string_view s) { return s.starts_with("\xff\xfe") || s.starts_with("\xfe\xff"); }
 
 bool contains_nocase(std::string_view text, std::string_view lower) {
-  return !std::ranges::search(text, lower, {}, to_lower).empty();
+  auto same = [](char a, char b) { return to_lower(a) == b; };
+  return std::search(text.begin(), text.end(), lower.begin(), lower.end(), same) != text.end();
 }
 
 // Without a header: which dialect has the statement that begins behind the comments?

@@ -158,7 +158,8 @@ bool SceneBuilder::try_route(const Pending& r) {
   if (!from || !to) return false;
   check_event(from, r.event_out, true, r.where);
   check_event(to, r.event_in, false, r.where);
-  scopes_.back().scope.routes.push_back({from, to, r.event_out, r.event_in});
+  if (!r.event_out.empty() && !r.event_in.empty())
+    scopes_.back().scope.routes.push_back({from, to, r.event_out, r.event_in});
   return true;
 }
 
@@ -201,7 +202,8 @@ bool SceneBuilder::try_link(const Link& l) {
 // The fields of a Script that is still open are not in its type yet; such a ROUTE is taken as it is.
 void SceneBuilder::check_event(NodeId n, std::string_view event, bool out, Span where) {
   const auto& t = scene_.type(n);
-  if (t.takes_any_field() || std::ranges::any_of(open_, [&](const Open& o) { return o.node == n; })) return;
+  const bool is_open = std::ranges::any_of(open_, [&](const Open& o) { return o.node == n; });
+  if (!event.empty() && (is_open || t.takes_any_field())) return;
   auto slot = t.find(event, scene_.dialect(), true);
   if (slot) {
     auto a = t.fields[*slot].access;

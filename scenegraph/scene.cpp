@@ -60,7 +60,6 @@ std::string_view Scene::field_name(NodeId n, const Value& v) const {
 }
 
 void Scene::set_fields(NodeId n, std::span<const Value> fields) {
-  assert(fields.size() <= 0xffff && "SceneBuilder refuses more than 60,000");
   auto& node = nodes_[n.value];
   if (fields.size() <= node.n_fields) {
     std::ranges::copy(fields, fields_.begin() + node.first_field);

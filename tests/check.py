@@ -18,6 +18,7 @@ they come behind the nodes, where no writer takes them for the world's leading c
   # CHECK-NEXT: height 3           the next one does
   # CHECK-NOT: radius              no line between the neighbouring CHECKs does
   # NEEDS: python                  the test is left out where the program was built without the Python package
+  # NEEDS: memory-limit            or where it cannot run below a limit, as what sanitizers build
   # EXPECT-EXIT: 3                 exit code of the RUN above; otherwise 1 when an error is expected, else 0
   # EXPECT-ERROR [unknown-field] no field 'radius'
                                    the command reports this on this line of this file, on its error output; likewise
@@ -75,9 +76,19 @@ class Faulty(Exception):
     pass
 
 
-def can_run(path, options):
-    """Whether there is what the test needs."""
-    return '# NEEDS: python\n' not in path.read_text(encoding='utf-8') or (options.wrlkit.parent / 'python/wrlkit/__main__.py').exists()
+def what_is_missing(options):
+    """Names behind NEEDS that this build has not got."""
+    missing = set()
+    if not (options.wrlkit.parent / 'python/wrlkit/__main__.py').exists():
+        missing.add('python')
+    limited = [options.wrlkit, 'info', ROOT / 'tests/text/cli/inputs/box.wrl', '--memory', '8G']
+    if subprocess.run(limited, capture_output=True, check=False).returncode != 0:
+        missing.add('memory-limit')
+    return missing
+
+
+def needs(path):
+    return set(re.findall(r'^# NEEDS: (\S+)$', path.read_text(encoding='utf-8'), re.MULTILINE))
 
 
 def parse(lines, folder):
@@ -292,9 +303,10 @@ def main():
     below = sorted(set(tests_below(options.tests)))
     if not below:
         sys.exit('check: there are no tests')
-    tests = [t for t in below if can_run(t, options)]
+    missing = what_is_missing(options)
+    tests = [t for t in below if not needs(t) & missing]
     if len(tests) < len(below):
-        print(f'{len(below) - len(tests)} tests need Python and are left out')
+        print(f'{len(below) - len(tests)} tests are left out, for there is no {" and no ".join(sorted(missing))}')
     with ThreadPoolExecutor(options.jobs) as pool:
         results = list(pool.map(lambda t: run_test(t, options), tests))
     failed = [(t, faults) for t, faults in zip(tests, results) if faults]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The layer law: data flows one way, so a folder sees itself and what lies below it, by its includes and by the symbols of
-its objects. Third-party headers stand in sources only, and in none of the scene graph.
+its objects. Third-party headers stand in sources only, and in none of the scene graph. A source includes its header first.
 
   tests/layers.py [--objects DIR]     DIR: where the library's objects lie, in the tree of its sources
 """
@@ -38,6 +38,16 @@ def include_faults():
                     yield f'{where}: third-party header {m[1]}'
 
 
+def order_faults():
+    """A header is complete by itself: where it has a source of its name, that includes it before all others."""
+    for folder in below:
+        for path in sorted((root / folder).rglob('*.cpp')):
+            own = path.with_suffix('.h').relative_to(root).as_posix()
+            first = re.search(r'^#include (.*)$', path.read_text(), re.MULTILINE)
+            if (root / own).exists() and first and first[1] != f'"{own}"':
+                yield f'{path.relative_to(root)}: its first include is {first[1]}, not "{own}"'
+
+
 def symbols(objects, option):
     """Symbols of wrlkit's own by object: those it defines, or those it asks others for."""
     out = subprocess.run(['nm', '-A', option, *map(str, objects)], capture_output=True, text=True, check=True).stdout
@@ -67,6 +77,6 @@ def symbol_faults(folder_of_objects):
 arguments = argparse.ArgumentParser()
 arguments.add_argument('--objects', type=pathlib.Path)
 objects = arguments.parse_args().objects
-faults = [*include_faults(), *(symbol_faults(objects) if objects else [])]
+faults = [*include_faults(), *order_faults(), *(symbol_faults(objects) if objects else [])]
 print('\n'.join(faults) or 'all includes and symbols go the right way')
 sys.exit(bool(faults))

@@ -1,4 +1,5 @@
 // One HTML file: script and style stand in it, so that it opens from disk and can be mailed. `--mode tiles` makes the page of a tileset.
+import {fileURLToPath} from 'node:url';
 import {defineConfig, type Plugin} from 'vite';
 
 function inline(name: string): Plugin {
@@ -33,6 +34,7 @@ const oneDecoder: Plugin = {
 // The built files of this package bring along all of its plugins.
 const sources = '3d-tiles-renderer/src';
 const alias = [
+  {find: 'wrlkit-three', replacement: fileURLToPath(new URL('../integrations/three/src/index.ts', import.meta.url))},
   {find: /^3d-tiles-renderer\/core$/, replacement: `${sources}/core/renderer/index.js`},
   {find: /^3d-tiles-renderer\/three$/, replacement: `${sources}/three/renderer/index.js`},
   {find: /^3d-tiles-renderer\/three\/plugins$/, replacement: `${sources}/three/plugins/GLTFExtensionsPlugin.js`},
@@ -43,7 +45,7 @@ export default defineConfig(({mode}) => {
   return {
     base: './',
     plugins: [oneDecoder, inline(page)],
-    resolve: {alias},
+    resolve: {alias, dedupe: ['three']},
     build: {target: 'es2022', modulePreload: false, cssCodeSplit: false, assetsInlineLimit: 1e8, emptyOutDir: false, chunkSizeWarningLimit: 2000, rollupOptions: {input: page}},
   };
 });

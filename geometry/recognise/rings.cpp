@@ -21,8 +21,10 @@ std::vector<std::vector<std::uint32_t>> RingWalk::loops_around(std::uint32_t reg
     }
   std::ranges::sort(edges, {}, [&](auto h) { return p_.origin[h]; });
   auto from = [&](std::uint32_t point) {
-    const auto found = std::ranges::equal_range(edges, point, {}, [&](auto h) { return p_.origin[h]; });
-    return found.size() == 1 ? static_cast<std::size_t>(found.begin() - edges.begin()) : edges.size();
+    auto origin = [&](auto h) { return p_.origin[h]; };
+    const auto first = std::ranges::lower_bound(edges, point, {}, origin);
+    const auto last = std::ranges::upper_bound(edges, point, {}, origin);
+    return last - first == 1 ? static_cast<std::size_t>(first - edges.begin()) : edges.size();
   };
   std::vector<char> used(edges.size());
   std::vector<std::vector<std::uint32_t>> out;
@@ -193,7 +195,7 @@ void RingWalk::align(const std::vector<std::uint32_t>& ring, std::vector<std::ui
       shift = s;
     }
   }
-  std::ranges::rotate(back, back.begin() + static_cast<std::ptrdiff_t>(shift));
+  std::rotate(back.begin(), back.begin() + static_cast<std::ptrdiff_t>(shift), back.end());
 }
 
 void RingWalk::take_region(std::uint32_t region, std::vector<std::uint32_t>& faces) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/math/digits.h"
 #include "geometry/geometry.h"
 #include "scenegraph/child_lists.h"
 #include "scenegraph/declared_protos.h"
@@ -35,7 +36,7 @@ Sphere bounding_sphere(const Mesh& mesh) {
       high[k] = i ? std::max(high[k], x) : x;
     }
   Sphere s;
-  for (std::size_t k = 0; k < 3; ++k) s.center[k] = static_cast<float>((low[k] + high[k]) / 2);
+  for (std::size_t k = 0; k < 3; ++k) s.center[k] = decimal(static_cast<float>((low[k] + high[k]) / 2));
   for (auto c : mesh.corners) {
     double d = 0;
     for (std::size_t k = 0; k < 3; ++k) d += std::pow(mesh.positions[c * std::size_t{3} + k] - s.center[k], 2);

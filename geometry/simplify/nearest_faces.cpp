@@ -31,9 +31,9 @@ struct Vec3f {
 /// An edge from where the points are measured from.
 struct Edge {
   Vec3f along;
-  float inverse;  // of the squared length; of no length: 0
+  float inverse = 0;  // of the squared length; of no length: 0
 
-  explicit Edge(const Vec3& e) : along(e), inverse(0) {
+  explicit Edge(const Vec3& e) : along(e) {
     if (const double all = dot(e, e); all > 1e-30) inverse = static_cast<float>(1 / all);
   }
   Four squared(const Points& p) const {

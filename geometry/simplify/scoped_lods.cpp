@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "base/math/digits.h"
 #include "base/math/saturating.h"
 #include "scenegraph/child_lists.h"
 #include "scenegraph/nodes.h"
@@ -24,8 +25,8 @@ class ScopedLodMaker {
     const NodeId world = options_.scope == LodScope::world ? gather_roots() : NodeId{};
     shown_ = shown_nodes(scene_);
     nodes_.resize(scene_.node_count());
-    for (std::size_t i = 0; i < surfaces_.size(); ++i)
-      for (NodeId shape : surfaces_[i].surface.shapes) nodes_[shape.value].surface = &surfaces_[i];
+    for (auto& s : surfaces_)
+      for (NodeId shape : s.surface.shapes) nodes_[shape.value].surface = &s;
     for (NodeId n : shown_) measure(n);
     if (world)
       add_lod(world);
@@ -195,7 +196,7 @@ class ScopedLodMaker {
     }
     const NodeId lod = scene_.add(nodes::LOD, scene_.where(n));
     Vec3 center = here.bounds.centre();
-    for (double& x : center) x = static_cast<float>(x);
+    for (double& x : center) x = decimal(static_cast<float>(x));
     scene_.set(lod, nodes::lod::children, children);
     scene_.set(lod, nodes::lod::center, center);
     scene_.set(lod, nodes::lod::range, range);

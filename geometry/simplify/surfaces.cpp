@@ -10,9 +10,9 @@
 namespace wrlkit {
 namespace {
 
-class Choice {
+class SurfaceSearch {
  public:
-  Choice(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text)
+  SurfaceSearch(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text)
       : scene_(scene), diag_(diag), below_(below), text_(text), order_(all_nodes(scene)), kept_(scene.node_count()) {}
 
   std::vector<ShapeSurface> run() {
@@ -106,7 +106,7 @@ class Choice {
 }  // namespace
 
 std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text) {
-  return Choice(scene, diag, below, text).run();
+  return SurfaceSearch(scene, diag, below, text).run();
 }
 
 SurfaceReader::SurfaceReader(const Scene& scene, Task& ctx, const Tessellation& faces)

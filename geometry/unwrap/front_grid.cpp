@@ -29,7 +29,7 @@ bool overlap(const Triangle2& a, const Triangle2& b) {
 
 void FrontGrid::reset(double cell, std::size_t n) {
   scale_ = 1 / cell;
-  int bits = std::max<int>(4, std::bit_width(n));
+  const int bits = std::max(4, static_cast<int>(std::bit_width(n)));
   shift_ = 32 - bits;
   head_.assign(std::size_t{1} << bits, end);
   entries_.clear();

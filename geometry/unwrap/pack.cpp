@@ -67,7 +67,9 @@ class Filler {
   }
 
  private:
-  static std::size_t size_class(int n) { return n < 16 ? n : std::min(63., 4 * std::log2(n)); }
+  static std::size_t size_class(int n) {
+    return static_cast<std::size_t>(n < 16 ? n : std::min(63., 4 * std::log2(n)));
+  }
 
   void turn(const Bitmap& bitmap) {
     masks_[0].make(bitmap);

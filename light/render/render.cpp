@@ -123,7 +123,8 @@ Box room_to_turn(const Box& box) {
 
 }  // namespace
 
-RenderOptions with_camera(const Scene& scene, const MeshSource& source, RenderOptions options, Diagnostics& diag) {
+RenderOptions with_camera(const Scene& scene, const MeshSource& source, const RenderOptions& options,
+                          Diagnostics& diag) {
   const Stage stage = set_stage(scene, diag);
   return seen_by(choose_camera(scene, stage, options, diag, [&] { return bounds_of(scene, stage, source, diag); }),
                  options);

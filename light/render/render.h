@@ -69,7 +69,8 @@ Image render(const Scene& scene, const MeshSource& meshes, const RenderOptions& 
 
 /// The options with the camera that render() would take for this scene spelled out: for pictures of other worlds from
 /// the same place.
-RenderOptions with_camera(const Scene& scene, const MeshSource& meshes, RenderOptions options, Diagnostics& diag);
+RenderOptions with_camera(const Scene& scene, const MeshSource& meshes, const RenderOptions& options,
+                          Diagnostics& diag);
 
 /// The options for `n` pictures around the world: the camera goes once around the vertical through the middle of it, to
 /// the right first. Without `look_at` and `viewpoint` it sees all of the world from each side, from above.

@@ -97,6 +97,7 @@ class Expansion {
 
   Outcome run() {
     visit_all({scene_.main.roots.begin(), scene_.main.roots.end()});
+    // NOLINTNEXTLINE(modernize-loop-convert): the list grows
     for (std::size_t i = 0; i < hidden_.size(); ++i) visit_all({hidden_[i]});
     if (!expanded_) return Outcome::unchanged;
     finish();

@@ -101,7 +101,7 @@ class Meshes {
 /// Of the names on the way to a Shape the nearest one that fits counts.
 double density_of(const NamedDensities& densities, const Scene& scene, const drawing::Stage& stage, std::uint32_t use) {
   for (std::uint32_t n = stage.uses[use].name; n; n = stage.names[n].parent)
-    if (const double factor = densities.of(scene.name(stage.names[n].node))) return factor;
+    if (const double factor = densities.of(scene.name(stage.names[n].node)); factor != 0) return factor;
   return 1;
 }
 

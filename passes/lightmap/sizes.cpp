@@ -43,6 +43,7 @@ void split_by_size(std::vector<Part>& parts, const drawing::Stage& stage,
       groups[at->second].push_back(u);
     }
     for (std::size_t g = 0; g < groups.size(); ++g) {
+      // NOLINTNEXTLINE(bugprone-use-after-move): only the last one is moved
       Part& one = out.emplace_back(g + 1 < groups.size() ? p : std::move(p));
       one.uses = std::move(groups[g]);
       one.density = density(one.uses[0]);

@@ -12,7 +12,7 @@ export const has_chromium = fs.existsSync(chromium);
 
 const types = {'.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.png': 'image/png', '.glb': 'model/gltf-binary', '.wasm': 'application/wasm', '.json': 'application/json'};
 
-function serve_file(folders, url, response) {
+export function serve_file(folders, url, response) {
   const [, top, ...rest] = decodeURIComponent(new URL(url, 'http://localhost').pathname).split('/');
   const file = folders[top] && !rest.includes('..') ? path.join(folders[top], ...rest) : '';
   if (!file || !fs.existsSync(file)) return response.writeHead(404).end();

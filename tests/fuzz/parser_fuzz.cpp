@@ -56,18 +56,19 @@ void read_back(const Scene& scene) {
   const auto text = text_of(scene);
   auto again = parse_world(text, "again", {}, diag);
   require(again != nullptr, "what was written is not read\n" + text);
+  if (has_ambiguous_proto(scene)) return;
   auto other = difference(scene, again->scene);
   bool renamed = other.find(": name '") != other.npos && has_name_twice(scene);
-  require(other.empty() || renamed || has_ambiguous_proto(scene),
-          "what was written reads as another scene: " + other + "\n" + text);
+  require(other.empty() || renamed, "what was written reads as another scene: " + other + "\n" + text);
   const auto second = text_of(again->scene);
   require(second == text, "written twice, not the same\n" + text + "\nthen\n" + second);
 }
 
 void run_passes(Scene scene) {
   std::string why;
-  auto pipeline =
-      Pipeline::parse("lower-vrml1{limit=5000},expand-protos{limit=5000},prune,tessellate,normals,triangulate", why);
+  constexpr auto passes =
+      "lower-vrml1{limit=5000},expand-protos{limit=5000},lower-x3d{vrml97=true},prune,tessellate,normals,triangulate";
+  auto pipeline = Pipeline::parse(passes, why);
   require(pipeline.has_value(), why);
   Diagnostics diag;
   Statistics statistics;

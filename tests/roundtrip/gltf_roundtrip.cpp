@@ -103,9 +103,18 @@ class Comparison {
     }
     ++tally_["nodes"].equal;
     if (!a_.name(x).empty()) name(x, y);
+    if (!has_points(a_, x) || !has_points(b_, y)) return fields(x, y);
     if (a_.is(x, nodes::IndexedFaceSet)) return polygons(x, y, "polygons", polygons_of);
     if (a_.is(x, nodes::IndexedLineSet)) return polygons(x, y, "polylines", polylines_of);
     fields(x, y);
+  }
+
+  /// Whether the coordinates of a geometry, if it has any, are a Coordinate, not CoordinateDouble or GeoCoordinate.
+  static bool has_points(const Scene& s, NodeId geometry) {
+    const NodeId coord = s.is(geometry, nodes::IndexedFaceSet)   ? s.get(geometry, nodes::indexed_face_set::coord)
+                         : s.is(geometry, nodes::IndexedLineSet) ? s.get(geometry, nodes::indexed_line_set::coord)
+                                                                 : NodeId{};
+    return !coord || s.is(coord, nodes::Coordinate);
   }
 
   /// Instances of a prototype have the names of its body; what a ROUTE refers to among them gets a number.

@@ -231,7 +231,8 @@ TEST_CASE("pipeline: what makes meshes says how finely", "[pipeline]") {
     auto world = read("DEF A Transform { translation 1 0 0 children Shape { geometry Cylinder { } } }", diag);
     auto pipeline = Pipeline::parse("flatten{segments=" + std::to_string(segments) + "}", why);
     REQUIRE(pipeline->run(world->scene, ctx));
-    const auto meshes = Pipeline::parse("", why)->run_lazily(world->scene, ctx);
+    auto reading = Pipeline::parse("", why);
+    const auto meshes = reading->run_lazily(world->scene, ctx);
     CHECK(meshes(geometries(world->scene).at(0)).n_faces() == static_cast<std::size_t>(segments) + 2);
   }
 }

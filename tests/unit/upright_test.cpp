@@ -104,7 +104,7 @@ TEST_CASE("parts that stand alike have one frame, whichever point comes first", 
   Form one = form_of(angle_profile()), other = one;
   auto& points = std::get<PrismForm>(other.shape).points;
   for (Vec2& p : points) p = {p[1], -p[0]};
-  std::ranges::rotate(points, points.begin() + 2);
+  std::rotate(points.begin(), points.begin() + 2, points.end());
   other.frame = other.frame * rotation_matrix({0, 1, 0, -pi / 2});
   REQUIRE(same_corners(points_of(one), points_of(other)));
   turn_upright(one);

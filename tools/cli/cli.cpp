@@ -28,7 +28,9 @@ using cli::verbs;
 std::vector<std::string> take_warning_flags(std::vector<std::string>& words) {
   std::vector<std::string> out;
   std::erase_if(words, [&](const std::string& w) {
-    return w.starts_with("-W") && w.size() > 2 && (out.push_back(w.substr(2)), true);
+    if (!w.starts_with("-W") || w.size() == 2) return false;
+    out.push_back(w.substr(2));
+    return true;
   });
   return out;
 }

@@ -50,7 +50,7 @@ std::vector<std::string> words(const std::string& text) {
   return out;
 }
 
-std::vector<std::string> split(std::string s, const char* separators) {
+std::vector<std::string> split(const std::string& s, const char* separators) {
   std::vector<std::string> out;
   std::string part;
   for (char c : s)

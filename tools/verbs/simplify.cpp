@@ -30,7 +30,7 @@ std::string stem_of(const std::string& path) {
 }
 
 /// What the flags ask for; nothing when they make no sense, which was printed.
-std::optional<WorldSimplifyOptions> options_of(const Flags& f) {
+std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
   WorldSimplifyOptions o;
   CriterionName criterion;
   if (!f.criterion.empty()) criterion.read(f.criterion);
@@ -209,7 +209,7 @@ std::string_view standard_pipeline(const Flags& flags) {
 
 int run_simplify(const Flags& flags) {
   Session s(flags);
-  auto options = options_of(flags);
+  auto options = world_options_of(flags);
   if (!options || !s.good() || !s.choose_pipeline(standard_pipeline(flags))) return usage;
   if (flags.print_pipeline) {
     fmt::print("{}\n", s.pipeline().text());

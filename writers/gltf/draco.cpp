@@ -38,7 +38,7 @@ void add(draco::Mesh& mesh, const DracoValues& v) {
   auto* to = mesh.attribute(mesh.AddAttribute(a, false, static_cast<std::uint32_t>(first.size())));
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     const float* value = v.values.data() + std::size_t{first[i]} * v.width;
-    const auto number = static_cast<std::uint16_t>(*value);
+    const auto number = static_cast<std::uint16_t>(whole ? *value : 0);
     to->SetAttributeValue(draco::AttributeValueIndex(i), whole ? static_cast<const void*>(&number) : value);
   }
   for (std::uint32_t i = 0; i < n; ++i)

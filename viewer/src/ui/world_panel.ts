@@ -3,7 +3,7 @@ import {Vector3, type MeshStandardMaterial, type Texture} from 'three';
 import type {WorldMode} from '../modes/world';
 import {state} from '../state';
 import {formOf, otherColor} from '../world/forms';
-import {lightOf} from '../world/lightmaps';
+import {lightOf} from 'wrlkit-three';
 import type {Lighting} from '../world/lights';
 import type {Look} from '../world/looks';
 import {bytesByKind, heaviest, unpackedBytes} from '../world/statistics';

@@ -1,7 +1,7 @@
 // A plant is thousands of small meshes. Those that stand still are drawn by material, in one call each; materials that differ in nothing
 // but their colour are one. The meshes themselves stay in the tree, unseen, for everything else: picking, boxes, selection.
 import {BatchedMesh, Color, DoubleSide, Group, Matrix4, MeshLambertMaterial, type BufferAttribute, type BufferGeometry, type Material, type Mesh, type MeshBasicMaterial, type MeshStandardMaterial, type Object3D, type Scene} from 'three';
-import {directionsKey} from './directed_light';
+import {directionsKey} from 'wrlkit-three';
 import {otherColor} from './forms';
 import type {Look, Looks} from './looks';
 import {isShown, type World} from './world';

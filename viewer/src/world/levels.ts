@@ -1,11 +1,10 @@
 // Levels of detail (MSFT_lod): which of them is shown, by distance as the file says, or one for all.
-import {MathUtils, MeshLambertMaterial, Vector3, type Box3, type Mesh, type Object3D, type PerspectiveCamera} from 'three';
+import {fieldOfView} from 'wrlkit-three';
+import {MathUtils, MeshLambertMaterial, type Box3, type Mesh, type Object3D, type PerspectiveCamera} from 'three';
 import type {Looks} from './looks';
 import type {Levels, World} from './world';
 
-/// VRML's standard field of view, in degrees, for which coverage is written (writers/gltf/document/levels.h).
-export const fieldOfView = MathUtils.radToDeg(0.785398);
-const tangent = Math.tan(0.785398 / 2);
+const tangent = Math.tan(MathUtils.degToRad(fieldOfView) / 2);
 /// Height of the screen for which `wrlkit` chooses the ranges of levels: a level begins where it is wrong by a pixel of it.
 export const screen = 1080;
 
@@ -34,14 +33,14 @@ export class LevelControl {
     const switched: Box3[] = [];
     const figures: LevelFigures = {shown: Array<number>(this.most).fill(0), triangles: Array<number>(this.most).fill(0), pixels: 0};
     this.world.levels.forEach((l, i) => {
-      const radius = radiusOf(l), distance = camera.position.distanceTo(l.box.getCenter(new Vector3()));
-      const level = this.fixed === null ? byDistance(l, radius / (distance * tangent)) : Math.min(this.fixed, l.levels.length - 1);
+      const distance = l.distanceTo(camera.position);
+      const level = this.fixed === null ? l.levelAt(distance) : Math.min(this.fixed, l.levels.length - 1);
       if (level !== this.at[i]) switched.push(l.box);
       this.at[i] = level;
       l.levels.forEach((o, k) => { o.visible = k === level && !l.part.object.userData['hidden']; });
       ++figures.shown[level]!;
       figures.triangles[level]! += l.triangles[level]!;
-      figures.pixels = Math.max(figures.pixels, pixelError(l, level, radius, distance) * height / screen * tangent / Math.tan(MathUtils.degToRad(camera.fov) / 2));
+      figures.pixels = Math.max(figures.pixels, pixelError(l, level, distance) * height / screen * tangent / Math.tan(MathUtils.degToRad(camera.fov) / 2));
     });
     this.figures = figures;
     return switched;
@@ -54,22 +53,10 @@ export class LevelControl {
   }
 }
 
-export const radiusOf = (l: Levels): number => l.box.isEmpty() ? 0 : l.box.getSize(new Vector3()).length() / 2;
-
-/// From the eye to the middle, in metres, where the level behind this one takes its place; 0 when that is not said.
-export function switchDistance(l: Levels, level: number): number {
-  const least = l.coverage[level];
-  return least ? radiusOf(l) / (least * tangent) : 0;
-}
-
-function byDistance(l: Levels, coverage: number): number {
-  const level = l.coverage.findIndex(least => coverage >= least);
-  return level < 0 ? 0 : Math.min(level, l.levels.length - 1);
-}
-
 /// At the near side of the ball, a level is as wrong as one pixel where it begins.
-function pixelError(l: Levels, level: number, radius: number, distance: number): number {
-  const begins = level > 0 ? switchDistance(l, level - 1) : 0;
+function pixelError(l: Levels, level: number, distance: number): number {
+  const radius = l.radius;
+  const begins = level > 0 ? l.switchDistance(level - 1) : 0;
   if (begins === 0) return 0;
   return distance > radius ? Math.max(0, begins - radius) / (distance - radius) : Infinity;
 }

@@ -2,8 +2,8 @@
 import {Box3, type Light, type Line, type Mesh, type Object3D, PerspectiveCamera, type Points, type PointsMaterial, Vector3} from 'three';
 import {GLTFLoader, type GLTF} from 'three/addons/loaders/GLTFLoader.js';
 import {accessorBytes, accessorsOf, trianglesOf, typeOf, vrmlOf, type GltfFile} from './file';
-import {bakedLight} from './lightmaps';
-import type {Levels, Navigation, Part, Viewpoint, World} from './world';
+import {levelsOf, WrlkitPlugin} from 'wrlkit-three';
+import {Levels, type Navigation, type Part, type Viewpoint, type World} from './world';
 
 /// Triangles, lines or points.
 const isDrawn = (o: Object3D): o is Mesh => (o as Mesh).isMesh || (o as Line).isLine || (o as Points).isPoints;
@@ -17,12 +17,16 @@ class Builder {
   readonly parts: Part[] = [];
   private readonly file: GltfFile;
 
+  private readonly coarser: Set<Object3D>;
+
   constructor(private readonly gltf: GLTF) {
     this.file = gltf.parser.json as GltfFile;
+    this.coarser = new Set(levelsOf(gltf).flatMap(set => set.levels.slice(1)));
   }
 
   /// The parts at an object and below it.
   build(o: Object3D, parent: Part | null): Part[] {
+    if (this.coarser.has(o)) return [];
     const node = nodeOf(this.gltf, o);
     if (node === undefined) return o.children.flatMap(child => this.build(child, parent));
     const part = this.part(o, node, parent);
@@ -68,23 +72,12 @@ class Builder {
   }
 }
 
-/// Hangs the coarser levels next to the finest one (MSFT_lod), hidden.
-async function loadLevels(gltf: GLTF, parts: Part[]): Promise<Levels[]> {
-  const file = gltf.parser.json as GltfFile;
-  const found: Levels[] = [];
-  for (const part of parts) {
-    const ids = file.nodes?.[part.node]?.extensions?.MSFT_lod?.ids;
-    if (!ids) continue;
-    const coarser = await Promise.all(ids.map(id => gltf.parser.getDependency('node', id) as Promise<Object3D>));
-    for (const level of coarser) {
-      part.object.parent?.add(level);
-      level.visible = false;
-    }
-    const coverage = (part.extras['MSFT_screencoverage'] as number[] | undefined) ?? [];
-    const triangles = [part.triangles, ...coarser.map(level => trianglesBelow(gltf, level))];
-    found.push({part, levels: [part.object, ...coarser], coverage, triangles, box: new Box3()});
-  }
-  return found;
+function levelsIn(gltf: GLTF, parts: Part[]): Levels[] {
+  const byObject = new Map(parts.map(part => [part.object, part]));
+  return levelsOf(gltf).flatMap(set => {
+    const part = byObject.get(set.levels[0]!);
+    return part ? [new Levels(set, part, [part.triangles, ...set.levels.slice(1).map(level => trianglesBelow(gltf, level))])] : [];
+  });
 }
 
 function trianglesBelow(gltf: GLTF, o: Object3D): number {
@@ -133,17 +126,15 @@ function allLights(root: Object3D): Light[] {
 
 /// A mesh that several nodes show comes out as objects of the same geometry and materials.
 export async function loadWorld(name: string, bytes: ArrayBuffer): Promise<World> {
-  const loader = new GLTFLoader();
+  const loader = new GLTFLoader().register(parser => new WrlkitPlugin(parser, {names: false}));
   const gltf = await loader.parseAsync(bytes, '');
   const file = gltf.parser.json as GltfFile;
   const builder = new Builder(gltf);
   const roots = gltf.scene.children.flatMap(child => builder.build(child, null));
-  const levels = await loadLevels(gltf, builder.parts);
-  await bakedLight(gltf);
+  const levels = levelsIn(gltf, builder.parts);
   builder.sizes(builder.parts);
   const cameras = viewpoints(gltf);
   gltf.scene.updateMatrixWorld(true);
-  for (const l of levels) l.box.setFromObject(l.part.object);
   const box = new Box3();
   for (const part of builder.parts) for (const mesh of part.meshes) box.expandByObject(mesh);
   gltf.scene.traverse(o => { if ((o as Points).isPoints) ((o as Points).material as PointsMaterial).size = 3; });  // pixels: one is hardly seen

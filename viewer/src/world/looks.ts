@@ -1,7 +1,7 @@
 // How surfaces are shown: as the file says, or so that something else than their colour is seen. Every material has a
 // variant of each look, made when it is needed.
 import {Color, DoubleSide, MeshBasicMaterial, MeshLambertMaterial, type Material, type Mesh, type MeshStandardMaterial, type Object3D} from 'three';
-import {lightOf} from './lightmaps';
+import {lightOf} from 'wrlkit-three';
 import {checkered, densities} from './texels';
 
 export type Look = 'full' | 'albedo' | 'light' | 'grey' | 'flat' | 'checker' | 'density' | 'form';

@@ -1,7 +1,8 @@
 // What is seen when a level takes the place of another: both from the distance where that happens, as a screen of 1080 lines
 // shows them, and how the pictures differ.
 import {Color, DataUtils, HalfFloatType, MathUtils, PerspectiveCamera, Vector3, WebGLRenderTarget, type Light, type Object3D, type Scene, type WebGLRenderer} from 'three';
-import {fieldOfView, radiusOf, screen, switchDistance} from './levels';
+import {fieldOfView} from 'wrlkit-three';
+import {screen} from './levels';
 import type {Levels, World} from './world';
 
 const width = Math.round(screen * 16 / 9);
@@ -25,7 +26,7 @@ export interface Pop extends Switch {
 
 /// All that can switch by distance.
 export function switches(world: World): Switch[] {
-  return world.levels.flatMap(object => object.levels.slice(1).flatMap((_, level) => switchDistance(object, level) > radiusOf(object) ? [{object, level}] : []));
+  return world.levels.flatMap(object => object.levels.slice(1).flatMap((_, level) => object.switchDistance(level) > object.radius ? [{object, level}] : []));
 }
 
 export class PopMeter {
@@ -39,7 +40,7 @@ export class PopMeter {
 
   /// As seen from the direction of `eye`. `light` is told where the camera stands.
   measure({object, level}: Switch, renderer: WebGLRenderer, eye: Vector3, light: (camera: PerspectiveCamera) => void): Pop {
-    const distance = switchDistance(object, level);
+    const distance = object.switchDistance(level);
     const frame = this.place(object, distance, eye);
     light(this.camera);
     const page = renderer.getClearColor(new Color()), alpha = renderer.getClearAlpha(), sky = this.scene.background;
@@ -54,7 +55,7 @@ export class PopMeter {
 
   /// The camera where the object switches, and the part of its picture that shows the object.
   private place(object: Levels, distance: number, eye: Vector3): Size {
-    const {camera} = this, middle = object.box.getCenter(new Vector3()), radius = radiusOf(object);
+    const {camera} = this, middle = object.box.getCenter(new Vector3()), radius = object.radius;
     const back = eye.clone().sub(middle);
     if (back.lengthSq() === 0) back.set(0, 0, 1);
     camera.position.copy(middle).addScaledVector(back.normalize(), distance);

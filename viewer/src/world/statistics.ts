@@ -1,6 +1,6 @@
 // Where the bytes and the triangles of a file are.
 import type {BufferAttribute, Material, Mesh, MeshStandardMaterial, Texture} from 'three';
-import type {DirectedMaterial} from './directed_light';
+import type {DirectedMaterial} from 'wrlkit-three';
 import {accessorBytes, accessorsOf, type GltfFile} from './file';
 import {labelOf, type Part, type World} from './world';
 

@@ -1,5 +1,6 @@
 // A world that is loaded: its parts as a tree, its levels of detail, its cameras and lights. A part is a node of glTF,
 // which is a grouping node or a Shape of VRML.
+import {LevelSet} from 'wrlkit-three';
 import {Box3, type AnimationClip, type Light, type Mesh, type Object3D, type PerspectiveCamera} from 'three';
 import {namedAbove} from '../ui/tree';
 import type {GltfFile} from './file';
@@ -18,12 +19,11 @@ export interface Part {
   bytes: number;       // of the meshes, its own and those below, each once
 }
 
-export interface Levels {
-  part: Part;
-  levels: Object3D[];   // finest first; the first is part.object
-  coverage: number[];   // part of the window's height down to which each is shown; empty: not said
-  triangles: number[];  // of each level
-  box: Box3;            // of the finest, in the world
+/// The finest level is part.object.
+export class Levels extends LevelSet {
+  constructor(set: LevelSet, readonly part: Part, readonly triangles: number[]) {  // triangles: of each level
+    super(set.levels, set.coverage);
+  }
 }
 
 export interface Viewpoint {

@@ -1,9 +1,9 @@
-// Baked light (extras.lightmap of a material): a texture of what arrives at a surface, and maybe three that say from where. Such surfaces are shown without the world's lamps,
+// Baked light (MOZ_lightmap, or extras.lightmap of a material): a texture of what arrives at a surface, and maybe three that say from where. Such surfaces are shown without the world's lamps,
 // whose light is in the texture already. Every part has its place on a page, which glTF says by a transform in a material of its own; here
 // the transform goes into texture coordinates, so that a page is one texture and what it lights can be drawn in one call.
 import {BufferAttribute, BufferGeometry, Color, MeshBasicMaterial, NoColorSpace, SRGBColorSpace, type ColorSpace, type Material, type Mesh, type MeshStandardMaterial, type Texture} from 'three';
-import type {GLTF} from 'three/addons/loaders/GLTFLoader.js';
-import {DirectedMaterial, type Directions} from './directed_light';
+import type {GLTF, GLTFParser} from 'three/addons/loaders/GLTFLoader.js';
+import {DirectedMaterial, type Directions} from './directed_light.js';
 
 const channel = 3;  // of texture coordinates
 
@@ -17,7 +17,8 @@ interface Transform {
 interface LightmapInfo {
   index: number;
   texCoord?: number;
-  scale?: number;
+  scale?: number;      // of extras.lightmap
+  intensity?: number;  // of MOZ_lightmap: the same
   directions?: [number, number, number];
   extensions?: {KHR_texture_transform?: Transform};
 }
@@ -84,15 +85,20 @@ async function baked(material: MeshStandardMaterial, info: LightmapInfo, page: P
   made.userData = userData;
   made.lightMap = await page(info.index, SRGBColorSpace);
   // three.js takes the map for irradiance, of which a white surface reflects 1 / pi.
-  made.lightMapIntensity = (info.scale ?? 1) * Math.PI;
+  made.lightMapIntensity = (info.scale ?? info.intensity ?? 1) * Math.PI;
   return made;
 }
 
+function infoOf(material: Material | undefined): LightmapInfo | undefined {
+  const {lightmap, gltfExtensions} = material?.userData ?? {};
+  return lightmap ?? (gltfExtensions as {MOZ_lightmap?: LightmapInfo} | undefined)?.MOZ_lightmap;
+}
+
 /// Gives the materials of a file their baked light.
-export async function bakedLight(gltf: GLTF): Promise<void> {
+export async function addBakedLight(gltf: GLTF, parser: GLTFParser): Promise<void> {
   const made = new Map<Material, Promise<MeshBasicMaterial>>(), pages = new Map<number, Promise<Texture | null>>(), places = new Places();
   const page: Page = (index, meaning) => {
-    const known = pages.get(index) ?? loadPage(gltf, index, meaning);
+    const known = pages.get(index) ?? loadPage(parser, index, meaning);
     pages.set(index, known);
     return known;
   };
@@ -100,7 +106,7 @@ export async function bakedLight(gltf: GLTF): Promise<void> {
   gltf.scene.traverse(o => {
     const mesh = o as Mesh;
     const material = mesh.material as MeshStandardMaterial | undefined;
-    const info = material?.userData['lightmap'] as LightmapInfo | undefined;
+    const info = infoOf(material);
     if (!material || !info) return;
     if (!made.has(material)) made.set(material, baked(material, info, page));
     mesh.geometry = places.of(mesh.geometry, info);
@@ -109,8 +115,8 @@ export async function bakedLight(gltf: GLTF): Promise<void> {
   await Promise.all(waiting);
 }
 
-async function loadPage(gltf: GLTF, index: number, meaning: ColorSpace): Promise<Texture | null> {
-  const texture = ((await gltf.parser.getDependency('texture', index)) as Texture | null)?.clone() ?? null;
+async function loadPage(parser: GLTFParser, index: number, meaning: ColorSpace): Promise<Texture | null> {
+  const texture = ((await parser.getDependency('texture', index)) as Texture | null)?.clone() ?? null;
   if (!texture) return null;
   texture.channel = channel;
   texture.colorSpace = meaning;
