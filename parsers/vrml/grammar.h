@@ -6,6 +6,7 @@
 #include <optional>
 #include <unordered_set>
 
+#include "parsers/vrml/deferred_lists.h"
 #include "parsers/vrml/values.h"
 #include "parsers/x3d/units.h"
 #include "scenegraph/access_word.h"
@@ -15,10 +16,13 @@ namespace wrlkit::vrml {
 
 class Parser : private Values {
  public:
-  Parser(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag)
-      : Values(text, base, scene, diag), limits_(limits), build_(scene, diag) {}
+  /// Lists of numbers are left to `lists`, if there are any.
+  Parser(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag,
+         DeferredLists* lists = nullptr)
+      : Values(text, base, scene, diag), limits_(limits), build_(scene, diag), lists_(lists) {}
 
-  void vrml_scene();
+  /// False when a list that was left to others is written in a way that only the parser itself can read.
+  bool vrml_scene();
 
  private:
   // Statements.
@@ -52,6 +56,8 @@ class Parser : private Values {
 
   // Fields.
   void known_field(std::uint16_t slot, const FieldDef&, Token name);
+  /// A list of numbers for other threads. False: it is none for them, and nothing was read.
+  bool deferred_list(FieldType, std::uint16_t slot, Token name);
   void unknown_field(Token name);
   /// `IS name` behind a field name. True when it was one.
   bool is_clause(FieldType, std::uint16_t slot);
@@ -84,6 +90,7 @@ class Parser : private Values {
 
   ParseLimits limits_;
   SceneBuilder build_;
+  DeferredLists* lists_;
   std::vector<NodeId> nodes_, misplaced_;
   std::vector<const Interface*> interfaces_;  // of the prototypes whose bodies are being read
   std::size_t scope_depth_ = 0, open_lists_ = 0;
