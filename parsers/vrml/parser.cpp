@@ -462,9 +462,6 @@ void Parser::list_elements(Token opened) {
   }
 }
 
-namespace {
-
-/// On several threads. False, and nothing has happened, when that does not do for this text.
 bool parse_on_threads(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene,
                       Diagnostics& diag) {
   Scene read = scene;
@@ -475,8 +472,6 @@ bool parse_on_threads(std::string_view text, std::uint32_t base, const ParseLimi
   diag = std::move(said);
   return true;
 }
-
-}  // namespace
 
 void parse(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
   const bool threads = text.size() >= DeferredLists::from_bytes && !only_one_thread();
