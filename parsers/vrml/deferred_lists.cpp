@@ -47,7 +47,8 @@ const T* joined(std::span<const T> first, std::size_t count, auto&& pieces, Scen
 
 }  // namespace
 
-DeferredLists::DeferredLists(std::size_t bytes) : batch_bytes_(std::clamp(bytes / 32, smallest_batch, largest_batch)) {}
+DeferredLists::DeferredLists(std::size_t bytes, const PartRead& part_read)
+    : batch_bytes_(std::clamp(bytes / 32, smallest_batch, largest_batch)), part_read_(part_read) {}
 
 DeferredLists::~DeferredLists() {
   failed_ = true;
@@ -95,6 +96,8 @@ void DeferredLists::read(Batch& batch) {
     piece.numbers = piece.real ? batch.memory.make(FieldType::MFDouble, 0, numbers)
                                : batch.memory.make(FieldType::MFInt32, 0, integers);
   }
+  const auto first = batch.pieces.front().text, last = batch.pieces.back().text;
+  if (part_read_) part_read_({first.data(), static_cast<std::size_t>(last.data() + last.size() - first.data())});
 }
 
 bool DeferredLists::put(const List& list, std::span<const Piece* const> pieces, Scene& scene) {

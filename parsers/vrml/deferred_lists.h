@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/background.h"
+#include "parsers/vrml/parser.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::vrml {
@@ -18,7 +19,7 @@ class DeferredLists {
   static constexpr std::size_t from_bytes = std::size_t{1} << 20;
 
   /// For a text of that many bytes, which has to live until `finish`.
-  explicit DeferredLists(std::size_t bytes);
+  DeferredLists(std::size_t bytes, const PartRead&);
   ~DeferredLists();
 
   /// The text between the brackets of a field of a node, whose Value is a stand-in for now.
@@ -54,6 +55,7 @@ class DeferredLists {
   static bool put(const List&, std::span<const Piece* const>, Scene&);
 
   std::size_t batch_bytes_;
+  const PartRead& part_read_;
   std::atomic<bool> failed_ = false;
   std::deque<Batch> batches_;
   std::vector<List> lists_;

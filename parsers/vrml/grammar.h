@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "parsers/vrml/deferred_lists.h"
+#include "parsers/vrml/parser.h"
 #include "parsers/vrml/values.h"
 #include "parsers/x3d/units.h"
 #include "scenegraph/access_word.h"
@@ -23,6 +24,7 @@ class Parser : private Values {
 
   /// False when a list that was left to others is written in a way that only the parser itself can read.
   bool vrml_scene();
+  void set_part_read(const PartRead* part_read) { part_read_ = part_read; }
 
  private:
   // Statements.
@@ -44,6 +46,7 @@ class Parser : private Values {
   NodeId node_statement();
   NodeId node(Token type_name, std::string_view def);
   void node_body(Token opened);
+  void tell_part_read();
   void node_body_element(Token);
   void implicit_child(Token);
   /// Gives the nodes that were met in places for no node since `mark`: mostly the closing brace of the one before them
@@ -91,6 +94,8 @@ class Parser : private Values {
   ParseLimits limits_;
   SceneBuilder build_;
   DeferredLists* lists_;
+  const PartRead* part_read_ = nullptr;  // none: nobody wants to know
+  std::uint32_t told_ = 0;               // offset up to which it was told
   std::vector<NodeId> nodes_, misplaced_;
   std::vector<const Interface*> interfaces_;  // of the prototypes whose bodies are being read
   std::size_t scope_depth_ = 0, open_lists_ = 0;

@@ -184,7 +184,16 @@ NodeId Parser::node(Token type_name, std::string_view def) {
   NodeId n = build_.open(type, def, span(type_name));
   node_body(type_name);
   build_.close();
+  if (part_read_) tell_part_read();
   return n;
+}
+
+void Parser::tell_part_read() {
+  constexpr std::uint32_t step = 2 << 20;  // bytes
+  const auto now = lex_.offset();
+  if (now < told_ + std::uint64_t{step}) return;
+  (*part_read_)(lex_.text(told_, now));
+  told_ = now;
 }
 
 void Parser::node_body(Token opened) {
@@ -463,20 +472,23 @@ void Parser::list_elements(Token opened) {
 }
 
 bool parse_on_threads(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene,
-                      Diagnostics& diag) {
+                      Diagnostics& diag, const PartRead& part_read) {
   Scene read = scene;
   Diagnostics said = diag;
-  DeferredLists lists(text.size());
+  DeferredLists lists(text.size(), part_read);
   if (!Parser(text, base, limits, read, said, &lists).vrml_scene()) return false;
   scene = std::move(read);
   diag = std::move(said);
   return true;
 }
 
-void parse(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
+void parse(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag,
+           const PartRead& part_read) {
   const bool threads = text.size() >= DeferredLists::from_bytes && !only_one_thread();
-  if (!threads || !parse_on_threads(text, base, limits, scene, diag))
-    Parser(text, base, limits, scene, diag).vrml_scene();
+  if (threads && parse_on_threads(text, base, limits, scene, diag, part_read)) return;
+  Parser parser(text, base, limits, scene, diag);
+  if (part_read) parser.set_part_read(&part_read);
+  parser.vrml_scene();
 }
 
 }  // namespace wrlkit::vrml

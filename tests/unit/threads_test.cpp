@@ -83,7 +83,7 @@ TEST_CASE("Threads: plain lists of numbers are read", "[threads]") {
                                  face_set("Long", points(100'000, 1)),  // in pieces
                                  face_set("Exact", points(40, 1),
                                           "1.5e300 -0 12345678901234567890 .5 5. +7 0.1234567890123456789 00012 -.25 "
-                                          "123456789.123456789 1234567.12345678 12345678.1234567 0x10 3"),
+                                          "123456789.123456789 1234567.12345678 12345678.1234567 0x10 3 4"),
                                  face_set("Twice", points(50, 1)) + "DEF D Coordinate { point [ " + points(50, 2) +
                                      "] point [ " + points(40, 3) + "] point [ 1 2 3 ] }\n",
                                  "PROTO P [ field MFVec3f p [ " + points(50, 1) +
