@@ -112,7 +112,7 @@ TEST_CASE("Threads: lists that break off or need repair give the messages of one
     check_world("Coordinate { point [ " + list + " ] }\n");
   }
   for (const std::string& tail : {"Coordinate { point [ " + plain, "Coordinate { point [ " + plain + "}\n",
-                                 "Shape { geometry IndexedFaceSet { coordIndex [ " + plain + "] } }\n"}) {
+                                  "Shape { geometry IndexedFaceSet { coordIndex [ " + plain + "] } }\n"}) {
     INFO(tail.substr(0, 40));
     CHECK_FALSE(is_plain(tail));
     check_world(tail);
