@@ -2,9 +2,11 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include <atomic>
 
+#include "base/background.h"
 #include "base/stop.h"
 
 namespace wrlkit {
@@ -49,5 +51,21 @@ ThreadLimit::ThreadLimit(int threads) : one_(threads == 1) {
 ThreadLimit::~ThreadLimit() {
   if (one_) --limits_of_one;
 }
+
+struct Background::Group {
+  tbb::task_group tasks;
+};
+
+Background::Background() : group_(std::make_unique<Group>()) {}
+
+Background::~Background() {
+  try {
+    group_->tasks.wait();
+  } catch (...) {
+  }
+}
+
+void Background::run(std::function<void()> work) { group_->tasks.run(std::move(work)); }
+void Background::wait() { group_->tasks.wait(); }
 
 }  // namespace wrlkit

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -109,9 +110,7 @@ class Census {
 }  // namespace
 
 void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
-  const auto reached = reachable(scene, scene.main);
-  if (std::ranges::none_of(reached, [&](NodeId n) { return is_off(scene, n); }))
-    return;  // most worlds: nothing to count
+  if (!any_node(scene, [&](NodeId n) { return is_off(scene, n); })) return;  // most worlds: nothing to count
   const Census census(scene);
   const double all = census.all(), hidden = census.hidden();
   if (!(hidden >= least_share * all) || hidden == 0 || !std::isfinite(all)) return;

@@ -6,6 +6,7 @@
 #include "base/io/output.h"
 #include "base/stop.h"
 #include "convert/output_urls.h"
+#include "convert/repeated_meshes.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "writers/made_files.h"
@@ -80,12 +81,21 @@ bool write_gltf_file(const Writing& w) {
   const auto n_geometries = count_geometries(w.scene);
   if (n_geometries == 0) say_why_empty(w.scene, ctx.diag);
   if (ctx.monitor) ctx.monitor->begin("writing " + w.to.path, n_geometries, "shapes");
-  const MeshSource counted = [&](NodeId n) -> const Mesh& {
+  const auto step = [&] {
     check_stop();
     if (ctx.monitor) ctx.monitor->step();
-    return w.meshes(n);
+  };
+  RepeatedMeshes repeated(w.scene, w.meshes, ctx);
+  const MeshSource counted = [&](NodeId n) -> const Mesh& {
+    step();
+    return repeated(n);
   };
   auto options = gltf_options(w.options, w.to.format->endings != ".gltf");
+  options.same_mesh = [&](NodeId n) {
+    const NodeId other = repeated.same_mesh(n);
+    if (other) step();
+    return other;
+  };
   const StopScope scope(ctx.stop);
   try {
     NamedFiles named(*ctx.resources, ctx.diag);

@@ -6,6 +6,7 @@
 
 #include "geometry/geometry_attributes.h"
 #include "geometry/geometry_lists.h"
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -188,11 +189,12 @@ bool has_picture(const Scene& scene, NodeId appearance) {
 
 std::vector<char> textured_geometry(const Scene& scene) {
   std::vector<char> textured(scene.node_count());
+  const auto shows_picture = [&](NodeId n) { return scene.is(n, nodes::Appearance) && has_picture(scene, n); };
+  if (!any_node(scene, shows_picture)) return textured;
   for (NodeId n : all_nodes(scene)) {
     if (!scene.is(n, nodes::Shape)) continue;
     NodeId geometry = scene.get(n, nodes::shape::geometry), appearance = scene.get(n, nodes::shape::appearance);
-    if (geometry && scene.is(appearance, nodes::Appearance) && has_picture(scene, appearance))
-      textured[geometry.value] = 1;
+    if (geometry && shows_picture(appearance)) textured[geometry.value] = 1;
   }
   return textured;
 }

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "base/image/image.h"
+#include "base/io/release_pages.h"
 #include "base/text/blanks.h"
 #include "base/text/letter_case.h"
 #include "base/text/utf8.h"
@@ -131,7 +132,7 @@ std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, co
 }
 
 std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, const std::string& path,
-                                  const ReadOptions& options, Diagnostics& diag) {
+                                  const ReadOptions& options, Diagnostics& diag, const vrml::PartRead& part_read = {}) {
   std::string converted;
   Span whole{base, 0}, first{base, static_cast<std::uint32_t>(std::min<std::size_t>(first_line(text).size(), 80))};
   if (has_utf16_bom(text)) {
@@ -168,7 +169,10 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   auto after = header.missing ? body : trim(body).substr(first_line(trim(body)).size());
   world->scene.comment = leading_comment(after);
   if (old && !header.missing) world->scene.header = trim(first_line(trim(body)));
-  (old ? vrml::parse_vrml1 : vrml::parse)(body, base, options.parse, world->scene, diag);
+  if (old)
+    vrml::parse_vrml1(body, base, options.parse, world->scene, diag);
+  else
+    vrml::parse(body, base, options.parse, world->scene, diag, converted.empty() ? part_read : vrml::PartRead());
   return world;
 }
 
@@ -197,7 +201,7 @@ std::unique_ptr<World> parse_world(const FileText& file, const ReadOptions& opti
   auto world = is_patch_file(file.view())
                    ? world_of_patches(file, diag)
                    : parse_text(file.view(), file.base, file.name == standard_input_name ? std::string() : file.name,
-                                options, diag);
+                                options, diag, release_pages);
   if (world) {
     world->gzip = file.gzip;
     world->bytes = file.bytes_on_disk;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -17,10 +18,16 @@ std::vector<char> driven_geometry(const Scene& scene) {
   };
   ends(scene.main);
   for (std::uint32_t i = 0; i < scene.proto_count(); ++i) ends(scene.proto(ProtoId{i}).body);
+  const auto takes_values = [&](NodeId n) {
+    return std::ranges::any_of(scene.fields(n), [&](const Value& v) { return scene.content(v).is; });
+  };
+  const auto is_script = [&](NodeId n) { return scene.type(n).kind == NodeKind::script; };
+  const bool none = std::ranges::find(driven, 1) == driven.end();
+  if (none && !any_node(scene, [&](NodeId n) { return takes_values(n) || is_script(n); })) return driven;
   const auto nodes = all_nodes(scene);
   for (const NodeId n : nodes) {
-    if (std::ranges::any_of(scene.fields(n), [&](const Value& v) { return scene.content(v).is; })) driven[n.value] = 1;
-    if (scene.type(n).kind == NodeKind::script) for_each_child(scene, n, [&](NodeId c) { driven[c.value] = 1; });
+    if (takes_values(n)) driven[n.value] = 1;
+    if (is_script(n)) for_each_child(scene, n, [&](NodeId c) { driven[c.value] = 1; });
   }
   for (const NodeId n : nodes)
     if (is_geometry(scene, n)) for_each_child(scene, n, [&](NodeId c) { driven[n.value] |= driven[c.value]; });

@@ -6,20 +6,29 @@
 
 namespace wrlkit {
 
+// The children are put on the stack from the last to the first. Types of nodes are asked for directly: everything else
+// that a node holds is passed over, in every pass, for every node of a plant.
 void reach(const Scene& scene, std::span<const NodeId> roots, std::vector<char>& seen, std::vector<NodeId>& out) {
   if (seen.size() < scene.node_count()) seen.resize(scene.node_count() + scene.node_count() / 2);
   std::vector<NodeId> stack(roots.rbegin(), roots.rend());
+  const auto push = [&](NodeId child) {
+    if (child && !seen[child.value]) stack.push_back(child);
+  };
   while (!stack.empty()) {
     NodeId n = stack.back();
     stack.pop_back();
     if (seen[n.value]) continue;
     seen[n.value] = 1;
     out.push_back(n);
-    auto mark = stack.size();
-    for_each_child(scene, n, [&](NodeId c) {
-      if (!seen[c.value]) stack.push_back(c);
-    });
-    std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(mark), stack.end());
+    const auto fields = scene.fields(n);
+    for (auto f = fields.rbegin(); f != fields.rend(); ++f) {
+      const Value& v = scene.content(*f);
+      if (v.is) continue;
+      if (v.type == FieldType::SFNode)
+        push(v.node);
+      else if (v.type == FieldType::MFNode)
+        for (std::size_t i = v.count; i > 0; --i) push(v.nodes[i - 1]);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include "base/io/read_file.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,7 +13,8 @@
 namespace wrlkit {
 namespace {
 
-constexpr std::size_t head_size = 64 * 1024;  // read to see whether it is gzip
+constexpr std::size_t head_size = 64 * 1024;             // read to see whether it is gzip
+constexpr std::uint64_t mapped_from = 16 * 1024 * 1024;  // below, memory does not matter
 
 std::string reason(int error) {
   if (error == ENOENT || error == ENOTDIR) return "there is no such file";
@@ -54,6 +56,14 @@ class File {
       if (got > 0) done += static_cast<std::size_t>(got);
     }
     return done;
+  }
+
+  /// Puts the file's own pages in the place of memory that is the size of the file and begins with a page.
+  bool map(const char* to) const {
+    void* at = const_cast<char*>(to);
+    if (mmap(at, size(), PROT_READ, MAP_PRIVATE | MAP_FIXED, fd_, 0) == MAP_FAILED) return false;
+    madvise(at, size(), MADV_SEQUENTIAL);
+    return true;
   }
 
   /// The length of the last gzip member, modulo 4 GiB, as its last four bytes say (RFC 1952, 2.3.1).
@@ -111,7 +121,19 @@ class Reader {
     return std::nullopt;
   }
 
+  /// The file as it was when it was opened.
+  bool map_rest() {
+    if (!file_.map(text_.view().data())) {
+      failed(ENOMEM);
+      return false;
+    }
+    text_.added(file_.size() - text_.size());
+    out_.bytes_on_disk = text_.size();
+    return true;
+  }
+
   bool read_rest(std::uint64_t limit) {
+    if (file_.size() >= mapped_from && text_.size() == head_size) return map_rest();
     for (bool more = text_.size() == head_size; more;) {
       if (text_.room() == 0 && !text_.grow()) {
         failed(ENOMEM);

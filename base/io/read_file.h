@@ -34,7 +34,8 @@ struct FileText {
 /// The path that means standard input, and what messages call it.
 inline constexpr std::string_view standard_input = "-", standard_input_name = "<stdin>";
 
-/// Reads a file. One message when nothing of it can be had. Of damaged or suspiciously large gzip data, what could be
+/// Reads a file. Large ones that are not gzipped are mapped: a program that shortens one meanwhile ends this one
+/// (SIGBUS). One message when nothing of it can be had. Of damaged or suspiciously large gzip data, what could be
 /// unpacked is used, which is reported. Peak memory: the text, and a quarter more while gzip data or a pipe is read.
 std::optional<FileText> read_file(const std::string& path, const ReadLimits&, Diagnostics&);
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <unordered_set>
 
+#include "parsers/vrml/deferred_lists.h"
+#include "parsers/vrml/parser.h"
 #include "parsers/vrml/values.h"
 #include "parsers/x3d/units.h"
 #include "scenegraph/access_word.h"
@@ -15,10 +17,14 @@ namespace wrlkit::vrml {
 
 class Parser : private Values {
  public:
-  Parser(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag)
-      : Values(text, base, scene, diag), limits_(limits), build_(scene, diag) {}
+  /// Lists of numbers are left to `lists`, if there are any.
+  Parser(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag,
+         DeferredLists* lists = nullptr)
+      : Values(text, base, scene, diag), limits_(limits), build_(scene, diag), lists_(lists) {}
 
-  void vrml_scene();
+  /// False when a list that was left to others is written in a way that only the parser itself can read.
+  bool vrml_scene();
+  void set_part_read(const PartRead* part_read) { part_read_ = part_read; }
 
  private:
   // Statements.
@@ -40,6 +46,7 @@ class Parser : private Values {
   NodeId node_statement();
   NodeId node(Token type_name, std::string_view def);
   void node_body(Token opened);
+  void tell_part_read();
   void node_body_element(Token);
   void implicit_child(Token);
   /// Gives the nodes that were met in places for no node since `mark`: mostly the closing brace of the one before them
@@ -52,6 +59,8 @@ class Parser : private Values {
 
   // Fields.
   void known_field(std::uint16_t slot, const FieldDef&, Token name);
+  /// A list of numbers for other threads. False: it is none for them, and nothing was read.
+  bool deferred_list(FieldType, std::uint16_t slot, Token name);
   void unknown_field(Token name);
   /// `IS name` behind a field name. True when it was one.
   bool is_clause(FieldType, std::uint16_t slot);
@@ -84,6 +93,9 @@ class Parser : private Values {
 
   ParseLimits limits_;
   SceneBuilder build_;
+  DeferredLists* lists_;
+  const PartRead* part_read_ = nullptr;  // none: nobody wants to know
+  std::uint32_t told_ = 0;               // offset up to which it was told
   std::vector<NodeId> nodes_, misplaced_;
   std::vector<const Interface*> interfaces_;  // of the prototypes whose bodies are being read
   std::size_t scope_depth_ = 0, open_lists_ = 0;

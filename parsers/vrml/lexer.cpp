@@ -1,33 +1,12 @@
 #include "parsers/vrml/lexer.h"
 
-#include <array>
-
 namespace wrlkit::vrml {
-namespace {
-
-enum Class : std::uint8_t { other, blank, comment, special };
-
-constexpr std::array<Class, 256> make_classes() {
-  std::array<Class, 256> c{};
-  for (int i = 0; i <= ' '; ++i) c[i] = blank;  // other control characters occur in damaged files and separate as well
-  c[','] = blank;
-  c[0x7f] = blank;
-  c['#'] = comment;
-  for (char s : {'{', '}', '[', ']', '"'}) c[static_cast<unsigned char>(s)] = special;
-  return c;
-}
-constexpr auto classes = make_classes();
-Class class_of(char c) { return classes[static_cast<unsigned char>(c)]; }
-
-}  // namespace
-
-bool Lexer::separates(char c) { return class_of(c) != other; }
 
 void Lexer::skip_blanks() {
   for (; p_ < end_; ++p_) {
-    Class c = class_of(*p_);
-    if (c == blank) continue;
-    if (c != comment) return;
+    const CharClass c = class_of(*p_);
+    if (c == CharClass::blank) continue;
+    if (c != CharClass::comment) return;
     while (p_ < end_ && *p_ != '\n' && *p_ != '\r') ++p_;
     if (p_ == end_) return;
   }
@@ -64,7 +43,7 @@ Token Lexer::next() {
       break;
     default:
       t.kind = Kind::word;
-      while (p_ < end_ && class_of(*p_) == other) ++p_;
+      while (p_ < end_ && class_of(*p_) == CharClass::other) ++p_;
   }
   t.end = offset();
   return t;

@@ -1,12 +1,26 @@
 // Cuts VRML97 text into tokens (ISO/IEC 14772-1, annex A) without copying it and without counting lines. Commas are
-// blanks,
-// '#' starts a comment. A word is anything between separators: which words are names and which are numbers is the
-// grammar's business, because real files put all kinds of characters into names.
+// blanks, '#' starts a comment. A word is anything between separators: which words are names and which are numbers is
+// the grammar's business, because real files put all kinds of characters into names.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string_view>
 
 namespace wrlkit::vrml {
+
+enum class CharClass : std::uint8_t { other, blank, comment, special };
+
+inline constexpr auto char_classes = [] {
+  std::array<CharClass, 256> c{};
+  // Other control characters occur in damaged files and separate as well.
+  for (int i = 0; i <= ' '; ++i) c[i] = CharClass::blank;
+  c[','] = CharClass::blank;
+  c[0x7f] = CharClass::blank;
+  c['#'] = CharClass::comment;
+  for (char s : {'{', '}', '[', ']', '"'}) c[static_cast<unsigned char>(s)] = CharClass::special;
+  return c;
+}();
+inline CharClass class_of(char c) { return char_classes[static_cast<unsigned char>(c)]; }
 
 enum class Kind : std::uint8_t { end, word, string, open_brace, close_brace, open_bracket, close_bracket };
 
@@ -42,7 +56,7 @@ class Lexer {
   /// Past blanks, commas and comments.
   void skip_blanks();
 
-  static bool separates(char c);
+  static bool separates(char c) { return class_of(c) != CharClass::other; }
 
  private:
   const char* begin_;

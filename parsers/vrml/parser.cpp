@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
 #include "parsers/vrml/grammar.h"
 #include "scenegraph/nodes.h"
 
@@ -20,10 +21,12 @@ bool begins_head(std::string_view word) {
 
 // ---- statements ----------------------------------------------------------------------------------------------------
 
-void Parser::vrml_scene() {
+bool Parser::vrml_scene() {
   statements(Kind::end);
   scene_.main = build_.close_scope();
+  if (lists_ && !lists_->finish(scene_)) return false;
   apply(units_, scene_, diag_);
+  return true;
 }
 
 bool Parser::node_follows(Token name) {
@@ -181,7 +184,16 @@ NodeId Parser::node(Token type_name, std::string_view def) {
   NodeId n = build_.open(type, def, span(type_name));
   node_body(type_name);
   build_.close();
+  if (part_read_) tell_part_read();
   return n;
+}
+
+void Parser::tell_part_read() {
+  constexpr std::uint32_t step = 2 << 20;  // bytes
+  const auto now = lex_.offset();
+  if (now < told_ + std::uint64_t{step}) return;
+  (*part_read_)(lex_.text(told_, now));
+  told_ = now;
 }
 
 void Parser::node_body(Token opened) {
@@ -256,8 +268,25 @@ void Parser::known_field(std::uint16_t slot, const FieldDef& def, Token name) {
     unknown_field(name);
     return;
   }
+  if (lists_ && deferred_list(def.type, slot, name)) return;
   Value v;
   if (value(def.type, slot, def.name_in(scene_.dialect()), def.default_value, v)) build_.field(v, span(name));
+}
+
+bool Parser::deferred_list(FieldType type, std::uint16_t slot, Token name) {
+  constexpr std::size_t shortest = 64;  // bytes; handing over less costs as much as reading it
+  const auto& t = info(type);
+  const Token opened = lex_.peek();
+  if (!t.multiple || type == FieldType::MFBool || opened.kind != Kind::open_bracket) return false;
+  if (t.element != Element::number && t.element != Element::integer) return false;
+  const auto rest = lex_.text(opened.end, lex_.size());
+  const auto length = rest.find(']');
+  if (length == rest.npos) lists_->give_up();  // and look no further for brackets that are not there
+  if (length == rest.npos || length < shortest) return false;
+  lex_.seek(opened.end + static_cast<std::uint32_t>(length) + 1);
+  build_.field(lists_->add(rest.substr(0, length), type, slot, build_.current()), span(name));
+  if (lists_->failed()) lex_.seek(lex_.size());
+  return true;
 }
 
 bool Parser::is_clause(FieldType type, std::uint16_t slot) {
@@ -442,8 +471,24 @@ void Parser::list_elements(Token opened) {
   }
 }
 
-void parse(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag) {
-  Parser(text, base, limits, scene, diag).vrml_scene();
+bool parse_on_threads(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene,
+                      Diagnostics& diag, const PartRead& part_read) {
+  Scene read = scene;
+  Diagnostics said = diag;
+  DeferredLists lists(text.size(), part_read);
+  if (!Parser(text, base, limits, read, said, &lists).vrml_scene()) return false;
+  scene = std::move(read);
+  diag = std::move(said);
+  return true;
+}
+
+void parse(std::string_view text, std::uint32_t base, const ParseLimits& limits, Scene& scene, Diagnostics& diag,
+           const PartRead& part_read) {
+  const bool threads = text.size() >= DeferredLists::from_bytes && !only_one_thread();
+  if (threads && parse_on_threads(text, base, limits, scene, diag, part_read)) return;
+  Parser parser(text, base, limits, scene, diag);
+  if (part_read) parser.set_part_read(&part_read);
+  parser.vrml_scene();
 }
 
 }  // namespace wrlkit::vrml

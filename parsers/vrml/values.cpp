@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "parsers/vrml/number.h"
+#include "parsers/vrml/plain_numbers.h"
 
 namespace wrlkit::vrml {
 
@@ -72,6 +73,7 @@ void Values::read_numbers(FieldType type, std::size_t most) {
 template <class T, class Read>
 void Values::numbers(std::vector<T>& to, Read read, std::size_t most) {
   for (;;) {
+    if (!most) lex_.set_position(read_plain_numbers(lex_.position(), lex_.limit(), to));
     lex_.skip_blanks();
     const char *p = lex_.position(), *start = p;
     T v;

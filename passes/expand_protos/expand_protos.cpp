@@ -8,6 +8,7 @@
 #include "passes/analysis/own_nodes.h"
 #include "passes/analysis/prototypes.h"
 #include "passes/analysis/route_table.h"
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -347,6 +348,7 @@ class Expansion {
 
   /// Instances that stay may come from bodies and files whose declarations they leave behind.
   void declare_missing() {
+    if (!any_node(scene_, [&](NodeId n) { return is_instance(scene_, n); })) return;
     auto& protos = scene_.main.protos;
     std::vector<char> declared(scene_.proto_count());
     for (ProtoId p : protos) declared[p.value] = 1;

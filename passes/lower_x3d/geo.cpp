@@ -10,6 +10,7 @@
 #include "base/math/vec.h"
 #include "passes/lower_x3d/earth.h"
 #include "passes/lower_x3d/geometry.h"
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -68,6 +69,7 @@ class Placing {
   Placing(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
 
   bool run() {
+    if (!any_node(scene_, [&](NodeId n) { return row_of(scene_, n) != nullptr; })) return false;
     const auto all = all_nodes(scene_);
     std::vector<NodeId> found;
     std::ranges::copy_if(all, std::back_inserter(found), [&](NodeId n) { return row_of(scene_, n) != nullptr; });

@@ -10,6 +10,7 @@
 
 #include "base/math/axis_angle.h"
 #include "passes/lower_x3d/geometry.h"
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -235,6 +236,10 @@ class InterpolatorLowering {
   InterpolatorLowering(Scene& scene, bool report, Diagnostics& diag) : scene_(scene), report_(report), diag_(diag) {}
 
   bool run() {
+    constexpr TypeId types[] = {nodes::SplinePositionInterpolator, nodes::SplineScalarInterpolator,
+                                nodes::SquadOrientationInterpolator, nodes::EaseInEaseOut};
+    const auto is_one = [&](NodeId n) { return std::ranges::find(types, scene_.type_id(n)) != std::end(types); };
+    if (!any_node(scene_, is_one)) return false;
     std::vector<NodeId> eases;
     for (NodeId n : all_nodes(scene_)) {
       if (scene_.is(n, nodes::SplinePositionInterpolator))

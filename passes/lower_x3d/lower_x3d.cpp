@@ -9,6 +9,7 @@
 #include "passes/lower_x3d/nurbs_geometry.h"
 #include "passes/lower_x3d/product.h"
 #include "passes/lower_x3d/vrml97.h"
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -17,6 +18,10 @@ namespace {
 
 /// Curves last: surfaces and interpolators are made with them.
 bool lower_curves(Scene& scene, const LowerX3dOptions& options, Diagnostics& diag) {
+  const auto is_nurbs = [&](NodeId n) {
+    return scene.is(n, nodes::CoordinateDouble) || scene.type(n).name.starts_with("Nurbs");
+  };
+  if (!any_node(scene, is_nurbs)) return false;
   bool changed = false;
   for (bool last : {false, true})
     for (NodeId n : all_nodes(scene)) {

@@ -113,7 +113,10 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
   app.set_version_flag("--version", std::string("wrlkit ") + WRLKIT_VERSION);
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
+  // Tables of all verbs take longer to make than a small file to convert.
+  const Verb* const only = given.empty() ? nullptr : find_verb(given[0]);
   for (const Verb& v : verbs()) {
+    if (only && only != &v) continue;
     auto* sub = app.add_subcommand(v.name, v.help);
     add_options(*sub, v, flags);
     sub->footer(std::string("-Werror=NAME and -Wno-NAME set the severity of one message (wrlkit explain NAME), -Werror "

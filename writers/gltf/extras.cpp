@@ -4,6 +4,7 @@
 #include <array>
 
 #include "scenegraph/access_word.h"
+#include "scenegraph/any_node.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
@@ -73,9 +74,10 @@ void Extras::name_what_is_referred_to() {
   }
   for (const Import& i : scene_.main.imports) referred.push_back(i.inline_node);
   for (const Export& e : scene_.main.exports) referred.push_back(e.node);
-  for (NodeId n : all_nodes(scene_))
-    if (scene_.type(n).kind == NodeKind::script)
-      for_each_child(scene_, n, [&](NodeId held) { referred.push_back(held); });
+  const auto is_script = [&](NodeId n) { return scene_.type(n).kind == NodeKind::script; };
+  if (any_node(scene_, is_script))
+    for (NodeId n : all_nodes(scene_))
+      if (is_script(n)) for_each_child(scene_, n, [&](NodeId held) { referred.push_back(held); });
   if (referred.empty()) return;
   std::unordered_map<std::string, std::size_t> times;
   for (NodeId n : reachable(scene_, scene_.main)) ++times[std::string(scene_.name(n))];

@@ -84,7 +84,7 @@ class Writer {
         animations_(scene, reach(options), diag),
         materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
         parts_(options.names == GltfOptions::Names::table),
-        meshes_(scene, source, animations_.motion(), store_, parts_,
+        meshes_(scene, source, options.same_mesh, animations_.motion(), store_, parts_,
                 options.lightmaps != GltfOptions::Lightmaps::base_color,
                 options.compression.method == GltfCompression::Method::meshopt, diag),
         makers_{scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag} {}

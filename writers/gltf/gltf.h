@@ -2,6 +2,7 @@
 // (grouping nodes, LOD, Switch), transform, meshes, materials, textures, texture_transform, lights, cameras, motion
 // (what ROUTEs move), animations, morphs, pointers, origin (large coordinates), extras (everything else).
 #pragma once
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,6 +105,8 @@ struct GltfOptions {
       false;  // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
               // the same VRML again. Groups without a name that hold one thing are then one node with it
   LeadUrls lead_urls = {};  // what urls are written as that glTF has no place for; none: as they are
+  /// A geometry that the source was asked for before, and whose mesh is that of this one; none: it is not known.
+  std::function<NodeId(NodeId)> same_mesh = {};
   /// What Switches do not show. dropped: it is not in the hierarchy. invisible: by KHR_node_visibility.
   enum class Hidden : std::uint8_t { dropped, invisible };
   Hidden hidden = Hidden::dropped;

@@ -36,6 +36,11 @@ std::vector<std::uint32_t> runs(const Mesh& mesh) {
   return polygons ? out : std::vector<std::uint32_t>{};
 }
 
+std::size_t reported(const Diagnostics& diag) {
+  return diag.count(Severity::note) + diag.count(Severity::lost) + diag.count(Severity::warning) +
+         diag.count(Severity::error);
+}
+
 std::uint32_t n_different(std::vector<float> v) {
   std::ranges::sort(v);
   return static_cast<std::uint32_t>(std::unique(v.begin(), v.end()) - v.begin());
@@ -88,9 +93,26 @@ const Mesh& Meshes::mesh_of(NodeId n) {
   return faceted_;
 }
 
+Geometry Meshes::repeated(NodeId n, bool texcoords) const {
+  const NodeId other = same_mesh_ && !morphs_.moves(n) ? same_mesh_(n) : NodeId{};
+  auto id = other ? by_node_[other.value] : none;
+  if (id != none && geometries_[id].made_texcoords != texcoords) id = geometries_[id].textured;
+  if (id == none || !geometries_[id].repeatable) return {};
+  Geometry g = geometries_[id];
+  g.source = n;
+  g.first_mesh = g.textured = none;
+  g.scale = 0;
+  return g;
+}
+
 Geometry Meshes::make(NodeId n, bool texcoords) {
+  if (Geometry g = repeated(n, texcoords); !g.empty()) return g;
+  const auto n_said = reported(diag_);
   const Mesh& mesh = mesh_of(n);
-  Geometry g{.source = n, .mode = mode_of(mesh.kind), .double_sided = mesh.kind == Mesh::Kind::faces && !mesh.solid};
+  Geometry g{.source = n,
+             .mode = mode_of(mesh.kind),
+             .double_sided = mesh.kind == Mesh::Kind::faces && !mesh.solid,
+             .made_texcoords = texcoords};
   feature_of_corner_.clear();
   if (!number_parts(n, mesh))
     diag_.report(Diag::no_gltf_value, scene_.where(n), scene_.type(n).name,
@@ -118,6 +140,10 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   if (!counts_up(v.index, v.count())) g.indices = store_.indices(v.index, v.count());
   g.morph = morphs_.add(n, mesh, scratch_, v);
   if (!store_.full()) g.positions = positions;
+  // What was said of it stays unsaid when it is made for the second time, with texture coordinates.
+  const auto first = by_node_[n.value];
+  g.repeatable = g.morph == none && g.features == none && reported(diag_) == n_said &&
+                 (first == none || geometries_[first].repeatable);
   return g;
 }
 

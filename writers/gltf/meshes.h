@@ -30,8 +30,10 @@ struct Geometry {
   std::uint32_t textured = none;    // the same geometry, with texture coordinates
   Mode mode = Mode::triangles;
   bool double_sided = false;
-  bool opacity = false;  // its colours have one
-  double scale = 0;      // how many times larger it is in the world, at most, where it is shown
+  bool opacity = false;         // its colours have one
+  bool repeatable = false;      // equal ones have the same data: nothing was said of it, and it stands still
+  bool made_texcoords = false;  // its texture coordinates were asked for
+  double scale = 0;             // how many times larger it is in the world, at most, where it is shown
   std::vector<std::uint32_t>
       polygons;  // pairs: so many triangles were one face, so often; empty: all faces are triangles
 
@@ -54,10 +56,11 @@ class Meshes {
  public:
   /// `light`: places in lightmaps are kept. `ordered`: triangles and vertices come in the order in which they are drawn
   /// best.
-  Meshes(const Scene& scene, const MeshSource& source, const Motion& motion, Store& store, PartTable& parts, bool light,
-         bool ordered, Diagnostics& diag)
+  Meshes(const Scene& scene, const MeshSource& source, const std::function<NodeId(NodeId)>& same_mesh,
+         const Motion& motion, Store& store, PartTable& parts, bool light, bool ordered, Diagnostics& diag)
       : scene_(scene),
         source_(source),
+        same_mesh_(same_mesh),
         store_(store),
         parts_(parts),
         light_(light),
@@ -92,6 +95,8 @@ class Meshes {
 
  private:
   Geometry make(NodeId, bool texcoords);
+  /// The data of an equal geometry; empty where there is none.
+  Geometry repeated(NodeId, bool texcoords) const;
   const Mesh& mesh_of(NodeId);
   void split(const Mesh&, bool texcoords, const Vec3& origin = {});
   bool number_parts(NodeId, const Mesh&);
@@ -102,6 +107,7 @@ class Meshes {
 
   const Scene& scene_;
   const MeshSource& source_;
+  const std::function<NodeId(NodeId)>& same_mesh_;
   Store& store_;
   PartTable& parts_;
   bool light_, ordered_;

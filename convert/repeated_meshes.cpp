@@ -1,0 +1,40 @@
+#include "convert/repeated_meshes.h"
+
+#include "geometry/geometry.h"
+#include "scenegraph/driven.h"
+
+namespace wrlkit {
+
+RepeatedMeshes::RepeatedMeshes(const Scene& scene, const MeshSource& source, Task& task)
+    : source_(source),
+      task_(task),
+      equal_(scene),
+      driven_(driven_geometry(scene)),
+      textured_(textured_geometry(scene)),
+      asked_(scene.node_count()) {}
+
+/// It grows with every message and everything that is counted.
+std::uint64_t RepeatedMeshes::n_said() const {
+  std::uint64_t n = 0;
+  for (const auto s : {Severity::note, Severity::lost, Severity::warning, Severity::error}) n += task_.diag.count(s);
+  for (const auto& [name, count] : task_.stats) n += count;
+  return n;
+}
+
+const Mesh& RepeatedMeshes::operator()(NodeId n) {
+  const bool first = is_still(n) && !asked_[n.value];
+  if (!first) return source_(n);
+  asked_[n.value] = 1;
+  const auto before = n_said();
+  const Mesh& mesh = source_(n);
+  if (n_said() == before) equal_.add(n);
+  return mesh;
+}
+
+NodeId RepeatedMeshes::same_mesh(NodeId n) {
+  if (!is_still(n) || asked_[n.value]) return {};
+  const NodeId other = equal_.find(n);
+  return other && textured_[other.value] == textured_[n.value] ? other : NodeId{};
+}
+
+}  // namespace wrlkit

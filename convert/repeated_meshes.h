@@ -1,0 +1,31 @@
+// The meshes of geometry that a file has again and again are made once.
+#pragma once
+#include <vector>
+
+#include "base/task.h"
+#include "geometry/equal_geometry.h"
+#include "geometry/mesh.h"
+
+namespace wrlkit {
+
+/// A source of meshes, and which of them are alike. A mesh counts as a repeated one only where nothing was said or
+/// counted when the first was made, no ROUTE or script moves either, and both are shown with a texture or without.
+class RepeatedMeshes {
+ public:
+  RepeatedMeshes(const Scene&, const MeshSource&, Task&);
+
+  const Mesh& operator()(NodeId);
+  /// A geometry that was asked for before and has the same mesh; none if there is none.
+  NodeId same_mesh(NodeId);
+
+ private:
+  bool is_still(NodeId n) const { return n.value < driven_.size() && !driven_[n.value]; }
+  std::uint64_t n_said() const;
+
+  const MeshSource& source_;
+  Task& task_;
+  EqualGeometry equal_;
+  std::vector<char> driven_, textured_, asked_;  // by node
+};
+
+}  // namespace wrlkit

@@ -1,0 +1,31 @@
+// Geometry that is written out again: exporters repeat a bolt ten thousand times, and what is made of one holds for
+// all.
+#pragma once
+#include <unordered_map>
+
+#include "scenegraph/scene.h"
+
+namespace wrlkit {
+
+/// Sets of faces, lines and points by what they and the nodes below them say, to the last bit; DEF names and places do
+/// not count. For a scene that does not change meanwhile.
+class EqualGeometry {
+ public:
+  explicit EqualGeometry(const Scene& scene) : scene_(scene) {}
+
+  /// The node that was added and says the same; none, too, for nodes of other types and ones with values that a
+  /// prototype gives. O(bytes of its arrays).
+  NodeId find(NodeId);
+  /// From now on it is found, unless one like it is already, or others had its hash.
+  void add(NodeId);
+
+ private:
+  std::uint64_t hash(NodeId);
+
+  const Scene& scene_;
+  std::unordered_map<std::uint64_t, NodeId> nodes_;
+  NodeId hashed_;  // the last one
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace wrlkit

@@ -1,0 +1,65 @@
+// Lists of numbers that other threads read while the parser goes on behind them. That works for lists that are written
+// plainly to their brackets, which are nearly all. Where one is not, nothing of this reading of the file counts, and
+// the file is read again on one thread: so there is one place only that repairs numbers and reports it.
+#pragma once
+#include <atomic>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "base/background.h"
+#include "parsers/vrml/parser.h"
+#include "scenegraph/scene.h"
+
+namespace wrlkit::vrml {
+
+class DeferredLists {
+ public:
+  /// Threads are worth their while from that many bytes of text on.
+  static constexpr std::size_t from_bytes = std::size_t{1} << 20;
+
+  /// For a text of that many bytes, which has to live until `finish`.
+  DeferredLists(std::size_t bytes, const PartRead&);
+  ~DeferredLists();
+
+  /// The text between the brackets of a field of a node, whose Value is a stand-in for now.
+  Value add(std::string_view list, FieldType, std::uint16_t slot, NodeId);
+  /// The file is to be read otherwise.
+  void give_up() { failed_ = true; }
+  /// Whether somebody gave up, or some list turned out to be written otherwise; the parser may stop then.
+  bool failed() const { return failed_; }
+  /// Waits, and puts the values into the fields of their nodes. False: failed().
+  bool finish(Scene&);
+
+ private:
+  /// A part of a list; all but very long ones have one.
+  struct Piece {
+    std::string_view text;
+    bool real;
+    Value numbers;
+  };
+  /// What one thread reads at once. The scene has no nodes, but the memory of the values.
+  struct Batch {
+    std::vector<Piece> pieces;
+    std::size_t bytes = 0;
+    Scene memory;
+  };
+  struct List {
+    NodeId node;
+    Value stand_in;
+    std::size_t n_pieces;
+  };
+  void add_piece(std::string_view text, bool real);
+  void begin_last();
+  void read(Batch&);
+  static bool put(const List&, std::span<const Piece* const>, Scene&);
+
+  std::size_t batch_bytes_;
+  const PartRead& part_read_;
+  std::atomic<bool> failed_ = false;
+  std::deque<Batch> batches_;
+  std::vector<List> lists_;
+  Background threads_;
+};
+
+}  // namespace wrlkit::vrml

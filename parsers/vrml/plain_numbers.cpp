@@ -1,0 +1,92 @@
+#include "parsers/vrml/plain_numbers.h"
+
+#include <bit>
+#include <cstring>
+
+#include "parsers/vrml/lexer.h"
+
+namespace wrlkit::vrml {
+namespace {
+
+constexpr double powers_of_ten[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
+constexpr std::uint64_t whole_powers[] = {1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000};
+constexpr std::ptrdiff_t read_ahead = 32;  // a sign, eight digits, a point, and sixteen bytes behind it
+
+struct Digits {
+  std::uint64_t value;
+  unsigned n;
+};
+
+static_assert(std::endian::native == std::endian::little, "the first digit is the lowest byte");
+
+/// The digits at p, eight of them at the most, added up by pairs. A byte that is no digit is one that exceeds 9 once
+/// '0' is taken from it; what the sum carries beyond it falls into bytes that do not count.
+Digits digits_at(const char* p) {
+  std::uint64_t bytes;
+  std::memcpy(&bytes, p, sizeof bytes);
+  bytes ^= 0x3030303030303030u;
+  const std::uint64_t others = (bytes | (bytes + 0x7676767676767676u)) & 0x8080808080808080u;
+  const auto n = static_cast<unsigned>(others ? std::countr_zero(others) / 8 : 8);
+  if (n == 0) return {0, 0};
+  bytes <<= 64 - 8 * n;
+  bytes = (bytes * 10 + (bytes >> 8)) & 0x00ff00ff00ff00ffu;
+  bytes = (bytes * 100 + (bytes >> 16)) & 0x0000ffff0000ffffu;
+  return {(bytes * 10'000 + (bytes >> 32)) & 0xffffffffu, n};
+}
+
+bool is_blank(char c) { return class_of(c) == CharClass::blank; }
+
+/// Both the digits and the power of ten are exact doubles when there are no more than fifteen digits, so that one
+/// division rounds correctly.
+const char* read_plain(const char* p, double& out) {
+  const bool negative = *p == '-';
+  p += negative;
+  const Digits whole = digits_at(p);
+  p += whole.n;
+  Digits part{0, 0};
+  if (*p == '.') {
+    part = digits_at(++p);
+    p += part.n;
+  }
+  const unsigned n = whole.n + part.n;
+  if (n == 0 || n > 15 || !is_blank(*p)) return nullptr;
+  const double v = static_cast<double>(whole.value * whole_powers[part.n] + part.value) / powers_of_ten[part.n];
+  out = std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) ^ std::uint64_t{negative} << 63);
+  return p;
+}
+
+const char* read_plain(const char* p, std::int32_t& out) {
+  const bool negative = *p == '-';
+  p += negative;
+  const Digits whole = digits_at(p);
+  p += whole.n;
+  if (whole.n == 0 || !is_blank(*p)) return nullptr;
+  const auto v = static_cast<std::int32_t>(whole.value);
+  out = negative ? -v : v;
+  return p;
+}
+
+template <class T>
+const char* read_all(const char* p, const char* end, std::vector<T>& to) {
+  for (const char* last = end - p > read_ahead ? end - read_ahead : p; p < last;) {
+    if (is_blank(*p)) {
+      ++p;
+      continue;
+    }
+    T v;
+    const char* behind = read_plain(p, v);
+    if (!behind) break;
+    to.push_back(v);
+    p = behind + 1;
+  }
+  return p;
+}
+
+}  // namespace
+
+const char* read_plain_numbers(const char* p, const char* end, std::vector<double>& to) { return read_all(p, end, to); }
+const char* read_plain_numbers(const char* p, const char* end, std::vector<std::int32_t>& to) {
+  return read_all(p, end, to);
+}
+
+}  // namespace wrlkit::vrml

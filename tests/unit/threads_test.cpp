@@ -1,0 +1,192 @@
+// What is read on several threads is what one thread reads, messages included.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "base/parallel.h"
+#include "convert/wrlkit.h"
+#include "parsers/vrml/parser.h"
+#include "writers/vrml/vrml.h"
+
+using namespace wrlkit;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Read {
+  std::string text, messages;
+  bool operator==(const Read&) const = default;
+};
+
+Read result(const Scene& scene, const Diagnostics& diag) {
+  Read out;
+  Diagnostics quiet;
+  write_vrml(
+      scene, {}, [&](std::string_view s) { out.text += s; }, quiet);
+  for (const auto& m : diag.messages()) out.messages += std::to_string(m.where.begin) + ": " + m.text() + '\n';
+  for (const auto s : {Severity::note, Severity::lost, Severity::warning, Severity::error})
+    out.messages += std::to_string(diag.count(s)) + ' ';
+  return out;
+}
+
+Read read(const std::string& text, int threads) {
+  const ThreadLimit limit(threads);
+  Scene scene;
+  Diagnostics diag;
+  vrml::parse(text, 0, {}, scene, diag);
+  return result(scene, diag);
+}
+
+std::string points(int n, int seed) {
+  std::string out;
+  for (int i = 0; i < n; ++i)
+    out += std::to_string((i * 7919 + seed) % 2000 - 1000) + '.' + std::to_string(i % 1000) + " -0.5 1e-3,\n";
+  return out;
+}
+
+std::string face_set(const std::string& name, const std::string& point, const std::string& more = "") {
+  std::string index;
+  for (int i = 0; i < 3000; ++i) index += std::to_string(i) + ", " + std::to_string(i / 2) + " 0 -1\n";
+  return "DEF " + name + " Shape { geometry IndexedFaceSet { coord Coordinate { point [ " + point + more +
+         " ] } coordIndex [ " + index + " ] } }\n";
+}
+
+/// Two MB, with something else in the middle.
+std::string world(const std::string& middle) {
+  std::string out = "#VRML V2.0 utf8\n";
+  for (int i = 0; i < 40; ++i) {
+    if (i == 20) out += middle;
+    out += face_set("Part" + std::to_string(i), points(1000, i));
+  }
+  return out;
+}
+
+void check_world(const std::string& middle) {
+  const auto text = world(middle);
+  const auto alone = read(text, 1);
+  CHECK(read(text, 2) == alone);
+  CHECK(read(text, 8) == alone);
+}
+
+/// Whether threads can read it to the end.
+bool is_plain(const std::string& middle) {
+  Scene scene;
+  Diagnostics diag;
+  return vrml::parse_on_threads(world(middle), 0, {}, scene, diag);
+}
+
+}  // namespace
+
+TEST_CASE("Threads: plain lists of numbers are read", "[threads]") {
+  const std::string middles[] = {"",
+                                 face_set("Long", points(100'000, 1)),  // in pieces
+                                 face_set("Exact", points(40, 1),
+                                          "1.5e300 -0 12345678901234567890 .5 5. +7 0.1234567890123456789 00012 -.25 "
+                                          "123456789.123456789 1234567.12345678 12345678.1234567 0x10 3 4"),
+                                 face_set("Twice", points(50, 1)) + "DEF D Coordinate { point [ " + points(50, 2) +
+                                     "] point [ " + points(40, 3) + "] point [ 1 2 3 ] }\n",
+                                 "PROTO P [ field MFVec3f p [ " + points(50, 1) +
+                                     "] ] { Shape { geometry PointSet { coord Coordinate { point IS "
+                                     "p } } } }\nP { p [ " +
+                                     points(50, 2) + "] }\n",
+                                 "Script { field MFFloat f [ " + points(60, 1) + "] url \"javascript:\" }\n",
+                                 "Unknown { point [ " + points(60, 1) + "] }\n",
+                                 "Coordinate { point [ " + std::string(100, ' ') + "] }\n"};
+  for (const auto& middle : middles) {
+    INFO(middle.substr(0, 200));
+    CHECK(is_plain(middle));
+    check_world(middle);
+  }
+}
+
+TEST_CASE("Threads: lists that break off or need repair give the messages of one thread", "[threads]") {
+  const auto plain = points(60, 1);
+  const std::string lists[] = {
+      plain + "1.2.3 0 0", plain + "nan 1 2", plain + "1e999 0 0",    plain + "# not ] here\n1 2 3",
+      plain + "1 2",       plain + "one 2 3", plain + "1.#QNAN 0 0",  plain + "{ } 1 2 3",
+      plain + "\"1\" 2 3", plain + "- 1 2",   plain + "[ 1 2 3 ] 4 5"};
+  for (const auto& list : lists) {
+    INFO(list.substr(plain.size()));
+    CHECK_FALSE(is_plain("Coordinate { point [ " + list + " ] }\n"));
+    check_world("Coordinate { point [ " + list + " ] }\n");
+  }
+  for (const std::string& tail : {"Coordinate { point [ " + plain, "Coordinate { point [ " + plain + "}\n",
+                                  "Shape { geometry IndexedFaceSet { coordIndex [ " + plain + "] } }\n"}) {
+    INFO(tail.substr(0, 40));
+    CHECK_FALSE(is_plain(tail));
+    check_world(tail);
+  }
+}
+
+TEST_CASE("Threads: the text ends within a list", "[threads]") {
+  const auto text = world("");
+  for (const std::size_t cut : {3u, 100u, 5000u, 60'000u}) {
+    INFO(cut);
+    const auto part = text.substr(0, text.size() - cut);
+    CHECK(read(part, 2) == read(part, 1));
+  }
+}
+
+TEST_CASE("Threads: files of the corpus", "[threads]") {
+  std::size_t n_plain = 0, n = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(WRLKIT_SOURCE_DIR) / "corpus")) {
+    if (entry.path().extension() != ".wrl") continue;
+    INFO(entry.path());
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    Scene threads;
+    Diagnostics diag;
+    ++n;
+    if (!vrml::parse_on_threads(text, 0, {}, threads, diag)) continue;
+    ++n_plain;
+    CHECK(result(threads, diag) == read(text, 1));
+  }
+  CHECK(n_plain * 2 > n);
+}
+
+namespace {
+
+std::string glb(const std::string& text, Diagnostics* diag = nullptr) {
+  const Document document = load_bytes(text, "test.wrl");
+  REQUIRE(document);
+  std::string out;
+  REQUIRE(save(
+      document, [&](std::string_view s) { out += s; }, ".glb"));
+  if (diag) *diag = document.diag();
+  return out;
+}
+
+std::string square(const std::string& name, const std::string& index, const std::string& more = "") {
+  return "DEF " + name + " Shape { " + more + " geometry IndexedFaceSet { creaseAngle 1 coord Coordinate { point [ " +
+         "0 0 0, 1 0 0, 1 1 0.25, 0 1 0 ] } coordIndex [ " + index + " ] } }\n";
+}
+
+}  // namespace
+
+TEST_CASE("Geometry that is written again has the data of the first", "[gltf]") {
+  const std::string header = "#VRML V2.0 utf8\n";
+  const auto one = glb(header + square("A", "0 1 2 -1 0 2 3 -1"));
+  const auto two = glb(header + square("A", "0 1 2 -1 0 2 3 -1") + square("B", "0 1 2 -1 0 2 3 -1"));
+  // The second one is a node and a mesh in JSON; vertices are not written twice.
+  const auto vertices = [](const std::string& s) { return s.substr(s.find(std::string("BIN\0", 4))); };
+  CHECK(vertices(two) == vertices(one));
+  CHECK(two.find("\"B\"") != two.npos);
+}
+
+TEST_CASE("Geometry that nearly says the same is its own", "[gltf]") {
+  const std::string header = "#VRML V2.0 utf8\n", a = square("A", "0 1 2 -1 0 2 3 -1");
+  CHECK(glb(header + a + square("B", "0 1 2 -1 0 3 2 -1")) != glb(header + a + square("B", "0 1 2 -1 0 2 3 -1")));
+  // Minus zero is another number.
+  const auto minus = [&] {
+    auto b = square("B", "0 1 2 -1 0 2 3 -1");
+    return b.replace(b.find("0 0 0"), 5, "0 -0 0");
+  }();
+  CHECK(glb(header + a + minus) != glb(header + a + square("B", "0 1 2 -1 0 2 3 -1")));
+}
+
+TEST_CASE("Every geometry that is at fault is reported, equal or not", "[gltf]") {
+  Diagnostics diag;
+  glb("#VRML V2.0 utf8\n" + square("A", "0 1 9 -1 0 2 3 -1") + square("B", "0 1 9 -1 0 2 3 -1"), &diag);
+  CHECK(diag.count(Diag::bad_index) == 2);
+}
