@@ -20,6 +20,7 @@ Converted convert(const std::string& from, const std::string& to, const ConvertO
   Converted out;
   out.ending = document.ending(false);
   if (document && check_input(document)) static_cast<Saved&>(out) = save(std::move(document), to, options.save);
+  // NOLINTNEXTLINE(bugprone-use-after-move): of what is saved the messages stay
   out.messages = document.messages();
   return out;
 }

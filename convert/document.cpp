@@ -81,7 +81,8 @@ void Document::leave_unplaced() {
 bool Document::read(const std::string& path) {
   if (auto* monitor = state_->context.monitor) monitor->begin("reading " + path, 0, "");
   state_->world.reset();
-  const auto file = read_file(path, {}, diag());
+  const bool map = state_->options.map_files;
+  const auto file = read_file(path, {.map_from = map ? ReadLimits::large : ReadLimits::none_is_mapped}, diag());
   return file && read(path, *file);
 }
 

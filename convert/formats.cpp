@@ -10,9 +10,9 @@ namespace {
 
 std::string gltf_pipeline(const SaveOptions& o) {
   using As = GltfOptions::Lightmaps;
-  const std::string name = o.lightmap_as == As::base_color ? "gltf"
-                           : o.lightmap_as == As::emissive ? "gltf-emissive"
-                                                           : "gltf-light";
+  std::string name = o.lightmap_as == As::base_color ? "gltf"
+                     : o.lightmap_as == As::emissive ? "gltf-emissive"
+                                                     : "gltf-light";
   if (o.sky == SkyAs::none) return name;
   std::string text(std::ranges::find(named_pipelines(), name, &NamedPipeline::name)->text);
   return text.insert(text.find("tessellate"), "sky,");

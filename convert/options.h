@@ -47,6 +47,8 @@ struct LoadOptions {
   /// Pictures, sounds, films and worlds above the file's own folder may be read, too: as far up as its project reaches
   /// (base/io/project_folder.h). For people who open their own files; not for programs that open anybody's.
   bool project_files = false;
+  /// Large files are mapped, not read: less memory, and SIGBUS when another program shortens one meanwhile.
+  bool map_files = false;
   bool strict = false;                                     // every warning is an error
   bool show_all = false;                                   // Switches that are off show everything
   bool in_place = false;                                   // an output may take the place of the file that is read

@@ -144,21 +144,23 @@ def pipes(runs):
 
 def changed(runs):
     """A file that is cut or replaced while it is read: what was read is used, or the file is given up; no crash."""
-    text = ROOM.read_bytes() * 1
+    text = ROOM.read_bytes()
+    large = text + text[text.index(b'\n'):] * (24 * 2**20 // len(text))  # such are mapped
     chance = random.Random(2)
     for i in range(20):
         folder = runs.folder / f'changed{i}'
         folder.mkdir()
         world = runs.folder / f'changed{i}.wrl'
-        world.write_bytes(text)
+        world.write_bytes(large if i % 4 > 1 else text)
         process = subprocess.Popen([runs.wrlkit, 'convert', '-q', world, folder / 'out.glb'], stderr=subprocess.DEVNULL)
-        time.sleep(chance.random() * 0.05)
+        time.sleep(chance.random() * (0.3 if i % 4 > 1 else 0.05))
         if i % 2:
             os.truncate(world, 0)
         else:
             world.write_bytes(text[:1000])
         code = process.wait()
         require(code in (0, 1, 3), 'ended with', code)
+        world.unlink()
         require([p.name for p in folder.iterdir()] in ([], ['out.glb']), 'left behind', list(folder.iterdir()))
     return ''
 

@@ -17,7 +17,7 @@ import time
 from merged_parts import world
 from tiles_world import bytes_of, round_parts
 
-FILES, KILLS, SHARDS = 6, 5, 4
+FILES, KILLS, SHARDS = 4, 5, 4
 LEAST = '400'  # triangles a tile
 
 
@@ -64,7 +64,7 @@ class Test:
             time.sleep(whole * self.random.uniform(0.3, 0.95))
             run.send_signal(signal.SIGKILL)
             run.wait()
-            kept = max(kept, len(list((self.folder / out / '.wrlkit').glob('*.glb'))))
+            kept = len(list((self.folder / out / '.wrlkit').glob('*.glb')))  # none when it had ended before
         made = self.make(out, '--jobs', jobs)
         self.expect(made['kept'] > 0 or kept == 0, f'{out}: nothing of {kept} tiles was gone on with')
         self.same(out, 'once', f'{jobs} threads, killed {KILLS} times')

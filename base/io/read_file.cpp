@@ -13,8 +13,7 @@
 namespace wrlkit {
 namespace {
 
-constexpr std::size_t head_size = 64 * 1024;             // read to see whether it is gzip
-constexpr std::uint64_t mapped_from = 16 * 1024 * 1024;  // below, memory does not matter
+constexpr std::size_t head_size = 64 * 1024;  // read to see whether it is gzip
 
 std::string reason(int error) {
   if (error == ENOENT || error == ENOTDIR) return "there is no such file";
@@ -133,7 +132,7 @@ class Reader {
   }
 
   bool read_rest(std::uint64_t limit) {
-    if (file_.size() >= mapped_from && text_.size() == head_size) return map_rest();
+    if (file_.size() >= limits_.map_from && text_.size() == head_size) return map_rest();
     for (bool more = text_.size() == head_size; more;) {
       if (text_.room() == 0 && !text_.grow()) {
         failed(ENOMEM);

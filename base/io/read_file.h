@@ -19,6 +19,10 @@ struct ReadLimits {
   double max_ratio = 200;  // unpacked to packed, once more than ratio_from is unpacked
   std::uint64_t ratio_from = 64 << 20;
   std::uint64_t max_device = 64 << 20;  // devices may never end
+  /// From that size on a file that is not gzipped is mapped, which takes no memory for parts that were released. When
+  /// another program shortens it meanwhile, this process gets SIGBUS: for programs that expect it.
+  std::uint64_t map_from = none_is_mapped;
+  static constexpr std::uint64_t none_is_mapped = UINT64_MAX, large = 16 << 20;  // below, memory does not matter
 };
 
 struct FileText {
@@ -34,8 +38,7 @@ struct FileText {
 /// The path that means standard input, and what messages call it.
 inline constexpr std::string_view standard_input = "-", standard_input_name = "<stdin>";
 
-/// Reads a file. Large ones that are not gzipped are mapped: a program that shortens one meanwhile ends this one
-/// (SIGBUS). One message when nothing of it can be had. Of damaged or suspiciously large gzip data, what could be
+/// Reads a file. One message when nothing of it can be had. Of damaged or suspiciously large gzip data, what could be
 /// unpacked is used, which is reported. Peak memory: the text, and a quarter more while gzip data or a pipe is read.
 std::optional<FileText> read_file(const std::string& path, const ReadLimits&, Diagnostics&);
 

@@ -89,7 +89,7 @@ void CoplanarMerger::grow(const Surface& s, std::uint32_t seed) {
   add(s, seed, seed);
   const Frame frame = frame_of(s, seed);
   if (frame.good && simple_[seed] && fits(s, frame, seed))
-    for (std::size_t i = 0; i < queue_.size(); ++i) {
+    for (std::size_t i = 0; i < queue_.size(); ++i) {  // NOLINT(modernize-loop-convert): it grows
       std::uint32_t f = s.face_of[queue_[i]];
       if (region_[f] == none && simple_[f] && keeps_disk(s, seed, f) && fits(s, frame, f)) add(s, seed, f);
     }

@@ -21,6 +21,7 @@ Session::Session(const Flags& flags)
 LoadOptions Session::load_options() {
   LoadOptions out = flags_.load;
   out.project_files = !flags_.strict_paths && !flags_.serve;  // not for those who are not asked
+  out.map_files = true;                                       // run_program says what it is when one is cut
   out.unpack_pictures = !flags_.output.empty() && flags_.output != "-";
   for (const auto& w : flags_.warnings) {
     if (apply_warning_flag(out, w)) continue;

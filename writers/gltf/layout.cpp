@@ -43,8 +43,9 @@ Layout::Layout(const Store& store, const std::vector<std::string>& blobs, const 
       continue;
     }
     auto bytes = packed(view, store.view(view));
+    const auto length = bytes.size();
     add({.offset = 0,
-         .length = bytes.size(),
+         .length = length,
          .view = view,
          .packed = std::move(bytes),
          .unpacked = size,

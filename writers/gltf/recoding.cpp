@@ -58,8 +58,8 @@ std::optional<Recoded> recoded(const Image& original, PixelMeaning meaning, cons
   if (out.mime == plain.mime && !out.resized) return std::nullopt;
   Image image = resized(original, size, meaning);
   const bool clear = alpha_of(image) != Alpha::opaque;
-  if (out.mime == jpeg || (out.mime == webp && !clear))
-    image = with_channels(std::move(image), image.channels < 3 ? 1 : 3);
+  const int channels = image.channels < 3 ? 1 : 3;
+  if (out.mime == jpeg || (out.mime == webp && !clear)) image = with_channels(std::move(image), channels);
   auto bytes = encoded(image, out.mime, options.quality, error);
   if (!bytes) return std::nullopt;
   if (!plain.mime.empty() && !out.resized && options.format != Format::png && bytes->size() >= plain.bytes)
