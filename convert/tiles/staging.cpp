@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/io/output.h"
@@ -55,17 +56,36 @@ bool Staging::open(const std::string& folder, Diagnostics& diag) {
   made_ = fs::create_directories(folder_, fault);
   if (!fault && !fs::is_directory(folder_, fault)) fault = std::make_error_code(std::errc::not_a_directory);
   remove_left_behind();
-  std::string name = (folder_ / (std::string(unfinished) + "XXXXXX")).string();
-  if (!fault && !mkdtemp(name.data())) fault = std::error_code(errno, std::generic_category());
+  if (!fault) fault = make_own();
   if (fault) {
     diag.report(Diag::cannot_write, {}, folder, fault.message());
     return false;
   }
-  at_ = name;
-  lock_ = lock_of(at_);
   fs::permissions(at_, fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec,
                   fs::perm_options::add, fault);
   return true;
+}
+
+/// Until it is locked, another run may take it for one that was left behind; then there is another one.
+std::error_code Staging::make_own() {
+  constexpr int tries = 10;  // all of them where the file system has no locks: the last one is taken as it is
+  for (int i = 0; i < tries; ++i) {
+    if (lock_ >= 0) close(std::exchange(lock_, -1));
+    std::error_code none;
+    if (!at_.empty()) fs::remove_all(std::exchange(at_, {}), none);
+    std::string name = (folder_ / (std::string(unfinished) + "XXXXXX")).string();
+    if (!mkdtemp(name.data())) {
+      const std::error_code fault(errno, std::generic_category());
+      // A run that had made the folder for all, and has ended, removes it.
+      fs::create_directories(folder_, none);
+      if (fault != std::errc::no_such_file_or_directory || none) return fault;
+      continue;
+    }
+    at_ = name;
+    lock_ = lock_of(at_);
+    if (lock_ >= 0 && fs::exists(at_, none)) break;
+  }
+  return at_.empty() ? std::make_error_code(std::errc::no_such_file_or_directory) : std::error_code();
 }
 
 void Staging::remove_left_behind() const {

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "base/diagnostics.h"
 
@@ -21,6 +22,7 @@ class Staging {
   bool publish(const std::string& name, const std::string& tileset, Diagnostics& diag);
 
  private:
+  std::error_code make_own();
   void remove_left_behind() const;
 
   std::filesystem::path folder_, at_;

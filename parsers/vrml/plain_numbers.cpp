@@ -8,7 +8,7 @@
 namespace wrlkit::vrml {
 namespace {
 
-constexpr double powers_of_ten[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
+constexpr double float_powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
 constexpr std::uint64_t whole_powers[] = {1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000};
 constexpr std::ptrdiff_t read_ahead = 32;  // a sign, eight digits, a point, and sixteen bytes behind it
 
@@ -50,7 +50,7 @@ const char* read_plain(const char* p, double& out) {
   }
   const unsigned n = whole.n + part.n;
   if (n == 0 || n > 15 || !is_blank(*p)) return nullptr;
-  const double v = static_cast<double>(whole.value * whole_powers[part.n] + part.value) / powers_of_ten[part.n];
+  const double v = static_cast<double>(whole.value * whole_powers[part.n] + part.value) / float_powers[part.n];
   out = std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) ^ std::uint64_t{negative} << 63);
   return p;
 }

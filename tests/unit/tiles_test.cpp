@@ -1,14 +1,17 @@
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "convert/tiles.h"
 #include "convert/tiles/cells.h"
 #include "convert/tiles/looks.h"
 #include "convert/tiles/piece_store.h"
+#include "convert/tiles/staging.h"
 #include "convert/tiles/surface_error.h"
 #include "scenegraph/nodes.h"
 #include "tests/unit/temp_folder.h"
@@ -213,4 +216,23 @@ TEST_CASE("tiles: places on the Earth", "[tiles]") {
   CHECK(earth_matrix({.latitude = 90}).column(3 - 1)[2] == Approx(1));    // at the pole
   CHECK(earth_matrix({.latitude = 90})(2, 3) == Approx(6356752.314245));  // the semi-minor axis
   CHECK(earth_matrix({.heading = 90})(1, 1) == Approx(1));                // -z is east
+}
+
+TEST_CASE("tiles: runs that begin and end at the same time leave each other's folders alone", "[tiles]") {
+  TempFolder folder;
+  const std::string set = folder / "set";
+  std::atomic<int> n_failed = 0;
+  const auto run = [&] {
+    for (int i = 0; i < 200; ++i) {
+      Diagnostics diag;
+      tiles::Staging staging;
+      const bool good = staging.open(set, diag);
+      n_failed += !good || !std::filesystem::exists(staging.path());
+    }
+  };
+  {
+    std::vector<std::jthread> runs;
+    for (int i = 0; i < 4; ++i) runs.emplace_back(run);
+  }
+  CHECK(n_failed == 0);
 }
