@@ -252,9 +252,10 @@ bool Making::make_levels() {
   for (auto i = static_cast<std::uint32_t>(made_.size()); i-- > 0;) {
     if (made_[i].is_made || !is_mine(i)) continue;
     ++n_tiles;
-    auto& list = cells_.cells[i].children.empty() ? leaves : tops;
-    if (const auto top = &list == &leaves ? i : top_of(i); std::ranges::find(list, top) == list.end())
-      list.push_back(top);
+    if (cells_.cells[i].children.empty())
+      leaves.push_back(i);
+    else
+      tops.push_back(top_of(i));
   }
   if (ctx_.monitor && n_tiles > 0) ctx_.monitor->begin("making tiles", n_tiles, "tiles");
   const auto make_leaf = [&](std::uint32_t i, Task& task) {
@@ -263,6 +264,7 @@ bool Making::make_levels() {
   if (!for_each(leaves, make_leaf)) return false;
   // From the last level on, cells come before those that they are in.
   std::ranges::sort(tops, std::greater{});
+  tops.erase(std::unique(tops.begin(), tops.end()), tops.end());
   return std::ranges::all_of(tops, [&](std::uint32_t i) { return make_group(i); });
 }
 

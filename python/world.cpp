@@ -117,7 +117,7 @@ std::shared_ptr<PyWorld> PyWorld::load(const std::string& path, std::vector<std:
     py::gil_scoped_release others;
     return wrlkit::load(path, std::move(options.load));
   }();
-  if (!document) fail(path + ": there is no world in it", document.messages());
+  if (!document) fail(path + ": no scene can be read from it", document.messages());
   return std::make_shared<PyWorld>(std::move(document));
 }
 

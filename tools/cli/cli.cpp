@@ -39,8 +39,7 @@ std::vector<std::string> take_warning_flags(std::vector<std::string>& words) {
 /// A corpus run has a time for each file, and divides the memory among its workers.
 void limit(const Verb& verb, const Flags& f) {
   const std::string_view name = verb.name;
-  const bool is_given = std::ranges::find(f.given, "timeout", &GivenOptions::value_type::first) != f.given.end();
-  if (is_given && name != "corpus-run") limit_time(seconds_of(f.timeout));
+  if (f.is_given("timeout") && name != "corpus-run") limit_time(seconds_of(f.timeout));
   if (f.memory.empty() || name.starts_with("corpus")) return;
   const rlim_t bytes = size_of(f.memory);
   const rlimit limit{bytes, bytes};
@@ -172,8 +171,7 @@ bool add_recipe(const Flags& flags, const Verb& verb, std::vector<std::string>& 
   const auto app = app_of(verb, unused);
   std::erase_if(recipe->options, [&](const auto& o) {
     const bool is_of_corpus = o.first == "format" && !std::string_view(verb.name).starts_with("corpus");
-    return !app->get_option_no_throw("--" + o.first) || is_of_corpus ||
-           std::ranges::find(flags.given, o.first, &GivenOptions::value_type::first) != flags.given.end();
+    return !app->get_option_no_throw("--" + o.first) || is_of_corpus || flags.is_given(o.first);
   });
   const auto added = words_of(recipe->options);
   words.insert(std::ranges::find(words, verb.name) + 1, added.begin(), added.end());

@@ -1,7 +1,9 @@
 // What the command line can say, as data. cli.cpp fills these from the words of the command; the verbs read them.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,8 @@ struct Flags {
   bool print_recipe = false;
   bool can_replace = false;                                             // the verb has --in-place
   std::vector<std::pair<std::string, std::vector<std::string>>> given;  // every option that was given, by name
+  bool is_given(std::string_view option) const { return std::ranges::find(given, option, given_name) != given.end(); }
+  static constexpr auto given_name = &decltype(given)::value_type::first;
   std::string profile;
   bool print_profile = false;
   bool recognise = false;  // optimize, info
@@ -90,6 +94,7 @@ struct Flags {
 
   // tiles
   int tile_triangles = 50'000;
+  bool update = false;     // keep what was made, for the next run
   std::vector<double> at;  // latitude, longitude, height, heading
 
   bool serve = false;  // view

@@ -236,11 +236,9 @@ void tiles(CLI::App& verb, Flags& f) {
                   "one of several processes that make a set together, in one folder: 2/8, the second of eight; auto, "
                   "auto/8: by the environment of Slurm or Kubernetes. The last to end writes tileset.json")
       ->type_name("I/N");
-  // The verb asks whether it was given (Flags::given).
-  const std::string update =
-      "keep in DIR/.wrlkit what has been made, and make again only tiles whose parts have changed since the last such "
-      "run; the bytes are those of a new run";
-  verb.add_flag("--update", update);
+  verb.add_flag("--update", f.update,
+                "keep in DIR/.wrlkit what has been made, and make again only tiles whose parts have changed since the "
+                "last such run; the bytes are those of a new run");
   verb.add_option("--triangles", f.tile_triangles, "that a tile draws, at most")
       ->check(CLI::Range(100, 10'000'000))
       ->capture_default_str();

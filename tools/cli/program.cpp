@@ -1,14 +1,12 @@
-#include <unistd.h>
-
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
-#include <string_view>
 
 #include "tools/cli/cli.h"
+#include "tools/cli/end_now.h"
 
 namespace wrlkit {
 namespace {
@@ -20,12 +18,8 @@ bool everything_printed() {
   return false;
 }
 
-/// A file that is mapped was cut by another program (LoadOptions::map_files). A handler may do no more than this.
-void file_was_cut(int) {
-  constexpr std::string_view text = "wrlkit: error: the input was shortened while it was read\n";
-  if (write(STDERR_FILENO, text.data(), text.size()) < 0) _exit(nothing);
-  _exit(nothing);
-}
+/// A file that is mapped was cut by another program (LoadOptions::map_files).
+void file_was_cut(int) { end_now("wrlkit: error: the input was shortened while it was read\n"); }
 
 }  // namespace
 

@@ -86,11 +86,11 @@ PipelineOptions Session::pipeline_options() {
   return o;
 }
 
-int Session::end(bool made) {
+int Session::end(bool made, int not_made) {
   progress_.clear();
   if (made && document_.resources()) write_named_files(resources(), diag());
   document_.report_files_above();
-  const int code = exit_code(made);
+  const int code = exit_code(made, not_made);
   if (flags_.time_passes)
     for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);
   if (flags_.stats)

@@ -38,11 +38,13 @@ class Session {
   /// For --report: facts beside the messages, as JSON.
   void fact(std::string name, std::string json) { facts_.emplace_back(std::move(name), std::move(json)); }
 
-  int exit_code(bool made) const { return !made ? nothing : document_.diag().has_errors() ? partly : done; }
+  int exit_code(bool made, int not_made) const {
+    return !made ? not_made : document_.diag().has_errors() ? partly : done;
+  }
   /// Messages are printed as a line for each kind, unless --verbose says more.
   void be_brief() { brief_ = !flags_.verbose; }
   /// Prints the messages, writes the report and gives the exit code. `made`: there is an output.
-  int end(bool made);
+  int end(bool made, int not_made = nothing);
 
  private:
   LoadOptions load_options();

@@ -8,18 +8,14 @@
 #include <csignal>
 #include <string>
 
-#include "tools/cli/flags.h"
+#include "tools/cli/end_now.h"
 
 namespace wrlkit {
 namespace {
 
 std::string message;  // a handler may not make one
 
-void give_up(int) {
-  // There is nobody left to tell when that fails.
-  if (write(STDERR_FILENO, message.data(), message.size()) < 0) _exit(nothing);
-  _exit(nothing);
-}
+void give_up(int) { end_now(message); }
 
 }  // namespace
 

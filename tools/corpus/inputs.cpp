@@ -224,7 +224,7 @@ std::optional<std::vector<NamedWorld>> named_worlds(const std::vector<std::strin
     for (auto& file : found->files) out.push_back({file.path, file.inside});
   }
   if (!out.empty()) return out;
-  why = "there is no world in " + words[0];
+  why = "there are no scene files in '" + words[0] + "'";
   return std::nullopt;
 }
 
@@ -239,7 +239,7 @@ std::optional<std::vector<std::string>> worlds_in(const std::vector<std::string>
     const auto inputs = gather_inputs({word}, {}, why);
     if (!inputs) return std::nullopt;
     if (inputs->files.empty()) {
-      why = "there are no worlds in '" + word + "'";
+      why = "there are no scene files in '" + word + "'";
       return std::nullopt;
     }
     for (const auto& file : inputs->files) out.push_back(file.path);

@@ -41,7 +41,7 @@ struct NamedWorld {
 /// A folder, a glob that is not the name of a file, or "@list.txt".
 bool means_many(const std::string& word);
 /// Files that are named stand as they are, even those that are not there; what `means_many` as the worlds in it.
-/// Nothing, and why, when there is no world at all.
+/// Nothing, and why, when no scene file is found.
 std::optional<std::vector<NamedWorld>> named_worlds(const std::vector<std::string>& words, std::string& why);
 
 /// Files as they are, folders as the worlds in them; for verbs of few worlds. Nothing, and why, when a folder has none.

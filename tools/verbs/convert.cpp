@@ -21,14 +21,10 @@ namespace wrlkit {
 
 namespace {
 
-bool is_given(const Flags& flags, std::string_view name) {
-  return std::ranges::find(flags.given, name, &GivenOptions::value_type::first) != flags.given.end();
-}
-
 /// The ending of the name decides; --format where it has none.
 std::optional<Output> output_of(const Flags& flags, const SaveOptions& options) {
   auto named = output_of(flags.output, options);
-  if (!is_given(flags, "format") || (named && flags.output != "-")) return named;
+  if (!flags.is_given("format") || (named && flags.output != "-")) return named;
   auto to = output_of("x." + flags.format, options);
   if (to) to->path = flags.output;
   return to;
@@ -49,7 +45,7 @@ std::string no_format(const std::string& output) {
 std::vector<std::string> idle_options(const Flags& flags, const Output& to) {
   std::vector<std::string> names;
   const auto add = [&](std::string_view name, auto&&...) {
-    if (is_given(flags, name)) names.emplace_back(name);
+    if (flags.is_given(name)) names.emplace_back(name);
   };
   SaveOptions options;
   if (to.format->is_text) {
@@ -74,7 +70,7 @@ SaveOptions save_options(const Flags& flags) {
   SaveOptions out = flags.save;
   if (flags.pipeline_given) out.pipeline = flags.pipeline;
   if (const Profile* profile = find_profile(flags.profile))
-    apply_profile(out, *profile, [&](std::string_view name) { return is_given(flags, name); });
+    apply_profile(out, *profile, [&](std::string_view name) { return flags.is_given(name); });
   return out;
 }
 

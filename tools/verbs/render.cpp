@@ -150,8 +150,7 @@ int run_render(const Flags& given) {
   if (made && flags.verbose && flags.mode == RenderOptions::Mode::density)
     fmt::print(stderr, "texels a metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n",
                most_texels_per_metre);
-  const int code = s.end(made);
-  return !made && s.diag().count(Diag::viewpoint_not_found) > 0 ? usage : code;
+  return s.end(made, s.diag().count(Diag::viewpoint_not_found) > 0 ? usage : nothing);
 }
 
 }  // namespace wrlkit

@@ -12,10 +12,6 @@
 namespace wrlkit {
 namespace {
 
-bool given(const Flags& f, std::string_view name) {
-  return std::ranges::any_of(f.given, [&](const auto& g) { return g.first == name; });
-}
-
 std::string contents_json(const std::vector<NamedWorld>& worlds, const std::vector<bool>& drawn) {
   std::string text;
   JsonOut json(text);
@@ -43,8 +39,8 @@ int render_sheet(Session& s) {
     return usage;
   }
   RenderOptions options = render_options(f);
-  if (!given(f, "width")) options.width = 320;
-  if (!given(f, "height")) options.height = 240;
+  if (!f.is_given("width")) options.width = 320;
+  if (!f.is_given("height")) options.height = 240;
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(worlds->size()))));
   const GridSize size = grid_size(worlds->size(), columns, options.width, options.height);
   if (!image_size_fault(size.width, size.height, SIZE_MAX).empty()) {

@@ -23,7 +23,7 @@ std::vector<TilesInput> inputs_of(const Flags& flags) {
   std::string why;
   const InputRules rules{.include = flags.include, .exclude = flags.exclude, .base = {}, .output = flags.output};
   const auto found = gather_inputs(flags.inputs, rules, why);
-  if (found && found->files.empty()) why = "there are no worlds in '" + flags.inputs[0] + "'";
+  if (found && found->files.empty()) why = "there are no scene files in '" + flags.inputs[0] + "'";
   if (!why.empty()) fmt::print(stderr, "wrlkit tiles: {}\n", why);
   std::vector<TilesInput> out;
   if (!found) return out;
@@ -49,11 +49,8 @@ TilesOptions options_of(const Flags& flags, Shard shard) {
                    .program = program_identity(),
                    .shard = shard.index,
                    .shards = shard.count};
-  const auto is_given = [&](std::string_view name) {
-    return std::ranges::find(flags.given, name, &GivenOptions::value_type::first) != flags.given.end();
-  };
-  out.update = is_given("update");
-  if (!is_given("compress")) out.save.compress = GltfCompression::Method::meshopt;
+  out.update = flags.update;
+  if (!flags.is_given("compress")) out.save.compress = GltfCompression::Method::meshopt;
   if (flags.at.size() < 3) return out;
   out.place = {flags.at[0], flags.at[1], flags.at[2], flags.at.size() > 3 ? flags.at[3] : 0};
   return out;

@@ -108,7 +108,7 @@ std::string contents_json(const Gallery& g, const std::string& file, std::size_t
   return text;
 }
 
-bool is_usable_for_gallery(const Flags& f) {
+bool has_place(const Flags& f) {
   if (f.output.empty() || f.serve) {
     fmt::print(stderr, "wrlkit view: a gallery needs -o FILE, without --serve\n");
     return false;
@@ -154,7 +154,7 @@ bool is_gallery(const Flags& f) { return f.inputs.size() > 2 || std::ranges::any
 
 int view_gallery(const Flags& flags) {
   Session s(flags);
-  if (!is_usable_for_gallery(flags) || !s.good() || !s.choose_pipeline("picture")) return usage;
+  if (!has_place(flags) || !s.good() || !s.choose_pipeline("picture")) return usage;
   std::string why;
   const auto worlds = named_worlds(flags.inputs, why);
   if (!worlds) {
