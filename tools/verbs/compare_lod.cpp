@@ -156,7 +156,7 @@ bool write(const Comparison& c, Session& s) {
   return write_text_file(name, *bytes);
 }
 
-bool is_usable(const Flags& f) {
+bool has_one_budget(const Flags& f) {
   if (f.counts.empty() || f.ratios.empty()) return true;
   fmt::print(stderr, "wrlkit compare-lod: --counts or --ratios, not both\n");
   return false;
@@ -166,7 +166,7 @@ bool is_usable(const Flags& f) {
 
 int run_compare_lod(const Flags& flags) {
   Session s(flags);
-  if (!is_usable(flags) || !s.good() ||
+  if (!has_one_budget(flags) || !s.good() ||
       !s.choose_pipeline(flags.pipeline_given ? "lower-vrml1,lower-x3d{vrml97=true}"
                                               : "lower-vrml1,lower-x3d{vrml97=true},weld"))
     return usage;

@@ -22,7 +22,7 @@ namespace wrlkit {
 namespace {
 
 /// The ending of the name decides; --format where it has none.
-std::optional<Output> output_of(const Flags& flags, const SaveOptions& options) {
+std::optional<Output> chosen_output(const Flags& flags, const SaveOptions& options) {
   auto named = output_of(flags.output, options);
   if (!flags.is_given("format") || (named && flags.output != "-")) return named;
   auto to = output_of("x." + flags.format, options);
@@ -59,7 +59,7 @@ std::vector<std::string> idle_options(const Flags& flags, const Output& to) {
 }
 
 void warn_of_idle_options(const Flags& flags) {
-  const auto to = output_of(flags, save_options(flags));
+  const auto to = chosen_output(flags, save_options(flags));
   for (const auto& name : idle_options(flags, *to))
     fmt::print(stderr, "wrlkit: --{} has no effect on {} output\n", name, to->format->name);
 }
@@ -77,7 +77,7 @@ SaveOptions save_options(const Flags& flags) {
 bool prepare_conversion(Session& s) {
   const auto& flags = s.flags();
   const auto options = save_options(flags);
-  const auto to = output_of(flags, options);
+  const auto to = chosen_output(flags, options);
   if (!to) {
     fmt::print(stderr, "wrlkit: {}\n", no_format(flags.output));
     return false;
@@ -95,7 +95,7 @@ bool read_input(Session& s) {
 
 Saved write_world(Session& s, SaveOptions options, const std::function<void(Scene&)>& last) {
   options.measure_gzip |= s.flags().verbose || s.flags().json;
-  const auto to = output_of(s.flags(), options);
+  const auto to = chosen_output(s.flags(), options);
   auto saved = write_document(s.document(), s.pipeline(), *to, options, {s.pipeline_options(), last});
   if (saved && saved.gltf) s.fact("gltf", summary_json(*saved.gltf));
   return saved;

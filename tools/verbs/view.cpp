@@ -99,7 +99,7 @@ class Viewer {
   std::vector<std::unique_ptr<ShownSurface>> surfaces_;  // when two are compared
 };
 
-bool is_usable(const Flags& f) {
+bool can_be_shown(const Flags& f) {
   if (f.output.empty() && !f.serve) {
     fmt::print(stderr, "wrlkit view: -o FILE or --serve is needed\n");
     return false;
@@ -194,7 +194,7 @@ int run_view(const Flags& flags) {
   const auto tileset = tileset_folder(flags.inputs);
   if (tileset.empty() && is_gallery(flags)) return view_gallery(flags);
   Session s(flags);
-  if (!is_usable(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;
+  if (!can_be_shown(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;
   if (flags.print_pipeline) {
     fmt::print("{}\n", s.pipeline().text());
     return done;
