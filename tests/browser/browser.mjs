@@ -29,7 +29,7 @@ async function body_of(request) {
 function make_server(folder, jobs, got) {
   const folders = {page: path.join(here, 'page'), node_modules: path.join(here, 'node_modules'), out: folder};
   return http.createServer(async (request, response) => {
-    if (request.url === '/jobs') return response.end(JSON.stringify(jobs));
+    if (request.url === '/job') return response.end(JSON.stringify((await jobs.next()).value ?? null));
     if (request.url !== '/result') return serve_file(folders, request.url, response);
     got(await body_of(request));
     response.end();
@@ -44,8 +44,8 @@ function start_chromium(url, profile) {
   return spawn(chromium, [...flags, url], {detached: true, stdio: ['ignore', 'ignore', 'pipe']});
 }
 
-/// Has the page do all jobs, whose files lie in `folder` and have addresses below /out/. Gives the results to `got`, one
-/// after the other; throws when none comes for `patience` seconds.
+/// Has the page do all jobs, a list or what comes one after the other from an async generator; their files lie in `folder`
+/// and have addresses below /out/. Gives the results to `got` in turn; throws when none comes for `patience` seconds.
 export async function take_pictures(folder, jobs, got, patience = 120) {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'wrlkit-chromium-'));
   let server, browser, log = '', timer;
@@ -55,7 +55,7 @@ export async function take_pictures(folder, jobs, got, patience = 120) {
         clearTimeout(timer);
         timer = setTimeout(() => reject(new Error(`the browser says nothing for ${patience} s:\n${log.slice(-2000)}`)), patience * 1000);
       };
-      server = make_server(folder, jobs, result => { wait(); result.end ? resolve() : got(result); });
+      server = make_server(folder, (jobs[Symbol.asyncIterator] ?? jobs[Symbol.iterator]).call(jobs), result => { wait(); result.end ? resolve() : got(result); });
       server.listen(0, '127.0.0.1', () => {
         wait();
         browser = start_chromium(`http://127.0.0.1:${server.address().port}/page/index.html`, profile);

@@ -21,3 +21,13 @@ export async function in_lanes(items, lanes, work) {
   const lane = async () => { for (let i = next.next(); !i.done; i = next.next()) await work(i.value); };
   await Promise.all(Array.from({length: lanes}, lane));
 }
+
+/// What work(item) gives for all items, in their order; the next n are under way while one is looked at.
+export async function* ahead(items, n, work) {
+  const under_way = [];
+  for (const item of items) {
+    under_way.push(work(item));
+    if (under_way.length > n) yield await under_way.shift();
+  }
+  yield* under_way;
+}

@@ -25,18 +25,28 @@ export async function load_picture(url) {
 
 /// 1 for each pixel that is part of the world, and not of the background of that colour.
 function covered(data, key) {
-  const is_covered = i => key.some((v, k) => Math.abs(data[4 * i + k] - 255 * v) > 12);
-  return Uint8Array.from({length: data.length / 4}, (_, i) => is_covered(i) ? 1 : 0);
+  const [r, g, b] = key.map(v => 255 * v), mask = new Uint8Array(data.length / 4);
+  const differs = (value, of_key) => Math.abs(value - of_key) > 12;
+  for (let i = 0, k = 0; i < mask.length; ++i, k += 4) mask[i] = differs(data[k], r) || differs(data[k + 1], g) || differs(data[k + 2], b) ? 1 : 0;
+  return mask;
+}
+
+/// The mask, with what lies `step` before and behind each pixel in the list, within runs of that length.
+function spread(mask, step, run) {
+  const out = mask.slice();
+  for (let i = 0; i < mask.length; ++i) {
+    if (!mask[i]) continue;
+    const at = Math.floor(i / step) % run;
+    if (at > 0) out[i - step] = 1;
+    if (at < run - 1) out[i + step] = 1;
+  }
+  return out;
 }
 
 /// The mask, grown by `reach` pixels in each direction.
 function grown(mask, width, reach) {
   if (reach === 0) return mask;
-  const height = mask.length / width;
-  const at = (x, y) => x >= 0 && x < width && y >= 0 && y < height && mask[y * width + x];
-  const near = [-1, 0, 1].flatMap(dy => [-1, 0, 1].map(dx => [dx, dy]));
-  const one = mask.map((_, i) => near.some(([dx, dy]) => at(i % width + dx, Math.floor(i / width) + dy)) ? 1 : 0);
-  return grown(one, width, reach - 1);
+  return grown(spread(spread(mask, 1, width), width, mask.length / width), width, reach - 1);
 }
 
 const count = mask => mask.reduce((sum, v) => sum + v, 0);
@@ -56,13 +66,14 @@ function overlap(a, b, width, reach) {
 export function compare(a, b, {key, reach = 0}) {
   const [p, q] = [pixels(a), pixels(b)];
   if (p.length !== q.length) throw new Error(`pictures of ${a.width} x ${a.height} and ${b.width} x ${b.height}`);
-  const [in_a, in_b] = [covered(p, key), covered(q, key)];
-  const distance = i => [0, 1, 2].reduce((sum, k) => sum + Math.abs(p[4 * i + k] - q[4 * i + k]) / 765, 0);
-  const differences = Array.from(in_a.keys()).filter(i => in_a[i] && in_b[i]).map(distance).sort((x, y) => x - y);
+  const [in_a, in_b] = [covered(p, key), covered(q, key)], differences = [];
+  for (let i = 0, k = 0; i < in_a.length; ++i, k += 4)
+    if (in_a[i] && in_b[i]) differences.push((Math.abs(p[k] - q[k]) + Math.abs(p[k + 1] - q[k + 1]) + Math.abs(p[k + 2] - q[k + 2])) / 765);
+  const sorted = Float64Array.from(differences).sort();
   return {
     overlap: overlap(in_a, in_b, a.width, reach),
-    difference: mean(differences),
-    worst: mean(differences.slice(Math.floor(differences.length * 0.9))),
+    difference: mean(sorted),
+    worst: mean(sorted.subarray(Math.floor(sorted.length * 0.9))),
     coverage: count(in_a) / in_a.length,
   };
 }

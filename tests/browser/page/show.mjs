@@ -14,7 +14,8 @@ import {light_as_vrml} from './vrml_light.mjs';
 
 const draco = new DRACOLoader().setDecoderPath('/node_modules/three/examples/jsm/libs/draco/gltf/');
 const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).setDRACOLoader(draco);
-let renderer;
+const renderers = new Map();  // by what they cannot change: a new one compiles every shader again
+let renderer, before;
 
 /// Draws job.glb and returns the canvas. job: {glb, time, width, height, camera, background, smooth, lighting}; camera is the
 /// number or name of one in the file, or {eye, target, up}, seen with VRML's standard field of view; without a background it
@@ -30,7 +31,21 @@ export async function show(job) {
   sharpen_pictures(scene);
   if (job.lighting === 'vrml') light_as_vrml(scene);
   renderer.render(scene, camera);
+  if (before) dispose(before);  // only now, so that shaders that both scenes need are kept
+  before = scene;
   return renderer.domElement;
+}
+
+/// Gives back what the renderer holds of a scene.
+function dispose(scene) {
+  scene.traverse(o => {
+    o.geometry?.dispose();
+    o.dispose?.();
+    for (const m of [o.material ?? []].flat()) {
+      for (const value of Object.values(m)) if (value?.isTexture) value.dispose();
+      m.dispose();
+    }
+  });
 }
 
 /// All animations, as they are so many seconds from their start.
@@ -47,8 +62,8 @@ function sky(scene) {
 }
 
 function start({width, height, smooth = false, lighting = 'three'}, background) {
-  renderer?.dispose();
-  renderer = new THREE.WebGLRenderer({antialias: smooth, alpha: false, preserveDrawingBuffer: true});
+  renderer = renderers.get(smooth) ?? new THREE.WebGLRenderer({antialias: smooth, alpha: false, preserveDrawingBuffer: true});
+  renderers.set(smooth, renderer);
   renderer.outputColorSpace = lighting === 'vrml' ? THREE.LinearSRGBColorSpace : THREE.SRGBColorSpace;
   renderer.setSize(width, height, false);
   renderer.setClearColor(new THREE.Color().setRGB(...background, renderer.outputColorSpace), 1);

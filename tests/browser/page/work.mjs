@@ -1,5 +1,5 @@
-// What the page does: it fetches the list of pictures to be taken, takes one after the other, and sends back each with what
-// it saw. The driver (browser.mjs) is at the other end.
+// What the page does: it fetches what picture is to be taken, takes it and sends it back with what it saw, until there is
+// none. The driver (browser.mjs) is at the other end.
 import {compare, load_picture, picture_of, sheet, stack} from './pictures.mjs';
 import {show} from './show.mjs';
 
@@ -29,7 +29,9 @@ async function work(job) {
 
 const send = result => fetch('/result', {method: 'POST', body: JSON.stringify(result)});
 
-for (const job of await (await fetch('/jobs')).json()) {
+const next_job = async () => (await fetch('/job')).json();
+
+for (let job = await next_job(); job; job = await next_job()) {
   const result = await work(job).catch(error => ({error: String(error?.stack ?? error)}));
   await send({name: job.name, lighting: job.lighting, ...result});
 }
