@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/image/decode.h"
 #include "base/image/image_codecs.h"
 #include "base/image/image_module.h"
 #include "base/image/png.h"
@@ -93,13 +94,12 @@ const Opened& image_module() {
 
 struct Codec {
   std::string_view mime;
-  const char* name;
+  const char* name;  // OpenImageIO's
 };
 
 constexpr Codec codecs[] = {
-    {"image/png", "png"},   {"image/jpeg", "jpeg"},     {"image/gif", "gif"},
-    {"image/bmp", "bmp"},   {"image/x-tga", "targa"},   {"image/tiff", "tiff"},
-    {"image/webp", "webp"}, {"image/x-exr", "openexr"}, {"image/vnd.radiance", "hdr"},
+    {"image/jpeg", "jpeg"}, {"image/gif", "gif"},   {"image/bmp", "bmp"},       {"image/x-tga", "targa"},
+    {"image/tiff", "tiff"}, {"image/webp", "webp"}, {"image/x-exr", "openexr"}, {"image/vnd.radiance", "hdr"},
 };
 
 bool alpha_is_nothing(const Image& image) {
@@ -108,20 +108,11 @@ bool alpha_is_nothing(const Image& image) {
   return true;
 }
 
-bool decode(std::string_view bytes, std::string_view mime, Image& image, std::string& error) {
+bool decode_by_module(std::string_view bytes, std::string_view mime, Image& image, std::string& error) {
   auto codec = std::ranges::find(codecs, mime, &Codec::mime);
   if (codec == std::end(codecs)) {
     error = "it is no picture of a known type";
     return false;
-  }
-  std::optional<std::string> png;
-  if (mime == "image/png") {
-    png = essential_png(bytes);
-    if (!png) {
-      error = "its data are damaged";
-      return false;
-    }
-    bytes = *png;
   }
   auto& opened = image_module();
   if (!opened.module) {
@@ -129,6 +120,12 @@ bool decode(std::string_view bytes, std::string_view mime, Image& image, std::st
     return false;
   }
   return opened.module->decode({bytes, codec->name, &image_size_fault}, image, error);
+}
+
+bool decode(std::string_view bytes, std::string_view mime, Image& image, std::string& error) {
+  if (mime == "image/png") return decode_png(bytes, image, error);
+  if (mime == "image/jpeg" && is_plain_jpeg(bytes)) return decode_jpeg(bytes, image, error);
+  return decode_by_module(bytes, mime, image, error);
 }
 
 template <class Picture>

@@ -9,8 +9,8 @@
 namespace wrlkit {
 
 /// The picture without the chunks that do not change its pixels: colour profiles, times, texts. Nothing when a chunk is
-/// damaged or missing. libpng prints its complaints about either kind, which a library must not; and what a file says
-/// about when and by what it was made would make equal pictures differ.
+/// damaged or missing. What a file says about its gamma, and about when and by what it was made, would make equal
+/// pictures differ.
 std::optional<std::string> essential_png(std::string_view png);
 
 /// A picture that has all its pixels, 1 to 4 channels of 8 bits: each row by the filter that leaves the smallest

@@ -1,0 +1,49 @@
+#include <png.h>
+
+#include "base/image/decode.h"
+#include "base/image/png.h"
+
+namespace wrlkit {
+namespace {
+
+/// libpng's reader of whole pictures, which neither prints nor jumps.
+class Reader {
+ public:
+  explicit Reader(std::string_view png) {
+    good_ = png_image_begin_read_from_memory(&image_, png.data(), png.size()) != 0;
+  }
+  ~Reader() { png_image_free(&image_); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  bool is_good() const { return good_; }
+  std::string fault() const { return image_.message; }
+  png_image& image() { return image_; }
+
+ private:
+  png_image image_{.version = PNG_IMAGE_VERSION};
+  bool good_ = false;
+};
+
+}  // namespace
+
+bool decode_png(std::string_view bytes, Image& image, std::string& error) {
+  const auto header = read_image_header(bytes);
+  const auto png = header ? essential_png(bytes) : std::nullopt;
+  if (!png) {
+    error = "its data are damaged";
+    return false;
+  }
+  constexpr png_uint_32 formats[] = {PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA};
+  Reader reader(*png);
+  auto& source = reader.image();
+  source.format = formats[header->channels - 1];
+  source.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // 16 bits are finer steps of the same curve
+  image = {header->width, header->height, header->channels, {}};
+  image.pixels.resize(std::size_t(image.width) * image.height * image.channels);
+  if (reader.is_good() && png_image_finish_read(&source, nullptr, image.pixels.data(), 0, nullptr) != 0) return true;
+  error = reader.fault();
+  return false;
+}
+
+}  // namespace wrlkit
