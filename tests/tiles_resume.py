@@ -27,7 +27,7 @@ class Test:
         self.plant = folder / 'in'
         self.plant.mkdir()
         for i in range(FILES):
-            self.write(f'unit_{i}', round_parts(40) if i % 2 else world(60)[0], (300 * i, 0, 40 * i * i))
+            self.write(f'unit_{i}', round_parts(12) if i % 2 else world(60)[0], (300 * i, 0, 40 * i * i))
 
     def write(self, name, text, at):
         """A file whose parts are Inlined at a place."""
@@ -61,7 +61,7 @@ class Test:
         self.same(f'timed-{jobs}', 'once', f'{jobs} threads')
         for i in range(KILLS):
             run = subprocess.Popen(self.command(out, '--jobs', jobs), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(whole * self.random.uniform(0.3, 0.95))
+            time.sleep(whole * self.random.uniform(0.5, 0.95))
             run.send_signal(signal.SIGKILL)
             run.wait()
             kept = len(list((self.folder / out / '.wrlkit').glob('*.glb')))  # none when it had ended before

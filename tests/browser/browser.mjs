@@ -7,7 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 
 const here = path.dirname(new URL(import.meta.url).pathname);
-const chromium = process.env.WRLKIT_CHROMIUM ?? '/usr/bin/chromium';
+export const chromium = process.env.WRLKIT_CHROMIUM ?? '/usr/bin/chromium';
 export const has_chromium = fs.existsSync(chromium);
 
 const types = {'.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.png': 'image/png', '.glb': 'model/gltf-binary', '.wasm': 'application/wasm', '.json': 'application/json'};
@@ -36,11 +36,13 @@ function make_server(folder, jobs, got) {
   });
 }
 
+/// Drawing without a graphics card, in as few processes as can be: starting one takes longer than most tests of a page.
+export const drawing = ['--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--force-color-profile=srgb', '--in-process-gpu',
+  '--renderer-process-limit=1', '--disable-features=SpareRendererForSitePerProcess,IsolateOrigins,site-per-process'];
+
 function start_chromium(url, profile) {
-  const flags = ['--headless', '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run', '--disable-background-networking',
-    '--disable-component-update', '--disable-sync', '--disable-dev-shm-usage', '--enable-logging=stderr', '--force-color-profile=srgb',
-    `--user-data-dir=${profile}`];
+  const flags = ['--headless', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    '--disable-dev-shm-usage', '--enable-logging=stderr', `--user-data-dir=${profile}`, ...drawing];
   return spawn(chromium, [...flags, url], {detached: true, stdio: ['ignore', 'ignore', 'pipe']});
 }
 

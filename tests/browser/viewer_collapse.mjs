@@ -68,9 +68,14 @@ try {
   const points = (await page.getByRole('group', {name: 'Interaction points'}).getByRole('button').allTextContents()).map(number_of);
   assert(points.length > 15);
   const shown = (i, step) => page.evaluate(([i, step]) => {
-    const {lanes} = window.viewer.collapse, {run} = lanes[i];
-    while (run.at !== Math.min(step, run.steps)) run.goTo(run.at + Math.sign(step - run.at));
-    return Array.from(run.shown());
+    const {run} = window.viewer.collapse.lanes[i];
+    const at = step => {
+      while (run.at !== Math.min(step, run.steps)) run.goTo(run.at + Math.sign(step - run.at));
+      return Array.from(run.shown());
+    };
+    const down = at(step);
+    at(step + 40);
+    return {down, is_back: at(step).every((x, k) => x === down[k])};
   }, [i, step]);
   const step_of = (i, faces) => page.evaluate(([i, faces]) => window.viewer.collapse.lanes[i].run.stepOf(faces), [i, faces]);
   let compared = 0;
@@ -80,9 +85,8 @@ try {
     wrlkit(program, 'simplify', '-q', model, '--counts', points.join(), '--criterion', criterion, '-o', out);
     const files = fs.readdirSync(out);
     for (const n of points) {
-      const step = await step_of(i, n), down = await shown(i, step);
-      await shown(i, step + 40);
-      assert.deepEqual(await shown(i, step), down, `${criterion}: ${n} faces on the way back`);
+      const {down, is_back} = await shown(i, await step_of(i, n));
+      assert(is_back, `${criterion}: ${n} faces on the way back`);
       const file = files.find(name => Number(name.match(/_(\d+)\.wrl$/)?.[1]) === down.length / 9);
       assert(file, `${criterion}: no file of ${down.length / 9} faces`);
       const expected = triangles_of(path.join(out, file));

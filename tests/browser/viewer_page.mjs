@@ -6,11 +6,9 @@ import {createRequire} from 'node:module';
 import path from 'node:path';
 import {pathToFileURL} from 'node:url';
 import {chromium} from 'playwright-core';
+import {chromium as executablePath, drawing} from './browser.mjs';
 
-const executablePath = process.env.WRLKIT_CHROMIUM ?? '/usr/bin/chromium';
-const flags = ['--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--force-color-profile=srgb'];
-
-export const start_chromium = () => chromium.launch({executablePath, args: flags});
+export const start_chromium = () => chromium.launch({executablePath, args: drawing});
 
 /// Runs wrlkit; its standard output.
 export function wrlkit(program, ...args) {

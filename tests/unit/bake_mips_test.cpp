@@ -100,7 +100,7 @@ double worst_seam(Baked& b, int level) {
 
 TEST_CASE("bake: smaller versions of a page keep its charts apart", "[bake]") {
   const std::string options = "quality=draft,sky=none,max-size=512,denoise=false,mips=";
-  for (const int mips : {1, 2, 3, 4}) {
+  for (const int mips : {2, 4}) {
     Baked b(plates(), options + std::to_string(mips));
     for (int level = 0; level < mips; ++level) {
       INFO(mips << " versions, level " << level);

@@ -182,7 +182,7 @@ TEST_CASE(
   auto rays = [&](const std::string& error) {
     return Baked(body, "quality=draft,max-size=64" + error).stats["lightmap.rays"];
   };
-  const auto coarse = rays(",error=0.5"), fine = rays(",error=0.005");
+  const auto coarse = rays(",error=0.5"), fine = rays(",error=0.01");
   CHECK(coarse < 2 * rays(""));
   CHECK(fine > 3 * coarse);
   std::vector<std::string> pictures;

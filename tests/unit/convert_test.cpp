@@ -207,7 +207,7 @@ TEST_CASE("convert: what is inside, what differs, what is small, what is lit") {
       "#VRML V2.0 utf8\nPointLight { location 0 3 0 }\n"
       "Shape { appearance Appearance { material Material { } } geometry Box { } }\n",
       "lit.wrl");
-  REQUIRE(bake(lit) == Ending::good);
+  REQUIRE(bake(lit, {.quality = BakeQuality::draft}) == Ending::good);
   REQUIRE(save(lit, out / "lit.wrl"));
   std::size_t n_files = 0;
   for (const auto& file : fs::directory_iterator(out.path))
