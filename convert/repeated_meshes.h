@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/task.h"
+#include "convert/meshes_ahead.h"
 #include "geometry/equal_geometry.h"
 #include "geometry/mesh.h"
 
@@ -12,7 +13,8 @@ namespace wrlkit {
 /// counted when the first was made, no ROUTE or script moves either, and both are shown with a texture or without.
 class RepeatedMeshes {
  public:
-  RepeatedMeshes(const Scene&, const MeshSource&, Task&);
+  /// `geometries` in the order in which they will be asked for, nearly.
+  RepeatedMeshes(const Scene&, const MeshSource&, const MeshMakers&, std::span<const NodeId> geometries, Task&);
 
   const Mesh& operator()(NodeId);
   /// A geometry that was asked for before and has the same mesh; none if there is none.
@@ -21,11 +23,13 @@ class RepeatedMeshes {
  private:
   bool is_still(NodeId n) const { return n.value < driven_.size() && !driven_[n.value]; }
   std::uint64_t n_said() const;
+  const Mesh& make(NodeId);
 
   const MeshSource& source_;
   Task& task_;
   EqualGeometry equal_;
   std::vector<char> driven_, textured_, asked_;  // by node
+  MeshesAhead ahead_;
 };
 
 }  // namespace wrlkit

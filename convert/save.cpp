@@ -15,14 +15,15 @@ bool run_and_write(Document& document, Pipeline& pipeline, const Output& to, con
   Scene& scene = document.scene();
   PassContext& ctx = document.context();
   MeshSource meshes;
+  MeshMakers makers;
   if (to.format->meshes) {
-    meshes = pipeline.run_lazily(scene, ctx, hooks.pipeline);
+    meshes = pipeline.run_lazily(scene, ctx, hooks.pipeline, &makers);
     if (!meshes) return false;
   } else {
     if (!pipeline.run(scene, ctx, hooks.pipeline)) return false;
     if (hooks.last) hooks.last(scene);
   }
-  return to.format->write({scene, meshes, ctx, options, to, sink, saved});
+  return to.format->write({scene, meshes, ctx, options, to, sink, saved, makers});
 }
 
 Saved write_to(Document& document, Pipeline& pipeline, const Output& to, const SaveOptions& options,

@@ -43,9 +43,12 @@ bool write_text(const Writing& w, TextWriter write) {
   return done;
 }
 
-std::size_t count_geometries(const Scene& scene) {
-  return static_cast<std::size_t>(std::ranges::count_if(reachable(scene, scene.main),
-                                                        [&](NodeId n) { return scene.is(n, nodes::X3DGeometryNode); }));
+/// In the order in which a writer meets them.
+std::vector<NodeId> geometries_of(const Scene& scene) {
+  auto out = reachable(scene, scene.main);
+  std::erase_if(out, [&](NodeId n) { return !scene.is(n, nodes::X3DGeometryNode); });
+  out.shrink_to_fit();
+  return out;
 }
 
 /// A node that is not known, or one of X3D that is drawn by browsers and not by us.
@@ -78,14 +81,14 @@ bool write_x3d_file(const Writing& w) { return write_text(w, write_x3d); }
 
 bool write_gltf_file(const Writing& w) {
   auto& ctx = w.context;
-  const auto n_geometries = count_geometries(w.scene);
-  if (n_geometries == 0) say_why_empty(w.scene, ctx.diag);
-  if (ctx.monitor) ctx.monitor->begin("writing " + w.to.path, n_geometries, "shapes");
+  const auto geometries = geometries_of(w.scene);
+  if (geometries.empty()) say_why_empty(w.scene, ctx.diag);
+  if (ctx.monitor) ctx.monitor->begin("writing " + w.to.path, geometries.size(), "shapes");
   const auto step = [&] {
     check_stop();
     if (ctx.monitor) ctx.monitor->step();
   };
-  RepeatedMeshes repeated(w.scene, w.meshes, ctx);
+  RepeatedMeshes repeated(w.scene, w.meshes, w.makers, geometries, ctx);
   const MeshSource counted = [&](NodeId n) -> const Mesh& {
     step();
     return repeated(n);

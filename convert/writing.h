@@ -3,7 +3,7 @@
 #include "convert/formats.h"
 #include "convert/save.h"
 #include "geometry/mesh.h"
-#include "passes/pipeline/pass.h"
+#include "passes/pipeline/pipeline.h"
 
 namespace wrlkit {
 
@@ -13,8 +13,9 @@ struct Writing {
   PassContext& context;
   const SaveOptions& options;
   const Output& to;
-  const Sink* sink = nullptr;  // in place of the file `to`, which is then only a name
-  Saved& saved;                // what there is to tell
+  const Sink* sink = nullptr;   // in place of the file `to`, which is then only a name
+  Saved& saved;                 // what there is to tell
+  MeshMakers makers = nullptr;  // of the same meshes, for other threads
 };
 
 bool write_gltf_file(const Writing&);

@@ -45,7 +45,7 @@ std::uint64_t hash_of(std::string_view bytes) {
 }
 
 /// 0: it holds something that is not compared.
-std::uint64_t hash_of(const Scene& scene, NodeId n, int depth) {
+std::uint64_t hash_below(const Scene& scene, NodeId n, int depth) {
   if (depth == deepest) return 0;
   std::uint64_t h = mixed(static_cast<std::uint64_t>(depth) + 1, scene.type_id(n).value);
   for (const Value& v : scene.fields(n)) {
@@ -53,7 +53,7 @@ std::uint64_t hash_of(const Scene& scene, NodeId n, int depth) {
     h = mixed(h, v.slot);
     if (info(v.type).element != Element::node) h = mixed(h, hash_of(bytes_of(v)));
     for (const NodeId child : v.node_span()) {
-      const auto below = hash_of(scene, child, depth + 1);
+      const auto below = hash_below(scene, child, depth + 1);
       if (below == 0) return 0;
       h = mixed(h, below);
     }
@@ -61,8 +61,15 @@ std::uint64_t hash_of(const Scene& scene, NodeId n, int depth) {
   return h;
 }
 
-/// Of nodes that have a hash.
-bool same(const Scene& scene, NodeId a, NodeId b) {
+}  // namespace
+
+std::uint64_t EqualGeometry::hash_of(const Scene& scene, NodeId n) {
+  const bool is_list =
+      scene.is(n, nodes::IndexedFaceSet) || scene.is(n, nodes::IndexedLineSet) || scene.is(n, nodes::PointSet);
+  return is_list ? hash_below(scene, n, 0) : 0;
+}
+
+bool EqualGeometry::same(const Scene& scene, NodeId a, NodeId b) {
   if (a == b) return true;
   const auto x = scene.fields(a), y = scene.fields(b);
   if (scene.type_id(a) != scene.type_id(b) || x.size() != y.size()) return false;
@@ -76,21 +83,17 @@ bool same(const Scene& scene, NodeId a, NodeId b) {
   return true;
 }
 
-}  // namespace
-
 std::uint64_t EqualGeometry::hash(NodeId n) {
-  if (hashed_ == n) return hash_;
-  const bool is_list =
-      scene_.is(n, nodes::IndexedFaceSet) || scene_.is(n, nodes::IndexedLineSet) || scene_.is(n, nodes::PointSet);
-  hashed_ = n;
-  return hash_ = is_list ? hash_of(scene_, n, 0) : 0;
+  if (hashed_ != n) know(n, hash_of(scene_, n), {});
+  return hash_;
 }
 
 NodeId EqualGeometry::find(NodeId n) {
   const auto h = hash(n);
   if (h == 0) return {};
   const auto known = nodes_.find(h);
-  return known != nodes_.end() && same(scene_, known->second, n) ? known->second : NodeId{};
+  if (known == nodes_.end()) return {};
+  return known->second == same_ || same(scene_, known->second, n) ? known->second : NodeId{};
 }
 
 void EqualGeometry::add(NodeId n) {

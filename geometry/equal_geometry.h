@@ -11,6 +11,11 @@ namespace wrlkit {
 /// not count. For a scene that does not change meanwhile.
 class EqualGeometry {
  public:
+  /// Of what it says; 0: it is none of those types, or has values that a prototype gives. O(bytes of its arrays).
+  static std::uint64_t hash_of(const Scene&, NodeId);
+  /// Whether two nodes with the same hash, which is not 0, say the same.
+  static bool same(const Scene&, NodeId, NodeId);
+
   explicit EqualGeometry(const Scene& scene) : scene_(scene) {}
 
   /// The node that was added and says the same; none, too, for nodes of other types and ones with values that a
@@ -18,13 +23,19 @@ class EqualGeometry {
   NodeId find(NodeId);
   /// From now on it is found, unless one like it is already, or others had its hash.
   void add(NodeId);
+  /// Spares the work of finding these out: its hash, and a node that says the same, if one is known.
+  void know(NodeId n, std::uint64_t hash, NodeId same) {
+    hashed_ = n;
+    hash_ = hash;
+    same_ = same;
+  }
 
  private:
   std::uint64_t hash(NodeId);
 
   const Scene& scene_;
   std::unordered_map<std::uint64_t, NodeId> nodes_;
-  NodeId hashed_;  // the last one
+  NodeId hashed_, same_;  // the last one, and what is known to say the same
   std::uint64_t hash_ = 0;
 };
 

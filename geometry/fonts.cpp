@@ -8,6 +8,7 @@
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
 
+#include "base/lazy_library.h"
 #include "geometry/outline.h"
 
 namespace wrlkit {
@@ -48,6 +49,29 @@ constexpr const char* files[3][4][2] = {
      {"DejaVuSansMono-Oblique.ttf", "LiberationMono-Italic.ttf"},
      {"DejaVuSansMono-BoldOblique.ttf", "LiberationMono-BoldItalic.ttf"}},
 };
+
+/// FreeType, which is opened for the first text. Without it there are no fonts.
+struct FreeType {
+#define FREETYPE(function) decltype(&::function) function = nullptr;
+#include "geometry/freetype_functions.def"
+#undef FREETYPE
+  bool is_there = false;
+};
+
+FreeType open_freetype() {
+  FreeType out;
+  LazyLibrary library("libfreetype.so.6");
+#define FREETYPE(function) library.find(out.function, #function);
+#include "geometry/freetype_functions.def"
+#undef FREETYPE
+  out.is_there = library.fault().empty();
+  return out;
+}
+
+const FreeType& freetype() {
+  static const FreeType functions = open_freetype();
+  return functions;
+}
 
 std::vector<std::string> installed_folders() {
   std::vector<std::string> out;
@@ -91,12 +115,12 @@ struct Pen {
 /// Blank when the font is broken there.
 Glyph make_glyph(FT_Face face, FT_UInt index, double slant) {
   Glyph glyph;
-  if (FT_Load_Glyph(face, index, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP)) return glyph;
+  if (freetype().FT_Load_Glyph(face, index, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP)) return glyph;
   Pen pen{.scale = 1.0 / face->units_per_EM, .slant = slant};
   glyph.advance = std::max(0.0, static_cast<double>(face->glyph->metrics.horiAdvance) * pen.scale);
   if (face->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return glyph;
   const FT_Outline_Funcs functions{Pen::move_to, Pen::line_to, Pen::conic_to, Pen::cubic_to, 0, 0};
-  if (FT_Outline_Decompose(&face->glyph->outline, &functions, &pen) == 0)
+  if (freetype().FT_Outline_Decompose(&face->glyph->outline, &functions, &pen) == 0)
     pen.outline.cut(glyph.points, glyph.triangles);
   return glyph;
 }
@@ -110,11 +134,11 @@ Font::Font(FT_FaceRec_* face, double slant, std::mutex& mutex) : face_(face), mu
   ascent_ = above > 0 && height >= above ? above / height : 0.8;
 }
 
-Font::~Font() { FT_Done_Face(face_); }
+Font::~Font() { freetype().FT_Done_Face(face_); }
 
 const Glyph* Font::glyph(char32_t character) {
   std::lock_guard lock(mutex_);
-  auto index = FT_Get_Char_Index(face_, character);
+  auto index = freetype().FT_Get_Char_Index(face_, character);
   return index ? &by_index(index) : nullptr;
 }
 
@@ -132,12 +156,12 @@ const Glyph& Font::by_index(std::uint32_t index) {
 // -- all of them
 
 Fonts::Fonts(std::vector<std::string> folders) : folders_(std::move(folders)) {
-  if (FT_Init_FreeType(&library_)) library_ = nullptr;
+  if (!freetype().is_there || freetype().FT_Init_FreeType(&library_)) library_ = nullptr;
 }
 
 Fonts::~Fonts() {
   fonts_.clear();
-  if (library_) FT_Done_FreeType(library_);
+  if (library_) freetype().FT_Done_FreeType(library_);
 }
 
 Fonts& Fonts::installed() {
@@ -167,11 +191,11 @@ Font* Fonts::find_file(FontFamily family, bool bold, bool italic, double slant) 
 Font* Fonts::load(const std::string& path, double slant) {
   auto [i, is_new] = fonts_.try_emplace({path, slant});
   FT_Face face;
-  if (!is_new || FT_New_Face(library_, path.c_str(), 0, &face)) return i->second.get();
+  if (!is_new || freetype().FT_New_Face(library_, path.c_str(), 0, &face)) return i->second.get();
   if (FT_IS_SCALABLE(face) && face->units_per_EM > 0)
     i->second.reset(new Font(face, slant, mutex_));
   else
-    FT_Done_Face(face);
+    freetype().FT_Done_Face(face);
   return i->second.get();
 }
 

@@ -1,9 +1,11 @@
 #include "scenegraph/verify.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <unordered_map>
 
+#include "base/parallel.h"
 #include "base/text/bit_mask.h"
 #include "scenegraph/driven.h"
 #include "scenegraph/nodes.h"
@@ -80,6 +82,24 @@ class ValueCheck {
   const Scene& scene_;
   Diagnostics& diag_;
 };
+
+/// On all threads, where the scene is large: there is mostly nothing, and what there is has to be said in order.
+bool nothing_to_say(const Scene& scene, std::span<const NodeId> all) {
+  constexpr std::size_t at_once = 16 * 1024, from = 4 * at_once;
+  if (all.size() < from || only_one_thread()) return false;
+  std::atomic<bool> good = true;
+  parallel_for(all.size() / at_once + 1, [&](std::size_t i) {
+    Diagnostics unheard;
+    ValueCheck check(scene, unheard);
+    const auto begin = i * at_once;
+    for (const NodeId n : all.subspan(begin, std::min(at_once, all.size() - begin))) {
+      if (!good) return;
+      check.node(n);
+    }
+    if (!unheard.messages().empty()) good = false;
+  });
+  return good;
+}
 
 FieldType event_type(const Scene& s, NodeId n, std::string_view event) {
   auto slot = s.type(n).find(event, s.dialect(), true);
@@ -205,8 +225,11 @@ class Invariants {
 }  // namespace
 
 void check_values(const Scene& scene, Diagnostics& diag) {
-  ValueCheck check(scene, diag);
-  for (NodeId n : all_nodes(scene)) check.node(n);
+  const auto all = all_nodes(scene);
+  if (!nothing_to_say(scene, all)) {
+    ValueCheck check(scene, diag);
+    for (NodeId n : all) check.node(n);
+  }
   auto routes = [&](const Scope& s) {
     for (auto& r : s.routes) {
       auto a = event_type(scene, r.from, r.event_out), b = event_type(scene, r.to, r.event_in);

@@ -2,17 +2,39 @@
 
 #include "base/image/decode.h"
 #include "base/image/png.h"
+#include "base/lazy_library.h"
 
 namespace wrlkit {
 namespace {
 
+/// libpng, which is opened for the first picture.
+struct Png {
+  decltype(&::png_image_begin_read_from_memory) begin = nullptr;
+  decltype(&::png_image_finish_read) finish = nullptr;
+  decltype(&::png_image_free) free = nullptr;
+  std::string fault;
+};
+
+Png open_png() {
+  Png out;
+  LazyLibrary library("libpng16.so.16");
+  library.find(out.begin, "png_image_begin_read_from_memory");
+  library.find(out.finish, "png_image_finish_read");
+  library.find(out.free, "png_image_free");
+  out.fault = library.fault();
+  return out;
+}
+
+const Png& opened_png() {
+  static const Png png = open_png();
+  return png;
+}
+
 /// libpng's reader of whole pictures, which neither prints nor jumps.
 class Reader {
  public:
-  explicit Reader(std::string_view png) {
-    good_ = png_image_begin_read_from_memory(&image_, png.data(), png.size()) != 0;
-  }
-  ~Reader() { png_image_free(&image_); }
+  explicit Reader(std::string_view png) { good_ = opened_png().begin(&image_, png.data(), png.size()) != 0; }
+  ~Reader() { opened_png().free(&image_); }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
@@ -34,6 +56,8 @@ bool decode_png(std::string_view bytes, Image& image, std::string& error) {
     error = "its data are damaged";
     return false;
   }
+  error = opened_png().fault;
+  if (!error.empty()) return false;
   constexpr png_uint_32 formats[] = {PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA};
   Reader reader(*png);
   auto& source = reader.image();
@@ -41,7 +65,7 @@ bool decode_png(std::string_view bytes, Image& image, std::string& error) {
   source.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // 16 bits are finer steps of the same curve
   image = {header->width, header->height, header->channels, {}};
   image.pixels.resize(std::size_t(image.width) * image.height * image.channels);
-  if (reader.is_good() && png_image_finish_read(&source, nullptr, image.pixels.data(), 0, nullptr) != 0) return true;
+  if (reader.is_good() && opened_png().finish(&source, nullptr, image.pixels.data(), 0, nullptr) != 0) return true;
   error = reader.fault();
   return false;
 }

@@ -1,7 +1,6 @@
 #include "base/io/line_journal.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,17 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/io/file_lock.h"
+
 namespace wrlkit {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool lock(int fd) {
-  // Workers of a run that was killed a moment ago hold it until they are gone, too.
-  for (int i = 0; i < 50; ++i, usleep(100'000))
-    if (flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
-  return false;
-}
+constexpr std::chrono::seconds patience(5);  // workers of a run that was killed hold the lock until they are gone, too
 
 /// A line that was cut off stays what it is, and the next one begins on a line of its own.
 void end_cut_line(int fd) {
@@ -43,7 +39,7 @@ std::optional<LineJournal> LineJournal::open(const std::string& path, std::strin
     return std::nullopt;
   }
   LineJournal journal(fd);
-  if (!lock(fd)) {
+  if (!lock_file(fd, FileLock::exclusive, patience)) {
     why = path + ": another run is writing it";
     return std::nullopt;
   }

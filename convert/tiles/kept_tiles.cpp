@@ -2,13 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <charconv>
 #include <filesystem>
 #include <unordered_set>
 
+#include "base/io/file_lock.h"
 #include "base/text/json.h"
 #include "base/text/json_reader.h"
 
@@ -16,6 +16,8 @@ namespace wrlkit::tiles {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds patience(2);  // a run that was killed a moment ago may not be gone yet
 
 std::string line_of(const std::string& key, const MadeTile& tile) {
   std::string text;
@@ -119,7 +121,7 @@ bool KeptTiles::open(const std::string& folder, Shard shard, Diagnostics& diag) 
   std::string why;
   if (lock_ < 0)
     why = std::error_code(errno, std::generic_category()).message();
-  else if (!lock(shard.count > 1 ? LOCK_SH : LOCK_EX))
+  else if (!lock_file(lock_, shard.count > 1 ? FileLock::shared : FileLock::exclusive, patience))
     why = "another run is at work there";
   else if (auto journal =
                LineJournal::open(fmt::format("{}/journal-{}-of-{}.jsonl", folder_, shard.index + 1, shard.count), why))
@@ -129,17 +131,10 @@ bool KeptTiles::open(const std::string& folder, Shard shard, Diagnostics& diag) 
   return journal_.has_value();
 }
 
-/// A run that was killed a moment ago may not be gone yet.
-bool KeptTiles::lock(int how) {
-  for (int i = 0; i < 20; ++i, usleep(100'000))
-    if (flock(lock_, how | LOCK_NB) == 0) return true;
-  return false;
-}
-
 KeptTiles::~KeptTiles() {
   const bool is_mine = journal_.has_value();
   journal_.reset();
-  if (is_mine && tiles_.empty() && flock(lock_, LOCK_EX | LOCK_NB) == 0) forget();
+  if (is_mine && tiles_.empty() && lock_file(lock_, FileLock::exclusive)) forget();
   if (lock_ >= 0) close(lock_);
 }
 
@@ -196,8 +191,8 @@ bool KeptTiles::save_error(const ContentHash& key, double metres) {
 
 bool KeptTiles::become_last() {
   // Of those that end at the same time the first to get the lock is the last.
-  flock(lock_, LOCK_UN);
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) return false;
+  unlock_file(lock_);
+  if (!lock_file(lock_, FileLock::exclusive)) return false;
   read();
   return true;
 }

@@ -62,7 +62,6 @@ class KeptTiles {
   void forget_others(const std::vector<ContentHash>& keys);
 
  private:
-  bool lock(int how);
   void read();
   void read_line(const std::string& text);
   bool is_there(const ContentHash& key, const MadeTile& tile) const;

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/io/file_lock.h"
 #include "base/io/output.h"
 
 namespace wrlkit::tiles {
@@ -41,7 +41,7 @@ void remove_others(const fs::path& folder, const std::string& name) {
 /// -1: somebody else has it.
 int lock_of(const fs::path& folder) {
   const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0 || flock(fd, LOCK_EX | LOCK_NB) == 0) return fd;
+  if (fd < 0 || lock_file(fd, FileLock::exclusive)) return fd;
   close(fd);
   return -1;
 }

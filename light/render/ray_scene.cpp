@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <stdexcept>
 #include <unordered_set>
 
+#include "base/lazy_library.h"
 #include "base/parallel.h"
 #include "light/render/placement.h"
 
@@ -18,6 +20,29 @@ constexpr std::size_t fast_build = 2'000'000;                       // above, th
 constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();  // Embree leaves such elements out
 constexpr float infinity = std::numeric_limits<float>::infinity();
 enum Mask : unsigned { opaque = 1, clear = 2 };
+
+/// Embree, which is opened for the first scene.
+struct Embree {
+#define EMBREE(function) decltype(&::function) function = nullptr;
+#include "light/render/embree_functions.def"
+#undef EMBREE
+};
+
+Embree open_embree() {
+  Embree out;
+  LazyLibrary library("libembree3.so.3");
+#define EMBREE(function) library.find(out.function, #function);
+#include "light/render/embree_functions.def"
+#undef EMBREE
+  if (!library.fault().empty())
+    throw std::runtime_error("Embree, which traces rays, cannot be used: " + library.fault());
+  return out;
+}
+
+const Embree& opened_embree() {
+  static const Embree embree = open_embree();
+  return embree;
+}
 
 /// What Embree takes as a ray; others may end the program.
 bool acceptable(const RTCRay& r) {
@@ -72,6 +97,7 @@ struct RayScene::State {
   std::vector<std::uint32_t> use_of{};   // the same, of instances
   std::vector<RTCScene> instanced{};     // by mesh
   std::vector<char> held{};              // by use
+  const Embree& embree = opened_embree();
 
   ~State();
   bool is_clear(std::uint32_t use) const { return use < options.clear.size() && options.clear[use]; }
@@ -151,9 +177,9 @@ void keep(const RTCFilterFunctionNArguments* a) {
 
 RayScene::State::~State() {
   for (auto s : instanced)
-    if (s) rtcReleaseScene(s);
-  if (top) rtcReleaseScene(top);
-  if (device) rtcReleaseDevice(device);
+    if (s) embree.rtcReleaseScene(s);
+  if (top) embree.rtcReleaseScene(top);
+  if (device) embree.rtcReleaseDevice(device);
 }
 
 std::pair<std::uint32_t, std::uint32_t> RayScene::State::resolve(const Found& f) const {
@@ -195,7 +221,7 @@ RTCRay RayScene::State::embree_ray(const Ray& ray, double after, float before) c
 /// How far the world goes from its centre, by what Embree made of it.
 void RayScene::State::measure() {
   RTCBounds b;
-  rtcGetSceneBounds(top, &b);
+  embree.rtcGetSceneBounds(top, &b);
   for (float v : {b.lower_x, b.lower_y, b.lower_z, b.upper_x, b.upper_y, b.upper_z})
     if (std::isfinite(v)) radius = std::max(radius, double{std::fabs(v)});
 }
@@ -286,9 +312,10 @@ void RayScene::State::add_discs(Batch& to, const Affine& frame, const PooledMesh
 }
 
 RTCScene RayScene::State::new_scene(std::size_t elements) const {
-  RTCScene s = rtcNewScene(device);
-  rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);  // no cracks between triangles, and things at one distance are all met
-  rtcSetSceneBuildQuality(s, elements > fast_build ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+  RTCScene s = embree.rtcNewScene(device);
+  embree.rtcSetSceneFlags(
+      s, RTC_SCENE_FLAG_ROBUST);  // no cracks between triangles, and things at one distance are all met
+  embree.rtcSetSceneBuildQuality(s, elements > fast_build ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
   return s;
 }
 
@@ -296,27 +323,27 @@ RTCScene RayScene::State::scene_of(std::uint32_t mesh) {
   if (instanced.empty()) instanced.resize(meshes.size());
   if (instanced[mesh]) return instanced[mesh];
   const PooledMesh& m = meshes[mesh];
-  RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* v = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, m.n_points);
-  void* i = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, m.n_elements);
+  RTCGeometry g = embree.rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* v = embree.rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, m.n_points);
+  void* i = embree.rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, m.n_elements);
   if (v && i) {
     std::copy_n(meshes.point(m, 0), m.n_points * 3, static_cast<float*>(v));
     std::copy_n(meshes.corners.data() + m.first_corner, std::size_t{m.n_elements} * 3, static_cast<std::uint32_t*>(i));
   }
-  rtcSetGeometryIntersectFilterFunction(g, filter(m.solid && options.cull));
-  rtcSetGeometryMask(g, opaque | clear);
-  rtcCommitGeometry(g);
+  embree.rtcSetGeometryIntersectFilterFunction(g, filter(m.solid && options.cull));
+  embree.rtcSetGeometryMask(g, opaque | clear);
+  embree.rtcCommitGeometry(g);
   RTCScene s = instanced[mesh] = new_scene(m.n_elements);
-  rtcAttachGeometry(s, g);
-  rtcReleaseGeometry(g);
-  rtcCommitScene(s);
+  embree.rtcAttachGeometry(s, g);
+  embree.rtcReleaseGeometry(g);
+  embree.rtcCommitScene(s);
   return s;
 }
 
 /// Embree says by the number that it had no memory.
 unsigned RayScene::State::attach_to_top(RTCGeometry g) {
-  unsigned id = rtcAttachGeometry(top, g);
-  rtcReleaseGeometry(g);
+  unsigned id = embree.rtcAttachGeometry(top, g);
+  embree.rtcReleaseGeometry(g);
   if (id == RTC_INVALID_GEOMETRY_ID) throw std::bad_alloc();
   return id;
 }
@@ -328,11 +355,11 @@ void RayScene::State::instance(std::uint32_t use) {
   auto n = [](double v) { return static_cast<float>(v); };
   float columns[12] = {n(f.x.x), n(f.x.y), n(f.x.z), n(f.y.x), n(f.y.y), n(f.y.z),
                        n(f.z.x), n(f.z.y), n(f.z.z), n(t.x),   n(t.y),   n(t.z)};
-  RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(g, scene_of(mesh_of[use]));
-  rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-  rtcSetGeometryMask(g, is_clear(use) ? clear : opaque);
-  rtcCommitGeometry(g);
+  RTCGeometry g = embree.rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  embree.rtcSetGeometryInstancedScene(g, scene_of(mesh_of[use]));
+  embree.rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  embree.rtcSetGeometryMask(g, is_clear(use) ? clear : opaque);
+  embree.rtcCommitGeometry(g);
   unsigned id = attach_to_top(g);
   use_of.resize(std::max<std::size_t>(use_of.size(), id + 1));
   use_of[id] = use;
@@ -341,17 +368,17 @@ void RayScene::State::instance(std::uint32_t use) {
 void RayScene::State::attach(Batch& b, bool culled, Mask mask) {
   if (!b.n_elements) return;
   b.vertices.resize(b.vertices.size() + 4);  // Embree reads 16 bytes a vertex, beyond the last one too
-  RTCGeometry g = rtcNewGeometry(device, b.type);
+  RTCGeometry g = embree.rtcNewGeometry(device, b.type);
   std::size_t stride = sizeof(float) * b.width;
-  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, b.width == 3 ? RTC_FORMAT_FLOAT3 : RTC_FORMAT_FLOAT4,
-                             b.vertices.data(), 0, stride, (b.vertices.size() - 4) / b.width);
+  embree.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, b.width == 3 ? RTC_FORMAT_FLOAT3 : RTC_FORMAT_FLOAT4,
+                                    b.vertices.data(), 0, stride, (b.vertices.size() - 4) / b.width);
   bool triangles = b.type == RTC_GEOMETRY_TYPE_TRIANGLE;
   if (b.type != RTC_GEOMETRY_TYPE_DISC_POINT)
-    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, triangles ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT,
-                               b.indices.data(), 0, triangles ? 12 : 4, b.n_elements);
-  rtcSetGeometryIntersectFilterFunction(g, filter(culled));
-  rtcSetGeometryMask(g, mask);
-  rtcCommitGeometry(g);
+    embree.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, triangles ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT,
+                                      b.indices.data(), 0, triangles ? 12 : 4, b.n_elements);
+  embree.rtcSetGeometryIntersectFilterFunction(g, filter(culled));
+  embree.rtcSetGeometryMask(g, mask);
+  embree.rtcCommitGeometry(g);
   unsigned id = attach_to_top(g);
   batch_of.resize(std::max<std::size_t>(batch_of.size(), id + 1));
   batch_of[id] = &b;
@@ -361,7 +388,7 @@ RayScene::RayScene(const Stage& stage, const MeshPool& meshes, std::span<const s
                    const RayOptions& options, Diagnostics& diag)
     : state_(new State{.stage = stage, .meshes = meshes, .mesh_of = mesh_of, .options = options}) {
   State& s = *state_;
-  s.device = rtcNewDevice(only_one_thread() ? "threads=1" : nullptr);
+  s.device = s.embree.rtcNewDevice(only_one_thread() ? "threads=1" : nullptr);
   if (!s.device) throw std::bad_alloc();
   std::size_t elements = 0;
   for (auto m : mesh_of) elements += meshes[m].n_elements;
@@ -372,8 +399,8 @@ RayScene::RayScene(const Stage& stage, const MeshPool& meshes, std::span<const s
   for (auto kind : {State::two_sided, State::lines, State::points}) s.attach(s.batches[kind], false, opaque);
   s.attach(s.batches[State::clear_solid], options.cull, clear);
   s.attach(s.batches[State::clear_two_sided], false, clear);
-  rtcCommitScene(s.top);
-  if (rtcGetDeviceError(s.device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  s.embree.rtcCommitScene(s.top);
+  if (s.embree.rtcGetDeviceError(s.device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   s.measure();
   s.options.pen = nullptr;
   s.options.clear = {};
@@ -393,7 +420,7 @@ bool RayScene::nearest(const Ray& ray, double after, Hit& hit) const {
   r.ray.mask = opaque | clear;
   r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   if (!acceptable(r.ray)) return false;
-  rtcIntersect1(s.top, &context.base, &r);
+  s.embree.rtcIntersect1(s.top, &context.base, &r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit.distance = r.ray.tfar;
   hit.back = context.found.back;
@@ -426,7 +453,7 @@ bool RayScene::occluded(const Ray& ray, double after, double before) const {
   RTCRay r = state_->embree_ray(ray, after, static_cast<float>(before));
   r.mask = opaque;
   if (!acceptable(r)) return false;
-  rtcOccluded1(state_->top, &context, &r);
+  state_->embree.rtcOccluded1(state_->top, &context, &r);
   return r.tfar < 0;
 }
 

@@ -168,43 +168,47 @@ bool Pipeline::run_mesh_steps(std::size_t begin, std::size_t end, Scene& scene, 
   return true;
 }
 
-/// What mesh passes need to know of the whole scene, and the mesh they work on.
+/// What mesh passes need to know of the whole scene.
 struct Pipeline::LazyState {
-  Scene& scene;
-  PassContext& ctx;
+  const Scene& scene;
+  std::size_t tail;  // the first of these passes
   bool verify;
   std::vector<PassTime>* times;
   std::size_t first_time;  // of these passes in `times`
   std::vector<char> textured, driven;
-  Mesh mesh;
-  MeshScratch scratch;
 };
 
-const Mesh& Pipeline::run_tail(std::size_t tail, NodeId n, LazyState& state) {
-  const bool known = n.value < state.textured.size();
-  MeshJob job{state.scene,
-              n,
-              state.mesh,
-              state.scratch,
-              state.ctx,
-              known && state.textured[n.value] != 0,
-              known && state.driven[n.value] != 0};
+void Pipeline::run_tail(MeshJob& job, const LazyState& state) const {
   read_mesh(job);
-  for (std::size_t i = tail; i < steps_.size(); ++i) {
-    state.mesh.cut.clear();
+  for (std::size_t i = state.tail; i < steps_.size(); ++i) {
+    job.mesh.cut.clear();
     const auto start = state.times ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point();
     steps_[i].pass->run(job);
     if (state.times)
-      (*state.times)[state.first_time + i - tail].seconds +=
+      (*state.times)[state.first_time + i - state.tail].seconds +=
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!state.verify) continue;
-    if (const auto breach = breach_of(state.mesh); !breach.empty())
-      state.ctx.diag.report(Diag::verify, state.scene.where(n), std::string(steps_[i].info->name) + ": " + breach);
+    if (const auto breach = breach_of(job.mesh); !breach.empty())
+      job.ctx.diag.report(Diag::verify, state.scene.where(job.geometry),
+                          std::string(steps_[i].info->name) + ": " + breach);
   }
-  return state.mesh;
 }
 
-MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOptions& options) {
+MeshMaker Pipeline::mesh_maker(std::shared_ptr<const LazyState> state, Task& task) const {
+  return [this, state = std::move(state), scratch = std::make_shared<MeshScratch>(), &task](NodeId n, Mesh& out) {
+    const bool known = n.value < state->textured.size();
+    MeshJob job{state->scene,
+                n,
+                out,
+                *scratch,
+                task,
+                known && state->textured[n.value] != 0,
+                known && state->driven[n.value] != 0};
+    run_tail(job, *state);
+  };
+}
+
+MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOptions& options, MeshMakers* makers) {
   meet_needs();
   std::size_t tail = steps_.size();
   while (tail > 0 && steps_[tail - 1].pass->is_mesh_pass()) --tail;
@@ -221,16 +225,18 @@ MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOp
   const auto first_time = options.times ? options.times->size() : 0;
   if (options.times)
     for (std::size_t i = tail; i < steps_.size(); ++i) options.times->push_back({std::string(steps_[i].info->name), 0});
-  auto state = std::make_shared<LazyState>(LazyState{.scene = scene,
-                                                     .ctx = ctx,
-                                                     .verify = options.verify_each,
-                                                     .times = options.times,
-                                                     .first_time = first_time,
-                                                     .textured = textured_geometry(scene),
-                                                     .driven = driven_geometry(scene),
-                                                     .mesh = {},
-                                                     .scratch = {}});
-  return [this, tail, state](NodeId n) -> const Mesh& { return run_tail(tail, n, *state); };
+  const auto state = std::make_shared<const LazyState>(LazyState{.scene = scene,
+                                                                 .tail = tail,
+                                                                 .verify = options.verify_each,
+                                                                 .times = options.times,
+                                                                 .first_time = first_time,
+                                                                 .textured = textured_geometry(scene),
+                                                                 .driven = driven_geometry(scene)});
+  if (makers && !options.watched()) *makers = [this, state](Task& task) { return mesh_maker(state, task); };
+  return [make = mesh_maker(state, ctx), mesh = std::make_shared<Mesh>()](NodeId n) -> const Mesh& {
+    make(n, *mesh);
+    return *mesh;
+  };
 }
 
 }  // namespace wrlkit

@@ -109,6 +109,13 @@ struct PipelineOptions {
   bool watched() const { return verify_each || !print_after.empty() || times; }
 };
 
+/// Fills a mesh of the caller as a MeshSource does.
+using MeshMaker = std::function<void(NodeId geometry, Mesh& out)>;
+
+/// A maker of meshes for one thread at a time, with its own memory; what is said and counted goes to that Task. All of
+/// them may work at the same time, while the scene does not change.
+using MeshMakers = std::function<MeshMaker(Task&)>;
+
 class Pipeline {
  public:
   /// Null when the text is no pipeline; `why` says what is wrong with it.
@@ -133,8 +140,9 @@ class Pipeline {
   /// then, but as far as it has come.
   bool run(Scene&, PassContext&, const PipelineOptions& = {});
   /// Runs every pass but the last group of mesh passes, which the returned source runs for each mesh that it is asked
-  /// for. The scene, the context and this pipeline must outlive it. Null when a pass failed.
-  MeshSource run_lazily(Scene&, PassContext&, const PipelineOptions& = {});
+  /// for. The scene, the context and this pipeline must outlive it. Null when a pass failed. `makers`, if given, makes
+  /// more of these, for other threads; it stays null when the passes are watched.
+  MeshSource run_lazily(Scene&, PassContext&, const PipelineOptions& = {}, MeshMakers* makers = nullptr);
 
   /// PassInstance::files of all passes.
   std::vector<std::string> files() const;
@@ -156,7 +164,8 @@ class Pipeline {
   bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&);
   bool run_mesh_steps(std::size_t begin, std::size_t end, Scene&, PassContext&);
   struct LazyState;
-  const Mesh& run_tail(std::size_t tail, NodeId, LazyState&);
+  void run_tail(MeshJob&, const LazyState&) const;
+  MeshMaker mesh_maker(std::shared_ptr<const LazyState>, Task&) const;
   bool append(std::string_view text, std::string& why);
   void meet_needs(Level before);
   bool has_in_effect(const PassInfo&) const;

@@ -23,7 +23,8 @@ Vec3 position(const Matrix& m) { return {m.m[3], m.m[7], m.m[11]}; }
 
 class Builder {
  public:
-  explicit Builder(const Makers& makers) : m_(makers), visited_(makers.scene.node_count(), 0) {}
+  explicit Builder(const Makers& makers)
+      : m_(makers), visited_(makers.scene.node_count(), 0), became_(makers.scene.node_count() + 1, none) {}
 
   Document build() {
     frames_.push_back({.node = {}, .children = m_.scene.main.roots});
@@ -86,8 +87,8 @@ class Builder {
   std::vector<std::uint32_t> built_;  // nodes that are not yet children of their parents
   std::vector<Kind> kinds_;           // of types
   std::vector<char> visited_;
-  std::unordered_map<std::uint32_t, std::uint32_t> became_;  // of nodes of VRML, the first of glTF
-  std::map<std::string_view, std::size_t> lost_;             // by type: each Script has one of its own, but one name
+  std::vector<std::uint32_t> became_;             // of nodes of VRML, the first of glTF; at the end, of none
+  std::map<std::string_view, std::size_t> lost_;  // by type: each Script has one of its own, but one name
   Span first_lost_;
   LostLight lost_light_;
   bool full_ = false;
@@ -96,7 +97,7 @@ class Builder {
 void Builder::enter(NodeId n) {
   if (first_visit(n)) report_group(n);
   Frame f{.node = n, .first_built = built_.size(), .world = frames_.back().world};
-  f.again = frames_.back().again || became_.contains(n.value);
+  f.again = frames_.back().again || became_[n.value] != none;
   const bool chooses = keeps_hidden() && m_.scene.is(n, nodes::Switch);
   f.children = chooses || m_.scene.is(n, nodes::LOD) ? hierarchy_children(m_.scene, n) : shown_children(m_.scene, n);
   if (chooses) f.shown = static_cast<std::size_t>(std::max(-1, m_.scene.get(n, nodes::switch_::whichChoice)));
@@ -283,8 +284,11 @@ void Builder::add_built(std::uint32_t id) {
 /// Notes which node this one is once more; what lies in it need not be said.
 void Builder::set_same(std::uint32_t id) {
   Node& n = d_.nodes[id];
-  auto [at, is_new] = became_.try_emplace(n.source.value, id);
-  if (!is_new && !frames_.back().again) n.same_as = at->second;
+  std::uint32_t& first = became_[n.source ? n.source.value : became_.size() - 1];
+  if (first == none)
+    first = id;
+  else if (!frames_.back().again)
+    n.same_as = first;
 }
 
 void Builder::leave() {
