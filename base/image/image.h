@@ -1,6 +1,6 @@
 // Pictures: telling their type and size by their first bytes, decoding and encoding. PNG and JPEG are decoded by libpng
-// and libjpeg-turbo (codecs.h), PNG is written here; all else is OpenImageIO's, which takes a third of a second to load:
-// it is in a module of its own (image_module.h), opened when it is needed first.
+// and libjpeg-turbo (decode.h), and PNG is written here (png.h). All else is OpenImageIO's, which takes a third of a
+// second to load: it is in a module of its own (image_module.h), opened when it is needed first.
 #pragma once
 #include <cstdint>
 #include <optional>
