@@ -37,23 +37,23 @@ const Jpeg& opened_jpeg() {
   return jpeg;
 }
 
-struct End {
+struct EndJpeg {
   void operator()(void* reader) const { opened_jpeg().end(reader); }
 };
-using Reader = std::unique_ptr<void, End>;
+using JpegReader = std::unique_ptr<void, EndJpeg>;
 
 /// Null without the library, or without memory for it.
-Reader new_reader() {
+JpegReader new_reader() {
   const Jpeg& jpeg = opened_jpeg();
-  return Reader(jpeg.fault.empty() ? jpeg.begin() : nullptr);
+  return JpegReader(jpeg.fault.empty() ? jpeg.begin() : nullptr);
 }
 
-struct Header {
+struct JpegHeader {
   int width = 0, height = 0, sampling = 0, colors = TJCS_CMYK;
 };
 
 /// Nothing when there is no header, or no memory for a reader.
-bool read_header(const Reader& reader, std::string_view jpeg, Header& h) {
+bool read_header(const JpegReader& reader, std::string_view jpeg, JpegHeader& h) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(jpeg.data());
   return reader &&
          opened_jpeg().header(reader.get(), bytes, jpeg.size(), &h.width, &h.height, &h.sampling, &h.colors) == 0;
@@ -62,13 +62,13 @@ bool read_header(const Reader& reader, std::string_view jpeg, Header& h) {
 }  // namespace
 
 bool is_plain_jpeg(std::string_view jpeg) {
-  Header h;
+  JpegHeader h;
   return read_header(new_reader(), jpeg, h) && h.colors != TJCS_CMYK && h.colors != TJCS_YCCK;
 }
 
 bool decode_jpeg(std::string_view jpeg, Image& image, std::string& error) {
-  const Reader reader = new_reader();
-  Header h;
+  const JpegReader reader = new_reader();
+  JpegHeader h;
   if (!read_header(reader, jpeg, h)) {
     error = "its data are damaged";
     return false;

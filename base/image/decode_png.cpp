@@ -31,12 +31,12 @@ const Png& opened_png() {
 }
 
 /// libpng's reader of whole pictures, which neither prints nor jumps.
-class Reader {
+class PngReader {
  public:
-  explicit Reader(std::string_view png) { good_ = opened_png().begin(&image_, png.data(), png.size()) != 0; }
-  ~Reader() { opened_png().free(&image_); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  explicit PngReader(std::string_view png) { good_ = opened_png().begin(&image_, png.data(), png.size()) != 0; }
+  ~PngReader() { opened_png().free(&image_); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 
   bool is_good() const { return good_; }
   std::string fault() const { return image_.message; }
@@ -59,7 +59,7 @@ bool decode_png(std::string_view bytes, Image& image, std::string& error) {
   error = opened_png().fault;
   if (!error.empty()) return false;
   constexpr png_uint_32 formats[] = {PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA};
-  Reader reader(*png);
+  PngReader reader(*png);
   auto& source = reader.image();
   source.format = formats[header->channels - 1];
   source.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // 16 bits are finer steps of the same curve

@@ -77,7 +77,7 @@ bool decode(const DecodeRequest& from, Image& image, std::string& error) try {
   return false;
 }
 
-bool write(const char* codec, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void* pixels, std::string& bytes,
+bool write(const char* codec, OIIO::ImageSpec spec, const OIIO::TypeDesc& type, const void* pixels, std::string& bytes,
            std::string& error) try {
   auto out = OIIO::ImageOutput::create(codec);
   if (!out) {
