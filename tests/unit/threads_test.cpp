@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "convert/wrlkit.h"
 #include "parsers/vrml/parser.h"
+#include "scenegraph/verify.h"
 #include "writers/vrml/vrml.h"
 
 using namespace wrlkit;
@@ -189,4 +190,81 @@ TEST_CASE("Every geometry that is at fault is reported, equal or not", "[gltf]")
   Diagnostics diag;
   glb("#VRML V2.0 utf8\n" + square("A", "0 1 9 -1 0 2 3 -1") + square("B", "0 1 9 -1 0 2 3 -1"), &diag);
   CHECK(diag.count(Diag::bad_index) == 2);
+}
+
+namespace {
+
+struct Converted {
+  std::string bytes, messages;
+  Statistics counts;
+  bool operator==(const Converted&) const = default;
+};
+
+Converted convert(const std::string& text, const std::string& pipeline, int threads) {
+  const ThreadLimit limit(threads);
+  Document document = load_bytes(text, "test.wrl");
+  Converted out;
+  SaveOptions options;
+  options.pipeline = pipeline;
+  REQUIRE(save(
+      document, [&](std::string_view s) { out.bytes += s; }, ".glb", options));
+  out.messages = result({}, document.diag()).messages;
+  out.counts = document.context().stats;
+  return out;
+}
+
+std::string with(const std::string& shape, const std::string& appearance) {
+  const std::string_view begin = "geometry ";
+  std::string out = shape;
+  return out.insert(out.find(begin), appearance + ' ');
+}
+
+/// Meshes of many kinds, again and again, a million indices in all.
+std::string many_meshes() {
+  const std::string texture = "appearance Appearance { texture PixelTexture { image 1 1 1 0xff } }";
+  std::string out = "#VRML V2.0 utf8\n";
+  for (int i = 0; i < 120; ++i) {
+    const auto name = "Part" + std::to_string(i);
+    auto part = face_set(name, points(3000 - i % 7, i % 11));  // where points are missing, faces are at fault
+    if (i % 5 == 0) part = with(part, texture);
+    if (i % 8 == 0) part = "Switch { choice [ " + part + " ] }\n";
+    if (i % 9 == 0) part = "PROTO P" + name + " [ field SFBool s TRUE ] { " + part + " } P" + name + " { }\n";
+    if (i % 10 == 0) part += "DEF Box" + std::to_string(i) + " Shape { geometry Box { } }\n";
+    out += part;
+  }
+  return out + "DEF Again Transform { children [ USE Part3 USE Part20 ] }\n";
+}
+
+}  // namespace
+
+TEST_CASE("Threads: meshes that are made ahead are those of one thread, and so is what is said of them", "[threads]") {
+  const auto text = many_meshes();
+  for (const std::string pipeline : {"gltf", "weld"}) {
+    INFO(pipeline);
+    const auto alone = convert(text, pipeline, 1);
+    CHECK(alone.messages.find("point at nothing") != alone.messages.npos);
+    CHECK(convert(text, pipeline, 2) == alone);
+    CHECK(convert(text, pipeline, 8) == alone);
+  }
+}
+
+TEST_CASE("Threads: values of a large world are checked as on one thread", "[threads]") {
+  const auto checked = [](const std::string& text, int threads) {
+    const ThreadLimit limit(threads);
+    Scene scene;
+    Diagnostics diag;
+    vrml::parse(text, 0, {}, scene, diag);
+    check_values(scene, diag);
+    return result(scene, diag);
+  };
+  for (const std::string middle : {"", "Shape { appearance Appearance { material Material { transparency 7 } } }\n"}) {
+    std::string text = "#VRML V2.0 utf8\n";
+    for (int i = 0; i < 60'000; ++i) {
+      if (i == 40'000) text += middle;
+      text += "Shape { appearance Appearance { } }\n";
+    }
+    const auto alone = checked(text, 1);
+    CHECK((alone.messages == "0 0 0 0 ") == middle.empty());
+    CHECK(checked(text, 4) == alone);
+  }
 }
