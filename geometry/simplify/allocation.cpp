@@ -39,11 +39,14 @@ Allocation::Allocation(std::vector<AllocatedPart>& parts, Neighbours& neighbours
 }
 
 void Allocation::list_stops(std::uint32_t part) {
+  for (const auto rung : convex_hull(*parts_[part].rungs, parts_[part].stretch))
+    stops_[part].push_back(stop_at(part, rung));
+}
+
+Allocation::Stop Allocation::stop_at(std::uint32_t part, std::uint32_t rung) const {
   const auto& p = parts_[part];
-  for (const auto rung : convex_hull(*p.rungs, p.stretch)) {
-    const auto& d = (*p.rungs)[rung].distortion;
-    stops_[part].push_back({rung, {p.weight * p.stretch.squares(d), p.stretch.max(d)}});
-  }
+  const auto& d = (*p.rungs)[rung].distortion;
+  return {rung, {p.weight * p.stretch.squares(d), p.stretch.max(d)}};
 }
 
 /// When larger distances have become usual.
@@ -178,6 +181,23 @@ void Allocation::leave(std::uint32_t part) {
     if (s.near != ClosestPoint::no_guess) attach(part_of_[s.near], s);
 }
 
+/// Where a step saves more than is asked for, a rung that is off the hull may do.
+Allocation::Step Allocation::shortened(const Step& step, std::size_t n_drawn) {
+  const auto& p = parts_[step.part];
+  auto& stops = stops_[step.part];
+  const auto now = stops[at_[step.part]].rung, last = stops[step.to].rung;
+  const auto n_left = [&](std::uint32_t rung) {
+    return n_drawn_ - p.n_places * ((*p.rungs)[now].n_faces - (*p.rungs)[rung].n_faces);
+  };
+  auto rung = now + 1;
+  while (rung < last && n_left(rung) > n_drawn) ++rung;
+  if (rung == last) return step;
+  const auto next = std::ranges::lower_bound(stops, rung, {}, &Stop::rung);
+  const auto to = static_cast<std::uint32_t>(next - stops.begin());
+  if (next->rung != rung) stops.insert(next, stop_at(step.part, rung));
+  return {step.key, step.part, to};
+}
+
 void Allocation::take(const Step& step) {
   const auto& p = parts_[step.part];
   const auto& stops = stops_[step.part];
@@ -215,7 +235,7 @@ bool Allocation::run_to(std::size_t n_drawn) {
       queue_.push(now);
       continue;
     }
-    take(now);
+    take(now.to == gone ? now : shortened(now, n_drawn));
   }
   return true;
 }

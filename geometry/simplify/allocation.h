@@ -63,7 +63,7 @@ class Allocation {
   struct Price {
     double squares = 0, max = 0;
   };
-  /// A rung of the convex hull.
+  /// A rung of the convex hull, or one that met a number of triangles.
   struct Stop {
     std::uint32_t rung;
     Price price;
@@ -73,6 +73,7 @@ class Allocation {
   Step next_of(std::uint32_t part) const;
   double key_of(double slope, double max) const;
   void list_stops(std::uint32_t part);
+  Stop stop_at(std::uint32_t part, std::uint32_t rung) const;
   void price_leaving(std::uint32_t part);
   bool must_ask(const LeavingSample& s) const;
   void ask(std::span<LeavingSample> samples, std::uint32_t part) const;
@@ -80,6 +81,7 @@ class Allocation {
   void price_next(const Step& first);
   double squared_of(const LeavingSample& s) const;
   void attach(std::uint32_t part, const LeavingSample& s);
+  Step shortened(const Step& step, std::size_t n_drawn);
   void take(const Step& step);
   void leave(std::uint32_t part);
 

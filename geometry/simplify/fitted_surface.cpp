@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t most_asked = 48;        // samples that a price is made of
 constexpr std::size_t few_fitted_faces = 32;  // which are asked one by one
 constexpr std::size_t most_removable = 256;   // faces from which on none is taken out by itself
+constexpr double worth_asking_again = 0.9;    // share of the faces that are left since all were asked
 
 }  // namespace
 
@@ -35,6 +36,11 @@ FittedSurface::FittedSurface(PlainMesh mesh, const Triangles& surface, const Clo
   list_faces();
   assign_all();
   measure_backward();
+  enqueue_all();
+}
+
+void FittedSurface::enqueue_all() {
+  n_enqueued_ = n_faces_;
   for (std::uint32_t f = 0; f < face_.size(); ++f) {
     if (!alive_[f]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -371,6 +377,14 @@ void FittedSurface::remove(std::uint32_t f) {
 }
 
 bool FittedSurface::step() {
+  if (next_step()) return true;
+  // What could not be done when it was asked may be possible now: the surface around it is another one.
+  if (static_cast<double>(n_faces_) > worth_asking_again * static_cast<double>(n_enqueued_)) return false;
+  enqueue_all();
+  return next_step();
+}
+
+bool FittedSurface::next_step() {
   while (!queue_.empty()) {
     const Entry e = queue_.top();
     queue_.pop();

@@ -66,6 +66,8 @@ class FittedSurface {
   void assign_all();
   void assign_again();
   void measure_backward();
+  void enqueue_all();
+  bool next_step();
   void enqueue_edge(std::uint32_t u, std::uint32_t v);
   void enqueue_face(std::uint32_t f);
   bool has_edge(std::uint32_t u, std::uint32_t v) const;
@@ -98,7 +100,7 @@ class FittedSurface {
   std::vector<double> squared_;                         // distance of each sample
   std::vector<std::uint32_t> face_stamp_;
   std::priority_queue<Entry> queue_;
-  std::size_t n_faces_ = 0;
+  std::size_t n_faces_ = 0, n_enqueued_ = 0;  // there are; there were when all steps were priced
   double spacing_ = 0;
   Distortion backward_all_;  // when it was measured last
   mutable std::uint32_t guess_ = ClosestPoint::no_guess;

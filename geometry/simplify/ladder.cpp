@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
+#include "base/math/box.h"
 #include "base/math/vec.h"
 #include "geometry/simplify/closest_on_triangle.h"
 #include "geometry/simplify/fitted_surface.h"
@@ -16,26 +18,38 @@ constexpr std::size_t every_below = 20;      // triangles from which on each num
 constexpr std::size_t fitted_below = 128;    // triangles
 constexpr std::size_t most_fitted = 12'000;  // where the criterion is held back
 constexpr double spoiling = 30;              // growth of the distortion from rung to rung
+constexpr double far = 5e-4;                 // root of the mean square, as a share of the extent: from there on,
+constexpr double spoiling_when_far = 4;      // less growth will do
 constexpr double coarse_step = 0.7, fine_step = 0.85;
 
 class Ladder {
  public:
-  explicit Ladder(const LadderPart& part) : part_(part), surface_(triangles_of(part.mesh)), nearest_(surface_) {}
+  explicit Ladder(const LadderPart& part) : part_(part), surface_(triangles_of(part.mesh)), nearest_(surface_) {
+    wrlkit::Box bounds;
+    double area = 0;
+    for (const auto& s : part.samples) {
+      bounds.add(s.point);
+      area += s.weight;
+    }
+    const double distance = far * diagonal(bounds);
+    if (fits()) far_squares_ = 2 * area * distance * distance;
+  }
 
   std::vector<Rung> run() {
     rungs_.push_back({{}, part_.mesh.n_faces(), {}, false});
-    const bool fits = !part_.mesh.lightcoord.present() && !part_.samples.empty();
-    const std::size_t last = fits ? fitted_below : 1;
+    const std::size_t last = fits() ? fitted_below : 1;
     PlainMesh coarse;
     if (part_.mesh.n_faces() > last)
       coarse = collapse(last);
     else
       coarse = plain(part_.mesh);
-    if (fits && coarse.faces.size() <= most_fitted) fit(std::move(coarse));
+    if (fits() && coarse.faces.size() <= most_fitted) fit(std::move(coarse));
     return std::move(rungs_);
   }
 
  private:
+  bool fits() const { return !part_.mesh.lightcoord.present() && !part_.samples.empty(); }
+
   static PlainMesh plain(const Mesh& mesh) {
     PlainMesh out;
     const auto triangles = triangles_of(mesh);
@@ -77,14 +91,19 @@ class Ladder {
       const double held_back = static_cast<double>(c.n_faces()) / static_cast<double>(n);
       n = c.n_faces();
       Mesh next = c.mesh();
-      const double squares = rungs_.back().distortion.squares;
       if (!next.normal.present() && !next.color.present() && !next.texcoord.present()) give_attributes(next);
       add(next);
-      const bool spoiled = squares > 0 && rungs_.back().distortion.squares > spoiling * squares && rungs_.size() > 3;
-      if (spoiled || held_back > 1.2) break;
+      if (is_spoiled() || held_back > 1.2) break;
       level = std::move(next);
     }
     return level;
+  }
+
+  /// Whether the last rung is so much worse than the one before that a fitted surface has to do better.
+  bool is_spoiled() const {
+    const double before = rungs_[rungs_.size() - 2].distortion.squares, squares = rungs_.back().distortion.squares;
+    if (before > 0 && squares > spoiling * before && rungs_.size() > 3) return true;
+    return rungs_.back().n_faces <= most_fitted && squares > spoiling_when_far * before && squares > far_squares_;
   }
 
   void add(const Mesh& level) {
@@ -166,6 +185,7 @@ class Ladder {
   Triangles surface_;
   ClosestPoint nearest_;
   std::vector<Rung> rungs_;
+  double far_squares_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace

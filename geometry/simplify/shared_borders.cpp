@@ -94,9 +94,15 @@ std::vector<std::vector<std::uint32_t>> SharedBorders::find(const Scene& scene,
   auto for_each_border = [&](auto f) {
     std::uint32_t part = 0;
     std::size_t n_left = most_moved;
+    std::vector<Matrix> last(end_.size());
+    std::vector<char> is_placed(end_.size());
     for_each_place(scene, Shown::all, [&](NodeId shape, const Matrix& m) {
       const auto i = number[shape.value];
       if (i == 0) return;
+      // Several children of a Switch may be the same surface in the same place: it does not border on itself.
+      if (is_placed[i - 1] && last[i - 1].m == m.m) return;
+      last[i - 1] = m;
+      is_placed[i - 1] = 1;
       ++part;
       const std::size_t begin = i > 1 ? end_[i - 2] : 0;
       if (end_[i - 1] - begin > n_left) return;

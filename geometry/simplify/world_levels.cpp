@@ -46,8 +46,10 @@ double WorldLevels::Impl::error(const simplify::PlacedSurface& s, std::size_t po
 }
 
 WorldLevels::WorldLevels(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx)
-    : impl_(new Impl{scene, options, simplify::WorldParts(scene, options.collapse, ctx)}) {
-  if (n_parts() < 2 || counts_of(options, n_drawn()).empty()) return;
+    : impl_(
+          new Impl{scene, options,
+                   simplify::WorldParts(scene, options.expanded ? *options.expanded : scene, options.collapse, ctx)}) {
+  if (n_parts() < (options.one_part ? 1 : 2) || counts_of(options, n_drawn()).empty()) return;
   impl_->world.make_ladders();
   impl_->allocate();
 }

@@ -15,6 +15,7 @@
 #include "geometry/simplify/pieces.h"
 #include "geometry/simplify/shared_borders.h"
 #include "geometry/simplify/surface_places.h"
+#include "geometry/simplify/surface_scales.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/places/places.h"
 
@@ -73,18 +74,32 @@ std::uint64_t most_places(std::span<const PlacedSurface> surfaces) {
   return low;
 }
 
+/// Leaves out what is not the same in both scenes.
+void keep_surfaces_of(const Scene& original, std::vector<ShapeSurface>& found) {
+  const auto surfaces = surfaces_of(original);
+  const auto number = surface_numbers(original, surfaces);
+  const auto is_there = [&](const ShapeSurface& s) {
+    return std::ranges::all_of(s.shapes, [&](NodeId shape) {
+      const auto i = shape.value < number.size() ? number[shape.value] : 0;
+      return i > 0 && surfaces[i - 1].geometry == s.geometry;
+    });
+  };
+  std::erase_if(found, [&](const ShapeSurface& s) { return !is_there(s); });
+}
+
 }  // namespace
 
-WorldParts::WorldParts(const Scene& scene, const CollapseOptions& options, Task& ctx)
+WorldParts::WorldParts(const Scene& original, const Scene& scene, const CollapseOptions& options, Task& ctx)
     : scene_(scene), options_(options) {
-  read(ctx);
+  read(original, ctx);
   find_looks();
   cut();
 }
 
-void WorldParts::read(Task& ctx) {
+void WorldParts::read(const Scene& original, Task& ctx) {
   SurfaceReader reader(scene_, ctx);
-  const auto found = surfaces_of(scene_, &ctx.diag);
+  auto found = surfaces_of(scene_, &ctx.diag);
+  if (&original != &scene_) keep_surfaces_of(original, found);
   SharedBorders borders;
   Mesh mesh;
   for (const auto& s : found) {
@@ -180,6 +195,7 @@ void WorldParts::cut() {
       area += parts[i].area * size * size * each;
       allocated[i].weight += std::pow(size, 4) * each;
       neighbours.add(triangles, parts[i].faces, m, n_owners_++);
+      part_of_.push_back(i);
     }
     neighbours.end_part();
   }
@@ -272,6 +288,12 @@ struct WorldParts::Surroundings {
   double width;
 };
 
+/// Of two that hide one another, the larger one stays.
+bool WorldParts::yields(std::uint32_t owner, std::uint32_t other) const {
+  const auto part = part_of_[owner], other_part = part_of_[other];
+  return std::pair(parts[part].area, owner) < std::pair(parts[other_part].area, other);
+}
+
 /// Nothing needs to be nearer to a sample that is hidden than what hides it.
 double WorldParts::enough(const Surroundings& around, const SurfaceSample& sample, double within,
                           Neighbours::Found& found) const {
@@ -279,7 +301,8 @@ double WorldParts::enough(const Surroundings& around, const SurfaceSample& sampl
   found = neighbours.nearest(p, within, {around.first, around.end}, found.triangle);
   if (found.owner == ClosestPoint::no_guess) return std::numeric_limits<double>::infinity();
   const Vec3 normal = unit(direction(around.place, sample.normal));
-  const bool hidden = is_hidden(p, normal, neighbours.corners(found.triangle), found.distance, around.width);
+  const bool hidden = yields(around.first, found.owner) &&
+                      is_hidden(p, normal, neighbours.corners(found.triangle), found.distance, around.width);
   return hidden ? found.distance * found.distance : std::numeric_limits<double>::infinity();
 }
 

@@ -35,7 +35,9 @@ struct WorldPart {
 
 class WorldParts {
  public:
-  WorldParts(const Scene& scene, const CollapseOptions& options, Task& ctx);
+  /// Of surfaces of `original`, where `scene` shows them: it is the same scene, or has instances of prototypes
+  /// expanded.
+  WorldParts(const Scene& original, const Scene& scene, const CollapseOptions& options, Task& ctx);
 
   /// Triangles that a world may draw; of one that draws more there are no parts.
   static constexpr std::uint64_t most_drawn = 1'000'000'000'000'000;
@@ -59,7 +61,7 @@ class WorldParts {
                   const std::vector<std::uint32_t>* before = nullptr) const;
 
  private:
-  void read(Task& ctx);
+  void read(const Scene& original, Task& ctx);
   void find_places(const ShownTimes& shown, const std::vector<ShapeSurface>& found);
   bool measure_places(PlacedSurface& s);
   void count_left(const ShownTimes& shown, const std::vector<ShapeSurface>& taken, SurfaceReader& reader);
@@ -75,6 +77,7 @@ class WorldParts {
   void make_ladder_of(std::uint32_t ladder);
   void find_leaving(std::uint32_t part);
   struct Surroundings;
+  bool yields(std::uint32_t owner, std::uint32_t other) const;
   /// `found`: where the sample before was near to, and then this one.
   double enough(const Surroundings& around, const SurfaceSample& sample, double within, Neighbours::Found& found) const;
 
@@ -82,6 +85,7 @@ class WorldParts {
   CollapseOptions options_;
   std::uint32_t n_owners_ = 0;                       // places of parts that are given
   double n_placed_ = 0;                              // places of parts
+  std::vector<std::uint32_t> part_of_;               // of each owner
   std::vector<std::vector<std::uint32_t>> members_;  // of each ladder
   std::vector<std::vector<Rung>> ladders_;
 };

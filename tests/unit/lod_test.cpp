@@ -270,6 +270,19 @@ TEST_CASE("shared borders: places of one geometry, and what is no border", "[lod
   CHECK(fixed[3].empty());
 }
 
+TEST_CASE("shared borders: a surface twice in one place does not border on itself", "[lod]") {
+  TestWorld w("Switch { whichChoice 0 choice [ Shape { geometry DEF P " + plate(5, 0, 1) +
+              " } Group { children Shape { geometry USE P } } ] }");
+  const auto surfaces = surfaces_of(w.scene);
+  REQUIRE(surfaces.size() == 1);
+  SharedBorders borders;
+  SurfaceReader reader(w.scene, w.ctx);
+  Mesh mesh;
+  reader.read(surfaces[0], mesh);
+  borders.add(mesh);
+  CHECK(borders.find(w.scene, surfaces)[0].empty());
+}
+
 TEST_CASE("errors are metres of the world, ranges are not", "[lod]") {
   const auto ball = [](const std::string& scale) {
     return "Transform { scale " + scale + " children Shape { geometry DEF S Sphere { radius 1000 } } }";

@@ -13,6 +13,7 @@
 #include "geometry/simplify/world_levels.h"
 #include "geometry/simplify/world_parts.h"
 #include "parsers/parsers.h"
+#include "passes/expand_protos/expand_protos.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "test_world.h"
@@ -262,6 +263,81 @@ TEST_CASE("ladder: a box of many triangles becomes twelve without an error", "[l
   const auto hull = convex_hull(rungs);
   CHECK(hull.front() == 0);
   CHECK(hull.back() == rungs.size() - 1);
+}
+
+/// A plate with rows of square holes.
+Mesh grating(int n_holes) {
+  Mesh mesh;
+  mesh.kind = Mesh::Kind::faces;
+  auto& positions = mesh.positions.edit();
+  std::map<Vec3, std::uint32_t> number;
+  const auto point = [&](int i, int j, double z) {
+    const Vec3 p{i / 2 + 0.1 * (i % 2), j / 2 + 0.1 * (j % 2), z};
+    const auto [found, is_new] = number.try_emplace(p, static_cast<std::uint32_t>(number.size()));
+    if (is_new) positions.insert(positions.end(), p.begin(), p.end());
+    return found->second;
+  };
+  const int n = 2 * n_holes + 1;
+  const auto is_solid = [&](int i, int j) { return i >= 0 && i < n && j >= 0 && j < n && !(i % 2 == 1 && j % 2 == 1); };
+  const auto quad = [&](std::array<std::uint32_t, 4> c) {
+    mesh.corners.insert(mesh.corners.end(), {c[0], c[1], c[2], c[0], c[2], c[3]});
+  };
+  const auto wall = [&](int i, int j, int to_i, int to_j) {
+    quad({point(i, j, 0), point(to_i, to_j, 0), point(to_i, to_j, 0.2), point(i, j, 0.2)});
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      if (!is_solid(i, j)) continue;
+      quad({point(i, j, 0.2), point(i + 1, j, 0.2), point(i + 1, j + 1, 0.2), point(i, j + 1, 0.2)});
+      quad({point(i, j + 1, 0), point(i + 1, j + 1, 0), point(i + 1, j, 0), point(i, j, 0)});
+      if (!is_solid(i - 1, j)) wall(i, j + 1, i, j);
+      if (!is_solid(i + 1, j)) wall(i + 1, j, i + 1, j + 1);
+      if (!is_solid(i, j - 1)) wall(i, j, i + 1, j);
+      if (!is_solid(i, j + 1)) wall(i + 1, j + 1, i, j + 1);
+    }
+  return mesh;
+}
+
+TEST_CASE("world levels: numbers of triangles are met by rungs that are off the hull", "[levels]") {
+  TestWorld w("Shape { geometry DEF B Sphere { } }" + at(9, 0, 0, "Shape { geometry Box { } }"));
+  std::vector<std::size_t> counts;
+  for (std::size_t n = 400; n > 40; n -= 20) counts.push_back(n);
+  const auto levels = levels_of(w, counts);
+  REQUIRE(levels.points().size() >= 8);
+  for (std::size_t i = 0; i < levels.points().size(); ++i) {
+    const auto& p = levels.points()[i];
+    CHECK(drawn(levels.scene_at(i)) == p.n_drawn);
+    if (i > 0) CHECK(p.n_drawn < levels.points()[i - 1].n_drawn);
+  }
+}
+
+TEST_CASE("ladder: a grating goes down to a sheet", "[levels]") {
+  const Mesh mesh = grating(12);
+  REQUIRE(mesh.n_faces() == 3276);
+  const auto samples = sample_surface(triangles_of(mesh), 4 * mesh.n_faces());
+  const auto rungs = make_ladder({mesh, samples, {}});
+  CHECK(rungs.back().n_faces <= 4);
+}
+
+TEST_CASE("world levels: parts below an instance of a prototype", "[levels]") {
+  const std::string proto =
+      "PROTO Joint [ exposedField SFVec3f translation 0 0 0 exposedField MFNode children [] ] "
+      "{ Transform { translation IS translation children IS children } } ";
+  const std::string parts = at(3, 0, 0, "DEF Ball Shape { geometry Sphere { } }") +
+                            at(6, 0, 0, "DEF Ball2 Shape { geometry Sphere { radius 2 } }");
+  TestWorld w(proto + "Joint { translation 5 0 0 children [ " + parts + " ] }");
+  WorldSimplifyOptions options;
+  options.ratios = {0.1};
+  Scene expanded = w.scene;
+  REQUIRE(expand_protos(expanded, {}, w.ctx) == Outcome::changed);
+  options.expanded = &expanded;
+  const WorldLevels levels(w.scene, options, w.ctx);
+  CHECK(levels.n_parts() == 2);
+  REQUIRE(levels.points().size() == 1);
+  CHECK(levels.points()[0].n_drawn <= levels.n_drawn() / 10);
+  const Scene level = levels.scene_at(0);
+  CHECK(distance(w.scene, level).rms > 0);
+  CHECK(is_drawn(level, "Ball2"));
 }
 
 TEST_CASE("pieces: what is connected, and the same form elsewhere", "[levels]") {

@@ -14,6 +14,7 @@
 #include "convert/writing.h"
 #include "geometry/progressive/progressive_world.h"
 #include "geometry/simplify/world_levels.h"
+#include "passes/expand_protos/expand_protos.h"
 #include "tools/cli/lengths.h"
 #include "tools/cli/session.h"
 
@@ -176,12 +177,31 @@ bool write_worlds(Session& s, const World& world, const Names& names, WrittenWor
   return write_world(s, all.lod_file, world.scene_with_levels());
 }
 
+/// What instances of prototypes stand for in their places; nothing when there are none.
+std::optional<Scene> expanded_scene(Session& s) {
+  Scene out = s.world().scene;
+  Diagnostics unheard(s.diag().shared_sources());
+  Statistics uncounted;
+  PassContext silent(unheard, uncounted, &s.resources());
+  if (expand_protos(out, {}, silent) == Outcome::unchanged) return std::nullopt;
+  return out;
+}
+
+/// Whether the last world has as few triangles as were asked for.
+bool is_reached(const SimplifiedWorld& world, const WorldSimplifyOptions& options) {
+  const auto counts = counts_of(options, world.n_faces());
+  return counts.empty() || (world.n_points() > 0 && world.point(world.n_points() - 1).n_faces <= counts.back());
+}
+
 /// As one world with one budget where there are several parts and the triangles are counted; else each surface for
-/// itself.
-bool simplify_world(Session& s, const WorldSimplifyOptions& options, const Names& names, WrittenWorlds& all) {
+/// itself, unless the criterion does not go as far as was asked.
+bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names, WrittenWorlds& all) {
   const Scene& scene = s.world().scene;
+  SilentTask silent(s.context());
+  std::optional<Scene> expanded;
   if (options.errors.empty()) {
-    SilentTask silent(s.context());
+    expanded = expanded_scene(s);
+    if (expanded) options.expanded = &*expanded;
     const WorldLevels world(scene, options, silent);
     if (world.n_drawn() > WorldLevels::most_drawn)
       s.diag().report(Diag::not_simplified, {},
@@ -194,6 +214,11 @@ bool simplify_world(Session& s, const WorldSimplifyOptions& options, const Names
   }
   const SimplifiedWorld world(scene, options, s.context());
   if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
+  if (options.errors.empty() && !is_reached(world, options)) {
+    options.one_part = true;
+    const WorldLevels farther(scene, options, silent);
+    if (!farther.points().empty()) return write_worlds(s, farther, names, all);
+  }
   return write_worlds(s, world, names, all);
 }
 
