@@ -3,6 +3,7 @@
 #include "base/option_range.h"
 #include "passes/picture_format/picture_format.h"
 #include "passes/pipeline/pass.h"
+#include "passes/pipeline/size_option.h"
 
 namespace wrlkit {
 
@@ -22,8 +23,11 @@ inline constexpr auto choices<CombineTarget> =
 
 enum class CombinedFormat : std::uint8_t { as_light, png, jpg, webp };
 template <>
-inline constexpr auto choices<CombinedFormat> =
-    choice_row({{"auto", "as those of the light, with JPEG only where there is no alpha"}, {"png"}, {"jpg"}, {"webp"}});
+inline constexpr auto choices<CombinedFormat> = choice_row(
+    {{"auto", "as those of the light, with JPEG only where there is no alpha; with a budget JPEG where it is smaller"},
+     {"png"},
+     {"jpg"},
+     {"webp"}});
 
 /// Why this build cannot write it; empty when it can.
 std::string why_missing(CombinedFormat);
@@ -52,7 +56,13 @@ Transparency becomes alpha of the picture. Opaque Shapes do not share a picture 
 blend them.
 
 A page of light becomes one combined page (two, when it has transparent Shapes), larger by a whole factor, so that
-textures keep their detail. Nodes that other Shapes use, which have no light, are copied before they change.
+textures keep their detail. Where that saves a quarter of the texels, all pages are packed again instead: each chart has
+as many texels as its own texture asks for, and even ones, such as a wall in full shade, half as many along each side,
+a quarter, and so on down to one, as far as `tolerance` allows. Nodes that other Shapes use, which have no light, are
+copied before they change.
+
+With `budget` or `texels` charts are halved further, those first that lose least for each texel that is saved. What
+that costs is reported (light-budget).
 
 A scene without lightmaps is left alone, in O(nodes); so is any without resources, which hold the pictures.)";
   static constexpr StatisticInfo statistics[] = {
@@ -63,6 +73,9 @@ A scene without lightmaps is left alone, in O(nodes); so is any without resource
 
   TexelFactor scale;
   int max_size = 4096;
+  double tolerance = 1;
+  SizeOption budget;
+  int texels = 0;
   CombineTarget into = CombineTarget::texture;
   CombinedFormat format = CombinedFormat::as_light;
 
@@ -70,6 +83,12 @@ A scene without lightmaps is left alone, in O(nodes); so is any without resource
     f("scale", scale, "texels for each texel of the light, along each side; auto: as many as the textures have");
     f("max-size", max_size, "pixels along each side of a picture; a larger page of light keeps its size",
       between(1, 32768));
+    f("tolerance", tolerance,
+      "by which a chart may differ when it has fewer texels, in 255ths: root mean square, and a quarter of what 99 % "
+      "keep below",
+      between(0, 255));
+    f("budget", budget, "most bytes of all pictures together; 0: any. Opaque ones may be JPEG then");
+    f("texels", texels, "most texels of all pictures together; 0: any", at_least(0));
     f("into", into, "where the combined picture goes");
     f("format", format, "of the pictures");
   }
