@@ -109,7 +109,7 @@ ChartImage ChartImage::shrunk(Point2 size, double scale) const {
   return out;
 }
 
-double ChartImage::difference(const ChartImage& shrunk, double scale) const {
+Difference ChartImage::difference(const ChartImage& shrunk, double scale) const {
   constexpr std::uint64_t rare = 100;
   std::array<std::uint64_t, 256> count{};
   std::uint64_t n = 0;
@@ -126,10 +126,10 @@ double ChartImage::difference(const ChartImage& shrunk, double scale) const {
         ++n;
       }
     }
-  if (!n) return 0;
+  if (!n) return {};
   std::size_t most = 255;
   for (std::uint64_t beyond = count[most]; most > 0 && beyond * rare <= n; beyond += count[most]) --most;
-  return std::max(std::sqrt(square / static_cast<double>(n)), static_cast<double>(most) / 4);
+  return {std::sqrt(square / static_cast<double>(n)), static_cast<double>(most)};
 }
 
 }  // namespace wrlkit::combine

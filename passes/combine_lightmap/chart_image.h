@@ -10,6 +10,11 @@
 
 namespace wrlkit::combine {
 
+/// Of pictures, in 255ths: root mean square, and what all but one in a hundred numbers keep below.
+struct Difference {
+  double mean = 0, most = 0;
+};
+
 /// Places are in texels from the upper left corner of the box.
 class ChartImage {
  public:
@@ -30,9 +35,8 @@ class ChartImage {
 
   /// With `scale` times the texels along each side, each the mean of what it stands for. O(texels).
   ChartImage shrunk(unwrap::Point2 size, double scale) const;
-  /// By how much that differs where the chart is, in 255ths: the root mean square, or a quarter of what all but one in
-  /// a hundred numbers keep below, whichever is more. O(texels).
-  double difference(const ChartImage& shrunk, double scale) const;
+  /// By how much that differs where the chart is. O(texels).
+  Difference difference(const ChartImage& shrunk, double scale) const;
 
  private:
   std::size_t index(int x, int y) const { return std::size_t(y) * width_ + x; }

@@ -17,6 +17,7 @@
 #include "passes/combine_lightmap/showing.h"
 #include "passes/lightmap/borders.h"
 #include "passes/lightmap/connected.h"
+#include "passes/lightmap/whole_pages.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -232,7 +233,7 @@ void Combining::repack(bool transparent) {
       RepackOptions{options_.scale.value, options_.max_size, options_.tolerance, is_limited(), transparent});
   if (!r.packing->measure()) return;
   halve_even(r.packing->needs(), options_.tolerance);
-  if (!is_limited() && r.packing->area() / usual_fill > worth_it * now) return;
+  if (!is_limited() && area_of(r.packing->needs(), r.packing->padding()) / usual_fill > worth_it * now) return;
   r.packing->pack();
   if (!is_limited() && static_cast<double>(r.packing->texels()) > worth_it * now) return;
   repacked_.push_back(std::move(r));
@@ -277,7 +278,8 @@ double Combining::affordable(const Used& used) const {
 /// Pictures grow and shrink with their texels, though not quite alike: a few steps come near enough.
 bool Combining::keep_budget() {
   constexpr int most_steps = 12;
-  constexpr double hurry = 0.85;  // sides of pages are powers of two: a little less changes nothing
+  const int least_padding = bake::padding_of(1);  // more of it goes before charts do
+  constexpr double hurry = 0.85;                  // sides of pages are powers of two: a little less changes nothing
   for (Repacked& r : repacked_)
     if (!encode_pages(r)) return false;
   const Used before = used();
@@ -286,9 +288,9 @@ bool Combining::keep_budget() {
     const double left = affordable(used()) * (step ? hurry : 1);
     smaller = false;
     for (Repacked& r : repacked_) {
-      const double area = r.packing->area();
-      halve_to(r.packing->needs(), left * area, r.packing->padding());
-      smaller |= r.packing->area() < area;
+      const double area = area_of(r.packing->needs(), least_padding);
+      halve_to(r.packing->needs(), left * area, least_padding);
+      smaller |= area_of(r.packing->needs(), least_padding) < area;
       r.packing->pack();
       if (!encode_pages(r)) return false;
     }
@@ -329,21 +331,15 @@ std::string Combining::format_of(const LitShape& shape) const {
   return std::string(shape.transparent && has_no_alpha ? name_of(PictureFormat::png) : format);
 }
 
-/// Where bytes count and no format is asked for, JPEG where it is smaller.
 std::optional<Encoded> Combining::encoded(const Image& image, const LitShape& first) {
-  Encoded out{format_of(first), {}};
-  auto encode = [&](const std::string& extension) {
-    std::string error;
-    auto bytes = encode_as("baked." + extension, image, error);
-    if (!bytes) ctx_.diag.report(Diag::cannot_write, {}, "baked." + extension, error);
-    return bytes;
-  };
-  auto bytes = encode(out.extension);
-  if (!bytes) return {};
-  out.bytes = std::move(*bytes);
-  if (!options_.budget.bytes || options_.format != CombinedFormat::as_light || first.transparent) return out;
-  if (auto jpeg = encode("jpg"); jpeg && jpeg->size() < out.bytes.size()) out = {"jpg", std::move(*jpeg)};
-  return out;
+  const std::string extension = format_of(first);
+  std::string error;
+  auto bytes = encode_as("baked." + extension, image, error);
+  if (!bytes) {
+    ctx_.diag.report(Diag::cannot_write, {}, "baked." + extension, error);
+    return {};
+  }
+  return Encoded{extension, std::move(*bytes)};
 }
 
 NodeId Combining::texture(Encoded picture, const LitShape& first) {

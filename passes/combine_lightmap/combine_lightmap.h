@@ -23,11 +23,8 @@ inline constexpr auto choices<CombineTarget> =
 
 enum class CombinedFormat : std::uint8_t { as_light, png, jpg, webp };
 template <>
-inline constexpr auto choices<CombinedFormat> = choice_row(
-    {{"auto", "as those of the light, with JPEG only where there is no alpha; with a budget JPEG where it is smaller"},
-     {"png"},
-     {"jpg"},
-     {"webp"}});
+inline constexpr auto choices<CombinedFormat> =
+    choice_row({{"auto", "as those of the light, with JPEG only where there is no alpha"}, {"png"}, {"jpg"}, {"webp"}});
 
 /// Why this build cannot write it; empty when it can.
 std::string why_missing(CombinedFormat);
@@ -87,7 +84,7 @@ A scene without lightmaps is left alone, in O(nodes); so is any without resource
       "by which a chart may differ when it has fewer texels, in 255ths: root mean square, and a quarter of what 99 % "
       "keep below",
       between(0, 255));
-    f("budget", budget, "most bytes of all pictures together; 0: any. Opaque ones may be JPEG then");
+    f("budget", budget, "most bytes of all pictures together; 0: any.");
     f("texels", texels, "most texels of all pictures together; 0: any", at_least(0));
     f("into", into, "where the combined picture goes");
     f("format", format, "of the pictures");

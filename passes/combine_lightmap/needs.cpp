@@ -14,12 +14,23 @@ double ChartNeed::area(std::uint32_t n, int padding) const {
 }
 
 double ChartNeed::harm(std::uint32_t n) const {
-  return n ? double{error[n - 1]} * error[n - 1] * copies * size.x * size.y : 0;
+  return n ? error[n - 1].mean * error[n - 1].mean * copies * size.x * size.y : 0;
+}
+
+double area_of(std::span<const ChartNeed> needs, int padding) {
+  double sum = 0;
+  for (const ChartNeed& n : needs) sum += n.area(padding);
+  return sum;
+}
+
+bool is_within(const Difference& d, double tolerance) {
+  constexpr double rare = 4;
+  return d.mean <= tolerance && d.most <= rare * tolerance;
 }
 
 void halve_even(std::span<ChartNeed> needs, double tolerance) {
   for (ChartNeed& need : needs)
-    while (need.halvings < need.error.size() && need.error[need.halvings] <= tolerance) ++need.halvings;
+    while (need.halvings < need.error.size() && is_within(need.error[need.halvings], tolerance)) ++need.halvings;
 }
 
 bool halve_to(std::span<ChartNeed> needs, double area, int padding) {
@@ -29,17 +40,14 @@ bool halve_to(std::span<ChartNeed> needs, double area, int padding) {
     bool operator<(const Step& o) const { return std::pair(price, chart) > std::pair(o.price, o.chart); }
   };
   std::priority_queue<Step> steps;
-  double all = 0;
+  double all = area_of(needs, padding);
   auto saved = [&](const ChartNeed& n) { return n.area(n.halvings, padding) - n.area(n.halvings + 1, padding); };
   auto offer = [&](std::size_t i) {
     const ChartNeed& n = needs[i];
     if (n.halvings >= n.error.size() || !(saved(n) > 0)) return;
     steps.push({std::max(0.0, n.harm(n.halvings + 1) - n.harm(n.halvings)) / saved(n), i});
   };
-  for (std::size_t i = 0; i < needs.size(); ++i) {
-    all += needs[i].area(padding);
-    offer(i);
-  }
+  for (std::size_t i = 0; i < needs.size(); ++i) offer(i);
   while (all > area && !steps.empty()) {
     const std::size_t i = steps.top().chart;
     steps.pop();

@@ -106,7 +106,7 @@ TexcoordMap Repacking::light_of(const Geometry& g, std::size_t k) const {
 }
 
 std::vector<ChartImage> Repacking::halved(const Geometry& g, std::size_t k, std::uint32_t chart,
-                                          std::vector<float>& errors) const {
+                                          std::vector<Difference>& errors) const {
   const ChartNeed& n = need(g, chart);
   const unwrap::Charts& charts = g.light.charts;
   const Point2 size{n.size.x * n.scale, n.size.y * n.scale}, origin = g.light.origin[chart];
@@ -134,9 +134,9 @@ std::vector<ChartImage> Repacking::halved(const Geometry& g, std::size_t k, std:
   full.paint(triangles, painted, options_.alpha);
   for (double scale = 0.5; std::max(size.x, size.y) * scale > 0.5; scale /= 2) {
     ChartImage image = full.shrunk(size, scale);
-    const double error = full.difference(image, scale);
-    if (!options_.all && error > options_.tolerance) break;
-    errors.push_back(static_cast<float>(error));
+    const Difference error = full.difference(image, scale);
+    if (!options_.all && !is_within(error, options_.tolerance)) break;
+    errors.push_back(error);
     out.push_back(std::move(image));
   }
   return out;
@@ -148,11 +148,12 @@ void Repacking::find_errors(Geometry& g, std::uint32_t chart) {
   ChartNeed& n = needs_[g.first_need + chart];
   if (double{n.size.x} * n.size.y * n.scale * n.scale <= few || !(options_.all || options_.tolerance > 0)) return;
   for (std::size_t k = 0; k < g.shapes.size(); ++k) {
-    std::vector<float> errors;
+    std::vector<Difference> errors;
     g.images[k * g.light.charts.size() + chart] = halved(g, k, chart, errors);
     if (k == 0) n.error = errors;
     n.error.resize(std::min(n.error.size(), errors.size()));
-    for (std::size_t i = 0; i < n.error.size(); ++i) n.error[i] = std::max(n.error[i], errors[i]);
+    for (std::size_t i = 0; i < n.error.size(); ++i)
+      n.error[i] = {std::max(n.error[i].mean, errors[i].mean), std::max(n.error[i].most, errors[i].most)};
   }
 }
 
@@ -172,17 +173,7 @@ bool Repacking::measure() {
 }
 
 int Repacking::padding() const {
-  return bake::affordable_padding(bake::padding_of(1), [&](int padding) {
-    double sum = 0;
-    for (const ChartNeed& n : needs_) sum += n.area(padding);
-    return sum;
-  });
-}
-
-double Repacking::area() const {
-  double sum = 0;
-  for (const int p = padding(); const ChartNeed& n : needs_) sum += n.area(p);
-  return sum;
+  return bake::affordable_padding(bake::padding_of(1), [&](int padding) { return area_of(needs_, padding); });
 }
 
 void Repacking::pack() {

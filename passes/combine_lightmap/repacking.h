@@ -38,8 +38,6 @@ class Repacking {
   std::span<ChartNeed> needs() { return needs_; }
   /// Between charts: as much as costs little.
   int padding() const;
-  /// Of all charts, with the padding.
-  double area() const;
 
   void pack();
   const std::vector<unwrap::Page>& pages() const { return atlas_.pages; }
@@ -74,7 +72,7 @@ class Repacking {
   void find_scale(const Geometry& g, std::uint32_t chart);
   void find_errors(Geometry& g, std::uint32_t chart);
   std::vector<ChartImage> halved(const Geometry& g, std::size_t k, std::uint32_t chart,
-                                 std::vector<float>& errors) const;
+                                 std::vector<Difference>& errors) const;
   const ChartNeed& need(const Geometry& g, std::uint32_t chart) const { return needs_[g.first_need + chart]; }
   TexcoordMap light_of(const Geometry& g, std::size_t k) const;
   TexcoordMap chart_map(std::size_t g, std::uint32_t chart) const;
