@@ -35,7 +35,7 @@ class ChartImage {
 
   /// With `scale` times the texels along each side, each the mean of what it stands for. O(texels).
   ChartImage shrunk(unwrap::Point2 size, double scale) const;
-  /// By how much that differs where the chart is. O(texels).
+  /// By how much that differs where the chart is, at up to 65,536 of its texels.
   Difference difference(const ChartImage& shrunk, double scale) const;
 
  private:

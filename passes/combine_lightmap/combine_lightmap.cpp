@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "base/silent_task.h"
 #include "geometry/tessellation.h"
@@ -104,14 +105,15 @@ class Combining {
   void repack(bool transparent);
   bool is_repacked(const Group& group) const;
   bool is_limited() const { return options_.budget.bytes > 0 || options_.texels > 0; }
+  std::uint64_t most_texels() const;
   struct Used {
     std::uint64_t bytes = 0, texels = 0;
   };
-  bool encode_pages(Repacked& r);
+  bool encode_pages();
   Used used() const;
   double affordable(const Used& used) const;
   bool keep_budget();
-  void report_budget(const Used& before);
+  void report_budget(const Used& before, std::span<ChartNeed* const> needs);
 
   bool combine(const Group& group);
   std::vector<std::uint16_t> charts_of(const Mesh& mesh);
@@ -228,14 +230,15 @@ void Combining::repack(bool transparent) {
     }
   }
   if (r.shapes.empty()) return;
+  const bool limited = is_limited() || now > static_cast<double>(most_texels());
   r.packing = std::make_unique<Repacking>(
       r.items, [&](NodeId geometry, bool textured) { return read_mesh(geometry, textured); },
-      RepackOptions{options_.scale.value, options_.max_size, options_.tolerance, is_limited(), transparent});
+      RepackOptions{options_.scale.value, options_.max_size, options_.tolerance, limited, transparent});
   if (!r.packing->measure()) return;
   halve_even(r.packing->needs(), options_.tolerance);
-  if (!is_limited() && area_of(r.packing->needs(), r.packing->padding()) / usual_fill > worth_it * now) return;
+  if (!limited && area_of(r.packing->needs(), r.packing->padding()) / usual_fill > worth_it * now) return;
   r.packing->pack();
-  if (!is_limited() && static_cast<double>(r.packing->texels()) > worth_it * now) return;
+  if (!limited && static_cast<double>(r.packing->texels()) > worth_it * now) return;
   repacked_.push_back(std::move(r));
 }
 
@@ -244,12 +247,14 @@ bool Combining::is_repacked(const Group& group) const {
                              [&](const Repacked& r) { return r.shapes[0]->transparent == group.transparent; });
 }
 
-bool Combining::encode_pages(Repacked& r) {
-  r.pages.clear();
-  for (std::uint32_t i = 0; i < r.packing->pages().size(); ++i) {
-    auto page = encoded(r.packing->paint(i), *r.shapes[0]);
-    if (!page) return false;
-    r.pages.push_back(std::move(*page));
+bool Combining::encode_pages() {
+  for (Repacked& r : repacked_) {
+    r.pages.clear();
+    for (std::uint32_t i = 0; i < r.packing->pages().size(); ++i) {
+      auto page = encoded(r.packing->paint(i), *r.shapes[0]);
+      if (!page) return false;
+      r.pages.push_back(std::move(*page));
+    }
   }
   return true;
 }
@@ -264,13 +269,23 @@ Combining::Used Combining::used() const {
   return out;
 }
 
+/// Without a budget those of a page of 2048 x 2048, or those of the light, whichever are more.
+std::uint64_t Combining::most_texels() const {
+  constexpr std::uint64_t usual = 2048 * 2048;
+  if (options_.texels > 0) return static_cast<std::uint64_t>(options_.texels);
+  if (options_.budget.bytes > 0) return std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t light = 0;
+  for (const Group& g : groups_) light += g.texels() / static_cast<std::uint64_t>(g.factor * g.factor);
+  return std::max(usual, light);
+}
+
 /// How much of the texels may stay: bytes do not go down quite as texels do.
 double Combining::affordable(const Used& used) const {
   constexpr double margin = 0.97;
   double out = 1;
   if (const auto most = options_.budget.bytes; most && used.bytes > most)
     out = margin * static_cast<double>(most) / static_cast<double>(used.bytes);
-  if (const auto most = static_cast<std::uint64_t>(options_.texels); most && used.texels > most)
+  if (const auto most = most_texels(); used.texels > most)
     out = std::min(out, static_cast<double>(most) / static_cast<double>(used.texels));
   return out;
 }
@@ -280,33 +295,28 @@ bool Combining::keep_budget() {
   constexpr int most_steps = 12;
   const int least_padding = bake::padding_of(1);  // more of it goes before charts do
   constexpr double hurry = 0.85;                  // sides of pages are powers of two: a little less changes nothing
+  const bool by_bytes = options_.budget.bytes > 0;
+  std::vector<ChartNeed*> needs;
   for (Repacked& r : repacked_)
-    if (!encode_pages(r)) return false;
+    for (ChartNeed& n : r.packing->needs()) needs.push_back(&n);
+  if (by_bytes && !encode_pages()) return false;
   const Used before = used();
-  bool smaller = affordable(before) < 1;
-  for (int step = 0; step < most_steps && smaller && affordable(used()) < 1; ++step) {
-    const double left = affordable(used()) * (step ? hurry : 1);
-    smaller = false;
-    for (Repacked& r : repacked_) {
-      const double area = area_of(r.packing->needs(), least_padding);
-      halve_to(r.packing->needs(), left * area, least_padding);
-      smaller |= area_of(r.packing->needs(), least_padding) < area;
-      r.packing->pack();
-      if (!encode_pages(r)) return false;
-    }
+  for (int step = 0; step < most_steps && affordable(used()) < 1; ++step) {
+    const double left = affordable(used()) * (step ? hurry : 1), area = area_of(needs, least_padding);
+    halve_to(needs, left * area, least_padding);
+    if (!(area_of(needs, least_padding) < area)) break;
+    for (Repacked& r : repacked_) r.packing->pack();
+    if (by_bytes && !encode_pages()) return false;
   }
-  report_budget(before);
-  return true;
+  report_budget(before, needs);
+  return by_bytes || encode_pages();
 }
 
-void Combining::report_budget(const Used& before) {
+void Combining::report_budget(const Used& before, std::span<ChartNeed* const> needs) {
   const Used now = used();
   if (affordable(before) == 1) return;
-  std::vector<ChartNeed> needs;
-  for (Repacked& r : repacked_) std::ranges::copy(r.packing->needs(), std::back_inserter(needs));
-  ctx_.diag.report(Diag::light_budget, {}, now.texels, before.texels, now.bytes, before.bytes,
-                   std::round(10 * error_of(needs)) / 10);
-  if (affordable(now) < 1) ctx_.diag.report(Diag::light_budget_missed, {}, now.bytes, now.texels);
+  ctx_.diag.report(Diag::light_budget, {}, now.texels, before.texels, std::round(10 * error_of(needs)) / 10);
+  if (affordable(now) < 1) ctx_.diag.report(Diag::light_budget_missed, {}, now.texels);
 }
 
 /// Of an ImageTexture; empty when there is none.

@@ -85,7 +85,9 @@ A scene without lightmaps is left alone, in O(nodes); so is any without resource
       "keep below",
       between(0, 255));
     f("budget", budget, "most bytes of all pictures together; 0: any.");
-    f("texels", texels, "most texels of all pictures together; 0: any", at_least(0));
+    f("texels", texels,
+      "most texels of all pictures together; 0: without a budget 4,194,304 or those of the light, whichever are more",
+      at_least(0));
     f("into", into, "where the combined picture goes");
     f("format", format, "of the pictures");
   }

@@ -23,6 +23,12 @@ double area_of(std::span<const ChartNeed> needs, int padding) {
   return sum;
 }
 
+double area_of(std::span<ChartNeed* const> needs, int padding) {
+  double sum = 0;
+  for (const ChartNeed* n : needs) sum += n->area(padding);
+  return sum;
+}
+
 bool is_within(const Difference& d, double tolerance) {
   constexpr double rare = 4;
   return d.mean <= tolerance && d.most <= rare * tolerance;
@@ -33,7 +39,7 @@ void halve_even(std::span<ChartNeed> needs, double tolerance) {
     while (need.halvings < need.error.size() && is_within(need.error[need.halvings], tolerance)) ++need.halvings;
 }
 
-bool halve_to(std::span<ChartNeed> needs, double area, int padding) {
+bool halve_to(std::span<ChartNeed* const> needs, double area, int padding) {
   struct Step {
     double price;  // harm for each texel that is saved
     std::size_t chart;
@@ -43,7 +49,7 @@ bool halve_to(std::span<ChartNeed> needs, double area, int padding) {
   double all = area_of(needs, padding);
   auto saved = [&](const ChartNeed& n) { return n.area(n.halvings, padding) - n.area(n.halvings + 1, padding); };
   auto offer = [&](std::size_t i) {
-    const ChartNeed& n = needs[i];
+    const ChartNeed& n = *needs[i];
     if (n.halvings >= n.error.size() || !(saved(n) > 0)) return;
     steps.push({std::max(0.0, n.harm(n.halvings + 1) - n.harm(n.halvings)) / saved(n), i});
   };
@@ -51,18 +57,18 @@ bool halve_to(std::span<ChartNeed> needs, double area, int padding) {
   while (all > area && !steps.empty()) {
     const std::size_t i = steps.top().chart;
     steps.pop();
-    all -= saved(needs[i]);
-    ++needs[i].halvings;
+    all -= saved(*needs[i]);
+    ++needs[i]->halvings;
     offer(i);
   }
   return all <= area;
 }
 
-double error_of(std::span<const ChartNeed> needs) {
+double error_of(std::span<ChartNeed* const> needs) {
   double harm = 0, area = 0;
-  for (const ChartNeed& n : needs) {
-    harm += n.harm(n.halvings);
-    area += static_cast<double>(n.copies) * n.size.x * n.size.y;
+  for (const ChartNeed* n : needs) {
+    harm += n->harm(n->halvings);
+    area += static_cast<double>(n->copies) * n->size.x * n->size.y;
   }
   return area > 0 ? std::sqrt(harm / area) : 0;
 }

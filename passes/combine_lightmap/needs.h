@@ -26,6 +26,7 @@ struct ChartNeed {
 
 /// Of all of them.
 double area_of(std::span<const ChartNeed> needs, int padding);
+double area_of(std::span<ChartNeed* const> needs, int padding);
 
 /// In the mean, and four times that at most.
 bool is_within(const Difference& d, double tolerance);
@@ -35,9 +36,9 @@ void halve_even(std::span<ChartNeed> needs, double tolerance);
 
 /// More of them, those first that do the least harm for each texel, until the sum of areas is no more than that. False
 /// when that cannot be. O(charts log charts).
-bool halve_to(std::span<ChartNeed> needs, double area, int padding);
+bool halve_to(std::span<ChartNeed* const> needs, double area, int padding);
 
 /// Root mean square of the error over all surfaces, in 255ths.
-double error_of(std::span<const ChartNeed> needs);
+double error_of(std::span<ChartNeed* const> needs);
 
 }  // namespace wrlkit::combine

@@ -133,7 +133,8 @@ std::vector<ChartImage> Repacking::halved(const Geometry& g, std::size_t k, std:
   if (triangles.empty()) return out;
   full.paint(triangles, painted, options_.alpha);
   for (double scale = 0.5; std::max(size.x, size.y) * scale > 0.5; scale /= 2) {
-    ChartImage image = full.shrunk(size, scale);
+    const ChartImage& twice = out.empty() ? full : out.back();
+    ChartImage image = twice.shrunk({2 * scale * size.x, 2 * scale * size.y}, 0.5);
     const Difference error = full.difference(image, scale);
     if (!options_.all && !is_within(error, options_.tolerance)) break;
     errors.push_back(error);
