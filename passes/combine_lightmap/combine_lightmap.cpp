@@ -3,19 +3,22 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <tuple>
-#include <unordered_map>
+#include <memory>
+#include <span>
 
-#include "base/image/srgb_table.h"
 #include "base/silent_task.h"
 #include "geometry/tessellation.h"
 #include "light/render/baked.h"
 #include "light/render/surface.h"
 #include "passes/combine_lightmap/page.h"
+#include "passes/combine_lightmap/painting.h"
+#include "passes/combine_lightmap/repacking.h"
+#include "passes/combine_lightmap/showing.h"
 #include "passes/lightmap/borders.h"
 #include "passes/lightmap/connected.h"
-#include "passes/lightmap/copy_node.h"
+#include "passes/lightmap/whole_pages.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -33,43 +36,30 @@ struct LitShape {
   bool transparent;
 };
 
-/// Shapes that go into one picture.
+/// Shapes that share a page of light, and may be in one picture.
 struct Group {
   std::shared_ptr<const drawing::Texture> light;
   std::vector<LitShape> shapes;
   bool transparent = false;
-  NodeId texture;  // once it is made
+  int factor = 1;  // texels of the picture for each texel of the light, along each side
+
+  std::uint64_t texels() const {
+    return static_cast<std::uint64_t>(factor) * factor * light->width() * light->height();
+  }
 };
 
-/// A triangle that is painted: its mesh and surface, and how much of the texture lies in a texel.
-struct Painted {
-  const drawing::Surface* surface;
-  std::uint32_t mesh;
-  std::uint32_t corner;  // the first of three
-  double detail;         // pixels of the texture for each texel
+/// A picture as it will be written.
+struct Encoded {
+  std::string extension, bytes;
 };
 
-template <std::size_t N>
-std::array<double, N> mixed(const Attribute& a, std::uint32_t corner, const std::array<double, 3>& weights) {
-  std::array<double, N> out{};
-  for (std::uint32_t k = 0; k < 3; ++k)
-    for (std::size_t i = 0; i < N; ++i) out[i] += weights[k] * a.at(a.index[corner + k])[i];
-  return out;
-}
-
-/// Of texture coordinates: twice the area, without a sign.
-double picture_area(const Attribute& a, std::uint32_t corner, const TexcoordMap& map) {
-  const float *p = a.at(a.index[corner]), *q = a.at(a.index[corner + 1]), *r = a.at(a.index[corner + 2]);
-  return std::abs((double{q[0]} - p[0]) * (double{r[1]} - p[1]) - (double{r[0]} - p[0]) * (double{q[1]} - p[1])) *
-         std::abs(map.determinant());
-}
-
-/// Its numbers can be reckoned with. What is further away shows nothing of the page.
-bool is_near(const PageTriangle& t) {
-  constexpr double far = 1e9;
-  auto near = [](double v) { return std::abs(v) < far; };
-  return std::ranges::all_of(t.x, near) && std::ranges::all_of(t.y, near);
-}
+/// Shapes that are all opaque, or all transparent, on pages that are packed again.
+struct Repacked {
+  std::vector<const LitShape*> shapes;
+  std::vector<Repacking::Item> items;
+  std::unique_ptr<Repacking> packing;
+  std::vector<Encoded> pages;
+};
 
 /// Colours of its own let light through.
 bool has_clear_colors(const Scene& scene, NodeId geometry) {
@@ -84,36 +74,57 @@ bool has_clear_colors(const Scene& scene, NodeId geometry) {
 class Combining {
  public:
   Combining(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx)
-      : scene_(scene), options_(options), ctx_(ctx), surfaces_(scene, ctx.resources, ctx.diag), silent_(ctx) {}
+      : scene_(scene),
+        options_(options),
+        ctx_(ctx),
+        surfaces_(scene, ctx.resources, ctx.diag),
+        silent_(ctx),
+        showing_(scene, options.into) {}
 
   Outcome run() {
     find_shapes();
-    for (Group& g : groups_)
-      if (!combine(g)) return Outcome::failed;
-    // Groups may share geometry: nothing changes before all are painted.
+    for (Group& g : groups_) find_factor(g);
+    for (const bool transparent : {false, true}) repack(transparent);
+    if (!keep_budget()) return Outcome::failed;
+    for (Repacked& r : repacked_) add(r);
     for (const Group& g : groups_)
-      for (const LitShape& lit : g.shapes) show(lit, g.texture);
-    ctx_.stats["combine-lightmap.pages"] += groups_.size();
+      if (!is_repacked(g) && !combine(g)) return Outcome::failed;
+    showing_.show(std::move(geometries_), shown_);
+    ctx_.stats["combine-lightmap.pages"] += n_pictures_;
     return groups_.empty() ? Outcome::unchanged : Outcome::changed;
   }
 
  private:
   void find_shapes();
   std::optional<LitShape> lit_shape(NodeId shape);
-  bool combine(Group& group);
-  std::string_view first_url(NodeId texture) const;
-  std::string format_of(const Group& group) const;
-  bool hand_in(Group& group, const Image& image);
-  void read_meshes(const Group& group);
-  int factor(const Group& group);
-  std::vector<std::uint16_t> charts_of(const Mesh& mesh);
-  void list_triangles(const Group& group, std::uint32_t shape, int width, int height);
+  Mesh read_mesh(NodeId geometry, bool textured);
+  std::vector<Mesh> meshes_of(const Group& group);
+  void find_factor(Group& group);
   double detail_of(const drawing::Surface& s, const Mesh& mesh) const;
-  Texel4 color(const Painted& t, const std::array<double, 3>& weights, const std::array<double, 2>& place,
-               bool alpha) const;
-  void show(const LitShape& lit, NodeId texture);
-  NodeId geometry_for(const LitShape& lit);
-  NodeId writable(NodeId node, std::unordered_map<std::uint32_t, NodeId>& copies);
+
+  void repack(bool transparent);
+  bool is_repacked(const Group& group) const;
+  bool is_limited() const { return options_.budget.bytes > 0 || options_.texels > 0; }
+  std::uint64_t most_texels() const;
+  struct Used {
+    std::uint64_t bytes = 0, texels = 0;
+  };
+  bool encode_pages();
+  Used used() const;
+  double affordable(const Used& used) const;
+  bool keep_budget();
+  void report_budget(const Used& before, std::span<ChartNeed* const> needs);
+
+  bool combine(const Group& group);
+  std::vector<std::uint16_t> charts_of(const Mesh& mesh);
+  void list_triangles(const drawing::Surface& s, const Mesh& mesh, int width, int height,
+                      std::vector<PageTriangle>& triangles, std::vector<Painted>& painted);
+  void add(Repacked& repacked);
+
+  std::string_view first_url(NodeId texture) const;
+  std::string format_of(const LitShape& shape) const;
+  std::optional<Encoded> encoded(const Image& image, const LitShape& first);
+  NodeId texture(Encoded picture, const LitShape& first);
 
   Scene& scene_;
   const CombineLightmapOptions& options_;
@@ -121,27 +132,23 @@ class Combining {
   drawing::Surfaces surfaces_;
   SilentTask silent_;
   MeshScratch scratch_;
+  Showing showing_;
   std::vector<Group> groups_;
-  std::vector<Mesh> meshes_;  // of the group at work, by Shape
-  std::vector<PageTriangle> triangles_;
-  std::vector<Painted> painted_;
-  std::uint32_t n_charts_ = 0;             // numbers that are taken
-  std::vector<std::uint32_t> unlit_uses_;  // by node: Shapes without light that hold it
-  std::unordered_map<std::uint32_t, NodeId> geometries_;
-  std::unordered_map<std::uint32_t, NodeId> appearances_;
-  std::unordered_map<std::uint32_t, char> changed_;
+  std::vector<Repacked> repacked_;
+  std::vector<ShownGeometry> geometries_;
+  std::vector<ShownShape> shown_;
+  std::map<std::uint32_t, std::size_t> geometry_of_;  // those that keep the places of their light
+  std::uint32_t n_charts_ = 0;                        // numbers that are taken
+  std::size_t n_pictures_ = 0;
 };
 
 void Combining::find_shapes() {
   std::map<std::pair<const drawing::Texture*, bool>, std::size_t> group_of;
-  unlit_uses_.resize(scene_.node_count());
   for (NodeId n : all_nodes(scene_)) {
     if (!scene_.is(n, nodes::Shape)) continue;
     auto lit = lit_shape(n);
     if (!lit) {
-      for_each_child(scene_, n, [&](NodeId c) {
-        if (c) ++unlit_uses_[c.value];
-      });
+      showing_.keep(n);
       continue;
     }
     auto light = surfaces_[lit->surface].baked.light.texture;
@@ -167,14 +174,19 @@ std::optional<LitShape> Combining::lit_shape(NodeId shape) {
   return lit;
 }
 
-void Combining::read_meshes(const Group& group) {
-  meshes_.assign(group.shapes.size(), {});
-  for (std::size_t i = 0; i < meshes_.size(); ++i) {
-    bool textured = surfaces_[group.shapes[i].surface].picture.texture != nullptr;
-    MeshJob job{scene_, group.shapes[i].geometry, meshes_[i], scratch_, silent_, textured};
-    make_mesh(job, {.texcoords = true});  // of an IndexedFaceSet: there is nothing curved
-    if (!meshes_[i].is_triangles() || !meshes_[i].lightcoord.present()) meshes_[i].clear();
-  }
+Mesh Combining::read_mesh(NodeId geometry, bool textured) {
+  Mesh mesh;
+  MeshJob job{scene_, geometry, mesh, scratch_, silent_, textured};
+  make_mesh(job, {.texcoords = true});  // of an IndexedFaceSet: there is nothing curved
+  if (!mesh.is_triangles() || !mesh.lightcoord.present()) mesh.clear();
+  return mesh;
+}
+
+std::vector<Mesh> Combining::meshes_of(const Group& group) {
+  std::vector<Mesh> out;
+  for (const LitShape& s : group.shapes)
+    out.push_back(read_mesh(s.geometry, surfaces_[s.surface].picture.texture != nullptr));
+  return out;
 }
 
 /// Pixels of the texture for each texel of the light, along a side, in the mean over the mesh.
@@ -190,16 +202,165 @@ double Combining::detail_of(const drawing::Surface& s, const Mesh& mesh) const {
   return texels > 0 ? std::sqrt(pixels / texels) : 0;
 }
 
-int Combining::factor(const Group& group) {
+void Combining::find_factor(Group& group) {
   const double most = std::max(1, options_.max_size / std::max(group.light->width(), group.light->height()));
   double wanted = 1;
-  for (std::size_t i = 0; i < meshes_.size(); ++i)
-    wanted = std::max(wanted, std::min(detail_of(surfaces_[group.shapes[i].surface], meshes_[i]), 1e9));
+  for (const LitShape& lit : group.shapes) {
+    const drawing::Surface& s = surfaces_[lit.surface];
+    if (s.picture.texture) wanted = std::max(wanted, std::min(detail_of(s, read_mesh(lit.geometry, true)), 1e9));
+  }
   const double chosen = std::min(options_.scale.value ? options_.scale.value : std::ceil(wanted), most);
   constexpr double unseen = 1.5;
   if (wanted > unseen * chosen)
     ctx_.diag.report(Diag::texture_coarser, scene_.where(group.shapes[0].shape), std::lround(wanted / chosen));
-  return static_cast<int>(chosen);
+  group.factor = static_cast<int>(chosen);
+}
+
+/// Where that saves a good part of the texels, or there is a budget.
+void Combining::repack(bool transparent) {
+  constexpr double worth_it = 0.75, usual_fill = 0.9;
+  Repacked r;
+  double now = 0;
+  for (const Group& g : groups_) {
+    if (g.transparent != transparent) continue;
+    now += static_cast<double>(g.texels());
+    for (const LitShape& s : g.shapes) {
+      r.shapes.push_back(&s);
+      r.items.push_back({s.geometry, &surfaces_[s.surface]});
+    }
+  }
+  if (r.shapes.empty()) return;
+  const bool limited = is_limited() || now > static_cast<double>(most_texels());
+  r.packing = std::make_unique<Repacking>(
+      r.items, [&](NodeId geometry, bool textured) { return read_mesh(geometry, textured); },
+      RepackOptions{options_.scale.value, options_.max_size, options_.tolerance, limited, transparent});
+  if (!r.packing->measure()) return;
+  halve_even(r.packing->needs(), options_.tolerance);
+  if (!limited && area_of(r.packing->needs(), r.packing->padding()) / usual_fill > worth_it * now) return;
+  r.packing->pack();
+  if (!limited && static_cast<double>(r.packing->texels()) > worth_it * now) return;
+  repacked_.push_back(std::move(r));
+}
+
+bool Combining::is_repacked(const Group& group) const {
+  return std::ranges::any_of(repacked_,
+                             [&](const Repacked& r) { return r.shapes[0]->transparent == group.transparent; });
+}
+
+bool Combining::encode_pages() {
+  for (Repacked& r : repacked_) {
+    r.pages.clear();
+    for (std::uint32_t i = 0; i < r.packing->pages().size(); ++i) {
+      auto page = encoded(r.packing->paint(i), *r.shapes[0]);
+      if (!page) return false;
+      r.pages.push_back(std::move(*page));
+    }
+  }
+  return true;
+}
+
+/// Bytes and texels of pages that are packed again.
+Combining::Used Combining::used() const {
+  Used out;
+  for (const Repacked& r : repacked_) {
+    out.texels += r.packing->texels();
+    for (const Encoded& page : r.pages) out.bytes += page.bytes.size();
+  }
+  return out;
+}
+
+/// Without a budget those of a page of 2048 x 2048, or those of the light, whichever are more.
+std::uint64_t Combining::most_texels() const {
+  constexpr std::uint64_t usual = 2048 * 2048;
+  if (options_.texels > 0) return static_cast<std::uint64_t>(options_.texels);
+  if (options_.budget.bytes > 0) return std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t light = 0;
+  for (const Group& g : groups_) light += g.texels() / static_cast<std::uint64_t>(g.factor * g.factor);
+  return std::max(usual, light);
+}
+
+/// How much of the texels may stay: bytes do not go down quite as texels do.
+double Combining::affordable(const Used& used) const {
+  constexpr double margin = 0.97;
+  double out = 1;
+  if (const auto most = options_.budget.bytes; most && used.bytes > most)
+    out = margin * static_cast<double>(most) / static_cast<double>(used.bytes);
+  if (const auto most = most_texels(); used.texels > most)
+    out = std::min(out, static_cast<double>(most) / static_cast<double>(used.texels));
+  return out;
+}
+
+/// Pictures grow and shrink with their texels, though not quite alike: a few steps come near enough.
+bool Combining::keep_budget() {
+  constexpr int most_steps = 12;
+  const int least_padding = bake::padding_of(1);  // more of it goes before charts do
+  constexpr double hurry = 0.85;                  // sides of pages are powers of two: a little less changes nothing
+  const bool by_bytes = options_.budget.bytes > 0;
+  std::vector<ChartNeed*> needs;
+  for (Repacked& r : repacked_)
+    for (ChartNeed& n : r.packing->needs()) needs.push_back(&n);
+  if (by_bytes && !encode_pages()) return false;
+  const Used before = used();
+  for (int step = 0; step < most_steps && affordable(used()) < 1; ++step) {
+    const double left = affordable(used()) * (step ? hurry : 1), area = area_of(needs, least_padding);
+    halve_to(needs, left * area, least_padding);
+    if (!(area_of(needs, least_padding) < area)) break;
+    for (Repacked& r : repacked_) r.packing->pack();
+    if (by_bytes && !encode_pages()) return false;
+  }
+  report_budget(before, needs);
+  return by_bytes || encode_pages();
+}
+
+void Combining::report_budget(const Used& before, std::span<ChartNeed* const> needs) {
+  const Used now = used();
+  if (affordable(before) == 1) return;
+  ctx_.diag.report(Diag::light_budget, {}, now.texels, before.texels, std::round(10 * error_of(needs)) / 10);
+  if (affordable(now) < 1) ctx_.diag.report(Diag::light_budget_missed, {}, now.texels);
+}
+
+/// Of an ImageTexture; empty when there is none.
+std::string_view Combining::first_url(NodeId texture) const {
+  if (!scene_.is(texture, nodes::ImageTexture)) return {};
+  const auto urls = scene_.get(texture, nodes::image_texture::url);
+  return urls.empty() ? std::string_view() : urls[0];
+}
+
+/// Of the picture of such a Shape: the extension of its name.
+std::string Combining::format_of(const LitShape& shape) const {
+  std::string_view format = name_of(options_.format);
+  if (options_.format == CombinedFormat::as_light) {
+    format = name_of(PictureFormat::png);
+    const NodeId light = scene_.get(shape.appearance, ap::lightmap);
+    PictureFormat of_light{};
+    if (const auto url = first_url(light);
+        read_choice(url.substr(url.rfind('.') + 1), of_light) && why_missing(of_light).empty())
+      format = name_of(of_light);
+  }
+  const bool has_no_alpha = format == name_of(PictureFormat::jpg);
+  return std::string(shape.transparent && has_no_alpha ? name_of(PictureFormat::png) : format);
+}
+
+std::optional<Encoded> Combining::encoded(const Image& image, const LitShape& first) {
+  const std::string extension = format_of(first);
+  std::string error;
+  auto bytes = encode_as("baked." + extension, image, error);
+  if (!bytes) {
+    ctx_.diag.report(Diag::cannot_write, {}, "baked." + extension, error);
+    return {};
+  }
+  return Encoded{extension, std::move(*bytes)};
+}
+
+NodeId Combining::texture(Encoded picture, const LitShape& first) {
+  const std::string name = "baked_" + std::to_string(n_pictures_++) + "." + picture.extension;
+  const std::string url =
+      ctx_.resources->add_made({name, std::make_shared<const std::string>(std::move(picture.bytes))});
+  const NodeId n = scene_.add(nodes::ImageTexture, scene_.where(first.shape));
+  scene_.set(n, nodes::image_texture::url, std::vector<std::string_view>{url});
+  scene_.set(n, nodes::image_texture::repeatS, false);
+  scene_.set(n, nodes::image_texture::repeatT, false);
+  return n;
 }
 
 /// By triangle. Those that have corners in common are one chart.
@@ -213,156 +374,71 @@ std::vector<std::uint16_t> Combining::charts_of(const Mesh& mesh) {
   return out;
 }
 
-void Combining::list_triangles(const Group& group, std::uint32_t shape, int width, int height) {
-  const auto& s = surfaces_[group.shapes[shape].surface];
-  const Mesh& mesh = meshes_[shape];
-  const double pixels = s.picture.texture && mesh.texcoord.present()
-                            ? double(s.picture.texture->width()) * s.picture.texture->height()
-                            : 0;
+void Combining::list_triangles(const drawing::Surface& s, const Mesh& mesh, int width, int height,
+                               std::vector<PageTriangle>& triangles, std::vector<Painted>& painted) {
+  const TexcoordMap to_light{1.0 / width, 0, 0, -1.0 / height, 0, 1};
   const auto charts = charts_of(mesh);
   for (std::uint32_t c = 0; c < mesh.corners.size(); c += 3) {
     PageTriangle t;
     t.chart = charts[c / 3];
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const float* at = mesh.lightcoord.at(mesh.lightcoord.index[c + corner]);
-      auto [u, v] = s.baked.places(at[0], at[1]);
+      const auto [u, v] = s.baked.places(at[0], at[1]);
       t.x[corner] = u * width;
       t.y[corner] = (1 - v) * height;
     }
     const double texels = std::abs(t.area());
     if (!(texels > 0) || !is_near(t)) continue;
-    triangles_.push_back(t);
-    painted_.push_back(
-        {&s, shape, c, pixels > 0 ? std::sqrt(pixels * picture_area(mesh.texcoord, c, s.texcoords) / texels) : 1});
+    triangles.push_back(t);
+    painted.push_back({&s, &mesh, c, texture_detail(s, mesh, c, texels), to_light});
   }
 }
 
-bool Combining::combine(Group& group) {
-  read_meshes(group);
-  const int k = factor(group), width = k * group.light->width(), height = k * group.light->height();
-  triangles_.clear();
-  painted_.clear();
-  for (std::uint32_t i = 0; i < meshes_.size(); ++i) list_triangles(group, i, width, height);
+/// At the places of its light.
+bool Combining::combine(const Group& group) {
+  const int k = group.factor, width = k * group.light->width(), height = k * group.light->height();
+  const auto meshes = meshes_of(group);
+  std::vector<PageTriangle> triangles;
+  std::vector<Painted> painted;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    list_triangles(surfaces_[group.shapes[i].surface], meshes[i], width, height, triangles, painted);
   constexpr double reach = 2,
                    most = 8;  // texels of the light, and of the picture: all triangles take as long as it is wide
   Page page(width, height, std::min(reach * k, most));
-  bool whole = page.paint(triangles_, [&](std::size_t i, const std::array<double, 3>& weights, double x, double y) {
-    return color(painted_[i], weights, {x / width, 1 - y / height}, group.transparent);
-  });
+  const bool whole =
+      page.paint(triangles, [&](std::size_t i, const std::array<double, 3>& weights, double x, double y) {
+        return painted[i].color(weights, x, y, group.transparent);
+      });
+  const LitShape& first = group.shapes[0];
   if (!whole)
-    ctx_.diag.report(Diag::expansion_limit, scene_.where(group.shapes[0].shape), Page::most_layers,
+    ctx_.diag.report(Diag::expansion_limit, scene_.where(first.shape), Page::most_layers,
                      "layers of faces in a lightmap");
-  ctx_.stats["combine-lightmap.texels"] += std::uint64_t(width) * static_cast<std::uint64_t>(height);
-  return hand_in(group, page.image(group.transparent ? 4 : 3));
-}
-
-/// Of an ImageTexture; empty when there is none.
-std::string_view Combining::first_url(NodeId texture) const {
-  if (!scene_.is(texture, nodes::ImageTexture)) return {};
-  const auto urls = scene_.get(texture, nodes::image_texture::url);
-  return urls.empty() ? std::string_view() : urls[0];
-}
-
-/// Of a group's picture: the extension of its name.
-std::string Combining::format_of(const Group& group) const {
-  std::string_view format = name_of(options_.format);
-  if (options_.format == CombinedFormat::as_light) {
-    format = name_of(PictureFormat::png);
-    const NodeId light = scene_.get(group.shapes[0].appearance, ap::lightmap);
-    PictureFormat of_light{};
-    if (const auto url = first_url(light);
-        read_choice(url.substr(url.rfind('.') + 1), of_light) && why_missing(of_light).empty())
-      format = name_of(of_light);
+  ctx_.stats["combine-lightmap.texels"] += group.texels();
+  auto picture = encoded(page.image(group.transparent ? 4 : 3), first);
+  if (!picture) return false;
+  const NodeId node = texture(std::move(*picture), first);
+  for (const LitShape& s : group.shapes) {
+    const auto [at, is_new] = geometry_of_.try_emplace(s.geometry.value, geometries_.size());
+    if (is_new) geometries_.push_back({s.geometry});
+    shown_.push_back({s.shape, s.appearance, at->second, node, {}, true});
   }
-  const bool has_no_alpha = format == name_of(PictureFormat::jpg);
-  return std::string(group.transparent && has_no_alpha ? name_of(PictureFormat::png) : format);
-}
-
-bool Combining::hand_in(Group& group, const Image& image) {
-  const std::string name = "baked_" + std::to_string(&group - groups_.data()) + "." + format_of(group);
-  std::string error;
-  auto bytes = encode_as(name, image, error);
-  if (!bytes) {
-    ctx_.diag.report(Diag::cannot_write, {}, name, error);
-    return false;
-  }
-  const std::string url = ctx_.resources->add_made({name, std::make_shared<const std::string>(std::move(*bytes))});
-  group.texture = scene_.add(nodes::ImageTexture, scene_.where(group.shapes[0].shape));
-  scene_.set(group.texture, nodes::image_texture::url, std::vector<std::string_view>{url});
-  scene_.set(group.texture, nodes::image_texture::repeatS, false);
-  scene_.set(group.texture, nodes::image_texture::repeatT, false);
   return true;
 }
 
-/// What a surface shows at a place of its light, without alpha: 255.
-Texel4 Combining::color(const Painted& t, const std::array<double, 3>& weights, const std::array<double, 2>& place,
-                        bool alpha) const {
-  const Mesh& mesh = meshes_[t.mesh];
-  const drawing::Surface& s = *t.surface;
-  std::optional<drawing::Texel> vertex, texel;
-  if (mesh.color.present()) {
-    auto c = mixed<3>(mesh.color, t.corner, weights);
-    const double opacity = mesh.color.width == 4 ? mixed<4>(mesh.color, t.corner, weights)[3] : 1;
-    for (double& x : c) x = std::clamp(x, 0.0, 1.0);  // weights may lie outside
-    vertex = drawing::Texel{{c[0], c[1], c[2]}, std::clamp(opacity, 0.0, 1.0)};
+void Combining::add(Repacked& r) {
+  const Repacking& packing = *r.packing;
+  std::vector<NodeId> textures;
+  for (Encoded& page : r.pages) textures.push_back(texture(std::move(page), *r.shapes[0]));
+  ctx_.stats["combine-lightmap.texels"] += packing.texels();
+  for (std::size_t g = 0; g < packing.n_geometries(); ++g) {
+    const auto shapes = packing.shapes(g);
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      const LitShape& s = *r.shapes[shapes[k]];
+      shown_.push_back(
+          {s.shape, s.appearance, geometries_.size(), textures[packing.page(g, k)], packing.transform(g, k), false});
+    }
+    geometries_.push_back({packing.geometry(g), packing.places(g)});
   }
-  if (s.picture.texture && mesh.texcoord.present()) {
-    auto at = mixed<2>(mesh.texcoord, t.corner, weights);
-    texel = s.picture.sample(s.texcoords(at[0], at[1]), t.detail);
-  }
-  auto base = s.base(vertex, texel);
-  const SrgbTable& table = SrgbTable::get();
-  const auto light = s.baked.light.sample(place, 1).color;
-  auto shown = [&](double color, double lit, double emitted) {
-    return table.byte(table.linear(color) * s.baked.scale * table.linear(lit) + table.linear(emitted));
-  };
-  const auto opacity =
-      alpha ? static_cast<std::uint8_t>(std::clamp(base.alpha, 0.0, 1.0) * 255 + 0.5) : std::uint8_t{255};
-  return {{shown(base.color.x, light.x, s.emissive.x), shown(base.color.y, light.y, s.emissive.y),
-           shown(base.color.z, light.z, s.emissive.z), opacity}};
-}
-
-void Combining::show(const LitShape& lit, NodeId texture) {
-  NodeId appearance = writable(lit.appearance, appearances_);
-  if (scene_.get(lit.shape, nodes::shape::appearance) != appearance)
-    scene_.set(lit.shape, nodes::shape::appearance, appearance);
-  if (options_.into == CombineTarget::lightmap) {
-    scene_.set(appearance, ap::lightmap, texture);
-    return scene_.unset(appearance, ap::lightmapScale.slot);
-  }
-  if (changed_.emplace(appearance.value, 1).second) {
-    NodeId transform = scene_.get(appearance, ap::lightmapTransform);
-    for (auto slot : {ap::material.slot, ap::textureTransform.slot, ap::lightmap.slot, ap::lightmapTransform.slot,
-                      ap::lightmapScale.slot, ap::lightmapDirection.slot})
-      scene_.unset(appearance, slot);
-    scene_.set(appearance, ap::texture, texture);
-    if (transform) scene_.set(appearance, ap::textureTransform, transform);
-  }
-  NodeId geometry = geometry_for(lit);
-  if (geometry != lit.geometry) scene_.set(lit.shape, nodes::shape::geometry, geometry);
-}
-
-/// Texture coordinates are those of the light then, and colours are in the picture.
-NodeId Combining::geometry_for(const LitShape& lit) {
-  NodeId g = writable(lit.geometry, geometries_);
-  if (!changed_.emplace(g.value, 1).second) return g;
-  NodeId places = scene_.get(g, ifs::lightCoord);
-  const auto listed = scene_.get(g, ifs::lightCoordIndex);
-  const std::vector<std::int32_t> index(listed.begin(), listed.end());
-  for (auto slot : {ifs::color.slot, ifs::colorIndex.slot, ifs::colorPerVertex.slot, ifs::texCoordIndex.slot,
-                    ifs::lightCoord.slot, ifs::lightCoordIndex.slot})
-    scene_.unset(g, slot);
-  scene_.set(g, ifs::texCoord, places);
-  if (!index.empty()) scene_.set(g, ifs::texCoordIndex, index);
-  return g;
-}
-
-/// The node itself if all Shapes that hold it have light, else a copy for those that have.
-NodeId Combining::writable(NodeId node, std::unordered_map<std::uint32_t, NodeId>& copies) {
-  if (!unlit_uses_[node.value]) return node;
-  NodeId& copy = copies.try_emplace(node.value).first->second;
-  if (copy) return copy;
-  return copy = bake::copy_of(scene_, node);
 }
 
 bool has_lightmaps(const Scene& scene) {

@@ -3,6 +3,7 @@
 #include "base/option_range.h"
 #include "passes/picture_format/picture_format.h"
 #include "passes/pipeline/pass.h"
+#include "passes/pipeline/size_option.h"
 
 namespace wrlkit {
 
@@ -52,7 +53,13 @@ Transparency becomes alpha of the picture. Opaque Shapes do not share a picture 
 blend them.
 
 A page of light becomes one combined page (two, when it has transparent Shapes), larger by a whole factor, so that
-textures keep their detail. Nodes that other Shapes use, which have no light, are copied before they change.
+textures keep their detail. Where that saves a quarter of the texels, all pages are packed again instead: each chart has
+as many texels as its own texture asks for, and even ones, such as a wall in full shade, half as many along each side,
+a quarter, and so on down to one, as far as `tolerance` allows. Nodes that other Shapes use, which have no light, are
+copied before they change.
+
+With `budget` or `texels` charts are halved further, those first that lose least for each texel that is saved. What
+that costs is reported (light-budget).
 
 A scene without lightmaps is left alone, in O(nodes); so is any without resources, which hold the pictures.)";
   static constexpr StatisticInfo statistics[] = {
@@ -63,6 +70,9 @@ A scene without lightmaps is left alone, in O(nodes); so is any without resource
 
   TexelFactor scale;
   int max_size = 4096;
+  double tolerance = 1;
+  SizeOption budget;
+  int texels = 0;
   CombineTarget into = CombineTarget::texture;
   CombinedFormat format = CombinedFormat::as_light;
 
@@ -70,6 +80,14 @@ A scene without lightmaps is left alone, in O(nodes); so is any without resource
     f("scale", scale, "texels for each texel of the light, along each side; auto: as many as the textures have");
     f("max-size", max_size, "pixels along each side of a picture; a larger page of light keeps its size",
       between(1, 32768));
+    f("tolerance", tolerance,
+      "by which a chart may differ when it has fewer texels, in 255ths: root mean square, and a quarter of what 99 % "
+      "keep below",
+      between(0, 255));
+    f("budget", budget, "most bytes of all pictures together; 0: any.");
+    f("texels", texels,
+      "most texels of all pictures together; 0: without a budget 4,194,304 or those of the light, whichever are more",
+      at_least(0));
     f("into", into, "where the combined picture goes");
     f("format", format, "of the pictures");
   }

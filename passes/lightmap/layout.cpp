@@ -1,8 +1,8 @@
 #include "passes/lightmap/layout.h"
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "passes/lightmap/whole_pages.h"
 #include "passes/weld/points.h"
 
 namespace wrlkit::bake {
@@ -13,10 +13,6 @@ using unwrap::Point2;
 
 constexpr double usual_fill = 0.5;       // of a page
 constexpr double most_texels = 1 << 28;  // of all pages; 3 GiB of light
-
-/// Texels between charts that keep that many versions of a page apart: two of those of the last one. The first texel
-/// next to a chart is its own, as filters at its border mix it in.
-int padding_of(int mips) { return mips < 2 ? 2 : (1 << mips) + 2; }
 
 /// An edge of a triangle: its points in order of their numbers, and where it is.
 struct HalfEdge {
@@ -60,7 +56,7 @@ Layout::Layout(const std::vector<Part>& parts, const LayoutOptions& options)
       piece_unit_(parts.size(), 1),
       density_(options.density > 0 ? options.density : 1) {
   place_all(padding_of(std::max(options_.mips, 1)));
-  if (const int padding = affordable_padding(); options_.mips == 0 && padding > padding_) place_all(padding);
+  if (const int padding = cheap_padding(); options_.mips == 0 && padding > padding_) place_all(padding);
   measure_pieces();
   place_triangles();
 }
@@ -77,10 +73,8 @@ void Layout::place_all(int padding) {
 }
 
 /// By the boxes of the charts as they are packed, with what lies between them.
-int Layout::affordable_padding() const {
-  constexpr double most = 1 / (0.9 * 0.9);  // times the area
-  constexpr int most_mips = 4;
-  auto area = [&](int padding) {
+int Layout::cheap_padding() const {
+  return affordable_padding(padding_, [&](int padding) {
     double sum = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i)
       for (std::size_t c = 0; c < items_[i].charts.size(); ++c) {
@@ -89,11 +83,7 @@ int Layout::affordable_padding() const {
         sum += (size.x * scale + padding) * (size.y * scale + padding) * static_cast<double>(parts_[i].uses.size());
       }
     return sum;
-  };
-  int padding = padding_;
-  for (int mips = 2; mips <= most_mips && area(padding_of(mips)) <= most * area(padding_); ++mips)
-    padding = padding_of(mips);
-  return padding;
+  });
 }
 
 unwrap::PackItem Layout::item(std::size_t part) const {
@@ -144,29 +134,11 @@ void Layout::pack_all() {
   }
 }
 
-/// A part that has more charts than a page has texels, or than fit on one in a piece of which there are copies, gets a
-/// larger page.
-int Layout::larger(int side) const {
-  constexpr int most_side = 32768;
-  if (side >= most_side) throw std::length_error("a surface has more charts than the largest page has texels");
-  return side ? 2 * side : options_.side;
-}
-
-/// A Shape has one lightmap: where the charts of a part are not all on one page, fewer parts are tried together, and
-/// what does not fit alone gets fewer texels.
+/// A Shape has one lightmap, so the charts of a part are on one page.
 void Layout::pack(std::size_t begin, std::size_t end, int side) {
   std::vector<unwrap::PackItem> items;
   for (std::size_t i = begin; i < end; ++i) items.push_back(item(i));
-  auto atlas = unwrap::pack(items, {padding_, std::max(options_.side, side), side});
-  auto whole = [](const unwrap::PackedItem& i) {
-    return !i.crowded && std::ranges::all_of(i.charts, [&](const Placement& c) { return c.page == i.charts[0].page; });
-  };
-  if (!std::ranges::all_of(atlas.items, whole)) {
-    if (end - begin == 1) return pack(begin, end, larger(side));
-    const std::size_t middle = begin + (end - begin) / 2;
-    pack(begin, middle, side);
-    return pack(middle, end, side);
-  }
+  auto atlas = pack_whole(items, {padding_, std::max(options_.side, side), side});
   const auto first = static_cast<std::uint32_t>(pages_.size());
   for (const auto& page : atlas.pages) pages_.push_back({page.width, page.height, {}, {}});
   for (std::size_t i = begin; i < end; ++i) {

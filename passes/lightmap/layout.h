@@ -63,10 +63,9 @@ class Layout {
   double texels(std::size_t part) const;
   double possible_density() const;
   void place_all(int padding);
-  int affordable_padding() const;
+  int cheap_padding() const;
   void pack_all();
   void pack(std::size_t begin, std::size_t end, int side);
-  int larger(int side) const;
   void measure_pieces();
   void place_triangles();
   unwrap::Point2 in_item(std::size_t part, std::size_t corner) const;

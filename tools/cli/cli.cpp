@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "tools/cli/amounts.h"
+#include "base/text/amounts.h"
 #include "tools/cli/options.h"
 #include "tools/cli/outputs.h"
 #include "tools/cli/python_passes.h"

@@ -5,13 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/text/amounts.h"
 #include "base/text/letter_case.h"
 #include "base/text/nearest_name.h"
 #include "convert/formats.h"
 #include "convert/options.h"
 #include "convert/profiles.h"
 #include "geometry/simplify/levels.h"
-#include "tools/cli/amounts.h"
 
 namespace wrlkit::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/text/amounts.h"
 #include "convert/formats.h"
-#include "tools/cli/amounts.h"
 #include "tools/cli/options.h"
 #include "tools/verbs/documentation.h"
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/image/image_codecs.h"
-#include "tools/cli/amounts.h"
+#include "base/text/amounts.h"
 #include "tools/cli/cli.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/session.h"

@@ -17,8 +17,8 @@
 #include <unistd.h>
 
 #include "base/image/image_codecs.h"
+#include "base/text/amounts.h"
 #include "base/text/json.h"
-#include "tools/cli/amounts.h"
 #include "tools/cli/cli.h"
 #include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"

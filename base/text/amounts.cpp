@@ -1,4 +1,4 @@
-#include "tools/cli/amounts.h"
+#include "base/text/amounts.h"
 
 #include <cstdlib>
 
