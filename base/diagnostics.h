@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,6 +67,8 @@ class Diagnostics {
 
   bool has_errors() const { return count(Severity::error) > 0; }
   std::size_t count(Severity s) const { return by_severity_[static_cast<std::size_t>(s)]; }
+  /// Of any severity.
+  std::size_t count() const { return std::accumulate(by_severity_.begin(), by_severity_.end(), std::size_t{0}); }
   std::size_t count(Diag id) const { return by_name_[static_cast<std::size_t>(id)]; }
   std::span<const Message> messages() const { return messages_; }
   Sources& sources() const { return *sources_; }

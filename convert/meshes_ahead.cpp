@@ -11,9 +11,9 @@ namespace wrlkit {
 namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
-constexpr std::size_t per_batch = 32 * 1024, per_scene = 128 * 1024;  // indices that are worth a thread
-constexpr std::size_t most_begun = 8 * per_batch;                     // bounds the memory
-constexpr std::size_t per_node = 64;                                  // what a node costs besides, in indices
+constexpr std::size_t per_batch = 8 * 1024, per_scene = 128 * 1024;  // indices that are worth a thread
+constexpr std::size_t most_begun = 8 * per_batch;                    // bounds the memory
+constexpr std::size_t per_node = 64;                                 // what a node costs besides, in indices
 
 std::size_t n_indices(const Scene& scene, NodeId n) {
   if (scene.is(n, nodes::IndexedFaceSet)) return scene.get(n, nodes::indexed_face_set::coordIndex).size();
@@ -65,7 +65,7 @@ const MeshesAhead::Known* MeshesAhead::find(NodeId n) {
     if (now_ < next_) n_begun_ -= past.n_indices;
     past.claimed = true;
     past.thread.reset();
-    past.known = {};
+    past.known = std::vector<Known>();  // gives the memory back
   }
   next_ = std::max(next_, now_);
   begin_more();

@@ -21,8 +21,7 @@ RepeatedMeshes::RepeatedMeshes(const Scene& scene, const MeshSource& source, con
 
 /// It grows with every message and everything that is counted.
 std::uint64_t RepeatedMeshes::n_said() const {
-  std::uint64_t n = 0;
-  for (const auto s : {Severity::note, Severity::lost, Severity::warning, Severity::error}) n += task_.diag.count(s);
+  std::uint64_t n = task_.diag.count();
   for (const auto& [name, count] : task_.stats) n += count;
   return n;
 }

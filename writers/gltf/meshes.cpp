@@ -36,11 +36,6 @@ std::vector<std::uint32_t> runs(const Mesh& mesh) {
   return polygons ? out : std::vector<std::uint32_t>{};
 }
 
-std::size_t reported(const Diagnostics& diag) {
-  return diag.count(Severity::note) + diag.count(Severity::lost) + diag.count(Severity::warning) +
-         diag.count(Severity::error);
-}
-
 std::uint32_t n_different(std::vector<float> v) {
   std::ranges::sort(v);
   return static_cast<std::uint32_t>(std::unique(v.begin(), v.end()) - v.begin());
@@ -107,7 +102,7 @@ Geometry Meshes::repeated(NodeId n, bool texcoords) const {
 
 Geometry Meshes::make(NodeId n, bool texcoords) {
   if (Geometry g = repeated(n, texcoords); !g.empty()) return g;
-  const auto n_said = reported(diag_);
+  const auto n_said = diag_.count();
   const Mesh& mesh = mesh_of(n);
   Geometry g{.source = n,
              .mode = mode_of(mesh.kind),
@@ -142,7 +137,7 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   if (!store_.full()) g.positions = positions;
   // What was said of it stays unsaid when it is made for the second time, with texture coordinates.
   const auto first = by_node_[n.value];
-  g.repeatable = g.morph == none && g.features == none && reported(diag_) == n_said &&
+  g.repeatable = g.morph == none && g.features == none && diag_.count() == n_said &&
                  (first == none || geometries_[first].repeatable);
   return g;
 }
