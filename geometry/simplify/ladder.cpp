@@ -153,7 +153,7 @@ class Ladder {
     rungs_.push_back(std::move(rung));
   }
 
-  /// Each corner gets what the part has there, seen from a little within its face.
+  /// Each corner gets what the part has there, on the triangle that is seen from a little within its face.
   void give_attributes(Mesh& level) const {
     constexpr double within = 0.02;
     const auto from = part_.mesh.attributes();
@@ -166,7 +166,7 @@ class Ladder {
       const Vec3 p = (1 - within) * face[i % 3] + within * middle;
       const auto found = nearest_.nearest(p, unit(area_normal(face))).triangle;
       if (found == ClosestPoint::no_guess) return;
-      const auto at = closest_on_triangle(p, surface[found]).at;
+      const auto at = closest_on_triangle(face[i % 3], surface[found]).at;
       for (std::size_t a = 0; a < from.size(); ++a) {
         if (!from[a]->present()) continue;
         to[a]->width = from[a]->width;

@@ -340,6 +340,25 @@ TEST_CASE("world levels: parts below an instance of a prototype", "[levels]") {
   CHECK(is_drawn(level, "Ball2"));
 }
 
+TEST_CASE("ladder: texture coordinates stay where they are on the surface", "[levels]") {
+  Mesh box = grid_box(2);
+  box.texcoord.width = 2;
+  box.texcoord.index = box.corners;
+  const auto vertices = triangles_of(box);
+  for (std::uint32_t i = 0; i < box.n_positions(); ++i)
+    for (std::size_t k = 0; k < 2; ++k) box.texcoord.values.push_back(static_cast<float>(vertices.position(i)[k]));
+  const auto samples = sample_surface(triangles_of(box), 800);
+  const auto rungs = make_ladder({box, samples, {}});
+  const auto exact = std::ranges::find_if(rungs, [](const Rung& r) { return r.n_faces <= 14; });
+  REQUIRE(exact != rungs.end());
+  REQUIRE(exact->mesh.texcoord.present());
+  const auto at = triangles_of(exact->mesh);
+  for (std::size_t c = 0; c < exact->mesh.corners.size(); ++c) {
+    const float* uv = exact->mesh.texcoord.at(exact->mesh.texcoord.index[c]);
+    CHECK(static_cast<double>(uv[0]) == Approx(at.position(exact->mesh.corners[c])[0]).margin(5e-3));
+  }
+}
+
 TEST_CASE("pieces: what is connected, and the same form elsewhere", "[levels]") {
   Mesh two = grid_box(0);
   append(two, grid_box(0));
