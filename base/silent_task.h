@@ -9,7 +9,7 @@ struct Unread {
   Statistics counts;
 };
 
-/// For looking at something before those who write or draw it, who report what is wrong with it. It stops when
+/// For looking at something before it is written or drawn; its faults are reported then. It stops when
 /// `task` does.
 class SilentTask : private Unread, public Task {
  public:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double flat_polygon = 1e-12;  // area by squared length of a polygon that counts as without area
 constexpr double clear_turn = 1e-6;     // sine of a turn from which a fan may start and end anywhere
-constexpr double reflex = 1e-2;         // sine of a turn that is no rounding error of the coordinates
+constexpr double reflex = 1e-2;         // sine of a turn that is not a rounding error of the coordinates
 constexpr double planar = 1e-3;         // distance from the plane by length
 
 double sum_of_squares(const Vec3& a) { return dot(a, a); }

@@ -106,7 +106,7 @@ void Splitter::rebuild_table(std::size_t size) {
 
 // -- values
 
-/// Replaces what glTF does not allow: 0 for what is no number, the largest for what is too large.
+/// Replaces what glTF does not allow: 0 for what is not a number, the largest for what is too large.
 float finite(double x, std::size_t& n_not_finite) {
   constexpr double largest = std::numeric_limits<float>::max();
   if (std::abs(x) <= largest) return static_cast<float>(x);

@@ -30,7 +30,7 @@ def field_type(name):
 
 
 def plain(signature):
-    """A signature of pybind11's in words of typing."""
+    """A signature of pybind11's in terms of typing."""
     signature = re.sub(r'\bwrlkit\._wrlkit\.', '', signature).replace('numpy.ndarray', 'numpy.typing.NDArray[Any]').replace('kwargs)', 'kwargs: Any)').replace('os.PathLike', "Union[str, 'os.PathLike[str]']")
     signature = re.sub(r'\b(object|handle)\b', 'Any', signature)
     return re.sub(r'\bdict\b', 'Dict[str, Any]', signature)

@@ -177,7 +177,7 @@ class Invariants {
         if (n && !is_node(n)) breach("a default that is not a node");
   }
 
-  /// What a Script or an instance may hold is said nowhere (4.12.8); all else goes down.
+  /// What a Script or an instance may hold is not specified (4.12.8); all others are followed.
   bool goes_down(NodeId n) const {
     const auto kind = s_.type(n).kind;
     return kind != NodeKind::script && kind != NodeKind::proto && s_.type(n).name != "Script";

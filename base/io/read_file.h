@@ -42,7 +42,7 @@ inline constexpr std::string_view standard_input = "-", standard_input_name = "<
 /// unpacked is used, which is reported. Peak memory: the text, and a quarter more while gzip data or a pipe is read.
 std::optional<FileText> read_file(const std::string& path, const ReadLimits&, Diagnostics&);
 
-/// The bytes of a regular file as they are, of no more than `limit`; else why not.
+/// The bytes of a regular file as they are, of no more than `limit`; otherwise why not.
 std::optional<std::string> read_bytes(const std::string& path, std::uint64_t limit, std::string& why);
 
 /// "4 GiB", "64 MiB", "1500 bytes": sizes in messages.

@@ -25,7 +25,7 @@ class PositionCode {
   /// Whether that is x, bit for bit.
   bool holds(double x) const;
   void write(ByteWriter& out, double x, double predicted) const;
-  /// Nothing when it is no finite number, or too large a whole one.
+  /// Nothing when it is not a finite number, or too large a whole one.
   std::optional<double> read(ByteReader& in, double predicted) const;
 
  private:

@@ -8,7 +8,7 @@
 //
 // Vertices, wedges (a vertex with one set of attribute values) and faces are numbered in the order in which they
 // appear: those of the base, then those of each split. So a state is a prefix of each list, and what a split gives is
-// not stored as numbers. What a vertex or face was called in the original is kept beside it.
+// not stored as numbers. What a vertex or face was called in the original is kept next to it.
 //
 // The original comes back with its faces, corners and positions in their order, bit for bit, but for what the Collapser
 // drops: faces with a repeated position, and positions that no face uses (the numbers close up). Each corner has its

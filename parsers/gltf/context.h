@@ -1,4 +1,4 @@
-// What the parts of the reader share: the file, the scene that grows, and what VRML has no word for.
+// What the parts of the reader share: the file, the scene that grows, and what VRML cannot express.
 #pragma once
 #include <cmath>
 #include <map>
@@ -12,7 +12,7 @@ namespace wrlkit::gltf_reader {
 /// What is left out, by name, said in one message; and what is kept of it as text, for a WorldInfo.
 class Lost {
  public:
-  /// Of texts that are kept, all together.
+  /// The limit for all texts that are kept.
   static constexpr std::size_t max_kept = 1 << 20;
 
   void add(std::string_view what, Span where);

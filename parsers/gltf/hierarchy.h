@@ -27,7 +27,7 @@ class Hierarchy {
   void build();
   /// What a node has become; none when it has not.
   NodeId made(std::uint32_t node) const { return node < made_.size() ? made_[node] : NodeId{}; }
-  /// Of each node with morph targets, the points that move.
+  /// For each node with morph targets, the points that move.
   const std::map<std::uint32_t, std::vector<Morph>>& morphs() const { return morphs_; }
   /// What a light or camera of the file has become.
   std::vector<NodeId> lights(std::uint32_t light) const { return of(lights_, light); }

@@ -36,12 +36,12 @@ class Meshes {
   std::vector<std::pair<NodeId, bool>> materials_of(std::uint32_t material) const {
     return materials_.nodes_of(material);
   }
-  /// Of the last call, one for each primitive with targets.
+  /// The morphs of the last call, one for each primitive with targets.
   std::vector<Morph> take_morphs() { return std::move(reader_.morphs()); }
 
  private:
   std::optional<Part> part(const Primitive&, const Pose&);
-  /// Of a mesh with feature ids the parts; none if it has no good ones.
+  /// The parts of a mesh with feature ids; none if it has no valid ones.
   std::vector<Part> features(const Primitive&, const Part& whole);
   NodeId kept_whole(const Primitive&);
   NodeId recognised(const Primitive&);

@@ -11,7 +11,7 @@ namespace wrlkit {
 
 class Representatives {
  public:
-  /// Of nodes of one scope. Two say the same if they are of one type, and all fields do; nodes in their fields if one
+  /// For nodes of one scope. Two say the same if they are of one type, and all fields do; nodes in their fields if one
   /// stands for both. A url says the same only below the same folder. `named`: also nodes with different DEF names.
   ///
   /// Nobody stands for nodes that events may reach (Usage::touched), nor for those with an IS or with fields that are

@@ -32,7 +32,7 @@ Vec3 Palette::color(std::size_t k) const {
   return {c[0], c[1], c[2]};
 }
 
-/// Of a Material in force, or the default; a list that is empty too is the default.
+/// The list of a Material in force, or the default; a list that is empty too is the default.
 std::span<const double> Looks::list(NodeId material, std::uint16_t slot) const {
   const Value* v = material ? &scene_.value(material, slot) : nullptr;
   if (!v || v->is || v->count == 0) v = &scene_.type(v1::Material).fields[slot].default_value;

@@ -17,7 +17,7 @@ class Placement {
 
   bool identity() const { return matrix_ == Matrix{}; }
   const Matrix& matrix() const { return matrix_; }
-  /// The fields as the file has them where they are those of one Transform, or else from the matrix.
+  /// The fields as the file has them where they are those of one Transform, otherwise from the matrix.
   TransformFields fields() const;
   bool operator==(const Placement& o) const { return matrix_ == o.matrix_; }
 

@@ -29,7 +29,7 @@ inline Binding read_binding(std::string_view word) {
   return i == words.end() ? Binding::automatic : static_cast<Binding>(i - words.begin());
 }
 
-/// Of faces or parts, not of corners; overall is neither.
+/// True for faces or parts, not of corners; overall is neither.
 inline bool of_faces(Binding b) { return b >= Binding::per_part && b <= Binding::per_face_indexed; }
 inline bool of_corners(Binding b) { return b >= Binding::per_vertex; }
 

@@ -24,7 +24,7 @@ struct StillPlace {
 
 class StillPlaces {
  public:
-  /// Of the main scope. `by_name`: nothing is taken out of a group with a name. O(nodes and places).
+  /// The places of the main scope. `by_name`: nothing is taken out of a group with a name. O(nodes and places).
   StillPlaces(const Scene& scene, const Usage& usage, bool by_name = false);
 
   /// More places than anybody wants to see: nothing can be said.

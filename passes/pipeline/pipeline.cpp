@@ -213,7 +213,7 @@ MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOp
   std::size_t tail = steps_.size();
   while (tail > 0 && steps_[tail - 1].pass->is_mesh_pass()) --tail;
   if (!run_until_stopped(tail, scene, ctx, options)) return nullptr;
-  // The scene between the last passes is never there as a whole; who wants to see it is shown a copy.
+  // The scene between the last passes is never there as a whole; a watcher is shown a copy.
   if (options.print) {
     Scene copy = scene;
     Diagnostics quiet(ctx.diag.shared_sources());

@@ -129,7 +129,7 @@ class Definition:
         return [[o.name, o.kind(), o.default, o.help] for o in self.options.values()]
 
     def read(self, option, text):
-        """The text of an option as it is printed; ValueError when it is no value."""
+        """The text of an option as it is printed; ValueError when it is not a value."""
         return self.options[option].text(self.options[option].value(text))
 
     def call(self, world, texts):

@@ -23,9 +23,9 @@ struct MaterialNode {
   std::uint16_t color_picture_slot = 0;
 };
 
-/// Of none, and of nodes of other types: nothing.
+/// Nothing for no node and for nodes of other types.
 std::optional<MaterialNode> read_material(const Scene&, NodeId material);
-/// Of an Appearance, or none.
+/// The material of an Appearance, or none.
 std::optional<MaterialNode> material_of(const Scene&, NodeId appearance);
 
 }  // namespace wrlkit

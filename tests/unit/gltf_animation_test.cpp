@@ -186,7 +186,7 @@ bool write(World& world, const TempFolder& folder) {
   return write_gltf(world.scene, meshes, {.binary = false}, nullptr, folder / "a.gltf", diag);
 }
 
-/// The node `M` with a Shape is where VRML says, at twenty times that are no keys.
+/// The node `M` with a Shape is where VRML says, at twenty times that are not keys.
 void compare(const std::string& body) {
   TempFolder folder;
   auto world = parse(body);

@@ -70,9 +70,9 @@ struct JournalLine {
 };
 
 std::string to_json(const JournalLine&);
-/// Nothing when the text is no whole line.
+/// Nothing when the text is not a whole line.
 std::optional<JournalLine> journal_line(std::string_view text);
-/// As a line that was read back has a name: JSON cannot say bytes that are no UTF-8.
+/// As a line that was read back has a name: JSON cannot say bytes that are not UTF-8.
 std::string name_in_journal(const std::string& name);
 
 class Journal {

@@ -135,7 +135,7 @@ void print_table(const WrittenWorlds& all) {
   fmt::print("{:>68}\n", all.lod_file);
 }
 
-/// As `info` counts them. What there is to say of them is said when they are simplified.
+/// As `info` counts them. Messages about them come when they are simplified.
 std::size_t drawn_triangles(const Document& document) {
   Document copy(document.copy());
   Diagnostics unheard(copy.diag().shared_sources());
@@ -176,7 +176,7 @@ bool write_worlds(Session& s, const World& world, const Names& names, WrittenWor
   return write_world(s, all.lod_file, world.scene_with_levels());
 }
 
-/// As one world with one budget where there are several parts and the triangles are counted; else each surface for
+/// As one world with one budget where there are several parts and the triangles are counted; otherwise each surface for
 /// itself.
 bool simplify_world(Session& s, const WorldSimplifyOptions& options, const Names& names, WrittenWorlds& all) {
   const Scene& scene = s.world().scene;

@@ -26,7 +26,7 @@ Visibility visibility(const Scene&, NodeId navigation_info);
 
 /// Position and orientation as those of a node.
 Trs camera_transform(const Scene&, NodeId viewpoint);
-/// DEF name, or else the description.
+/// DEF name, otherwise the description.
 std::string_view camera_name(const Scene&, NodeId viewpoint);
 /// `reach`: what is that far from the camera is seen in any case.
 void write_camera(JsonOut&, const Scene&, const Camera&, const Box& world, const Visibility&, double reach = 0);

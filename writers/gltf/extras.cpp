@@ -308,7 +308,7 @@ void Extras::fields(JsonOut& json, NodeId n, Said said, std::size_t depth, bool 
   interface(json, t, n, depth);
 }
 
-/// With the values of a node, or else with the defaults of a declaration.
+/// With the values of a node, otherwise with the defaults of a declaration.
 void Extras::interface(JsonOut& json, const NodeType& t, NodeId n, std::size_t depth) {
   json.begin_array();
   for (std::size_t i = n_table_fields(t); i < t.fields.size(); ++i) {

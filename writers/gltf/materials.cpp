@@ -384,7 +384,7 @@ void Materials::extras(JsonOut& json, const Look& l) {
   bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
   bool picture = extras_ && l.texture_node && l.texture.texture == none;
   bool transform = extras_ && l.transform_node && l.texture.texture == none;
-  // Of a Material alone: a picture that is multiplied, not one that takes the place of the colour.
+  // For a Material alone: a picture that is multiplied, not one that takes the place of the colour.
   bool multiplied =
       extras_ && l.texture.texture != none && scene_.is(l.material, nodes::Material) && l.says->color_picture;
   using As = GltfOptions::Lightmaps;

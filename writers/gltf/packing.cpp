@@ -235,7 +235,7 @@ std::vector<std::uint32_t> Packing::corners(std::uint32_t indices, std::size_t n
   return index;
 }
 
-/// Of the grid of some positions, in their own frame.
+/// The step of the grid of some positions, in their own frame.
 double Packing::step(std::uint32_t accessor) const {
   const Bounds& b = from_.bounds_of(accessor);
   double extent = 0;

@@ -210,7 +210,7 @@ class VrmlWriter : TextDocument {
       value(v);
   }
 
-  /// Of an unknown field: nothing but the brackets tells a list of one node from a node.
+  /// The content of an unknown field: only the brackets distinguish a list of one node from a node.
   void unknown_content(const Value& v) {
     if (v.is || v.type != FieldType::MFNode || v.count != 1) return content(v);
     out_ << "[ ";

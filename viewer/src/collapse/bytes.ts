@@ -56,7 +56,7 @@ export class ByteReader {
   }
 }
 
-/// The double that is read when a single is printed with so many digits; ties go to the even digit, as C has it.
+/// The double that is read when a single is printed with that many digits; ties go to the even digit, as C has it.
 function printed(f: number, digits: number): number {
   const more = f.toExponential(digits), at = more.indexOf('e');
   const mantissa = more.slice(0, at);

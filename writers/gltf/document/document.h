@@ -67,7 +67,7 @@ struct Document {
   void set_only_child(Node& parent, std::uint32_t child);
 };
 
-/// Every node from the roots down, behind its parent; levels of detail beside the first.
+/// Every node from the roots down, behind its parent; levels of detail other than the first.
 struct Family {
   std::vector<std::uint32_t> order, parent;
 };

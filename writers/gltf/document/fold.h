@@ -1,4 +1,4 @@
-// Fewer nodes: a group and the one thing in it are one node where nobody can tell.
+// Fewer nodes: a group and its only child are one node where that makes no difference.
 #pragma once
 #include "writers/gltf/document/document.h"
 #include "writers/gltf/document/makers.h"

@@ -13,7 +13,7 @@
 namespace wrlkit::gltf {
 namespace {
 
-/// Nodes that have no counterpart and do not miss one: what they say is kept, and nothing changes for who looks.
+/// Nodes that have no counterpart and do not miss one: what they say is kept, and nothing changes for a viewer.
 bool harmless(const Scene& scene, NodeId n) {
   return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline) ||
          scene.is(n, nodes::X3DMetadataObject);
@@ -109,7 +109,7 @@ void Builder::enter(NodeId n) {
   frames_.push_back(std::move(f));
 }
 
-/// Of positions and the like: those of geometry are counted where they are stored.
+/// Counts positions and the like: those of geometry are counted where they are stored.
 void Builder::report_overflow(NodeId n) {
   for (const Value& v : m_.scene.fields(n)) {
     const Value& c = m_.scene.content(v);
