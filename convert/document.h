@@ -1,5 +1,5 @@
 // A file that was read, with all that belongs to it: its scene, the texts that messages point into, the files that it
-// refers to, and what there was to say of it.
+// refers to, and its messages.
 #pragma once
 #include <memory>
 #include <stop_token>

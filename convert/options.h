@@ -19,7 +19,7 @@
 
 namespace wrlkit {
 
-/// What VRML says and glTF cannot: kept whole, so that the same VRML can be made again; only what nodes say that draw
+/// What VRML has and glTF has not: kept whole, so that the same VRML can be made again; only what nodes say that draw
 /// nothing (links, descriptions); dropped.
 enum class Extras : std::uint8_t { all, facts, none };
 template <>
@@ -142,7 +142,7 @@ struct SaveOptions {
   }
 };
 
-/// The options of the glTF writer that these say.
+/// The options of the glTF writer that these choose.
 GltfOptions gltf_options(const SaveOptions&, bool binary);
 
 }  // namespace wrlkit

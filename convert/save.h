@@ -11,7 +11,7 @@
 
 namespace wrlkit {
 
-/// What came of it. What there is to say stands in the document's messages.
+/// The outcome. Messages are in the document's messages.
 struct Saved {
   Ending ending = Ending::failed;
   std::optional<GltfSummary> gltf = {};  // of glTF

@@ -1,4 +1,4 @@
-// What the writers of the table of formats are given. For those who add a format.
+// What the writers of the table of formats get. For those who add a format.
 #pragma once
 #include "convert/formats.h"
 #include "convert/save.h"

@@ -6,7 +6,7 @@
 
 namespace wrlkit {
 
-/// What a Transform node says.
+/// The values of a Transform node.
 struct TransformFields {
   Vec3 translation{0, 0, 0};
   Vec4 rotation{0, 0, 1, 0};

@@ -294,7 +294,7 @@ def gone(pid_file):
 
 
 def poisoned(tmp):
-    """What a pass in Python does to one file it does to no other, and it is said what it was."""
+    """What a pass in Python does to one file it does to no other, and the run reports what it was."""
     if not HAS_PYTHON:
         return print('skipped: passes in Python, which this build has not')
     a, out, recipe = tmp / 'poison', tmp / 'poison-out', tmp / 'poison.toml'

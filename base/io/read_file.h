@@ -1,4 +1,4 @@
-// A whole file as one text: read once, unzipped when its first bytes say gzip (the name does not matter), and
+// A whole file as one text: read once, unzipped when its first bytes are those of gzip (the name does not matter), and
 // registered with the sources that messages point into. The text need not be kept for that: a message reads the file
 // again.
 #pragma once

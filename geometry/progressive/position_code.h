@@ -20,7 +20,7 @@ class PositionCode {
   explicit PositionCode(std::uint8_t kind);
 
   std::uint8_t kind() const { return kind_; }
-  /// The nearest value that can be said.
+  /// The nearest value that can be expressed.
   double nearest(double x) const;
   /// Whether that is x, bit for bit.
   bool holds(double x) const;

@@ -56,7 +56,7 @@ struct ProgressiveRecord {
     std::size_t end_of_faces, end_of_corners, end_of_wedges;  // of its entries, which begin where the last split's end
   };
 
-  Mesh flags;                                     // without arrays: what the original says of its faces
+  Mesh flags;                                     // without arrays: the original's flags of its faces
   int n_normal = 0, n_color = 0, n_texcoord = 0;  // floats of each in a row of values, 0: not present
 
   std::size_t n_base_vertices = 0, n_base_wedges = 0, n_base_faces = 0;

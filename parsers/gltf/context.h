@@ -9,7 +9,7 @@
 
 namespace wrlkit::gltf_reader {
 
-/// What is left out, by name, said in one message; and what is kept of it as text, for a WorldInfo.
+/// What is left out, by name, reported in one message; and what is kept of it as text, for a WorldInfo.
 class Lost {
  public:
   /// The limit for all texts that are kept.

@@ -2,7 +2,7 @@
 //
 // A node that shows a mesh and stands where it is not moved is a Shape; others are Transforms, those that do not move
 // Groups. A camera or light without children takes translation and rotation into its fields. What wrlkit's writer has
-// kept in extras says which node of VRML it was instead: {} is a helper that VRML needs not, {"USE": n} is the node
+// kept in extras says which node of VRML it was instead: {} is a helper that VRML does not need, {"USE": n} is the node
 // that node n of the file has become.
 //
 // Everything is posed as the file shows it: skins by the transforms of their joints, morph targets by their weights.

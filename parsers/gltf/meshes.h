@@ -2,7 +2,7 @@
 // a polygon become that polygon again.
 //
 // In files of others every attribute keeps its vertices: Coordinate, Normal, Color and TextureCoordinate have the
-// accessor's values, coordIndex its indices, and who shares an accessor shares the node. In files of wrlkit vertices
+// accessor's values, coordIndex its indices, and a shared accessor is a shared node. In files of wrlkit vertices
 // that were split for their attributes are one point again, and what VRML makes itself (normals from creaseAngle,
 // texture coordinates from the bounding box) is left to it.
 #pragma once

@@ -1,4 +1,4 @@
-// The transformation that the traversal of VRML 1.0 has gathered since the group around it, and the Transform that says
+// The transformation that the traversal of VRML 1.0 has gathered since the group around it, and the Transform for
 // it. Any matrix is one: a rotation times a scale along turned axes (polar decomposition), which is what Transform can
 // say.
 #pragma once

@@ -13,7 +13,7 @@ struct CellItem {
   std::uint32_t cost;  // of each cell of that kind
   Vec3 at;
   double weight;
-  std::uint32_t look = 0;  // for the caller, who makes the items
+  std::uint32_t look = 0;  // for the caller
 };
 
 /// The cells, as numbers of items in the order of the first of each: one for each kind to begin with. As long as what

@@ -1,4 +1,4 @@
-// What a material node says, whichever of the three it is (ISO/IEC 14772-1, 6.27; 19775-1:2023, 12.4).
+// The values of a material node, whichever of the three it is (ISO/IEC 14772-1, 6.27; 19775-1:2023, 12.4).
 #pragma once
 #include <optional>
 

@@ -146,7 +146,7 @@ struct File {
     return translation_matrix(t) * rotation_matrix(axis_angle(r)) * scale_matrix(s);
   }
 
-  /// Of the mesh that lies at or below the node of that name.
+  /// The matrix of the mesh that lies at or below the node of that name.
   Matrix world(std::size_t node, std::string_view name, double time, bool inside, bool& found) const {
     const auto& n = j["nodes"][node];
     const Matrix m = local(node, time);

@@ -1,4 +1,4 @@
-// What the command line can say, as data. cli.cpp fills these from the words of the command; the verbs read them.
+// What the command line can express, as data. cli.cpp fills these from the arguments; the verbs read them.
 #pragma once
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // How far a corpus run is: a line that is overwritten on a terminal, a line every ten seconds in a log. What fails is
-// said at once.
+// printed at once.
 #pragma once
 #include <chrono>
 #include <map>

@@ -20,13 +20,13 @@ struct WorkerEnd {
   bool timed_out = false;
   double started = 0, seconds = 0, cpu = 0;  // Unix time; wall clock; processor
   std::uint64_t memory = 0;                  // most at a time, bytes
-  std::string told;                          // what it said of its work, as far as it came
+  std::string told;                          // what it reported of its work, as far as it got
   std::string printed;                       // the end of what it printed
 };
 
 class Workers {
  public:
-  /// Takes something to be said of the work, at once: it stays said however the worker ends.
+  /// Takes a report about the work, at once: it is kept however the worker ends.
   using Tell = std::function<void(std::string_view)>;
   /// Gives an exit code.
   using Work = std::function<int(const Tell& tell)>;

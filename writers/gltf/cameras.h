@@ -17,7 +17,7 @@ struct Camera {
   Vec3 position;  // world
 };
 
-/// What the NavigationInfo in force says of seeing (6.29); none: its defaults.
+/// What the NavigationInfo in force says about viewing (6.29); none: its defaults.
 struct Visibility {
   double avatar_size = 0.25, limit = 0;  // no limit
   bool headlight = true;

@@ -1,4 +1,4 @@
-// What VRML says and glTF cannot, kept so that it can come back: as JSON below "extras", made from the node table.
+// What VRML has and glTF has not, kept so that it can come back: as JSON below "extras", made from the node table.
 //
 //   Anchor { url "pump.html" children ... }   ->   "extras": {"vrml97": {"Anchor": {"url": ["pump.html"]}}}
 //
@@ -54,7 +54,7 @@ class Extras {
 
   /// Is there a field other than those?
   bool anything(NodeId n, Said said) const;
-  /// Does the node say more than its node of glTF, which reads as one of type `implied`?
+  /// Does the node hold more than its node of glTF, which reads as one of type `implied`?
   bool says_more(NodeId n, TypeId implied, bool plain_transform = true) const {
     return !scene_.is(n, implied) || anything(n, said_by_node(n, plain_transform));
   }

@@ -100,7 +100,7 @@ struct GltfOptions {
   Names names = Names::nodes;
   bool gpu_instancing =
       false;           // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (instances.h)
-  bool extras = true;  // what glTF cannot say is kept
+  bool extras = true;  // what glTF cannot express is kept
   bool facts_only =
       false;  // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
               // the same VRML again. Groups without a name that hold one node are then one node with it

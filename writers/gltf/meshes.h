@@ -31,7 +31,7 @@ struct Geometry {
   Mode mode = Mode::triangles;
   bool double_sided = false;
   bool opacity = false;         // its colours have one
-  bool repeatable = false;      // equal ones have the same data: nothing was said of it, and it stands still
+  bool repeatable = false;      // equal ones have the same data: nothing was reported, and it stands still
   bool made_texcoords = false;  // its texture coordinates were asked for
   double scale = 0;             // how many times larger it is in the world, at most, where it is shown
   std::vector<std::uint32_t>

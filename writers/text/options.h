@@ -1,4 +1,4 @@
-// What files of VRML and of X3D are written with.
+// How files of VRML and X3D are written.
 #pragma once
 #include <string>
 

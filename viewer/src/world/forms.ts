@@ -1,4 +1,4 @@
-// What the pass `recognise` found: parts that are cylinders, boxes, elbows, told by the extras of their meshes.
+// What the pass `recognise` found: parts that are cylinders, boxes, elbows, known from the extras of their meshes.
 import {Color, DoubleSide, MeshLambertMaterial, type Mesh} from 'three';
 import {vrmlOf, type GltfFile} from './file';
 import type {Looks} from './looks';
