@@ -1,4 +1,4 @@
-// A task whose messages and counts nobody reads.
+// A task whose messages and counts are not used.
 #pragma once
 #include "base/task.h"
 

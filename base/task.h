@@ -26,7 +26,7 @@ class Monitor {
 struct Task {
   Diagnostics& diag;
   Statistics& stats;
-  Monitor* monitor = nullptr;  // none: nobody watches
+  Monitor* monitor = nullptr;  // null: not watched
   std::stop_token stop{};
 };
 

@@ -18,7 +18,7 @@ namespace wrlkit {
 
 /// Watches work that takes long, and may stop it.
 struct Watch {
-  Monitor* monitor = nullptr;  // none: nobody looks on
+  Monitor* monitor = nullptr;  // null: not watched
   std::stop_token stop{};      // checked between passes, between meshes and in the loops of light
 };
 

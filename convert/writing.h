@@ -9,7 +9,7 @@ namespace wrlkit {
 
 struct Writing {
   const Scene& scene;
-  const MeshSource& meshes;  // null but for formats that ask for them
+  const MeshSource& meshes;  // null except for formats that ask for them
   PassContext& context;
   const SaveOptions& options;
   const Output& to;

@@ -1,4 +1,4 @@
-// The nearest point of a surface of triangles: a tree of boxes (bounding volume hierarchy) over views of somebody's
+// The nearest point of a surface of triangles: a tree of boxes (bounding volume hierarchy) over views of a caller's
 // arrays.
 //
 // Embree's point query was measured against it (docs/performance.md): the tree here is built faster for the small parts

@@ -72,7 +72,7 @@ class RunReader {
   std::vector<std::uint32_t>& dropped_;
   RunFaults faults_;
   std::uint32_t number_ = 0;
-  bool uniform_ = true;  // face_begin would say nothing
+  bool uniform_ = true;  // face_begin would be redundant
 };
 
 }  // namespace

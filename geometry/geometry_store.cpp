@@ -177,7 +177,7 @@ class Store {
     fields_.push_back(v);
   }
 
-  // Fields that the node type did not have are nobody's to drop.
+  // Fields that the node type did not have must not be dropped.
   void become(TypeId type) {
     for (const Value& v : scene_.fields(geometry_))
       if (scene_.is_extra(v)) fields_.push_back(v);

@@ -163,7 +163,7 @@ bool PolygonCutter::has_reflex_corner() const {
 }
 
 /// How many times the edges turn around: once, unless the polygon crosses itself. Counted where they pass the direction
-/// of the x axis. A spike turns either way; then nothing can be said, and the answer is once.
+/// of the x axis. A spike turns either way; then it is undecided, and the answer is once.
 int PolygonCutter::turns() const {
   auto upward = [](const Vec2& p, const Vec2& q) { return q[1] > p[1] || (q[1] == p[1] && q[0] > p[0]); };
   std::size_t n = points_.size(), first = 0;

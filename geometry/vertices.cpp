@@ -198,7 +198,7 @@ void fill_normals(const Mesh& mesh, const SplitScratch& scratch, Vertices& out) 
 float linear(float x) { return static_cast<float>(x <= 0.04045f ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4)); }
 
 /// The exact function costs 30 ns, but the numbers of colors repeat. An entry is right whenever it was made, so that
-/// the table need not be cleared: 0 becomes 0, as it says in the beginning.
+/// the table need not be cleared: 0 becomes 0, as at the beginning.
 float shade(SplitScratch& scratch, float x) {
   if (scratch.shades.empty()) scratch.shades.resize(n_shades, {0, 0});
   std::uint32_t bits = std::bit_cast<std::uint32_t>(x);

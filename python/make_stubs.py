@@ -43,7 +43,7 @@ def documented(doc, indent):
 
 
 def function(name, value, indent=''):
-    """A function, by the first line of what pybind11 says of it."""
+    """A function, by the first line of its docstring by pybind11."""
     signature, _, doc = (value.__doc__ or '').partition('\n')
     found = re.fullmatch(r'\w+(\(.*\)) -> (.*)', signature)
     arguments, result = plain(found[1]), plain(found[2])

@@ -78,7 +78,7 @@ struct NodeType {
   DialectSet dialects = 0;
   std::span<const FieldDef> fields;
   std::span<const std::string_view> bases;  // every direct and indirect base: "X3DGroupingNode", "X3DChildNode", ...
-  BaseSet base_set;                         // the same; empty but for built-in types
+  BaseSet base_set;                         // the same; empty except for built-in types
   std::string_view clauses;                 // "vrml97 6.11; x3d 13.3.2"
   std::string_view component;               // X3D component and level: "Geometry3D 1"
   std::string_view container_field;         // X3D XML

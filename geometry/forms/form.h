@@ -105,7 +105,7 @@ double reach_of(const Form& form);
 /// The fewest segments and rings whose chords stay within `tolerance` of the form, at least three around.
 FormCut cut_within(const Form& form, double tolerance);
 
-/// The largest distance between a form and what it is cut into, two-sided. Exact but for eccentric frusta and dishes
+/// The largest distance between a form and what it is cut into, two-sided. Exact except for eccentric frusta and dishes
 /// that are not part of a sphere, where it is a bound. O(1); for prisms 0.
 double chord_error(const Form& form, const FormCut& cut);
 

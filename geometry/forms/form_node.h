@@ -12,7 +12,7 @@ namespace wrlkit {
 /// along Y, of parts without their side, and where a size is not finite or leaves nothing.
 std::optional<Form> read_form(const Scene& scene, NodeId geometry);
 
-/// Whether only the outside of a geometry node is visible: true of nodes that do not say it.
+/// Whether only the outside of a geometry node is visible: true for nodes without that field.
 bool is_solid(const Scene& scene, NodeId geometry);
 
 /// Adds the node of a form; its frame goes into a Transform of the caller's (decompose).

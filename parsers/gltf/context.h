@@ -16,7 +16,7 @@ class Lost {
   static constexpr std::size_t max_kept = 1 << 20;
 
   void add(std::string_view what, Span where);
-  /// An element's extras that are not VRML's, and extensions that nobody here knows.
+  /// An element's extras that are not VRML's, and extensions that are not known here.
   void keep(const File&, Json element);
   void report(Diagnostics&) const;
   /// "/materials/3/extensions/KHR_materials_sheen {...}"

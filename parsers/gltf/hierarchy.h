@@ -25,7 +25,7 @@ class Hierarchy {
 
   /// All scenes; what the default one shows are the scene's roots, the others stand in a Switch that shows none.
   void build();
-  /// What a node has become; none when it has not.
+  /// What a node has become; none when it has become nothing.
   NodeId made(std::uint32_t node) const { return node < made_.size() ? made_[node] : NodeId{}; }
   /// For each node with morph targets, the points that move.
   const std::map<std::uint32_t, std::vector<Morph>>& morphs() const { return morphs_; }

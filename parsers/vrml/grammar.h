@@ -94,7 +94,7 @@ class Parser : private Values {
   ParseLimits limits_;
   SceneBuilder build_;
   DeferredLists* lists_;
-  const PartRead* part_read_ = nullptr;  // none: nobody wants to know
+  const PartRead* part_read_ = nullptr;  // null: not needed
   std::uint32_t told_ = 0;               // offset up to which it was reported
   std::vector<NodeId> nodes_, misplaced_;
   std::vector<const Interface*> interfaces_;  // of the prototypes whose bodies are being read

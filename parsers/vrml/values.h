@@ -18,7 +18,7 @@ class Values : protected Tokens {
   /// The text of values up to the next name or bracket that ends them. What is left open in it is closed, so that it
   /// can stand before other text.
   std::string verbatim();
-  /// The value a field has when nobody gave one: zeroes and empty lists.
+  /// The value a field has when none is given: zeroes and empty lists.
   Value empty_value(FieldType);
   bool image(FieldType, std::uint16_t slot, Value& out);
   /// Numbers or booleans into numbers_ or integers_, up to the first other token; `most` at the most (0: all).

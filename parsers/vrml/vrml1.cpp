@@ -245,7 +245,7 @@ void Vrml1Parser::stray() {
 // ---- fields --------------------------------------------------------------------------------------------------------
 
 // fields [ SFFloat width, SFFloat height ]: what follows in the node is of these types. Of nodes of the standard they
-// say what is known.
+// report what is known.
 void Vrml1Parser::own_fields(Body& body) {
   Token open = lex_.next();
   if (open.kind != Kind::open_bracket) {

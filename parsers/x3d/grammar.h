@@ -14,7 +14,7 @@ namespace wrlkit::x3d {
 
 using Names = std::unordered_set<std::string_view>;
 
-/// The value of a field whose type nobody knows, as VRML would write it: what is not a number is a string.
+/// The value of a field whose type is not known, as VRML would write it: what is not a number is a string.
 std::string as_vrml(std::string_view);
 
 class Parser : private AttributeValues {

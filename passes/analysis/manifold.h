@@ -9,7 +9,7 @@ namespace wrlkit {
 
 struct ToOpenMesh;
 
-/// Whether a pass can have OpenMesh work on the mesh of a job: faces, whose points are nobody else's. When this build
+/// Whether a pass can have OpenMesh work on the mesh of a job: faces, whose points belong to it alone. When this build
 /// has no OpenMesh, that is reported.
 bool is_for_openmesh(MeshJob& job, std::string_view pass);
 /// Positions and faces without attributes; nothing, and a message, when they are not a manifold.

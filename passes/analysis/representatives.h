@@ -14,7 +14,7 @@ class Representatives {
   /// For nodes of one scope. Two are equal if they are of one type, and all fields do; nodes in their fields if one
   /// stands for both. A url is equal only below the same folder. `named`: also nodes with different DEF names.
   ///
-  /// Nobody stands for nodes that events may reach (Usage::touched), nor for those with an IS or with fields that are
+  /// Nothing stands for nodes that events may reach (Usage::touched), nor for those with an IS or with fields that are
   /// not known. A nameless node has one with a name stand for it, if there is any: so no name is lost. O(nodes and
   /// their values), by hashing.
   Representatives(const Scene& scene, const Usage& usage, std::span<const NodeId> nodes, bool named);

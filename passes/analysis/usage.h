@@ -1,4 +1,4 @@
-// Who holds a node and who touches it: what a pass may merge, move or remove without anybody noticing.
+// What holds a node and what touches it: what a pass may merge, move or remove without visible effect.
 #pragma once
 #include <vector>
 

@@ -1,4 +1,4 @@
-// What the traversal of VRML 1.0 knows at a node but for the transformation: which property nodes are in force. Equal
+// What the traversal of VRML 1.0 knows at a node except the transformation: which property nodes are in force. Equal
 // states make equal Shapes, so that what is used again in the same state is made once.
 #pragma once
 #include <algorithm>

@@ -128,7 +128,7 @@ bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassC
   for (std::size_t i = begin; i < end;) {
     if (ctx.stop.stop_requested()) return false;
     std::size_t next = i + 1;
-    // Mesh passes run together unless somebody wants to look between them.
+    // Mesh passes run together unless a watcher looks between them.
     if (steps_[i].pass->is_mesh_pass() && !options.watched())
       while (next < end && steps_[next].pass->is_mesh_pass()) ++next;
     {

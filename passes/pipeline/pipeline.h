@@ -82,7 +82,7 @@ bool add_pass(std::shared_ptr<const PassInfo> info);
 bool add_pass(const PassInfo& info);
 /// Those that were added, by name.
 std::vector<const PassInfo*> added_passes();
-/// The name that somebody may have meant, as a question: "; did you mean 'weld'?"; or nothing.
+/// The name that may have been meant, as a question: "; did you mean 'weld'?"; or nothing.
 std::string pass_question(std::string_view name);
 /// Named pipelines: "gltf" is what convert uses for glTF.
 struct NamedPipeline {

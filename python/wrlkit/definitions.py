@@ -79,7 +79,7 @@ class Option:
         return self._item_text(value)
 
     def value(self, text):
-        """What a text says; ValueError when it says nothing."""
+        """The content of a text; ValueError when it has none."""
         if self.is_list:
             return [self._item(t) for t in text.split(':')] if text else []
         return self._item(text)

@@ -347,7 +347,7 @@ void Materials::light_extras(JsonOut& json, const Look& l) {
   json.end_object();
 }
 
-/// What glTF has said of a Material.
+/// What glTF has expressed of a Material.
 std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
   std::vector<std::uint16_t> said{m::diffuseTexture.slot,   m::normalTexture.slot, m::emissiveTexture.slot,
                                   m::occlusionTexture.slot, m::normalScale.slot,   m::occlusionStrength.slot};
@@ -360,7 +360,7 @@ std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
   return said;
 }
 
-/// What glTF has said of a material that only X3D has.
+/// What glTF has expressed of a material that only X3D has.
 std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
   namespace p = nodes::physical_material;
   namespace u = nodes::unlit_material;

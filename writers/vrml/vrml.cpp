@@ -155,7 +155,7 @@ class VrmlWriter : TextDocument {
     return here && scene_.field_name(n, v) == "children" && scene_.content(v).type == FieldType::MFNode;
   }
 
-  /// False when it says what the default says.
+  /// False when it is equal to the default.
   bool field(NodeId n, const Value& v) {
     const auto& t = scene_.type(n);
     if (children(n, v)) return scene_.content(v).count > 0;
