@@ -93,7 +93,7 @@ struct PatchSet {
   void add_loose_triangle() { triangles.push_back({unknown, false, {}, patches.size()}); }
 };
 
-/// The words of the format.
+/// The keywords of the format.
 namespace patch_words {
 inline constexpr std::string_view patches = "patches", shape = "shape", triangle = "triangle",
                                   patch = "patch",                                                  // elements

@@ -259,7 +259,7 @@ def poison(world, table: pathlib.Path = pathlib.Path('table.txt')):
 
 
 def alive(pid_file):
-    """Whether the process of that number is more than an entry that nobody has asked for."""
+    """Whether the process of that number is more than an entry not yet waited for."""
     stat = pathlib.Path('/proc', pid_file.read_text(), 'stat')
     try:
         return stat.read_text().rpartition(')')[2].split()[0] not in 'ZX'

@@ -38,7 +38,7 @@ struct Flags {
   bool print_pipeline = false, verify_each = false, time_passes = false, stats = false;
   std::string print_after;
   std::vector<std::string> python;  // files with passes
-  SaveOptions save;                 // but for the pipeline
+  SaveOptions save;                 // without the pipeline
   std::string recipe;
   bool print_recipe = false;
   bool can_replace = false;                                             // the verb has --in-place

@@ -14,7 +14,7 @@
 namespace wrlkit {
 namespace {
 
-/// Draws worlds that are the same but for their meshes, from where the first is seen.
+/// Draws worlds that are the same except for their meshes, from where the first is seen.
 class Painter {
  public:
   explicit Painter(Session& s) : s_(s), options_(render_options(s.flags())) {

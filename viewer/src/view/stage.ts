@@ -198,7 +198,7 @@ export class Stage {
   }
 }
 
-/// The vector with length one; what has it but for rounding stays as it is.
+/// The vector with length one; what has it up to rounding stays as it is.
 function unit(q: Quaternion): Quaternion {
   return Math.abs(q.lengthSq() - 1) < 1e-9 ? q : q.lengthSq() > 0 ? q.normalize() : q.identity();
 }
