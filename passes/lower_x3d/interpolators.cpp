@@ -45,7 +45,7 @@ Values straight(const Values& a, const Values& b, double t) {
   return out;
 }
 
-/// As many pieces as it takes that what is between their ends, by `mix`, is near enough.
+/// As many pieces as it takes so that what is between their ends, by `mix`, is near enough.
 int pieces(const Between& at, const std::function<Values(const Values&, const Values&, double)>& mix,
            double tolerance) {
   int n = 1;
