@@ -86,7 +86,7 @@ void Diagnostics::warnings_are_errors() {
 void Diagnostics::add(Diag id, Span where, std::vector<std::string> args) {
   auto s = severity_[static_cast<std::size_t>(id)];
   if (s == Severity::ignored) return;
-  // A pass that runs twice says the same thing of the same place once.
+  // A pass that runs twice reports the same fault of the same place only once.
   if (where) {
     const auto hash = hash_of(id, where, args);
     if (reported_.contains(hash)) return;

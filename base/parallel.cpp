@@ -39,7 +39,7 @@ struct ThreadLimit::Control {
   tbb::global_control limit;
 };
 
-// One thread needs no oneTBB, which looks through 80 places for a library when it is first used: in a process that
+// One thread does not need oneTBB, which looks through 80 places for a library when it is first used: in a process that
 // converts one small file that is a good part of its time.
 ThreadLimit::ThreadLimit(int threads) : one_(threads == 1) {
   if (one_)

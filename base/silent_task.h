@@ -1,4 +1,4 @@
-// A task whose messages and counts nobody reads.
+// A task whose messages and counts are not used.
 #pragma once
 #include "base/task.h"
 
@@ -9,7 +9,7 @@ struct Unread {
   Statistics counts;
 };
 
-/// For looking at something before those who write or draw it, who report what is wrong with it. It stops when
+/// For looking at something before it is written or drawn; its faults are reported then. It stops when
 /// `task` does.
 class SilentTask : private Unread, public Task {
  public:

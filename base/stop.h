@@ -16,7 +16,7 @@ class StopScope {
   StopScope(const StopScope&) = delete;
   StopScope& operator=(const StopScope&) = delete;
 
-  /// Of this thread; null: nobody can stop it.
+  /// The token of this thread; null: it cannot be stopped.
   static const std::stop_token* current();
 
  private:

@@ -1,4 +1,4 @@
-// What work that takes long is given besides its input: where it reports, what it counts, who watches it, who may stop
+// What work that takes long gets besides its input: where it reports, what it counts, who watches it, who may stop
 // it.
 #pragma once
 #include <cstdint>
@@ -17,7 +17,7 @@ using Statistics = std::map<std::string, std::uint64_t, std::less<>>;
 class Monitor {
  public:
   virtual ~Monitor() = default;
-  /// A new stretch of work: `total` things of that unit ("shapes"); 0: how many is not known.
+  /// A new stretch of work: a total of `total` in that unit ("shapes"); 0: how many is not known.
   virtual void begin(std::string what, std::uint64_t total, std::string unit) = 0;
   /// N more are done. One thread at a time.
   virtual void step(std::uint64_t n = 1) = 0;
@@ -26,7 +26,7 @@ class Monitor {
 struct Task {
   Diagnostics& diag;
   Statistics& stats;
-  Monitor* monitor = nullptr;  // none: nobody watches
+  Monitor* monitor = nullptr;  // null: not watched
   std::stop_token stop{};
 };
 

@@ -63,7 +63,7 @@ void each_triangle(const LightWorld& w, F&& f) {
   }
 }
 
-/// Points on all faces, on a grid in each triangle, as the texels of a lightmap of about so many lie; of triangles that
+/// Points on all faces, on a grid in each triangle, as the texels of a lightmap of about that many; of triangles that
 /// are smaller than a texel some have one.
 std::vector<Point> points_over(const LightWorld& w, double n) {
   double area = 0;

@@ -34,7 +34,7 @@ struct WorldDifference {
 /// Nothing when the world cannot be expanded, which is reported. The document is expanded; what is measured stays when
 /// it is gone.
 std::optional<WorldFacts> facts_of(Document&&);
-/// Of two that were measured. O(n log n) in their triangles.
+/// The difference of two that were measured. O(n log n) in their triangles.
 WorldDifference difference(WorldFacts a, WorldFacts b);
 
 /// Nothing when one of the documents cannot be expanded; its messages say why.

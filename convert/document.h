@@ -1,5 +1,5 @@
 // A file that was read, with all that belongs to it: its scene, the texts that messages point into, the files that it
-// refers to, and what there was to say of it.
+// refers to, and its messages.
 #pragma once
 #include <memory>
 #include <stop_token>
@@ -16,9 +16,9 @@
 
 namespace wrlkit {
 
-/// Who looks on while something takes long, and who may end it.
+/// Watches work that takes long, and may stop it.
 struct Watch {
-  Monitor* monitor = nullptr;  // none: nobody looks on
+  Monitor* monitor = nullptr;  // null: not watched
   std::stop_token stop{};      // checked between passes, between meshes and in the loops of light
 };
 
@@ -70,7 +70,7 @@ class Document {
   Resources* resources() const;
   /// For passes that are called directly, and for Pipeline::run. It stays where it is when the document is moved.
   PassContext& context();
-  /// The files that were asked for besides it, found or not.
+  /// The other files that were asked for, found or not.
   std::vector<FileLookup> lookups() const;
   /// Reports how many files above the input's folder were found (LoadOptions::project_files), if any.
   void report_files_above();

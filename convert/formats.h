@@ -19,7 +19,7 @@ struct FileFormat {
   std::string_view endings;  // ".wrl .wrz .wrl.gz", the usual one first; of pictures, their kinds
   std::string_view first_bytes;
   std::string_view reads, writes;  // for people; writes: "no", or what options are about it
-  Format parsed = Format::none;    // what sniff_format says of it; none: it is no scene by itself
+  Format parsed = Format::none;    // what sniff_format says of it; none: it is not a scene by itself
 
   // Of formats that `convert` writes:
   /// Writes a scene that has gone through the pipeline, whole or not at all; false, reported, when it could not be.

@@ -13,7 +13,7 @@ namespace wrlkit {
 /// As the world is shown: instances multiplied out.
 struct FormsCensus {
   std::map<std::string, std::uint64_t> parts;  // by kind (kind_of)
-  std::uint64_t triangles_left = 0;            // of faces that are no form
+  std::uint64_t triangles_left = 0;            // of faces that are not part of a form
   double residual = 0;                         // largest distance between a part and its form, in metres of the world
 };
 

@@ -89,7 +89,7 @@ GeometryCensus count_geometry(const Scene& scene, const MeshSource& polygons, co
     auto sum = [&](std::uint64_t& to, std::uint64_t n) {
       to = saturating_add(to, saturating_multiply(n, uses[g.value]));
     };
-    // Faces without area are no triangles, but their corners count for the bounds, as other readers have it.
+    // Faces without area are not triangles, but their corners count for the bounds, as other readers have it.
     const Mesh& p = polygons(g);
     if (p.kind == Mesh::Kind::faces) sum(census.polygons, p.n_faces());
     if (exact)

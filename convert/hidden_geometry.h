@@ -1,4 +1,4 @@
-// What nobody sees because a Switch is off.
+// What is not visible because a Switch is off.
 #pragma once
 #include "base/diagnostics.h"
 #include "scenegraph/scene.h"

@@ -13,7 +13,7 @@
 namespace wrlkit {
 namespace {
 
-/// What the file says, before anything is expanded.
+/// What the file holds, before anything is expanded.
 void count_authored(const Scene& scene, Info& info) {
   for (NodeId n : all_nodes(scene)) {
     const auto& t = scene.type(n);

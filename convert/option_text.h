@@ -56,7 +56,7 @@ bool has_option(std::string_view name, NearestName& nearest) {
   return found;
 }
 
-/// Sets an option of that name, if there is one. False when one of the values is none for it; `why` says so.
+/// Sets an option of that name, if there is one. False when one of the values is not valid for it; `why` says so.
 template <class Options>
 bool set_option(Options& options, std::string_view name, const std::vector<std::string>& values, std::string& why) {
   bool good = true;

@@ -19,7 +19,7 @@
 
 namespace wrlkit {
 
-/// What VRML says and glTF cannot: kept whole, so that the same VRML can be made again; only what nodes say that draw
+/// What VRML has and glTF has not: kept whole, so that the same VRML can be made again; only what nodes say that draw
 /// nothing (links, descriptions); dropped.
 enum class Extras : std::uint8_t { all, facts, none };
 template <>
@@ -43,7 +43,7 @@ struct OptionNote {
 struct LoadOptions {
   Unit unit = Unit::m;                        // what one unit of the file is
   UpAxis up = UpAxis::y;                      // which of its axes points up
-  std::vector<std::string> allow_paths = {};  // folders that pictures and Inlines may lie in, besides the file's own
+  std::vector<std::string> allow_paths = {};  // folders that pictures and Inlines may lie in, other than the file's own
   /// Pictures, sounds, films and worlds above the file's own folder may be read, too: as far up as its project reaches
   /// (base/io/project_folder.h). For people who open their own files; not for programs that open anybody's.
   bool project_files = false;
@@ -142,7 +142,7 @@ struct SaveOptions {
   }
 };
 
-/// The options of the glTF writer that these say.
+/// The options of the glTF writer that these choose.
 GltfOptions gltf_options(const SaveOptions&, bool binary);
 
 }  // namespace wrlkit

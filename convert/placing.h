@@ -1,4 +1,4 @@
-// What LoadOptions do to a scene that was read: the passes `switch` and `place` for those who run no pipeline.
+// What LoadOptions do to a scene that was read: the passes `switch` and `place` for callers that run no pipeline.
 #pragma once
 #include <string>
 #include <utility>

@@ -29,7 +29,7 @@ constexpr Profile known_profiles[] = {
      "its importer knows WebP, but neither quantised numbers nor a decoder of meshopt or Draco"},
 };
 
-/// Where what the table says can be read, as Markdown.
+/// Where the content of the table can be read, as Markdown.
 struct Source {
   std::string_view profile, text;
 };

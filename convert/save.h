@@ -11,7 +11,7 @@
 
 namespace wrlkit {
 
-/// What came of it. What there is to say stands in the document's messages.
+/// The outcome. Messages are in the document's messages.
 struct Saved {
   Ending ending = Ending::failed;
   std::optional<GltfSummary> gltf = {};  // of glTF
@@ -35,7 +35,7 @@ struct SaveHooks {
   std::function<void(Scene&)> last = {};  // is given the scene of a text format before it is written
 };
 
-/// SaveOptions::pipeline with what the format needs. Nothing when it is no pipeline; `why` says what is wrong.
+/// SaveOptions::pipeline with what the format needs. Nothing when it is not a pipeline; `why` says what is wrong.
 std::optional<Pipeline> pipeline_for(const Output&, const SaveOptions&, std::string& why);
 /// Runs the pipeline on the document's own scene and writes what comes out.
 Saved write_document(Document&, Pipeline&, const Output&, const SaveOptions&, const SaveHooks& = {});

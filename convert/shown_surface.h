@@ -12,11 +12,11 @@ class ShownSurface {
   /// compared.
   static constexpr std::size_t most_triangles = 40'000'000;
 
-  /// Of a scene whose prototypes and Inlines are expanded.
+  /// The surface of a scene whose prototypes and Inlines are expanded.
   ShownSurface(const Scene& scene, Diagnostics& diag);
 
   /// Puts the mesh of a geometry, fronts counter-clockwise, wherever that is shown. Once for each geometry; meshes that
-  /// are no triangles are passed over.
+  /// are not triangles are passed over.
   void add(NodeId geometry, const Mesh& mesh);
 
   Triangles triangles() const { return {positions_, corners_}; }

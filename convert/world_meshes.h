@@ -15,7 +15,7 @@ class WorldMeshes {
   /// False when the world could not be expanded.
   bool good() const { return triangles != nullptr; }
 
-  MeshSource polygons;  // faces as authored; says nothing about them: the messages come with the triangles
+  MeshSource polygons;  // faces as authored; reports nothing: the messages come with the triangles
   MeshSource triangles;
 
  private:

@@ -1,4 +1,4 @@
-// What the writers of the table of formats are given. For those who add a format.
+// What the writers of the table of formats get. For those who add a format.
 #pragma once
 #include "convert/formats.h"
 #include "convert/save.h"
@@ -9,7 +9,7 @@ namespace wrlkit {
 
 struct Writing {
   const Scene& scene;
-  const MeshSource& meshes;  // null but for formats that ask for them
+  const MeshSource& meshes;  // null except for formats that ask for them
   PassContext& context;
   const SaveOptions& options;
   const Output& to;

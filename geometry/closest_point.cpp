@@ -79,7 +79,7 @@ bool is_usable(const std::array<Vec3, 3>& corners) {
   return true;
 }
 
-/// Makes the tree; what it needs besides the result.
+/// Makes the tree; holds what that needs but the result does not.
 struct ClosestPoint::Builder {
   struct Item {
     Range range;

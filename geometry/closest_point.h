@@ -1,7 +1,7 @@
-// The nearest point of a surface of triangles: a tree of boxes (bounding volume hierarchy) over views of somebody's
+// The nearest point of a surface of triangles: a tree of boxes (bounding volume hierarchy) over views of a caller's
 // arrays.
 //
-// Embree's point query was measured beside it (docs/performance.md): the tree here is built faster for the small parts
+// Embree's point query was measured against it (docs/performance.md): the tree here is built faster for the small parts
 // that plants are made of, asks in double, and gives the same triangle for any number of threads.
 #pragma once
 #include <array>
@@ -30,7 +30,7 @@ struct Triangles {
   }
 };
 
-/// Of a mesh of triangles (Mesh::is_triangles), which must outlive the view; no triangles otherwise.
+/// A view of a mesh of triangles (Mesh::is_triangles), which must outlive the view; no triangles otherwise.
 Triangles triangles_of(const Mesh& mesh);
 
 /// Perpendicular to a triangle on its front, as long as twice its area.
@@ -39,8 +39,8 @@ Vec3 area_normal(const std::array<Vec3, 3>& corners);
 /// Squared distance of a point from a triangle.
 double squared_distance(const Vec3& p, const std::array<Vec3, 3>& corners);
 
-/// Where single precision and sums of squares are safe. A triangle with a corner beyond, or not finite, is no part of a
-/// surface.
+/// Where single precision and sums of squares are safe. A triangle with a corner beyond, or not finite, is not
+/// part of a surface.
 bool is_usable(const std::array<Vec3, 3>& corners);
 
 class ClosestPoint {
@@ -56,7 +56,7 @@ class ClosestPoint {
   /// The same of triangles with labels, ascending, by which some may be left out of a question. 48 bytes a triangle.
   ClosestPoint(Triangles surface, std::span<const std::uint32_t> labels);
 
-  /// Where `p` is nearest to the surface, O(log n) as a rule. On an edge or a corner several triangles are equally
+  /// Where `p` is nearest to the surface, usually O(log n). On an edge or a corner several triangles are equally
   /// near: the one whose front faces most nearly along `facing` is given (of the first 32). `guess` is a triangle of
   /// which it is known that it is near: the answer for the point before; it makes the search shorter. Any number of
   /// threads may ask.

@@ -78,7 +78,7 @@ struct Sums {
     squares += d * d;
     n_tried += found.n_tried;
   }
-  /// Large triangles through one another, thousands of them, are no tree: each question looks at all. Then a run ends
+  /// Large triangles through one another, thousands of them, defeat a tree: each question looks at all. Then a run ends
   /// before all its points were asked.
   bool too_costly() const { return n_tried > run_length * tries_per_question; }
   void add_angle(double a) {

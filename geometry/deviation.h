@@ -20,7 +20,7 @@ struct Deviation : OneSidedDeviation {
 };
 
 struct DeviationOptions {
-  /// On each surface, besides its corners. 0: four for each triangle of both, from 500 to 400,000.
+  /// On each surface, in addition to its corners. 0: four for each triangle of both, from 500 to 400,000.
   std::size_t samples = 0;
 };
 

@@ -11,19 +11,19 @@ namespace wrlkit {
 /// not count. For a scene that does not change meanwhile.
 class EqualGeometry {
  public:
-  /// Of what it says; 0: it is none of those types, or has values that a prototype gives. O(bytes of its arrays).
+  /// A hash of the content; 0: it is none of those types, or has values that a prototype gives. O(bytes of its arrays).
   static std::uint64_t hash_of(const Scene&, NodeId);
-  /// Whether two nodes with the same hash, which is not 0, say the same.
+  /// Whether two nodes with the same hash, which is not 0, have the same content.
   static bool same(const Scene&, NodeId, NodeId);
 
   explicit EqualGeometry(const Scene& scene) : scene_(scene) {}
 
-  /// The node that was added and says the same; none, too, for nodes of other types and ones with values that a
+  /// The node that was added and is equal; none, too, for nodes of other types and ones with values that a
   /// prototype gives. O(bytes of its arrays).
   NodeId find(NodeId);
   /// From now on it is found, unless one like it is already, or others had its hash.
   void add(NodeId);
-  /// Spares the work of finding these out: its hash, and a node that says the same, if one is known.
+  /// Spares the work of finding these out: its hash, and a node that is equal, if one is known.
   void know(NodeId n, std::uint64_t hash, NodeId same) {
     hashed_ = n;
     hash_ = hash;
@@ -35,7 +35,7 @@ class EqualGeometry {
 
   const Scene& scene_;
   std::unordered_map<std::uint64_t, NodeId> nodes_;
-  NodeId hashed_, same_;  // the last one, and what is known to say the same
+  NodeId hashed_, same_;  // the last one, and one known to be equal
   std::uint64_t hash_ = 0;
 };
 

@@ -19,7 +19,7 @@ std::span<const double> values_of(const Scene& scene, NodeId n, FieldKey<T> key)
   return scene.is(n, key.node) ? scene.get(n, key) : std::span<const double>{};
 }
 
-// Of a Color, or of a ColorRGBA, which makes the attribute four wide.
+// The values of a Color, or of a ColorRGBA, which makes the attribute four wide.
 std::span<const double> colors_of(const Scene& scene, NodeId n, Attribute& color) {
   if (!scene.is(n, nodes::ColorRGBA)) return values_of(scene, n, nodes::color::color);
   color.width = 4;
@@ -43,7 +43,7 @@ bool positions_finite(const Mesh& mesh) {
   return true;
 }
 
-// Own positions, those in use only, in the order of the corners: a copy of all would cost a Shape that uses one bad
+// Own positions, those in use only, in the order of the corners: a copy of all would cost a Shape that uses one invalid
 // point of a million as much as the million.
 void keep_used_positions(MeshJob& job) {
   auto& slot = job.scratch.map;

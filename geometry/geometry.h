@@ -31,7 +31,7 @@ void read_mesh(MeshJob& job);
 /// mesh of kind `none` changes nothing. What the target cannot hold is dropped: normals and texture coordinates of
 /// lines and points.
 ///
-/// read_mesh gives the same mesh again, but for the flag `primitive`, a face_begin that lists nothing but triangles,
+/// read_mesh gives the same mesh again, except for the flag `primitive`, a face_begin that lists only triangles,
 /// values that no corner uses, and points that were not in order.
 void store_mesh(Scene& scene, NodeId geometry, const Mesh& mesh);
 

@@ -5,7 +5,7 @@
 namespace wrlkit {
 namespace {
 
-// An index below zero is huge as an unsigned number, so that one comparison finds both kinds of bad ones.
+// An index below zero is huge as an unsigned number, so that one comparison finds both kinds of invalid ones.
 bool good(std::int32_t index, std::size_t n_positions) { return static_cast<std::uint32_t>(index) < n_positions; }
 
 // Most large meshes are triangles and nothing else: four indices at a time, as long as it goes, and three at the end
@@ -72,7 +72,7 @@ class RunReader {
   std::vector<std::uint32_t>& dropped_;
   RunFaults faults_;
   std::uint32_t number_ = 0;
-  bool uniform_ = true;  // face_begin would say nothing
+  bool uniform_ = true;  // face_begin would be redundant
 };
 
 }  // namespace

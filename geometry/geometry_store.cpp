@@ -1,5 +1,5 @@
 // store_mesh: the way back from a Mesh to a geometry node. Each attribute is written in the shortest of its bindings:
-// none where it follows coordIndex, per face where the corners of each face agree, else an index list of its own.
+// none where it follows coordIndex, per face where the corners of each face agree, otherwise an index list of its own.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -97,7 +97,7 @@ class Store {
     return {};
   }
 
-  // The authored Coordinate if it has these very points, else a new one.
+  // The authored Coordinate if it has these very points, otherwise a new one.
   NodeId coordinate(std::span<const double> points) {
     if (NodeId old = authored("coord", nodes::Coordinate)) {
       auto had = scene_.get(old, nodes::coordinate::point);
@@ -177,7 +177,7 @@ class Store {
     fields_.push_back(v);
   }
 
-  // Fields that the node type did not have are nobody's to drop.
+  // Fields that the node type did not have must not be dropped.
   void become(TypeId type) {
     for (const Value& v : scene_.fields(geometry_))
       if (scene_.is_extra(v)) fields_.push_back(v);

@@ -32,7 +32,7 @@ struct MeshJob {
   MeshScratch& scratch;
   Task& ctx;
   bool textured = false;  // some Shape puts a texture on it
-  bool driven = false;    // its points and their order belong to somebody else (driven.h)
+  bool driven = false;    // its points and their order belong to something else (driven.h)
 };
 
 }  // namespace wrlkit

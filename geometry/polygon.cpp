@@ -10,7 +10,7 @@ namespace {
 
 constexpr double flat_polygon = 1e-12;  // area by squared length of a polygon that counts as without area
 constexpr double clear_turn = 1e-6;     // sine of a turn from which a fan may start and end anywhere
-constexpr double reflex = 1e-2;         // sine of a turn that is no rounding error of the coordinates
+constexpr double reflex = 1e-2;         // sine of a turn that is not a rounding error of the coordinates
 constexpr double planar = 1e-3;         // distance from the plane by length
 
 double sum_of_squares(const Vec3& a) { return dot(a, a); }
@@ -163,7 +163,7 @@ bool PolygonCutter::has_reflex_corner() const {
 }
 
 /// How many times the edges turn around: once, unless the polygon crosses itself. Counted where they pass the direction
-/// of the x axis. A spike turns either way; then nothing can be said, and the answer is once.
+/// of the x axis. A spike turns either way; then it is undecided, and the answer is once.
 int PolygonCutter::turns() const {
   auto upward = [](const Vec2& p, const Vec2& q) { return q[1] > p[1] || (q[1] == p[1] && q[0] > p[0]); };
   std::size_t n = points_.size(), first = 0;

@@ -5,7 +5,7 @@
 
 namespace wrlkit {
 
-/// How finely curved shapes are cut, and what is made beside the faces.
+/// How finely curved shapes are cut, and what is made in addition to the faces.
 ///
 /// A circle of radius r gets the fewest segments whose sagitta (the distance from the middle of a chord to the arc)
 /// stays within the tolerance, rounded up to a multiple of four so that the extreme points on both axes, and with them
@@ -36,7 +36,7 @@ struct Tessellation {
 
 /// Makes job.mesh of any geometry node: reads it (geometry.h) unless it is there already, makes the faces of Box,
 /// Cone, Cylinder, Sphere, Extrusion, ElevationGrid and Text, and cuts them into triangles (triangulation.h). Shapes
-/// without a surface give a mesh of kind `faces` without faces, and degenerate-geometry. Nodes that are no geometry
+/// without a surface give a mesh of kind `faces` without faces, and degenerate-geometry. Nodes that are not geometry
 /// stay kind `none`.
 ///
 /// Box, Cone, Cylinder and Sphere come with exact normals and the texture coordinates of the standard, and

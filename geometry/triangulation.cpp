@@ -1,4 +1,4 @@
-// Of each corner of a triangle, the corner it was is noted; then each index stream is gathered by that list. Triangles
+// For each corner of a triangle, its original is noted; then each index stream is gathered by that list. Triangles
 // and quadrilaterals are decided here, without a square root or a copy of their positions; larger faces by the
 // PolygonCutter.
 #include "geometry/triangulation.h"

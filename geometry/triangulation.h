@@ -8,7 +8,7 @@ namespace wrlkit {
 /// its normal, colour and texture coordinate, triangles come in the order of their faces and turn the way those do
 /// (mesh.ccw is left alone). polygon.h says what is made of concave, touching, crossing and warped polygons.
 ///
-/// - Of a quadrilateral, planar and convex, the diagonal is 0-2. A warped one is cut where it folds less.
+/// - For a quadrilateral, planar and convex, the diagonal is 0-2. A warped one is cut where it folds less.
 /// - Faces without area are dropped (degenerate-face): those whose corners are collinear, to within 1e-12 of the square
 ///   of their longest edge. A triangle that has an area when its coordinates are rounded to single precision stays, as
 ///   other readers have it.

@@ -106,7 +106,7 @@ void Splitter::rebuild_table(std::size_t size) {
 
 // -- values
 
-/// Replaces what glTF does not allow: 0 for what is no number, the largest for what is too large.
+/// Replaces what glTF does not allow: 0 for what is not a number, the largest for what is too large.
 float finite(double x, std::size_t& n_not_finite) {
   constexpr double largest = std::numeric_limits<float>::max();
   if (std::abs(x) <= largest) return static_cast<float>(x);
@@ -198,7 +198,7 @@ void fill_normals(const Mesh& mesh, const SplitScratch& scratch, Vertices& out) 
 float linear(float x) { return static_cast<float>(x <= 0.04045f ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4)); }
 
 /// The exact function costs 30 ns, but the numbers of colors repeat. An entry is right whenever it was made, so that
-/// the table need not be cleared: 0 becomes 0, as it says in the beginning.
+/// the table need not be cleared: 0 becomes 0, as at the beginning.
 float shade(SplitScratch& scratch, float x) {
   if (scratch.shades.empty()) scratch.shades.resize(n_shades, {0, 0});
   std::uint32_t bits = std::bit_cast<std::uint32_t>(x);

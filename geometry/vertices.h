@@ -1,5 +1,5 @@
 // A mesh as graphics hardware and glTF want it: vertices that carry all their attributes, in single precision, with one
-// index. Corners that agree in position, normal, color and places in pictures are one vertex. This is the last thing
+// index. Corners that agree in position, normal, color and places in pictures are one vertex. This is the last step
 // that happens to a mesh: what is split here is found together by no later pass.
 #pragma once
 #include <array>

@@ -103,7 +103,7 @@ std::string_view to_string(Format f) {
 
 namespace {
 
-/// What the first bytes are, for the message that this is no world.
+/// What the first bytes are, for the message that this is not a world.
 std::string describe_bytes(std::string_view text) {
   if (text.find_first_not_of(std::string_view("\0 \t\r\n", 5)) == text.npos) return "it holds nothing but blanks";
   auto mime = sniff_mime(text);

@@ -15,8 +15,8 @@ namespace wrlkit {
 struct ReadOptions {
   ReadLimits limits;
   ParseLimits parse;
-  std::vector<std::string> allowed = {};       // folders beside the world's own that its buffers may lie in (glTF)
-  std::vector<FileLookup>* lookups = nullptr;  // is told of each buffer that is looked for
+  std::vector<std::string> allowed = {};       // folders besides the world's own that its buffers may lie in (glTF)
+  std::vector<FileLookup>* lookups = nullptr;  // gets each buffer that is looked for
 };
 
 /// What a text is by its first bytes; the file's name does not matter. none: no world.

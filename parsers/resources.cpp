@@ -77,7 +77,7 @@ LinkedWorld FileResources::world(std::span<const std::string_view> urls, Span wh
   return found;
 }
 
-// Failures are told when no url works, and then only one: the first that is about a file, for the user can do something
+// A failure is reported when no url works, and only one: the first that is about a file, for the user can do something
 // about that one.
 template <class T, class Load>
 std::shared_ptr<const T> FileResources::first_of(std::span<const std::string_view> urls, Span where, Diagnostics& diag,

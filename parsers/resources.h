@@ -22,7 +22,7 @@ struct ResourceOptions {
   bool project = false;                    // and linked files as far up as its project reaches (io/project_folder.h)
   bool in_place = false;                   // the input may be replaced
   std::uint64_t max_bytes = 512 << 20;     // of one picture
-  std::uint64_t cached_bytes = 512 << 20;  // of files and decoded pictures that are kept for the next who asks
+  std::uint64_t cached_bytes = 512 << 20;  // of files and decoded pictures that are kept for the next request
 };
 
 /// Calls may come from several threads, each with a Diagnostics of its own or none at the same time. A node's fault is
@@ -33,7 +33,7 @@ class FileResources final : public Resources {
   using ParseWorld = std::function<std::shared_ptr<const Scene>(const std::string& path, Diagnostics&)>;
 
   FileResources(ResourceOptions options, ParseWorld parse);
-  /// The scene that was read from options.input: who asks for that file gets this very scene, which tells a world that
+  /// The scene that was read from options.input: a request for that file gets this very scene, which tells a world that
   /// contains itself.
   void set_root(std::shared_ptr<const Scene> scene);
 
@@ -48,7 +48,7 @@ class FileResources final : public Resources {
   /// How many files above the input's folder were found, and below which folder such files may lie.
   std::size_t files_above() const;
   const std::string& project() const { return project_; }
-  /// All that was asked for until now: what the result depends on beside the input. Who has no referrer was named by
+  /// All that was asked for until now: what the result depends on besides the input. What has no referrer was named by
   /// the user.
   std::vector<FileLookup> lookups() const;
 

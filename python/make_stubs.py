@@ -30,7 +30,7 @@ def field_type(name):
 
 
 def plain(signature):
-    """A signature of pybind11's in words of typing."""
+    """A signature of pybind11's in terms of typing."""
     signature = re.sub(r'\bwrlkit\._wrlkit\.', '', signature).replace('numpy.ndarray', 'numpy.typing.NDArray[Any]').replace('kwargs)', 'kwargs: Any)').replace('os.PathLike', "Union[str, 'os.PathLike[str]']")
     signature = re.sub(r'\b(object|handle)\b', 'Any', signature)
     return re.sub(r'\bdict\b', 'Dict[str, Any]', signature)
@@ -43,7 +43,7 @@ def documented(doc, indent):
 
 
 def function(name, value, indent=''):
-    """A function, by the first line of what pybind11 says of it."""
+    """A function, by the first line of its docstring by pybind11."""
     signature, _, doc = (value.__doc__ or '').partition('\n')
     found = re.fullmatch(r'\w+(\(.*\)) -> (.*)', signature)
     arguments, result = plain(found[1]), plain(found[2])

@@ -33,11 +33,11 @@ void set_cause(py::object exception);
 /// Options by Python's keywords: with "_" for "-", numbers, bool, texts and lists of those.
 GivenOptions options_of_keywords(const py::kwargs& keywords);
 
-/// A world with all that reading and passes need beside it.
+/// A world with all that reading and passes need in addition.
 class PyWorld : public std::enable_shared_from_this<PyWorld> {
  public:
   explicit PyWorld(Document document) : document_(std::move(document)) {}
-  /// Of a pass that is being run.
+  /// The world of a pass that is being run.
   PyWorld(Scene& scene, PassContext& ctx) : lent_(&scene), context_(&ctx) {}
   PyWorld(const PyWorld&) = delete;
 
@@ -92,7 +92,7 @@ py::array view(py::object holder, std::span<const T> all, std::size_t width) {
 py::object get_field(const PyNode& node, const std::string& name);
 void set_field(const PyNode& node, const std::string& name, const py::object& value);
 
-/// Converts a file as `wrlkit convert` does, by a recipe (empty: none), a pipeline and options; gives what was said.
+/// Converts a file as `wrlkit convert` does, by a recipe (empty: none), a pipeline and options; returns the messages.
 std::vector<MessageView> convert(const std::string& source, const std::string& target, const std::string& recipe,
                                  const std::optional<std::string>& pipeline, const py::kwargs& options);
 

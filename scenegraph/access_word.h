@@ -1,4 +1,4 @@
-// The words for the access to a field.
+// The keywords for the access to a field.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ inline std::string_view access_word(Access a, Dialect d = Dialect::vrml97) {
   return (d == Dialect::x3d ? access_words::x3d : access_words::vrml)[static_cast<std::size_t>(a)];
 }
 
-/// Of VRML, or of X3D, whose words occur in VRML files that were converted half-way.
+/// The keywords of VRML, or of X3D, which occur in VRML files that were converted half-way.
 inline std::optional<Access> find_access(std::string_view word) {
   for (const auto& words : {access_words::vrml, access_words::x3d})
     if (const auto at = std::ranges::find(words, word); at != words.end())

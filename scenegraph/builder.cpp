@@ -36,7 +36,7 @@ void SceneBuilder::close() {
   open_.pop_back();
 }
 
-/// Defaults that are not those of the table are said in so many words, so that all scenes mean the same.
+/// Defaults that are not those of the table are written out, so that all scenes mean the same.
 void SceneBuilder::add_x3d_defaults(Open& o) {
   for (const auto& f : current_type().fields)
     if (f.x3d_from && scene_.x3d.version >= f.x3d_from && !find_field(o, f.x3d_default.slot))

@@ -88,7 +88,7 @@ TransformFields decompose(const Matrix& m) {
       u[k] = 1 / out.scale[k] * u[k];
     else
       u[k] = {};
-  if (m.determinant() < 0) {  // mirrored along the axis that leaves the least to turn
+  if (m.determinant() < 0) {  // mirrored along the axis that needs the smallest turn
     const std::array<double, 3> along{dot(u[0], axes[0]), dot(u[1], axes[1]), dot(u[2], axes[2])};
     const auto k = static_cast<std::size_t>(std::ranges::min_element(along) - along.begin());
     u[k] = -1 * u[k];

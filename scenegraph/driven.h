@@ -1,4 +1,4 @@
-// Geometry that is not only what it says: the field of a prototype, an event or a Script gives it values.
+// Geometry that its own fields do not fully define: the field of a prototype, an event or a Script gives it values.
 #pragma once
 #include <vector>
 

@@ -6,7 +6,7 @@
 
 namespace wrlkit {
 
-/// Empty when the scenes say the same: nodes, DEF names, values (a written default equals one left out), sharing by
+/// Empty when the scenes are equal: nodes, DEF names, values (a written default equals one left out), sharing by
 /// USE, prototypes, ROUTEs between nodes of the scene, unknown nodes and fields, comment. Otherwise the first
 /// difference, in words. Ids, places and the order of fields do not count. O(scene).
 std::string difference(const Scene& a, const Scene& b);

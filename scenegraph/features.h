@@ -19,7 +19,7 @@ struct Features {
   std::size_t n_faces() const;
 };
 
-/// None where the geometry has no parts, or says of them what cannot be.
+/// None where the geometry has no parts, or describes them wrongly.
 std::optional<Features> features_of(const Scene& scene, NodeId geometry);
 /// The values are copied.
 void set_features(Scene& scene, NodeId geometry, const Features& features);

@@ -40,7 +40,7 @@ struct FieldDef {
   DialectSet dialects;
   Value default_value;  // of `type`; out and in fields have none
   FieldRange range;
-  std::span<const std::string_view> kinds;  // node types or bases a node field may hold; words an SFString may be
+  std::span<const std::string_view> kinds;  // node types or bases a node field may hold; keywords an SFString may be
   std::string_view unit;                    // "length", "angle", ...; empty: none
   std::string_view doc;
   std::string_view default_text;  // as the table has it, for documentation
@@ -54,7 +54,7 @@ struct FieldDef {
   const Value& x3d_default_in(int version) const {
     return x3d_from && version >= x3d_from ? x3d_default : default_value;
   }
-  /// Of a field of nodes: whether it may hold one of that type.
+  /// For a field of nodes: whether it may hold one of that type.
   bool accepts(const NodeType&) const;
   std::string_view name_in(Dialect d) const {
     return d == Dialect::vrml97 && !vrml97_name.empty() ? vrml97_name : name;
@@ -78,7 +78,7 @@ struct NodeType {
   DialectSet dialects = 0;
   std::span<const FieldDef> fields;
   std::span<const std::string_view> bases;  // every direct and indirect base: "X3DGroupingNode", "X3DChildNode", ...
-  BaseSet base_set;                         // the same; empty but for built-in types
+  BaseSet base_set;                         // the same; empty except for built-in types
   std::string_view clauses;                 // "vrml97 6.11; x3d 13.3.2"
   std::string_view component;               // X3D component and level: "Geometry3D 1"
   std::string_view container_field;         // X3D XML
@@ -94,7 +94,7 @@ struct NodeType {
   /// A file may give it fields that its type does not list: a node that is not known, or a program of a surface.
   bool takes_any_field() const;
   bool is_a(BaseSet any) const { return base_set.bits & any.bits; }
-  /// Of that name, or of a base of that name: for names that are not known when compiling.
+  /// True for that name, or a base of that name: for names that are not known when compiling.
   bool is_named(std::string_view name_or_base) const;
   /// Index of the field of that name in that dialect, in O(log of many fields). Accepts `set_x` and `x_changed` for an
   /// inout field `x`, as ROUTE and IS do, when `events` is set.

@@ -32,7 +32,7 @@ struct Patch {
   bool back = false;           // of the other side
 };
 
-/// How a file prints coordinates. By as many decimals or as many digits each, nobody knows which; so the coarser
+/// How a file prints coordinates. By as many decimals or as many digits each, it is not known which; so the coarser
 /// counts.
 struct PrintedDigits {
   int decimals = 17, digits = 17;  // the most of any coordinate
@@ -93,7 +93,7 @@ struct PatchSet {
   void add_loose_triangle() { triangles.push_back({unknown, false, {}, patches.size()}); }
 };
 
-/// The words of the format.
+/// The keywords of the format.
 namespace patch_words {
 inline constexpr std::string_view patches = "patches", shape = "shape", triangle = "triangle",
                                   patch = "patch",                                                  // elements

@@ -40,7 +40,7 @@ struct NamedFile {
   std::string path, bytes;
 };
 
-/// The name, beside the file that is written, of the file that has such a url.
+/// The name, next to the file that is written, of the file that has such a url.
 using PlaceMade = std::function<std::string(std::string_view url)>;
 
 /// A world, and which of the urls led to it: what follows '#' there names a part of it.
@@ -62,7 +62,7 @@ class Resources {
 
   /// Without opening or reporting anything.
   virtual UrlTarget target(std::string_view, Span, const Sources&) { return {}; }
-  /// A world for those who want to know what it refers to, at a path that target() gave; null when there is nothing to
+  /// A world, to see what it refers to, at a path that target() gave; null when there is nothing to
   /// be had. Nothing is reported, nothing kept.
   virtual std::shared_ptr<const Scene> look_into(const std::string&) { return nullptr; }
 
@@ -76,7 +76,7 @@ class Resources {
   virtual std::shared_ptr<const PatchSet> patches(const std::string&, Diagnostics&) { return nullptr; }
 
   /// Hands in a file that a pass has made and returns its url, made_scheme + name: whoever asks for that gets these
-  /// bytes. A name that is taken gets a number. Writers put what is made inside their file, or beside it. Not while
+  /// bytes. A name that is taken gets a number. Writers put what is made inside their file, or next to it. Not while
   /// others ask.
   std::string add_made(MadeFile);
   /// In the order in which they were handed in.

@@ -68,7 +68,7 @@ class Scene {
  public:
   Scene();
 
-  // What the file says beside nodes.
+  // What the file says apart from nodes.
   Format format = Format::vrml97;
   std::string header;   // of VRML 1.0 and Inventor: the first line, for Inventor's version is in it
   std::string comment;  // the comment lines that follow the header, with their '#'
@@ -85,7 +85,7 @@ class Scene {
   const NodeType& type(NodeId n) const { return type(nodes_[n.value].type); }
   const NodeType& type(TypeId t) const;
   bool is(NodeId n, TypeId t) const { return n && type_id(n) == t; }
-  /// Of any of these abstract types; never an instance of a prototype, a Script or a node that is not known.
+  /// True for any of these abstract types; never an instance of a prototype, a Script or a node that is not known.
   bool is(NodeId n, BaseSet any) const { return n && type(n).is_a(any); }
   /// DEF name, or empty. Names need not be unique: USE means the last one before it (4.4.3), here it is an id.
   std::string_view name(NodeId n) const { return names_[nodes_[n.value].name]; }

@@ -6,7 +6,7 @@
 
 namespace wrlkit {
 
-/// What a Transform node says.
+/// The values of a Transform node.
 struct TransformFields {
   Vec3 translation{0, 0, 0};
   Vec4 rotation{0, 0, 1, 0};
@@ -28,7 +28,7 @@ inline Matrix matrix_of(const TransformFields& f) {
          translation_matrix({-c[0], -c[1], -c[2]});
 }
 
-/// Of a Transform node; identity for other nodes.
+/// The matrix of a Transform node; identity for other nodes.
 inline Matrix local_matrix(const Scene& scene, NodeId n) {
   namespace f = nodes::transform;
   if (!scene.is(n, nodes::Transform)) return {};

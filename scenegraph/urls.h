@@ -1,4 +1,4 @@
-// Which fields hold urls, and what kind of thing these lead to.
+// Which fields hold urls, and what these lead to.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -11,11 +11,11 @@
 
 namespace wrlkit {
 
-/// link: a place to go to (Anchor), which is no part of the world. texture: of an ImageTexture. picture: another one.
+/// link: a place to go to (Anchor), which is not part of the world. texture: of an ImageTexture. picture: another one.
 /// file: anything else that belongs to the world.
 enum class UrlUse : std::uint8_t { none, file, texture, picture, world, link };
 
-/// Of the fields of standard nodes, of prototypes whose values end up in one of these, and of all others that are
+/// Knows the fields of standard nodes, of prototypes whose values end up in one of these, and of all others that are
 /// called url or somethingUrl.
 class UrlFields {
  public:

@@ -59,7 +59,7 @@ class ValueCheck {
       check(v.text());
   }
 
-  /// A prototype is what the first node of its body is; what an EXTERNPROTO or an unknown node is, nobody knows here.
+  /// A prototype is what the first node of its body is; what an EXTERNPROTO or an unknown node is, is not known here.
   const NodeType* kind_of(NodeId n) const {
     const NodeType* t = &scene_.type(n);
     for (int depth = 0; t->kind == NodeKind::proto && depth < 100; ++depth) {
@@ -83,7 +83,7 @@ class ValueCheck {
   Diagnostics& diag_;
 };
 
-/// On all threads, where the scene is large: there is mostly nothing, and what there is has to be said in order.
+/// On all threads, where the scene is large: there is mostly nothing, and what there is must be reported in order.
 bool nothing_to_say(const Scene& scene, std::span<const NodeId> all) {
   constexpr std::size_t at_once = 16 * 1024, from = 4 * at_once;
   if (all.size() < from || only_one_thread()) return false;
@@ -177,7 +177,7 @@ class Invariants {
         if (n && !is_node(n)) breach("a default that is not a node");
   }
 
-  /// What a Script or an instance may hold is said nowhere (4.12.8); all else goes down.
+  /// What a Script or an instance may hold is not specified (4.12.8); all others are followed.
   bool goes_down(NodeId n) const {
     const auto kind = s_.type(n).kind;
     return kind != NodeKind::script && kind != NodeKind::proto && s_.type(n).name != "Script";

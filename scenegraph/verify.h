@@ -10,13 +10,13 @@ namespace wrlkit {
 /// it needs and the one it leaves.
 enum class Level : std::uint8_t { authored, expanded, mesh };
 
-/// What `check` says beside the parser: values out of their range, words that are none, nodes in places that cannot
+/// What `check` reports in addition to the parser: values out of range, unknown keywords, nodes in places that cannot
 /// hold them, wrong ROUTE types. Warnings only: such files are read all the same. O(scene).
 void check_values(const Scene&, Diagnostics&);
 
 /// Invariants of a level; each breach is an error `verify`. True when there was none. O(n log n) in the fields.
 ///
-/// Of every scene: types, children, roots, ROUTEs, IMPORTs, EXPORTs and prototypes that exist; values of the type of
+/// In every scene: types, children, roots, ROUTEs, IMPORTs, EXPORTs and prototypes that exist; values of the type of
 /// their field, one for each, in the order of the slots where there are many; no node below itself, but by way of a
 /// Script or an instance. Whether children are of the kind that a field wants is for check_values: files may be wrong.
 bool verify(const Scene&, Level, Diagnostics&);

@@ -14,7 +14,7 @@ void for_each_child(const Scene& scene, NodeId n, F&& f) {
 }
 
 /// Appends every node that can be reached from `roots` and is not in `seen` yet, parents before children, and marks it
-/// there: who goes through one scope after another meets each node once. `seen` grows with the scene.
+/// there: a walk through one scope after another meets each node once. `seen` grows with the scene.
 void reach(const Scene&, std::span<const NodeId> roots, std::vector<char>& seen, std::vector<NodeId>& out);
 /// Every node that can be reached from a scope's roots, each once, parents before children (depth first, in the order
 /// of the file). The bodies of prototypes are scopes of their own. No recursion: any depth.

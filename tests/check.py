@@ -13,7 +13,7 @@ they come behind the nodes, where no writer takes them for the world's leading c
   # RUN-SCRIPT: name.sh            the same of the commands in a file next to the test; %s, %S and %t are put in there, too.
                                    A RUN of more than 200 characters has to be one
   # | Shape {                      one line of the output; all such lines below a RUN are all of its output
-  # OUTPUT                         there is output, but nobody has written it down yet: --update puts it here
+  # OUTPUT                         there is output, not yet written down: --update puts it here
   # CHECK: geometry Cone           a line further down in the output contains this; {{...}} is a regular expression
   # CHECK-NEXT: height 3           the next one does
   # CHECK-NOT: radius              no line between the neighbouring CHECKs does

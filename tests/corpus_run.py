@@ -259,7 +259,7 @@ def poison(world, table: pathlib.Path = pathlib.Path('table.txt')):
 
 
 def alive(pid_file):
-    """Whether the process of that number is more than an entry that nobody has asked for."""
+    """Whether the process of that number is more than an entry not yet waited for."""
     stat = pathlib.Path('/proc', pid_file.read_text(), 'stat')
     try:
         return stat.read_text().rpartition(')')[2].split()[0] not in 'ZX'
@@ -294,7 +294,7 @@ def gone(pid_file):
 
 
 def poisoned(tmp):
-    """What a pass in Python does to one file it does to no other, and it is said what it was."""
+    """What a pass in Python does to one file it does to no other, and the run reports what it was."""
     if not HAS_PYTHON:
         return print('skipped: passes in Python, which this build has not')
     a, out, recipe = tmp / 'poison', tmp / 'poison-out', tmp / 'poison.toml'

@@ -104,7 +104,7 @@ def signals(runs):
 
 
 def memory(runs):
-    """Address space from 16 MB on, in ten sizes: out of memory is said in one line."""
+    """Address space from 16 MB on, in ten sizes: out of memory is reported in one line."""
     good = 0
     for size in (16, 24, 32, 48, 64, 96, 128, 192, 256, 512):
         folder = runs.folder / f'memory{size}'

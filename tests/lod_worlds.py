@@ -6,7 +6,7 @@
 Worlds are those of corpus/ and, when it is there, of ../shared/corpus (or WRLKIT_SHARED); --every N takes each N-th of all.
 For each world that wrlkit can read:
 - the VRML is the same byte for byte with one and with two threads;
-- it reads back without a message of its own: nothing is said of it that is not said of the world written by `-p weld`;
+- it reads back without a message of its own: it has no message but those of the world written by `-p weld`;
 - no part is lost: as many Shapes, triangles, lines and points are shown (of a LOD, the first level) as in that one, in the same bounds;
 - in the glTF, where ranges are, no level's bounds differ from the first level's by more than the error that its range stands for.
 The glTF itself is validated by the test validate-lod. Prints the counts; fails when a world fails, or none has levels.

@@ -3,8 +3,8 @@
 
   tests/merged_parts.py --wrlkit build/release/wrlkit [--draws 40] [--parts 600]
 
-Makes a plant of named boxes in turned, scaled and mirrored groups, merges it to so many draw calls, reads the .glb with nothing
-but the struct module, and looks for a hundred parts that a fixed seed picks: the triangles with the id of that name must fill the box
+Makes a plant of named boxes in turned, scaled and mirrored groups, merges it to that many draw calls, reads the .glb with only
+the struct module, and looks for a hundred parts that a fixed seed picks: the triangles with the id of that name must fill the box
 that the part has in the world. Then wrlkit reads the file and must find every name again.
 """
 import argparse

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads PNG with nothing but zlib, so that pictures are not judged by the code that wrote them.
+"""Reads PNG with only zlib, so that pictures are not judged by the code that wrote them.
 
   tests/png.py PICTURE...      of each the mean of each channel, in tens, and how many colours there are
 """

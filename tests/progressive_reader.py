@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads .wpm files by nothing but docs/progressive.md, and compares each surface at its finest with the IndexedFaceSet that
+"""Reads .wpm files by docs/progressive.md alone, and compares each surface at its finest with the IndexedFaceSet that
 it was made from: positions bit for bit, faces in their order. So the page tells enough to write a reader."""
 import argparse, pathlib, re, struct, subprocess, sys, tempfile
 

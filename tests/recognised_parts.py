@@ -3,7 +3,7 @@
 
   recognised_parts.py WRLKIT SHARED [huldra|plant|bytes]
 
-huldra: the pipe supports of a real platform (SHARED/plants/huldra), whose truth lies beside them, in three forms: at
+huldra: the pipe supports of a real platform (SHARED/plants/huldra), whose truth lies next to them, in three forms: at
 least 97 % by kind and size. plant: a plant of SHARED/bench/gen_plant.py, which is asked what it makes, in three forms:
 at least 98 %, and no residual above a chord. bytes: one of 1.4 MB, made small with its parts recognised: at most 55,000
 bytes, all names kept, nothing moved by more than a millimetre. Ends with 77 where SHARED is not there.

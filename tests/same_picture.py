@@ -3,7 +3,7 @@
 
   tests/same_picture.py --wrlkit build/release/wrlkit
 
-Draws worlds before and after, reads the pictures with nothing but zlib, and counts pixels that differ.
+Draws worlds before and after, reads the pictures with only zlib, and counts pixels that differ.
 
 - The pump room, `dedup,instance` and `merge`: at most one pixel in a thousand by more than 8 of 255 levels (edges that a millionth of a
   metre moves across the middle of a pixel), 0.05 levels in the mean. The surface may deviate by the tolerance of `instance`.

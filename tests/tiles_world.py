@@ -4,7 +4,7 @@
   tests/tiles_world.py --wrlkit build/release/wrlkit [--parts 400] [--rounds 120]
 
 Makes a world of named boxes 5,000 km from the origin and named round parts, writes it as tiles of few triangles, reads tileset.json and the
-tiles with nothing but the struct module, and has `wrlkit diff` measure each coarse tile against the full ones that it stands for.
+tiles with only the struct module, and has `wrlkit diff` measure each coarse tile against the full ones that it stands for.
 """
 import argparse
 import json

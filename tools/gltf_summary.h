@@ -1,4 +1,4 @@
-// What is told of a glTF file that was written.
+// What is printed about a glTF file that was written.
 #pragma once
 #include <string>
 

@@ -1,4 +1,4 @@
-// The command line. Which words it knows is in cli.cpp, what a verb does is in its own file.
+// The command line. The keywords it knows are in cli.cpp, what a verb does is in its own file.
 #include "tools/cli/cli.h"
 #include "tools/cli/python_passes.h"
 

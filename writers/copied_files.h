@@ -15,7 +15,7 @@
 
 namespace wrlkit {
 
-/// What is copied besides sounds, programs and other worlds.
+/// What is copied in addition to sounds, programs and other worlds.
 struct CopiedKinds {
   bool textures = true;  // of ImageTexture
   bool pictures = true;  // others

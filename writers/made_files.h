@@ -1,4 +1,4 @@
-// Files that passes have made (Resources::made), beside the world that refers to them: room.wrl has room.baked_0.png.
+// Files that passes have made (Resources::made), next to the world that refers to them: room.wrl has room.baked_0.png.
 #pragma once
 #include <filesystem>
 #include <set>
@@ -17,7 +17,7 @@ std::filesystem::path stem_of(const std::string& output);
 
 class MadeFiles {
  public:
-  /// Of the world that is written to `output`; "-": it has nothing beside it.
+  /// Made files of the world that is written to `output`; "-": there are no files next to it.
   MadeFiles(const Scene& scene, const Resources& resources, std::string output, Diagnostics& diag);
 
   /// The url under which the world that is written finds a file that was made; it will be written. Other urls stay as

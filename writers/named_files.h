@@ -24,7 +24,7 @@ class NamedFiles {
   std::vector<OutputFile> files_;
 };
 
-/// Both, for those who write nothing else.
+/// Both, for callers that write nothing else.
 bool write_named_files(Resources&, Diagnostics&);
 
 }  // namespace wrlkit

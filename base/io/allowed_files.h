@@ -27,7 +27,7 @@ class AllowedFiles {
   void allow_linked(const std::string& folder, const std::string& top);
 
   /// Looks for `path`, which is relative to the folder of the file `referrer`: exactly; then without regard to case;
-  /// then its last name beside the referrer (`repaired`). Only regular files count. `outside`: it exists, but neither
+  /// then its last name next to the referrer (`repaired`). Only regular files count. `outside`: it exists, but neither
   /// it nor what a symbolic link leads to lies below one of the folders.
   Result find(const std::string& path, const std::string& referrer);
 
@@ -45,7 +45,7 @@ class AllowedFiles {
   std::unordered_map<std::string, std::map<std::string, std::string>> listings_;  // folder: lower-case name to name
 };
 
-/// What was asked for, and what it has led to: who asks again finds out whether it still does.
+/// What was asked for, and what it has led to: asking again shows whether it still does.
 struct FileLookup {
   std::string referrer, url;
   AllowedFiles::Result result;

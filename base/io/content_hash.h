@@ -14,7 +14,7 @@ struct ContentHash {
 };
 
 ContentHash hash_of(std::string_view bytes);
-/// Of a regular file, read in pieces; nothing when it cannot be read.
+/// The hash of a regular file, read in pieces; nothing when it cannot be read.
 std::optional<ContentHash> hash_of_file(const std::string& path);
 /// What hex() gave; all zero when it is none.
 ContentHash hash_from(std::string_view hex);

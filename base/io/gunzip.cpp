@@ -48,7 +48,7 @@ class Unpacker {
     return z_.avail_in > 0;
   }
 
-  /// One member; false when there is no going on after it.
+  /// One member; false when reading cannot go on after it.
   bool member() {
     for (int status = Z_OK; status != Z_STREAM_END;) {
       if (!refill()) {

@@ -29,7 +29,7 @@ struct Gunzip {
 inline bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 /// Unpacks all members of gzip data; `head` is what was read of them already. What could be unpacked is in `out`,
-/// whatever the state. Zeros behind the last member, with which tapes and some servers pad files, are no damage.
+/// whatever the state. Zeros behind the last member, with which tapes and some servers pad files, are harmless.
 Gunzip gunzip(std::string_view head, const ReadMore&, const GunzipLimits&, BufferBuilder& out);
 
 }  // namespace wrlkit

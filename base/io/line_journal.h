@@ -1,4 +1,4 @@
-// What has been done, a line a thing, in a file. A line is written at once behind the last one and nothing is ever
+// What has been done, one line each, in a file. A line is written at once behind the last one and nothing is ever
 // changed, so whatever ends a run leaves whole lines and at most one half, which its reader does not take for one.
 #pragma once
 #include <functional>
@@ -26,7 +26,7 @@ class LineJournal {
   int fd_;
 };
 
-/// Every line of every file journal-*.jsonl of a folder, in order; the file that was written last has the last word.
+/// Every line of every file journal-*.jsonl of a folder, in order; the file that was written last wins.
 /// Memory: one line.
 void read_journal_lines(const std::string& folder, const std::function<void(const std::string&)>& take);
 

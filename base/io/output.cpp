@@ -87,11 +87,11 @@ fs::path behind_links(const std::string& path) {
 struct OutputFile::State {
   enum Kind { replace, standard_output, direct };
 
-  std::string name;  // as the user said it
+  std::string name;  // as the user gave it
   const FilesRead* inputs = nullptr;
   bool is_input = false;
   fs::path target;
-  fs::path temporary;  // where the file system knows no files without a name
+  fs::path temporary;  // where the file system does not support files without a name
   Kind kind = replace;
   std::optional<struct stat> replaced;
   Descriptor fd;

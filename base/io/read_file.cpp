@@ -42,7 +42,7 @@ class File {
   int error() const { return error_; }
   bool is_regular() const { return S_ISREG(stat_.st_mode); }
   bool is_device() const { return S_ISCHR(stat_.st_mode) || S_ISBLK(stat_.st_mode); }
-  /// Size as far as it is known beforehand. Files below /proc are regular and say 0.
+  /// Size as far as it is known beforehand. Files below /proc are regular and report 0.
   std::uint64_t size() const { return is_regular() ? static_cast<std::uint64_t>(stat_.st_size) : 0; }
 
   /// Reads up to n bytes; fewer only at the end or after an error.
@@ -213,7 +213,7 @@ std::optional<FileText> read_file(const std::string& path, const ReadLimits& lim
 }
 
 std::optional<std::string> read_bytes(const std::string& path, std::uint64_t limit, std::string& why) {
-  File file(path, O_NONBLOCK);  // a pipe would wait for somebody who writes to it
+  File file(path, O_NONBLOCK);  // a pipe would wait for a writer
   if (file.error()) {
     why = reason(file.error());
     return std::nullopt;

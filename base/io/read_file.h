@@ -1,4 +1,4 @@
-// A whole file as one text: read once, unzipped when its first bytes say gzip (the name does not matter), and
+// A whole file as one text: read once, unzipped when its first bytes are those of gzip (the name does not matter), and
 // registered with the sources that messages point into. The text need not be kept for that: a message reads the file
 // again.
 #pragma once
@@ -42,7 +42,7 @@ inline constexpr std::string_view standard_input = "-", standard_input_name = "<
 /// unpacked is used, which is reported. Peak memory: the text, and a quarter more while gzip data or a pipe is read.
 std::optional<FileText> read_file(const std::string& path, const ReadLimits&, Diagnostics&);
 
-/// The bytes of a regular file as they are, of no more than `limit`; else why not.
+/// The bytes of a regular file as they are, of no more than `limit`; otherwise why not.
 std::optional<std::string> read_bytes(const std::string& path, std::uint64_t limit, std::string& why);
 
 /// "4 GiB", "64 MiB", "1500 bytes": sizes in messages.

@@ -1,4 +1,4 @@
-// Names of files as what refers to them says them.
+// Names of files as references to them write them.
 #pragma once
 #include <string>
 #include <string_view>

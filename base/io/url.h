@@ -1,4 +1,4 @@
-// What the urls of VRML files mean, as far as that can be told without looking at files. Exporters on other systems
+// What the urls of VRML files mean, as far as that can be known without looking at files. Exporters on other systems
 // wrote many of them, so backslashes, drive letters and file names that were never percent-encoded are understood.
 #pragma once
 #include <optional>

@@ -1,4 +1,4 @@
-// A turn as VRML says it.
+// A rotation as VRML writes it.
 #pragma once
 #include <cmath>
 

@@ -62,7 +62,7 @@ struct BoxOf {
 using Box2 = BoxOf<double, 2>;
 using Box = BoxOf<double, 3>;
 
-/// Of points, N numbers each.
+/// The box of points, N numbers each.
 template <std::size_t N, class T>
 BoxOf<T, N> box_of(std::span<const T> numbers) {
   BoxOf<T, N> box;

@@ -32,7 +32,7 @@ inline double to_15_digits(double v) {
   return v + 0.0;
 }
 
-/// Of every number of an array.
+/// The same for every number of an array.
 template <class Numbers>
 Numbers all_to_15_digits(Numbers numbers) {
   for (double& v : numbers) v = to_15_digits(v);

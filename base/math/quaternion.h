@@ -28,7 +28,7 @@ inline Quaternion quaternion_of(const Vec4& axis_angle) {
   return {axis_angle[0] * s, axis_angle[1] * s, axis_angle[2] * s, std::cos(axis_angle[3] / 2)};
 }
 
-/// From a to b at a constant speed, by the way that the signs of the two say.
+/// From a to b at a constant speed, along the way given by the signs of the two.
 inline Quaternion slerp(const Quaternion& a, const Quaternion& b, double t) {
   const double angle = std::acos(std::fmin(std::fmax(dot(a, b), -1.0), 1.0)), s = std::sin(angle);
   const double wa = s > 1e-9 ? std::sin((1 - t) * angle) / s : 1 - t, wb = s > 1e-9 ? std::sin(t * angle) / s : t;

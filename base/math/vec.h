@@ -20,7 +20,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 /// Without overflow and underflow; `fast_length` is what inner loops use.
 inline double length(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
 inline double fast_length(const Vec3& a) { return std::sqrt(dot(a, a)); }
-/// Of length 1; the zero vector stays as it is.
+/// The vector with length 1; the zero vector stays as it is.
 inline Vec3 unit(const Vec3& a) {
   const double l = length(a);
   return l > 0 ? Vec3{a[0] / l, a[1] / l, a[2] / l} : a;

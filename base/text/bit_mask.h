@@ -1,11 +1,11 @@
-// An SFBitMask of VRML 1.0 is the text of its words, "SIDES|BOTTOM", without blanks and parentheses.
+// An SFBitMask of VRML 1.0 is the text of its keywords, "SIDES|BOTTOM", without blanks and parentheses.
 #pragma once
 #include <algorithm>
 #include <string_view>
 
 namespace wrlkit {
 
-/// Calls f(std::string_view) for each word.
+/// Calls f(std::string_view) for each keyword.
 template <class F>
 void for_each_bit(std::string_view mask, F&& f) {
   while (!mask.empty()) {
@@ -15,7 +15,7 @@ void for_each_bit(std::string_view mask, F&& f) {
   }
 }
 
-/// Whether a mask has that word, or ALL.
+/// Whether a mask has that keyword, or ALL.
 inline bool has_bit(std::string_view mask, std::string_view word) {
   bool found = false;
   for_each_bit(mask, [&](std::string_view w) { found |= w == word || w == "ALL"; });

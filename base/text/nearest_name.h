@@ -1,4 +1,4 @@
-// What somebody may have meant who wrote a name that nothing has.
+// What may have been meant by a name that does not exist.
 #pragma once
 #include <string>
 #include <string_view>

@@ -37,7 +37,7 @@ inline void xml_attribute_text(TextOut& out, std::string_view s) {
 }
 
 /// Into text, or an attribute between quotation marks, of XML or HTML. Control characters that XML cannot hold become
-/// blanks; those that it can stay, and are blanks to who reads an attribute.
+/// blanks; those that it can stay, and are blanks to readers of an attribute.
 inline std::string xml_text(std::string_view s) {
   std::string out;
   for (char c : s) switch (c) {

@@ -79,7 +79,7 @@ Json extensions_as_tinygltf_has_them(const Json& value) {
 bool is_same(const Json& a, const Json& b) { return nlohmann::json(a) == nlohmann::json(b); }
 
 /// Gives an element of the JSON that tinygltf has written its extras and extensions back as they were before it read
-/// them, where nobody has changed them since.
+/// them, where they have not been changed since.
 template <class Element>
 void restore(Json& json, const Element& element) {
   if (!element.extras_json_string.empty()) {

@@ -31,7 +31,7 @@ std::optional<tinygltf::Model> to_tinygltf(const Scene&, const GltfOptions&, Res
 ///
 /// Of extras and unknown extensions, a model holds less than the file does: tinygltf 2.7 drops empty objects, empty
 /// arrays and null, sorts the members of objects by name and cuts integers to 32 bits. Where it was loaded with
-/// SetStoreOriginalJSONForExtrasAndExtensions, as to_tinygltf does, extras that nobody has changed since are taken
+/// SetStoreOriginalJSONForExtrasAndExtensions, as to_tinygltf does, extras that have not changed since are taken
 /// from there, without loss.
 std::unique_ptr<World> from_tinygltf(const tinygltf::Model&, const ReadOptions&, Diagnostics&);
 

@@ -1,6 +1,6 @@
 """One X3D document for each node type of X3D, every field away from its default, made from the node table as nodes.py does.
 
-The text is written here from the same values: attributes for what is no node, elements with containerField for what is.
+The text is written here from the same values: attributes for plain values, elements with containerField for nodes.
 """
 from xml.sax.saxutils import escape
 

@@ -17,7 +17,7 @@ double equal_area_factor(double angle);
 
 bool is_whole(double angle);
 
-/// Of the sphere that a spherical dish is cut from.
+/// The radius of the sphere that a spherical dish is cut from.
 double sphere_radius(const DishForm& f);
 
 /// For each wall of a prism the normals at its two ends, which are equal where the edge there is sharp.

@@ -26,7 +26,7 @@ int chords(double radius, double angle, double tolerance) {
 
 int around(double radius, double tolerance) { return std::max(3, chords(radius, 2 * pi, tolerance)); }
 
-/// Of a circle and a polygon with those sides: the farther of the middles of the sides and the corners.
+/// The distance of a circle and a polygon with those sides: the farther of the middles of the sides and the corners.
 double circle_error(double radius, int segments, bool equal_area) {
   const double r = radius * (equal_area ? equal_area_factor(segments) : 1);
   return std::max(radius - r * std::cos(pi / segments), r - radius);

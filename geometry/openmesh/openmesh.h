@@ -35,7 +35,7 @@ struct ToOpenMesh {
 /// Vertices are the positions that faces use, in the order in which corners first use them; faces keep their order and
 /// their first corner. A corner's normal, colour (opaque where there is no alpha) and texture coordinate stand at the
 /// half-edge that leads to it, where the mesh has them. `ccw` is not resolved: faces turn as their corners do. The mesh
-/// must be one of faces, and its indices those of existing values. O(corners), but for points of up to
+/// must be one of faces, and its indices those of existing values. O(corners), except for points of up to
 /// FaceAdder::most_faces_of_a_point faces, where it is the square of these. Prints nothing: turns off OpenMesh's own
 /// error stream.
 ToOpenMesh to_openmesh(const Mesh&, bool attributes = true);

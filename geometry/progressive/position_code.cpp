@@ -24,7 +24,7 @@ double parsed(const char* begin, const char* end) {
   return x;
 }
 
-/// Printed with so many significant digits and read again. Halfway between two, the even one is printed.
+/// Printed with that many significant digits and read again. Halfway between two, the even one is printed.
 double printed_and_read(float f, int digits) {
   char text[40];
   return parsed(text, std::to_chars(text, std::end(text), double{f}, std::chars_format::scientific, digits - 1).ptr);

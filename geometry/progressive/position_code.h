@@ -20,12 +20,12 @@ class PositionCode {
   explicit PositionCode(std::uint8_t kind);
 
   std::uint8_t kind() const { return kind_; }
-  /// The nearest value that can be said.
+  /// The nearest value that can be expressed.
   double nearest(double x) const;
   /// Whether that is x, bit for bit.
   bool holds(double x) const;
   void write(ByteWriter& out, double x, double predicted) const;
-  /// Nothing when it is no finite number, or too large a whole one.
+  /// Nothing when it is not a finite number, or too large a whole one.
   std::optional<double> read(ByteReader& in, double predicted) const;
 
  private:

@@ -12,7 +12,7 @@ namespace {
 using Record = ProgressiveRecord;
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// The nearest float that is not less: what is said of an error stays true.
+/// The nearest float that is not less: so a stated error stays true.
 float rounded_up(double x) {
   constexpr float largest = std::numeric_limits<float>::max();
   if (!(x < largest)) return largest;

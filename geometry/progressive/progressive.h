@@ -8,7 +8,7 @@
 //
 // Vertices, wedges (a vertex with one set of attribute values) and faces are numbered in the order in which they
 // appear: those of the base, then those of each split. So a state is a prefix of each list, and what a split gives is
-// not stored as numbers. What a vertex or face was called in the original is kept beside it.
+// not stored as numbers. What a vertex or face was called in the original is kept next to it.
 //
 // The original comes back with its faces, corners and positions in their order, bit for bit, but for what the Collapser
 // drops: faces with a repeated position, and positions that no face uses (the numbers close up). Each corner has its
@@ -56,7 +56,7 @@ struct ProgressiveRecord {
     std::size_t end_of_faces, end_of_corners, end_of_wedges;  // of its entries, which begin where the last split's end
   };
 
-  Mesh flags;                                     // without arrays: what the original says of its faces
+  Mesh flags;                                     // without arrays: the original's flags of its faces
   int n_normal = 0, n_color = 0, n_texcoord = 0;  // floats of each in a row of values, 0: not present
 
   std::size_t n_base_vertices = 0, n_base_wedges = 0, n_base_faces = 0;

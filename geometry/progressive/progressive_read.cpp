@@ -9,7 +9,7 @@ namespace {
 using namespace simplify;
 using Record = ProgressiveRecord;
 
-constexpr std::uint64_t most = 1u << 30;  // of anything: three corners of so many faces have numbers of 32 bits
+constexpr std::uint64_t most = 1u << 30;  // of anything: three corners of that many faces have numbers of 32 bits
 
 /// What is wrong with the bytes, thrown within this file only.
 struct Fault {

@@ -16,7 +16,7 @@ namespace split_bits {
 constexpr std::uint8_t n_faces = 3;  // 3: and more, whose number follows
 constexpr std::uint8_t moves = 4;    // the vertex that is split
 constexpr std::uint8_t better = 8;   // the error falls
-constexpr std::uint8_t wedges = 16;  // the wedges of the corners that go are said one by one
+constexpr std::uint8_t wedges = 16;  // the wedges of the corners that go are listed one by one
 constexpr std::uint8_t values = 32;  // wedges that stay get other values
 }  // namespace split_bits
 
@@ -55,7 +55,7 @@ class Replay {
     last_[vertex] = c;
     next_[c] = none;
   }
-  /// Of two neighbours of a corner in its face: 0 the next, 1 the one before.
+  /// One of the two neighbours of a corner in its face: 0 the next, 1 the one before.
   static std::uint32_t neighbour(std::uint32_t c, std::uint32_t side) { return c - c % 3 + (c % 3 + 1 + side) % 3; }
   /// Where the vertex that a split makes is expected: opposite to where the other one goes, seen from where both were.
   static double opposite(double both, double other) { return 2 * both - other; }

@@ -28,7 +28,7 @@ ProgressiveStream write_progressive(const ProgressiveRecord& record);
 
 struct ProgressiveRead {
   std::optional<ProgressiveRecord> record;  // nothing: see `error`
-  bool complete = false;  // the original is there; else the bytes end before, and the record with them
+  bool complete = false;  // the original is there; otherwise the bytes end before, and the record with them
   std::string error;
 };
 

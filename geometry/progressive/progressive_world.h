@@ -27,7 +27,7 @@ struct ProgressiveSurface {
   ProgressiveStream stream;
 };
 
-/// Of what is shown of a scene without prototypes and Inlines: the chosen children of Switch, the first levels of LOD.
+/// For what is shown of a scene without prototypes and Inlines: the chosen children of Switch, the first levels of LOD.
 /// Left out are lines and points. The meshes are in memory all together. `criterion` is one that keeps a record.
 std::vector<ProgressiveSurface> progressive_surfaces(const Scene& scene, Criterion criterion, Task& ctx);
 

@@ -16,7 +16,7 @@ using Record = ProgressiveRecord;
 
 constexpr std::size_t bytes_between_cuts = 4096;
 
-/// Of the original.
+/// The positions of the original.
 std::vector<Record::Point> final_positions(const Record& record) {
   std::vector<Record::Point> out;
   for (const auto& v : record.vertices) out.push_back(v.position);
@@ -68,7 +68,7 @@ class Writer {
       out_.number(n);
   }
 
-  /// Of the original: smallest x, y, z and largest, rounded outwards.
+  /// The bounds of the original: smallest x, y, z and largest, rounded outwards.
   void bounds() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Box box;

@@ -140,7 +140,7 @@ bool Reader::closed() {
   return true;
 }
 
-/// Rectangles that turn around an axis; open ends are told from closed ones.
+/// Rectangles that turn around an axis; open ends are distinguished from closed ones.
 bool Reader::flat_torus() {
   const std::size_t n = run_.rings.size();
   if (n < 3 || run_.rings[0].at.size() != 4 || run_.rings.back().apex) return false;
@@ -254,7 +254,7 @@ void Reader::in_pieces() {
     i = std::max(j, i + 1);
   }
   out_.forms.insert(out_.forms.end(), dishes.begin(), dishes.end());
-  // What falls to pieces ring by ring is no run of forms but a turned part.
+  // What falls to pieces ring by ring is not a run of forms but a turned part.
   const std::size_t n = out_.forms.size();
   if (missed > 0 || (n > 4 && 5 * n > 3 * run_.bands.size())) out_ = {};
 }

@@ -31,7 +31,7 @@ Vec2 in_frame(const Matrix& m, const Vec3& p) {
   return {q[0] * m(0, 0) + q[1] * m(1, 0) + q[2] * m(2, 0), q[0] * m(0, 2) + q[1] * m(1, 2) + q[2] * m(2, 2)};
 }
 
-/// Of a polygon that its corners run around: as a vector whose length is twice the area.
+/// The area of a polygon, as a vector that its corners run around; its length is twice the area.
 Vec3 area_of(const Ring& r) {
   Vec3 out{};
   for (std::size_t c = 0; c < r.at.size(); ++c)
@@ -95,7 +95,7 @@ std::vector<Vec2> corners_of(std::vector<Vec2> p, bool reversed, double toleranc
   return out;
 }
 
-/// Of the points of rings, from the points of a RingForm: outer low, outer high, inner low, inner high.
+/// The largest distance of points of rings from the points of a RingForm: outer low, outer high, inner low, inner high.
 double farthest_point(const Form& form, std::span<const Ring> low, std::span<const Ring> high) {
   Mesh mesh;
   tessellate_form(form, {}, mesh);

@@ -32,7 +32,7 @@ struct Axis {
   int turn = 1;
 };
 
-/// Of rings around one axis: from the first to the last of them. Long runs by their middles, short ones by their
+/// The axis of rings around it: from the first to the last of them. Long runs by their middles, short ones by their
 /// planes.
 Axis axis_of(std::span<const Ring> rings) {
   const Vec3 along = rings.back().centre - rings.front().centre;
@@ -65,7 +65,7 @@ bool all_round(std::span<const Ring> rings) {
   return std::ranges::all_of(rings, [](const Ring& r) { return r.round; });
 }
 
-/// Of rings that lie between the ends of straight walls.
+/// The residual of rings that lie between the ends of straight walls.
 std::optional<double> straight_residual(const Form& form, std::span<const Ring> rings, int turn, double tolerance) {
   const Points points(form);
   const std::size_t n = rings[0].at.size();

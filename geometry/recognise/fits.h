@@ -40,7 +40,7 @@ std::optional<Fit> fit_prism(std::span<const Ring> rings, const Tolerances& tole
 /// for others.
 bool become_square_bar(Form& form, const Vec3& axis, double tolerance);
 std::optional<Fit> fit_pyramid(std::span<const Ring> rings, const Tolerances& tolerances);
-/// Of several loops, the first of which is the outer one: from their lower to their upper rings.
+/// For several loops, the first of which is the outer one: from their lower to their upper rings.
 std::optional<Fit> fit_hollow(std::span<const Ring> low, std::span<const Ring> high, const Tolerances& tolerances);
 /// Four rings around one axis, the last next to the first.
 std::optional<Fit> fit_closed_ring(std::span<const Ring> rings, const Tolerances& tolerances);

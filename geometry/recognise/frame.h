@@ -33,7 +33,7 @@ inline Vec3 any_perpendicular(const Vec3& axis) {
 /// Sums the directions in which the first point of a regular polygon lies, as each of its points has it.
 class Phase {
  public:
-  /// `turn`: 1 when the columns run anticlockwise around the axis, else -1.
+  /// `turn`: 1 when the columns run anticlockwise around the axis, otherwise -1.
   Phase(const Vec3& axis, int turn) : u_(any_perpendicular(axis)), w_(cross(axis, u_)), turn_(turn) {}
 
   void add(std::span<const Vec3> points, const Vec3& centre) {

@@ -20,7 +20,7 @@ class Pieces {
   bool next(Piece& piece);
   /// What the points of the last part are around, in whole steps.
   const Vec3& origin() const { return origin_; }
-  /// Faces that no part has, for they have no area.
+  /// Faces that are in no part, as they have no area.
   const std::vector<std::uint32_t>& empty_faces() const { return empty_; }
 
  private:

@@ -31,7 +31,7 @@ struct Recognition {
 };
 
 /// Finds forms among the faces of a mesh of polygons or triangles: loose or welded, one part or many, faces in any
-/// order. Parts are told apart by edges that no two faces share; a pipe run in one piece is cut at its rings. Positions
+/// order. Parts are separated by edges that no two faces share; a pipe run in one piece is cut at its rings. Positions
 /// are compared exactly.
 ///
 /// Linear in the corners. One thread.

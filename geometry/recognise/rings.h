@@ -14,7 +14,7 @@ enum class ChainEnd : std::uint8_t { open, cap, apex, closed };
 /// Columns run through all rings: point c of a ring is next to point c of the ones before and behind. Seen against the
 /// direction from ring to ring (`facing` off: along it) the columns run anticlockwise where faces point outwards.
 struct Chain {
-  std::vector<std::vector<std::uint32_t>> rings;  // points; an apex is no ring
+  std::vector<std::vector<std::uint32_t>> rings;  // points; an apex is not a ring
   std::uint32_t first_apex = none, last_apex = none;
   ChainEnd first = ChainEnd::open, last = ChainEnd::open;
   std::vector<std::vector<std::uint32_t>> bands;       // faces between ring i and i + 1
@@ -39,7 +39,7 @@ class RingWalk {
   /// All loops around a planar region, each as half-edges whose faces are outside. None when a border is among them.
   std::vector<std::vector<std::uint32_t>> loops_around(std::uint32_t region) const;
 
-  /// The chain from a start to where it ends; nothing when a band is no band.
+  /// The chain from a start to where it ends; nothing when a band is not one.
   std::optional<Chain> walk(const Start& start) const;
 
  private:

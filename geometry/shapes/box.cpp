@@ -9,7 +9,7 @@
 namespace wrlkit {
 namespace {
 
-// The directions in which S and T grow on a face: what is right and up in the picture for one who looks at it from
+// The directions in which S and T grow on a face: what is right and up in the picture for a viewer looking from
 // outside. Their cross product is the normal. Up on the top is -Z, on the bottom +Z, elsewhere +Y.
 struct BoxFace {
   Vec3 right, up, normal;

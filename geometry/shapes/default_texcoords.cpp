@@ -7,7 +7,7 @@
 namespace wrlkit {
 namespace {
 
-/// Of its length, which could overflow.
+/// Half of the length, as the length itself could overflow.
 double half(const Box& b, std::size_t axis) { return b.high[axis] / 2 - b.low[axis] / 2; }
 
 Box box_of_corners(const Mesh& mesh) {

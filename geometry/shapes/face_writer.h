@@ -33,7 +33,7 @@ class FaceWriter {
     mesh_.face_begin.push_back(end);
   }
 
-  /// To be called once, at the end: face_begin says nothing of triangles.
+  /// To be called once, at the end: face_begin does not list triangles.
   void finish() {
     if (triangles_) mesh_.face_begin.clear();
   }

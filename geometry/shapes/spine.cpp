@@ -47,7 +47,7 @@ class Spine {
   }
 
  private:
-  // Neighbours of a point; those of the ends lie across the seam when the spine is closed, else the end stands for
+  // Neighbours of a point; those of the ends lie across the seam when the spine is closed, otherwise the end stands for
   // itself.
   const Vec3& before(std::size_t i) const { return p_[i > 0 ? i - 1 : closed_ ? n_ - 2 : 0]; }
   const Vec3& after(std::size_t i) const { return p_[i + 1 < n_ ? i + 1 : closed_ ? 1 : n_ - 1]; }

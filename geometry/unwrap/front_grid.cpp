@@ -5,7 +5,7 @@
 namespace wrlkit::unwrap {
 namespace {
 
-/// Whether one of the sides of `a` has all of `b` beyond it. Touching is no overlap, nor is what rounding makes of it.
+/// Whether one of the sides of `a` has all of `b` beyond it. Touching is not overlap, nor is what rounding makes of it.
 bool parted_by_side(const Triangle2& a, const Triangle2& b) {
   constexpr double slack = 1e-4;
   for (int k = 0; k < 3; ++k) {

@@ -11,7 +11,7 @@ namespace {
 
 using wrlkit::cross, wrlkit::dot;
 
-constexpr double thin = 1e-5;  // height by longest side, below which single precision knows no front
+constexpr double thin = 1e-5;  // height by longest side, below which single precision cannot tell the front
 constexpr double too_large = 1e18;
 
 Vec3 position_at(const UnfoldInput& in, std::uint32_t i) {

@@ -28,7 +28,7 @@ class Links {
   std::uint32_t mate(std::uint32_t corner) const { return mate_[corner]; }
   /// Whether the neighbour there lies in the same plane.
   bool flat(std::uint32_t corner) const { return cosine(corner / 3, mate_[corner] / 3) > same_plane; }
-  /// Of the angle between the fronts of two triangles; one without a front agrees with any.
+  /// The cosine of the angle between the fronts of two triangles; one without a front agrees with any.
   double cosine(std::uint32_t t, std::uint32_t u) const;
   void cut(std::uint32_t corner) {
     mate_[mate_[corner]] = none;

@@ -54,7 +54,7 @@ void turn_quarter(const Bitmap& from, Bitmap& to) {
   });
 }
 
-/// Rows from all over the height come first: neighbouring ones are blocked by the same things.
+/// Rows from all over the height come first: neighbouring ones are blocked by the same pieces.
 void Mask::make(const Bitmap& bitmap) {
   width = bitmap.width();
   height = bitmap.height();

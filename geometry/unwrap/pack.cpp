@@ -311,7 +311,7 @@ int power_of_two(double n) {
   return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(1., std::ceil(n)))));
 }
 
-/// One page if it can be, as small as can be; else pages of the largest side.
+/// One page if it can be, as small as can be; otherwise pages of the largest side.
 Atlas fill(Packer& p, const PackOptions& options) {
   double texels = p.area() + p.perimeter() * (options.padding + 0.5) + p.pieces() * options.padding * options.padding;
   double wanted = std::max(std::sqrt(texels), p.longest()), most = options.max_side;

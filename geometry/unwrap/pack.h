@@ -11,7 +11,7 @@ namespace wrlkit::unwrap {
 struct PackItem {
   const Charts* charts = nullptr;
   double density = 1;        // texels per metre
-  std::uint32_t copies = 1;  // more than one: the charts keep their mutual places, and all of them are placed so many
+  std::uint32_t copies = 1;  // more than one: the charts keep their mutual places, and all of them are placed that many
                              // times, as one piece
 };
 

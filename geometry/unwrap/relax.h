@@ -8,7 +8,7 @@
 
 namespace wrlkit::unwrap {
 
-/// Of a triangle laid at `t` that has that shape: the largest and the smallest factor of its lengths. The smallest is
+/// For a triangle laid at `t` that has that shape: the largest and the smallest factor of its lengths. The smallest is
 /// negative when it is mirrored.
 struct Stretch {
   double most = 1, least = 1;

@@ -17,7 +17,7 @@ struct Numbers {
 
 class Accessors {
  public:
-  /// Of accessors without data, which are all zero: a few bytes can claim any number of them.
+  /// The limit for accessors without data, which are all zero: a few bytes can claim any number of them.
   static constexpr std::uint64_t max_zeros = 50'000'000;
 
   Accessors(File& file, Buffers& buffers) : file_(file), buffers_(buffers) {}

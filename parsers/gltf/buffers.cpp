@@ -110,7 +110,7 @@ bool Buffers::unpack(Json json, View& v) {
   auto packed = slice(json);
   if (!packed) return false;
   const auto count = json["count"].whole().value_or(0), stride = json["byteStride"].whole().value_or(0);
-  // No mode packs more than 64 to 1, but for its tail: what claims more is damaged, and must not cost memory.
+  // No mode packs more than 64 to 1, except for its tail: what claims more is damaged, and must not cost memory.
   const bool likely =
       stride > 0 && stride <= 256 && count <= max_bytes / stride && count * stride <= 256 * (packed->size() + 256);
   if (likely && !spend(count * stride, json)) return false;

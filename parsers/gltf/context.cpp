@@ -9,7 +9,7 @@
 namespace wrlkit::gltf_reader {
 namespace {
 
-/// ISO/IEC 14772-1, A.3: characters of a name; the first is no digit or sign either.
+/// ISO/IEC 14772-1, A.3: characters of a name; the first is not a digit or sign either.
 bool in_name(unsigned char c) {
   return c > ' ' && c != 0x7f && std::string_view("\"#',.[\\]{}").find(static_cast<char>(c)) == std::string_view::npos;
 }

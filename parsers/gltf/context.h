@@ -1,4 +1,4 @@
-// What the parts of the reader share: the file, the scene that grows, and what VRML has no word for.
+// What the parts of the reader share: the file, the scene that grows, and what VRML cannot express.
 #pragma once
 #include <cmath>
 #include <map>
@@ -9,14 +9,14 @@
 
 namespace wrlkit::gltf_reader {
 
-/// What is left out, by name, said in one message; and what is kept of it as text, for a WorldInfo.
+/// What is left out, by name, reported in one message; and what is kept of it as text, for a WorldInfo.
 class Lost {
  public:
-  /// Of texts that are kept, all together.
+  /// The limit for all texts that are kept.
   static constexpr std::size_t max_kept = 1 << 20;
 
   void add(std::string_view what, Span where);
-  /// An element's extras that are not VRML's, and extensions that nobody here knows.
+  /// An element's extras that are not VRML's, and extensions that are not known here.
   void keep(const File&, Json element);
   void report(Diagnostics&) const;
   /// "/materials/3/extensions/KHR_materials_sheen {...}"

@@ -14,7 +14,7 @@ struct DracoAttribute {
   std::vector<double> values;  // filled: width for each vertex, as stored (normalised ones as fractions)
 };
 
-/// Triangles; fills the attributes. Nothing when the bytes are no mesh, or an attribute is not in it.
+/// Triangles; fills the attributes. Nothing when the bytes are not a mesh, or an attribute is not in it.
 std::optional<std::vector<std::uint32_t>> draco_unpack(std::string_view packed, std::span<DracoAttribute> attributes);
 
 }  // namespace wrlkit::gltf_reader

@@ -245,7 +245,7 @@ NodeId Extras::reference(Json j, Children& children) {
   return n;
 }
 
-/// Of a field that no table knows: text, or nodes.
+/// The value of a field that no table knows: text, or nodes.
 std::optional<Value> Extras::unknown(Json j, Children& children) {
   if (j["verbatim"].is_text() || j["IS"].is_text()) return value(FieldType::verbatim, 0, j, children);
   if (j.is_array()) return nodes(FieldType::MFNode, 0, j, children);
@@ -351,7 +351,7 @@ void Extras::routes(Json list, Scope& scope) {
   }
 }
 
-/// False when the one is in the other already. Files that ask this for very many nodes are told no.
+/// False when the one is in the other already. For files that ask this for very many nodes: false.
 bool Extras::may_hold(NodeId owner, NodeId held) {
   constexpr std::size_t most_steps = 50'000'000;
   const auto& t = c_.scene.type(owner);

@@ -1,5 +1,5 @@
 // A glTF file in its parts: the JSON, the binary chunk of a GLB, and the arrays of the JSON by index. References
-// between them are indices that anybody may have written: `element` checks each.
+// between them are indices that may be wrong: `element` checks each.
 #pragma once
 #include <array>
 #include <set>

@@ -2,7 +2,7 @@
 //
 // A node that shows a mesh and stands where it is not moved is a Shape; others are Transforms, those that do not move
 // Groups. A camera or light without children takes translation and rotation into its fields. What wrlkit's writer has
-// kept in extras says which node of VRML it was instead: {} is a helper that VRML needs not, {"USE": n} is the node
+// kept in extras says which node of VRML it was instead: {} is a helper that VRML does not need, {"USE": n} is the node
 // that node n of the file has become.
 //
 // Everything is posed as the file shows it: skins by the transforms of their joints, morph targets by their weights.
@@ -25,9 +25,9 @@ class Hierarchy {
 
   /// All scenes; what the default one shows are the scene's roots, the others stand in a Switch that shows none.
   void build();
-  /// What a node has become; none when it has not.
+  /// What a node has become; none when it has become nothing.
   NodeId made(std::uint32_t node) const { return node < made_.size() ? made_[node] : NodeId{}; }
-  /// Of each node with morph targets, the points that move.
+  /// For each node with morph targets, the points that move.
   const std::map<std::uint32_t, std::vector<Morph>>& morphs() const { return morphs_; }
   /// What a light or camera of the file has become.
   std::vector<NodeId> lights(std::uint32_t light) const { return of(lights_, light); }

@@ -379,7 +379,7 @@ NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {
   return n;
 }
 
-/// Null where VRML cannot say it.
+/// Null where VRML cannot express it.
 NodeId Materials::transform_node(const TexcoordMap& a, Json said) {
   namespace f = nodes::texture_transform;
   const auto fields = texture_transform_of(a);

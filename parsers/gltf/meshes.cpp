@@ -356,7 +356,7 @@ std::vector<std::uint32_t> Meshes::first_vertices(const Primitive& p, const std:
   return out;
 }
 
-/// Of files that keep facts: the names are all that is said of them.
+/// For files that keep facts: of the attributes only the names are kept.
 void Meshes::name_attributes(NodeId n, Json kept) {
   const Json fields = kept[c_.scene.type(n).name];
   for (Json f : fields.is_object() ? fields : Json())

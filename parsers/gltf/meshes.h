@@ -2,7 +2,7 @@
 // a polygon become that polygon again.
 //
 // In files of others every attribute keeps its vertices: Coordinate, Normal, Color and TextureCoordinate have the
-// accessor's values, coordIndex its indices, and who shares an accessor shares the node. In files of wrlkit vertices
+// accessor's values, coordIndex its indices, and a shared accessor is a shared node. In files of wrlkit vertices
 // that were split for their attributes are one point again, and what VRML makes itself (normals from creaseAngle,
 // texture coordinates from the bounding box) is left to it.
 #pragma once
@@ -36,12 +36,12 @@ class Meshes {
   std::vector<std::pair<NodeId, bool>> materials_of(std::uint32_t material) const {
     return materials_.nodes_of(material);
   }
-  /// Of the last call, one for each primitive with targets.
+  /// The morphs of the last call, one for each primitive with targets.
   std::vector<Morph> take_morphs() { return std::move(reader_.morphs()); }
 
  private:
   std::optional<Part> part(const Primitive&, const Pose&);
-  /// Of a mesh with feature ids the parts; none if it has no good ones.
+  /// The parts of a mesh with feature ids; none if it has no valid ones.
   std::vector<Part> features(const Primitive&, const Part& whole);
   NodeId kept_whole(const Primitive&);
   NodeId recognised(const Primitive&);

@@ -6,7 +6,7 @@ namespace wrlkit {
 namespace gltf_reader {
 namespace {
 
-/// JSON is no deeper than JsonDocument::max_depth.
+/// JSON is not deeper than JsonDocument::max_depth.
 void collect(Json value, std::set<std::string>& out) {
   for (Json v : value) {
     if (v.is_text() && (v.key() == "name" || v.key() == "DEF")) out.emplace(v.text());

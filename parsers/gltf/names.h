@@ -9,7 +9,7 @@ namespace wrlkit {
 
 class Diagnostics;
 
-/// Of the bytes of a .glb or .gltf that lies at a path.
+/// The names in the bytes of a .glb or .gltf that lies at a path.
 std::set<std::string> names_in_gltf(std::string_view bytes, const std::string& path, Diagnostics&);
 
 }  // namespace wrlkit

@@ -20,7 +20,7 @@ class PartRows {
   explicit PartRows(const Context& c) : c_(c) {}
 
   const std::vector<PartRow>& rows();
-  /// Is more than one thing in the row: parts, places, other rows? A place that is alone has the name itself.
+  /// Is more than one item in the row: parts, places, other rows? A place that is alone has the name itself.
   bool is_group(std::uint32_t row);
   /// A row has become a node, or a group of nodes.
   void set_made(std::uint32_t row) { made_[row] = 1; }

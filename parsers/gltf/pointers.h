@@ -11,7 +11,7 @@ namespace wrlkit::gltf_reader {
 struct Follower {
   NodeId node;
   std::string_view event;
-  bool color = false;            // three numbers, linear; else one
+  bool color = false;            // three numbers, linear; otherwise one
   std::size_t at = 0;            // the first of them
   double scale = 1, offset = 0;  // of a number
 };

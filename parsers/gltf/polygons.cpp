@@ -51,7 +51,7 @@ struct Hash {
 Polygons polygons_of(std::span<const std::uint32_t> triangles, std::span<const double> runs) {
   Polygons out;
   std::size_t at = 0;
-  auto take = [&](std::size_t n) {  // so many triangles
+  auto take = [&](std::size_t n) {  // n triangles
     auto t = triangles.subspan(at, 3 * n);
     at += 3 * n;
     auto loop = n > 1 ? outline(t) : std::vector<std::uint32_t>{};

@@ -15,7 +15,7 @@ struct Polygons {
   void close() { begin.push_back(static_cast<std::uint32_t>(corners.size())); }
 };
 
-/// `runs` are pairs: so many triangles are one polygon, so often; what they do not cover are triangles. Triangles whose
+/// `runs` are pairs: N triangles are one polygon, M times; what they do not cover are triangles. Triangles whose
 /// outline is not one loop stay triangles. Linear.
 Polygons polygons_of(std::span<const std::uint32_t> triangles, std::span<const double> runs);
 /// Segments that go on where the one before ends.

@@ -63,11 +63,11 @@ class PrimitiveReader {
 
   explicit PrimitiveReader(const Context& c) : c_(c) {}
 
-  /// False, and a message, when it cannot be read. In files of others values of accessors are left to who needs them.
+  /// False, and a message, when it cannot be read. In files of others values of accessors are left to the caller.
   bool load(const Primitive&, const Pose&, const Sets&, Streams&);
   /// Triangles, segments or points, as vertices.
   std::vector<std::uint32_t> elements(const Primitive&, Streams&);
-  /// Of all that was loaded, one for each primitive with targets.
+  /// The morphs of all that was loaded, one for each primitive with targets.
   std::vector<Morph>& morphs() { return morphs_; }
   /// Feature ids of the last primitive, when it was packed by Draco.
   std::vector<double>& unpacked_ids() { return unpacked_ids_; }

@@ -19,7 +19,7 @@ Matrix of_columns(const Vec3& a, const Vec3& b, const Vec3& c) {
   return m;
 }
 
-/// Of a rotation matrix.
+/// The axis and angle of a rotation matrix.
 Vec4 axis_angle_of(const Matrix& m) {
   Quaternion q;
   const double t = m(0, 0) + m(1, 1) + m(2, 2);

@@ -20,10 +20,10 @@ struct Place {
   Matrix matrix() const;
 };
 
-/// Of a node: its matrix taken apart, or translation, rotation and scale. Numbers that are none, or not finite, are
+/// For a node: its matrix taken apart, or translation, rotation and scale. Numbers that are none, or not finite, are
 /// left out.
 Place place_of(Json node);
-/// A Transform can say every matrix: T R SR S -SR is the polar decomposition, whatever its shear and mirroring.
+/// A Transform can express every matrix: T R SR S -SR is the polar decomposition, whatever its shear and mirroring.
 Place place_of(const Matrix&);
 
 }  // namespace wrlkit::gltf_reader

@@ -124,7 +124,7 @@ class PatchParser {
                                   {word::name, word::index},
                                   {word::index, word::v},
                                   {word::v, word::rgb, word::side}};
-    std::uint32_t met = 0;  // of these words
+    std::uint32_t met = 0;  // of these keywords
     for (auto& a : tag.attributes) {
       const auto word = std::ranges::find(known[e], a.name);
       const std::uint32_t bit = 1u << (word - known[e].begin());
@@ -218,7 +218,7 @@ class PatchParser {
     return true;
   }
 
-  /// Of a number of a coordinate.
+  /// Notes the digits of a coordinate.
   void note_digits(std::string_view number) {
     auto& most = set_.printed;
     int decimals = 0, digits = 0, exponent = 0;
@@ -294,7 +294,7 @@ class PatchParser {
   Level levels_[3];
   std::size_t depth_ = 0, skipping_ = 0;
   bool in_shape_ = false, in_triangle_ = false;
-  bool quiet_ = false;  // the tag has a fault that was told
+  bool quiet_ = false;  // the tag has a fault that was reported
 };
 
 std::optional<PatchSet> parse_text(std::string_view text, std::uint32_t base, Diagnostics& diag) {

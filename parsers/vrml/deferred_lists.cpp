@@ -30,7 +30,7 @@ bool read_list(std::string_view text, std::vector<T>& to) {
   }
 }
 
-/// Of one list, one behind the other.
+/// The pieces of one list, one behind the other.
 template <class T>
 const T* joined(std::span<const T> first, std::size_t count, auto&& pieces, Scene& scene) {
   if (pieces.size() == 1) return first.data();
@@ -63,7 +63,7 @@ Value DeferredLists::add(std::string_view list, FieldType type, std::uint16_t sl
   lists_.push_back({node, v, 0});
   const bool real = info(type).element == Element::number;
   while (!list.empty()) {
-    // Cut at a blank. One that is in a comment is no harm, because lists with comments are not for us.
+    // Cut at a blank. One that is in a comment does no harm, because lists with comments are not read here.
     std::size_t n = std::min(list.size(), batch_bytes_);
     while (n < list.size() && class_of(list[n]) != CharClass::blank) ++n;
     add_piece(list.substr(0, n), real);

@@ -26,7 +26,7 @@ class DeferredLists {
   Value add(std::string_view list, FieldType, std::uint16_t slot, NodeId);
   /// The file is to be read otherwise.
   void give_up() { failed_ = true; }
-  /// Whether somebody gave up, or some list turned out to be written otherwise; the parser may stop then.
+  /// Whether a thread gave up, or some list turned out to be written otherwise; the parser may stop then.
   bool failed() const { return failed_; }
   /// Waits, and puts the values into the fields of their nodes. False: failed().
   bool finish(Scene&);

@@ -42,7 +42,7 @@ class Parser : private Values {
   // Nodes.
   bool node_follows(Token name);
   bool node_list_follows();
-  /// nodeStatement, or NULL. None when there is no node; then nothing but a faulty token was consumed.
+  /// nodeStatement, or NULL. None when there is no node; then only a faulty token was consumed.
   NodeId node_statement();
   NodeId node(Token type_name, std::string_view def);
   void node_body(Token opened);
@@ -94,8 +94,8 @@ class Parser : private Values {
   ParseLimits limits_;
   SceneBuilder build_;
   DeferredLists* lists_;
-  const PartRead* part_read_ = nullptr;  // none: nobody wants to know
-  std::uint32_t told_ = 0;               // offset up to which it was told
+  const PartRead* part_read_ = nullptr;  // null: not needed
+  std::uint32_t told_ = 0;               // offset up to which it was reported
   std::vector<NodeId> nodes_, misplaced_;
   std::vector<const Interface*> interfaces_;  // of the prototypes whose bodies are being read
   std::size_t scope_depth_ = 0, open_lists_ = 0;

@@ -46,7 +46,7 @@ bool c_runtime_word(const char* p, const char* end) {
 }
 
 // What CAD programs print most: sign, digits, point, digits, fifteen of them at the most. Both the digits and the power
-// of ten are exact doubles then, so one division rounds correctly. False leaves everything to fast_float.
+// of ten are exact doubles then, so one division rounds correctly. If false, fast_float does everything.
 bool read_plain(const char*& at, const char* end, double& out) {
   const char* p = at;
   bool negative = *p == '-';

@@ -19,7 +19,7 @@ struct Digits {
 
 static_assert(std::endian::native == std::endian::little, "the first digit is the lowest byte");
 
-/// The digits at p, eight of them at the most, added up by pairs. A byte that is no digit is one that exceeds 9 once
+/// The digits at p, eight of them at the most, added up by pairs. A byte that is not a digit is one that exceeds 9 once
 /// '0' is taken from it; what the sum carries beyond it falls into bytes that do not count.
 Digits digits_at(const char* p) {
   std::uint64_t bytes;

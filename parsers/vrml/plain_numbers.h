@@ -6,7 +6,7 @@
 
 namespace wrlkit::vrml {
 
-/// Appends the numbers from `p` up to the first thing that is not written plainly, and returns where that begins; never
+/// Appends the numbers from `p` up to the first that is not written plainly, and returns where that begins; never
 /// behind `end`, and some bytes before it, because bytes are read ahead. Exact, as read_double and read_int32 are.
 const char* read_plain_numbers(const char* p, const char* end, std::vector<double>& to);
 const char* read_plain_numbers(const char* p, const char* end, std::vector<std::int32_t>& to);

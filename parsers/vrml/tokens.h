@@ -38,7 +38,7 @@ class Tokens {
 
   // Messages.
   void expected(std::string_view what, Token found);
-  /// The same, and the token is read again by who comes next.
+  /// The same, and the token is read again by the next call.
   void reject(std::string_view what, Token found) {
     expected(what, found);
     lex_.seek(found.begin);

@@ -30,7 +30,7 @@ bool Values::numbers_value(FieldType type, std::uint16_t slot, std::string_view 
     close_list(first);
     if (!t.multiple) diag_.report(Diag::extra_bracket, span(first), field);
   } else {
-    // One value needs no brackets; more of them in an MF field are a habit of hand-written files.
+    // One value does not need brackets; more of them in an MF field are a habit of hand-written files.
     read_numbers(type, t.multiple ? 0 : t.arity);
   }
   const std::size_t count = real ? numbers_.size() : integers_.size();

@@ -18,10 +18,10 @@ class Values : protected Tokens {
   /// The text of values up to the next name or bracket that ends them. What is left open in it is closed, so that it
   /// can stand before other text.
   std::string verbatim();
-  /// The value a field has when nobody gave one: zeroes and empty lists.
+  /// The value a field has when none is given: zeroes and empty lists.
   Value empty_value(FieldType);
   bool image(FieldType, std::uint16_t slot, Value& out);
-  /// Numbers or booleans into numbers_ or integers_, up to the first thing that is none; `most` at the most (0: all).
+  /// Numbers or booleans into numbers_ or integers_, up to the first other token; `most` at the most (0: all).
   void read_numbers(FieldType, std::size_t most);
   void fix_arity(std::size_t arity, const Value& fallback, std::string_view field, Span where);
 
@@ -35,7 +35,7 @@ class Values : protected Tokens {
   void numbers(std::vector<T>& to, Read read, std::size_t most);
   void booleans(std::size_t most);
   void number_repaired(const char* from, const char* to, double v);
-  /// Behind the values of a list: its ']', or else what is wrong, up to it.
+  /// Behind the values of a list: its ']', or otherwise what is wrong, up to it.
   void close_list(Token opened);
 };
 

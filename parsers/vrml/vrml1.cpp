@@ -59,7 +59,7 @@ class Vrml1Parser : private Values {
   }
 
  private:
-  /// Of the node whose body is read.
+  /// State for the node whose body is read.
   struct Body {
     std::vector<std::pair<std::string_view, FieldType>> own;  // that it describes itself
     std::vector<NodeId> children;                             // of a node that is not known
@@ -245,7 +245,7 @@ void Vrml1Parser::stray() {
 // ---- fields --------------------------------------------------------------------------------------------------------
 
 // fields [ SFFloat width, SFFloat height ]: what follows in the node is of these types. Of nodes of the standard they
-// say what is known.
+// report what is known.
 void Vrml1Parser::own_fields(Body& body) {
   Token open = lex_.next();
   if (open.kind != Kind::open_bracket) {
@@ -297,7 +297,7 @@ void Vrml1Parser::connection(Token name) {
   if (text(dot) == ".") lex_.next();
 }
 
-// As in VRML97: nodes in it are read, anything else is kept as text. A word that is no node and no field can only be a
+// As in VRML97: nodes in it are read, the rest is kept as text. A word that is not a node or a field can only be a
 // value.
 void Vrml1Parser::unknown_field(Token name) {
   const auto& type = build_.current_type();

@@ -14,7 +14,7 @@ namespace wrlkit::x3d {
 
 using Names = std::unordered_set<std::string_view>;
 
-/// The value of a field whose type nobody knows, as VRML would write it: what is no number is a string.
+/// The value of a field whose type is not known, as VRML would write it: what is not a number is a string.
 std::string as_vrml(std::string_view);
 
 class Parser : private AttributeValues {
@@ -29,7 +29,7 @@ class Parser : private AttributeValues {
   void document();
 
  private:
-  /// What is known of an open node beside its type: the fields that a Script declares, and nodes in fields without a
+  /// What is known of an open node besides its type: the fields that a Script declares, and nodes in fields without a
   /// slot.
   struct Element {
     std::string_view name;

@@ -1,4 +1,4 @@
-// X3D inside of a page, as x3dom and x_ite have it: HTML, which is no XML and does not know small letters from
+// X3D inside of a page, as x3dom and x_ite have it: HTML, which is not XML and does not know small letters from
 // capitals.
 #pragma once
 #include <optional>
@@ -13,7 +13,7 @@ struct PageWorld {
 };
 
 /// The first x3d element of a HTML page, as XML: elements and attributes spelled as the node table has them, those
-/// without quotes or value, and handlers of events, blanked. None: the text is no page, or has no such element.
+/// without quotes or value, and handlers of events, blanked. None: the text is not a page, or has no such element.
 /// O(text).
 std::optional<PageWorld> world_of_page(std::string_view text);
 

@@ -46,7 +46,7 @@ class Applying {
     return t.find(name, Dialect::x3d, true);
   }
 
-  /// An interpolator's values, in and out, are one thing; so are the events of a field. The others of the node table
+  /// An interpolator's values, in and out, have one unit; so have the events of a field. The others of the node table
   /// are known.
   Measure* open(NodeId n, std::uint16_t slot) {
     const auto& t = scene_.type(n);
@@ -112,13 +112,13 @@ class Applying {
     return scene_.make(v.type, v.slot, numbers);
   }
 
-  /// Of a + b r + c r^2, where r is a distance.
+  /// The coefficients of a + b r + c r^2, where r is a distance.
   Value attenuation(const Value& v) {
     const auto a = v.number_span();
     return scene_.make(v.type, v.slot, Vec3{a[0], a[1] / units_.length, a[2] / (units_.length * units_.length)});
   }
 
-  /// -1 where the default is -1 says that nothing is said; and what the reader has added, as the default of this
+  /// -1 where the default is -1 means that nothing is given; and what the reader has added, as the default of this
   /// version, is in radians.
   static bool says_nothing(const Value& v, const FieldDef& f) {
     if (f.x3d_from && equal_plain(v, f.x3d_default)) return true;

@@ -139,7 +139,7 @@ bool AttributeValues::numbers_of(FieldType type, std::uint16_t slot, std::string
   return true;
 }
 
-// true and false; the words of the other encoding are read as well.
+// true and false; the keywords of the other encoding are read as well.
 bool AttributeValues::booleans(FieldType type, std::uint16_t slot, std::string_view field, std::string_view attribute,
                                Value& out) {
   integers_.clear();

@@ -37,7 +37,7 @@ struct XmlTree {
   struct Fault {
     std::string what;
     std::size_t at;  // in the text
-    bool lost;       // something that stands there; else all of it was read
+    bool lost;       // something that stands there; otherwise all of it was read
   };
   std::vector<Fault> repaired;  // faults behind which reading went on
   std::string fault;            // that at which it ended; empty: nowhere

@@ -1,4 +1,4 @@
-// What a pass that shares, merges or leaves out has brought: the statistics of the world before and after it.
+// The effect of a pass that shares, merges or removes: the statistics of the world before and after it.
 #pragma once
 #include <string_view>
 

@@ -9,10 +9,10 @@ namespace wrlkit {
 
 struct ToOpenMesh;
 
-/// Whether a pass can have OpenMesh work on the mesh of a job: faces, whose points are nobody else's. When this build
+/// Whether a pass can have OpenMesh work on the mesh of a job: faces, whose points belong to it alone. When this build
 /// has no OpenMesh, that is reported.
 bool is_for_openmesh(MeshJob& job, std::string_view pass);
-/// Positions and faces without attributes; nothing, and a message, when they are no manifold.
+/// Positions and faces without attributes; nothing, and a message, when they are not a manifold.
 std::optional<ToOpenMesh> manifold_of(MeshJob& job, std::string_view pass);
 
 /// Normals are dropped when the surface is another one.

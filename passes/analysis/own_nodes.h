@@ -3,7 +3,7 @@
 //
 // A node is a scope's own when two uses of it can come to differ: when events can reach it (it is an end of a ROUTE,
 // exported, a Script, below a Script, which may change what it holds, an instance of a prototype that has such nodes,
-// or an Inline, whose file nobody has seen yet), when it has an IS, and when it holds a node of that kind.
+// or an Inline, whose file has not been read yet), when it has an IS, and when it holds a node of that kind.
 #pragma once
 #include <functional>
 #include <span>

@@ -1,4 +1,4 @@
-// Nodes are taken by their height: what lies in their fields has been decided before, and counts as who stands for it.
+// Nodes are taken by their height: what lies in their fields has been decided before, and counts as its representative.
 #include "passes/analysis/representatives.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Which nodes say the same, so that one can stand for all of them: materials, textures, geometry and what it is made
+// Which nodes are equal, so that one can stand for all of them: materials, textures, geometry and what it is made
 // of. What stands in the hierarchy (Shapes, groups, lights) is never the same as something else: it can be pointed at.
 #pragma once
 #include <string_view>
@@ -11,15 +11,15 @@ namespace wrlkit {
 
 class Representatives {
  public:
-  /// Of nodes of one scope. Two say the same if they are of one type, and all fields do; nodes in their fields if one
-  /// stands for both. A url says the same only below the same folder. `named`: also nodes with different DEF names.
+  /// For nodes of one scope. Two are equal if they are of one type, and all fields do; nodes in their fields if one
+  /// stands for both. A url is equal only below the same folder. `named`: also nodes with different DEF names.
   ///
-  /// Nobody stands for nodes that events may reach (Usage::touched), nor for those with an IS or with fields that are
+  /// Nothing stands for nodes that events may reach (Usage::touched), nor for those with an IS or with fields that are
   /// not known. A nameless node has one with a name stand for it, if there is any: so no name is lost. O(nodes and
   /// their values), by hashing.
   Representatives(const Scene& scene, const Usage& usage, std::span<const NodeId> nodes, bool named);
 
-  /// The first that says the same; the node itself where none does.
+  /// The first that is equal; the node itself where none does.
   NodeId of(NodeId n) const { return n && n.value < of_.size() && of_[n.value] ? of_[n.value] : n; }
 
  private:

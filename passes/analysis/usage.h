@@ -1,4 +1,4 @@
-// Who holds a node and who touches it: what a pass may merge, move or leave out without anybody noticing.
+// What holds a node and what touches it: what a pass may merge, move or remove without visible effect.
 #pragma once
 #include <vector>
 
@@ -8,7 +8,7 @@ namespace wrlkit {
 
 class Usage {
  public:
-  /// Of all scopes. O(nodes).
+  /// Covers all scopes. O(nodes).
   explicit Usage(const Scene& scene);
 
   /// An end of a ROUTE, exported, held by a Script or by an instance of a prototype, or below one that a Script with
@@ -26,7 +26,7 @@ class Usage {
   std::vector<char> touched_;
 };
 
-/// Of a type that is built in, with known fields only, and nothing that events or prototypes may change.
+/// True of a type that is built in, with known fields only, and nothing that events or prototypes may change.
 bool is_plain(const Scene& scene, const Usage& usage, NodeId n);
 
 }  // namespace wrlkit

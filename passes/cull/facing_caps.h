@@ -1,4 +1,4 @@
-// The ends of pipes that stand against each other: nobody sees the discs between them.
+// The ends of pipes that stand against each other: the discs are not visible between them.
 #pragma once
 #include <cstdint>
 #include <functional>

@@ -130,7 +130,7 @@ class Inliner {
       if (auto name = std::string(base) + "_" + std::to_string(++k); !is_taken(name)) return name;
   }
 
-  /// Of the prototypes that have come since.
+  /// Notes the names of the prototypes that have been added since.
   void note_names() {
     for (; n_noted_ < scene_.proto_count(); ++n_noted_)
       taken_.insert(scene_.type(scene_.proto(ProtoId{n_noted_}).type).name);

@@ -20,7 +20,7 @@ struct MeshForm {
   double reach = 0;                // the largest of them
   std::array<double, 3> spread{};  // along the principal axes, descending
 
-  /// Of a mesh that outlives it. O(corners).
+  /// The form of a mesh that outlives it. O(corners).
   void take(const Mesh& m);
   /// What has to agree exactly: kind, flags, numbers of faces by their sizes, attributes, colours.
   std::uint64_t exact_key() const;

@@ -201,7 +201,7 @@ void Instancing::put(const ShapeSurface& surface, const TransformFields& where, 
   }
 }
 
-/// Of Coordinates and the like that nobody holds any more.
+/// Reports names of Coordinates and the like that nothing holds any more.
 void Instancing::report_lost_names() {
   std::vector<char> seen;
   std::vector<NodeId> left;

@@ -41,7 +41,7 @@ Vec3 face_centre(const MeshForm& f, std::size_t face) {
   return c;
 }
 
-/// For normals: the inverse transposed, but for a positive factor.
+/// For normals: the inverse transposed, up to a positive factor.
 Matrix normal_matrix(const Matrix& m) {
   Matrix o;
   const double sign = m.determinant() < 0 ? -1 : 1;

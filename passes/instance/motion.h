@@ -1,4 +1,4 @@
-// The motion that takes points to others as nearly as can be, and how a Transform says it in few digits.
+// The motion that takes points to others as nearly as can be, and how a Transform expresses it in few digits.
 #pragma once
 #include <span>
 

@@ -79,7 +79,7 @@ class Sharing {
     classes_.push_back({{i}, u.ratios});
   }
 
-  /// Transforms that do nothing but place one Shape, and could scale it, too.
+  /// Transforms that only place one Shape, and could scale it, too.
   void find_holders() {
     namespace f = nodes::transform;
     holder_.resize(scene_.node_count());

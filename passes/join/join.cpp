@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_indices = std::numeric_limits<std::int32_t>::max() / 2;  // with room for the -1
 
-/// Text that is the same for the same things in the same order.
+/// Text that is the same for the same values in the same order.
 class SurfaceKey {
  public:
   template <class T>
@@ -40,7 +40,7 @@ class SurfaceKey {
   std::string text_;
 };
 
-/// Numbers for what nodes say: equal where they say the same. A node that can be told from others has its own.
+/// Numbers for what nodes say: equal where they say the same. A node that can be distinguished from others has its own.
 class Contents {
  public:
   Contents(const Scene& scene, const Usage& usage, bool named) : scene_(scene), usage_(usage), named_(named) {}

@@ -30,7 +30,7 @@ Faces read_faces(const Scene&, NodeId geometry, std::size_t n_points, bool segme
 struct Attribute {
   enum class Of : std::uint8_t { nothing, all, faces, corners } of = Of::nothing;
   std::vector<std::int32_t>
-      index;  // of faces: one each; of corners: beside Faces::coord. Empty: as VRML97 counts without one
+      index;  // of faces: one each; of corners: parallel to Faces::coord. Empty: as VRML97 counts without one
   explicit operator bool() const { return of != Of::nothing; }
 };
 

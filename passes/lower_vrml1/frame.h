@@ -28,13 +28,13 @@ struct Frame {
     runs.back().nodes.push_back(n);
     drawn = true;
   }
-  /// A DirectionalLight in the axes of the group: below a Transform it would light nothing but that.
+  /// A DirectionalLight in the axes of the group: below a Transform it would light only that.
   void add_light(NodeId n) { runs.push_back({{}, {n}, drawn}); }
 };
 
 /// The contents of a frame as children of a group.
 std::vector<NodeId> children(Scene&, const Frame&);
-/// The frame as one node: a Transform when everything is at one place, or else a Group. None when it is empty.
+/// The frame as one node: a Transform when everything is at one place, otherwise a Group. None when it is empty.
 NodeId group(Scene&, const Frame&, Span where, std::string_view name);
 /// Nodes at a place: below a Transform, or as they are.
 NodeId placed(Scene&, const Placement&, const std::vector<NodeId>& nodes, Span where);

@@ -32,7 +32,7 @@ Vec3 Palette::color(std::size_t k) const {
   return {c[0], c[1], c[2]};
 }
 
-/// Of a Material in force, or the default; a list that is empty too is the default.
+/// The list of a Material in force, or the default; a list that is empty too is the default.
 std::span<const double> Looks::list(NodeId material, std::uint16_t slot) const {
   const Value* v = material ? &scene_.value(material, slot) : nullptr;
   if (!v || v->is || v->count == 0) v = &scene_.type(v1::Material).fields[slot].default_value;
@@ -145,7 +145,7 @@ NodeId Looks::material_node(const State& s, std::size_t k, bool colored, bool st
     return n;
   }
   const Vec3 diffuse = p.color(k), ambient = vec(m::ambientColor.slot);
-  // Files that leave ambientColor out have nothing to say of it.
+  // Files that leave ambientColor out do not define it.
   const double brightness = diffuse[0] + diffuse[1] + diffuse[2], dim = ambient[0] + ambient[1] + ambient[2];
   if (s.material && scene_.find(s.material, m::ambientColor.slot) && brightness > 0)
     scene_.set(n, nodes::material::ambientIntensity, std::round(std::clamp(dim / brightness, 0.0, 1.0) * 1e6) / 1e6);

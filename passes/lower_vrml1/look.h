@@ -40,7 +40,7 @@ class Looks {
   /// A Texture2Transform behind those in force: its number.
   std::uint32_t then(std::uint32_t map, NodeId texture_transform);
   const TexcoordMap& uv_map(std::uint32_t i) const { return maps_[i]; }
-  /// Whether a TextureTransform can say it; VRML97 scales last, VRML 1.0 first.
+  /// Whether a TextureTransform can express it; VRML97 scales last, VRML 1.0 first.
   bool can_say(std::uint32_t map) const;
   bool has_texture(NodeId texture2) const;
 

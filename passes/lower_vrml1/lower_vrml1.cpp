@@ -188,7 +188,7 @@ void Lowering::visit(NodeId n, State& s, Frame& frame) {
 
 // ---- state ---------------------------------------------------------------------------------------------------------
 
-/// The first node without a name that says the same in a few words: exporters write one Material over and over.
+/// The first node without a name that is small and equal: exporters write one Material over and over.
 NodeId Lowering::first_equal(NodeId n) {
   constexpr std::size_t few = 64;
   if (!scene_.name(n).empty()) return n;

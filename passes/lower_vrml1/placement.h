@@ -1,4 +1,4 @@
-// The transformation that the traversal of VRML 1.0 has gathered since the group around it, and the Transform that says
+// The transformation that the traversal of VRML 1.0 has gathered since the group around it, and the Transform for
 // it. Any matrix is one: a rotation times a scale along turned axes (polar decomposition), which is what Transform can
 // say.
 #pragma once
@@ -17,7 +17,7 @@ class Placement {
 
   bool identity() const { return matrix_ == Matrix{}; }
   const Matrix& matrix() const { return matrix_; }
-  /// The fields as the file has them where they are those of one Transform, or else from the matrix.
+  /// The fields as the file has them where they are those of one Transform, otherwise from the matrix.
   TransformFields fields() const;
   bool operator==(const Placement& o) const { return matrix_ == o.matrix_; }
 

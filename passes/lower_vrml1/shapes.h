@@ -16,7 +16,7 @@ class Shapes {
   Shapes(Scene& scene, Looks& looks, Diagnostics& diag, double crease_angle)
       : scene_(scene), looks_(looks), diag_(diag), crease_angle_(crease_angle) {}
 
-  /// What the node draws: none, a Shape, or several where one cannot say it.
+  /// What the node draws: none, a Shape, or several where one is not enough.
   const std::vector<NodeId>& of(NodeId geometry, const State&);
 
  private:

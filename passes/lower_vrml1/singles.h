@@ -1,4 +1,4 @@
-// Nodes of VRML 1.0 that have a counterpart which does not depend on the state: cameras, lights, files, words.
+// Nodes of VRML 1.0 that have a counterpart which does not depend on the state: cameras, lights, files, text.
 #pragma once
 #include "base/diagnostics.h"
 #include "scenegraph/transform.h"
@@ -17,7 +17,7 @@ NodeId info_of(Scene&, NodeId);
 NodeId fog_of(Scene&, NodeId, Diagnostics&);
 /// What a transform node does; none when it does nothing in VRML97, which is reported.
 TransformFields transform_of(const Scene&, NodeId, Diagnostics&);
-/// Of row vectors, as MatrixTransform has it. A projection is lost, which is reported.
+/// The matrix for row vectors, as MatrixTransform has it. A projection is lost, which is reported.
 Matrix matrix_of_rows(std::span<const double> sixteen, Span where, Diagnostics&);
 /// Metres in a unit of Units.units, and its number.
 double metres(std::string_view unit, std::uint8_t& number);

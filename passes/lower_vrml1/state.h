@@ -1,4 +1,4 @@
-// What the traversal of VRML 1.0 knows at a node but for the transformation: which property nodes are in force. Equal
+// What the traversal of VRML 1.0 knows at a node except the transformation: which property nodes are in force. Equal
 // states make equal Shapes, so that what is used again in the same state is made once.
 #pragma once
 #include <algorithm>
@@ -29,7 +29,7 @@ inline Binding read_binding(std::string_view word) {
   return i == words.end() ? Binding::automatic : static_cast<Binding>(i - words.begin());
 }
 
-/// Of faces or parts, not of corners; overall is neither.
+/// True for faces or parts, not of corners; overall is neither.
 inline bool of_faces(Binding b) { return b >= Binding::per_part && b <= Binding::per_face_indexed; }
 inline bool of_corners(Binding b) { return b >= Binding::per_vertex; }
 

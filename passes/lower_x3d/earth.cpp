@@ -38,7 +38,7 @@ bool set_zone(std::string_view word, GeoSystem& s) {
   return true;
 }
 
-/// False: nobody knows that word.
+/// False: the keyword is unknown.
 bool take(std::string_view word, GeoSystem& s) {
   using Kind = GeoSystem::Kind;
   if (word == "GD" || word == "GDC") {

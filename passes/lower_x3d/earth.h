@@ -24,7 +24,7 @@ struct GeoSystem {
   bool east_first = false;  // longitude or easting stands first
 };
 
-/// Of the words of a geoSystem field. What is not known is left out, and its default taken; `unknown` gets those words.
+/// From the keywords of a geoSystem field. Unknown ones are left out, and the default taken; `unknown` gets those.
 GeoSystem geo_system(std::span<const std::string_view> words, std::vector<std::string>& unknown);
 
 /// Geocentric metres: X through Greenwich on the equator, Z through the north pole. Of degrees and metres (latitude,
@@ -36,7 +36,7 @@ Vec3 geocentric(const GeoSystem&, const Vec3& place);
 /// beyond the Moon.
 Vec3 geodetic(const Ellipsoid&, const Vec3& geocentric);
 
-/// Columns east, up and south: the axes of someone who stands there, X to the right when looking north. O(1).
+/// Columns east, up and south: the axes of a person standing there, X to the right when looking north. O(1).
 Matrix standing_at(const Vec3& geodetic);
 
 }  // namespace wrlkit::x3d

@@ -17,7 +17,7 @@
 namespace wrlkit::x3d {
 namespace {
 
-/// Where a node says where it is, on Earth.
+/// The fields that give a node's place on Earth.
 struct GeoRow {
   TypeId type;
   std::string_view place;

@@ -13,7 +13,7 @@ namespace {
 struct GroupRow {
   TypeId from, to;
   std::uint16_t children;     // slot of `from`
-  bool does_nothing = false;  // what else it did is lost, and is said
+  bool does_nothing = false;  // what else it did is lost, and is reported
 };
 
 constexpr GroupRow groups[] = {

@@ -45,7 +45,7 @@ Values straight(const Values& a, const Values& b, double t) {
   return out;
 }
 
-/// So many pieces that what is between their ends, by `mix`, is near enough.
+/// As many pieces as it takes so that what is between their ends, by `mix`, is near enough.
 int pieces(const Between& at, const std::function<Values(const Values&, const Values&, double)>& mix,
            double tolerance) {
   int n = 1;
@@ -121,7 +121,7 @@ struct Spline {
   Keys keys() const {
     const std::size_t n = count();
     const auto tangent = tangents();
-    // Of intervals that are not alike.
+    // A factor for intervals that are not alike.
     auto factor = [&](std::size_t i, bool outgoing) {
       if (i == 0 || i + 1 >= n || !(key[i + 1] > key[i - 1])) return 1.0;
       return 2 * (outgoing ? key[i] - key[i - 1] : key[i + 1] - key[i]) / (key[i + 1] - key[i - 1]);

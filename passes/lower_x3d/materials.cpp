@@ -29,7 +29,7 @@ class MaterialLowering {
   }
 
  private:
-  /// Appearances of nothing but geometry that has its own colours: without a Material these are unlit.
+  /// Appearances of only geometry that has its own colours: without a Material these are unlit.
   void note_colors(NodeId shape) {
     if (!scene_.is(shape, nodes::Shape)) return;
     NodeId appearance = scene_.get(shape, nodes::shape::appearance),

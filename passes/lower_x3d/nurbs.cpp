@@ -88,7 +88,7 @@ std::vector<double> spread(const std::vector<double>& ends, const std::vector<in
   return out;
 }
 
-/// As the author wants it: so many pieces, or so many between two control points.
+/// As the author wants it: a number of pieces, or a number between two control points.
 std::vector<double> asked_for(const Basis& b, int tessellation, std::size_t most) {
   const auto wanted = tessellation > 0
                           ? static_cast<std::size_t>(tessellation)

@@ -58,7 +58,7 @@ class NurbsLowering {
   }
 
  private:
-  // ---- what the fields say ----
+  // ---- the values of the fields ----
 
   const Value& field(NodeId n, std::string_view name) const {
     return scene_.value(n, *scene_.type(n).find(name, Dialect::x3d));

@@ -23,7 +23,7 @@ int channels_of(const Scene& scene, NodeId texture, PassContext& ctx) {
     return image.size() > 2 ? image[2] : 0;
   }
   if (!scene.is(texture, nodes::ImageTexture) || !ctx.resources) return 0;
-  Diagnostics silent(ctx.diag.shared_sources());  // who shows the picture reports that it is missing
+  Diagnostics silent(ctx.diag.shared_sources());  // showing the picture reports that it is missing
   const auto blob = ctx.resources->bytes(scene.get(texture, nodes::image_texture::url), scene.where(texture), silent);
   const auto header = blob ? read_image_header(blob->bytes, blob->name) : std::nullopt;
   return header ? header->channels : 0;

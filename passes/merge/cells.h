@@ -1,4 +1,4 @@
-// Which things go together, when there may be only so many of them: those of one kind that stand near each other.
+// Which parts go together, when their number is limited: those of one kind that stand near each other.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -9,11 +9,11 @@
 namespace wrlkit {
 
 struct CellItem {
-  std::uint32_t kind;  // only things of one kind go together
+  std::uint32_t kind;  // only parts of one kind go together
   std::uint32_t cost;  // of each cell of that kind
   Vec3 at;
   double weight;
-  std::uint32_t look = 0;  // for who makes the items
+  std::uint32_t look = 0;  // for the caller
 };
 
 /// The cells, as numbers of items in the order of the first of each: one for each kind to begin with. As long as what

@@ -207,7 +207,7 @@ void Merging::remove_from_groups() {
       for (auto i : cell) merged_[place(i).shape.value] = 1;
 }
 
-/// Of a geometry and its Coordinate, as one text; nothing when other names would be lost.
+/// The names of a geometry and its Coordinate, as one text; nothing when other names would be lost.
 std::optional<std::string> Merging::names_in_geometry(std::uint32_t i) const {
   const NodeId g = geometry(i);
   if (!scene_.name(place(i).shape).empty()) return std::nullopt;

@@ -8,7 +8,7 @@
 namespace wrlkit {
 
 struct PartItem {
-  std::uint32_t group;  // only things of one group go together
+  std::uint32_t group;  // only parts of one group go together
   std::uint32_t geometry, shape;
   std::uint32_t times;  // that the group is drawn
   double bytes;         // of its vertices in a merged mesh

@@ -15,7 +15,7 @@ struct Sharing {
   std::uint32_t kind = 0, geometry = 0;
   std::vector<std::size_t> items;
   std::map<std::uint32_t, std::pair<std::size_t, std::uint32_t>> in_zone;  // places of a table; times it is drawn
-  std::size_t odd = 0, odd_draws = 0;  // places that no table can say, and stay nodes
+  std::size_t odd = 0, odd_draws = 0;  // places that no table can express; they stay nodes
   double bytes = 0;
   bool kept = false;
 

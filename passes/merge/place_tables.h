@@ -11,7 +11,7 @@ struct TableItem {
   std::uint32_t kind;  // of the cell that it would be merged in
   std::uint32_t look, geometry, zone;
   std::uint32_t times;  // that the zone is drawn
-  bool fits;            // a table can say where it stands
+  bool fits;            // a table can express where it stands
   double bytes;         // of its vertices in a merged mesh
 };
 

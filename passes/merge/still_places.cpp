@@ -120,7 +120,7 @@ void StillPlaces::children(NodeId group, const Handed& as) {
   const auto list = hierarchy_children(scene_, group);
   if (as.zone != no_zone && !std::exchange(listed_[group.value], 1)) {
     groups_.push_back(group);
-    // The proxy of a Collision is no list.
+    // The proxy of a Collision is not a list.
     for (const Value& v : scene_.fields(group))
       if (!v.is && !scene_.is_extra(v) && v.type == FieldType::MFNode)
         for (NodeId c : v.node_span()) ++takers_[c.value];

@@ -24,10 +24,10 @@ struct StillPlace {
 
 class StillPlaces {
  public:
-  /// Of the main scope. `by_name`: nothing is taken out of a group with a name. O(nodes and places).
+  /// The places of the main scope. `by_name`: nothing is taken out of a group with a name. O(nodes and places).
   StillPlaces(const Scene& scene, const Usage& usage, bool by_name = false);
 
-  /// More places than anybody wants to see: nothing can be said.
+  /// More places than can be handled: nothing is known.
   bool too_many() const { return ways_.too_many(); }
   const std::vector<Zone>& zones() const { return zones_; }
   /// Of Shapes that may be taken out of their groups, all places of each; in the order of the file.

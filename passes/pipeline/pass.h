@@ -29,7 +29,7 @@ struct StatisticInfo {
   std::string_view name, help;
 };
 
-/// What a pass is given besides the scene and its options.
+/// What a pass is given in addition to the scene and its options.
 struct PassContext : Task {
   PassContext(Diagnostics& diag, Statistics& stats, Resources* resources = nullptr, Monitor* monitor = nullptr,
               std::stop_token stop = {})

@@ -89,7 +89,7 @@ OptionInfo describe(std::string_view name, const T& value, std::string_view help
   return {std::string(name), std::string(type_name(value)), print(value), std::move(more), print(range)};
 }
 
-/// The option that may have been meant, or else those that there are.
+/// The option that may have been meant, otherwise those that there are.
 inline std::string question(const NearestName& nearest, const std::vector<OptionInfo>& options) {
   if (!nearest.best().empty()) return nearest.question();
   std::string out;

@@ -128,7 +128,7 @@ bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassC
   for (std::size_t i = begin; i < end;) {
     if (ctx.stop.stop_requested()) return false;
     std::size_t next = i + 1;
-    // Mesh passes run together unless somebody wants to look between them.
+    // Mesh passes run together unless a watcher looks between them.
     if (steps_[i].pass->is_mesh_pass() && !options.watched())
       while (next < end && steps_[next].pass->is_mesh_pass()) ++next;
     {
@@ -213,7 +213,7 @@ MeshSource Pipeline::run_lazily(Scene& scene, PassContext& ctx, const PipelineOp
   std::size_t tail = steps_.size();
   while (tail > 0 && steps_[tail - 1].pass->is_mesh_pass()) --tail;
   if (!run_until_stopped(tail, scene, ctx, options)) return nullptr;
-  // The scene between the last passes is never there as a whole; who wants to see it is shown a copy.
+  // The scene between the last passes is never there as a whole; a watcher is shown a copy.
   if (options.print) {
     Scene copy = scene;
     Diagnostics quiet(ctx.diag.shared_sources());

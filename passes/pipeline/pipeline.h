@@ -31,10 +31,10 @@ class PassInstance {
   virtual bool is_mesh_pass() const = 0;
   virtual Outcome run(Scene&, PassContext&) const = 0;  // of a scene pass
   virtual Outcome run(MeshJob&) const = 0;              // of a mesh pass
-  /// False when there is no such option or the text is no value for it; `why` says which.
+  /// False when there is no such option or the text is not a value for it; `why` says which.
   virtual bool set(std::string_view option, std::string_view value, std::string& why) = 0;
   virtual std::vector<OptionInfo> options() const = 0;
-  /// What the outcome depends on beside the scene and the files that it refers to: the pass itself, when it was read
+  /// What the outcome depends on besides the scene and the files that it refers to: the pass itself, when it was read
   /// from a file, and files that its options name.
   virtual std::vector<std::string> files() const { return {}; }
 };
@@ -72,7 +72,7 @@ struct PassInfo {
 
 /// Every pass, in the order of the documentation (registry.cpp).
 std::span<const PassInfo> passes();
-/// Of the list, or one that was added; null when there is none. It lives as long as the program. Any thread.
+/// A pass of the list, or one that was added; null when there is none. It lives as long as the program. Any thread.
 const PassInfo* find_pass(std::string_view name);
 /// Adds a pass that is not in the list, in place of one that was added by that name before. Pipelines that have the one
 /// before keep it. False when the list, or a named pipeline, has the name. Any thread.
@@ -82,7 +82,7 @@ bool add_pass(std::shared_ptr<const PassInfo> info);
 bool add_pass(const PassInfo& info);
 /// Those that were added, by name.
 std::vector<const PassInfo*> added_passes();
-/// The name that somebody may have meant, as a question: "; did you mean 'weld'?"; or nothing.
+/// The name that may have been meant, as a question: "; did you mean 'weld'?"; or nothing.
 std::string pass_question(std::string_view name);
 /// Named pipelines: "gltf" is what convert uses for glTF.
 struct NamedPipeline {
@@ -112,13 +112,13 @@ struct PipelineOptions {
 /// Fills a mesh of the caller as a MeshSource does.
 using MeshMaker = std::function<void(NodeId geometry, Mesh& out)>;
 
-/// A maker of meshes for one thread at a time, with its own memory; what is said and counted goes to that Task. All of
+/// A maker of meshes for one thread at a time, with its own memory; messages and counts go to that Task. All of
 /// them may work at the same time, while the scene does not change.
 using MeshMakers = std::function<MeshMaker(Task&)>;
 
 class Pipeline {
  public:
-  /// Null when the text is no pipeline; `why` says what is wrong with it.
+  /// Null when the text is not a pipeline; `why` says what is wrong with it.
   /// Names of pipelines stand for their passes: "gltf,weld". Values with commas, braces or quotes stand in quotes, in
   /// which a backslash is put before quotes and backslashes: merge{csv="a,b.csv"}.
   static std::optional<Pipeline> parse(std::string_view text, std::string& why);

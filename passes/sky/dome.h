@@ -27,7 +27,7 @@ struct Dome {
   std::vector<std::int32_t> corners;  // of each triangle, closed by -1
 };
 
-/// Of radius 1. `ground` counts from straight down, `sky` from straight up.
+/// A dome of radius 1. `ground` counts from straight down, `sky` from straight up.
 Dome make_dome(const Gradient& sky, const Gradient& ground);
 
 }  // namespace wrlkit

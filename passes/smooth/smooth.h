@@ -33,7 +33,7 @@ A surface that is not a manifold is reported and stays as it is; run `weld` befo
 ///
 /// - Points of borders stay where they are, and the faces stay those that they were. Colours and texture coordinates
 ///   stay with their corners; normals are dropped (smooth.dropped-normals), since they are wrong then.
-/// - A surface that is no manifold stays as it is and is reported. Faces that only touch do not hang
+/// - A surface that is not a manifold stays as it is and is reported. Faces that only touch do not hang
 ///   together: run `weld` before.
 ///
 /// Meshes of lines and points stay as they are, and so do primitives. O(faces * iterations).

@@ -50,8 +50,8 @@ stays as it is; run `weld` before. Cost: linear in the faces that come out.)";
 ///   cut, so seams stay. Normals are dropped, as those of the coarse faces are wrong for the smooth surface, and
 ///   creaseAngle becomes pi: subdivide.dropped-normals.
 /// - The faces that a face becomes stand in its place. Borders are curves of their own: they become smooth, too, but
-///   hang on nothing but the points of the border.
-/// - A surface that is no manifold stays as it is and is reported. Faces that only touch do not hang
+///   hang on only the points of the border.
+/// - A surface that is not a manifold stays as it is and is reported. Faces that only touch do not hang
 ///   together: run `weld` before.
 ///
 /// Meshes of lines and points stay as they are, and so do primitives: `tessellate` makes faces of them. Statistics:

@@ -58,7 +58,7 @@ class CellGrid {
   std::vector<Entry> entries_;
 };
 
-/// Calls f(cell) for the cells of a size that the box from `low` to `high` meets, provided it is no larger than a cell:
+/// Calls f(cell) for the cells of a size that the box from `low` to `high` meets, if it is not larger than a cell:
 /// eight at most.
 template <class F>
 void for_each_cell(const std::array<double, 3>& low, const std::array<double, 3>& high, double size, F f) {

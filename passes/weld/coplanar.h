@@ -15,7 +15,7 @@ class CoplanarMerger {
   /// Unites faces across manifold edges where the points lie in the plane of the first, to within the tolerance or the
   /// precision of single numbers, and all attributes are linear. The polygons are simple and without holes; the mesh
   /// becomes `convex FALSE` when one of them is not convex. Returns how many faces fewer there are; edges are out of
-  /// date then. Linear but for large concave polygons.
+  /// date then. Linear except for large concave polygons.
   std::size_t merge(const Surface&, const std::vector<SurfaceEdge>&, double tolerance, StampedMap&);
 
  private:

@@ -68,7 +68,7 @@ void PointJoiner::drop_unused(std::vector<std::uint32_t>& index) {
   points.swap(equal_.values);
 }
 
-/// Of the points that are left so far.
+/// The first of the points that are left so far.
 std::uint32_t PointJoiner::first_within(double tolerance, const double* p) const {
   std::uint32_t first = CellGrid::none;
   std::array<double, 3> low, high;

@@ -1,4 +1,4 @@
-// Numbers for values: equal ones get the same, new ones the next. An open hash table of numbers beside the values
+// Numbers for values: equal ones get the same, new ones the next. An open hash table of numbers next to the values
 // themselves; it grows with what is in it and not with what is looked up, so that the table of a soup of faces, each
 // point of which comes five times, stays small.
 #pragma once

@@ -116,7 +116,7 @@ void Welding::spell_out_faces() {
   for (std::uint32_t c = 0; c <= mesh_.corners.size(); c += 3) mesh_.face_begin.push_back(c);
 }
 
-/// The other way: of triangles alone face_begin says nothing.
+/// The other way: for triangles alone face_begin is empty.
 void Welding::forget_triangles() {
   const auto& begin = mesh_.face_begin;
   std::size_t f = 0;

@@ -7,7 +7,7 @@
 
 namespace wrlkit {
 
-/// A length, or the word `auto`.
+/// A length, or the keyword `auto`.
 struct WeldTolerance {
   static constexpr std::string_view type = "number or auto";
   double length = 0;

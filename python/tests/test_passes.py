@@ -107,7 +107,7 @@ def test_what_a_pass_says_has_a_place(tmp_path):
 
 
 def test_what_a_pass_keeps_of_a_world_stays(tmp_path):
-    """The scene of a conversion is gone behind it; nodes and arrays that somebody has kept are not."""
+    """The scene of a conversion is gone after it; nodes and arrays that are still held are not."""
     kept = {}
 
     @wrlkit.pass_

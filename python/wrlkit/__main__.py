@@ -11,7 +11,7 @@ def run():
     """Ends the process with the exit code of the verb."""
     for name in (signal.SIGINT, signal.SIGPIPE):
         signal.signal(name, signal.SIG_DFL)  # as in every other program
-    faulthandler.enable()                    # a pass that crashes says where
+    faulthandler.enable()                    # a pass that crashes prints where
     sys.dont_write_bytecode = True
     sys.stdout = sys.stderr                  # what verbs print is data
     sys.exit(main(sys.argv[1:]))

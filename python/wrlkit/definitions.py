@@ -79,7 +79,7 @@ class Option:
         return self._item_text(value)
 
     def value(self, text):
-        """What a text says; ValueError when it says nothing."""
+        """The content of a text; ValueError when it has none."""
         if self.is_list:
             return [self._item(t) for t in text.split(':')] if text else []
         return self._item(text)
@@ -129,7 +129,7 @@ class Definition:
         return [[o.name, o.kind(), o.default, o.help] for o in self.options.values()]
 
     def read(self, option, text):
-        """The text of an option as it is printed; ValueError when it is no value."""
+        """The text of an option as it is printed; ValueError when it is not a value."""
         return self.options[option].text(self.options[option].value(text))
 
     def call(self, world, texts):

@@ -1,4 +1,4 @@
-// What a light node says, whichever of the three it is (ISO/IEC 14772-1, 6.16, 6.35 and 6.45).
+// The values of a light node, whichever of the three it is (ISO/IEC 14772-1, 6.16, 6.35 and 6.45).
 #pragma once
 #include "scenegraph/scene.h"
 

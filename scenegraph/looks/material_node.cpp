@@ -23,7 +23,7 @@ MaterialNode read_common(const Scene& scene, NodeId n, Color color, Picture colo
   return to;
 }
 
-/// What Material and PhysicalMaterial have besides.
+/// What Material and PhysicalMaterial have in addition.
 void read_lit(const Scene& scene, NodeId n, MaterialNode& to, Picture emissive, Float occlusion_strength,
               Picture occlusion) {
   to.emissive_picture = scene.get(n, emissive);

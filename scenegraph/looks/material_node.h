@@ -1,4 +1,4 @@
-// What a material node says, whichever of the three it is (ISO/IEC 14772-1, 6.27; 19775-1:2023, 12.4).
+// The values of a material node, whichever of the three it is (ISO/IEC 14772-1, 6.27; 19775-1:2023, 12.4).
 #pragma once
 #include <optional>
 
@@ -23,9 +23,9 @@ struct MaterialNode {
   std::uint16_t color_picture_slot = 0;
 };
 
-/// Of none, and of nodes of other types: nothing.
+/// Nothing for no node and for nodes of other types.
 std::optional<MaterialNode> read_material(const Scene&, NodeId material);
-/// Of an Appearance, or none.
+/// The material of an Appearance, or none.
 std::optional<MaterialNode> material_of(const Scene&, NodeId appearance);
 
 }  // namespace wrlkit

@@ -34,9 +34,9 @@ struct TextureTransformNode {
   TexcoordMap map() const;
 };
 
-/// Of none, and of nodes of other types: what changes nothing.
+/// The identity for no node and for nodes of other types.
 TextureTransformNode read_texture_transform(const Scene&, NodeId texture_transform);
-/// The node with its center at the origin, rounded to 1e-12. Null where VRML97 cannot say it: it turns before it
+/// The node with its center at the origin, rounded to 1e-12. Null where VRML97 cannot express it: it turns before it
 /// scales, so the rows of the map must be at right angles and longer than 0.
 std::optional<TextureTransformNode> texture_transform_of(const TexcoordMap&);
 

@@ -17,7 +17,7 @@ struct NamedPlace {
 
 class NamedPlaces {
  public:
-  /// Of what is shown: the chosen child of a Switch, the first level of a LOD. O(nodes and places).
+  /// The places of what is shown: the chosen child of a Switch, the first level of a LOD. O(nodes and places).
   explicit NamedPlaces(const Scene& scene);
 
   /// In the order of the file.

@@ -1,5 +1,5 @@
 // Ways from the root of a scene to its nodes. A node has as many as it is used, and there may be far more ways than
-// nodes: forty groups, each holding the next one twice. So all who follow them do so within one limit.
+// nodes: forty groups, each holding the next one twice. So all callers that follow them do so within one limit.
 #pragma once
 #include <cstddef>
 #include <optional>

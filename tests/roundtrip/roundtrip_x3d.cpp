@@ -1,5 +1,5 @@
 // VRML97 through X3D and back, and X3D through its own writer: the text in the end is the text in the beginning.
-// Differences that docs/conformance.md explains are told apart by what the world has; any other fails.
+// Differences that docs/conformance.md explains are recognised by what the world has; any other fails.
 //
 //   roundtrip_x3d FOLDER...    --found: the corpus of the folder WRLKIT_SHARED, or of ../shared. Ends with 77 where a
 //                              folder is not there

@@ -279,7 +279,7 @@ TEST_CASE("bake: what shines into a closed thing that it touches is no leak, and
           "quality=draft,max-size=64");
   CHECK(b.stats["lightmap.inside"] > 0);
   CHECK(b.stats["lightmap.leaks"] == 0);
-  // A closed lamp of which nobody sees the inner side, and something in it.
+  // A closed lamp whose inner side is not visible, and something in it.
   Baked lamp(block("Lamp", 0, 1, material(0, 1), "solid FALSE") +
                  "DEF In Transform { scale 0.3 0.3 0.3 children DEF Core Shape { " + material(0.5) + " geometry " +
                  box(false, 1) + " } }",

@@ -147,7 +147,7 @@ TEST_CASE("collapse: the next step is what is done") {
 
 namespace {
 
-/// The faces of a record after so many steps, forwards or undone from the end, as position and attribute values of
+/// The faces of a record after that many steps, forwards or undone from the end, as position and attribute values of
 /// corners.
 struct Player {
   const CollapseRecord& r;

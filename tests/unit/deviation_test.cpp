@@ -272,7 +272,7 @@ double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return std::sqrt(dot(off, off));
 }
 
-/// By the definition, nothing of the program in it: to the plane where the foot lies within all edges, else to an edge.
+/// By the definition, nothing of the program in it: to the plane where the foot lies within all edges, or to an edge.
 double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
   const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
   double least = std::numeric_limits<double>::infinity();

@@ -19,7 +19,7 @@ inline double area(const Flat& f) {
   return sum;
 }
 
-/// Of how many triangles the point is inside.
+/// The number of triangles that the point is inside of.
 inline int covered(const Flat& f, const Vec2& p) {
   int n = 0;
   for (std::size_t t = 0; t < f.triangles.size(); t += 3) {

@@ -68,7 +68,7 @@ inline double area(const Mesh& m) {
   return sum;
 }
 
-// Of planar faces; positive when they are counterclockwise seen from outside.
+// The volume inside planar faces; positive when they are counterclockwise seen from outside.
 inline double volume(const Mesh& m) {
   double sum = 0;
   for (std::size_t f = 0; f < m.n_faces(); ++f) sum += dot(position(m, m.begin_of(f)), area_vector(m, f)) / 3;

@@ -146,7 +146,7 @@ struct File {
     return translation_matrix(t) * rotation_matrix(axis_angle(r)) * scale_matrix(s);
   }
 
-  /// Of the mesh that lies at or below the node of that name.
+  /// The matrix of the mesh that lies at or below the node of that name.
   Matrix world(std::size_t node, std::string_view name, double time, bool inside, bool& found) const {
     const auto& n = j["nodes"][node];
     const Matrix m = local(node, time);
@@ -186,7 +186,7 @@ bool write(World& world, const TempFolder& folder) {
   return write_gltf(world.scene, meshes, {.binary = false}, nullptr, folder / "a.gltf", diag);
 }
 
-/// The node `M` with a Shape is where VRML says, at twenty times that are no keys.
+/// The node `M` with a Shape is where VRML says, at twenty times that are not keys.
 void compare(const std::string& body) {
   TempFolder folder;
   auto world = parse(body);

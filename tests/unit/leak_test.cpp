@@ -1,5 +1,5 @@
 // The measure of light inside closed walls, where only surfaces give light: it finds a leak that is made on purpose,
-// and none where light belongs. `seal` is told that a case with a slit is closed, so light that comes in through it is
+// and none where light belongs. `seal` is given that a case with a slit is closed, so light that comes in through it is
 // what a leak is.
 #include <catch2/catch.hpp>
 
@@ -56,7 +56,7 @@ Statistics figures_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("leaks: light of a surface that shines outside of what counts as closed", "[bake]") {
-  // A lamp as small as a point, 1.7 m beside the slit and 3 m up, casts a strip on the plate, 3.75 m below it: of
+  // A lamp as small as a point, 1.7 m next to the slit and 3 m up, casts a strip on the plate, 3.75 m below it: of
   // its 7.2 square metres, which are all that is inside.
   for (double height : {0.95, 0.9}) {
     const double strip = 1.7 * (3.75 / (3 - 1.0) - 3.75 / (3 - height)) * 1.8;

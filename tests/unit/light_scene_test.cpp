@@ -106,7 +106,7 @@ TEST_CASE("light: many emitters, chosen by what they give") {
   Room room(lights);
   double expected = 0;
   for (const Emitter& e : room.world->emitters()) {
-    // Small enough for its middle to stand for it, but for 0.3 %.
+    // Small enough for its middle to stand for it, within 0.3 %.
     constexpr int n = 8;
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < n - a; ++b)

@@ -295,7 +295,7 @@ TEST_CASE("fill: unknown texels take the light around them, known ones stay") {
 
 TEST_CASE("fill: charts go on with their own light before that of others comes in") {
   constexpr std::uint32_t none = 99;
-  // Of two rows that touch the lower one is chart 0, of which the left half is known, and the upper one chart 1, of
+  // When two rows touch, the lower one is chart 0, of which the left half is known, and the upper one chart 1, of
   // which all is.
   std::vector<std::uint32_t> chart(2 * 12);
   std::vector<std::vector<Rgb>> layers(2, std::vector<Rgb>(chart.size()));

@@ -126,7 +126,7 @@ TEST_CASE("nurbs: what cannot be", "[nurbs]") {
     CHECK(make_basis(3, knots, 3, replaced));
     CHECK(replaced);
   }
-  // More is asked for than anybody can draw.
+  // More is asked for than can be drawn.
   CHECK(cuts(circle(), 1e-30, 0).size() <= 4097);
   CHECK(cuts(circle(), 0, 2000000000).size() <= 4097);
   CHECK(cuts(circle(), 0, -2147483647 - 1).size() <= 4097);

@@ -132,7 +132,7 @@ TEST_CASE("what is wrong costs the patch it is in, and is told with its place") 
   CHECK(lines["out-of-range"] == 9);
   CHECK(lines["unknown-element"] == 8);
   CHECK(lines["unclosed"] == 1);
-  CHECK(diag.count(Diag::bad_patch) == 1);  // those of damaged tags were told
+  CHECK(diag.count(Diag::bad_patch) == 1);  // those of damaged tags were reported
   const auto column = diag.sources().locate(diag.messages()[0].where);
   CHECK(column.line == 3);
   CHECK(column.column == 11);

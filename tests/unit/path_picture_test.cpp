@@ -25,7 +25,7 @@ std::string grey(double linear) {
 
 double linear(int level) { return srgb_to_linear(level / 255.0); }
 
-/// Of the red of all pixels, linear.
+/// The mean of the red of all pixels, linear.
 double mean(const Image& i) {
   double sum = 0;
   for (std::size_t p = 0; p < i.pixels.size(); p += 3) sum += linear(i.pixels[p]);

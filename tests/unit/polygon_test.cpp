@@ -181,7 +181,7 @@ Polygon maze(int w, unsigned seed) {
   return outline(open);
 }
 
-/// Four sides of n edges each, in one plane but for rounding.
+/// Four sides of n edges each, in one plane except for rounding.
 Polygon divided_square(int n, double angle) {
   Polygon p;
   const Vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

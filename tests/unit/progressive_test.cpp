@@ -47,7 +47,7 @@ void change_positions(Mesh& mesh, F f) {
   for (double& x : mesh.positions.edit()) x = f(x);
 }
 
-/// Borders, and positions that are no decimals.
+/// Borders, and positions that are not decimals.
 Mesh open_sheet() { return sheet(14, 11, waves); }
 
 /// Closed: a sphere of quads with poles.

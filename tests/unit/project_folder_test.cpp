@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// a/b/c/d below a temporary folder, which nobody else may write to.
+/// a/b/c/d below a temporary folder, which no one else may write to.
 struct Project {
   TempFolder folder;
   std::string input = folder.write("a/b/c/d/plant.wrl", "#VRML V2.0 utf8\n");

@@ -20,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 
 enum class Style { polygons, triangles, soup };
 
-/// Appends the faces of a form, moved, in decimals if there are to be so many.
+/// Appends the faces of a form, moved, in decimals if a number of them is given.
 void add(Mesh& to, const Form& form, const Matrix& where = {}, int decimals = -1, Style style = Style::polygons) {
   Mesh mesh;
   tessellate_form(form, {}, mesh);

@@ -1,4 +1,4 @@
-// What materials of X3D 4.0 have besides a colour and a picture of it (ISO/IEC 19775-1:2023, 12.4).
+// What materials of X3D 4.0 have in addition to a colour and a picture of it (ISO/IEC 19775-1:2023, 12.4).
 #include "tests/unit/render_fixture.h"
 
 using namespace wrlkit;

@@ -72,7 +72,7 @@ TEST_CASE("stop: parallel loops end between two calls", "[stop]") {
     CHECK(calls <= 10 + threads);
   }
   CHECK(StopScope::current() == nullptr);
-  parallel_for(10, [](std::size_t) { check_stop(); });  // nobody can stop it
+  parallel_for(10, [](std::size_t) { check_stop(); });  // it cannot be stopped
 }
 
 TEST_CASE("stop: each way to illuminate ends within a round", "[stop]") {

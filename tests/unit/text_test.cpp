@@ -308,7 +308,7 @@ TEST_CASE("UTF-8, good and bad", "[text]") {
   };
   CHECK(mesh_of("\xc3\x84").size() > mesh_of("A").size());  // A with two dots
   CHECK(mesh_of("\xd0\x96\xce\xa9") != mesh_of("\xce\xa9\xd0\x96"));
-  const std::string bad = "\xef\xbf\xbd";  // what stands for a bad byte
+  const std::string bad = "\xef\xbf\xbd";  // what stands for an invalid byte
   REQUIRE(!mesh_of(bad).empty());
   CHECK(mesh_of("a\xff"
                 "b") == mesh_of("a" + bad + "b"));

@@ -1,4 +1,4 @@
-// Every affine matrix is said by one Transform.
+// Every affine matrix can be expressed by one Transform.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>

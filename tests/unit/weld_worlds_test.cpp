@@ -173,7 +173,7 @@ Topology topology(Meshes& m, NodeId n) {
   return {points.size(), edges.size(), mesh.n_faces()};
 }
 
-/// Of each Shape of the world, in the order of the file.
+/// One for each Shape of the world, in the order of the file.
 std::vector<Topology> topologies(Meshes& m) {
   std::vector<Topology> out;
   const Scene& scene = m.world->scene;

@@ -57,7 +57,7 @@ std::vector<CLI::Option*> long_options(const CLI::App& app) {
   return out;
 }
 
-/// An option takes one word, with commas in it where it is a list, so that the name of a file may follow.
+/// An option takes one argument, with commas in it where it is a list, so that the name of a file may follow.
 void add_options(CLI::App& app, const Verb& verb, Flags& flags) {
   verb.flags(app, flags);
   cli::common(app, flags);

@@ -8,9 +8,9 @@
 
 namespace wrlkit {
 
-/// Reads the words of a command line, runs the verb and returns the exit code.
+/// Reads the arguments of a command line, runs the verb and returns the exit code.
 int run_command_line(int argc, char** argv);
-/// The same as a whole program: what is thrown is said, and what could not be printed. Throws NeedsPython alone.
+/// The same as a whole program: exceptions and failed output are reported. Throws NeedsPython alone.
 int run_program(int argc, char** argv);
 
 inline constexpr std::string_view flag_type = "true or false";

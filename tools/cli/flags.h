@@ -1,4 +1,4 @@
-// What the command line can say, as data. cli.cpp fills these from the words of the command; the verbs read them.
+// What the command line can express, as data. cli.cpp fills these from the arguments; the verbs read them.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -38,7 +38,7 @@ struct Flags {
   bool print_pipeline = false, verify_each = false, time_passes = false, stats = false;
   std::string print_after;
   std::vector<std::string> python;  // files with passes
-  SaveOptions save;                 // but for the pipeline
+  SaveOptions save;                 // without the pipeline
   std::string recipe;
   bool print_recipe = false;
   bool can_replace = false;                                             // the verb has --in-place

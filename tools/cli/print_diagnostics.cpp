@@ -98,7 +98,7 @@ std::string messages_json(const Diagnostics& diag) {
       json.member("line", p.line);
       json.member("column", p.column);
     }
-    // How often this message came in all, told once.
+    // How often this message came in all, printed once.
     if (counted.insert(m.id).second) json.member("count", diag.count(m.id));
     json.end_object();
   }

@@ -20,7 +20,7 @@ class Progress : public Monitor {
 
   void begin(std::string what, std::uint64_t total, std::string unit) override;
   void step(std::uint64_t n = 1) override { done_.fetch_add(n, std::memory_order_relaxed); }
-  /// So many of them are done.
+  /// How many of them are done.
   void set(std::uint64_t done) { done_.store(done, std::memory_order_relaxed); }
   /// Takes the line off the terminal. Nothing is drawn before the next begin().
   void clear();

@@ -1,6 +1,6 @@
 // Passes that are written in Python. The program has no Python in it: when a file with such passes is named, by
 // --python or by a recipe, the same command line is run once more, from its beginning, by the Python package, which is
-// this program as a Python module. Who names none never loads it.
+// this program as a Python module. Without such passes it is never loaded.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// Recipes: what -p and the options of convert and of corpus run say, as a TOML file that can be kept beside the worlds.
+// Recipes: what -p and the options of convert and corpus run say, as a TOML file that can be kept next to the worlds.
 //
 //   summary = "plant for the web"
 //   [input]                  # what the worlds are: unit = "mm", up = "z", include = ["*.wrl"]
@@ -38,7 +38,7 @@ struct Recipe {
 /// recipe.
 std::string_view recipe_section(std::string_view option);
 
-/// Null when there is no such file, or it is no recipe: `why` is a message with file, line, column and the line itself.
+/// Null when it is missing or not a recipe: `why` is a message with file, line, column and the line itself.
 /// Files in Python are loaded, for passes have to be known; throws NeedsPython (python_passes.h).
 std::optional<Recipe> read_recipe(const std::string& path, std::string& why);
 /// Only the options, of a recipe that a run has written down: its passes need not be known.

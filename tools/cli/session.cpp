@@ -20,7 +20,7 @@ Session::Session(const Flags& flags)
 /// What the flags say; not good when they name a message that there is not, which is printed.
 LoadOptions Session::load_options() {
   LoadOptions out = flags_.load;
-  out.project_files = !flags_.strict_paths && !flags_.serve;  // not for those who are not asked
+  out.project_files = !flags_.strict_paths && !flags_.serve;  // not for users who are not asked
   out.map_files = true;                                       // run_program says what it is when one is cut
   out.unpack_pictures = !flags_.output.empty() && flags_.output != "-";
   for (const auto& w : flags_.warnings) {

@@ -30,12 +30,12 @@ class Session {
   /// Reads a world, in place of the one before; false when nothing can be had.
   bool read(const std::string& path) { return document_.read(path); }
   World& world() { return document_.world(); }
-  /// -p with what it lacks of `standard`, or else `standard`; false when it is no pipeline, which was printed.
+  /// -p with what it lacks of `standard`, otherwise `standard`; false when it is not a pipeline, which was printed.
   bool choose_pipeline(std::string_view standard);
   Pipeline& pipeline() { return *pipeline_; }
   PipelineOptions pipeline_options();
 
-  /// For --report: facts beside the messages, as JSON.
+  /// For --report: facts in addition to the messages, as JSON.
   void fact(std::string name, std::string json) { facts_.emplace_back(std::move(name), std::move(json)); }
 
   int exit_code(bool made, int not_made) const {

@@ -14,7 +14,7 @@ struct CorpusWork {
   Flags flags;        // of a conversion
   ContentHash hash;   // of program, recipe and format: the same gives the same bytes
   std::string out;    // folder
-  bool text = false;  // outputs are VRML or X3D, which refer to files beside them
+  bool text = false;  // outputs are VRML or X3D, which refer to files next to them
 };
 
 /// Version, and contents of the file that this code is in: builds of one version may differ.

@@ -13,7 +13,7 @@ struct InputFile {
   std::string inside;  // below its root: where it stands in the mirrored tree
   std::uint32_t root = 0;
   std::uint64_t bytes = 0;
-  bool mirrored = false;  // all that stands beside it in its folder stands beside its output, too
+  bool mirrored = false;  // all that is next to it in its folder is next to its output, too
   bool asset = false;     // no world, but what worlds refer to: a picture, a sound
 };
 

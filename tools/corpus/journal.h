@@ -1,5 +1,5 @@
 // What has been done, a line of JSON a file (base/io/line_journal.h), in OUT/.wrlkit/. Each shard has a journal of its
-// own; who reads takes all of them, and the last line about an output counts.
+// own; readers take all of them, and the last line about an output counts.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -20,7 +20,7 @@ enum class JobState : std::uint8_t { made, made_partly, failed, crashed, timeout
 std::string_view to_string(JobState);
 inline bool is_made(JobState s) { return s == JobState::made || s == JobState::made_partly; }
 
-/// A file that the input refers to: who asked for it, by which url or path, what was found, and its contents.
+/// A file that the input refers to: what asked for it, by which url or path, what was found, and its contents.
 struct UsedFile {
   std::string referrer, url;
   std::string path;  // empty: nothing was found
@@ -70,9 +70,9 @@ struct JournalLine {
 };
 
 std::string to_json(const JournalLine&);
-/// Nothing when the text is no whole line.
+/// Nothing when the text is not a whole line.
 std::optional<JournalLine> journal_line(std::string_view text);
-/// As a line that was read back has a name: JSON cannot say bytes that are no UTF-8.
+/// As a line that was read back has a name: JSON cannot hold bytes that are not UTF-8.
 std::string name_in_journal(const std::string& name);
 
 class Journal {

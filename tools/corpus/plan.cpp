@@ -11,7 +11,7 @@
 namespace wrlkit {
 namespace {
 
-// Of conversions to glTF (docs/performance.md): a process, and so much a byte of text. gzip packs VRML to a sixth or
+// For conversions to glTF (docs/performance.md): a process, and a cost per byte of text. gzip packs VRML to a sixth or
 // so.
 constexpr double process_seconds = 0.002, seconds_a_byte = 1e-8;
 constexpr std::uint64_t process_bytes = 48 << 20, bytes_a_byte = 12, gzip_ratio = 8;

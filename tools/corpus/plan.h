@@ -1,5 +1,5 @@
 // What a corpus run is going to do: a job for each file, with its place in the mirrored tree, what it is likely to
-// cost, and the shard that does it. Who plans the same inputs gets the same plan, so shards need not talk to one
+// cost, and the shard that does it. The same inputs give the same plan, so shards need not talk to one
 // another.
 #pragma once
 #include <cstdint>

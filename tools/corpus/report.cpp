@@ -19,7 +19,7 @@ void count_messages(const JournalLine& line, ReportRow& row, std::map<std::strin
   if (line.messages.empty() || doc.parse(line.messages)) return;
   for (auto m : doc.root()) {
     const auto times = m["count"].whole().value_or(0);
-    if (times == 0) continue;  // told with the first of its name
+    if (times == 0) continue;  // reported with the first of its name
     const auto severity = m["severity"].text();
     (severity == "error"  ? row.errors
      : severity == "lost" ? row.lost

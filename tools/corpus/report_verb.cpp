@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr double most_seconds = 120;
 
-/// Lines of what was made and has not been looked at, at most so many.
+/// Lines of what was made and has not been looked at, at most that many.
 std::vector<JournalLine> to_be_looked_at(const std::string& out, std::size_t most) {
   std::map<std::string, JournalLine> last;
   read_journals(corpus_folder(out), [&](JournalLine&& l) {

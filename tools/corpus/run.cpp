@@ -187,7 +187,7 @@ class Run {
     return bundle_size_ > 1 && plan_.jobs[at].cost < small_cost && !own_process_.contains(at);
   }
 
-  /// Takes the next file that is not done, and small ones behind it; not so many that other workers would have none.
+  /// Takes the next file that is not done, and small ones behind it, but leaves some to other workers.
   void fill_bundle() {
     const auto most = std::clamp<std::size_t>((todo_.size() - next_) / (2 * jobs_), 1, bundle_size_);
     while (next_ < todo_.size() && bundle_.size() < most) {
@@ -317,7 +317,7 @@ class Run {
     line.memory = end.memory;
   }
 
-  /// Of a worker that could not say it itself.
+  /// The line for a worker that could not write it itself.
   JournalLine failure(std::uint32_t at, const WorkerEnd& end) const {
     JournalLine line;
     line.input_hash = hash_of_file(plan_.jobs[at].input.path).value_or(ContentHash{});

@@ -35,13 +35,13 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-/// Of the terminal, less the place of the cursor.
+/// The width of the terminal, less the place of the cursor.
 std::size_t width() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
 }
 
-/// To so many bytes, or a few less: the next character begins behind them.
+/// Cuts to that many bytes, or a few less: the next character begins behind them.
 void cut(std::string& line, std::size_t n) {
   if (line.size() <= n) return;
   while (n > 0 && (static_cast<unsigned char>(line[n]) & 0xc0) == 0x80) --n;

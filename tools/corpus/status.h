@@ -1,5 +1,5 @@
 // How far a corpus run is: a line that is overwritten on a terminal, a line every ten seconds in a log. What fails is
-// said at once.
+// printed at once.
 #pragma once
 #include <chrono>
 #include <map>
@@ -12,7 +12,7 @@ namespace wrlkit {
 
 class CorpusStatus {
  public:
-  /// Of so many files, which cost so much; `quiet`: only what fails is said.
+  /// For that many files, which cost that much; `quiet`: only failures are printed.
   CorpusStatus(std::size_t files, double cost, bool quiet);
   ~CorpusStatus();
   CorpusStatus(const CorpusStatus&) = delete;
@@ -21,7 +21,7 @@ class CorpusStatus {
   void failed(const std::string& input, const std::string& cause);
   /// Says how far it is when it is time to.
   void show(const std::vector<std::string>& now);
-  /// Of a file that was made without all that is in it; JSON, as --report has them.
+  /// Counts errors of a file that was made without all that is in it; JSON, as --report has them.
   void count_errors(const std::string& messages);
   /// The last lines: what became of all files, and what the outputs lack.
   void end(const std::string& out);

@@ -20,17 +20,17 @@ struct WorkerEnd {
   bool timed_out = false;
   double started = 0, seconds = 0, cpu = 0;  // Unix time; wall clock; processor
   std::uint64_t memory = 0;                  // most at a time, bytes
-  std::string told;                          // what it said of its work, as far as it came
+  std::string told;                          // what it reported of its work, as far as it got
   std::string printed;                       // the end of what it printed
 };
 
 class Workers {
  public:
-  /// Takes something to be said of the work, at once: it stays said however the worker ends.
+  /// Takes a report about the work, at once: it is kept however the worker ends.
   using Tell = std::function<void(std::string_view)>;
   /// Gives an exit code.
   using Work = std::function<int(const Tell& tell)>;
-  /// Of a worker that has run out of memory and knows it.
+  /// The exit code of a worker that has run out of memory and knows it.
   static constexpr int no_memory = 100;
 
   /// From now on SIGHUP, SIGINT and SIGTERM wait for the end of this object.
@@ -42,12 +42,12 @@ class Workers {
   std::size_t running() const { return running_.size(); }
   /// Jobs at work, in the order in which they were begun.
   std::vector<std::size_t> jobs() const;
-  /// Begins a job, with `memory` bytes beyond what this process has and so many seconds. False when the system has no
+  /// Begins a job, with `memory` bytes beyond what this process has and that many seconds. False when the system has no
   /// more processes.
   bool start(std::size_t job, std::uint64_t memory, double timeout, const Work& work);
   /// Whether a signal is to end this process.
   static bool interrupted();
-  /// The next that ends, or nothing after so many seconds or when this process is interrupted.
+  /// The next that ends, or nothing after that many seconds or when this process is interrupted.
   std::optional<WorkerEnd> wait(double seconds);
 
  private:

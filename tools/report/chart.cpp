@@ -13,7 +13,7 @@ namespace {
 constexpr double width = 460, height = 300, left = 54, right = 446, top = 14, bottom = 258;
 
 /// A logarithmic axis from one place of the picture to another, and where its marks are: at 1, 2 and 5 of each decade
-/// while that are few, else at the powers of ten.
+/// while that are few, otherwise at the powers of ten.
 class Axis {
  public:
   Axis(double low, double high, double from, double to)

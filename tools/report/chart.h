@@ -3,7 +3,7 @@
 //
 // Colours, lines and letters are the page's business: their style is in tools/report/report.css. Series k of every
 // chart has the class `s<k>`, and a shape of its own at its points, for eyes that cannot tell the colours. Each point
-// says its numbers when it is pointed at.
+// shows its numbers when it is pointed at.
 #pragma once
 #include <string>
 #include <string_view>

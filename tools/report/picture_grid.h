@@ -26,7 +26,7 @@ struct NamedPicture {
 struct GridSize {
   int columns = 1, rows = 1, width = 1, height = 1;  // pixels
 };
-/// Of so many pictures of one size.
+/// For that many pictures of one size.
 GridSize grid_size(std::size_t n, int columns, int width, int height);
 
 /// Pictures of one size, in rows from the left, white around them, the name of each below it.

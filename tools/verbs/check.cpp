@@ -27,7 +27,7 @@ void check_contents(Session& s) {
   }
 }
 
-/// Inlines and prototypes are followed, so that what is missing there is said.
+/// Inlines and prototypes are followed, so that what is missing there is reported.
 void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
   report_hidden_geometry(s.world().scene, s.diag());

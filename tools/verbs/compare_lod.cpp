@@ -14,7 +14,7 @@
 namespace wrlkit {
 namespace {
 
-/// Draws worlds that are the same but for their meshes, from where the first is seen.
+/// Draws worlds that are the same except for their meshes, from where the first is seen.
 class Painter {
  public:
   explicit Painter(Session& s) : s_(s), options_(render_options(s.flags())) {
@@ -22,7 +22,7 @@ class Painter {
     if (!options_.background) options_.background = Vec3{1, 1, 1};
   }
 
-  /// Null when the passes failed. What is to be said about a world is said with the first picture.
+  /// Null when the passes failed. The messages about a world are printed with the first picture.
   std::optional<Image> draw(Scene scene) {
     Diagnostics unheard(s_.diag().shared_sources());
     auto& diag = drawn_ ? unheard : s_.diag();
@@ -42,7 +42,7 @@ class Painter {
   bool drawn_ = false;
 };
 
-/// What to stop at: falling, each once. What is no less than the model is the model.
+/// What to stop at: falling, each once. What is not less than the model is the model.
 std::vector<std::size_t> counts_of(const Flags& f, std::size_t n_faces) {
   std::vector<std::size_t> out(f.counts.begin(), f.counts.end());
   constexpr double usual[] = {0.5, 0.25, 0.1, 0.05, 0.02, 0.01};

@@ -33,7 +33,7 @@ std::vector<SpokenVerb> spoken_verbs() {
 
 bool is_flag(const OptionHelp& o) { return o.type == flag_type; }
 
-/// The values of "TEXT:{none,mesh}", with blanks between them; empty when it is no choice.
+/// The values of "TEXT:{none,mesh}", with blanks between them; empty when it is not a choice.
 std::string values_of(const OptionHelp& o) {
   const auto begin = o.type.find('{'), end = o.type.find('}');
   if (begin == o.type.npos || end == o.type.npos) return {};

@@ -43,7 +43,7 @@ std::string difference_json(const WorldDifference& d) {
   return out;
 }
 
-/// "12" when both are, else "12 -> 7".
+/// "12" when both are, otherwise "12 -> 7".
 std::string change(std::uint64_t a, std::uint64_t b) {
   return a == b ? fmt::format("{}", a) : fmt::format("{} -> {}", a, b);
 }

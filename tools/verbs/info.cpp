@@ -43,7 +43,7 @@ std::uint64_t n_forms(const FormsCensus& f) {
   return out;
 }
 
-/// Of all triangles.
+/// The share of all triangles.
 double share_of_forms(const Info& i) {
   const auto all = static_cast<double>(std::max<std::uint64_t>(i.geometry.triangles, 1));
   return std::clamp(1 - static_cast<double>(i.forms->triangles_left) / all, 0.0, 1.0);

@@ -45,7 +45,7 @@ bool write_picture(Session& s, const Image& picture, const std::string& name) {
 
 namespace {
 
-/// --viewpoint names one of the world that is open; else what it may have meant is reported.
+/// --viewpoint names one of the world that is open; otherwise what it may have meant is reported.
 bool has_viewpoint(Session& s, const MeshSource& meshes) {
   if (s.flags().viewpoint.empty()) return true;
   const auto options = render_options(s.flags());
@@ -76,7 +76,7 @@ class Turntable {
   bool make() {
     const auto meshes = open_world(s_, s_.flags().inputs[0]);
     if (!meshes || !has_viewpoint(s_, meshes)) return false;
-    // What is to be said about the world is said with the first picture.
+    // The messages about the world are printed with the first picture.
     Diagnostics unheard(s_.diag().shared_sources());
     int i = 0;
     for (const auto& options :
@@ -134,7 +134,7 @@ bool is_usable(const Flags& f, bool sheet) {
 int run_render(const Flags& given) {
   const bool sheet = is_sheet(given);
   Flags flags = given;
-  // Of many worlds, some may not have it.
+  // Among many worlds, some may not have it.
   if (!sheet) flags.warnings.insert(flags.warnings.begin(), "error=viewpoint-not-found");
   Session s(flags);
   if (!is_usable(flags, sheet) || !s.good() || !s.choose_pipeline("picture")) return usage;

@@ -13,7 +13,7 @@
 namespace wrlkit {
 namespace {
 
-/// Of two pictures of one size, in levels of 0 to 255.
+/// The difference of two pictures of one size, in levels of 0 to 255.
 struct PictureDifference {
   double mean = 0;           // of all components of all pixels
   int largest = 0;           // of any component

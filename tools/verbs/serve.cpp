@@ -113,7 +113,7 @@ std::string serve_site(const Site& site) {
   const auto port = ntohs(here.sin_port);
   fmt::print("http://127.0.0.1:{}/\n", port);
   std::fflush(stdout);
-  // The site outlives the threads: nothing but the end of the process ends this loop as long as the listener is
+  // The site outlives the threads: only the end of the process ends this loop as long as the listener is
   // there.
   static std::counting_semaphore<most_clients> places(most_clients);
   for (;;) {

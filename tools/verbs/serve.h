@@ -7,7 +7,7 @@
 
 namespace wrlkit {
 
-/// What is answered to those who ask for an address.
+/// The answer to a request for an address.
 struct Served {
   std::string_view type;  // MIME, of static storage
   std::shared_ptr<const std::string> bytes;

@@ -136,7 +136,7 @@ void print_table(const WrittenWorlds& all) {
   fmt::print("{:>68}\n", all.lod_file);
 }
 
-/// As `info` counts them. What there is to say of them is said when they are simplified.
+/// As `info` counts them. Messages about them come when they are simplified.
 std::size_t drawn_triangles(const Document& document) {
   Document copy(document.copy());
   Diagnostics unheard(copy.diag().shared_sources());
@@ -193,8 +193,8 @@ bool is_reached(const SimplifiedWorld& world, const WorldSimplifyOptions& option
   return counts.empty() || (world.n_points() > 0 && world.point(world.n_points() - 1).n_faces <= counts.back());
 }
 
-/// As one world with one budget where there are several parts and the triangles are counted; else each surface for
-/// itself, unless the criterion does not go as far as was asked.
+/// As one world with one budget where there are several parts and the triangles are counted; otherwise each
+/// surface for itself, unless the criterion does not go as far as was asked.
 bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names, WrittenWorlds& all) {
   const Scene& scene = s.world().scene;
   SilentTask silent(s.context());

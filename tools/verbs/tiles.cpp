@@ -141,7 +141,7 @@ std::string json_of(const TilesMade& made) {
   return out;
 }
 
-/// False, which was printed, when it is no place on the Earth.
+/// False, which was printed, when it is not a place on the Earth.
 bool check_place(const std::vector<double>& at) {
   if (!at.empty() && at.size() != 3 && at.size() != 4) {
     fmt::print(stderr, "wrlkit tiles: --at: three or four numbers are needed, LAT,LON,HEIGHT[,HEADING]\n");

@@ -22,7 +22,7 @@ struct ViewerPage {
 
   std::vector<World> worlds;  // one, or two to be compared
   std::vector<Collapse> collapses;
-  /// Of the two worlds; the maps of each from the other (tools/report/deviation_map.h).
+  /// The deviation of the two worlds; the maps of each from the other (tools/report/deviation_map.h).
   struct Apart {
     Deviation deviation;
     std::string maps[2];

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view paths[] = {"translation", "rotation", "scale"};
 
-/// The field that says a property of a node.
+/// The field that holds a property of a node.
 std::optional<std::uint16_t> slot_of(const Scene& scene, NodeId n, Path p) {
   using namespace nodes;
   if (scene.is(n, Transform))

@@ -17,7 +17,7 @@ struct Camera {
   Vec3 position;  // world
 };
 
-/// What the NavigationInfo in force says of seeing (6.29); none: its defaults.
+/// What the NavigationInfo in force says about viewing (6.29); none: its defaults.
 struct Visibility {
   double avatar_size = 0.25, limit = 0;  // no limit
   bool headlight = true;
@@ -26,7 +26,7 @@ Visibility visibility(const Scene&, NodeId navigation_info);
 
 /// Position and orientation as those of a node.
 Trs camera_transform(const Scene&, NodeId viewpoint);
-/// DEF name, or else the description.
+/// DEF name, otherwise the description.
 std::string_view camera_name(const Scene&, NodeId viewpoint);
 /// `reach`: what is that far from the camera is seen in any case.
 void write_camera(JsonOut&, const Scene&, const Camera&, const Box& world, const Visibility&, double reach = 0);

@@ -7,7 +7,7 @@
 
 namespace wrlkit::gltf {
 
-/// Cut to [0, 1]; 0 when it is no number.
+/// Cut to [0, 1]; 0 when it is not a number.
 inline double unit_range(double v) { return v >= 0 ? std::min(v, 1.0) : 0.0; }
 
 inline double linear(double v) { return srgb_to_linear(unit_range(v)); }

@@ -1,4 +1,4 @@
-// What interpolators say in the course of one cycle of a clock (ISO/IEC 14772-1, 4.6.8 and 6.8), also behind one
+// The output of interpolators in the course of one cycle of a clock (ISO/IEC 14772-1, 4.6.8 and 6.8), also behind one
 // another.
 //
 // A curve tells for each fraction of the cycle how far along the keys an interpolator is: 2.25 is a quarter of the way
@@ -42,7 +42,7 @@ std::span<const double> key_values(const Scene&, NodeId interpolator);
 /// Values that a key has of its own: one of a PositionInterpolator, all points of a CoordinateInterpolator. 0: no keys.
 std::size_t values_per_key(const Scene&, NodeId interpolator);
 
-/// What an interpolator says whose set_fraction follows a ramp; none when it has no keys, or they do not ascend. More
+/// Output of an interpolator whose set_fraction follows a ramp; none when it has no keys, or they do not ascend. More
 /// than `most` frames are cut.
 std::optional<Curve> follow(const Scene&, NodeId interpolator, const Ramp&, std::size_t most);
 /// What a ScalarInterpolator that is on a curve sends out.

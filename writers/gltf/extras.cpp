@@ -169,7 +169,7 @@ void Extras::form(JsonOut& json, NodeId n) {
   own_fields_ = false;
 }
 
-/// Slots of a geometry whose values its vertices, indices and material say.
+/// Slots of a geometry whose values its vertices, indices and material give.
 Extras::Said Extras::said_by_vertices(NodeId n) const {
   using namespace nodes;
   static constexpr std::uint16_t faces[] = {indexed_face_set::colorIndex.slot,  indexed_face_set::coordIndex.slot,
@@ -186,7 +186,7 @@ bool Extras::adds_to_vertices(NodeId n, const Value& v) const {
   if (!speaks(n, v, said_by_vertices(n))) return false;
   if (scene_.is_extra(v) || info(v.type).element != Element::node) return true;
   const auto field = scene_.type(n).fields[v.slot].name;
-  if (field == "metadata" && features_of(scene_, n)) return false;  // feature ids say it
+  if (field == "metadata" && features_of(scene_, n)) return false;  // feature ids give it
   return !v.node_span().empty() && ((field != "coord" && field != "color") || !name(v.node).empty());
 }
 
@@ -212,7 +212,7 @@ void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> po
   json.end_object();
 }
 
-/// A name that another mesh has said already need not be said again.
+/// A name that another mesh has written already is not written again.
 bool Extras::is_named_child(const Value& v) const {
   return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node && !name(v.node).empty() &&
          !said_names_.contains(std::string(name(v.node)));
@@ -308,7 +308,7 @@ void Extras::fields(JsonOut& json, NodeId n, Said said, std::size_t depth, bool 
   interface(json, t, n, depth);
 }
 
-/// With the values of a node, or else with the defaults of a declaration.
+/// With the values of a node, otherwise with the defaults of a declaration.
 void Extras::interface(JsonOut& json, const NodeType& t, NodeId n, std::size_t depth) {
   json.begin_array();
   for (std::size_t i = n_table_fields(t); i < t.fields.size(); ++i) {

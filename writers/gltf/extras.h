@@ -1,4 +1,4 @@
-// What VRML says and glTF cannot, kept so that it can come back: as JSON below "extras", made from the node table.
+// What VRML has and glTF has not, kept so that it can come back: as JSON below "extras", made from the node table.
 //
 //   Anchor { url "pump.html" children ... }   ->   "extras": {"vrml97": {"Anchor": {"url": ["pump.html"]}}}
 //
@@ -33,7 +33,7 @@ class Extras {
   /// Slots of a node's type whose values glTF itself has expressed.
   using Said = std::span<const std::uint16_t>;
   static constexpr std::size_t max_nodes = 5'000'000;
-  /// Of nodes inside each other. Each is three levels of JSON, and some readers refuse more than 128 of these
+  /// The depth of nodes inside each other. Each is three levels of JSON; some readers refuse more than 128
   /// (serde_json).
   static constexpr std::size_t max_depth = 32;
 
@@ -52,9 +52,9 @@ class Extras {
   /// A Shape whose geometry is a mesh.
   void set_shown(NodeId n) { marks_[n.value] |= shown_mark; }
 
-  /// Is there a field beside those?
+  /// Is there a field other than those?
   bool anything(NodeId n, Said said) const;
-  /// Does the node say more than its node of glTF, which reads as one of type `implied`?
+  /// Does the node hold more than its node of glTF, which reads as one of type `implied`?
   bool says_more(NodeId n, TypeId implied, bool plain_transform = true) const {
     return !scene_.is(n, implied) || anything(n, said_by_node(n, plain_transform));
   }
@@ -70,13 +70,13 @@ class Extras {
   /// The member extras: {wrlkit: {Type: {fields}}} of a form with fields of our own (scenegraph/nodes/wrlkit.nodes).
   void form(JsonOut&, NodeId);
   /// The member vrml97: {Type: {fields}, polygons}: what the vertices of an IndexedFaceSet, IndexedLineSet or PointSet
-  /// do not tell. A node in a field only says that it was there, and its name. `polygons` are pairs: so many triangles
-  /// are one polygon, so often. `step`, unless it is 1: what positions are to be multiplied by; the scale of nodes with
+  /// do not tell. A node in a field only says that it was there, and its name. `polygons` are pairs: N triangles
+  /// are one polygon, M times. `step`, unless it is 1: what positions are to be multiplied by; the scale of nodes with
   /// the mesh is that and nothing else.
   void geometry(JsonOut&, NodeId, std::span<const std::uint32_t> polygons, double step);
   /// Is there anything of that?
   bool geometry_says_more(NodeId) const;
-  /// The same with nothing but names: of Coordinates and the like, but for some fields; and of all that is in a Shape
+  /// The same with names only: of Coordinates and the like, but for some fields; and of all that is in a Shape
   /// that shows nothing.
   void names_in_geometry(JsonOut&, NodeId, std::span<const std::string_view> without);
   bool has_names_in_geometry(NodeId, std::span<const std::string_view> without) const;
@@ -117,7 +117,7 @@ class Extras {
   void content(JsonOut&, NodeId, std::size_t depth);
   bool too_much(NodeId, std::size_t depth);
 
-  /// The urls of a list as they are written; false when it is no such list.
+  /// The urls of a list as they are written; false when it is not such a list.
   bool urls(JsonOut&, Span where, TypeId, std::uint16_t slot, const Value&);
   void urls(JsonOut&, Span where, std::span<const std::string_view>, UrlUse);
 

@@ -79,7 +79,7 @@ class Triangles {
   Triangles(std::span<const float> xyz, std::span<const std::uint32_t> corners, double step)
       : xyz_(xyz), corners_(corners), step_(step) {}
 
-  /// All but a rest that is no triangle, by the first corner.
+  /// All but a rest that is not a triangle, by the first corner.
   std::size_t end() const { return corners_.size() - corners_.size() % 3; }
   std::array<Vec3, 3> at(std::size_t i) const { return {point(i), point(i + 1), point(i + 2)}; }
   std::array<Point, 3> snapped(std::size_t i) const {

@@ -72,7 +72,7 @@ struct GltfSummary {
   std::uint64_t json_gzip = 0, geometry_gzip = 0,
                 pictures_gzip = 0;  // the same, gzipped each by itself; 0: not measured
   using Share = std::pair<std::string_view, std::uint64_t>;
-  std::vector<Share> json_shares, geometry_shares;  // of what kind of thing so many of those bytes are, the most first
+  std::vector<Share> json_shares, geometry_shares;  // how many of those bytes are of what kind, the most first
   Quantization quantization;
   Recoding recoding;
   std::uint64_t bytes() const { return json + geometry + pictures; }
@@ -86,8 +86,8 @@ struct GltfOptions {
   /// ambient light), moz (extension MOZ_lightmap), extras (of the material, with the directions of the light).
   enum class Lightmaps : std::uint8_t { base_color, emissive, occlusion, moz, extras };
 
-  bool binary = true;                 // .glb; false: .gltf with a .bin beside it
-  Images images = Images::automatic;  // in the binary part, or files beside; automatic: as `binary`
+  bool binary = true;                 // .glb; false: .gltf with a .bin next to it
+  Images images = Images::automatic;  // in the binary part, or files next to it; automatic: as `binary`
   Lightmaps lightmaps = Lightmaps::base_color;
   GltfCompression compression;
   GltfTextures textures;
@@ -100,10 +100,10 @@ struct GltfOptions {
   Names names = Names::nodes;
   bool gpu_instancing =
       false;           // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (instances.h)
-  bool extras = true;  // what glTF cannot say is kept
+  bool extras = true;  // what glTF cannot express is kept
   bool facts_only =
       false;  // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
-              // the same VRML again. Groups without a name that hold one thing are then one node with it
+              // the same VRML again. Groups without a name that hold one node are then one node with it
   LeadUrls lead_urls = {};  // what urls are written as that glTF has no place for; none: as they are
   /// A geometry that the source was asked for before, and whose mesh is that of this one; none: it is not known.
   std::function<NodeId(NodeId)> same_mesh = {};
@@ -130,14 +130,14 @@ inline constexpr auto choices<GltfOptions::Names> =
                  "EXT_mesh_gpu_instancing; with --extras facts)"}});
 
 /// Writes a scene without instances of prototypes; Inlines that were loaded must have become groups. It is written
-/// whole or not at all; false, and a message, when it is not. Files beside are named after the output: room.gltf has
-/// room.bin and room_brick.png. Without resources there are no pictures but those of PixelTexture.
+/// whole or not at all; false, and a message, when it is not. Other files are named after the output: room.gltf has
+/// room.bin and room_brick.png. Without resources there are only the pictures of PixelTexture.
 ///
 /// The mesh source must give what is to be drawn: triangles with normals, and with texture coordinates wherever a Shape
 /// shows a picture; segments or polylines; points. Other faces are cut into fans. Each geometry is asked for once, in
 /// the order of the file (again when a TextureTransform has to be applied to its texture coordinates).
 ///
-/// The same scene gives the same bytes. Memory: about the size of the output without compression and with it, beside
+/// The same scene gives the same bytes. Memory: about the size of the output without compression plus with it, plus
 /// one mesh.
 bool write_gltf(const Scene&, const MeshSource&, const GltfOptions&, Resources*, const std::string& path, Diagnostics&,
                 GltfSummary* = nullptr);

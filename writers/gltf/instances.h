@@ -1,4 +1,4 @@
-// EXT_mesh_gpu_instancing, on request: children of one parent that do nothing but place one mesh are one node with a
+// EXT_mesh_gpu_instancing, on request: children of one parent that only place one mesh are one node with a
 // table of places, and are drawn by one call.
 //
 //   {"name": "Bolt_1", "translation": [1, 0, 0], "mesh": 3}, {"name": "Bolt_2", "translation": [2, 0, 0], "mesh": 3},

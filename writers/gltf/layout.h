@@ -39,11 +39,11 @@ class Layout {
   std::uint8_t stride_of_column(std::size_t i) const { return columns_[i].stride; }
   bool pictures_inside() const { return n_pictures_ > 0; }
   std::uint64_t size() const { return size_; }
-  /// Of the second buffer; 0: nothing is packed.
+  /// The size of the second buffer; 0: nothing is packed.
   std::uint64_t unpacked_size() const { return unpacked_size_; }
   /// Without pictures.
   std::uint64_t geometry_size() const { return geometry_size_; }
-  /// So many of these are of what kind.
+  /// How many of these are of which kind.
   std::vector<std::pair<std::string_view, std::uint64_t>> shares() const;
   /// The bytes.
   void pieces(std::vector<std::string_view>& out, bool with_pictures = true) const;

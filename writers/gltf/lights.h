@@ -33,7 +33,7 @@ struct Light {
 bool shines(const Scene&, NodeId light, const Motion&);
 /// Location and direction as those of a node.
 Trs light_transform(const Scene&, NodeId light);
-/// What of lights cannot be said: one message for each kind of loss, with the place of the first.
+/// What cannot be expressed of lights: one message for each kind of loss, with the place of the first.
 class LostLight {
  public:
   /// `at_top`: it stands in no group.

@@ -347,7 +347,7 @@ void Materials::light_extras(JsonOut& json, const Look& l) {
   json.end_object();
 }
 
-/// What glTF has said of a Material.
+/// What glTF has expressed of a Material.
 std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
   std::vector<std::uint16_t> said{m::diffuseTexture.slot,   m::normalTexture.slot, m::emissiveTexture.slot,
                                   m::occlusionTexture.slot, m::normalScale.slot,   m::occlusionStrength.slot};
@@ -360,7 +360,7 @@ std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
   return said;
 }
 
-/// What glTF has said of a material that only X3D has.
+/// What glTF has expressed of a material that only X3D has.
 std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
   namespace p = nodes::physical_material;
   namespace u = nodes::unlit_material;
@@ -384,7 +384,7 @@ void Materials::extras(JsonOut& json, const Look& l) {
   bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
   bool picture = extras_ && l.texture_node && l.texture.texture == none;
   bool transform = extras_ && l.transform_node && l.texture.texture == none;
-  // Of a Material alone: a picture that is multiplied, not one that takes the place of the colour.
+  // For a Material alone: a picture that is multiplied, not one that takes the place of the colour.
   bool multiplied =
       extras_ && l.texture.texture != none && scene_.is(l.material, nodes::Material) && l.says->color_picture;
   using As = GltfOptions::Lightmaps;

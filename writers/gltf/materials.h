@@ -14,7 +14,7 @@
 //
 // Baked light. Where the geometry has places in a lightmap they are the set of texture coordinates behind that of the
 // picture: 1, or 0 when there is none. See GltfOptions::Lightmaps. The texture coordinates of MOZ_lightmap and extras
-// are said as in any textureInfo, with KHR_texture_transform for lightmapTransform; a texel is what a white surface
+// are written as in any textureInfo, with KHR_texture_transform for lightmapTransform; a texel is what a white surface
 // reflects.
 //
 // X3D 4.0 (ISO/IEC 19775-1, 12 and 17.2). A PhysicalMaterial is glTF's own; an UnlitMaterial is unlit and of its
@@ -62,7 +62,7 @@ class Materials {
 
   /// Has an Appearance a picture that can be shown?
   bool has_picture(NodeId appearance);
-  /// Of an Appearance, or of none.
+  /// The material of an Appearance, or of none.
   MaterialUse get(NodeId appearance, SurfaceKind);
 
   /// What fields of a node that are moved do to one of its materials.

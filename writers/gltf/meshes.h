@@ -31,11 +31,11 @@ struct Geometry {
   Mode mode = Mode::triangles;
   bool double_sided = false;
   bool opacity = false;         // its colours have one
-  bool repeatable = false;      // equal ones have the same data: nothing was said of it, and it stands still
+  bool repeatable = false;      // equal ones have the same data: nothing was reported, and it stands still
   bool made_texcoords = false;  // its texture coordinates were asked for
   double scale = 0;             // how many times larger it is in the world, at most, where it is shown
   std::vector<std::uint32_t>
-      polygons;  // pairs: so many triangles were one face, so often; empty: all faces are triangles
+      polygons;  // pairs: number of triangles of a face, number of such faces; empty: all triangles
 
   bool empty() const { return positions == none; }
   SurfaceKind surface() const {
@@ -70,7 +70,7 @@ class Meshes {
         by_node_(scene.node_count(), none) {}
 
   /// Index into geometries() of the data of a geometry node. Texture coordinates that the file does not give are there
-  /// only for who has a picture.
+  /// only if there is a picture.
   std::uint32_t geometry(NodeId, bool picture);
   /// It is shown in this frame.
   void note_use(std::uint32_t geometry, const Matrix& frame) {
@@ -90,7 +90,7 @@ class Meshes {
     return gltf::reach(bounds(geometries_[meshes_[mesh].geometry], {})) * std::sqrt(3.0);
   }
   const Morphs& morphs() const { return morphs_; }
-  /// Of a geometry that is not empty, in a frame.
+  /// The bounds of a geometry that is not empty, in a frame.
   Box bounds(const Geometry&, const Matrix&) const;
 
  private:

@@ -94,7 +94,7 @@ bool Morphs::collect(Morph& m, Source& s, NodeId node, std::uint16_t slot, bool 
   return any;
 }
 
-/// The target of these values; none when they are what the file says.
+/// The target of these values; none when they are the values of the file.
 std::uint32_t Morphs::target(Morph& m, Source& s, std::span<const double> values, bool normals) {
   const std::size_t n = s.vertices.count();
   std::vector<double> moved(3 * n);

@@ -1,7 +1,7 @@
 // What the ROUTEs of a scene move without a Script: from the fraction of a TimeSensor through interpolators, which may
 // stand one behind the other, to fields of nodes, and from a field that is moved to others that follow it.
 //
-// Core glTF says translation, rotation and scale of a Transform, position and orientation of a Viewpoint, the location
+// Core glTF has translation, rotation and scale of a Transform, position and orientation of a Viewpoint, the location
 // of a light, the points of a Coordinate and the vectors of a Normal (as morph targets). By KHR_animation_pointer:
 // colours and numbers of materials and lights, fieldOfView, and TextureTransform. A number can be the fraction itself.
 // What moves anything else is kept in extras and lost.

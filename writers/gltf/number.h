@@ -8,7 +8,7 @@ namespace wrlkit::gltf {
 
 inline constexpr double largest_float = std::numeric_limits<float>::max();
 
-/// False for what is no number, too.
+/// False for what is not a number, too.
 inline bool fits_float(double v) { return std::abs(v) <= largest_float; }
 bool fits_float(const auto& values) {
   return std::ranges::all_of(values, [](double v) { return fits_float(v); });

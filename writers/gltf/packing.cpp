@@ -23,7 +23,7 @@ double tolerance_for(const GltfCompression& options, const Box& world) {
                                              : usual_tolerance;
 }
 
-/// Whether 24 bits with a sign count the steps to all of them; further out floats themselves say more.
+/// Whether 24 bits with a sign count the steps to all of them; further out floats themselves are finer.
 bool fits_grid(std::span<const float> values, double step) {
   constexpr double most = (1 << 23) - 1;
   return std::ranges::all_of(values, [&](float v) { return std::abs(double{v}) <= most * step; });
@@ -235,7 +235,7 @@ std::vector<std::uint32_t> Packing::corners(std::uint32_t indices, std::size_t n
   return index;
 }
 
-/// Of the grid of some positions, in their own frame.
+/// The step of the grid of some positions, in their own frame.
 double Packing::step(std::uint32_t accessor) const {
   const Bounds& b = from_.bounds_of(accessor);
   double extent = 0;

@@ -34,9 +34,9 @@ class PartTable {
   /// `columns`: names are written without the groups above them.
   explicit PartTable(bool columns) : columns_(columns) {}
 
-  /// Of a part of a merged mesh, by the names from the root with '/' between them; the same for the same names.
+  /// The row of a part of a merged mesh, by the names from the root with '/' between them; the same for the same names.
   std::uint32_t of_path(std::string_view path);
-  /// Of a node: the first of a name in a group is the row that of_path knows, every other one has its own.
+  /// The row of a node: the first of a name in a group is the row that of_path knows, every other one has its own.
   std::uint32_t add(std::string_view name, std::uint32_t parent);
 
   bool columns() const { return columns_; }

@@ -34,7 +34,7 @@ ShortPositions short_positions(std::span<const float> xyz, double step);
 /// Unit vectors as signed bytes, and filtered.
 Quantized byte_normals(std::span<const float> xyz);
 Quantized octahedral_normals(std::span<const float> xyz, int bits);
-/// Values in [0, 1] as unsigned shorts of so many significant bits; padded to a multiple of four bytes.
+/// Values in [0, 1] as unsigned shorts of that many significant bits; padded to a multiple of four bytes.
 Quantized shorts(std::span<const float> values, std::size_t width, int bits);
 
 }  // namespace wrlkit::gltf

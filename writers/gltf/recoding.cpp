@@ -38,7 +38,7 @@ double psnr_of(const Image& a, const Image& b) {
       const double d = a.pixels[i + c] * alpha_a - b.pixels[i + c] * alpha_b;
       sum += d * d;
     }
-  constexpr double most = 99;  // dB: nothing that could be told
+  constexpr double most = 99;  // dB: no difference that could be seen
   return sum > 0 ? std::min(most, 10 * std::log10(255.0 * 255.0 * static_cast<double>(a.pixels.size()) / sum)) : most;
 }
 

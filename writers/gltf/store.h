@@ -62,7 +62,7 @@ struct ViewInfo {
 };
 const ViewInfo& info(View);
 
-/// Of the positions of one accessor, as the floats that are stored.
+/// The bounds of the positions of one accessor, as the floats that are stored.
 using Bounds = BoxOf<float, 3>;
 
 struct Accessor {
@@ -76,7 +76,7 @@ class Store {
   /// Accessors with these values; `none` when they do not fit any more.
   std::uint32_t positions(std::span<const float>, const Bounds&);
   std::uint32_t vertices(View, std::span<const float>);
-  /// Of an animation, ascending.
+  /// Times of an animation, ascending.
   std::uint32_t times(std::span<const float>);
   /// 16-bit indices when there are few enough vertices for them.
   std::uint32_t indices(std::span<const std::uint32_t>, std::size_t n_vertices);

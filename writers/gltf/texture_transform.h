@@ -7,13 +7,13 @@
 
 namespace wrlkit::gltf {
 
-/// What KHR_texture_transform says.
+/// The values of KHR_texture_transform.
 struct UvTransform {
   Vec2 offset{0, 0}, scale{1, 1};
   double rotation = 0;
 };
 
-/// The same map for coordinates that count from the top. Null when the extension cannot say it: VRML scales after it
+/// The same map for coordinates that count from the top. Null when the extension has none: VRML scales after it
 /// turns, the extension before; and viewers are known to disagree about the order. Such transforms are applied to the
 /// coordinates.
 std::optional<UvTransform> uv_transform(const TexcoordMap&);

@@ -155,7 +155,7 @@ Textures::Loaded Textures::load_pixels(NodeId n, PixelMeaning meaning) {
   return stored(n, scene_.name(n).empty() ? "pixels" : std::string(scene_.name(n)), *image, meaning);
 }
 
-/// In the format and size that are asked for, of a file of so many bytes; `plain`: glTF would take that.
+/// In the format and size that are asked for, of a file of that many bytes; `plain`: glTF would take that.
 Textures::Loaded Textures::stored(NodeId n, const std::string& name, const Image& image, PixelMeaning meaning,
                                   std::size_t bytes_before, std::optional<Picture> plain) {
   const PlainFile file{plain ? plain->mime : std::string_view(), plain ? plain->bytes.size() : bytes_before};

@@ -48,7 +48,7 @@ class Textures {
   Textures(const Scene& scene, Resources* resources, const GltfTextures& options, Diagnostics& diag)
       : scene_(scene), resources_(resources), options_(options), diag_(diag) {}
 
-  /// Of an ImageTexture, PixelTexture or MovieTexture; equal ones are one texture. What cannot be had is reported,
+  /// For an ImageTexture, PixelTexture or MovieTexture; equal ones are one texture. What is missing is reported,
   /// once.
   TextureUse get(NodeId texture, PixelMeaning = PixelMeaning::color);
   /// A grey picture of how bright the light of a lightmap is: linear, times `scale`, cut at 1.

@@ -1,4 +1,4 @@
-// The transforms of glTF nodes: translation, rotation, scale, and nothing else. A VRML Transform can say more, a scale
+// The transforms of glTF nodes: translation, rotation, scale, and nothing else. A VRML Transform can do more, a scale
 // along turned axes; that becomes two nodes, one below the other. (A matrix would be no way out: glTF allows only
 // matrices that decompose into translation, rotation and scale again.)
 #pragma once

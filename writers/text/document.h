@@ -16,7 +16,7 @@ class TextDocument {
   struct Style {
     Dialect dialect;
     std::string_view yes, no;           // of SFBool
-    std::string_view between_tuples{};  // of a list, besides a blank
+    std::string_view between_tuples{};  // of a list, in addition to a blank
     bool wraps_images = false;
   };
 

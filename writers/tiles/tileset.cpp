@@ -10,7 +10,7 @@ namespace {
 
 constexpr double noise = 1e-9;  // of angles, and metres on the Earth
 
-/// From y up to z up, as who shows a tile turns its content.
+/// From y up to z up, as viewers turn the content of a tile.
 Vec3 z_up(const Vec3& p) { return {p[0], 0 - p[2], p[1]}; }
 
 class TilesetJson {

@@ -155,7 +155,7 @@ class VrmlWriter : TextDocument {
     return here && scene_.field_name(n, v) == "children" && scene_.content(v).type == FieldType::MFNode;
   }
 
-  /// False when it says what the default says.
+  /// False when it is equal to the default.
   bool field(NodeId n, const Value& v) {
     const auto& t = scene_.type(n);
     if (children(n, v)) return scene_.content(v).count > 0;
@@ -210,7 +210,7 @@ class VrmlWriter : TextDocument {
       value(v);
   }
 
-  /// Of an unknown field: nothing but the brackets tells a list of one node from a node.
+  /// The content of an unknown field: only the brackets distinguish a list of one node from a node.
   void unknown_content(const Value& v) {
     if (v.is || v.type != FieldType::MFNode || v.count != 1) return content(v);
     out_ << "[ ";

@@ -56,7 +56,7 @@ export class ByteReader {
   }
 }
 
-/// The double that is read when a single is printed with so many digits; ties go to the even digit, as C has it.
+/// The double that is read when a single is printed with that many digits; ties go to the even digit, as C has it.
 function printed(f: number, digits: number): number {
   const more = f.toExponential(digits), at = more.indexOf('e');
   const mantissa = more.slice(0, at);
@@ -73,7 +73,7 @@ export function coordinateReader(bytes: ByteReader, kind: number): (predicted: n
   const step = Number(`1e${kind}`);
   if (kind <= 15) return p => (nearest(p * step) + bytes.whole()) / step;
   const single = (p: number): number => singleAt(orderOf(Math.fround(p)) + bytes.whole());
-  // Of kind 22 the single itself does for drawing and for predictions: it is what fround makes of the printed one.
+  // For kind 22 the single itself does for drawing and for predictions: it is what fround makes of the printed one.
   return kind === 16 || kind === 22 ? single : p => printed(single(p), kind - 12);
 }
 

@@ -23,7 +23,7 @@ export interface Record {
   corners: Uint32Array;     // vertices of all corners at the finest state
 }
 
-/// Numbers without end, for arrays whose size nobody tells.
+/// Numbers without end, for arrays whose size is not given.
 class Growing {
   array = new Uint32Array(1024);
   size = 0;

@@ -17,7 +17,7 @@ export class Run {
   readonly scene = new Scene();
   readonly root = new Group();
   readonly box = new Box3();
-  readonly faces: Uint32Array;          // of the world, after so many collapses
+  readonly faces: Uint32Array;          // of the world, after that many collapses
   at = 0;                               // collapses done
   private readonly steppers: Stepper[];
   private readonly order: Uint32Array;  // the surface of each collapse
@@ -43,7 +43,7 @@ export class Run {
     for (; this.at > to; --this.at) this.steppers[this.order[this.at - 1]!]!.split();
   }
 
-  /// The first state that has at most so many faces, or the last.
+  /// The first state that has at most that many faces, or the last.
   stepOf(faces: number): number {
     let low = 0, high = this.steps;
     while (low < high) {

@@ -65,7 +65,7 @@ export class Tileset {
     return out;
   }
 
-  /// Bytes of geometry and pictures that are kept at most, but for what the picture needs at least.
+  /// Bytes of geometry and pictures that are kept at most, except for what the picture needs at least.
   get budget(): number { return this.tiles.lruCache.maxBytesSize; }
   set budget(bytes: number) {
     this.tiles.lruCache.maxBytesSize = bytes;

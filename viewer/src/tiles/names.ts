@@ -21,7 +21,7 @@ interface Features {
   featureIds: {attribute?: number; propertyTable?: number}[];
 }
 
-/// Of each vertex of a mesh, the row of its part.
+/// For each vertex of a mesh, the row of its part.
 interface Rows {
   ids: BufferAttribute;
   parts: (NamedPart | null)[];

@@ -49,7 +49,7 @@ function cornersOf(mesh: Mesh, names: Names, part: NamedPart): number[] {
 
 export class PartHighlight {
   private readonly group = marked(new Group());
-  /// Of the selected part, in the tiles that are shown.
+  /// The selected part, in the tiles that are shown.
   triangles = 0;
   tiles = 0;
 

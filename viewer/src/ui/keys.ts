@@ -11,7 +11,7 @@ export interface KeyMode<P = unknown> extends Mode {
   goToNext?(by: 1 | -1): void;
 }
 
-/// Clicks what the page has for it, so that keys and buttons are the same thing.
+/// Clicks what the page has for it, so that keys and buttons do the same.
 function press(selector: string): void {
   document.querySelector<HTMLElement>(selector)?.click();
 }

@@ -67,7 +67,7 @@ export class Tree<P extends TreePart<P>> {
     return !wanted || part.type.toLowerCase().startsWith(wanted) || this.textOf(part).includes(wanted);
   }
 
-  /// Its name, and what is said in its extras: titles, addresses, metadata.
+  /// Its name, and what its extras hold: titles, addresses, metadata.
   private textOf(part: P): string {
     let text = this.texts.get(part);
     if (text === undefined) this.texts.set(part, text = [part.name, ...wordsOf(part.extras)].join('\n').toLowerCase());
@@ -109,7 +109,7 @@ export class Tree<P extends TreePart<P>> {
     return row;
   }
 
-  /// What is said next to a name: the type, and of what was found where it is.
+  /// What is shown next to a name: the type, and of what was found where it is.
   private about(part: P): string {
     const type = part.name ? part.type : '', above = this.search.value.trim() ? namedAbove(part) : '';
     return above ? `${type} in ${above}`.trim() : type;

@@ -27,7 +27,7 @@ export class Stage {
   readonly renderer: WebGLRenderer;
   readonly camera = new PerspectiveCamera(45, 1, 0.1, 1000);
   readonly navigator: Navigator;
-  /// Of the shorter side of the picture, in degrees, as VRML has it (ISO/IEC 14772-1, 6.53).
+  /// The angle of the shorter side of the picture, in degrees, as VRML has it (ISO/IEC 14772-1, 6.53).
   fieldOfView = 45;
   readonly figures: FrameFigures = {draws: 0, triangles: 0, milliseconds: 0};
   private mode: Mode | null = null;
@@ -198,7 +198,7 @@ export class Stage {
   }
 }
 
-/// Of length one; what has it but for rounding stays as it is.
+/// The vector with length one; what has it up to rounding stays as it is.
 function unit(q: Quaternion): Quaternion {
   return Math.abs(q.lengthSq() - 1) < 1e-9 ? q : q.lengthSq() > 0 ? q.normalize() : q.identity();
 }

@@ -1,4 +1,4 @@
-// What the pass `recognise` found: parts that are cylinders, boxes, elbows, told by the extras of their meshes.
+// What the pass `recognise` found: parts that are cylinders, boxes, elbows, known from the extras of their meshes.
 import {Color, DoubleSide, MeshLambertMaterial, type Mesh} from 'three';
 import {vrmlOf, type GltfFile} from './file';
 import type {Looks} from './looks';
@@ -14,7 +14,7 @@ const kindColors: Record<string, string> = {
   cylinder: '#4c78a8', elbow: '#f28e2b', box: '#59a14f', prism: '#edc948', ring: '#b07aa1', dish: '#e15759', sphere: '#ff9da7', cone: '#76b7b2',
   pyramid: '#9c755f', 'bent bar': '#d37295',
 };
-export const otherColor = '#9ea3ab';  // faces that are no form
+export const otherColor = '#9ea3ab';  // faces that are not part of a form
 
 export interface Form {
   kind: string;
@@ -34,7 +34,7 @@ export function formOf(file: GltfFile, mesh: number | null): Form | null {
 export class Forms {
   readonly colors = new Map<Mesh, Color>();
   readonly legend: {kind: string; color: string; parts: number}[];
-  readonly others: number;  // parts with faces that are no form
+  readonly others: number;  // parts with faces that are not part of a form
   private readonly materials = new Map<Color, MeshLambertMaterial>();
 
   constructor(world: World) {

@@ -38,7 +38,7 @@ export class PopMeter {
     scene.traverse(o => { if ((o as Light).isLight) o.layers.enable(layer); });
   }
 
-  /// As seen from the direction of `eye`. `light` is told where the camera stands.
+  /// As seen from the direction of `eye`. `light` is given where the camera stands.
   measure({object, level}: Switch, renderer: WebGLRenderer, eye: Vector3, light: (camera: PerspectiveCamera) => void): Pop {
     const distance = object.switchDistance(level);
     const frame = this.place(object, distance, eye);

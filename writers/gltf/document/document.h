@@ -26,7 +26,7 @@ struct Node {
   bool hidden = false;             // not shown, nor what is below it (KHR_node_visibility)
   bool lod = false;                // has an entry in Document::lods
   std::uint32_t same_as = none;    // the node that `source` has become before
-  std::uint32_t instances = none;  // into Document::instances; such a node is nobody's, its rows have sources
+  std::uint32_t instances = none;  // into Document::instances; such a node has no source, its rows have sources
 };
 
 struct Lod {
@@ -67,7 +67,7 @@ struct Document {
   void set_only_child(Node& parent, std::uint32_t child);
 };
 
-/// Every node from the roots down, behind its parent; levels of detail beside the first.
+/// Every node from the roots down, behind its parent; levels of detail other than the first.
 struct Family {
   std::vector<std::uint32_t> order, parent;
 };

@@ -1,4 +1,4 @@
-// Fewer nodes: a group and the one thing in it are one node where nobody can tell.
+// Fewer nodes: a group and its only child are one node where that makes no difference.
 #pragma once
 #include "writers/gltf/document/document.h"
 #include "writers/gltf/document/makers.h"
@@ -9,7 +9,7 @@ namespace wrlkit::gltf {
 /// A lone Shape without a name and with nothing of its own to say becomes the mesh of its group. Where only facts are
 /// kept, so does any group or Shape, when only one of the two has a name and their transforms are one.
 bool fold(Document&, const Makers&, NodeId group, const NodeTransform& local, std::uint32_t child);
-/// Nobody would miss it: no name, nothing in it, and only facts are kept.
+/// It would not be missed: no name, nothing in it, and only facts are kept.
 bool says_nothing(const Makers&, const Node&);
 
 /// Groups that do something that glTF cannot do.

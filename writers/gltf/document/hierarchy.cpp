@@ -13,7 +13,7 @@
 namespace wrlkit::gltf {
 namespace {
 
-/// Nodes that have no counterpart and do not miss one: what they say is kept, and nothing changes for who looks.
+/// Nodes that have no counterpart and do not miss one: their content is kept, and nothing changes for a viewer.
 bool harmless(const Scene& scene, NodeId n) {
   return scene.is(n, nodes::WorldInfo) || scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::Inline) ||
          scene.is(n, nodes::X3DMetadataObject);
@@ -109,7 +109,7 @@ void Builder::enter(NodeId n) {
   frames_.push_back(std::move(f));
 }
 
-/// Of positions and the like: those of geometry are counted where they are stored.
+/// Counts positions and the like: those of geometry are counted where they are stored.
 void Builder::report_overflow(NodeId n) {
   for (const Value& v : m_.scene.fields(n)) {
     const Value& c = m_.scene.content(v);
@@ -281,7 +281,7 @@ void Builder::add_built(std::uint32_t id) {
   set_same(id);
 }
 
-/// Notes which node this one is once more; what lies in it need not be said.
+/// Notes which node this one is once more; what lies in it need not be written.
 void Builder::set_same(std::uint32_t id) {
   Node& n = d_.nodes[id];
   std::uint32_t& first = became_[n.source ? n.source.value : became_.size() - 1];

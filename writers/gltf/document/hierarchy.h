@@ -2,7 +2,7 @@
 //
 // Every grouping node is a node, with its name (group.h); so is a Shape, except that one without a name that is alone
 // in a Transform or Group becomes the mesh of that node (fold.h). Nodes of VRML that draw nothing (sensors, scripts,
-// ...) are nodes with extras, in their place. Of a Switch the chosen child is there, the others are in extras,
+// ...) are nodes with extras, in their place. The chosen child of a Switch is there, the others are in extras,
 // or nodes that are not visible (GltfOptions::hidden). Levels of a LOD: levels.h. A Background: sky.h.
 #pragma once
 #include "writers/gltf/document/document.h"

@@ -1,4 +1,4 @@
-// Of a LOD the first level is the child; the others hang on it by MSFT_lod, whose screen coverage is that of the
+// The first level of a LOD is the child; the others hang on it by MSFT_lod, whose screen coverage is that of the
 // level's bounding sphere at the distances of `range`, seen with VRML's standard field of view.
 #pragma once
 #include "writers/gltf/document/document.h"

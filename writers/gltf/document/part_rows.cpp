@@ -22,7 +22,7 @@ bool is_a_node_anyway(const Document& d, const Makers& m, const Node& n) {
 }
 
 /// What has to be a node: what is one for itself, what holds such a node, and parts whose place in the nearest node
-/// that stays is none that a table can say.
+/// that stays is none that a table can express.
 struct Stays {
   std::vector<char> node;
   std::vector<Matrix> frame;     // of others: their place in the nearest node that stays

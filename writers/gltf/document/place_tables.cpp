@@ -9,7 +9,7 @@
 namespace wrlkit::gltf {
 namespace {
 
-/// Single precision says it to a tenth of a millimetre.
+/// Single precision gives it to a tenth of a millimetre.
 bool fits(const Vec3& v, double growth) {
   return std::ranges::all_of(
       v, [&](double x) { return std::abs(static_cast<double>(static_cast<float>(x)) - x) * growth <= 1e-4; });
@@ -54,7 +54,7 @@ void store(Instances& all, Store& to) {
     turned |= !p.rotation.identity();
     scaled |= p.scale != Vec3{1, 1, 1};
   }
-  // One of them has to say how many there are.
+  // One of them has to give how many there are.
   if (moved || !(turned || scaled)) all.translations = to.vertices(View::moving3, t);
   if (turned) all.rotations = to.vertices(View::moving4, r);
   if (scaled) all.scales = to.vertices(View::moving3, s);

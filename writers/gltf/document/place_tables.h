@@ -1,4 +1,4 @@
-// Nodes that do nothing but place one mesh become rows of a table of places (instances.h).
+// Nodes that only place one mesh become rows of a table of places (instances.h).
 #pragma once
 #include "writers/gltf/document/document.h"
 #include "writers/gltf/document/makers.h"
@@ -12,7 +12,7 @@ bool only_places_a_mesh(const Makers&, const Node&, const Trs& place, double gro
 /// --gpu-instancing: children of one parent that place one mesh, at least `least_instances`, become one node.
 void make_instances(Document&, const Makers&);
 
-/// --names table: groups that do nothing but hold parts, and the parts in them, become rows of the table of names; what
+/// --names table: groups that only hold parts, and the parts in them, become rows of the table of names; what
 /// a mesh is placed by becomes a table of places, whatever group it was in.
 void make_part_rows(Document&, const Makers&, PartTable&);
 

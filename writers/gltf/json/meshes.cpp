@@ -9,14 +9,14 @@
 namespace wrlkit::gltf {
 namespace {
 
-/// Forms whose numbers say more than their triangles do.
+/// Forms whose numbers express more than their triangles do.
 bool is_parametric(const Scene& scene, NodeId n) {
   constexpr TypeId types[] = {nodes::Box,       nodes::Cone,   nodes::Cylinder, nodes::ElevationGrid,
                               nodes::Extrusion, nodes::Sphere, nodes::Text};
   return std::ranges::find(types, scene.type_id(n)) != std::end(types);
 }
 
-/// Cut as a part was that it was recognised in: only fields of our own say it.
+/// Cut as a part was that it was recognised in: only fields of our own express it.
 bool is_recognised(const Scene& scene, NodeId n) {
   if (scene.is(n, nodes::Cylinder)) return scene.get(n, nodes::cylinder::segments) > 0;
   if (scene.is(n, nodes::Cone)) return scene.get(n, nodes::cone::segments) > 0;
