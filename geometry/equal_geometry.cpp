@@ -27,7 +27,7 @@ bool is_plain(const Scene& scene, const Value& v) {
 }
 
 /// Four sums at once, because each multiplication waits for the one before.
-std::uint64_t hash_of(std::string_view bytes) {
+std::uint64_t hash_of_all(std::string_view bytes) {
   constexpr std::size_t step = 32;
   std::array<std::uint64_t, 4> sums{1, 2, 3, 4};
   const char* p = bytes.data();
@@ -41,6 +41,17 @@ std::uint64_t hash_of(std::string_view bytes) {
   if (left > 0) std::memcpy(rest.data(), p, left);
   std::uint64_t h = bytes.size();
   for (std::size_t i = 0; i < rest.size(); ++i) h = mixed(mixed(h, sums[i]), rest[i]);
+  return h;
+}
+
+/// Only pieces of long arrays count: thousands of Shapes may share a list of millions of points, which would be read
+/// once for each of them.
+std::uint64_t hash_of(std::string_view bytes) {
+  constexpr std::size_t piece = 1024, n_pieces = 64;
+  if (bytes.size() <= n_pieces * piece) return hash_of_all(bytes);
+  const std::size_t step = (bytes.size() - piece) / (n_pieces - 1);
+  std::uint64_t h = bytes.size();
+  for (std::size_t i = 0; i < n_pieces; ++i) h = mixed(h, hash_of_all(bytes.substr(i * step, piece)));
   return h;
 }
 

@@ -11,7 +11,8 @@ namespace wrlkit {
 /// not count. For a scene that does not change meanwhile.
 class EqualGeometry {
  public:
-  /// A hash of the content; 0: it is none of those types, or has values that a prototype gives. O(bytes of its arrays).
+  /// A hash of the content; 0: it is none of those types, or has values that a prototype gives. O(1), for pieces of
+  /// long arrays stand for the whole.
   static std::uint64_t hash_of(const Scene&, NodeId);
   /// Whether two nodes with the same hash, which is not 0, have the same content.
   static bool same(const Scene&, NodeId, NodeId);
