@@ -27,9 +27,11 @@ def run(command, folder):
         except OSError:  # Linux says so when the other end has gone
             break
         first = first or time.monotonic() - begin
-        if not pressed and re.search(rb'\(\d+ %\), [\d.]+/s, \d+ (s|min) left', drawn):
+        if not pressed and re.search(rb'\(\d+ %\), [\d.]+/s, [\d.]+ (s|min|h) left', drawn):
             os.write(terminal, b'\x03')
             pressed = True
+    else:
+        os.kill(process, signal.SIGKILL)  # it would wait for somebody to read what it draws
     return first, drawn, os.waitpid(process, 0)[1]
 
 
