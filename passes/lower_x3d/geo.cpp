@@ -265,7 +265,8 @@ class Placing {
     scene_.become(n, nodes::ProximitySensor, fields);
   }
 
-  /// The near level are the four children, the far one is the root: nodes, or an Inline of its own url.
+  /// The near level is the four children, the far one is the root: nodes, or an Inline of its own url. Nodes that a
+  /// file gives in `children`, which is an event of the standard (25.3.5), are part of the near level.
   void level_of_detail(NodeId n) {
     namespace g = nodes::geo_lod;
     namespace l = nodes::lod;
@@ -283,11 +284,13 @@ class Placing {
     for (auto url : {scene_.get(n, g::child1Url), scene_.get(n, g::child2Url), scene_.get(n, g::child3Url),
                      scene_.get(n, g::child4Url)})
       if (!url.empty()) near.push_back(inlined(url));
+    for (NodeId c : scene_.get(n, g::children)) near.push_back(c);
     for (NodeId c : scene_.get(n, g::rootNode)) far.push_back(c);
     if (far.empty() && !scene_.get(n, g::rootUrl).empty()) far.push_back(inlined(scene_.get(n, g::rootUrl)));
     auto fields = fields_for(scene_, n, nodes::LOD);
     std::erase_if(fields, [&](const Value& v) {
-      return !scene_.is_extra(v) && (v.slot == l::center.slot || v.slot == l::range.slot);
+      return !scene_.is_extra(v) &&
+             (v.slot == l::center.slot || v.slot == l::range.slot || v.slot == l::children.slot);
     });
     const bool both = !near.empty();
     std::vector<NodeId> levels{group(far)};
