@@ -42,7 +42,7 @@ class Files {
 
   /// The number by which the page finds it.
   std::size_t add(std::string_view bytes) {
-    sink_(fmt::format("<script type=\"text/plain\" id=\"file-{}\">", n_));
+    sink_(fmt::format(R"(<script type="text/plain" id="file-{}">)", n_));
     sink_(base64(gzipped(bytes)));
     sink_("</script>\n");
     return n_++;
@@ -60,7 +60,7 @@ std::string without_tags(std::string json) {
 }
 
 void write_contents(std::string json, const Sink& sink) {
-  sink("<script type=\"application/json\" id=\"contents\">");
+  sink(R"(<script type="application/json" id="contents">)");
   sink(without_tags(std::move(json)));
   sink("</script>\n");
 }

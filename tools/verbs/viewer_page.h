@@ -1,6 +1,7 @@
 // The pages that `view` writes: the viewer (viewer/, built by Vite and linked into the program as HTML texts) with the
 // worlds that it shows, or for a tileset. What stands in the page is read by viewer/src/data.ts and tiles_main.ts.
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ struct ViewerPage {
   /// The deviation of the two worlds; the maps of each from the other (tools/report/deviation_map.h).
   struct Apart {
     Deviation deviation;
-    std::string maps[2];
+    std::array<std::string, 2> maps;
   };
   std::optional<Apart> apart;
 };
