@@ -43,7 +43,7 @@ FloatImage raw(const Canvas& c) {
   return out;
 }
 
-/// What becomes white: at least 1, so that dim worlds stay dim.
+/// What becomes white: at least 1, so that dim scenes stay dim.
 double exposure(const std::vector<BakedPage>& pages) {
   std::vector<float> brightest;
   for (const auto& p : pages)

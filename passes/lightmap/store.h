@@ -17,7 +17,7 @@ namespace wrlkit::bake {
 
 struct StoreOptions {
   std::string extension = "png";  // of the pictures
-  bool exr = false;               // the light as it is beside them, linear and not scaled
+  bool exr = false;               // the light as it is next to them, linear and not scaled
 };
 
 /// Takes the pictures of all pages, which go to ctx.resources, and then part by part and Shape by Shape what lies on

@@ -58,7 +58,7 @@ struct Flags {
   int bundle = 1;
   bool retry = false;
   std::vector<std::string> outputs;  // report
-  std::string compare;               // and of render: a world
+  std::string compare;               // and of render: a scene
   int looks = 2000;
 
   // render
@@ -98,7 +98,7 @@ struct Flags {
   std::vector<double> at;  // latitude, longitude, height, heading
 
   bool serve = false;  // view
-  int limit = 500;     // worlds in a gallery
+  int limit = 500;     // scenes in a gallery
 
   std::vector<std::string> criteria;  // compare-lod, view
   bool bare = false;

@@ -1,4 +1,4 @@
-// wrlkit tiles: worlds of any size as 3D Tiles.
+// wrlkit tiles: scenes of any size as 3D Tiles.
 #include "convert/tiles.h"
 
 #include <fmt/format.h>

@@ -16,7 +16,7 @@ extern "C" const char wrlkit_viewer_begin[], wrlkit_viewer_end[], wrlkit_tiles_b
 namespace wrlkit {
 namespace {
 
-/// The viewer without worlds.
+/// The viewer without scenes.
 std::string_view page_template() {
 #ifdef WRLKIT_VIEWER
   return {wrlkit_viewer_begin, static_cast<std::size_t>(wrlkit_viewer_end - wrlkit_viewer_begin)};
@@ -34,7 +34,7 @@ std::string_view tiles_template() {
 #endif
 }
 
-constexpr std::string_view mark = "<!--wrlkit-->";  // where the worlds go
+constexpr std::string_view mark = "<!--wrlkit-->";  // where the scenes go
 
 class Files {
  public:
