@@ -185,6 +185,16 @@ TEST_CASE("tiles: the error of a coarse surface is that of the farthest point, e
     const std::vector<tiles::Piece> more{all[0], all[1], piece("c", square(0, 2, 1))};
     CHECK(tiles::surface_error(more, both) == Approx(2).epsilon(0.03));
   }
+  SECTION("large triangles are near to many small ones") {
+    const auto plate = piece("plate", square(0, 0, 10));
+    const tiles::FullTile whole{tiles::bounds_of(plate.mesh), [&] { return std::vector{plate}; }};
+    std::vector<tiles::Piece> small;
+    for (int i = 0; i < 100; ++i) {
+      auto& points = small.emplace_back(piece("small", square(i % 10, 0.2, 1))).mesh.positions.edit();
+      for (std::size_t k = 2; k < points.size(); k += 3) points[k] += i / 10;
+    }
+    CHECK(tiles::surface_error(small, {&whole, 1}) == Approx(0.2).epsilon(0.03));
+  }
 }
 
 TEST_CASE("tiles: equal appearances are one look", "[tiles]") {
