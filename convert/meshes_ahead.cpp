@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t none = 0xffffffff;
 constexpr std::size_t per_batch = 8 * 1024, per_scene = 128 * 1024;  // indices that are worth a thread
 constexpr std::size_t most_begun = 8 * per_batch;                    // bounds the memory
-constexpr std::size_t per_node = 64;                                 // what a node costs besides, in indices
+constexpr std::size_t per_node = 64;                                 // what a node costs in addition, in indices
 
 std::size_t n_indices(const Scene& scene, NodeId n) {
   if (scene.is(n, nodes::IndexedFaceSet)) return scene.get(n, nodes::indexed_face_set::coordIndex).size();

@@ -45,7 +45,7 @@ struct LoadOptions {
   Unit unit = Unit::m;                        // what one unit of the file is
   UpAxis up = UpAxis::y;                      // which of its axes points up
   std::vector<std::string> allow_paths = {};  // folders that pictures and Inlines may lie in, other than the file's own
-  /// Pictures, sounds, films and worlds above the file's own folder may be read, too: as far up as its project reaches
+  /// Pictures, sounds, films and scenes above the file's own folder may be read, too: as far up as its project reaches
   /// (base/io/project_folder.h). For people who open their own files; not for programs that open anybody's.
   bool project_files = false;
   /// Large files are mapped, not read: less memory, and SIGBUS when another program shortens one meanwhile.

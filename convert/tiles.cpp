@@ -18,6 +18,8 @@
 #include "convert/tiles/content.h"
 #include "convert/tiles/kept_tiles.h"
 #include "convert/tiles/option_key.h"
+#include "convert/tiles/plan.h"
+#include "convert/tiles/reading_progress.h"
 #include "convert/tiles/scene_pieces.h"
 #include "convert/tiles/staging.h"
 #include "convert/tiles/surface_error.h"
@@ -31,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t tiles_at_once = 16;
-constexpr std::size_t least_saving = 3;  // a coarse tile has at most one triangle of that many
+constexpr int largest_reduced = 1024, least_reduced = 32;  // pixels along a side of pictures in coarse tiles
 // Distances are taken at points, and the largest may lie between them.
 constexpr double between_points = 1.05;
 
@@ -87,16 +89,12 @@ class Making {
     std::vector<std::vector<std::uint32_t>> levels;   // cells, those that are deepest first
     std::unordered_map<std::uint32_t, Range> ranges;  // of each cell, in the pieces
   };
-  bool fits(std::uint32_t cell) const;
-  std::uint32_t top_of(std::uint32_t cell) const;
-  std::size_t target(std::uint32_t cell) const;
-  std::size_t count_of(std::span<const std::uint32_t> level, std::size_t n_drawn) const;
   bool make_group(std::uint32_t top);
   Group gather_group(std::uint32_t top);
-  std::vector<std::uint32_t> cells_below(std::uint32_t top) const;
   static std::vector<Piece> pieces_within(const Group& group, std::span<const Coarse> level, Range range);
   bool make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& task);
   bool write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task& task);
+  bool write_within_budget(std::uint32_t cell, std::span<const Piece> pieces, GltfSummary& summary, Task& task);
   bool save(std::uint32_t cell, Task& task);
   std::vector<PieceStore::Entry> entries_of(const Cell& cell) const;
   std::vector<Piece> pieces_of_cell(std::uint32_t cell) const;
@@ -119,7 +117,8 @@ class Making {
   std::optional<PieceStore> full_;
   std::vector<PieceStore::Entry> entries_;  // of full_
   Cells cells_;
-  std::vector<Tile> made_;            // by cell
+  std::vector<Tile> made_;  // by cell
+  Plan plan_{cells_, made_, options_};
   std::vector<std::uint32_t> turns_;  // by cell: leaves are counted, and of the others the largest that fit
   bool is_last_ = false;              // of the shards
   std::vector<std::string> folders_;
@@ -139,11 +138,13 @@ bool Making::gather(std::span<const TilesInput> inputs) {
     names.insert(piece.name);
     return stored;
   };
+  ReadingProgress progress(inputs, ctx_.monitor);
   for (const auto& input : inputs) {
     check_stop();
     ++out_.n_files;
     const bool read =
         reader_.read(input.path) && pieces_of(reader_, input.name, options_.triangles, looks_, put, counts);
+    progress.next();
     if (is_full(stored)) return false;
     check_stop();
     out_.n_failed += !read;
@@ -152,8 +153,7 @@ bool Making::gather(std::span<const TilesInput> inputs) {
     names.clear();
   }
   out_.n_cut = counts.n_cut;
-  out_.n_lights = counts.n_lights;
-  out_.n_routes = counts.n_routes;
+  out_.lost = std::move(counts.lost);
   std::ranges::sort(folders_);
   folders_.erase(std::unique(folders_.begin(), folders_.end()), folders_.end());
   pictures_ = std::make_unique<FileResources>(ResourceOptions{.allowed = folders_}, nullptr);
@@ -199,23 +199,24 @@ bool Making::make_all() {
 
 /// What there is to be made.
 void Making::plan() {
-  cells_ = cut_into_cells(entries_, options_.triangles);
+  cells_ = planned_cells(entries_, looks_, options_);
   made_.resize(cells_.cells.size());
   for (std::uint32_t i = 0; i < made_.size(); ++i) {
     const Cell& c = cells_.cells[i];
     for (auto k = c.begin; k < c.end; ++k) {
       const auto& entry = entries_[cells_.order[k]];
       made_[i].n_full += entry.n_drawn;
+      made_[i].n_stored += entry.bytes;
       if (c.children.empty()) made_[i].full_box.unite(entry.box);
     }
   }
-  const auto top = [this](std::uint32_t i) { return top_of(i); };
+  const auto top = [this](std::uint32_t i) { return plan_.top_of(i); };
   const auto keys = keys_of_cells(cells_, entries_, looks_, option_key(options_), top);
   std::uint32_t n_leaves = 0, n_tops = 0;
   for (std::uint32_t i = 0; i < made_.size(); ++i) {
     made_[i].key = keys[i];
-    const bool is_leaf = cells_.cells[i].children.empty();
-    turns_.push_back(is_leaf ? n_leaves++ : top_of(i) == i ? n_tops++ : turns_[top_of(i)]);
+    const bool is_leaf = plan_.is_leaf(i);
+    turns_.push_back(is_leaf ? n_leaves++ : plan_.top_of(i) == i ? n_tops++ : turns_[plan_.top_of(i)]);
   }
 }
 
@@ -235,14 +236,14 @@ void Making::take_kept() {
 /// Whether this process makes a tile when it is not there.
 bool Making::is_mine(std::uint32_t cell) const {
   if (options_.shards <= 1 || is_last_) return true;
-  const bool is_leaf = cells_.cells[cell].children.empty();
-  return (is_leaf || fits(cell)) && turns_[cell] % options_.shards == options_.shard;
+  const bool is_leaf = plan_.is_leaf(cell);
+  return (is_leaf || plan_.fits(cell)) && turns_[cell] % options_.shards == options_.shard;
 }
 
 /// Whether all is there that shards make apart from one another.
 bool Making::is_whole() const {
   for (std::uint32_t i = 0; i < made_.size(); ++i)
-    if (!made_[i].is_made && (cells_.cells[i].children.empty() || fits(i))) return false;
+    if (!made_[i].is_made && (plan_.is_leaf(i) || plan_.fits(i))) return false;
   return true;
 }
 
@@ -252,10 +253,10 @@ bool Making::make_levels() {
   for (auto i = static_cast<std::uint32_t>(made_.size()); i-- > 0;) {
     if (made_[i].is_made || !is_mine(i)) continue;
     ++n_tiles;
-    if (cells_.cells[i].children.empty())
+    if (plan_.is_leaf(i))
       leaves.push_back(i);
     else
-      tops.push_back(top_of(i));
+      tops.push_back(plan_.top_of(i));
   }
   if (ctx_.monitor && n_tiles > 0) ctx_.monitor->begin("making tiles", n_tiles, "tiles");
   const auto make_leaf = [&](std::uint32_t i, Task& task) {
@@ -268,26 +269,13 @@ bool Making::make_levels() {
   return std::ranges::all_of(tops, [&](std::uint32_t i) { return make_group(i); });
 }
 
-/// Whether all that is in a cell can be simplified at once.
-bool Making::fits(std::uint32_t cell) const { return made_[cell].n_full <= options_.at_once; }
-
-/// The largest cell that is made at once with this one.
-std::uint32_t Making::top_of(std::uint32_t cell) const {
-  while (cell != 0 && fits(cell) && fits(cells_.cells[cell].parent)) cell = cells_.cells[cell].parent;
-  return cell;
-}
-
-/// What a coarse tile draws, at most.
-std::size_t Making::target(std::uint32_t cell) const {
-  return std::min<std::uint64_t>(options_.triangles, made_[cell].n_full / least_saving);
-}
-
 /// The coarse tiles from a cell downwards, as far as they are not made: all levels of one that fits, from the full
 /// pieces; of a larger one itself, from its children.
 bool Making::make_group(std::uint32_t top) {
   Group group = gather_group(top);
   std::vector<std::size_t> counts;
-  for (const auto& level : group.levels) counts.push_back(fits(top) ? count_of(level, group.n_drawn) : target(top));
+  for (const auto& level : group.levels)
+    counts.push_back(plan_.fits(top) ? plan_.count_of(level, group.n_drawn) : plan_.target(top));
   auto coarse = coarser(group.pieces, counts, looks_, ctx_);
   for (auto k = group.levels.size(); k-- > 0;) {
     const auto make = [&](std::uint32_t i, Task& task) {
@@ -305,8 +293,8 @@ bool Making::make_group(std::uint32_t top) {
 Making::Group Making::gather_group(std::uint32_t top) {
   Group out;
   const auto depth_of = [&](std::uint32_t i) { return cells_.cells[i].depth - cells_.cells[top].depth; };
-  const bool all = fits(top);
-  for (const auto i : cells_below(top)) {
+  const bool all = plan_.fits(top);
+  for (const auto i : plan_.cells_below(top)) {
     const Cell& c = cells_.cells[i];
     const bool is_source = all ? c.children.empty() : c.parent == top && i != top;
     if (is_source) {
@@ -329,28 +317,6 @@ Making::Group Making::gather_group(std::uint32_t top) {
   return out;
 }
 
-/// Cells in the order in which a tree is walked.
-std::vector<std::uint32_t> Making::cells_below(std::uint32_t top) const {
-  std::vector<std::uint32_t> out, open{top};
-  while (!open.empty()) {
-    const auto i = open.back();
-    open.pop_back();
-    out.push_back(i);
-    const auto& children = cells_.cells[i].children;
-    open.insert(open.end(), children.rbegin(), children.rend());
-  }
-  return out;
-}
-
-/// Triangles of a whole group at which the tiles of a level have as many as they may have.
-std::size_t Making::count_of(std::span<const std::uint32_t> level, std::size_t n_drawn) const {
-  double full = 0, wanted = 0;
-  for (const auto i : level) {
-    full += static_cast<double>(made_[i].n_full);
-    wanted += static_cast<double>(target(i));
-  }
-  return static_cast<std::size_t>(static_cast<double>(n_drawn) * std::min(1.0, wanted / full));
-}
 /// In the order of the files, so that pieces of a part stand together.
 std::vector<PieceStore::Entry> Making::entries_of(const Cell& cell) const {
   std::vector<std::uint32_t> order(cells_.order.begin() + cell.begin, cells_.order.begin() + cell.end);
@@ -371,8 +337,10 @@ std::vector<Piece> Making::pieces_of_cell(std::uint32_t cell) const {
 std::vector<Piece> Making::pieces_within(const Group& group, std::span<const Coarse> level, Range range) {
   std::vector<Piece> out;
   const auto first = std::ranges::lower_bound(level, range.first, {}, &Coarse::from);
-  for (auto i = first; i != level.end() && i->from < range.second; ++i)
-    out.push_back({group.pieces[i->from].name, group.pieces[i->from].look, i->mesh});
+  for (auto i = first; i != level.end() && i->from < range.second; ++i) {
+    const Piece& from = group.pieces[i->from];
+    out.push_back({from.name, from.look, from.source_size, i->mesh});
+  }
   return out;
 }
 
@@ -382,7 +350,10 @@ bool Making::make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& ta
   if (const std::size_t most = options_.triangles; drawn > most) {
     auto coarse = coarser(pieces, {&most, 1}, looks_, task);
     std::vector<Piece> fewer;
-    for (auto& c : coarse[0]) fewer.push_back({pieces[c.from].name, pieces[c.from].look, std::move(c.mesh)});
+    for (auto& c : coarse[0]) {
+      const Piece& from = pieces[c.from];
+      fewer.push_back({from.name, from.look, from.source_size, std::move(c.mesh)});
+    }
     pieces = std::move(fewer);
   }
   auto& stored = made_[cell].made.pieces_bytes;
@@ -412,23 +383,41 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
   }
   if (pieces.empty()) return true;
   GltfSummary summary;
-  const auto path = kept_.tile_path(tile.key);
-  if (!write_content(pieces, origin_of(made.box), looks_, gltf_, *pictures_, path, task.diag, summary)) return false;
+  if (!write_within_budget(cell, pieces, summary, task)) return false;
   made.rounding = summary.quantization.position;
-  made.hash = hash_of_file(path).value_or(ContentHash{}).low;
+  made.hash = hash_of_file(kept_.tile_path(tile.key)).value_or(ContentHash{}).low;
   made.triangles = summary.triangles;
   made.draws = summary.draws;
   made.parts = names.size();
-  std::error_code fault;
-  made.bytes = fs::file_size(path, fault);
   return true;
+}
+
+/// What is seen from afar can do with smaller pictures; full tiles have them as they are.
+bool Making::write_within_budget(std::uint32_t cell, std::span<const Piece> pieces, GltfSummary& summary, Task& task) {
+  MadeTile& made = made_[cell].made;
+  const auto path = kept_.tile_path(made_[cell].key);
+  auto gltf = gltf_;
+  for (int size = largest_reduced;; size /= 2) {
+    Diagnostics said;
+    summary = {};
+    const bool written =
+        write_content(pieces, origin_of(made.box), looks_, gltf, options_.draws, *pictures_, path, said, summary);
+    std::error_code fault;
+    made.bytes = fs::file_size(path, fault);
+    const bool may_be_less = !plan_.is_leaf(cell) && summary.pictures > 0 && size >= least_reduced;
+    if (!written || made.bytes <= options_.bytes || !may_be_less) {
+      say(said_in(said), task.diag);
+      return written;
+    }
+    gltf.textures.size = gltf.textures.size > 0 ? std::min(gltf.textures.size, size) : size;
+  }
 }
 
 /// The errors of coarse tiles that are this process's matter.
 bool Making::measure() {
   std::vector<std::uint32_t> open;
   for (std::uint32_t i = 0; i < made_.size(); ++i)
-    if (!cells_.cells[i].children.empty() && made_[i].is_made && !made_[i].error && is_mine(i)) open.push_back(i);
+    if (!plan_.is_leaf(i) && made_[i].is_made && !made_[i].error && is_mine(i)) open.push_back(i);
   if (ctx_.monitor && !open.empty()) ctx_.monitor->begin("measuring tiles", open.size(), "tiles");
   const auto measured = [&](std::uint32_t i, Task& task) {
     made_[i].error = measured_error(i);
@@ -468,14 +457,18 @@ bool Making::publish() {
     out_.tiles.push_back(
         {file_of(cell, tile), cell.depth, tile.said_error, made.triangles, made.draws, made.parts, made.bytes});
     out_.bytes += made.bytes;
+    out_.n_over += made.draws > options_.draws || made.bytes > options_.bytes;
   }
   out_.depth = cells_.depth;
   const auto name = tiles_folder(hash);
   auto set = tileset_of(cells_, made_, name);
   set.place = options_.place;
-  const auto text = tileset_json(set);
-  out_.bytes += text.size();
-  if (!staging_.publish(name, text, ctx_.diag)) return false;
+  set.tiles_in_file = options_.tiles_in_file;
+  const auto files = tileset_files(set);
+  for (const auto& file : files) out_.bytes += file.text.size();
+  out_.n_descriptions = files.size();
+  if (!write_descriptions(std::span(files).subspan(1), staging_.path(), ctx_.diag)) return false;
+  if (!staging_.publish(name, files[0].text, ctx_.diag)) return false;
   options_.update ? kept_.forget_others(keys) : kept_.forget();
   return true;
 }

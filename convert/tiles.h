@@ -1,5 +1,6 @@
-// Worlds of any size as 3D Tiles: what `wrlkit tiles` does.
+// Scenes of any size as 3D Tiles: what `wrlkit tiles` does.
 #pragma once
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,9 @@ namespace wrlkit {
 
 struct TilesOptions {
   std::size_t triangles = 50'000;   // that a tile draws, at most, and segments and points
+  std::size_t draws = 16;           // calls that draw a tile, as far as its looks allow it
+  std::uint64_t bytes = 4 << 20;    // of a tile, as far as can be told before it is made
+  std::size_t tiles_in_file = 500;  // that tileset.json describes; more are described in files next to the tiles
   std::size_t at_once = 1'500'000;  // triangles that are simplified together: some 400 MB
   SaveOptions save = {.compress = GltfCompression::Method::meshopt};  // how the content is stored
   std::optional<EarthPlace> place = {};                               // none: in coordinates of its own
@@ -44,13 +48,15 @@ struct TilesMade {
   std::vector<TileFigures> tiles = {};  // the root is the first
   std::size_t depth = 0;                // levels behind the root
   std::size_t n_files = 0, n_failed = 0;
-  std::size_t triangles = 0, parts = 0;    // of all files
-  std::size_t n_cut = 0;                   // pieces of surfaces that are too large for a tile
-  std::size_t n_lights = 0, n_routes = 0;  // that tiles cannot show
+  std::size_t triangles = 0, parts = 0;          // of all files
+  std::size_t n_cut = 0;                         // pieces of surfaces that are too large for a tile
+  std::map<std::string, std::size_t> lost = {};  // nodes that tiles have no place for, by type, and ROUTEs
   std::uint64_t bytes = 0;
-  std::size_t n_kept = 0;  // tiles that were made before, from the same parts with the same options
-  bool whole = false;      // the set is there; it is not when other shards have something to make
-  std::size_t n_left = 0;  // tiles that were not there when this shard had made its own
+  std::size_t n_descriptions = 0;  // tileset.json, and files that it refers to
+  std::size_t n_over = 0;          // tiles that have more draws or bytes than they should
+  std::size_t n_kept = 0;          // tiles that were made before, from the same parts with the same options
+  bool whole = false;              // the set is there; it is not when other shards have something to make
+  std::size_t n_left = 0;          // tiles that were not there when this shard had made its own
 
   explicit operator bool() const { return ending == Ending::good || ending == Ending::partly; }
 };

@@ -275,6 +275,7 @@ struct ClosestPoint::Search {
   double reach = infinity;  // squared distance up to which a triangle may be the answer
   double best_facing = -infinity;
   int n_equal = 0;
+  double enough = -1;                // distance below which no better answer is wanted
   const Counting* counts = nullptr;  // null: all of them
 
   void try_triangle(std::uint32_t triangle) {
@@ -342,7 +343,7 @@ struct ClosestPoint::Search {
       }
       if (may_be_here)
         for (auto i = box.next; i < box.next + box.n_triangles; ++i) try_triangle(tree.order_[i]);
-      if (!n_open || (counts && best.n_tried > most_tried)) return;
+      if (!n_open || (counts && best.n_tried > most_tried) || best.distance <= enough) return;
       --n_open;
       at = open[n_open].box;
       distance = open[n_open].distance;
@@ -350,11 +351,13 @@ struct ClosestPoint::Search {
   }
 };
 
-ClosestPoint::Nearest ClosestPoint::nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess) const {
+ClosestPoint::Nearest ClosestPoint::nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess,
+                                            double enough) const {
   Search search{*this, p, facing};
+  search.enough = enough;
   if (boxes_.empty()) return search.best;
   if (guess != no_guess) search.try_triangle(guess);
-  search.run();
+  if (!(search.best.distance <= enough)) search.run();
   return search.best;
 }
 

@@ -58,9 +58,9 @@ class ClosestPoint {
 
   /// Where `p` is nearest to the surface, usually O(log n). On an edge or a corner several triangles are equally
   /// near: the one whose front faces most nearly along `facing` is given (of the first 32). `guess` is a triangle of
-  /// which it is known that it is near: the answer for the point before; it makes the search shorter. Any number of
-  /// threads may ask.
-  Nearest nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess = no_guess) const;
+  /// which it is known that it is near: the answer for the point before; it makes the search shorter. So does `enough`:
+  /// any triangle within that distance is an answer. Any number of threads may ask.
+  Nearest nearest(const Vec3& p, const Vec3& facing, std::uint32_t guess = no_guess, double enough = -1) const;
 
   /// Labels that count: all but those from `first` to before `end`, and those that are 0 in `left`, if that is given.
   struct Counting {

@@ -39,7 +39,7 @@ class IrradianceCache {
 
   static constexpr int levels = 7;  // each half as large as the one before
 
-  /// The cell for a place; none when it is too near for any cell. `larger`: one that is so many times twice as large,
+  /// The cell for a place; none when it is too near for any cell. `larger`: one whose sides are 2^larger times as long,
   /// or the largest.
   std::optional<Key> key(const Place& place, int larger = 0) const;
   /// The cell of a place or, when no ray has ended there, the smallest of those that are up to `larger` times twice as

@@ -33,7 +33,7 @@ class DirectLight {
   void all_emitters(const Receiver& at, std::uint64_t key, std::uint32_t first, std::uint32_t n, Flux& to,
                     V3& noise) const;
 
-  /// A ray in a cosine direction met an emitter: the share of its light that counts beside emitters() (the balance
+  /// A ray in a cosine direction met an emitter: the share of its light that counts next to emitters() (the balance
   /// heuristic of Veach and Guibas). 1 when the triangle is no emitter.
   double gather_weight(const Receiver& from, const Ray& ray, const Hit& hit) const;
 

@@ -26,7 +26,7 @@ struct PathOptions {
 
 /// What the world's own lights, emissive surfaces and Background make of it (LightWorld), without a headlight, averaged
 /// in linear light and shown through the sRGB curve, cut at 1. The backs of `solid` faces are seen through. Lines and
-/// points are not there, which is reported, as is a world without light. The same bytes for any number of threads.
+/// points are not there, which is reported, as is a scene without light. The same bytes for any number of threads.
 /// O(pixels * samples^2
 /// * reflections) rays.
 Image path_picture(const Scene& scene, const MeshSource& source, const drawing::Camera& camera,

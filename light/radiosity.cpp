@@ -205,7 +205,7 @@ Solver::Gathered Solver::gather(std::size_t c, int iteration) {
   return {(1.0 / n) * sum.first, (1.0 / n) * sum.further};
 }
 
-/// All cells gather once from what all had before. What the whole world is too bright or too dark by would need many
+/// All cells gather once from what all had before. What the whole scene is too bright or too dark by would need many
 /// iterations to go away; it is found from the sums over all cells and corrected at once.
 void Solver::iterate(int iteration) {
   auto& cells = cache_.cells();

@@ -20,7 +20,7 @@ class Transport {
       : world_(world), direct_(direct), cache_(cache) {}
 
   /// What comes to a receiver along a ray of its own that was drawn in a cosine direction. Light of emitters is
-  /// weighted for rays to emitters beside it (DirectLight::emitters), or left out (`all_emitters`:
+  /// weighted for rays to emitters next to it (DirectLight::emitters), or left out (`all_emitters`:
   /// DirectLight::all_emitters).
   Arriving gather(const Receiver& at, const Ray& ray, Stream& random, bool all_emitters = false) const {
     return along(at, ray, random, 0, all_emitters);

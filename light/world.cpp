@@ -33,7 +33,7 @@ std::optional<Lamp> lamp_of(const std::optional<Light>& light) {
 
 double strongest(const V3& c) { return std::max({c.x, c.y, c.z}); }
 
-/// Radiance in the mean of all directions, of which those along a spiral stand for all.
+/// Radiance in the mean of all directions, estimated by directions along a spiral.
 double mean_radiance(const Sky& sky) {
   constexpr int n = 256;
   constexpr double golden_angle = pi * (3 - 2.23606797749978969641);

@@ -38,7 +38,7 @@ struct LightOptions {
   std::optional<drawing::Pose> viewer{};  // Billboards turn there; none: they stand as they are
   drawing::LevelOf level_of{};            // of LODs; none: the first
   std::size_t all_flat =
-      2'000'000;  // up to so many triangles nothing is instanced: some 100 bytes each, and faster rays
+      2'000'000;  // up to this many triangles nothing is instanced: some 100 bytes each, and faster rays
 };
 
 /// A place on a surface, seen from one side.
@@ -110,7 +110,7 @@ class LightWorld {
   /// Radiance of the sky in a direction of the world.
   V3 sky(const V3& direction) const;
   bool has_sky() const { return has_sky_; }
-  /// Or nothing shines, or too little to see the world by: a white sky of radiance 1 stands in (docs/lighting.md, "No
+  /// Or nothing shines, or too little to see the world by: a white sky of radiance 1 is added (docs/lighting.md, "No
   /// light at all").
   bool has_sky_of_its_own() const { return !sky_stands_in_; }
   /// A light node shines, or surfaces light the world as lamps do (docs/lighting.md, "No light at all").

@@ -23,14 +23,14 @@ struct Route {
   bool operator==(const Route&) const = default;
 };
 
-/// IMPORT of X3D (ISO/IEC 19775-1, 4.4.6): ROUTEs here may lead to a node that an inlined world exports.
+/// IMPORT of X3D (ISO/IEC 19775-1, 4.4.6): ROUTEs here may lead to a node that an inlined scene exports.
 struct Import {
   NodeId inline_node;
   std::string_view exported;  // the name in that world
   NodeId node;  // stands for the one that is meant, in ROUTEs and exports alone; has the name of this scope
 };
 
-/// EXPORT of X3D: what the worlds that inline this one may import.
+/// EXPORT of X3D: what the scenes that inline this one may import.
 struct Export {
   NodeId node;
   std::string_view name;

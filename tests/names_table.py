@@ -69,6 +69,10 @@ class Table:
         self.names = [texts[a:b].decode() for a, b in zip(offsets, offsets[1:])]
         parents = column(parent['values'], size[fields['parent']['componentType']])
         assert len(self.names) == len(parents) == table['count'] and len(texts) == offsets[-1]
+        self.sources = None
+        if 'source' in fields:
+            named = {v['value']: v['name'] for v in metadata['schema']['enums'][fields['source']['enumType']]['values']}
+            self.sources = [named[i] for i in column(table['properties']['source']['values'], 2)]
         nothing = fields['parent']['noData']
         self.paths = []
         for name, p in zip(self.names, parents):
@@ -76,7 +80,7 @@ class Table:
 
 
 def corners_by_path(glb):
-    """Of every part, by feature ids or as a node; the nodes that are left stand in groups with names."""
+    """Of every part, by feature ids or as a node; the nodes that are left are in groups with names."""
     table, found = Table(glb), {}
     nodes = glb.json['nodes']
 

@@ -39,17 +39,26 @@ class Tiles:
     def __init__(self, folder):
         self.folder = folder
         self.set = json.loads((folder / 'tileset.json').read_text())
-        self.all = []
-        self._add(self.set['root'], (0, 0, 0), None)
+        self.all, self.n_files = [], 1
+        self._add(self.set['root'], (0, 0, 0), None, folder)
 
-    def _add(self, tile, origin, parent):
+    def _add(self, tile, origin, parent, folder):
+        uri = folder / tile['content']['uri']
+        if uri.suffix == '.json':
+            assert 'transform' not in tile and 'children' not in tile
+            self.n_files += 1
+            inside = json.loads(uri.read_text())['root']
+            assert inside['geometricError'] == tile['geometricError'] and inside['refine'] == 'REPLACE'
+            me = self._add(inside, origin, parent, uri.parent)
+            assert is_within(me['box'], self._box(tile, origin)), 'a box that does not hold what its file describes'
+            return me
         t = tile.get('transform', [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
         assert t[:12] == [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], 'tiles are only moved'
         origin = (origin[0] + t[12], origin[1] + t[14], origin[2] - t[13])
-        me = {'tile': tile, 'origin': origin, 'parent': parent, 'glb': self.folder / tile['content']['uri'], 'children': [], 'box': self._box(tile, origin)}
+        me = {'tile': tile, 'origin': origin, 'parent': parent, 'glb': uri, 'children': [], 'box': self._box(tile, origin)}
         self.all.append(me)
         for child in tile.get('children', []):
-            me['children'].append(self._add(child, origin, me))
+            me['children'].append(self._add(child, origin, me, folder))
         return me
 
     @staticmethod
@@ -116,6 +125,9 @@ def check_parts(tiles, boxes, names, faults):
         if path in full and max(abs(a - b) for a, b in zip(bounds(full[path]), box)) > FARTHEST:
             faults.append(f'{path}: fills {bounds(full[path])}, not {box}')
     for t in tiles.all:
+        table = Table(Glb(t['glb']))
+        if not table.sources or any(source != path.split('/')[0] for path, source in zip(table.paths, table.sources)):
+            faults.append(f'{t["glb"].name}: rows that are not of the file that they are in')
         if unknown := set(corners_of(t)) - names:
             faults.append(f'{t["glb"].name}: names that nothing has: {sorted(unknown)[:3]}')
 
@@ -158,20 +170,22 @@ def main():
             made = subprocess.run([args.wrlkit, 'tiles', folder / 'in', '-o', folder / out, '--triangles', str(args.triangles), *flags], capture_output=True, text=True)
             if made.returncode != code:
                 faults.append(f'{out}: exit code {made.returncode}: {made.stderr}')
-        make('out', '--compress', 'none')
+        make('out', '--compress', 'none', '--tileset-tiles', '12')
         tiles = Tiles(folder / 'out')
         check_tree(tiles, faults)
+        if not len(tiles.all) / 12 <= tiles.n_files <= len(tiles.all) / 4:
+            faults.append(f'{tiles.n_files} files describe {len(tiles.all)} tiles, 12 each at most')
         check_parts(tiles, boxes, names, faults)
         ratios = check_errors(args.wrlkit, tiles, folder, faults)
-        make('one', '--compress', 'none', '--jobs', '1')
+        make('one', '--compress', 'none', '--tileset-tiles', '12', '--jobs', '1')
         if bytes_of(folder / 'out') != bytes_of(folder / 'one'):
             faults.append('one thread gives other bytes')
         # A damaged file costs itself; the set takes the place of the one before.
         (folder / 'in' / 'broken.wrl').write_text('this is no world')
-        make('out', '--compress', 'none', code=1)
+        make('out', '--compress', 'none', '--tileset-tiles', '12', code=1)
         if bytes_of(folder / 'out') != bytes_of(folder / 'one'):
             faults.append('a file that cannot be read changes the tiles of the others')
-    print(f'{len(tiles.all)} tiles, {len(ratios)} of them coarse; errors said over those measured: {min(ratios):.2f} to {max(ratios):.2f}')
+    print(f'{len(tiles.all)} tiles in {tiles.n_files} files, {len(ratios)} of them coarse; errors said over those measured: {min(ratios):.2f} to {max(ratios):.2f}')
     print('\n'.join(faults) or 'all parts found, all errors and boxes right')
     return 1 if faults else 0
 

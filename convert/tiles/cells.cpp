@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace wrlkit::tiles {
 namespace {
 
-constexpr double least_share = 0.4;  // of what a cell draws, in each of its halves
+constexpr double least_share = 0.4;    // of what a cell draws, in each of its halves
+constexpr double worth_halving = 0.8;  // of the draws or bytes that there were, in the larger half
 
 /// The number in (low, high] with the fewest binary digits.
 double roundest(double low, double high) {
@@ -22,7 +24,8 @@ double roundest(double low, double high) {
 
 class Cutting {
  public:
-  Cutting(std::span<const PieceStore::Entry> pieces, std::size_t most) : pieces_(pieces), most_(most) {}
+  Cutting(std::span<const PieceStore::Entry> pieces, const TileBudget& most, std::span<const LookCost> looks)
+      : pieces_(pieces), most_(most), looks_(looks) {}
 
   Cells run() {
     out_.order.resize(pieces_.size());
@@ -41,21 +44,55 @@ class Cutting {
     for (auto i = r.first; i < r.second; ++i) n += pieces_[out_.order[i]].n_drawn;
     return n;
   }
-  bool is_too_large(Range r) const { return r.second - r.first > 1 && drawn(r) > most_; }
+
+  /// How many times the budgets of draws and bytes: the larger of both.
+  double excess(Range r) const {
+    std::vector<std::uint32_t> looks;
+    double bytes = 0;
+    for (auto i = r.first; i < r.second; ++i) {
+      const auto& piece = pieces_[out_.order[i]];
+      bytes += most_.packing * piece.bytes;
+      if (piece.look < looks_.size()) looks.push_back(piece.look);
+    }
+    sort_unique(looks);
+    for (auto& look : looks) {
+      bytes += static_cast<double>(looks_[look].bytes);
+      look = looks_[look].family;
+    }
+    sort_unique(looks);
+    return std::max(static_cast<double>(looks.size()) / static_cast<double>(most_.draws),
+                    bytes / static_cast<double>(most_.bytes));
+  }
+
+  static void sort_unique(std::vector<std::uint32_t>& v) {
+    std::ranges::sort(v);
+    v.erase(std::unique(v.begin(), v.end()), v.end());
+  }
 
   void cut(std::uint32_t cell) {
     const Range all{out_.cells[cell].begin, out_.cells[cell].end};
-    if (!is_too_large(all)) return;
-    const auto middle = halve(all);
-    for (const Range& half : {Range{all.first, middle}, Range{middle, all.second}}) {
-      if (!is_too_large(half)) {
+    const auto middle = middle_of(all);
+    if (!middle) return;
+    for (const Range& half : {Range{all.first, *middle}, Range{*middle, all.second}}) {
+      const auto quarter = middle_of(half);
+      if (!quarter) {
         add(cell, half);
         continue;
       }
-      const auto quarter = halve(half);
-      add(cell, {half.first, quarter});
-      add(cell, {quarter, half.second});
+      add(cell, {half.first, *quarter});
+      add(cell, {*quarter, half.second});
     }
+  }
+
+  /// Where it is to be halved, if it is.
+  std::optional<std::uint32_t> middle_of(Range r) {
+    if (r.second - r.first < 2) return std::nullopt;
+    if (drawn(r) > most_.drawn) return halve(r);
+    const double before = excess(r);
+    if (before <= 1) return std::nullopt;
+    const auto middle = halve(r);
+    const double after = std::max(excess({r.first, middle}), excess({middle, r.second}));
+    return after <= worth_halving * before ? std::optional(middle) : std::nullopt;
   }
 
   void add(std::uint32_t parent, Range r) {
@@ -99,14 +136,16 @@ class Cutting {
   }
 
   std::span<const PieceStore::Entry> pieces_;
-  std::size_t most_;
+  const TileBudget& most_;
+  std::span<const LookCost> looks_;
   Cells out_;
 };
 
 }  // namespace
 
-Cells cut_into_cells(std::span<const PieceStore::Entry> pieces, std::size_t most) {
-  return Cutting(pieces, most).run();
+Cells cut_into_cells(std::span<const PieceStore::Entry> pieces, const TileBudget& most,
+                     std::span<const LookCost> looks) {
+  return Cutting(pieces, most, looks).run();
 }
 
 }  // namespace wrlkit::tiles

@@ -1,5 +1,6 @@
 // Where a plant is cut into tiles: a tree of cells by the middles of its pieces, no piece in two of them.
 #pragma once
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,9 +22,25 @@ struct Cells {
   std::uint32_t depth = 0;           // of the deepest
 };
 
-/// Cells that draw more than `most` are halved twice: across the longest side of the box around the middles, at the
+/// What a full tile may have, at most.
+struct TileBudget {
+  std::size_t drawn = 0;  // triangles, segments, points
+  std::size_t draws = std::numeric_limits<std::size_t>::max();
+  std::uint64_t bytes = std::numeric_limits<std::uint64_t>::max();
+  double packing = 1;  // bytes of geometry in a tile for each of a stored piece
+};
+
+/// What a look adds to a tile that it is in.
+struct LookCost {
+  std::uint32_t family = 0;  // looks of one are drawn at once
+  std::uint64_t bytes = 0;   // of its pictures
+};
+
+/// Cells that are over the budget are halved twice: across the longest side of the box around the middles, at the
 /// roundest number at which each half draws 40 % of it at least, so that a piece more or less rarely moves the place.
-/// The same for the same pieces. O(n log^2 n).
-Cells cut_into_cells(std::span<const PieceStore::Entry> pieces, std::size_t most);
+/// For draws and bytes alone only when that helps: pieces that share a picture have it in each half. `looks`: by
+/// number; where there is none, a look costs nothing. The same for the same pieces. O(n log^2 n).
+Cells cut_into_cells(std::span<const PieceStore::Entry> pieces, const TileBudget& most,
+                     std::span<const LookCost> looks = {});
 
 }  // namespace wrlkit::tiles

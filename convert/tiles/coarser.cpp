@@ -107,7 +107,7 @@ class Coarser {
     return geometry;
   }
 
-  /// For each count the first point that draws no more, or the last; the world itself where there is none.
+  /// For each count the first point that draws no more, or the last; the scene itself where there is none.
   void read_all(const auto& world, const auto& points, const auto& n_drawn, std::span<const std::size_t> counts,
                 std::vector<std::vector<Coarse>>& out) {
     for (std::size_t k = 0; k < counts.size(); ++k) {

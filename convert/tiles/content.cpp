@@ -1,6 +1,8 @@
 #include "convert/tiles/content.h"
 
+#include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 #include <unordered_map>
 
@@ -13,12 +15,22 @@
 namespace wrlkit::tiles {
 namespace {
 
+/// Whether it may have its colour at each vertex: of lines and points Materials mean another one.
+bool is_colourable(const Piece& p) { return p.mesh.kind == Mesh::Kind::faces; }
+
 /// Pieces that agree in these become one mesh.
 using Kind = std::tuple<std::uint32_t, Mesh::Kind, bool, int, bool>;
 
 Kind kind_of(const Piece& p) {
   const Mesh& m = p.mesh;
   return {p.look, m.kind, m.solid, m.color.present() ? m.color.width : 0, m.texcoord.present()};
+}
+
+std::vector<std::string> sources_of(std::span<const Piece> pieces) {
+  std::set<std::string> out;
+  for (const auto& p : pieces)
+    if (p.source_size > 0) out.insert(p.name.substr(0, p.source_size));
+  return {out.begin(), out.end()};
 }
 
 class Content {
@@ -28,9 +40,14 @@ class Content {
     scene_.import(looks.scene());
   }
 
-  void add(std::span<const Piece> pieces) {
+  void add(std::span<const Piece> pieces, std::size_t draws) {
     std::map<Kind, std::vector<const Piece*>> kinds;
     for (const auto& p : pieces) kinds[kind_of(p)].push_back(&p);
+    has_colours_ = kinds.size() > draws;
+    if (has_colours_) {
+      kinds.clear();
+      for (const auto& p : pieces) kinds[coloured_kind_of(p)].push_back(&p);
+    }
     for (const auto& [kind, list] : kinds) add_shape(list);
   }
 
@@ -38,6 +55,26 @@ class Content {
   const Mesh& mesh(NodeId geometry) const { return meshes_.at(geometry.value); }
 
  private:
+  Kind coloured_kind_of(const Piece& p) const {
+    Kind kind = kind_of(p);
+    if (!is_coloured(p)) return kind;
+    std::get<0>(kind) = looks_.family(p.look);
+    std::get<3>(kind) = std::max(std::get<3>(kind), 3);
+    return kind;
+  }
+
+  /// Whether its look differs from others in colour alone.
+  bool is_coloured(const Piece& p) const { return is_colourable(p) && looks_.n_of_family(looks_.family(p.look)) > 1; }
+
+  /// Its colour, at each vertex.
+  void give_colour(Mesh& mesh, std::uint32_t look) const {
+    const NodeId material = looks_.scene().get(looks_.appearance(look), nodes::appearance::material);
+    const Vec3 colour = looks_.scene().get(material, nodes::material::diffuseColor);
+    mesh.color.width = 3;
+    mesh.color.values.assign(colour.begin(), colour.end());
+    mesh.color.index.assign(mesh.corners.size(), 0);
+  }
+
   void add_shape(const std::vector<const Piece*>& pieces) {
     Mesh all;
     std::vector<std::string_view> names;
@@ -71,6 +108,7 @@ class Content {
     for (std::size_t i = 0; i < points.size(); ++i) points[i] -= origin_[i % 3];
     MeshJob job{scene_, {}, moved_, scratch_, ctx_};
     normals(job, {});
+    if (has_colours_ && is_coloured(p) && !moved_.color.present()) give_colour(moved_, p.look);
     append_moved(all, moved_, {}, scratch_.map);
   }
 
@@ -82,16 +120,20 @@ class Content {
   std::unordered_map<std::uint32_t, Mesh> meshes_;
   Mesh moved_;
   MeshScratch scratch_;
+  bool has_colours_ = false;  // pieces have their colours at the vertices
 };
 
 }  // namespace
 
 bool write_content(std::span<const Piece> pieces, const Vec3& origin, const Looks& looks, const GltfOptions& options,
-                   Resources& pictures, const std::string& path, Diagnostics& diag, GltfSummary& summary) {
+                   std::size_t draws, Resources& pictures, const std::string& path, Diagnostics& diag,
+                   GltfSummary& summary) {
   Content content(origin, looks, diag);
-  content.add(pieces);
+  content.add(pieces, draws);
+  auto with_sources = options;
+  with_sources.sources = sources_of(pieces);
   const MeshSource meshes = [&](NodeId geometry) -> const Mesh& { return content.mesh(geometry); };
-  return write_gltf(content.scene(), meshes, options, &pictures, path, diag, &summary);
+  return write_gltf(content.scene(), meshes, with_sources, &pictures, path, diag, &summary);
 }
 
 }  // namespace wrlkit::tiles

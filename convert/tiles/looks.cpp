@@ -1,5 +1,8 @@
 #include "convert/tiles/looks.h"
 
+#include <filesystem>
+#include <utility>
+
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::tiles {
@@ -22,6 +25,23 @@ class Taking {
     key_.clear();
     add_key(n);
     return std::move(key_);
+  }
+
+  /// Of all but the colour that Color nodes stand for. Empty where a texture is mixed with it, or where it is not said
+  /// by a Material.
+  std::string family_key(NodeId appearance) {
+    if (!appearance || from_.get(appearance, nodes::appearance::texture)) return {};
+    coloured_ = from_.get(appearance, nodes::appearance::material);
+    if (!coloured_ || !from_.is(coloured_, nodes::Material)) return {};
+    return key(appearance);
+  }
+
+  std::uint64_t picture_bytes() const {
+    std::uint64_t sum = 0;
+    std::error_code fault;
+    for (const auto& path : pictures_)
+      if (const auto size = std::filesystem::file_size(path, fault); !fault) sum += size;
+    return sum;
   }
 
   /// The same, with the contents of the pictures that key() has met.
@@ -51,7 +71,7 @@ class Taking {
     if (!is_known(from_, n)) return add_text("");
     add_text(from_.type(n).name);
     for (const Value& v : from_.fields(n)) {
-      if (!counts(from_, n, v)) continue;
+      if (!counts(from_, n, v) || (n == coloured_ && v.slot == nodes::material::diffuseColor.slot)) continue;
       key_ += static_cast<char>(v.slot);
       const auto element = info(v.type).element;
       if (element == Element::node)
@@ -100,6 +120,7 @@ class Taking {
   const Scene& from_;
   Resources* resources_;
   std::string key_;
+  NodeId coloured_{};  // the Material whose colour does not count
   std::vector<std::string> pictures_;
 };
 
@@ -110,6 +131,11 @@ std::uint32_t Looks::add(const Scene& scene, NodeId appearance, Resources* resou
   const auto [at, is_new] = known_.try_emplace(taking.key(appearance), static_cast<std::uint32_t>(appearances_.size()));
   if (!is_new) return at->second;
   hashes_.push_back(taking.hash(at->first));
+  picture_bytes_.push_back(taking.picture_bytes());
+  const auto family = taking.family_key(appearance);
+  families_.push_back(family.empty() ? at->second : known_families_.try_emplace(family, at->second).first->second);
+  n_of_family_.push_back(0);
+  ++n_of_family_[families_.back()];
   appearances_.push_back(taking.copy(appearance, scene_));
   return at->second;
 }

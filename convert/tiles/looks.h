@@ -1,4 +1,4 @@
-// The appearances of many worlds in one scene, each once.
+// The appearances of many scenes in one scene, each once.
 #pragma once
 #include <string>
 #include <unordered_map>
@@ -19,6 +19,12 @@ class Looks {
   std::size_t size() const { return appearances_.size(); }
   /// Of all that makes a look what it is, with the contents of its pictures.
   const ContentHash& hash(std::uint32_t look) const { return hashes_[look]; }
+  /// Looks that differ in the diffuse colour of a Material alone, without a texture, have one number: that of the
+  /// first.
+  std::uint32_t family(std::uint32_t look) const { return families_[look]; }
+  std::uint32_t n_of_family(std::uint32_t family) const { return n_of_family_[family]; }
+  /// Of the pictures that it refers to, as they are stored.
+  std::uint64_t picture_bytes(std::uint32_t look) const { return picture_bytes_[look]; }
   /// Nodes of scene(); none: the look of a Shape without an Appearance.
   NodeId appearance(std::uint32_t look) const { return appearances_[look]; }
   const Scene& scene() const { return scene_; }
@@ -27,7 +33,10 @@ class Looks {
   Scene scene_;
   std::vector<NodeId> appearances_;
   std::vector<ContentHash> hashes_;
-  std::unordered_map<std::string, std::uint32_t> known_;  // by all that is in it
+  std::vector<std::uint32_t> families_, n_of_family_;
+  std::vector<std::uint64_t> picture_bytes_;
+  std::unordered_map<std::string, std::uint32_t> known_;           // by all that is in it
+  std::unordered_map<std::string, std::uint32_t> known_families_;  // by all but the colour
 };
 
 }  // namespace wrlkit::tiles

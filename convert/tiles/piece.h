@@ -10,9 +10,10 @@
 namespace wrlkit::tiles {
 
 struct Piece {
-  std::string name;        // the file, and the DEF names from its root: "unit_1.wrl/Plant/Pump"
-  std::uint32_t look = 0;  // into Looks
-  Mesh mesh;               // of triangles, polylines or points; fronts counter-clockwise
+  std::string name;               // the file, and the DEF names from its root: "unit_1.wrl/Plant/Pump"
+  std::uint32_t look = 0;         // into Looks
+  std::uint32_t source_size = 0;  // of the name: the file
+  Mesh mesh;                      // of triangles, polylines or points; fronts counter-clockwise
 };
 
 /// What draws: triangles, segments, points.

@@ -58,6 +58,7 @@ std::string pack(const Piece& piece) {
   const Mesh& m = piece.mesh;
   Packer out;
   out.list(std::span<const char>(piece.name));
+  out.number(piece.source_size);
   out.number(m.kind);
   out.number(static_cast<std::uint8_t>(m.solid * solid + m.convex * convex + m.primitive * primitive));
   out.number(m.crease_angle);
@@ -78,6 +79,7 @@ Piece unpack(std::string_view bytes) {
   Piece piece;
   Mesh& m = piece.mesh;
   in.list(piece.name);
+  piece.source_size = in.number<std::uint32_t>();
   m.kind = in.number<Mesh::Kind>();
   const auto flags = in.number<std::uint8_t>();
   m.solid = flags & solid;

@@ -59,6 +59,7 @@ class ScenePieces {
       read(place);
       if (piece_.mesh.corners.empty()) continue;
       const auto& path = places.name(place.path);
+      piece_.source_size = static_cast<std::uint32_t>(source_.size());
       piece_.name = path.empty() ? source_ : source_ + '/' + path;
       if (!hand_out()) return false;
     }
@@ -107,7 +108,7 @@ class ScenePieces {
     }
     std::ranges::sort(faces);
     std::vector<std::uint32_t> original;
-    Piece part{piece_.name, piece_.look, simplify::piece_of(piece_.mesh, faces, original)};
+    Piece part{piece_.name, piece_.look, piece_.source_size, simplify::piece_of(piece_.mesh, faces, original)};
     part.mesh.crease_angle = piece_.mesh.crease_angle;
     part.mesh.solid = piece_.mesh.solid;
     part.mesh.primitive = piece_.mesh.primitive;
@@ -131,9 +132,19 @@ class ScenePieces {
   MeshScratch scratch_;
 };
 
-void count_left_out(const Scene& scene, SceneCounts& counts) {
-  counts.n_routes += scene.main.routes.size();
-  for (std::uint32_t i = 0; i < scene.node_count(); ++i) counts.n_lights += scene.is(NodeId{i}, nodes::X3DLightNode);
+/// What a viewer of the world would see, hear or do, and one of its tiles does not.
+bool is_lost(const Scene& scene, NodeId n) {
+  constexpr BaseSet kinds[] = {nodes::X3DLightNode,  nodes::X3DViewpointNode, nodes::X3DSensorNode,
+                               nodes::X3DScriptNode, nodes::X3DSoundNode,     nodes::X3DBackgroundNode,
+                               nodes::X3DFogObject};
+  if (scene.is(n, nodes::Anchor) || scene.is(n, nodes::Billboard)) return true;
+  return std::ranges::any_of(kinds, [&](BaseSet kind) { return scene.is(n, kind); });
+}
+
+void count_lost(const Scene& scene, SceneCounts& counts) {
+  if (!scene.main.routes.empty()) counts.lost["ROUTE"] += scene.main.routes.size();
+  for (std::uint32_t i = 0; i < scene.node_count(); ++i)
+    if (is_lost(scene, NodeId{i})) ++counts.lost[std::string(scene.type(NodeId{i}).name)];
 }
 
 }  // namespace
@@ -143,7 +154,7 @@ bool pieces_of(Document& document, const std::string& source, std::size_t most, 
   std::string why;
   auto expanded = Pipeline::parse("lower-vrml1,expand,lower-x3d", why);
   if (!expanded->run(document.scene(), document.context())) return false;
-  count_left_out(document.scene(), counts);
+  count_lost(document.scene(), counts);
   return ScenePieces(document, source, most, looks, put, counts).run();
 }
 

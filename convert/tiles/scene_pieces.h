@@ -1,6 +1,8 @@
-// The pieces of one world.
+// The pieces of one scene.
 #pragma once
 #include <functional>
+#include <map>
+#include <string>
 
 #include "convert/document.h"
 #include "convert/tiles/looks.h"
@@ -9,8 +11,8 @@
 namespace wrlkit::tiles {
 
 struct SceneCounts {
-  std::size_t n_pieces = 0, n_cut = 0;     // n_cut: of those, made by cutting what is too large for a tile
-  std::size_t n_lights = 0, n_routes = 0;  // that tiles do not show
+  std::size_t n_pieces = 0, n_cut = 0;           // n_cut: of those, made by cutting what is too large for a tile
+  std::map<std::string, std::size_t> lost = {};  // by the type of the node, and ROUTEs: what tiles have no place for
 };
 
 /// Expands the document, and hands out what each Shape shows in each place, in the order of the file. What has more

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/io/output.h"
+
 namespace wrlkit::tiles {
 namespace {
 
@@ -40,22 +42,32 @@ std::string file_of(const Cell& cell, const Tile& tile) {
 
 Tileset tileset_of(const Cells& cells, const std::vector<Tile>& tiles, const std::string& folder) {
   const double extent = diagonal(tiles[0].box);
-  Tileset set{.tiles = {}, .error = std::max(extent, tiles[0].said_error), .place = {}};
+  Tileset set{.tiles = {}, .error = std::max(extent, tiles[0].said_error), .place = {}, .folder = folder};
   double grown = single_precision * extent;
   for (const auto& tile : tiles) grown = std::max(grown, 2 * tile.made.rounding);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const Cell& cell = cells.cells[i];
-    const auto file = file_of(cell, tiles[i]);
     Box box = tiles[i].box;
     box.low = box.low - Vec3{grown, grown, grown};
     box.high = box.high + Vec3{grown, grown, grown};
-    set.tiles.push_back({file.empty() ? file : folder + '/' + file,
+    set.tiles.push_back({cell.name,
+                         tiles[i].made.bytes > 0,
                          tiles[i].origin,
                          box,
                          tiles[i].said_error,
                          {cell.children.begin(), cell.children.end()}});
   }
   return set;
+}
+
+bool write_descriptions(std::span<const TilesetFile> files, const std::string& folder, Diagnostics& diag) {
+  for (const auto& described : files) {
+    auto file = OutputFile::open((fs::path(folder) / fs::path(described.path).filename()).string(), {}, diag);
+    if (!file) return false;
+    file->write(described.text);
+    if (!file->commit(diag)) return false;
+  }
+  return true;
 }
 
 bool link_tiles(const Cells& cells, const std::vector<Tile>& tiles, const KeptTiles& kept, const std::string& folder,

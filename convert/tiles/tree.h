@@ -1,6 +1,7 @@
 // The tiles of a set in their tree.
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace wrlkit::tiles {
 /// A cell with what has been made of it.
 struct Tile {
   ContentHash key;
-  std::uint64_t n_full = 0;  // that is drawn when nothing is simplified
+  std::uint64_t n_full = 0;    // that is drawn when nothing is simplified
+  std::uint64_t n_stored = 0;  // bytes of that in the store
   bool is_made = false;
   MadeTile made;
   Box full_box;  // of the pieces of a leaf
@@ -30,6 +32,9 @@ Vec3 origin_of(const Box& box);
 /// Fills in boxes, origins and errors when all tiles are made. Boxes hold those of the children. A tile is not nearer
 /// than its children, and rounding counts.
 void finish_tree(const Cells& cells, std::vector<Tile>& tiles);
+
+/// Writes files that tileset.json refers to into a folder. False, reported, when that fails.
+bool write_descriptions(std::span<const TilesetFile> files, const std::string& folder, Diagnostics& diag);
 
 /// The name of the file of a tile; empty: it shows nothing.
 std::string file_of(const Cell& cell, const Tile& tile);

@@ -36,7 +36,7 @@ struct LitPoint {
   V3 position, normal, to_viewer;  // world, the latter two unit
 };
 
-/// A light node in its frame; none when it is off, adds nothing or stands in a frame that has no inverse.
+/// A light node in its frame; none when it is off, adds nothing or its frame has no inverse.
 std::optional<Light> make_light(const Scene& scene, const Placed& placed, const Stage& stage);
 
 /// 1 / max(1, a0 + a1 d + a2 d^2), of a distance in the frame of the light.

@@ -19,7 +19,7 @@ namespace {
 
 using namespace drawing;
 
-/// The name, and the one that may have been meant, to stand in quotes.
+/// The name, and the one that may have been meant, to be put in quotes.
 std::string asked_for(const Scene& scene, const Stage& stage, const std::string& name) {
   NearestName nearest(name);
   for (const Placed& p : stage.viewpoints) {

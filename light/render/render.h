@@ -1,4 +1,4 @@
-// A picture of a world as a VRML browser shows it: the lighting model of ISO/IEC 14772-1, 4.14, in the colours of the
+// A picture of a scene as a VRML browser shows it: the lighting model of ISO/IEC 14772-1, 4.14, in the colours of the
 // display, ray traced through Embree so that it needs no window, no driver and no graphics card.
 //
 // The scene is an expanded one (no prototypes, no Inlines). Of Switch it shows what shown_children() says, of LOD the
@@ -66,12 +66,12 @@ inline constexpr auto choices<RenderOptions::Mode> =
                 {"albedo", "without light"},
                 {"path", "with shadows and reflected light, as noisy as --samples are few"}});
 
-/// Draws the scene. `resources` gives the pictures of textures; without it, or where one cannot be had, the material
-/// shows. The picture is RGB and always there: an empty world gives its background.
+/// Draws the scene. `resources` gives the pictures of textures; without it, or where one cannot be read, the material
+/// shows. The picture is RGB and always there: an empty scene gives its background.
 Image render(const Scene& scene, const MeshSource& meshes, const RenderOptions& options, Resources* resources,
              Diagnostics& diag);
 
-/// The options with the camera that render() would take for this scene spelled out: for pictures of other worlds from
+/// The options with the camera that render() would take for this scene spelled out: for pictures of other scenes from
 /// the same place.
 RenderOptions with_camera(const Scene& scene, const MeshSource& meshes, const RenderOptions& options,
                           Diagnostics& diag);

@@ -461,7 +461,7 @@ void Hierarchy::light_fields(NodeId n, Json light, const Place& place) {
   }
 }
 
-/// None for one that goes elsewhere: a sun of another program lights the whole world, one of VRML its group.
+/// None for one that goes elsewhere: a sun of another program lights the whole scene, one of VRML its group.
 NodeId Hierarchy::light(Json node, const Place& place, const Matrix& world) {
   auto index = c_.file.index(Table::lights, light_of(node));
   if (index == none) return {};

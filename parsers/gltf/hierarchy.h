@@ -23,7 +23,7 @@ class Hierarchy {
   /// `moved`: nodes that must be Transforms.
   Hierarchy(const Context&, Extras&, Meshes&, PartRows&, const ParseLimits&, std::set<std::uint32_t> moved);
 
-  /// All scenes; what the default one shows are the scene's roots, the others stand in a Switch that shows none.
+  /// All scenes; what the default one shows are the scene's roots, the others are in a Switch that shows none.
   void build();
   /// What a node has become; none when it has become nothing.
   NodeId made(std::uint32_t node) const { return node < made_.size() ? made_[node] : NodeId{}; }

@@ -24,7 +24,7 @@ class DeferredLists {
 
   /// The text between the brackets of a field of a node, whose Value is a stand-in for now.
   Value add(std::string_view list, FieldType, std::uint16_t slot, NodeId);
-  /// The file is to be read otherwise.
+  /// The file has to be read again on one thread.
   void give_up() { failed_ = true; }
   /// Whether a thread gave up, or some list turned out to be written otherwise; the parser may stop then.
   bool failed() const { return failed_; }

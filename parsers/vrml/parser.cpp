@@ -312,7 +312,7 @@ Value Parser::is_value(Token is, FieldType type, std::uint16_t slot) {
   return v;
 }
 
-// A field that the node type does not have. Nodes in it are read, so that the geometry below unknown nodes is had and
+// A field that the node type does not have. Nodes in it are read, so that the geometry below unknown nodes is kept and
 // DEF names in it are known; anything else is kept as text.
 void Parser::unknown_field(Token name) {
   const auto& type = build_.current_type();
@@ -433,7 +433,7 @@ bool Parser::node_list(std::uint16_t slot, Value& out) {
   return true;
 }
 
-// Geometry among children stands in a Shape of its own.
+// Geometry among children gets a Shape of its own.
 bool Parser::holds_children(std::uint16_t slot) const {
   if (build_.depth() == 0 || slot >= build_.current_type().fields.size()) return false;
   auto kinds = build_.current_type().fields[slot].kinds;

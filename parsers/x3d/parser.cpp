@@ -210,7 +210,7 @@ void Parser::put(const XmlNode& c, NodeId id, Element& e) {
   const auto& type = build_.current_type();
   auto said = raw(c, "containerField");
   auto name = said ? plain(*said) : container_field(scene_, id);
-  // Since version 4.0 what stands in a MetadataSet is one of its values.
+  // Since version 4.0 what is in a MetadataSet is one of its values.
   if (!said && scene_.x3d.version >= 40 && type.name == "MetadataSet") name = "value";
   auto slot = type.find(name, Dialect::x3d);
   if (slot && put_into_slot(*slot, id, where(c))) return;

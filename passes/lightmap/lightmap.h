@@ -1,4 +1,4 @@
-// Pass `lightmap`: its documentation stands in its options.
+// Pass `lightmap`: its documentation is in its options.
 #pragma once
 #include <string>
 #include <utility>
@@ -31,7 +31,7 @@ struct NamedDensities {
   double of(std::string_view name) const;
 };
 
-/// What becomes of Shapes without a Material in a world with lamps.
+/// What becomes of Shapes without a Material in a scene with lamps.
 enum class UnlitSurfaces : std::uint8_t { bake, keep };
 template <>
 inline constexpr auto choices<UnlitSurfaces> = choice_row({{"bake"}, {"keep"}});

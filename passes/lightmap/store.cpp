@@ -43,7 +43,7 @@ FloatImage raw(const Canvas& c) {
   return out;
 }
 
-/// What becomes white: at least 1, so that dim worlds stay dim.
+/// What becomes white: at least 1, so that dim scenes stay dim.
 double white_level(const std::vector<BakedPage>& pages, double exposure) {
   std::vector<float> brightest;
   for (const auto& p : pages)

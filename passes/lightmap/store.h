@@ -17,7 +17,7 @@ namespace wrlkit::bake {
 
 struct StoreOptions {
   std::string extension = "png";  // of the pictures
-  bool exr = false;               // the light as it is beside them, linear, not scaled and not exposed
+  bool exr = false;               // the light as it is next to them, linear, not scaled and not exposed
   double exposure = 1;            // factor on the light
 };
 

@@ -459,7 +459,7 @@ void Lowering::visit_unknown(NodeId n, State& s, Frame& frame) {
   if (NodeId g = group(scene_, inner, scene_.where(n), scene_.name(n))) frame.add(g);
 }
 
-// Nodes of VRML97 stand for themselves; in their children the state is that around them.
+// Nodes of VRML97 stay as they are; in their children the state is that around them.
 void Lowering::visit_vrml97(NodeId n, const State& s, Frame& frame) {
   if (scene_.is(n, nodes::X3DGeometryNode)) return visit_shape(n, s, frame);
   if (!scene_.is(n, nodes::X3DGroupingNode)) return frame.add(n);

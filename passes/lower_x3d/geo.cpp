@@ -289,8 +289,7 @@ class Placing {
     if (far.empty() && !scene_.get(n, g::rootUrl).empty()) far.push_back(inlined(scene_.get(n, g::rootUrl)));
     auto fields = fields_for(scene_, n, nodes::LOD);
     std::erase_if(fields, [&](const Value& v) {
-      return !scene_.is_extra(v) &&
-             (v.slot == l::center.slot || v.slot == l::range.slot || v.slot == l::children.slot);
+      return !scene_.is_extra(v) && (v.slot == l::center.slot || v.slot == l::range.slot || v.slot == l::children.slot);
     });
     const bool both = !near.empty();
     std::vector<NodeId> levels{group(far)};

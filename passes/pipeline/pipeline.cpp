@@ -79,7 +79,7 @@ void Pipeline::complete(std::string_view text) {
   const auto last_over_scene =
       std::ranges::find_if(steps_.rbegin(), steps_.rend(), [](const Step& s) { return !s.pass->is_mesh_pass(); });
   insert(last_over_scene.base(), missing(light, mesh));
-  // Where nothing is drawn, what the standard pipeline does to a world is done to what other passes bring in as well.
+  // Where nothing is drawn, what the standard pipeline does to a scene is done to what other passes bring in as well.
   auto brings_in = [](const Step& s) { return s.info->traits.brings_in; };
   if (mesh == end && std::ranges::any_of(steps_, brings_in)) {
     const auto rest = std::stable_partition(front.begin(), front.end(),

@@ -32,7 +32,7 @@ if (!has_chromium) process.exit(skipped);
 fs.rmSync(folder, {recursive: true, force: true});
 fs.mkdirSync(folder, {recursive: true});
 const glb = path.join(folder, 'world.glb'), set = path.join(folder, 'set');
-for (const args of [['tiles', '-q', world, '-o', set, '--triangles', triangles, '--at', '50.1,8.6,112,30'], ['convert', '-q', world, glb]]) {
+for (const args of [['tiles', '-q', world, '-o', set, '--triangles', triangles, '--at', '50.1,8.6,112,30', '--tileset-tiles', '8'], ['convert', '-q', world, glb]]) {
   const made = await run(wrlkit, args, 120);
   if (made.code !== 0) faults.push(`${args[0]} ends with ${made.code}: ${made.text}`);
 }

@@ -19,7 +19,7 @@ const nearer = c => ({...c, eye: c.eye.map((v, i) => c.target[i] + 0.5 * (v - c.
 
 async function job_of(world, i) {
   const set = path.join(folder, `set${i}`), glb = path.join(folder, `${i}.glb`);
-  for (const args of [['tiles', '-q', world, '-o', set, '--triangles', triangles], ['convert', '-q', world, glb]]) {
+  for (const args of [['tiles', '-q', world, '-o', set, '--triangles', triangles, '--tile-draws', '3', '--tileset-tiles', '8'], ['convert', '-q', world, glb]]) {
     const made = await run(wrlkit, args, 120);
     if (made.code !== 0) faults.push(`${world}: ${args[0]} ends with ${made.code}: ${made.text}`);
   }

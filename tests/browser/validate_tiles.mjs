@@ -18,7 +18,7 @@ async function check_tile(name, file) {
 
 async function check(world, compress) {
   const out = path.join(folder, `${path.basename(world)}-${compress}`);
-  const made = await run(wrlkit, ['tiles', world, '-o', out, '--triangles', '2000', '--compress', compress], 120);
+  const made = await run(wrlkit, ['tiles', world, '-o', out, '--triangles', '2000', '--tile-draws', '2', '--compress', compress], 120);
   if (made.code !== 0) return faults.push(`${world} ${compress}: exit code ${made.code}: ${made.text}`);
   const uris = tile => [tile.content.uri, ...(tile.children ?? []).flatMap(uris)];
   for (const uri of uris(JSON.parse(fs.readFileSync(path.join(out, 'tileset.json'))).root)) await check_tile(`${world} ${compress} ${uri}`, path.join(out, uri));

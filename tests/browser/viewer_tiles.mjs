@@ -13,7 +13,7 @@ const [program, folder] = process.argv.slice(2);
 fs.rmSync(folder, {recursive: true, force: true});
 fs.mkdirSync(folder, {recursive: true});
 const world = file_of('corpus/plant/pump_room_primitives.wrl'), set = path.join(folder, 'set');
-for (const [out, ...more] of [['set'], ['draco', '--compress', 'draco'], ['earth', '--at', '50.1,8.6,112,30']]) wrlkit(program, 'tiles', '-q', world, '-o', path.join(folder, out), '--triangles', '3000', ...more);
+for (const [out, ...more] of [['set', '--tileset-tiles', '8'], ['draco', '--compress', 'draco'], ['earth', '--at', '50.1,8.6,112,30']]) wrlkit(program, 'tiles', '-q', world, '-o', path.join(folder, out), '--triangles', '3000', ...more);
 
 /// {address, stop} of what --serve says.
 async function serve(tileset) {

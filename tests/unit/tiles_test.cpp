@@ -30,7 +30,7 @@ Mesh square(double x, double y, double size) {
   return m;
 }
 
-tiles::Piece piece(std::string name, Mesh mesh) { return {std::move(name), 0, std::move(mesh)}; }
+tiles::Piece piece(std::string name, Mesh mesh) { return {std::move(name), 0, 0, std::move(mesh)}; }
 
 /// Boxes in a row, in a file.
 TilesInput row_of_boxes(const TempFolder& folder, int n) {
@@ -95,7 +95,7 @@ TEST_CASE("tiles: cells hold each piece once, within the budget, and are not emp
   std::vector<tiles::PieceStore::Entry> pieces;
   for (std::uint32_t i = 0; i < 1000; ++i)
     pieces.push_back({.offset = i, .bytes = 0, .n_drawn = 1 + i % 7, .box = at(double(i % 40), 0, double(i / 40))});
-  const auto cells = tiles::cut_into_cells(pieces, 100);
+  const auto cells = tiles::cut_into_cells(pieces, {100});
   std::vector<int> times(pieces.size());
   for (const auto& c : cells.cells) {
     REQUIRE(c.begin < c.end);
@@ -118,7 +118,7 @@ TEST_CASE("tiles: a piece more or less leaves cells elsewhere as they are", "[ti
   for (std::uint32_t i = 0; i < 2000; ++i)
     pieces.push_back({.n_drawn = 10, .box = at(0.37 * i, 0, 0.01 * (i % 50)), .look = i});
   const auto leaves = [&] {
-    const auto cells = tiles::cut_into_cells(pieces, 400);
+    const auto cells = tiles::cut_into_cells(pieces, {400});
     std::set<std::set<std::uint32_t>> out;
     for (const auto& c : cells.cells) {
       std::set<std::uint32_t> looks;
@@ -165,7 +165,7 @@ TEST_CASE("tiles: an update makes nothing again", "[tiles]") {
 
 TEST_CASE("tiles: pieces in one place are cut, too", "[tiles]") {
   const std::vector<tiles::PieceStore::Entry> pieces(9, {.offset = 0, .bytes = 0, .n_drawn = 50, .box = at(1, 2, 3)});
-  for (const auto& c : tiles::cut_into_cells(pieces, 60).cells)
+  for (const auto& c : tiles::cut_into_cells(pieces, {60}).cells)
     if (c.children.empty()) CHECK(c.end - c.begin == 1);
 }
 
@@ -184,6 +184,16 @@ TEST_CASE("tiles: the error of a coarse surface is that of the farthest point, e
   SECTION("there is more than there was") {
     const std::vector<tiles::Piece> more{all[0], all[1], piece("c", square(0, 2, 1))};
     CHECK(tiles::surface_error(more, both) == Approx(2).epsilon(0.03));
+  }
+  SECTION("large triangles are near to many small ones") {
+    const auto plate = piece("plate", square(0, 0, 10));
+    const tiles::FullTile whole{tiles::bounds_of(plate.mesh), [&] { return std::vector{plate}; }};
+    std::vector<tiles::Piece> small;
+    for (int i = 0; i < 100; ++i) {
+      auto& points = small.emplace_back(piece("small", square(i % 10, 0.2, 1))).mesh.positions.edit();
+      for (std::size_t k = 2; k < points.size(); k += 3) points[k] += i / 10;
+    }
+    CHECK(tiles::surface_error(small, {&whole, 1}) == Approx(0.2).epsilon(0.03));
   }
 }
 

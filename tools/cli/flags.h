@@ -58,7 +58,7 @@ struct Flags {
   int bundle = 1;
   bool retry = false;
   std::vector<std::string> outputs;  // report
-  std::string compare;               // and of render: a world
+  std::string compare;               // and of render: a scene
   int looks = 2000;
 
   // render
@@ -95,12 +95,13 @@ struct Flags {
   std::string sky = "background";
 
   // tiles
-  int tile_triangles = 50'000;
+  int tile_triangles = 50'000, tile_draws = 16, tileset_tiles = 500;
+  std::string tile_bytes = "4M";
   bool update = false;     // keep what was made, for the next run
   std::vector<double> at;  // latitude, longitude, height, heading
 
   bool serve = false;  // view
-  int limit = 500;     // worlds in a gallery
+  int limit = 500;     // scenes in a gallery
 
   std::vector<std::string> criteria;  // compare-lod, view
   bool bare = false;

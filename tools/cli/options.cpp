@@ -113,6 +113,11 @@ std::string memory_fault(const std::string& text) {
   return "'" + text + "' is not a valid size: 800M, 8G" + (is_number ? "; did you mean " + text + "G?" : "");
 }
 
+std::string tile_size_fault(const std::string& text) {
+  constexpr std::uint64_t least = 1 << 10;
+  return size_of(text) >= least ? "" : "'" + text + "' is not a valid size of a tile: 500K, 4M";
+}
+
 }  // namespace
 
 void common(CLI::App& verb, Flags& f) {
@@ -261,8 +266,25 @@ void tiles(CLI::App& verb, Flags& f) {
   verb.add_flag("--update", f.update,
                 "keep in DIR/.wrlkit what has been made, and make again only tiles whose parts have changed since the "
                 "last such run; the bytes are those of a new run");
-  verb.add_option("--triangles", f.tile_triangles, "that a tile draws, at most")
+  verb.add_option("--tile-triangles,--triangles", f.tile_triangles, "that a tile draws, at most")
       ->check(CLI::Range(100, 10'000'000))
+      ->capture_default_str();
+  verb.add_option(
+          "--tile-draws", f.tile_draws,
+          "draw calls of a tile, at most: where it has more materials, those that differ in colour alone become "
+          "colours of vertices")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  verb.add_option("--tile-bytes", f.tile_bytes,
+                  "of a tile: 500K, 4M; coarse tiles get smaller pictures where they have more")
+      ->type_name("SIZE")
+      ->check(tile_size_fault, "", "")
+      ->capture_default_str();
+  verb.add_option("--tileset-tiles", f.tileset_tiles,
+                  "that tileset.json describes, at most; more are described in files next to the tiles, which viewers "
+                  "load when they "
+                  "need them")
+      ->check(CLI::Range(1, 1'000'000'000))
       ->capture_default_str();
   verb.add_option("--at", f.at,
                   "where the origin of the world is on the Earth: latitude, longitude (degrees), metres above the "

@@ -31,7 +31,7 @@ std::string picture(Session& s, const std::string& path, RenderOptions& place) {
   return bytes ? base64(*bytes) : "";
 }
 
-/// Flags to read one of the two worlds with.
+/// Flags to read one of the two scenes with.
 Flags flags_to_read(const Flags& flags, const std::string& path, bool input) {
   Flags f;
   f.quiet = true;

@@ -1,4 +1,4 @@
-// wrlkit check: what the parser and the node table have to say of worlds; nothing is written.
+// wrlkit check: what the parser and the node table have to say of scenes; nothing is written.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// wrlkit compare-lod: what each criterion makes of a world at the same numbers of triangles, as a page of charts,
+// wrlkit compare-lod: what each criterion makes of a scene at the same numbers of triangles, as a page of charts,
 // figures and pictures, or as one picture. The keys of --json are stable.
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace wrlkit {
 namespace {
 
-/// Draws worlds that are the same except for their meshes, from where the first is seen.
+/// Draws scenes that are the same except for their meshes, from where the first is seen.
 class Painter {
  public:
   explicit Painter(Session& s) : s_(s), options_(render_options(s.flags())) {
@@ -22,7 +22,7 @@ class Painter {
     if (!options_.background) options_.background = Vec3{1, 1, 1};
   }
 
-  /// Null when the passes failed. The messages about a world are printed with the first picture.
+  /// Null when the passes failed. The messages about a scene are printed with the first picture.
   std::optional<Image> draw(Scene scene) {
     Diagnostics unheard(s_.diag().shared_sources());
     auto& diag = drawn_ ? unheard : s_.diag();

@@ -1,5 +1,5 @@
-// wrlkit diff: how two worlds differ in what they show, and in their names and nodes. The keys of --json are stable.
-// The worlds are read one after the other; of the first one only what is compared is kept.
+// wrlkit diff: how two scenes differ in what they show, and in their names and nodes. The keys of --json are stable.
+// The scenes are read one after the other; of the first one only what is compared is kept.
 #include "convert/diff.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// wrlkit illuminate: global illumination of a world, as a patch file. What RenderX was to Lazanyi (3.1).
+// wrlkit illuminate: global illumination of a scene, as a patch file. What RenderX was to Lazanyi (3.1).
 #include "light/patches/illuminate.h"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ std::optional<light::LightOptions> light_options(const Flags& f) {
   return out;
 }
 
-/// A world that is its own patch file would be gone.
+/// A scene that is its own patch file would be gone.
 bool is_safe(const Flags& f) {
   std::error_code none_there;
   if (!std::filesystem::equivalent(f.inputs[0], f.output, none_there)) return true;

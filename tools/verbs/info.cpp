@@ -1,4 +1,4 @@
-// wrlkit info: what is inside a world. The keys of --json are stable.
+// wrlkit info: what is inside a scene. The keys of --json are stable.
 #include "tools/verbs/info.h"
 
 #include <fmt/format.h>

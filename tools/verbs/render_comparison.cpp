@@ -1,4 +1,4 @@
-// wrlkit render --compare: two worlds from one place, and how their pictures differ.
+// wrlkit render --compare: two scenes from one place, and how their pictures differ.
 #include <fmt/format.h>
 
 #include <algorithm>

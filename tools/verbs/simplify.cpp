@@ -62,7 +62,7 @@ std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
 bool write_world(Session& s, const std::string& path, const Scene& scene) {
   Saved saved;
   SaveOptions options = s.flags().save;
-  options.files_folder = "files";  // that all of the worlds refer to
+  options.files_folder = "files";  // that all of the scenes refer to
   return write_vrml_file({scene, {}, s.context(), options, *output_of(path), nullptr, saved});
 }
 
@@ -96,7 +96,7 @@ struct Written {
   double rms = 0, max = 0;
 };
 
-/// What was made: the worlds by falling numbers of triangles, and the one of all levels.
+/// What was made: the scenes by falling numbers of triangles, and the one of all levels.
 struct WrittenWorlds {
   std::size_t n_drawn = 0, n_faces = 0;
   std::vector<Written> points;
@@ -160,7 +160,7 @@ WrittenWorlds facts_of(const SimplifiedWorld& world) {
   return all;
 }
 
-/// Where the worlds go: NAME_TRIANGLES.wrl, and NAME_lod.wrl.
+/// Where the scenes go: NAME_TRIANGLES.wrl, and NAME_lod.wrl.
 struct Names {
   std::string base, ending;
 };
@@ -177,7 +177,7 @@ bool write_worlds(Session& s, const World& world, const Names& names, WrittenWor
   return write_world(s, all.lod_file, world.scene_with_levels());
 }
 
-/// What instances of prototypes stand for in their places; nothing when there are none.
+/// Instances of prototypes replaced by their bodies; nothing when there are none.
 std::optional<Scene> expanded_scene(Session& s) {
   Scene out = s.world().scene;
   Diagnostics unheard(s.diag().shared_sources());
@@ -193,7 +193,7 @@ bool is_reached(const SimplifiedWorld& world, const WorldSimplifyOptions& option
   return counts.empty() || (world.n_points() > 0 && world.point(world.n_points() - 1).n_faces <= counts.back());
 }
 
-/// As one world with one budget where there are several parts and the triangles are counted; otherwise each
+/// As one scene with one budget where there are several parts and the triangles are counted; otherwise each
 /// surface for itself, unless the criterion does not go as far as was asked.
 bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names, WrittenWorlds& all) {
   const Scene& scene = s.world().scene;

@@ -1,4 +1,4 @@
-// wrlkit tiles: worlds of any size as 3D Tiles.
+// wrlkit tiles: scenes of any size as 3D Tiles.
 #include "convert/tiles.h"
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/text/amounts.h"
 #include "base/text/json.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/recipe.h"
@@ -45,11 +46,14 @@ std::optional<Shard> shard_of(const Flags& flags) {
 
 TilesOptions options_of(const Flags& flags, Shard shard) {
   TilesOptions out{.triangles = static_cast<std::size_t>(flags.tile_triangles),
+                   .draws = static_cast<std::size_t>(flags.tile_draws),
+                   .bytes = size_of(flags.tile_bytes),
                    .save = flags.save,
                    .program = program_identity(),
                    .shard = shard.index,
                    .shards = shard.count};
   out.update = flags.update;
+  out.tiles_in_file = static_cast<std::size_t>(flags.tileset_tiles);
   if (!flags.is_given("compress")) out.save.compress = GltfCompression::Method::meshopt;
   if (flags.at.size() < 3) return out;
   out.place = {flags.at[0], flags.at[1], flags.at[2], flags.at.size() > 3 ? flags.at[3] : 0};
@@ -58,13 +62,14 @@ TilesOptions options_of(const Flags& flags, Shard shard) {
 
 /// All tiles of one distance from the root.
 struct Level {
-  std::size_t n_tiles = 0, triangles = 0, parts = 0;
+  std::size_t n_tiles = 0, triangles = 0, parts = 0, draws = 0;  // draws: of one tile, at most
   std::uint64_t bytes = 0;
   double error = 0;
 
   void fields(auto&& f) const {
     f("tiles", n_tiles);
     f("triangles", triangles);
+    f("draws", draws);
     f("bytes", bytes);
     f("error", error);
   }
@@ -77,6 +82,7 @@ std::vector<Level> levels_of(const TilesMade& made) {
     ++level.n_tiles;
     level.triangles += tile.triangles;
     level.parts += tile.parts;
+    level.draws = std::max(level.draws, tile.draws);
     level.bytes += tile.bytes;
     level.error = std::max(level.error, tile.error);
   }
@@ -90,17 +96,22 @@ std::string text_of(const TilesMade& made, const std::string& folder) {
   auto out = fmt::format("{} -> {}: {}, {} bytes\n  {}, {}\n", counted(made.n_files, "file"),
                          (std::filesystem::path(folder) / "tileset.json").string(), counted(made.tiles.size(), "tile"),
                          made.bytes, counted(made.triangles, "triangle"), counted(made.parts, "part"));
-  out += fmt::format("{:>7}  {:>6}  {:>11}  {:>11}  {:>11}\n", "level", "tiles", "triangles", "bytes", "error (m)");
+  out += fmt::format("{:>7}  {:>6}  {:>11}  {:>13}  {:>11}  {:>11}\n", "level", "tiles", "triangles", "draws, most",
+                     "bytes", "error (m)");
   const auto levels = levels_of(made);
   for (std::size_t i = 0; i < levels.size(); ++i)
-    out += fmt::format("{:>7}  {:>6}  {:>11}  {:>11}  {:>11.4g}\n", i, levels[i].n_tiles, levels[i].triangles,
-                       levels[i].bytes, levels[i].error);
+    out += fmt::format("{:>7}  {:>6}  {:>11}  {:>13}  {:>11}  {:>11.4g}\n", i, levels[i].n_tiles, levels[i].triangles,
+                       levels[i].draws, levels[i].bytes, levels[i].error);
   if (made.n_kept > 0) out += fmt::format("  tiles that were made before: {} of {}\n", made.n_kept, made.tiles.size());
   out += fmt::format("  the root shows {} of {} parts\n", made.tiles[0].parts, made.parts);
+  if (made.n_descriptions > 1) out += fmt::format("  files that describe tiles: {}\n", made.n_descriptions);
+  if (made.n_over > 0) out += fmt::format("  tiles above the budget of draws or bytes: {}\n", made.n_over);
   if (made.n_failed > 0) out += fmt::format("  files that could not be read: {}\n", made.n_failed);
   if (made.n_cut > 0) out += fmt::format("  pieces of surfaces that are too large for a tile: {}\n", made.n_cut);
-  if (made.n_lights > 0) out += fmt::format("  lights that tiles do not show: {}\n", made.n_lights);
-  if (made.n_routes > 0) out += fmt::format("  ROUTEs that tiles do not follow: {}\n", made.n_routes);
+  if (made.lost.empty()) return out;
+  out += "  lost, for tiles have no place for them:";
+  for (const auto& [name, n] : made.lost) out += fmt::format("{} {} {}", out.back() == ':' ? "" : ",", n, name);
+  out += '\n';
   return out;
 }
 
@@ -129,9 +140,13 @@ std::string json_of(const TilesMade& made) {
   json.member("whole", made.whole);
   json.member("kept", made.n_kept);
   json.member("left", made.n_left);
+  json.member("descriptions", made.n_descriptions);
+  json.member("over", made.n_over);
   json.member("cut", made.n_cut);
-  json.member("lights", made.n_lights);
-  json.member("routes", made.n_routes);
+  json.key("lost");
+  json.begin_object();
+  for (const auto& [name, n] : made.lost) json.member(name, n);
+  json.end_object();
   json.member("levels", made.whole ? levels_of(made) : std::vector<Level>());
   json.key("tiles");
   json.begin_array();

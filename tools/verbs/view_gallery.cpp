@@ -34,7 +34,7 @@ std::string link_to(const std::string& path, const std::string& page) {
   return out;
 }
 
-/// Flags to look at one of the worlds with.
+/// Flags to look at one of the scenes with.
 Flags flags_for(const Flags& flags, const std::string& path) {
   Flags f = flags;
   f.quiet = true;

@@ -16,7 +16,7 @@ extern "C" const char wrlkit_viewer_begin[], wrlkit_viewer_end[], wrlkit_tiles_b
 namespace wrlkit {
 namespace {
 
-/// The viewer without worlds.
+/// The viewer without scenes.
 std::string_view page_template() {
 #ifdef WRLKIT_VIEWER
   return {wrlkit_viewer_begin, static_cast<std::size_t>(wrlkit_viewer_end - wrlkit_viewer_begin)};
@@ -34,7 +34,7 @@ std::string_view tiles_template() {
 #endif
 }
 
-constexpr std::string_view mark = "<!--wrlkit-->";  // where the worlds go
+constexpr std::string_view mark = "<!--wrlkit-->";  // where the scenes go
 
 class Files {
  public:
@@ -42,7 +42,7 @@ class Files {
 
   /// The number by which the page finds it.
   std::size_t add(std::string_view bytes) {
-    sink_(fmt::format("<script type=\"text/plain\" id=\"file-{}\">", n_));
+    sink_(fmt::format(R"(<script type="text/plain" id="file-{}">)", n_));
     sink_(base64(gzipped(bytes)));
     sink_("</script>\n");
     return n_++;
@@ -60,7 +60,7 @@ std::string without_tags(std::string json) {
 }
 
 void write_contents(std::string json, const Sink& sink) {
-  sink("<script type=\"application/json\" id=\"contents\">");
+  sink(R"(<script type="application/json" id="contents">)");
   sink(without_tags(std::move(json)));
   sink("</script>\n");
 }

@@ -83,7 +83,7 @@ class Writer {
         extras_(scene, options.lead_urls, options.hidden == GltfOptions::Hidden::invisible, diag),
         animations_(scene, reach(options), diag),
         materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
-        parts_(options.names == GltfOptions::Names::table),
+        parts_(options.names == GltfOptions::Names::table, options.sources),
         meshes_(scene, source, options.same_mesh, animations_.motion(), store_, parts_,
                 options.lightmaps != GltfOptions::Lightmaps::base_color,
                 options.compression.method == GltfCompression::Method::meshopt, diag),
@@ -181,6 +181,7 @@ class Writer {
     if (!parts_.columns() || parts_.rows().empty()) return out;
     out = {parts_.texts(), parts_.offsets(packed)};
     if (parts_.any_parent()) out.push_back(parts_.parents(packed));
+    if (!parts_.sources().empty()) out.push_back(parts_.row_sources());
     return out;
   }
 

@@ -98,6 +98,9 @@ struct GltfOptions {
   /// tables, too; groups that only hold parts are rows then (parts.h).
   enum class Names : std::uint8_t { nodes, table };
   Names names = Names::nodes;
+  /// Files that parts are from, sorted: what the names on the way to a part begin with. The table has a column
+  /// "source".
+  std::vector<std::string> sources = {};
   bool gpu_instancing =
       false;           // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (instances.h)
   bool extras = true;  // what glTF cannot express is kept

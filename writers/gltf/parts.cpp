@@ -18,7 +18,7 @@ Column column(const std::vector<std::uint32_t>& values, bool wide) {
 
 std::uint32_t PartTable::find_or_add(std::string_view name, std::uint32_t parent) {
   const auto [at, is_new] = known_.try_emplace({parent, std::string(name)}, static_cast<std::uint32_t>(rows_.size()));
-  if (is_new) rows_.push_back({std::string(name), parent});
+  if (is_new) rows_.push_back({std::string(name), parent, false, parent == none ? none : rows_[parent].source});
   return at->second;
 }
 
@@ -26,17 +26,21 @@ std::uint32_t PartTable::of_path(std::string_view path) {
   std::uint32_t parent = none;
   if (!columns_) return find_or_add(path, none);
   if (path.empty()) return find_or_add("#1", none);  // merge calls the next ones without a name "#2", "#3"
-  for (auto slash = path.find('/'); slash != path.npos; slash = path.find('/')) {
-    parent = find_or_add(path.substr(0, slash), parent);
-    path.remove_prefix(slash + 1);
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const auto end = std::min(path.find('/', begin), path.size());
+    parent = find_or_add(path.substr(begin, end - begin), parent);
+    const auto source = std::ranges::lower_bound(sources_, path.substr(0, end));
+    if (source != sources_.end() && *source == path.substr(0, end))
+      rows_[parent].source = static_cast<std::uint32_t>(source - sources_.begin());
+    begin = end + 1;
   }
-  return find_or_add(path, parent);
+  return parent;
 }
 
 std::uint32_t PartTable::add(std::string_view name, std::uint32_t parent) {
   const std::uint32_t first = find_or_add(name, parent);
   if (!std::exchange(rows_[first].claimed, true)) return first;
-  rows_.push_back({std::string(name), parent, true});
+  rows_.push_back({std::string(name), parent, true, rows_[first].source});
   return static_cast<std::uint32_t>(rows_.size() - 1);
 }
 
@@ -57,6 +61,16 @@ Column PartTable::parents(bool packed) const {
   const auto nothing = no_parent(packed, rows_.size());
   for (const Row& r : rows_) all.push_back(r.parent == none ? nothing : r.parent);
   return column(all, nothing == none);
+}
+
+Column PartTable::row_sources() const {
+  std::vector<std::uint32_t> all;
+  for (const Row& r : rows_) all.push_back(std::min(r.source, no_source));
+  return column(all, false);
+}
+
+bool PartTable::any_without_source() const {
+  return std::ranges::any_of(rows_, [](const Row& r) { return r.source >= no_source; });
 }
 
 bool PartTable::any_parent() const {

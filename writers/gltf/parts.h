@@ -4,13 +4,15 @@
 //
 //   0: Plant, in nothing   1: Unit_1, in 0   2: Pump, in 1
 //
-// --names table writes them as a property table (EXT_structural_metadata) with the columns "name" and "parent".
-// Otherwise they are a list in the extras of the asset, of the names on the way to each part: "Plant/Unit_1/Pump".
+// --names table writes them as a property table (EXT_structural_metadata) with the columns "name" and "parent", and
+// where parts are of several files (tiles) "source": which of them, as an enumeration. Otherwise they are a list in the
+// extras of the asset, of the names on the way to each part: "Plant/Unit_1/Pump".
 #pragma once
 #include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "writers/gltf/store.h"
@@ -28,11 +30,13 @@ class PartTable {
   struct Row {
     std::string name;
     std::uint32_t parent = none;
-    bool claimed = false;  // a node has become it
+    bool claimed = false;         // a node has become it
+    std::uint32_t source = none;  // of sources()
   };
 
-  /// `columns`: names are written without the groups above them.
-  explicit PartTable(bool columns) : columns_(columns) {}
+  /// `columns`: names are written without the groups above them. `sources`: files that parts are from, sorted.
+  explicit PartTable(bool columns, std::vector<std::string> sources = {})
+      : columns_(columns), sources_(std::move(sources)) {}
 
   /// The row of a part of a merged mesh, by the names from the root with '/' between them; the same for the same names.
   std::uint32_t of_path(std::string_view path);
@@ -46,12 +50,18 @@ class PartTable {
   Column texts() const;
   Column offsets(bool packed) const;
   Column parents(bool packed) const;
+  /// Of each row the number of its source, or no_source.
+  Column row_sources() const;
+  const std::vector<std::string>& sources() const { return sources_; }
+  bool any_without_source() const;
+  static constexpr std::uint32_t no_source = 65535;
   bool any_parent() const;
   static std::uint32_t no_parent(bool packed, std::size_t n_rows) { return packed || n_rows > 65535 ? none : 65535; }
 
  private:
   std::uint32_t find_or_add(std::string_view name, std::uint32_t parent);
   bool columns_;
+  std::vector<std::string> sources_;
   std::vector<Row> rows_;
   std::map<std::pair<std::uint32_t, std::string>, std::uint32_t, std::less<>> known_;
 };

@@ -1,5 +1,6 @@
 #include "writers/tiles/tileset.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,43 +14,67 @@ constexpr double noise = 1e-9;  // of angles, and metres on the Earth
 /// From y up to z up, as viewers turn the content of a tile.
 Vec3 z_up(const Vec3& p) { return {p[0], 0 - p[2], p[1]}; }
 
+/// Tiles that are described in a file of their own. From the leaves up: where there are too many, the largest leave.
+std::vector<char> apart(const Tileset& set) {
+  const auto n = set.tiles.size();
+  std::vector<char> out(n);
+  std::vector<std::size_t> described(n, 1);  // in the file that describes the tile
+  for (auto i = n; i-- > 0;) {
+    const auto& children = set.tiles[i].children;
+    for (const auto child : children) described[i] += described[child];
+    while (described[i] > set.tiles_in_file) {
+      const auto largest = std::ranges::max_element(children, {}, [&](std::size_t c) { return described[c]; });
+      if (largest == children.end() || described[*largest] == 1) break;
+      out[*largest] = 1;
+      described[i] -= described[*largest] - 1;
+      described[*largest] = 1;
+    }
+  }
+  return out;
+}
+
+/// One file.
 class TilesetJson {
  public:
-  explicit TilesetJson(const Tileset& set) : set_(set), json_(out_) {}
+  TilesetJson(const Tileset& set, const std::vector<char>& apart) : set_(set), apart_(apart), json_(out_) {}
 
-  std::string run() {
+  /// `above`: the origin of the tile that refers to this file.
+  TilesetFile run(std::size_t root, const Vec3& above) {
+    root_ = root;
     json_.begin_object();
     json_.key("asset");
     json_.begin_object();
     json_.member("version", "1.1");
     json_.member("generator", "wrlkit");
     json_.end_object();
-    json_.member("geometricError", set_.error);
+    json_.member("geometricError", root == 0 ? set_.error : set_.tiles[root].error);
     json_.key("root");
-    tile(0, {});
+    tile(root, above);
     json_.end_object();
-    return out_ + '\n';
+    return {root == 0 ? "tileset.json" : set_.folder + '/' + set_.tiles[root].name + ".json", out_ + '\n'};
   }
 
  private:
   /// As deep as the tree of cells, which halves at each step.
   void tile(std::size_t i, const Vec3& origin_above) {
     const auto& t = set_.tiles[i];
+    const bool is_elsewhere = apart_[i] && i != root_;  // the file has its transform
+    const Vec3 origin = is_elsewhere ? origin_above : t.origin;
     json_.begin_object();
-    transform(i == 0, t.origin - origin_above);
+    transform(i == 0, origin - origin_above);
     json_.key("boundingVolume");
     json_.begin_object();
-    box(t);
+    box(t, origin);
     json_.end_object();
     json_.member("geometricError", t.error);
-    if (i == 0) json_.member("refine", "REPLACE");
-    if (!t.uri.empty()) {
+    if (i == root_) json_.member("refine", "REPLACE");
+    if (t.has_content || is_elsewhere) {
       json_.key("content");
       json_.begin_object();
-      json_.member("uri", t.uri);
+      json_.member("uri", (root_ == 0 ? set_.folder + '/' : "") + t.name + (is_elsewhere ? ".json" : ".glb"));
       json_.end_object();
     }
-    if (!t.children.empty()) {
+    if (!t.children.empty() && !is_elsewhere) {
       json_.key("children");
       json_.begin_array();
       for (const auto child : t.children) tile(child, t.origin);
@@ -72,8 +97,8 @@ class TilesetJson {
     json_.member("transform", numbers);
   }
 
-  void box(const TilesetTile& t) {
-    const Vec3 middle = z_up(t.box.centre() - t.origin);
+  void box(const TilesetTile& t, const Vec3& origin) {
+    const Vec3 middle = z_up(t.box.centre() - origin);
     std::vector<double> numbers(middle.begin(), middle.end());
     const Vec3 half = 0.5 * t.box.size();
     for (const double x : {half[0], 0., 0., 0., half[2], 0., 0., 0., half[1]}) numbers.push_back(x);
@@ -82,6 +107,8 @@ class TilesetJson {
   }
 
   const Tileset& set_;
+  const std::vector<char>& apart_;
+  std::size_t root_ = 0;  // of the file
   std::string out_;
   JsonOut json_;
 };
@@ -111,6 +138,15 @@ Matrix earth_matrix(const EarthPlace& place) {
   return m;
 }
 
-std::string tileset_json(const Tileset& set) { return TilesetJson(set).run(); }
+std::vector<TilesetFile> tileset_files(const Tileset& set) {
+  const auto own = apart(set);
+  std::vector<Vec3> above(set.tiles.size());  // origins of the tiles that they are in
+  for (const auto& t : set.tiles)
+    for (const auto child : t.children) above[child] = t.origin;
+  std::vector<TilesetFile> out;
+  for (std::size_t i = 0; i < set.tiles.size(); ++i)
+    if (i == 0 || own[i]) out.push_back(TilesetJson(set, own).run(i, above[i]));
+  return out;
+}
 
 }  // namespace wrlkit

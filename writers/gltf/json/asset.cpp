@@ -43,11 +43,31 @@ class AssetJson : public JsonPart {
     if (d_.world_info) p_.extras->node(json_, d_.world_info, {});
   }
 
+  void source_names() {
+    const auto value = [&](std::string_view name, std::size_t number) {
+      json_.begin_object();
+      json_.member("name", name);
+      json_.member("value", number);
+      json_.end_object();
+    };
+    const auto& names = p_.names.sources();
+    object("enums", [&] {
+      object("source", [&] {
+        json_.key("values");
+        json_.begin_array();
+        for (std::size_t i = 0; i < names.size(); ++i) value(names[i], i);
+        if (p_.names.any_without_source()) value("", PartTable::no_source);
+        json_.end_array();
+      });
+    });
+  }
+
   /// EXT_structural_metadata: a row for each part and group.
   void table() {
     const bool packed = p_.packing.uses_meshopt(), parents = p_.names.any_parent();
     const std::size_t n = p_.names.rows().size();
     const auto no_parent = PartTable::no_parent(packed, n);
+    const bool sources = !p_.names.sources().empty();
     auto schema = [&] {
       json_.member("id", "parts");
       object("classes", [&] {
@@ -63,9 +83,16 @@ class AssetJson : public JsonPart {
                 // 3d-tiles-renderer takes 0 for no data where there is no default.
                 if (!p_.extras) json_.member("default", no_parent);
               });
+            if (sources)
+              object("source", [&] {
+                json_.member("type", "ENUM");
+                json_.member("enumType", "source");
+                if (p_.names.any_without_source()) json_.member("noData", "");
+              });
           });
         });
       });
+      if (sources) source_names();
     };
     auto columns = [&] {
       object("name", [&] {
@@ -74,6 +101,7 @@ class AssetJson : public JsonPart {
         if (p_.layout.stride_of_column(1) != 4) json_.member("stringOffsetType", "UINT16");
       });
       if (parents) object("parent", [&] { json_.member("values", p_.layout.of_column(2)); });
+      if (sources) object("source", [&] { json_.member("values", p_.layout.of_column(parents ? 3 : 2)); });
     };
     object("EXT_structural_metadata", [&] {
       object("schema", schema);
