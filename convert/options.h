@@ -13,6 +13,7 @@
 #include "base/diagnostics.h"
 #include "base/image/image.h"
 #include "base/option_range.h"
+#include "passes/combine_lightmap/lightmap_size.h"
 #include "passes/pipeline/length_option.h"
 #include "passes/place/place.h"
 #include "writers/gltf/gltf.h"
@@ -73,6 +74,7 @@ struct SaveOptions {
 
   // glTF
   GltfOptions::Lightmaps lightmap_as = GltfOptions::Lightmaps::base_color;
+  LightmapSize lightmap_size = {};  // of VRML and X3D, too
   bool animation_pointer = false;
   SkyAs sky = SkyAs::none;
   GltfOptions::Hidden hidden = GltfOptions::Hidden::dropped;
@@ -100,6 +102,11 @@ struct SaveOptions {
       "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few viewers know");
     f("sky", sky, "the Background in glTF");
     f("hidden", hidden, "what Switches do not show, in glTF");
+  }
+  void baked_fields(auto&& f) {
+    f("lightmap-size", lightmap_size,
+      "most bytes of all pictures with baked light, 300k, or their texels, 512x512: details go that are seen least",
+      OptionNote{.type = LightmapSize::type});
   }
   void size_fields(auto&& f) {
     f("compress", compress, "vertices in glTF");
@@ -136,6 +143,7 @@ struct SaveOptions {
   }
   void fields(auto&& f) {
     light_fields(f);
+    baked_fields(f);
     size_fields(f);
     file_fields(f);
     text_fields(f);

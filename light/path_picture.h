@@ -6,6 +6,8 @@
 #include "base/diagnostics.h"
 #include "geometry/mesh.h"
 #include "light/color.h"
+#include "light/exposure.h"
+#include "light/lamp_fall.h"
 #include "light/render/camera.h"
 #include "light/render/stage.h"
 #include "scenegraph/resources.h"
@@ -14,7 +16,9 @@
 namespace wrlkit::light {
 
 struct PathOptions {
-  int samples = 4;                   // paths along each side of a pixel
+  int samples = 4;  // paths along each side of a pixel
+  LampFall lamps = LampFall::as_written;
+  Exposure exposure;
   std::optional<V3> background;      // linear; seen instead of the Background, which lights the world all the same
   drawing::LevelOf level_of;         // of LODs; may be empty
   std::function<void(double)> done;  // told now and then how much of the picture is there, up to 1; may be empty

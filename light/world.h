@@ -12,6 +12,7 @@
 #include "base/diagnostics.h"
 #include "geometry/mesh.h"
 #include "light/color.h"
+#include "light/lamp_fall.h"
 #include "light/render/background.h"
 #include "light/render/light.h"
 #include "light/render/mesh_pool.h"
@@ -31,6 +32,7 @@ struct LightOptions {
 
   double emission = 1;       // factor for the light that emissiveColor gives off
   bool unlit_emits = false;  // a Shape without Material emits its colour; else it reflects by it
+  LampFall lamps = LampFall::as_written;
   Sky sky = Sky::background;
   V3 sky_color{1};                        // constant: radiance, linear
   std::optional<drawing::Pose> viewer{};  // Billboards turn there; none: they stand as they are
@@ -162,6 +164,8 @@ class LightWorld {
   Place place(const Hit& hit) const;
   void make_facts(const Scene& scene, Resources* resources, Diagnostics& diag);
   void make_lamps(const Scene& scene);
+  /// They fall by the square of the distance from now on.
+  void spread_lamps();
   void make_sky(const Scene& scene, Resources* resources, Diagnostics& diag);
   /// Whether surfaces that shine as lamps do are light enough for all others.
   bool glow_is_light() const;

@@ -156,6 +156,8 @@ Image render(const Scene& scene, const MeshSource& source, const RenderOptions& 
   if (options.mode == RenderOptions::Mode::path) {
     const Camera seen_from = choose_camera(scene, stage, options, diag, box_of_all);
     light::PathOptions how{.samples = std::clamp(options.samples, 1, 64),
+                           .lamps = options.lamps,
+                           .exposure = options.exposure,
                            .level_of = choose_levels(scene, seen_from, options),
                            .done = options.done};
     if (options.background) how.background = light::linear(V3(*options.background));

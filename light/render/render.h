@@ -13,6 +13,8 @@
 #include "base/choice.h"
 #include "base/diagnostics.h"
 #include "geometry/mesh.h"
+#include "light/exposure.h"
+#include "light/lamp_fall.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
 
@@ -48,9 +50,11 @@ struct RenderOptions {
   // Of each LOD that level, from 0, or its last; none: by the distance of the viewer (6.26). Where the picture is taken
   // from does not depend on it: `fit` looks at the first levels.
   std::optional<std::size_t> level = 0;
-  std::optional<Vec3> background;    // instead of the world's Background
-  std::optional<bool> headlight;     // instead of what NavigationInfo says
-  std::function<void(double)> done;  // path: told now and then how much of the picture is there, up to 1
+  std::optional<Vec3> background;         // instead of the world's Background
+  std::optional<bool> headlight;          // instead of what NavigationInfo says
+  LampFall lamps = LampFall::as_written;  // path
+  Exposure exposure;                      // path: of all of the picture; auto: found from it, and reported
+  std::function<void(double)> done;       // path: told now and then how much of the picture is there, up to 1
 };
 template <>
 inline constexpr auto choices<RenderOptions::Mode> =

@@ -222,6 +222,9 @@ BakedPage finish(Page page, PageLight light, std::vector<char> inside, const Pag
   auto layers = directions(page, light, options.denoise);
   layers.insert(layers.begin(), shown_light(page, std::move(light.direct), std::move(light.gathered), options.denoise));
   stats["lightmap.holes"] += count_specks(page, layers[0]);
+  light::LightMeter meter;
+  for (std::size_t i = 0; i < page.size(); ++i)
+    if (page.covered(i)) meter.add(luminance(layers[0][i]));
   fill_charts(layers, known, chart, Place::nowhere, page.width, page.height);
   auto dark = dark_uses(from.page(), chart, layers[0]);
   light_hidden_charts(page, chart, uses_of_charts(from.page()), known, layers[0]);
@@ -230,7 +233,7 @@ BakedPage finish(Page page, PageLight light, std::vector<char> inside, const Pag
     fill(layer, known, page.width, page.height);
     extend_borders(layer, sources);
   }
-  BakedPage out{{page.width, page.height, std::move(layers[0]), inside}, {}, n_texels, std::move(dark)};
+  BakedPage out{{page.width, page.height, std::move(layers[0]), inside}, {}, n_texels, std::move(dark), meter};
   for (std::size_t l = 1; l < layers.size(); ++l)
     out.direction.push_back({page.width, page.height, std::move(layers[l]), {}});
   return out;

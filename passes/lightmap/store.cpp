@@ -44,20 +44,20 @@ FloatImage raw(const Canvas& c) {
 }
 
 /// What becomes white: at least 1, so that dim scenes stay dim.
-double exposure(const std::vector<BakedPage>& pages) {
+double white_level(const std::vector<BakedPage>& pages, double exposure) {
   std::vector<float> brightest;
   for (const auto& p : pages)
     for (const Rgb& t : p.light.texels) brightest.push_back(std::max({t.r, t.g, t.b}));
   if (brightest.empty()) return 1;
   const auto at = brightest.begin() + static_cast<std::ptrdiff_t>((brightest.size() - 1) * 0.999);
   std::ranges::nth_element(brightest, at);
-  return std::max(1.0, double{*at});
+  return std::max(1.0, exposure * double{*at});
 }
 
 }  // namespace
 
 Storing::Storing(Scene& scene, const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx)
-    : scene_(scene), options_(options), ctx_(ctx), scale_(exposure(pages)) {
+    : scene_(scene), options_(options), ctx_(ctx), scale_(white_level(pages, options.exposure)) {
   for (std::size_t i = 0; i < pages.size(); ++i) add_page(i, pages[i]);
 }
 
@@ -100,7 +100,7 @@ void Storing::light(NodeId shape, const ShapePlace& place, const PageLayout& pag
 
 void Storing::add_page(std::size_t i, const BakedPage& page) {
   const std::string name = "lightmap_" + std::to_string(i);
-  const double scale = scale_;
+  const double scale = scale_ / options_.exposure;
   lightmaps_.push_back(texture(
       name, picture(page.light, [scale, &table = SrgbTable::get()](float v) { return table.byte(v / scale); })));
   auto& directions = directions_.emplace_back();

@@ -64,6 +64,8 @@ struct Flags {
   // render
   int width = 1280, height = 960, samples = 4;
   RenderOptions::Mode mode = RenderOptions::Mode::preview;
+  LampFall lamps = LampFall::as_written;
+  std::string exposure = "1";  // auto or a factor
   std::string viewpoint, level = "0";
   std::vector<double> look_at;  // eye, target, up
   bool fit = false;
