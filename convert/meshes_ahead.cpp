@@ -25,7 +25,10 @@ std::size_t n_indices(const Scene& scene, NodeId n) {
 
 MeshesAhead::MeshesAhead(const Scene& scene, const MeshMakers& makers) : scene_(scene), makers_(makers) {}
 
-MeshesAhead::~MeshesAhead() { given_up_ = true; }
+MeshesAhead::~MeshesAhead() {
+  given_up_ = true;
+  for (Batch& batch : batches_) batch.thread.reset();  // before what they use
+}
 
 void MeshesAhead::begin(std::span<const NodeId> geometries, std::span<const char> textured) {
   if (!makers_ || only_one_thread()) return;
@@ -63,8 +66,8 @@ const MeshesAhead::Known* MeshesAhead::find(NodeId n) {
   for (; now_ < of; ++now_) {
     Batch& past = batches_[now_];
     if (now_ < next_) n_begun_ -= past.n_indices;
-    past.claimed = true;
-    past.thread.reset();
+    // Waiting for what was begun would have this thread make meshes that others are there for.
+    if (past.claimed.exchange(true) && !past.ready) past.thread->wait();
     past.known = std::vector<Known>();  // gives the memory back
   }
   next_ = std::max(next_, now_);

@@ -5,8 +5,10 @@
 #include <fstream>
 
 #include "base/parallel.h"
+#include "convert/meshes_ahead.h"
 #include "convert/wrlkit.h"
 #include "parsers/vrml/parser.h"
+#include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "writers/vrml/vrml.h"
 
@@ -296,6 +298,27 @@ TEST_CASE("Threads: meshes that are made ahead are those of one thread, and so i
     CHECK(alone.messages.find("point at nothing") != alone.messages.npos);
     CHECK(convert(text, pipeline, 2) == alone);
     CHECK(convert(text, pipeline, 8) == alone);
+  }
+}
+
+TEST_CASE("Threads: meshes that nobody asks for are given up", "[threads]") {
+  const ThreadLimit limit(4);
+  Scene scene;
+  Diagnostics diag;
+  vrml::parse(many_meshes(), 0, {}, scene, diag);
+  std::vector<NodeId> geometries;
+  for (std::uint32_t n = 0; n < scene.node_count(); ++n)
+    if (scene.is(NodeId{n}, nodes::IndexedFaceSet)) geometries.push_back(NodeId{n});
+  const std::vector<char> textured(scene.node_count());
+  const MeshMakers makers = [&](Task&) { return [&](NodeId n, Mesh& out) { out.corners.assign(100'000, n.value); }; };
+  for (const std::size_t asked : {std::size_t{0}, std::size_t{1}, geometries.size() / 2, geometries.size() - 1}) {
+    MeshesAhead ahead(scene, makers);
+    ahead.begin(geometries, textured);
+    for (const std::size_t i : {std::size_t{0}, asked}) {
+      const auto* known = ahead.find(geometries[i]);
+      REQUIRE(known);
+      CHECK((known->same ? known->same : NodeId{known->mesh.corners.at(0)}).value <= geometries[i].value);
+    }
   }
 }
 
