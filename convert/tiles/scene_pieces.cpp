@@ -84,7 +84,7 @@ class ScenePieces {
 
   std::uint32_t look(NodeId appearance) {
     auto& known = appearance ? look_of_[appearance.value] : no_look_;
-    if (!known) known = looks_.add(scene_, appearance, ctx_.resources);
+    if (!known) known = looks_.add(scene_, appearance, ctx_, ctx_.resources);
     return *known;
   }
 
