@@ -121,7 +121,6 @@ class Making {
   Plan plan_{cells_, made_, options_};
   std::vector<std::uint32_t> turns_;  // by cell: leaves are counted, and of the others the largest that fit
   bool is_last_ = false;              // of the shards
-  std::vector<std::string> folders_;
   std::unique_ptr<FileResources> pictures_;
   TilesMade out_;
 };
@@ -148,15 +147,13 @@ bool Making::gather(std::span<const TilesInput> inputs) {
     if (is_full(stored)) return false;
     check_stop();
     out_.n_failed += !read;
-    folders_.push_back(fs::path(input.path).parent_path().string());
     out_.parts += names.size();
     names.clear();
   }
   out_.n_cut = counts.n_cut;
   out_.lost = std::move(counts.lost);
-  std::ranges::sort(folders_);
-  folders_.erase(std::unique(folders_.begin(), folders_.end()), folders_.end());
-  pictures_ = std::make_unique<FileResources>(ResourceOptions{.allowed = folders_}, nullptr);
+  const auto& folders = looks_.picture_folders();
+  pictures_ = std::make_unique<FileResources>(ResourceOptions{.allowed = {folders.begin(), folders.end()}}, nullptr);
   if (entries_.empty()) ctx_.diag.report(Diag::nothing_drawn, {}, "there is no geometry in any of the files");
   return !entries_.empty();
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/io/url.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::tiles {
@@ -18,7 +19,7 @@ bool is_known(const Scene& scene, NodeId n) { return n && scene.type(n).kind == 
 /// Takes an Appearance to another scene. Nesting is bounded by the parser.
 class Taking {
  public:
-  Taking(const Scene& from, Resources* resources) : from_(from), resources_(resources) {}
+  Taking(const Scene& from, const Task& ctx, Resources* resources) : from_(from), ctx_(ctx), resources_(resources) {}
 
   /// Everything that makes it what it is, as bytes.
   std::string key(NodeId n) {
@@ -35,6 +36,9 @@ class Taking {
     if (!coloured_ || !from_.is(coloured_, nodes::Material)) return {};
     return key(appearance);
   }
+
+  /// That key() has met.
+  const std::vector<std::string>& pictures() const { return pictures_; }
 
   std::uint64_t picture_bytes() const {
     std::uint64_t sum = 0;
@@ -101,7 +105,7 @@ class Taking {
     if (v.type == FieldType::SFBool || v.type == FieldType::SFInt32) return v;
     if (element == Element::integer || element == Element::image) return to.make(v.type, v.slot, v.integer_span());
     if (v.type != FieldType::MFString) return to.make(v.type, v.slot, v.text());
-    const auto all = texts(n, v);
+    const auto all = readable(n, texts(n, v));
     return to.make(v.type, v.slot, std::vector<std::string_view>(all.begin(), all.end()));
   }
 
@@ -117,7 +121,25 @@ class Taking {
     return out;
   }
 
+  /// Without urls that would be looked for from another folder by whoever writes the look.
+  std::vector<std::string> readable(NodeId n, std::vector<std::string> all) const {
+    if (!resources_ || !from_.is(n, nodes::ImageTexture)) return all;
+    const std::string first = all.empty() ? std::string() : all[0];
+    bool any_outside = false;
+    std::erase_if(all, [&](const std::string& text) {
+      if (url_kind(text) != UrlKind::file) return false;
+      const auto kind = resources_->target(text, from_.where(n), *from_.sources).kind;
+      any_outside |= kind == UrlTarget::Kind::outside;
+      return kind == UrlTarget::Kind::outside || kind == UrlTarget::Kind::nothing;
+    });
+    // Others of the list stand for those that are not there.
+    if (all.empty() && !first.empty())
+      ctx_.diag.report(any_outside ? Diag::url_outside : Diag::url_not_found, from_.where(n), first);
+    return all;
+  }
+
   const Scene& from_;
+  const Task& ctx_;
   Resources* resources_;
   std::string key_;
   NodeId coloured_{};  // the Material whose colour does not count
@@ -126,12 +148,14 @@ class Taking {
 
 }  // namespace
 
-std::uint32_t Looks::add(const Scene& scene, NodeId appearance, Resources* resources) {
-  Taking taking(scene, resources);
+std::uint32_t Looks::add(const Scene& scene, NodeId appearance, const Task& ctx, Resources* resources) {
+  Taking taking(scene, ctx, resources);
   const auto [at, is_new] = known_.try_emplace(taking.key(appearance), static_cast<std::uint32_t>(appearances_.size()));
   if (!is_new) return at->second;
   hashes_.push_back(taking.hash(at->first));
   picture_bytes_.push_back(taking.picture_bytes());
+  for (const auto& path : taking.pictures())
+    picture_folders_.insert(std::filesystem::path(path).parent_path().string());
   const auto family = taking.family_key(appearance);
   families_.push_back(family.empty() ? at->second : known_families_.try_emplace(family, at->second).first->second);
   n_of_family_.push_back(0);

@@ -84,7 +84,7 @@ class ScenePieces {
 
   std::uint32_t look(NodeId appearance) {
     auto& known = appearance ? look_of_[appearance.value] : no_look_;
-    if (!known) known = looks_.add(scene_, appearance, ctx_.resources);
+    if (!known) known = looks_.add(scene_, appearance, ctx_, ctx_.resources);
     return *known;
   }
 
@@ -138,6 +138,7 @@ bool is_lost(const Scene& scene, NodeId n) {
                                nodes::X3DScriptNode, nodes::X3DSoundNode,     nodes::X3DBackgroundNode,
                                nodes::X3DFogObject};
   if (scene.is(n, nodes::Anchor) || scene.is(n, nodes::Billboard)) return true;
+  if (scene.is(n, nodes::Collision)) return false;  // a sensor only by its base: mostly a group
   return std::ranges::any_of(kinds, [&](BaseSet kind) { return scene.is(n, kind); });
 }
 

@@ -147,7 +147,7 @@ class Distances {
   /// The distance of a point, or some number that is not above `known` when that is no less.
   double operator()(const Vec3& p, double known) {
     if (guess_ != ClosestPoint::no_guess && squared_distance(p, triangles_[guess_]) <= known * known) return 0;
-    const auto found = nearest_.nearest(p, {}, guess_);
+    const auto found = nearest_.nearest(p, {}, guess_, known);
     if (found.triangle != ClosestPoint::no_guess) guess_ = found.triangle;
     return found.distance;
   }

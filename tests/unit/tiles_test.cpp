@@ -205,11 +205,14 @@ TEST_CASE("tiles: equal appearances are one look", "[tiles]") {
     s.set(appearance, nodes::appearance::material, material);
     return appearance;
   };
+  Diagnostics diag;
+  Statistics stats;
+  const Task ctx{diag, stats};
   tiles::Looks looks;
-  const auto first = looks.add(a, red(a, 0.5), nullptr);
-  CHECK(looks.add(b, red(b, 0.5), nullptr) == first);
-  CHECK(looks.add(b, red(b, 0.6), nullptr) != first);
-  CHECK(looks.add(b, {}, nullptr) == 2);
+  const auto first = looks.add(a, red(a, 0.5), ctx, nullptr);
+  CHECK(looks.add(b, red(b, 0.5), ctx, nullptr) == first);
+  CHECK(looks.add(b, red(b, 0.6), ctx, nullptr) != first);
+  CHECK(looks.add(b, {}, ctx, nullptr) == 2);
   CHECK_FALSE(looks.appearance(2));
   const auto& scene = looks.scene();
   CHECK(scene.get(scene.get(looks.appearance(first), nodes::appearance::material), nodes::material::diffuseColor)[0] ==
