@@ -299,7 +299,7 @@ class Rounds {
   template <class F>
   void run(PageBaker& from, std::uint64_t first, std::uint32_t number_of_round, const light::Integrator::Round& round,
            const std::vector<char>& chosen, F&& f) {
-    if (ctx_.monitor)
+    if (ctx_.monitor && options_.error > 0)
       ctx_.monitor->begin(number_of_round ? name_ + ", round " + std::to_string(number_of_round + 1) : name_,
                           from.n_tiles(), "tiles");
     for (std::size_t tile = 0; tile < from.n_tiles(); ++tile) {
@@ -413,6 +413,8 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   Checkpoint checkpoint(options.checkpoint, options.checkpoint.empty() ? 0 : work_key(parts, layout, world, options));
   Rounds rounds(integrator ? &*integrator : nullptr, checkpoint, options, n_tiles, ctx);
 
+  // How many rounds a page takes is not known before; all else is one stretch of work.
+  if (ctx.monitor && !(options.error > 0)) ctx.monitor->begin(options.title, n_tiles, "tiles");
   std::vector<BakedPage> out;
   std::uint64_t first = 0;
   for (std::size_t p = 0; p < bakers.size(); first += bakers[p++].n_tiles())
