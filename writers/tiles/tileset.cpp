@@ -18,16 +18,12 @@ class TilesetJson {
   explicit TilesetJson(const Tileset& set) : set_(set), json_(out_) {}
 
   std::string run() {
-    json_.begin_object();
-    json_.key("asset");
-    json_.begin_object();
-    json_.member("version", "1.1");
-    json_.member("generator", "wrlkit");
-    json_.end_object();
-    json_.member("geometricError", set_.error);
-    json_.key("root");
-    tile(0, {});
-    json_.end_object();
+    json_.object([&] {
+      json_.member("asset", json_object("version", "1.1", "generator", "wrlkit"));
+      json_.member("geometricError", set_.error);
+      json_.key("root");
+      tile(0, {});
+    });
     return out_ + '\n';
   }
 
@@ -37,23 +33,12 @@ class TilesetJson {
     const auto& t = set_.tiles[i];
     json_.begin_object();
     transform(i == 0, t.origin - origin_above);
-    json_.key("boundingVolume");
-    json_.begin_object();
-    box(t);
-    json_.end_object();
+    json_.object("boundingVolume", [&] { box(t); });
     json_.member("geometricError", t.error);
     if (i == 0) json_.member("refine", "REPLACE");
-    if (!t.uri.empty()) {
-      json_.key("content");
-      json_.begin_object();
-      json_.member("uri", t.uri);
-      json_.end_object();
-    }
+    if (!t.uri.empty()) json_.member("content", json_object("uri", t.uri));
     if (!t.children.empty()) {
-      json_.key("children");
-      json_.begin_array();
-      for (const auto child : t.children) tile(child, t.origin);
-      json_.end_array();
+      json_.list("children", t.children, [&](const auto child) { tile(child, t.origin); });
     }
     json_.end_object();
   }
@@ -100,15 +85,7 @@ Matrix earth_matrix(const EarthPlace& place) {
   const Vec3 up = {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
   const Vec3 x = std::cos(heading) * east - std::sin(heading) * north;
   const Vec3 y = std::sin(heading) * east + std::cos(heading) * north;
-  Matrix m;
-  for (int r = 0; r < 3; ++r) {
-    const auto k = static_cast<std::size_t>(r);
-    m(r, 0) = x[k];
-    m(r, 1) = y[k];
-    m(r, 2) = up[k];
-    m(r, 3) = at[k];
-  }
-  return m;
+  return matrix_of_columns(x, y, up, at);
 }
 
 std::string tileset_json(const Tileset& set) { return TilesetJson(set).run(); }
