@@ -2,9 +2,9 @@
 #pragma once
 #include <optional>
 
+#include "base/math/random.h"
 #include "light/emitter_tree.h"
 #include "light/flux.h"
-#include "light/random.h"
 #include "light/world.h"
 
 namespace wrlkit::light {
@@ -15,7 +15,7 @@ class DirectLight {
 
   /// Adds the irradiance of all lamps that reach there. Up to `most` rays: the strongest lamps get one each; of the
   /// others, when there are more, some are drawn for all.
-  void lamps(const Receiver& at, int most, Stream& random, Flux& to) const;
+  void lamps(const Receiver& at, int most, RandomStream& random, Flux& to) const;
 
   /// Adds the irradiance of `n` places on emitters, from number `first` of a lattice on, n times as much as it is.
   /// It is a share only: rays in cosine directions find the rest; see gather_weight().

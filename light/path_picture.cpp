@@ -30,7 +30,7 @@ class Painter {
   /// Random numbers belong to a pixel, so that pixels may be done in any order.
   V3 pixel(std::size_t x, std::size_t y) const {
     const int n = options_.samples;
-    Stream random(key_of(seed, y, x));
+    RandomStream random(random_key(seed, y, x));
     V3 sum;
     for (int v = 0; v < n; ++v)
       for (int u = 0; u < n; ++u) {

@@ -211,7 +211,7 @@ SurfacePoint LightWorld::surface(const Hit& hit) const {
   return s;
 }
 
-LightWorld::Place LightWorld::place(const Hit& hit) const {
+LightWorld::HitPoint LightWorld::hit_point(const Hit& hit) const {
   const PooledMesh& m = pool_[mesh_of_[hit.use]];
   const Affine& frame = stage_.frames[stage_.uses[hit.use].frame];
   const V3 a = pool_.position(m, hit.element, 0);

@@ -88,10 +88,10 @@ class LightWorld {
   SurfacePoint surface(const Hit& hit) const;
   /// Where a hit lies in the world, as exactly as the mesh has it, and the normal for shading on the side of `face`,
   /// which is the hit's.
-  V3 position(const Hit& hit) const { return place(hit).position; }
+  V3 position(const Hit& hit) const { return hit_point(hit).position; }
   V3 normal(const Hit& hit, const V3& face) const;
   V3 off_surface(const Hit& hit, const V3& face) const {
-    const Place p = place(hit);
+    const HitPoint p = hit_point(hit);
     return off_surface(p.position, face, p.extent);
   }
   /// A use is a closed surface around some room whose inner side nobody sees: it counts as `solid` TRUE from then on,
@@ -157,11 +157,11 @@ class LightWorld {
     V3 albedo, emission;  // when it is plain
   };
 
-  struct Place {
+  struct HitPoint {
     V3 position;
     double extent;
   };
-  Place place(const Hit& hit) const;
+  HitPoint hit_point(const Hit& hit) const;
   void make_facts(const Scene& scene, Resources* resources, Diagnostics& diag);
   void make_lamps(const Scene& scene);
   /// They fall by the square of the distance from now on.

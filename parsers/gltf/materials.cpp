@@ -328,9 +328,8 @@ NodeId Materials::light_of_linear(std::uint32_t index) {
   if (!bytes) return {};
   const NodeId n = at->second = c_.add(nodes::ImageTexture, c_.file.at(Table::textures, index));
   const std::string url = "data:image/png;base64," + base64(*bytes);
-  c_.scene.set(n, nodes::image_texture::url, std::vector<std::string_view>{url});
-  c_.scene.set(n, nodes::image_texture::repeatS, false);
-  c_.scene.set(n, nodes::image_texture::repeatT, false);
+  c_.scene.set(n, nodes::image_texture::url, std::vector<std::string_view>{url}, nodes::image_texture::repeatS, false,
+               nodes::image_texture::repeatT, false);
   return n;
 }
 

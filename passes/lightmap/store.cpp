@@ -89,8 +89,7 @@ void Storing::light(NodeId shape, const ShapePlace& place, const PageLayout& pag
   namespace f = nodes::appearance;
   const NodeId appearance = own_appearance(shape, place);
   scene_.set(shape, nodes::shape::appearance, appearance);
-  scene_.set(appearance, f::lightmap, lightmaps_[place.page]);
-  scene_.set(appearance, f::lightmapScale, scale_);
+  scene_.set(appearance, f::lightmap, lightmaps_[place.page], f::lightmapScale, scale_);
   if (!directions_[place.page].empty()) scene_.set(appearance, f::lightmapDirection, directions_[place.page]);
   if (place.own_coords)
     scene_.unset(appearance, f::lightmapTransform.slot);
@@ -124,9 +123,7 @@ NodeId Storing::texture(const std::string& name, const Image& image) {
   const std::string url =
       ctx_.resources->add_made({file, std::make_shared<const std::string>(std::move(*bytes)), false});
   const NodeId n = scene_.add(nodes::ImageTexture);
-  scene_.set(n, f::url, std::vector<std::string_view>{url});
-  scene_.set(n, f::repeatS, false);
-  scene_.set(n, f::repeatT, false);
+  scene_.set(n, f::url, std::vector<std::string_view>{url}, f::repeatS, false, f::repeatT, false);
   return n;
 }
 
@@ -138,9 +135,8 @@ NodeId Storing::transform(const ShapePlace& p, const PageLayout& page) {
   const double moved[4][2] = {{x, y}, {y, -x}, {-x, -y}, {-y, x}};  // turned back
   const auto& m = moved[p.quarter_turns & 3];
   const NodeId n = scene_.add(nodes::TextureTransform);
-  scene_.set(n, f::rotation, quarter * p.quarter_turns);
-  scene_.set(n, f::scale, Vec2{p.unit / page.width, p.unit / page.height});
-  scene_.set(n, f::translation, Vec2{m[0], m[1]});
+  scene_.set(n, f::rotation, quarter * p.quarter_turns, f::scale, Vec2{p.unit / page.width, p.unit / page.height},
+             f::translation, Vec2{m[0], m[1]});
   return n;
 }
 

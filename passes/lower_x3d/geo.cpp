@@ -42,10 +42,7 @@ const GeoRow* row_of(const Scene& scene, NodeId n) {
 }
 
 Matrix transposed(const Matrix& m) {
-  Matrix out;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) out(r, c) = m(c, r);
-  return out;
+  return {{m(0, 0), m(1, 0), m(2, 0), 0, m(0, 1), m(1, 1), m(2, 1), 0, m(0, 2), m(1, 2), m(2, 2), 0}};
 }
 
 Vec3 vec3(std::span<const double> numbers, std::size_t i = 0) { return {numbers[i], numbers[i + 1], numbers[i + 2]}; }
@@ -215,8 +212,7 @@ class Placing {
              slot == t::translation.slot;
     };
     NodeId inner = scene_.add(nodes::Transform, scene_.where(n)), moved = scene_.add(nodes::Transform, scene_.where(n));
-    scene_.set(inner, t::translation, away);
-    scene_.set(inner, t::rotation, back);
+    scene_.set(inner, t::translation, away, t::rotation, back);
     std::vector<Value> outer;
     for (const Value& v : fields) {
       if (!scene_.is_extra(v) && own(v.slot))

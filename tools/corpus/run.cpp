@@ -405,13 +405,8 @@ void print_plan(const Planned& p, const Flags& flags) {
                  output);
       continue;
     }
-    json.begin_object();
-    json.member("shard", job.shard + 1);
-    json.member("seconds", job.cost);
-    json.member("bytes", job.input.bytes);
-    json.member("input", job.input.path);
-    json.member("output", output);
-    json.end_object();
+    json.object("shard", job.shard + 1, "seconds", job.cost, "bytes", job.input.bytes, "input", job.input.path,
+                "output", output);
   }
   if (flags.json) {
     json.end_array();

@@ -104,17 +104,9 @@ void write_pictures(Session& s, const PatchSet& set, const light::LightWorld& wo
 void print(Session& s, const PatchSet& set, double seconds) {
   s.progress().clear();
   if (s.flags().json && s.flags().output != "-") {
-    std::string text;
-    JsonOut json(text);
-    json.begin_object();
-    json.member("file", s.flags().output);
-    json.member("method", set.method);
-    json.member("samples", set.samples);
-    json.member("shapes", set.shapes.size());
-    json.member("triangles", set.triangles.size());
-    json.member("patches", set.patches.size());
-    json.member("cpu_seconds", seconds);
-    json.end_object();
+    const auto text = json_of(json_object("file", s.flags().output, "method", set.method, "samples", set.samples,
+                                          "shapes", set.shapes.size(), "triangles", set.triangles.size(), "patches",
+                                          set.patches.size(), "cpu_seconds", seconds));
     fmt::print("{}\n", text);
   } else if (s.flags().verbose) {
     fmt::print(stderr, "{}: {} patches of {} triangles in {} shapes, {:.1f} s of processor time\n", s.flags().output,

@@ -76,14 +76,7 @@ int write_progressive_file(Session& s, Criterion criterion, const std::string& p
   if (!file->commit(s.diag())) return s.end(false);
   s.progress().clear();
   if (s.flags().json) {
-    std::string text;
-    JsonOut json(text);
-    json.begin_object();
-    json.member("file", path);
-    json.member("surfaces", surfaces.size());
-    json.member("bytes", bytes.size());
-    json.end_object();
-    fmt::print("{}\n", text);
+    fmt::print("{}\n", json_of(json_object("file", path, "surfaces", surfaces.size(), "bytes", bytes.size())));
   } else {
     fmt::print("{}: {} surfaces, {} bytes\n", path, surfaces.size(), bytes.size());
   }
@@ -104,26 +97,16 @@ struct WrittenWorlds {
 };
 
 void print_json(const WrittenWorlds& all) {
-  std::string text;
-  JsonOut json(text);
-  json.begin_object();
-  json.member("triangles", all.n_drawn);
-  json.member("unique", all.n_faces);
-  json.key("points");
-  json.begin_array();
-  for (const auto& p : all.points) {
-    json.begin_object();
-    json.member("file", p.file);
-    json.member("triangles", p.n_drawn);
-    json.member("unique", p.n_faces);
-    json.member("left_out", p.n_gone);
-    json.member("rms", p.rms);
-    json.member("max", p.max);
-    json.end_object();
-  }
-  json.end_array();
-  json.member("lod", all.lod_file);
-  json.end_object();
+  const auto text = json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.members("triangles", all.n_drawn, "unique", all.n_faces);
+      json.list("points", all.points, [&](const auto& p) {
+        json.object("file", p.file, "triangles", p.n_drawn, "unique", p.n_faces, "left_out", p.n_gone, "rms", p.rms,
+                    "max", p.max);
+      });
+      json.member("lod", all.lod_file);
+    });
+  });
   fmt::print("{}\n", text);
 }
 
