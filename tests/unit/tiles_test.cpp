@@ -187,7 +187,7 @@ TEST_CASE("tiles: the error of a coarse surface is that of the farthest point, e
   }
   SECTION("large triangles are near to many small ones") {
     const auto plate = piece("plate", square(0, 0, 10));
-    const tiles::FullTile whole{tiles::bounds_of(plate.mesh), [&] { return std::vector{plate}; }};
+    const tiles::FullTile whole{box_of_corners(plate.mesh), [&] { return std::vector{plate}; }};
     std::vector<tiles::Piece> small;
     for (int i = 0; i < 100; ++i) {
       auto& points = small.emplace_back(piece("small", square(i % 10, 0.2, 1))).mesh.positions.edit();
