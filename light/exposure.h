@@ -8,7 +8,7 @@
 namespace wrlkit {
 
 struct Exposure {
-  static constexpr std::string_view type = "auto or a factor";
+  static constexpr std::string_view type = "number or auto";
   bool automatic = false;
   double factor = 1;  // on linear light
 
@@ -26,10 +26,9 @@ class LightMeter {
   void add(double luminance);
   void add(const LightMeter& other);
   /// The factor by which the logarithmic mean becomes `target` (Reinhard et al. 2002). Places of less than a thousandth
-  /// of the mean do not count: no light reaches them, and nobody looks there. No more than makes half of
-  /// all light four times as bright as white, where a little of the world is lit and the rest is not. 1 when there are
-  /// no others. Between 1e-6
-  /// and 1e6, of three digits, so that what is printed is what was taken.
+  /// of the mean do not count: no light reaches them, and nobody looks there. No more than makes half of all light four
+  /// times as bright as white, where a little of the world is lit and the rest is not. 1 when there are no others.
+  /// Between 1e-6 and 1e6, of three digits, so that what is printed is what was taken.
   double factor(double target) const;
 
  private:
