@@ -67,7 +67,10 @@ double LightMeter::factor(double target) const {
   if (!(n_seen > 0)) return 1;
   double brighter = 0;
   std::size_t half = counts_.size();
-  while (2 * brighter < sum) brighter += static_cast<double>(counts_[--half]) * middle(half);
+  while (2 * brighter < sum) {
+    --half;
+    brighter += static_cast<double>(counts_[half]) * middle(half);
+  }
   const double wanted = std::min(target / std::exp2(logarithms / n_seen), burnt / middle(half));
   return of_three_digits(std::clamp(wanted, 1 / most, most));
 }
