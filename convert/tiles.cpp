@@ -98,7 +98,6 @@ class Making {
   std::vector<Piece> pieces_of_cell(std::uint32_t cell) const;
   bool measure();
   double measured_error(std::uint32_t cell) const;
-  void finish_errors();
   bool publish();
   /// Calls f(i, task) for some of them at a time; false when one has failed.
   bool for_each(std::span<const std::uint32_t> cells, const std::function<bool(std::uint32_t, Task&)>& f);
