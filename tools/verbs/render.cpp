@@ -129,6 +129,13 @@ bool is_usable(const Flags& f, bool sheet) {
   return true;
 }
 
+/// Options of light, where the mode finds none.
+void warn_of_idle_light(const Flags& flags) {
+  if (flags.mode == RenderOptions::Mode::path) return;
+  for (const char* name : {"lamps", "exposure"})
+    if (flags.is_given(name)) fmt::print(stderr, "wrlkit: --{} has no effect without --mode path\n", name);
+}
+
 }  // namespace
 
 int run_render(const Flags& given) {
@@ -142,6 +149,7 @@ int run_render(const Flags& given) {
     fmt::print("{}\n", s.pipeline().text());
     return done;
   }
+  warn_of_idle_light(flags);
   if (sheet) return render_sheet(s);
   const bool made = !flags.compare.empty() ? render_comparison(s)
                     : flags.turntable > 0  ? Turntable(s).make()
