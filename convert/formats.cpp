@@ -88,7 +88,7 @@ constexpr FileFormat file_formats[] = {
      .meshes = true},
     {.name = "patches", .endings = ".xml", .first_bytes = "<patches", .reads = "yes", .writes = "illuminate"},
     {.name = "pictures",
-     .endings = "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR",
+     .endings = "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR SGI DDS",
      .first_bytes = "their own",
      .reads = "as textures",
      .writes = "PNG, JPEG, WebP, EXR"},
