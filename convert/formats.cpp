@@ -88,9 +88,9 @@ constexpr FileFormat file_formats[] = {
      .meshes = true},
     {.name = "patches", .endings = ".xml", .first_bytes = "<patches", .reads = "yes", .writes = "illuminate"},
     {.name = "pictures",
-     .endings = "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR SGI DDS",
+     .endings = "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR",
      .first_bytes = "their own",
-     .reads = "as textures",
+     .reads = "as textures, also SGI and DDS",
      .writes = "PNG, JPEG, WebP, EXR"},
 };
 

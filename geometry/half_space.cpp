@@ -50,7 +50,7 @@ class PlaneCut {
   /// The part of the polygon or line from one corner to the next that is in front, but for its end.
   void part(std::uint32_t a, std::uint32_t b, std::vector<Corner>& to) const {
     if (front(a)) to.push_back({a, a});
-    if (front(a) != front(b)) to.push_back({a, b});
+    if (front(a) != front(b) && side_[a] != 0 && side_[b] != 0) to.push_back({a, b});
   }
 
   void triangles() {

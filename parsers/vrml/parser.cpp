@@ -248,9 +248,8 @@ void Parser::implicit_child(Token t) {
   const auto& type = build_.current_type();
   auto slot = type.find("children", scene_.dialect());
   if (slot && type.fields[*slot].type == FieldType::MFNode) {
-    const bool vrml1 = in_vrml1();
-    if (!vrml1) diag_.report(Diag::implicit_child, span(t), describe(t));
-    if (NodeId n = child_statement()) build_.append_child(*slot, vrml1 ? n : shape_around(n));
+    if (!in_vrml1()) diag_.report(Diag::implicit_child, span(t), describe(t));
+    if (NodeId n = child_statement()) build_.append_child(*slot, shape_around(n));
   } else if (auto w = text(t); w == "USE" || w == "NULL") {
     diag_.report(Diag::stray_token, span(t), describe(t));
     node_statement();

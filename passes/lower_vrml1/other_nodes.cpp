@@ -1,5 +1,6 @@
 // What the traversal of VRML 1.0 does at nodes that VRML 1.0 does not have. In a world of VRML97 it goes only where
 // nodes of VRML 1.0 are; groups of VRML97 keep the state in, as Coin's do.
+#include <iterator>
 #include <utility>
 
 #include "passes/lower_vrml1/lowering.h"
@@ -21,6 +22,8 @@ std::vector<char> stateful_nodes(const Scene& scene) {
   std::vector<char> out(scene.node_count());
   std::vector<std::pair<NodeId, NodeId>> parents;  // of a child
   std::vector<NodeId> next;
+  std::ranges::copy_if(scene.main.roots, std::back_inserter(next),
+                       [&](NodeId n) { return scene.is(n, nodes::X3DGeometryNode); });
   for (NodeId n : all_nodes(scene)) {
     for_each_child(scene, n, [&](NodeId c) {
       if (c) parents.emplace_back(c, n);
