@@ -245,15 +245,21 @@ TypeId SceneBuilder::known_type(std::string_view name) const {
 
 TypeId SceneBuilder::type(std::string_view name, Span where) {
   if (TypeId t = known_type(name)) return t;
-  if (TypeId t = foreign_type(name, where)) return t;
-  if (!unknown_.contains(name) && !find_browser_node(name)) diag_.report(Diag::unknown_node, where, name);
+  if (TypeId t = foreign_type(name, Dialect::x3d, where)) return t;
+  const bool of_browser = find_browser_node(name);
+  if (!of_browser)
+    if (TypeId t = vrml1_type(name, where)) return t;
+  if (!unknown_.contains(name) && !of_browser) diag_.report(Diag::unknown_node, where, name);
   return unknown_type(name);
 }
 
-TypeId SceneBuilder::foreign_type(std::string_view name, Span where) {
+TypeId SceneBuilder::vrml1_type(std::string_view name, Span where) { return foreign_type(name, Dialect::vrml1, where); }
+
+TypeId SceneBuilder::foreign_type(std::string_view name, Dialect dialect, Span where) {
   if (scene_.dialect() != Dialect::vrml97) return {};
-  const TypeId t = find_builtin(name, Dialect::x3d);
-  if (t && foreign_.insert(t.value).second) diag_.report(Diag::dialect_node, where, name, "X3D", "VRML97");
+  const TypeId t = find_builtin(name, dialect);
+  if (t && foreign_.insert(t.value).second)
+    diag_.report(Diag::dialect_node, where, name, dialect == Dialect::x3d ? "X3D" : "VRML 1.0", "VRML97");
   return t;
 }
 

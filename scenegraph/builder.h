@@ -62,14 +62,16 @@ class SceneBuilder {
 
   /// Type of a node of that name here: a prototype, a built-in type, or a new unknown type, which is reported once.
   TypeId type(std::string_view name, Span where);
+  /// VRML 1.0's node of that name in a file of VRML97, which is reported once; TypeId{}: there is none.
+  TypeId vrml1_type(std::string_view name, Span where);
   /// The type of all unknown nodes of that name, for nodes that describe themselves; nothing is reported.
   TypeId unknown_type(std::string_view name);
   /// The same without making one: TypeId{} when not known.
   TypeId known_type(std::string_view name) const;
 
  private:
-  /// Of X3D in a file of VRML97, where programs that know both write it; TypeId{} when there is none.
-  TypeId foreign_type(std::string_view name, Span where);
+  /// Of another language in a file of VRML97, where programs that know both write it; TypeId{} when there is none.
+  TypeId foreign_type(std::string_view name, Dialect, Span where);
   struct Open {
     NodeId node;
     std::size_t first_field;
@@ -114,7 +116,7 @@ class SceneBuilder {
   std::vector<Value> fields_;
   std::vector<Names> scopes_;
   std::unordered_map<std::string_view, TypeId> unknown_;
-  std::unordered_set<std::uint32_t> foreign_;  // types of X3D that were reported
+  std::unordered_set<std::uint32_t> foreign_;  // types of other languages that were reported
 };
 
 }  // namespace wrlkit

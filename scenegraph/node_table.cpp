@@ -18,7 +18,9 @@ bool NodeType::takes_any_field() const {
 }
 
 std::optional<std::uint16_t> NodeType::find(std::string_view field, Dialect dialect, bool events) const {
-  if (kind == NodeKind::builtin && dialects == static_cast<DialectSet>(Dialect::x3d)) dialect = Dialect::x3d;
+  if (kind == NodeKind::builtin)
+    for (const Dialect only : {Dialect::x3d, Dialect::vrml1})  // a node of that language in a file of another one
+      if (dialects == static_cast<DialectSet>(only)) dialect = only;
   if (!by_name.empty()) {
     auto i = std::ranges::lower_bound(by_name, field, {}, [&](std::uint16_t slot) { return fields[slot].name; });
     if (i != by_name.end() && fields[*i].name == field) return *i;

@@ -1,4 +1,5 @@
-// Decoders of the two types that nearly all scenes have, by libraries that are there at once.
+// Decoders that need no OpenImageIO: of the two types that nearly all scenes have, by libraries that are there at once,
+// and of one that OpenImageIO does not read from memory.
 #pragma once
 #include <string>
 #include <string_view>
@@ -15,5 +16,8 @@ bool is_plain_jpeg(std::string_view jpeg);
 /// One of those by libjpeg-turbo, in 1 channel or 3. Where data are missing at the end, what is there is shown, as
 /// browsers do. False, and why, when it is damaged.
 bool decode_jpeg(std::string_view jpeg, Image& image, std::string& error);
+
+/// SGI, 8 or 16 bits, run-length encoded or not. False, and why, when it is damaged.
+bool decode_sgi(std::string_view sgi, Image& image, std::string& error);
 
 }  // namespace wrlkit

@@ -98,8 +98,9 @@ struct Codec {
 };
 
 constexpr Codec codecs[] = {
-    {"image/jpeg", "jpeg"}, {"image/gif", "gif"},   {"image/bmp", "bmp"},       {"image/x-tga", "targa"},
-    {"image/tiff", "tiff"}, {"image/webp", "webp"}, {"image/x-exr", "openexr"}, {"image/vnd.radiance", "hdr"},
+    {"image/jpeg", "jpeg"},     {"image/gif", "gif"},          {"image/bmp", "bmp"},
+    {"image/x-tga", "targa"},   {"image/tiff", "tiff"},        {"image/webp", "webp"},
+    {"image/x-exr", "openexr"}, {"image/vnd.radiance", "hdr"}, {"image/vnd-ms.dds", "dds"},
 };
 
 bool alpha_is_nothing(const Image& image) {
@@ -125,6 +126,7 @@ bool decode_by_module(std::string_view bytes, std::string_view mime, Image& imag
 bool decode(std::string_view bytes, std::string_view mime, Image& image, std::string& error) {
   if (mime == "image/png") return decode_png(bytes, image, error);
   if (mime == "image/jpeg" && is_plain_jpeg(bytes)) return decode_jpeg(bytes, image, error);
+  if (mime == "image/x-sgi") return decode_sgi(bytes, image, error);
   return decode_by_module(bytes, mime, image, error);
 }
 

@@ -30,12 +30,13 @@ struct ImageHeader {
 };
 
 /// "image/png", "image/jpeg", "image/gif", "image/bmp", "image/tiff", "image/webp", "image/x-exr",
-/// "image/vnd.radiance", "image/x-tga", by magic bytes; empty when it is none of them. Most TGA files have no magic
-/// bytes: those are recognised by the extension of `name`, if their header makes sense.
+/// "image/vnd.radiance", "image/x-sgi", "image/vnd-ms.dds", "image/x-tga", by magic bytes; empty when it is none of
+/// them. Most TGA files have no magic bytes: those are recognised by the extension of `name`, if their header makes
+/// sense.
 std::string_view sniff_mime(std::string_view bytes, std::string_view name = {});
 
-/// Size and channels of a PNG, JPEG, GIF, BMP or TGA picture; nothing for other types and damaged headers. The first 64
-/// KiB are enough but for a JPEG with large metadata. O(1), or O(bytes before the first pixels).
+/// Size and channels of a PNG, JPEG, GIF, BMP, SGI or TGA picture; nothing for other types and damaged headers. The
+/// first 64 KiB are enough but for a JPEG with large metadata. O(1), or O(bytes before the first pixels).
 std::optional<ImageHeader> read_image_header(std::string_view bytes, std::string_view name = {});
 
 // Pictures beyond these are refused: a few bytes can claim to be a picture of any size. A large one must have at least
@@ -44,8 +45,9 @@ inline constexpr std::int64_t max_image_side = 65535, max_image_pixels = std::in
 /// Why a picture of that size is not decoded; empty: it is.
 std::string image_size_fault(std::int64_t width, std::int64_t height, std::size_t bytes);
 
-/// Decodes PNG, JPEG, GIF (first picture of an animation), BMP, TGA, TIFF, WebP, EXR and HDR; 16-bit and floating-point
-/// samples become 8-bit (linear ones through the sRGB curve, cut at 1), CMYK becomes RGB. Null, and why, on failure.
+/// Decodes PNG, JPEG, GIF (first picture of an animation), BMP, TGA, TIFF, WebP, EXR, HDR, SGI and DDS; 16-bit and
+/// floating-point samples become 8-bit (linear ones through the sRGB curve, cut at 1), CMYK becomes RGB. Null, and why,
+/// on failure.
 std::optional<Image> decode_image(std::string_view bytes, std::string_view name, std::string& error);
 
 /// The same bytes for the same picture: nothing but the pixels is written.

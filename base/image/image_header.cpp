@@ -102,6 +102,14 @@ Header tga(Bytes f) {
   return header(f.le16(12), f.le16(14), channels, "image/x-tga");
 }
 
+// SGI: whether it is run-length encoded, bytes a sample, dimensions, width, height, channels. Of more than four
+// channels the first four count.
+Header sgi(Bytes f) {
+  const auto dimensions = f.be16(4), channels = dimensions > 2 ? f.be16(10) : 1;
+  if (f.u8(2) > 1 || dimensions < 1 || dimensions > 3 || channels < 1) return std::nullopt;
+  return header(f.be16(6), dimensions > 1 ? f.be16(8) : 1, static_cast<int>(std::min(channels, 4u)), "image/x-sgi");
+}
+
 struct Magic {
   std::string_view bytes;
   std::size_t at;
@@ -121,6 +129,8 @@ constexpr Magic magics[] = {
     {"\x76\x2f\x31\x01"sv, 0, "image/x-exr", nullptr},
     {"#?RADIANCE"sv, 0, "image/vnd.radiance", nullptr},
     {"#?RGBE"sv, 0, "image/vnd.radiance", nullptr},
+    {"\x01\xda"sv, 0, "image/x-sgi", sgi},
+    {"DDS |"sv, 0, "image/vnd-ms.dds", nullptr},
 };
 
 bool is_tga(std::string_view bytes, std::string_view name) {

@@ -17,8 +17,6 @@ struct Magic {
   std::size_t at;
 };
 
-constexpr Magic pictures[] = {{"\x01\xda"sv, 0}, {"DDS "sv, 0}};  // SGI, DirectDraw; the others are known by sniff_mime
-
 constexpr Magic sounds_and_films[] = {
     {"WAVE"sv, 8},           // in RIFF
     {"AVI "sv, 8},           // in RIFF
@@ -63,8 +61,7 @@ bool is_linked_kind(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return is_one_of(bytes, pictures) || is_one_of(bytes, sounds_and_films) || is_world(bytes, path) ||
-         !sniff_mime(bytes, path).empty();
+  return is_one_of(bytes, sounds_and_films) || is_world(bytes, path) || !sniff_mime(bytes, path).empty();
 }
 
 }  // namespace wrlkit

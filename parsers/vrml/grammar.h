@@ -1,6 +1,7 @@
 // Recursive descent over the grammar of annex A; functions carry the names of its productions where they have one. A
 // function that meets a fault reports it once and returns; the caller that owns the brace skips to it. Statements,
-// nodes and their fields are in parser.cpp, prototypes, Scripts and ROUTEs in declarations.cpp.
+// nodes and their fields are in parser.cpp, prototypes, Scripts and ROUTEs in declarations.cpp, what is of VRML 1.0 in
+// vrml1_among_vrml97.cpp.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "parsers/x3d/units.h"
 #include "scenegraph/access_word.h"
 #include "scenegraph/builder.h"
+#include "scenegraph/nodes.h"
 
 namespace wrlkit::vrml {
 
@@ -44,7 +46,12 @@ class Parser : private Values {
   bool node_list_follows();
   /// nodeStatement, or NULL. None when there is no node; then only a faulty token was consumed.
   NodeId node_statement();
+  /// The same where only children stand.
+  NodeId child_statement();
   NodeId node(Token type_name, std::string_view def);
+  TypeId node_type(Token name, bool among_children);
+  bool reads_as_vrml1(const NodeType& old, const NodeType* now);
+  bool in_vrml1() const { return build_.depth() > 0 && build_.current_type().is_a(nodes::Vrml1Node); }
   void node_body(Token opened);
   void tell_part_read();
   void node_body_element(Token);
@@ -69,7 +76,7 @@ class Parser : private Values {
   bool value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
   bool single_node(std::uint16_t slot, std::string_view field, Value& out);
   bool node_list(std::uint16_t slot, Value& out);
-  void list_elements(Token opened);
+  void list_elements(Token opened, bool children);
   bool property_node(std::uint16_t slot, NodeId& out);
   bool holds_children(std::uint16_t slot) const;
   NodeId shape_around(NodeId);
@@ -99,6 +106,7 @@ class Parser : private Values {
   std::vector<NodeId> nodes_, misplaced_;
   std::vector<const Interface*> interfaces_;  // of the prototypes whose bodies are being read
   std::size_t scope_depth_ = 0, open_lists_ = 0;
+  bool among_children_ = false;  // of the node that follows
   x3d::Units units_;
 };
 

@@ -1,10 +1,10 @@
 #include "parsers/vrml/parser.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/parallel.h"
 #include "parsers/vrml/grammar.h"
-#include "scenegraph/nodes.h"
 
 namespace wrlkit::vrml {
 namespace {
@@ -56,7 +56,7 @@ void Parser::statements(Kind until) {
     if (name_like(t)) {
       auto at = lex_.offset();
       const auto mark = misplaced_.size();
-      NodeId n = node_statement();
+      NodeId n = until == Kind::end ? child_statement() : node_statement();
       if (n) build_.root(n);
       take_misplaced(mark, [&](NodeId m) { build_.root(m); });
       if (n || lex_.offset() != at) continue;
@@ -180,7 +180,7 @@ NodeId Parser::node(Token type_name, std::string_view def) {
     skip_to_close(Kind::open_brace, Kind::close_brace);
     return {};
   }
-  TypeId type = build_.type(name_of(type_name), span(type_name));
+  const TypeId type = node_type(type_name, std::exchange(among_children_, false));
   NodeId n = build_.open(type, def, span(type_name));
   node_body(type_name);
   build_.close();
@@ -248,8 +248,8 @@ void Parser::implicit_child(Token t) {
   const auto& type = build_.current_type();
   auto slot = type.find("children", scene_.dialect());
   if (slot && type.fields[*slot].type == FieldType::MFNode) {
-    diag_.report(Diag::implicit_child, span(t), describe(t));
-    if (NodeId n = node_statement()) build_.append_child(*slot, shape_around(n));
+    if (!in_vrml1()) diag_.report(Diag::implicit_child, span(t), describe(t));
+    if (NodeId n = child_statement()) build_.append_child(*slot, shape_around(n));
   } else if (auto w = text(t); w == "USE" || w == "NULL") {
     diag_.report(Diag::stray_token, span(t), describe(t));
     node_statement();
@@ -355,9 +355,9 @@ bool Parser::node_list_follows() {
 
 bool Parser::value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out) {
   const auto& t = info(type);
-  const bool read = t.element != Element::node ? plain_value(type, slot, field, fallback, out)
-                    : t.multiple               ? node_list(slot, out)
-                                               : single_node(slot, field, out);
+  const bool read = t.element == Element::node ? (t.multiple ? node_list(slot, out) : single_node(slot, field, out))
+                    : in_vrml1()               ? vrml1_value(type, slot, field, fallback, out)
+                                               : plain_value(type, slot, field, fallback, out);
   if (!read) skip_values();
   return read;
 }
@@ -411,21 +411,22 @@ bool Parser::property_node(std::uint16_t slot, NodeId& out) {
 // The nodes are collected on one stack for all open lists.
 bool Parser::node_list(std::uint16_t slot, Value& out) {
   const auto mark = nodes_.size(), misplaced_before = misplaced_.size();
+  const bool children = slot != Value::extra_slot && holds_children(slot);
   Token first = lex_.peek();
   if (first.kind != Kind::open_bracket) {
     if (!name_like(first) || !node_follows(first)) {
       expected("a node or '['", first);
       return false;
     }
-    if (NodeId n = node_statement()) nodes_.push_back(n);
+    if (NodeId n = children ? child_statement() : node_statement()) nodes_.push_back(n);
   } else {
     lex_.next();
     ++open_lists_;
-    list_elements(first);
+    list_elements(first, children);
     --open_lists_;
   }
   take_misplaced(misplaced_before, [&](NodeId m) { nodes_.push_back(m); });
-  if (slot != Value::extra_slot && holds_children(slot))
+  if (children)
     for (auto& n : std::span(nodes_).subspan(mark)) n = shape_around(n);
   out = scene_.make(FieldType::MFNode, slot, std::span<const NodeId>(nodes_).subspan(mark));
   nodes_.resize(mark);
@@ -447,7 +448,7 @@ NodeId Parser::shape_around(NodeId n) {
   return shape;
 }
 
-void Parser::list_elements(Token opened) {
+void Parser::list_elements(Token opened, bool children) {
   for (;;) {
     Token t = lex_.peek();
     if (ends(t, Kind::close_bracket, opened)) return;
@@ -459,7 +460,7 @@ void Parser::list_elements(Token opened) {
     if (name_like(t) && node_follows(t)) {
       if (text(t) == "NULL") diag_.report(Diag::null_repaired, span(t));
       const auto mark = misplaced_.size();
-      if (NodeId n = node_statement()) nodes_.push_back(n);
+      if (NodeId n = children ? child_statement() : node_statement()) nodes_.push_back(n);
       take_misplaced(mark, [&](NodeId m) { nodes_.push_back(m); });
       continue;
     }

@@ -16,6 +16,9 @@ class Values : protected Tokens {
   /// is none, which was reported.
   bool plain_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
   bool string_list(FieldType, std::uint16_t slot, Value& out);
+  /// The same as VRML 1.0 writes it.
+  bool vrml1_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
+  bool enumeration(FieldType, std::uint16_t slot, Value& out);
   /// The text of values up to the next name or bracket that ends them. What is left open in it is closed, so that it
   /// can stand before other text.
   std::string verbatim();
@@ -38,6 +41,8 @@ class Values : protected Tokens {
   /// What stands behind the next bracket, up to the first ']' that follows, which need not be that of the list.
   std::string_view next_list();
   bool single_string(FieldType, std::uint16_t slot, std::string_view field, Value& out);
+  bool bare_string(std::string_view& out);
+  bool bare_strings(FieldType, std::uint16_t slot, Value& out);
   template <class T, class Read>
   void numbers(std::vector<T>& to, Read read, std::size_t most);
   void booleans(std::size_t most);

@@ -81,9 +81,6 @@ class Vrml1Parser : private Values {
   void unknown_field(Token name);
   bool value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
   bool node_value(FieldType, std::uint16_t slot, Value& out);
-  bool enumeration(FieldType, std::uint16_t slot, Value& out);
-  bool string(std::string_view& out);
-  bool strings(FieldType, std::uint16_t slot, Value& out);
   void connection(Token name);
   /// A name, and none of the signs that stand between values.
   bool is_name(Token t) const {
@@ -151,13 +148,15 @@ NodeId Vrml1Parser::node_statement() {
 TypeId Vrml1Parser::type_of(Token name) {
   auto w = name_of(name);
   TypeId own = find_builtin(w, Dialect::vrml1), foreign = find_builtin(w, Dialect::vrml97);
+  const auto first = text(lex_.peek());
+  const bool describes = first == "fields" || first == "isA", of_x3d = !own && !foreign && !describes;
+  if (of_x3d) foreign = find_builtin(w, Dialect::x3d);
   if (foreign && (in_vrml97_field_ || !own)) {
-    if (!in_vrml97_field_) diag_.report(Diag::dialect_node, span(name), w, "VRML97", "VRML 1.0");
+    if (!in_vrml97_field_) diag_.report(Diag::dialect_node, span(name), w, of_x3d ? "X3D" : "VRML97", "VRML 1.0");
     return foreign;
   }
   if (own) return own;
-  auto first = text(lex_.peek());
-  return first == "fields" || first == "isA" ? build_.unknown_type(w) : build_.type(w, span(name));
+  return describes ? build_.unknown_type(w) : build_.type(w, span(name));
 }
 
 NodeId Vrml1Parser::node(Token type_name, std::string_view def) {
@@ -320,25 +319,8 @@ void Vrml1Parser::unknown_field(Token name) {
 }
 
 bool Vrml1Parser::value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out) {
-  bool read = false;
-  Token t = lex_.peek();
-  if (type == FieldType::SFBool && (text(t) == "0" || text(t) == "1")) {  // both are in order here
-    out = scene_.make(type, slot, text(lex_.next()) == "1");
-    return true;
-  }
-  if (type == FieldType::SFEnum || type == FieldType::SFBitMask)
-    read = enumeration(type, slot, out);
-  else if (info(type).element == Element::node)
-    read = node_value(type, slot, out);
-  else if (std::string_view s; type == FieldType::SFString) {
-    if ((read = string(s)))
-      out = scene_.make(type, slot, s);
-    else
-      diag_.report(Diag::bad_value, span(t), describe(t), "SFString");
-  } else if (type == FieldType::MFString)
-    read = strings(type, slot, out);
-  else
-    read = plain_value(type, slot, field, fallback, out);
+  const bool read =
+      info(type).element == Element::node ? node_value(type, slot, out) : vrml1_value(type, slot, field, fallback, out);
   if (!read) skip_values();
   return read;
 }
@@ -360,65 +342,6 @@ bool Vrml1Parser::node_value(FieldType type, std::uint16_t slot, Value& out) {
     out = scene_.make(type, slot, list);
   else
     out = scene_.make(type, slot, list.empty() ? NodeId{} : list[0]);
-  return true;
-}
-
-// A word, or (A | B); blanks may be missing anywhere in it.
-bool Vrml1Parser::enumeration(FieldType type, std::uint16_t slot, Value& out) {
-  Token first = lex_.peek();
-  if (first.kind != Kind::word && first.kind != Kind::string) {
-    diag_.report(Diag::bad_value, span(first), describe(first), info(type).name);
-    return false;
-  }
-  std::string all;
-  int depth = 0;
-  do {
-    Token t = lex_.next();
-    for (char c : text(t)) {
-      depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-      if (c != '(' && c != ')' && !Lexer::separates(c)) all += c;
-    }
-    if (lex_.peek().kind != Kind::word) break;
-  } while (depth > 0 || all.ends_with('|') || text(lex_.peek()).starts_with('|'));
-  if (all.empty()) {
-    diag_.report(Diag::bad_value, span(first), describe(first), info(type).name);
-    return false;
-  }
-  out = scene_.make(type, slot, utf8(all, span(first)));
-  return true;
-}
-
-/// A string may stand without quotes, up to a blank.
-bool Vrml1Parser::string(std::string_view& out) {
-  Token t = lex_.peek();
-  if (t.kind != Kind::word) return string_token(out);
-  lex_.next();
-  out = name_of(t);
-  return true;
-}
-
-bool Vrml1Parser::strings(FieldType type, std::uint16_t slot, Value& out) {
-  std::vector<std::string_view> list;
-  std::string_view s;
-  Token first = lex_.peek();
-  if (take(Kind::open_bracket)) {
-    while (string(s)) list.push_back(s);
-    if (!take(Kind::close_bracket)) {
-      Token t = lex_.peek();
-      if (t.kind == Kind::end)
-        unclosed(first);
-      else {
-        expected("a string or ']'", t);
-        skip_list();
-      }
-    }
-  } else if (string(s)) {
-    list.push_back(s);
-  } else {
-    diag_.report(Diag::bad_value, span(first), describe(first), "MFString");
-    return false;
-  }
-  out = scene_.make(type, slot, list);
   return true;
 }
 

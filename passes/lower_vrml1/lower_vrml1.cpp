@@ -1,16 +1,14 @@
 #include "passes/lower_vrml1/lower_vrml1.h"
 
 #include <algorithm>
-#include <map>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "passes/analysis/nesting.h"
-#include "passes/lower_vrml1/frame.h"
-#include "passes/lower_vrml1/shapes.h"
+#include "passes/lower_vrml1/lowering.h"
 #include "passes/lower_vrml1/singles.h"
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
@@ -19,130 +17,61 @@ namespace {
 
 namespace v1 = nodes::vrml1;
 
-/// What a node that was met before in the same state did: what it drew, and what it left.
-struct Effect {
-  NodeId drawn;
+}  // namespace
+
+void Lowering::run() {
+  legal_names();
+  Frame frame;
   State state;
-  Placement at;
-  std::vector<Frame::Light> lights;
-};
+  for (NodeId n : scene_.main.roots) visit(n, state, frame);
+  scene_.main.roots = children(scene_, frame);
+  scene_.format = Format::vrml97;
+  scene_.header.clear();
+  limit_nesting(scene_, diag_);
+}
 
-class Lowering {
- public:
-  Lowering(Scene& scene, const LowerVrml1Options& options, PassContext& ctx)
-      : scene_(scene),
-        diag_(ctx.diag),
-        looks_(scene, diag_),
-        shapes_(scene, looks_, diag_, default_crease_angle()),
-        steps_left_(static_cast<std::size_t>(options.limit) + steps_a_node * scene.node_count()),
-        limit_(options.limit) {}
+// What Inventor puts behind a '+' tells nodes of one name apart. Other characters have no place in names of VRML97.
+void Lowering::legal_names() {
+  for (std::uint32_t i = 0; i < scene_.node_count(); ++i) {
+    const auto old = scene_.name(NodeId{i});
+    if (old.find_first_of("+.-'\\0123456789") == old.npos) continue;
+    std::string name(old.substr(0, old.find('+')));
+    std::ranges::replace_if(
+        name, [](char c) { return c == '.' || c == '\'' || c == '\\'; }, '_');
+    if (!name.empty() && (name[0] == '-' || (name[0] >= '0' && name[0] <= '9'))) name.insert(0, 1, '_');
+    if (name != old) scene_.set_name(NodeId{i}, name);
+  }
+}
 
-  void run() {
-    legal_names();
-    Frame frame;
-    State state;
-    for (NodeId n : scene_.main.roots) visit(n, state, frame);
-    scene_.main.roots = children(scene_, frame);
-    scene_.format = Format::vrml97;
-    scene_.header.clear();
-    limit_nesting(scene_, diag_);
+bool Lowering::step(NodeId n) {
+  if (n.value >= met_.size()) met_.resize(n.value + std::size_t{1});
+  if (!std::exchange(met_[n.value], 1)) return true;
+  if (steps_left_ > 0) {
+    --steps_left_;
+    return true;
   }
+  if (!std::exchange(full_, true))
+    diag_.report(Diag::expansion_limit, scene_.where(n), limit_, "nodes visited again in other states");
+  return false;
+}
 
- private:
-  static constexpr std::size_t steps_a_node = 16, deepest = 2000;
+NodeId Lowering::choice(NodeId child, State& s, Frame& frame) {
+  visit(child, s, frame);
+  if (frame.runs.size() == 1 && frame.runs[0].at.identity() && frame.runs[0].nodes.size() == 1)
+    return frame.runs[0].nodes[0];
+  NodeId n = group(scene_, frame, scene_.where(child), {});
+  return n ? n : scene_.add(nodes::Group, scene_.where(child));
+}
 
-  // What Inventor puts behind a '+' tells nodes of one name apart. Other characters have no place in names of VRML97.
-  void legal_names() {
-    for (std::uint32_t i = 0; i < scene_.node_count(); ++i) {
-      const auto old = scene_.name(NodeId{i});
-      if (old.find_first_of("+.-'\\0123456789") == old.npos) continue;
-      std::string name(old.substr(0, old.find('+')));
-      std::ranges::replace_if(
-          name, [](char c) { return c == '.' || c == '\'' || c == '\\'; }, '_');
-      if (!name.empty() && (name[0] == '-' || (name[0] >= '0' && name[0] <= '9'))) name.insert(0, 1, '_');
-      if (name != old) scene_.set_name(NodeId{i}, name);
-    }
-  }
+void Lowering::leave(Frame& outer, const std::vector<Frame::Light>& lights) {
+  for (auto& l : lights)
+    if (step(l.source)) shine(outer, l.source, outer.at.matrix() * l.at);
+}
 
-  // Inventor 2.1 made 0 of it.
-  double default_crease_angle() const { return scene_.header.starts_with("#Inventor V2.1") ? 0 : 0.5; }
-  bool is(NodeId n, TypeId t) const { return scene_.is(n, t); }
-
-  /// False when there is too much that comes again, which is reported once. What comes for the first time is always
-  /// done.
-  bool step(NodeId n) {
-    if (n.value >= met_.size()) met_.resize(n.value + std::size_t{1});
-    if (!std::exchange(met_[n.value], 1)) return true;
-    if (steps_left_ > 0) {
-      --steps_left_;
-      return true;
-    }
-    if (!std::exchange(full_, true))
-      diag_.report(Diag::expansion_limit, scene_.where(n), limit_, "nodes visited again in other states");
-    return false;
-  }
-
-  void visit(NodeId n, State&, Frame&);
-  bool property(NodeId n, State&);
-  NodeId first_equal(NodeId n);
-  void visit_group(NodeId n, std::span<const NodeId> children, State&, Frame&);
-  void visit_separator(NodeId n, State, Frame&);
-  void visit_transform(NodeId n, State&, Frame&);
-  void visit_light(NodeId n, Frame&);
-  void visit_switch(NodeId n, State&, Frame&);
-  void visit_lod(NodeId n, const State&, Frame&);
-  void visit_copies(NodeId n, const State&, Frame&);
-  void visit_unknown(NodeId n, State&, Frame&);
-  void visit_vrml97(NodeId n, const State&, Frame&);
-  void visit_shape(NodeId n, const State&, Frame&);
-
-  /// `children`, which VRML97 calls `choice` and `level` in some.
-  const Value* child_field(NodeId n) const {
-    auto fields = scene_.type(n).fields;
-    auto f = std::ranges::find(fields, "children", &FieldDef::name);
-    return f == fields.end() ? nullptr : &scene_.value(n, static_cast<std::uint16_t>(f - fields.begin()));
-  }
-  std::span<const NodeId> children_of(NodeId n) const {
-    auto field = child_field(n);
-    return field ? field->node_span() : std::span<const NodeId>{};
-  }
-  /// The contents of a group in a state of their own.
-  Frame contents(std::span<const NodeId> nodes, State s) {
-    Frame frame;
-    for (NodeId c : nodes) visit(c, s, frame);
-    return frame;
-  }
-  /// A child of Switch or LOD as a node: there must be one for each.
-  NodeId choice(NodeId child, State& s, Frame& frame) {
-    visit(child, s, frame);
-    if (frame.runs.size() == 1 && frame.runs[0].at.identity() && frame.runs[0].nodes.size() == 1)
-      return frame.runs[0].nodes[0];
-    NodeId n = group(scene_, frame, scene_.where(child), {});
-    return n ? n : scene_.add(nodes::Group, scene_.where(child));
-  }
-  void leave(Frame& outer, const std::vector<Frame::Light>& lights) {
-    for (auto& l : lights)
-      if (step(l.source)) shine(outer, l.source, outer.at.matrix() * l.at);
-  }
-  void shine(Frame& frame, NodeId source, const Matrix& at) {
-    frame.add_light(light(scene_, source, at, diag_));
-    frame.lights.push_back({source, at});
-  }
-  NodeId known_base(NodeId unknown);
-
-  Scene& scene_;
-  Diagnostics& diag_;
-  Looks looks_;
-  Shapes shapes_;
-  std::map<std::pair<NodeId, State>, Effect> effects_;
-  std::map<NodeId, NodeId> singles_;  // what is the same in every state
-  std::map<NodeId, NodeId> bases_;
-  std::unordered_map<std::string, NodeId> equals_;
-  std::vector<char> met_;
-  std::size_t steps_left_, depth_ = 0;
-  int limit_;
-  bool full_ = false;
-};
+void Lowering::shine(Frame& frame, NodeId source, const Matrix& at) {
+  frame.add_light(light(scene_, source, at, diag_));
+  frame.lights.push_back({source, at});
+}
 
 void Lowering::visit(NodeId n, State& s, Frame& frame) {
   if (!n || !step(n)) return;
@@ -154,13 +83,13 @@ void Lowering::visit(NodeId n, State& s, Frame& frame) {
     if (!made) made = make();
     if (made) frame.add(made);
   };
-  if (type.kind != NodeKind::builtin)
-    visit_unknown(n, s, frame);
-  else if (!(type.dialects & static_cast<DialectSet>(Dialect::vrml1)))
-    visit_vrml97(n, s, frame);
+  if (!type.is_a(nodes::Vrml1Node))
+    visit_other(n, s, frame);
   else if (is(n, v1::Environment))
     single([&] { return fog_of(scene_, n, diag_); });
-  else if (property(n, s)) {
+  else if (is(n, v1::ClipPlane)) {
+    if (scene_.get(n, v1::clip_plane::on)) shine(frame, n, frame.at.matrix());
+  } else if (property(n, s)) {
   } else if (type.is_a(nodes::Vrml1TransformNode))
     visit_transform(n, s, frame);
   else if (type.is_a(nodes::Vrml1ShapeNode))
@@ -244,8 +173,8 @@ bool Lowering::property(NodeId n, State& s) {
                 : style == "POINTS"    ? Drawing::points
                 : style == "INVISIBLE" ? Drawing::invisible
                                        : Drawing::filled;
-  } else if (t == v1::ClipPlane || t == v1::ProfileCoordinate2 || t == v1::ProfileCoordinate3 ||
-             t == v1::LinearProfile || t == v1::NurbsProfile) {
+  } else if (t == v1::ProfileCoordinate2 || t == v1::ProfileCoordinate3 || t == v1::LinearProfile ||
+             t == v1::NurbsProfile) {
     diag_.report(Diag::no_vrml97_node, scene_.where(n), scene_.type(n).name);
   } else
     return scene_.is(n, nodes::Vrml1PropertyNode);  // of no effect on what is there: Complexity, PickStyle
@@ -422,67 +351,16 @@ void Lowering::visit_copies(NodeId n, const State& s, Frame& frame) {
       }
 }
 
-// ---- nodes of others -----------------------------------------------------------------------------------------------
-
-/// A node of the first known type among `isA`, with the fields that it shares with that.
-NodeId Lowering::known_base(NodeId n) {
-  auto& made = bases_[n];
-  if (made) return made;
-  const auto fields = scene_.copy_of_fields(n);
-  for (const Value& v : fields) {
-    if (!scene_.is_extra(v) || v.extra->name != "isA" || v.extra->value.type != FieldType::MFString) continue;
-    for (auto base : v.extra->value.text_span()) {
-      const TypeId type = find_builtin(base, Dialect::vrml1);
-      if (!type) continue;
-      made = scene_.add(type, scene_.where(n));
-      scene_.set_name(made, scene_.name(n));
-      for (const Value& own : fields) {
-        auto slot = scene_.is_extra(own) ? scene_.type(type).find(own.extra->name, Dialect::vrml1) : std::nullopt;
-        if (!slot || scene_.type(type).fields[*slot].type != own.extra->value.type) continue;
-        Value same = own.extra->value;
-        same.slot = *slot;
-        scene_.set(made, same);
-      }
-      return made;
-    }
-  }
-  return {};
-}
-
-void Lowering::visit_unknown(NodeId n, State& s, Frame& frame) {
-  if (NodeId base = known_base(n)) return visit(base, s, frame);
-  std::vector<NodeId> nodes;
-  for (const Value& v : scene_.fields(n))
-    for (NodeId c : scene_.content(v).node_span()) nodes.push_back(c);
-  if (nodes.empty()) return frame.add(n);
-  const Frame inner = contents(nodes, s);
-  if (NodeId g = group(scene_, inner, scene_.where(n), scene_.name(n))) frame.add(g);
-}
-
-// Nodes of VRML97 stay as they are; in their children the state is that around them.
-void Lowering::visit_vrml97(NodeId n, const State& s, Frame& frame) {
-  if (scene_.is(n, nodes::X3DGeometryNode)) return visit_shape(n, s, frame);
-  if (!scene_.is(n, nodes::X3DGroupingNode)) return frame.add(n);
-  auto known = effects_.find({n, s});
-  if (known == effects_.end()) {
-    const Frame inner = contents(children_of(n), s);
-    const auto below = children(scene_, inner);
-    NodeId made = scene_.add(scene_.type_id(n), scene_.where(n));
-    scene_.set_name(made, scene_.name(n));
-    const auto fields = scene_.copy_of_fields(n);
-    scene_.set_fields(made, fields);
-    if (auto field = child_field(n)) scene_.set(made, scene_.make(FieldType::MFNode, field->slot, below));
-    known = effects_.emplace(std::pair{n, s}, Effect{made, {}, {}, {}}).first;
-  }
-  frame.add(known->second.drawn);
-}
-
-}  // namespace
 }  // namespace vrml1
 
 Outcome lower_vrml1(Scene& scene, const LowerVrml1Options& options, PassContext& ctx) {
-  if (scene.format != Format::vrml1) return Outcome::unchanged;
-  vrml1::Lowering(scene, options, ctx).run();
+  vrml1::Lowering lowering(scene, options, ctx);
+  if (scene.format == Format::vrml1)
+    lowering.run();
+  else if (scene.format == Format::vrml97 && any_node(scene, [&](NodeId n) { return scene.is(n, nodes::Vrml1Node); }))
+    lowering.run_among_vrml97();
+  else
+    return Outcome::unchanged;
   return Outcome::changed;
 }
 

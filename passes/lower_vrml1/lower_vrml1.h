@@ -27,9 +27,11 @@ What VRML97 cannot say is reported as lost. What it says in another way:
 - light on what follows: a DirectionalLight begins a Group of its own behind what it does not reach;
 - a Switch with the name Cameras, Info with the names Title, Viewer and BackgroundColor: Viewpoints, WorldInfo,
   NavigationInfo and Background, as browsers of the time took them;
-- a node that describes itself (`isA`) and is not known: the first of its bases that is.
+- a node that describes itself (`isA`) and is not known: the first of its bases that is;
+- a ClipPlane: that of X3D, which `lower-x3d` cuts with.
 
-Worlds that are not VRML 1.0 are left alone. Linear in the file and in what it draws; nodes that are used in ever
+Nodes of VRML 1.0 in a world of VRML97, as programs write that build on Coin, become nodes of VRML97 in the same way;
+groups of VRML97 keep the state in, as Separator does. Other worlds are left alone. Linear in the file and in what it draws; nodes that are used in ever
 other states are limited like the copies of expand-protos.)";
 
   int limit = 500'000;

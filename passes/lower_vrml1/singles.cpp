@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/math/affine.h"
+#include "geometry/half_space.h"
 #include "passes/lower_vrml1/placement.h"
 #include "scenegraph/decompose.h"
 
@@ -36,6 +38,16 @@ double beam_width(double rate, double cut_off) {
   if (rate <= 0) return cut_off;
   const double half = std::acos(std::pow(0.5, 1 / (128 * rate)));
   return std::clamp(2 * half - cut_off, 0.0, cut_off);
+}
+
+// Inventor keeps what lies in front of the plane, at `distance` or more along its normal.
+NodeId clip_plane(Scene& scene, NodeId source, const Matrix& axes) {
+  NodeId n = named(scene, nodes::ClipPlane, source);
+  const Vec4 p = scene.get(source, v1::clip_plane::plane);
+  const bool turns = is_invertible(axes);
+  const Vec4 plane{p[0], p[1], p[2], -p[3]};
+  scene.set(n, nodes::clip_plane::plane, turns ? plane_below(plane, inverse(axes)) : plane);
+  return n;
 }
 
 }  // namespace
@@ -91,6 +103,7 @@ NodeId light(Scene& scene, NodeId source, const Matrix& axes, Diagnostics& diag)
     scene.set(n, t::location, scene.get(source, p::location), t::radius, unlimited);
     return n;
   }
+  if (scene.is(source, v1::ClipPlane)) return clip_plane(scene, source, axes);
   namespace t = nodes::spot_light;
   NodeId n = named(scene, nodes::SpotLight, source);
   common(n, t::on, t::intensity, t::color, s::on, s::intensity, s::color);

@@ -7,7 +7,8 @@ namespace wrlkit::vrml1 {
 
 /// A Viewpoint. An OrthographicCamera is moved to where as much is seen in perspective at its focalDistance.
 NodeId viewpoint(Scene&, NodeId camera, Diagnostics&);
-/// A light; `axes`: what a direction is turned by. PointLight and SpotLight shine without limit.
+/// A light; `axes`: what a direction is turned by. PointLight and SpotLight shine without limit. Of a ClipPlane, which
+/// cuts what follows as a DirectionalLight lights it, that of X3D, moved by `axes`.
 NodeId light(Scene&, NodeId, const Matrix& axes, Diagnostics&);
 /// An Inline of a WWWInline or a File; none when it names nothing.
 NodeId inline_of(Scene&, NodeId);

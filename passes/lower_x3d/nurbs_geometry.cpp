@@ -10,6 +10,7 @@
 #include "base/math/vec.h"
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/nurbs.h"
+#include "passes/lower_x3d/trimming.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::x3d {
@@ -221,20 +222,21 @@ class NurbsLowering {
     scene_.become(n_, nodes::IndexedFaceSet, fields);
   }
 
-  /// Triangles of a grid, without those that have two corners in one place.
-  static void triangles(Faces& f, std::size_t columns, double smallest) {
+  /// Without those that have two corners in one place.
+  static void triangle(Faces& f, std::size_t a, std::size_t b, std::size_t c, double smallest) {
     auto point = [&](std::size_t i) { return Vec3{f.points[3 * i], f.points[3 * i + 1], f.points[3 * i + 2]}; };
-    auto apart = [&](std::size_t a, std::size_t b) { return length(point(a) - point(b)) > smallest; };
-    auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-      if (apart(a, b) && apart(b, c) && apart(c, a))
-        f.index.insert(f.index.end(),
-                       {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c), -1});
-    };
+    auto apart = [&](std::size_t i, std::size_t j) { return length(point(i) - point(j)) > smallest; };
+    if (apart(a, b) && apart(b, c) && apart(c, a))
+      f.index.insert(f.index.end(),
+                     {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c), -1});
+  }
+
+  static void triangles(Faces& f, std::size_t columns, double smallest) {
     for (std::size_t i = columns; i < f.points.size() / 3; ++i) {
       if (i % columns == 0) continue;
       const std::size_t below = i - columns;
-      add(below - 1, below, i);
-      add(below - 1, i, i - 1);
+      triangle(f, below - 1, below, i, smallest);
+      triangle(f, below - 1, i, i - 1, smallest);
     }
   }
 
@@ -247,26 +249,61 @@ class NurbsLowering {
     return unit(length(n) > 1e-6 * length(near) ? n : near);
   }
 
+  /// What the trimming contours are made of: their curves, one behind the other.
+  std::vector<std::vector<Vec2>> contours(const Surface& s) {
+    constexpr double part = 0.0005;
+    constexpr std::size_t most = 1'000'000;
+    std::vector<std::vector<Vec2>> out;
+    if (!scene_.is(n_, nodes::NurbsTrimmedSurface)) return out;
+    const double size = std::hypot(s.u.last() - s.u.first(), s.v.last() - s.v.first());
+    std::size_t count = 0;
+    for (NodeId contour : scene_.get(n_, trimmed::trimmingContour)) {
+      if (!scene_.is(contour, nodes::Contour2D)) continue;
+      auto& points = out.emplace_back();
+      for (NodeId child : scene_.get(contour, nodes::contour2d::children)) {
+        const auto c = curve_of(child);
+        if (!c || c->arity != 2 || count > most) continue;
+        const bool lines = scene_.is(child, nodes::ContourPolyline2D);
+        const auto at = lines ? cuts_of(*c, child) : cuts(*c, part * size, integer(child, "tessellation"));
+        for (double t : at) points.push_back({c->at(t)[0], c->at(t)[1]});
+      }
+      count += points.size();
+    }
+    if (count > most) out.clear();
+    return out;
+  }
+
   void surface() {
-    if (scene_.is(n_, nodes::NurbsTrimmedSurface) && !scene_.get(n_, trimmed::trimmingContour).empty())
-      diag_.report(Diag::untrimmed, scene_.where(n_));
     const auto p = control_points(n_);
     Faces f;
     if (auto s = surface_of(n_, p, 3)) {
       const Grid g = cuts(*s, tolerance(p, 3), integer(n_, "uTessellation"), integer(n_, "vTessellation"));
-      for (double v : g.v)
-        for (double u : g.u) {
-          const Vec3 at = s->at(u, v), n = normal(*s, u, v);
-          f.points.insert(f.points.end(), at.begin(), at.end());
-          f.normals.insert(f.normals.end(), n.begin(), n.end());
-        }
-      f.texcoords = texcoords(*s, g);
-      triangles(f, g.u.size(), 1e-9 * diagonal(p, 3));
+      auto cut = trim(g, contours(*s));
+      const bool whole = cut.triangles.empty();
+      if (whole) {
+        if (scene_.is(n_, nodes::NurbsTrimmedSurface) && !scene_.get(n_, trimmed::trimmingContour).empty())
+          diag_.report(Diag::untrimmed, scene_.where(n_));
+        cut.points.clear();
+        for (double v : g.v)
+          for (double u : g.u) cut.points.push_back({u, v});
+      }
+      for (const auto& [u, v] : cut.points) {
+        const Vec3 at = s->at(u, v), n = normal(*s, u, v);
+        f.points.insert(f.points.end(), at.begin(), at.end());
+        f.normals.insert(f.normals.end(), n.begin(), n.end());
+      }
+      f.texcoords = texcoords(*s, cut.points);
+      const double smallest = 1e-9 * diagonal(p, 3);
+      if (whole)
+        triangles(f, g.u.size(), smallest);
+      else
+        for (std::size_t i = 0; i < cut.triangles.size(); i += 3)
+          triangle(f, cut.triangles[i], cut.triangles[i + 1], cut.triangles[i + 2], smallest);
     }
     become_faces(f);
   }
 
-  std::vector<double> texcoords(const Surface& s, const Grid& g) {
+  std::vector<double> texcoords(const Surface& s, const std::vector<Vec2>& points) {
     const NodeId t = field(n_, "texCoord").is ? NodeId{} : field(n_, "texCoord").node;
     std::optional<Surface> map;
     if (scene_.is(t, nodes::TextureCoordinate) &&
@@ -276,11 +313,10 @@ class NurbsLowering {
       map = surface_of(t, scene_.get(t, nodes::nurbs_texture_coordinate::controlPoint), 2);
     std::vector<double> out;
     auto part = [](const Basis& b, double x) { return (x - b.first()) / (b.last() - b.first()); };
-    for (double v : g.v)
-      for (double u : g.u) {
-        const Vec3 at = map ? map->at(u, v) : Vec3{part(s.u, u), part(s.v, v), 0};
-        out.insert(out.end(), {at[0], at[1]});
-      }
+    for (const auto& [u, v] : points) {
+      const Vec3 at = map ? map->at(u, v) : Vec3{part(s.u, u), part(s.v, v), 0};
+      out.insert(out.end(), {at[0], at[1]});
+    }
     return out;
   }
 

@@ -151,7 +151,7 @@ class VrmlWriter : TextDocument {
   }
 
   bool is_children(NodeId n, const Value& v) const {
-    const bool here = vrml1_ && scene_.type(n).dialects & static_cast<DialectSet>(Dialect::vrml1);
+    const bool here = scene_.type(n).dialects & static_cast<DialectSet>(Dialect::vrml1);
     return here && scene_.field_name(n, v) == "children" && scene_.content(v).type == FieldType::MFNode;
   }
 
