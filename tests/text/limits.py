@@ -13,6 +13,7 @@ import argparse
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 import json
+import math
 import os
 from pathlib import Path
 import re
@@ -288,6 +289,9 @@ CASES = [
     Case('huge_elevation_grid',
          world('huge_elevation_grid', f'Shape {{ geometry ElevationGrid {{ xDimension {HUGE} zDimension {HUGE}',
                ' height [ 0 1 2 3 ] } }'), 'short-height|degenerate-geometry', verbs=('info', 'convert')),
+    Case('huge_extrusion', world('huge_extrusion', 'Shape { geometry Extrusion { crossSection [',
+                                 *(f'{math.cos(i)} {math.sin(i)},' for i in range(2000)), '] spine [',
+                                 *(f'0 {i} 0,' for i in range(1000)), '] } }'), 'expansion-limit', verbs=('convert',)),
     Case('unclosed_string', world('unclosed_string', 'WorldInfo { title "', ('x', 20_000_000)), 'unclosed-string', rest=False),
     Case('brackets', world('brackets', ('[', 5_000_000)), 'stray-token|unclosed|syntax', rest=False),
     Case('defs', world('defs', ('DEF a ', 1_000_000)), 'def-without-node|syntax|too-deep', rest=False),
