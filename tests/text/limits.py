@@ -249,6 +249,13 @@ def deep_inlines():
     return texts | {'15.wrl': 'Shape { geometry Box {} }'}
 
 
+def chain_of_inlines():
+    """Files that show each other, more of them than may be inside each other."""
+    texts = {f'{i}.wrl': f'Inline {{ url "{i + 1}.wrl" }}' for i in range(30)}
+    texts['0.wrl'] += REST
+    return texts | {'30.wrl': 'Shape { geometry Box {} }'}
+
+
 HUGE = 2_000_000_000
 TOO_DEEP = 'too-deep|unclosed|syntax'
 CASES = [
@@ -270,6 +277,7 @@ CASES = [
     Case('inline_each_other', files({'a.wrl': 'Inline { url "b.wrl" }' + REST, 'b.wrl': 'Inline { url "a.wrl" }'}),
          'url-cycle', verbs=('info', 'convert')),
     Case('inline_doubling', files(doubling_inlines()), 'expansion-limit', verbs=EXPANDING),
+    Case('inline_chain', files(chain_of_inlines()), 'expansion-limit', verbs=EXPANDING),
     Case('inline_deep', files(deep_inlines()), 'too-deep', verbs=EXPANDING),
     Case('externproto_cycle',
          files({'a.wrl': 'EXTERNPROTO B [] "b.wrl#B"\nPROTO A [] { B {} }\nA {}' + REST,
