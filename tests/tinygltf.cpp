@@ -19,6 +19,7 @@
 #include "parsers/resources.h"
 #include "passes/pipeline/pipeline.h"
 #include "scenegraph/equal.h"
+#include "tests/tinygltf_verdict.h"
 
 namespace {
 
@@ -50,23 +51,6 @@ std::string glb_of(const std::string& path, const World& world, const char* fron
   return good ? bytes : std::string();
 }
 
-bool any_picture(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int n,
-                 void*) {
-  image->image.assign(bytes, bytes + n);
-  return true;
-}
-
-/// What tinygltf says; pictures are not decoded.
-std::string verdict(const std::string& glb) {
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(any_picture, nullptr);
-  tinygltf::Model model;
-  std::string error, warning;
-  const auto* data = reinterpret_cast<const unsigned char*>(glb.data());
-  const bool good = loader.LoadBinaryFromMemory(&model, &error, &warning, data, static_cast<unsigned>(glb.size()));
-  return good ? error + warning : "refused: " + error + warning;
-}
-
 struct Way {
   const char *name, *front = "";
   GltfOptions options = {};
@@ -88,7 +72,7 @@ std::string judge(const std::string& path, const World& world, const std::shared
   for (const Way& way : ways()) {
     const auto glb = glb_of(path, world, way.front, way.options, sources);
     if (glb.empty()) continue;  // nothing to be seen in this world
-    if (const auto said = verdict(glb); !said.empty()) return std::string(way.name) + ": " + said;
+    if (const auto said = tinygltf_verdict(glb); !said.empty()) return std::string(way.name) + ": " + said;
   }
   return {};
 }
@@ -129,7 +113,7 @@ struct Count {
 void judge_made(const char* folder, Count& count) {
   for (const auto& path : files_in(folder, {".glb"})) {
     std::ifstream in(path, std::ios::binary);
-    count.add(path, verdict({std::istreambuf_iterator<char>(in), {}}));
+    count.add(path, tinygltf_verdict({std::istreambuf_iterator<char>(in), {}}));
   }
 }
 

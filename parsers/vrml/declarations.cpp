@@ -193,37 +193,33 @@ bool Parser::route_end(std::string_view& node, std::string_view& event) {
     return false;
   }
   lex_.next();
-  std::string_view w = name_of(t);
-  auto point = w.rfind('.');
-  if (point != w.npos && point + 1 < w.size() && point > 0) {
-    node = w.substr(0, point);
+  const std::string_view w = name_of(t);
+  const auto point = w.rfind('.');
+  node = w.substr(0, point);
+  if (point != w.npos && point > 0 && point + 1 < w.size()) {
     event = w.substr(point + 1);
     return true;
   }
-  node = point == w.npos ? w : w.substr(0, point);
   Token e = lex_.peek();
+  if (e.kind == Kind::word && point == w.npos && !text(e).starts_with('.')) {
+    lex_.next();
+    expected("'.'", e);
+    return false;
+  }
+  if (point == w.npos && text(e) == ".") {
+    lex_.next();
+    e = lex_.peek();
+  }
   if (e.kind != Kind::word) {
     expected("an event", e);
     return false;
   }
   lex_.next();
   event = name_of(e);
-  if (point == w.npos) {
-    if (!event.starts_with('.')) {
-      expected("'.'", e);
-      return false;
-    }
-    event.remove_prefix(1);
-    if (event.empty()) {
-      e = lex_.next();
-      if (e.kind != Kind::word) {
-        expected("an event", e);
-        return false;
-      }
-      event = name_of(e);
-    }
-  }
-  return true;
+  if (point == w.npos && event.starts_with('.')) event.remove_prefix(1);
+  if (!event.empty() && event.find('.') == event.npos) return true;
+  expected("an event", e);
+  return false;
 }
 
 // EXPORT name AS name, IMPORT inline.name AS name: X3D's, found in VRML97 files as well. Without AS the name stays.

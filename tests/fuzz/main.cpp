@@ -30,7 +30,8 @@ int main(int argc, char** argv) {
     if (!fs::is_directory(argv[i]))
       replay(argv[i]);
     else
-      for (const auto& entry : fs::directory_iterator(argv[i])) replay(entry.path());
+      for (const auto& entry : fs::directory_iterator(argv[i]))
+        if (entry.is_regular_file()) replay(entry.path());
   }
   std::printf("%d files\n", n_replayed);
   return n_replayed ? 0 : 1;

@@ -1,39 +1,18 @@
 // What must hold of any bytes at all: a scene that was read is written and read back as the same scene; written again
-// it is the same text; it passes through the passes and the checks without harm. Breaches abort with a message, so that
-// libFuzzer keeps the bytes. Files, and with them Inline and EXTERNPROTO, are out of reach here.
+// it is the same text; it passes through the passes and the checks without harm.
 //
 // With Clang's -fsanitize=fuzzer this is the fuzzer; otherwise main.cpp replays files, so that it always builds.
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <set>
-#include <string>
 
-#include "parsers/parsers.h"
-#include "passes/pipeline/pipeline.h"
 #include "scenegraph/equal.h"
-#include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
-#include "writers/vrml/vrml.h"
+#include "tests/fuzz/harness.h"
+#include "tests/fuzz/world_mutator.h"
 
 using namespace wrlkit;
 
 namespace {
-
-void require(bool holds, const std::string& what) {
-  if (holds) return;
-  std::fprintf(stderr, "parser_fuzz: %s\n", what.c_str());
-  std::abort();
-}
-
-std::string text_of(const Scene& scene) {
-  Diagnostics diag;
-  std::string text;
-  write_vrml(
-      scene, {}, [&](std::string_view s) { text += s; }, diag);
-  return text;
-}
 
 /// A node whose name is defined again behind it gets another one where a ROUTE or USE would miss it.
 bool has_name_twice(const Scene& scene) {
@@ -53,44 +32,34 @@ bool has_ambiguous_proto(const Scene& scene) {
 
 void read_back(const Scene& scene) {
   Diagnostics diag;
-  const auto text = text_of(scene);
+  const auto text = vrml_text(scene);
   auto again = parse_world(text, "again", {}, diag);
   require(again != nullptr, "what was written is not read\n" + text);
   if (has_ambiguous_proto(scene)) return;
   auto other = difference(scene, again->scene);
   bool renamed = other.find(": name '") != other.npos && has_name_twice(scene);
   require(other.empty() || renamed, "what was written reads as another scene: " + other + "\n" + text);
-  const auto second = text_of(again->scene);
+  const auto second = vrml_text(again->scene);
   require(second == text, "written twice, not the same\n" + text + "\nthen\n" + second);
-}
-
-void run_passes(Scene scene) {
-  std::string why;
-  constexpr auto passes =
-      "lower-vrml1{limit=5000},expand-protos{limit=5000},lower-x3d{vrml97=true},prune,tessellate,normals,triangulate";
-  auto pipeline = Pipeline::parse(passes, why);
-  require(pipeline.has_value(), why);
-  Diagnostics diag;
-  Statistics statistics;
-  PassContext context{diag, statistics};
-  bool good = pipeline->run(scene, context, {.verify_each = true});
-  require(good,
-          "a pass failed, or left what it must not: " + (diag.messages().empty() ? "" : diag.messages().back().text()));
-  text_of(scene);
 }
 
 }  // namespace
 
+#ifdef WRLKIT_LIBFUZZER
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
+  return mutate_in_turn(data, size, most, seed, [](std::string text, std::mt19937& random) {
+    return mutated_world(std::move(text), random() % 4 ? Format::vrml97 : Format::vrml1, random);
+  });
+}
+#endif
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  Diagnostics diag;
-  auto world = parse_world({reinterpret_cast<const char*>(data), size}, "fuzz", {}, diag);
-  for (auto& m : diag.messages()) {
-    m.text();
-    diag.sources().locate(m.where);
-  }
+  const auto world = world_of(text_of(data, size));
   if (!world) return 0;
-  check_values(world->scene, diag);
   if (world->format == Format::vrml97) read_back(world->scene);
-  run_passes(std::move(world->scene));
+  run_passes(
+      world->scene,
+      "lower-vrml1{limit=5000},expand-protos{limit=5000},lower-x3d{vrml97=true},prune,tessellate,normals,triangulate");
+  vrml_text(world->scene);
   return 0;
 }

@@ -1,26 +1,15 @@
 // What must hold of any bytes as a patch file: the reader gives a set whose lists fit together; written and read again
 // it is written as the same text; its world passes through the checks.
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <string>
-
 #include "parsers/patches/patches.h"
 #include "parsers/patches/patches_scene.h"
-#include "scenegraph/verify.h"
+#include "tests/fuzz/harness.h"
 #include "writers/patches/patches.h"
 
 using namespace wrlkit;
 
 namespace {
 
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "patches_fuzz: %s\n", what);
-  std::abort();
-}
-
-std::string text_of(const PatchSet& set) {
+std::string patches_text(const PatchSet& set) {
   std::string text;
   write_patches(set, [&](std::string_view s) { text += s; });
   return text;
@@ -43,18 +32,16 @@ void check_lists(const PatchSet& set) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Diagnostics diag;
-  const auto set = parse_patches({reinterpret_cast<const char*>(data), size}, "fuzz", diag);
-  for (auto& m : diag.messages()) {
-    m.text();
-    diag.sources().locate(m.where);
-  }
+  const auto set = parse_patches(text_of(data, size), "fuzz", diag);
+  say_all(diag);
   if (!set) return 0;
   check_lists(*set);
-  const auto first = text_of(*set);
+  const auto first = patches_text(*set);
   Diagnostics silent;
   const auto again = parse_patches(first, "again", silent);
   require(again.has_value() && !silent.has_errors(), "what was written is not read");
-  require(text_of(*again) == text_of(*parse_patches(text_of(*again), "again", silent)), "written twice, not the same");
+  require(patches_text(*again) == patches_text(*parse_patches(patches_text(*again), "again", silent)),
+          "written twice, not the same");
   require(again->patches.size() == set->patches.size(), "patches are lost on the way");
   Scene scene;
   add_patches(*set, scene);

@@ -2,22 +2,14 @@
 // at any number of faces, of a size that the bytes account for. What was read whole is written, and read back as the
 // same mesh.
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "geometry/progressive/progressive_world.h"
+#include "tests/fuzz/harness.h"
 
 using namespace wrlkit;
 
 namespace {
-
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "progressive_fuzz: %s\n", what);
-  std::abort();
-}
 
 Mesh mesh_at(ProgressiveMesh& mesh, std::size_t n_faces) {
   mesh.coarsen_to(n_faces);
@@ -59,7 +51,7 @@ void check_mesh(std::string_view bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  const auto bytes = text_of(data, size);
   check_mesh(bytes);
   const auto world = read_progressive_world(bytes);
   for (const auto& s : world.surfaces) check_mesh(s.stream.bytes);

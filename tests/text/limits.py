@@ -13,6 +13,7 @@ import argparse
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 import json
+import math
 import os
 from pathlib import Path
 import re
@@ -248,6 +249,13 @@ def deep_inlines():
     return texts | {'15.wrl': 'Shape { geometry Box {} }'}
 
 
+def chain_of_inlines():
+    """Files that show each other, more of them than may be inside each other."""
+    texts = {f'{i}.wrl': f'Inline {{ url "{i + 1}.wrl" }}' for i in range(30)}
+    texts['0.wrl'] += REST
+    return texts | {'30.wrl': 'Shape { geometry Box {} }'}
+
+
 HUGE = 2_000_000_000
 TOO_DEEP = 'too-deep|unclosed|syntax'
 CASES = [
@@ -269,6 +277,7 @@ CASES = [
     Case('inline_each_other', files({'a.wrl': 'Inline { url "b.wrl" }' + REST, 'b.wrl': 'Inline { url "a.wrl" }'}),
          'url-cycle', verbs=('info', 'convert')),
     Case('inline_doubling', files(doubling_inlines()), 'expansion-limit', verbs=EXPANDING),
+    Case('inline_chain', files(chain_of_inlines()), 'expansion-limit', verbs=EXPANDING),
     Case('inline_deep', files(deep_inlines()), 'too-deep', verbs=EXPANDING),
     Case('externproto_cycle',
          files({'a.wrl': 'EXTERNPROTO B [] "b.wrl#B"\nPROTO A [] { B {} }\nA {}' + REST,
@@ -288,6 +297,9 @@ CASES = [
     Case('huge_elevation_grid',
          world('huge_elevation_grid', f'Shape {{ geometry ElevationGrid {{ xDimension {HUGE} zDimension {HUGE}',
                ' height [ 0 1 2 3 ] } }'), 'short-height|degenerate-geometry', verbs=('info', 'convert')),
+    Case('huge_extrusion', world('huge_extrusion', 'Shape { geometry Extrusion { crossSection [',
+                                 *(f'{math.cos(i)} {math.sin(i)},' for i in range(2000)), '] spine [',
+                                 *(f'0 {i} 0,' for i in range(1000)), '] } }'), 'expansion-limit', verbs=('convert',)),
     Case('unclosed_string', world('unclosed_string', 'WorldInfo { title "', ('x', 20_000_000)), 'unclosed-string', rest=False),
     Case('brackets', world('brackets', ('[', 5_000_000)), 'stray-token|unclosed|syntax', rest=False),
     Case('defs', world('defs', ('DEF a ', 1_000_000)), 'def-without-node|syntax|too-deep', rest=False),
