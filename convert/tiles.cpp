@@ -25,6 +25,7 @@
 #include "convert/tiles/surface_error.h"
 #include "convert/tiles/tree.h"
 #include "parsers/resources.h"
+#include "writers/gltf/tolerance.h"
 
 namespace wrlkit {
 namespace tiles {
@@ -94,7 +95,8 @@ class Making {
   static std::vector<Piece> pieces_within(const Group& group, std::span<const Coarse> level, Range range);
   bool make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& task);
   bool write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task& task);
-  bool write_within_budget(std::uint32_t cell, std::span<const Piece> pieces, GltfSummary& summary, Task& task);
+  bool write_within_budget(std::uint32_t cell, std::span<const Piece> pieces, const std::vector<Repeat>& repeats,
+                           GltfSummary& summary, Task& task);
   bool save(std::uint32_t cell, Task& task);
   std::vector<PieceStore::Entry> entries_of(const Cell& cell) const;
   std::vector<Piece> pieces_of_cell(std::uint32_t cell) const;
@@ -379,9 +381,13 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
     names.insert(p.name);
   }
   if (pieces.empty()) return true;
+  // A fifth of what quantisation may move a vertex by, which has the rest.
+  const double tolerance = gltf::tolerance_for(gltf_.compression, diagonal(made.box)) / 5;
+  const auto repeats = gltf_.gpu_instancing ? repeats_of(pieces, tolerance) : std::vector<Repeat>();
   GltfSummary summary;
-  if (!write_within_budget(cell, pieces, summary, task)) return false;
+  if (!write_within_budget(cell, pieces, repeats, summary, task)) return false;
   made.rounding = summary.quantization.position;
+  if (summary.instances > 0) made.rounding += summary.quantization.placement + tolerance;
   made.hash = hash_of_file(kept_.tile_path(tile.key)).value_or(ContentHash{}).low;
   made.triangles = summary.triangles;
   made.draws = summary.draws;
@@ -390,15 +396,16 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
 }
 
 /// What is seen from afar can do with smaller pictures; full tiles have them as they are.
-bool Making::write_within_budget(std::uint32_t cell, std::span<const Piece> pieces, GltfSummary& summary, Task& task) {
+bool Making::write_within_budget(std::uint32_t cell, std::span<const Piece> pieces, const std::vector<Repeat>& repeats,
+                                 GltfSummary& summary, Task& task) {
   MadeTile& made = made_[cell].made;
   const auto path = kept_.tile_path(made_[cell].key);
   auto gltf = gltf_;
   for (int size = largest_reduced;; size /= 2) {
     Diagnostics said;
     summary = {};
-    const bool written =
-        write_content(pieces, origin_of(made.box), looks_, gltf, options_.draws, *pictures_, path, said, summary);
+    const bool written = write_content(pieces, repeats, origin_of(made.box), looks_, gltf, options_.draws, *pictures_,
+                                       path, said, summary);
     std::error_code fault;
     made.bytes = fs::file_size(path, fault);
     const bool may_be_less = !plan_.is_leaf(cell) && summary.pictures > 0 && size >= least_reduced;

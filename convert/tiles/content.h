@@ -4,16 +4,18 @@
 
 #include "convert/tiles/looks.h"
 #include "convert/tiles/piece.h"
+#include "convert/tiles/repeats.h"
 #include "writers/gltf/gltf.h"
 
 namespace wrlkit::tiles {
 
 /// Writes pieces as one mesh for each look, around `origin`; when that is more than `draws` meshes, those whose looks
-/// differ in colour alone become one, with a colour at each vertex; their names are rows of a property table that
-/// feature ids lead to (EXT_mesh_features, EXT_structural_metadata). False, reported, when it cannot be written. Linear
-/// in the corners, with two copies of them in memory.
-bool write_content(std::span<const Piece> pieces, const Vec3& origin, const Looks& looks, const GltfOptions& options,
-                   std::size_t draws, Resources& pictures, const std::string& path, Diagnostics& diag,
-                   GltfSummary& summary);
+/// differ in colour alone become one, with a colour at each vertex. Of `repeats`, those that save most, as far as draws
+/// are left, are one mesh each with a table of places (EXT_mesh_gpu_instancing). Names are rows of a property table
+/// that feature ids lead to (EXT_mesh_features, EXT_instance_features, EXT_structural_metadata). False, reported, when
+/// it cannot be written. Linear in the corners, with two copies of them in memory.
+bool write_content(std::span<const Piece> pieces, std::vector<Repeat> repeats, const Vec3& origin, const Looks& looks,
+                   const GltfOptions& options, std::size_t draws, Resources& pictures, const std::string& path,
+                   Diagnostics& diag, GltfSummary& summary);
 
 }  // namespace wrlkit::tiles
