@@ -91,7 +91,10 @@ TEST_CASE("tiles: of repeats those are taken that save most", "[tile_repeats]") 
   CHECK(one[0].places.size() == 8);
   CHECK(tiles::worthwhile(found, 0).empty());
   // A triangle is not worth a node.
-  for (auto& p : pieces) p.mesh.corners.resize(3);
+  for (auto& p : pieces) {
+    p.mesh.corners.resize(3);
+    p.mesh.positions.edit().resize(9);
+  }
   CHECK(tiles::repeats_of(pieces, 2e-4).size() == 2);
   CHECK(tiles::worthwhile(tiles::repeats_of(pieces, 2e-4), 9).empty());
 }
