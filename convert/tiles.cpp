@@ -25,6 +25,7 @@
 #include "convert/tiles/surface_error.h"
 #include "convert/tiles/tree.h"
 #include "parsers/resources.h"
+#include "writers/gltf/tolerance.h"
 
 namespace wrlkit {
 namespace tiles {
@@ -376,15 +377,20 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
     names.insert(p.name);
   }
   if (pieces.empty()) return true;
+  // A fifth of what quantisation may move a vertex by, which has the rest.
+  const double tolerance = gltf::tolerance_for(gltf_.compression, diagonal(made.box)) / 5;
+  auto repeats = gltf_.gpu_instancing ? repeats_of(pieces, tolerance) : std::vector<Repeat>();
   GltfSummary summary;
   const auto path = kept_.tile_path(tile.key);
   // What is seen from afar can do with smaller pictures; full tiles have them as they are.
   const ContentBudget budget{options_.draws, plan_.is_leaf(cell) ? ~std::uint64_t{0} : options_.bytes};
-  if (!write_content(pieces, origin_of(made.box), looks_, gltf_, budget, *pictures_, path, task.diag, summary))
+  if (!write_content(pieces, std::move(repeats), origin_of(made.box), looks_, gltf_, budget, *pictures_, path,
+                     task.diag, summary))
     return false;
   std::error_code fault;
   made.bytes = fs::file_size(path, fault);
   made.rounding = summary.quantization.position;
+  if (summary.instances > 0) made.rounding += summary.quantization.placement + tolerance;
   made.hash = hash_of_file(path).value_or(ContentHash{}).low;
   made.triangles = summary.triangles;
   made.draws = summary.draws;

@@ -14,7 +14,7 @@ import sys
 import tempfile
 import time
 
-from merged_parts import world
+from names_table import with_bolts
 from tiles_world import bytes_of, round_parts
 
 FILES, KILLS, SHARDS = 4, 5, 4
@@ -27,7 +27,7 @@ class Test:
         self.plant = folder / 'in'
         self.plant.mkdir()
         for i in range(FILES):
-            self.write(f'unit_{i}', round_parts(12) if i % 2 else world(60)[0], (300 * i, 0, 40 * i * i))
+            self.write(f'unit_{i}', round_parts(12) if i % 2 else with_bolts(60, 90)[0], (300 * i, 0, 40 * i * i))
 
     def write(self, name, text, at):
         """A file whose parts are Inlined at a place."""
@@ -159,6 +159,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         test = Test(args.wrlkit, Path(name), args.seed)
         test.make('once')
+        test.expect(any(b'EXT_mesh_gpu_instancing' in data for data in bytes_of(Path(name) / 'once').values()), 'no surface is stored once for several places')
         for jobs in ('1', '2'):
             print('killed: kept {} of {} tiles'.format(*test.killed(jobs)))
         test.other_options()

@@ -3,7 +3,7 @@
 
   tests/tiles_world.py --wrlkit build/release/wrlkit [--parts 400] [--rounds 120]
 
-Makes a world of named boxes 5,000 km from the origin and named round parts, writes it as tiles of few triangles, reads tileset.json and the
+Makes a world of named boxes and bolts 5,000 km from the origin and named round parts, writes it as tiles of few triangles, reads tileset.json and the
 tiles with only the struct module, and has `wrlkit diff` measure each coarse tile against the full ones that it stands for.
 """
 import argparse
@@ -14,8 +14,8 @@ import subprocess
 import sys
 import tempfile
 
-from merged_parts import Glb, world
-from names_table import Table
+from merged_parts import Glb
+from names_table import Table, corners_by_path, with_bolts
 
 SITE = (5_000_000, 250, -3_000_000)
 FARTHEST = 1e-3  # metres that a corner may be from where it was
@@ -70,9 +70,14 @@ class Tiles:
 
 def corners_of(tile):
     """Of each part, by its whole name, the corners in the coordinates of the world."""
+    return {path: [[c + o for c, o in zip(p, tile['origin'])] for p in points] for path, points in corners_by_path(Glb(tile['glb'])).items()}
+
+
+def tables_of_places(tile):
+    """Of each node with instances, how many."""
     glb = Glb(tile['glb'])
-    paths = Table(glb).paths
-    return {paths[i]: [[c + o for c, o in zip(p, tile['origin'])] for p in points] for i, points in glb.corners_by_id().items()}
+    found = [n['extensions']['EXT_mesh_gpu_instancing']['attributes'] for n in glb.json['nodes'] if 'EXT_mesh_gpu_instancing' in n.get('extensions', {})]
+    return [len(glb.accessor(next(iter(attributes.values())))) for attributes in found]
 
 
 def is_within(inner, outer, slack=1e-6):
@@ -144,6 +149,19 @@ def check_errors(wrlkit, tiles, folder, faults):
     return ratios
 
 
+def check_places(tiles, plain, faults):
+    """Surfaces that stand in several places are stored once; without that option nothing is."""
+    full, coarse = (sum((tables_of_places(t) for t in tiles.all if bool(t['children']) == has), []) for has in (False, True))
+    if not full or min(full + coarse) < 4:
+        faults.append(f'places in tables: {full} of full tiles, {coarse} of coarse ones')
+    if any(tables_of_places(t) for t in plain.all):
+        faults.append('places in tables without --gpu-instancing')
+    draws = [sum('mesh' in n for n in Glb(t['glb']).json['nodes']) for t in tiles.all]
+    if max(draws) > 16:
+        faults.append(f'{max(draws)} draws')
+    return sum(full), sum(coarse)
+
+
 def bytes_of(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob('*')) if p.is_file()}
 
@@ -152,10 +170,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--wrlkit', required=True)
     parser.add_argument('--parts', type=int, default=400)
+    parser.add_argument('--bolts', type=int, default=150)
     parser.add_argument('--rounds', type=int, default=120)
     parser.add_argument('--triangles', type=int, default=1500)
     args = parser.parse_args()
-    text, near = world(args.parts)
+    text, near = with_bolts(args.parts, args.bolts)
     boxes = {f'far.wrl/Site/{name}': [b + o for b, o in zip(box, SITE * 2)] for name, box in near.items()}
     names = set(boxes) | {f'round.wrl/Round_{i}' for i in range(args.rounds)}
     faults = []
@@ -177,6 +196,10 @@ def main():
             faults.append(f'{tiles.n_files} files describe {len(tiles.all)} tiles, 12 each at most')
         check_parts(tiles, boxes, names, faults)
         ratios = check_errors(args.wrlkit, tiles, folder, faults)
+        make('plain', '--compress', 'none', '--tileset-tiles', '12', '--no-gpu-instancing')
+        plain = Tiles(folder / 'plain')
+        check_parts(plain, boxes, names, faults)
+        places = check_places(tiles, plain, faults)
         make('one', '--compress', 'none', '--tileset-tiles', '12', '--jobs', '1')
         if bytes_of(folder / 'out') != bytes_of(folder / 'one'):
             faults.append('one thread gives other bytes')
@@ -185,7 +208,7 @@ def main():
         make('out', '--compress', 'none', '--tileset-tiles', '12', code=1)
         if bytes_of(folder / 'out') != bytes_of(folder / 'one'):
             faults.append('a file that cannot be read changes the tiles of the others')
-    print(f'{len(tiles.all)} tiles in {tiles.n_files} files, {len(ratios)} of them coarse; errors said over those measured: {min(ratios):.2f} to {max(ratios):.2f}')
+    print(f'{len(tiles.all)} tiles in {tiles.n_files} files, {len(ratios)} of them coarse; errors said over those measured: {min(ratios):.2f} to {max(ratios):.2f}; {places[0]} and {places[1]} parts in tables of places')
     print('\n'.join(faults) or 'all parts found, all errors and boxes right')
     return 1 if faults else 0
 

@@ -111,6 +111,11 @@ AllowedFiles::Result find_url(AllowedFiles& files, std::string_view url, const s
   AllowedFiles::Result best;
   for (const auto& path : url_paths(url))
     if (auto result = files.find(path, referrer); result.state < best.state) best = std::move(result);
+  // Blender's "//../textures/brick.png" is relative to the scene that was exported.
+  if (best.state == AllowedFiles::missing && url.starts_with("//")) {
+    best = files.find(std::string(url.substr(2)), referrer);
+    if (best.state == AllowedFiles::found) best.state = AllowedFiles::repaired;
+  }
   return best;
 }
 

@@ -35,6 +35,12 @@ std::vector<std::string> sources_of(std::span<const Piece> pieces) {
   return {out.begin(), out.end()};
 }
 
+/// As single precision has it: what is a place in a table stays one.
+Vec3 in_floats(Vec3 v) {
+  for (double& x : v) x = static_cast<float>(x);
+  return v;
+}
+
 class Content {
  public:
   Content(const Vec3& origin, const Looks& looks, Diagnostics& diag)
@@ -42,21 +48,35 @@ class Content {
     scene_.import(looks.scene());
   }
 
-  void add(std::span<const Piece> pieces, std::size_t draws) {
-    std::map<Kind, std::vector<const Piece*>> kinds;
-    for (const auto& p : pieces) kinds[kind_of(p)].push_back(&p);
-    has_colours_ = kinds.size() > draws;
-    if (has_colours_) {
-      kinds.clear();
-      for (const auto& p : pieces) kinds[coloured_kind_of(p)].push_back(&p);
-    }
+  void add(std::span<const Piece> pieces, std::vector<Repeat> repeats, std::size_t draws) {
+    // Surfaces that repeat have the draws that others could do without.
+    const auto fewest = kinds_of(pieces, {}, true).size();
+    repeats = worthwhile(std::move(repeats), draws - std::min(draws, fewest));
+    std::vector<char> is_placed(pieces.size());
+    for (const auto& repeat : repeats)
+      for (const auto& place : repeat.places) is_placed[place.piece] = 1;
+    auto kinds = kinds_of(pieces, is_placed, false);
+    has_colours_ = kinds.size() + repeats.size() > draws;
+    if (has_colours_) kinds = kinds_of(pieces, is_placed, true);
     for (const auto& [kind, list] : kinds) add_shape(list);
+    for (auto& repeat : repeats) add_places(pieces, repeat);
   }
 
   const Scene& scene() const { return scene_; }
   const Mesh& mesh(NodeId geometry) const { return meshes_.at(geometry.value); }
 
  private:
+  using Kinds = std::map<Kind, std::vector<const Piece*>>;
+
+  /// Of pieces that are not placed; with their colours at the vertices or without.
+  Kinds kinds_of(std::span<const Piece> pieces, std::span<const char> is_placed, bool coloured) const {
+    Kinds out;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      if (is_placed.empty() || !is_placed[i])
+        out[coloured ? coloured_kind_of(pieces[i]) : kind_of(pieces[i])].push_back(&pieces[i]);
+    return out;
+  }
+
   Kind coloured_kind_of(const Piece& p) const {
     Kind kind = kind_of(p);
     if (!is_coloured(p)) return kind;
@@ -104,6 +124,27 @@ class Content {
     meshes_.emplace(geometry.value, std::move(all));
   }
 
+  /// A surface once, and a Transform for each place, with the name of its part.
+  void add_places(std::span<const Piece> pieces, Repeat& repeat) {
+    namespace f = nodes::transform;
+    MeshJob job{scene_, {}, repeat.mesh, scratch_, ctx_};
+    normals(job, {});
+    const NodeId shape = scene_.add(nodes::Shape), geometry = scene_.add(nodes::IndexedFaceSet);
+    scene_.set(shape, nodes::shape::geometry, geometry);
+    const auto look = pieces[repeat.places[0].piece].look;
+    if (const NodeId appearance = looks_.appearance(look)) scene_.set(shape, nodes::shape::appearance, appearance);
+    for (const auto& [piece, where] : repeat.places) {
+      const NodeId place = scene_.add(nodes::Transform);
+      scene_.set_name(place, pieces[piece].name);
+      scene_.set(place, f::translation, in_floats(where.translation - origin_));
+      scene_.set(place, f::rotation, where.rotation);
+      scene_.set(place, f::scale, in_floats(where.scale));
+      scene_.set(place, f::children, std::vector<NodeId>{shape});
+      scene_.main.roots.push_back(place);
+    }
+    meshes_.emplace(geometry.value, std::move(repeat.mesh));
+  }
+
   void append(Mesh& all, const Piece& p) {
     moved_ = p.mesh;
     auto& points = moved_.positions.edit();
@@ -127,12 +168,12 @@ class Content {
 
 }  // namespace
 
-bool write_content(std::span<const Piece> pieces, const Vec3& origin, const Looks& looks, const GltfOptions& options,
-                   const ContentBudget& budget, Resources& pictures, const std::string& path, Diagnostics& diag,
-                   GltfSummary& summary) {
+bool write_content(std::span<const Piece> pieces, std::vector<Repeat> repeats, const Vec3& origin, const Looks& looks,
+                   const GltfOptions& options, const ContentBudget& budget, Resources& pictures,
+                   const std::string& path, Diagnostics& diag, GltfSummary& summary) {
   constexpr int largest_reduced = 1024, least_reduced = 32;  // pixels along a side
   Content content(origin, looks, diag);
-  content.add(pieces, budget.draws);
+  content.add(pieces, std::move(repeats), budget.draws);
   auto gltf = options;
   gltf.sources = sources_of(pieces);
   const MeshSource meshes = [&](NodeId geometry) -> const Mesh& { return content.mesh(geometry); };

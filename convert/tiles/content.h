@@ -4,6 +4,7 @@
 
 #include "convert/tiles/looks.h"
 #include "convert/tiles/piece.h"
+#include "convert/tiles/repeats.h"
 #include "writers/gltf/gltf.h"
 
 namespace wrlkit::tiles {
@@ -13,11 +14,13 @@ struct ContentBudget {
   std::uint64_t bytes;  // above it, pictures are made smaller, down to 32 pixels
 };
 
-/// Writes pieces as one mesh for each look, around `origin`; their names are rows of a property table that feature ids
-/// lead to (EXT_mesh_features, EXT_structural_metadata). False, reported, when it cannot be written. Linear in the
-/// corners, with two copies of them in memory; written again for each size of pictures that is still too large.
-bool write_content(std::span<const Piece> pieces, const Vec3& origin, const Looks& looks, const GltfOptions& options,
-                   const ContentBudget& budget, Resources& pictures, const std::string& path, Diagnostics& diag,
-                   GltfSummary& summary);
+/// Writes pieces as one mesh for each look, around `origin`. Of `repeats`, those that save most, as far as draws are
+/// left, are one mesh each with a table of places (EXT_mesh_gpu_instancing). Names are rows of a property table that
+/// feature ids lead to (EXT_mesh_features, EXT_instance_features, EXT_structural_metadata). False, reported, when it
+/// cannot be written. Linear in the corners, with two copies of them in memory; written again for each size of pictures
+/// that is still too large.
+bool write_content(std::span<const Piece> pieces, std::vector<Repeat> repeats, const Vec3& origin, const Looks& looks,
+                   const GltfOptions& options, const ContentBudget& budget, Resources& pictures,
+                   const std::string& path, Diagnostics& diag, GltfSummary& summary);
 
 }  // namespace wrlkit::tiles

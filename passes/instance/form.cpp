@@ -60,4 +60,19 @@ std::vector<double> invariants(const MeshForm& f, Scaling scaling, double tolera
   return out;
 }
 
+std::vector<std::uint64_t> cells_of(const MeshForm& form, Scaling scaling, double tolerance, bool all) {
+  std::vector<std::uint64_t> out{form.exact_key()};
+  for (double v : invariants(form, scaling, tolerance)) {
+    const double down = std::floor(v);
+    const std::size_t n = out.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (all)
+        out.push_back(
+            mixed(out[i], static_cast<std::uint64_t>(static_cast<std::int64_t>(v - down < 0.5 ? down - 1 : down + 1))));
+      out[i] = mixed(out[i], static_cast<std::uint64_t>(static_cast<std::int64_t>(down)));
+    }
+  }
+  return out;
+}
+
 }  // namespace wrlkit::instancing

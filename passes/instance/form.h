@@ -30,4 +30,8 @@ struct MeshForm {
 /// step apart.
 std::vector<double> invariants(const MeshForm& form, Scaling scaling, double tolerance);
 
+/// Keys under which a form is looked for: that of its own cell of invariants first, and with `all` also those of the
+/// nearer neighbours in each direction, one of which a form that may match has as its own.
+std::vector<std::uint64_t> cells_of(const MeshForm& form, Scaling scaling, double tolerance, bool all);
+
 }  // namespace wrlkit::instancing

@@ -4,7 +4,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/hashing.h"
 #include "base/silent_task.h"
 #include "geometry/geometry.h"
 #include "geometry/simplify/surface_scales.h"
@@ -64,7 +63,6 @@ class Instancing {
   bool may_share(NodeId geometry) const;
   bool read(std::uint32_t surface, Mesh& mesh, MeshForm& form);
   void sort_in(std::size_t surface);
-  std::vector<std::uint64_t> cells(const MeshForm& form, double tolerance, bool all) const;
   bool is_worth(const Group& g) const;
   void share(const Group& g);
   void report_lost_names();
@@ -107,28 +105,12 @@ bool Instancing::read(std::uint32_t surface, Mesh& mesh, MeshForm& form) {
   return std::isfinite(form.size);
 }
 
-/// Where a form is looked for: its own cell, and with `all` also the nearer neighbours in each direction.
-std::vector<std::uint64_t> Instancing::cells(const MeshForm& form, double tolerance, bool all) const {
-  std::vector<std::uint64_t> out{form.exact_key()};
-  for (double v : invariants(form, options_.scaling, tolerance)) {
-    const double down = std::floor(v);
-    const std::size_t n = out.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (all)
-        out.push_back(
-            mixed(out[i], static_cast<std::uint64_t>(static_cast<std::int64_t>(v - down < 0.5 ? down - 1 : down + 1))));
-      out[i] = mixed(out[i], static_cast<std::uint64_t>(static_cast<std::int64_t>(down)));
-    }
-  }
-  return out;
-}
-
 void Instancing::sort_in(std::size_t surface) {
   const auto s = static_cast<std::uint32_t>(surface);
   if (!read(s, mesh_, form_)) return;
   const double tolerance = options_.tolerance / scale_[surface];
   Matcher matcher({options_.scaling, options_.mirror, tolerance});
-  const auto where = cells(form_, tolerance, true);
+  const auto where = cells_of(form_, options_.scaling, tolerance, true);
   std::size_t compared = 0;
   for (auto cell : where) {
     auto found = by_cell_.find(cell);
@@ -143,7 +125,8 @@ void Instancing::sort_in(std::size_t surface) {
   // Vertices are split at creases: something between points and corners.
   const std::size_t vertices = (mesh_.corners.size() + std::min(mesh_.corners.size(), mesh_.n_positions())) / 2;
   groups_.push_back({s, vertices * vertex + mesh_.corners.size() * 2, form_.centre, form_.reach, {}});
-  by_cell_[cells(form_, tolerance, false)[0]].push_back(static_cast<std::uint32_t>(groups_.size() - 1));
+  by_cell_[cells_of(form_, options_.scaling, tolerance, false)[0]].push_back(
+      static_cast<std::uint32_t>(groups_.size() - 1));
 }
 
 bool Instancing::is_worth(const Group& g) const {

@@ -36,6 +36,8 @@ for (const args of [['tiles', '-q', world, '-o', set, '--triangles', triangles, 
   const made = await run(wrlkit, args, 120);
   if (made.code !== 0) faults.push(`${args[0]} ends with ${made.code}: ${made.text}`);
 }
+const with_places = fs.readdirSync(set, {recursive: true}).filter(file => file.endsWith('.glb') && fs.readFileSync(path.join(set, file)).includes('EXT_instance_features'));
+if (with_places.length === 0) faults.push('no surface is stored once for several places');
 const {camera} = view_of(wrlkit, world, glb, false);
 camera.eye = camera.eye.map((v, i) => camera.target[i] + 0.5 * (v - camera.target[i]));
 // Of the root, near whose origin that of the world is.

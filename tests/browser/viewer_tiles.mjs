@@ -15,6 +15,15 @@ fs.mkdirSync(folder, {recursive: true});
 const world = file_of('corpus/plant/pump_room_primitives.wrl'), set = path.join(folder, 'set');
 for (const [out, ...more] of [['set', '--tileset-tiles', '8'], ['draco', '--compress', 'draco'], ['earth', '--at', '50.1,8.6,112,30']]) wrlkit(program, 'tiles', '-q', world, '-o', path.join(folder, out), '--triangles', '3000', ...more);
 
+// Bolts that are one surface: a tile stores it once, with a table of places.
+const bolts = Array.from({length: 24}, (_, i) => ({name: `Bolt_${i}`, at: [3 * i, i % 4, 5 * (i % 3)]}));
+const bolt = ({name, at}, i) => `DEF ${name} Transform { translation ${at.join(' ')} rotation 1 0 0 ${i % 5} children USE Bolt }`;
+fs.writeFileSync(path.join(folder, 'bolts.wrl'), `#VRML V2.0 utf8
+Switch { choice DEF Bolt Shape { appearance Appearance { material Material { diffuseColor 0.7 0.5 0.2 } } geometry Cylinder { radius 0.5 height 2 } } }
+DEF Rack Group { children [ ${bolts.map(bolt).join('\n')} ] }
+`);
+wrlkit(program, 'tiles', '-q', path.join(folder, 'bolts.wrl'), '-o', path.join(folder, 'bolts'));
+
 /// {address, stop} of what --serve says.
 async function serve(tileset) {
   const server = spawn(program, ['view', '-q', tileset, '--serve'], {stdio: ['ignore', 'pipe', 'inherit']});
@@ -140,6 +149,35 @@ async function check_memory(page) {
   return {all, budget, kept};
 }
 
+/// Each place of a surface is a part: its name is under the mouse, its box where it stands, and it alone is lit up.
+async function check_places(page) {
+  const {places, parts} = await page.evaluate(() => {
+    const {mode} = window.viewer;
+    let places = 0;
+    mode.set.tiles.group.traverse(o => { if (o.isInstancedMesh) places += o.count; });
+    const described = part => {
+      const middle = part.box.getCenter(part.box.min.clone()), at = middle.clone().project(mode.stage.camera);
+      return {name: part.name, middle: [...middle], x: (at.x + 1) / 2, y: (1 - at.y) / 2};
+    };
+    return {places, parts: mode.names.parts.filter(part => part.name.startsWith('Bolt_')).map(described)};
+  });
+  assert.equal(places, bolts.length);
+  assert.equal(parts.length, bolts.length);
+  const [first] = parts, start = bolts.find(b => b.name === first.name);
+  for (const part of parts) {
+    const wanted = bolts.find(b => b.name === part.name).at;
+    part.middle.forEach((x, k) => assert(Math.abs(x - first.middle[k] - (wanted[k] - start.at[k])) < 0.01, `${part.name} is at ${part.middle}`));
+  }
+  const found = await names_at(page, parts.map(({x, y}) => [x, y]));
+  const right = found.filter((name, i) => name === `bolts.wrl/Rack/${parts[i].name}/Bolt`).length;
+  assert(right >= 20 && found.every(name => !name || name.startsWith('bolts.wrl/Rack/Bolt_')), `${right} of ${bolts.length} bolts are picked by their names: ${found}`);
+  const lit = [];
+  for (const {name} of parts.slice(0, 3)) lit.push(await page.evaluate(name => { const {mode} = window.viewer; mode.select(mode.names.parts.find(part => part.name === name)); return mode.highlight.triangles; }, name));
+  const all = await page.evaluate(() => { const {mode} = window.viewer; mode.select(mode.names.roots[0]); return mode.highlight.triangles; });
+  assert(lit[0] > 10 && lit.every(n => n === lit[0]) && all === lit[0] * bolts.length, `${lit} triangles are lit up, ${all} of all`);
+  console.log(`${places} places of one surface, ${right} of them picked`);
+}
+
 const browser = await start_chromium();
 const first = await serve(set), others = [];
 try {
@@ -176,7 +214,7 @@ try {
   // The plain page next to the tiles, with Draco; on the Earth it stands upright at the origin.
   const server = await plain_server();
   others.push(() => server.close());
-  for (const name of ['draco', 'earth']) {
+  for (const name of ['draco', 'earth', 'bolts']) {
     wrlkit(program, 'view', '-q', path.join(folder, name, 'tileset.json'), '-o', path.join(folder, name, 'index.html'));
     const opened = await open_page(browser, `http://127.0.0.1:${server.address().port}/${name}/index.html`);
     const figures = await settle(opened.page);
@@ -184,6 +222,7 @@ try {
     await opened.page.screenshot({path: path.join(folder, `${name}.png`)});
     const box = await opened.page.evaluate(() => [...window.viewer.mode.box.min, ...window.viewer.mode.box.max]);
     assert(box.every(x => Math.abs(x) < 1000), `${name}: ${box}`);
+    if (name === 'bolts') await check_places(opened.page);
     assert.deepEqual(opened.faults, [], name);
     await opened.close();
   }

@@ -11,6 +11,7 @@
 #include "convert/tiles/cells.h"
 #include "convert/tiles/looks.h"
 #include "convert/tiles/piece_store.h"
+#include "convert/tiles/reading_progress.h"
 #include "convert/tiles/staging.h"
 #include "convert/tiles/surface_error.h"
 #include "scenegraph/nodes.h"
@@ -59,7 +60,66 @@ Box at(double x, double y, double z) {
   return out;
 }
 
+/// Notes what is said of long work.
+class Noted : public Monitor {
+ public:
+  void begin(std::string what, std::uint64_t total, std::string unit) override {
+    said.push_back(what + ": " + std::to_string(total) + ' ' + unit);
+    n_done.push_back(0);
+  }
+  void step(std::uint64_t n) override { n_done.back() += n; }
+
+  std::vector<std::string> said;
+  std::vector<std::uint64_t> n_done;
+};
+
 }  // namespace
+
+TEST_CASE("tiles: while many files are read their megabytes are counted", "[tiles]") {
+  const TempFolder folder;
+  std::vector<TilesInput> inputs;
+  for (const auto& [name, bytes] : {std::pair{"a.wrl", 1'400'000}, {"b.wrl", 700'000}, {"c.wrl", 2'100'000}}) {
+    std::ofstream(folder / name) << std::string(static_cast<std::size_t>(bytes), ' ');
+    inputs.push_back({folder / name, name});
+  }
+  Noted noted;
+  Monitor* monitor = &noted;
+  {
+    tiles::ReadingProgress progress(inputs, monitor);
+    CHECK(noted.said == std::vector<std::string>{"reading 3 files: 5 MB"});
+    CHECK(monitor == nullptr);  // what a file says of itself would begin another stretch of work
+    std::vector<std::uint64_t> done;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      progress.next();
+      done.push_back(noted.n_done.back());
+    }
+    CHECK(done == std::vector<std::uint64_t>{1, 2, 4});
+  }
+  CHECK(monitor == &noted);
+}
+
+TEST_CASE("tiles: every tile and every measured error is counted", "[tiles]") {
+  const TempFolder folder;
+  Noted noted;
+  const std::vector inputs{row_of_boxes(folder, 60)};
+  Document reader({}, {.monitor = &noted});
+  TilesOptions options;
+  options.triangles = 400;
+  const auto made = make_tiles(inputs, folder / "out", options, reader);
+  REQUIRE(made);
+  const auto of = [&](const std::string& what) {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < noted.said.size(); ++i)
+      if (noted.said[i].starts_with(what))
+        out.push_back(noted.said[i] + ", " + std::to_string(noted.n_done[i]) + " done");
+    return out;
+  };
+  const auto n = std::to_string(made.tiles.size());
+  CHECK(of("making tiles") == std::vector<std::string>{"making tiles: " + n + " tiles, " + n + " done"});
+  const auto n_coarse = std::to_string(std::ranges::count_if(made.tiles, [](const auto& t) { return t.error > 0; }));
+  CHECK(of("measuring tiles") ==
+        std::vector<std::string>{"measuring tiles: " + n_coarse + " tiles, " + n_coarse + " done"});
+}
 
 TEST_CASE("tiles: a piece comes back from the disk as it was", "[tiles]") {
   const TempFolder folder;

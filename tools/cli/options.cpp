@@ -297,6 +297,9 @@ void tiles(CLI::App& verb, Flags& f) {
     if (std::ranges::find(of_content, name) != std::end(of_content)) AddOption{verb}(name, field, about...);
   });
   verb.get_option("--compress")->default_str("meshopt");
+  verb.add_flag("--gpu-instancing,!--no-gpu-instancing", f.save.gpu_instancing,
+                "a surface that stands in several places of a tile is stored once, with a table of places "
+                "(EXT_mesh_gpu_instancing), where that saves bytes and draws are left; the default");
 }
 
 void corpus_inputs(CLI::App& verb, Flags& f) {

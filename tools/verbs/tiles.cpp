@@ -55,6 +55,7 @@ TilesOptions options_of(const Flags& flags, Shard shard) {
   out.update = flags.update;
   out.tiles_in_file = static_cast<std::size_t>(flags.tileset_tiles);
   if (!flags.is_given("compress")) out.save.compress = GltfCompression::Method::meshopt;
+  if (!flags.is_given("gpu-instancing")) out.save.gpu_instancing = true;
   if (flags.at.size() < 3) return out;
   out.place = {flags.at[0], flags.at[1], flags.at[2], flags.at.size() > 3 ? flags.at[3] : 0};
   return out;

@@ -6,22 +6,15 @@
 
 #include "writers/gltf/draco.h"
 #include "writers/gltf/flat_faces.h"
+#include "writers/gltf/tolerance.h"
 
 namespace wrlkit::gltf {
 namespace {
 
-constexpr double usual_tolerance = 1e-3, usual_part_of_world = 8192;
 constexpr double least_steps =
     16;  // along the longest side of a mesh: what is smaller than the tolerance is still to be seen
 constexpr int most_halvings = 4;    // of a step on which faces would vanish
 constexpr int more_light_bits = 2;  // a lightmap's texels are small, and those of other charts lie next to them
-
-double tolerance_for(const GltfCompression& options, const Box& world) {
-  if (options.tolerance > 0) return options.tolerance;
-  const double extent = diagonal(world);
-  return extent > 0 && std::isfinite(extent) ? std::min(usual_tolerance, extent / usual_part_of_world)
-                                             : usual_tolerance;
-}
 
 /// Whether 24 bits with a sign count the steps to all of them; further out floats themselves are finer.
 bool fits_grid(std::span<const float> values, double step) {
@@ -41,7 +34,7 @@ Packing::Packing(const GltfCompression& options, const Store& from, const Meshes
   for (const MeshRecord& m : records) streams_.push_back(streams_of(meshes.geometries()[m.geometry], m));
   if (options_.method == Method::none) return;
   store_ = &own_;
-  summary_.tolerance = tolerance_for(options, document.world);
+  summary_.tolerance = tolerance_for(options, diagonal(document.world));
   note_uses(document);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Geometry& g = meshes.geometries()[records[i].geometry];

@@ -42,6 +42,10 @@ class PartTable {
   std::uint32_t of_path(std::string_view path);
   /// The row of a node: the first of a name in a group is the row that of_path knows, every other one has its own.
   std::uint32_t add(std::string_view name, std::uint32_t parent);
+  /// The same of a node whose name is, where there are sources, all names on the way to its part.
+  std::uint32_t of_node(std::string_view name, std::uint32_t parent) {
+    return sources_.empty() ? add(name, parent) : of_path(name);
+  }
 
   bool columns() const { return columns_; }
   const std::vector<Row>& rows() const { return rows_; }

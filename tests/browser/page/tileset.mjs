@@ -62,16 +62,26 @@ async function settle(tiles) {
   }
 }
 
-/// The path of names of the part that a ray meets first.
-function name_at(hit) {
-  const {meshFeatures, structuralMetadata} = hit.object.userData;
+/// The row of the part that a ray meets, in a table. Of surfaces that stand in several places each place is of a part; 3d-tiles-renderer
+/// leaves their feature ids as GLTFLoader has read them.
+function row_at(hit) {
+  const {meshFeatures, gltfExtensions} = hit.object.userData;
+  if (hit.instanceId !== undefined) {
+    const [{attribute, propertyTable}] = gltfExtensions.EXT_instance_features.featureIds;
+    return [hit.object.geometry.getAttribute(`_FEATURE_ID_${attribute}`).getX(hit.instanceId), propertyTable];
+  }
   const p = hit.object.geometry.attributes.position, at = k => new THREE.Vector3().fromBufferAttribute(p, [hit.face.a, hit.face.b, hit.face.c][k]);
   const local = hit.object.worldToLocal(hit.point.clone());
   const barycentric = THREE.Triangle.getBarycoord(local, at(0), at(1), at(2), new THREE.Vector3());
   const [row] = meshFeatures.getFeatures(hit.faceIndex, barycentric), [{propertyTable}] = meshFeatures.getFeatureInfo();
-  const names = [];
+  return [row, propertyTable];
+}
+
+/// The path of names of the part that a ray meets first.
+function name_at(hit) {
+  const {structuralMetadata} = hit.object.userData, [row, table] = row_at(hit), names = [];
   for (let r = row; r !== no_row;) {
-    const {name, parent} = structuralMetadata.getPropertyTableData(propertyTable, r);
+    const {name, parent} = structuralMetadata.getPropertyTableData(table, r);
     names.unshift(name);
     r = parent;
   }
@@ -106,9 +116,13 @@ export async function draw_tileset(job) {
     tiles.setResolutionFromRenderer(stage.camera, stage.renderer);
     await settle(tiles);
     pictures.push(stage.draw(tiles.group, job.key));
-    let triangles = 0;
-    tiles.group.traverse(o => { if (o.isMesh) triangles += (o.geometry.index ?? o.geometry.attributes.position).count / 3; });
-    levels.push({pixels, tiles: tiles.visibleTiles.size, triangles, names: pick(tiles, stage.camera), ...compare(reference, pictures.at(-1), job)});
+    let triangles = 0, places = 0;
+    tiles.group.traverse(o => {
+      if (!o.isMesh) return;
+      triangles += (o.geometry.index ?? o.geometry.attributes.position).count / 3 * (o.count ?? 1);
+      places += o.isInstancedMesh ? o.count : 0;
+    });
+    levels.push({pixels, tiles: tiles.visibleTiles.size, triangles, places, names: pick(tiles, stage.camera), ...compare(reference, pictures.at(-1), job)});
     tiles.dispose();
   }
   stage.dispose();

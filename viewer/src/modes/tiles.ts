@@ -123,6 +123,6 @@ export class TilesMode implements Mode {
     ray.params.Line.threshold = ray.params.Points.threshold = 4 * this.stage.metresPerPixel(this.stage.navigator.distance);
     ray.setFromCamera(this.stage.toClip(x, y), this.stage.camera);
     const hit = ray.intersectObject(this.set.tiles.group, true)[0];
-    this.select(hit ? this.names.at(hit.object, hit.face?.a ?? hit.index ?? 0) : null);
+    this.select(hit ? this.names.at(hit.object, hit.face?.a ?? hit.index ?? 0, hit.instanceId) : null);
   }
 }

@@ -1,5 +1,5 @@
 // A tileset that is loaded piece by piece: 3d-tiles-renderer, with all that tiles of ours need.
-import {Matrix4, type Object3D} from 'three';
+import {Matrix4, type InstancedMesh, type Object3D} from 'three';
 import {TilesRenderer} from '3d-tiles-renderer/three';
 import {GLTFExtensionsPlugin} from '3d-tiles-renderer/three/plugins';
 import type {Tile} from '3d-tiles-renderer/core';
@@ -51,6 +51,8 @@ export class Tileset {
     this.tiles.registerPlugin(new GLTFExtensionsPlugin({meshoptDecoder: MeshoptDecoder, dracoLoader, autoDispose: false}));
     this.tiles.registerPlugin(this.meter);
     this.tiles.addEventListener('load-root-tileset', ({tileset}) => this.place((tileset as unknown as {root: Tile}).root.transform));
+    // 3d-tiles-renderer frees geometry and materials, not tables of places.
+    this.tiles.addEventListener('dispose-model', ({scene}) => scene.traverse(o => { if ((o as InstancedMesh).isInstancedMesh) (o as InstancedMesh).dispose(); }));
     this.budget = usualBudget;
   }
 

@@ -1,5 +1,5 @@
 // The names of the parts of a tileset: the rows of the property tables of all tiles that have been loaded so far, as one tree.
-import {Box3, Vector3, type BufferAttribute, type Matrix4, type Mesh, type Object3D} from 'three';
+import {Box3, Matrix4, Vector3, type BufferAttribute, type InstancedMesh, type Mesh, type Object3D} from 'three';
 
 export interface NamedPart {
   node: number;
@@ -20,11 +20,31 @@ interface Table {
 interface Features {
   featureIds: {attribute?: number; propertyTable?: number}[];
 }
+interface UserData {
+  meshFeatures?: Features;
+  structuralMetadata?: {tableAccessors: Table[]};
+  gltfExtensions?: {EXT_instance_features?: Features};  // GLTFLoader leaves there what it does not know
+}
 
-/// For each vertex of a mesh, the row of its part.
+/// For each vertex of a mesh, or for each place where it stands, the row of its part.
 interface Rows {
   ids: BufferAttribute;
   parts: (NamedPart | null)[];
+  ofPlaces: boolean;
+}
+
+const isInstanced = (o: Object3D): o is InstancedMesh => (o as InstancedMesh).isInstancedMesh === true;
+
+/// How many times a mesh is drawn.
+export const placesOf = (mesh: Mesh): number => isInstanced(mesh) ? mesh.count : 1;
+
+/// From a mesh in one of its places to the page.
+export function matrixAt(mesh: Mesh, place: number): Matrix4 {
+  mesh.updateWorldMatrix(true, false);
+  if (!isInstanced(mesh)) return mesh.matrixWorld.clone();
+  const local = new Matrix4();
+  mesh.getMatrixAt(place, local);
+  return local.premultiply(mesh.matrixWorld);
 }
 
 export class Names {
@@ -39,22 +59,24 @@ export class Names {
     const tables = new Map<Table, NamedPart[]>();
     scene.updateMatrixWorld(true);
     scene.traverse(o => {
-      const {meshFeatures, structuralMetadata} = o.userData as {meshFeatures?: Features; structuralMetadata?: {tableAccessors: Table[]}};
-      const feature = meshFeatures?.featureIds[0], table = structuralMetadata?.tableAccessors[feature?.propertyTable ?? -1];
-      const mesh = o as Mesh, ids = mesh.geometry?.getAttribute(`_feature_id_${feature?.attribute}`);
+      const {meshFeatures, structuralMetadata, gltfExtensions} = o.userData as UserData, mesh = o as Mesh, ofPlaces = isInstanced(o);
+      const feature = (ofPlaces ? gltfExtensions?.EXT_instance_features : meshFeatures)?.featureIds[0];
+      const table = structuralMetadata?.tableAccessors[feature?.propertyTable ?? -1];
+      // GLTFLoader keeps the case of what belongs to places.
+      const ids = mesh.geometry?.getAttribute(`${ofPlaces ? '_FEATURE_ID' : '_feature_id'}_${feature?.attribute}`);
       if (!table || !ids) return;
       let parts = tables.get(table);
       if (!parts) tables.set(table, parts = this.read(table));
-      this.rows.set(mesh, {ids: ids as BufferAttribute, parts});
-      this.measure(mesh, matrix.clone().multiply(mesh.matrixWorld));
+      this.rows.set(mesh, {ids: ids as BufferAttribute, parts, ofPlaces});
+      this.measure(mesh, matrix);
     });
     return this.parts.length > before;
   }
 
-  /// The part that a vertex of a mesh belongs to.
-  at(mesh: Object3D, vertex: number): NamedPart | null {
+  /// The part that a vertex of a mesh belongs to; in one of several places, where it has them.
+  at(mesh: Object3D, vertex: number, place = 0): NamedPart | null {
     const rows = this.rows.get(mesh);
-    return rows?.parts[rows.ids.getX(vertex)] ?? null;
+    return rows?.parts[rows.ids.getX(rows.ofPlaces ? place : vertex)] ?? null;
   }
 
   /// The part with that path of names.
@@ -83,13 +105,16 @@ export class Names {
     return made;
   }
 
-  private measure(mesh: Mesh, matrix: Matrix4): void {
+  private measure(mesh: Mesh, toPage: Matrix4): void {
     const positions = mesh.geometry.getAttribute('position'), p = new Vector3(), touched = new Set<NamedPart>();
-    for (let i = 0; i < positions.count; ++i) {
-      const part = this.at(mesh, i);
-      if (!part) continue;
-      part.box.expandByPoint(p.fromBufferAttribute(positions, i).applyMatrix4(matrix));
-      touched.add(part);
+    for (let place = 0; place < placesOf(mesh); ++place) {
+      const matrix = matrixAt(mesh, place).premultiply(toPage);
+      for (let i = 0; i < positions.count; ++i) {
+        const part = this.at(mesh, i, place);
+        if (!part) continue;
+        part.box.expandByPoint(p.fromBufferAttribute(positions, i).applyMatrix4(matrix));
+        touched.add(part);
+      }
     }
     for (const part of touched) for (let above = part.parent; above; above = above.parent) above.box.union(part.box);
   }

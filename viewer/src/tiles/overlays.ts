@@ -2,7 +2,7 @@
 import {Box3Helper, BoxGeometry, BufferGeometry, Color, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, type Object3D, type Scene} from 'three';
 import {copy, glow, glowEdges, marked} from '../view/overlay';
 import {levelOf, type LoadedTile} from './loading';
-import {isWithin, type NamedPart, type Names} from './names';
+import {isWithin, matrixAt, placesOf, type NamedPart, type Names} from './names';
 import {colorOfLevel} from './tints';
 
 const edges = new EdgesGeometry(new BoxGeometry(2, 2, 2));
@@ -38,12 +38,12 @@ export class TileBoxes {
   }
 }
 
-/// Corners of the triangles of a mesh that belong to a part or to those below it.
-function cornersOf(mesh: Mesh, names: Names, part: NamedPart): number[] {
+/// Corners of the triangles of a mesh in a place that belong to a part or to those below it.
+function cornersOf(mesh: Mesh, place: number, names: Names, part: NamedPart): number[] {
   const index = mesh.geometry.index, out: number[] = [];
   const n = index ? index.count : mesh.geometry.getAttribute('position').count;
   const at = (i: number): number => index ? index.getX(i) : i;
-  for (let i = 0; i + 2 < n; i += 3) if (isWithin(names.at(mesh, at(i)), part)) out.push(at(i), at(i + 1), at(i + 2));
+  for (let i = 0; i + 2 < n; i += 3) if (isWithin(names.at(mesh, at(i), place), part)) out.push(at(i), at(i + 1), at(i + 2));
   return out;
 }
 
@@ -71,18 +71,20 @@ export class PartHighlight {
     const before = this.triangles;
     tile.engineData.scene?.traverse(o => {
       const mesh = o as Mesh;
-      if (!mesh.isMesh) return;
-      const corners = cornersOf(mesh, this.names, part);
-      if (corners.length === 0) return;
-      this.triangles += corners.length / 3;
-      const some = new BufferGeometry();
-      some.setAttribute('position', mesh.geometry.getAttribute('position'));
-      some.setIndex(corners);
-      const made = new Mesh(some);
-      mesh.updateWorldMatrix(true, false);
-      made.applyMatrix4(mesh.matrixWorld);
-      this.group.add(copy(made, glow), copy(made, glowEdges));
+      if (mesh.isMesh) for (let place = 0; place < placesOf(mesh); ++place) this.showAt(mesh, place, part);
     });
     return this.triangles > before;
+  }
+
+  private showAt(mesh: Mesh, place: number, part: NamedPart): void {
+    const corners = cornersOf(mesh, place, this.names, part);
+    if (corners.length === 0) return;
+    this.triangles += corners.length / 3;
+    const some = new BufferGeometry();
+    some.setAttribute('position', mesh.geometry.getAttribute('position'));
+    some.setIndex(corners);
+    const made = new Mesh(some);
+    made.applyMatrix4(matrixAt(mesh, place));
+    this.group.add(copy(made, glow), copy(made, glowEdges));
   }
 }

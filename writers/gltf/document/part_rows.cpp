@@ -88,7 +88,7 @@ Tables add_tables(Document& d, const Scene& scene, PartTable& parts, const Famil
       row[id] = row[above];
     }
     // What is empty but has a name is a row, too.
-    if (n.source && !scene.name(n.source).empty()) row[id] = parts.add(scene.name(n.source), row[id]);
+    if (n.source && !scene.name(n.source).empty()) row[id] = parts.of_node(scene.name(n.source), row[id]);
     if (n.attachment != Attachment::mesh) continue;
     const auto [at, is_new] =
         known.try_emplace({holder[id], n.attached}, static_cast<std::uint32_t>(d.instances.size()));
