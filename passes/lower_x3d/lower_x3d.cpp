@@ -1,6 +1,7 @@
 #include "passes/lower_x3d/lower_x3d.h"
 
 #include "passes/lower_x3d/appearance.h"
+#include "passes/lower_x3d/browser_nodes.h"
 #include "passes/lower_x3d/clip_planes.h"
 #include "passes/lower_x3d/geo.h"
 #include "passes/lower_x3d/geometry.h"
@@ -46,6 +47,7 @@ Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx
   changed |= lower_curves(scene, options, ctx.diag);
   changed |= x3d::lower_interpolators(scene, options.vrml97, ctx.diag);
   for (NodeId n : all_nodes(scene)) {
+    changed |= x3d::lower_browser_node(scene, n);
     if (scene.type(n).kind != NodeKind::builtin) continue;
     changed |= x3d::lower_geometry(scene, n);
     changed |= x3d::lower_appearance(scene, n, ctx.diag);
