@@ -3,6 +3,7 @@
 #include "passes/lower_x3d/appearance.h"
 #include "passes/lower_x3d/browser_nodes.h"
 #include "passes/lower_x3d/clip_planes.h"
+#include "passes/lower_x3d/generated_texcoords.h"
 #include "passes/lower_x3d/geo.h"
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/groups.h"
@@ -53,6 +54,7 @@ Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx
     changed |= x3d::lower_appearance(scene, n, ctx.diag);
     changed |= x3d::lower_group(scene, n, ctx.diag);
   }
+  changed |= x3d::make_generated_texcoords(scene, ctx);
   changed |= x3d::cut_by_clip_planes(scene, ctx);
   const bool all = options.vrml97 && !options.defer_colors;
   if (all) changed |= x3d::lower_products(scene, ctx);
