@@ -11,6 +11,7 @@
 #include "passes/lower_x3d/materials.h"
 #include "passes/lower_x3d/nurbs_geometry.h"
 #include "passes/lower_x3d/product.h"
+#include "passes/lower_x3d/two_sides.h"
 #include "passes/lower_x3d/vrml97.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
@@ -41,12 +42,26 @@ bool lower_curves(Scene& scene, const LowerX3dOptions& options, Diagnostics& dia
   return changed;
 }
 
+/// Before materials become those of one side.
+bool split_sides(Scene& scene) {
+  namespace back = nodes::appearance;
+  const auto has_back = [&](NodeId n) {
+    return scene.is(n, nodes::TwoSidedMaterial) || (scene.is(n, nodes::Appearance) && scene.get(n, back::backMaterial));
+  };
+  if (!any_node(scene, has_back)) return false;
+  bool changed = false;
+  const auto driven = x3d::routed_nodes(scene);
+  for (NodeId n : all_nodes(scene)) changed |= x3d::split_sides(scene, n, driven);
+  return changed;
+}
+
 }  // namespace
 
 Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx) {
   bool changed = x3d::place_on_earth(scene, ctx.diag);
   changed |= lower_curves(scene, options, ctx.diag);
   changed |= x3d::lower_interpolators(scene, options.vrml97, ctx.diag);
+  changed |= split_sides(scene);
   for (NodeId n : all_nodes(scene)) {
     changed |= x3d::lower_browser_node(scene, n);
     if (scene.type(n).kind != NodeKind::builtin) continue;
