@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/bit_mask.h"
 #include "parsers/vrml/values.h"
+#include "scenegraph/nodes.h"
 
 namespace wrlkit::vrml {
 namespace {
@@ -78,6 +80,7 @@ class Vrml1Parser : private Values {
   // Fields.
   void own_fields(Body&);
   void known_field(FieldType, std::uint16_t slot, Token name, const Value& fallback);
+  bool old_field(Token name);
   void unknown_field(Token name);
   bool value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
   bool node_value(FieldType, std::uint16_t slot, Value& out);
@@ -212,6 +215,7 @@ void Vrml1Parser::element(Token t, Body& body) {
     stray();
   } else {
     lex_.seek(t.end);
+    if (old_field(t)) return;
     if (w == "isA")
       known_field(FieldType::MFString, Value::extra_slot, t, empty_value(FieldType::MFString));
     else
@@ -294,6 +298,34 @@ void Vrml1Parser::connection(Token name) {
   if (!text(dot).starts_with('.')) return;
   lex_.next();
   if (text(dot) == ".") lex_.next();
+}
+
+// Fields that Inventor 1.0 and 2.0 had: ShapeHints.hints as three fields of today, PackedColor.rgba, which is
+// 0xaabbggrr, as orderedRGBA. False: it is none of them, and nothing was read.
+bool Vrml1Parser::old_field(Token name) {
+  namespace hints = nodes::vrml1::shape_hints;
+  namespace packed = nodes::vrml1::packed_color;
+  Value v;
+  const auto& type = build_.current_type();
+  if (type.name == "PackedColor" && text(name) == "rgba") {
+    if (!value(FieldType::MFInt32, packed::orderedRGBA.slot, text(name), {}, v)) return true;
+    std::vector<std::int32_t> out;
+    for (const std::int32_t i : v.integer_span()) {
+      const auto c = static_cast<std::uint32_t>(i);
+      out.push_back(static_cast<std::int32_t>(c << 24 | (c << 8 & 0xff0000) | (c >> 8 & 0xff00) | c >> 24));
+    }
+    build_.field(scene_.make(FieldType::MFInt32, packed::orderedRGBA.slot, out), span(name));
+    return true;
+  }
+  if (type.name != "ShapeHints" || text(name) != "hints") return false;
+  if (!value(FieldType::SFBitMask, hints::shapeType.slot, text(name), {}, v)) return true;
+  const auto set = [&](std::uint16_t slot, std::string_view bit, std::string_view yes, std::string_view no) {
+    build_.field(scene_.make(FieldType::SFEnum, slot, has_bit(v.text(), bit) ? yes : no), span(name));
+  };
+  set(hints::vertexOrdering.slot, "ORDERED", "COUNTERCLOCKWISE", "UNKNOWN_ORDERING");
+  set(hints::shapeType.slot, "SOLID", "SOLID", "UNKNOWN_SHAPE_TYPE");
+  set(hints::faceType.slot, "CONVEX", "CONVEX", "UNKNOWN_FACE_TYPE");
+  return true;
 }
 
 // As in VRML97: nodes in it are read, the rest is kept as text. A word that is not a node or a field can only be a

@@ -8,7 +8,6 @@
 #include "passes/analysis/nesting.h"
 #include "passes/lower_vrml1/lowering.h"
 #include "passes/lower_vrml1/singles.h"
-#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
@@ -357,7 +356,7 @@ Outcome lower_vrml1(Scene& scene, const LowerVrml1Options& options, PassContext&
   vrml1::Lowering lowering(scene, options, ctx);
   if (scene.format == Format::vrml1)
     lowering.run();
-  else if (scene.format == Format::vrml97 && any_node(scene, [&](NodeId n) { return scene.is(n, nodes::Vrml1Node); }))
+  else if (scene.format == Format::vrml97 && vrml1::has_state(scene))
     lowering.run_among_vrml97();
   else
     return Outcome::unchanged;

@@ -30,9 +30,9 @@ What VRML97 cannot say is reported as lost. What it says in another way:
 - a node that describes itself (`isA`) and is not known: the first of its bases that is;
 - a ClipPlane: that of X3D, which `lower-x3d` cuts with.
 
-Nodes of VRML 1.0 in a world of VRML97, as programs write that build on Coin, become nodes of VRML97 in the same way;
-groups of VRML97 keep the state in, as Separator does. Other worlds are left alone. Linear in the file and in what it draws; nodes that are used in ever
-other states are limited like the copies of expand-protos.)";
+Nodes of VRML 1.0 in a world of VRML97, as programs write that build on Coin, become nodes of VRML97 in the same
+way; groups of VRML97 keep the state in, as Separator does. Other worlds are left alone. Linear in the file and in
+what it draws; nodes that are used in ever other states are limited like the copies of expand-protos.)";
 
   int limit = 500'000;
   void fields(auto&& f) {

@@ -21,6 +21,9 @@ struct Effect {
   std::vector<Frame::Light> lights;
 };
 
+/// Whether a world of VRML97 has nodes of VRML 1.0, or geometry without a Shape and Materials among children.
+bool has_state(const Scene&);
+
 class Lowering {
  public:
   Lowering(Scene& scene, const LowerVrml1Options& options, PassContext& ctx)
@@ -65,6 +68,7 @@ class Lowering {
   void visit_unknown(NodeId n, State&, Frame&);
   void visit_vrml97(NodeId n, const State&, Frame&);
   void visit_instance(NodeId n, const State&);
+  NodeId vrml1_material(NodeId vrml97);
   std::vector<NodeId> vrml97_children(NodeId n, const State&);
   void lower_body(Proto&);
   void drop_routes(Scope&);

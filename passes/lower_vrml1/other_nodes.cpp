@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "passes/lower_vrml1/lowering.h"
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -17,11 +18,23 @@ bool is_bare(const Scene& scene, NodeId n) {
   return geometry && scene.where(geometry).begin == scene.where(n).begin;
 }
 
+/// Materials of VRML97 where only children stand.
+std::vector<NodeId> child_materials(const Scene& scene) {
+  std::vector<NodeId> out;
+  const auto take = [&](NodeId c) {
+    if (scene.is(c, nodes::Material)) out.push_back(c);
+  };
+  std::ranges::for_each(scene.main.roots, take);
+  for (NodeId n : all_nodes(scene))
+    if (scene.is(n, nodes::X3DGroupingNode)) std::ranges::for_each(hierarchy_children(scene, n), take);
+  return out;
+}
+
 /// Nodes that the state of VRML 1.0 comes from or goes to, and all that these are in.
 std::vector<char> stateful_nodes(const Scene& scene) {
   std::vector<char> out(scene.node_count());
   std::vector<std::pair<NodeId, NodeId>> parents;  // of a child
-  std::vector<NodeId> next;
+  std::vector<NodeId> next = child_materials(scene);
   std::ranges::copy_if(scene.main.roots, std::back_inserter(next),
                        [&](NodeId n) { return scene.is(n, nodes::X3DGeometryNode); });
   for (NodeId n : all_nodes(scene)) {
@@ -44,8 +57,37 @@ std::vector<char> stateful_nodes(const Scene& scene) {
 
 }  // namespace
 
+bool has_state(const Scene& scene) {
+  if (any_node(scene, [&](NodeId n) { return scene.is(n, nodes::Vrml1Node); })) return true;
+  return any_node(scene, [&](NodeId n) { return is_bare(scene, n); }) && !child_materials(scene).empty();
+}
+
+/// A Material of VRML97 that stands among children, as one of VRML 1.0.
+NodeId Lowering::vrml1_material(NodeId n) {
+  namespace from = nodes::material;
+  namespace to = nodes::vrml1::material;
+  NodeId& made = bases_[n];
+  if (made) return made;
+  made = scene_.add(nodes::vrml1::Material, scene_.where(n));
+  scene_.set_name(made, scene_.name(n));
+  const auto color = [](const Vec3& c) { return std::vector<double>{c[0], c[1], c[2]}; };
+  const Vec3 diffuse = scene_.get(n, from::diffuseColor);
+  scene_.set(made, to::diffuseColor, color(diffuse), to::specularColor, color(scene_.get(n, from::specularColor)),
+             to::emissiveColor, color(scene_.get(n, from::emissiveColor)));
+  scene_.set(made, to::shininess, std::vector<double>{scene_.get(n, from::shininess)}, to::transparency,
+             std::vector<double>{scene_.get(n, from::transparency)});
+  if (scene_.find(n, from::ambientIntensity.slot))
+    scene_.set(made, to::ambientColor, color(scene_.get(n, from::ambientIntensity) * diffuse));
+  return made;
+}
+
 void Lowering::visit_other(NodeId n, State& s, Frame& frame) {
   const auto kind = scene_.type(n).kind;
+  if (!stateful_.empty() && is(n, nodes::Material)) {
+    s.material = vrml1_material(n);
+    s.color = {};
+    return;
+  }
   if (!stateful_.empty() && (kind == NodeKind::script || !(n.value < stateful_.size() && stateful_[n.value])))
     return frame.add(n);
   if (kind == NodeKind::builtin) return visit_vrml97(n, s, frame);

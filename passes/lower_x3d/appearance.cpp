@@ -1,24 +1,13 @@
 #include "passes/lower_x3d/appearance.h"
 
 #include "passes/lower_x3d/geometry.h"
+#include "passes/lower_x3d/two_sides.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::x3d {
 namespace {
-
-namespace tsm = nodes::two_sided_material;
-
-bool back_differs(const Scene& scene, NodeId n) {
-  if (!scene.get(n, tsm::separateBackColor)) return false;
-  return scene.get(n, tsm::diffuseColor) != scene.get(n, tsm::backDiffuseColor) ||
-         scene.get(n, tsm::emissiveColor) != scene.get(n, tsm::backEmissiveColor) ||
-         scene.get(n, tsm::specularColor) != scene.get(n, tsm::backSpecularColor) ||
-         scene.get(n, tsm::shininess) != scene.get(n, tsm::backShininess) ||
-         scene.get(n, tsm::transparency) != scene.get(n, tsm::backTransparency) ||
-         scene.get(n, tsm::ambientIntensity) != scene.get(n, tsm::backAmbientIntensity);
-}
 
 bool one_side(Scene& scene, NodeId n, Diagnostics& diag) {
   if (!scene.is(n, nodes::TwoSidedMaterial)) return false;

@@ -14,13 +14,13 @@ vocabulary.
     CADPart { name "bolt" children ... }         ->   DEF bolt Transform { children ... }
 
 Triangle, quad and line sets become IndexedFaceSet and IndexedLineSet, Geometry2D these with 64 sides to a circle;
-StaticGroup, CAD nodes, layers, ViewpointGroup and the nodes of humanoids (H-Anim, as they stand) become groups; what
-is not `visible` stands in a Switch that shows nothing; of a MultiTexture the first picture stays, of a
-TwoSidedMaterial the front. What a ClipPlane hides is cut off. NURBS become triangles and lines within `tolerance`,
-trimmed along their contours, NurbsSweptSurface an Extrusion,
-interpolators along curves those along lines, with more keys; places on Earth become metres around the scene's
-GeoOrigin, or around the first place where there is none, with Y up there and X east. Worlds without such nodes stay
-as they are. O(scene).
+StaticGroup, CAD nodes, layers, ViewpointGroup and the nodes of humanoids (H-Anim, as they stand) become groups;
+what is not `visible` stands in a Switch that shows nothing; of a MultiTexture the first picture stays; faces that
+look otherwise from behind (TwoSidedMaterial, backMaterial) become two Shapes, of other geometry the front stays.
+What a ClipPlane hides is cut off. NURBS become triangles and lines within `tolerance`, trimmed along their
+contours, NurbsSweptSurface an Extrusion, interpolators along curves those along lines, with more keys; places on
+Earth become metres around the scene's GeoOrigin, or around the first place where there is none, with Y up there and
+X east. Worlds without such nodes stay as they are. O(scene).
 
 With `materials` the first three of these, with `vrml97` everything else that VRML97 cannot say is turned into what
 comes near to it, or dropped, and reported:

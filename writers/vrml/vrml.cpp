@@ -5,6 +5,7 @@
 
 #include "geometry/forms/form_faces.h"
 #include "scenegraph/equal.h"
+#include "scenegraph/nodes.h"
 #include "writers/text/document.h"
 
 namespace wrlkit {
@@ -151,7 +152,8 @@ class VrmlWriter : TextDocument {
   }
 
   bool is_children(NodeId n, const Value& v) const {
-    const bool here = scene_.type(n).dialects & static_cast<DialectSet>(Dialect::vrml1);
+    const auto& t = scene_.type(n);
+    const bool here = t.is_a(nodes::Vrml1Node) || (vrml1_ && t.dialects & static_cast<DialectSet>(Dialect::vrml1));
     return here && scene_.field_name(n, v) == "children" && scene_.content(v).type == FieldType::MFNode;
   }
 
