@@ -1,4 +1,4 @@
-// What work that takes long gets besides its input: where it reports, what it counts, who watches it, who may stop
+// What a long task gets in addition to its input: where it reports, what it counts, who watches it, who may stop
 // it.
 #pragma once
 #include <cstdint>

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "base/math/random.h"
 #include "base/parallel.h"
 #include "bench/process_cost.h"
 #include "light/flux.h"
 #include "light/integrator.h"
-#include "light/random.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
 

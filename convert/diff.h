@@ -1,4 +1,4 @@
-// How two worlds differ in what they show, and in their names and nodes.
+// How two scenes differ in what they show, and in their names and nodes.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace wrlkit {
 
-/// What is compared of a world.
+/// What is compared of a scene.
 struct WorldFacts {
   std::map<std::string, std::uint64_t, std::less<>> nodes;  // authored, each once
   std::set<std::string, std::less<>> names;                 // when prototypes and Inlines are expanded
@@ -26,12 +26,12 @@ struct WorldFacts {
 struct WorldDifference {
   WorldFacts a, b;
   std::vector<std::string_view> missing, added;  // names
-  double bounds = 0;                             // the largest difference of a number; infinite: one world has none
+  double bounds = 0;                             // the largest difference of a number; infinite: one scene has none
   std::optional<Deviation> surface;              // none: too large to be measured
   double of_diagonal = 0;
 };
 
-/// Nothing when the world cannot be expanded, which is reported. The document is expanded; what is measured stays when
+/// Nothing when the scene cannot be expanded, which is reported. The document is expanded; what is measured stays when
 /// it is gone.
 std::optional<WorldFacts> facts_of(Document&&);
 /// The difference of two that were measured. O(n log n) in their triangles.

@@ -29,7 +29,7 @@ class Document {
  public:
   /// Empty until something is read.
   explicit Document(LoadOptions options = {}, Watch watch = {});
-  /// A scene that is had from elsewhere, with what a pass is given: its messages and files. The context must outlive
+  /// A scene that was made elsewhere, with the messages and files that a pass is given. The context must outlive
   /// the document.
   Document(World world, const PassContext& context);
   /// The same with messages of its own; files next to it are not known.
@@ -38,7 +38,7 @@ class Document {
   Document& operator=(Document&&) noexcept;
   ~Document();
 
-  /// Reads a file in place of what was there; "-" is standard input. False when there is nothing of a scene to be had:
+  /// Reads a file in place of what was there; "-" is standard input. False when no scene can be read:
   /// messages() say why. O(bytes).
   bool read(const std::string& path);
   /// The same of a file that was read already.

@@ -1,4 +1,4 @@
-// Pictures that stand in a glTF file, as files of their own.
+// Pictures embedded in a glTF file, as separate files.
 #pragma once
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"

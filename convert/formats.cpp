@@ -8,19 +8,34 @@
 namespace wrlkit {
 namespace {
 
+std::string text_of(std::string_view name) {
+  return std::string(std::ranges::find(named_pipelines(), name, &NamedPipeline::name)->text);
+}
+
+/// A pipeline whose pictures with baked light have the size that is wanted.
+std::string sized(std::string text, const LightmapSize& size) {
+  constexpr std::string_view pass = "combine-lightmap";
+  const auto at = text.find(pass);
+  if (at == text.npos || size.pass_option().empty()) return text;
+  const bool has_options = text[at + pass.size()] == '{';
+  return text.insert(at + pass.size() + has_options,
+                     has_options ? size.pass_option() + ',' : '{' + size.pass_option() + '}');
+}
+
 std::string gltf_pipeline(const SaveOptions& o) {
   using As = GltfOptions::Lightmaps;
   std::string name = o.lightmap_as == As::base_color ? "gltf"
                      : o.lightmap_as == As::emissive ? "gltf-emissive"
                                                      : "gltf-light";
-  if (o.sky == SkyAs::none) return name;
-  std::string text(std::ranges::find(named_pipelines(), name, &NamedPipeline::name)->text);
-  return text.insert(text.find("tessellate"), "sky,");
+  if (o.sky == SkyAs::none && o.lightmap_size.pass_option().empty()) return name;
+  std::string text = sized(text_of(name), o.lightmap_size);
+  if (o.sky != SkyAs::none) text.insert(text.find("tessellate"), "sky,");
+  return text;
 }
 
 bool stays(const SaveOptions& o) { return o.dump || o.pipeline == "none"; }
-std::string vrml_pipeline(const SaveOptions& o) { return stays(o) ? "none" : "vrml"; }
-std::string x3d_pipeline(const SaveOptions& o) { return o.dump ? "none" : "x3d"; }
+std::string vrml_pipeline(const SaveOptions& o) { return stays(o) ? "none" : sized(text_of("vrml"), o.lightmap_size); }
+std::string x3d_pipeline(const SaveOptions& o) { return o.dump ? "none" : sized(text_of("x3d"), o.lightmap_size); }
 
 constexpr FileFormat file_formats[] = {
     {.name = "VRML97",

@@ -1,4 +1,4 @@
-// What the parts of a world are, counted: cylinders, elbows, boxes.
+// What the parts of a scene are, counted: cylinders, elbows, boxes.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace wrlkit {
 
-/// As the world is shown: instances multiplied out.
+/// As the scene is shown: instances multiplied out.
 struct FormsCensus {
   std::map<std::string, std::uint64_t> parts;  // by kind (kind_of)
   std::uint64_t triangles_left = 0;            // of faces that are not part of a form
@@ -18,7 +18,7 @@ struct FormsCensus {
 };
 
 /// Joins and recognises (passes `join`, `recognise`) the expanded scene of a document, which is changed by it, and
-/// counts; forms that the file has itself count, too. Nothing when the world is shown more often than can be counted,
+/// counts; forms that the file has itself count, too. Nothing when the scene is shown more often than can be counted,
 /// or is to stop. Linear in the corners.
 std::optional<FormsCensus> count_forms(Document& document, const MeshSource& triangles);
 

@@ -1,4 +1,4 @@
-// What a world shows, counted: instances multiplied out, finest level of detail, chosen child of a Switch.
+// What a scene shows, counted: instances multiplied out, finest level of detail, chosen child of a Switch.
 #pragma once
 #include <cstdint>
 #include <unordered_map>
@@ -18,7 +18,7 @@ struct GeometryCensus {
 };
 
 /// Counts saturate instead of overflowing: a node may be shown 2^40 times. Each source is asked once for each geometry
-/// node: one gives its faces as authored, the other its triangles. O(nodes + points x places); when a world has
+/// node: one gives its faces as authored, the other its triangles. O(nodes + points x places); when a scene has
 /// millions of places the bounds are those of boxes in boxes.
 GeometryCensus count_geometry(const Scene&, const MeshSource& polygons, const MeshSource& triangles);
 

@@ -111,7 +111,7 @@ class Census {
 }  // namespace
 
 void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
-  if (!any_node(scene, [&](NodeId n) { return is_off(scene, n); })) return;  // most worlds: nothing to count
+  if (!any_node(scene, [&](NodeId n) { return is_off(scene, n); })) return;  // most scenes: nothing to count
   const Census census(scene);
   const double all = census.all(), hidden = census.hidden();
   if (!(hidden >= least_share * all) || hidden == 0 || !std::isfinite(all)) return;

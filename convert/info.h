@@ -1,4 +1,4 @@
-// What is inside a world.
+// What is inside a scene.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -36,7 +36,7 @@ struct InfoOptions {
   bool recognise = false;  // what the parts are, too
 };
 
-/// Nothing when the world cannot be expanded; messages() of the document say why. Prototypes and Inlines are expanded
+/// Nothing when the scene cannot be expanded; messages() of the document say why. Prototypes and Inlines are expanded
 /// in a copy. O(scene), and every geometry is tessellated once for the world and once more for each level of its LODs.
 std::optional<Info> info(const Document&, const InfoOptions& = {});
 /// The same without the copy: the document is expanded.

@@ -5,7 +5,7 @@
 namespace wrlkit {
 
 /// Reads a file; "-" is standard input. Its first bytes decide the format, and whether it is gzipped. False as a bool
-/// when nothing of a scene could be had: messages() say why.
+/// when no scene could be read: messages() say why.
 ///
 ///   wrlkit::Document world = wrlkit::load("pump.wrl");
 ///   if (!world)

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t none = 0xffffffff;
 constexpr std::size_t per_batch = 8 * 1024, per_scene = 128 * 1024;  // indices that are worth a thread
 constexpr std::size_t most_begun = 8 * per_batch;                    // bounds the memory
-constexpr std::size_t per_node = 64;                                 // what a node costs besides, in indices
+constexpr std::size_t per_node = 64;                                 // what a node costs in addition, in indices
 
 std::size_t n_indices(const Scene& scene, NodeId n) {
   if (scene.is(n, nodes::IndexedFaceSet)) return scene.get(n, nodes::indexed_face_set::coordIndex).size();
@@ -25,7 +25,10 @@ std::size_t n_indices(const Scene& scene, NodeId n) {
 
 MeshesAhead::MeshesAhead(const Scene& scene, const MeshMakers& makers) : scene_(scene), makers_(makers) {}
 
-MeshesAhead::~MeshesAhead() { given_up_ = true; }
+MeshesAhead::~MeshesAhead() {
+  given_up_ = true;
+  for (Batch& batch : batches_) batch.thread.reset();  // before what they use
+}
 
 void MeshesAhead::begin(std::span<const NodeId> geometries, std::span<const char> textured) {
   if (!makers_ || only_one_thread()) return;
@@ -63,8 +66,8 @@ const MeshesAhead::Known* MeshesAhead::find(NodeId n) {
   for (; now_ < of; ++now_) {
     Batch& past = batches_[now_];
     if (now_ < next_) n_begun_ -= past.n_indices;
-    past.claimed = true;
-    past.thread.reset();
+    // Waiting for what was begun would have this thread make meshes that others are there for.
+    if (past.claimed.exchange(true) && !past.ready) past.thread->wait();
     past.known = std::vector<Known>();  // gives the memory back
   }
   next_ = std::max(next_, now_);

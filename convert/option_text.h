@@ -25,6 +25,7 @@ inline bool read(const std::string& text, int& field, const OptionNote& note) {
 inline bool read(const std::string& text, LengthOption& field, const OptionNote&) {
   return field.read(text) && field.metres > 0;
 }
+inline bool read(const std::string& text, LightmapSize& field, const OptionNote&) { return field.read(text); }
 template <Choice E>
 bool read(const std::string& text, E& field, const OptionNote&) {
   return read_choice(text, field);

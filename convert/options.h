@@ -13,6 +13,7 @@
 #include "base/diagnostics.h"
 #include "base/image/image.h"
 #include "base/option_range.h"
+#include "passes/combine_lightmap/lightmap_size.h"
 #include "passes/pipeline/length_option.h"
 #include "passes/place/place.h"
 #include "writers/gltf/gltf.h"
@@ -44,7 +45,7 @@ struct LoadOptions {
   Unit unit = Unit::m;                        // what one unit of the file is
   UpAxis up = UpAxis::y;                      // which of its axes points up
   std::vector<std::string> allow_paths = {};  // folders that pictures and Inlines may lie in, other than the file's own
-  /// Pictures, sounds, films and worlds above the file's own folder may be read, too: as far up as its project reaches
+  /// Pictures, sounds, films and scenes above the file's own folder may be read, too: as far up as its project reaches
   /// (base/io/project_folder.h). For people who open their own files; not for programs that open anybody's.
   bool project_files = false;
   /// Large files are mapped, not read: less memory, and SIGBUS when another program shortens one meanwhile.
@@ -75,6 +76,7 @@ struct SaveOptions {
 
   // glTF
   GltfOptions::Lightmaps lightmap_as = GltfOptions::Lightmaps::base_color;
+  LightmapSize lightmap_size = {};  // of VRML and X3D, too
   bool animation_pointer = false;
   SkyAs sky = SkyAs::none;
   GltfOptions::Hidden hidden = GltfOptions::Hidden::dropped;
@@ -102,6 +104,11 @@ struct SaveOptions {
       "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few viewers know");
     f("sky", sky, "the Background in glTF");
     f("hidden", hidden, "what Switches do not show, in glTF");
+  }
+  void baked_fields(auto&& f) {
+    f("lightmap-size", lightmap_size,
+      "most bytes of all pictures with baked light, 300k, or their texels, 512x512: details go that are seen least",
+      OptionNote{.type = LightmapSize::type});
   }
   void size_fields(auto&& f) {
     f("compress", compress, "vertices in glTF");
@@ -138,6 +145,7 @@ struct SaveOptions {
   }
   void fields(auto&& f) {
     light_fields(f);
+    baked_fields(f);
     size_fields(f);
     file_fields(f);
     text_fields(f);

@@ -1,4 +1,4 @@
-// All triangles that a world shows, in world coordinates: what can be measured.
+// All triangles that a scene shows, in world coordinates: what can be measured.
 #pragma once
 #include "base/diagnostics.h"
 #include "convert/geometry_census.h"

@@ -375,7 +375,7 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
   MadeTile& made = tile.made;
   std::set<std::string_view> names;
   for (const auto& p : pieces) {
-    made.box.unite(bounds_of(p.mesh));
+    made.box.unite(box_of_corners(p.mesh));
     names.insert(p.name);
   }
   if (pieces.empty()) return true;

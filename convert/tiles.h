@@ -1,4 +1,4 @@
-// Worlds of any size as 3D Tiles: what `wrlkit tiles` does.
+// Scenes of any size as 3D Tiles: what `wrlkit tiles` does.
 #pragma once
 #include <map>
 #include <optional>

@@ -1,4 +1,4 @@
-// The meshes of a world as people see it: prototypes and Inlines expanded, every geometry as faces and as triangles.
+// The meshes of a scene as people see it: prototypes and Inlines expanded, every geometry as faces and as triangles.
 #pragma once
 #include <optional>
 
@@ -12,7 +12,7 @@ class WorldMeshes {
   /// Expands the document, which must stay until the sources have been asked for the last time.
   explicit WorldMeshes(Document&);
 
-  /// False when the world could not be expanded.
+  /// False when the scene could not be expanded.
   bool good() const { return triangles != nullptr; }
 
   MeshSource polygons;  // faces as authored; reports nothing: the messages come with the triangles

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "base/math/box.h"
 #include "scenegraph/ids.h"
 
 namespace wrlkit {
@@ -99,6 +100,7 @@ struct Mesh {
   std::array<const Attribute*, 4> attributes() const { return {&normal, &color, &texcoord, &lightcoord}; }
 
   std::size_t n_positions() const { return positions.size() / 3; }
+  Vec3 position(std::uint32_t i) const { return vec3(&positions[std::size_t{3} * i]); }
   std::size_t corners_per_face() const { return kind == Kind::faces ? 3 : kind == Kind::lines ? 2 : 1; }
   std::size_t n_faces() const {
     return face_begin.empty() ? corners.size() / corners_per_face() : face_begin.size() - 1;
@@ -125,6 +127,13 @@ struct Mesh {
     primitive = false;
   }
 };
+
+/// Of the positions that corners use. O(corners).
+inline Box box_of_corners(const Mesh& mesh) {
+  Box box;
+  for (auto c : mesh.corners) box.add(mesh.position(c));
+  return box;
+}
 
 /// Gives the mesh of a geometry node, as the passes leave it: corner-indexed, kind none when there is nothing to draw.
 /// The reference is good until the next call. How a writer or the renderer pulls geometry one at a time, so that the

@@ -13,7 +13,7 @@ namespace wrlkit {
 ///
 /// With tolerance 0 the sagitta is 0.005 * sqrt(r): half a per cent of the geometric mean of the radius and one metre.
 /// The segments then grow with the fourth root of the radius, between 8 and 64, so that a bolt of 5 mm gets 12, a pipe
-/// of 0.1 m 20, a unit Cylinder 32, a tank of 10 m 56; in a world written in millimetres they are finer, but never
+/// of 0.1 m 20, a unit Cylinder 32, a tank of 10 m 56; in a scene written in millimetres they are finer, but never
 /// beyond 64.
 struct Tessellation {
   double tolerance = 0;  // metres of the local frame; 0: automatic

@@ -1,6 +1,6 @@
 #include "light/cache.h"
 
-#include "light/random.h"
+#include "base/math/random.h"
 
 namespace wrlkit::light {
 namespace {
@@ -24,7 +24,7 @@ int IrradianceCache::level_for(double distance) const {
   return std::max(0, levels - 1 - std::ilogb(times));
 }
 
-IrradianceCache::Key IrradianceCache::key_at(const Place& place, int level) const {
+IrradianceCache::Key IrradianceCache::key_at(const RayEnd& place, int level) const {
   const V3& face = place.face;
   // The grid stands askew to the numbers that people write, so that no wall lies on its planes.
   V3 p = per_unit_[level] * (place.position - centre_) + V3(0.137, 0.271, 0.419);
@@ -32,11 +32,12 @@ IrradianceCache::Key IrradianceCache::key_at(const Place& place, int level) cons
   const std::int64_t direction = direction_step(face.x) * 25 + direction_step(face.y) * 5 + direction_step(face.z);
   const auto kind = static_cast<std::uint64_t>(direction + 100) * levels + static_cast<std::uint64_t>(level);
   // A sum of odd multiples, which no two of so few cells will have in common, once mixed.
-  return mixed(whole(p.x) * 0x9e3779b97f4a7c15u + whole(p.y) * 0xc2b2ae3d27d4eb4fu + whole(p.z) * 0x165667b19e3779f9u +
-               kind * 0xd6e8feb86659fd93u + std::uint64_t{place.scope} * 0xff51afd7ed558ccdu);
+  return random_bits(whole(p.x) * 0x9e3779b97f4a7c15u + whole(p.y) * 0xc2b2ae3d27d4eb4fu +
+                     whole(p.z) * 0x165667b19e3779f9u + kind * 0xd6e8feb86659fd93u +
+                     std::uint64_t{place.scope} * 0xff51afd7ed558ccdu);
 }
 
-std::optional<IrradianceCache::Key> IrradianceCache::key(const Place& place, int larger) const {
+std::optional<IrradianceCache::Key> IrradianceCache::key(const RayEnd& place, int larger) const {
   const int level = level_for(place.distance);
   if (level == levels) return {};
   return key_at(place, std::max(0, level - larger));
@@ -48,7 +49,7 @@ std::size_t IrradianceCache::slot(Key key) const {
   return at;
 }
 
-const IrradianceCache::Cell* IrradianceCache::find(const Place& place, int larger) const {
+const IrradianceCache::Cell* IrradianceCache::find(const RayEnd& place, int larger) const {
   if (table_.empty()) return nullptr;
   const int level = level_for(place.distance);
   for (int l = std::min(level, levels - 1); l >= std::max(0, level - larger); --l)

@@ -30,8 +30,8 @@ class IrradianceCache {
   /// Cells have sides of at most `largest`, world units; positions are relative to `centre`.
   IrradianceCache(const V3& centre, double largest);
 
-  /// A place that a ray meets.
-  struct Place {
+  /// Where a ray ends.
+  struct RayEnd {
     V3 position, face;
     std::uint32_t scope;
     double distance;  // how far the ray has come
@@ -39,12 +39,12 @@ class IrradianceCache {
 
   static constexpr int levels = 7;  // each half as large as the one before
 
-  /// The cell for a place; none when it is too near for any cell. `larger`: one that is so many times twice as large,
+  /// The cell for a place; none when it is too near for any cell. `larger`: one whose sides are 2^larger times as long,
   /// or the largest.
-  std::optional<Key> key(const Place& place, int larger = 0) const;
+  std::optional<Key> key(const RayEnd& place, int larger = 0) const;
   /// The cell of a place or, when no ray has ended there, the smallest of those that are up to `larger` times twice as
   /// large. Null when none of them is there.
-  const Cell* find(const Place& place, int larger = 0) const;
+  const Cell* find(const RayEnd& place, int larger = 0) const;
   /// Makes the cell when it is new. `rank` is a random number for this meeting.
   void meet(Key key, const Receiver& place, std::uint64_t rank);
 
@@ -56,7 +56,7 @@ class IrradianceCache {
 
  private:
   int level_for(double distance) const;
-  Key key_at(const Place& place, int level) const;
+  Key key_at(const RayEnd& place, int level) const;
   std::size_t slot(Key key) const;
   void rebuild(std::size_t size);
 

@@ -34,7 +34,7 @@ double put_sure_ones_first(std::vector<Candidate>& all, std::size_t most, std::s
 
 }  // namespace
 
-void DirectLight::lamps(const Receiver& at, int most, Stream& random, Flux& to) const {
+void DirectLight::lamps(const Receiver& at, int most, RandomStream& random, Flux& to) const {
   thread_local std::vector<Candidate> all;
   all.clear();
   for (const Lamp& l : world_.lamps()) add_candidate(all, l, at);
@@ -121,7 +121,7 @@ void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint3
   double faint = 0;
   for (std::size_t i = 0; i < emitters.size(); ++i) faint += strength[i] < enough ? strength[i] : 0;
   const double step = faint / std::max(1.0, std::round(faint * n / sum));
-  double next = fraction(key_of(key, emitters.size(), first)) * step, n_drawn = 0;
+  double next = random_fraction(random_key(key, emitters.size(), first)) * step, n_drawn = 0;
   V3 drawn, drawn_squares, drawn_noise;
   for (std::size_t i = 0; i < emitters.size(); ++i) {
     const V3 full((n / mean(emitters[i].radiance)) * strength[i]);
@@ -129,13 +129,13 @@ void DirectLight::all_emitters(const Receiver& at, std::uint64_t key, std::uint3
       const auto rays = [&](std::uint32_t of) {
         return static_cast<std::uint32_t>(std::lround(of * (strength[i] / sum)));
       };
-      add_seen(at, emitters[i], full, Lattice<2>(key_of(key, i)), rays(first), rays(n), to, noise);
+      add_seen(at, emitters[i], full, Lattice<2>(random_key(key, i)), rays(first), rays(n), to, noise);
     } else if (strength[i] > 0) {
       std::uint32_t rays_here = 0;
       for (next -= strength[i]; next < 0; next += step) ++rays_here;
       if (!rays_here) continue;
-      const V3 e = add_seen(at, emitters[i], (rays_here * step / strength[i]) * full, Lattice<2>(key_of(key, i, first)),
-                            0, rays_here, to, drawn_noise);
+      const V3 e = add_seen(at, emitters[i], (rays_here * step / strength[i]) * full,
+                            Lattice<2>(random_key(key, i, first)), 0, rays_here, to, drawn_noise);
       drawn += e;
       drawn_squares += (1.0 / rays_here) * (e * e);
       n_drawn += rays_here;

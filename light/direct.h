@@ -2,9 +2,9 @@
 #pragma once
 #include <optional>
 
+#include "base/math/random.h"
 #include "light/emitter_tree.h"
 #include "light/flux.h"
-#include "light/random.h"
 #include "light/world.h"
 
 namespace wrlkit::light {
@@ -15,7 +15,7 @@ class DirectLight {
 
   /// Adds the irradiance of all lamps that reach there. Up to `most` rays: the strongest lamps get one each; of the
   /// others, when there are more, some are drawn for all.
-  void lamps(const Receiver& at, int most, Stream& random, Flux& to) const;
+  void lamps(const Receiver& at, int most, RandomStream& random, Flux& to) const;
 
   /// Adds the irradiance of `n` places on emitters, from number `first` of a lattice on, n times as much as it is.
   /// It is a share only: rays in cosine directions find the rest; see gather_weight().
@@ -33,7 +33,7 @@ class DirectLight {
   void all_emitters(const Receiver& at, std::uint64_t key, std::uint32_t first, std::uint32_t n, Flux& to,
                     V3& noise) const;
 
-  /// A ray in a cosine direction met an emitter: the share of its light that counts beside emitters() (the balance
+  /// A ray in a cosine direction met an emitter: the share of its light that counts next to emitters() (the balance
   /// heuristic of Veach and Guibas). 1 when the triangle is no emitter.
   double gather_weight(const Receiver& from, const Ray& ray, const Hit& hit) const;
 

@@ -49,15 +49,15 @@ class Estimate {
         all_emitters_(all_emitters),
         key_(key),
         first_(first),
-        random_(first ? key_of(key, 4, first) : key),
-        directions_(key_of(key, 1)),
-        places_(key_of(key, 2)) {
+        random_(first ? random_key(key, 4, first) : key),
+        directions_(random_key(key, 1)),
+        places_(random_key(key, 2)) {
     direct_.lamps(at_, gather_lamp_rays, random_, lamps_);
   }
 
   void trace(std::uint32_t n) {
     if (all_emitters_)
-      direct_.all_emitters(at_, key_of(key_, 3), first_ + n_, n, emitters_, emitter_noise_);
+      direct_.all_emitters(at_, random_key(key_, 3), first_ + n_, n, emitters_, emitter_noise_);
     else
       direct_.emitters(at_, places_, first_ + n_, n, emitters_);
     for (std::uint32_t i = n_; i < n_ + n; ++i) gather(i);
@@ -94,7 +94,7 @@ class Estimate {
   bool all_emitters_;  // each is looked at, so that rays leave them out
   std::uint64_t key_;
   std::uint32_t first_;  // rays that others have
-  Stream random_;
+  RandomStream random_;
   Lattice<2> directions_;
   Lattice<3> places_;
   Flux lamps_, emitters_, gathered_;
@@ -125,7 +125,7 @@ std::vector<Irradiance> Integrator::irradiance(std::span<const Point> points, st
   parallel_for((points.size() + points_a_block - 1) / points_a_block, [&](std::size_t b) {
     for (std::size_t i = b * points_a_block; i < std::min(points.size(), (b + 1) * points_a_block); ++i) {
       Estimate e(s.direct, s.transport, all_emitters, receiver(s.world, points[i]),
-                 key_of(s.options.seed, 6, first + (round.numbers.empty() ? i : round.numbers[i])), round.first);
+                 random_key(s.options.seed, 6, first + (round.numbers.empty() ? i : round.numbers[i])), round.first);
       e.trace(static_cast<std::uint32_t>(std::max(1, round.rays)));
       out[i] = e.result();
     }

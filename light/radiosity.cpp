@@ -64,14 +64,14 @@ class Solver {
   };
 
   void discover(std::span<const Receiver> from);
-  void walk(Receiver at, Stream& random, std::vector<Meeting>& out) const;
+  void walk(Receiver at, RandomStream& random, std::vector<Meeting>& out) const;
   void keep_sound_cells();
   bool is_sound(const Cell& cell) const;
   void light_directly(std::size_t c);
   void iterate(int iteration);
   Gathered gather(std::size_t c, int iteration);
-  Gathered look(const Receiver& at, const Ray& ray, Stream& random, int depth) const;
-  Gathered follow(const Receiver& at, Stream& random, int depth) const;
+  Gathered look(const Receiver& at, const Ray& ray, RandomStream& random, int depth) const;
+  Gathered follow(const Receiver& at, RandomStream& random, int depth) const;
 
   IrradianceCache& cache_;
   const LightWorld& world_;
@@ -88,7 +88,7 @@ void Solver::discover(std::span<const Receiver> from) {
   std::vector<std::vector<Meeting>> met(n_blocks);
   parallel_for(n_blocks, [&](std::size_t b) {
     for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i) {
-      Stream random(key_of(seed_, 1, i));
+      RandomStream random(random_key(seed_, 1, i));
       walk(from[i * from.size() / n], random, met[b]);
     }
   });
@@ -96,7 +96,7 @@ void Solver::discover(std::span<const Receiver> from) {
   for (const auto& list : met)
     for (const Meeting& m : list) order.push_back(&m);
   std::stable_sort(order.begin(), order.end(), [](const Meeting* a, const Meeting* b) { return a->key < b->key; });
-  Stream rank(key_of(seed_, 2));
+  RandomStream rank(random_key(seed_, 2));
   for (auto first = order.begin(), last = first; first != order.end(); first = last) {
     while (last != order.end() && (*last)->key == (*first)->key) ++last;
     if (last - first < often) continue;  // rarely met cells cost more than they bring
@@ -124,7 +124,7 @@ bool Solver::is_sound(const Cell& cell) const {
   return true;
 }
 
-void Solver::walk(Receiver at, Stream& random, std::vector<Meeting>& out) const {
+void Solver::walk(Receiver at, RandomStream& random, std::vector<Meeting>& out) const {
   double strength = 1;
   for (int length = 0; length < walk_length; ++length) {
     double u = random.next(), v = random.next(), met = random.next(), next = random.next();
@@ -149,7 +149,7 @@ void Solver::light_directly(std::size_t c) {
   const int emitter_rays = effort_.counted * rays_a_cell / IrradianceCache::most_places;
   Cell& cell = cache_.cells()[c];
   for (int p = 0; p < cell.n_places(); ++p) {
-    Stream random(key_of(seed_, 3, c * IrradianceCache::most_places + p));
+    RandomStream random(random_key(seed_, 3, c * IrradianceCache::most_places + p));
     Flux lamps, emitters;
     direct_.lamps(cell.places[p], lamp_rays, random, lamps);
     direct_.emitters(cell.places[p], Lattice<3>(random.bits()), 0, emitter_rays, emitters);
@@ -158,12 +158,12 @@ void Solver::light_directly(std::size_t c) {
   }
 }
 
-Solver::Gathered Solver::look(const Receiver& from, const Ray& ray, Stream& random, int depth) const {
+Solver::Gathered Solver::look(const Receiver& from, const Ray& ray, RandomStream& random, int depth) const {
   Gathered out;
   double open = transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
     if (mean(s.emission) > 0) out.first += (part * pi * direct_.gather_weight(from, ray, hit)) * s.emission;
     if (!(mean(s.albedo) > 0)) return;
-    IrradianceCache::Place place{ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance};
+    IrradianceCache::RayEnd place{ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance};
     const Cell* cell = cache_.find(place, 2);
     Gathered there =
         cell ? Gathered{cell->direct, cell->gathered} : follow(transport_.receiver_at(hit, s), random, depth + 1);
@@ -175,7 +175,7 @@ Solver::Gathered Solver::look(const Receiver& from, const Ray& ray, Stream& rand
 }
 
 /// Where there is no cell: an estimate by one more ray.
-Solver::Gathered Solver::follow(const Receiver& at, Stream& random, int depth) const {
+Solver::Gathered Solver::follow(const Receiver& at, RandomStream& random, int depth) const {
   Flux f;
   direct_.lamps(at, 1, random, f);
   direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, f);
@@ -189,9 +189,9 @@ Solver::Gathered Solver::follow(const Receiver& at, Stream& random, int depth) c
 Solver::Gathered Solver::gather(std::size_t c, int iteration) {
   const Cell& cell = cache_.cells()[c];
   const int n = iteration < warm_up ? fewer_rays : rays_a_cell;
-  Stream random(
-      key_of(seed_, 4, c * static_cast<std::size_t>(warm_up + effort_.counted) + static_cast<std::size_t>(iteration)));
-  Lattice<2> directions(key_of(seed_, 5, c));
+  RandomStream random(random_key(
+      seed_, 4, c * static_cast<std::size_t>(warm_up + effort_.counted) + static_cast<std::size_t>(iteration)));
+  Lattice<2> directions(random_key(seed_, 5, c));
   Gathered sum;
   for (int i = 0; i < n; ++i) {
     const Receiver& at = cell.places[i % cell.n_places()];
@@ -205,7 +205,7 @@ Solver::Gathered Solver::gather(std::size_t c, int iteration) {
   return {(1.0 / n) * sum.first, (1.0 / n) * sum.further};
 }
 
-/// All cells gather once from what all had before. What the whole world is too bright or too dark by would need many
+/// All cells gather once from what all had before. What the whole scene is too bright or too dark by would need many
 /// iterations to go away; it is found from the sums over all cells and corrected at once.
 void Solver::iterate(int iteration) {
   auto& cells = cache_.cells();

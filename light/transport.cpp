@@ -12,7 +12,8 @@ constexpr int lamp_rays = 2;
 
 }  // namespace
 
-Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, int depth, bool all_emitters) const {
+Arriving Transport::along(const Receiver& at, const Ray& ray, RandomStream& random, int depth,
+                          bool all_emitters) const {
   Arriving out;
   bool first = true;
   auto meet = [&](const Hit& hit, const SurfacePoint& s, double part) {
@@ -28,7 +29,7 @@ Arriving Transport::along(const Receiver& at, const Ray& ray, Stream& random, in
   return out;
 }
 
-V3 Transport::seen(const Ray& ray, Stream& random, const std::optional<V3>& background) const {
+V3 Transport::seen(const Ray& ray, RandomStream& random, const std::optional<V3>& background) const {
   V3 sum;
   const double open = each_layer(ray, [&](const Hit& hit, SurfacePoint& s, double part) {
     if (s.inside)
@@ -42,7 +43,7 @@ V3 Transport::seen(const Ray& ray, Stream& random, const std::optional<V3>& back
                   : sum;
 }
 
-V3 Transport::irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const {
+V3 Transport::irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, RandomStream& random, int depth) const {
   if (cache_) {
     const int larger = depth <= 1 ? 0
                        : depth <= certain
@@ -56,7 +57,7 @@ V3 Transport::irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, 
 }
 
 /// An estimate from one more ray in a cosine direction and one to the emitters.
-V3 Transport::followed(const Receiver& at, const V3& albedo, Stream& random, int depth) const {
+V3 Transport::followed(const Receiver& at, const V3& albedo, RandomStream& random, int depth) const {
   Flux f;
   direct_.lamps(at, lamp_rays, random, f);
   direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, f);

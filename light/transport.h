@@ -20,15 +20,15 @@ class Transport {
       : world_(world), direct_(direct), cache_(cache) {}
 
   /// What comes to a receiver along a ray of its own that was drawn in a cosine direction. Light of emitters is
-  /// weighted for rays to emitters beside it (DirectLight::emitters), or left out (`all_emitters`:
+  /// weighted for rays to emitters next to it (DirectLight::emitters), or left out (`all_emitters`:
   /// DirectLight::all_emitters).
-  Arriving gather(const Receiver& at, const Ray& ray, Stream& random, bool all_emitters = false) const {
+  Arriving gather(const Receiver& at, const Ray& ray, RandomStream& random, bool all_emitters = false) const {
     return along(at, ray, random, 0, all_emitters);
   }
 
   /// Radiance that a camera sees along a ray; `background`: instead of the sky. The backs of solid faces let it
   /// through.
-  V3 seen(const Ray& ray, Stream& random, const std::optional<V3>& background) const;
+  V3 seen(const Ray& ray, RandomStream& random, const std::optional<V3>& background) const;
 
   /// Calls f(hit, surface, part) for what a ray meets, through what is transparent; `part` is how much of the ray's
   /// light comes from there. An f that sets surface.alpha to 0 lets the ray pass. Returns the part that comes from the
@@ -51,7 +51,7 @@ class Transport {
   /// The same through one layer only, by chance: the part of each is how often it is the one. For rays whose light
   /// nobody sees by itself; if these went on from all layers, there would be many times as many after each reflection.
   template <class F>
-  double one_layer(const Ray& ray, Stream& random, F&& f) const {
+  double one_layer(const Ray& ray, RandomStream& random, F&& f) const {
     double after = 0;
     Hit hit;
     for (int layer = 0; layer < most_layers; ++layer, after = hit.distance) {
@@ -72,9 +72,9 @@ class Transport {
  private:
   static constexpr int most_layers = 32;
 
-  Arriving along(const Receiver& at, const Ray& ray, Stream& random, int depth, bool all_emitters = false) const;
-  V3 irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, Stream& random, int depth) const;
-  V3 followed(const Receiver& at, const V3& albedo, Stream& random, int depth) const;
+  Arriving along(const Receiver& at, const Ray& ray, RandomStream& random, int depth, bool all_emitters = false) const;
+  V3 irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, RandomStream& random, int depth) const;
+  V3 followed(const Receiver& at, const V3& albedo, RandomStream& random, int depth) const;
 
   const LightWorld& world_;
   const DirectLight& direct_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "light/lamp_reach.h"
 #include "light/render/attributes.h"
 #include "light/render/gather.h"
 #include "scenegraph/nodes.h"
@@ -32,7 +33,7 @@ std::optional<Lamp> lamp_of(const std::optional<Light>& light) {
 
 double strongest(const V3& c) { return std::max({c.x, c.y, c.z}); }
 
-/// Radiance in the mean of all directions, of which those along a spiral stand for all.
+/// Radiance in the mean of all directions, estimated by directions along a spiral.
 double mean_radiance(const Sky& sky) {
   constexpr int n = 256;
   constexpr double golden_angle = pi * (3 - 2.23606797749978969641);
@@ -63,6 +64,7 @@ LightWorld::LightWorld(const Scene& scene, const MeshSource& source, Resources* 
   rays_.emplace(stage_, pool_, mesh_of_,
                 RayOptions{.cull = false, .fronts_first = true, .all_flat = options.all_flat, .clear = clear}, diag);
   make_emitters();
+  if (options.lamps == LampFall::inverse_square) spread_lamps();
 }
 
 void LightWorld::make_facts(const Scene& scene, Resources* resources, Diagnostics& diag) {
@@ -92,6 +94,15 @@ void LightWorld::make_lamps(const Scene& scene) {
     if (auto l = lamp_of(make_light(scene, p, stage_))) lamps_.push_back(*l);
   for (const LightScope& s : stage_.scopes)
     scoped_.push_back(s.light.node ? lamp_of(make_light(scene, s.light, stage_)) : std::nullopt);
+}
+
+void LightWorld::spread_lamps() {
+  std::vector<std::optional<double>> reaches;
+  for (const Lamp& l : lamps_) reaches.push_back(lamp_reach(l.light, *this));
+  for (std::size_t i = 0; i < lamps_.size(); ++i) {
+    Light& l = lamps_[i].light;
+    if (reaches[i]) l.fall = SquareFall{*reaches[i], attenuation(l, *reaches[i])};
+  }
 }
 
 void LightWorld::make_sky(const Scene& scene, Resources* resources, Diagnostics& diag) {
@@ -200,7 +211,7 @@ SurfacePoint LightWorld::surface(const Hit& hit) const {
   return s;
 }
 
-LightWorld::Place LightWorld::place(const Hit& hit) const {
+LightWorld::HitPoint LightWorld::hit_point(const Hit& hit) const {
   const PooledMesh& m = pool_[mesh_of_[hit.use]];
   const Affine& frame = stage_.frames[stage_.uses[hit.use].frame];
   const V3 a = pool_.position(m, hit.element, 0);

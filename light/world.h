@@ -12,6 +12,7 @@
 #include "base/diagnostics.h"
 #include "geometry/mesh.h"
 #include "light/color.h"
+#include "light/lamp_fall.h"
 #include "light/render/background.h"
 #include "light/render/light.h"
 #include "light/render/mesh_pool.h"
@@ -31,12 +32,13 @@ struct LightOptions {
 
   double emission = 1;       // factor for the light that emissiveColor gives off
   bool unlit_emits = false;  // a Shape without Material emits its colour; else it reflects by it
+  LampFall lamps = LampFall::as_written;
   Sky sky = Sky::background;
   V3 sky_color{1};                        // constant: radiance, linear
   std::optional<drawing::Pose> viewer{};  // Billboards turn there; none: they stand as they are
   drawing::LevelOf level_of{};            // of LODs; none: the first
   std::size_t all_flat =
-      2'000'000;  // up to so many triangles nothing is instanced: some 100 bytes each, and faster rays
+      2'000'000;  // up to this many triangles nothing is instanced: some 100 bytes each, and faster rays
 };
 
 /// A place on a surface, seen from one side.
@@ -86,10 +88,10 @@ class LightWorld {
   SurfacePoint surface(const Hit& hit) const;
   /// Where a hit lies in the world, as exactly as the mesh has it, and the normal for shading on the side of `face`,
   /// which is the hit's.
-  V3 position(const Hit& hit) const { return place(hit).position; }
+  V3 position(const Hit& hit) const { return hit_point(hit).position; }
   V3 normal(const Hit& hit, const V3& face) const;
   V3 off_surface(const Hit& hit, const V3& face) const {
-    const Place p = place(hit);
+    const HitPoint p = hit_point(hit);
     return off_surface(p.position, face, p.extent);
   }
   /// A use is a closed surface around some room whose inner side nobody sees: it counts as `solid` TRUE from then on,
@@ -108,7 +110,7 @@ class LightWorld {
   /// Radiance of the sky in a direction of the world.
   V3 sky(const V3& direction) const;
   bool has_sky() const { return has_sky_; }
-  /// Or nothing shines, or too little to see the world by: a white sky of radiance 1 stands in (docs/lighting.md, "No
+  /// Or nothing shines, or too little to see the world by: a white sky of radiance 1 is added (docs/lighting.md, "No
   /// light at all").
   bool has_sky_of_its_own() const { return !sky_stands_in_; }
   /// A light node shines, or surfaces light the world as lamps do (docs/lighting.md, "No light at all").
@@ -155,13 +157,15 @@ class LightWorld {
     V3 albedo, emission;  // when it is plain
   };
 
-  struct Place {
+  struct HitPoint {
     V3 position;
     double extent;
   };
-  Place place(const Hit& hit) const;
+  HitPoint hit_point(const Hit& hit) const;
   void make_facts(const Scene& scene, Resources* resources, Diagnostics& diag);
   void make_lamps(const Scene& scene);
+  /// They fall by the square of the distance from now on.
+  void spread_lamps();
   void make_sky(const Scene& scene, Resources* resources, Diagnostics& diag);
   /// Whether surfaces that shine as lamps do are light enough for all others.
   bool glow_is_light() const;

@@ -103,7 +103,7 @@ std::string_view to_string(Format f) {
 
 namespace {
 
-/// What the first bytes are, for the message that this is not a world.
+/// What the first bytes are, for the message that this is not a scene.
 std::string describe_bytes(std::string_view text) {
   if (text.find_first_not_of(std::string_view("\0 \t\r\n", 5)) == text.npos) return "it holds nothing but blanks";
   auto mime = sniff_mime(text);
@@ -111,7 +111,7 @@ std::string describe_bytes(std::string_view text) {
   return "the first line is '" + std::string(first_line(text).substr(0, 40)) + "'";
 }
 
-/// Encodings of worlds that are known and not read; empty: it is none of them.
+/// Encodings of scenes that are known and not read; empty: it is none of them.
 std::string_view unread_encoding(std::string_view body) {
   const auto line = first_line(trim(body));
   if (line.starts_with("#Inventor") && contains_nocase(line, "binary")) return "Inventor's binary form";

@@ -15,11 +15,11 @@ namespace wrlkit {
 struct ReadOptions {
   ReadLimits limits;
   ParseLimits parse;
-  std::vector<std::string> allowed = {};       // folders besides the world's own that its buffers may lie in (glTF)
+  std::vector<std::string> allowed = {};       // folders other than the file's own that its buffers may lie in (glTF)
   std::vector<FileLookup>* lookups = nullptr;  // gets each buffer that is looked for
 };
 
-/// What a text is by its first bytes; the file's name does not matter. none: no world.
+/// What a text is by its first bytes; the file's name does not matter. none: not a format that is read.
 Format sniff_format(std::string_view text);
 std::string_view to_string(Format);
 
@@ -30,7 +30,7 @@ struct World {
   std::uint64_t bytes = 0;  // on disk
 };
 
-/// Reads a world. Null when there is nothing of a scene to be had; why is in `diag`. The text is not kept.
+/// Reads a scene. Null when no scene can be read; why is in `diag`. The text is not kept.
 std::unique_ptr<World> read_world(const std::string& path, const ReadOptions&, Diagnostics& diag);
 /// The same from a file that was read already.
 std::unique_ptr<World> parse_world(const FileText& file, const ReadOptions&, Diagnostics& diag);

@@ -204,7 +204,7 @@ std::shared_ptr<const Scene> FileResources::parsed(const Target& target, std::st
   if (target.path.empty()) {
     report_once(diag, Diag::url_not_found, where, url);
     return nullptr;
-  }  // no worlds in data urls
+  }  // no scenes in data urls
   std::lock_guard lock(mutex_);
   auto [at, is_new] = worlds_.try_emplace(target.key);
   auto& world = at->second;

@@ -1,4 +1,4 @@
-// What worlds refer to, from files: found by their urls, read below the allowed folders and nowhere else, each one
+// What scenes refer to, from files: found by their urls, read below the allowed folders and nowhere else, each one
 // once. Nothing is ever fetched from a network.
 #pragma once
 #include <deque>
@@ -29,17 +29,17 @@ struct ResourceOptions {
 /// reported once, however many passes ask for its url.
 class FileResources final : public Resources {
  public:
-  /// Parses a world; reports, and returns null, when there is nothing of a scene to be had.
+  /// Parses a scene; reports, and returns null, when no scene can be read.
   using ParseWorld = std::function<std::shared_ptr<const Scene>(const std::string& path, Diagnostics&)>;
 
   FileResources(ResourceOptions options, ParseWorld parse);
-  /// The scene that was read from options.input: a request for that file gets this very scene, which tells a world that
+  /// The scene that was read from options.input: a request for that file gets this very scene, which tells a scene that
   /// contains itself.
   void set_root(std::shared_ptr<const Scene> scene);
 
   std::shared_ptr<const Blob> bytes(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
   std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
-  /// Parsed worlds are kept. A world that asks for itself while it is being parsed is a cycle.
+  /// Parsed scenes are kept. A scene that asks for itself while it is being parsed is a cycle.
   LinkedWorld world(std::span<const std::string_view> urls, Span where, Diagnostics&) override;
   std::shared_ptr<const PatchSet> patches(const std::string& path, Diagnostics&) override;
   UrlTarget target(std::string_view url, Span where, const Sources&) override;
@@ -48,8 +48,8 @@ class FileResources final : public Resources {
   /// How many files above the input's folder were found, and below which folder such files may lie.
   std::size_t files_above() const;
   const std::string& project() const { return project_; }
-  /// All that was asked for until now: what the result depends on besides the input. What has no referrer was named by
-  /// the user.
+  /// All that was asked for until now: what the result depends on in addition to the input. What has no referrer was
+  /// named by the user.
   std::vector<FileLookup> lookups() const;
 
  private:
@@ -80,7 +80,7 @@ class FileResources final : public Resources {
 
   ResourceOptions options_;
   ParseWorld parse_;
-  // Held while a url is looked up and while a world is parsed, which may ask for further ones: sources that are being
+  // Held while a url is looked up and while a scene is parsed, which may ask for further ones: sources that are being
   // added are then not searched. Order of locks: this one, one of a Slot (picture before blob), cache_mutex_.
   std::recursive_mutex mutex_;
   AllowedFiles files_;

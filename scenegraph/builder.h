@@ -82,7 +82,7 @@ class SceneBuilder {
     std::string_view from, event_out, to, event_in;
     Span where;
   };
-  struct Link {  // IMPORT, of a name that a world exports, and EXPORT
+  struct Link {  // IMPORT, of a name that a scene exports, and EXPORT
     bool import;
     std::string_view node, exported, name;
     Span where;

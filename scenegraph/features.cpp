@@ -45,8 +45,7 @@ void set_features(Scene& scene, NodeId geometry, const Features& f) {
   scene.set(texts, scene.make(FieldType::MFString, nodes::metadata_string::value.slot, f.names));
   scene.set(numbers, nodes::metadata_integer::name, faces);
   scene.set(numbers, scene.make(FieldType::MFInt32, nodes::metadata_integer::value.slot, f.faces));
-  scene.set(set, nodes::metadata_set::name, parts);
-  scene.set(set, nodes::metadata_set::value, std::vector<NodeId>{texts, numbers});
+  scene.set(set, nodes::metadata_set::name, parts, nodes::metadata_set::value, std::vector<NodeId>{texts, numbers});
   scene.set(geometry, scene.make(FieldType::SFNode, *slot, set));
 }
 

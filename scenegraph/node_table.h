@@ -17,7 +17,7 @@ enum class Access : std::uint8_t { init, inout, in, out };
 
 /// Dialects, as bits, so that one row can be valid in several. `wrlkit`: fields and nodes that no standard has, in
 /// which passes and writers tell each other of baked light and of recognised forms. They are read in every dialect;
-/// fields are written on request only, nodes as the faces that they stand for.
+/// fields are written on request only, nodes as the faces they represent.
 enum class Dialect : std::uint8_t { vrml1 = 1, vrml97 = 2, x3d = 4, wrlkit = 8 };
 using DialectSet = std::uint8_t;
 

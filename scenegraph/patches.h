@@ -1,4 +1,4 @@
-// Light on surfaces as a patch file tells it: triangles of a world, cut into small triangles ("patches"), each with one
+// Light on surfaces as a patch file tells it: triangles of a scene, cut into small triangles ("patches"), each with one
 // colour for the radiance that leaves it (Lazanyi, 3.1). The exchange format of global illumination programs.
 //
 //   <patches version="1" source="room.wrl" unit="m" method="path" samples="256">

@@ -1,4 +1,4 @@
-// What a world refers to: pictures, other worlds, bytes. The interface through which passes and writers reach them; the
+// What a scene refers to: pictures, other scenes, bytes. The interface through which passes and writers reach them; the
 // implementation (parsers/resources.h) reads files below the allowed folders and nothing else.
 #pragma once
 #include <deque>
@@ -32,7 +32,7 @@ inline constexpr std::string_view made_scheme = "wrlkit:";
 struct MadeFile {
   std::string name;  // "lightmap_0.png"
   std::shared_ptr<const std::string> bytes;
-  bool always = false;  // written even if the world that is written does not refer to it
+  bool always = false;  // written even if the scene that is written does not refer to it
 };
 
 /// A file that an option of a pass names: a list or a table, for people.
@@ -43,9 +43,9 @@ struct NamedFile {
 /// The name, next to the file that is written, of the file that has such a url.
 using PlaceMade = std::function<std::string(std::string_view url)>;
 
-/// A world, and which of the urls led to it: what follows '#' there names a part of it.
+/// A scene, and which of the urls led to it: what follows '#' there names a part of it.
 struct LinkedWorld {
-  std::shared_ptr<const Scene> scene;  // null: none could be had
+  std::shared_ptr<const Scene> scene;  // null: none could be read
   std::string_view url;
 };
 
@@ -62,17 +62,17 @@ class Resources {
 
   /// Without opening or reporting anything.
   virtual UrlTarget target(std::string_view, Span, const Sources&) { return {}; }
-  /// A world, to see what it refers to, at a path that target() gave; null when there is nothing to
+  /// A scene, to see what it refers to, at a path that target() gave; null when there is nothing to
   /// be had. Nothing is reported, nothing kept.
   virtual std::shared_ptr<const Scene> look_into(const std::string&) { return nullptr; }
 
-  /// The first of the urls that can be had, for a node that was read at `where` (relative urls are relative to that
+  /// The first of the urls that can be read, for a node that was read at `where` (relative urls are relative to that
   /// file). Reports and returns null when none can. Each file is read once; later calls return the same object.
   virtual std::shared_ptr<const Blob> bytes(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
   virtual std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
   virtual LinkedWorld world(std::span<const std::string_view> urls, Span where, Diagnostics&) = 0;
 
-  /// A patch file that the user names, relative to where he is; null, reported, when there is nothing of it to be had.
+  /// A patch file that the user names, relative to where he is; null, reported, when nothing of it can be read.
   virtual std::shared_ptr<const PatchSet> patches(const std::string&, Diagnostics&) { return nullptr; }
 
   /// Hands in a file that a pass has made and returns its url, made_scheme + name: whoever asks for that gets these

@@ -23,14 +23,14 @@ struct Route {
   bool operator==(const Route&) const = default;
 };
 
-/// IMPORT of X3D (ISO/IEC 19775-1, 4.4.6): ROUTEs here may lead to a node that an inlined world exports.
+/// IMPORT of X3D (ISO/IEC 19775-1, 4.4.6): ROUTEs here may lead to a node that an inlined scene exports.
 struct Import {
   NodeId inline_node;
   std::string_view exported;  // the name in that world
   NodeId node;  // stands for the one that is meant, in ROUTEs and exports alone; has the name of this scope
 };
 
-/// EXPORT of X3D: what the worlds that inline this one may import.
+/// EXPORT of X3D: what the scenes that inline this one may import.
 struct Export {
   NodeId node;
   std::string_view name;
@@ -121,9 +121,11 @@ class Scene {
   auto get(NodeId n, FieldKey<T> key) const;
   /// Writes a field; arrays are copied into the arena.
   void set(NodeId n, Value v);
-  template <FieldType T, class V>
-  void set(NodeId n, FieldKey<T> key, const V& v) {
+  /// Writes fields: keys and values in turn.
+  template <FieldType T, class V, class... More>
+  void set(NodeId n, FieldKey<T> key, const V& v, const More&... more) {
     set(n, make(T, key.slot, v));
+    if constexpr (sizeof...(more) > 0) set(n, more...);
   }
   void unset(NodeId n, std::uint16_t slot);
   /// All fields at once, replacing those that were there; what the builder and the passes that rewrite nodes use.
@@ -136,17 +138,9 @@ class Scene {
   Value make(FieldType, std::uint16_t slot, std::span<const std::int32_t>);
   Value make(FieldType, std::uint16_t slot, std::span<const std::string_view>);
   Value make(FieldType, std::uint16_t slot, std::span<const NodeId>);
-  Value make(FieldType t, std::uint16_t slot, const std::vector<double>& v) {
-    return make(t, slot, std::span<const double>(v));
-  }
-  Value make(FieldType t, std::uint16_t slot, const std::vector<std::int32_t>& v) {
-    return make(t, slot, std::span<const std::int32_t>(v));
-  }
-  Value make(FieldType t, std::uint16_t slot, const std::vector<NodeId>& v) {
-    return make(t, slot, std::span<const NodeId>(v));
-  }
-  Value make(FieldType t, std::uint16_t slot, const std::vector<std::string_view>& v) {
-    return make(t, slot, std::span<const std::string_view>(v));
+  template <class T>
+  Value make(FieldType t, std::uint16_t slot, const std::vector<T>& v) {
+    return make(t, slot, std::span<const T>(v));
   }
   template <std::size_t N>
   Value make(FieldType t, std::uint16_t slot, const std::array<double, N>& v) {

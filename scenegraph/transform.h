@@ -13,6 +13,9 @@ struct TransformFields {
   Vec3 scale{1, 1, 1};
   Vec4 scale_orientation{0, 0, 1, 0};
   Vec3 center{0, 0, 0};
+
+  bool is_identity() const { return translation == Vec3{} && rotation[3] == 0 && !scales(); }
+  bool scales() const { return scale != Vec3{1, 1, 1}; }
   bool operator==(const TransformFields&) const = default;
 };
 
@@ -21,7 +24,7 @@ inline Matrix matrix_of(const TransformFields& f) {
   const auto &t = f.translation, &c = f.center;
   const auto& o = f.scale_orientation;
   Matrix linear = rotation_matrix(f.rotation);
-  if (f.scale != Vec3{1, 1, 1})
+  if (f.scales())
     linear = linear * rotation_matrix(o) * scale_matrix(f.scale) * rotation_matrix({o[0], o[1], o[2], -o[3]});
   if (c == Vec3{0, 0, 0}) return translation_matrix(t) * linear;
   return translation_matrix({t[0] + c[0], t[1] + c[1], t[2] + c[2]}) * linear *

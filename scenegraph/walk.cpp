@@ -1,6 +1,7 @@
 #include "scenegraph/walk.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "scenegraph/nodes.h"
 
@@ -17,8 +18,7 @@ void reach(const Scene& scene, std::span<const NodeId> roots, std::vector<char>&
   while (!stack.empty()) {
     NodeId n = stack.back();
     stack.pop_back();
-    if (seen[n.value]) continue;
-    seen[n.value] = 1;
+    if (!n || std::exchange(seen[n.value], 1)) continue;
     out.push_back(n);
     const auto fields = scene.fields(n);
     for (auto f = fields.rbegin(); f != fields.rend(); ++f) {
@@ -32,12 +32,14 @@ void reach(const Scene& scene, std::span<const NodeId> roots, std::vector<char>&
   }
 }
 
-std::vector<NodeId> reachable(const Scene& scene, const Scope& scope) {
+std::vector<NodeId> reachable(const Scene& scene, std::span<const NodeId> roots) {
   std::vector<char> seen;
   std::vector<NodeId> out;
-  reach(scene, scope.roots, seen, out);
+  reach(scene, roots, seen, out);
   return out;
 }
+
+std::vector<NodeId> reachable(const Scene& scene, const Scope& scope) { return reachable(scene, scope.roots); }
 
 std::vector<NodeId> all_nodes(const Scene& scene) {
   std::vector<char> seen;

@@ -16,8 +16,9 @@ void for_each_child(const Scene& scene, NodeId n, F&& f) {
 /// Appends every node that can be reached from `roots` and is not in `seen` yet, parents before children, and marks it
 /// there: a walk through one scope after another meets each node once. `seen` grows with the scene.
 void reach(const Scene&, std::span<const NodeId> roots, std::vector<char>& seen, std::vector<NodeId>& out);
-/// Every node that can be reached from a scope's roots, each once, parents before children (depth first, in the order
-/// of the file). The bodies of prototypes are scopes of their own. No recursion: any depth.
+/// Every node that can be reached from `roots`, each once, parents before children (depth first, in the order of the
+/// file). The bodies of prototypes are scopes of their own. No recursion: any depth.
+std::vector<NodeId> reachable(const Scene&, std::span<const NodeId> roots);
 std::vector<NodeId> reachable(const Scene&, const Scope&);
 /// The same over all scopes of the scene: the main one, prototypes, and the defaults in their interfaces.
 std::vector<NodeId> all_nodes(const Scene&);

@@ -13,7 +13,7 @@ RAW_BEGIN = re.compile(r'R"(\w*)\(')
 
 
 def long_lines(path):
-    end = None  # of the raw string that the line stands in
+    end = None  # of the raw string that the line is in
     for number, line in enumerate(open(path, encoding='utf-8').read().split('\n'), 1):
         in_raw = end is not None
         rest = line

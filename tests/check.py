@@ -58,7 +58,7 @@ class Run:
     checks: list = field(default_factory=list)   # (kind, pattern, line)
     exit: int = None
     output: list = None                          # expected lines; None: not compared
-    output_at: range = None                      # where they stand in the test
+    output_at: range = None                      # where they are in the test
 
 
 @dataclass

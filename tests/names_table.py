@@ -80,7 +80,7 @@ class Table:
 
 
 def corners_by_path(glb):
-    """Of every part, by feature ids or as a node; the nodes that are left stand in groups with names."""
+    """Of every part, by feature ids or as a node; the nodes that are left are in groups with names."""
     table, found = Table(glb), {}
     nodes = glb.json['nodes']
 

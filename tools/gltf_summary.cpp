@@ -56,58 +56,34 @@ std::string summary_text(const GltfSummary& s) {
 }
 
 std::string summary_json(const GltfSummary& s) {
-  std::string out;
-  JsonOut json(out);
-  json.begin_object();
-  json.member("nodes", s.nodes);
-  json.member("named", s.named);
-  json.member("meshes", s.meshes);
-  json.member("draws", s.draws);
-  json.member("triangles", s.triangles);
-  if (s.instances > 0) json.member("instances", s.instances);
-  auto sizes = [&](std::string_view name, std::uint64_t text, std::uint64_t geometry, std::uint64_t pictures) {
-    json.key(name);
-    json.begin_object();
-    json.member("json", text);
-    json.member("geometry", geometry);
-    json.member("textures", pictures);
-    json.end_object();
-  };
-  sizes("bytes", s.json, s.geometry, s.pictures);
-  if (s.json_gzip > 0) sizes("gzip", s.json_gzip, s.geometry_gzip, s.pictures_gzip);
-  if (const auto& r = s.recoding; r.pictures > 0) {
-    json.key("pictures");
-    json.begin_object();
-    json.member("written_anew", r.pictures);
-    json.member("resized", r.resized);
-    json.member("bytes_before", r.before);
-    json.member("bytes_after", r.after);
-    if (r.psnr > 0) json.member("psnr", r.psnr);
-    json.end_object();
-  }
-  auto kinds = [&](std::string_view name, const std::vector<GltfSummary::Share>& shares) {
-    json.key(name);
-    json.begin_object();
-    for (const auto& [kind, n] : shares) json.member(kind, n);
-    json.end_object();
-  };
-  kinds("json_bytes", s.json_shares);
-  kinds("geometry_bytes", s.geometry_shares);
-  const auto& q = s.quantization;
-  if (q.tolerance > 0) {
-    json.key("quantization");
-    json.begin_object();
-    json.member("tolerance", q.tolerance);
-    json.member("position", q.position);
-    json.member("placement", q.placement);
-    json.member("normal_degrees", q.normal * degrees);
-    json.member("texcoord", q.texcoord);
-    json.member("color", q.color);
-    json.member("kept_as_floats", q.kept);
-    json.end_object();
-  }
-  json.end_object();
-  return out;
+  return json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.members("nodes", s.nodes, "named", s.named, "meshes", s.meshes, "draws", s.draws, "triangles", s.triangles);
+      if (s.instances > 0) json.member("instances", s.instances);
+      auto sizes = [&](std::string_view name, std::uint64_t text, std::uint64_t geometry, std::uint64_t pictures) {
+        json.member(name, json_object("json", text, "geometry", geometry, "textures", pictures));
+      };
+      sizes("bytes", s.json, s.geometry, s.pictures);
+      if (s.json_gzip > 0) sizes("gzip", s.json_gzip, s.geometry_gzip, s.pictures_gzip);
+      if (const auto& r = s.recoding; r.pictures > 0) {
+        json.object("pictures", [&] {
+          json.members("written_anew", r.pictures, "resized", r.resized, "bytes_before", r.before, "bytes_after",
+                       r.after);
+          if (r.psnr > 0) json.member("psnr", r.psnr);
+        });
+      }
+      auto kinds = [&](std::string_view name, const std::vector<GltfSummary::Share>& shares) {
+        json.member(name, shares);
+      };
+      kinds("json_bytes", s.json_shares);
+      kinds("geometry_bytes", s.geometry_shares);
+      const auto& q = s.quantization;
+      if (q.tolerance > 0)
+        json.member("quantization", json_object("tolerance", q.tolerance, "position", q.position, "placement",
+                                                q.placement, "normal_degrees", q.normal * degrees, "texcoord",
+                                                q.texcoord, "color", q.color, "kept_as_floats", q.kept));
+    });
+  });
 }
 
 }  // namespace wrlkit

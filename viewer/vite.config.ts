@@ -1,4 +1,4 @@
-// One HTML file: script and style stand in it, so that it opens from disk and can be mailed. `--mode tiles` makes the page of a tileset.
+// One HTML file: script and style are in it, so that it opens from disk and can be mailed. `--mode tiles` makes the page of a tileset.
 import {fileURLToPath} from 'node:url';
 import {defineConfig, type Plugin} from 'vite';
 

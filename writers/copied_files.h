@@ -1,4 +1,4 @@
-// Files that a world refers to and that could not be read from where it is written: they come along into a folder next
+// Files that a scene refers to and that could not be read from where it is written: they come along into a folder next
 // to it. out/room.wrl has out/room_files/brick.png.
 #pragma once
 #include <filesystem>
@@ -15,24 +15,24 @@
 
 namespace wrlkit {
 
-/// What is copied in addition to sounds, programs and other worlds.
+/// What is copied in addition to sounds, programs and other scenes.
 struct CopiedKinds {
   bool textures = true;  // of ImageTexture
   bool pictures = true;  // others
 };
 
-/// A world that comes along brings the files that it refers to, and they stand to it as before. Only files that may be
-/// read are copied, each once; of files with equal contents that only the written world refers to, one is copied. What
+/// A scene that comes along brings the files that it refers to, and they stand to it as before. Only files that may be
+/// read are copied, each once; of files with equal contents that only the written scene refers to, one is copied. What
 /// an Anchor leads to stays where it is.
 class CopiedFiles {
  public:
-  /// Looks for the files of the world that is written to `output`; nothing is written yet. The folder is named after
+  /// Looks for the files of the scene that is written to `output`; nothing is written yet. The folder is named after
   /// the output unless a name is given. Where textures are copied, a list of urls that leads
   /// only to where nothing may be read is reported.
-  /// O(nodes), and parses worlds that come along.
+  /// O(nodes), and parses scenes that come along.
   CopiedFiles(const Scene& scene, Resources& resources, const std::string& output, std::string folder,
               CopiedKinds kinds, Diagnostics& diag);
-  /// Copies of a world that was not written are removed.
+  /// Copies of a scene that was not written are removed.
   ~CopiedFiles();
   CopiedFiles(const CopiedFiles&) = delete;
 
@@ -59,7 +59,7 @@ class CopiedFiles {
   CopiedKinds kinds_;
   Diagnostics& diag_;
   std::filesystem::path here_;                           // canonical folder of the output
-  std::set<std::string> fixed_;                          // files that worlds which come along are or refer to
+  std::set<std::string> fixed_;                          // files that scenes which come along are or refer to
   std::map<std::string, std::filesystem::path> places_;  // of the copy of each file, below here_
   std::map<std::uintmax_t, std::vector<std::string>> by_size_;
   std::vector<std::filesystem::path> written_;

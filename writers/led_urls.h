@@ -1,4 +1,4 @@
-// Urls are relative to the file that they stand in; in what is written they have to lead to the same files.
+// Urls are relative to the file that they are in; in what is written they have to lead to the same files.
 #pragma once
 #include <functional>
 #include <optional>
@@ -27,7 +27,7 @@ struct UrlLeads {
   const CopyOfUrl& copy;   // of files that come along; none: urls lead to where files are
 };
 
-/// Those of an inlined world, and those of a world that is written elsewhere, lead to the file that they mean or to its
+/// Those of an inlined scene, and those of a scene that is written elsewhere, lead to the file that they mean or to its
 /// copy; those of a list that a pass has written lead to what it has made.
 std::vector<std::string> led_urls(const Scene&, Span where, std::span<const std::string_view> urls, UrlUse,
                                   const UrlLeads&);

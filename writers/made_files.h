@@ -17,11 +17,11 @@ std::filesystem::path stem_of(const std::string& output);
 
 class MadeFiles {
  public:
-  /// Made files of the world that is written to `output`; "-": there are no files next to it.
+  /// Made files of the scene that is written to `output`; "-": there are no files next to it.
   MadeFiles(const Scene& scene, const Resources& resources, std::string output, Diagnostics& diag);
 
-  /// The url under which the world that is written finds a file that was made; it will be written. Other urls stay as
-  /// they are. A name that the world has for another file gets a number.
+  /// The url under which the scene that is written finds a file that was made; it will be written. Other urls stay as
+  /// they are. A name that the scene has for another file gets a number.
   std::string place(std::string_view url);
   /// Writes those that were placed, and those that are always wanted, into temporary files. False, and a message, when
   /// one cannot be written.

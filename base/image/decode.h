@@ -1,4 +1,4 @@
-// Decoders of the two types that nearly all worlds have, by libraries that are there at once.
+// Decoders of the two types that nearly all scenes have, by libraries that are there at once.
 #pragma once
 #include <string>
 #include <string_view>

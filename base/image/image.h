@@ -31,7 +31,7 @@ struct ImageHeader {
 
 /// "image/png", "image/jpeg", "image/gif", "image/bmp", "image/tiff", "image/webp", "image/x-exr",
 /// "image/vnd.radiance", "image/x-tga", by magic bytes; empty when it is none of them. Most TGA files have no magic
-/// bytes: those are told by the extension of `name`, if their header makes sense.
+/// bytes: those are recognised by the extension of `name`, if their header makes sense.
 std::string_view sniff_mime(std::string_view bytes, std::string_view name = {});
 
 /// Size and channels of a PNG, JPEG, GIF, BMP or TGA picture; nothing for other types and damaged headers. The first 64

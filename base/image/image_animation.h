@@ -17,7 +17,7 @@ class PictureAnimation {
   virtual std::optional<std::string> finish(std::string& error) = 0;
 };
 
-/// Each picture is shown for so many milliseconds. Losses are not seen (encode_as). The same bytes for the same
+/// Each picture is shown for that many milliseconds. Losses are not seen (encode_as). The same bytes for the same
 /// pictures. Null, and why, when this program was built without libwebpmux.
 std::unique_ptr<PictureAnimation> begin_webp_animation(int milliseconds, std::string& error);
 

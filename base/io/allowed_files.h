@@ -1,4 +1,4 @@
-// The folders that files may be read from, and finding files in them as the systems did for which the worlds were
+// The folders that files may be read from, and finding files in them as the systems did for which the scenes were
 // written: there, upper and lower case were the same, and paths were those of the author's machine.
 #pragma once
 #include <map>
@@ -22,7 +22,7 @@ class AllowedFiles {
   /// An empty name is the current folder.
   explicit AllowedFiles(const std::vector<std::string>& folders);
 
-  /// Pictures, sounds, films and worlds below that folder, which lies above `folder`, may be read as well; what is of
+  /// Pictures, sounds, films and scenes below that folder, which lies above `folder`, may be read as well; what is of
   /// another kind by its first bytes stays outside. `top` is absolute and without links.
   void allow_linked(const std::string& folder, const std::string& top);
 
@@ -34,7 +34,7 @@ class AllowedFiles {
  private:
   struct Root {
     std::string given, canonical;
-    bool linked = false;  // only files of the kinds that worlds refer to
+    bool linked = false;  // only files of the kinds that scenes refer to
   };
   const Root* root_of(const std::string& canonical) const;
   Result exact(const std::string& path) const;

@@ -1,4 +1,4 @@
-// Whether a file is of a kind that worlds refer to: a picture, a sound, a film or a world.
+// Whether a file is of a kind that scenes refer to: a picture, a sound, a film or a scene.
 #pragma once
 #include <string>
 

@@ -221,6 +221,17 @@ struct OutputFile::State {
     }
   }
 
+  void rewrite(std::uint64_t at, std::string_view bytes) {
+    flush();
+    while (!error && !bytes.empty()) {
+      const auto written = pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(at));
+      if (written < 0 && errno != EINTR) error = errno;
+      const auto n = static_cast<std::size_t>(std::max<ssize_t>(written, 0));
+      bytes.remove_prefix(n);
+      at += n;
+    }
+  }
+
   void finish() {
     flush();
     if (gzip && !error) error = gzip->pack({}, true, packed());
@@ -294,6 +305,9 @@ std::optional<OutputFile> OutputFile::open(const std::string& path, OutputOption
 }
 
 void OutputFile::write(std::span<const std::string_view> pieces) { state_->write(pieces); }
+
+bool OutputFile::can_rewrite() const { return !state_->gzip && state_->kind != State::direct; }
+void OutputFile::rewrite(std::uint64_t at, std::string_view bytes) { state_->rewrite(at, bytes); }
 
 bool OutputFile::commit(Diagnostics& diag) {
   state_->finish();

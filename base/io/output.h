@@ -2,6 +2,7 @@
 // target's place when everything is written. Standard output is held back the same way. Devices and pipes are written
 // directly.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,6 +34,10 @@ class OutputFile {
   /// Pieces one after another, without copying the large ones. After a failure nothing more is written; commit tells.
   void write(std::span<const std::string_view> pieces);
   void write(std::string_view piece) { write({&piece, 1}); }
+  /// Whether bytes can be written over: not what is packed, nor on a device or pipe.
+  bool can_rewrite() const;
+  /// Writes over bytes that were written, for heads with sizes of what follows.
+  void rewrite(std::uint64_t at, std::string_view bytes);
   Sink sink() {
     return [this](std::string_view s) { write(s); };
   }

@@ -1,4 +1,4 @@
-// How far above a file its project reaches: where the pictures of a world lie that says "../textures/brick.jpg".
+// How far above a file its project reaches: where the pictures of a scene lie that says "../textures/brick.jpg".
 #pragma once
 #include <string>
 

@@ -82,7 +82,7 @@ class Reader {
   Reader(const std::string& path, const ReadLimits& limits, Diagnostics& diag)
       : name_(path == standard_input ? standard_input_name : path), limits_(limits), diag_(diag), file_(path) {}
 
-  /// The text; nothing when it could not be had, which is reported then.
+  /// The text; nothing when it could not be read, which is reported then.
   std::optional<FileText> read() {
     if (file_.error()) return failed(file_.error());
     auto limit = file_.is_device() ? std::min(limits_.max_bytes, limits_.max_device) : limits_.max_bytes;

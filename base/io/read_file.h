@@ -38,7 +38,7 @@ struct FileText {
 /// The path that means standard input, and what messages call it.
 inline constexpr std::string_view standard_input = "-", standard_input_name = "<stdin>";
 
-/// Reads a file. One message when nothing of it can be had. Of damaged or suspiciously large gzip data, what could be
+/// Reads a file. One message when nothing of it can be read. Of damaged or suspiciously large gzip data, what could be
 /// unpacked is used, which is reported. Peak memory: the text, and a quarter more while gzip data or a pipe is read.
 std::optional<FileText> read_file(const std::string& path, const ReadLimits&, Diagnostics&);
 

@@ -25,7 +25,7 @@ void release_pages(std::string_view part) {
   const auto address = reinterpret_cast<std::uintptr_t>(part.data());
   const auto first = (address + size - 1) / size * size, end = (address + part.size()) / size * size;
   if (first >= end) return;
-  auto* const page = reinterpret_cast<void*>(first);
+  void* const page = const_cast<char*>(part.data()) + (first - address);
   if (is_of_file(page, size)) madvise(page, end - first, MADV_DONTNEED);
 }
 

@@ -24,18 +24,11 @@ inline bool is_invertible(const Matrix& m) {
 /// Its adjugate by its determinant; the identity when the determinant is zero or not finite.
 inline Matrix inverse(const Matrix& m) {
   const double d = m.determinant();
-  Matrix o;
-  if (!(std::abs(d) > 0) || !std::isfinite(d)) return o;
+  if (!(std::abs(d) > 0) || !std::isfinite(d)) return {};
   const Vec3 x = m.column(0), y = m.column(1), z = m.column(2), r0 = cross(y, z), r1 = cross(z, x), r2 = cross(x, y);
-  for (int c = 0; c < 3; ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    o(0, c) = r0[k] / d;
-    o(1, c) = r1[k] / d;
-    o(2, c) = r2[k] / d;
-  }
-  const Vec3 t = o.point(m.column(3));
-  for (int r = 0; r < 3; ++r) o(r, 3) = -t[static_cast<std::size_t>(r)];
-  return o;
+  const Vec3 a{r0[0] / d, r1[0] / d, r2[0] / d}, b{r0[1] / d, r1[1] / d, r2[1] / d}, c{r0[2] / d, r1[2] / d, r2[2] / d};
+  const Vec3 t = matrix_of_columns(a, b, c).point(m.column(3));
+  return matrix_of_columns(a, b, c, {-t[0], -t[1], -t[2]});
 }
 
 }  // namespace wrlkit

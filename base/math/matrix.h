@@ -32,28 +32,28 @@ inline Matrix operator*(const Matrix& a, const Matrix& b) {
   return o;
 }
 
-inline Matrix translation_matrix(const Vec3& t) {
-  Matrix o;
-  for (int i = 0; i < 3; ++i) o(i, 3) = t[static_cast<std::size_t>(i)];
-  return o;
+/// `t` is where the origin goes.
+inline Matrix matrix_of_columns(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& t = {}) {
+  return {{x[0], y[0], z[0], t[0], x[1], y[1], z[1], t[1], x[2], y[2], z[2], t[2]}};
+}
+/// Of the 16 numbers of a matrix, column by column. Its last row does not count.
+template <class T>
+Matrix matrix_of_columns(const T* n) {
+  return {{n[0], n[4], n[8], n[12], n[1], n[5], n[9], n[13], n[2], n[6], n[10], n[14]}};
 }
 
-inline Matrix scale_matrix(const Vec3& s) {
-  Matrix o;
-  for (int i = 0; i < 3; ++i) o(i, i) = s[static_cast<std::size_t>(i)];
-  return o;
-}
+inline Matrix translation_matrix(const Vec3& t) { return {{1, 0, 0, t[0], 0, 1, 0, t[1], 0, 0, 1, t[2]}}; }
+
+inline Matrix scale_matrix(const Vec3& s) { return {{s[0], 0, 0, 0, 0, s[1], 0, 0, 0, 0, s[2], 0}}; }
 
 /// Axis and angle; an axis without length turns nothing.
 inline Matrix rotation_matrix(const Vec4& r) {
   const double length = fast_length({r[0], r[1], r[2]});
   if (!(length > 0) || !std::isfinite(length)) return {};
   double x = r[0] / length, y = r[1] / length, z = r[2] / length, c = std::cos(r[3]), s = std::sin(r[3]), d = 1 - c;
-  Matrix o;
-  o.m = {x * x * d + c,     x * y * d - z * s, x * z * d + y * s, 0,
-         x * y * d + z * s, y * y * d + c,     y * z * d - x * s, 0,
-         x * z * d - y * s, y * z * d + x * s, z * z * d + c,     0};
-  return o;
+  return {{x * x * d + c, x * y * d - z * s, x * z * d + y * s, 0,  //
+           x * y * d + z * s, y * y * d + c, y * z * d - x * s, 0,  //
+           x * z * d - y * s, y * z * d + x * s, z * z * d + c, 0}};
 }
 
 }  // namespace wrlkit

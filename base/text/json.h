@@ -15,13 +15,16 @@
 #pragma once
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 namespace wrlkit {
 
@@ -42,6 +45,16 @@ concept Dictionary = std::ranges::range<T> && requires(std::ranges::range_refere
 struct JsonText {
   std::string_view text;
 };
+
+/// An object of members, names and values in turn, as a value of another object or list.
+template <class... M>
+struct JsonObject {
+  std::tuple<M...> in_turn;
+};
+template <class... M>
+JsonObject<M...> json_object(M... in_turn) {
+  return {{std::move(in_turn)...}};
+}
 
 class JsonOut {
  public:
@@ -94,7 +107,12 @@ class JsonOut {
     for (const auto& v : list) value(v);
     end_array();
   }
+  void values(const auto&... in_order) { (value(in_order), ...); }
   void value(JsonText json) { raw(json.text); }
+  template <class... M>
+  void value(const JsonObject<M...>& o) {
+    std::apply([&](const auto&... in_turn) { object(in_turn...); }, o.in_turn);
+  }
   /// Text that is JSON already.
   void raw(std::string_view json) {
     if (comma_) out_ += ',';
@@ -111,6 +129,39 @@ class JsonOut {
   template <class T>
   void member(std::string_view k, const std::optional<T>& v) {
     if (v) member(k, *v);
+  }
+  /// Names and values in turn.
+  template <class T, class... More>
+  void members(std::string_view k, const T& v, const More&... more) {
+    member(k, v);
+    if constexpr (sizeof...(more) > 0) members(more...);
+  }
+  /// An object of these members.
+  template <class T, class... More>
+  requires(!std::invocable<const T&>) void object(std::string_view k, const T& v, const More&... more) {
+    begin_object();
+    members(k, v, more...);
+    end_object();
+  }
+  /// An object of what the function writes.
+  void object(const std::invocable auto& write_members) {
+    begin_object();
+    write_members();
+    end_object();
+  }
+  void object(std::string_view k, const std::invocable auto& write_members) {
+    key(k);
+    object(write_members);
+  }
+  /// An array of what the function writes for each element.
+  void list(const std::ranges::range auto& elements, const auto& write) {
+    begin_array();
+    for (const auto& e : elements) write(e);
+    end_array();
+  }
+  void list(std::string_view k, const std::ranges::range auto& elements, const auto& write) {
+    key(k);
+    list(elements, write);
   }
 
  private:
@@ -129,10 +180,16 @@ class JsonOut {
   bool comma_ = false;
 };
 
-std::string json_of(const auto& value) {
+/// What the function writes.
+std::string json_text(const auto& write) {
   std::string out;
-  JsonOut(out).value(value);
+  JsonOut json(out);
+  write(json);
   return out;
+}
+
+std::string json_of(const auto& value) {
+  return json_text([&](JsonOut& json) { json.value(value); });
 }
 
 }  // namespace wrlkit

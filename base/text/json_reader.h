@@ -90,7 +90,7 @@ class Json {
 
   std::uint32_t offset() const { return doc_ ? item().begin : 0; }
   std::uint32_t length() const { return doc_ ? item().end - item().begin : 0; }
-  /// As it stands in the source.
+  /// As it is written in the source.
   std::string_view source() const { return doc_ ? doc_->source_.substr(offset(), length()) : std::string_view{}; }
 
  private:

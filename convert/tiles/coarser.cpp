@@ -29,7 +29,7 @@ struct Line {
 std::vector<Line> lines_of(std::span<const Piece> pieces) {
   std::vector<Line> out;
   for (std::uint32_t i = 0; i < pieces.size(); ++i)
-    if (!has_surface(pieces[i])) out.push_back({diagonal(bounds_of(pieces[i].mesh)), i, n_drawn(pieces[i].mesh)});
+    if (!has_surface(pieces[i])) out.push_back({diagonal(box_of_corners(pieces[i].mesh)), i, n_drawn(pieces[i].mesh)});
   std::ranges::stable_sort(out, std::greater{}, &Line::size);
   return out;
 }
@@ -39,7 +39,7 @@ class Coarser {
   Coarser(std::span<Piece> pieces, const Looks& looks, const Task& ctx)
       : pieces_(pieces), lines_(lines_of(pieces_)), silent_(ctx), geometry_(pieces_.size()) {
     scene_.import(looks.scene());
-    for (const auto& p : pieces_) box_.unite(bounds_of(p.mesh));
+    for (const auto& p : pieces_) box_.unite(box_of_corners(p.mesh));
     prepare();
     for (std::size_t i = 0; i < pieces_.size(); ++i)
       if (has_surface(pieces_[i])) geometry_[i] = add(pieces_[i], looks);
@@ -107,7 +107,7 @@ class Coarser {
     return geometry;
   }
 
-  /// For each count the first point that draws no more, or the last; the world itself where there is none.
+  /// For each count the first point that draws no more, or the last; the scene itself where there is none.
   void read_all(const auto& world, const auto& points, const auto& n_drawn, std::span<const std::size_t> counts,
                 std::vector<std::vector<Coarse>>& out) {
     for (std::size_t k = 0; k < counts.size(); ++k) {

@@ -20,32 +20,21 @@ namespace fs = std::filesystem;
 constexpr std::chrono::seconds patience(2);  // a run that was killed a moment ago may not be gone yet
 
 std::string line_of(const std::string& key, const MadeTile& tile) {
-  std::string text;
-  JsonOut json(text);
-  json.begin_object();
-  json.member("tile", key);
-  if (!tile.box.empty()) {
-    json.member("low", std::span(tile.box.low));
-    json.member("high", std::span(tile.box.high));
-  }
-  json.member("rounding", tile.rounding);
-  json.member("hash", fmt::format("{:016x}", tile.hash));
-  json.member("triangles", tile.triangles);
-  json.member("draws", tile.draws);
-  json.member("parts", tile.parts);
-  json.member("bytes", tile.bytes);
-  if (tile.pieces_bytes) json.member("pieces", *tile.pieces_bytes);
-  json.key("messages");
-  json.begin_array();
-  for (const auto& said : tile.said) {
-    json.begin_array();
-    json.value(info(said.id).name);
-    for (const auto& arg : said.args) json.value(arg);
-    json.end_array();
-  }
-  json.end_array();
-  json.end_object();
-  return text;
+  return json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.member("tile", key);
+      if (!tile.box.empty()) json.members("low", std::span(tile.box.low), "high", std::span(tile.box.high));
+      json.members("rounding", tile.rounding, "hash", fmt::format("{:016x}", tile.hash), "triangles", tile.triangles,
+                   "draws", tile.draws, "parts", tile.parts, "bytes", tile.bytes);
+      if (tile.pieces_bytes) json.member("pieces", *tile.pieces_bytes);
+      json.list("messages", tile.said, [&](const auto& said) {
+        json.begin_array();
+        json.value(info(said.id).name);
+        for (const auto& arg : said.args) json.value(arg);
+        json.end_array();
+      });
+    });
+  });
 }
 
 Vec3 point_of(Json json) {
@@ -182,10 +171,7 @@ bool KeptTiles::save_error(const ContentHash& key, double metres) {
   errors_[text] = metres;
   std::string line;
   JsonOut json(line);
-  json.begin_object();
-  json.member("error", text);
-  json.member("metres", metres);
-  json.end_object();
+  json.object("error", text, "metres", metres);
   return journal_->append(line);
 }
 

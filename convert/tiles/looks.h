@@ -1,4 +1,4 @@
-// The appearances of many worlds in one scene, each once.
+// The appearances of many scenes in one scene, each once.
 #pragma once
 #include <set>
 #include <string>

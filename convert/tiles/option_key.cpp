@@ -14,6 +14,8 @@ std::string option_key(TilesOptions options) {
       out += value;
     else if constexpr (std::is_same_v<Value, LengthOption>)
       out += std::to_string(std::bit_cast<std::uint64_t>(value.metres));
+    else if constexpr (std::is_same_v<Value, LightmapSize>)
+      out += value.pass_option();
     else
       out += std::to_string(static_cast<int>(value));
   };

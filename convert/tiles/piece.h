@@ -21,10 +21,4 @@ inline std::size_t n_drawn(const Mesh& mesh) {
   return mesh.kind == Mesh::Kind::lines ? mesh.corners.size() - mesh.n_faces() : mesh.n_faces();
 }
 
-inline Box bounds_of(const Mesh& mesh) {
-  Box box;
-  for (const auto corner : mesh.corners) box.add(mesh.positions.data() + std::size_t{corner} * 3);
-  return box;
-}
-
 }  // namespace wrlkit::tiles

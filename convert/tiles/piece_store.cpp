@@ -142,7 +142,7 @@ bool PieceStore::add(const Piece& piece, Entry& entry) {
   const auto bytes = pack(piece);
   entry = {.bytes = static_cast<std::uint32_t>(bytes.size()),
            .n_drawn = static_cast<std::uint32_t>(n_drawn(piece.mesh)),
-           .box = bounds_of(piece.mesh),
+           .box = box_of_corners(piece.mesh),
            .hash = hash_of(std::string_view(bytes).substr(0, bytes.size() - sizeof piece.look)),
            .look = piece.look};
   {

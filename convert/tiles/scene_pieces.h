@@ -1,4 +1,4 @@
-// The pieces of one world.
+// The pieces of one scene.
 #pragma once
 #include <functional>
 #include <map>

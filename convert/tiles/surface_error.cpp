@@ -93,7 +93,7 @@ class FarthestPoint {
   }
 
   static std::array<Vec3, 8> corners_of(const Piece& piece, const Vec3& origin) {
-    const Box box = bounds_of(piece.mesh);
+    const Box box = box_of_corners(piece.mesh);
     std::array<Vec3, 8> out;
     for (int i = 0; i < 8; ++i) out[static_cast<std::size_t>(i)] = box.corner(i) - origin;
     return out;
@@ -208,7 +208,7 @@ class OpenPoints {
 
 double surface_error(std::span<const Piece> coarse, std::span<const FullTile> full) {
   Box box;
-  for (const auto& p : coarse) box.unite(bounds_of(p.mesh));
+  for (const auto& p : coarse) box.unite(box_of_corners(p.mesh));
   if (box.empty()) return infinity;
   const Vec3 origin = box.centre();
   const Soup soup(coarse, origin);

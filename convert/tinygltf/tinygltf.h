@@ -24,7 +24,7 @@ namespace wrlkit {
 /// size of the file on top of the model.
 std::optional<tinygltf::Model> to_tinygltf(const Scene&, const GltfOptions&, Resources*, Diagnostics&);
 
-/// What the reader makes of the model, written as .glb by tinygltf. Null when there is nothing of a scene to be had;
+/// What the reader makes of the model, written as .glb by tinygltf. Null when no scene can be read;
 /// why is in the diagnostics. Pictures must be bytes of a picture file, in a bufferView or with as_is, or have a uri;
 /// pixels (what tinygltf makes when nobody sets an image loader) are written as PNG. Goes through the bytes of the file
 /// in memory.

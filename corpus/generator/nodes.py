@@ -125,7 +125,7 @@ SPECIAL = {
        for side in ('back', 'bottom', 'front', 'left', 'right', 'top')},
 }
 
-# What stands in a node field for a node of some kind; elsewhere it is the first of the kind, in full.
+# What is put in a node field for a node of some kind; elsewhere it is the first of the kind, in full.
 LOOK = 'Appearance { material Material { diffuseColor 0.8 0.5 0.2 } }'
 EXAMPLE = {'X3DAppearanceNode': Raw(LOOK), 'X3DGeometryNode': Raw('Box { }'),
            'X3DChildNode': Raw(f'Shape {{ appearance {LOOK} geometry Box {{ }} }}')}

@@ -85,7 +85,7 @@ def node_text(kind):
 def node_world(kind, inventor):
     header = '#Inventor V2.1 ascii' if inventor else '#VRML V1.0 ascii'
     tested = node_text(kind)
-    if kind.name == 'VertexProperty':   # stands in a field only
+    if kind.name == 'VertexProperty':   # is allowed in a field only
         tested = '  IndexedFaceSet { coordIndex [ 0, 1, 2, 3, -1 ]\n  vertexProperty\n' + tested + '\n  }'
     return (f'{header}\n# {kind.name}: every field away from its default\n\nSeparator {{\n'
             f'  PerspectiveCamera {{ position 0 1 9 }}\n{STATE}{tested}\n  Cube {{ width 0.5 }}\n}}\n')

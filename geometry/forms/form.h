@@ -2,7 +2,7 @@
 // exporter made of it. `recognise` (geometry/recognise/) finds forms in meshes, `tessellate` and the world levels cut
 // them again, as finely as they need to be.
 //
-// Every form stands in a frame of its own, with the axis Y: cylinders, frusta, rings, prisms, boxes and pyramids are
+// Every form has a frame of its own, with the axis Y: cylinders, frusta, rings, prisms, boxes and pyramids are
 // centred on the origin, a sphere has its poles on Y, a dish has its rim in y = 0 and its pole at +Y, and tori bend
 // around Y from +X towards -Z. Around Y, the first point of a polygon is at -Z, as in VRML97. Lengths in the unit of
 // the mesh, angles in radians.
@@ -94,7 +94,7 @@ std::string_view kind_of(const Form& form);
 /// How finely a form is cut.
 struct FormCut {
   int segments = 0, rings = 0;  // 0: as the form has them
-  /// Polygons as large as the circles that they stand for, instead of within them: what keeps a pipe of five sides as
+  /// Polygons as large as the circles that they replace, instead of within them: what keeps a pipe of five sides as
   /// near as it can be.
   bool equal_area = false;
 };

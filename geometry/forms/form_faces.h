@@ -1,4 +1,4 @@
-// Forms of our own as the faces that they stand for: for writers of formats that have no such node.
+// Forms of our own as the faces that they represent: for writers of formats that have no such node.
 #pragma once
 #include <optional>
 

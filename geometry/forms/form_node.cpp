@@ -238,9 +238,7 @@ class Adder {
     namespace k = frustum_node;
     if (solid_ && f.top_radius == 0 && f.offset == Vec2{} && f.bottom_slope == Vec2{}) return cone(f);
     const NodeId n = node(nodes::FrustumForm);
-    scene_.set(n, k::bottomRadius, f.bottom_radius);
-    scene_.set(n, k::topRadius, f.top_radius);
-    scene_.set(n, k::height, f.height);
+    scene_.set(n, k::bottomRadius, f.bottom_radius, k::topRadius, f.top_radius, k::height, f.height);
     if (f.offset != Vec2{}) scene_.set(n, k::offset, f.offset);
     if (f.bottom_slope != Vec2{}) scene_.set(n, k::bottomSlope, f.bottom_slope);
     if (f.top_slope != Vec2{}) scene_.set(n, k::topSlope, f.top_slope);
@@ -250,9 +248,7 @@ class Adder {
   NodeId operator()(const TorusForm& f) {
     namespace k = torus_node;
     const NodeId n = node(nodes::TorusForm);
-    scene_.set(n, k::bendRadius, f.bend_radius);
-    scene_.set(n, k::radius, f.radius);
-    scene_.set(n, k::angle, f.angle);
+    scene_.set(n, k::bendRadius, f.bend_radius, k::radius, f.radius, k::angle, f.angle);
     if (f.turn != 0) scene_.set(n, k::turn, f.turn);
     scene_.set(n, k::rings, form_.rings);
     caps(n, k::bottom, k::top);
@@ -261,18 +257,15 @@ class Adder {
   NodeId operator()(const RectangularTorusForm& f) {
     namespace k = rectangular_torus_node;
     const NodeId n = node(nodes::RectangularTorusForm);
-    scene_.set(n, k::innerRadius, f.inner_radius);
-    scene_.set(n, k::outerRadius, f.outer_radius);
-    scene_.set(n, k::height, f.height);
-    scene_.set(n, k::angle, f.angle);
+    scene_.set(n, k::innerRadius, f.inner_radius, k::outerRadius, f.outer_radius, k::height, f.height, k::angle,
+               f.angle);
     caps(n, k::bottom, k::top);
     return rest(n, k::segments, k::solid);
   }
   NodeId operator()(const SphereForm& f) {
     namespace k = sphere_node;
     const NodeId n = node(nodes::SphereForm);
-    scene_.set(n, k::radius, f.radius);
-    scene_.set(n, k::rings, form_.rings);
+    scene_.set(n, k::radius, f.radius, k::rings, form_.rings);
     return rest(n, k::segments, k::solid);
   }
   NodeId operator()(const DishForm& f) {
@@ -298,9 +291,7 @@ class Adder {
   NodeId operator()(const PyramidForm& f) {
     namespace k = pyramid_node;
     const NodeId n = node(nodes::PyramidForm);
-    scene_.set(n, k::bottomSize, f.bottom);
-    scene_.set(n, k::topSize, f.top);
-    scene_.set(n, k::height, f.height);
+    scene_.set(n, k::bottomSize, f.bottom, k::topSize, f.top, k::height, f.height);
     if (f.offset != Vec2{}) scene_.set(n, k::offset, f.offset);
     caps(n, k::bottom, k::top);
     return set_solid(n, k::solid);
@@ -309,9 +300,8 @@ class Adder {
     namespace k = prism_node;
     if (f.ring_ends.size() == 1) return extrusion(f);
     const NodeId n = node(nodes::PrismForm);
-    scene_.set(n, k::points, flat(f.points));
-    scene_.set(n, k::ringEnds, std::vector<std::int32_t>(f.ring_ends.begin(), f.ring_ends.end()));
-    scene_.set(n, k::height, f.height);
+    scene_.set(n, k::points, flat(f.points), k::ringEnds,
+               std::vector<std::int32_t>(f.ring_ends.begin(), f.ring_ends.end()), k::height, f.height);
     if (f.crease_angle != 0) scene_.set(n, k::creaseAngle, f.crease_angle);
     caps(n, k::bottom, k::top);
     return set_solid(n, k::solid);
@@ -319,9 +309,7 @@ class Adder {
   NodeId operator()(const RingForm& f) {
     namespace k = ring_node;
     const NodeId n = node(nodes::RingForm);
-    scene_.set(n, k::innerRadius, f.inner_radius);
-    scene_.set(n, k::outerRadius, f.outer_radius);
-    scene_.set(n, k::height, f.height);
+    scene_.set(n, k::innerRadius, f.inner_radius, k::outerRadius, f.outer_radius, k::height, f.height);
     caps(n, k::bottom, k::top);
     return rest(n, k::segments, k::solid);
   }
@@ -350,8 +338,7 @@ class Adder {
   }
   NodeId cone(const FrustumForm& f) {
     const NodeId n = node(nodes::Cone);
-    scene_.set(n, nodes::cone::bottomRadius, f.bottom_radius);
-    scene_.set(n, nodes::cone::height, f.height);
+    scene_.set(n, nodes::cone::bottomRadius, f.bottom_radius, nodes::cone::height, f.height);
     if (!form_.bottom) scene_.set(n, nodes::cone::bottom, false);
     scene_.set(n, nodes::cone::segments, form_.segments);
     return n;
@@ -366,8 +353,7 @@ class Adder {
     const NodeId n = node(nodes::Extrusion);
     auto curve = flat(f.points);
     curve.insert(curve.end(), {f.points[0][0], f.points[0][1]});
-    scene_.set(n, k::crossSection, curve);
-    scene_.set(n, k::spine, std::vector<double>{0, -f.height / 2, 0, 0, f.height / 2, 0});
+    scene_.set(n, k::crossSection, curve, k::spine, std::vector<double>{0, -f.height / 2, 0, 0, f.height / 2, 0});
     if (f.crease_angle != 0) scene_.set(n, k::creaseAngle, f.crease_angle);
     if (!is_convex(f)) scene_.set(n, k::convex, false);
     caps(n, k::beginCap, k::endCap);

@@ -1,5 +1,5 @@
-// A world for a viewer that shows it while it comes in (docs/progressive.md): for each surface where it stands and in
-// what color, then the progressive meshes of all surfaces, cut in pieces that take turns, so that the whole world gets
+// A scene for a viewer that shows it while it comes in (docs/progressive.md): for each surface where it stands and in
+// what color, then the progressive meshes of all surfaces, cut in pieces that take turns, so that the whole scene gets
 // better at once.
 #pragma once
 #include <optional>

@@ -50,7 +50,7 @@ Run run_of(const Piece& p, const Chain& chain, const Tolerances& tolerances) {
 
 using Rings = std::span<const Ring>;
 
-/// How far from ring i on the rings stand in a row, as a pipe or a cone has them: the last of them.
+/// How far from ring i on the rings are in a row, as a pipe or a cone has them: the last of them.
 std::size_t straight_until(Rings rings, std::size_t i, double tolerance) {
   std::size_t j = i + 1;
   const Vec3 first = rings[j].centre - rings[i].centre;

@@ -11,16 +11,7 @@ namespace wrlkit::recognising {
 
 /// With those columns; Y and Z are unit vectors, perpendicular.
 inline Matrix frame_of(const Vec3& centre, const Vec3& y, const Vec3& z) {
-  const Vec3 x = cross(y, z);
-  Matrix m;
-  for (int r = 0; r < 3; ++r) {
-    const auto k = static_cast<std::size_t>(r);
-    m(r, 0) = x[k];
-    m(r, 1) = y[k];
-    m(r, 2) = z[k];
-    m(r, 3) = centre[k];
-  }
-  return m;
+  return matrix_of_columns(cross(y, z), y, z, centre);
 }
 
 inline Vec3 perpendicular(const Vec3& v, const Vec3& axis) { return v - dot(v, axis) * axis; }

@@ -6,7 +6,7 @@
 
 namespace wrlkit {
 
-/// Segments of a circle of that radius; the rule stands in tessellate.h. `shown`: those of the part that a form was
+/// Segments of a circle of that radius; the rule is in tessellate.h. `shown`: those of the part that a form was
 /// recognised in, which an automatic tolerance keeps; 0: none.
 int circle_segments(double radius, const Tessellation& options, int shown = 0);
 

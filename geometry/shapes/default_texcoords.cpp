@@ -10,12 +10,6 @@ namespace {
 /// Half of the length, as the length itself could overflow.
 double half(const Box& b, std::size_t axis) { return b.high[axis] / 2 - b.low[axis] / 2; }
 
-Box box_of_corners(const Mesh& mesh) {
-  Box b;
-  for (auto p : mesh.corners) b.add(&mesh.positions[std::size_t{p} * 3]);
-  return b;
-}
-
 // S and T of a point.
 struct Projection {
   Box box;

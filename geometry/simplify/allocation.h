@@ -1,4 +1,4 @@
-// Where the triangles of a world go: which rung of its ladder each part stands on, so that the distortion of all is
+// Where the triangles of a scene go: which rung of its ladder each part stands on, so that the distortion of all is
 // least for a number of triangles (Shoham, Gersho: Efficient Bit Allocation for an Arbitrary Set of Quantizers, 1988).
 #pragma once
 #include <queue>
@@ -21,7 +21,7 @@ struct LeavingSample {
   bool is_asked = true;  // whether `near` is known
 };
 
-/// A part of a world in all its places.
+/// A part of a scene in all its places.
 struct AllocatedPart {
   const std::vector<Rung>* rungs = nullptr;
   std::size_t n_places = 0;                     // where it is drawn
@@ -41,7 +41,7 @@ class Allocation {
   /// `parts` and `neighbours` must outlive this; what leaves is taken from them. `area` is that of the world.
   Allocation(std::vector<AllocatedPart>& parts, Neighbours& neighbours, double area);
 
-  /// Steps down until at most so many triangles are drawn. False when nothing is left to be taken.
+  /// Steps down until at most that many triangles are drawn. False when nothing is left to be taken.
   bool run_to(std::size_t n_drawn);
 
   std::size_t n_drawn() const { return n_drawn_; }

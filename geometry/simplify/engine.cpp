@@ -12,7 +12,7 @@ namespace wrlkit::simplify {
 namespace {
 
 constexpr std::uint32_t many_vertices = 1 << 15;  // from which on a mesh is simplified in sweeps
-constexpr std::size_t few_faces = 1 << 14;        // until so many are left
+constexpr std::size_t few_faces = 1 << 14;        // until this many are left
 constexpr double fold_weight = 0.1;  // of the faces that an end takes along; 1: folds stay that nobody needs
 
 /// Where x is along the edge from a (0) to b (1).

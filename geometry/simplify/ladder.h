@@ -1,4 +1,4 @@
-// What may stand for a part of a world: from the part itself to very few triangles, each with what it costs.
+// What may replace a part of a scene: from the part itself to very few triangles, each with what it costs.
 #pragma once
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace wrlkit::simplify {
 
-/// One of the surfaces that may stand for a part.
+/// One of the surfaces that may replace a part.
 struct Rung {
   Mesh mesh;  // empty on the first rung, which is the part itself
   std::size_t n_faces = 0;
@@ -22,7 +22,7 @@ struct LadderPart {
   CollapseOptions collapse;
 };
 
-/// Rungs by falling numbers of triangles, each as near as it can be had; the first is the part. Edges collapse by the
+/// Rungs by falling numbers of triangles, each as near as can be made; the first is the part. Edges collapse by the
 /// criterion to some hundred triangles, then on a FittedSurface, which takes its attributes from the nearest points of
 /// the part; a part with a lightmap goes as far as the criterion goes. Those that are no better than another with fewer
 /// triangles are left out. O(n log n).

@@ -14,16 +14,7 @@ namespace {
 /// To six decimals of the extent, which no eye can tell and a text file is a third shorter for. Positions that were
 /// printed with fewer digits stay as they are, and so do those that neighbours have too.
 void round_positions(Mesh& mesh, const std::vector<Vec3>& fixed) {
-  double extent = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    double low = 0, high = 0;
-    for (std::size_t i = k; i < mesh.positions.size(); i += 3) {
-      const double x = mesh.positions[i];
-      low = i == k ? x : std::min(low, x);
-      high = i == k ? x : std::max(high, x);
-    }
-    extent = std::max(extent, high - low);
-  }
+  const double extent = std::ranges::max(box_of<3>(mesh.positions.span()).size());
   if (!(extent > 0)) return;
   const int exponent = static_cast<int>(std::floor(std::log10(extent))) - 6;
   const double step = std::pow(10.0, std::abs(exponent));

@@ -25,7 +25,7 @@ struct CriterionName {
 /// Of the criteria that this build has.
 std::vector<std::string> criterion_names();
 
-/// A part of a world is not simplified further than to what a box has, which could stand for it.
+/// A part of a scene is not simplified further than to what a box has, which could replace it.
 constexpr std::size_t faces_of_a_box = 12;
 
 struct LevelOptions {

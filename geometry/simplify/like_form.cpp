@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/hashing.h"
 #include "base/math/affine.h"
 #include "base/math/eigen.h"
 
@@ -40,10 +41,7 @@ bool is_even(const Matrix& m) {
 
 std::uint64_t hash_of_corners(const Mesh& mesh) {
   std::uint64_t h = mesh.n_positions();
-  for (auto c : mesh.corners) {
-    h = (h ^ c) * 0x9e3779b97f4a7c15u;
-    h ^= h >> 29;
-  }
+  for (auto c : mesh.corners) h = mixed(h, c);
   return h;
 }
 
@@ -67,8 +65,7 @@ std::optional<Matrix> LikeForm::frame_of(const Triangles& surface) const {
   const Vec3 o = surface.position(at_[0]), x = surface.position(at_[1]) - o, y = surface.position(at_[2]) - o;
   const Vec3 normal = cross(x, y);
   const Vec3 z = flat_ ? std::sqrt(fast_length(normal)) * unit(normal) : surface.position(at_[3]) - o;
-  Matrix m;
-  m.m = {x[0], y[0], z[0], o[0], x[1], y[1], z[1], o[1], x[2], y[2], z[2], o[2]};
+  const Matrix m = matrix_of_columns(x, y, z, o);
   const double width = fast_length(normal) / std::max(fast_length(x), 1e-300);
   if (!is_invertible(m) || !(width > of_extent * fast_length(x))) return std::nullopt;
   return m;

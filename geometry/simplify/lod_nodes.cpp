@@ -28,21 +28,11 @@ double round_up(double v) {
 
 /// Around the middle of the bounds of the positions that the corners use.
 Sphere bounding_sphere(const Mesh& mesh) {
-  Vec3 low{}, high{};
-  for (std::size_t i = 0; i < mesh.corners.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double x = mesh.positions[mesh.corners[i] * std::size_t{3} + k];
-      low[k] = i ? std::min(low[k], x) : x;
-      high[k] = i ? std::max(high[k], x) : x;
-    }
   Sphere s;
-  for (std::size_t k = 0; k < 3; ++k) s.center[k] = decimal(static_cast<float>((low[k] + high[k]) / 2));
-  for (auto c : mesh.corners) {
-    double d = 0;
-    for (std::size_t k = 0; k < 3; ++k) d += std::pow(mesh.positions[c * std::size_t{3} + k] - s.center[k], 2);
-    s.radius = std::max(s.radius, d);
-  }
-  s.radius = std::sqrt(s.radius);
+  if (mesh.corners.empty()) return s;
+  s.center = box_of_corners(mesh).centre();
+  for (double& x : s.center) x = decimal(static_cast<float>(x));
+  for (auto c : mesh.corners) s.radius = std::max(s.radius, fast_length(mesh.position(c) - s.center));
   return s;
 }
 
@@ -78,9 +68,7 @@ std::size_t LodNodes::add(const ShapeSurface& surface, const Mesh& mesh, std::sp
     for (NodeId g : geometries) children.push_back(shape_like(shape, g));
     if (budget.vanish > 0) children.push_back(scene_.add(nodes::Group, scene_.where(shape)));
     NodeId n = scene_.add(nodes::LOD, scene_.where(shape));
-    scene_.set(n, nodes::lod::children, children);
-    scene_.set(n, nodes::lod::center, sphere.center);
-    scene_.set(n, nodes::lod::range, range);
+    scene_.set(n, nodes::lod::children, children, nodes::lod::center, sphere.center, nodes::lod::range, range);
     if (lod_of_.size() <= shape.value) lod_of_.resize(shape.value + std::size_t{1});
     lod_of_[shape.value] = n;
   }

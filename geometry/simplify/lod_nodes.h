@@ -1,4 +1,4 @@
-// LOD nodes around Shapes: how simplified meshes come into a world (ISO/IEC 14772-1, 6.26).
+// LOD nodes around Shapes: how simplified meshes come into a scene (ISO/IEC 14772-1, 6.26).
 #pragma once
 #include <span>
 #include <vector>
@@ -25,7 +25,7 @@ class LodNodes {
  public:
   explicit LodNodes(Scene& scene);
 
-  /// Makes a LOD of each Shape that holds the surface and stands in a list of nodes, with the Shape as its first level.
+  /// Makes a LOD of each Shape that holds the surface and is in a list of nodes, with the Shape as its first level.
   /// `mesh` is the surface; nothing is made when there are no levels and it is not to vanish. Returns the number of
   /// LODs.
   std::size_t add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels,
@@ -36,12 +36,12 @@ class LodNodes {
  private:
   NodeId shape_like(NodeId shape, NodeId geometry);
   void replace(std::vector<NodeId>& list) const;
-  /// Calls f(list) for the lists that a LOD may stand in; f may change them.
+  /// Calls f(list) for the lists that may contain a LOD; f may change them.
   template <class F>
   void for_lists(F f);
 
   Scene& scene_;
-  std::vector<char> listed_;    // by node: stands in such a list
+  std::vector<char> listed_;    // by node: is in such a list
   std::vector<NodeId> lod_of_;  // by Shape
 };
 

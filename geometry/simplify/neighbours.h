@@ -1,4 +1,4 @@
-// What else there is around a part of a world: how far away the nearest other part is.
+// What else there is around a part of a scene: how far away the nearest other part is.
 #pragma once
 #include <optional>
 #include <vector>

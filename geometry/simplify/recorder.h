@@ -1,4 +1,4 @@
-// Writes the CollapseRecord while the engine works: what a step changes is told before it is changed.
+// Writes the CollapseRecord while the engine works: what a step changes is recorded before it is changed.
 #pragma once
 #include "geometry/simplify/collapse.h"
 #include "geometry/simplify/surface.h"

@@ -197,9 +197,7 @@ class ScopedLodMaker {
     const NodeId lod = scene_.add(nodes::LOD, scene_.where(n));
     Vec3 center = here.bounds.centre();
     for (double& x : center) x = decimal(static_cast<float>(x));
-    scene_.set(lod, nodes::lod::children, children);
-    scene_.set(lod, nodes::lod::center, center);
-    scene_.set(lod, nodes::lod::range, range);
+    scene_.set(lod, nodes::lod::children, children, nodes::lod::center, center, nodes::lod::range, range);
     lod_of_[n.value] = lod;
     ++made_.n_lods;
     made_.n_levels += errors.size();

@@ -1,4 +1,4 @@
-// LOD nodes over whole groups, or the whole world: their further levels are the group with simpler surfaces.
+// LOD nodes over whole groups, or the whole scene: their further levels are the group with simpler surfaces.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -1,4 +1,4 @@
-// Where open borders of several parts of a world meet. What lies there must stay where it is while each part is
+// Where open borders of several parts of a scene meet. What lies there must stay where it is while each part is
 // simplified for itself, or there were cracks between them, and between different levels of detail.
 #pragma once
 #include "geometry/simplify/surface_scales.h"

@@ -43,7 +43,7 @@ struct Ring {
   std::span<const Spoke> spoke_span() const { return {spokes, static_cast<std::size_t>(n_spokes)}; }
   std::uint32_t next_vertex(const Face& f) const { return spokes[f.next].vertex; }
   std::uint32_t prev_vertex(const Face& f) const { return spokes[f.prev].vertex; }
-  /// Whether the face has that vertex beside the centre.
+  /// Whether the face has that vertex next to the centre.
   bool has(const Face& f, std::uint32_t vertex) const { return next_vertex(f) == vertex || prev_vertex(f) == vertex; }
   /// -1: no such edge.
   int find(std::uint32_t vertex) const {

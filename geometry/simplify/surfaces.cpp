@@ -49,19 +49,10 @@ class SurfaceSearch {
   }
 
   void keep_below_levels() {
-    std::vector<NodeId> open;
-    std::ranges::copy_if(order_, std::back_inserter(open), [&](NodeId n) { return scene_.is(n, nodes::LOD); });
-    std::vector<char> seen(scene_.node_count());
-    while (!open.empty()) {
-      NodeId n = open.back();
-      open.pop_back();
-      for_each_child(scene_, n, [&](NodeId c) {
-        if (!c || seen[c.value]) return;
-        seen[c.value] = 1;
-        kept_[c.value] = Kept::has_levels;
-        open.push_back(c);
-      });
-    }
+    std::vector<NodeId> levels;
+    for (NodeId n : order_)
+      if (scene_.is(n, nodes::LOD)) for_each_child(scene_, n, [&](NodeId c) { levels.push_back(c); });
+    for (NodeId n : reachable(scene_, levels)) kept_[n.value] = Kept::has_levels;
   }
 
   bool has_is(NodeId n) const {

@@ -1,5 +1,5 @@
-// The interaction points of a whole world (Lazanyi, 2.3): the world at falling numbers of triangles, and all of them
-// together in one world with LOD nodes.
+// The interaction points of a whole scene (Lazanyi, 2.3): the world at falling numbers of triangles, and all of them
+// together in one scene with LOD nodes.
 #pragma once
 #include <vector>
 
@@ -15,10 +15,10 @@ struct WorldSimplifyOptions {
   std::vector<double> ratios;       // at these shares of the triangles
   std::vector<double> errors;       // with no surface farther than this from what it was, in metres of the world
   std::size_t drawn = 0;            // of WorldLevels: triangles that the world draws; 0: those of its surfaces
-  /// Of WorldLevels: the scene with what instances of prototypes stand for in their places, where nodes of both have
+  /// Of WorldLevels: the scene with instances of prototypes replaced by their bodies, where nodes of both have
   /// the same numbers; it says where surfaces are shown. None: there are no instances. It must outlive the levels.
   const Scene* expanded = nullptr;
-  bool one_part = false;  // of WorldLevels: of a world of one part, too
+  bool one_part = false;  // of WorldLevels: of a scene of one part, too
   ScreenBudget budget;
 };
 

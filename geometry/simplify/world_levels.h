@@ -1,4 +1,4 @@
-// A whole world at falling numbers of triangles that are drawn: one budget for all of its parts.
+// A whole scene at falling numbers of triangles that are drawn: one budget for all of its parts.
 #pragma once
 #include <memory>
 #include <vector>
@@ -10,7 +10,7 @@ namespace wrlkit {
 
 class WorldLevels {
  public:
-  /// Cuts the surfaces of a scene (surfaces_of) into connected parts, finds for each what might stand for it
+  /// Cuts the surfaces of a scene (surfaces_of) into connected parts, finds for each what might replace it
   /// (simplify/ladder.h), and shares the triangles out (simplify/allocation.h) at the numbers of triangles that the
   /// options ask for, by `every`, `counts` or `ratios`. Each place of a shared geometry is drawn and counts; all of
   /// them are simplified alike. Of very many places (8 million triangles) some are looked at, spread evenly. Small
@@ -21,7 +21,7 @@ class WorldLevels {
   /// Triangles of the surfaces in all places that are shown, and each surface once.
   std::size_t n_drawn() const;
   std::size_t n_faces() const;
-  /// Of a world that draws more there are no parts and no points.
+  /// Of a scene that draws more there are no parts and no points.
   static constexpr std::size_t most_drawn = 1'000'000'000'000'000;
   /// Connected pieces of surfaces, each once.
   std::size_t n_parts() const;
@@ -36,7 +36,7 @@ class WorldLevels {
   Scene scene_at(std::size_t i) const;
   /// With LOD nodes that have the points as levels.
   Scene scene_with_levels() const;
-  /// The same with LODs over groups or the whole world; `made` says how many.
+  /// The same with LODs over groups or the whole scene; `made` says how many.
   Scene scene_with_lods(const ScopedLodOptions& options, ScopedLods& made) const;
 
  private:

@@ -170,7 +170,7 @@ void WorldParts::find_looks() {
   }
 }
 
-/// Surfaces into pieces, each of which stands in the places of the surface.
+/// Surfaces into pieces, each of which is in all places of the surface.
 void WorldParts::cut() {
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
     auto& s = surfaces[i];

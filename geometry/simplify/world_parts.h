@@ -1,4 +1,4 @@
-// The parts of a world: connected pieces of its surfaces, what may stand for each of them, and where they are.
+// The parts of a scene: connected pieces of its surfaces, what may replace each of them, and where they are.
 #pragma once
 #include <vector>
 
@@ -39,10 +39,10 @@ class WorldParts {
   /// expanded.
   WorldParts(const Scene& original, const Scene& scene, const CollapseOptions& options, Task& ctx);
 
-  /// Triangles that a world may draw; of one that draws more there are no parts.
+  /// Triangles that a scene may draw; of one that draws more there are no parts.
   static constexpr std::uint64_t most_drawn = 1'000'000'000'000'000;
 
-  /// Finds what may stand for the parts. O(n log n), on all threads.
+  /// Finds what may replace the parts. O(n log n), on all threads.
   void make_ladders();
 
   std::uint64_t n_drawn = 0;  // of the surfaces, in all places; saturates

@@ -6,19 +6,19 @@
 namespace wrlkit::light {
 namespace {
 
-double cross2(const Place& a, const Place& b, const Place& c) {
+double cross2(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
 /// A picture that is being drawn: sums of samples.
 class Drawing {
  public:
-  Drawing(FloatPicture& picture, const Place& low, const PictureOptions& options)
+  Drawing(FloatPicture& picture, const Vec2& low, const PictureOptions& options)
       : picture_(picture), low_(low), options_(options), hits_(picture.pixels.size()) {}
 
-  void triangle(const std::array<Place, 3>& corners, const std::array<V3, 3>& colors) {
+  void triangle(const std::array<Vec2, 3>& corners, const std::array<V3, 3>& colors) {
     const double step = options_.texel / options_.samples;
-    std::array<Place, 3> c;  // in samples, y down
+    std::array<Vec2, 3> c;  // in samples, y down
     for (std::size_t i = 0; i < 3; ++i)
       c[i] = {(corners[i][0] - low_[0]) / step, picture_.height * options_.samples - (corners[i][1] - low_[1]) / step};
     const double area = cross2(c[0], c[1], c[2]);
@@ -34,7 +34,7 @@ class Drawing {
     const auto [x0, x1] = range(0, picture_.width * options_.samples);
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x) {
-        const Place p{x + 0.5, y + 0.5};
+        const Vec2 p{x + 0.5, y + 0.5};
         const double a = cross2(c[1], c[2], p) / area, b = cross2(c[2], c[0], p) / area;
         if (a >= 0 && b >= 0 && a + b <= 1) add(x, y, a * colors[0] + b * colors[1] + (1 - a - b) * colors[2]);
       }
@@ -96,7 +96,7 @@ class Drawing {
   }
 
   FloatPicture& picture_;
-  Place low_;  // of the lower left corner of the picture
+  Vec2 low_;  // of the lower left corner of the picture
   const PictureOptions& options_;
   std::vector<std::uint32_t> hits_;  // samples
 };

@@ -11,7 +11,6 @@
 namespace wrlkit::light {
 
 using drawing::V3;
-using Place = Vec2;
 
 /// The plane of a polygon as a picture has it: x to the right, y up. Walls stand upright; floors have -Z up, as seen
 /// from above.
@@ -19,12 +18,12 @@ struct PictureFrame {
   V3 origin, right, up;
 
   static PictureFrame facing(const V3& normal, const V3& origin);
-  Place place(const V3& p) const { return {dot(p - origin, right), dot(p - origin, up)}; }
+  Vec2 place(const V3& p) const { return {dot(p - origin, right), dot(p - origin, up)}; }
 };
 
 struct FlatPatch {
-  std::array<Place, 3> corners;  // in a PictureFrame, metres
-  std::array<V3, 3> colors;      // of the corners
+  std::array<Vec2, 3> corners;  // in a PictureFrame, metres
+  std::array<V3, 3> colors;     // of the corners
 };
 
 struct PictureOptions {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "light/random.h"
+#include "base/math/random.h"
 
 namespace wrlkit::light {
 namespace {
@@ -32,7 +32,7 @@ class Refinement {
   void run() {
     constexpr int rounds = 6;  // each halves the area; two halve the edges
     for (std::uint64_t round = 0; round < rounds; ++round) {
-      for (std::uint64_t i = 0; i < 2; ++i) look(pilot_[i], key_of(options_.how.seed, 40 + i, round));
+      for (std::uint64_t i = 0; i < 2; ++i) look(pilot_[i], random_key(options_.how.seed, 40 + i, round));
       const auto chosen = where_it_changes();
       constexpr std::size_t added = 4;  // sides by each, about: neighbours are cut, too
       if (chosen.empty() || world_.n_sides() + added * chosen.size() > world_.sizes().most_patches) return;

@@ -1,4 +1,4 @@
-// The light of a whole world as patches: what RenderX did for Lazanyi (3.1), and what `wrlkit illuminate` does.
+// The light of a whole scene as patches: what RenderX did for Lazanyi (3.1), and what `wrlkit illuminate` does.
 #pragma once
 #include "light/patches/methods.h"
 #include "scenegraph/patches.h"

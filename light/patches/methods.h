@@ -1,4 +1,4 @@
-// Three ways to find the light that falls on each patch of a world: Lazanyi's "various methods" (3.1). They differ in
+// Three ways to find the light that falls on each patch of a scene: Lazanyi's "various methods" (3.1). They differ in
 // how they come to a result, not in the result: all err around the same solution, by as much as their samples are few.
 //
 //   path                   each patch follows light back from many of its places to where it is made: Monte Carlo path

@@ -175,7 +175,7 @@ class ShapeDrawing {
     double area = 0, n = 0;
     for (const auto& polygon : polygons_)
       for (const auto& p : polygon.patches) {
-        const Place a{p.corners[1][0] - p.corners[0][0], p.corners[1][1] - p.corners[0][1]},
+        const Vec2 a{p.corners[1][0] - p.corners[0][0], p.corners[1][1] - p.corners[0][1]},
             b{p.corners[2][0] - p.corners[0][0], p.corners[2][1] - p.corners[0][1]};
         area += 0.5 * std::fabs(a[0] * b[1] - a[1] * b[0]);
         ++n;
@@ -195,7 +195,7 @@ class ShapeDrawing {
     const V3 mean = (1 / n) * sum;
     const double t = picture_.texel;
     Polygon rest;
-    rest.patches.push_back({{Place{0, 0}, Place{2 * t, 0}, Place{0, 2 * t}}, {mean, mean, mean}});
+    rest.patches.push_back({{Vec2{0, 0}, Vec2{2 * t, 0}, Vec2{0, 2 * t}}, {mean, mean, mean}});
     rest.box.add({0, 0});
     rest.box.add({t, t});
     polygons_.push_back(std::move(rest));
@@ -259,7 +259,7 @@ class ShapeDrawing {
       const Polygon* p = shown(e, back);
       if (!p && !has_rest_) continue;  // no area
       for (std::size_t k = 0; k < 3; ++k) {
-        const Place at = p ? p->frame.place(triangles_[e][k]) : Place{0.5 * picture_.texel, 0.5 * picture_.texel};
+        const Vec2 at = p ? p->frame.place(triangles_[e][k]) : Vec2{0.5 * picture_.texel, 0.5 * picture_.texel};
         const Polygon& in = p ? *p : polygons_.back();
         const double x = in.x + picture_.border + (at[0] - in.box.low[0]) / picture_.texel;
         const double y = in.y + in.size[1] - picture_.border - (at[1] - in.box.low[1]) / picture_.texel;

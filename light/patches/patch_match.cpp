@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/math/random.h"
 #include "light/patches/patch_mesh.h"
-#include "light/random.h"
 
 namespace wrlkit::light {
 namespace {

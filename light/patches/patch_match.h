@@ -1,5 +1,5 @@
 // Which triangle of the world each patch of a file lies on: by the file's own grouping where that is right, else by
-// looking for a surface where the patch is. So files of other programs, of a world that was changed since, or without
+// looking for a surface where the patch is. So files of other programs, of a scene that was changed since, or without
 // any grouping serve as well.
 #pragma once
 #include <array>

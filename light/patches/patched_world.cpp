@@ -51,7 +51,7 @@ void PatchedWorld::cut(Diagnostics& diag) {
     enlarge(std::sqrt(least / most));
   while (!try_to_cut()) {
     enlarge(1.5);
-    // A world of more triangles than that is taken as it is.
+    // A scene of more triangles than that is taken as it is.
     if (!std::isfinite(sizes_.max_edge + sizes_.max_area)) break;
   }
   if (sizes_.max_edge > asked.max_edge || sizes_.max_area > asked.max_area)

@@ -1,4 +1,4 @@
-// The surfaces of a world, cut into patches: what light falls on and leaves in the methods of radiosity. Each patch has
+// The surfaces of a scene, cut into patches: what light falls on and leaves in the methods of radiosity. Each patch has
 // one side, or two where its Shape is lit on both (solid FALSE). Patches are flat; normals of the file do not bend
 // them.
 #pragma once

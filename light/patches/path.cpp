@@ -13,10 +13,10 @@ constexpr std::uint32_t portion = 4096;  // sides between two reports
 V3 irradiance_of(const PatchedWorld& world, const DirectLight& direct, const Transport& transport, std::uint32_t side,
                  const MethodOptions& o) {
   if (!(world.area(side) > 0)) return {};
-  const auto key = key_of(o.seed, 10, side);
-  Stream random(key);
-  const Lattice<4> ways(key_of(key, 1));
-  const Lattice<3> targets(key_of(key, 3));
+  const auto key = random_key(o.seed, 10, side);
+  RandomStream random(key);
+  const Lattice<4> ways(random_key(key, 1));
+  const Lattice<3> targets(random_key(key, 3));
   V3 sum;
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.samples); ++i) {
     const auto [pu, pv, du, dv] = ways[i];

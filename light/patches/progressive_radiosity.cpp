@@ -48,9 +48,9 @@ class Shooting {
   void start() {
     for_sides(0, static_cast<std::uint32_t>(world_.n_sides()), [&](std::uint32_t s) {
       if (!(world_.area(s) > 0)) return;
-      const auto key = key_of(options_.seed, 30, s);
-      const Lattice<4> ways(key_of(key, 1));
-      Stream random(key);
+      const auto key = random_key(options_.seed, 30, s);
+      const Lattice<4> ways(random_key(key, 1));
+      RandomStream random(key);
       Flux f;
       for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(options_.samples); ++i) {
         const auto [pu, pv, du, dv] = ways[i];
@@ -100,10 +100,10 @@ class Shooting {
   }
 
   void shoot_from(std::uint32_t s, double a_ray, std::uint32_t round, std::vector<Deposit>& out) {
-    const auto key = key_of(options_.seed, 31, s);
-    const Lattice<4> ways(key_of(key, 1));
+    const auto key = random_key(options_.seed, 31, s);
+    const Lattice<4> ways(random_key(key, 1));
     const double worth = mean(unshot_[s]) / a_ray;
-    const auto n = static_cast<std::uint32_t>(worth + Stream(key_of(key, 3, round)).next());
+    const auto n = static_cast<std::uint32_t>(worth + RandomStream(random_key(key, 3, round)).next());
     const V3 power = (1 / worth) * unshot_[s];
     for (std::uint32_t i = shot_[s]; i < shot_[s] + n; ++i) {
       const auto [pu, pv, du, dv] = ways[i];

@@ -49,7 +49,7 @@ class Iteration {
     std::vector<V3> sum(world_.n_sides());
     for (std::uint32_t i = 0; i < n; ++i) {
       step([&](std::uint32_t s) {
-        const auto key = key_of(options_.seed, 20, s);
+        const auto key = random_key(options_.seed, 20, s);
         const Gathered g = gather(s, key, shuffled(i, n, key));
         sum[s] += g.made + g.reflected;
         return g;
@@ -74,7 +74,7 @@ class Iteration {
     for (int n = 0; n < most_unheard; ++n) {
       for (std::uint32_t s = 0; s < reflected_.size(); ++s) before += world_.area(s) * reflected_[s];
       step([&](std::uint32_t s) {
-        const Gathered g = gather(s, key_of(options_.seed, 21, s), static_cast<std::uint32_t>(n));
+        const Gathered g = gather(s, random_key(options_.seed, 21, s), static_cast<std::uint32_t>(n));
         again[s] = (1 / pi) * (world_.albedo(s) * g.reflected);
         return g;
       });
@@ -99,12 +99,12 @@ class Iteration {
   }
 
   Gathered gather(std::uint32_t s, std::uint64_t key, std::uint32_t i) const {
-    const auto [pu, pv, du, dv] = Lattice<4>(key_of(key, 1))[i];
-    Stream random(key_of(key, 3, i));
+    const auto [pu, pv, du, dv] = Lattice<4>(random_key(key, 1))[i];
+    RandomStream random(random_key(key, 3, i));
     const Receiver at = world_.receiver(s, pu, pv);
     Flux f;
     direct_.lamps(at, walk_lamp_rays, random, f);
-    direct_.emitters(at, Lattice<3>(key_of(key, 4)), i, 1, f);
+    direct_.emitters(at, Lattice<3>(random_key(key, 4)), i, 1, f);
     Gathered g = along(at, {at.start, cosine_direction(at.normal, du, dv)});
     g.made += f.sum;
     return g;

@@ -6,7 +6,7 @@ namespace wrlkit::drawing {
 namespace {
 
 constexpr std::uint32_t unknown = 0xffffffff;
-/// Bounds are taken of all points up to so many; beyond, of the boxes of their meshes.
+/// Up to this number of points, bounds are those of the points; beyond, of the boxes of their meshes.
 constexpr std::size_t most_points = 50'000'000;
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "light/render/places.h"
+#include "light/render/picture_place.h"
 
 namespace wrlkit::drawing {
 namespace {

@@ -5,9 +5,10 @@
 namespace wrlkit::drawing {
 namespace {
 
-double attenuation(const Light& l, double distance) {
-  double fall = l.attenuation.x + distance * (l.attenuation.y + distance * l.attenuation.z);
-  return 1 / std::max(fall, 1.0);
+/// Lamps have a size: nearer than a tenth of the distance it is as strong as there.
+double strength(const SquareFall& fall, double distance) {
+  const double times = fall.distance / std::max(distance, fall.distance / 10);
+  return fall.strength * times * times;
 }
 
 /// spot_i of 4.14.4. A beamWidth beyond cutOffAngle means cutOffAngle (6.45).
@@ -19,6 +20,11 @@ double spot(const Light& l, const V3& to_light) {
 }
 
 }  // namespace
+
+double attenuation(const Light& l, double distance) {
+  double fall = l.attenuation.x + distance * (l.attenuation.y + distance * l.attenuation.z);
+  return 1 / std::max(fall, 1.0);
+}
 
 std::optional<Light> make_light(const Scene& scene, const Placed& placed, const Stage& stage) {
   const LightNode n = read_light(scene, placed.node);
@@ -47,8 +53,8 @@ Arrival arrival(const Light& light, const V3& position) {
   if (light.kind == Light::Kind::directional) return {-light.direction, std::numeric_limits<double>::infinity(), 1};
   V3 way = light.location - position;
   double local = length(light.to_local.vector(way));
-  if (local > light.radius) return {};
-  Arrival a{unit(way), length(way), attenuation(light, local)};
+  if (!light.fall && local > light.radius) return {};
+  Arrival a{unit(way), length(way), light.fall ? strength(*light.fall, local) : attenuation(light, local)};
   if (light.kind == Light::Kind::spot) a.strength *= spot(light, a.to_light);
   return a;
 }

@@ -7,6 +7,11 @@
 
 namespace wrlkit::drawing {
 
+/// Light that falls by the square of the distance, in the frame of the light.
+struct SquareFall {
+  double distance, strength;  // how strong it is there
+};
+
 struct Light {
   using Kind = LightNode::Kind;
 
@@ -18,6 +23,7 @@ struct Light {
   Affine to_local;         // distances are measured in the frame of the light
   V3 attenuation{1, 0, 0};
   double radius = 100, beam_width = 0, cut_off_angle = 0;
+  std::optional<SquareFall> fall;  // instead of attenuation and radius
 };
 
 /// What the equation needs of the material at a point.
@@ -30,14 +36,17 @@ struct LitPoint {
   V3 position, normal, to_viewer;  // world, the latter two unit
 };
 
-/// A light node in its frame; none when it is off, adds nothing or stands in a frame that has no inverse.
+/// A light node in its frame; none when it is off, adds nothing or its frame has no inverse.
 std::optional<Light> make_light(const Scene& scene, const Placed& placed, const Stage& stage);
+
+/// 1 / max(1, a0 + a1 d + a2 d^2), of a distance in the frame of the light.
+double attenuation(const Light& light, double distance);
 
 /// How a light comes to a place.
 struct Arrival {
   V3 to_light;          // unit; zero where the light itself stands
   double distance = 0;  // world; infinite for a DirectionalLight
-  double strength = 0;  // attenuation * spot; 0 beyond the radius
+  double strength = 0;  // attenuation * spot, or fall * spot; 0 beyond the radius
 };
 Arrival arrival(const Light& light, const V3& position);
 

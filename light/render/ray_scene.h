@@ -49,7 +49,7 @@ class Pen {
 struct RayOptions {
   bool cull = true;                  // what is behind a `solid` surface's face is seen through it
   bool fronts_first = false;         // of triangles at one distance those seen from the front count as nearer
-  std::size_t all_flat = 8'000'000;  // up to so many elements nothing is instanced: rays are faster then
+  std::size_t all_flat = 8'000'000;  // up to this many elements nothing is instanced: rays are faster then
   const Pen* pen = nullptr;          // none: rays pass lines and points
   std::span<const char> clear;       // by use: not in the way of occluded(); may be empty
 };

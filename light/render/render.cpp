@@ -19,7 +19,7 @@ namespace {
 
 using namespace drawing;
 
-/// The name, and the one that may have been meant, to stand in quotes.
+/// The name, and the one that may have been meant, to be put in quotes.
 std::string asked_for(const Scene& scene, const Stage& stage, const std::string& name) {
   NearestName nearest(name);
   for (const Placed& p : stage.viewpoints) {
@@ -156,6 +156,8 @@ Image render(const Scene& scene, const MeshSource& source, const RenderOptions& 
   if (options.mode == RenderOptions::Mode::path) {
     const Camera seen_from = choose_camera(scene, stage, options, diag, box_of_all);
     light::PathOptions how{.samples = std::clamp(options.samples, 1, 64),
+                           .lamps = options.lamps,
+                           .exposure = options.exposure,
                            .level_of = choose_levels(scene, seen_from, options),
                            .done = options.done};
     if (options.background) how.background = light::linear(V3(*options.background));

@@ -1,4 +1,4 @@
-// A picture of a world as a VRML browser shows it: the lighting model of ISO/IEC 14772-1, 4.14, in the colours of the
+// A picture of a scene as a VRML browser shows it: the lighting model of ISO/IEC 14772-1, 4.14, in the colours of the
 // display, ray traced through Embree so that it needs no window, no driver and no graphics card.
 //
 // The scene is an expanded one (no prototypes, no Inlines). Of Switch it shows what shown_children() says, of LOD the
@@ -13,6 +13,8 @@
 #include "base/choice.h"
 #include "base/diagnostics.h"
 #include "geometry/mesh.h"
+#include "light/exposure.h"
+#include "light/lamp_fall.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
 
@@ -48,9 +50,11 @@ struct RenderOptions {
   // Of each LOD that level, from 0, or its last; none: by the distance of the viewer (6.26). Where the picture is taken
   // from does not depend on it: `fit` looks at the first levels.
   std::optional<std::size_t> level = 0;
-  std::optional<Vec3> background;    // instead of the world's Background
-  std::optional<bool> headlight;     // instead of what NavigationInfo says
-  std::function<void(double)> done;  // path: told now and then how much of the picture is there, up to 1
+  std::optional<Vec3> background;         // instead of the world's Background
+  std::optional<bool> headlight;          // instead of what NavigationInfo says
+  LampFall lamps = LampFall::as_written;  // path
+  Exposure exposure;                      // path: of all of the picture; auto: found from it, and reported
+  std::function<void(double)> done;       // path: told now and then how much of the picture is there, up to 1
 };
 template <>
 inline constexpr auto choices<RenderOptions::Mode> =
@@ -62,12 +66,12 @@ inline constexpr auto choices<RenderOptions::Mode> =
                 {"albedo", "without light"},
                 {"path", "with shadows and reflected light, as noisy as --samples are few"}});
 
-/// Draws the scene. `resources` gives the pictures of textures; without it, or where one cannot be had, the material
-/// shows. The picture is RGB and always there: an empty world gives its background.
+/// Draws the scene. `resources` gives the pictures of textures; without it, or where one cannot be read, the material
+/// shows. The picture is RGB and always there: an empty scene gives its background.
 Image render(const Scene& scene, const MeshSource& meshes, const RenderOptions& options, Resources* resources,
              Diagnostics& diag);
 
-/// The options with the camera that render() would take for this scene spelled out: for pictures of other worlds from
+/// The options with the camera that render() would take for this scene spelled out: for pictures of other scenes from
 /// the same place.
 RenderOptions with_camera(const Scene& scene, const MeshSource& meshes, const RenderOptions& options,
                           Diagnostics& diag);

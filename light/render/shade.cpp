@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "light/render/baked.h"
-#include "light/render/places.h"
+#include "light/render/picture_place.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::drawing {

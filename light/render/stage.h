@@ -28,7 +28,7 @@ struct NameStep {
   std::uint32_t parent = 0;
 };
 
-/// A node and the frame that it stands in.
+/// A node and its frame.
 struct Placed {
   NodeId node;
   std::uint32_t frame = 0;
@@ -57,16 +57,16 @@ struct Stage {
   bool billboards = false;                            // some frames depend on the viewer
 };
 
-/// Visits and Shapes are allowed so many beyond the nodes of the scene: a world without USE is always drawn whole.
+/// How many visits and Shapes are allowed beyond the nodes of the scene: one without USE is always drawn whole.
 struct StageLimits {
   std::size_t visits = most_visits;
   std::size_t shapes = 1'000'000;
-  std::uint32_t uses = 100'000;    // of one node; a world that doubles itself forty times shows its other things, too
+  std::uint32_t uses = 100'000;    // of one node; a scene that doubles itself forty times shows its other things, too
   std::size_t lights = 1000;       // PointLights and SpotLights
   std::uint32_t scope_depth = 64;  // DirectionalLights on one Shape
 };
 
-/// Which level of a LOD that stands in `frame` is shown, from 0; beyond its last level it is that one.
+/// Which level of a LOD in `frame` is shown, from 0; beyond its last level it is that one.
 using LevelOf = std::function<std::size_t(NodeId lod, const Affine& frame)>;
 
 struct StageOptions {

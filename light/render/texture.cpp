@@ -12,7 +12,7 @@ int wrapped(std::int64_t i, int n, bool repeat) {
   return static_cast<int>(r < 0 ? r + n : r);
 }
 
-/// Coordinates far outside say no more than their fraction; what is no number says nothing.
+/// Of coordinates far outside only the fraction matters; NaN counts as 0.
 double reduced(double v, bool repeat) {
   if (!std::isfinite(v)) return 0;
   return repeat ? v - std::floor(v) : std::clamp(v, 0.0, 1.0);

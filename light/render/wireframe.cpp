@@ -6,7 +6,7 @@ namespace wrlkit::drawing {
 namespace {
 
 constexpr double half_width = 0.5;  // of an edge, pixels; the triangle on its other side draws the other half
-constexpr double crowded = 6;       // triangles less high than so many pixels have paler edges, or all would be black
+constexpr double crowded = 6;       // triangles less high than this many pixels have paler edges, or all would be black
 const V3 sheet{0.9}, pen{0.12};
 
 }  // namespace

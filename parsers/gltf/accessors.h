@@ -22,7 +22,7 @@ class Accessors {
 
   Accessors(File& file, Buffers& buffers) : file_(file), buffers_(buffers) {}
 
-  /// `widths`: those that the use allows. Nothing when it cannot be had, which was reported.
+  /// `widths`: those that the use allows. Nothing when it cannot be read, which was reported.
   std::optional<Numbers> numbers(std::uint32_t index, std::initializer_list<std::size_t> widths);
   /// Whole numbers: indices and joints, `width` for each element.
   std::optional<std::vector<std::uint32_t>> whole(std::uint32_t index, std::size_t width = 1);

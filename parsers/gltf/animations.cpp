@@ -63,8 +63,7 @@ void Animations::animation(Json a, bool runs) {
   namespace f = nodes::time_sensor;
   NodeId clock = c_.add(nodes::TimeSensor, a);
   const double whole = duration(a);
-  c_.scene.set(clock, f::cycleInterval, whole);
-  c_.scene.set(clock, f::loop, vrml97(a)["loop"].boolean(true));
+  c_.scene.set(clock, f::cycleInterval, whole, f::loop, vrml97(a)["loop"].boolean(true));
   if (!runs) c_.scene.set(clock, f::enabled, false);
   c_.set_name(clock, a["name"]);
   made_.push_back(clock);
@@ -181,11 +180,9 @@ void Animations::move(Json sampler, std::uint32_t node, std::string_view path, N
   }
   NodeId n = c_.add(rotates ? nodes::OrientationInterpolator : nodes::PositionInterpolator, c);
   if (rotates) {
-    c_.scene.set(n, nodes::orientation_interpolator::key, key);
-    c_.scene.set(n, nodes::orientation_interpolator::keyValue, value);
+    c_.scene.set(n, nodes::orientation_interpolator::key, key, nodes::orientation_interpolator::keyValue, value);
   } else {
-    c_.scene.set(n, nodes::position_interpolator::key, key);
-    c_.scene.set(n, nodes::position_interpolator::keyValue, value);
+    c_.scene.set(n, nodes::position_interpolator::key, key, nodes::position_interpolator::keyValue, value);
   }
   connect(clock, n, to, path == "rotation" ? "set_rotation" : path == "scale" ? "set_scale" : "set_translation");
 }
@@ -229,11 +226,9 @@ void Animations::follow(const Track& t, const Follower& f, NodeId clock, double 
   if (!moves) return;
   NodeId n = c_.add(f.color ? nodes::ColorInterpolator : nodes::ScalarInterpolator, at);
   if (f.color) {
-    c_.scene.set(n, nodes::color_interpolator::key, key);
-    c_.scene.set(n, nodes::color_interpolator::keyValue, value);
+    c_.scene.set(n, nodes::color_interpolator::key, key, nodes::color_interpolator::keyValue, value);
   } else {
-    c_.scene.set(n, nodes::scalar_interpolator::key, key);
-    c_.scene.set(n, nodes::scalar_interpolator::keyValue, value);
+    c_.scene.set(n, nodes::scalar_interpolator::key, key, nodes::scalar_interpolator::keyValue, value);
   }
   connect(clock, n, f.node, f.event);
 }
@@ -258,8 +253,7 @@ void Animations::morph(Json sampler, std::uint32_t node, NodeId clock, double wh
         for (std::size_t p = 0; p < m.base.size(); ++p) value[first + p] += t->value[i][k] * m.targets[k][p];
     }
     NodeId n = c_.add(nodes::CoordinateInterpolator, at);
-    c_.scene.set(n, nodes::coordinate_interpolator::key, key);
-    c_.scene.set(n, nodes::coordinate_interpolator::keyValue, value);
+    c_.scene.set(n, nodes::coordinate_interpolator::key, key, nodes::coordinate_interpolator::keyValue, value);
     connect(clock, n, m.coordinate, "set_point");
   }
 }

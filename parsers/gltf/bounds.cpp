@@ -18,7 +18,7 @@ Ball bounds_below(File& file, std::uint32_t node) {
     open.pop_back();
     const Json json = file.at(Table::nodes, n);
     if (!json || !seen.insert(n).second) continue;
-    const Matrix m = frame * place_of(json).matrix();
+    const Matrix m = frame * matrix_of(place_of(json));
     for (Json c : json["children"].elements()) open.emplace_back(c.whole().value_or(none), m);
     for (Json p : file.at(Table::meshes, json["mesh"].whole().value_or(none))["primitives"].elements()) {
       const Json a = file.at(Table::accessors, p["attributes"]["POSITION"].whole().value_or(none));

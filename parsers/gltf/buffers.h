@@ -20,7 +20,7 @@ class Buffers {
   /// `path` is the file's own; none, and no files, when it is empty.
   Buffers(File& file, std::string path, const std::vector<std::string>& allowed, std::vector<FileLookup>* lookups);
 
-  /// Nothing when it cannot be had, which was reported.
+  /// Nothing when it cannot be read, which was reported.
   std::optional<ViewBytes> view(std::uint32_t index);
   /// The bytes that a bufferView-like object names by buffer, byteOffset and byteLength.
   std::optional<std::string_view> slice(Json of);

@@ -434,7 +434,7 @@ void Extras::exports(Json list, Scope& scope) {
   }
 }
 
-/// What connects the nodes of a scope with each other and with other worlds.
+/// What connects the nodes of a scope with each other and with other scenes.
 void Extras::links(Json from, Scope& scope) {
   imports(from["imports"], scope);
   exports(from["exports"], scope);

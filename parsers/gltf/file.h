@@ -1,5 +1,5 @@
-// A glTF file in its parts: the JSON, the binary chunk of a GLB, and the arrays of the JSON by index. References
-// between them are indices that may be wrong: `element` checks each.
+// The parts of a glTF file: the JSON, the binary chunk of a GLB, and the arrays of the JSON by index. References
+// between them are indices, which may be out of range; `element` checks them.
 #pragma once
 #include <array>
 #include <set>
@@ -39,7 +39,7 @@ class File {
   /// `bytes` must outlive it; their first byte lies at `base` of the sources.
   File(std::string_view bytes, std::uint32_t base, Diagnostics& diag) : bytes_(bytes), base_(base), diag_(diag) {}
 
-  /// Takes the file apart; false when there is nothing to be had of it. What is wrong is reported.
+  /// Takes the file apart; false when nothing of it can be read. What is wrong is reported.
   bool read();
 
   Json root() const { return root_; }

@@ -142,12 +142,11 @@ Hierarchy::Nodes Hierarchy::children(std::uint32_t n, std::size_t depth, const V
 
 void Hierarchy::make(std::uint32_t n, std::size_t depth, Vec3 origin, Nodes& out) {
   const Json json = c_.file.at(Table::nodes, n), extras = vrml97(json);
-  Place place = place_of(json);
+  TransformFields place = place_of(json);
   if (c_.file.is_own() && instancing(json) && c_.file.index(Table::meshes, json["mesh"]) != none) {
     return own_instances(n, origin, out);
   }
-  const bool passes_on = place.translation == Vec3{0, 0, 0} && !place.scaled() && place.rotation[3] == 0 &&
-                         !json["mesh"] && !json["camera"] && !light_of(json);
+  const bool passes_on = place.is_identity() && !json["mesh"] && !json["camera"] && !light_of(json);
   if (!passes_on) {
     for (std::size_t i = 0; i < 3; ++i) place.translation[i] += origin[i];
     origin = {};
@@ -168,7 +167,7 @@ void Hierarchy::make(std::uint32_t n, std::size_t depth, Vec3 origin, Nodes& out
   auto below = children(n, depth, origin);
   // Parts of a merged mesh stand by themselves.
   if (auto mesh = c_.file.index(Table::meshes, json["mesh"]);
-      mesh != none && !type && below.empty() && place.identity() && meshes_.has_features(mesh)) {
+      mesh != none && !type && below.empty() && place.is_identity() && meshes_.has_features(mesh)) {
     auto parts = shapes(n, place);
     out.insert(out.end(), parts.begin(), parts.end());
     return;
@@ -185,7 +184,7 @@ void Hierarchy::report(Json json) { c_.lost.keep(c_.file, json); }
 
 // ---- nodes that wrlkit has written ---------------------------------------------------------------------------------
 
-NodeId Hierarchy::kept(std::uint32_t n, Json fields, const Place& place, Nodes below) {
+NodeId Hierarchy::kept(std::uint32_t n, Json fields, const TransformFields& place, Nodes below) {
   const Json json = c_.file.at(Table::nodes, n);
   const TypeId type = extras_.type(fields.key(), fields);
   NodeId made = c_.add(type, fields);
@@ -225,7 +224,7 @@ NodeId Hierarchy::kept(std::uint32_t n, Json fields, const Place& place, Nodes b
 
 // ---- nodes of glTF -------------------------------------------------------------------------------------------------
 
-NodeId Hierarchy::implied(std::uint32_t n, const Place& place, Nodes below) {
+NodeId Hierarchy::implied(std::uint32_t n, const TransformFields& place, Nodes below) {
   const Json json = c_.file.at(Table::nodes, n);
   const bool has_camera = bool(json["camera"]), has_light = bool(light_of(json)), has_mesh = bool(json["mesh"]);
   const bool moved = moved_.contains(n);
@@ -237,7 +236,7 @@ NodeId Hierarchy::implied(std::uint32_t n, const Place& place, Nodes below) {
     made = light(json, place, world(n));
   } else {
     auto own = has_mesh ? shapes(n, place) : Nodes();
-    if (alone && place.identity() && own.size() == 1) {
+    if (alone && place.is_identity() && own.size() == 1) {
       made = own[0];
     } else {
       if (has_camera) own.push_back(camera(json, {}));
@@ -250,9 +249,9 @@ NodeId Hierarchy::implied(std::uint32_t n, const Place& place, Nodes below) {
   return made;
 }
 
-NodeId Hierarchy::transform(Json at, const Place& p, const Nodes& below, bool moved) {
+NodeId Hierarchy::transform(Json at, const TransformFields& p, const Nodes& below, bool moved) {
   namespace f = nodes::transform;
-  if (p.identity() && !moved) {
+  if (p.is_identity() && !moved) {
     NodeId n = c_.add(nodes::Group, at);
     if (!below.empty()) c_.scene.set(n, nodes::group::children, below);
     return n;
@@ -260,8 +259,8 @@ NodeId Hierarchy::transform(Json at, const Place& p, const Nodes& below, bool mo
   NodeId n = c_.add(nodes::Transform, at);
   if (p.translation != Vec3{0, 0, 0}) c_.scene.set(n, f::translation, p.translation);
   if (p.rotation[3] != 0) c_.scene.set(n, f::rotation, p.rotation);
-  if (p.scaled()) c_.scene.set(n, f::scale, p.scale);
-  if (p.scaled() && p.scale_orientation[3] != 0) c_.scene.set(n, f::scaleOrientation, p.scale_orientation);
+  if (p.scales()) c_.scene.set(n, f::scale, p.scale);
+  if (p.scales() && p.scale_orientation[3] != 0) c_.scene.set(n, f::scaleOrientation, p.scale_orientation);
   if (!below.empty()) c_.scene.set(n, f::children, below);
   return n;
 }
@@ -294,7 +293,7 @@ NodeId Hierarchy::shape(const Meshes::Part& part, Json at) {
   return n;
 }
 
-Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const Place& place) {
+Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const TransformFields& place) {
   const Json json = c_.file.at(Table::nodes, n);
   auto mesh = c_.file.index(Table::meshes, json["mesh"]);
   if (mesh == none) return {};
@@ -302,7 +301,7 @@ Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const Place& place) {
   if (c_.file.is_own() && vrml97(json)["Shape"]) p.origin = place.translation;
   Nodes out;
   PartGroups apart;
-  auto& groups = place.identity() && part_groups_ ? *part_groups_ : apart;
+  auto& groups = place.is_identity() && part_groups_ ? *part_groups_ : apart;
   for (const auto& part : meshes_.parts(mesh, p)) groups.put(c_.scene, rows_, part.row, shape(part, json), out);
   apart.finish(c_.scene);
   if (auto m = meshes_.take_morphs(); !m.empty()) morphs_[n] = std::move(m);
@@ -310,7 +309,7 @@ Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const Place& place) {
   return out;
 }
 
-std::vector<Place> Hierarchy::places(Json attributes) {
+std::vector<TransformFields> Hierarchy::places(Json attributes) {
   auto read = [&](const char* name, std::size_t width) {
     return c_.accessors.numbers(c_.file.index(Table::accessors, attributes[name]), {width});
   };
@@ -319,13 +318,13 @@ std::vector<Place> Hierarchy::places(Json attributes) {
   for (Json a : attributes)
     if (a.key() != "TRANSLATION" && a.key() != "ROTATION" && a.key() != "SCALE")
       c_.lost.add("instances' " + std::string(a.key()), c_.file.where(a));
-  std::vector<Place> all;
+  std::vector<TransformFields> all;
   for (std::size_t i = 0; i < n; ++i) {
     if (++n_instances_ > max_instances) {
       c_.diag().report(Diag::expansion_limit, c_.file.where(attributes), max_instances, "instances");
       break;
     }
-    Place& p = all.emplace_back();
+    TransformFields& p = all.emplace_back();
     if (t && i < t->count()) p.translation = {t->at(i)[0], t->at(i)[1], t->at(i)[2]};
     if (r && i < r->count()) p.rotation = axis_angle({r->at(i)[0], r->at(i)[1], r->at(i)[2], r->at(i)[3]});
     if (s && i < s->count()) p.scale = {s->at(i)[0], s->at(i)[1], s->at(i)[2]};
@@ -337,7 +336,7 @@ std::vector<Place> Hierarchy::places(Json attributes) {
 void Hierarchy::instances(Json node, Nodes& shapes) {
   const Json at = instancing(node);
   Nodes all;
-  for (const Place& p : places(at)) all.push_back(transform(at, p, shapes));
+  for (const TransformFields& p : places(at)) all.push_back(transform(at, p, shapes));
   std::size_t i = 0;
   for (Json name : node["extras"]["names"].elements())
     if (i < all.size()) c_.set_name(all[i++], name);
@@ -354,11 +353,11 @@ void Hierarchy::own_instances(std::uint32_t n, const Vec3& origin, Nodes& out) {
   PartGroups apart;
   auto& groups = part_groups_ ? *part_groups_ : apart;
   std::size_t i = 0;
-  for (Place p : places(at)) {
+  for (TransformFields p : places(at)) {
     for (std::size_t k = 0; k < 3; ++k) p.translation[k] += origin[k];
     Nodes own;
     for (const auto& part : meshes_.parts(mesh, pose(n))) own.push_back(shape(part, json));
-    const NodeId made = p.identity() && own.size() == 1 ? own[0] : transform(at, p, own);
+    const NodeId made = p.is_identity() && own.size() == 1 ? own[0] : transform(at, p, own);
     std::uint32_t row = i < ids.size() && ids[i] < rows_.rows().size() ? ids[i] : none;
     if (row != none && !rows_.is_group(row)) {
       const PartRow& part = rows_.rows()[row];
@@ -380,7 +379,7 @@ void Hierarchy::own_instances(std::uint32_t n, const Vec3& origin, Nodes& out) {
 Matrix Hierarchy::world(std::uint32_t n) {
   Matrix m;
   for (std::size_t up = 0; n != none && up < limits_.depth; ++up, n = parent_[n])
-    m = place_of(c_.file.at(Table::nodes, n)).matrix() * m;
+    m = matrix_of(place_of(c_.file.at(Table::nodes, n))) * m;
   return m;
 }
 
@@ -396,10 +395,8 @@ Pose Hierarchy::pose(std::uint32_t n) {
   for (Json j : skin["joints"].elements()) {
     auto joint = c_.file.index(Table::nodes, j);
     Matrix m = joint == none ? Matrix() : back * world(joint);
-    Matrix b;
-    for (int r = 0; bind && p.joints.size() < bind->count() && r < 3; ++r)
-      for (int c = 0; c < 4; ++c) b(r, c) = bind->at(p.joints.size())[c * 4 + r];
-    p.joints.push_back(m * b);
+    const bool is_bound = bind && p.joints.size() < bind->count();
+    p.joints.push_back(m * (is_bound ? matrix_of_columns(bind->at(p.joints.size())) : Matrix()));
   }
   c_.lost.add("skin (posed as it stands)", c_.file.where(json));
   return p;
@@ -407,7 +404,7 @@ Pose Hierarchy::pose(std::uint32_t n) {
 
 // ---- cameras and lights --------------------------------------------------------------------------------------------
 
-NodeId Hierarchy::camera(Json node, const Place& place) {
+NodeId Hierarchy::camera(Json node, const TransformFields& place) {
   namespace f = nodes::viewpoint;
   const auto index = c_.file.index(Table::cameras, node["camera"]);
   const Json camera = c_.file.at(Table::cameras, index);
@@ -429,7 +426,7 @@ NodeId Hierarchy::camera(Json node, const Place& place) {
 }
 
 /// Location and direction, as far as the type has them.
-void Hierarchy::light_fields(NodeId n, Json light, const Place& place) {
+void Hierarchy::light_fields(NodeId n, Json light, const TransformFields& place) {
   Scene& scene = c_.scene;
   auto put = [&](std::string_view name, FieldType type, auto v) {
     if (auto slot = scene.type(n).find(name, Dialect::vrml97)) scene.set(n, scene.make(type, *slot, v));
@@ -461,8 +458,8 @@ void Hierarchy::light_fields(NodeId n, Json light, const Place& place) {
   }
 }
 
-/// None for one that goes elsewhere: a sun of another program lights the whole world, one of VRML its group.
-NodeId Hierarchy::light(Json node, const Place& place, const Matrix& world) {
+/// None for one that goes elsewhere: a sun of another program lights the whole scene, one of VRML its group.
+NodeId Hierarchy::light(Json node, const TransformFields& place, const Matrix& world) {
   auto index = c_.file.index(Table::lights, light_of(node));
   if (index == none) return {};
   const Json light = c_.file.at(Table::lights, index);

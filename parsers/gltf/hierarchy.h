@@ -23,7 +23,7 @@ class Hierarchy {
   /// `moved`: nodes that must be Transforms.
   Hierarchy(const Context&, Extras&, Meshes&, PartRows&, const ParseLimits&, std::set<std::uint32_t> moved);
 
-  /// All scenes; what the default one shows are the scene's roots, the others stand in a Switch that shows none.
+  /// All scenes; what the default one shows are the scene's roots, the others are in a Switch that shows none.
   void build();
   /// What a node has become; none when it has become nothing.
   NodeId made(std::uint32_t node) const { return node < made_.size() ? made_[node] : NodeId{}; }
@@ -44,20 +44,20 @@ class Hierarchy {
   bool is_choice(std::uint32_t node) const;
   void make(std::uint32_t node, std::size_t depth, Vec3 origin, Nodes& out);
   Nodes children(std::uint32_t node, std::size_t depth, const Vec3& origin);
-  NodeId kept(std::uint32_t node, Json type_and_fields, const Place&, Nodes children);
-  NodeId implied(std::uint32_t node, const Place&, Nodes children);
+  NodeId kept(std::uint32_t node, Json type_and_fields, const TransformFields&, Nodes children);
+  NodeId implied(std::uint32_t node, const TransformFields&, Nodes children);
   NodeId level_of_detail(std::uint32_t node, NodeId first, std::size_t depth, const Vec3& origin);
-  Nodes shapes(std::uint32_t node, const Place&);
+  Nodes shapes(std::uint32_t node, const TransformFields&);
   NodeId shape(const Meshes::Part&, Json at);
 
   /// Of EXT_mesh_gpu_instancing.
-  std::vector<Place> places(Json attributes);
+  std::vector<TransformFields> places(Json attributes);
   void instances(Json node, Nodes& shapes);
   void own_instances(std::uint32_t node, const Vec3& origin, Nodes& out);
-  NodeId transform(Json at, const Place&, const Nodes& children, bool moved = false);
-  NodeId camera(Json node, const Place&);
-  NodeId light(Json node, const Place&, const Matrix& world);
-  void light_fields(NodeId, Json light, const Place&);
+  NodeId transform(Json at, const TransformFields&, const Nodes& children, bool moved = false);
+  NodeId camera(Json node, const TransformFields&);
+  NodeId light(Json node, const TransformFields&, const Matrix& world);
+  void light_fields(NodeId, Json light, const TransformFields&);
   Pose pose(std::uint32_t node);
   Matrix world(std::uint32_t node);
   void find_parents();

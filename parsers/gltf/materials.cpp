@@ -86,6 +86,10 @@ std::optional<std::uint32_t> Materials::light_set(std::uint32_t material) const 
   return light["index"] ? set_of(light) : std::nullopt;
 }
 
+bool Materials::is_light(std::uint32_t material) const {
+  return shines_as_picture(c_.file.at(Table::materials, material));
+}
+
 const Look& Materials::get(std::uint32_t material, SurfaceKind s) {
   auto [i, is_new] = looks_.try_emplace({material, s});
   if (is_new) i->second = make(material, s);
@@ -194,6 +198,7 @@ NodeId Materials::material_node(Json m, SurfaceKind s, Look& look) {
   NodeId n = c_.add(nodes::Material, m);
   if (s.light && shines_as_picture(m)) {
     c_.scene.set(n, nodes::material::diffuseColor, white);
+    set_transparency(n, m, look);
     return n;
   }
   set_color(n, m, s, look);
@@ -220,6 +225,12 @@ void Materials::set_color(NodeId n, Json m, SurfaceKind s, Look& look) {
     // A picture of what shines is lost: its factor would make all of the surface shine.
     if (!m["emissiveTexture"]) set(c_.scene, n, f::emissiveColor, display_color(emissive));
   }
+  set_transparency(n, m, look);
+}
+
+void Materials::set_transparency(NodeId n, Json m, const Look& look) {
+  namespace f = nodes::material;
+  const auto factor = vector<4>(m["pbrMetallicRoughness"]["baseColorFactor"], {1, 1, 1, 1});
   const auto mode = m["alphaMode"].text("OPAQUE");
   double alpha = mode == "OPAQUE" ? 1 : unit_range(factor[3]);
   if (mode == "MASK" && !look.textured) alpha = alpha >= m["alphaCutoff"].number(0.5) ? 1 : 0;
@@ -317,9 +328,8 @@ NodeId Materials::light_of_linear(std::uint32_t index) {
   if (!bytes) return {};
   const NodeId n = at->second = c_.add(nodes::ImageTexture, c_.file.at(Table::textures, index));
   const std::string url = "data:image/png;base64," + base64(*bytes);
-  c_.scene.set(n, nodes::image_texture::url, std::vector<std::string_view>{url});
-  c_.scene.set(n, nodes::image_texture::repeatS, false);
-  c_.scene.set(n, nodes::image_texture::repeatT, false);
+  c_.scene.set(n, nodes::image_texture::url, std::vector<std::string_view>{url}, nodes::image_texture::repeatS, false,
+               nodes::image_texture::repeatT, false);
   return n;
 }
 

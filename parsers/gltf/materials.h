@@ -47,11 +47,14 @@ class Materials {
   std::optional<std::uint32_t> texcoord_set(std::uint32_t material) const;
   /// The same of its lightmap.
   std::optional<std::uint32_t> light_set(std::uint32_t material) const;
+  /// All colour of a material is in its lightmap; those of the geometry do not show.
+  bool is_light(std::uint32_t material) const;
 
  private:
   Look make(std::uint32_t material, SurfaceKind);
   NodeId material_node(Json, SurfaceKind, Look&);
   void set_color(NodeId material, Json, SurfaceKind, Look&);
+  void set_transparency(NodeId material, Json, const Look&);
   void set_highlight(NodeId material, Json);
   NodeId texture(std::uint32_t index);
   NodeId make_texture(Json);

@@ -74,6 +74,8 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
   const Json kept = vrml97(p.mesh);
   SurfaceKind kind{p.faces(), bool(attributes["COLOR_0"]) || (is_whole && attributes["_COLOR"]),
                    bool(attributes[sets.texcoord]), !sets.light.empty() && attributes[sets.light]};
+  const bool hides_colors = kind.light && materials_.is_light(p.material);
+  if (hides_colors) kind.color = false;
   if (is_whole) kind.given_texcoord = bool(kept["IndexedFaceSet"]["texCoord"]);
   const Look& look = materials_.get(p.material, kind);
   NodeId geometry;
@@ -86,11 +88,13 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
     if (NodeId whole = kept_whole(p)) return Part{look.appearance, known = whole};
     Streams s;
     if (!reader_.load(p, how, sets, s)) return std::nullopt;
+    if (hides_colors) s.color = {};
     geometry = own(p, s, look);
     if (how.shared()) known = geometry;
   } else {
     Streams s;
     if (!reader_.load(p, how, sets, s)) return std::nullopt;
+    if (hides_colors) s.color = {};
     geometry = foreign(p, s, look);
     if (!geometry) return std::nullopt;
     if (c_.file.is_own()) name_attributes(geometry, kept);

@@ -28,7 +28,7 @@ class Meshes {
     NodeId appearance, geometry;
     std::uint32_t row = none;  // of a part of a merged mesh, in the table of parts
   };
-  /// One for each primitive that can be had.
+  /// One for each primitive that can be read.
   std::vector<Part> parts(std::uint32_t mesh, const Pose&);
   /// Is it a mesh of wrlkit with feature ids, which becomes several Shapes?
   bool has_features(std::uint32_t mesh) const;

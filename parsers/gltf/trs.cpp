@@ -9,16 +9,6 @@
 namespace wrlkit::gltf_reader {
 namespace {
 
-Matrix of_columns(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Matrix m;
-  for (int r = 0; r < 3; ++r) {
-    m(r, 0) = a[static_cast<std::size_t>(r)];
-    m(r, 1) = b[static_cast<std::size_t>(r)];
-    m(r, 2) = c[static_cast<std::size_t>(r)];
-  }
-  return m;
-}
-
 /// The axis and angle of a rotation matrix.
 Vec4 axis_angle_of(const Matrix& m) {
   Quaternion q;
@@ -51,14 +41,8 @@ Vec4 axis_angle(Quaternion q) {
 
 Vec3 rotate(const Vec4& r, const Vec3& v) { return rotation_matrix(r).point(v); }
 
-Matrix Place::matrix() const {
-  Matrix m = translation_matrix(translation) * rotation_matrix(rotation);
-  const Vec4& o = scale_orientation;
-  return scaled() ? m * rotation_matrix(o) * scale_matrix(scale) * rotation_matrix({o[0], o[1], o[2], -o[3]}) : m;
-}
-
-Place place_of(const Matrix& m) {
-  Place p;
+TransformFields place_of(const Matrix& m) {
+  TransformFields p;
   p.translation = m.column(3);
   Vec3 x = m.column(0), y = m.column(1), z = m.column(2);
   const double a = fast_length(x), b = fast_length(y), c = fast_length(z), sign = m.determinant() < 0 ? -1 : 1;
@@ -70,7 +54,7 @@ Place place_of(const Matrix& m) {
       for (double& k : v) k /= s;
       return v;
     };
-    p.rotation = axis_angle_of(of_columns(by(x, sign * a), by(y, b), by(z, c)));
+    p.rotation = axis_angle_of(matrix_of_columns(by(x, sign * a), by(y, b), by(z, c)));
     p.scale = {to_15_digits(sign * a), to_15_digits(b), to_15_digits(c)};
     for (double& s : p.scale)
       if (std::abs(std::abs(s) - 1) < 1e-7) s = s < 0 ? -1 : 1;  // rounding of single precision
@@ -83,14 +67,9 @@ Place place_of(const Matrix& m) {
   return p;
 }
 
-Place place_of(Json node) {
-  if (auto v = node["matrix"].numbers(); v.size() == 16 && finite(v)) {
-    Matrix m;
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 4; ++c) m(r, c) = v[static_cast<std::size_t>(c * 4 + r)];
-    return place_of(m);
-  }
-  Place p;
+TransformFields place_of(Json node) {
+  if (auto v = node["matrix"].numbers(); v.size() == 16 && finite(v)) return place_of(matrix_of_columns(v.data()));
+  TransformFields p;
   if (auto t = node["translation"].numbers(); t.size() == 3) p.translation = {t[0], t[1], t[2]};
   if (auto s = node["scale"].numbers(); s.size() == 3) p.scale = {s[0], s[1], s[2]};
   if (auto r = node["rotation"].numbers(); r.size() == 4) p.rotation = axis_angle({r[0], r[1], r[2], r[3]});

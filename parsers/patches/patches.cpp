@@ -65,7 +65,7 @@ class PatchParser {
 
   void open(const XmlTag& tag) {
     const auto e = element_of(tag.name);
-    const bool closed = tag.kind == XmlTag::Kind::empty || e == patch;  // nothing stands in a patch
+    const bool closed = tag.kind == XmlTag::Kind::empty || e == patch;  // a patch has no content
     if (skipping_ > 0) {
       skipping_ += tag.kind == XmlTag::Kind::open;
       return;

@@ -31,10 +31,7 @@ NodeId face_set(Scene& scene, const Faces& faces) {
                set = scene.add(nodes::IndexedFaceSet);
   scene.set(coord, nodes::coordinate::point, faces.points);
   scene.set(color, nodes::color::color, faces.colors);
-  scene.set(set, f::coord, coord);
-  scene.set(set, f::color, color);
-  scene.set(set, f::colorPerVertex, false);
-  scene.set(set, f::coordIndex, faces.indices);
+  scene.set(set, f::coord, coord, f::color, color, f::colorPerVertex, false, f::coordIndex, faces.indices);
   return set;
 }
 

@@ -1,4 +1,4 @@
-// A patch file as a world of its own, so that it can be looked at like any other: `wrlkit render patches.xml
+// A patch file as a scene of its own, so that it can be looked at like any other: `wrlkit render patches.xml
 // picture.png`.
 #pragma once
 #include "scenegraph/patches.h"

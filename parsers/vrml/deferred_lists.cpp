@@ -32,23 +32,20 @@ bool read_list(std::string_view text, std::vector<T>& to) {
 
 /// The pieces of one list, one behind the other.
 template <class T>
-const T* joined(std::span<const T> first, std::size_t count, auto&& pieces, Scene& scene) {
-  if (pieces.size() == 1) return first.data();
-  T* const all = scene.arena().allocate<T>(count);
+const T* joined(std::span<const std::span<const T>> pieces, std::size_t count, Arena& arena) {
+  if (pieces.size() == 1) return pieces[0].data();
+  T* const all = arena.allocate<T>(count);
   T* to = all;
-  for (const auto* piece : pieces) {
-    if constexpr (std::is_same_v<T, double>)
-      to = std::ranges::copy(piece->numbers.number_span(), to).out;
-    else
-      to = std::ranges::copy(piece->numbers.integer_span(), to).out;
-  }
+  for (const auto piece : pieces) to = std::ranges::copy(piece, to).out;
   return all;
 }
 
 }  // namespace
 
-DeferredLists::DeferredLists(std::size_t bytes, const PartRead& part_read)
-    : batch_bytes_(std::clamp(bytes / 32, smallest_batch, largest_batch)), part_read_(part_read) {}
+DeferredLists::DeferredLists(std::string_view text, const PartRead& part_read)
+    : batch_bytes_(std::clamp(text.size() / 32, smallest_batch, largest_batch)), part_read_(part_read) {
+  batches_.push_back({text.data(), text.data()});
+}
 
 DeferredLists::~DeferredLists() {
   failed_ = true;
@@ -60,30 +57,34 @@ Value DeferredLists::add(std::string_view list, FieldType type, std::uint16_t sl
   v.type = type;
   v.slot = slot;
   v.chars = list.data();
-  lists_.push_back({node, v, 0});
   const bool real = info(type).element == Element::number;
+  const auto next = static_cast<std::uint32_t>(different_.size());
+  const auto id = repeated_.find_or_add(list, real, next);
+  lists_.push_back({node, id, v});
+  if (id == next) add_pieces(list, real);
+  batches_.back().end = list.data() + list.size();
+  if (static_cast<std::size_t>(batches_.back().end - batches_.back().begin) >= batch_bytes_) begin_last();
+  return v;
+}
+
+void DeferredLists::add_pieces(std::string_view list, bool real) {
+  different_.emplace_back();
   while (!list.empty()) {
     // Cut at a blank. One that is in a comment does no harm, because lists with comments are not read here.
     std::size_t n = std::min(list.size(), batch_bytes_);
     while (n < list.size() && class_of(list[n]) != CharClass::blank) ++n;
-    add_piece(list.substr(0, n), real);
+    batches_.back().pieces.push_back({list.substr(0, n), real, {}});
+    batches_.back().end = list.data() + n;
     list.remove_prefix(n);
-    ++lists_.back().n_pieces;
+    ++different_.back().n_pieces;
+    if (!list.empty()) begin_last();
   }
-  return v;
-}
-
-void DeferredLists::add_piece(std::string_view text, bool real) {
-  if (batches_.empty() || batches_.back().bytes >= batch_bytes_) {
-    begin_last();
-    batches_.emplace_back();
-  }
-  batches_.back().pieces.push_back({text, real, {}});
-  batches_.back().bytes += text.size();
 }
 
 void DeferredLists::begin_last() {
-  if (!batches_.empty()) threads_.run([this, &batch = batches_.back()] { read(batch); });
+  threads_.run([this, &batch = batches_.back()] { read(batch); });
+  const char* const end = batches_.back().end;
+  batches_.push_back({end, end});
 }
 
 void DeferredLists::read(Batch& batch) {
@@ -96,23 +97,43 @@ void DeferredLists::read(Batch& batch) {
     piece.numbers = piece.real ? batch.memory.make(FieldType::MFDouble, 0, numbers)
                                : batch.memory.make(FieldType::MFInt32, 0, integers);
   }
-  const auto first = batch.pieces.front().text, last = batch.pieces.back().text;
-  if (part_read_) part_read_({first.data(), static_cast<std::size_t>(last.data() + last.size() - first.data())});
+  if (part_read_) part_read_({batch.begin, static_cast<std::size_t>(batch.end - batch.begin)});
 }
 
-bool DeferredLists::put(const List& list, std::span<const Piece* const> pieces, Scene& scene) {
-  const auto arity = info(list.stand_in.type).arity;
-  std::size_t count = 0;
-  for (const auto* piece : pieces) count += piece->numbers.count;
-  if (count % arity != 0) return false;
+void DeferredLists::join(Scene& scene) {
+  std::vector<std::span<const double>> reals;
+  std::vector<std::span<const std::int32_t>> integers;
+  auto to = different_.begin();
+  for (const Batch& batch : batches_) {
+    scene.import(batch.memory);
+    for (const Piece& piece : batch.pieces) {
+      to->count += piece.numbers.count;
+      if (piece.real)
+        reals.push_back(piece.numbers.number_span());
+      else
+        integers.push_back(piece.numbers.integer_span());
+      if (reals.size() + integers.size() < to->n_pieces) continue;
+      to->numbers = piece.real ? static_cast<const void*>(joined<double>(reals, to->count, scene.arena()))
+                               : joined<std::int32_t>(integers, to->count, scene.arena());
+      reals.clear();
+      integers.clear();
+      ++to;
+    }
+  }
+}
+
+bool DeferredLists::put(const List& list, Scene& scene) const {
+  const Different& read = different_[list.different];
+  const auto& type = info(list.stand_in.type);
+  if (read.count % type.arity != 0) return false;
   const Value* now = scene.find(list.node, list.stand_in.slot);
   if (!now || now->count != 0 || now->chars != list.stand_in.chars) return true;  // another value came behind it
   Value v = list.stand_in;
-  v.count = static_cast<std::uint32_t>(count / arity);
-  if (pieces[0]->real)
-    v.numbers = joined(pieces[0]->numbers.number_span(), count, pieces, scene);
+  v.count = static_cast<std::uint32_t>(read.count / type.arity);
+  if (type.element == Element::number)
+    v.numbers = static_cast<const double*>(read.numbers);
   else
-    v.integers = joined(pieces[0]->numbers.integer_span(), count, pieces, scene);
+    v.integers = static_cast<const std::int32_t*>(read.numbers);
   scene.set(list.node, v);
   return true;
 }
@@ -121,17 +142,8 @@ bool DeferredLists::finish(Scene& scene) {
   begin_last();
   threads_.wait();
   if (failed_) return false;
-  std::vector<const Piece*> pieces;
-  for (const Batch& batch : batches_) {
-    scene.import(batch.memory);
-    for (const Piece& piece : batch.pieces) pieces.push_back(&piece);
-  }
-  std::span<const Piece* const> rest = pieces;
-  for (const List& list : lists_) {
-    if (!put(list, rest.first(list.n_pieces), scene)) return false;
-    rest = rest.subspan(list.n_pieces);
-  }
-  return true;
+  join(scene);
+  return std::ranges::all_of(lists_, [&](const List& list) { return put(list, scene); });
 }
 
 }  // namespace wrlkit::vrml

@@ -9,6 +9,7 @@
 
 #include "base/background.h"
 #include "parsers/vrml/parser.h"
+#include "parsers/vrml/repeated_lists.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::vrml {
@@ -18,13 +19,13 @@ class DeferredLists {
   /// Threads are worth their while from that many bytes of text on.
   static constexpr std::size_t from_bytes = std::size_t{1} << 20;
 
-  /// For a text of that many bytes, which has to live until `finish`.
-  DeferredLists(std::size_t bytes, const PartRead&);
+  /// Of a text, which has to live until `finish`.
+  DeferredLists(std::string_view text, const PartRead&);
   ~DeferredLists();
 
   /// The text between the brackets of a field of a node, whose Value is a stand-in for now.
   Value add(std::string_view list, FieldType, std::uint16_t slot, NodeId);
-  /// The file is to be read otherwise.
+  /// The file has to be read again on one thread.
   void give_up() { failed_ = true; }
   /// Whether a thread gave up, or some list turned out to be written otherwise; the parser may stop then.
   bool failed() const { return failed_; }
@@ -38,27 +39,38 @@ class DeferredLists {
     bool real;
     Value numbers;
   };
-  /// What one thread reads at once. The scene has no nodes, but the memory of the values.
+  /// What one thread reads at once: the lists of a part of the text. The scene has no nodes, but the memory of the
+  /// values.
   struct Batch {
-    std::vector<Piece> pieces;
-    std::size_t bytes = 0;
-    Scene memory;
+    const char* begin;
+    const char* end;
+    std::vector<Piece> pieces{};
+    Scene memory{};
+  };
+  /// Different lists are read, each of them for all fields that have it.
+  struct Different {
+    std::size_t n_pieces = 0;
+    const void* numbers = nullptr;
+    std::size_t count = 0;
   };
   struct List {
     NodeId node;
+    std::uint32_t different;
     Value stand_in;
-    std::size_t n_pieces;
   };
-  void add_piece(std::string_view text, bool real);
+  void add_pieces(std::string_view list, bool real);
   void begin_last();
   void read(Batch&);
-  static bool put(const List&, std::span<const Piece* const>, Scene&);
+  void join(Scene&);
+  bool put(const List&, Scene&) const;
 
   std::size_t batch_bytes_;
   const PartRead& part_read_;
   std::atomic<bool> failed_ = false;
   std::deque<Batch> batches_;
-  std::vector<List> lists_;
+  RepeatedLists repeated_;
+  std::deque<Different> different_;
+  std::deque<List> lists_;
   Background threads_;
 };
 

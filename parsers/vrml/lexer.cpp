@@ -12,7 +12,19 @@ void Lexer::skip_blanks() {
   }
 }
 
-Token Lexer::next() {
+const Lexer::Seen& Lexer::read() {
+  const char* const at = p_;
+  last_seen_ = 1 - last_seen_;
+  Seen& seen = seen_[last_seen_];
+  seen.token = read_token();
+  seen.at = at;
+  seen.behind = p_;
+  seen.closed = closed_;
+  p_ = at;
+  return seen;
+}
+
+Token Lexer::read_token() {
   skip_blanks();
   Token t;
   t.begin = t.end = offset();

@@ -33,13 +33,13 @@ class Lexer {
  public:
   explicit Lexer(std::string_view text) : begin_(text.data()), p_(begin_), end_(begin_ + text.size()) {}
 
-  Token next();
-  Token peek() {
-    const char* p = p_;
-    Token t = next();
-    p_ = p;
-    return t;
+  Token next() {
+    const Seen& seen = see();
+    p_ = seen.behind;
+    closed_ = seen.closed;
+    return seen.token;
   }
+  Token peek() { return see().token; }
 
   std::uint32_t offset() const { return static_cast<std::uint32_t>(p_ - begin_); }
   void seek(std::uint32_t offset) { p_ = begin_ + offset; }
@@ -59,10 +59,27 @@ class Lexer {
   static bool separates(char c) { return class_of(c) != CharClass::other; }
 
  private:
+  /// The grammar looks at a token, and at the one behind it, before it takes them.
+  struct Seen {
+    const char* at = nullptr;
+    const char* behind = nullptr;
+    Token token;
+    bool closed = true;
+  };
+  const Seen& see() {
+    for (const Seen& seen : seen_)
+      if (seen.at == p_) return seen;
+    return read();
+  }
+  const Seen& read();
+  Token read_token();
+
   const char* begin_;
   const char* p_;
   const char* end_;
   bool closed_ = true;
+  std::array<Seen, 2> seen_;
+  std::size_t last_seen_ = 0;
 };
 
 }  // namespace wrlkit::vrml

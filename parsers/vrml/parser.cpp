@@ -274,7 +274,6 @@ void Parser::known_field(std::uint16_t slot, const FieldDef& def, Token name) {
 }
 
 bool Parser::deferred_list(FieldType type, std::uint16_t slot, Token name) {
-  constexpr std::size_t shortest = 64;  // bytes; handing over less costs as much as reading it
   const auto& t = info(type);
   const Token opened = lex_.peek();
   if (!t.multiple || type == FieldType::MFBool || opened.kind != Kind::open_bracket) return false;
@@ -282,7 +281,7 @@ bool Parser::deferred_list(FieldType type, std::uint16_t slot, Token name) {
   const auto rest = lex_.text(opened.end, lex_.size());
   const auto length = rest.find(']');
   if (length == rest.npos) lists_->give_up();  // and look no further for brackets that are not there
-  if (length == rest.npos || length < shortest) return false;
+  if (length == rest.npos || length < RepeatedLists::shortest) return false;
   lex_.seek(opened.end + static_cast<std::uint32_t>(length) + 1);
   build_.field(lists_->add(rest.substr(0, length), type, slot, build_.current()), span(name));
   if (lists_->failed()) lex_.seek(lex_.size());
@@ -312,7 +311,7 @@ Value Parser::is_value(Token is, FieldType type, std::uint16_t slot) {
   return v;
 }
 
-// A field that the node type does not have. Nodes in it are read, so that the geometry below unknown nodes is had and
+// A field that the node type does not have. Nodes in it are read, so that the geometry below unknown nodes is kept and
 // DEF names in it are known; anything else is kept as text.
 void Parser::unknown_field(Token name) {
   const auto& type = build_.current_type();
@@ -433,7 +432,7 @@ bool Parser::node_list(std::uint16_t slot, Value& out) {
   return true;
 }
 
-// Geometry among children stands in a Shape of its own.
+// Geometry among children gets a Shape of its own.
 bool Parser::holds_children(std::uint16_t slot) const {
   if (build_.depth() == 0 || slot >= build_.current_type().fields.size()) return false;
   auto kinds = build_.current_type().fields[slot].kinds;
@@ -475,7 +474,7 @@ bool parse_on_threads(std::string_view text, std::uint32_t base, const ParseLimi
                       Diagnostics& diag, const PartRead& part_read) {
   Scene read = scene;
   Diagnostics said = diag;
-  DeferredLists lists(text.size(), part_read);
+  DeferredLists lists(text, part_read);
   if (!Parser(text, base, limits, read, said, &lists).vrml_scene()) return false;
   scene = std::move(read);
   diag = std::move(said);

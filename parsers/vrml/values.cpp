@@ -11,11 +11,52 @@ bool Values::plain_value(FieldType type, std::uint16_t slot, std::string_view fi
                          Value& out) {
   const auto& t = info(type);
   if (t.element == Element::image) return image(type, slot, out);
-  if (t.element != Element::text) return numbers_value(type, slot, field, fallback, out);
+  if (t.element != Element::text)
+    return t.multiple && type != FieldType::MFBool && lex_.peek().kind == Kind::open_bracket
+               ? list_value(type, slot, field, fallback, out)
+               : numbers_value(type, slot, field, fallback, out);
   return t.multiple ? string_list(type, slot, out) : single_string(type, slot, field, out);
 }
 
 // ---- numbers -------------------------------------------------------------------------------------------------------
+
+bool Values::list_value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out) {
+  const auto& t = info(type);
+  const bool real = t.element == Element::number;
+  const auto list = next_list();
+  const auto next = static_cast<std::uint32_t>(lists_read_.size());
+  const auto id = repeated_.find_or_add(list, real, next);
+  if (id == next) lists_read_.emplace_back();
+  Numbers& numbers = lists_read_[id];
+  if (numbers.data && numbers.count % t.arity == 0) {
+    lex_.set_position(list.data() + list.size() + 1);
+    out.type = type;
+    out.slot = slot;
+    out.count = static_cast<std::uint32_t>(numbers.count / t.arity);
+    if (real)
+      out.numbers = static_cast<const double*>(numbers.data);
+    else
+      out.integers = static_cast<const std::int32_t*>(numbers.data);
+    return true;
+  }
+  const auto n_said = diag_.count();
+  if (!numbers_value(type, slot, field, fallback, out)) return false;
+  if (diag_.count() > n_said || lex_.position() != list.data() + list.size() + 1) return true;
+  if (real)
+    numbers = {out.numbers, numbers_.size()};
+  else
+    numbers = {out.integers, integers_.size()};
+  return true;
+}
+
+std::string_view Values::next_list() {
+  const char* const begin = lex_.position() + (lex_.peek().end - lex_.offset());
+  if (!next_close_ || next_close_ < begin) {
+    const std::string_view rest(begin, static_cast<std::size_t>(lex_.limit() - begin));
+    next_close_ = begin + std::min(rest.find(']'), rest.size());
+  }
+  return {begin, static_cast<std::size_t>(next_close_ - begin)};
+}
 
 bool Values::numbers_value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback,
                            Value& out) {

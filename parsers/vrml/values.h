@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "parsers/vrml/repeated_lists.h"
 #include "parsers/vrml/tokens.h"
 
 namespace wrlkit::vrml {
@@ -30,6 +31,10 @@ class Values : protected Tokens {
 
  private:
   bool numbers_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
+  /// Of a list in brackets. Where the same text was read before, and nothing was said of it, it has the same array.
+  bool list_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
+  /// What stands behind the next bracket, up to the first ']' that follows, which need not be that of the list.
+  std::string_view next_list();
   bool single_string(FieldType, std::uint16_t slot, std::string_view field, Value& out);
   template <class T, class Read>
   void numbers(std::vector<T>& to, Read read, std::size_t most);
@@ -37,6 +42,14 @@ class Values : protected Tokens {
   void number_repaired(const char* from, const char* to, double v);
   /// Behind the values of a list: its ']', or otherwise what is wrong, up to it.
   void close_list(Token opened);
+
+  struct Numbers {
+    const void* data = nullptr;  // null: they were not read without a message
+    std::size_t count = 0;
+  };
+  RepeatedLists repeated_;
+  std::vector<Numbers> lists_read_;   // by their ids in repeated_
+  const char* next_close_ = nullptr;  // the first ']' behind some place that was read
 };
 
 }  // namespace wrlkit::vrml

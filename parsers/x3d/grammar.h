@@ -29,8 +29,8 @@ class Parser : private AttributeValues {
   void document();
 
  private:
-  /// What is known of an open node besides its type: the fields that a Script declares, and nodes in fields without a
-  /// slot.
+  /// What is known of an open node in addition to its type: the fields that a Script declares, and nodes in fields
+  /// without a slot.
   struct Element {
     std::string_view name;
     std::map<std::string_view, FieldDef> own;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text/backslash.h"
 #include "base/text/blanks.h"
 #include "base/text/letter_case.h"
 #include "parsers/x3d/grammar.h"
@@ -210,7 +211,7 @@ void Parser::put(const XmlNode& c, NodeId id, Element& e) {
   const auto& type = build_.current_type();
   auto said = raw(c, "containerField");
   auto name = said ? plain(*said) : container_field(scene_, id);
-  // Since version 4.0 what stands in a MetadataSet is one of its values.
+  // Since version 4.0 what is in a MetadataSet is one of its values.
   if (!said && scene_.x3d.version >= 40 && type.name == "MetadataSet") name = "value";
   auto slot = type.find(name, Dialect::x3d);
   if (slot && put_into_slot(*slot, id, where(c))) return;
@@ -295,13 +296,7 @@ std::string as_vrml(std::string_view s) {
   if (s.empty()) return {};
   const bool plain = s.starts_with('"') || s.starts_with('[') ||
                      (!s.empty() && s.find_first_not_of("+-.0123456789eE, \t\n\r") == s.npos);
-  if (plain) return std::string(s);
-  std::string out = "\"";
-  for (char c : s) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
+  return plain ? std::string(s) : in_quotes(s);
 }
 
 int version_number(std::string_view s) {

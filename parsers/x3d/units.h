@@ -15,7 +15,7 @@ struct Units {
 
 /// Multiplies the written values of all fields that have such a unit in the node table. The key values of an
 /// interpolator count in the unit of what its ROUTEs lead to, fields of prototypes and their defaults in that of the
-/// fields that they stand for (IS), also through several of them. What leads to different units stays as it is, and is
+/// fields that they refer to (IS), also through several of them. What leads to different units stays as it is, and is
 /// reported; what leads nowhere stays. O(scene) when there is a unit.
 void apply(const Units&, Scene&, Diagnostics&);
 

@@ -80,7 +80,7 @@ bool Representatives::is_default(NodeId n, const Value& v) const {
   return equal_plain(v, scene_.type(n).fields[v.slot].default_value);
 }
 
-/// Fields may stand in any order.
+/// Fields may be in any order.
 std::uint64_t Representatives::hash(NodeId n) const {
   std::uint64_t h = mixed(scene_.type_id(n).value, hash_of(folder(n)));
   for (const Value& v : scene_.fields(n))

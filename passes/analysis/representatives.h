@@ -1,5 +1,5 @@
-// Which nodes are equal, so that one can stand for all of them: materials, textures, geometry and what it is made
-// of. What stands in the hierarchy (Shapes, groups, lights) is never the same as something else: it can be pointed at.
+// Which nodes are equal, so that one can replace all of them: materials, textures, geometry and what it is made
+// of. What is in the hierarchy (Shapes, groups, lights) is never the same as something else: it can be pointed at.
 #pragma once
 #include <string_view>
 #include <unordered_map>
@@ -15,7 +15,7 @@ class Representatives {
   /// stands for both. A url is equal only below the same folder. `named`: also nodes with different DEF names.
   ///
   /// Nothing stands for nodes that events may reach (Usage::touched), nor for those with an IS or with fields that are
-  /// not known. A nameless node has one with a name stand for it, if there is any: so no name is lost. O(nodes and
+  /// not known. A nameless node is replaced by one with a name, if there is any: so no name is lost. O(nodes and
   /// their values), by hashing.
   Representatives(const Scene& scene, const Usage& usage, std::span<const NodeId> nodes, bool named);
 

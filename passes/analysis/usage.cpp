@@ -29,7 +29,7 @@ Usage::Usage(const Scene& scene) : uses_(scene.node_count()), touched_(scene.nod
         writable.push_back(n);
       }
   }
-  touch_below(scene, std::move(writable));
+  for (NodeId n : reachable(scene, writable)) touched_[n.value] = 1;
 }
 
 void Usage::add(const Scope& s) {
@@ -38,17 +38,6 @@ void Usage::add(const Scope& s) {
   for (const Route& r : s.routes) touched_[r.from.value] = touched_[r.to.value] = 1;
   for (const Import& i : s.imports) touched_[i.inline_node.value] = 1;
   for (const Export& e : s.exports) touched_[e.node.value] = 1;
-}
-
-void Usage::touch_below(const Scene& scene, std::vector<NodeId> open) {
-  std::vector<char> seen(scene.node_count());
-  while (!open.empty()) {
-    const NodeId n = open.back();
-    open.pop_back();
-    if (seen[n.value]) continue;
-    seen[n.value] = touched_[n.value] = 1;
-    for_each_child(scene, n, [&](NodeId c) { open.push_back(c); });
-  }
 }
 
 bool is_plain(const Scene& scene, const Usage& usage, NodeId n) {

@@ -20,7 +20,6 @@ class Usage {
 
  private:
   void add(const Scope&);
-  void touch_below(const Scene&, std::vector<NodeId>);
 
   std::vector<std::uint32_t> uses_;
   std::vector<char> touched_;

@@ -357,9 +357,8 @@ NodeId Combining::texture(Encoded picture, const LitShape& first) {
   const std::string url =
       ctx_.resources->add_made({name, std::make_shared<const std::string>(std::move(picture.bytes))});
   const NodeId n = scene_.add(nodes::ImageTexture, scene_.where(first.shape));
-  scene_.set(n, nodes::image_texture::url, std::vector<std::string_view>{url});
-  scene_.set(n, nodes::image_texture::repeatS, false);
-  scene_.set(n, nodes::image_texture::repeatT, false);
+  scene_.set(n, nodes::image_texture::url, std::vector<std::string_view>{url}, nodes::image_texture::repeatS, false,
+             nodes::image_texture::repeatT, false);
   return n;
 }
 

@@ -1,4 +1,4 @@
-// Pass `combine-lightmap`: its documentation stands in its options.
+// Pass `combine-lightmap`: its documentation is in its options.
 #pragma once
 #include "base/option_range.h"
 #include "passes/picture_format/picture_format.h"

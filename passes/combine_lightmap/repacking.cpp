@@ -145,7 +145,7 @@ std::vector<ChartImage> Repacking::halved(const Geometry& g, std::size_t k, std:
 
 /// The worst of its Shapes counts.
 void Repacking::find_errors(Geometry& g, std::uint32_t chart) {
-  constexpr double few = 4;  // texels: nothing to be had
+  constexpr double few = 4;  // texels: nothing to gain
   ChartNeed& n = needs_[g.first_need + chart];
   if (double{n.size.x} * n.size.y * n.scale * n.scale <= few || !(options_.all || options_.tolerance > 0)) return;
   for (std::size_t k = 0; k < g.shapes.size(); ++k) {

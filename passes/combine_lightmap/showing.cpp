@@ -72,9 +72,7 @@ NodeId Showing::transform_of(const ShownShape& s) {
   const auto numbers = s.transform ? texture_transform_of(*s.transform) : std::nullopt;
   if (!numbers) return {};
   const NodeId n = scene_.add(nodes::TextureTransform);
-  scene_.set(n, f::rotation, numbers->rotation);
-  scene_.set(n, f::scale, numbers->scale);
-  scene_.set(n, f::translation, numbers->translation);
+  scene_.set(n, f::rotation, numbers->rotation, f::scale, numbers->scale, f::translation, numbers->translation);
   return n;
 }
 

@@ -1,4 +1,4 @@
-// Pass `cull`: its documentation stands in its options.
+// Pass `cull`: its documentation is in its options.
 #pragma once
 #include <string>
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/math/random.h"
 #include "base/parallel.h"
-#include "light/random.h"
 #include "light/render/ray_scene.h"
 
 namespace wrlkit {
@@ -60,7 +60,7 @@ class Visibility {
     return sums;
   }
 
-  Sample sample(std::uint32_t use, std::span<const double> sums, light::Stream& random) const {
+  Sample sample(std::uint32_t use, std::span<const double> sums, RandomStream& random) const {
     const auto e = std::min<std::size_t>(
         static_cast<std::size_t>(std::ranges::upper_bound(sums, random.next() * sums.back()) - sums.begin()),
         sums.size() - 1);
@@ -80,7 +80,7 @@ class Visibility {
     if (m.kind != Mesh::Kind::faces || m.n_elements == 0) return false;
     const auto sums = areas(use);
     if (!(sums.back() > 0)) return false;
-    light::Stream random(light::key_of(options_.seed, use));
+    RandomStream random(random_key(options_.seed, use));
     for (int i = 0; i < options_.rays; ++i) {
       const Sample s = sample(use, sums, random);
       const double z = 2 * random.next() - 1, turn = 2 * std::numbers::pi * random.next(),
@@ -113,7 +113,7 @@ class Visibility {
     }
     if (uses.empty()) return;
     for (std::size_t i = 0; i < 4 * most_eyes && eyes_.size() < most_eyes; ++i) {
-      light::Stream random(light::key_of(options_.seed, i, 1));
+      RandomStream random(random_key(options_.seed, i, 1));
       const auto k = std::min<std::size_t>(
           static_cast<std::size_t>(std::ranges::upper_bound(sums, random.next() * sums.back()) - sums.begin()),
           sums.size() - 1);

@@ -1,4 +1,4 @@
-// Which parts of a world can be seen at all, by rays from points on them.
+// Which parts of a scene can be seen at all, by rays from points on them.
 #pragma once
 #include <span>
 #include <vector>

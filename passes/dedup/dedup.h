@@ -1,4 +1,4 @@
-// Pass `dedup`: its documentation stands in its options.
+// Pass `dedup`: its documentation is in its options.
 #pragma once
 #include "passes/pipeline/pass.h"
 

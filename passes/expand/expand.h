@@ -1,4 +1,4 @@
-// Pass `expand`: its documentation stands in its options.
+// Pass `expand`: its documentation is in its options.
 #pragma once
 #include "passes/expand_protos/expand_protos.h"
 #include "passes/inline/inline.h"

@@ -1,4 +1,4 @@
-// Pass `expand-protos`: its documentation stands in its options.
+// Pass `expand-protos`: its documentation is in its options.
 #pragma once
 #include "base/option_range.h"
 #include "passes/pipeline/pass.h"

@@ -48,7 +48,7 @@ class Flattening {
 
   bool is_plain(NodeId n) const { return wrlkit::is_plain(scene_, usage_, n); }
 
-  /// True for a node that stands in one place: nothing below it has a place of its own but Shapes. Nesting is bounded
+  /// True for a node that is in one place: nothing below it has a place of its own but Shapes. Nesting is bounded
   /// (nesting.h).
   bool is_still(NodeId n) {
     auto& s = state_[n.value];

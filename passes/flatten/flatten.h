@@ -1,4 +1,4 @@
-// Pass `flatten`: its documentation stands in its options.
+// Pass `flatten`: its documentation is in its options.
 #pragma once
 #include "geometry/tessellation.h"
 #include "passes/pipeline/pass.h"

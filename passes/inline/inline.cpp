@@ -13,7 +13,7 @@
 namespace wrlkit {
 namespace {
 
-/// The file as it stands in the scene for the first Inline that names it.
+/// The file as it is in the scene for the first Inline that names it.
 struct Imported {
   Scope scope;
   bool marked = false;  // what is its own is known
@@ -195,7 +195,7 @@ class Inliner {
     changed_ = true;
   }
 
-  /// What a scope imports of worlds that are there now.
+  /// What a scope imports of scenes that are there now.
   void connect(Scope& scope) {
     std::unordered_map<std::uint32_t, NodeId> meant;
     std::erase_if(scope.imports, [&](const Import& i) {

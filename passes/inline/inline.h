@@ -1,4 +1,4 @@
-// Pass `inline`: its documentation stands in its options.
+// Pass `inline`: its documentation is in its options.
 #pragma once
 #include <memory>
 #include <unordered_map>

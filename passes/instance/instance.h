@@ -1,4 +1,4 @@
-// Pass `instance`: its documentation stands in its options.
+// Pass `instance`: its documentation is in its options.
 #pragma once
 #include <string>
 #include <string_view>

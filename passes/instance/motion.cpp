@@ -20,11 +20,9 @@ Rows products(std::span<const Vec3> a, std::span<const Vec3> b) {
 }
 
 Matrix of_quaternion(double w, double x, double y, double z) {
-  Matrix m;
-  m.m = {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),     0,
-         2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),     0,
-         2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y), 0};
-  return m;
+  return matrix_of_columns({1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+                           {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+                           {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)});
 }
 
 /// The rotation for which the sum of b . R a is the largest.

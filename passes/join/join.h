@@ -1,4 +1,4 @@
-// Pass `join`: its documentation stands in its options.
+// Pass `join`: its documentation is in its options.
 #pragma once
 #include "passes/pipeline/pass.h"
 

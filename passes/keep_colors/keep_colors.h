@@ -1,4 +1,4 @@
-// Pass `keep-colors`: its documentation stands in its options.
+// Pass `keep-colors`: its documentation is in its options.
 #pragma once
 #include "passes/pipeline/pass.h"
 

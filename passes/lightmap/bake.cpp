@@ -123,7 +123,7 @@ void take_from_finest(const Page& page, PageLight& light, std::vector<char>& ins
   const auto& uses = from.world().stage().uses;
   parallel_for(page.size(), [&](std::size_t i) {
     if (!page.covered(i) || (!inside[i] && luminance(light.at(i)) > 0)) return;
-    const Place& p = page.places[i];
+    const TexelPlace& p = page.places[i];
     const auto found = options.finest->anywhere(uses[use_of[p.chart]].shape,
                                                 V3(p.position.x, p.position.y, p.position.z) + from.world().centre(),
                                                 {p.normal.x, p.normal.y, p.normal.z});
@@ -197,7 +197,7 @@ std::vector<std::uint32_t> beyond_borders(std::span<const std::uint32_t> chart, 
                                           const Page& page) {
   std::vector<std::uint16_t> number;
   for (std::size_t i = 0; i < chart.size(); ++i)
-    number.push_back(known[i] && chart[i] != Place::nowhere ? chart_number(chart[i]) : 0);
+    number.push_back(known[i] && chart[i] != TexelPlace::nowhere ? chart_number(chart[i]) : 0);
   const ChartMap map{number, page.width, page.height};
   return sources_beyond_borders(map, last_separate_level(map));
 }
@@ -207,7 +207,7 @@ BakedPage finish(Page page, PageLight light, std::vector<char> inside, const Pag
   lighten_cut_off(page, light, inside, from.world());
   take_from_finest(page, light, inside, from, options);
   const auto n_texels = static_cast<std::size_t>(
-      std::ranges::count_if(page.places, [](const Place& p) { return p.chart != Place::nowhere; }));
+      std::ranges::count_if(page.places, [](const TexelPlace& p) { return p.chart != TexelPlace::nowhere; }));
   stats["lightmap.texels"] += n_texels;
   for (std::size_t i = 0; i < page.size(); ++i) {
     stats["lightmap.inside"] += inside[i];
@@ -216,13 +216,16 @@ BakedPage finish(Page page, PageLight light, std::vector<char> inside, const Pag
   }
   auto known = known_texels(page, light, inside);
   std::vector<std::uint32_t> chart;
-  for (const Place& p : page.places) chart.push_back(p.chart);
+  for (const TexelPlace& p : page.places) chart.push_back(p.chart);
   for (std::size_t i = 0; i < page.size(); ++i)
-    if (!known[i]) page.places[i].chart = Place::nowhere;
+    if (!known[i]) page.places[i].chart = TexelPlace::nowhere;
   auto layers = directions(page, light, options.denoise);
   layers.insert(layers.begin(), shown_light(page, std::move(light.direct), std::move(light.gathered), options.denoise));
   stats["lightmap.holes"] += count_specks(page, layers[0]);
-  fill_charts(layers, known, chart, Place::nowhere, page.width, page.height);
+  light::LightMeter meter;
+  for (std::size_t i = 0; i < page.size(); ++i)
+    if (page.covered(i)) meter.add(luminance(layers[0][i]));
+  fill_charts(layers, known, chart, TexelPlace::nowhere, page.width, page.height);
   auto dark = dark_uses(from.page(), chart, layers[0]);
   light_hidden_charts(page, chart, uses_of_charts(from.page()), known, layers[0]);
   const auto sources = beyond_borders(chart, known, page);
@@ -230,7 +233,7 @@ BakedPage finish(Page page, PageLight light, std::vector<char> inside, const Pag
     fill(layer, known, page.width, page.height);
     extend_borders(layer, sources);
   }
-  BakedPage out{{page.width, page.height, std::move(layers[0]), inside}, {}, n_texels, std::move(dark)};
+  BakedPage out{{page.width, page.height, std::move(layers[0]), inside}, {}, n_texels, std::move(dark), meter};
   for (std::size_t l = 1; l < layers.size(); ++l)
     out.direction.push_back({page.width, page.height, std::move(layers[l]), {}});
   return out;
@@ -296,7 +299,7 @@ class Rounds {
   template <class F>
   void run(PageBaker& from, std::uint64_t first, std::uint32_t number_of_round, const light::Integrator::Round& round,
            const std::vector<char>& chosen, F&& f) {
-    if (ctx_.monitor)
+    if (ctx_.monitor && options_.error > 0)
       ctx_.monitor->begin(number_of_round ? name_ + ", round " + std::to_string(number_of_round + 1) : name_,
                           from.n_tiles(), "tiles");
     for (std::size_t tile = 0; tile < from.n_tiles(); ++tile) {
@@ -383,7 +386,7 @@ class Rounds {
 
   static Page in_the_open(Page page, const std::vector<char>& inside) {
     for (std::size_t i = 0; i < page.size(); ++i)
-      if (inside[i]) page.places[i].chart = Place::nowhere;
+      if (inside[i]) page.places[i].chart = TexelPlace::nowhere;
     return page;
   }
 
@@ -410,6 +413,8 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   Checkpoint checkpoint(options.checkpoint, options.checkpoint.empty() ? 0 : work_key(parts, layout, world, options));
   Rounds rounds(integrator ? &*integrator : nullptr, checkpoint, options, n_tiles, ctx);
 
+  // How many rounds a page takes is not known before; all else is one stretch of work.
+  if (ctx.monitor && !(options.error > 0)) ctx.monitor->begin(options.title, n_tiles, "tiles");
   std::vector<BakedPage> out;
   std::uint64_t first = 0;
   for (std::size_t p = 0; p < bakers.size(); first += bakers[p++].n_tiles())

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "light/exposure.h"
 #include "light/integrator.h"
 #include "passes/lightmap/darkness.h"
 #include "passes/lightmap/layout.h"
@@ -30,6 +31,7 @@ struct BakedPage {
   std::vector<Canvas> direction;  // mean direction of the light: X, Y and Z, each from -1 to 1 for red, green and blue
   std::size_t n_texels = 0;       // that lie on faces
   std::vector<DarkUse> dark;
+  light::LightMeter meter;  // of texels that have light of their own
 };
 
 /// One for each page of the layout. `world` must have been made of the stage that the layout's uses refer to.

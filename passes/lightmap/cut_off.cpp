@@ -73,9 +73,9 @@ void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>
     for (int x = 0; x < page.width; ++x) {
       const auto i = page.at(x, y);
       if (!page.covered(i) || inside[i]) continue;
-      const Place& own = page.places[i];
+      const TexelPlace& own = page.places[i];
       each_beside(page, inside, x, y, [&](std::size_t j) {
-        const Place& other = page.places[j];
+        const TexelPlace& other = page.places[j];
         const Shade shade = shade_beside(luminance(light.at(i)), luminance(light.at(j)));
         if (shade != Shade::none && is_cut_off(world, shade, centre + v3(other.position), centre + v3(own.position),
                                                v3(other.normal), v3(own.normal)))

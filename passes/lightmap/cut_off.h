@@ -13,7 +13,7 @@ namespace wrlkit::bake {
 
 enum class Shade : std::uint8_t { none, dim, dark };
 
-/// Luminance beside another: dark is as good as none, dim at most half.
+/// Luminance compared with another: dark is as good as none, dim at most half.
 Shade shade_beside(float light, float other);
 
 /// Whether a surface crosses the way between two places of one chart, close above it: one that may be transparent where
@@ -22,7 +22,7 @@ Shade shade_beside(float light, float other);
 bool is_cut_off(const light::LightWorld& world, Shade shade, const drawing::V3& a, const drawing::V3& b,
                 const drawing::V3& normal_a, const drawing::V3& normal_b);
 
-/// Texels in the shade that are cut off from lit ones beside them take the mean of those, in all layers. One texel
+/// Texels in the shade that are cut off from lit ones next to them take the mean of those, in all layers. One texel
 /// deep: further in nothing mixes. Those with `inside[i]` neither give nor take. O(texels), and a ray for each such
 /// pair.
 void lighten_cut_off(const Page& page, PageLight& light, const std::vector<char>& inside,

@@ -20,7 +20,7 @@ std::vector<DarkUse> dark_uses(const PageLayout& page, std::span<const std::uint
     of_chart[chart] = &count_of[page.refs[i].use];
   }
   for (std::size_t i = 0; i < charts.size(); ++i) {
-    if (charts[i] == Place::nowhere) continue;
+    if (charts[i] == TexelPlace::nowhere) continue;
     ++of_chart[charts[i]]->texels;
     of_chart[charts[i]]->lit += luminance(light[i]) > black;
   }

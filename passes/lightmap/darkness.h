@@ -16,7 +16,7 @@ struct DarkUse {
 };
 
 /// The uses on a page of which a hundredth of the texels, at the most, is brighter than what 8 bits show as black; by
-/// use. `charts`: of each texel, PlacedTriangle::chart or Place::nowhere. Linear.
+/// use. `charts`: of each texel, PlacedTriangle::chart or TexelPlace::nowhere. Linear.
 std::vector<DarkUse> dark_uses(const PageLayout& page, std::span<const std::uint32_t> charts,
                                std::span<const Rgb> light);
 

@@ -20,7 +20,7 @@ float power(float base, int doublings) {
 }
 
 /// 1 for neighbours on a plane, falling to 0 at creases and steps; 0 between charts.
-float likeness(const Place& a, const Place& b) {
+float likeness(const TexelPlace& a, const TexelPlace& b) {
   if (a.chart != b.chart) return 0;
   const Vec d = b.position - a.position;
   const float height = std::fabs(dot(d, a.normal)), distance2 = dot(d, d);

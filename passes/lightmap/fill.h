@@ -10,8 +10,8 @@
 namespace wrlkit::bake {
 
 /// Charts go on where something covers them: every texel of a chart with `known[i] == 0` becomes known, in each layer
-/// the mean of its known neighbours in that chart, those beside them first. `chart` is by texel. Charts without a known
-/// texel stay unknown. O(texels).
+/// the mean of its known neighbours in that chart, those next to them first. `chart` is by texel. Charts without a
+/// known texel stay unknown. O(texels).
 void fill_charts(std::span<std::vector<Rgb>> layers, std::vector<char>& known, std::span<const std::uint32_t> chart,
                  std::uint32_t no_chart, int width, int height);
 

@@ -39,7 +39,7 @@ class FinestLight {
   const Surface* surface_of(NodeId shape) const;
   Rgb light(const Surface& s, std::uint32_t triangle, const drawing::V3& place) const;
 
-  std::vector<std::uint32_t> lod_of_;  // by node: 1 + the outermost LOD that a Shape stands in; 0: none
+  std::vector<std::uint32_t> lod_of_;  // by node: 1 + the outermost LOD around a Shape; 0: none
   std::map<std::uint32_t, Surface> surfaces_;
   std::vector<Canvas> pages_;
 };

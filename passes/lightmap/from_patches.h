@@ -1,4 +1,4 @@
-// Light from a patch file onto the Shapes of a world: the pipeline of the seed paper (Lazanyi, 3.2). Each Shape gets a
+// Light from a patch file onto the Shapes of a scene: the pipeline of the seed paper (Lazanyi, 3.2). Each Shape gets a
 // picture of its own.
 #pragma once
 #include "geometry/tessellation.h"

@@ -21,7 +21,7 @@ std::vector<Chart> charts_of(const Page& page, std::span<const std::uint32_t> ch
                              std::span<const Rgb> light) {
   std::vector<Chart> out;
   for (std::size_t i = 0; i < chart.size(); ++i) {
-    if (chart[i] == Place::nowhere) continue;
+    if (chart[i] == TexelPlace::nowhere) continue;
     if (chart[i] >= out.size()) out.resize(std::size_t{chart[i]} + 1);
     Chart& c = out[chart[i]];
     const Vec& p = page.places[i].position;
@@ -70,7 +70,7 @@ void light_hidden_charts(const Page& page, std::span<const std::uint32_t> chart,
     if (std::isfinite(there.distance)) charts[c].light = charts[lit.charts[there.triangle]].light;
   }
   for (std::size_t i = 0; i < chart.size(); ++i)
-    if (chart[i] != Place::nowhere && charts[chart[i]].is_hidden()) {
+    if (chart[i] != TexelPlace::nowhere && charts[chart[i]].is_hidden()) {
       light[i] = charts[chart[i]].light;
       known[i] = 1;
     }

@@ -100,7 +100,7 @@ double Layout::texels(std::size_t part) const {
 }
 
 /// As was asked for, unless there would be more texels than memory can be expected for. A surface that is larger than a
-/// page will not have so many as it counts for here.
+/// page will not have as many as are counted here.
 double Layout::possible_density() const {
   double sum = 0, wish = options_.density, page = usual_fill * options_.side * options_.side;
   for (std::size_t i = 0; i < parts_.size(); ++i)
@@ -123,7 +123,7 @@ Layout::Coarse Layout::coarse() const {
   return out;
 }
 
-/// In runs of parts, so many as should fill a page.
+/// In runs of parts, as many as should fill a page.
 void Layout::pack_all() {
   const double room = usual_fill * options_.side * options_.side / (density_ * density_);
   for (std::size_t begin = 0; begin < parts_.size();) {

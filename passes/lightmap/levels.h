@@ -1,4 +1,4 @@
-// Levels of detail while light is computed: a world is lit in views, first with the first level of each LOD, then with
+// Levels of detail while light is computed: a scene is lit in views, first with the first level of each LOD, then with
 // what has not been seen yet; what was lit before keeps the light that it has.
 #pragma once
 #include <cstddef>
@@ -20,10 +20,10 @@ class Levels {
   explicit Levels(Scene& scene) : scene_(scene), shown_(scene.node_count()) {}
 
   /// Chooses the next view. The first shows the first levels; each further one, of each LOD, the first level that holds
-  /// a Shape which none has shown, or the last level. So a world takes as many views as the longest way through its
-  /// levels: LODs beside one another go on together, and of LODs within a level all are through before the level behind
-  /// it has its turn. What stands around lamps keeps its first level until all else is through; then it is the other
-  /// way round. False when there is no view that shows more, or there have been enough of them. O(nodes).
+  /// a Shape which none has shown, or the last level. So a scene takes as many views as the longest way through its
+  /// levels: LODs next to one another go on together, and of LODs within a level all are through before the level
+  /// behind it has its turn. What stands around lamps keeps its first level until all else is through; then it is the
+  /// other way round. False when there is no view that shows more, or there have been enough of them. O(nodes).
   bool next();
   /// The number of the view, from 0.
   std::size_t view() const { return n_views_ - 1; }
@@ -52,7 +52,7 @@ class Levels {
 
   Scene& scene_;
   std::size_t n_views_ = 0, depth_ = 0, n_unseen_ = 0;
-  std::vector<char> shades_;          // by node: a lamp stands in what it shows first, or in what that holds
+  std::vector<char> shades_;          // by node: a lamp is in what it shows first, or in what that holds
   bool in_shades_ = false;            // they have their turn
   bool saw_more_ = true;              // the last view did
   std::vector<std::uint32_t> shown_;  // by node, of the LODs

@@ -12,6 +12,7 @@
 #include "light/world.h"
 #include "passes/lightmap/bake.h"
 #include "passes/lightmap/checkpoint.h"
+#include "passes/lightmap/exposure_line.h"
 #include "passes/lightmap/finest_light.h"
 #include "passes/lightmap/from_patches.h"
 #include "passes/lightmap/layout.h"
@@ -51,6 +52,7 @@ light::LightOptions light_options(const LightmapOptions& o, const Levels& levels
   light::LightOptions out;
   out.level_of = levels.level_of();
   out.emission = o.emission;
+  out.lamps = o.lamps;
   set_sky(out, o.sky);
   return out;
 }
@@ -157,9 +159,43 @@ void report_dark(const std::vector<BakedPage>& pages, const std::vector<Part>& p
     diag.report(Diag::dark_shapes, scene.where(stage.uses[first].shape), n_dark, n_shapes);
 }
 
+/// The factor for all views; by exposure=auto the one that the first levels of detail want.
+class ViewExposure {
+ public:
+  explicit ViewExposure(const Exposure& wanted) : wanted_(wanted), factor_(wanted.factor) {}
+
+  double of(const std::vector<BakedPage>& pages, PassContext& ctx) {
+    if (!std::exchange(wanted_.automatic, false)) return factor_;
+    light::LightMeter meter;
+    for (const BakedPage& p : pages) meter.add(p.meter);
+    factor_ = meter.factor(light_of_middle_grey);
+    const std::string said = Exposure{.factor = factor_}.print();
+    ctx.diag.report(Diag::light_exposure, {}, said, said);
+    ctx.stats["lightmap.exposure-thousandths"] += static_cast<std::uint64_t>(std::lround(1000 * factor_));
+    return factor_;
+  }
+  void keep(Scene& scene) const {
+    if (factor_ != 1) keep_exposure(scene, factor_);
+  }
+
+ private:
+  static constexpr double light_of_middle_grey = 0.36;  // on what reflects a half of it
+
+  Exposure wanted_;
+  double factor_;
+};
+
+/// What the views of a world share.
+struct Views {
+  Levels levels;
+  FinestLight finest;
+  UnlitShapes unlit;
+  ViewExposure exposure;
+};
+
 /// Lights what the view shows.
-Outcome bake_view(Scene& scene, Levels& levels, UnlitShapes& unlit, FinestLight& finest, const LightmapOptions& options,
-                  PassContext& ctx) {
+Outcome bake_view(Scene& scene, Views& views, const LightmapOptions& options, PassContext& ctx) {
+  auto& [levels, finest, unlit, exposure] = views;
   const std::string title = levels.view() ? "lightmap, view " + std::to_string(levels.view() + 1) : "lightmap";
   auto say = [&](const char* what) {
     if (ctx.monitor) ctx.monitor->begin(title + what, 0, "");
@@ -187,7 +223,8 @@ Outcome bake_view(Scene& scene, Levels& levels, UnlitShapes& unlit, FinestLight&
   report_dark(pages, parts, scene, world.stage(), ctx.diag);
   say(": pictures");
   unlit.give_material(scene, parts, world.stage());
-  store(scene, parts, layout, world.stage(), pages, {std::string(name_of(options.format)), options.exr}, ctx);
+  store(scene, parts, layout, world.stage(), pages,
+        {std::string(name_of(options.format)), options.exr, exposure.of(pages, ctx)}, ctx);
   for (const Part& p : parts) {
     for (std::uint32_t u : p.uses) levels.add(world.stage().uses[u].shape);
     ctx.stats["lightmap.shapes"] += p.uses.size();
@@ -202,16 +239,17 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
   if (const auto n = closed_nodes(scene)) ctx.diag.report(Diag::not_lit, {}, n);
   if (const auto n = foreign_surfaces(scene)) ctx.diag.report(Diag::not_lowered, {}, n);
   const auto n_copies = own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
-  Levels levels(scene);
-  FinestLight finest(scene);
-  UnlitShapes unlit(scene, options.unlit == UnlitSurfaces::bake);
+  Views views{Levels(scene), FinestLight(scene), UnlitShapes(scene, options.unlit == UnlitSurfaces::bake),
+              ViewExposure(options.exposure)};
+  const Levels& levels = views.levels;
   Outcome all = n_copies ? Outcome::changed : Outcome::unchanged;
-  while (all != Outcome::failed && levels.next()) {
-    if (const Outcome one = bake_view(scene, levels, unlit, finest, options, ctx); one != Outcome::unchanged) all = one;
+  while (all != Outcome::failed && views.levels.next()) {
+    if (const Outcome one = bake_view(scene, views, options, ctx); one != Outcome::unchanged) all = one;
     if (!options.patches.empty()) return all;
   }
   for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view)
     bake::Checkpoint::remove(checkpoint_of(options, view));
+  if (all == Outcome::changed) views.exposure.keep(scene);
   if (levels.n_unseen())
     ctx.diag.report(Diag::expansion_limit, {}, Levels::most, "levels of detail one behind the other");
   return all;

@@ -1,4 +1,4 @@
-// Pass `lightmap`: its documentation stands in its options.
+// Pass `lightmap`: its documentation is in its options.
 #pragma once
 #include <string>
 #include <utility>
@@ -6,6 +6,8 @@
 
 #include "base/option_range.h"
 #include "geometry/tessellation.h"
+#include "light/exposure.h"
+#include "light/lamp_fall.h"
 #include "light/sky_light.h"
 #include "passes/picture_format/picture_format.h"
 #include "passes/pipeline/pass.h"
@@ -29,7 +31,7 @@ struct NamedDensities {
   double of(std::string_view name) const;
 };
 
-/// What becomes of Shapes without a Material in a world with lamps.
+/// What becomes of Shapes without a Material in a scene with lamps.
 enum class UnlitSurfaces : std::uint8_t { bake, keep };
 template <>
 inline constexpr auto choices<UnlitSurfaces> = choice_row({{"bake"}, {"keep"}});
@@ -69,6 +71,12 @@ Lights every surface that a browser would show, as it stands at the start.
 - What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `expand` before.
 - There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach
   (density-limit).
+- `lamps=inverse-square` is for worlds that are dark because radii and attenuations are small, or that are lit evenly as
+  those are large: the lamp is as strong as it was written at the root mean square distance of what it shines at, or at
+  its radius if that is less.
+- `exposure=auto` brings the logarithmic mean of the light to 0.36, so that what reflects a half of it shows as middle
+  grey. The factor is reported (light-exposure), counted (`--stats`) and kept as a line of the WorldInfo,
+  "lightmap exposure 3.42". Dividing lightmapScale by it undoes it.
 - A world without any light, or with too little to see it by, is lit by a white sky, which is reported (no-light).
 
 Needs resources, which take the pictures. O(texels * rays * log triangles). The same result for any number of
@@ -87,6 +95,7 @@ threads.)";
       {"lightmap.holes", "specks of dark texels"},
       {"lightmap.seam-places", "places along seams that were compared"},
       {"lightmap.jumps", "those where the light jumps"},
+      {"lightmap.exposure-thousandths", "factor on the light, by exposure=auto"},
       {"lightmap.patches", "patches that were drawn"},
       {"lightmap.orphans", "patches without a Shape"},
       {"lightmap.bare-triangles", "triangles without a patch"},
@@ -99,6 +108,8 @@ threads.)";
   int max_size = 0, mips = 0;
   SkyLight sky;
   double emission = 1;
+  LampFall lamps = LampFall::as_written;
+  Exposure exposure;
   UnlitSurfaces unlit = UnlitSurfaces::bake;
   bool directional = false, exr = false, denoise = true;
   PictureFormat format = PictureFormat::png;
@@ -122,6 +133,8 @@ threads.)";
       between(0, 6));
     f("sky", sky, "what shines from beyond the world: its Background, nothing, or one radiance");
     f("emission", emission, "factor for the light that emissiveColor gives off", at_least(0));
+    f("lamps", lamps, "how the light of PointLights and SpotLights falls with distance");
+    f("exposure", exposure, "factor on what is kept of the light; auto: found from it, and reported");
     f("unlit", unlit, "Shapes without a Material in a world with lamps: light them, or keep them at full brightness");
     f("directional", directional, "keep from where the light comes, too");
     f("exr", exr, "write the light as OpenEXR, too");

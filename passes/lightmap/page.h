@@ -17,7 +17,7 @@ struct Vec {
 };
 
 /// Where a texel lies: what the denoiser compares.
-struct Place {
+struct TexelPlace {
   static constexpr std::uint32_t nowhere = 0xffffffff;
 
   std::uint32_t chart = nowhere;  // texels of several charts are never mixed
@@ -26,13 +26,13 @@ struct Place {
 
 struct Page {
   int width = 0, height = 0;
-  std::vector<Place> places;
+  std::vector<TexelPlace> places;
 
   Page(int w, int h) : width(w), height(h), places(size()) {}
 
   std::size_t size() const { return std::size_t(width) * height; }
   std::size_t at(int x, int y) const { return std::size_t(y) * width + x; }
-  bool covered(std::size_t i) const { return places[i].chart != Place::nowhere; }
+  bool covered(std::size_t i) const { return places[i].chart != TexelPlace::nowhere; }
 };
 
 /// What rays found of the light, by texel of a page.

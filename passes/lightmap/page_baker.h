@@ -40,7 +40,7 @@ class PageBaker {
   const PageLayout& page() const { return page_; }
   std::size_t n_tiles() const { return grid_.n_tiles(); }
 
-  /// Points of the surface for a tile's samples, in their order; of a grid with so many along each side of a texel.
+  /// Points of the surface for a tile's samples, in their order; of a grid with this many along each side of a texel.
   /// `chosen`, by texel of the page: only of those texels; empty: of all.
   const std::vector<light::Point>& points(std::size_t tile, int samples, int side = grid,
                                           std::span<const char> chosen = {});

@@ -213,7 +213,7 @@ class Finder {
     return std::ranges::any_of(p.uses, [&](std::uint32_t u) { return witnesses_.within(box_of(p, u), u); });
   }
 
-  /// Something stands in it, or it shines itself.
+  /// Something is in it, or it shines itself.
   bool is_room(const Part& p) const {
     return std::ranges::any_of(
         p.uses, [&](std::uint32_t u) { return world_.emitter_of(u, 0) || witnesses_.holds_another(box_of(p, u), u); });

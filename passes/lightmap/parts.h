@@ -37,11 +37,11 @@ struct Part {
 
 class UnlitShapes;
 
-/// The parts of a world, in its order; curved forms become `faces`. Left out: what has no Material or PhysicalMaterial,
+/// The parts of a scene, in its order; curved forms become `faces`. Left out: what has no Material or PhysicalMaterial,
 /// unless the unlit are lit, too; lines and points; geometry that events can change. O(triangles).
 ///
 /// A face of `solid` FALSE is seen from both sides, which have light of their own. Where the surface is closed, and
-/// opaque, and neither a Viewpoint nor anything that shines stands in its box, nobody sees the inner side: it is
+/// opaque, and neither a Viewpoint nor anything that shines is in its box, nobody sees the inner side: it is
 /// sealed, and only the outer one is lit; one that is wound inside out is turned. What consists of several, some of
 /// which are wound against the others, has light on both sides. Any other surface of `solid` FALSE gets a back for each
 /// face, and `solid` TRUE. A closed surface of `solid` TRUE that is wound inside out may be a room, and stays as it is

@@ -43,21 +43,21 @@ FloatImage raw(const Canvas& c) {
   return out;
 }
 
-/// What becomes white: at least 1, so that dim worlds stay dim.
-double exposure(const std::vector<BakedPage>& pages) {
+/// What becomes white: at least 1, so that dim scenes stay dim.
+double white_level(const std::vector<BakedPage>& pages, double exposure) {
   std::vector<float> brightest;
   for (const auto& p : pages)
     for (const Rgb& t : p.light.texels) brightest.push_back(std::max({t.r, t.g, t.b}));
   if (brightest.empty()) return 1;
   const auto at = brightest.begin() + static_cast<std::ptrdiff_t>((brightest.size() - 1) * 0.999);
   std::ranges::nth_element(brightest, at);
-  return std::max(1.0, double{*at});
+  return std::max(1.0, exposure * double{*at});
 }
 
 }  // namespace
 
 Storing::Storing(Scene& scene, const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx)
-    : scene_(scene), options_(options), ctx_(ctx), scale_(exposure(pages)) {
+    : scene_(scene), options_(options), ctx_(ctx), scale_(white_level(pages, options.exposure)) {
   for (std::size_t i = 0; i < pages.size(); ++i) add_page(i, pages[i]);
 }
 
@@ -89,8 +89,7 @@ void Storing::light(NodeId shape, const ShapePlace& place, const PageLayout& pag
   namespace f = nodes::appearance;
   const NodeId appearance = own_appearance(shape, place);
   scene_.set(shape, nodes::shape::appearance, appearance);
-  scene_.set(appearance, f::lightmap, lightmaps_[place.page]);
-  scene_.set(appearance, f::lightmapScale, scale_);
+  scene_.set(appearance, f::lightmap, lightmaps_[place.page], f::lightmapScale, scale_);
   if (!directions_[place.page].empty()) scene_.set(appearance, f::lightmapDirection, directions_[place.page]);
   if (place.own_coords)
     scene_.unset(appearance, f::lightmapTransform.slot);
@@ -100,7 +99,7 @@ void Storing::light(NodeId shape, const ShapePlace& place, const PageLayout& pag
 
 void Storing::add_page(std::size_t i, const BakedPage& page) {
   const std::string name = "lightmap_" + std::to_string(i);
-  const double scale = scale_;
+  const double scale = scale_ / options_.exposure;
   lightmaps_.push_back(texture(
       name, picture(page.light, [scale, &table = SrgbTable::get()](float v) { return table.byte(v / scale); })));
   auto& directions = directions_.emplace_back();
@@ -124,9 +123,7 @@ NodeId Storing::texture(const std::string& name, const Image& image) {
   const std::string url =
       ctx_.resources->add_made({file, std::make_shared<const std::string>(std::move(*bytes)), false});
   const NodeId n = scene_.add(nodes::ImageTexture);
-  scene_.set(n, f::url, std::vector<std::string_view>{url});
-  scene_.set(n, f::repeatS, false);
-  scene_.set(n, f::repeatT, false);
+  scene_.set(n, f::url, std::vector<std::string_view>{url}, f::repeatS, false, f::repeatT, false);
   return n;
 }
 
@@ -138,9 +135,8 @@ NodeId Storing::transform(const ShapePlace& p, const PageLayout& page) {
   const double moved[4][2] = {{x, y}, {y, -x}, {-x, -y}, {-y, x}};  // turned back
   const auto& m = moved[p.quarter_turns & 3];
   const NodeId n = scene_.add(nodes::TextureTransform);
-  scene_.set(n, f::rotation, quarter * p.quarter_turns);
-  scene_.set(n, f::scale, Vec2{p.unit / page.width, p.unit / page.height});
-  scene_.set(n, f::translation, Vec2{m[0], m[1]});
+  scene_.set(n, f::rotation, quarter * p.quarter_turns, f::scale, Vec2{p.unit / page.width, p.unit / page.height},
+             f::translation, Vec2{m[0], m[1]});
   return n;
 }
 

@@ -17,12 +17,13 @@ namespace wrlkit::bake {
 
 struct StoreOptions {
   std::string extension = "png";  // of the pictures
-  bool exr = false;               // the light as it is beside them, linear and not scaled
+  bool exr = false;               // the light as it is next to them, linear, not scaled and not exposed
+  double exposure = 1;            // factor on the light
 };
 
 /// Takes the pictures of all pages, which go to ctx.resources, and then part by part and Shape by Shape what lies on
-/// them. lightmapScale is the same everywhere: as much as keeps all but the brightest thousandth of the texels below
-/// white.
+/// them. Light is `exposure` times as bright in them. lightmapScale is the same everywhere: as much as keeps all but
+/// the brightest thousandth of the texels below white.
 class Storing {
  public:
   Storing(Scene& scene, const std::vector<BakedPage>& pages, const StoreOptions& options, PassContext& ctx);

@@ -1,5 +1,5 @@
-// What the pass does not look into: worlds behind Inline, what prototypes stand for, and nodes that VRML97 does not
-// have.
+// What the pass does not look into: scenes behind Inline, what instances of prototypes show, and nodes that VRML97 does
+// not have.
 #pragma once
 #include <cstddef>
 

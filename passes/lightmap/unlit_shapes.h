@@ -9,7 +9,7 @@
 
 namespace wrlkit::bake {
 
-/// Which of them get light. In a world with lamps they have it as what they are for reflected light anyway: surfaces
+/// Which of them get light. In a scene with lamps they have it as what they are for reflected light anyway: surfaces
 /// whose albedo is their picture or colour. Never those that shine by themselves (UnlitMaterial; in glTF all, by
 /// KHR_materials_unlit), that show films or what events change, or that hang before the viewer: below a Billboard that
 /// faces the screen, or a Transform that a ProximitySensor moves.

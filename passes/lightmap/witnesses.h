@@ -1,5 +1,5 @@
-// Who would see the inner side of a closed surface, or light it: a viewer who stands in there, a lamp, something that
-// shines; and what stands in there as in a room.
+// Who would see the inner side of a closed surface, or light it: a viewer who is in there, a lamp, something that
+// shines; and what is in there as in a room.
 #pragma once
 #include <vector>
 

@@ -37,6 +37,7 @@ void add_lamp(const light::Lamp& lamp, Key& key) {
   key.add({lamp.irradiance, l.location, l.direction, l.attenuation, l.to_local.x, l.to_local.y, l.to_local.z,
            l.to_local.t});
   key.add({double(l.kind), l.radius, l.beam_width, l.cut_off_angle});
+  if (l.fall) key.add({l.fall->distance, l.fall->strength});
 }
 
 void add_lamps(const light::LightWorld& world, Key& key) {

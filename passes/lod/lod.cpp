@@ -45,7 +45,7 @@ class Lod {
   }
 
  private:
-  /// What neighbours share, and how large they stand in the world, is known before the first is simplified.
+  /// What neighbours share, and how large they are in the scene, is known before the first is simplified.
   void look_around() {
     SharedBorders borders;
     Mesh mesh;

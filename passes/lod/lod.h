@@ -1,4 +1,4 @@
-// Pass `lod`: its documentation stands in its options.
+// Pass `lod`: its documentation is in its options.
 #pragma once
 #include <string>
 #include <string_view>

@@ -17,7 +17,7 @@ struct Faces {
   std::vector<std::int32_t> coord;  // as VRML97 has it: corners, -1 behind each face
   std::vector<std::int32_t>
       sequence;                     // of each entry of coord: which vertex of the shape it is, what PER_VERTEX counts
-  std::vector<std::int32_t> place;  // and where it stands in the file's coordIndex, what PER_VERTEX_INDEXED looks up
+  std::vector<std::int32_t> place;  // and where it is in the file's coordIndex, what PER_VERTEX_INDEXED looks up
   std::vector<Face> faces;
   bool verbatim = false;  // coord is the file's coordIndex
 };

@@ -140,8 +140,8 @@ NodeId Looks::material_node(const State& s, std::size_t k, bool colored, bool st
     // Lines show their diffuse colour; exporters that give an emissive one alone mean that.
     const bool glows = strokes && !p.unlit && !s.color && s.material &&
                        !scene_.find(s.material, m::diffuseColor.slot) && scene_.find(s.material, m::emissiveColor.slot);
-    scene_.set(n, nodes::material::diffuseColor, Vec3{0, 0, 0});
-    scene_.set(n, nodes::material::emissiveColor, glows ? vec(m::emissiveColor.slot) : p.color(k));
+    scene_.set(n, nodes::material::diffuseColor, Vec3{0, 0, 0}, nodes::material::emissiveColor,
+               glows ? vec(m::emissiveColor.slot) : p.color(k));
     return n;
   }
   const Vec3 diffuse = p.color(k), ambient = vec(m::ambientColor.slot);
@@ -150,9 +150,8 @@ NodeId Looks::material_node(const State& s, std::size_t k, bool colored, bool st
   if (s.material && scene_.find(s.material, m::ambientColor.slot) && brightness > 0)
     scene_.set(n, nodes::material::ambientIntensity, std::round(std::clamp(dim / brightness, 0.0, 1.0) * 1e6) / 1e6);
   if (!colored) scene_.set(n, nodes::material::diffuseColor, diffuse);
-  scene_.set(n, nodes::material::specularColor, vec(m::specularColor.slot));
-  scene_.set(n, nodes::material::emissiveColor, vec(m::emissiveColor.slot));
-  scene_.set(n, nodes::material::shininess, at(list(s.material, m::shininess.slot), k, 1)[0]);
+  scene_.set(n, nodes::material::specularColor, vec(m::specularColor.slot), nodes::material::emissiveColor,
+             vec(m::emissiveColor.slot), nodes::material::shininess, at(list(s.material, m::shininess.slot), k, 1)[0]);
   if (picture) scene_.set(n, nodes::material::diffuseTexture, picture);
   return n;
 }
@@ -242,9 +241,8 @@ NodeId Looks::texture_transform(std::uint32_t map) {
     return NodeId{};
   }
   n = scene_.add(nodes::TextureTransform);
-  scene_.set(n, nodes::texture_transform::rotation, fields->rotation);
-  scene_.set(n, nodes::texture_transform::scale, fields->scale);
-  scene_.set(n, nodes::texture_transform::translation, fields->translation);
+  scene_.set(n, nodes::texture_transform::rotation, fields->rotation, nodes::texture_transform::scale, fields->scale,
+             nodes::texture_transform::translation, fields->translation);
   return n;
 }
 

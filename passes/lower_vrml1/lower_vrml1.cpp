@@ -314,8 +314,8 @@ void Lowering::visit_separator(NodeId n, State s, Frame& frame) {
       scene_.set_name(made, scene_.name(n));
       if (auto url = scene_.get(n, v1::www_anchor::name); !url.empty())
         scene_.set(made, nodes::anchor::url, std::vector<std::string_view>{url});
-      scene_.set(made, nodes::anchor::description, scene_.get(n, v1::www_anchor::description));
-      scene_.set(made, nodes::anchor::children, children(scene_, inner));
+      scene_.set(made, nodes::anchor::description, scene_.get(n, v1::www_anchor::description), nodes::anchor::children,
+                 children(scene_, inner));
       if (scene_.get(n, v1::www_anchor::map) == "POINT")
         diag_.report(Diag::no_vrml97_value, scene_.where(n), "WWWAnchor", "map");
     } else
@@ -383,8 +383,8 @@ void Lowering::visit_lod(NodeId n, const State& s, Frame& frame) {
   scene_.set_name(made, scene_.name(n));
   scene_.set(made, nodes::lod::children, levels);
   if (is(n, v1::LOD)) {
-    scene_.set(made, nodes::lod::center, scene_.get(n, v1::lod::center));
-    scene_.set(made, nodes::lod::range, scene_.get(n, v1::lod::range));
+    scene_.set(made, nodes::lod::center, scene_.get(n, v1::lod::center), nodes::lod::range,
+               scene_.get(n, v1::lod::range));
   } else
     diag_.report(Diag::no_vrml97_value, scene_.where(n), "LevelOfDetail", "screenArea");
   frame.add(made);
@@ -459,7 +459,7 @@ void Lowering::visit_unknown(NodeId n, State& s, Frame& frame) {
   if (NodeId g = group(scene_, inner, scene_.where(n), scene_.name(n))) frame.add(g);
 }
 
-// Nodes of VRML97 stand for themselves; in their children the state is that around them.
+// Nodes of VRML97 stay as they are; in their children the state is that around them.
 void Lowering::visit_vrml97(NodeId n, const State& s, Frame& frame) {
   if (scene_.is(n, nodes::X3DGeometryNode)) return visit_shape(n, s, frame);
   if (!scene_.is(n, nodes::X3DGroupingNode)) return frame.add(n);

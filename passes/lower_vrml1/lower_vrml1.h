@@ -1,4 +1,4 @@
-// Pass `lower-vrml1`: its documentation stands in its options.
+// Pass `lower-vrml1`: its documentation is in its options.
 #pragma once
 #include "base/option_range.h"
 #include "passes/pipeline/pass.h"

@@ -52,8 +52,7 @@ NodeId Shapes::add(TypeId t, NodeId source) { return scene_.add(t, scene_.where(
 NodeId Shapes::shape(NodeId geometry, const State& s, std::size_t material, bool colored, bool strokes, bool baked) {
   const NodeId look = looks_.appearance(s, material, colored, strokes, baked);
   NodeId n = add(nodes::Shape, geometry);
-  scene_.set(n, nodes::shape::appearance, look);
-  scene_.set(n, nodes::shape::geometry, geometry);
+  scene_.set(n, nodes::shape::appearance, look, nodes::shape::geometry, geometry);
   return n;
 }
 
@@ -66,10 +65,8 @@ Shapes::Parts Shapes::cone(NodeId n) {
   for (auto [word, material] : {std::pair{"SIDES", 0}, {"BOTTOM", 1}}) {
     if (!has_bit(parts, word)) continue;
     NodeId g = add(nodes::Cone, n);
-    scene_.set(g, nodes::cone::bottomRadius, std::abs(scene_.get(n, v1::cone::bottomRadius)));
-    scene_.set(g, nodes::cone::height, scene_.get(n, v1::cone::height));
-    scene_.set(g, nodes::cone::side, material == 0);
-    scene_.set(g, nodes::cone::bottom, material == 1);
+    scene_.set(g, nodes::cone::bottomRadius, std::abs(scene_.get(n, v1::cone::bottomRadius)), nodes::cone::height,
+               scene_.get(n, v1::cone::height), nodes::cone::side, material == 0, nodes::cone::bottom, material == 1);
     out.emplace_back(g, material);
   }
   return out;
@@ -81,11 +78,9 @@ Shapes::Parts Shapes::cylinder(NodeId n) {
   for (auto [word, material] : {std::pair{"SIDES", 0}, {"TOP", 1}, {"BOTTOM", 2}}) {
     if (!has_bit(parts, word)) continue;
     NodeId g = add(nodes::Cylinder, n);
-    scene_.set(g, nodes::cylinder::radius, std::abs(scene_.get(n, v1::cylinder::radius)));
-    scene_.set(g, nodes::cylinder::height, std::abs(scene_.get(n, v1::cylinder::height)));
-    scene_.set(g, nodes::cylinder::side, material == 0);
-    scene_.set(g, nodes::cylinder::top, material == 1);
-    scene_.set(g, nodes::cylinder::bottom, material == 2);
+    scene_.set(g, nodes::cylinder::radius, std::abs(scene_.get(n, v1::cylinder::radius)), nodes::cylinder::height,
+               std::abs(scene_.get(n, v1::cylinder::height)), nodes::cylinder::side, material == 0,
+               nodes::cylinder::top, material == 1, nodes::cylinder::bottom, material == 2);
     out.emplace_back(g, material);
   }
   return out;
@@ -156,9 +151,8 @@ std::vector<NodeId> Shapes::cube(NodeId n, const State& s) {
          hints = job.state.hints = add(v1::ShapeHints, n);
   scene_.set(coord, v1::coordinate3::point, corners);
   scene_.set(texture, nodes::texture_coordinate::point, std::vector<double>{0, 0, 1, 0, 1, 1, 0, 1});
-  scene_.set(hints, v1::shape_hints::vertexOrdering, "COUNTERCLOCKWISE");
-  scene_.set(hints, v1::shape_hints::shapeType, "SOLID");
-  scene_.set(hints, v1::shape_hints::creaseAngle, 0.0);
+  scene_.set(hints, v1::shape_hints::vertexOrdering, "COUNTERCLOCKWISE", v1::shape_hints::shapeType, "SOLID",
+             v1::shape_hints::creaseAngle, 0.0);
   job.texture_coord = texture;
   if (apart)
     job.colors = bind(f, s.material_binding, {}, looks_.palette(s).size);
@@ -210,9 +204,12 @@ NodeId Shapes::font_style(NodeId font, NodeId text) {
     });
   }
   if (font) scene_.set_name(n, scene_.name(font));
-  scene_.set(n, nodes::font_style::size, size);
-  scene_.set(n, nodes::font_style::family, std::vector<std::string_view>{family});
-  scene_.set(n, nodes::font_style::style, bold && italic ? "BOLDITALIC" : bold ? "BOLD" : italic ? "ITALIC" : "PLAIN");
+  scene_.set(n, nodes::font_style::size, size, nodes::font_style::family, std::vector<std::string_view>{family},
+             nodes::font_style::style,
+             bold && italic ? "BOLDITALIC"
+             : bold         ? "BOLD"
+             : italic       ? "ITALIC"
+                            : "PLAIN");
   scene_.set(n, nodes::font_style::justify,
              std::vector<std::string_view>{justification == "RIGHT"    ? "END"
                                            : justification == "CENTER" ? "MIDDLE"

@@ -255,8 +255,7 @@ NodeId Shapes::face_set(const Job& job, const Faces& f, const Attribute& normals
   } else
     scene_.set(n, g::coordIndex, f.coord);
   if (normals) {
-    scene_.set(n, g::normal, normal(job.state.normal));
-    scene_.set(n, g::normalPerVertex, normals.of == Of::corners);
+    scene_.set(n, g::normal, normal(job.state.normal), g::normalPerVertex, normals.of == Of::corners);
     if (normals.of == Of::all)
       scene_.set(n, g::normalIndex, std::vector<std::int32_t>(f.faces.size(), 0));
     else if (!normals.index.empty())

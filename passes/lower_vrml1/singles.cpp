@@ -56,8 +56,7 @@ NodeId viewpoint(Scene& scene, NodeId camera, Diagnostics& diag) {
     const auto offset = rotation_matrix(orientation).point({0, 0, back});
     for (std::size_t i = 0; i < 3; ++i) position[i] += offset[i];
   }
-  scene.set(n, nodes::viewpoint::position, position);
-  scene.set(n, nodes::viewpoint::orientation, orientation);
+  scene.set(n, nodes::viewpoint::position, position, nodes::viewpoint::orientation, orientation);
   if (angle != default_angle)
     scene.set(n, nodes::viewpoint::fieldOfView, angle);  // the default of both, with the digits of each
   scene.set(n, nodes::viewpoint::description, scene.name(camera));
@@ -89,19 +88,16 @@ NodeId light(Scene& scene, NodeId source, const Matrix& axes, Diagnostics& diag)
     namespace t = nodes::point_light;
     NodeId n = named(scene, nodes::PointLight, source);
     common(n, t::on, t::intensity, t::color, p::on, p::intensity, p::color);
-    scene.set(n, t::location, scene.get(source, p::location));
-    scene.set(n, t::radius, unlimited);
+    scene.set(n, t::location, scene.get(source, p::location), t::radius, unlimited);
     return n;
   }
   namespace t = nodes::spot_light;
   NodeId n = named(scene, nodes::SpotLight, source);
   common(n, t::on, t::intensity, t::color, s::on, s::intensity, s::color);
-  scene.set(n, t::location, scene.get(source, s::location));
-  scene.set(n, t::direction, scene.get(source, s::direction));
-  scene.set(n, t::radius, unlimited);
+  scene.set(n, t::location, scene.get(source, s::location), t::direction, scene.get(source, s::direction), t::radius,
+            unlimited);
   const double cut_off = scene.get(source, s::cutOffAngle), rate = scene.get(source, s::dropOffRate);
-  scene.set(n, t::cutOffAngle, cut_off);
-  scene.set(n, t::beamWidth, beam_width(rate, cut_off));
+  scene.set(n, t::cutOffAngle, cut_off, t::beamWidth, beam_width(rate, cut_off));
   if (rate > 0) diag.report(Diag::no_vrml97_value, scene.where(source), "SpotLight", "dropOffRate");
   return n;
 }
@@ -113,8 +109,8 @@ NodeId inline_of(Scene& scene, NodeId source) {
   NodeId n = named(scene, nodes::Inline, source);
   scene.set(n, nodes::inline_::url, std::vector<std::string_view>{name});
   if (!www || scene.get(source, v1::www_inline::bboxSize) == Vec3{0, 0, 0}) return n;
-  scene.set(n, nodes::inline_::bboxSize, scene.get(source, v1::www_inline::bboxSize));
-  scene.set(n, nodes::inline_::bboxCenter, scene.get(source, v1::www_inline::bboxCenter));
+  scene.set(n, nodes::inline_::bboxSize, scene.get(source, v1::www_inline::bboxSize), nodes::inline_::bboxCenter,
+            scene.get(source, v1::www_inline::bboxCenter));
   return n;
 }
 
@@ -148,8 +144,8 @@ NodeId fog_of(Scene& scene, NodeId source, Diagnostics& diag) {
   const auto type = scene.get(source, e::fogType);
   if (type == "NONE") return {};
   NodeId n = named(scene, nodes::Fog, source);
-  scene.set(n, nodes::fog::color, scene.get(source, e::fogColor));
-  scene.set(n, nodes::fog::visibilityRange, scene.get(source, e::fogVisibility));
+  scene.set(n, nodes::fog::color, scene.get(source, e::fogColor), nodes::fog::visibilityRange,
+            scene.get(source, e::fogVisibility));
   if (type != "HAZE") scene.set(n, nodes::fog::fogType, "EXPONENTIAL");
   if (type == "SMOKE") diag.report(Diag::no_vrml97_value, scene.where(source), "Environment", "fogType");
   return n;
@@ -186,10 +182,8 @@ TransformFields transform_of(const Scene& scene, NodeId n, Diagnostics& diag) {
 }
 
 Matrix matrix_of_rows(std::span<const double> rows, Span where, Diagnostics& diag) {
-  Matrix m;
-  const double w = rows[15] != 0 ? rows[15] : 1;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 4; ++c) m(r, c) = rows[static_cast<std::size_t>(c * 4 + r)] / w;
+  Matrix m = matrix_of_columns(rows.data());
+  for (double& v : m.m) v /= rows[15] != 0 ? rows[15] : 1;
   if (rows[3] != 0 || rows[7] != 0 || rows[11] != 0)
     diag.report(Diag::no_vrml97_value, where, "MatrixTransform", "matrix");
   return m;

@@ -1,4 +1,4 @@
-// Materials and textures of X3D that stand for others.
+// Materials and textures of X3D that are replaced by others.
 #pragma once
 #include "base/diagnostics.h"
 #include "scenegraph/scene.h"

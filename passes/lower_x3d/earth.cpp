@@ -133,9 +133,7 @@ Vec3 geodetic(const Ellipsoid& e, const Vec3& p) {
 Matrix standing_at(const Vec3& geodetic) {
   const double sl = std::sin(geodetic[0] * degree), cl = std::cos(geodetic[0] * degree),
                so = std::sin(geodetic[1] * degree), co = std::cos(geodetic[1] * degree);
-  Matrix m;
-  m.m = {-so, cl * co, sl * co, 0, co, cl * so, sl * so, 0, 0, sl, -cl, 0};
-  return m;
+  return matrix_of_columns({-so, co, 0}, {cl * co, cl * so, sl}, {sl * co, sl * so, -cl});
 }
 
 }  // namespace wrlkit::x3d

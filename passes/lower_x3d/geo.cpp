@@ -42,10 +42,7 @@ const GeoRow* row_of(const Scene& scene, NodeId n) {
 }
 
 Matrix transposed(const Matrix& m) {
-  Matrix out;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) out(r, c) = m(c, r);
-  return out;
+  return {{m(0, 0), m(1, 0), m(2, 0), 0, m(0, 1), m(1, 1), m(2, 1), 0, m(0, 2), m(1, 2), m(2, 2), 0}};
 }
 
 Vec3 vec3(std::span<const double> numbers, std::size_t i = 0) { return {numbers[i], numbers[i + 1], numbers[i + 2]}; }
@@ -215,8 +212,7 @@ class Placing {
              slot == t::translation.slot;
     };
     NodeId inner = scene_.add(nodes::Transform, scene_.where(n)), moved = scene_.add(nodes::Transform, scene_.where(n));
-    scene_.set(inner, t::translation, away);
-    scene_.set(inner, t::rotation, back);
+    scene_.set(inner, t::translation, away, t::rotation, back);
     std::vector<Value> outer;
     for (const Value& v : fields) {
       if (!scene_.is_extra(v) && own(v.slot))
@@ -265,7 +261,8 @@ class Placing {
     scene_.become(n, nodes::ProximitySensor, fields);
   }
 
-  /// The near level are the four children, the far one is the root: nodes, or an Inline of its own url.
+  /// The near level is the four children, the far one is the root: nodes, or an Inline of its own url. Nodes that a
+  /// file gives in `children`, which is an event of the standard (25.3.5), are part of the near level.
   void level_of_detail(NodeId n) {
     namespace g = nodes::geo_lod;
     namespace l = nodes::lod;
@@ -283,11 +280,12 @@ class Placing {
     for (auto url : {scene_.get(n, g::child1Url), scene_.get(n, g::child2Url), scene_.get(n, g::child3Url),
                      scene_.get(n, g::child4Url)})
       if (!url.empty()) near.push_back(inlined(url));
+    for (NodeId c : scene_.get(n, g::children)) near.push_back(c);
     for (NodeId c : scene_.get(n, g::rootNode)) far.push_back(c);
     if (far.empty() && !scene_.get(n, g::rootUrl).empty()) far.push_back(inlined(scene_.get(n, g::rootUrl)));
     auto fields = fields_for(scene_, n, nodes::LOD);
     std::erase_if(fields, [&](const Value& v) {
-      return !scene_.is_extra(v) && (v.slot == l::center.slot || v.slot == l::range.slot);
+      return !scene_.is_extra(v) && (v.slot == l::center.slot || v.slot == l::range.slot || v.slot == l::children.slot);
     });
     const bool both = !near.empty();
     std::vector<NodeId> levels{group(far)};

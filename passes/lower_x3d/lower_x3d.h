@@ -1,4 +1,4 @@
-// Pass `lower-x3d`: its documentation stands in its options.
+// Pass `lower-x3d`: its documentation is in its options.
 #pragma once
 #include "base/option_range.h"
 #include "passes/pipeline/pass.h"

@@ -145,14 +145,7 @@ const Outline& Merging::outline(NodeId g) {
   o.corners = m.corners.size();
   o.bytes = gltf_cost::point * static_cast<double>(std::min(m.n_positions(), o.corners)) +
             gltf_cost::corner * static_cast<double>(o.corners);
-  Vec3 low{}, high{};
-  for (std::size_t i = 0; i < m.corners.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double x = m.positions[m.corners[i] * std::size_t{3} + k];
-      low[k] = i ? std::min(low[k], x) : x;
-      high[k] = i ? std::max(high[k], x) : x;
-    }
-  for (std::size_t k = 0; k < 3; ++k) o.centre[k] = (low[k] + high[k]) / 2;
+  o.centre = box_of_corners(m).centre();
   return o;
 }
 
@@ -171,10 +164,7 @@ void Merging::name_parts() {
 }
 
 void Merging::divide() {
-  std::vector<char> seen;
-  std::vector<NodeId> nodes;
-  reach(scene_, scene_.main.roots, seen, nodes);
-  const Representatives same(scene_, usage_, nodes, false);
+  const Representatives same(scene_, usage_, reachable(scene_, scene_.main), false);
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>, std::uint32_t> kinds;
   std::vector<CellItem> items;
   for (std::uint32_t i = 0; i < still_.places().size(); ++i) {
@@ -223,10 +213,7 @@ std::optional<std::string> Merging::names_in_geometry(std::uint32_t i) const {
 }
 
 void Merging::divide_parts() {
-  std::vector<char> seen;
-  std::vector<NodeId> nodes;
-  reach(scene_, scene_.main.roots, seen, nodes);
-  const Representatives same(scene_, usage_, nodes, false);
+  const Representatives same(scene_, usage_, reachable(scene_, scene_.main), false);
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::string>, std::uint32_t> groups;
   std::vector<PartItem> items;
   for (std::uint32_t i = 0; i < still_.places().size(); ++i) {

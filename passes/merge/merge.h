@@ -1,4 +1,4 @@
-// Pass `merge`: its documentation stands in its options.
+// Pass `merge`: its documentation is in its options.
 #pragma once
 #include <string>
 

@@ -1,4 +1,4 @@
-// A mesh as it stands in another frame.
+// A mesh in another frame.
 #pragma once
 #include "geometry/mesh.h"
 #include "scenegraph/transform.h"

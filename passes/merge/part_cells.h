@@ -14,7 +14,7 @@ struct PartItem {
   double bytes;         // of its vertices in a merged mesh
 };
 
-/// Cells of two items and more, as numbers of items. A shape that stands in several groups stays. n log n.
+/// Cells of two items and more, as numbers of items. A shape in several groups stays. n log n.
 std::vector<std::vector<std::uint32_t>> part_cells(std::span<const PartItem> items);
 
 }  // namespace wrlkit

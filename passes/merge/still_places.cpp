@@ -128,7 +128,7 @@ void StillPlaces::children(NodeId group, const Handed& as) {
   ways_.push(list, as);
 }
 
-/// Each child of a Switch or LOD is a world of its own.
+/// Each child of a Switch or LOD is a scene of its own.
 void StillPlaces::alternatives(NodeId node, const Handed& i) {
   const auto shown = shown_children(scene_, node);
   const auto list = hierarchy_children(scene_, node);

@@ -1,4 +1,4 @@
-// Pass `normals`: its documentation stands in its options.
+// Pass `normals`: its documentation is in its options.
 #pragma once
 #include "base/option_range.h"
 #include "passes/pipeline/pass.h"

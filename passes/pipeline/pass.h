@@ -35,7 +35,7 @@ struct PassContext : Task {
               std::stop_token stop = {})
       : Task{diag, stats, monitor, std::move(stop)}, resources(resources) {}
 
-  Resources* resources;  // none: nothing outside the scene can be had
+  Resources* resources;  // none: nothing outside the scene can be read
 };
 
 }  // namespace wrlkit

@@ -53,7 +53,8 @@ bool Pipeline::has_in_effect(const PassInfo& info) const {
   return !info.traits.parts.empty();
 }
 
-/// Moves passes of phase `gathered` behind the last one that gathers, or, without such, in front of the first that lowers.
+/// Moves passes of phase `gathered` behind the last one that gathers, or, without such, in front of the first that
+/// lowers.
 void Pipeline::move_gathered() {
   const auto phase = [](const Step& s) { return s.info->traits.phase; };
   const auto first = std::ranges::stable_partition(steps_, [&](const Step& s) { return phase(s) != Phase::gathered; });
@@ -61,9 +62,9 @@ void Pipeline::move_gathered() {
   std::vector<Step> moved(std::make_move_iterator(first.begin()), std::make_move_iterator(first.end()));
   steps_.erase(first.begin(), first.end());
   const auto last = std::ranges::find(steps_.rbegin(), steps_.rend(), Phase::gather, phase);
-  const auto at = last != steps_.rend() ? last.base() : std::ranges::find_if(steps_, [&](const Step& s) {
-    return phase(s) > Phase::gathered;
-  });
+  const auto at = last != steps_.rend()
+                      ? last.base()
+                      : std::ranges::find_if(steps_, [&](const Step& s) { return phase(s) > Phase::gathered; });
   steps_.insert(at, std::make_move_iterator(moved.begin()), std::make_move_iterator(moved.end()));
   meet_needs();
 }
@@ -101,7 +102,7 @@ void Pipeline::complete(std::string_view text) {
   const auto last_over_scene =
       std::ranges::find_if(steps_.rbegin(), steps_.rend(), [](const Step& s) { return !s.pass->is_mesh_pass(); });
   insert(last_over_scene.base(), missing(light, mesh));
-  // Where nothing is drawn, what the standard pipeline does to a world is done to what other passes bring in as well.
+  // Where nothing is drawn, what the standard pipeline does to a scene is done to what other passes bring in as well.
   auto brings_in = [](const Step& s) { return s.info->traits.brings_in; };
   if (mesh == end && std::ranges::any_of(steps_, brings_in)) {
     const auto rest = std::stable_partition(front.begin(), front.end(),

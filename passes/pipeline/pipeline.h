@@ -34,8 +34,8 @@ class PassInstance {
   /// False when there is no such option or the text is not a value for it; `why` says which.
   virtual bool set(std::string_view option, std::string_view value, std::string& why) = 0;
   virtual std::vector<OptionInfo> options() const = 0;
-  /// What the outcome depends on besides the scene and the files that it refers to: the pass itself, when it was read
-  /// from a file, and files that its options name.
+  /// What the outcome depends on in addition to the scene and the files that it refers to: the pass itself, when it was
+  /// read from a file, and files that its options name.
   virtual std::vector<std::string> files() const { return {}; }
 };
 
@@ -45,7 +45,7 @@ enum class Phase : std::uint8_t {
   gather,  // all of the world in one scene
   gathered,  // once it is, and before nodes are lowered: wherever a pipeline that is completed has it
   lower,   // nodes that others do not know, as those that they know
-  world,   // whatever is wanted of the whole world
+  world,   // whatever is wanted of the whole scene
   light,   // behind the last pass over the scene, which may be the one that makes the light
   mesh,    // at the end, one geometry after the other
 };
@@ -120,8 +120,8 @@ using MeshMakers = std::function<MeshMaker(Task&)>;
 class Pipeline {
  public:
   /// Null when the text is not a pipeline; `why` says what is wrong with it.
-  /// Names of pipelines stand for their passes: "gltf,weld". Values with commas, braces or quotes stand in quotes, in
-  /// which a backslash is put before quotes and backslashes: merge{csv="a,b.csv"}.
+  /// Names of pipelines are replaced by their passes: "gltf,weld". Values with commas, braces or quotes are put in
+  /// quotes, in which a backslash is put before quotes and backslashes: merge{csv="a,b.csv"}.
   static std::optional<Pipeline> parse(std::string_view text, std::string& why);
   /// Adds a pass at the end, with these options. False, and why, when there is none, or an option is wrong.
   bool add(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options, std::string& why);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text/backslash.h"
 #include "base/text/blanks.h"
 #include "passes/pipeline/pipeline.h"
 
@@ -84,12 +85,7 @@ std::string no_such_pass(std::string_view name) {
 
 std::string quoted_value(std::string_view value) {
   if (value.find_first_of(",{}\"\\") == value.npos && trim(value) == value) return std::string(value);
-  std::string out = "\"";
-  for (char c : value) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
+  return in_quotes(value);
 }
 
 std::optional<Pipeline> Pipeline::parse(std::string_view text, std::string& why) {

@@ -1,4 +1,4 @@
-// Metres, and Y upwards, for a world that was made in others.
+// Metres, and Y upwards, for a scene that was made in others.
 #pragma once
 #include "base/choice.h"
 #include "passes/pipeline/pass.h"

@@ -1,4 +1,4 @@
-// Pass `prune`: its documentation stands in its options.
+// Pass `prune`: its documentation is in its options.
 #pragma once
 #include "passes/pipeline/pass.h"
 

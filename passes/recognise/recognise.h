@@ -1,4 +1,4 @@
-// Pass `recognise`: its documentation stands in its options.
+// Pass `recognise`: its documentation is in its options.
 #pragma once
 #include "passes/pipeline/length_option.h"
 #include "passes/pipeline/pass.h"

@@ -63,8 +63,7 @@ class Sky {
   NodeId face_set(const std::vector<double>& points, const std::vector<std::int32_t>& corners) {
     const NodeId coord = add(nodes::Coordinate), faces = add(nodes::IndexedFaceSet);
     scene_.set(coord, nodes::coordinate::point, points);
-    scene_.set(faces, nodes::indexed_face_set::coord, coord);
-    scene_.set(faces, nodes::indexed_face_set::coordIndex, corners);
+    scene_.set(faces, nodes::indexed_face_set::coord, coord, nodes::indexed_face_set::coordIndex, corners);
     return faces;
   }
 
@@ -82,9 +81,8 @@ class Sky {
     const auto urls = scene_.get(background_, key);
     if (urls.empty()) return {};
     const NodeId picture = add(nodes::ImageTexture);
-    scene_.set(picture, nodes::image_texture::url, urls);
-    scene_.set(picture, nodes::image_texture::repeatS, false);
-    scene_.set(picture, nodes::image_texture::repeatT, false);
+    scene_.set(picture, nodes::image_texture::url, urls, nodes::image_texture::repeatS, false,
+               nodes::image_texture::repeatT, false);
     return picture;
   }
 

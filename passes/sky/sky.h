@@ -1,4 +1,4 @@
-// Pass `sky`: its documentation stands in its options.
+// Pass `sky`: its documentation is in its options.
 #pragma once
 #include "passes/pipeline/pass.h"
 

@@ -138,7 +138,8 @@ std::string ScriptHost::reap() {
   socket_ = -1;
   if (pid_ <= 0) return "the process is not there";
   int status = 0;
-  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {}
+  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
   pid_ = -1;
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) return too_long();
   if (WIFSIGNALED(status)) return std::string("the process ended by signal ") + strsignal(WTERMSIG(status));

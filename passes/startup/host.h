@@ -1,5 +1,5 @@
-// The process in which Scripts run: wrlkit_script, which is built where Duktape is there (tools/script_host). Started by
-// posix_spawn, which is safe in a program with threads; ended with this object.
+// The process in which Scripts run: wrlkit_script, which is built where Duktape is there (tools/script_host). Started
+// by posix_spawn, which is safe in a program with threads; ended with this object.
 #pragma once
 #include <sys/types.h>
 

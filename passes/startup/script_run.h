@@ -42,7 +42,7 @@ class ScriptRun {
     NodeId from;
     std::uint16_t slot;  // of the sender; of `to` when it has no ROUTE
     Value value;
-    NodeId to{};                    // of a Script that another one has set by directOutput
+    NodeId to{};  // of a Script that another one has set by directOutput
     std::string_view event_in{};
   };
   using End = std::pair<std::uint32_t, std::uint16_t>;  // a field of a node

@@ -54,8 +54,7 @@ bool is_script(const Scene& scene, NodeId n) { return n && scene.type(n).name ==
 std::size_t n_common_script_fields() { return builtin_nodes()[nodes::Script.value].fields.size(); }
 
 bool has_initialize(const Scene& scene, NodeId script) {
-  return is_script(scene, script) &&
-         std::ranges::any_of(urls_of(scene, script), [](std::string_view url) {
+  return is_script(scene, script) && std::ranges::any_of(urls_of(scene, script), [](std::string_view url) {
            const auto program = program_in(url);
            return program && declares_initialize(*program);
          });
@@ -64,7 +63,8 @@ bool has_initialize(const Scene& scene, NodeId script) {
 bool is_script_in_file(const Scene& scene, NodeId n) {
   if (!is_script(scene, n)) return false;
   const auto urls = urls_of(scene, n);
-  return std::ranges::any_of(urls, is_file_of_ecmascript) && std::ranges::none_of(urls, [](std::string_view url) { return program_in(url).has_value(); });
+  return std::ranges::any_of(urls, is_file_of_ecmascript) &&
+         std::ranges::none_of(urls, [](std::string_view url) { return program_in(url).has_value(); });
 }
 
 std::optional<std::string> script_text(const Scene& scene, NodeId script, Resources* resources, Diagnostics& diag) {

@@ -22,8 +22,8 @@ bool has_initialize(const Scene&, NodeId script);
 bool is_script_in_file(const Scene&, NodeId);
 
 /// The text of the first of its urls that is in ECMAScript or VRMLScript: "javascript:...", "ecmascript:...",
-/// "vrmlscript:...", or a file whose name ends in .js. None when there is no such url, or its file cannot be read, which
-/// is reported.
+/// "vrmlscript:...", or a file whose name ends in .js. None when there is no such url, or its file cannot be read,
+/// which is reported.
 std::optional<std::string> script_text(const Scene&, NodeId script, Resources*, Diagnostics&);
 
 }  // namespace wrlkit

@@ -55,8 +55,8 @@ std::size_t report_changes(const Scene& scene, const ScriptRun& run, Diagnostics
     if (value_text(scene.value(change.node, change.slot)) == change.before) continue;
     auto& list = fields[change.node.value];
     if (list.empty()) order.push_back(change.node);
-    list += (list.empty() ? "" : ", ") +
-            std::string(scene.type(change.node).fields[change.slot].name_in(scene.dialect()));
+    list +=
+        (list.empty() ? "" : ", ") + std::string(scene.type(change.node).fields[change.slot].name_in(scene.dialect()));
   }
   for (const NodeId n : order) {
     const std::string name(scene.name(n));

@@ -59,10 +59,14 @@ std::optional<Value> read_nodes(Scene& scene, FieldType type, std::uint16_t slot
 std::optional<Value> read_list(Scene& scene, FieldType type, std::uint16_t slot, Json v) {
   if (!v.is_array()) return std::nullopt;
   switch (info(type).element) {
-    case Element::number: return read_numbers(scene, type, slot, v);
-    case Element::text: return read_texts(scene, type, slot, v);
-    case Element::node: return read_nodes(scene, type, slot, v);
-    default: return read_integers(scene, type, slot, v);
+    case Element::number:
+      return read_numbers(scene, type, slot, v);
+    case Element::text:
+      return read_texts(scene, type, slot, v);
+    case Element::node:
+      return read_nodes(scene, type, slot, v);
+    default:
+      return read_integers(scene, type, slot, v);
   }
 }
 
@@ -110,16 +114,18 @@ std::optional<Value> read_value(Scene& scene, FieldType type, std::uint16_t slot
   if (!is_script_type(type)) return std::nullopt;
   if (about.multiple || about.arity > 1 || type == FieldType::SFImage) return read_list(scene, type, slot, v);
   switch (about.element) {
-    case Element::text: return v.is_text() ? std::optional(scene.make(type, slot, v.text())) : std::nullopt;
-    case Element::number: return v.is_number() ? std::optional(scene.make(type, slot, v.number())) : std::nullopt;
+    case Element::text:
+      return v.is_text() ? std::optional(scene.make(type, slot, v.text())) : std::nullopt;
+    case Element::number:
+      return v.is_number() ? std::optional(scene.make(type, slot, v.number())) : std::nullopt;
     case Element::node: {
       const auto node = node_of(scene, v);
       return node ? std::optional(scene.make(type, slot, *node)) : std::nullopt;
     }
-    default: break;
+    default:
+      break;
   }
-  if (type == FieldType::SFBool)
-    return scene.make(type, slot, v.is_number() ? v.number() != 0 : v.boolean());
+  if (type == FieldType::SFBool) return scene.make(type, slot, v.is_number() ? v.number() != 0 : v.boolean());
   const auto number = v.is_number() ? whole(v.number()) : std::nullopt;
   return number ? std::optional(scene.make(type, slot, *number)) : std::nullopt;
 }

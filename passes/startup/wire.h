@@ -1,4 +1,5 @@
-// Values of fields as JSON, for the process of Scripts: numbers, texts, and flat arrays of them; nodes by their numbers.
+// Values of fields as JSON, for the process of Scripts: numbers, texts, and flat arrays of them; nodes by their
+// numbers.
 #pragma once
 #include <optional>
 #include <string>

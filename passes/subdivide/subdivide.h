@@ -49,7 +49,7 @@ stays as it is; run `weld` before. Cost: linear in the faces that come out.)";
 /// - Colours, texture coordinates and places in lightmaps are interpolated along the edges and over the face that was
 ///   cut, so seams stay. Normals are dropped, as those of the coarse faces are wrong for the smooth surface, and
 ///   creaseAngle becomes pi: subdivide.dropped-normals.
-/// - The faces that a face becomes stand in its place. Borders are curves of their own: they become smooth, too, but
+/// - The faces that a face becomes are in its place. Borders are curves of their own: they become smooth, too, but
 ///   hang on only the points of the border.
 /// - A surface that is not a manifold stays as it is and is reported. Faces that only touch do not hang
 ///   together: run `weld` before.

@@ -1,4 +1,4 @@
-// Pass `switch`: its documentation stands in its options.
+// Pass `switch`: its documentation is in its options.
 #pragma once
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-// Pass `triangulate`: its documentation stands in its options.
+// Pass `triangulate`: its documentation is in its options.
 #pragma once
 #include "passes/pipeline/pass.h"
 

@@ -1,5 +1,5 @@
 // A point joins the first one within the tolerance, which must not itself have joined another: otherwise a chain of
-// points would drift together from end to end. Those that stand for others lie in a grid whose cells are four
+// points would drift together from end to end. Those that replace others lie in a grid whose cells are four
 // tolerances wide, so that a cell holds few of them and the ball around a point meets three cells on average. Equal
 // points, which are most of a soup, are found before that by their hash.
 #include "passes/weld/points.h"

@@ -1,4 +1,4 @@
-// Pass `weld`: its documentation stands in its options.
+// Pass `weld`: its documentation is in its options.
 #pragma once
 #include <string>
 #include <string_view>

@@ -28,7 +28,7 @@ void Winding::unify(const Surface& s, const std::vector<SurfaceEdge>& edges, boo
     if (links_[f] >> 1 == f) decide(parts_[f], s.mesh.ccw, outward);
   opposite_.assign(s.mesh.normal.present() ? s.mesh.normal.count() : 0, no_normal);
   for (std::uint32_t f = 0; f < s.n_faces(); ++f) {
-    Place p = find(f);
+    Member p = find(f);
     if (parts_[p.root].flip[p.against]) flip(s, f);
   }
 }
@@ -39,7 +39,7 @@ void Winding::unite(const Surface& s, const std::vector<SurfaceEdge>& edges) {
   conflicts_.clear();
   for (const SurfaceEdge& e : edges) {
     if (!e.manifold()) continue;
-    Place a = find(s.face_of[e.first]), b = find(s.face_of[e.second]);
+    Member a = find(s.face_of[e.first]), b = find(s.face_of[e.second]);
     std::uint32_t differ = a.against ^ b.against ^ (against(s, e) ? 1 : 0);
     if (a.root == b.root && differ)
       conflicts_.push_back(a.root);
@@ -48,7 +48,7 @@ void Winding::unite(const Surface& s, const std::vector<SurfaceEdge>& edges) {
   }
 }
 
-Winding::Place Winding::find(std::uint32_t f) {
+Winding::Member Winding::find(std::uint32_t f) {
   for (std::uint32_t way = 0;;) {
     std::uint32_t link = links_[f], before = link >> 1;
     if (before == f) return {f, way};
@@ -61,7 +61,7 @@ Winding::Place Winding::find(std::uint32_t f) {
 void Winding::sum_up(const Surface& s, const std::vector<SurfaceEdge>& edges) {
   parts_.assign(s.n_faces(), Part{});
   for (std::uint32_t f = 0; f < s.n_faces(); ++f) {
-    Place p = find(f);
+    Member p = find(f);
     Part& part = parts_[p.root];
     ++part.n_faces[p.against];
     part.n_corners += static_cast<std::uint32_t>(s.face(f).size());

@@ -28,14 +28,14 @@ class Winding {
     double volume;  // as if all were wound like the first; six times
     bool one_sided, flip[2];
   };
-  struct Place {
+  struct Member {
     std::uint32_t root, against;
   };
 
   void unite(const Surface&, const std::vector<SurfaceEdge>&);
   void sum_up(const Surface&, const std::vector<SurfaceEdge>&);
   void decide(Part&, bool ccw, bool outward);
-  Place find(std::uint32_t face);
+  Member find(std::uint32_t face);
   void flip(const Surface&, std::uint32_t face);
   void flip_normals(const Surface&, std::uint32_t face);
 

@@ -1,4 +1,4 @@
-// Where in the world the Shapes of a scene stand. A Shape stands in as many places as it is used.
+// Where the Shapes of a scene are. A Shape has as many places as it has uses.
 #pragma once
 #include <functional>
 

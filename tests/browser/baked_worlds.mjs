@@ -1,7 +1,7 @@
 // Bakes every world of a folder of the found corpus at draft quality, and judges the results: the Khronos validator must find
 // no error and no warning in the glTF, and the figures of the pass must say that no lamp and no surface shines through closed walls, that
 // no dark specks are amid the light, and that smooth surfaces show no jumps where they were cut. Texels that no light reaches at all
-// (black) are shown and not judged: the under side of what stands on a floor is dark, and so is the back of a world with one lamp.
+// (black) are shown and not judged: the under side of what is on a floor is dark, and so is the back of a world with one lamp.
 //   node baked_worlds.mjs WRLKIT FOLDER [PART-OF-A-NAME] [SECONDS-A-WORLD]
 // A PART is plant/ or worlds/; without one both are baked, and corpus/plant and corpus/paper. For people: it takes long.
 import fs from 'node:fs';

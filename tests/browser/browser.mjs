@@ -7,8 +7,9 @@ import os from 'node:os';
 import path from 'node:path';
 
 const here = path.dirname(new URL(import.meta.url).pathname);
-export const chromium = process.env.WRLKIT_CHROMIUM ?? '/usr/bin/chromium';
-export const has_chromium = fs.existsSync(chromium);
+/// The shell without windows opens a page for half the CPU time of the whole browser.
+export const chromium = process.env.WRLKIT_CHROMIUM ?? ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium'].find(fs.existsSync) ?? '';
+export const has_chromium = chromium !== '' && fs.existsSync(chromium);
 
 const types = {'.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.png': 'image/png', '.glb': 'model/gltf-binary', '.wasm': 'application/wasm', '.json': 'application/json'};
 

@@ -130,7 +130,7 @@ class WorldTrial {
  public:
   explicit WorldTrial(const std::string& path) : path_(path) {}
 
-  /// False when there is no world.
+  /// False when there is no scene.
   bool run() {
     Diagnostics diag;
     const auto read = read_world(path_, {}, diag);

@@ -389,7 +389,7 @@ bool more_is_lost(const std::string& before, const std::string& after) {
   return more;
 }
 
-/// Where a table stands in docs/conformance.md; nothing: it has no place there.
+/// Where a table is in docs/conformance.md; nothing: it has no place there.
 std::optional<std::pair<std::size_t, std::size_t>> place_of(const std::string& text, const std::string& mark) {
   const std::string begin = "<!-- made by tests/roundtrip/" + mark + " -->\n", end = "<!-- end -->";
   const auto from = text.find(begin), to = text.find(end, from);

@@ -290,7 +290,7 @@ CASES = [
                ' height [ 0 1 2 3 ] } }'), 'short-height|degenerate-geometry', verbs=('info', 'convert')),
     Case('unclosed_string', world('unclosed_string', 'WorldInfo { title "', ('x', 20_000_000)), 'unclosed-string', rest=False),
     Case('brackets', world('brackets', ('[', 5_000_000)), 'stray-token|unclosed|syntax', rest=False),
-    Case('defs', world('defs', ('DEF a ', 5_000_000)), 'def-without-node|syntax|too-deep', rest=False),
+    Case('defs', world('defs', ('DEF a ', 1_000_000)), 'def-without-node|syntax|too-deep', rest=False),
     Case('nested_protos', world('nested_protos', ('PROTO P [] { ', 1_000_000), 'Group {}', ('}', 1_000_000)), 'too-deep'),
     Case('large_polygon', world('large_polygon', large_polygon())),
     Case('long_text', world('long_text', 'Shape { geometry Text { string "', ('xyz ', 500_000), '" } }')),

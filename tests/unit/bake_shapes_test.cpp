@@ -106,7 +106,7 @@ TEST_CASE(
 
 TEST_CASE("bake: a shade that lets out more light at a further level does not change the light of the world",
           "[bake]") {
-  // The lamp stands in a closed box, and just below the plate that is its second level.
+  // The lamp is in a closed box, and just below the plate that is its second level.
   const std::string box = "Shape { " + material(0.5) + " geometry Box { size 0.4 0.4 0.4 } } ",
                     plate = "DEF Plate Shape { " + material(0.5) + " geometry Box { size 0.4 0.01 0.4 } } ";
   Baked b("LOD { range 10 level [ " + floor_named("Near") + floor_named("Far") +

@@ -67,7 +67,7 @@ TEST_CASE("A Transform says every matrix", "[gltf-reader]") {
   std::mt19937 random(5);
   for (int rank : {3, 3, 3, 2, 1, 0})
     for (int i = 0; i < 50; ++i) {
-      const Matrix m = random_matrix(random, rank), again = place_of(m).matrix();
+      const Matrix m = random_matrix(random, rank), again = matrix_of(place_of(m));
       for (std::size_t k = 0; k < 12; ++k) CHECK(again.m[k] == Approx(m.m[k]).margin(1e-7));
       if (rank < 3) continue;
       const Matrix one = inverse(m) * m;

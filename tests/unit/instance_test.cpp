@@ -6,8 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/math/random.h"
 #include "geometry/geometry.h"
-#include "light/random.h"
 #include "passes/instance/match.h"
 
 using namespace wrlkit;
@@ -48,7 +48,7 @@ Mesh prism(std::uint32_t sides, double radius, double height) {
 /// Somewhere else, as another program writes it: every face with points of its own, in another order, from another
 /// corner.
 Mesh scattered(const Mesh& m, const Matrix& where, std::uint64_t seed, double rounding) {
-  light::Stream random(seed);
+  RandomStream random(seed);
   std::vector<std::size_t> order(m.n_faces());
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.bits() % i]);
@@ -70,7 +70,7 @@ Mesh scattered(const Mesh& m, const Matrix& where, std::uint64_t seed, double ro
 }
 
 Matrix somewhere(std::uint64_t seed, double scale) {
-  light::Stream r(seed);
+  RandomStream r(seed);
   return translation_matrix({9 * r.next(), -7 * r.next(), 3 * r.next()}) *
          rotation_matrix({r.next() - 0.5, r.next() - 0.5, r.next() - 0.5, 6 * r.next()}) *
          scale_matrix({scale, scale, scale});

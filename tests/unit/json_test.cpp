@@ -42,3 +42,17 @@ TEST_CASE("json of structs that describe themselves") {
       R"({"name":"a\"b","state":"bad","seconds":0.5,"points":[{"x":1},{"x":2}],"counts":{"k":1,"l":2},"more":[null]})");
   CHECK(json_of(std::vector<std::string>{"a", "b"}) == R"(["a","b"])");
 }
+
+TEST_CASE("json of members in turn") {
+  CHECK(json_of(json_object("a", 1, "none", std::optional<int>(), "b", json_object("c", "d"))) ==
+        R"({"a":1,"b":{"c":"d"}})");
+  const std::vector<int> numbers{1, 2};
+  CHECK(json_text([&](JsonOut& json) {
+          json.object([&] {
+            json.members("x", 1, "y", true);
+            json.list("all", numbers, [&](int n) { json.object("n", n); });
+            json.object("inner", [&] { json.member("raw", JsonText{"[null]"}); });
+            json.list("none", std::vector<int>(), [&](int n) { json.value(n); });
+          });
+        }) == R"({"x":1,"y":true,"all":[{"n":1},{"n":2}],"inner":{"raw":[null]},"none":[]})");
+}

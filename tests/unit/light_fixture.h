@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/math/random.h"
 #include "light/integrator.h"
-#include "light/random.h"
 #include "parsers/parsers.h"
 #include "passes/pipeline/pipeline.h"
 

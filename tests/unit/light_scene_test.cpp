@@ -52,7 +52,7 @@ TEST_CASE("light: a DirectionalLight lights what is below its parent") {
 
 TEST_CASE("light: many lamps, of which few get a ray") {
   std::string lamps;
-  Stream random(3);
+  RandomStream random(3);
   for (int i = 0; i < 300; ++i)
     lamps += fmt::format("PointLight {{ location {} {} {} attenuation 0 0 1 intensity {} radius 1000 }} ",
                          20 * random.next() - 10, 20 * random.next() - 10, 1 + 5 * random.next(), random.next());

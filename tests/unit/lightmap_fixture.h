@@ -64,7 +64,7 @@ inline const std::string square =
     " lightCoord TextureCoordinate { point [ 0.25 0.25, 0.75 0.25, 0.75 0.75, 0.25 0.75 ] } }";
 inline const std::string half_lit =
     "PixelTexture { image 4 4 1 128 128 128 128 128 128 128 128 128 128 128 128 128 128 128 128 }";
-inline const std::string light = " lightmap DEF Light " + half_lit;
+inline const std::string with_light = " lightmap DEF Light " + half_lit;
 
 inline std::string shape(const std::string& appearance, const std::string& geometry = square) {
   return "Shape { appearance Appearance { " + appearance + " } geometry " + geometry + " } ";

@@ -56,7 +56,7 @@ TEST_CASE("lightmap: levels of detail keep the light, and join does not mix what
     }
   const std::string set =
       "IndexedFaceSet { coord Coordinate { point [ " + points + " ] } coordIndex [ " + index + " ] ";
-  Lit w(shape(light, set + "lightCoord TextureCoordinate { point [ " + places + " ] } }"));
+  Lit w(shape(with_light, set + "lightCoord TextureCoordinate { point [ " + places + " ] } }"));
   w.run("lod{ratios=0.1,min-faces=10}");
   auto levels = w.of(nodes::IndexedFaceSet);
   REQUIRE(levels.size() > 1);
@@ -176,7 +176,7 @@ TEST_CASE("page: texels belong to the triangle they lie in, then to the nearest"
 }
 
 TEST_CASE("combine-lightmap: the texture is colour times light, and nothing is lit again", "[lightmap]") {
-  Lit w(shape("material DEF Red Material { diffuseColor 1 0.5 0 }" + light));
+  Lit w(shape("material DEF Red Material { diffuseColor 1 0.5 0 }" + with_light));
   w.run("combine-lightmap");
   NodeId a = w.of(nodes::Appearance)[0], g = w.of(nodes::IndexedFaceSet)[0];
   CHECK_FALSE(w.scene().get(a, nodes::appearance::material));
@@ -220,17 +220,18 @@ TEST_CASE("combine-lightmap: emission, scale, vertex colours, and a grey texture
     w.run("combine-lightmap{scale=1}");
     return pixel(*w.picture(w.of(nodes::ImageTexture)[0]), 1, 1);
   };
-  CHECK(first("material Material { diffuseColor 0 0 0 emissiveColor 0 0 0.8 }" + light) == Rgb{0, 0, 204});
-  CHECK(first("material Material { diffuseColor 1 1 1 } lightmapScale 2" + light)[0] == shown(2 * grey));
-  CHECK(first("material Material { }" + light,
+  CHECK(first("material Material { diffuseColor 0 0 0 emissiveColor 0 0 0.8 }" + with_light) == Rgb{0, 0, 204});
+  CHECK(first("material Material { diffuseColor 1 1 1 } lightmapScale 2" + with_light)[0] == shown(2 * grey));
+  CHECK(first("material Material { }" + with_light,
               square.substr(0, square.size() - 1) + "color Color { color 0 1 0 } colorPerVertex FALSE }") ==
         Rgb{0, shown(grey), 0});
-  CHECK(first("material Material { diffuseColor 1 0 0 } texture PixelTexture { image 1 1 1 0x80 }" + light) ==
+  CHECK(first("material Material { diffuseColor 1 0 0 } texture PixelTexture { image 1 1 1 0x80 }" + with_light) ==
         Rgb{shown(grey * grey), 0, 0});
 }
 
 TEST_CASE("combine-lightmap: transparent Shapes have a picture of their own, with alpha", "[lightmap]") {
-  Lit w(shape("material Material { transparency 0.25 }" + light) + shape("material Material { } lightmap USE Light") +
+  Lit w(shape("material Material { transparency 0.25 }" + with_light) +
+        shape("material Material { } lightmap USE Light") +
         shape("material Material { diffuseColor 1 0 0 } lightmap USE Light"));
   w.run("combine-lightmap");
   CHECK(w.stats["combine-lightmap.pages"] == 2);
@@ -246,7 +247,7 @@ TEST_CASE("combine-lightmap: transparent Shapes have a picture of their own, wit
 TEST_CASE("combine-lightmap: opacity of colours is alpha of the picture", "[lightmap]") {
   const std::string colored =
       square.substr(0, square.size() - 1) + "color ColorRGBA { color [ 1 0 0 0.2 ] } colorPerVertex FALSE }";
-  Lit w(shape("material Material { }" + light, colored), "#X3D V3.3 utf8\nPROFILE Immersive\n");
+  Lit w(shape("material Material { }" + with_light, colored), "#X3D V3.3 utf8\nPROFILE Immersive\n");
   w.run("combine-lightmap");
   const auto picture = w.picture(w.of(nodes::ImageTexture)[0]);
   REQUIRE(picture->channels == 4);
@@ -256,7 +257,7 @@ TEST_CASE("combine-lightmap: opacity of colours is alpha of the picture", "[ligh
 TEST_CASE("combine-lightmap: shared geometry keeps its places for each Shape, and for those without light",
           "[lightmap]") {
   const std::string quarter = " lightmapTransform TextureTransform { scale 0.5 0.5 }";
-  Lit w(shape("material DEF M Material { }" + light + quarter, "DEF Square " + square) +
+  Lit w(shape("material DEF M Material { }" + with_light + quarter, "DEF Square " + square) +
         shape("material USE M lightmap USE Light", "USE Square") + shape("material USE M", "USE Square"));
   w.run("combine-lightmap");
   auto shapes = w.of(nodes::Shape);
@@ -275,18 +276,18 @@ TEST_CASE("combine-lightmap: a detailed texture makes a larger picture, within t
   const std::string fine =
       "texture PixelTexture { image 2 2 3 0xff0000 0x00ff00 0x0000ff 0xffffff } textureTransform TextureTransform { "
       "scale 8 8 }";
-  Lit w(shape("material Material { } " + fine + light));
+  Lit w(shape("material Material { } " + fine + with_light));
   w.run("combine-lightmap");
   CHECK(w.picture(w.of(nodes::ImageTexture)[0])->width == 32);  // 16 pixels over two texels: eight times
   CHECK(w.diag.messages().empty());
-  Lit small(shape("material Material { } " + fine + light));
+  Lit small(shape("material Material { } " + fine + with_light));
   small.run("combine-lightmap{max-size=8}");
   CHECK(small.picture(small.of(nodes::ImageTexture)[0])->width == 4);  // twice; what nothing lies on is left out
   CHECK(small.diag.count(Diag::texture_coarser) == 1);
 }
 
 TEST_CASE("combine-lightmap: into the lightmap, all else stays", "[lightmap]") {
-  Lit w(shape("material Material { diffuseColor 0 1 0 } lightmapScale 2" + light));
+  Lit w(shape("material Material { diffuseColor 0 1 0 } lightmapScale 2" + with_light));
   w.run("combine-lightmap{into=lightmap}");
   NodeId a = w.of(nodes::Appearance)[0];
   CHECK(w.scene().get(a, nodes::appearance::material));
@@ -377,11 +378,11 @@ TEST_CASE("render: baked light is shown, and not lit again", "[lightmap]") {
   };
   using Mode = RenderOptions::Mode;
   const double grey = srgb_to_linear(128 / 255.0);
-  const std::string orange = shape("material Material { diffuseColor 1 0.5 0 specularColor 1 1 1 }" + light);
+  const std::string orange = shape("material Material { diffuseColor 1 0.5 0 specularColor 1 1 1 }" + with_light);
   CHECK(middle(orange, Mode::preview) == Rgb{shown(grey), shown(srgb_to_linear(0.5) * grey), 0});
   CHECK(middle(orange, Mode::lightmap) == Rgb{128, 128, 128});
   CHECK(middle(orange, Mode::albedo) == Rgb{255, 128, 0});
-  const auto checker = middle(shape(light, square), Mode::checker);
+  const auto checker = middle(shape(with_light, square), Mode::checker);
   CHECK(checker[0] == checker[2]);
   CHECK(middle(orange, Mode::density)[2] > middle(orange, Mode::density)[0]);  // one texel a metre: blue
   CHECK(middle(shape("material Material { }"), Mode::lightmap) == Rgb{140, 140, 140});

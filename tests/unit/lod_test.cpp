@@ -246,7 +246,7 @@ TEST_CASE("lod: parts that share a border meet at all levels", "[lod]") {
 
 TEST_CASE("shared borders: places of one geometry, and what is no border", "[lod]") {
   // Turned by half around the middle of its border x = 1, a plate would meet itself there, but its waves of v and 1 - v
-  // differ. A flat sheet does so with two corners. The boxes stand in one place, but they are closed.
+  // differ. A flat sheet does so with two corners. The boxes are in one place, but they are closed.
   const std::string box = "Transform { translation 0 0 7 children Shape { geometry Box { size 2 2 2 } } }";
   const std::string turned =
       "Transform { translation 2 1 0 rotation 0 0 1 3.141592653589793 children Shape { geometry ";

@@ -236,6 +236,34 @@ TEST_CASE("Standard output gets everything at commit, or nothing", "[output]") {
   CHECK(folder.read("out") == "a" + big);
 }
 
+TEST_CASE("A head is written over when the sizes in it are known", "[output]") {
+  TempFolder folder;
+  Diagnostics diag;
+  const auto write = [&](const std::string& path, const std::string& body) {
+    auto out = OutputFile::open(path, {}, diag);
+    REQUIRE(out);
+    CHECK(out->can_rewrite());
+    out->write("head");
+    out->write(body);
+    out->rewrite(0, "HEAD");
+    out->write(" and more");
+    CHECK(out->commit(diag));
+  };
+  const std::string big(3'000'000, 'b');
+  for (const auto& body : {std::string("small"), big}) {
+    write(folder / "a.glb", body);
+    CHECK(folder.read("a.glb") == "HEAD" + body + " and more");
+  }
+  {
+    Captured captured(folder / "out");
+    write("-", big);
+  }
+  CHECK(folder.read("out") == "HEAD" + big + " and more");
+  CHECK_FALSE(OutputFile::open(folder / "a.wrz", {.gzip = true}, diag)->can_rewrite());
+  CHECK_FALSE(OutputFile::open("/dev/null", {}, diag)->can_rewrite());
+  CHECK(diag.messages().empty());
+}
+
 TEST_CASE("gzip: the same bytes each time, without a date, and they unpack to what was written", "[output]") {
   TempFolder folder;
   Diagnostics diag;

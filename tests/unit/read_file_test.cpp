@@ -207,6 +207,12 @@ TEST_CASE("gzip by magic bytes", "[read_file]") {
     CHECK((file->view() == text + "and more"));
     CHECK(diag.messages().empty());
   }
+}
+
+TEST_CASE("damaged gzip", "[read_file]") {
+  TempFolder folder;
+  Diagnostics diag;
+  const auto text = numbers(), packed = gzip(text);
   SECTION("cut off") {
     auto file = read_file(folder.write("a.wrl", packed.substr(0, packed.size() / 2)), {}, diag);
     REQUIRE(file);

@@ -9,7 +9,7 @@ using namespace wrlkit;
 
 namespace {
 
-/// A page of so many texels along each side: grey that grows to the right, 100 in the lower half.
+/// A page of this many texels along each side: grey that grows to the right, 100 in the lower half.
 std::string page(int side) {
   std::string out =
       " lightmap DEF Page PixelTexture { image " + std::to_string(side) + " " + std::to_string(side) + " 1";

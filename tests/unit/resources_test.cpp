@@ -126,28 +126,11 @@ TEST_CASE("Nothing outside of the allowed folders is read", "[resources]") {
     CHECK(w.message() ==
           "url-outside: '../other/secret.png' lies outside the folders that may be read; see --allow-path");
   }
-  SECTION("to the system") {
-    CHECK(w.text({"../../../../../../../../../../etc/passwd"}) == "none");
-    CHECK_THAT(w.message(), Catch::StartsWith("url-outside"));
-  }
-  SECTION("by an absolute path") {
-    CHECK(w.text({"/etc/passwd"}) == "none");
-    CHECK_THAT(w.message(), Catch::StartsWith("url-outside"));
-  }
-  SECTION("by a file url") {
-    CHECK(w.text({"file:///etc/passwd"}) == "none");
-    CHECK_THAT(w.message(), Catch::StartsWith("url-outside"));
-  }
-  SECTION("with encoded dots") {
-    CHECK(w.text({"%2e%2e/other/secret.png"}) == "none");
-    CHECK_THAT(w.message(), Catch::StartsWith("url-outside"));
-  }
-  SECTION("with backslashes") {
-    CHECK(w.text({"..\\other\\secret.png"}) == "none");
-    CHECK_THAT(w.message(), Catch::StartsWith("url-outside"));
-  }
-  SECTION("in a folder whose name begins like the allowed one") {
-    CHECK(w.text({"../world2/secret.png"}) == "none");
+  SECTION("in other ways") {
+    const auto url = GENERATE("../../../../../../../../../../etc/passwd", "/etc/passwd", "file:///etc/passwd",
+                              "%2e%2e/other/secret.png", "..\\other\\secret.png",
+                              "../world2/secret.png");  // a folder whose name begins like the allowed one
+    CHECK(w.text({url}) == "none");
     CHECK_THAT(w.message(), Catch::StartsWith("url-outside"));
   }
   SECTION("through a link to a file") {

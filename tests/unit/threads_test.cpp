@@ -1,11 +1,14 @@
 // What is read on several threads is what one thread reads, messages included.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
 #include "base/parallel.h"
+#include "convert/meshes_ahead.h"
 #include "convert/wrlkit.h"
 #include "parsers/vrml/parser.h"
+#include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "writers/vrml/vrml.h"
 
@@ -98,6 +101,56 @@ TEST_CASE("Threads: plain lists of numbers are read", "[threads]") {
     INFO(middle.substr(0, 200));
     CHECK(is_plain(middle));
     check_world(middle);
+  }
+}
+
+TEST_CASE("Threads: lists that are repeated share an array", "[threads]") {
+  const auto list = points(40, 1), blanks = std::string(100, ' ');
+  const auto cut = list.substr(0, list.size() - 6);  // one number less
+  const std::string text = "#VRML V2.0 utf8\n" + world("").substr(16) + "DEF A Coordinate { point [ " + list +
+                           " ] }\n" + "DEF B Normal { vector [ " + list + " ] }\n" +
+                           "DEF C OrientationInterpolator { key [ " + list + " ] keyValue [ " + list + " ] }\n" +
+                           "DEF D Coordinate { point [ " + cut + " ] }\n" + "DEF E Coordinate { point [ " + blanks +
+                           " ] }\nDEF F Coordinate { point [ " + blanks + " ] }\n" +
+                           "DEF G IndexedFaceSet { coordIndex [ " + blanks + " ] }\n";
+  const auto named = [](const Scene& scene, std::string_view name) {
+    for (const NodeId n : scene.main.roots)
+      if (scene.name(n) == name) return scene.fields(n)[0];
+    FAIL(name);
+    return Value();
+  };
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    Scene scene;
+    Diagnostics diag;
+    vrml::parse(text, 0, {}, scene, diag);
+    INFO(threads);
+    const auto a = named(scene, "A"), b = named(scene, "B"), c = named(scene, "C"), d = named(scene, "D");
+    CHECK(a.count == 40);
+    CHECK(b.type == FieldType::MFVec3f);
+    CHECK(b.numbers == a.numbers);
+    CHECK(c.type == FieldType::MFFloat);
+    CHECK(c.count == 120);
+    CHECK(c.numbers == a.numbers);
+    CHECK(d.count == 39);
+    CHECK(named(scene, "E").count == 0);
+    CHECK(named(scene, "F").count == 0);
+    CHECK(named(scene, "G").count == 0);
+  }
+}
+
+TEST_CASE("Lists that need repair are reported each time", "[threads]") {
+  const auto twice = [](const std::string& list) {
+    const auto node = "Coordinate { point [ " + list + " ] }\n";
+    return "#VRML V2.0 utf8\n" + node + node;
+  };
+  for (const auto& bad : {"1.2.3 0 0", "1 2", "one 2 3", "# ] \n1 2 3", "[ 1 2 3 ]"}) {
+    INFO(bad);
+    const auto list = points(60, 1) + bad;
+    const auto once = read("#VRML V2.0 utf8\nCoordinate { point [ " + list + " ] }\n", 1);
+    const auto again = read(twice(list), 1);
+    const auto lines = [](const Read& r) { return std::ranges::count(r.messages, '\n'); };
+    CHECK(lines(again) == 2 * lines(once));
   }
 }
 
@@ -245,6 +298,27 @@ TEST_CASE("Threads: meshes that are made ahead are those of one thread, and so i
     CHECK(alone.messages.find("point at nothing") != alone.messages.npos);
     CHECK(convert(text, pipeline, 2) == alone);
     CHECK(convert(text, pipeline, 8) == alone);
+  }
+}
+
+TEST_CASE("Threads: meshes that nobody asks for are given up", "[threads]") {
+  const ThreadLimit limit(4);
+  Scene scene;
+  Diagnostics diag;
+  vrml::parse(many_meshes(), 0, {}, scene, diag);
+  std::vector<NodeId> geometries;
+  for (std::uint32_t n = 0; n < scene.node_count(); ++n)
+    if (scene.is(NodeId{n}, nodes::IndexedFaceSet)) geometries.push_back(NodeId{n});
+  const std::vector<char> textured(scene.node_count());
+  const MeshMakers makers = [&](Task&) { return [&](NodeId n, Mesh& out) { out.corners.assign(100'000, n.value); }; };
+  for (const std::size_t asked : {std::size_t{0}, std::size_t{1}, geometries.size() / 2, geometries.size() - 1}) {
+    MeshesAhead ahead(scene, makers);
+    ahead.begin(geometries, textured);
+    for (const std::size_t i : {std::size_t{0}, asked}) {
+      const auto* known = ahead.find(geometries[i]);
+      REQUIRE(known);
+      CHECK((known->same ? known->same : NodeId{known->mesh.corners.at(0)}).value <= geometries[i].value);
+    }
   }
 }
 

@@ -172,7 +172,7 @@ TEST_CASE("tiles: pieces in one place are cut, too", "[tiles]") {
 TEST_CASE("tiles: the error of a coarse surface is that of the farthest point, either way", "[tiles]") {
   const std::vector<tiles::Piece> all{piece("a", square(0, 0, 1)), piece("b", square(3, 0, 1))};
   const auto full = [&](std::size_t i) {
-    return tiles::FullTile{tiles::bounds_of(all[i].mesh), [&all, i] { return std::vector{all[i]}; }};
+    return tiles::FullTile{box_of_corners(all[i].mesh), [&all, i] { return std::vector{all[i]}; }};
   };
   const std::vector<tiles::FullTile> both{full(0), full(1)};
   SECTION("nothing is missing") { CHECK(tiles::surface_error(all, both) == Approx(0).margin(1e-5)); }
@@ -187,7 +187,7 @@ TEST_CASE("tiles: the error of a coarse surface is that of the farthest point, e
   }
   SECTION("large triangles are near to many small ones") {
     const auto plate = piece("plate", square(0, 0, 10));
-    const tiles::FullTile whole{tiles::bounds_of(plate.mesh), [&] { return std::vector{plate}; }};
+    const tiles::FullTile whole{box_of_corners(plate.mesh), [&] { return std::vector{plate}; }};
     std::vector<tiles::Piece> small;
     for (int i = 0; i < 100; ++i) {
       auto& points = small.emplace_back(piece("small", square(i % 10, 0.2, 1))).mesh.positions.edit();

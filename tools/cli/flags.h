@@ -58,12 +58,14 @@ struct Flags {
   int bundle = 1;
   bool retry = false;
   std::vector<std::string> outputs;  // report
-  std::string compare;               // and of render: a world
+  std::string compare;               // and of render: a scene
   int looks = 2000;
 
   // render
   int width = 1280, height = 960, samples = 4;
   RenderOptions::Mode mode = RenderOptions::Mode::preview;
+  LampFall lamps = LampFall::as_written;
+  std::string exposure = "1";  // auto or a factor
   std::string viewpoint, level = "0";
   std::vector<double> look_at;  // eye, target, up
   bool fit = false;
@@ -99,7 +101,7 @@ struct Flags {
   std::vector<double> at;  // latitude, longitude, height, heading
 
   bool serve = false;  // view
-  int limit = 500;     // worlds in a gallery
+  int limit = 500;     // scenes in a gallery
 
   std::vector<std::string> criteria;  // compare-lod, view
   bool bare = false;

@@ -62,6 +62,15 @@ struct AddOption {
         ->type_name(std::string(note.type))
         ->check(fault, "", "");
   }
+  void operator()(std::string_view name, LightmapSize& field, std::string_view help, OptionNote note) const {
+    const auto read = [&field](const std::string& text) { field.read(text); };
+    const auto fault = [](const std::string& text) {
+      return LightmapSize().read(text) ? "" : "'" + text + "' is neither a size nor texels: 300k, 2MB, 512x512";
+    };
+    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
+        ->type_name(std::string(note.type))
+        ->check(fault, "", "");
+  }
   template <Choice E>
   void operator()(std::string_view name, E& field, std::string_view help) const {
     const auto read = [&field](const std::string& text) { read_choice(text, field); };
@@ -179,7 +188,10 @@ void pipeline(CLI::App& verb, Flags& f) {
   verb.add_flag("--stats", f.stats, "print what the passes counted");
 }
 
-void light(CLI::App& verb, Flags& f) { f.save.light_fields(AddOption{verb}); }
+void light(CLI::App& verb, Flags& f) {
+  f.save.light_fields(AddOption{verb});
+  f.save.baked_fields(AddOption{verb});
+}
 
 void vrml_output(CLI::App& verb, Flags& f) { f.save.text_fields(AddOption{verb}); }
 
@@ -225,6 +237,16 @@ void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")
       ->check(CLI::Range(0.0, 179.0));
   AddOption{verb}("mode", f.mode, "how it is drawn");
+  AddOption{verb}("lamps", f.lamps, "of --mode path: how the light of PointLights and SpotLights falls with distance");
+  verb.add_option("--exposure", f.exposure,
+                  "of --mode path: factor on its light; auto: what brings it to middle grey, which is reported")
+      ->check(
+          [](const std::string& text) {
+            return Exposure().read(text) ? "" : "'" + text + "' is neither auto nor a factor above 0";
+          },
+          "", "")
+      ->type_name("auto|FACTOR")
+      ->capture_default_str();
 }
 
 void format(CLI::App& verb, Flags& f, const std::string& help) {

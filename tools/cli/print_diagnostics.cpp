@@ -85,24 +85,16 @@ std::string counted(std::size_t n, std::string_view what) { return fmt::format("
 std::string messages_json(const Diagnostics& diag) {
   std::string out;
   JsonOut json(out);
-  json.begin_array();
   std::set<Diag> counted;
-  for (const auto& m : diag.messages()) {
-    Place p = diag.sources().locate(m.where);
-    json.begin_object();
-    json.member("severity", to_string(m.severity));
-    json.member("name", info(m.id).name);
-    json.member("text", m.text());
-    json.member("file", p.file);
-    if (p.line && m.where.length) {
-      json.member("line", p.line);
-      json.member("column", p.column);
-    }
-    // How often this message came in all, printed once.
-    if (counted.insert(m.id).second) json.member("count", diag.count(m.id));
-    json.end_object();
-  }
-  json.end_array();
+  json.list(diag.messages(), [&](const auto& m) {
+    const Place p = diag.sources().locate(m.where);
+    json.object([&] {
+      json.members("severity", to_string(m.severity), "name", info(m.id).name, "text", m.text(), "file", p.file);
+      if (p.line && m.where.length) json.members("line", p.line, "column", p.column);
+      // How often this message came in all, printed once.
+      if (counted.insert(m.id).second) json.member("count", diag.count(m.id));
+    });
+  });
   return out;
 }
 

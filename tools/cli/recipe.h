@@ -1,7 +1,7 @@
-// Recipes: what -p and the options of convert and corpus run say, as a TOML file that can be kept next to the worlds.
+// Recipes: what -p and the options of convert and corpus run say, as a TOML file that can be kept next to the scenes.
 //
 //   summary = "plant for the web"
-//   [input]                  # what the worlds are: unit = "mm", up = "z", include = ["*.wrl"]
+//   [input]                  # what the scenes are: unit = "mm", up = "z", include = ["*.wrl"]
 //   [output]                 # what is made of them: every other option of convert
 //   [limits]                 # timeout = "2m", memory = "4G"
 //   [messages]               # error = ["url-not-found"], ignore = ["unknown-field"], strict = true
@@ -34,7 +34,7 @@ struct Recipe {
   std::vector<std::string> warnings;    // as behind -W: "error=unknown-field"
 };
 
-/// Which section of a recipe an option of the command line stands in; empty: in none, for it does not belong to a
+/// Which section of a recipe has an option of the command line; empty: in none, for it does not belong to a
 /// recipe.
 std::string_view recipe_section(std::string_view option);
 

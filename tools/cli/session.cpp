@@ -106,21 +106,14 @@ int Session::end(bool made, int not_made) {
 bool Session::write_report(int code) {
   std::string out;
   JsonOut json(out);
-  json.begin_object();
-  json.member("inputs", std::span<const std::string>(flags_.inputs));
-  json.member("output", flags_.output);
-  json.member("exit_code", code);
-  for (auto& [name, fact] : facts_) {
-    json.key(name);
-    json.raw(fact);
-  }
-  json.key("statistics");
-  json.begin_object();
-  for (auto& [name, n] : context().stats) json.member(name, n);
-  json.end_object();
-  json.key("messages");
-  json.raw(messages_json(diag()));
-  json.end_object();
+  json.object([&] {
+    json.members("inputs", std::span<const std::string>(flags_.inputs), "output", flags_.output, "exit_code", code);
+    for (auto& [name, fact] : facts_) {
+      json.member(name, JsonText{fact});
+    }
+    json.member("statistics", context().stats);
+    json.member("messages", JsonText{messages_json(diag())});
+  });
   out += '\n';
   return write_text_file(flags_.report, out);
 }

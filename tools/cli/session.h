@@ -1,4 +1,4 @@
-// One run of a verb over one world, or one after the other: messages, files it may read, progress, report and exit
+// One run of a verb over one scene, or one after the other: messages, files it may read, progress, report and exit
 // code.
 #pragma once
 #include <memory>
@@ -27,7 +27,7 @@ class Session {
   PassContext& context() { return document_.context(); }
   Progress& progress() { return progress_; }
 
-  /// Reads a world, in place of the one before; false when nothing can be had.
+  /// Reads a scene, in place of the one before; false when nothing can be read.
   bool read(const std::string& path) { return document_.read(path); }
   World& world() { return document_.world(); }
   /// -p with what it lacks of `standard`, otherwise `standard`; false when it is not a pipeline, which was printed.

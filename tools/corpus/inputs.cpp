@@ -93,7 +93,7 @@ class Gatherer {
     return true;
   }
 
-  /// A file by its name, whatever its ending. Those of lists stand in the mirrored tree where their paths say.
+  /// A file by its name, whatever its ending. Those of lists are in the mirrored tree where their paths say.
   bool named(const fs::path& path, bool from_list) {
     std::error_code none;
     auto inside = path.filename();

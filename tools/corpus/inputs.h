@@ -10,11 +10,11 @@ namespace wrlkit {
 
 struct InputFile {
   std::string path;    // to read it
-  std::string inside;  // below its root: where it stands in the mirrored tree
+  std::string inside;  // below its root: where it is in the mirrored tree
   std::uint32_t root = 0;
   std::uint64_t bytes = 0;
   bool mirrored = false;  // all that is next to it in its folder is next to its output, too
-  bool asset = false;     // no world, but what worlds refer to: a picture, a sound
+  bool asset = false;     // not a scene, but what scenes refer to: a picture, a sound
 };
 
 struct InputRules {
@@ -31,7 +31,7 @@ struct Inputs {
 };
 
 /// "plant/", "plant/**/*.wrl", "@list.txt", "-" (a list on standard input), "pump.wrl". In folders and globs only what
-/// has the ending of a world counts, and nothing that is hidden. Nothing, and why, when something named is not there.
+/// has the ending of a scene counts, and nothing that is hidden. Nothing, and why, when something named is not there.
 std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const InputRules& rules, std::string& why);
 
 struct NamedWorld {
@@ -40,18 +40,18 @@ struct NamedWorld {
 
 /// A folder, a glob that is not the name of a file, or "@list.txt".
 bool means_many(const std::string& word);
-/// Files that are named stand as they are, even those that are not there; what `means_many` as the worlds in it.
+/// Files that are named stand as they are, even those that are not there; what `means_many` as the scenes in it.
 /// Nothing, and why, when no scene file is found.
 std::optional<std::vector<NamedWorld>> named_worlds(const std::vector<std::string>& words, std::string& why);
 
-/// Files as they are, folders as the worlds in them; for verbs of few worlds. Nothing, and why, when a folder has none.
+/// Files as they are, folders as the scenes in them; for verbs of few scenes. Nothing, and why, when a folder has none.
 std::optional<std::vector<std::string>> worlds_in(const std::vector<std::string>& words, std::string& why);
 
 /// Whether a path below some folder is meant by a glob: "*" within a name, "**" across folders; without "/" it is about
 /// the last name alone.
 bool glob_matches(const std::string& glob, const std::string& path);
 
-/// "a/b.wrl.gz" without its ending, when that is one of a world: "a/b"; else nothing.
+/// "a/b.wrl.gz" without its ending, when that is one of a scene: "a/b"; else nothing.
 std::optional<std::string> without_ending(const std::string& path);
 
 }  // namespace wrlkit

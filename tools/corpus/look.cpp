@@ -31,7 +31,7 @@ std::string picture(Session& s, const std::string& path, RenderOptions& place) {
   return bytes ? base64(*bytes) : "";
 }
 
-/// Flags to read one of the two worlds with.
+/// Flags to read one of the two scenes with.
 Flags flags_to_read(const Flags& flags, const std::string& path, bool input) {
   Flags f;
   f.quiet = true;
@@ -69,13 +69,13 @@ bool make_look(const Flags& flags, const std::string& out, const JournalLine& li
   Session before(of_input), after(of_output);
   std::string text;
   JsonOut json(text);
-  json.begin_object();
-  json.member("rms", both_empty ? 0 : d.surface ? d.surface->rms : none);
-  json.member("max", both_empty ? 0 : d.surface ? d.surface->max : none);
-  json.member("of_diagonal", both_empty ? 0 : d.surface ? d.of_diagonal : none);
-  json.member("before", picture(before, line.input, place));
-  json.member("after", picture(after, output, place));
-  json.end_object();
+  json.object([&] {
+    json.member("rms", both_empty ? 0 : d.surface ? d.surface->rms : none);
+    json.member("max", both_empty ? 0 : d.surface ? d.surface->max : none);
+    json.member("of_diagonal", both_empty ? 0 : d.surface ? d.of_diagonal : none);
+    json.member("before", picture(before, line.input, place));
+    json.member("after", picture(after, output, place));
+  });
   return write_text_file(look_file(out, line), text + "\n");
 }
 

@@ -174,24 +174,14 @@ class Page {
     std::size_t n_looks = 0;
     for (const auto& r : r_.rows) {
       json.begin_array();
-      json.value(r.input);
-      json.value(static_cast<int>(r.state));
-      json.value(r.seconds);
-      json.value(r.cpu);
-      json.value(r.memory);
-      json.value(r.input_bytes);
-      json.value(r.output_bytes);
-      json.value(r.errors);
-      json.value(r.warnings);
-      json.value(r.lost);
+      json.values(r.input, static_cast<int>(r.state), r.seconds, r.cpu, r.memory, r.input_bytes, r.output_bytes,
+                  r.errors, r.warnings, r.lost);
       if (r.look) {
-        json.value(r.look->rms);
-        json.value(r.look->max);
-        json.value(n_looks++);
+        json.values(r.look->rms, r.look->max, n_looks++);
         const std::string_view pictures[] = {r.look->before, r.look->after};
         json_looks.value(std::span(pictures));
       } else {
-        for (int i = 0; i < 3; ++i) json.raw("null");
+        json.raw("null,null,null");
       }
       json.value(r.cause);
       json.end_array();

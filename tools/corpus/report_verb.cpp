@@ -1,5 +1,5 @@
-// wrlkit corpus report: the journals of a run as a page, a table or JSON. What has become of the worlds is measured and
-// drawn by workers, as in the run: a world that ends a worker has no picture, and the report has all others.
+// wrlkit corpus report: the journals of a run as a page, a table or JSON. What has become of the scenes is measured and
+// drawn by workers, as in the run: a scene that ends a worker has no picture, and the report has all others.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -151,7 +151,7 @@ class Run {
         if (auto end = workers_.wait(0.2)) {
           const auto work = release(*end);
           start_some();  // before the journal has it, so that no core waits for that
-          take(std::move(*end), work);
+          take(*end, work);
         }
       }
       status.show(at_work());
@@ -254,7 +254,7 @@ class Run {
     return work;
   }
 
-  void take(WorkerEnd end, const Granted& work) {
+  void take(const WorkerEnd& end, const Granted& work) {
     std::string_view told = end.told;
     const bool alone = work.files.size() == 1;
     for (const auto at : work.files) {
@@ -405,13 +405,8 @@ void print_plan(const Planned& p, const Flags& flags) {
                  output);
       continue;
     }
-    json.begin_object();
-    json.member("shard", job.shard + 1);
-    json.member("seconds", job.cost);
-    json.member("bytes", job.input.bytes);
-    json.member("input", job.input.path);
-    json.member("output", output);
-    json.end_object();
+    json.object("shard", job.shard + 1, "seconds", job.cost, "bytes", job.input.bytes, "input", job.input.path,
+                "output", output);
   }
   if (flags.json) {
     json.end_array();

@@ -48,7 +48,7 @@ class Namer {
   }
 
  private:
-  /// Whether some of the urls get another name; then named_ has them all. Those in a world that was put into this one
+  /// Whether some of the urls get another name; then named_ has them all. Those in a scene that was put into this one
   /// are led elsewhere.
   bool names(std::span<const std::string_view> urls, Span where) {
     if (const auto referrer = scene_.sources->file(where.begin); !referrer.empty() && referrer != main_) return false;

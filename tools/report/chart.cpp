@@ -60,8 +60,7 @@ Axis axis_over(const std::vector<ChartSeries>& series, double ChartPoint::*value
 std::string mark_at(double x, double y, std::size_t k, std::string_view title) {
   constexpr std::string_view shapes[] = {"m-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0z", "m-3.5-3.5h7v7h-7z", "m0-5l5 5-5 5-5-5z",
                                          "m0-4.5l4.5 8h-9z", "m0 4.5l4.5-8h-9z"};
-  return fmt::format("<path class=\"mark s{}\" d=\"M{:.1f} {:.1f}{}\">{}</path>", k, x, y,
-                     shapes[k % std::size(shapes)],
+  return fmt::format(R"(<path class="mark s{}" d="M{:.1f} {:.1f}{}">{}</path>)", k, x, y, shapes[k % std::size(shapes)],
                      title.empty() ? "" : fmt::format("<title>{}</title>", xml_text(title)));
 }
 
@@ -69,18 +68,16 @@ std::string grid(const Axis& x, const Axis& y) {
   std::string out;
   auto at = std::back_inserter(out);
   for (double v : x.marks())
-    fmt::format_to(at,
-                   "<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/><text x=\"{0:.1f}\" y=\"{3}\" "
-                   "text-anchor=\"middle\">{4:.6g}</text>",
-                   x(v), top, bottom, bottom + 16, v);
+    fmt::format_to(
+        at, R"(<path class="grid" d="M{0:.1f} {1}V{2}"/><text x="{0:.1f}" y="{3}" text-anchor="middle">{4:.6g}</text>)",
+        x(v), top, bottom, bottom + 16, v);
   for (double v : y.marks())
     fmt::format_to(
-        at,
-        "<path class=\"grid\" d=\"M{1} {0:.1f}H{2}\"/><text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5:.3g}</text>",
+        at, R"(<path class="grid" d="M{1} {0:.1f}H{2}"/><text x="{3}" y="{4:.1f}" text-anchor="end">{5:.3g}</text>)",
         y(v), left, right, left - 6, y(v) + 4, v);
-  fmt::format_to(
-      at, "<path class=\"axis\" d=\"M{0} {1}V{2}H{3}\"/><text x=\"{3}\" y=\"{4}\" text-anchor=\"end\">triangles</text>",
-      left, top, bottom, right, bottom + 34);
+  fmt::format_to(at,
+                 R"(<path class="axis" d="M{0} {1}V{2}H{3}"/><text x="{3}" y="{4}" text-anchor="end">triangles</text>)",
+                 left, top, bottom, right, bottom + 34);
   return out;
 }
 
@@ -105,7 +102,7 @@ std::string log_chart(std::string_view title, std::string_view unit, const std::
 }
 
 std::string chart_mark(std::size_t k) {
-  return fmt::format("<svg class=\"key\" viewBox=\"0 0 12 12\" aria-hidden=\"true\">{}</svg>", mark_at(6, 6, k, ""));
+  return fmt::format(R"(<svg class="key" viewBox="0 0 12 12" aria-hidden="true">{}</svg>)", mark_at(6, 6, k, ""));
 }
 
 }  // namespace wrlkit

@@ -1,4 +1,4 @@
-// Line charts as SVG text, to stand in an HTML page: both axes logarithmic, as errors over numbers of triangles want
+// Line charts as SVG text for an HTML page: both axes logarithmic, as errors over numbers of triangles want
 // it.
 //
 // Colours, lines and letters are the page's business: their style is in tools/report/report.css. Series k of every

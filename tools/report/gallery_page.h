@@ -1,4 +1,4 @@
-// A page of many worlds: their pictures and figures.
+// A page of many scenes: their pictures and figures.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -21,7 +21,7 @@ struct Gallery {
   std::size_t n_left_out = 0;  // by the limit
 };
 
-/// One HTML file that needs no other and asks for nothing of a network; what it links to are the worlds.
+/// One HTML file that needs no other and asks for nothing of a network; what it links to are the scenes.
 std::string gallery_page(const Gallery&);
 
 }  // namespace wrlkit

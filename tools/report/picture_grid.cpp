@@ -25,14 +25,11 @@ Scene text_scene(std::string_view text, double width) {
                style = scene.add(nodes::FontStyle);
   scene.set(material, nodes::material::emissiveColor, Vec3{0.1, 0.1, 0.1});
   scene.set(appearance, nodes::appearance::material, material);
-  scene.set(style, nodes::font_style::family, Strings{"SANS"});
-  scene.set(style, nodes::font_style::justify, Strings{"MIDDLE", "MIDDLE"});
-  scene.set(style, nodes::font_style::size, em);
-  scene.set(words, nodes::text::string, Strings{text});
-  scene.set(words, nodes::text::fontStyle, style);
-  scene.set(words, nodes::text::maxExtent, used * width);
-  scene.set(shape, nodes::shape::appearance, appearance);
-  scene.set(shape, nodes::shape::geometry, words);
+  scene.set(style, nodes::font_style::family, Strings{"SANS"}, nodes::font_style::justify, Strings{"MIDDLE", "MIDDLE"},
+            nodes::font_style::size, em);
+  scene.set(words, nodes::text::string, Strings{text}, nodes::text::fontStyle, style, nodes::text::maxExtent,
+            used * width);
+  scene.set(shape, nodes::shape::appearance, appearance, nodes::shape::geometry, words);
   scene.main.roots = {shape};
   return scene;
 }

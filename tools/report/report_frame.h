@@ -17,7 +17,7 @@ std::string_view table_end();
 
 /// What sorts, searches and pages the table of `corpus report` (corpus_table.js).
 std::string_view corpus_table_script();
-/// What searches and sorts the worlds of a gallery (gallery.js).
+/// What searches and sorts the scenes of a gallery (gallery.js).
 std::string_view gallery_script();
 
 }  // namespace wrlkit

@@ -1,6 +1,6 @@
-// wrlkit_script: the process in which Scripts of worlds run (pass `startup`). It reads frames from standard input, which
-// is a socket, and writes frames to it. Before it reads the first one it gives up all that a hostile program could use:
-// files, memory, time, further processes and every system call but those that it needs.
+// wrlkit_script: the process in which Scripts of worlds run (pass `startup`). It reads frames from standard input,
+// which is a socket, and writes frames to it. Before it reads the first one it gives up all that a hostile program
+// could use: files, memory, time, further processes and every system call but those that it needs.
 #include <unistd.h>
 
 #include <cstddef>
@@ -15,7 +15,6 @@ namespace wrlkit {
 namespace {
 
 constexpr int socket_fd = 0;
-
 
 void read_all(void* to, std::size_t n) {
   auto* at = static_cast<char*>(to);

@@ -39,8 +39,8 @@ bool limit(__rlimit_resource what, rlim_t soft, rlim_t hard) {
 }
 
 /// Every other call fails with EPERM.
-constexpr int allowed[] = {SYS_read,  SYS_write,      SYS_brk,        SYS_mmap,      SYS_munmap,     SYS_mremap,
-                           SYS_exit,  SYS_exit_group, SYS_rt_sigreturn, SYS_madvise, SYS_futex, SYS_mprotect};
+constexpr int allowed[] = {SYS_read, SYS_write,      SYS_brk,          SYS_mmap,    SYS_munmap, SYS_mremap,
+                           SYS_exit, SYS_exit_group, SYS_rt_sigreturn, SYS_madvise, SYS_futex,  SYS_mprotect};
 
 bool filter_calls() {
   if (architecture == 0 || sanitized) return true;

@@ -1,4 +1,4 @@
-// wrlkit check: what the parser and the node table have to say of worlds; nothing is written.
+// wrlkit check: what the parser and the node table have to say of scenes; nothing is written.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -45,17 +45,13 @@ void print_text(const std::string& path, const Diagnostics& d) {
 }
 
 std::string json_of(const std::string& path, const Diagnostics& d, bool readable) {
-  std::string out;
-  JsonOut json(out);
-  json.begin_object();
-  json.member("file", path);
-  json.member("readable", readable);
-  json.member("error", d.count(Severity::error));
-  json.member("warning", d.count(Severity::warning));
-  json.key("messages");
-  json.raw(messages_json(d));
-  json.end_object();
-  return out;
+  return json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.members("file", path, "readable", readable, "error", d.count(Severity::error), "warning",
+                   d.count(Severity::warning));
+      json.member("messages", JsonText{messages_json(d)});
+    });
+  });
 }
 
 }  // namespace

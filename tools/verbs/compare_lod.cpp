@@ -1,4 +1,4 @@
-// wrlkit compare-lod: what each criterion makes of a world at the same numbers of triangles, as a page of charts,
+// wrlkit compare-lod: what each criterion makes of a scene at the same numbers of triangles, as a page of charts,
 // figures and pictures, or as one picture. The keys of --json are stable.
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace wrlkit {
 namespace {
 
-/// Draws worlds that are the same except for their meshes, from where the first is seen.
+/// Draws scenes that are the same except for their meshes, from where the first is seen.
 class Painter {
  public:
   explicit Painter(Session& s) : s_(s), options_(render_options(s.flags())) {
@@ -22,7 +22,7 @@ class Painter {
     if (!options_.background) options_.background = Vec3{1, 1, 1};
   }
 
-  /// Null when the passes failed. The messages about a world are printed with the first picture.
+  /// Null when the passes failed. The messages about a scene are printed with the first picture.
   std::optional<Image> draw(Scene scene) {
     Diagnostics unheard(s_.diag().shared_sources());
     auto& diag = drawn_ ? unheard : s_.diag();
@@ -107,32 +107,21 @@ std::optional<Comparison> compare(Session& s) {
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 std::string figures_json(const Comparison& c) {
-  std::string text;
-  JsonOut json(text);
-  json.begin_object();
-  json.member("triangles", c.n_faces);
-  json.key("criteria");
-  json.begin_array();
-  for (const auto& criterion : c.criteria) {
-    json.begin_object();
-    json.member("name", criterion.name);
-    json.key("levels");
-    json.begin_array();
-    for (const auto& p : criterion.points) {
-      json.begin_object();
-      json.member("triangles", p.n_faces);
-      json.member("rms", p.rms);
-      json.member("max", p.error);
-      json.member("normal_degrees", degrees(p.normals));
-      json.member("seconds", p.seconds);
-      json.end_object();
-    }
-    json.end_array();
-    json.end_object();
-  }
-  json.end_array();
-  json.end_object();
-  return text + '\n';
+  return json_text([&](JsonOut& json) {
+           json.object([&] {
+             json.member("triangles", c.n_faces);
+             json.list("criteria", c.criteria, [&](const auto& criterion) {
+               json.object([&] {
+                 json.member("name", criterion.name);
+                 json.list("levels", criterion.points, [&](const auto& p) {
+                   json.object("triangles", p.n_faces, "rms", p.rms, "max", p.error, "normal_degrees",
+                               degrees(p.normals), "seconds", p.seconds);
+                 });
+               });
+             });
+           });
+         }) +
+         '\n';
 }
 
 std::string figures_text(const Comparison& c) {

@@ -56,6 +56,10 @@ std::vector<std::string> idle_options(const Flags& flags, const Output& to) {
   } else {
     options.text_fields(add);
   }
+  using As = GltfOptions::Lightmaps;
+  const As light = flags.save.lightmap_as;
+  const bool is_combined = to.format->is_text ? !flags.save.dump : light == As::base_color || light == As::emissive;
+  if (!is_combined) options.baked_fields(add);
   return names;
 }
 

@@ -1,5 +1,5 @@
-// wrlkit diff: how two worlds differ in what they show, and in their names and nodes. The keys of --json are stable.
-// The worlds are read one after the other; of the first one only what is compared is kept.
+// wrlkit diff: how two scenes differ in what they show, and in their names and nodes. The keys of --json are stable.
+// The scenes are read one after the other; of the first one only what is compared is kept.
 #include "convert/diff.h"
 
 #include <fmt/format.h>
@@ -17,30 +17,20 @@ namespace wrlkit {
 namespace {
 
 std::string difference_json(const WorldDifference& d) {
-  std::string out;
-  JsonOut json(out);
-  json.begin_object();
-  const std::uint64_t triangles[] = {d.a.geometry.triangles, d.b.geometry.triangles},
-                      materials[] = {d.a.materials, d.b.materials};
-  json.member("triangles", std::span(triangles));
-  json.key("bounds");
-  json.begin_object();
-  json.member("max_delta", d.bounds);
-  json.end_object();
-  json.key("surface");
-  json.begin_object();
-  json.member("rms", d.surface ? d.surface->rms : Box::inf);
-  json.member("max", d.surface ? d.surface->max : Box::inf);
-  json.member("of_diagonal", d.surface ? d.of_diagonal : Box::inf);
-  json.end_object();
-  json.key("names");
-  json.begin_object();
-  json.member("missing", std::span<const std::string_view>(d.missing));
-  json.member("added", std::span<const std::string_view>(d.added));
-  json.end_object();
-  json.member("materials", std::span(materials));
-  json.end_object();
-  return out;
+  return json_text([&](JsonOut& json) {
+    json.object([&] {
+      const std::uint64_t triangles[] = {d.a.geometry.triangles, d.b.geometry.triangles},
+                          materials[] = {d.a.materials, d.b.materials};
+      json.member("triangles", std::span(triangles));
+      json.member("bounds", json_object("max_delta", d.bounds));
+      json.member("surface", json_object("rms", d.surface ? d.surface->rms : Box::inf, "max",
+                                         d.surface ? d.surface->max : Box::inf, "of_diagonal",
+                                         d.surface ? d.of_diagonal : Box::inf));
+      json.member("names", json_object("missing", std::span<const std::string_view>(d.missing), "added",
+                                       std::span<const std::string_view>(d.added)));
+      json.member("materials", std::span(materials));
+    });
+  });
 }
 
 /// "12" when both are, otherwise "12 -> 7".

@@ -87,57 +87,28 @@ std::string formats_text() {
 }
 
 std::string formats_json() {
-  std::string out;
-  JsonOut json(out);
-  json.begin_array();
-  for (auto& f : formats()) {
-    json.begin_object();
-    json.member("name", f.name);
-    json.member("extensions", f.endings);
-    json.member("read", f.reads);
-    json.member("write", f.writes);
-    json.end_object();
-  }
-  json.end_array();
-  return out;
+  return json_text([&](JsonOut& json) {
+    json.list(formats(), [&](auto& f) {
+      json.object("name", f.name, "extensions", f.endings, "read", f.reads, "write", f.writes);
+    });
+  });
 }
 
 std::string passes_json() {
-  std::string out;
-  JsonOut json(out);
-  json.begin_array();
-  for (auto& p : passes()) {
-    json.begin_object();
-    json.member("name", p.name);
-    json.member("summary", p.summary);
-    json.member("needs", level_word(p.needs));
-    json.member("leaves", level_word(p.leaves));
-    json.key("options");
-    json.begin_array();
-    for (auto& o : p.make()->options()) {
-      json.begin_object();
-      json.member("name", o.name);
-      json.member("type", o.type);
-      if (!o.range.empty()) json.member("range", o.range);
-      json.member("default", o.value);
-      json.member("help", o.help);
-      json.end_object();
-    }
-    json.end_array();
-    json.key("statistics");
-    json.begin_array();
-    for (const auto& s : p.statistics) {
-      json.begin_object();
-      json.member("name", s.name);
-      json.member("help", s.help);
-      json.end_object();
-    }
-    json.end_array();
-    json.member("doc", p.doc);
-    json.end_object();
-  }
-  json.end_array();
-  return out;
+  return json_text([&](JsonOut& json) {
+    json.list(passes(), [&](auto& p) {
+      json.object([&] {
+        json.members("name", p.name, "summary", p.summary, "needs", level_word(p.needs), "leaves",
+                     level_word(p.leaves));
+        json.list("options", p.make()->options(), [&](auto& o) {
+          const auto range = o.range.empty() ? std::nullopt : std::optional(o.range);
+          json.object("name", o.name, "type", o.type, "range", range, "default", o.value, "help", o.help);
+        });
+        json.list("statistics", p.statistics, [&](const auto& s) { json.object("name", s.name, "help", s.help); });
+        json.member("doc", p.doc);
+      });
+    });
+  });
 }
 
 namespace {

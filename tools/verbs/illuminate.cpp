@@ -1,4 +1,4 @@
-// wrlkit illuminate: global illumination of a world, as a patch file. What RenderX was to Lazanyi (3.1).
+// wrlkit illuminate: global illumination of a scene, as a patch file. What RenderX was to Lazanyi (3.1).
 #include "light/patches/illuminate.h"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ std::optional<light::LightOptions> light_options(const Flags& f) {
   return out;
 }
 
-/// A world that is its own patch file would be gone.
+/// A scene that is its own patch file would be gone.
 bool is_safe(const Flags& f) {
   std::error_code none_there;
   if (!std::filesystem::equivalent(f.inputs[0], f.output, none_there)) return true;
@@ -104,17 +104,9 @@ void write_pictures(Session& s, const PatchSet& set, const light::LightWorld& wo
 void print(Session& s, const PatchSet& set, double seconds) {
   s.progress().clear();
   if (s.flags().json && s.flags().output != "-") {
-    std::string text;
-    JsonOut json(text);
-    json.begin_object();
-    json.member("file", s.flags().output);
-    json.member("method", set.method);
-    json.member("samples", set.samples);
-    json.member("shapes", set.shapes.size());
-    json.member("triangles", set.triangles.size());
-    json.member("patches", set.patches.size());
-    json.member("cpu_seconds", seconds);
-    json.end_object();
+    const auto text = json_of(json_object("file", s.flags().output, "method", set.method, "samples", set.samples,
+                                          "shapes", set.shapes.size(), "triangles", set.triangles.size(), "patches",
+                                          set.patches.size(), "cpu_seconds", seconds));
     fmt::print("{}\n", text);
   } else if (s.flags().verbose) {
     fmt::print(stderr, "{}: {} patches of {} triangles in {} shapes, {:.1f} s of processor time\n", s.flags().output,

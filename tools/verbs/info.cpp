@@ -1,4 +1,4 @@
-// wrlkit info: what is inside a world. The keys of --json are stable.
+// wrlkit info: what is inside a scene. The keys of --json are stable.
 #include "tools/verbs/info.h"
 
 #include <fmt/format.h>
@@ -17,24 +17,7 @@ namespace {
 void write_bounds(JsonOut& json, const Box& b) {
   json.key("bounds");
   if (b.empty()) return json.raw("null");
-  json.begin_object();
-  json.member("min", std::span<const double>(b.low));
-  json.member("max", std::span<const double>(b.high));
-  json.end_object();
-}
-
-void write_textures(JsonOut& json, const std::vector<TextureInfo>& textures) {
-  json.key("textures");
-  json.begin_array();
-  for (auto& t : textures) {
-    json.begin_object();
-    json.member("url", t.url);
-    json.member("found", t.found);
-    json.member("width", t.width);
-    json.member("height", t.height);
-    json.end_object();
-  }
-  json.end_array();
+  json.object("min", std::span<const double>(b.low), "max", std::span<const double>(b.high));
 }
 
 std::uint64_t n_forms(const FormsCensus& f) {
@@ -50,17 +33,11 @@ double share_of_forms(const Info& i) {
 }
 
 void write_forms(JsonOut& json, const Info& i) {
-  json.key("forms");
-  json.begin_object();
-  json.member("count", n_forms(*i.forms));
-  json.key("kinds");
-  json.begin_object();
-  for (auto& [kind, n] : i.forms->parts) json.member(kind, n);
-  json.end_object();
-  json.member("triangles_left", i.forms->triangles_left);
-  json.member("share", share_of_forms(i));
-  json.member("residual", i.forms->residual);
-  json.end_object();
+  json.object("forms", [&] {
+    json.member("count", n_forms(*i.forms));
+    json.member("kinds", i.forms->parts);
+    json.members("triangles_left", i.forms->triangles_left, "share", share_of_forms(i), "residual", i.forms->residual);
+  });
 }
 
 std::string forms_text(const Info& i) {
@@ -74,45 +51,24 @@ std::string forms_text(const Info& i) {
 }  // namespace
 
 std::string info_json(const std::string& file, const Info& i, const Diagnostics& diag) {
-  std::string out;
-  JsonOut json(out);
-  json.begin_object();
-  json.member("file", file);
-  json.member("format", to_string(i.format));
-  json.member("bytes", i.bytes);
-  json.member("gzip", i.gzip);
-  json.key("nodes");
-  json.begin_object();
-  for (auto& [name, n] : i.nodes) json.member(name, n);
-  json.end_object();
-  json.member("shapes", i.geometry.shapes);
-  json.member("polygons", i.geometry.polygons);
-  json.member("triangles", i.geometry.triangles);
-  json.member("unique", i.geometry.unique);
-  json.member("lines", i.geometry.lines);
-  json.member("points", i.geometry.points);
-  write_bounds(json, i.geometry.bounds);
-  json.member("materials", i.materials);
-  write_textures(json, i.textures);
-  json.member("lights", i.lights);
-  json.member("viewpoints", i.viewpoints);
-  json.member("lods", i.lods);
-  json.member("levels", std::span<const std::uint64_t>(i.levels));
-  json.member("animations", i.animations);
-  json.member("protos", i.protos);
-  json.member("routes", i.routes);
-  json.member("scripts", i.scripts);
-  json.member("inlines", i.inlines);
-  json.member("names", i.names);
-  if (i.forms) write_forms(json, i);
-  json.key("diagnostics");
-  json.begin_object();
-  json.member("error", diag.count(Severity::error));
-  json.member("warning", diag.count(Severity::warning));
-  json.member("lost", diag.count(Severity::lost));
-  json.end_object();
-  json.end_object();
-  return out;
+  return json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.members("file", file, "format", to_string(i.format), "bytes", i.bytes, "gzip", i.gzip);
+      json.member("nodes", i.nodes);
+      json.members("shapes", i.geometry.shapes, "polygons", i.geometry.polygons, "triangles", i.geometry.triangles,
+                   "unique", i.geometry.unique, "lines", i.geometry.lines, "points", i.geometry.points);
+      write_bounds(json, i.geometry.bounds);
+      json.member("materials", i.materials);
+      json.list("textures", i.textures,
+                [&](auto& t) { json.object("url", t.url, "found", t.found, "width", t.width, "height", t.height); });
+      json.members("lights", i.lights, "viewpoints", i.viewpoints, "lods", i.lods, "levels",
+                   std::span<const std::uint64_t>(i.levels), "animations", i.animations, "protos", i.protos, "routes",
+                   i.routes, "scripts", i.scripts, "inlines", i.inlines, "names", i.names);
+      if (i.forms) write_forms(json, i);
+      json.member("diagnostics", json_object("error", diag.count(Severity::error), "warning",
+                                             diag.count(Severity::warning), "lost", diag.count(Severity::lost)));
+    });
+  });
 }
 
 namespace {

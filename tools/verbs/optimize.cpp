@@ -24,22 +24,17 @@ std::string text(const Session& s, std::uint64_t before, const Optimized& made) 
                      made.gltf->bytes(), summary_text(*made.gltf), names_text(made));
 }
 
-std::string json_text(const Session& s, std::uint64_t before, const Optimized& made) {
-  std::string out;
-  JsonOut json(out);
-  json.begin_object();
-  json.member("input", s.flags().inputs[0]);
-  json.member("output", s.flags().output);
-  json.member("profile", s.flags().profile);
-  json.member("bytes_before", before);
-  json.member("bytes_after", made.gltf->bytes());
-  json.member("names_before", made.n_names);
-  json.member("names_lost", std::span<const std::string>(made.lost));
-  json.member("names_not_shown", std::span<const std::string>(made.not_shown));
-  json.key("gltf");
-  json.raw(summary_json(*made.gltf));
-  json.end_object();
-  return out + "\n";
+std::string figures_json(const Session& s, std::uint64_t before, const Optimized& made) {
+  return json_text([&](JsonOut& json) {
+           json.object([&] {
+             json.members("input", s.flags().inputs[0], "output", s.flags().output, "profile", s.flags().profile,
+                          "bytes_before", before, "bytes_after", made.gltf->bytes(), "names_before", made.n_names,
+                          "names_lost", std::span<const std::string>(made.lost), "names_not_shown",
+                          std::span<const std::string>(made.not_shown));
+             json.member("gltf", JsonText{summary_json(*made.gltf)});
+           });
+         }) +
+         "\n";
 }
 
 }  // namespace
@@ -87,7 +82,7 @@ int run_optimize(const Flags& given) {
   s.fact("gltf", summary_json(*made.gltf));
   s.progress().clear();
   if (flags.json)
-    fmt::print("{}", json_text(s, before, made));
+    fmt::print("{}", figures_json(s, before, made));
   else if (!flags.quiet)
     fmt::print(stderr, "{}", text(s, before, made));
   return s.end(true);

@@ -35,23 +35,10 @@ PatchesInfo measure(const PatchSet& set) {
 }
 
 std::string as_json(const std::string& path, const FileText& file, const PatchSet& set, const PatchesInfo& o) {
-  std::string out;
-  JsonOut json(out);
-  json.begin_object();
-  json.member("file", path);
-  json.member("format", "patches");
-  json.member("bytes", file.bytes_on_disk);
-  json.member("source", set.source);
-  json.member("method", set.method);
-  json.member("samples", set.samples);
-  json.member("shapes", set.shapes.size());
-  json.member("triangles", set.triangles.size());
-  json.member("patches", set.patches.size());
-  json.member("back", o.n_back);
-  json.member("area", o.area);
-  json.member("radiance", std::span<const double>(o.radiance));
-  json.end_object();
-  return out;
+  return json_of(json_object("file", path, "format", "patches", "bytes", file.bytes_on_disk, "source", set.source,
+                             "method", set.method, "samples", set.samples, "shapes", set.shapes.size(), "triangles",
+                             set.triangles.size(), "patches", set.patches.size(), "back", o.n_back, "area", o.area,
+                             "radiance", std::span<const double>(o.radiance)));
 }
 
 std::string as_text(const std::string& path, const FileText& file, const PatchSet& set, const PatchesInfo& o) {

@@ -1,4 +1,4 @@
-// wrlkit render: a picture of a world; of a world from all sides; of two worlds and how they differ; of many worlds.
+// wrlkit render: a picture of a scene; of a scene from all sides; of two scenes and how they differ; of many scenes.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -134,7 +134,7 @@ bool is_usable(const Flags& f, bool sheet) {
 int run_render(const Flags& given) {
   const bool sheet = is_sheet(given);
   Flags flags = given;
-  // Among many worlds, some may not have it.
+  // Among many scenes, some may not have it.
   if (!sheet) flags.warnings.insert(flags.warnings.begin(), "error=viewpoint-not-found");
   Session s(flags);
   if (!is_usable(flags, sheet) || !s.good() || !s.choose_pipeline("picture")) return usage;

@@ -1,4 +1,4 @@
-// wrlkit render --compare: two worlds from one place, and how their pictures differ.
+// wrlkit render --compare: two scenes from one place, and how their pictures differ.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,15 +41,8 @@ PictureDifference difference(const Image& a, const Image& b) {
 }
 
 std::string figures_json(const PictureDifference& d) {
-  std::string text;
-  JsonOut json(text);
-  json.begin_object();
-  json.member("mean", d.mean);
-  json.member("largest", d.largest);
-  json.member("pixels", d.n_pixels);
-  json.member("of_pixels", d.picture.pixels.size() / 3);
-  json.end_object();
-  return text;
+  return json_of(json_object("mean", d.mean, "largest", d.largest, "pixels", d.n_pixels, "of_pixels",
+                             d.picture.pixels.size() / 3));
 }
 
 std::string figures_text(const PictureDifference& d) {

@@ -11,6 +11,8 @@ RenderOptions render_options(const Flags& f) {
   o.height = f.height;
   o.samples = f.samples;
   o.mode = f.mode;
+  o.lamps = f.lamps;
+  o.exposure.read(f.exposure);
   if (f.level == "auto")
     o.level.reset();
   else

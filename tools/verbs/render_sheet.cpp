@@ -16,12 +16,8 @@ std::string contents_json(const std::vector<NamedWorld>& worlds, const std::vect
   std::string text;
   JsonOut json(text);
   json.begin_array();
-  for (std::size_t i = 0; i < worlds.size(); ++i) {
-    json.begin_object();
-    json.member("file", worlds[i].path);
-    json.member("drawn", static_cast<bool>(drawn[i]));
-    json.end_object();
-  }
+  for (std::size_t i = 0; i < worlds.size(); ++i)
+    json.object("file", worlds[i].path, "drawn", static_cast<bool>(drawn[i]));
   json.end_array();
   return text;
 }

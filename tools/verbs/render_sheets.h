@@ -1,4 +1,4 @@
-// What render does with more than one world.
+// What render does with more than one scene.
 #pragma once
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace wrlkit {
 
-/// Reads a world, in place of the one before, and runs the pipeline; null when nothing can be had.
+/// Reads a scene, in place of the one before, and runs the pipeline; null when nothing can be read.
 MeshSource open_world(Session&, const std::string& input);
 /// A picture of the world that is open; --mode path says how far it is, as `name`. `diag`: where messages go, if not to
 /// the session's.
@@ -15,12 +15,12 @@ Image draw(Session&, const MeshSource&, RenderOptions, std::string name, Diagnos
 /// In the format of its name; false when not, which is reported.
 bool write_picture(Session&, const Image&, const std::string& name);
 
-/// The inputs are several worlds.
+/// The inputs are several scenes.
 bool is_sheet(const Flags&);
 /// A picture of each, with its name. What cannot be read has its place, too. Returns the exit code.
 int render_sheet(Session&);
 
-/// Both worlds of --compare and the difference of their pictures.
+/// Both scenes of --compare and the difference of their pictures.
 bool render_comparison(Session&);
 
 }  // namespace wrlkit

@@ -62,7 +62,7 @@ std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
 bool write_world(Session& s, const std::string& path, const Scene& scene) {
   Saved saved;
   SaveOptions options = s.flags().save;
-  options.files_folder = "files";  // that all of the worlds refer to
+  options.files_folder = "files";  // that all of the scenes refer to
   return write_vrml_file({scene, {}, s.context(), options, *output_of(path), nullptr, saved});
 }
 
@@ -76,14 +76,7 @@ int write_progressive_file(Session& s, Criterion criterion, const std::string& p
   if (!file->commit(s.diag())) return s.end(false);
   s.progress().clear();
   if (s.flags().json) {
-    std::string text;
-    JsonOut json(text);
-    json.begin_object();
-    json.member("file", path);
-    json.member("surfaces", surfaces.size());
-    json.member("bytes", bytes.size());
-    json.end_object();
-    fmt::print("{}\n", text);
+    fmt::print("{}\n", json_of(json_object("file", path, "surfaces", surfaces.size(), "bytes", bytes.size())));
   } else {
     fmt::print("{}: {} surfaces, {} bytes\n", path, surfaces.size(), bytes.size());
   }
@@ -96,7 +89,7 @@ struct Written {
   double rms = 0, max = 0;
 };
 
-/// What was made: the worlds by falling numbers of triangles, and the one of all levels.
+/// What was made: the scenes by falling numbers of triangles, and the one of all levels.
 struct WrittenWorlds {
   std::size_t n_drawn = 0, n_faces = 0;
   std::vector<Written> points;
@@ -104,26 +97,16 @@ struct WrittenWorlds {
 };
 
 void print_json(const WrittenWorlds& all) {
-  std::string text;
-  JsonOut json(text);
-  json.begin_object();
-  json.member("triangles", all.n_drawn);
-  json.member("unique", all.n_faces);
-  json.key("points");
-  json.begin_array();
-  for (const auto& p : all.points) {
-    json.begin_object();
-    json.member("file", p.file);
-    json.member("triangles", p.n_drawn);
-    json.member("unique", p.n_faces);
-    json.member("left_out", p.n_gone);
-    json.member("rms", p.rms);
-    json.member("max", p.max);
-    json.end_object();
-  }
-  json.end_array();
-  json.member("lod", all.lod_file);
-  json.end_object();
+  const auto text = json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.members("triangles", all.n_drawn, "unique", all.n_faces);
+      json.list("points", all.points, [&](const auto& p) {
+        json.object("file", p.file, "triangles", p.n_drawn, "unique", p.n_faces, "left_out", p.n_gone, "rms", p.rms,
+                    "max", p.max);
+      });
+      json.member("lod", all.lod_file);
+    });
+  });
   fmt::print("{}\n", text);
 }
 
@@ -160,7 +143,7 @@ WrittenWorlds facts_of(const SimplifiedWorld& world) {
   return all;
 }
 
-/// Where the worlds go: NAME_TRIANGLES.wrl, and NAME_lod.wrl.
+/// Where the scenes go: NAME_TRIANGLES.wrl, and NAME_lod.wrl.
 struct Names {
   std::string base, ending;
 };
@@ -177,7 +160,7 @@ bool write_worlds(Session& s, const World& world, const Names& names, WrittenWor
   return write_world(s, all.lod_file, world.scene_with_levels());
 }
 
-/// What instances of prototypes stand for in their places; nothing when there are none.
+/// Instances of prototypes replaced by their bodies; nothing when there are none.
 std::optional<Scene> expanded_scene(Session& s) {
   Scene out = s.world().scene;
   Diagnostics unheard(s.diag().shared_sources());
@@ -193,7 +176,7 @@ bool is_reached(const SimplifiedWorld& world, const WorldSimplifyOptions& option
   return counts.empty() || (world.n_points() > 0 && world.point(world.n_points() - 1).n_faces <= counts.back());
 }
 
-/// As one world with one budget where there are several parts and the triangles are counted; otherwise each
+/// As one scene with one budget where there are several parts and the triangles are counted; otherwise each
 /// surface for itself, unless the criterion does not go as far as was asked.
 bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names, WrittenWorlds& all) {
   const Scene& scene = s.world().scene;

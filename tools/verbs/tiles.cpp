@@ -1,4 +1,4 @@
-// wrlkit tiles: worlds of any size as 3D Tiles.
+// wrlkit tiles: scenes of any size as 3D Tiles.
 #include "convert/tiles.h"
 
 #include <fmt/format.h>
@@ -116,42 +116,19 @@ std::string text_of(const TilesMade& made, const std::string& folder) {
 }
 
 void write_tile(JsonOut& json, const TileFigures& tile) {
-  json.begin_object();
-  json.member("file", tile.file);
-  json.member("level", tile.depth);
-  json.member("error", tile.error);
-  json.member("triangles", tile.triangles);
-  json.member("draws", tile.draws);
-  json.member("parts", tile.parts);
-  json.member("bytes", tile.bytes);
-  json.end_object();
+  json.object("file", tile.file, "level", tile.depth, "error", tile.error, "triangles", tile.triangles, "draws",
+              tile.draws, "parts", tile.parts, "bytes", tile.bytes);
 }
 
 std::string json_of(const TilesMade& made) {
   std::string out;
   JsonOut json(out);
   json.begin_object();
-  json.member("files", made.n_files);
-  json.member("failed", made.n_failed);
-  json.member("triangles", made.triangles);
-  json.member("parts", made.parts);
-  json.member("bytes", made.bytes);
-  json.member("depth", made.depth);
-  json.member("whole", made.whole);
-  json.member("kept", made.n_kept);
-  json.member("left", made.n_left);
-  json.member("descriptions", made.n_descriptions);
-  json.member("over", made.n_over);
-  json.member("cut", made.n_cut);
-  json.key("lost");
-  json.begin_object();
-  for (const auto& [name, n] : made.lost) json.member(name, n);
-  json.end_object();
-  json.member("levels", made.whole ? levels_of(made) : std::vector<Level>());
-  json.key("tiles");
-  json.begin_array();
-  for (const auto& tile : made.tiles) write_tile(json, tile);
-  json.end_array();
+  json.members("files", made.n_files, "failed", made.n_failed, "triangles", made.triangles, "parts", made.parts,
+               "bytes", made.bytes, "depth", made.depth, "whole", made.whole, "kept", made.n_kept, "left", made.n_left,
+               "descriptions", made.n_descriptions, "over", made.n_over, "cut", made.n_cut, "lost", made.lost, "levels",
+               made.whole ? levels_of(made) : std::vector<Level>());
+  json.list("tiles", made.tiles, [&](const auto& tile) { write_tile(json, tile); });
   json.end_object();
   return out;
 }

@@ -1,4 +1,4 @@
-// wrlkit view: a page that shows a world, or two side by side. The worlds go into it as glTF, with everything that
+// wrlkit view: a page that shows a scene, or two side by side. The scenes go into it as glTF, with everything that
 // glTF cannot say in extras; what a simplification does goes into it as progressive meshes.
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ class Viewer {
  public:
   explicit Viewer(Session& s) : s_(s) {}
 
-  /// False when a world cannot be had.
+  /// False when a scene cannot be read.
   bool fill() {
     for (const auto& input : s_.flags().inputs)
       if (!s_.read(input) || !add_world(input)) return false;
@@ -117,16 +117,9 @@ std::string contents_json(const ViewerPage& page, const std::string& file, std::
   std::string text;
   JsonOut json(text);
   json.begin_object();
-  json.member("file", file);
-  json.member("bytes", bytes);
-  json.key("worlds");
-  json.begin_array();
-  for (const auto& world : page.worlds) json.value(world.name);
-  json.end_array();
-  json.key("criteria");
-  json.begin_array();
-  for (const auto& collapse : page.collapses) json.value(collapse.criterion);
-  json.end_array();
+  json.members("file", file, "bytes", bytes);
+  json.list("worlds", page.worlds, [&](const auto& world) { json.value(world.name); });
+  json.list("criteria", page.collapses, [&](const auto& collapse) { json.value(collapse.criterion); });
   json.member("deviation", page.apart ? page.apart->deviation.max : HUGE_VAL);
   json.end_object();
   return text;
@@ -148,7 +141,7 @@ bool write_page(Session& s, const ViewerPage& page) {
   return true;
 }
 
-/// The page that --serve shows. When a file of the worlds has changed it is made again; as long as that fails the last
+/// The page that --serve shows. When a file of the scenes has changed it is made again; as long as that fails the last
 /// one is shown.
 class LivePage {
  public:

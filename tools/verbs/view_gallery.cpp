@@ -34,7 +34,7 @@ std::string link_to(const std::string& path, const std::string& page) {
   return out;
 }
 
-/// Flags to look at one of the worlds with.
+/// Flags to look at one of the scenes with.
 Flags flags_for(const Flags& flags, const std::string& path) {
   Flags f = flags;
   f.quiet = true;
@@ -87,25 +87,15 @@ GalleryWorld look_at(const Flags& flags, const NamedWorld& world) {
 
 /// The keys are stable.
 std::string contents_json(const Gallery& g, const std::string& file, std::size_t bytes) {
-  std::string text;
-  JsonOut json(text);
-  json.begin_object();
-  json.member("file", file);
-  json.member("bytes", bytes);
-  json.key("worlds");
-  json.begin_array();
-  for (const auto& w : g.worlds) {
-    json.begin_object();
-    json.member("name", w.name);
-    json.member("drawn", !w.picture.empty());
-    json.member("triangles", w.triangles);
-    json.member("errors", w.errors);
-    json.end_object();
-  }
-  json.end_array();
-  json.member("left_out", g.n_left_out);
-  json.end_object();
-  return text;
+  return json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.members("file", file, "bytes", bytes);
+      json.list("worlds", g.worlds, [&](const auto& w) {
+        json.object("name", w.name, "drawn", !w.picture.empty(), "triangles", w.triangles, "errors", w.errors);
+      });
+      json.member("left_out", g.n_left_out);
+    });
+  });
 }
 
 bool has_place(const Flags& f) {

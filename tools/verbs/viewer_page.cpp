@@ -16,7 +16,7 @@ extern "C" const char wrlkit_viewer_begin[], wrlkit_viewer_end[], wrlkit_tiles_b
 namespace wrlkit {
 namespace {
 
-/// The viewer without worlds.
+/// The viewer without scenes.
 std::string_view page_template() {
 #ifdef WRLKIT_VIEWER
   return {wrlkit_viewer_begin, static_cast<std::size_t>(wrlkit_viewer_end - wrlkit_viewer_begin)};
@@ -34,7 +34,7 @@ std::string_view tiles_template() {
 #endif
 }
 
-constexpr std::string_view mark = "<!--wrlkit-->";  // where the worlds go
+constexpr std::string_view mark = "<!--wrlkit-->";  // where the scenes go
 
 class Files {
  public:
@@ -42,7 +42,7 @@ class Files {
 
   /// The number by which the page finds it.
   std::size_t add(std::string_view bytes) {
-    sink_(fmt::format("<script type=\"text/plain\" id=\"file-{}\">", n_));
+    sink_(fmt::format(R"(<script type="text/plain" id="file-{}">)", n_));
     sink_(base64(gzipped(bytes)));
     sink_("</script>\n");
     return n_++;
@@ -60,59 +60,36 @@ std::string without_tags(std::string json) {
 }
 
 void write_contents(std::string json, const Sink& sink) {
-  sink("<script type=\"application/json\" id=\"contents\">");
+  sink(R"(<script type="application/json" id="contents">)");
   sink(without_tags(std::move(json)));
   sink("</script>\n");
 }
 
 void write_apart(const ViewerPage::Apart& apart, Files& files, JsonOut& json) {
   const auto& d = apart.deviation;
-  json.key("deviation");
-  json.begin_object();
-  json.member("rms", d.rms);
-  json.member("max", d.max);
-  json.member("where", std::span(d.where));
-  json.key("sides");
-  json.begin_array();
-  for (std::size_t side = 0; side < 2; ++side) {
-    const auto& one = side == 0 ? d.forward : d.backward;
-    json.begin_object();
-    json.member("rms", one.rms);
-    json.member("max", one.max);
-    json.member("where", std::span(one.where));
-    json.member("file", files.add(apart.maps[side]));
-    json.end_object();
-  }
-  json.end_array();
-  json.end_object();
+  json.object("deviation", [&] {
+    json.members("rms", d.rms, "max", d.max, "where", std::span(d.where));
+    json.list("sides", std::array{0, 1}, [&](std::size_t side) {
+      const auto& one = side == 0 ? d.forward : d.backward;
+      json.object("rms", one.rms, "max", one.max, "where", std::span(one.where), "file", files.add(apart.maps[side]));
+    });
+  });
 }
 
 void write_data(const ViewerPage& page, const Sink& sink) {
   Files files(sink);
-  std::string text;
-  JsonOut json(text);
-  json.begin_object();
-  json.key("worlds");
-  json.begin_array();
-  for (const auto& world : page.worlds) {
-    json.begin_object();
-    json.member("name", world.name);
-    json.member("file", files.add(world.glb));
-    json.end_object();
-  }
-  json.end_array();
-  json.key("collapses");
-  json.begin_array();
-  for (const auto& collapse : page.collapses) {
-    json.begin_object();
-    json.member("criterion", collapse.criterion);
-    json.member("file", files.add(collapse.wpm));
-    json.end_object();
-  }
-  json.end_array();
-  if (page.apart) write_apart(*page.apart, files, json);
-  json.end_object();
-  write_contents(std::move(text), sink);
+  write_contents(json_text([&](JsonOut& json) {
+                   json.object([&] {
+                     json.list("worlds", page.worlds, [&](const auto& world) {
+                       json.object("name", world.name, "file", files.add(world.glb));
+                     });
+                     json.list("collapses", page.collapses, [&](const auto& collapse) {
+                       json.object("criterion", collapse.criterion, "file", files.add(collapse.wpm));
+                     });
+                     if (page.apart) write_apart(*page.apart, files, json);
+                   });
+                 }),
+                 sink);
 }
 
 /// A page, with what `write_middle` writes where its mark is.
@@ -133,14 +110,8 @@ void write_viewer_page(const ViewerPage& page, const Sink& sink) {
 }
 
 void write_tiles_page(const std::string& name, const std::string& tileset, const Sink& sink) {
-  std::string text;
-  JsonOut json(text);
-  json.begin_object();
-  json.member("name", name);
-  json.member("tileset", tileset);
-  json.end_object();
   write_filled(
-      tiles_template(), [&] { write_contents(std::move(text), sink); }, sink);
+      tiles_template(), [&] { write_contents(json_of(json_object("name", name, "tileset", tileset)), sink); }, sink);
 }
 
 }  // namespace wrlkit

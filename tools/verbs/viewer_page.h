@@ -1,6 +1,7 @@
 // The pages that `view` writes: the viewer (viewer/, built by Vite and linked into the program as HTML texts) with the
-// worlds that it shows, or for a tileset. What stands in the page is read by viewer/src/data.ts and tiles_main.ts.
+// scenes that it shows, or for a tileset. What is in the page is read by viewer/src/data.ts and tiles_main.ts.
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,10 +23,10 @@ struct ViewerPage {
 
   std::vector<World> worlds;  // one, or two to be compared
   std::vector<Collapse> collapses;
-  /// The deviation of the two worlds; the maps of each from the other (tools/report/deviation_map.h).
+  /// The deviation of the two scenes; the maps of each from the other (tools/report/deviation_map.h).
   struct Apart {
     Deviation deviation;
-    std::string maps[2];
+    std::array<std::string, 2> maps;
   };
   std::optional<Apart> apart;
 };

@@ -204,20 +204,13 @@ void Animations::cut(std::vector<Frame>& out, const Frame& to,
 
 void Animations::write_target(JsonOut& json, const Channel& c) const {
   const Property& p = properties_[c.property];
-  json.key("target");
-  json.begin_object();
-  if (c.node != none) json.member("node", c.node);
-  json.member("path", c.node == none ? "pointer" : std::string_view(p.path));
-  if (c.node == none) {
-    json.key("extensions");
-    json.begin_object();
-    json.key("KHR_animation_pointer");
-    json.begin_object();
-    json.member("pointer", p.path);
-    json.end_object();
-    json.end_object();
-  }
-  json.end_object();
+  json.object("target", [&] {
+    if (c.node != none) json.member("node", c.node);
+    json.member("path", c.node == none ? "pointer" : std::string_view(p.path));
+    if (c.node == none) {
+      json.object("extensions", [&] { json.member("KHR_animation_pointer", json_object("pointer", p.path)); });
+    }
+  });
 }
 
 void Animations::write(JsonOut& json, std::size_t i, const Extras* extras,
@@ -225,44 +218,32 @@ void Animations::write(JsonOut& json, std::size_t i, const Extras* extras,
   const Written& w = written_[i];
   const auto trigger = triggers_.find(w.clock.value);
   const bool waits = trigger != triggers_.end();
-  json.begin_object();
-  std::string name(extras && waits ? extras->name(w.clock) : scene_.name(w.clock));
-  if (name.empty() && waits) name = "animation_" + std::to_string(i);
-  if (!name.empty()) json.member("name", name);
-  json.key("channels");
-  json.begin_array();
-  for (const auto& c : w.channels) {
-    json.begin_object();
-    json.member("sampler", c.sampler);
-    write_target(json, c);
-    json.end_object();
-  }
-  json.end_array();
-  json.key("samplers");
-  json.begin_array();
-  for (const auto& s : w.samplers) {
-    json.begin_object();
-    json.member("input", accessor(s.input));
-    json.member("output", accessor(s.output));
-    json.end_object();
-  }
-  json.end_array();
-  if (extras) {
-    json.key("extras");
-    json.begin_object();
-    json.key("vrml97");
-    json.begin_object();
-    json.member("loop", scene_.get(w.clock, nodes::time_sensor::loop));
-    if (waits) {
-      json.key("trigger");
-      json.begin_array();
-      for (const Route* r : trigger->second) extras->route(json, *r);
-      json.end_array();
+  json.object([&] {
+    std::string name(extras && waits ? extras->name(w.clock) : scene_.name(w.clock));
+    if (name.empty() && waits) name = "animation_" + std::to_string(i);
+    if (!name.empty()) json.member("name", name);
+    json.list("channels", w.channels, [&](const auto& c) {
+      json.object([&] {
+        json.member("sampler", c.sampler);
+        write_target(json, c);
+      });
+    });
+    json.list("samplers", w.samplers,
+              [&](const auto& s) { json.object("input", accessor(s.input), "output", accessor(s.output)); });
+    if (extras) {
+      json.object("extras", [&] {
+        json.object("vrml97", [&] {
+          json.member("loop", scene_.get(w.clock, nodes::time_sensor::loop));
+          if (waits) {
+            json.key("trigger");
+            json.begin_array();
+            for (const Route* r : trigger->second) extras->route(json, *r);
+            json.end_array();
+          }
+        });
+      });
     }
-    json.end_object();
-    json.end_object();
-  }
-  json.end_object();
+  });
 }
 
 }  // namespace wrlkit::gltf

@@ -34,8 +34,7 @@ Trs ortho_transform(const Scene& scene, NodeId n) {
 }
 
 void write_window(JsonOut& json, const std::array<double, 4>& w) {
-  json.member("xmag", static_cast<float>((w[2] - w[0]) / 2));
-  json.member("ymag", static_cast<float>((w[3] - w[1]) / 2));
+  json.members("xmag", static_cast<float>((w[2] - w[0]) / 2), "ymag", static_cast<float>((w[3] - w[1]) / 2));
 }
 
 void write_angle(JsonOut& json, double angle) {
@@ -76,19 +75,17 @@ void write_camera(JsonOut& json, const Scene& scene, const Camera& camera, const
   double znear = std::clamp(v.avatar_size / 2, zfar / 1e5, zfar / 1e3);
   if (v.limit > 0 && v.limit > 2 * znear) zfar = std::min(zfar, v.limit);
   zfar = std::max(zfar, reach);
-  json.begin_object();
-  json.member("type", ortho ? "orthographic" : "perspective");
-  if (auto name = camera_name(scene, camera.source); !name.empty()) json.member("name", name);
-  json.key(ortho ? "orthographic" : "perspective");
-  json.begin_object();
-  if (ortho)
-    write_window(json, window(scene, camera.source));
-  else
-    write_angle(json, scene.get(camera.source, nodes::viewpoint::fieldOfView));
-  json.member("znear", static_cast<float>(znear));
-  json.member("zfar", static_cast<float>(zfar));
-  json.end_object();
-  json.end_object();
+  json.object([&] {
+    json.member("type", ortho ? "orthographic" : "perspective");
+    if (auto name = camera_name(scene, camera.source); !name.empty()) json.member("name", name);
+    json.object(ortho ? "orthographic" : "perspective", [&] {
+      if (ortho)
+        write_window(json, window(scene, camera.source));
+      else
+        write_angle(json, scene.get(camera.source, nodes::viewpoint::fieldOfView));
+      json.members("znear", static_cast<float>(znear), "zfar", static_cast<float>(zfar));
+    });
+  });
 }
 
 }  // namespace wrlkit::gltf

@@ -1,5 +1,7 @@
 #include "writers/gltf/extras.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -42,13 +44,6 @@ bool is_long(const Value& v) {
       return v.number_span().size() * 4 > most;
   }
   return false;
-}
-
-template <class T>
-void array(JsonOut& json, std::span<const T> values) {
-  json.begin_array();
-  for (const auto& v : values) json.value(v);
-  json.end_array();
 }
 
 }  // namespace
@@ -144,28 +139,16 @@ bool Extras::anything(NodeId n, Said said) const {
 }
 
 void Extras::member(JsonOut& json, NodeId n, Said said) {
-  json.key("extras");
-  json.begin_object();
-  vrml97(json, n, said);
-  json.end_object();
+  json.object("extras", [&] { vrml97(json, n, said); });
 }
 
 void Extras::vrml97(JsonOut& json, NodeId n, Said said, bool with_name) {
-  json.key("vrml97");
-  json.begin_object();
-  node(json, n, said, with_name);
-  json.end_object();
+  json.object("vrml97", [&] { node(json, n, said, with_name); });
 }
 
 void Extras::form(JsonOut& json, NodeId n) {
   own_fields_ = true;
-  json.key("extras");
-  json.begin_object();
-  json.key("wrlkit");
-  json.begin_object();
-  node(json, n, {});
-  json.end_object();
-  json.end_object();
+  json.object("extras", [&] { json.object("wrlkit", [&] { node(json, n, {}); }); });
   own_fields_ = false;
 }
 
@@ -195,21 +178,18 @@ bool Extras::geometry_says_more(NodeId n) const {
 }
 
 void Extras::geometry(JsonOut& json, NodeId n, std::span<const std::uint32_t> polygons, double step) {
-  json.key("extras");
-  json.begin_object();
-  json.key("vrml97");
-  json.begin_object();
-  if (geometry_says_more(n)) {
-    json.key(scene_.type(n).name);
-    json.begin_object();
-    for (const Value& v : scene_.fields(n))
-      if (adds_to_vertices(n, v)) geometry_field(json, n, v);
-    json.end_object();
-  }
-  if (!polygons.empty()) json.member("polygons", polygons);
-  if (step != 1) json.member("step", step);
-  json.end_object();
-  json.end_object();
+  json.object("extras", [&] {
+    json.object("vrml97", [&] {
+      if (geometry_says_more(n)) {
+        json.object(scene_.type(n).name, [&] {
+          for (const Value& v : scene_.fields(n))
+            if (adds_to_vertices(n, v)) geometry_field(json, n, v);
+        });
+      }
+      if (!polygons.empty()) json.member("polygons", polygons);
+      if (step != 1) json.member("step", step);
+    });
+  });
 }
 
 /// A name that another mesh has written already is not written again.
@@ -225,14 +205,13 @@ bool Extras::has_names_in_geometry(NodeId n, std::span<const std::string_view> w
 }
 
 void Extras::names_in_geometry(JsonOut& json, NodeId n, std::span<const std::string_view> without) {
-  json.key(scene_.type(n).name);
-  json.begin_object();
-  for (const Value& v : scene_.fields(n))
-    if (is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end()) {
-      geometry_field(json, n, v);
-      said_names_.emplace(name(v.node));
-    }
-  json.end_object();
+  json.object(scene_.type(n).name, [&] {
+    for (const Value& v : scene_.fields(n))
+      if (is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end()) {
+        geometry_field(json, n, v);
+        said_names_.emplace(name(v.node));
+      }
+  });
 }
 
 bool Extras::has_names_below(NodeId n, std::size_t depth) const {
@@ -247,52 +226,42 @@ void Extras::names_below(JsonOut& json, NodeId n, std::size_t depth) {
     if (scene_.is_extra(v) || v.is || v.type != FieldType::SFNode || !v.node) continue;
     const bool named = is_named_child(v);
     if (!named && !has_names_below(v.node, depth - 1)) continue;
-    json.key(scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
-    json.begin_object();
-    json.key(scene_.type(v.node).name);
-    json.begin_object();
-    if (named) {
-      json.member("DEF", name(v.node));
-      said_names_.emplace(name(v.node));
-    }
-    if (depth > 1) names_below(json, v.node, depth - 1);
-    json.end_object();
-    json.end_object();
+    json.object(scene_.type(n).fields[v.slot].name_in(Dialect::vrml97), [&] {
+      json.object(scene_.type(v.node).name, [&] {
+        if (named) {
+          json.member("DEF", name(v.node));
+          said_names_.emplace(name(v.node));
+        }
+        if (depth > 1) names_below(json, v.node, depth - 1);
+      });
+    });
   }
 }
 
 bool Extras::has_unseen_names(NodeId shape) const { return !shown(shape) && has_names_below(shape, depth_of_names); }
 
 void Extras::unseen_names(JsonOut& json, NodeId shape) {
-  json.key("vrml97");
-  json.begin_object();
-  json.key("Shape");
-  json.begin_object();
-  names_below(json, shape, depth_of_names);
-  json.end_object();
-  json.end_object();
+  json.object("vrml97", [&] { json.object("Shape", [&] { names_below(json, shape, depth_of_names); }); });
 }
 
 void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {
   json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
   if (scene_.is_extra(v) || info(v.type).element != Element::node || info(v.type).multiple)
     return value(json, scene_.content(v), 0);
-  json.begin_object();
-  json.key(scene_.type(v.node).name);
-  json.begin_object();
-  if (auto def = name(v.node); !def.empty()) json.member("DEF", def);
-  json.end_object();
-  json.end_object();
+  json.object([&] {
+    json.object(scene_.type(v.node).name, [&] {
+      if (auto def = name(v.node); !def.empty()) json.member("DEF", def);
+    });
+  });
 }
 
 void Extras::node(JsonOut& json, NodeId n, Said said, bool with_name) {
   bool again = marks_[n.value] & told;
   marks_[n.value] |= told;
-  json.key(scene_.type(n).name);
-  json.begin_object();
-  if (with_name) json.member("DEF", name(n));
-  fields(json, n, said, 0, again);
-  json.end_object();
+  json.object(scene_.type(n).name, [&] {
+    if (with_name) json.member("DEF", name(n));
+    fields(json, n, said, 0, again);
+  });
 }
 
 void Extras::fields(JsonOut& json, NodeId n, Said said, std::size_t depth, bool only_short) {
@@ -314,9 +283,7 @@ void Extras::interface(JsonOut& json, const NodeType& t, NodeId n, std::size_t d
   for (std::size_t i = n_table_fields(t); i < t.fields.size(); ++i) {
     const auto& f = t.fields[i];
     json.begin_array();
-    json.value(access_word(f.access));
-    json.value(info(f.type).name);
-    json.value(f.name_in(Dialect::vrml97));
+    json.values(access_word(f.access), info(f.type).name, f.name_in(Dialect::vrml97));
     const Value* given = n ? scene_.find(n, static_cast<std::uint16_t>(i)) : nullptr;
     if (f.has_value() || (given && given->is)) value(json, given ? *given : f.default_value, depth);
     json.end_array();
@@ -355,10 +322,7 @@ void Extras::proto(JsonOut& json, const Proto& p, std::optional<std::size_t> in)
   }
   auto list = [&](std::string_view name, const auto& items, auto write) {
     if (items.empty()) return;
-    json.key(name);
-    json.begin_array();
-    for (const auto& i : items) write(i);
-    json.end_array();
+    json.list(name, items, write);
   };
   list("body", p.body.roots, [&](NodeId n) { reference(json, n, 0); });
   list("imports", p.body.imports, [&](const Import& i) { import(json, i); });
@@ -376,65 +340,46 @@ bool Extras::urls(JsonOut& json, Span where, TypeId type, std::uint16_t slot, co
 }
 
 void Extras::urls(JsonOut& json, Span where, std::span<const std::string_view> list, UrlUse use) {
-  if (!lead_) return array(json, list);
+  if (!lead_) return json.value(list);
   const auto led = lead_(where, list, use);
-  array(json, std::span<const std::string>(led));
+  json.value(std::span<const std::string>(led));
 }
 
 void Extras::route(JsonOut& json, const Route& r) const {
-  std::string s;
-  (s += name(r.from)) += '.';
-  (s += r.event_out) += " TO ";
-  (s += name(r.to)) += '.';
-  json.value(s += r.event_in);
+  json.value(fmt::format("{}.{} TO {}.{}", name(r.from), r.event_out, name(r.to), r.event_in));
 }
 
 void Extras::import(JsonOut& json, const Import& i) const {
-  std::string s;
-  (s += name(i.inline_node)) += '.';
-  (s += i.exported) += " AS ";
-  json.value(s += name(i.node));
+  json.value(fmt::format("{}.{} AS {}", name(i.inline_node), i.exported, name(i.node)));
 }
 
 void Extras::export_(JsonOut& json, const Export& e) const {
-  std::string s(name(e.node));
-  json.value((s += " AS ") += e.name);
+  json.value(fmt::format("{} AS {}", name(e.node), e.name));
 }
 
 void Extras::value(JsonOut& json, const Value& v, std::size_t depth) {
   const auto& t = info(v.type);
-  if (v.type == FieldType::verbatim || v.is) {
-    json.begin_object();
-    json.member(v.is ? "IS" : "verbatim", v.text());
-    return json.end_object();
-  }
+  if (v.type == FieldType::verbatim || v.is) return json.object(v.is ? "IS" : "verbatim", v.text());
   switch (t.element) {
     case Element::node:
       if (!t.multiple) return reference(json, v.node, depth);
-      json.begin_array();
-      for (NodeId n : v.node_span()) reference(json, n, depth);
-      return json.end_array();
+      return json.list(v.node_span(), [&](NodeId n) { reference(json, n, depth); });
     case Element::text:
-      return t.multiple ? array(json, v.text_span()) : json.value(v.text());
+      return t.multiple ? json.value(v.text_span()) : json.value(v.text());
     case Element::integer:
       if (v.type == FieldType::SFBool) return json.value(v.integer != 0);
-      return t.multiple ? array(json, v.integer_span()) : json.value(v.integer);
+      return t.multiple ? json.value(v.integer_span()) : json.value(v.integer);
     case Element::image:
-      return array(json, v.integer_span());
+      return json.value(v.integer_span());
     case Element::number:
-      return t.multiple || t.arity > 1 ? array(json, v.number_span()) : json.value(v.number);
+      return t.multiple || t.arity > 1 ? json.value(v.number_span()) : json.value(v.number);
   }
 }
 
 void Extras::reference(JsonOut& json, NodeId n, std::size_t depth) {
   bool nameless_child = n && !body_ && is_placed(n) && name(n).empty();
   if (!n || nameless_child || too_much(n, depth)) return json.raw("null");
-  json.begin_object();
-  json.key(scene_.type(n).name);
-  json.begin_object();
-  content(json, n, depth);
-  json.end_object();
-  json.end_object();
+  json.object([&] { json.object(scene_.type(n).name, [&] { content(json, n, depth); }); });
 }
 
 void Extras::content(JsonOut& json, NodeId n, std::size_t depth) {

@@ -36,6 +36,15 @@ std::string four_bytes(std::uint64_t v) {
   return s;
 }
 
+constexpr std::uint64_t chunk_head = 8, glb_head_size = 12 + chunk_head;
+
+/// Up to the JSON.
+std::string glb_head(std::uint64_t size, std::uint64_t json) {
+  return "glTF" + four_bytes(2) + four_bytes(size) + four_bytes(json) + "JSON";
+}
+std::string binary_head(std::uint64_t size) { return four_bytes(size) + std::string("BIN\0", 4); }
+std::string_view json_padding(std::uint64_t json) { return std::string_view("   ").substr(0, -json % 4); }
+
 /// As part of a file name. A DEF name may have a slash.
 std::string without_folders(std::string name) {
   std::ranges::replace_if(
@@ -94,8 +103,10 @@ class Writer {
     if (!files.open(path_)) return false;
     return build([&](Parts& parts) {
       if (!pictures_inside() && !pictures_beside(parts, files)) return false;
-      bool written =
-          options_.binary ? glb(parts, [&](auto& pieces) { files.first().write(pieces); }) : gltf(parts, files);
+      if (!options_.binary) return gltf(parts, files) && files.commit();
+      OutputFile& file = files.first();
+      const bool written =
+          file.can_rewrite() ? glb(parts, file) : glb(parts, [&](auto& pieces) { file.write(pieces); });
       return written && files.commit();
     });
   }
@@ -202,7 +213,9 @@ class Writer {
     return true;
   }
 
-  void summarize(const Parts& parts, const Blocks& json, std::vector<GltfSummary::Share> json_shares) const {
+  /// `json` holds its bytes only where they are to be packed.
+  void summarize(const Parts& parts, std::uint64_t json_size, const Blocks& json,
+                 std::vector<GltfSummary::Share> json_shares) const {
     GltfSummary& s = *summary_ = {};
     s.json_shares = std::move(json_shares);
     s.geometry_shares = parts.layout.shares();
@@ -236,7 +249,7 @@ class Writer {
       pictures.push_back(p.bytes);
       s.pictures += p.bytes.size();
     }
-    s.json = json.size();
+    s.json = json_size;
     s.geometry = parts.layout.geometry_size();
     s.quantization = parts.packing.quantization();
     s.recoding = textures_.recoding();
@@ -247,19 +260,44 @@ class Writer {
     }
   }
 
+  /// Null: too large, which is reported.
+  std::optional<std::uint64_t> glb_size(const Parts& parts, std::uint64_t json) const {
+    const std::uint64_t binary = parts.layout.size();
+    const std::uint64_t size = glb_head_size + json + (binary > 0 ? chunk_head + binary : 0);
+    if (size <= glb_limit) return size;
+    report_too_large(size, diag_);
+    return std::nullopt;
+  }
+
+  /// For what can only be written in order: the JSON is kept until its size is known.
   bool glb(const Parts& parts, auto&& put) {
-    Blocks json = json_of(parts);
-    while (json.size() % 4 != 0) json.append(" ");
-    constexpr std::uint64_t header = 12, chunk = 8;
-    std::uint64_t bin = parts.layout.size(), size = header + chunk + json.size() + (bin > 0 ? chunk + bin : 0);
-    if (size > glb_limit) return report_too_large(size, diag_);
-    std::string start = "glTF" + four_bytes(2) + four_bytes(size) + four_bytes(json.size()) + "JSON";
-    std::string between = four_bytes(bin) + std::string("BIN\0", 4);
+    Blocks json;
+    write_json_to(parts, [&](std::string_view s) { json.append(s); });
+    json.append(json_padding(json.size()));
+    const auto size = glb_size(parts, json.size());
+    if (!size) return false;
+    const std::string start = glb_head(*size, json.size()), between = binary_head(parts.layout.size());
     std::vector<std::string_view> pieces{start};
     json.pieces(pieces);
-    if (bin > 0) pieces.push_back(between);
+    if (parts.layout.size() > 0) pieces.push_back(between);
     parts.layout.pieces(pieces);
     put(pieces);
+    return true;
+  }
+
+  bool glb(const Parts& parts, OutputFile& file) {
+    file.write(std::string(glb_head_size, '\0'));
+    auto json = write_json_to(parts, file.sink());
+    const auto padding = json_padding(json);
+    json += padding.size();
+    const auto size = glb_size(parts, json);
+    if (!size) return false;
+    const std::string between = binary_head(parts.layout.size());
+    std::vector<std::string_view> pieces{padding};
+    if (parts.layout.size() > 0) pieces.push_back(between);
+    parts.layout.pieces(pieces);
+    file.write(pieces);
+    file.rewrite(0, glb_head(*size, json));
     return true;
   }
 
@@ -271,19 +309,23 @@ class Writer {
       parts.layout.pieces(pieces);
       if (!files.write(beside(name), pieces)) return false;
     }
-    Blocks json = json_of(parts);
-    std::vector<std::string_view> pieces;
-    json.pieces(pieces);
-    pieces.push_back("\n");
-    files.first().write(pieces);
+    write_json_to(parts, files.first().sink());
+    files.first().write("\n");
     return true;
   }
 
-  Blocks json_of(const Parts& parts) const {
-    Blocks json;
-    auto shares = write_json(parts, [&](std::string_view s) { json.append(s); });
-    if (summary_) summarize(parts, json, std::move(shares));
-    return json;
+  /// How many bytes it was.
+  std::uint64_t write_json_to(const Parts& parts, const Sink& sink) const {
+    const bool keeps = summary_ && options_.measure_gzip;
+    Blocks kept;
+    std::uint64_t size = 0;
+    auto shares = write_json(parts, [&](std::string_view s) {
+      size += s.size();
+      if (keeps) kept.append(s);
+      sink(s);
+    });
+    if (summary_) summarize(parts, size, kept, std::move(shares));
+    return size;
   }
 
   const Scene& scene_;

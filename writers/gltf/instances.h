@@ -7,7 +7,7 @@
 //   ["Bolt_1", "Bolt_2", ...]}}
 //
 // Those of several parents go together where names are in a table (document/place_tables.h), and have its rows as
-// feature ids. Without one, names stand in the order of the places, "" where there is none. Places are floats, whatever
+// feature ids. Without one, names are in the order of the places, "" where there is none. Places are floats, whatever
 // the compression: the extension knows no smaller translations and scales. Not worth it below `least_instances`: the
 // extension and its accessors take what three nodes do.
 #pragma once

@@ -32,20 +32,10 @@ void write_cone(JsonOut& json, const LightNode& c) {
   constexpr double smallest = 1e-3, sharp = 0.999;  // the inner cone must be inside of the outer one
   double outer = std::clamp(c.cut_off_angle, smallest, pi / 2);
   double inner = std::clamp(c.beam_width, 0.0, sharp * outer);
-  json.key("spot");
-  json.begin_object();
-  json.member("innerConeAngle", inner);
-  json.member("outerConeAngle", outer);
-  json.end_object();
+  json.member("spot", json_object("innerConeAngle", inner, "outerConeAngle", outer));
 }
 
-void write_headlight(JsonOut& json) {
-  json.begin_object();
-  json.member("type", "directional");
-  json.member("name", "headlight");
-  json.member("intensity", pi);
-  json.end_object();
-}
+void write_headlight(JsonOut& json) { json.object("type", "directional", "name", "headlight", "intensity", pi); }
 
 }  // namespace
 
@@ -89,14 +79,14 @@ void write_light(JsonOut& json, const Scene& scene, const Light& light, const Bo
   if (!n) return write_headlight(json);
   auto c = read_light(scene, n);
   bool sun = c.kind == LightNode::Kind::directional, is_spot = c.kind == LightNode::Kind::spot;
-  json.begin_object();
-  json.member("type", sun ? "directional" : is_spot ? "spot" : "point");
-  if (!scene.name(n).empty()) json.member("name", scene.name(n));
-  if (c.color != Vec3{1, 1, 1}) json.member("color", std::span<const float>(linear_color(c.color)));
-  json.member("intensity", to_float(c.intensity * full_intensity(scene, light, world)));
-  if (!sun) json.member("range", to_float(c.radius * light.scale));
-  if (is_spot) write_cone(json, c);
-  json.end_object();
+  json.object([&] {
+    json.member("type", sun ? "directional" : is_spot ? "spot" : "point");
+    if (!scene.name(n).empty()) json.member("name", scene.name(n));
+    if (c.color != Vec3{1, 1, 1}) json.member("color", std::span<const float>(linear_color(c.color)));
+    json.member("intensity", to_float(c.intensity * full_intensity(scene, light, world)));
+    if (!sun) json.member("range", to_float(c.radius * light.scale));
+    if (is_spot) write_cone(json, c);
+  });
 }
 
 }  // namespace wrlkit::gltf

@@ -36,7 +36,7 @@ Trs light_transform(const Scene&, NodeId light);
 /// What cannot be expressed of lights: one message for each kind of loss, with the place of the first.
 class LostLight {
  public:
-  /// `at_top`: it stands in no group.
+  /// `at_top`: it is in no group.
   void add(const Scene&, NodeId light, bool at_top);
   void report(Diagnostics&) const;
 

@@ -256,58 +256,52 @@ void Materials::extensions(JsonOut& json, const Look& l) {
   const bool moz = l.light.texture != none && lightmaps_ == GltfOptions::Lightmaps::moz;
   const bool unlit = !l.lit && !replaced_by_light(l);
   if (!unlit && !moz) return;
-  json.key("extensions");
-  json.begin_object();
-  if (unlit) {
-    json.key("KHR_materials_unlit");
-    json.raw("{}");
-    unlit_ = true;
-  }
-  if (moz) {
-    json.key("MOZ_lightmap");
-    light_info(json, l);
-    moz_lightmap_ = true;
-  }
-  json.end_object();
+  json.object("extensions", [&] {
+    if (unlit) {
+      json.member("KHR_materials_unlit", JsonText{"{}"});
+      unlit_ = true;
+    }
+    if (moz) {
+      json.key("MOZ_lightmap");
+      light_info(json, l);
+      moz_lightmap_ = true;
+    }
+  });
 }
 
 /// The lightmap as a textureInfo; MOZ_lightmap has a factor in it, too.
 void Materials::light_info(JsonOut& json, const Look& l) {
-  json.begin_object();
-  const double scale = scene_.get(l.appearance, nodes::appearance::lightmapScale);
-  if (lightmaps_ == GltfOptions::Lightmaps::moz && scale != 1) json.member("intensity", scale);
-  texture_info_members(json, l.light.texture, l.surface.texcoord, l.light_uv);
-  json.end_object();
+  json.object([&] {
+    const double scale = scene_.get(l.appearance, nodes::appearance::lightmapScale);
+    if (lightmaps_ == GltfOptions::Lightmaps::moz && scale != 1) json.member("intensity", scale);
+    texture_info_members(json, l.light.texture, l.surface.texcoord, l.light_uv);
+  });
 }
 
 // An unlit material has a fallback for viewers that do not know the extension: as rough as can be.
 void Materials::pbr(JsonOut& json, const Look& l) {
-  json.key("pbrMetallicRoughness");
-  json.begin_object();
-  auto base = linear_color(l.base);
-  if (l.base != white || l.alpha < 1 || moves(l, l.base_field) || moves(l, "transparency"))
-    json.member("baseColorFactor",
-                std::span<const float>(std::array{base[0], base[1], base[2], static_cast<float>(l.alpha)}));
-  if (l.texture.texture != none) texture_info(json, l, "baseColorTexture", l.texture.texture);
-  json.member("metallicFactor", static_cast<float>(l.lit ? l.metallic : 0));
-  if (l.lit && (l.rough < 1 || moves(l))) json.member("roughnessFactor", static_cast<float>(l.rough));
-  if (l.lit && l.metal_rough != none) texture_info(json, l, "metallicRoughnessTexture", l.metal_rough);
-  json.end_object();
+  json.object("pbrMetallicRoughness", [&] {
+    auto base = linear_color(l.base);
+    if (l.base != white || l.alpha < 1 || moves(l, l.base_field) || moves(l, "transparency"))
+      json.member("baseColorFactor",
+                  std::span<const float>(std::array{base[0], base[1], base[2], static_cast<float>(l.alpha)}));
+    if (l.texture.texture != none) texture_info(json, l, "baseColorTexture", l.texture.texture);
+    json.member("metallicFactor", static_cast<float>(l.lit ? l.metallic : 0));
+    if (l.lit && (l.rough < 1 || moves(l))) json.member("roughnessFactor", static_cast<float>(l.rough));
+    if (l.lit && l.metal_rough != none) texture_info(json, l, "metallicRoughnessTexture", l.metal_rough);
+  });
 }
 
 void Materials::texture_info(JsonOut& json, const Look& l, std::string_view name, std::uint32_t texture,
                              const char* factor, double value) {
-  json.key(name);
-  json.begin_object();
-  texture_info_members(json, texture, 0, l.uv, moves_picture(l));
-  if (value != 1) json.member(factor, static_cast<float>(value));
-  if (extras_ && l.transform_node) {
-    json.key("extras");
-    json.begin_object();
-    extras_->vrml97(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());
-    json.end_object();
-  }
-  json.end_object();
+  json.object(name, [&] {
+    texture_info_members(json, texture, 0, l.uv, moves_picture(l));
+    if (value != 1) json.member(factor, static_cast<float>(value));
+    if (extras_ && l.transform_node) {
+      json.object("extras",
+                  [&] { extras_->vrml97(json, l.transform_node, {}, !extras_->name(l.transform_node).empty()); });
+    }
+  });
 }
 
 void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::uint32_t set, const TexcoordMap& uv,
@@ -317,15 +311,13 @@ void Materials::texture_info_members(JsonOut& json, std::uint32_t texture, std::
   auto t = uv_transform(uv);
   if (!t || (uv == TexcoordMap{} && !moved)) return;
   texture_transform_ = true;
-  json.key("extensions");
-  json.begin_object();
-  json.key("KHR_texture_transform");
-  json.begin_object();
-  if (moved || t->offset != Vec2{0, 0}) json.member("offset", std::span<const double>(t->offset));
-  if (moved || t->rotation != 0) json.member("rotation", t->rotation);
-  if (moved || t->scale != Vec2{1, 1}) json.member("scale", std::span<const double>(t->scale));
-  json.end_object();
-  json.end_object();
+  json.object("extensions", [&] {
+    json.object("KHR_texture_transform", [&] {
+      if (moved || t->offset != Vec2{0, 0}) json.member("offset", std::span<const double>(t->offset));
+      if (moved || t->rotation != 0) json.member("rotation", t->rotation);
+      if (moved || t->scale != Vec2{1, 1}) json.member("scale", std::span<const double>(t->scale));
+    });
+  });
 }
 
 /// {index, texCoord, ..., scale, directions: [3, 4, 5]}, the latter textures as index is. Of what is written as
@@ -392,25 +384,18 @@ void Materials::extras(JsonOut& json, const Look& l) {
   for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
     if (n && extras_) extras_->set_placed(n);
   if (!material && !picture && !named && !transform && !multiplied && !light) return;
-  json.key("extras");
-  json.begin_object();
-  if (light) light_extras(json, l);
-  if (material || picture || named || transform || multiplied) {
-    json.key("vrml97");
-    json.begin_object();
-    if (named) {
-      json.key("Appearance");
-      json.begin_object();
-      json.member("DEF", extras_->name(l.appearance));
-      json.end_object();
+  json.object("extras", [&] {
+    if (light) light_extras(json, l);
+    if (material || picture || named || transform || multiplied) {
+      json.object("vrml97", [&] {
+        if (named) json.member("Appearance", json_object("DEF", extras_->name(l.appearance)));
+        if (multiplied) json.member("multiplied", true);
+        if (material) extras_->node(json, l.material, said);
+        if (picture) extras_->node(json, l.texture_node, {}, !extras_->name(l.texture_node).empty());
+        if (transform) extras_->node(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());
+      });
     }
-    if (multiplied) json.member("multiplied", true);
-    if (material) extras_->node(json, l.material, said);
-    if (picture) extras_->node(json, l.texture_node, {}, !extras_->name(l.texture_node).empty());
-    if (transform) extras_->node(json, l.transform_node, {}, !extras_->name(l.transform_node).empty());
-    json.end_object();
-  }
-  json.end_object();
+  });
 }
 
 }  // namespace wrlkit::gltf

@@ -3,7 +3,7 @@
 //
 // A mesh gets an origin of its own, a translation of its node in double, when it is small against its distance: when it
 // would lose more than 1e-4 of its extent, or when it would lose more than 1 mm and its coordinates are more than ten
-// times its extent. A world does so only by the second rule, because files that belong together should stay together.
+// times its extent. A scene does so only by the second rule, because files that belong together should stay together.
 #pragma once
 #include <optional>
 

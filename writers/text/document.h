@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/io/sink.h"
+#include "base/text/backslash.h"
 #include "scenegraph/urls.h"
 #include "writers/text/names.h"
 
@@ -51,13 +52,7 @@ class TextDocument {
   template <class Put>
   void quoted(std::string_view s, Put put) {
     out_ << '"';
-    for (std::size_t from = 0;;) {
-      const auto at = s.find_first_of("\"\\", from);
-      put(s.substr(from, at - from));
-      if (at == s.npos) break;
-      out_ << '\\' << s[at];
-      from = at + 1;
-    }
+    by_escapes(s, put, [&](char c) { out_ << '\\' << c; });
     out_ << '"';
   }
 

@@ -34,7 +34,7 @@ void for_each_statement(const Scene& scene, Dialect dialect, const std::unordere
   for (; next != later.end(); ++next) proto(*next);
 }
 
-/// Output names of a scope and of the bodies of its prototypes, which are scopes of their own: what stands in one and
+/// Output names of a scope and of the bodies of its prototypes, which are scopes of their own: what is in one and
 /// outside is printed in both. A name may be defined several times: USE means the last one before it (4.4.3). Nodes are
 /// met in the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own.
 class Names {

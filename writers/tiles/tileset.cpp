@@ -41,16 +41,12 @@ class TilesetJson {
   /// `above`: the origin of the tile that refers to this file.
   TilesetFile run(std::size_t root, const Vec3& above) {
     root_ = root;
-    json_.begin_object();
-    json_.key("asset");
-    json_.begin_object();
-    json_.member("version", "1.1");
-    json_.member("generator", "wrlkit");
-    json_.end_object();
-    json_.member("geometricError", root == 0 ? set_.error : set_.tiles[root].error);
-    json_.key("root");
-    tile(root, above);
-    json_.end_object();
+    json_.object([&] {
+      json_.member("asset", json_object("version", "1.1", "generator", "wrlkit"));
+      json_.member("geometricError", root == 0 ? set_.error : set_.tiles[root].error);
+      json_.key("root");
+      tile(root, above);
+    });
     return {root == 0 ? "tileset.json" : set_.folder + '/' + set_.tiles[root].name + ".json", out_ + '\n'};
   }
 
@@ -62,23 +58,14 @@ class TilesetJson {
     const Vec3 origin = is_elsewhere ? origin_above : t.origin;
     json_.begin_object();
     transform(i == 0, origin - origin_above);
-    json_.key("boundingVolume");
-    json_.begin_object();
-    box(t, origin);
-    json_.end_object();
+    json_.object("boundingVolume", [&] { box(t, origin); });
     json_.member("geometricError", t.error);
     if (i == root_) json_.member("refine", "REPLACE");
-    if (t.has_content || is_elsewhere) {
-      json_.key("content");
-      json_.begin_object();
-      json_.member("uri", (root_ == 0 ? set_.folder + '/' : "") + t.name + (is_elsewhere ? ".json" : ".glb"));
-      json_.end_object();
-    }
+    if (t.has_content || is_elsewhere)
+      json_.member("content", json_object("uri", (root_ == 0 ? set_.folder + '/' : "") + t.name +
+                                                     (is_elsewhere ? ".json" : ".glb")));
     if (!t.children.empty() && !is_elsewhere) {
-      json_.key("children");
-      json_.begin_array();
-      for (const auto child : t.children) tile(child, t.origin);
-      json_.end_array();
+      json_.list("children", t.children, [&](const auto child) { tile(child, t.origin); });
     }
     json_.end_object();
   }
@@ -127,15 +114,7 @@ Matrix earth_matrix(const EarthPlace& place) {
   const Vec3 up = {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
   const Vec3 x = std::cos(heading) * east - std::sin(heading) * north;
   const Vec3 y = std::sin(heading) * east + std::cos(heading) * north;
-  Matrix m;
-  for (int r = 0; r < 3; ++r) {
-    const auto k = static_cast<std::size_t>(r);
-    m(r, 0) = x[k];
-    m(r, 1) = y[k];
-    m(r, 2) = up[k];
-    m(r, 3) = at[k];
-  }
-  return m;
+  return matrix_of_columns(x, y, up, at);
 }
 
 std::vector<TilesetFile> tileset_files(const Tileset& set) {

@@ -10,7 +10,7 @@
 
 namespace wrlkit {
 
-/// Where the origin of a world is on the Earth (WGS 84): degrees, metres above the ellipsoid, and where -z of the world
+/// Where the origin of a scene is on the Earth (WGS 84): degrees, metres above the ellipsoid, and where -z of the world
 /// points to, in degrees from north towards east.
 struct EarthPlace {
   double latitude = 0, longitude = 0, height = 0, heading = 0;

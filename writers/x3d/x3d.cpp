@@ -371,7 +371,7 @@ class X3dWriter : TextDocument {
     }
   }
 
-  /// The program of a Script that can stand in the file as it is: nothing of it would be lost behind CDATA.
+  /// The program of a Script that can be written as it is: nothing of it would be lost behind CDATA.
   bool program(NodeId n, const Value& v) const {
     if (scene_.type(n).name != "Script" || scene_.is_extra(v) || v.is || v.slot != nodes::script::url.slot ||
         v.count != 1)

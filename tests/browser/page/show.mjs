@@ -48,7 +48,7 @@ function dispose(scene) {
   });
 }
 
-/// All animations, as they are so many seconds from their start.
+/// All animations, as they are that many seconds from their start.
 function play({scene, animations}, time) {
   const mixer = new THREE.AnimationMixer(scene);
   for (const clip of animations) mixer.clipAction(clip).play();

@@ -9,4 +9,4 @@ wrlkit tiles -q %t.plant/unit -o %t.set --allow-path %t.plant
 echo $?
 grep -c image/png %t.set/tiles-*/r.glb
 wrlkit tiles -q %t.plant/unit -o %t.set --strict-paths 2>&1 | grep -o url-outside | head -1
-grep -c image/png %t.set/tiles-*/r.glb || true
+test -s %t.set/tiles-*/r.glb && ! grep -q image/png %t.set/tiles-*/r.glb && echo 'a tile without the picture'

@@ -8,7 +8,7 @@ import {MeshoptDecoder} from 'three/addons/libs/meshopt_decoder.module.js';
 import dracoWrapper from 'three/addons/libs/draco/gltf/draco_wasm_wrapper.js?url';
 import dracoDecoder from 'three/addons/libs/draco/gltf/draco_decoder.wasm?url';
 
-/// Its decoder stands in the page.
+/// Its decoder is in the page.
 const dracoLoader = new DRACOLoader().setDecoderPath({js: dracoWrapper, wasm: dracoDecoder});
 
 /// What 3d-tiles-renderer knows of a tile and does not declare.

@@ -1,4 +1,4 @@
-// Viewers light what has no lights; where a world has lights of its own they do not, and the headlight would be missed.
+// Viewers light what has no lights; where a scene has lights of its own they do not, and the headlight would be missed.
 // It goes with the first camera, where a browser would be in the beginning, or looks along -Z without one; there is
 // only one, because all lights of glTF shine at the same time.
 #pragma once

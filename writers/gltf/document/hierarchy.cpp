@@ -198,7 +198,7 @@ std::uint32_t Builder::other(NodeId n) {
   return sky.empty() || d_.sky ? d_.add({.source = n}) : background(n, sky);
 }
 
-/// What shows it hangs below its node, which place_sky puts around the world when that is known.
+/// What shows it hangs below its node, which place_sky puts around the scene when that is known.
 std::uint32_t Builder::background(NodeId n, std::span<const NodeId> sky) {
   frames_.push_back({.node = n});
   std::vector<std::uint32_t> children;
@@ -221,7 +221,7 @@ bool Builder::first_visit(NodeId n, bool has_place) {
   return true;
 }
 
-/// In one message: a world may have dozens of types that glTF does not know.
+/// In one message: a scene may have dozens of types that glTF does not know.
 void Builder::report_lost() {
   std::string types;
   for (const auto& [type, n] : lost_) {
@@ -250,7 +250,7 @@ Builder::Kind Builder::kind(NodeId n) {
                                                         : Kind::other;
 }
 
-/// A few shared groups can stand for any number of nodes. Beyond the limit each node is shown once and no more.
+/// A few shared groups can show any number of nodes. Beyond the limit each node is shown once and no more.
 bool Builder::one_too_many(NodeId n) {
   if (!visited_[n.value] || d_.nodes.size() + frames_.size() < m_.options.max_nodes) return false;
   if (!full_) m_.diag.report(Diag::expansion_limit, m_.scene.where(n), m_.options.max_nodes, "nodes");

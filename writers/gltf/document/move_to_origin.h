@@ -1,4 +1,4 @@
-// A world that is far away is moved to the origin (origin.h), because viewers work in single precision.
+// A scene that is far away is moved to the origin (origin.h), because viewers work in single precision.
 #pragma once
 #include "writers/gltf/document/document.h"
 

@@ -12,23 +12,22 @@ class AssetJson : public JsonPart {
   void asset() {
     const auto& parts = p_.names.rows();
     const bool listed = !p_.names.columns() && !parts.empty();
-    object("asset", [&] {
-      json_.member("version", "2.0");
-      json_.member("generator", "wrlkit");
+    json_.object("asset", [&] {
+      json_.members("version", "2.0", "generator", "wrlkit");
       if (!p_.extras && !listed) return;
-      object("extras", [&] {
+      json_.object("extras", [&] {
         if (listed) list("features", parts.size(), [&](std::size_t i) { json_.value(parts[i].name); });
-        if (p_.extras) object("vrml97", [&] { said_of_file(); });
+        if (p_.extras) json_.object("vrml97", [&] { said_of_file(); });
       });
     });
   }
 
   void extensions() {
     if (d_.lights.empty() && !p_.has_table()) return;
-    object("extensions", [&] {
+    json_.object("extensions", [&] {
       if (p_.has_table()) table();
       if (!d_.lights.empty()) {
-        object("KHR_lights_punctual", [&] {
+        json_.object("KHR_lights_punctual", [&] {
           list("lights", d_.lights.size(),
                [&](std::size_t i) { write_light(json_, p_.scene, d_.lights[i], d_.world); });
         });
@@ -45,14 +44,11 @@ class AssetJson : public JsonPart {
 
   void source_names() {
     const auto value = [&](std::string_view name, std::size_t number) {
-      json_.begin_object();
-      json_.member("name", name);
-      json_.member("value", number);
-      json_.end_object();
+      json_.value(json_object("name", name, "value", number));
     };
     const auto& names = p_.names.sources();
-    object("enums", [&] {
-      object("source", [&] {
+    json_.object("enums", [&] {
+      json_.object("source", [&] {
         json_.key("values");
         json_.begin_array();
         for (std::size_t i = 0; i < names.size(); ++i) value(names[i], i);
@@ -70,21 +66,19 @@ class AssetJson : public JsonPart {
     const bool sources = !p_.names.sources().empty();
     auto schema = [&] {
       json_.member("id", "parts");
-      object("classes", [&] {
-        object("part", [&] {
-          object("properties", [&] {
-            json_.key("name");
-            json_.raw(R"({"type":"STRING","semantic":"NAME","required":true})");
+      json_.object("classes", [&] {
+        json_.object("part", [&] {
+          json_.object("properties", [&] {
+            json_.member("name", JsonText{R"({"type":"STRING","semantic":"NAME","required":true})"});
             if (parents)
-              object("parent", [&] {
-                json_.member("type", "SCALAR");
-                json_.member("componentType", no_parent == none ? "UINT32" : "UINT16");
-                json_.member("noData", no_parent);
+              json_.object("parent", [&] {
+                json_.members("type", "SCALAR", "componentType", no_parent == none ? "UINT32" : "UINT16", "noData",
+                              no_parent);
                 // 3d-tiles-renderer takes 0 for no data where there is no default.
                 if (!p_.extras) json_.member("default", no_parent);
               });
             if (sources)
-              object("source", [&] {
+              json_.object("source", [&] {
                 json_.member("type", "ENUM");
                 json_.member("enumType", "source");
                 if (p_.names.any_without_source()) json_.member("noData", "");
@@ -95,22 +89,20 @@ class AssetJson : public JsonPart {
       if (sources) source_names();
     };
     auto columns = [&] {
-      object("name", [&] {
-        json_.member("values", p_.layout.of_column(0));
-        json_.member("stringOffsets", p_.layout.of_column(1));
+      json_.object("name", [&] {
+        json_.members("values", p_.layout.of_column(0), "stringOffsets", p_.layout.of_column(1));
         if (p_.layout.stride_of_column(1) != 4) json_.member("stringOffsetType", "UINT16");
       });
-      if (parents) object("parent", [&] { json_.member("values", p_.layout.of_column(2)); });
-      if (sources) object("source", [&] { json_.member("values", p_.layout.of_column(parents ? 3 : 2)); });
+      if (parents) json_.object("parent", [&] { json_.member("values", p_.layout.of_column(2)); });
+      if (sources) json_.object("source", [&] { json_.member("values", p_.layout.of_column(parents ? 3 : 2)); });
     };
-    object("EXT_structural_metadata", [&] {
-      object("schema", schema);
+    json_.object("EXT_structural_metadata", [&] {
+      json_.object("schema", schema);
       list("propertyTables", 1, [&](std::size_t) {
-        json_.begin_object();
-        json_.member("class", "part");
-        json_.member("count", n);
-        object("properties", columns);
-        json_.end_object();
+        json_.object([&] {
+          json_.members("class", "part", "count", n);
+          json_.object("properties", columns);
+        });
       });
     });
   }

@@ -13,86 +13,82 @@ class BufferJson : public JsonPart {
   using JsonPart::JsonPart;
 
   void texture(const Texture& t) {
-    json_.begin_object();
-    if (auto name = name_of(t.source); !name.empty()) json_.member("name", name);
-    json_.member("sampler", t.sampler);
-    if (p_.textures.pictures()[t.picture].is_webp())
-      webp(t.picture);
-    else
-      json_.member("source", t.picture);
-    if (p_.extras && !p_.facts_only) p_.extras->member(json_, t.source, said_by_texture(p_.scene, t.source));
-    json_.end_object();
+    json_.object([&] {
+      if (auto name = name_of(t.source); !name.empty()) json_.member("name", name);
+      json_.member("sampler", t.sampler);
+      if (p_.textures.pictures()[t.picture].is_webp())
+        webp(t.picture);
+      else
+        json_.member("source", t.picture);
+      if (p_.extras && !p_.facts_only) p_.extras->member(json_, t.source, said_by_texture(p_.scene, t.source));
+    });
   }
 
   void image(std::size_t i) {
     const Picture& picture = p_.textures.pictures()[i];
-    json_.begin_object();
-    json_.member("name", picture.name);
-    if (p_.layout.pictures_inside()) {
-      json_.member("mimeType", picture.mime);
-      json_.member("bufferView", p_.layout.of_picture(i));
-    } else {
-      json_.member("uri", p_.picture_uris[i]);
-    }
-    json_.end_object();
+    json_.object([&] {
+      json_.member("name", picture.name);
+      if (p_.layout.pictures_inside()) {
+        json_.members("mimeType", picture.mime, "bufferView", p_.layout.of_picture(i));
+      } else {
+        json_.member("uri", p_.picture_uris[i]);
+      }
+    });
   }
 
   void sampler(const Sampler& s) {
-    json_.begin_object();
-    json_.member("magFilter", linear_filter);
-    json_.member("minFilter", linear_mipmap_linear);
-    if (!s.repeat_s) json_.member("wrapS", clamp_to_edge);
-    if (!s.repeat_t) json_.member("wrapT", clamp_to_edge);
-    json_.end_object();
+    json_.object([&] {
+      json_.members("magFilter", linear_filter, "minFilter", linear_mipmap_linear);
+      if (!s.repeat_s) json_.member("wrapS", clamp_to_edge);
+      if (!s.repeat_t) json_.member("wrapT", clamp_to_edge);
+    });
   }
 
   void accessor(const Accessor& a) {
     const auto& type = info(a.view);
-    json_.begin_object();
-    if (a.offset != none) json_.member("bufferView", p_.layout.of(a.view));
-    if (a.offset > 0 && a.offset != none) json_.member("byteOffset", a.offset);
-    json_.member("componentType", type.component_type);
-    json_.member("count", a.count);
-    if (type.normalized) json_.member("normalized", true);
-    json_.member("type", type.type);
-    if (a.bounds != none) {
-      const auto& b = p_.packing.store().bounds()[a.bounds];
-      const std::size_t n = a.view == View::time ? 1 : 3;
-      numbers("max", std::span<const float>(b.high).first(n));
-      numbers("min", std::span<const float>(b.low).first(n));
-    }
-    json_.end_object();
+    json_.object([&] {
+      if (a.offset != none) json_.member("bufferView", p_.layout.of(a.view));
+      if (a.offset > 0 && a.offset != none) json_.member("byteOffset", a.offset);
+      json_.members("componentType", type.component_type, "count", a.count);
+      if (type.normalized) json_.member("normalized", true);
+      json_.member("type", type.type);
+      if (a.bounds != none) {
+        const auto& b = p_.packing.store().bounds()[a.bounds];
+        const std::size_t n = a.view == View::time ? 1 : 3;
+        json_.member("max", std::span<const float>(b.high).first(n));
+        json_.member("min", std::span<const float>(b.low).first(n));
+      }
+    });
   }
 
   void buffer_view(const Layout::BufferView& v) {
     const bool packed = v.unpacked > 0;
     const auto offset = packed ? v.unpacked_offset : v.offset;
-    json_.begin_object();
-    json_.member("buffer", packed ? 1 : 0);
-    if (offset > 0) json_.member("byteOffset", offset);
-    json_.member("byteLength", packed ? v.unpacked : v.length);
-    if (v.picture == none && v.blob == none && v.column == none) {
-      const auto& type = info(v.view);
-      if (type.vertices) json_.member("byteStride", type.element);
-      if (type.vertices || type.indices) json_.member("target", type.vertices ? array_buffer : element_array_buffer);
-    }
-    if (packed) packed_view(v);
-    json_.end_object();
+    json_.object([&] {
+      json_.member("buffer", packed ? 1 : 0);
+      if (offset > 0) json_.member("byteOffset", offset);
+      json_.member("byteLength", packed ? v.unpacked : v.length);
+      if (v.picture == none && v.blob == none && v.column == none) {
+        const auto& type = info(v.view);
+        if (type.vertices) json_.member("byteStride", type.element);
+        if (type.vertices || type.indices) json_.member("target", type.vertices ? array_buffer : element_array_buffer);
+      }
+      if (packed) packed_view(v);
+    });
   }
 
   void unpacked_buffer() {
-    json_.begin_object();
-    json_.member("byteLength", p_.layout.unpacked_size());
-    json_.key("extensions");
-    json_.raw(R"({"EXT_meshopt_compression":{"fallback":true}})");
-    json_.end_object();
+    json_.object([&] {
+      json_.member("byteLength", p_.layout.unpacked_size());
+      json_.member("extensions", JsonText{R"({"EXT_meshopt_compression":{"fallback":true}})"});
+    });
   }
 
   void buffer() {
-    json_.begin_object();
-    json_.member("byteLength", p_.layout.size());
-    if (!p_.buffer_uri.empty()) json_.member("uri", p_.buffer_uri);
-    json_.end_object();
+    json_.object([&] {
+      json_.member("byteLength", p_.layout.size());
+      if (!p_.buffer_uri.empty()) json_.member("uri", p_.buffer_uri);
+    });
   }
 
  private:
@@ -108,10 +104,10 @@ class BufferJson : public JsonPart {
     extension("EXT_meshopt_compression", [&] {
       json_.member("buffer", 0);
       if (v.offset > 0) json_.member("byteOffset", v.offset);
-      json_.member("byteLength", v.length);
-      json_.member("byteStride", type.element);
-      json_.member("count", v.unpacked / type.element);
-      json_.member("mode", !type.indices ? "ATTRIBUTES" : triangles ? "TRIANGLES" : "INDICES");
+      json_.members("byteLength", v.length, "byteStride", type.element, "count", v.unpacked / type.element, "mode",
+                    !type.indices ? "ATTRIBUTES"
+                    : triangles   ? "TRIANGLES"
+                                  : "INDICES");
       if (type.filter != Filter::none) json_.member("filter", filters[static_cast<std::size_t>(type.filter)]);
     });
   }

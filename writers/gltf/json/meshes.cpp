@@ -29,29 +29,30 @@ class MeshJson : public JsonPart {
 
   void mesh(const MeshRecord& m, const Streams& s) {
     const Geometry& g = p_.meshes.geometries()[m.geometry];
-    json_.begin_object();
-    if (auto name = name_of(g.source); !name.empty()) json_.member("name", name);
-    json_.key("primitives");
-    json_.begin_array();
-    json_.begin_object();
-    object("attributes", [&] { attributes(m, s); });
-    if (s.indices != none) json_.member("indices", s.indices);
-    if (g.morph != none) targets(p_.meshes.morphs()[g.morph]);
-    if (m.material != none) json_.member("material", m.material);
-    if (s.draco != none) draco(m, s);
-    if (g.mode != Mode::triangles) json_.member("mode", static_cast<int>(g.mode));
-    if (g.features != none) mesh_features(g);
-    json_.end_object();
-    json_.end_array();
-    if (p_.extras && p_.facts_only && p_.extras->has_names_in_geometry(g.source, names_without(m, s)))
-      mesh_names(g.source, names_without(m, s));
-    if (p_.extras && !p_.facts_only) mesh_extras(g, s.draco == none, p_.packing.dequantization(m));
-    json_.end_object();
+    json_.object([&] {
+      if (auto name = name_of(g.source); !name.empty()) json_.member("name", name);
+      json_.key("primitives");
+      json_.begin_array();
+      json_.object([&] {
+        json_.object("attributes", [&] { attributes(m, s); });
+        if (s.indices != none) json_.member("indices", s.indices);
+        if (g.morph != none) targets(p_.meshes.morphs()[g.morph]);
+        if (m.material != none) json_.member("material", m.material);
+        if (s.draco != none) draco(m, s);
+        if (g.mode != Mode::triangles) json_.member("mode", static_cast<int>(g.mode));
+        if (g.features != none) mesh_features(g);
+      });
+      json_.end_array();
+      if (p_.extras && p_.facts_only && p_.extras->has_names_in_geometry(g.source, names_without(m, s)))
+        mesh_names(g.source, names_without(m, s));
+      if (p_.extras && !p_.facts_only) mesh_extras(g, s.draco == none, p_.packing.dequantization(m));
+    });
   }
 
  private:
   void mesh_names(NodeId geometry, const std::vector<std::string_view>& without) {
-    object("extras", [&] { object("vrml97", [&] { p_.extras->names_in_geometry(json_, geometry, without); }); });
+    json_.object("extras",
+                 [&] { json_.object("vrml97", [&] { p_.extras->names_in_geometry(json_, geometry, without); }); });
   }
 
   /// Fields whose values no accessor has, so that a name would be that of nothing.
@@ -67,11 +68,10 @@ class MeshJson : public JsonPart {
   void mesh_features(const Geometry& g) {
     extension("EXT_mesh_features", [&] {
       list("featureIds", 1, [&](std::size_t) {
-        json_.begin_object();
-        json_.member("featureCount", g.n_features);
-        json_.member("attribute", 0);
-        if (p_.has_table()) json_.member("propertyTable", 0);
-        json_.end_object();
+        json_.object([&] {
+          json_.members("featureCount", g.n_features, "attribute", 0);
+          if (p_.has_table()) json_.member("propertyTable", 0);
+        });
       });
     });
   }
@@ -79,10 +79,10 @@ class MeshJson : public JsonPart {
   void targets(const Morph& m) {
     list("targets", m.targets.size(), [&](std::size_t i) {
       const auto& t = m.targets[i];
-      json_.begin_object();
-      if (t.positions != none) json_.member("POSITION", p_.packing.of(t.positions));
-      if (t.normals != none) json_.member("NORMAL", p_.packing.of(t.normals));
-      json_.end_object();
+      json_.object([&] {
+        if (t.positions != none) json_.member("POSITION", p_.packing.of(t.positions));
+        if (t.normals != none) json_.member("NORMAL", p_.packing.of(t.normals));
+      });
     });
   }
 
@@ -105,7 +105,7 @@ class MeshJson : public JsonPart {
       if (s.*part != none) ids.*part = next++;
     extension("KHR_draco_mesh_compression", [&] {
       json_.member("bufferView", p_.layout.of_blob(s.draco));
-      object("attributes", [&] { attributes(m, ids); });
+      json_.object("attributes", [&] { attributes(m, ids); });
     });
   }
 

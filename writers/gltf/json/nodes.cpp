@@ -15,30 +15,30 @@ class NodeJson : public JsonPart {
   using JsonPart::JsonPart;
 
   void scene() {
-    json_.begin_object();
-    if (d_.world_info) {
-      auto title = p_.scene.get(d_.world_info, nodes::world_info::title);
-      if (!title.empty()) json_.member("name", title);
-    }
-    if (!d_.roots.empty()) numbers("nodes", std::span(d_.roots));
-    if (p_.extras) scene_extras();
-    json_.end_object();
+    json_.object([&] {
+      if (d_.world_info) {
+        auto title = p_.scene.get(d_.world_info, nodes::world_info::title);
+        if (!title.empty()) json_.member("name", title);
+      }
+      if (!d_.roots.empty()) json_.member("nodes", std::span(d_.roots));
+      if (p_.extras) scene_extras();
+    });
   }
 
   void node(std::uint32_t id) {
     const Node& n = d_.nodes[id];
-    json_.begin_object();
-    if (auto name = node_name(n); !name.empty()) json_.member("name", name);
-    if (n.transform != none) transform(d_.transforms[n.transform]);
-    if (n.attachment == Attachment::mesh) json_.member("mesh", n.attached);
-    if (n.attachment == Attachment::camera) json_.member("camera", n.attached);
-    if (n.n_children > 0) numbers("children", d_.children_of(n));
-    if (n.attachment == Attachment::light || n.lod || n.hidden) node_extensions(n, id);
-    if (n.instances != none)
-      instances(d_.instances[n.instances]);
-    else
-      node_extras(n, id);
-    json_.end_object();
+    json_.object([&] {
+      if (auto name = node_name(n); !name.empty()) json_.member("name", name);
+      if (n.transform != none) transform(d_.transforms[n.transform]);
+      if (n.attachment == Attachment::mesh) json_.member("mesh", n.attached);
+      if (n.attachment == Attachment::camera) json_.member("camera", n.attached);
+      if (n.n_children > 0) json_.member("children", d_.children_of(n));
+      if (n.attachment == Attachment::light || n.lod || n.hidden) node_extensions(n, id);
+      if (n.instances != none)
+        instances(d_.instances[n.instances]);
+      else
+        node_extras(n, id);
+    });
   }
 
  private:
@@ -48,9 +48,9 @@ class NodeJson : public JsonPart {
     if (!d_.navigation_info && !d_.origin && main.routes.empty() && !protos && main.imports.empty() &&
         main.exports.empty())
       return;
-    object("extras", [&] {
-      object("vrml97", [&] {
-        if (d_.origin) numbers("origin", std::span<const double>(*d_.origin));
+    json_.object("extras", [&] {
+      json_.object("vrml97", [&] {
+        if (d_.origin) json_.member("origin", std::span<const double>(*d_.origin));
         if (d_.navigation_info) p_.extras->node(json_, d_.navigation_info, {});
         if (protos) p_.extras->protos(json_, main.protos);
         list("imports", main.imports.size(), [&](std::size_t i) { p_.extras->import(json_, main.imports[i]); });
@@ -71,30 +71,30 @@ class NodeJson : public JsonPart {
   }
 
   void transform(const Trs& t) {
-    if (t.translation != Vec3{0, 0, 0}) numbers("translation", std::span<const double>(t.translation));
+    if (t.translation != Vec3{0, 0, 0}) json_.member("translation", std::span<const double>(t.translation));
     if (!t.rotation.identity()) {
       const auto& q = t.rotation;
-      numbers("rotation", std::span<const double>(std::array{q.x, q.y, q.z, q.w}));
+      json_.member("rotation", std::span<const double>(std::array{q.x, q.y, q.z, q.w}));
     }
-    if (t.scale != Vec3{1, 1, 1}) numbers("scale", std::span<const double>(t.scale));
+    if (t.scale != Vec3{1, 1, 1}) json_.member("scale", std::span<const double>(t.scale));
   }
 
   void node_extensions(const Node& n, std::uint32_t id) {
-    object("extensions", [&] {
+    json_.object("extensions", [&] {
       if (n.attachment == Attachment::light) {
-        object("KHR_lights_punctual", [&] { json_.member("light", n.attached); });
+        json_.object("KHR_lights_punctual", [&] { json_.member("light", n.attached); });
       }
       if (n.lod) {
-        object("MSFT_lod", [&] { numbers("ids", std::span(d_.lods.at(id).levels)); });
+        json_.object("MSFT_lod", [&] { json_.member("ids", std::span(d_.lods.at(id).levels)); });
       }
-      if (n.hidden) object("KHR_node_visibility", [&] { json_.member("visible", false); });
+      if (n.hidden) json_.object("KHR_node_visibility", [&] { json_.member("visible", false); });
     });
   }
 
   void instances(const Instances& all) {
-    object("extensions", [&] {
-      object("EXT_mesh_gpu_instancing", [&] {
-        object("attributes", [&] {
+    json_.object("extensions", [&] {
+      json_.object("EXT_mesh_gpu_instancing", [&] {
+        json_.object("attributes", [&] {
           if (all.translations != none) json_.member("TRANSLATION", p_.packing.of(all.translations));
           if (all.rotations != none) json_.member("ROTATION", p_.packing.of(all.rotations));
           if (all.scales != none) json_.member("SCALE", p_.packing.of(all.scales));
@@ -104,20 +104,20 @@ class NodeJson : public JsonPart {
       if (all.features != none) instance_features(all);
     });
     if (!all.rows.empty() || std::ranges::all_of(all.sources, [&](NodeId n) { return name_of(n).empty(); })) return;
-    object("extras",
-           [&] { list("names", all.sources.size(), [&](std::size_t i) { json_.value(name_of(all.sources[i])); }); });
+    json_.object("extras", [&] {
+      list("names", all.sources.size(), [&](std::size_t i) { json_.value(name_of(all.sources[i])); });
+    });
   }
 
   void instance_features(const Instances& all) {
     const std::set<std::uint32_t> ids(all.rows.begin(), all.rows.end());
-    object("EXT_instance_features", [&] {
+    json_.object("EXT_instance_features", [&] {
       list("featureIds", 1, [&](std::size_t) {
-        json_.begin_object();
-        json_.member("featureCount", ids.size() - ids.count(none));
-        if (ids.contains(none)) json_.member("nullFeatureId", no_part);
-        json_.member("attribute", 0);
-        json_.member("propertyTable", 0);
-        json_.end_object();
+        json_.object([&] {
+          json_.member("featureCount", ids.size() - ids.count(none));
+          if (ids.contains(none)) json_.member("nullFeatureId", no_part);
+          json_.members("attribute", 0, "propertyTable", 0);
+        });
       });
     });
   }
@@ -147,15 +147,14 @@ class NodeJson : public JsonPart {
     const bool unseen = p_.extras && p_.facts_only && !vrml97 && n.source && n.attachment == Attachment::nothing &&
                         p_.scene.is(n.source, nodes::Shape) && p_.extras->has_unseen_names(n.source);
     if (!vrml97 && !coverage && !unseen) return;
-    object("extras", [&] {
-      if (coverage) numbers("MSFT_screencoverage", std::span(d_.lods.at(id).coverage));
+    json_.object("extras", [&] {
+      if (coverage) json_.member("MSFT_screencoverage", std::span(d_.lods.at(id).coverage));
       if (unseen) p_.extras->unseen_names(json_, n.source);
       if (vrml97 && (!n.source || n.same_as != none)) {
-        object("vrml97", [&] {
+        json_.object("vrml97", [&] {
           if (n.source) json_.member("USE", n.same_as);
           if (n.attachment == Attachment::mesh && !n.source) {
-            json_.key("Shape");
-            json_.raw("{}");
+            json_.member("Shape", JsonText{"{}"});
           }
         });
       } else if (vrml97) {

@@ -10,13 +10,6 @@ class JsonPart {
   JsonPart(JsonOut& json, const Parts& parts) : json_(json), p_(parts), d_(parts.document) {}
 
  protected:
-  /// A member that is an object; an element of a list without a name.
-  void object(std::string_view name, const auto& members) {
-    if (!name.empty()) json_.key(name);
-    json_.begin_object();
-    members();
-    json_.end_object();
-  }
   /// A member that is a list; glTF allows no empty ones.
   void list(std::string_view name, std::size_t n, const auto& element) {
     if (n == 0) return;
@@ -27,13 +20,8 @@ class JsonPart {
   }
   /// The member extensions with one extension in it.
   void extension(std::string_view name, const auto& members) {
-    object("extensions", [&] { object(name, members); });
+    json_.object("extensions", [&] { json_.object(name, members); });
   }
-  template <class T>
-  void numbers(std::string_view name, std::span<const T> values) {
-    json_.member(name, values);
-  }
-
   std::string_view name_of(NodeId n) const { return p_.extras ? p_.extras->name(n) : p_.scene.name(n); }
 
   JsonOut& json_;

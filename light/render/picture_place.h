@@ -9,7 +9,7 @@
 namespace wrlkit::drawing {
 
 /// A place in a picture whose sides are 1 long.
-struct Place {
+struct PicturePlace {
   std::array<double, 2> at;
   double density = 0;  // area in the picture for each square metre of the world
 
@@ -19,7 +19,7 @@ struct Place {
 };
 
 /// By one of the streams of the pool. `area` is twice that of the triangle in the world. None when the mesh lacks it.
-std::optional<Place> place_of(const MeshPool& pool, const PooledMesh& mesh, const Hit& hit, const Stream& stream,
-                              std::size_t first, const TexcoordMap& map, double area);
+std::optional<PicturePlace> place_of(const MeshPool& pool, const PooledMesh& mesh, const Hit& hit, const Stream& stream,
+                                     std::size_t first, const TexcoordMap& map, double area);
 
 }  // namespace wrlkit::drawing

@@ -1,0 +1,79 @@
+#include "light/exposure.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace wrlkit {
+
+bool Exposure::read(std::string_view text) {
+  automatic = text == "auto";
+  factor = 1;
+  if (automatic) return true;
+  const auto r = std::from_chars(text.data(), text.data() + text.size(), factor);
+  return r.ec == std::errc{} && r.ptr == text.data() + text.size() && factor >= 1e-9 && factor <= 1e9;
+}
+
+std::string Exposure::print() const {
+  if (automatic) return "auto";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", factor);
+  return text;
+}
+
+namespace light {
+
+namespace {
+
+double of_three_digits(double v) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", v);
+  Exposure rounded;
+  rounded.read(text);
+  return rounded.factor;
+}
+
+}  // namespace
+
+double LightMeter::middle(std::size_t bin) {
+  return std::exp2((static_cast<double>(bin) + 0.5) / steps - n_doublings / 2.0);
+}
+
+void LightMeter::add(double luminance) {
+  if (!(luminance > 0)) return;
+  const double at = (std::log2(luminance) + n_doublings / 2.0) * steps;
+  ++counts_[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(counts_.size() - 1)))];
+}
+
+void LightMeter::add(const LightMeter& other) {
+  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+}
+
+double LightMeter::factor(double target) const {
+  constexpr double faint = 1e-3, most = 1e6, burnt = 4;
+  double n = 0, sum = 0;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    n += static_cast<double>(counts_[i]);
+    sum += static_cast<double>(counts_[i]) * middle(i);
+  }
+  const double least = n > 0 ? faint * sum / n : 0;
+  double n_seen = 0, logarithms = 0;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    if (middle(i) < least) continue;
+    n_seen += static_cast<double>(counts_[i]);
+    logarithms += static_cast<double>(counts_[i]) * std::log2(middle(i));
+  }
+  if (!(n_seen > 0)) return 1;
+  double brighter = 0;
+  std::size_t half = counts_.size();
+  while (2 * brighter < sum) {
+    --half;
+    brighter += static_cast<double>(counts_[half]) * middle(half);
+  }
+  const double wanted = std::min(target / std::exp2(logarithms / n_seen), burnt / middle(half));
+  return of_three_digits(std::clamp(wanted, 1 / most, most));
+}
+
+}  // namespace light
+}  // namespace wrlkit
