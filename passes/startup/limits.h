@@ -13,6 +13,7 @@ inline constexpr std::size_t script_requests = 1'000'000;          // questions 
 inline constexpr std::size_t script_exchanged = 128 << 20;         // bytes of questions and answers
 inline constexpr std::size_t script_events = 100'000;              // that are sent
 inline constexpr std::size_t script_made_text = 4 << 20;           // bytes of all texts for createVrmlFromString
+inline constexpr std::size_t script_made_texts = 10'000;           // of these texts
 inline constexpr std::size_t script_made_nodes = 200'000;
 inline constexpr std::size_t script_depth = 1000;  // of nested nodes, as parsers allow
 

@@ -41,8 +41,6 @@ std::string ScriptRun::answer(std::string_view request) {
     find_named(asked, out);
   else if (what == "root")
     add_root(asked);
-  else if (what == "browser")
-    out.member("version", "1");
   else
     ctx_.diag.report(Diag::script_refused, scene_.where(running_), asked["text"].text());
   out.end_object();
@@ -89,8 +87,10 @@ void ScriptRun::set_field(Json asked, JsonOut& out) {
 void ScriptRun::create(Json asked, JsonOut& out) {
   std::string text(asked["text"].text());
   made_text_ += text.size();
-  if (made_text_ > script_made_text) return out.member("error", "the texts of createVrmlFromString are too long");
-  if (sniff_format(text) == Format::none) text.insert(0, header_of(scene_));
+  if (made_text_ > script_made_text || ++made_texts_ > script_made_texts)
+    return out.member("error", "createVrmlFromString is given too much");
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == text.npos || (text[first] != '#' && text[first] != '<')) text.insert(0, header_of(scene_));
   const ReadOptions options{.parse = {.depth = script_depth, .nodes = script_made_nodes - made_nodes_}};
   PassContext alone(ctx_.diag, ctx_.stats);  // no further files
   const auto world = parse_world(text, "createVrmlFromString", options, ctx_.diag);
@@ -99,9 +99,9 @@ void ScriptRun::create(Json asked, JsonOut& out) {
   expand_protos(world->scene, {.limit = static_cast<int>(script_made_nodes)}, alone);
   made_nodes_ += world->scene.node_count();
   if (made_nodes_ >= script_made_nodes) return out.member("error", "createVrmlFromString makes too many nodes");
-  const auto first = static_cast<std::uint32_t>(scene_.node_count());
+  const auto n_before = static_cast<std::uint32_t>(scene_.node_count());
   const Scope made = scene_.import(world->scene);
-  for (auto n = first; n < scene_.node_count(); ++n) scene_.set_where(NodeId{n}, scene_.where(running_));
+  for (auto n = n_before; n < scene_.node_count(); ++n) scene_.set_where(NodeId{n}, scene_.where(running_));
   for (const Route& r : made.routes) {
     scene_.main.routes.push_back(r);
     add_route(r);

@@ -33,7 +33,10 @@ void ScriptRun::add_route(const Route& r) {
   const auto slot = slot_of(r.from, r.event_out);
   if (!slot) return;
   routes_[{r.from.value, *slot}].push_back(r);
-  if (is_script(scene_, r.to)) entered_.insert(r.to.value);
+  const bool later =
+      scene_.is(r.from, nodes::X3DSensorNode | nodes::X3DInterpolatorNode) &&
+      scene_.type(r.from).fields[*slot].access == Access::out;  // what senses is silent while Scripts start
+  if (!later && is_script(scene_, r.to)) entered_.insert(r.to.value);
 }
 
 std::string ScriptRun::interface_of(NodeId script) const {

@@ -85,7 +85,7 @@ class ScriptRun {
   std::vector<Change> changes_;
   std::set<End> changed_;
   std::set<std::uint32_t> touched_;  // Scripts with a function that has run in this instant
-  std::size_t n_events_ = 0, n_routes_ = 0, made_text_ = 0, made_nodes_ = 0, first_made_;
+  std::size_t n_events_ = 0, n_routes_ = 0, made_text_ = 0, made_texts_ = 0, made_nodes_ = 0, first_made_;
   bool changed_graph_ = false;
 };
 

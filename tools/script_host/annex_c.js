@@ -1,8 +1,9 @@
 // The types, functions and constants that ISO/IEC 14772-1 Annex C gives a Script, and those of ISO/IEC 19777-1 that are
-// the same. One of these environments is made for each Script. `ask` sends a request to the program and returns its
+// the same. They are made once; `begin` gives them to the environment of a Script. `ask` sends a request to the program and returns its
 // answer, both as JSON; values travel as numbers, texts, and flat arrays of them, nodes by their numbers.
-(function (ask, global) {
+(function (ask) {
   'use strict';
+  var shared = {};          // what every environment has
   var toJson = JSON.stringify, fromJson = JSON.parse;
   var instant = 946684800;  // seconds: the begin of the year 2000, for the same file has the same effect every day
   var longest = 4000000;    // elements of a list
@@ -57,7 +58,7 @@
     hide(T.prototype, 'length', size);
     hide(T.prototype, 'toString', function () { return this._.join(' '); });
     hide(T.prototype, 'equals', function (o) { return !!o && T.of(o)._.join() === this._.join(); });
-    hide(global, name, T);
+    shared[name] = T;
     tuples[name] = T;
     return T;
   }
@@ -140,7 +141,7 @@
   SFRotation.of = plainRotation.of;
   SFRotation.made = plainRotation.made;
   SFRotation.size = 4;
-  hide(global, 'SFRotation', SFRotation);
+  shared.SFRotation = SFRotation;
   tuples.SFRotation = SFRotation;
   method(SFRotation, 'getAxis', function () { return SFVec3f.made(this._.slice(0, 3)); });
   method(SFRotation, 'setAxis', function (v) { for (var i = 0; i < 3; ++i) this[i] = v[i]; });
@@ -200,7 +201,7 @@
     }
     return nodes[id];
   }
-  hide(global, 'SFNode', Node);
+  shared.SFNode = Node;
 
   // MFVec3f and its like: lists that grow when something beyond their end is asked for.
   function own(value, changed) {
@@ -261,7 +262,7 @@
         return true;
       }
     };
-    hide(global, name, M);
+    shared[name] = M;
     lists[name] = M;
   }
   Object.keys(tuples).forEach(function (name) {
@@ -283,7 +284,7 @@
     this.comp = integer(comp);
     this.array = lists.MFInt32.of(array);
   }
-  hide(global, 'SFImage', SFImage);
+  shared.SFImage = SFImage;
 
   // Values as they travel, by the names of their types.
   function toWire(v) {
@@ -343,10 +344,9 @@
     createNode: function (type) { return create(text(type).replace(/[^\w]/g, '') + ' { }')[0]; },
     addRootNode: function (n) { request({op: 'root', node: n && n.id_}); }
   };
-  var about = request({op: 'browser'});
   var browser = {
-    name: 'wrlkit', version: about.version, currentSpeed: 0, currentFrameRate: 0, currentScene: scene,
-    getName: function () { return 'wrlkit'; }, getVersion: function () { return about.version; },
+    name: 'wrlkit', version: '1', currentSpeed: 0, currentFrameRate: 0, currentScene: scene,
+    getName: function () { return 'wrlkit'; }, getVersion: function () { return '1'; },
     getCurrentSpeed: zero, getCurrentFrameRate: zero, getWorldURL: function () { return ''; },
     createVrmlFromString: create, createX3DFromString: function (s) { return {rootNodes: create(s)}; },
     addRoute: scene.addRoute, deleteRoute: scene.deleteRoute,
@@ -354,11 +354,11 @@
   };
   ['loadURL', 'replaceWorld', 'createVrmlFromURL', 'createX3DFromURL', 'importDocument', 'loadURL', 'addBrowserListener']
     .forEach(function (name) { browser[name] = function () { request({op: 'refused', text: 'Browser.' + name}); }; });
-  hide(global, 'Browser', browser);
-  ['print', 'println', 'trace', 'alert'].forEach(function (name) { hide(global, name, nothing); });
-  hide(global, 'TRUE', true);
-  hide(global, 'FALSE', false);
-  hide(global, 'NULL', null);
+  shared.Browser = browser;
+  ['print', 'println', 'trace', 'alert'].forEach(function (name) { shared[name] = nothing; });
+  shared.TRUE = true;
+  shared.FALSE = false;
+  shared.NULL = null;
 
   // Time stands still and chance repeats itself.
   var RealDate = Date, seed = 1;
@@ -373,60 +373,64 @@
   FixedDate.parse = RealDate.parse;
   FixedDate.prototype = RealDate.prototype;
   RealDate.prototype.constructor = FixedDate;
-  hide(global, 'Date', FixedDate);
+  shared.Date = FixedDate;
   Math.random = function () {
     seed = (seed * 16807) % 2147483647;
     return (seed - 1) / 2147483646;
   };
-  delete global.Duktape;
-  delete global.performance;
+  shared.Math = Math;
 
   // Fields are variables of the program; what becomes of eventOuts is sent when a function has ended.
-  var values = {}, types = {}, pending = [], isOut = {};
-  function send(name) { if (isOut[name] && pending.indexOf(name) < 0) pending.push(name); }
-  function declare(f) {
-    types[f.name] = f.type;
-    isOut[f.name] = f.out;
-    var assign = function (v) {
-      own(v, function () { send(f.name); });
-      values[f.name] = v;
-    };
-    assign(fromWire(f.type, f.value));
-    var names = f.inout ? [f.name, f.name + '_changed'] : [f.name];
-    names.forEach(function (name) {
-      Object.defineProperty(global, name, {
-        configurable: true, enumerable: true,
-        get: function () { return values[f.name]; },
-        set: function (v) { assign(convert(f.type, v)); send(f.name); }
+  function begin(global) {
+    Object.keys(shared).forEach(function (name) { hide(global, name, shared[name]); });
+    delete global.Duktape;
+    delete global.performance;
+    var values = {}, types = {}, pending = [], isOut = {};
+    function send(name) { if (isOut[name] && pending.indexOf(name) < 0) pending.push(name); }
+    function declare(f) {
+      types[f.name] = f.type;
+      isOut[f.name] = f.out;
+      var assign = function (v) {
+        own(v, function () { send(f.name); });
+        values[f.name] = v;
+      };
+      assign(fromWire(f.type, f.value));
+      var names = f.inout ? [f.name, f.name + '_changed'] : [f.name];
+      names.forEach(function (name) {
+        Object.defineProperty(global, name, {
+          configurable: true, enumerable: true,
+          get: function () { return values[f.name]; },
+          set: function (v) { assign(convert(f.type, v)); send(f.name); }
+        });
       });
-    });
-    return assign;
-  }
-  var assigners = {};
-  return {
-    load: function (json) {
-      fromJson(json).fields.forEach(function (f) { assigners[f.name] = declare(f); });
-    },
-    call: function (json) {
-      var c = fromJson(json), name = c.name, error = '';
-      pending = [];
-      if (c.type && assigners[c.field]) assigners[c.field](fromWire(c.type, c.value));
-      try {
-        var f = global[name];
-        if (typeof f !== 'function' && c.field) f = global[name = c.field];
-        if (typeof f === 'function') {
-          if (c.type) f(fromWire(c.type, c.value), instant);
-          else f(instant);
+      return assign;
+    }
+    var assigners = {};
+    return {
+      load: function (json) {
+        fromJson(json).fields.forEach(function (f) { assigners[f.name] = declare(f); });
+      },
+      call: function (json) {
+        var c = fromJson(json), name = c.name, error = '';
+        pending = [];
+        if (c.type && assigners[c.field]) assigners[c.field](fromWire(c.type, c.value));
+        try {
+          var f = global[name];
+          if (typeof f !== 'function' && c.field) f = global[name = c.field];
+          if (typeof f === 'function') {
+            if (c.type) f(fromWire(c.type, c.value), instant);
+            else f(instant);
+          }
+        } catch (e) {
+          error = e && e.message !== undefined ? e.name + ': ' + e.message + (e.lineNumber ? ' (line ' + e.lineNumber + ')' : '')
+                                     : String(e);
         }
-      } catch (e) {
-        error = e instanceof Error ? e.name + ': ' + e.message + (e.lineNumber ? ' (line ' + e.lineNumber + ')' : '')
-                                   : String(e);
+        return toJson({
+          events: pending.map(function (n) { return {name: n, value: toWire(values[n])}; }),
+          error: error
+        });
       }
-      return toJson({
-        events: pending.map(function (n) { return {name: n, value: toWire(values[n])}; }),
-        error: error
-      });
-    },
-    has: function (name) { return typeof global[name] === 'function'; }
-  };
+    };
+  }
+  return begin;
 })

@@ -30,8 +30,9 @@ void* resize(void* udata, void* old, duk_size_t size) {
     memory.used -= before;
     return nullptr;
   }
+  size += head;
   if (size > memory.most || memory.used - before + size > memory.most) return nullptr;
-  char* const made = static_cast<char*>(std::realloc(block, size + head));
+  char* const made = static_cast<char*>(std::realloc(block, size));
   if (!made) return nullptr;
   memory.used += size - before;
   std::memcpy(made, &size, sizeof size);
@@ -63,7 +64,7 @@ namespace {
 
 /// ask(request): the one function of the environment that leads outside.
 duk_ret_t ask(duk_context* ctx) {
-  duk_push_global_stash(ctx);
+  duk_push_heap_stash(ctx);
   duk_get_prop_string(ctx, -1, "ask");
   const auto& answer = *static_cast<ScriptEngine::Ask*>(duk_get_pointer(ctx, -1));
   duk_size_t n = 0;
@@ -73,24 +74,34 @@ duk_ret_t ask(duk_context* ctx) {
   return 1;
 }
 
-struct Program {
-  std::string_view fields, text;
-  ScriptEngine::Ask* ask;
-};
-
-/// In the context of the new environment: its types, its fields, then the program.
-duk_ret_t begin_environment(duk_context* ctx, void* udata) {
-  const auto& program = *static_cast<const Program*>(udata);
-  duk_push_global_stash(ctx);
-  duk_push_pointer(ctx, program.ask);
+/// Runs annex_c.js: the function that it returns, in the heap's stash, begins environments.
+duk_ret_t make_types(duk_context* ctx, void* answer) {
+  duk_push_heap_stash(ctx);
+  duk_push_pointer(ctx, answer);
   duk_put_prop_string(ctx, -2, "ask");
   duk_push_string(ctx, "annex_c.js");
   duk_compile_lstring_filename(ctx, DUK_COMPILE_EVAL, wrlkit_annex_c_begin,
                                static_cast<duk_size_t>(wrlkit_annex_c_end - wrlkit_annex_c_begin));
   duk_call(ctx, 0);
   duk_push_c_function(ctx, ask, 1);
+  duk_call(ctx, 1);
+  duk_put_prop_string(ctx, -2, "begin");
+  return 0;
+}
+
+struct Program {
+  std::string_view fields, text;
+};
+
+/// In the context of the new environment: the types, its fields, then the program.
+duk_ret_t begin_environment(duk_context* ctx, void* udata) {
+  const auto& program = *static_cast<const Program*>(udata);
+  duk_push_global_stash(ctx);
+  duk_push_heap_stash(ctx);
+  duk_get_prop_string(ctx, -1, "begin");
+  duk_remove(ctx, -2);
   duk_push_global_object(ctx);
-  duk_call(ctx, 2);
+  duk_call(ctx, 1);
   duk_dup(ctx, -1);
   duk_put_prop_string(ctx, -3, "calls");
   duk_push_string(ctx, "load");
@@ -124,14 +135,15 @@ duk_context* environment(duk_context* heap, std::uint32_t id) {
 
 ScriptEngine::ScriptEngine(std::size_t most_memory, Ask ask) : state_(new State{{most_memory}, std::move(ask)}) {
   state_->heap = duk_create_heap(allocate, resize, release, &state_->memory, end_process);
-  if (!state_->heap) end_process(nullptr, nullptr);
+  if (!state_->heap || duk_safe_call(state_->heap, make_types, &state_->ask, 0, 1) != 0) end_process(nullptr, nullptr);
+  duk_pop(state_->heap);
 }
 
 ScriptEngine::~ScriptEngine() { duk_destroy_heap(state_->heap); }
 
 std::string ScriptEngine::load(std::uint32_t id, std::string_view fields, std::string_view text) {
   duk_context* const heap = state_->heap;
-  Program program{fields, text, &state_->ask};
+  Program program{fields, text};
   struct Job {
     std::uint32_t id;
     Program* program;
