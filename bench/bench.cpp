@@ -38,10 +38,12 @@ void floor_floats(benchmark::State& state) {
       bool number = p < end && ((*p >= '0' && *p <= '9') || *p == '-' || *p == '.');
       auto r =
           number ? fast_float::from_chars(p, end, f) : fast_float::from_chars_result{p, std::errc::invalid_argument};
-      if (r.ec == std::errc{})
-        numbers.push_back(f), p = r.ptr;
-      else
+      if (r.ec != std::errc{}) {
         while (p < end && !blank(*p)) ++p;
+        continue;
+      }
+      numbers.push_back(f);
+      p = r.ptr;
     }
     benchmark::DoNotOptimize(numbers.data());
   }

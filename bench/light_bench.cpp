@@ -1,10 +1,10 @@
 // Rays and baking, in CPU seconds.
-//   light_bench rays IN.wrl [N]                     rays a second: nearest and occluded, of the library and of Embree
-//   alone,
-//                                                   over the same triangles and the same rays, in one run
-//   light_bench bake IN.wrl TEXELS RAYS,... [SPP]   irradiance at about TEXELS points spread over all faces: CPU
-//   seconds and
-//                                                   error against path tracing with SPP rays a point (default 8192)
+//   light_bench rays IN.wrl [N]
+//     rays a second: nearest and occluded, of the library and of Embree alone, over the same triangles and the same
+//     rays, in one run
+//   light_bench bake IN.wrl TEXELS RAYS,... [SPP]
+//     irradiance at about TEXELS points spread over all faces: CPU seconds and error against path tracing with SPP rays
+//     a point (default 8192)
 #include <embree3/rtcore.h>
 
 #include <cmath>
@@ -17,30 +17,20 @@
 
 #include "base/math/random.h"
 #include "base/parallel.h"
+#include "bench/loaded_world.h"
 #include "bench/process_cost.h"
 #include "light/flux.h"
 #include "light/integrator.h"
-#include "parsers/parsers.h"
-#include "passes/pipeline/pipeline.h"
 
 namespace {
 
 using namespace wrlkit;
 using namespace wrlkit::light;
 
-struct Loaded {
-  Diagnostics diag;
-  Statistics stats;
-  std::unique_ptr<World> file;
+struct Loaded : LoadedWorld {
   std::unique_ptr<LightWorld> world;
 
-  explicit Loaded(const char* path, const LightOptions& options = {}) {
-    file = read_world(path, {}, diag);
-    if (!file) std::fprintf(stderr, "cannot read %s\n", path), std::exit(1);
-    std::string why;
-    PassContext ctx{diag, stats};
-    auto pipeline = Pipeline::parse("picture", why);
-    auto meshes = pipeline->run_lazily(file->scene, ctx);
+  explicit Loaded(const char* path, const LightOptions& options = {}) : LoadedWorld(path, "picture") {
     double t = cpu_seconds();
     world = std::make_unique<LightWorld>(file->scene, meshes, nullptr, options, diag);
     std::printf("%s: %zu uses, world %.3f CPU s, peak %.0f MB\n", path, world->stage().uses.size(), cpu_seconds() - t,
@@ -115,13 +105,20 @@ struct Bare {
     rtcAttachGeometry(scene, g);
     rtcCommitScene(scene);
   }
-  ~Bare() { rtcReleaseScene(scene), rtcReleaseDevice(device); }
+  ~Bare() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
 };
 
 RTCRay bare_ray(const V3& o, const V3& d) {
   RTCRay r{};
-  r.org_x = static_cast<float>(o.x), r.org_y = static_cast<float>(o.y), r.org_z = static_cast<float>(o.z);
-  r.dir_x = static_cast<float>(d.x), r.dir_y = static_cast<float>(d.y), r.dir_z = static_cast<float>(d.z);
+  r.org_x = static_cast<float>(o.x);
+  r.org_y = static_cast<float>(o.y);
+  r.org_z = static_cast<float>(o.z);
+  r.dir_x = static_cast<float>(d.x);
+  r.dir_y = static_cast<float>(d.y);
+  r.dir_z = static_cast<float>(d.z);
   r.tfar = INFINITY;
   r.mask = ~0u;
   return r;

@@ -11,11 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/loaded_world.h"
 #include "bench/process_cost.h"
 #include "geometry/simplify/levels.h"
-#include "parsers/parsers.h"
-#include "passes/pipeline/pipeline.h"
-#include "scenegraph/nodes.h"
 
 namespace {
 
@@ -39,21 +37,13 @@ std::vector<std::string> split(const std::string& s) {
 
 /// The largest mesh of the file, its points joined, as `simplify` takes it: what only touches would crack.
 Mesh read(const char* path) {
-  std::string why;
-  Diagnostics diag;
-  Statistics stats;
-  auto world = read_world(path, {}, diag);
-  if (!world) std::fprintf(stderr, "cannot read %s\n", path), std::exit(1);
-  PassContext ctx{diag, stats};
-  auto pipeline = Pipeline::parse("weld,triangulate", why);
-  MeshSource source = pipeline->run_lazily(world->scene, ctx);
+  LoadedWorld world(path, "weld,triangulate");
   Mesh largest;
-  for (std::uint32_t i = 0; i < world->scene.node_count(); ++i)
-    if (world->scene.is(NodeId{i}, nodes::X3DGeometryNode))
-      if (const Mesh& m = source(NodeId{i}); m.corners.size() > largest.corners.size()) {
-        largest = m;
-        largest.positions.edit();
-      }
+  world.each_mesh([&](const Mesh& m) {
+    if (m.corners.size() <= largest.corners.size()) return;
+    largest = m;
+    largest.positions.edit();
+  });
   return largest;
 }
 
@@ -77,7 +67,10 @@ Mesh bumpy_torus(double n_faces) {
 
 void write_ply(const Mesh& m, const std::string& path) {
   std::FILE* out = std::fopen(path.c_str(), "wb");
-  if (!out) std::perror(path.c_str()), std::exit(1);
+  if (!out) {
+    std::perror(path.c_str());
+    std::exit(1);
+  }
   std::fprintf(out,
                "ply\nformat binary_little_endian 1.0\nelement vertex %zu\nproperty float x\nproperty float y\n"
                "property float z\nelement face %zu\nproperty list uchar int vertex_indices\nend_header\n",
@@ -86,7 +79,10 @@ void write_ply(const Mesh& m, const std::string& path) {
     float f = static_cast<float>(m.positions[i]);
     std::fwrite(&f, 4, 1, out);
   }
-  for (std::size_t f = 0; f < m.n_faces(); ++f) std::fputc(3, out), std::fwrite(&m.corners[3 * f], 4, 3, out);
+  for (std::size_t f = 0; f < m.n_faces(); ++f) {
+    std::fputc(3, out);
+    std::fwrite(&m.corners[3 * f], 4, 3, out);
+  }
   std::fclose(out);
 }
 

@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "base/image/image.h"
+#include "bench/loaded_world.h"
 #include "bench/process_cost.h"
 #include "geometry/unwrap/pack.h"
 #include "geometry/unwrap/rows.h"
 #include "geometry/unwrap/unfold.h"
-#include "parsers/parsers.h"
-#include "passes/pipeline/pipeline.h"
-#include "scenegraph/nodes.h"
 
 namespace {
 
@@ -31,24 +29,15 @@ struct Soup {
 
 /// All surfaces of the file, in local coordinates: an atlas does not mind where they are.
 Soup read(const char* path) {
-  std::string why;
-  Diagnostics diag;
-  Statistics stats;
-  auto world = read_world(path, {}, diag);
-  if (!world) std::fprintf(stderr, "cannot read %s\n", path), std::exit(1);
-  PassContext ctx{diag, stats};
-  auto pipeline = Pipeline::parse("tessellate,weld,triangulate", why);
-  MeshSource source = pipeline->run_lazily(world->scene, ctx);
+  LoadedWorld world(path, "tessellate,weld,triangulate");
   Soup all;
-  for (std::uint32_t i = 0; i < world->scene.node_count(); ++i) {
-    if (!world->scene.is(NodeId{i}, nodes::X3DGeometryNode)) continue;
-    const Mesh& m = source(NodeId{i});
-    if (!m.is_triangles()) continue;
+  world.each_mesh([&](const Mesh& m) {
+    if (!m.is_triangles()) return;
     auto first = static_cast<std::uint32_t>(all.positions.size() / 3);
     auto p = m.positions.span();
     all.positions.insert(all.positions.end(), p.begin(), p.end());
     for (std::uint32_t c : m.corners) all.corners.push_back(first + c);
-  }
+  });
   return all;
 }
 
@@ -62,8 +51,13 @@ void add_stretch(const Soup& s, std::size_t t, const Triangle2& uv, Sum& sum) {
   const double* p[3];
   for (int k = 0; k < 3; ++k) p[k] = &s.positions[3 * std::size_t{s.corners[3 * t + k]}];
   double e[2][3], a = 0, b = 0, c = 0;
-  for (int k = 0; k < 3; ++k) e[0][k] = p[1][k] - p[0][k], e[1][k] = p[2][k] - p[0][k];
-  for (int k = 0; k < 3; ++k) a += e[0][k] * e[0][k], b += e[0][k] * e[1][k], c += e[1][k] * e[1][k];
+  for (int k = 0; k < 3; ++k) {
+    e[0][k] = p[1][k] - p[0][k];
+    e[1][k] = p[2][k] - p[0][k];
+    a += e[0][k] * e[0][k];
+    b += e[0][k] * e[1][k];
+    c += e[1][k] * e[1][k];
+  }
   double area = std::sqrt(std::max(0., a * c - b * b)) / 2;
   Point2 u = uv[1] - uv[0], v = uv[2] - uv[0];
   double area2 = cross(u, v) / 2;
@@ -71,7 +65,8 @@ void add_stretch(const Soup& s, std::size_t t, const Triangle2& uv, Sum& sum) {
   if (area2 < 0) ++sum.mirrored;
   if (area2 == 0) ++sum.unplaced;
   if (!(area2 > 0)) return;
-  sum.area += area, sum.area2 += area2;
+  sum.area += area;
+  sum.area2 += area2;
   // The edges by u and v: S = (v.y e0 - u.y e1) / 2A, T = (u.x e1 - v.x e0) / 2A.
   double d = 1 / (4 * area2 * area2);
   double ss = (v.y * v.y * a - 2 * v.y * u.y * b + u.y * u.y * c) * d;
@@ -91,7 +86,8 @@ void for_each_texel(const Triangle2& t, int side, F&& f) {
       if ((a.y <= at) == (b.y <= at)) continue;
       if (a.y > b.y) std::swap(a, b);  // both triangles at an edge find the same texels
       double x = a.x + (b.x - a.x) * (at - a.y) / (b.y - a.y);
-      low = std::min(low, x), high = std::max(high, x);
+      low = std::min(low, x);
+      high = std::max(high, x);
     }
     for (int x = std::max(0, int(std::ceil(low - 0.5))); x + 0.5 < high && x < side; ++x) f(x, y);
   }

@@ -1,10 +1,10 @@
 // Options by their names, with values as texts: for recipes, and for languages that have no types.
 #pragma once
-#include <charconv>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/math/digits.h"
 #include "base/text/nearest_name.h"
 #include "convert/options.h"
 
@@ -17,8 +17,7 @@ inline bool read(const std::string& text, bool& field, const OptionNote&) {
 }
 inline bool read(const std::string& text, int& field, const OptionNote& note) {
   int v = 0;
-  const auto r = std::from_chars(text.data(), text.data() + text.size(), v);
-  if (r.ec != std::errc{} || r.ptr != text.data() + text.size() || !note.range.contains(v)) return false;
+  if (!read_number(text, v) || !note.range.contains(v)) return false;
   field = v;
   return true;
 }

@@ -33,7 +33,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t tiles_at_once = 16;
-constexpr int largest_reduced = 1024, least_reduced = 32;  // pixels along a side of pictures in coarse tiles
 // Distances are taken at points, and the largest may lie between them.
 constexpr double between_points = 1.05;
 
@@ -94,7 +93,6 @@ class Making {
   static std::vector<Piece> pieces_within(const Group& group, std::span<const Coarse> level, Range range);
   bool make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& task);
   bool write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task& task);
-  bool write_within_budget(std::uint32_t cell, std::span<const Piece> pieces, GltfSummary& summary, Task& task);
   bool save(std::uint32_t cell, Task& task);
   std::vector<PieceStore::Entry> entries_of(const Cell& cell) const;
   std::vector<Piece> pieces_of_cell(std::uint32_t cell) const;
@@ -380,34 +378,19 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
   }
   if (pieces.empty()) return true;
   GltfSummary summary;
-  if (!write_within_budget(cell, pieces, summary, task)) return false;
+  const auto path = kept_.tile_path(tile.key);
+  // What is seen from afar can do with smaller pictures; full tiles have them as they are.
+  const ContentBudget budget{options_.draws, plan_.is_leaf(cell) ? ~std::uint64_t{0} : options_.bytes};
+  if (!write_content(pieces, origin_of(made.box), looks_, gltf_, budget, *pictures_, path, task.diag, summary))
+    return false;
+  std::error_code fault;
+  made.bytes = fs::file_size(path, fault);
   made.rounding = summary.quantization.position;
-  made.hash = hash_of_file(kept_.tile_path(tile.key)).value_or(ContentHash{}).low;
+  made.hash = hash_of_file(path).value_or(ContentHash{}).low;
   made.triangles = summary.triangles;
   made.draws = summary.draws;
   made.parts = names.size();
   return true;
-}
-
-/// What is seen from afar can do with smaller pictures; full tiles have them as they are.
-bool Making::write_within_budget(std::uint32_t cell, std::span<const Piece> pieces, GltfSummary& summary, Task& task) {
-  MadeTile& made = made_[cell].made;
-  const auto path = kept_.tile_path(made_[cell].key);
-  auto gltf = gltf_;
-  for (int size = largest_reduced;; size /= 2) {
-    Diagnostics said;
-    summary = {};
-    const bool written =
-        write_content(pieces, origin_of(made.box), looks_, gltf, options_.draws, *pictures_, path, said, summary);
-    std::error_code fault;
-    made.bytes = fs::file_size(path, fault);
-    const bool may_be_less = !plan_.is_leaf(cell) && summary.pictures > 0 && size >= least_reduced;
-    if (!written || made.bytes <= options_.bytes || !may_be_less) {
-      say(said_in(said), task.diag);
-      return written;
-    }
-    gltf.textures.size = gltf.textures.size > 0 ? std::min(gltf.textures.size, size) : size;
-  }
 }
 
 /// The errors of coarse tiles that are this process's matter.

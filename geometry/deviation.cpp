@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 
+#include "base/hashing.h"
 #include "base/math/vec.h"
 #include "base/parallel.h"
 
@@ -38,7 +39,7 @@ std::vector<Key> sorted_keys(const Triangles& surface) {
   for (std::uint32_t t = 0; t < surface.size(); ++t) {
     std::uint64_t h = 0;
     for (const Vec3& p : turned(surface[t]))
-      for (double v : p) h = (h ^ (h >> 29)) * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint64_t>(v + 0.0);  // -0 is 0
+      for (double v : p) h = mixed(h, std::bit_cast<std::uint64_t>(v + 0.0));  // -0 is 0
     keys.push_back({h, t});
   }
   std::ranges::sort(keys, {}, &Key::hash);

@@ -1,9 +1,9 @@
 #include "light/exposure.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdio>
+
+#include "base/math/digits.h"
 
 namespace wrlkit {
 
@@ -11,30 +11,12 @@ bool Exposure::read(std::string_view text) {
   automatic = text == "auto";
   factor = 1;
   if (automatic) return true;
-  const auto r = std::from_chars(text.data(), text.data() + text.size(), factor);
-  return r.ec == std::errc{} && r.ptr == text.data() + text.size() && factor >= 1e-9 && factor <= 1e9;
+  return read_number(text, factor) && factor >= 1e-9 && factor <= 1e9;
 }
 
-std::string Exposure::print() const {
-  if (automatic) return "auto";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", factor);
-  return text;
-}
+std::string Exposure::print() const { return automatic ? "auto" : shortest_text(factor); }
 
 namespace light {
-
-namespace {
-
-double of_three_digits(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", v);
-  Exposure rounded;
-  rounded.read(text);
-  return rounded.factor;
-}
-
-}  // namespace
 
 double LightMeter::middle(std::size_t bin) {
   return std::exp2((static_cast<double>(bin) + 0.5) / steps - n_doublings / 2.0);
@@ -72,7 +54,7 @@ double LightMeter::factor(double target) const {
     brighter += static_cast<double>(counts_[half]) * middle(half);
   }
   const double wanted = std::min(target / std::exp2(logarithms / n_seen), burnt / middle(half));
-  return of_three_digits(std::clamp(wanted, 1 / most, most));
+  return to_digits(std::clamp(wanted, 1 / most, most), 3);
 }
 
 }  // namespace light

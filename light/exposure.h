@@ -22,7 +22,7 @@ namespace light {
 /// matter.
 class LightMeter {
  public:
-  /// Linear; what is black does not count.
+  /// A linear luminance, or the mean of linear channels; black does not count.
   void add(double luminance);
   void add(const LightMeter& other);
   /// The factor by which the logarithmic mean becomes `target` (Reinhard et al. 2002). Places of less than a thousandth

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "light/spiral.h"
 #include "light/world.h"
 
 namespace wrlkit::light {
@@ -23,7 +24,6 @@ std::optional<double> opaque_distance(const LightWorld& world, const Ray& ray) {
 
 std::optional<double> lamp_reach(const drawing::Light& lamp, const LightWorld& world) {
   constexpr int n = 256;
-  constexpr double golden_angle = std::numbers::pi * (3 - 2.23606797749978969641);
   const bool spot = lamp.kind == drawing::Light::Kind::spot;
   const double edge = spot ? std::cos(std::clamp(lamp.cut_off_angle, 0.0, std::numbers::pi)) : -1;
   const V3 axis = lamp.direction, aside = unit(cross(axis, std::fabs(axis.x) < 0.5 ? V3(1, 0, 0) : V3(0, 1, 0))),
@@ -31,8 +31,7 @@ std::optional<double> lamp_reach(const drawing::Light& lamp, const LightWorld& w
   double squares = 0;
   int n_met = 0;
   for (int k = 0; k < n; ++k) {
-    const double along = 1 - (1 - edge) * (k + 0.5) / n, out = std::sqrt(1 - along * along), turn = k * golden_angle;
-    const V3 direction = along * axis + (out * std::cos(turn)) * aside + (out * std::sin(turn)) * across;
+    const V3 turned = spiral_direction(k, n, edge), direction = turned.y * axis + turned.x * aside + turned.z * across;
     const auto distance = opaque_distance(world, {lamp.location, direction});
     if (!distance) continue;
     const double local = std::min(length(lamp.to_local.vector(*distance * direction)), lamp.radius);

@@ -7,6 +7,7 @@
 #include "light/lamp_reach.h"
 #include "light/render/attributes.h"
 #include "light/render/gather.h"
+#include "light/spiral.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::light {
@@ -36,12 +37,8 @@ double strongest(const V3& c) { return std::max({c.x, c.y, c.z}); }
 /// Radiance in the mean of all directions, estimated by directions along a spiral.
 double mean_radiance(const Sky& sky) {
   constexpr int n = 256;
-  constexpr double golden_angle = pi * (3 - 2.23606797749978969641);
   V3 sum;
-  for (int k = 0; k < n; ++k) {
-    const double y = 1 - (2 * k + 1.0) / n, r = std::sqrt(1 - y * y);
-    sum += linear(sky.color({r * std::cos(k * golden_angle), y, r * std::sin(k * golden_angle)}, 0));
-  }
+  for (int k = 0; k < n; ++k) sum += linear(sky.color(spiral_direction(k, n), 0));
   return strongest(sum) / n;
 }
 
@@ -97,12 +94,8 @@ void LightWorld::make_lamps(const Scene& scene) {
 }
 
 void LightWorld::spread_lamps() {
-  std::vector<std::optional<double>> reaches;
-  for (const Lamp& l : lamps_) reaches.push_back(lamp_reach(l.light, *this));
-  for (std::size_t i = 0; i < lamps_.size(); ++i) {
-    Light& l = lamps_[i].light;
-    if (reaches[i]) l.fall = SquareFall{*reaches[i], attenuation(l, *reaches[i])};
-  }
+  for (Lamp& l : lamps_)
+    if (const auto reach = lamp_reach(l.light, *this)) l.light.fall = SquareFall{*reach, attenuation(l.light, *reach)};
 }
 
 void LightWorld::make_sky(const Scene& scene, Resources* resources, Diagnostics& diag) {

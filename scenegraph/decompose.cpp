@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/math/axis_angle.h"
 #include "base/math/digits.h"
+#include "base/math/quaternion.h"
 
 namespace wrlkit {
 namespace {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 namespace wrlkit {
 
@@ -12,6 +14,14 @@ template <class N>
 std::string shortest_text(N v) {
   char text[40];
   return {text, std::to_chars(text, text + sizeof text, v).ptr};
+}
+
+/// Reads a text that is a number from end to end, without blanks. False otherwise; `v` is undefined then.
+template <class N>
+bool read_number(std::string_view text, N& v) {
+  const char* const end = text.data() + text.size();
+  const auto r = std::from_chars(text.data(), end, v);
+  return r.ec == std::errc{} && r.ptr == end;
 }
 
 /// The double that has the digits of the float: 0.1f is written as 0.1 and not as 0.10000000149011612. Read back it is
@@ -24,13 +34,16 @@ inline double decimal(float f) {
   return d;
 }
 
-/// The number with 15 significant digits, which is short again after some arithmetic: 0.1 + 0.2 becomes 0.3. Never -0.
-inline double to_15_digits(double v) {
+/// The number with N significant digits. Never -0.
+inline double to_digits(double v, int n) {
   char text[40];
-  const char* end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 15).ptr;
+  const char* end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, n).ptr;
   std::from_chars(text, end, v);
   return v + 0.0;
 }
+
+/// With 15 digits a number is short again after some arithmetic: 0.1 + 0.2 becomes 0.3.
+inline double to_15_digits(double v) { return to_digits(v, 15); }
 
 /// The same for every number of an array.
 template <class Numbers>

@@ -1,11 +1,13 @@
 #include "convert/tiles/content.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <tuple>
 #include <unordered_map>
 
+#include "convert/tiles/kept_tiles.h"
 #include "geometry/mesh_job.h"
 #include "passes/merge/moved.h"
 #include "passes/normals/normals.h"
@@ -126,14 +128,26 @@ class Content {
 }  // namespace
 
 bool write_content(std::span<const Piece> pieces, const Vec3& origin, const Looks& looks, const GltfOptions& options,
-                   std::size_t draws, Resources& pictures, const std::string& path, Diagnostics& diag,
+                   const ContentBudget& budget, Resources& pictures, const std::string& path, Diagnostics& diag,
                    GltfSummary& summary) {
+  constexpr int largest_reduced = 1024, least_reduced = 32;  // pixels along a side
   Content content(origin, looks, diag);
-  content.add(pieces, draws);
-  auto with_sources = options;
-  with_sources.sources = sources_of(pieces);
+  content.add(pieces, budget.draws);
+  auto gltf = options;
+  gltf.sources = sources_of(pieces);
   const MeshSource meshes = [&](NodeId geometry) -> const Mesh& { return content.mesh(geometry); };
-  return write_gltf(content.scene(), meshes, with_sources, &pictures, path, diag, &summary);
+  for (int size = largest_reduced;; size /= 2) {
+    Diagnostics said;
+    summary = {};
+    const bool written = write_gltf(content.scene(), meshes, gltf, &pictures, path, said, &summary);
+    std::error_code fault;
+    const bool fits = std::filesystem::file_size(path, fault) <= budget.bytes;
+    if (!written || fits || summary.pictures == 0 || size < least_reduced) {
+      say(said_in(said), diag);
+      return written;
+    }
+    gltf.textures.size = gltf.textures.size > 0 ? std::min(gltf.textures.size, size) : size;
+  }
 }
 
 }  // namespace wrlkit::tiles

@@ -26,66 +26,6 @@ int chords(double radius, double angle, double tolerance) {
 
 int around(double radius, double tolerance) { return std::max(3, chords(radius, 2 * pi, tolerance)); }
 
-/// The distance of a circle and a polygon with those sides: the farther of the middles of the sides and the corners.
-double circle_error(double radius, int segments, bool equal_area) {
-  const double r = radius * (equal_area ? equal_area_factor(segments) : 1);
-  return std::max(radius - r * std::cos(pi / segments), r - radius);
-}
-
-double sagitta(double radius, double angle) { return 2 * radius * std::pow(std::sin(angle / 4), 2); }
-
-std::vector<double> walls_of(const PrismForm& f) {
-  std::vector<double> out;
-  std::size_t begin = 0;
-  for (std::size_t end : f.ring_ends) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec2 &a = f.points[i], &b = f.points[i + 1 == end ? begin : i + 1];
-      out.push_back(std::hypot(b[0] - a[0], b[1] - a[1]));
-    }
-    begin = end;
-  }
-  return out;
-}
-
-double cross_section(const PrismForm& f) {
-  double twice = 0;
-  std::size_t begin = 0;
-  for (std::size_t end : f.ring_ends) {
-    double ring = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec2 &a = f.points[i], &b = f.points[i + 1 == end ? begin : i + 1];
-      ring += a[0] * b[1] - a[1] * b[0];
-    }
-    twice += begin == 0 ? std::abs(ring) : -std::abs(ring);
-    begin = end;
-  }
-  return twice / 2;
-}
-
-double area_of_cut(const Form& form, const FormCut& cut) {
-  Mesh mesh;
-  tessellate_form(form, cut, mesh);
-  auto at = [&](std::size_t corner) {
-    const double* p = mesh.positions.data() + std::size_t{mesh.corners[corner]} * 3;
-    return Vec3{p[0], p[1], p[2]};
-  };
-  double out = 0;
-  for (std::size_t f = 0; f < mesh.n_faces(); ++f) {
-    Vec3 sum{};
-    for (std::size_t i = mesh.begin_of(f) + 2; i < mesh.end_of(f); ++i)
-      sum = sum + cross(at(i - 1) - at(mesh.begin_of(f)), at(i) - at(mesh.begin_of(f)));
-    out += length(sum) / 2;
-  }
-  return out;
-}
-
-double half_spheroid(double radius, double height) {
-  const double a = radius, c = height;
-  if (std::abs(a - c) < 1e-9 * a) return 2 * pi * a * a;
-  const double e = std::sqrt(std::abs(1 - (c < a ? c * c / (a * a) : a * a / (c * c))));
-  return pi * a * a * (1 + (c < a ? (1 - e * e) / e * std::atanh(e) : c / (a * e) * std::asin(e)));
-}
-
 }  // namespace
 
 double equal_area_factor(double angle) { return angle > 0 && angle < pi ? std::sqrt(angle / std::sin(angle)) : 1; }
@@ -180,27 +120,6 @@ FormCut cut_within(const Form& form, double tolerance) {
       form.shape);
 }
 
-double chord_error(const Form& form, const FormCut& given) {
-  const FormCut cut = completed(form, given);
-  auto circle = [&](double radius) { return circle_error(radius, cut.segments, cut.equal_area); };
-  return std::visit(
-      Overloaded{
-          [&](const CylinderForm& f) { return circle(f.radius); },
-          [&](const FrustumForm& f) { return circle(std::max(f.bottom_radius, f.top_radius)); },
-          [&](const TorusForm& f) { return circle(f.radius) + sagitta(f.bend_radius + f.radius, f.angle / cut.rings); },
-          [&](const RectangularTorusForm& f) {
-            const double grow = cut.equal_area ? equal_area_factor(f.angle / cut.segments) : 1;
-            return std::max(sagitta(f.outer_radius, f.angle / cut.segments), f.outer_radius * (grow - 1));
-          },
-          [&](const SphereForm& f) { return circle(f.radius) + sagitta(f.radius, pi / cut.rings); },
-          [&](const DishForm& f) {
-            const double r = f.spherical ? sphere_radius(f) : std::max(f.radius, f.height);
-            return circle(std::max(f.radius, f.spherical ? r : 0.0)) + sagitta(r, profile_angle(f) / cut.rings);
-          },
-          [&](const RingForm& f) { return circle(f.outer_radius); }, [&](const auto&) { return 0.0; }},
-      form.shape);
-}
-
 std::size_t n_triangles(const Form& form, const FormCut& given) {
   const FormCut cut = completed(form, given);
   const auto n = static_cast<std::size_t>(cut.segments), m = static_cast<std::size_t>(cut.rings);
@@ -231,43 +150,6 @@ std::size_t n_triangles(const Form& form, const FormCut& given) {
                    return 2 * f.points.size() + caps * (f.points.size() + 2 * f.ring_ends.size() - 4);
                  },
                  [&](const RingForm&) { return 4 * n + caps * 2 * n; }},
-      form.shape);
-}
-
-double area(const Form& form) {
-  const double caps = (form.bottom ? 1 : 0) + (form.top ? 1 : 0);
-  auto disc = [](double r) { return pi * r * r; };
-  return std::visit(
-      Overloaded{[&](const CylinderForm& f) { return 2 * pi * f.radius * f.height + caps * disc(f.radius); },
-                 [&](const FrustumForm& f) {
-                   if (!f.is_straight()) return area_of_cut(form, {most_segments, 0});
-                   const double slant = std::hypot(f.height, f.bottom_radius - f.top_radius);
-                   return pi * (f.bottom_radius + f.top_radius) * slant + (form.bottom ? disc(f.bottom_radius) : 0) +
-                          (form.top ? disc(f.top_radius) : 0);
-                 },
-                 [&](const TorusForm& f) {
-                   return f.angle * f.bend_radius * 2 * pi * f.radius + (is_whole(f.angle) ? 0 : caps * disc(f.radius));
-                 },
-                 [&](const RectangularTorusForm& f) {
-                   const double sum = f.outer_radius + f.inner_radius, wall = f.outer_radius - f.inner_radius;
-                   return f.angle * sum * (wall + f.height) + (is_whole(f.angle) ? 0 : caps * wall * f.height);
-                 },
-                 [&](const SphereForm& f) { return 4 * disc(f.radius); },
-                 [&](const DishForm& f) {
-                   return (f.spherical ? pi * (f.radius * f.radius + f.height * f.height)
-                                       : half_spheroid(f.radius, f.height)) +
-                          (form.bottom ? disc(f.radius) : 0);
-                 },
-                 [&](const PrismForm& f) {
-                   double around = 0;
-                   for (double wall : walls_of(f)) around += wall;
-                   return around * f.height + caps * cross_section(f);
-                 },
-                 [&](const RingForm& f) {
-                   return 2 * pi * (f.outer_radius + f.inner_radius) * f.height +
-                          caps * (disc(f.outer_radius) - disc(f.inner_radius));
-                 },
-                 [&](const auto&) { return area_of_cut(form, {}); }},
       form.shape);
 }
 

@@ -105,20 +105,12 @@ double reach_of(const Form& form);
 /// The fewest segments and rings whose chords stay within `tolerance` of the form, at least three around.
 FormCut cut_within(const Form& form, double tolerance);
 
-/// The largest distance between a form and what it is cut into, two-sided. Exact except for eccentric frusta and dishes
-/// that are not part of a sphere, where it is a bound. O(1); for prisms 0.
-double chord_error(const Form& form, const FormCut& cut);
-
 /// The faces: quadrilaterals and whole caps, with normals that are smooth along round walls and sharp at rims. With the
 /// segments and rings that a part showed these are its own points. The mesh is cleared first.
 void tessellate_form(const Form& form, const FormCut& cut, Mesh& mesh);
 
 /// The number for the faces that tessellate_form makes, when they are cut. O(1).
 std::size_t n_triangles(const Form& form, const FormCut& cut);
-
-/// The area of the form, not of chords, with the caps that it has. Closed but for eccentric or slanted frusta and for
-/// dishes of ellipsoids, which are integrated to six digits.
-double area(const Form& form);
 
 /// An end of a form where another may go on: a circle and where its first point is.
 struct FormEnd {

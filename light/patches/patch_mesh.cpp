@@ -5,18 +5,18 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/hashing.h"
+
 namespace wrlkit::light {
 namespace {
 
 constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 
-/// The normal of a triangle, twice its area long.
-
 struct PointHash {
   std::size_t operator()(const std::array<std::uint64_t, 3>& p) const {
     std::uint64_t h = 0;
-    for (auto v : p) h = (std::rotl(h, 29) ^ v) * 0x9e3779b97f4a7c15u;
-    return h ^ (h >> 32);
+    for (auto v : p) h = mixed(h, v);
+    return h;
   }
 };
 

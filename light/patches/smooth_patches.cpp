@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "base/hashing.h"
+
 namespace wrlkit::light {
 namespace {
 
@@ -53,10 +55,7 @@ class VertexTable {
   }
   static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
     std::uint64_t h = 0;
-    for (auto v : {x, y, z}) {
-      h = (h ^ static_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
-      h ^= h >> 32;
-    }
+    for (auto v : {x, y, z}) h = mixed(h, static_cast<std::uint64_t>(v));
     return h;
   }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "base/hashing.h"
 #include "light/render/linear.h"
 
 namespace wrlkit::drawing {
@@ -22,8 +23,8 @@ struct Placement {
 };
 struct PlacementHash {
   std::size_t operator()(const Placement& p) const {
-    std::size_t h = 0;
-    for (double v : p.key()) h = h * 0x9e3779b97f4a7c15u + std::hash<double>()(v);
+    std::uint64_t h = 0;
+    for (double v : p.key()) h = mixed(h, std::hash<double>()(v));
     return h;
   }
 };

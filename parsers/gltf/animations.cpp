@@ -175,7 +175,7 @@ void Animations::move(Json sampler, std::uint32_t node, std::string_view path, N
     }
     const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3]);
     const double by = length > 0 ? length : 1;
-    const Vec4 r = axis_angle({v[0] / by, v[1] / by, v[2] / by, v[3] / by});
+    const Vec4 r = rotation_of({v[0] / by, v[1] / by, v[2] / by, v[3] / by});
     value.insert(value.end(), r.begin(), r.end());
   }
   NodeId n = c_.add(rotates ? nodes::OrientationInterpolator : nodes::PositionInterpolator, c);

@@ -326,7 +326,7 @@ std::vector<TransformFields> Hierarchy::places(Json attributes) {
     }
     TransformFields& p = all.emplace_back();
     if (t && i < t->count()) p.translation = {t->at(i)[0], t->at(i)[1], t->at(i)[2]};
-    if (r && i < r->count()) p.rotation = axis_angle({r->at(i)[0], r->at(i)[1], r->at(i)[2], r->at(i)[3]});
+    if (r && i < r->count()) p.rotation = rotation_of({r->at(i)[0], r->at(i)[1], r->at(i)[2], r->at(i)[3]});
     if (s && i < s->count()) p.scale = {s->at(i)[0], s->at(i)[1], s->at(i)[2]};
   }
   return all;

@@ -5,6 +5,8 @@
 #include <bit>
 #include <unordered_map>
 
+#include "base/hashing.h"
+
 namespace wrlkit::gltf_reader {
 namespace {
 
@@ -38,10 +40,7 @@ std::vector<std::uint32_t> outline(std::span<const std::uint32_t> t) {
 struct Hash {
   std::size_t operator()(const std::array<double, 3>& a) const {
     std::uint64_t h = 0;
-    for (double v : a) {
-      h = (h ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15ull;
-      h ^= h >> 29;
-    }
+    for (double v : a) h = mixed(h, std::bit_cast<std::uint64_t>(v));
     return h;
   }
 };

@@ -9,35 +9,13 @@
 namespace wrlkit::gltf_reader {
 namespace {
 
-/// The axis and angle of a rotation matrix.
-Vec4 axis_angle_of(const Matrix& m) {
-  Quaternion q;
-  const double t = m(0, 0) + m(1, 1) + m(2, 2);
-  if (t > 0) {
-    q = {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1), 1 + t};
-  } else if (m(0, 0) >= m(1, 1) && m(0, 0) >= m(2, 2)) {
-    q = {1 + m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(0, 2) + m(2, 0), m(2, 1) - m(1, 2)};
-  } else if (m(1, 1) >= m(2, 2)) {
-    q = {m(0, 1) + m(1, 0), 1 - m(0, 0) + m(1, 1) - m(2, 2), m(1, 2) + m(2, 1), m(0, 2) - m(2, 0)};
-  } else {
-    q = {m(0, 2) + m(2, 0), m(1, 2) + m(2, 1), 1 - m(0, 0) - m(1, 1) + m(2, 2), m(1, 0) - m(0, 1)};
-  }
-  return axis_angle(q);
-}
-
 bool finite(const std::vector<double>& v) {
   return std::ranges::all_of(v, [](double x) { return std::isfinite(x); });
 }
 
 }  // namespace
 
-Vec4 axis_angle(Quaternion q) {
-  double n = std::hypot(q.x, q.y, q.z);
-  if (!(n > 0) || !std::isfinite(n)) return {0, 0, 1, 0};
-  if (q.w < 0) q = -q;
-  const double angle = 2 * std::atan2(n, q.w);
-  return {to_15_digits(q.x / n), to_15_digits(q.y / n), to_15_digits(q.z / n), to_15_digits(angle)};
-}
+Vec4 rotation_of(const Quaternion& q) { return all_to_15_digits(axis_angle(q)); }
 
 Vec3 rotate(const Vec4& r, const Vec3& v) { return rotation_matrix(r).point(v); }
 
@@ -54,7 +32,7 @@ TransformFields place_of(const Matrix& m) {
       for (double& k : v) k /= s;
       return v;
     };
-    p.rotation = axis_angle_of(matrix_of_columns(by(x, sign * a), by(y, b), by(z, c)));
+    p.rotation = rotation_of(quaternion_of_matrix(matrix_of_columns(by(x, sign * a), by(y, b), by(z, c))));
     p.scale = {to_15_digits(sign * a), to_15_digits(b), to_15_digits(c)};
     for (double& s : p.scale)
       if (std::abs(std::abs(s) - 1) < 1e-7) s = s < 0 ? -1 : 1;  // rounding of single precision
@@ -72,7 +50,7 @@ TransformFields place_of(Json node) {
   TransformFields p;
   if (auto t = node["translation"].numbers(); t.size() == 3) p.translation = {t[0], t[1], t[2]};
   if (auto s = node["scale"].numbers(); s.size() == 3) p.scale = {s[0], s[1], s[2]};
-  if (auto r = node["rotation"].numbers(); r.size() == 4) p.rotation = axis_angle({r[0], r[1], r[2], r[3]});
+  if (auto r = node["rotation"].numbers(); r.size() == 4) p.rotation = rotation_of({r[0], r[1], r[2], r[3]});
   return p;
 }
 

@@ -7,7 +7,7 @@
 namespace wrlkit::gltf_reader {
 
 /// Axis and angle from 0 to pi, to 15 digits, so that what was a short number is one again; 0 0 1 0 for none.
-Vec4 axis_angle(Quaternion);
+Vec4 rotation_of(const Quaternion&);
 Vec3 rotate(const Vec4& axis_angle, const Vec3&);
 
 /// For a node: its matrix taken apart, or translation, rotation and scale. Numbers that are none, or not finite, are

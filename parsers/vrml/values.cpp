@@ -86,12 +86,17 @@ bool Values::numbers_value(FieldType type, std::uint16_t slot, std::string_view 
     diag_.report(Diag::missing_values, span(first), count, field, static_cast<int>(t.arity));
     numbers_.resize(count - count % t.arity);
   }
-  if (!t.multiple && t.arity == 1)
-    out = real ? scene_.make(type, slot, numbers_[0]) : scene_.make(type, slot, integers_[0]);
-  else
-    out = real ? scene_.make(type, slot, std::span<const double>(numbers_))
-               : scene_.make(type, slot, std::span<const std::int32_t>(integers_));
+  out = value_of_numbers(type, slot);
   return true;
+}
+
+Value Values::value_of_numbers(FieldType type, std::uint16_t slot) {
+  const auto& t = info(type);
+  const bool real = t.element == Element::number;
+  if (!t.multiple && t.arity == 1)
+    return real ? scene_.make(type, slot, numbers_[0]) : scene_.make(type, slot, integers_[0]);
+  return real ? scene_.make(type, slot, std::span<const double>(numbers_))
+              : scene_.make(type, slot, std::span<const std::int32_t>(integers_));
 }
 
 void Values::fix_arity(std::size_t arity, const Value& fallback, std::string_view field, Span where) {

@@ -25,6 +25,8 @@ class Values : protected Tokens {
   /// Numbers or booleans into numbers_ or integers_, up to the first other token; `most` at the most (0: all).
   void read_numbers(FieldType, std::size_t most);
   void fix_arity(std::size_t arity, const Value& fallback, std::string_view field, Span where);
+  /// Of what was read, which is as much as the type takes.
+  Value value_of_numbers(FieldType, std::uint16_t slot);
 
   std::vector<double> numbers_;
   std::vector<std::int32_t> integers_;

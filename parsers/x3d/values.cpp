@@ -126,16 +126,10 @@ bool AttributeValues::numbers_of(FieldType type, std::uint16_t slot, std::string
     return false;
   }
   if (!t.multiple && count < t.arity) fix_arity(t.arity, fallback, field, span_of(attribute));
-  if (!t.multiple && count > t.arity)
-    diag_.report(Diag::missing_values, span_of(attribute), count, field, static_cast<int>(t.arity));
-  if (t.multiple && count % t.arity)
+  if (t.multiple ? count % t.arity : count > t.arity)
     diag_.report(Diag::missing_values, span_of(attribute), count, field, static_cast<int>(t.arity));
   if (real) numbers_.resize(t.multiple ? count - count % t.arity : t.arity);
-  if (!t.multiple && t.arity == 1)
-    out = real ? scene_.make(type, slot, numbers_[0]) : scene_.make(type, slot, integers_[0]);
-  else
-    out = real ? scene_.make(type, slot, std::span<const double>(numbers_))
-               : scene_.make(type, slot, std::span<const std::int32_t>(integers_));
+  out = value_of_numbers(type, slot);
   return true;
 }
 

@@ -1,13 +1,13 @@
 #include "passes/combine_lightmap/combine_lightmap.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
 #include <span>
 
+#include "base/math/digits.h"
 #include "base/silent_task.h"
 #include "geometry/tessellation.h"
 #include "light/render/baked.h"
@@ -453,8 +453,7 @@ bool TexelFactor::read(std::string_view text) {
     value = 0;
     return true;
   }
-  auto r = std::from_chars(text.data(), text.data() + text.size(), value);
-  return r.ec == std::errc{} && r.ptr == text.data() + text.size() && value >= 1 && value <= 64;
+  return read_number(text, value) && value >= 1 && value <= 64;
 }
 
 std::string why_missing(CombinedFormat format) {

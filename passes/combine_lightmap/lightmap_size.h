@@ -1,10 +1,10 @@
 // How large pictures with baked light may be, as one option: bytes, or texels by width and height.
 #pragma once
-#include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "base/math/digits.h"
 #include "base/text/amounts.h"
 
 namespace wrlkit {
@@ -34,8 +34,7 @@ struct LightmapSize {
 
   static std::uint64_t side(std::string_view text) {
     std::uint64_t v = 0;
-    const auto r = std::from_chars(text.data(), text.data() + text.size(), v);
-    return r.ec == std::errc{} && r.ptr == text.data() + text.size() && v <= longest_side ? v : 0;
+    return read_number(text, v) && v <= longest_side ? v : 0;
   }
 };
 

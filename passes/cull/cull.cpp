@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/hashing.h"
 #include "base/silent_task.h"
 #include "geometry/geometry.h"
 #include "light/render/gather.h"
@@ -154,11 +155,8 @@ void Culling::join_parts() {
   };
   struct Hash {
     std::size_t operator()(const Key& k) const {
-      std::size_t h = k.frame;
-      for (double v : k.at) {
-        h = (h ^ std::hash<double>()(v)) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 29;
-      }
+      std::uint64_t h = k.frame;
+      for (double v : k.at) h = mixed(h, std::hash<double>()(v));
       return h;
     }
   };

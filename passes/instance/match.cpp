@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/hashing.h"
+
 namespace wrlkit::instancing {
 namespace {
 
@@ -61,10 +63,8 @@ std::uint64_t FaceGrid::cell(const Vec3& at, int dx, int dy, int dz) const {
   const int d[]{dx, dy, dz};
   std::uint64_t h = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    h = (h ^ static_cast<std::uint64_t>(
-                 static_cast<std::int64_t>(std::clamp(std::floor(at[k] / (2 * near_)), -4e18, 4e18)) + d[k])) *
-        0x9e3779b97f4a7c15u;
-    h ^= h >> 31;
+    const auto whole = static_cast<std::int64_t>(std::clamp(std::floor(at[k] / (2 * near_)), -4e18, 4e18));
+    h = mixed(h, static_cast<std::uint64_t>(whole + d[k]));
   }
   return h;
 }

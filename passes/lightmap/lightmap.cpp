@@ -1,12 +1,12 @@
 #include "passes/lightmap/lightmap.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <unordered_map>
 
 #include "base/image/image.h"
+#include "base/math/digits.h"
 #include "geometry/geometry.h"
 #include "light/render/stage.h"
 #include "light/world.h"
@@ -264,9 +264,7 @@ bool NamedDensities::read(std::string_view text) {
     const auto sign = one.rfind('=');
     if (sign == std::string_view::npos || sign == 0) return false;
     double factor = 0;
-    const char* end = one.data() + one.size();
-    const auto r = std::from_chars(one.data() + sign + 1, end, factor);
-    if (r.ec != std::errc{} || r.ptr != end || !(factor >= 1e-3 && factor <= 1e3)) return false;
+    if (!read_number(one.substr(sign + 1), factor) || !(factor >= 1e-3 && factor <= 1e3)) return false;
     all.emplace_back(one.substr(0, sign), factor);
     text.remove_prefix(std::min(text.size(), one.size() + 1));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/spiral.h"
 #include "passes/lightmap/checkpoint.h"
 
 namespace wrlkit::bake {
@@ -51,14 +52,10 @@ void add_lamps(const light::LightWorld& world, Key& key) {
   }
 }
 
-/// From all sides alike: a spiral by the golden angle.
+/// From all sides alike.
 void add_sky(const light::LightWorld& world, Key& key) {
   constexpr int n = 256;
-  constexpr double golden = 2.399963229728653;
-  for (int i = 0; world.has_sky() && i < n; ++i) {
-    const double y = 1 - (2 * i + 1) / double(n), r = std::sqrt(1 - y * y);
-    key.add({world.sky({r * std::cos(golden * i), y, r * std::sin(golden * i)})});
-  }
+  for (int i = 0; world.has_sky() && i < n; ++i) key.add({world.sky(light::spiral_direction(i, n))});
 }
 
 /// Both sides, at places by Roberts' R2 lattice, folded into the triangle.

@@ -1,5 +1,7 @@
 #include "passes/lod/lod.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -131,7 +133,7 @@ Outcome lods_of_groups(Scene& scene, const LodOptions& options, PassContext& ctx
     const WorldLevels levels(scene, world, silent);
     if (levels.n_drawn() > WorldLevels::most_drawn)
       ctx.diag.report(Diag::not_simplified, {},
-                      "a world of more than " + std::to_string(WorldLevels::most_drawn) + " triangles as a whole");
+                      fmt::format("a world of more than {} triangles as a whole", WorldLevels::most_drawn));
     const ScopedLodOptions scoped{options.scope,
                                   {options.pixels, options.screen_height, options.field_of_view, options.vanish},
                                   options.min_saving,

@@ -1,8 +1,9 @@
 #include "passes/lower_x3d/earth.h"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
+
+#include "base/math/digits.h"
 
 namespace wrlkit::x3d {
 namespace {
@@ -32,8 +33,7 @@ constexpr EllipsoidRow ellipsoids[] = {
 
 bool set_zone(std::string_view word, GeoSystem& s) {
   int zone = 0;
-  const auto [end, fault] = std::from_chars(word.data() + 1, word.data() + word.size(), zone);
-  if (word[0] != 'Z' || fault != std::errc{} || end != word.data() + word.size() || zone < 1 || zone > 60) return false;
+  if (word[0] != 'Z' || !read_number(word.substr(1), zone) || zone < 1 || zone > 60) return false;
   s.zone = zone;
   return true;
 }

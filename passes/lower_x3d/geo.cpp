@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "base/math/axis_angle.h"
+#include "base/math/quaternion.h"
 #include "base/math/vec.h"
 #include "passes/lower_x3d/earth.h"
 #include "passes/lower_x3d/geometry.h"

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/math/axis_angle.h"
 #include "passes/lower_x3d/geometry.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"

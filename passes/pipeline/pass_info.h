@@ -1,7 +1,6 @@
 // Makes a registry line out of a pass: pass<weld, WeldOptions>("weld", "join equal vertices", ...). The options
 // describe themselves through fields(); everything else is derived here.
 #pragma once
-#include <charconv>
 #include <type_traits>
 
 #include "base/choice.h"
@@ -39,9 +38,9 @@ requires std::is_arithmetic_v<N>
 bool read(std::string_view s, N& v) {
   const bool percent = std::is_floating_point_v<N> && s.ends_with('%');
   s.remove_suffix(percent ? 1 : 0);
-  auto r = std::from_chars(s.data(), s.data() + s.size(), v);
+  if (!read_number(s, v)) return false;
   if (percent) v /= 100;
-  return r.ec == std::errc{} && r.ptr == s.data() + s.size();
+  return true;
 }
 
 /// "0 to 1", "at least 0"; empty when every number will do.

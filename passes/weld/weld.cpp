@@ -4,7 +4,6 @@
 #include "passes/weld/weld.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 
@@ -201,8 +200,7 @@ bool WeldTolerance::read(std::string_view text) {
   automatic = text == "auto";
   length = 0;
   if (automatic) return true;
-  auto r = std::from_chars(text.data(), text.data() + text.size(), length);
-  return r.ec == std::errc{} && r.ptr == text.data() + text.size() && length >= 0 && std::isfinite(length);
+  return read_number(text, length) && length >= 0 && std::isfinite(length);
 }
 
 std::string WeldTolerance::print() const { return automatic ? "auto" : shortest_text(length); }

@@ -7,6 +7,7 @@
 
 #include "base/math/vec.h"
 #include "form_fixture.h"
+#include "geometry/deviation.h"
 #include "geometry/forms/form.h"
 
 using namespace wrlkit;
@@ -75,6 +76,17 @@ Measures measure(const Mesh& mesh) {
   return out;
 }
 
+Mesh cut_triangles(const Form& form, const FormCut& cut) {
+  Mesh faces, out;
+  tessellate_form(form, cut, faces);
+  out.kind = Mesh::Kind::faces;
+  out.positions = faces.positions;
+  for (std::size_t f = 0; f < faces.n_faces(); ++f)
+    for (std::size_t i = faces.begin_of(f) + 2; i < faces.end_of(f); ++i)
+      out.corners.insert(out.corners.end(), {faces.corners[faces.begin_of(f)], faces.corners[i - 1], faces.corners[i]});
+  return out;
+}
+
 }  // namespace
 
 TEST_CASE("forms: closed, facing outwards, as many triangles as said") {
@@ -90,24 +102,33 @@ TEST_CASE("forms: closed, facing outwards, as many triangles as said") {
   }
 }
 
-TEST_CASE("forms: the area in closed form is what fine cuts come to") {
+TEST_CASE("forms: fine cuts come to the area of the form") {
+  const std::vector<std::pair<Form, double>> areas{
+      {form_of(CylinderForm{2, 5}), 2 * pi * 2 * (5 + 2)},
+      {form_of(FrustumForm{2, 1, 3, {}, {}, {}}), pi * (3 * std::sqrt(10) + 4 + 1)},
+      {form_of(TorusForm{3, 1, pi / 2, 0.3}), pi / 2 * 3 * 2 * pi + 2 * pi},
+      {form_of(RectangularTorusForm{2, 3, 1, 2.5}), 2.5 * 5 * 2 + 2},
+      {form_of(SphereForm{2}), 16 * pi},
+      {form_of(DishForm{2, 0.6, true}), pi * (4 + 0.36) + 4 * pi},
+      {form_of(RingForm{1, 2, 0.5}), 2 * pi * 3 * 0.5 + 2 * pi * 3},
+  };
   Mesh mesh;
-  for (Form form : some_of_each())
-    for (bool caps : {true, false}) {
-      INFO(kind_of(form));
-      form.bottom = form.top = caps;
-      tessellate_form(form, {150, 150}, mesh);
-      CHECK_THAT(area(form), WithinRel(measure(mesh).area, 3e-3));
-    }
+  for (const auto& [form, area] : areas) {
+    INFO(kind_of(form));
+    tessellate_form(form, {150, 150}, mesh);
+    CHECK_THAT(measure(mesh).area, WithinRel(area, 3e-3));
+  }
 }
 
 TEST_CASE("forms: chords stay within the tolerance that they were cut for") {
-  for (const Form& form : some_of_each())
+  for (const Form& form : some_of_each()) {
+    if (std::holds_alternative<PrismForm>(form.shape)) continue;  // has no chords
     for (double tolerance : {0.3, 0.01}) {
       INFO(kind_of(form));
-      const FormCut cut = cut_within(form, tolerance);
-      CHECK(chord_error(form, cut) <= tolerance * (1 + 1e-9));
+      const Mesh coarse = cut_triangles(form, cut_within(form, tolerance)), fine = cut_triangles(form, {400, 200});
+      CHECK(measure_deviation(triangles_of(coarse), triangles_of(fine)).max <= tolerance * 1.02);  // slanted ends
     }
+  }
   CHECK(cut_within(form_of(CylinderForm{1, 1}), 0.5).segments == 3);
   CHECK(cut_within(form_of(CylinderForm{1, 1}), 1e-3).segments == 71);
 }
@@ -119,7 +140,6 @@ TEST_CASE("forms: polygons of equal area") {
     tessellate_form(pipe, {n, 0, true}, mesh);
     CHECK_THAT(measure(mesh).volume, WithinRel(2 * pi, 1e-9));
   }
-  CHECK(chord_error(pipe, {6, 0, true}) < chord_error(pipe, {6}));
 }
 
 TEST_CASE("forms: round ends go on where the form ends") {

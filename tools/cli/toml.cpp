@@ -1,7 +1,6 @@
 #include "tools/cli/toml.h"
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 #include <tuple>
 
@@ -84,10 +83,7 @@ std::optional<TomlNode> parse_toml(std::string_view text, std::string& why, Toml
 
 std::string toml_value(std::string_view text) {
   double number = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text == "true" || text == "false" ||
-      (!text.empty() && read.ec == std::errc{} && read.ptr == text.data() + text.size()))
-    return std::string(text);
+  if (text == "true" || text == "false" || read_number(text, number)) return std::string(text);
   std::ostringstream out;
   out << toml::value<std::string>(std::string(text));
   return out.str();

@@ -1,11 +1,11 @@
 #include "tools/corpus/plan.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <queue>
 #include <unordered_map>
 
+#include "base/math/digits.h"
 #include "convert/formats.h"
 
 namespace wrlkit {
@@ -65,8 +65,7 @@ void divide(std::vector<CorpusJob>& jobs, std::uint32_t shards) {
 
 std::optional<std::uint32_t> number(std::string_view text) {
   std::uint32_t v = 0;
-  auto r = std::from_chars(text.data(), text.data() + text.size(), v);
-  return r.ec == std::errc{} && r.ptr == text.data() + text.size() ? std::optional(v) : std::nullopt;
+  return read_number(text, v) ? std::optional(v) : std::nullopt;
 }
 
 std::optional<std::uint32_t> from_environment(const char* name) {

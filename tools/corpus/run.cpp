@@ -414,15 +414,20 @@ void print_plan(const Planned& p, const Flags& flags) {
   }
 }
 
+/// What the flags ask for; what is wrong with them is printed.
+std::optional<CorpusWork> asked_work(const Flags& flags) {
+  std::string why;
+  auto work = corpus_work(flags, why);
+  if (!work) fmt::print(stderr, "{}", why);
+  return work;
+}
+
 }  // namespace
 
 int run_corpus_run(const Flags& flags) {
   std::string why;
-  const auto work = corpus_work(flags, why);
-  if (!work) {
-    fmt::print(stderr, "{}", why);
-    return usage;
-  }
+  const auto work = asked_work(flags);
+  if (!work) return usage;
   const auto planned = plan_of(flags, work->text);
   if (!planned) return usage;
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
@@ -435,12 +440,8 @@ int run_corpus_run(const Flags& flags) {
 }
 
 int run_corpus_plan(const Flags& flags) {
-  std::string why;
-  const auto work = corpus_work(flags, why);
-  if (!work) {
-    fmt::print(stderr, "{}", why);
-    return usage;
-  }
+  const auto work = asked_work(flags);
+  if (!work) return usage;
   const auto planned = plan_of(flags, work->text);
   if (planned) print_plan(*planned, flags);
   return planned ? done : usage;

@@ -13,23 +13,14 @@ Vec3 fitting_or(const Vec3& v, const Vec3& fallback) { return fits_float(v) ? v 
 
 Vec3 each_times(const Vec3& a, const Vec3& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
 
-/// Rows of the rotation matrix.
-std::array<double, 9> rows(const Quaternion& q) {
-  double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
-  double wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
-  return {1 - 2 * (yy + zz), 2 * (xy - wz),     2 * (xz + wy),  //
-          2 * (xy + wz),     1 - 2 * (xx + zz), 2 * (yz - wx),  //
-          2 * (xz - wy),     2 * (yz + wx),     1 - 2 * (xx + yy)};
-}
-
 /// SR S -SR when that is again a scale along the axes: when SR only swaps axes.
 std::optional<Vec3> axis_scale(const Quaternion& orientation, const Vec3& scale) {
   constexpr double rounding = 1e-12;
-  auto r = rows(orientation);
+  const Matrix r = matrix_of(orientation);
   double largest = std::max({std::abs(scale[0]), std::abs(scale[1]), std::abs(scale[2])});
-  auto entry = [&](std::size_t i, std::size_t j) {
+  auto entry = [&](int i, int j) {
     double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) sum += r[i * 3 + k] * scale[k] * r[j * 3 + k];
+    for (int k = 0; k < 3; ++k) sum += r(i, k) * scale[static_cast<std::size_t>(k)] * r(j, k);
     return sum;
   };
   if (std::max({std::abs(entry(0, 1)), std::abs(entry(0, 2)), std::abs(entry(1, 2))}) > rounding * largest)
@@ -52,14 +43,13 @@ Quaternion looking_along(const Vec3& direction) {
   return {y / n, -x / n, 0, w / n};
 }
 
-Vec3 rotate(const Quaternion& q, const Vec3& v) { return matrix(Trs{{0, 0, 0}, q, {1, 1, 1}}).point(v); }
+Vec3 rotate(const Quaternion& q, const Vec3& v) { return matrix_of(q).point(v); }
 
 Matrix matrix(const Trs& t) {
-  const auto r = rows(t.rotation);
-  Matrix out;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) out.m[i * 4 + j] = r[i * 3 + j] * t.scale[j];
-    out.m[i * 4 + 3] = t.translation[i];
+  Matrix out = matrix_of(t.rotation);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) out(i, j) *= t.scale[static_cast<std::size_t>(j)];
+    out(i, 3) = t.translation[static_cast<std::size_t>(i)];
   }
   return out;
 }
@@ -79,16 +69,7 @@ std::optional<Trs> trs_of(const Matrix& m) {
     if (std::abs(r(0, c) * r(0, (c + 1) % 3) + r(1, c) * r(1, (c + 1) % 3) + r(2, c) * r(2, (c + 1) % 3)) > square)
       return std::nullopt;
   if (!(r.determinant() > 0)) return std::nullopt;
-  // The largest of the four is found first, so that nothing is divided by a small number.
-  const double xx = r(0, 0), yy = r(1, 1), zz = r(2, 2);
-  const std::array<double, 4> quarter{xx + yy + zz, xx - yy - zz, yy - xx - zz, zz - xx - yy};
-  const auto most = std::ranges::max_element(quarter) - quarter.begin();
-  const double s = 2 * std::sqrt(std::max(quarter[static_cast<std::size_t>(most)] + 1, 0.0));
-  const double wx = (r(2, 1) - r(1, 2)) / s, wy = (r(0, 2) - r(2, 0)) / s, wz = (r(1, 0) - r(0, 1)) / s;
-  const double xy = (r(0, 1) + r(1, 0)) / s, xz = (r(0, 2) + r(2, 0)) / s, yz = (r(1, 2) + r(2, 1)) / s;
-  const std::array<Quaternion, 4> all{
-      {{wx, wy, wz, s / 4}, {s / 4, xy, xz, wx}, {xy, s / 4, yz, wy}, {xz, yz, s / 4, wz}}};
-  t.rotation = all[static_cast<std::size_t>(most)];
+  t.rotation = quaternion_of_matrix(r);
   for (double* v : {&t.rotation.x, &t.rotation.y, &t.rotation.z, &t.rotation.w})
     if (std::abs(*v) < square) *v = 0;
   if (t.rotation.w < 0) t.rotation = -t.rotation;
