@@ -61,7 +61,7 @@ struct LoadOptions {
     f("unit", unit, "what one unit of the input is");
     f("up", up, "which axis of the input points up");
     f("show-all", show_all, "Switches that are off show all their children; see wrlkit passes switch");
-    f("run-startup", run_startup, "Scripts do what they do when a browser loads the world; see wrlkit passes startup");
+    f("run-startup", run_startup, "run what Scripts do when the world is loaded; see wrlkit passes startup");
   }
   void fields(auto&& f) {
     placing_fields(f);

@@ -41,13 +41,13 @@ class PassInstance {
 
 /// Where a pass has its place among others: what a pipeline lacks for its writer goes there.
 enum class Phase : std::uint8_t {
-  start,   // before anything is looked for in the scene
-  gather,  // all of the world in one scene
+  start,     // before anything is looked for in the scene
+  gather,    // all of the world in one scene
   gathered,  // once it is, and before nodes are lowered: wherever a pipeline that is completed has it
-  lower,   // nodes that others do not know, as those that they know
-  world,   // whatever is wanted of the whole scene
-  light,   // behind the last pass over the scene, which may be the one that makes the light
-  mesh,    // at the end, one geometry after the other
+  lower,     // nodes that others do not know, as those that they know
+  world,     // whatever is wanted of the whole scene
+  light,     // behind the last pass over the scene, which may be the one that makes the light
+  mesh,      // at the end, one geometry after the other
 };
 
 /// What else a pipeline has to know of a pass.

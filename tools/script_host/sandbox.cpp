@@ -8,6 +8,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <vector>
@@ -33,8 +34,12 @@ constexpr bool sanitized = __has_feature(address_sanitizer);
 constexpr bool sanitized = false;
 #endif
 
+/// Nobody may raise a limit that is lower already.
 bool limit(__rlimit_resource what, rlim_t soft, rlim_t hard) {
-  const rlimit value{soft, hard};
+  rlimit now{};
+  if (getrlimit(what, &now) != 0) return false;
+  const rlim_t most = std::min(now.rlim_max, hard);
+  const rlimit value{std::min(soft, most), most};
   return setrlimit(what, &value) == 0;
 }
 
