@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent
 
 
 class Build(build_ext):
-    """The module, the codecs next to it, and the types that were made of both."""
+    """The module, the codecs and the process of Scripts next to it, and the types that were made of both."""
 
     def run(self):
         package = os.environ.get('WRLKIT_PACKAGE')
@@ -26,7 +26,7 @@ class Build(build_ext):
         target = pathlib.Path(self.build_lib) / 'wrlkit'
         target.mkdir(parents=True, exist_ok=True)
         for path in pathlib.Path(package, 'wrlkit').iterdir():
-            if path.suffix in ('.so', '.pyi', '.typed'):
+            if path.suffix in ('.so', '.pyi', '.typed') or path.name == 'wrlkit_script':
                 shutil.copy2(path, target)
 
 

@@ -53,6 +53,7 @@ struct Document::State {
     place_world(world->scene, options.unit, options.up);
     if (options.unpack_pictures && world->format == Format::gltf) unpack_pictures(world->scene, *files);
     files->set_root({std::shared_ptr<const Scene>{}, &world->scene});
+    if (options.run_startup) run_startup(world->scene, context);
     return true;
   }
 
@@ -74,9 +75,12 @@ Document::~Document() = default;
 
 void Document::leave_unplaced() {
   state_->options.show_all = false;
+  state_->options.run_startup = false;
   state_->options.unit = {};
   state_->options.up = {};
 }
+
+bool Document::runs_startup() const { return state_->options.run_startup; }
 
 bool Document::read(const std::string& path) {
   if (auto* monitor = state_->context.monitor) monitor->begin("reading " + path, 0, "");

@@ -47,9 +47,11 @@ class Document {
   /// LoadOptions::allow_paths says where relative urls may lead.
   bool parse(std::string_view bytes, std::string name);
 
-  /// What is read from now on is left as it is by LoadOptions::unit, up and show_all: the pipeline that
-  /// it goes through has `place` and `switch`.
+  /// What is read from now on is left as it is by LoadOptions::unit, up, show_all and run_startup: the pipeline that
+  /// it goes through has `place`, `switch` and `startup`.
   void leave_unplaced();
+  /// LoadOptions::run_startup.
+  bool runs_startup() const;
 
   /// Whether there is a scene.
   explicit operator bool() const;

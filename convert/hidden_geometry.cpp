@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "convert/startup_scripts.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -118,7 +119,9 @@ void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i) list += (i ? ", " : "") + names[i];
   if (names.size() > most_names) list += ", ...";
-  diag.report(Diag::hidden_geometry, {}, static_cast<int>(std::lround(100 * hidden / all)), list);
+  const bool scripted = startup_scripts(scene).switches();
+  diag.report(Diag::hidden_geometry, {}, static_cast<int>(std::lround(100 * hidden / all)), list,
+              scripted ? "; --run-startup runs the Scripts that may turn them on" : "");
 }
 
 }  // namespace wrlkit

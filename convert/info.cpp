@@ -5,6 +5,7 @@
 
 #include "base/image/image.h"
 #include "convert/hidden_geometry.h"
+#include "convert/startup_scripts.h"
 #include "convert/world_meshes.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
@@ -93,6 +94,7 @@ std::optional<Info> info(Document&& document, const InfoOptions& options) {
   const World& world = document.world();
   check_values(world.scene, document.diag());
   report_hidden_geometry(world.scene, document.diag());
+  if (!document.runs_startup()) report_startup_scripts(world.scene, document.diag());
   Info out{.format = world.format, .gzip = world.gzip, .bytes = world.bytes};
   count_authored(world.scene, out);
   const WorldMeshes meshes(document);

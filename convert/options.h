@@ -52,6 +52,7 @@ struct LoadOptions {
   bool map_files = false;
   bool strict = false;                                     // every warning is an error
   bool show_all = false;                                   // Switches that are off show everything
+  bool run_startup = false;                                // Scripts do what they do when a browser loads the world
   bool in_place = false;                                   // an output may take the place of the file that is read
   std::vector<std::pair<Diag, Severity>> severities = {};  // of single messages
   bool unpack_pictures = false;  // pictures inside a glTF file become files that a writer places next to its own
@@ -60,6 +61,7 @@ struct LoadOptions {
     f("unit", unit, "what one unit of the input is");
     f("up", up, "which axis of the input points up");
     f("show-all", show_all, "Switches that are off show all their children; see wrlkit passes switch");
+    f("run-startup", run_startup, "run what Scripts do when the world is loaded; see wrlkit passes startup");
   }
   void fields(auto&& f) {
     placing_fields(f);

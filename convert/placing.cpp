@@ -1,5 +1,7 @@
 #include "convert/placing.h"
 
+#include "passes/expand/expand.h"
+#include "passes/startup/startup.h"
 #include "passes/switch/switch.h"
 
 namespace wrlkit {
@@ -17,6 +19,11 @@ void show_all(Scene& scene) {
   Statistics uncounted;
   PassContext ctx(silent, uncounted);
   switch_on(scene, {.all = true, .choices = {}}, ctx);
+}
+
+void run_startup(Scene& scene, PassContext& ctx) {
+  expand(scene, {}, ctx);
+  startup(scene, {}, ctx);
 }
 
 std::vector<std::pair<std::string, std::string>> place_options(Unit unit, UpAxis up) {

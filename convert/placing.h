@@ -13,6 +13,8 @@ namespace wrlkit {
 void place_world(Scene& scene, Unit unit, UpAxis up);
 /// Runs `switch{all=true}`.
 void show_all(Scene& scene);
+/// As passes `expand` and `startup` do.
+void run_startup(Scene& scene, PassContext& ctx);
 
 /// The options of `place` that differ from its defaults, as pipeline text has them; empty when none does.
 std::vector<std::pair<std::string, std::string>> place_options(Unit unit, UpAxis up);

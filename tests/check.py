@@ -18,6 +18,7 @@ they come behind the nodes, where no writer takes them for the world's leading c
   # CHECK-NEXT: height 3           the next one does
   # CHECK-NOT: radius              no line between the neighbouring CHECKs does
   # NEEDS: python                  the test is left out where the program was built without the Python package
+  # NEEDS: scripts                 or without Duktape
   # NEEDS: memory-limit            or where it cannot run below a limit, as what sanitizers build
   # EXPECT-EXIT: 3                 exit code of the RUN above; otherwise 1 when an error is expected, else 0
   # EXPECT-ERROR [unknown-field] no field 'radius'
@@ -81,6 +82,8 @@ def what_is_missing(options):
     missing = set()
     if not (options.wrlkit.parent / 'python/wrlkit/__main__.py').exists():
         missing.add('python')
+    if not (options.wrlkit.parent / 'wrlkit_script').exists():
+        missing.add('scripts')
     limited = [options.wrlkit, 'info', ROOT / 'tests/text/cli/inputs/box.wrl', '--memory', '8G']
     if subprocess.run(limited, capture_output=True, check=False).returncode != 0:
         missing.add('memory-limit')

@@ -17,7 +17,7 @@ for user in ('tools', 'python', 'bench'):
     below[user] = ['convert', *below['convert']] + (['tools'] if user != 'tools' else [])
 doors = ('geometry/openmesh/openmesh.h',)  # components that speak another library's types
 third_party = re.compile(r'^(fmt|toml|xxhash|pybind11|zlib|fast_float|embree3|OpenImageIO|CLI|tbb|ft2build|freetype'
-                         r'|nlohmann|pugixml|catch2|meshoptimizer|draco|tiny_gltf|OpenMesh)\b')
+                         r'|nlohmann|pugixml|catch2|meshoptimizer|draco|tiny_gltf|OpenMesh|duktape)\b')
 
 
 def include_faults():

@@ -1,36 +1,23 @@
 #include "base/image/image.h"
 
 #include <dlfcn.h>
-#include <link.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <filesystem>
 
 #include "base/image/decode.h"
 #include "base/image/image_codecs.h"
 #include "base/image/image_module.h"
 #include "base/image/png.h"
+#include "base/io/own_files.h"
 
 namespace wrlkit {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Folder of the program or shared library that this code is in.
-fs::path own_folder() {
-  std::error_code ec;
-  Dl_info self{};
-  link_map* object = nullptr;
-  auto address = reinterpret_cast<const void*>(&own_folder);
-  // The name of a program would be argv[0], which may be anything; the map leaves it empty.
-  bool known = dladdr1(address, &self, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
-  bool library = known && object && object->l_name && object->l_name[0] == '/';
-  return fs::canonical(library ? object->l_name : "/proc/self/exe", ec).parent_path();
-}
-
-constexpr std::string_view module_name = "wrlkit_images.so";
+constexpr const char* module_name = "wrlkit_images.so";
 
 /// As set_image_codecs was told; empty: not at all.
 fs::path& chosen_module() {
@@ -38,35 +25,8 @@ fs::path& chosen_module() {
   return chosen;
 }
 
-/// By a variable that the user has set; a program with more rights than its user does not listen to it.
-fs::path module_of_environment() {
-  const char* path = secure_getenv("WRLKIT_IMAGES");
-  return path ? path : "";
-}
-
-/// Whether there is a file that nobody else can have put there: a relative path would name another one in every working
-/// directory, and in /tmp everyone may leave one.
-bool is_trusted(const fs::path& path) {
-  std::error_code ec;
-  if (!path.is_absolute() || !fs::exists(path, ec)) return false;
-  const auto folder = fs::status(path.parent_path(), ec).permissions();
-  return !ec && (folder & fs::perms::others_write) == fs::perms::none;
-}
-
 /// Where the module may be, the best first: see set_image_codecs.
-std::vector<fs::path> module_paths() {
-  const fs::path folder = own_folder(), name = module_name, lib = folder / ".." / "lib";
-  std::vector<fs::path> paths{folder / name, folder / ".." / name, folder / ".." / ".." / name,
-                              folder / "wrlkit" / name, lib / "wrlkit" / name};
-  std::error_code ec;
-  for (fs::directory_iterator i(lib, ec), end; !ec && i != end; i.increment(ec))  // lib/x86_64-linux-gnu
-    paths.push_back(i->path() / "wrlkit" / name);
-  paths.push_back(chosen_module());
-  paths.emplace_back(WRLKIT_INSTALLED_IMAGES);
-  paths.push_back(module_of_environment());
-  std::erase_if(paths, [](const fs::path& path) { return !is_trusted(path); });
-  return paths;
-}
+std::vector<fs::path> module_paths() { return own_files(module_name, "WRLKIT_IMAGES", {chosen_module()}); }
 
 struct Opened {
   const ImageModule* module = nullptr;

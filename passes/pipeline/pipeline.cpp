@@ -53,9 +53,31 @@ bool Pipeline::has_in_effect(const PassInfo& info) const {
   return !info.traits.parts.empty();
 }
 
+/// Moves passes of phase `gathered` behind the last one that gathers, or, without such, in front of the first that
+/// lowers or does more.
+void Pipeline::move_gathered() {
+  const auto phase = [](const Step& s) { return s.info->traits.phase; };
+  const auto first = std::ranges::stable_partition(steps_, [&](const Step& s) { return phase(s) != Phase::gathered; });
+  std::vector<Step> moved(std::make_move_iterator(first.begin()), std::make_move_iterator(first.end()));
+  steps_.erase(first.begin(), first.end());
+  const auto last = std::ranges::find(steps_.rbegin(), steps_.rend(), Phase::gather, phase);
+  const auto beyond = [&](const Step& s) { return phase(s) > Phase::gathered; };
+  const auto at = last != steps_.rend() ? last.base() : std::ranges::find_if(steps_, beyond);
+  steps_.insert(at, std::make_move_iterator(moved.begin()), std::make_move_iterator(moved.end()));
+}
+
+void Pipeline::add_gathered(std::string_view name) {
+  const auto* const info = find_pass(name);
+  if (has_in_effect(*info)) return;
+  steps_.push_back({info, info->make()});
+  move_gathered();
+  meet_needs();
+}
+
 void Pipeline::complete(std::string_view text) {
   std::string why;
   auto standard = parse(text, why);
+  move_gathered();
   auto first_of = [&](Phase phase) {
     return std::ranges::find_if(standard->steps_, [&](const Step& s) { return s.info->traits.phase >= phase; });
   };
@@ -90,6 +112,7 @@ void Pipeline::complete(std::string_view text) {
   }
   insert(steps_.begin(), std::move(front));
   insert(steps_.end(), missing(mesh, end));
+  move_gathered();
 }
 
 void Pipeline::meet_needs(Level level) {

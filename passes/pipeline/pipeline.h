@@ -41,12 +41,13 @@ class PassInstance {
 
 /// Where a pass has its place among others: what a pipeline lacks for its writer goes there.
 enum class Phase : std::uint8_t {
-  start,   // before anything is looked for in the scene
-  gather,  // all of the world in one scene
-  lower,   // nodes that others do not know, as those that they know
-  world,   // whatever is wanted of the whole scene
-  light,   // behind the last pass over the scene, which may be the one that makes the light
-  mesh,    // at the end, one geometry after the other
+  start,     // before anything is looked for in the scene
+  gather,    // all of the world in one scene
+  gathered,  // once it is, and before nodes are lowered: wherever a pipeline that is completed has it
+  lower,     // nodes that others do not know, as those that they know
+  world,     // whatever is wanted of the whole scene
+  light,     // behind the last pass over the scene, which may be the one that makes the light
+  mesh,      // at the end, one geometry after the other
 };
 
 /// What else a pipeline has to know of a pass.
@@ -127,6 +128,8 @@ class Pipeline {
   /// The same at the begin, where there are options at all and the pass is not in it yet.
   bool put_first(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options,
                  std::string& why);
+  /// Adds a pass of phase `gathered`, unless it is in it: behind the passes that gather the world.
+  void add_gathered(std::string_view name);
   /// Adds the passes of another pipeline, which a writer needs, as far as this one lacks them, by phase: those before
   /// `light` in front, those of `light` and what stands behind them behind the last pass over the scene, those of
   /// `mesh` at the end. So `weld` for glTF is `expand,...,weld,combine-lightmap,tessellate,...`. Then as meet_needs.
@@ -168,6 +171,7 @@ class Pipeline {
   MeshMaker mesh_maker(std::shared_ptr<const LazyState>, Task&) const;
   bool append(std::string_view text, std::string& why);
   void meet_needs(Level before);
+  void move_gathered();
   bool has_in_effect(const PassInfo&) const;
   Level level_behind(std::size_t step) const;
   std::vector<Step> steps_;

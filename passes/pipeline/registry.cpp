@@ -27,6 +27,7 @@
 #include "passes/recognise/recognise.h"
 #include "passes/sky/sky.h"
 #include "passes/smooth/smooth.h"
+#include "passes/startup/startup.h"
 #include "passes/subdivide/subdivide.h"
 #include "passes/switch/switch.h"
 #include "passes/tessellate/tessellate.h"
@@ -52,6 +53,8 @@ constexpr PassInfo all_passes[] = {
                                        authored, {.phase = Phase::gather, .brings_in = true}),
     pass<expand_protos, ExpandProtosOptions>("expand-protos", "turn prototype instances into the nodes they stand for",
                                              authored, expanded, {.phase = Phase::gather, .brings_in = true}),
+    pass<startup, StartupOptions>("startup", "run what Scripts do when the world is loaded", expanded, expanded,
+                                  {.phase = Phase::gathered}),
     pass<keep_colors, KeepColorsOptions>(
         "keep-colors", "keep X3D 4.0 from multiplying pictures by colours that they take the place of", authored,
         authored, {.phase = Phase::lower, .idempotent = true}),

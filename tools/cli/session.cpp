@@ -62,6 +62,7 @@ bool Session::choose_pipeline(std::string_view standard) {
   if (flags_.pipeline_given) pipeline_->complete(standard);
   pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why);
   if (flags_.load.show_all) pipeline_->put_first("switch", {{"all", "true"}}, why);
+  if (flags_.load.run_startup) pipeline_->add_gathered("startup");
   document_.leave_unplaced();
   const auto& after = flags_.print_after;
   if (!after.empty() && after != "all" && !find_pass(after)) {

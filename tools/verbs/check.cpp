@@ -4,6 +4,7 @@
 
 #include "base/text/json.h"
 #include "convert/hidden_geometry.h"
+#include "convert/startup_scripts.h"
 #include "convert/world_meshes.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
@@ -31,6 +32,7 @@ void check_contents(Session& s) {
 void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
   report_hidden_geometry(s.world().scene, s.diag());
+  report_startup_scripts(s.world().scene, s.diag());
   if (!s.flags().quick) return check_contents(s);
   std::string why;
   if (auto p = Pipeline::parse("lower-vrml1,expand", why)) p->run(s.world().scene, s.context());

@@ -12,6 +12,7 @@
 #include "convert/convert.h"
 #include "convert/hidden_geometry.h"
 #include "convert/profiles.h"
+#include "convert/startup_scripts.h"
 #include "tools/cli/outputs.h"
 #include "tools/cli/recipe.h"
 #include "tools/cli/session.h"
@@ -92,8 +93,11 @@ bool prepare_conversion(Session& s) {
 bool read_input(Session& s) {
   if (!s.read(s.flags().inputs[0]) || !check_input(s.document())) return false;
   const auto steps = s.pipeline().steps();
-  if (std::ranges::find(steps, "switch", &Pipeline::StepInfo::name) == steps.end())
-    report_hidden_geometry(s.world().scene, s.diag());
+  const auto lacks = [&](std::string_view pass) {
+    return std::ranges::find(steps, pass, &Pipeline::StepInfo::name) == steps.end();
+  };
+  if (lacks("switch") && lacks("startup")) report_hidden_geometry(s.world().scene, s.diag());
+  if (lacks("startup")) report_startup_scripts(s.world().scene, s.diag());
   return true;
 }
 
