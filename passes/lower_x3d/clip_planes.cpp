@@ -35,7 +35,7 @@ class ClipPlanes {
   }
 
  private:
-  static constexpr std::size_t deepest = 2000;
+  static constexpr std::size_t deepest = 2000, most = 500'000;
 
   /// `each`: an empty Group stands for what nothing is left of, because the number of children counts.
   std::vector<NodeId> children(std::span<const NodeId> list, Planes planes, bool each) {
@@ -63,6 +63,11 @@ class ClipPlanes {
     if (!shape && !scene_.is(n, nodes::X3DGroupingNode)) return n;
     if (depth_ >= deepest) return n;
     if (const auto known = made_.find({n, planes}); known != made_.end()) return known->second;
+    if (made_.size() > most) {
+      if (!std::exchange(full_, true))
+        ctx_.diag.report(Diag::expansion_limit, scene_.where(n), most, "nodes below ClipPlanes");
+      return n;
+    }
     ++depth_;
     const NodeId out = shape ? of_shape(n, planes) : of_group(n, planes);
     --depth_;
@@ -146,6 +151,7 @@ class ClipPlanes {
   std::map<std::pair<NodeId, Planes>, NodeId> made_;
   std::map<NodeId, std::vector<Value>> originals_;  // fields of nodes that were met
   std::size_t depth_ = 0;
+  bool full_ = false;
   Mesh mesh_;
   MeshScratch scratch_;
 };

@@ -50,7 +50,7 @@ std::vector<double> clear_lines(std::vector<double> lines, const std::vector<Rin
   };
   for (std::size_t i = 1; i + 1 < lines.size(); ++i) {
     double x = lines[i];
-    while (is_taken(x) && x < lines[i + 1]) x += step;
+    while (is_taken(x) && x < lines[i + 1] && x + step > x) x += step;
     lines[i] = x;
   }
   lines.front() -= range;
@@ -281,7 +281,11 @@ std::vector<Ring> clean(const Grid& g, const std::vector<Ring>& contours) {
 
 TrimmedGrid trim(const Grid& grid, const std::vector<Ring>& contours) {
   auto rings = clean(grid, contours);
-  if (rings.empty()) return {};
+  constexpr std::size_t most_cuts = 30'000'000, most_steps = 1'000'000'000;
+  std::size_t n = 0;
+  for (const Ring& r : rings) n += r.size();
+  const bool too_many = n * (grid.u.size() + grid.v.size()) > most_cuts || n * rings.size() > most_steps;
+  if (rings.empty() || too_many) return {};
   std::vector<char> is_hole;
   bool outside = true;
   for (const Ring& r : rings) {
