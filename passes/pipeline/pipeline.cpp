@@ -57,9 +57,10 @@ bool Pipeline::has_in_effect(const PassInfo& info) const {
 /// lowers or does more.
 void Pipeline::move_gathered() {
   const auto phase = [](const Step& s) { return s.info->traits.phase; };
-  const auto first = std::ranges::stable_partition(steps_, [&](const Step& s) { return phase(s) != Phase::gathered; });
-  std::vector<Step> moved(std::make_move_iterator(first.begin()), std::make_move_iterator(first.end()));
-  steps_.erase(first.begin(), first.end());
+  const auto stays = [&](const Step& s) { return phase(s) != Phase::gathered; };
+  const auto first = std::stable_partition(steps_.begin(), steps_.end(), stays);
+  std::vector<Step> moved(std::make_move_iterator(first), std::make_move_iterator(steps_.end()));
+  steps_.erase(first, steps_.end());
   const auto last = std::ranges::find(steps_.rbegin(), steps_.rend(), Phase::gather, phase);
   const auto beyond = [&](const Step& s) { return phase(s) > Phase::gathered; };
   const auto at = last != steps_.rend() ? last.base() : std::ranges::find_if(steps_, beyond);

@@ -15,7 +15,7 @@ TEST_CASE("store_mesh: what was read is read again", "[geometry]") {
       grid(color + "colorIndex [ 5 4 3 2 -1 0 1 2 3 -1 ]"),
       grid("normal Normal { vector [ 0 0.6 0.8, 0.1 0 1 ] } normalPerVertex FALSE"),
       grid("texCoord TextureCoordinate { point [ 0 0, 1 0, 1 1, 0 1 ] } texCoordIndex [ 0 0 0 0 -1 3 2 1 0 -1 ]"),
-      std::string("IndexedFaceSet { }"),
+      std::string("IndexedFaceSet { solid TRUE }"),
       std::string(
           "IndexedLineSet { coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] } coordIndex [ 0 1 2 -1 2 3 -1 ] "
           "color Color { color [ 1 0 0, 0 1 0 ] } colorPerVertex FALSE }"),

@@ -48,8 +48,8 @@ TEST_CASE("IndexedFaceSet: bad indices and faces that are none are dropped and c
 
 TEST_CASE("IndexedFaceSet: nothing to read", "[geometry]") {
   Fixture f(
-      "IndexedFaceSet { } IndexedFaceSet { coordIndex [ 0 1 2 -1 ] } DEF Name IndexedFaceSet { coord Color { } "
-      "coordIndex [ 0 1 2 ] } "
+      "IndexedFaceSet { solid TRUE } IndexedFaceSet { solid TRUE coordIndex [ 0 1 2 -1 ] } "
+      "DEF Name IndexedFaceSet { coord Color { } coordIndex [ 0 1 2 ] } "
       "IndexedFaceSet { coord Coordinate { point [ 0 0 0 ] } coordIndex [ -1 -1 ] }");
   auto before = f.diag.messages().size();
   for (std::size_t i = 0; i < 4; ++i) {
