@@ -58,7 +58,8 @@ std::vector<char> stateful_nodes(const Scene& scene) {
 }  // namespace
 
 bool has_state(const Scene& scene) {
-  if (any_node(scene, [&](NodeId n) { return scene.is(n, nodes::Vrml1Node); })) return true;
+  const auto is_vrml1 = [&](NodeId n) { return scene.is(n, nodes::Vrml1Node); };
+  if (any_node(scene, is_vrml1) && std::ranges::any_of(all_nodes(scene), is_vrml1)) return true;
   return any_node(scene, [&](NodeId n) { return is_bare(scene, n); }) && !child_materials(scene).empty();
 }
 
