@@ -35,7 +35,7 @@ class ClipPlanes {
   }
 
  private:
-  static constexpr std::size_t deepest = 2000, most = 500'000;
+  static constexpr std::size_t deepest = 2000, most = 100'000;
 
   /// `each`: an empty Group stands for what nothing is left of, because the number of children counts.
   std::vector<NodeId> children(std::span<const NodeId> list, Planes planes, bool each) {

@@ -228,6 +228,22 @@ def doubling_uses():
     return text + '\n'
 
 
+def doubling_clip_planes():
+    """Each group is met twice below, in another place: there are 2^40 sets of planes."""
+    text = 'DEF A0 Shape { geometry Box {} }'
+    for i in range(1, 41):
+        text = f'DEF A{i} Group {{ children [ ClipPlane {{ plane 0 1 0 {i} }} {text} Transform {{ translation 0 1 0 children USE A{i - 1} }} ] }}'
+    return text + '\n'
+
+
+def long_contour(n=400_000):
+    points = ''.join(f'{math.cos(i * math.tau / n) / 4 + 0.5} {math.sin(i * math.tau / n) / 4 + 0.5},' for i in range(n))
+    return f"""Shape {{ geometry NurbsTrimmedSurface {{ uDimension 2 vDimension 2 uOrder 2 vOrder 2 uKnot [ 0 0 1 1 ] vKnot [ 0 0 1 1 ]
+ uTessellation 100 vTessellation 100 controlPoint Coordinate {{ point [ 0 0 0, 1 0 0, 0 1 0, 1 1 0 ] }}
+ trimmingContour Contour2D {{ children ContourPolyline2D {{ controlPoint [ {points} ] }} }} }} }}
+"""
+
+
 def wide_interface():
     fields = ''.join(f'field SFFloat f{i} {i}\n' for i in range(100_000))
     return 'PROTO Wide [\n' + fields + '] { Group {} }\nWide { f99999 1 }\n'
@@ -300,6 +316,8 @@ CASES = [
     Case('huge_extrusion', world('huge_extrusion', 'Shape { geometry Extrusion { crossSection [',
                                  *(f'{math.cos(i)} {math.sin(i)},' for i in range(2000)), '] spine [',
                                  *(f'0 {i} 0,' for i in range(1000)), '] } }'), 'expansion-limit', verbs=('convert',)),
+    Case('clip_planes_doubling', world('clip_planes_doubling', doubling_clip_planes()), 'expansion-limit', verbs=('convert',)),
+    Case('long_contour', world('long_contour', long_contour()), 'untrimmed', verbs=('convert',)),
     Case('unclosed_string', world('unclosed_string', 'WorldInfo { title "', ('x', 20_000_000)), 'unclosed-string', rest=False),
     Case('brackets', world('brackets', ('[', 5_000_000)), 'stray-token|unclosed|syntax', rest=False),
     Case('defs', world('defs', ('DEF a ', 1_000_000)), 'def-without-node|syntax|too-deep', rest=False),
