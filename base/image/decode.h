@@ -1,5 +1,5 @@
 // Decoders that need no OpenImageIO: of the two types that nearly all scenes have, by libraries that are there at once,
-// and of one that OpenImageIO does not read from memory.
+// and of two old ones, which it does not read from memory, or not safely.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,6 +16,10 @@ bool is_plain_jpeg(std::string_view jpeg);
 /// One of those by libjpeg-turbo, in 1 channel or 3. Where data are missing at the end, what is there is shown, as
 /// browsers do. False, and why, when it is damaged.
 bool decode_jpeg(std::string_view jpeg, Image& image, std::string& error);
+
+/// DirectDraw surfaces of BC1, BC2 or BC3 (DXT1, DXT3, DXT5) in one layer, without their smaller levels. Four channels.
+/// False, and why, for other kinds and when it is damaged.
+bool decode_dds(std::string_view dds, Image& image, std::string& error);
 
 /// SGI, 8 or 16 bits, run-length encoded or not. False, and why, when it is damaged.
 bool decode_sgi(std::string_view sgi, Image& image, std::string& error);

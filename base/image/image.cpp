@@ -58,9 +58,8 @@ struct Codec {
 };
 
 constexpr Codec codecs[] = {
-    {"image/jpeg", "jpeg"},     {"image/gif", "gif"},          {"image/bmp", "bmp"},
-    {"image/x-tga", "targa"},   {"image/tiff", "tiff"},        {"image/webp", "webp"},
-    {"image/x-exr", "openexr"}, {"image/vnd.radiance", "hdr"}, {"image/vnd-ms.dds", "dds"},
+    {"image/jpeg", "jpeg"}, {"image/gif", "gif"},   {"image/bmp", "bmp"},       {"image/x-tga", "targa"},
+    {"image/tiff", "tiff"}, {"image/webp", "webp"}, {"image/x-exr", "openexr"}, {"image/vnd.radiance", "hdr"},
 };
 
 bool alpha_is_nothing(const Image& image) {
@@ -87,6 +86,7 @@ bool decode(std::string_view bytes, std::string_view mime, Image& image, std::st
   if (mime == "image/png") return decode_png(bytes, image, error);
   if (mime == "image/jpeg" && is_plain_jpeg(bytes)) return decode_jpeg(bytes, image, error);
   if (mime == "image/x-sgi") return decode_sgi(bytes, image, error);
+  if (mime == "image/vnd-ms.dds") return decode_dds(bytes, image, error);
   return decode_by_module(bytes, mime, image, error);
 }
 

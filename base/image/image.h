@@ -35,8 +35,8 @@ struct ImageHeader {
 /// sense.
 std::string_view sniff_mime(std::string_view bytes, std::string_view name = {});
 
-/// Size and channels of a PNG, JPEG, GIF, BMP, SGI or TGA picture; nothing for other types and damaged headers. The
-/// first 64 KiB are enough but for a JPEG with large metadata. O(1), or O(bytes before the first pixels).
+/// Size and channels of a PNG, JPEG, GIF, BMP, SGI, DDS or TGA picture; nothing for other types and damaged headers.
+/// The first 64 KiB are enough but for a JPEG with large metadata. O(1), or O(bytes before the first pixels).
 std::optional<ImageHeader> read_image_header(std::string_view bytes, std::string_view name = {});
 
 // Pictures beyond these are refused: a few bytes can claim to be a picture of any size. A large one must have at least

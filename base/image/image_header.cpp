@@ -110,6 +110,9 @@ Header sgi(Bytes f) {
   return header(f.be16(6), dimensions > 1 ? f.be16(8) : 1, static_cast<int>(std::min(channels, 4u)), "image/x-sgi");
 }
 
+// DDS_HEADER: height, width.
+Header dds(Bytes f) { return header(f.le32(16), f.le32(12), 4, "image/vnd-ms.dds"); }
+
 struct Magic {
   std::string_view bytes;
   std::size_t at;
@@ -130,7 +133,7 @@ constexpr Magic magics[] = {
     {"#?RADIANCE"sv, 0, "image/vnd.radiance", nullptr},
     {"#?RGBE"sv, 0, "image/vnd.radiance", nullptr},
     {"\x01\xda"sv, 0, "image/x-sgi", sgi},
-    {"DDS |"sv, 0, "image/vnd-ms.dds", nullptr},
+    {"DDS |"sv, 0, "image/vnd-ms.dds", dds},
 };
 
 bool is_tga(std::string_view bytes, std::string_view name) {

@@ -57,26 +57,40 @@ TEST_CASE("SGI: run lengths", "[image]") {
   CHECK(fault_of_old(sgi_head(true, 1, 1) + big_endian(1 << 30, 4) + table) == "its data are damaged");
 }
 
-TEST_CASE("DDS: BC1", "[image]") {
+namespace {
+
+/// 4 x 4 texels in one block of eight bytes a layer.
+std::string dds_head(std::uint32_t layers) {
   auto bytes = "DDS |"s;
   bytes.resize(128);
   const auto put = [&](std::size_t at, std::uint32_t v) {
     for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(v >> (8 * i));
   };
-  put(8, 0x1007);  // caps, height, width, pixel format
-  put(12, 4);      // height
-  put(16, 4);      // width
-  put(76, 32);     // size of the pixel format
-  put(80, 4);      // FourCC
+  put(8, layers > 1 ? 0x801007 : 0x1007);  // caps, height, width, pixel format; depth
+  put(12, 4);                              // height
+  put(16, 4);                              // width
+  put(24, layers);
+  put(76, 32);  // size of the pixel format
+  put(80, 4);   // FourCC
   bytes.replace(84, 4, "DXT1");
-  put(108, 0x1000);  // texture
+  put(108, layers > 1 ? 0x1008 : 0x1000);  // texture; of several surfaces
+  put(112, layers > 1 ? 0x200000 : 0);     // a volume
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("DDS: BC1", "[image]") {
   // Two colours of 5, 6 and 5 bits, red and blue, and two bits a pixel: the upper two rows red, the others blue.
-  const auto image = decoded_old(bytes + "\x00\xf8\x1f\x00\x00\x00\x55\x55"s);
+  const auto block = "\x00\xf8\x1f\x00\x00\x00\x55\x55"s;
+  const auto image = decoded_old(dds_head(1) + block);
   REQUIRE(image.width == 4);
   REQUIRE(image.channels >= 3);
   const auto row = static_cast<std::size_t>(4 * image.channels);
   CHECK(Pixels(image.pixels.begin(), image.pixels.begin() + 3) == Pixels{255, 0, 0});
   CHECK(image.pixels[row * 2] == 0);
   CHECK(image.pixels[row * 2 + 2] == 255);
-  CHECK_FALSE(fault_of_old(bytes.substr(0, 100)).empty());
+  CHECK_FALSE(fault_of_old(dds_head(1).substr(0, 100)).empty());
+  CHECK(fault_of_old(dds_head(1) + block.substr(1)) == "its data are damaged");
+  CHECK(fault_of_old(dds_head(3) + block + block + block) == "it is not a DDS of BC1, BC2 or BC3 in one layer");
 }
