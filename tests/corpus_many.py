@@ -56,7 +56,7 @@ def main():
         many = figures(wrlkit, pathlib.Path(tmp), most)
     for what in few:
         (calls, memory), (more_calls, more_memory) = few[what], many[what]
-        linear, flat = more_calls <= 5.25 * calls + 100, more_memory - memory <= MORE_A_FILE * (most - most // 5)
+        linear, flat = more_calls <= 5.5 * calls + 100, more_memory - memory <= MORE_A_FILE * (most - most // 5)
         faults += not linear or not flat
         print(f'{"ok    " if linear and flat else "FAILED"} {what}: calls {calls} of {most // 5} files, {more_calls} of {most}; memory {memory / 1e6:.1f} MB, {more_memory / 1e6:.1f} MB')
     return 1 if faults else 0

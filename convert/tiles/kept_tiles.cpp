@@ -11,6 +11,7 @@
 #include "base/io/file_lock.h"
 #include "base/text/json.h"
 #include "base/text/json_reader.h"
+#include "convert/tiles/staging.h"
 
 namespace wrlkit::tiles {
 namespace {
@@ -184,8 +185,11 @@ bool KeptTiles::become_last() {
 }
 
 void KeptTiles::forget() {
-  std::error_code none;
-  fs::remove_all(folder_, none);
+  // Under another name at once: a run that is killed here leaves nothing to go on with, and the next one removes it.
+  std::error_code none, fault;
+  const auto aside = fs::path(folder_).parent_path() / (std::string(unfinished_folder) + "kept");
+  fs::rename(folder_, aside, fault);
+  fs::remove_all(fault ? fs::path(folder_) : aside, none);
   tiles_.clear();
   errors_.clear();
 }

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view prefix = "tiles-", unfinished = ".unfinished-";
+constexpr std::string_view prefix = "tiles-";
 constexpr std::size_t digits = 16;
 
 bool is_tiles_folder(const std::string& name) {
@@ -73,7 +73,7 @@ std::error_code Staging::make_own() {
     if (lock_ >= 0) close(std::exchange(lock_, -1));
     std::error_code none;
     if (!at_.empty()) fs::remove_all(std::exchange(at_, {}), none);
-    std::string name = (folder_ / (std::string(unfinished) + "XXXXXX")).string();
+    std::string name = (folder_ / (std::string(unfinished_folder) + "XXXXXX")).string();
     if (!mkdtemp(name.data())) {
       const std::error_code fault(errno, std::generic_category());
       // A run that had made the folder for all, and has ended, removes it.
@@ -92,7 +92,7 @@ void Staging::remove_left_behind() const {
   std::error_code none;
   std::vector<fs::path> left;
   for (const auto& entry : fs::directory_iterator(folder_, none))
-    if (entry.path().filename().string().starts_with(unfinished)) left.push_back(entry.path());
+    if (entry.path().filename().string().starts_with(unfinished_folder)) left.push_back(entry.path());
   for (const auto& path : left) {
     const int lock = lock_of(path);
     if (lock < 0) continue;

@@ -2,11 +2,15 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "base/diagnostics.h"
 
 namespace wrlkit::tiles {
+
+/// How names of folders begin that a run leaves only when it is killed; the next one removes them.
+inline constexpr std::string_view unfinished_folder = ".unfinished-";
 
 class Staging {
  public:

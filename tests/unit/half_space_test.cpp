@@ -38,7 +38,7 @@ TEST_CASE("A plane cuts triangles, and what their corners have", "[geometry]") {
     CHECK(m.texcoord.at(m.texcoord.index[i])[0] == Approx((m.position(m.corners[i])[0] + 1) / 2));
 }
 
-TEST_CASE("A plane beside a mesh, behind it, and through its corners", "[geometry]") {
+TEST_CASE("A plane next to a mesh, behind it, and through its corners", "[geometry]") {
   Mesh m = square_mesh();
   CHECK_FALSE(cut_by_plane(m, {1, 0, 0, 1}));
   CHECK(m.corners.size() == 6);
