@@ -255,7 +255,7 @@ void Parser::implicit_child(Token t) {
     node_statement();
   } else {
     diag_.report(Diag::misplaced_node, span(t), describe(t));
-    if (NodeId n = node_statement()) misplaced_.push_back(n);
+    if (NodeId n = child_statement()) misplaced_.push_back(n);
   }
 }
 
