@@ -13,7 +13,6 @@
 #include "base/parallel.h"
 #include "base/stop.h"
 #include "convert/tiles/cell_keys.h"
-#include "convert/tiles/cells.h"
 #include "convert/tiles/coarser.h"
 #include "convert/tiles/content.h"
 #include "convert/tiles/kept_tiles.h"
@@ -24,6 +23,7 @@
 #include "convert/tiles/staging.h"
 #include "convert/tiles/surface_error.h"
 #include "convert/tiles/tree.h"
+#include "geometry/space_cells.h"
 #include "parsers/resources.h"
 #include "writers/gltf/tolerance.h"
 

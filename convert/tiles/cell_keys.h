@@ -3,8 +3,9 @@
 #include <functional>
 #include <string>
 
-#include "convert/tiles/cells.h"
 #include "convert/tiles/looks.h"
+#include "convert/tiles/piece_store.h"
+#include "geometry/space_cells.h"
 
 namespace wrlkit::tiles {
 

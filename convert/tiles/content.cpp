@@ -9,7 +9,7 @@
 
 #include "convert/tiles/kept_tiles.h"
 #include "geometry/mesh_job.h"
-#include "passes/merge/moved.h"
+#include "passes/merge/named_mesh.h"
 #include "passes/normals/normals.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
@@ -98,26 +98,12 @@ class Content {
   }
 
   void add_shape(const std::vector<const Piece*>& pieces) {
-    Mesh all;
-    std::vector<std::string_view> names;
-    std::vector<std::int32_t> faces;
-    for (const Piece* p : pieces) {
-      const auto before = all.face_begin.empty() ? 0 : all.face_begin.size() - 1;
-      append(all, *p);
-      const auto added = static_cast<std::int32_t>(all.face_begin.size() - 1 - before);
-      if (!names.empty() && names.back() == p->name) {
-        faces.back() += added;
-        continue;
-      }
-      names.push_back(p->name);
-      faces.push_back(added);
-    }
+    NamedMesh named;
+    for (const Piece* p : pieces) named.add(moved(*p), {}, p->name, scratch_.map);
+    const NodeId shape = scene_.add(nodes::Shape), geometry = named.add_geometry(scene_);
+    set_features(scene_, geometry, named.parts());
+    Mesh all = named.take();
     if (all.kind == Mesh::Kind::faces) all.face_begin.clear();
-    const NodeId shape = scene_.add(nodes::Shape);
-    const NodeId geometry = scene_.add(all.kind == Mesh::Kind::lines    ? nodes::IndexedLineSet
-                                       : all.kind == Mesh::Kind::points ? nodes::PointSet
-                                                                        : nodes::IndexedFaceSet);
-    set_features(scene_, geometry, {names, faces});
     scene_.set(shape, nodes::shape::geometry, geometry);
     if (const NodeId look = looks_.appearance(pieces[0]->look)) scene_.set(shape, nodes::shape::appearance, look);
     scene_.main.roots.push_back(shape);
@@ -145,14 +131,15 @@ class Content {
     meshes_.emplace(geometry.value, std::move(repeat.mesh));
   }
 
-  void append(Mesh& all, const Piece& p) {
+  /// Around the origin, with normals and its colour.
+  const Mesh& moved(const Piece& p) {
     moved_ = p.mesh;
     auto& points = moved_.positions.edit();
     for (std::size_t i = 0; i < points.size(); ++i) points[i] -= origin_[i % 3];
     MeshJob job{scene_, {}, moved_, scratch_, ctx_};
     normals(job, {});
     if (has_colours_ && is_coloured(p) && !moved_.color.present()) give_colour(moved_, p.look);
-    append_moved(all, moved_, {}, scratch_.map);
+    return moved_;
   }
 
   Vec3 origin_;

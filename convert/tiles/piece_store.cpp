@@ -140,11 +140,12 @@ std::optional<PieceStore> PieceStore::open(const std::string& folder, std::strin
 
 bool PieceStore::add(const Piece& piece, Entry& entry) {
   const auto bytes = pack(piece);
-  entry = {.bytes = static_cast<std::uint32_t>(bytes.size()),
-           .n_drawn = static_cast<std::uint32_t>(n_drawn(piece.mesh)),
-           .box = box_of_corners(piece.mesh),
-           .hash = hash_of(std::string_view(bytes).substr(0, bytes.size() - sizeof piece.look)),
-           .look = piece.look};
+  entry = {{.bytes = static_cast<std::uint32_t>(bytes.size()),
+            .n_drawn = static_cast<std::uint32_t>(n_drawn(piece.mesh)),
+            .box = box_of_corners(piece.mesh),
+            .look = piece.look},
+           0,
+           hash_of(std::string_view(bytes).substr(0, bytes.size() - sizeof piece.look))};
   {
     const std::scoped_lock lock(state_->mutex);
     entry.offset = state_->end;

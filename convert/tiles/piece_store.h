@@ -10,18 +10,16 @@
 
 #include "base/io/content_hash.h"
 #include "convert/tiles/piece.h"
+#include "geometry/space_cells.h"
 
 namespace wrlkit::tiles {
 
 class PieceStore {
  public:
   /// Where a piece is, and what is known of it without reading it. 88 bytes.
-  struct Entry {
+  struct Entry : SpaceItem {
     std::uint64_t offset = 0;
-    std::uint32_t bytes = 0, n_drawn = 0;
-    Box box = {};
     ContentHash hash = {};  // of all but its look
-    std::uint32_t look = 0;
   };
 
   /// In a folder that must be there. Nothing, and why, when no file can be made in it.

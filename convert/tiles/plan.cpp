@@ -26,7 +26,7 @@ double packing(GltfCompression::Method method) {
 Cells planned_cells(std::span<const PieceStore::Entry> pieces, const Looks& looks, const TilesOptions& options) {
   std::vector<LookCost> costs;
   for (std::uint32_t i = 0; i < looks.size(); ++i) costs.push_back({looks.family(i), looks.picture_bytes(i)});
-  const TileBudget most{options.triangles, options.draws, options.bytes, packing(options.save.compress)};
+  const CellBudget most{options.triangles, options.draws, options.bytes, packing(options.save.compress)};
   return cut_into_cells(pieces, most, costs);
 }
 

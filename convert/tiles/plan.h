@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "convert/tiles.h"
-#include "convert/tiles/cells.h"
 #include "convert/tiles/looks.h"
+#include "convert/tiles/piece_store.h"
 #include "convert/tiles/tree.h"
+#include "geometry/space_cells.h"
 
 namespace wrlkit::tiles {
 

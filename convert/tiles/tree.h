@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "convert/tiles/cells.h"
 #include "convert/tiles/kept_tiles.h"
+#include "geometry/space_cells.h"
 #include "writers/tiles/tileset.h"
 
 namespace wrlkit::tiles {

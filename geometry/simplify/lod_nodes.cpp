@@ -49,6 +49,35 @@ std::vector<double> lod_ranges(double radius, std::span<const double> errors, co
   return out;
 }
 
+NodeId make_lod(Scene& scene, const Box& bounds, std::span<const LodLevel> levels, const LodLimits& limits,
+                LodCounts& made) {
+  std::vector<NodeId> children;
+  std::vector<double> errors;
+  const bool is_large = !levels.empty() && levels[0].n_faces >= limits.min_faces;
+  const LodLevel* last = nullptr;
+  const auto empty = [&] { return scene.add(nodes::Group, scene.where(levels[0].node)); };
+  for (const LodLevel& level : levels.first(is_large ? levels.size() : 0)) {
+    const double most = last ? (1 - limits.min_saving) * static_cast<double>(last->n_faces) : 0;
+    if (last && (level.node == last->node || static_cast<double>(level.n_faces) > most)) continue;
+    children.push_back(level.node ? level.node : empty());
+    if (last) errors.push_back(level.error);
+    last = &level;
+  }
+  const auto range = is_large ? lod_ranges(diagonal(bounds) / 2, errors, limits.screen) : std::vector<double>();
+  if (range.empty()) {
+    ++made.n_too_small;
+    return {};
+  }
+  if (limits.screen.vanish > 0) children.push_back(empty());
+  const NodeId lod = scene.add(nodes::LOD, scene.where(levels[0].node));
+  Vec3 center = bounds.centre();
+  for (double& x : center) x = decimal(static_cast<float>(x));
+  scene.set(lod, nodes::lod::children, children, nodes::lod::center, center, nodes::lod::range, range);
+  ++made.n_lods;
+  made.n_levels += errors.size();
+  return lod;
+}
+
 std::size_t LodNodes::add(const ShapeSurface& surface, const Mesh& mesh, std::span<const MeshLevel> levels,
                           const ScreenBudget& budget) {
   const auto sphere = bounding_sphere(mesh);

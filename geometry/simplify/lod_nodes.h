@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "base/math/box.h"
 #include "geometry/simplify/levels.h"
 #include "geometry/simplify/surfaces.h"
 
@@ -20,6 +21,28 @@ struct ScreenBudget {
 /// Each the distance from which on the error of the next level is not seen on the near side of a sphere; and from which
 /// on the sphere itself is not, if it is to vanish. Ascending, of four digits.
 std::vector<double> lod_ranges(double radius, std::span<const double> errors, const ScreenBudget& budget);
+
+/// What is shown from some distance on.
+struct LodLevel {
+  NodeId node;       // none: nothing is
+  double error = 0;  // in the coordinates of the LOD
+  std::uint64_t n_faces = 0;
+};
+
+struct LodLimits {
+  ScreenBudget screen{};
+  double min_saving = 0;        // share of the triangles of the level before that a level has to save
+  std::uint64_t min_faces = 0;  // triangles of the first level below which there is no LOD
+};
+
+struct LodCounts {
+  std::size_t n_lods = 0, n_levels = 0, n_too_small = 0;
+};
+
+/// A LOD with those of the levels that save enough, counted in `made`; none when no level does. The first is what is
+/// there from nearby.
+NodeId make_lod(Scene& scene, const Box& bounds, std::span<const LodLevel> levels, const LodLimits& limits,
+                LodCounts& made);
 
 class LodNodes {
  public:

@@ -94,10 +94,9 @@ Scene WorldLevels::scene_with_levels() const {
   return out;
 }
 
-Scene WorldLevels::scene_with_lods(const ScopedLodOptions& options, ScopedLods& made) const {
+Scene WorldLevels::scene_with_surfaces(std::vector<LeveledSurface>& surfaces) const {
   Scene out = impl_->scene;
   const auto& world = impl_->world;
-  std::vector<LeveledSurface> surfaces;
   for (const auto& s : world.surfaces) {
     const auto triangles = triangles_of(s.mesh);
     LeveledSurface leveled{s.surface, {}, {{s.surface.geometry, 0, s.mesh.n_faces()}}};
@@ -119,7 +118,6 @@ Scene WorldLevels::scene_with_lods(const ScopedLodOptions& options, ScopedLods& 
     }
     surfaces.push_back(std::move(leveled));
   }
-  made = add_scoped_lods(out, surfaces, options);
   return out;
 }
 

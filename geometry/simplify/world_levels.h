@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/simplify/scoped_lods.h"
+#include "geometry/simplify/leveled_surface.h"
 #include "geometry/simplify/world.h"
 
 namespace wrlkit {
@@ -36,8 +36,9 @@ class WorldLevels {
   Scene scene_at(std::size_t i) const;
   /// With LOD nodes that have the points as levels.
   Scene scene_with_levels() const;
-  /// The same with LODs over groups or the whole scene; `made` says how many.
-  Scene scene_with_lods(const ScopedLodOptions& options, ScopedLods& made) const;
+  /// The scene, with geometry for each surface at each point that nothing refers to yet: `surfaces` says which. Their
+  /// levels are those of the scene and of all points.
+  Scene scene_with_surfaces(std::vector<LeveledSurface>& surfaces) const;
 
  private:
   struct Impl;

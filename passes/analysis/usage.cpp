@@ -45,4 +45,15 @@ bool is_plain(const Scene& scene, const Usage& usage, NodeId n) {
          std::ranges::none_of(scene.fields(n), [&](const Value& v) { return v.is || scene.is_extra(v); });
 }
 
+bool holds_together(const Scene& scene, const Usage& usage, NodeId n) {
+  if (!scene.is(n, nodes::Group) && !scene.is(n, nodes::Transform) && !scene.is(n, nodes::StaticGroup)) return true;
+  if (!is_plain(scene, usage, n)) return true;
+  bool together = false;
+  for_each_child(scene, n, [&](NodeId c) {
+    const auto& t = scene.type(c);
+    together |= t.is_a(nodes::X3DSensorNode) || scene.is(c, nodes::DirectionalLight) || scene.is(c, nodes::ClipPlane);
+  });
+  return together;
+}
+
 }  // namespace wrlkit

@@ -28,4 +28,8 @@ class Usage {
 /// True of a type that is built in, with known fields only, and nothing that events or prototypes may change.
 bool is_plain(const Scene& scene, const Usage& usage, NodeId n);
 
+/// True unless a group only puts things together: something in it or of it goes for what is below, and for nothing
+/// else.
+bool holds_together(const Scene& scene, const Usage& usage, NodeId group);
+
 }  // namespace wrlkit

@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "geometry/geometry.h"
+#include "geometry/moved.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/usage.h"
 #include "passes/lightmap/own_shapes.h"
-#include "passes/merge/moved.h"
 #include "passes/normals/normals.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"

@@ -8,9 +8,11 @@
 #include "base/math/digits.h"
 #include "base/parallel.h"
 #include "base/silent_task.h"
+#include "geometry/simplify/group_lods.h"
 #include "geometry/simplify/lod_nodes.h"
 #include "geometry/simplify/shared_borders.h"
 #include "geometry/simplify/world_levels.h"
+#include "passes/lod/cell_lods.h"
 
 namespace wrlkit {
 namespace {
@@ -118,7 +120,26 @@ class Lod {
 };
 
 /// The world at the shares of the triangles, and LODs over what its groups are there.
-Outcome lods_of_groups(Scene& scene, const LodOptions& options, PassContext& ctx) {
+LodCounts lods_of_groups(Scene& scene, const WorldSimplifyOptions& world, const LodLimits& limits, PassContext& ctx) {
+  SilentTask silent(ctx);
+  LodCounts made;
+  Scene with_lods;
+  {
+    const WorldLevels levels(scene, world, silent);
+    if (levels.n_drawn() > WorldLevels::most_drawn)
+      ctx.diag.report(Diag::not_simplified, {},
+                      fmt::format("a world of more than {} triangles as a whole", WorldLevels::most_drawn));
+    if (levels.points().empty()) return made;
+    std::vector<LeveledSurface> surfaces;
+    with_lods = levels.scene_with_surfaces(surfaces);
+    made = add_group_lods(with_lods, surfaces, limits);
+  }
+  if (made.n_lods > 0) scene = std::move(with_lods);
+  return made;
+}
+
+/// LODs that are made from levels of the whole world.
+Outcome lods_of_world(Scene& scene, const LodOptions& options, PassContext& ctx) {
   if (!options.errors.values.empty()) {
     ctx.diag.report(Diag::not_simplified, {}, "errors of lod are for scope=part; ratios are for all scopes");
     return Outcome::unchanged;
@@ -126,26 +147,17 @@ Outcome lods_of_groups(Scene& scene, const LodOptions& options, PassContext& ctx
   WorldSimplifyOptions world;
   world.collapse.criterion = options.criterion.value;
   world.ratios = options.ratios.values;
-  SilentTask silent(ctx);
-  ScopedLods made;
-  Scene with_lods;
-  {
-    const WorldLevels levels(scene, world, silent);
-    if (levels.n_drawn() > WorldLevels::most_drawn)
-      ctx.diag.report(Diag::not_simplified, {},
-                      fmt::format("a world of more than {} triangles as a whole", WorldLevels::most_drawn));
-    const ScopedLodOptions scoped{options.scope,
-                                  {options.pixels, options.screen_height, options.field_of_view, options.vanish},
-                                  options.min_saving,
-                                  static_cast<std::uint64_t>(options.min_faces)};
-    if (!levels.points().empty()) with_lods = levels.scene_with_lods(scoped, made);
-  }
+  const LodLimits limits{{options.pixels, options.screen_height, options.field_of_view, options.vanish},
+                         options.min_saving,
+                         static_cast<std::uint64_t>(options.min_faces)};
+  const auto made =
+      options.scope == LodScope::group
+          ? lods_of_groups(scene, world, limits, ctx)
+          : add_cell_lods(scene, {world, static_cast<std::size_t>(options.cell_triangles), options.faces, limits}, ctx);
   ctx.stats["lod.groups"] += made.n_lods;
   ctx.stats["lod.levels"] += made.n_levels;
   ctx.stats["lod.too-small"] += made.n_too_small;
-  if (made.n_lods == 0) return Outcome::unchanged;
-  scene = std::move(with_lods);
-  return Outcome::changed;
+  return made.n_lods > 0 ? Outcome::changed : Outcome::unchanged;
 }
 
 }  // namespace
@@ -177,7 +189,7 @@ std::string NumberList::print() const {
 }
 
 Outcome lod(Scene& scene, const LodOptions& options, PassContext& ctx) {
-  return options.scope == LodScope::part ? Lod(scene, options, ctx).run() : lods_of_groups(scene, options, ctx);
+  return options.scope == LodScope::part ? Lod(scene, options, ctx).run() : lods_of_world(scene, options, ctx);
 }
 
 }  // namespace wrlkit

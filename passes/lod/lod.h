@@ -4,13 +4,20 @@
 #include <string_view>
 #include <vector>
 
+#include "base/choice.h"
 #include "base/option_range.h"
 #include "geometry/simplify/levels.h"
-#include "geometry/simplify/scoped_lods.h"
 #include "geometry/tessellation.h"
 #include "passes/pipeline/pass.h"
 
 namespace wrlkit {
+
+enum class LodScope : std::uint8_t { part, group, world };
+template <>
+inline constexpr auto choices<LodScope> =
+    choice_row({{"part", "each Shape"},
+                {"group", "the innermost groups that hold several Shapes, and other Shapes by themselves"},
+                {"world", "a tree of cells that all together are the world"}});
 
 /// Numbers with colons between them: 0.5:0.25:0.1.
 struct NumberList {
@@ -49,15 +56,31 @@ Makes levels of detail of the Shapes of a scene, in the bodies of prototypes too
 - Left alone: Shapes below an authored LOD; those whose geometry is text, lines, points, the end of a ROUTE or an IS;
   and everything else in the world. The Shape keeps its name; a parent holds the LOD in its place.
 
-With `scope=group` the innermost groups that hold several Shapes become LODs, and other Shapes by themselves; with
-`scope=world` all that is drawn becomes one. The triangles of a level are shared out among all parts of the world by what
-is nearest to it (docs/plants.md), and small parts leave. A further level is a copy of the group without names, of what
-differs in it, and shares the rest with the first; Viewpoints and other bound nodes are in the first alone. Groups that a
-ROUTE reaches are not copied: what lies below them has LODs of its own, or stays as it is in the one for the world.
+With `scope=group` the innermost groups that hold several Shapes become LODs, and other Shapes by themselves. The
+triangles of a level are shared out among all parts of the world by what is nearest to it (docs/plants.md), and small
+parts leave. A further level is a copy of the group without names, of what differs in it, and shares the rest with the
+first; Viewpoints and other bound nodes are in the first alone. Groups that a ROUTE reaches are not copied: what lies
+below them has LODs of its own.
 
     before   DEF Pump Group { children [ DEF Body Shape { ... } DEF Bolts Group { ... } ] }
     after    LOD { level [ DEF Pump Group { children [ DEF Body Shape { ... } DEF Bolts Group { ... } ] }
                            Group { children [ Shape { ... } ] } ] }   # the body with a tenth of its triangles
+
+With `scope=world` the world is cut in space into cells of at most `cell-triangles`, which are put together to larger
+ones up to a single one: a tree of LODs, the last root of the world (HLOD). From nearby a cell is what the file has; its
+further levels are one mesh for each look, whose parts keep their names (feature ids in glTF with `--names table`).
+`ratios` are those of the smallest cells; a larger cell has one level, of at most `cell-triangles`, and of at most a third
+of the triangles of the levels that it stands for.
+
+    before   DEF Unit Transform { children [ DEF A Shape { ... } DEF B Shape { ... } DEF C Shape { ... } ] }
+    after    LOD { level [ Group { children [
+                             LOD { level [ DEF Unit Transform { children [ DEF A Shape { ... } DEF B Shape { ... } ] }
+                                           Shape { ... } ] }          # A and B as one mesh
+                             LOD { level [ DEF Unit_2 Transform { children DEF C Shape { ... } } Shape { ... } ] } ] }
+                           Shape { ... } ] }                          # all as one mesh
+
+A Group or Transform whose children are in several cells comes in several parts, each with its name. What may move (by a
+ROUTE or a Script, or in an instance of a prototype), lights, Viewpoints and the like stay outside of the cells.
 
 Polygons that only touch have no common edges: run `weld` before. O(n log n) in the triangles, parallel over the
 geometries; the same result for any number of threads.)";
@@ -65,11 +88,12 @@ geometries; the same result for any number of threads.)";
       {"lod.shapes", "Shapes that have levels"},
       {"lod.levels", "levels behind the first"},
       {"lod.triangles", "triangles of these"},
-      {"lod.groups", "groups that have levels"},
-      {"lod.too-small", "Shapes and groups that were left as they are"},
+      {"lod.groups", "groups or cells that have levels"},
+      {"lod.too-small", "Shapes, groups and cells that were left as they are"},
   };
 
   LodScope scope = LodScope::part;
+  int cell_triangles = 50'000;
   NumberList ratios{{0.5, 0.25, 0.1}};
   NumberList errors;
   CriterionName criterion;
@@ -83,6 +107,7 @@ geometries; the same result for any number of threads.)";
     f("ratios", ratios,
       "triangles of each further level, as shares of the first; with other scopes than part, of all that the world "
       "draws");
+    f("cell-triangles", cell_triangles, "with scope=world: of a cell that is not cut", at_least(1));
     f("errors", errors, "instead of ratios: how far each further level may be from the first, in metres of the world");
     f("criterion", criterion, CriterionName::help());
     f("pixels", pixels, "error of a level on the screen, in pixels, from which on it may be shown", at_least(0));

@@ -12,7 +12,7 @@
 #include "passes/analysis/representatives.h"
 #include "passes/merge/cells.h"
 #include "passes/merge/gltf_cost.h"
-#include "passes/merge/moved.h"
+#include "passes/merge/named_mesh.h"
 #include "passes/merge/part_cells.h"
 #include "passes/merge/place_tables.h"
 #include "passes/merge/still_places.h"
@@ -120,7 +120,7 @@ class Merging {
   std::size_t n_made_ = 0, n_empty_ = 0;               // n_empty_: places of Shapes that draw nothing
   std::set<std::string_view> names_before_;
   std::set<std::string> merged_parts_;
-  Mesh mesh_, all_;
+  Mesh mesh_;
   MeshScratch scratch_;
 };
 
@@ -262,35 +262,23 @@ void Merging::merge_cell(std::vector<std::uint32_t> cell) {
   std::unordered_map<std::string_view, std::uint32_t> first;
   for (auto i : cell) first.try_emplace(part_names_[i], i);
   std::ranges::stable_sort(cell, {}, [&](auto i) { return first[part_names_[i]]; });
-  std::vector<std::string_view> names;
-  std::vector<std::int32_t> faces;
   const NodeId appearance = scene_.get(place(cell[0]).shape, nodes::shape::appearance);
-  all_.clear();
+  NamedMesh all;
   for (auto i : cell) {
-    const auto before = all_.face_begin.empty() ? 0 : all_.face_begin.size() - 1;
-    append_moved(all_, mesh_of(geometry(i)), place(i).frame, scratch_.map);
-    const auto added = static_cast<std::int32_t>(all_.face_begin.size() - 1 - before);
-    if (!names.empty() && names.back() == part_names_[i]) {
-      faces.back() += added;
-      continue;
-    }
-    names.push_back(part_names_[i]);
-    faces.push_back(added);
+    all.add(mesh_of(geometry(i)), place(i).frame, part_names_[i], scratch_.map);
     merged_parts_.insert(part_names_[i]);
   }
-  const NodeId geometry = scene_.add(all_.kind == Mesh::Kind::lines    ? nodes::IndexedLineSet
-                                     : all_.kind == Mesh::Kind::points ? nodes::PointSet
-                                                                       : nodes::IndexedFaceSet);
-  store_mesh(scene_, geometry, all_);
+  const NodeId geometry = all.add_geometry(scene_);
+  store_mesh(scene_, geometry, all.mesh());
   if (!options_.parts)
-    set_features(scene_, geometry, {names, faces});
+    set_features(scene_, geometry, all.parts());
   else
     take_names(geometry, this->geometry(cell[0]));
   const NodeId shape = scene_.add(nodes::Shape, scene_.where(place(cell[0]).shape));
   if (appearance) scene_.set(shape, nodes::shape::appearance, appearance);
   scene_.set(shape, nodes::shape::geometry, geometry);
   made_[place(cell[0]).zone].push_back(shape);
-  ctx_.stats["merge.parts"] += names.size();
+  ctx_.stats["merge.parts"] += all.parts().names.size();
   ++n_made_;
 }
 

@@ -48,16 +48,8 @@ void StillPlaces::walk() {
   while (const auto way = ways_.next()) visit(way->node, way->state);
 }
 
-/// Something in it or of it goes for what is below, and for nothing else.
 bool StillPlaces::is_apart(NodeId n) const {
-  if (!scene_.is(n, nodes::Group) && !scene_.is(n, nodes::Transform) && !scene_.is(n, nodes::StaticGroup)) return true;
-  if (!is_plain(n) || (by_name_ && !scene_.name(n).empty())) return true;
-  bool apart = false;
-  for_each_child(scene_, n, [&](NodeId c) {
-    const auto& t = scene_.type(c);
-    apart |= t.is_a(nodes::X3DSensorNode) || scene_.is(c, nodes::DirectionalLight) || scene_.is(c, nodes::ClipPlane);
-  });
-  return apart;
+  return (by_name_ && !scene_.name(n).empty()) || holds_together(scene_, usage_, n);
 }
 
 bool StillPlaces::may_take(NodeId shape) const {

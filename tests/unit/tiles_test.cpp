@@ -8,12 +8,12 @@
 #include <thread>
 
 #include "convert/tiles.h"
-#include "convert/tiles/cells.h"
 #include "convert/tiles/looks.h"
 #include "convert/tiles/piece_store.h"
 #include "convert/tiles/reading_progress.h"
 #include "convert/tiles/staging.h"
 #include "convert/tiles/surface_error.h"
+#include "geometry/space_cells.h"
 #include "scenegraph/nodes.h"
 #include "tests/unit/temp_folder.h"
 #include "writers/tiles/tileset.h"
@@ -152,10 +152,10 @@ TEST_CASE("tiles: a piece comes back from the disk as it was", "[tiles]") {
 }
 
 TEST_CASE("tiles: cells hold each piece once, within the budget, and are not empty", "[tiles]") {
-  std::vector<tiles::PieceStore::Entry> pieces;
+  std::vector<SpaceItem> pieces;
   for (std::uint32_t i = 0; i < 1000; ++i)
-    pieces.push_back({.offset = i, .bytes = 0, .n_drawn = 1 + i % 7, .box = at(double(i % 40), 0, double(i / 40))});
-  const auto cells = tiles::cut_into_cells(pieces, {100});
+    pieces.push_back({.n_drawn = 1 + i % 7, .box = at(double(i % 40), 0, double(i / 40))});
+  const auto cells = cut_into_cells(pieces, {100});
   std::vector<int> times(pieces.size());
   for (const auto& c : cells.cells) {
     REQUIRE(c.begin < c.end);
@@ -174,11 +174,11 @@ TEST_CASE("tiles: cells hold each piece once, within the budget, and are not emp
 }
 
 TEST_CASE("tiles: a piece more or less leaves cells elsewhere as they are", "[tiles]") {
-  std::vector<tiles::PieceStore::Entry> pieces;
+  std::vector<SpaceItem> pieces;
   for (std::uint32_t i = 0; i < 2000; ++i)
     pieces.push_back({.n_drawn = 10, .box = at(0.37 * i, 0, 0.01 * (i % 50)), .look = i});
   const auto leaves = [&] {
-    const auto cells = tiles::cut_into_cells(pieces, {400});
+    const auto cells = cut_into_cells(pieces, {400});
     std::set<std::set<std::uint32_t>> out;
     for (const auto& c : cells.cells) {
       std::set<std::uint32_t> looks;
@@ -224,8 +224,8 @@ TEST_CASE("tiles: an update makes nothing again", "[tiles]") {
 }
 
 TEST_CASE("tiles: pieces in one place are cut, too", "[tiles]") {
-  const std::vector<tiles::PieceStore::Entry> pieces(9, {.offset = 0, .bytes = 0, .n_drawn = 50, .box = at(1, 2, 3)});
-  for (const auto& c : tiles::cut_into_cells(pieces, {60}).cells)
+  const std::vector<SpaceItem> pieces(9, {.n_drawn = 50, .box = at(1, 2, 3)});
+  for (const auto& c : cut_into_cells(pieces, {60}).cells)
     if (c.children.empty()) CHECK(c.end - c.begin == 1);
 }
 

@@ -1,11 +1,11 @@
-#include "convert/tiles/cells.h"
+#include "geometry/space_cells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-namespace wrlkit::tiles {
+namespace wrlkit {
 namespace {
 
 constexpr double least_share = 0.4;    // of what a cell draws, in each of its halves
@@ -24,13 +24,15 @@ double roundest(double low, double high) {
 
 class Cutting {
  public:
-  Cutting(std::span<const PieceStore::Entry> pieces, const TileBudget& most, std::span<const LookCost> looks)
-      : pieces_(pieces), most_(most), looks_(looks) {}
+  using Pieces = std::function<const SpaceItem&(std::uint32_t)>;
+
+  Cutting(std::size_t n, const Pieces& piece, const CellBudget& most, std::span<const LookCost> looks)
+      : n_(n), piece_(piece), most_(most), looks_(looks) {}
 
   Cells run() {
-    out_.order.resize(pieces_.size());
+    out_.order.resize(n_);
     std::iota(out_.order.begin(), out_.order.end(), 0u);
-    out_.cells.push_back({.name = "r", .end = static_cast<std::uint32_t>(pieces_.size())});
+    out_.cells.push_back({.name = "r", .end = static_cast<std::uint32_t>(n_)});
     for (std::uint32_t i = 0; i < out_.cells.size(); ++i) cut(i);
     out_.depth = out_.cells.back().depth;  // breadth first
     return std::move(out_);
@@ -41,7 +43,7 @@ class Cutting {
 
   std::uint64_t drawn(Range r) const {
     std::uint64_t n = 0;
-    for (auto i = r.first; i < r.second; ++i) n += pieces_[out_.order[i]].n_drawn;
+    for (auto i = r.first; i < r.second; ++i) n += piece_(out_.order[i]).n_drawn;
     return n;
   }
 
@@ -50,7 +52,7 @@ class Cutting {
     std::vector<std::uint32_t> looks;
     double bytes = 0;
     for (auto i = r.first; i < r.second; ++i) {
-      const auto& piece = pieces_[out_.order[i]];
+      const auto& piece = piece_(out_.order[i]);
       bytes += most_.packing * piece.bytes;
       if (piece.look < looks_.size()) looks.push_back(piece.look);
     }
@@ -109,12 +111,12 @@ class Cutting {
   /// Where the second half begins; neither is empty.
   std::uint32_t halve(Range r) {
     Box box;
-    for (auto i = r.first; i < r.second; ++i) box.add(pieces_[out_.order[i]].box.centre());
+    for (auto i = r.first; i < r.second; ++i) box.add(piece_(out_.order[i]).box.centre());
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
       if (box.size(k) > box.size(axis)) axis = k;
     std::sort(out_.order.begin() + r.first, out_.order.begin() + r.second, [&](std::uint32_t a, std::uint32_t b) {
-      const double x = pieces_[a].box.centre()[axis], y = pieces_[b].box.centre()[axis];
+      const double x = piece_(a).box.centre()[axis], y = piece_(b).box.centre()[axis];
       return x != y ? x < y : a < b;
     });
     const auto all = static_cast<double>(drawn(r));
@@ -125,27 +127,28 @@ class Cutting {
     return i;
   }
 
-  double at(std::uint32_t i, std::size_t axis) const { return pieces_[out_.order[i]].box.centre()[axis]; }
+  double at(std::uint32_t i, std::size_t axis) const { return piece_(out_.order[i]).box.centre()[axis]; }
 
   /// Where what is before draws that much, or a little more; neither side is empty.
   std::uint32_t reach(Range r, double wanted) const {
     double before = 0;
     auto i = r.first;
-    while (i + 1 < r.second && before < wanted) before += pieces_[out_.order[i++]].n_drawn;
+    while (i + 1 < r.second && before < wanted) before += piece_(out_.order[i++]).n_drawn;
     return std::max(i, r.first + 1);
   }
 
-  std::span<const PieceStore::Entry> pieces_;
-  const TileBudget& most_;
+  std::size_t n_;
+  const Pieces& piece_;
+  const CellBudget& most_;
   std::span<const LookCost> looks_;
   Cells out_;
 };
 
 }  // namespace
 
-Cells cut_into_cells(std::span<const PieceStore::Entry> pieces, const TileBudget& most,
+Cells cut_into_cells(std::size_t n, const std::function<const SpaceItem&(std::uint32_t)>& piece, const CellBudget& most,
                      std::span<const LookCost> looks) {
-  return Cutting(pieces, most, looks).run();
+  return Cutting(n, piece, most, looks).run();
 }
 
-}  // namespace wrlkit::tiles
+}  // namespace wrlkit

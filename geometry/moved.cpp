@@ -1,4 +1,4 @@
-#include "passes/merge/moved.h"
+#include "geometry/moved.h"
 
 #include <algorithm>
 #include <limits>

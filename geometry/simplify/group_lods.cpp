@@ -1,9 +1,8 @@
-#include "geometry/simplify/scoped_lods.h"
+#include "geometry/simplify/group_lods.h"
 
 #include <algorithm>
 #include <unordered_map>
 
-#include "base/math/digits.h"
 #include "base/math/saturating.h"
 #include "scenegraph/child_lists.h"
 #include "scenegraph/nodes.h"
@@ -15,23 +14,19 @@
 namespace wrlkit {
 namespace {
 
-class ScopedLodMaker {
+class GroupLodMaker {
  public:
-  ScopedLodMaker(Scene& scene, std::span<const LeveledSurface> surfaces, const ScopedLodOptions& options)
-      : scene_(scene), surfaces_(surfaces), options_(options) {}
+  GroupLodMaker(Scene& scene, std::span<const LeveledSurface> surfaces, const LodLimits& limits)
+      : scene_(scene), surfaces_(surfaces), limits_(limits) {}
 
-  ScopedLods run() {
+  LodCounts run() {
     find_routed();
-    const NodeId world = options_.scope == LodScope::world ? gather_roots() : NodeId{};
     shown_ = shown_nodes(scene_);
     nodes_.resize(scene_.node_count());
     for (auto& s : surfaces_)
       for (NodeId shape : s.surface.shapes) nodes_[shape.value].surface = &s;
     for (NodeId n : shown_) measure(n);
-    if (world)
-      add_lod(world);
-    else
-      for (NodeId n : choose_groups()) add_lod(n);
+    for (NodeId n : choose_groups()) add_lod(n);
     replace_children(scene_, lod_of_);
     return made_;
   }
@@ -44,12 +39,7 @@ class ScopedLodMaker {
     bool is_inside = false;  // of a group that has a LOD
     std::uint64_t n_shapes = 0;
     Box bounds{};
-    struct Level {
-      NodeId copy;
-      double error = 0;
-      std::uint64_t n_faces = 0;
-    };
-    std::vector<Level> levels{};  // empty where nothing changes
+    std::vector<LodLevel> levels{};  // empty where nothing changes
   };
 
   void find_routed() {
@@ -59,22 +49,6 @@ class ScopedLodMaker {
 
   bool is_routed(NodeId n) const { return n.value < routed_.size() && routed_[n.value] != 0; }
   bool is_group(NodeId n) const { return scene_.is(n, nodes::X3DGroupingNode) && !scene_.is(n, nodes::LOD); }
-
-  /// All roots that are drawn, as the children of a Group in the place of the first of them.
-  NodeId gather_roots() {
-    std::vector<NodeId> drawn;
-    auto& roots = scene_.main.roots;
-    const auto is_drawn = [&](NodeId n) { return n && !is_routed(n) && (is_group(n) || scene_.is(n, nodes::Shape)); };
-    const auto first = std::ranges::find_if(roots, is_drawn);
-    if (first == roots.end()) return {};
-    const auto at = first - roots.begin();
-    std::ranges::copy_if(roots, std::back_inserter(drawn), is_drawn);
-    std::erase_if(roots, is_drawn);
-    const NodeId group = scene_.add(nodes::Group, scene_.where(drawn[0]));
-    scene_.set(group, nodes::group::children, drawn);
-    roots.insert(roots.begin() + at, group);
-    return group;
-  }
 
   std::size_t n_levels() const { return surfaces_.empty() ? 0 : surfaces_[0].levels.size(); }
 
@@ -98,7 +72,7 @@ class ScopedLodMaker {
         here.levels[k].n_faces = saturating_add(here.levels[k].n_faces, child.levels[k].n_faces);
       }
     }
-    for (std::size_t k = 0; k < here.levels.size(); ++k) here.levels[k].copy = k == 0 ? n : copy_of_group(n, k);
+    for (std::size_t k = 0; k < here.levels.size(); ++k) here.levels[k].node = k == 0 ? n : copy_of_group(n, k);
   }
 
   void measure_shape(NodeId shape, Below& here) {
@@ -128,13 +102,13 @@ class ScopedLodMaker {
 
   NodeId at_level(NodeId child, std::size_t k) const {
     const bool changes = child && child.value < nodes_.size() && !nodes_[child.value].levels.empty();
-    return changes ? nodes_[child.value].levels[k].copy : child;
+    return changes ? nodes_[child.value].levels[k].node : child;
   }
 
   /// The copy of the level before, or the group itself, where nothing has changed since; none when nothing is left.
   NodeId copy_of_group(NodeId n, std::size_t k) {
     const auto children = hierarchy_children(scene_, n);
-    const NodeId before = nodes_[n.value].levels[k - 1].copy;
+    const NodeId before = nodes_[n.value].levels[k - 1].node;
     if (std::ranges::all_of(children, [&](NodeId c) { return at_level(c, k) == at_level(c, k - 1); })) return before;
     const NodeId copy = copy_of(n);
     const bool by_number = scene_.is(n, nodes::Switch);
@@ -170,53 +144,23 @@ class ScopedLodMaker {
 
   void add_lod(NodeId n) {
     const auto& here = nodes_[n.value];
-    std::vector<NodeId> children{n};
-    std::vector<double> errors;
-    if (here.levels.empty() || here.levels[0].n_faces < options_.min_faces) {
-      ++made_.n_too_small;
-      return;
-    }
-    NodeId last = n;
-    auto n_faces = here.levels[0].n_faces;
-    for (std::size_t k = 1; k < here.levels.size(); ++k) {
-      const auto& level = here.levels[k];
-      const double most = (1 - options_.min_saving) * static_cast<double>(n_faces);
-      if (level.copy == last || static_cast<double>(level.n_faces) > most) continue;
-      children.push_back(level.copy ? level.copy : scene_.add(nodes::Group, scene_.where(n)));
-      errors.push_back(level.error);
-      last = level.copy;
-      n_faces = level.n_faces;
-    }
-    const double radius = diagonal(here.bounds) / 2;
-    const auto range = lod_ranges(radius, errors, options_.budget);
-    if (options_.budget.vanish > 0) children.push_back(scene_.add(nodes::Group, scene_.where(n)));
-    if (range.empty()) {
-      ++made_.n_too_small;
-      return;
-    }
-    const NodeId lod = scene_.add(nodes::LOD, scene_.where(n));
-    Vec3 center = here.bounds.centre();
-    for (double& x : center) x = decimal(static_cast<float>(x));
-    scene_.set(lod, nodes::lod::children, children, nodes::lod::center, center, nodes::lod::range, range);
-    lod_of_[n.value] = lod;
-    ++made_.n_lods;
-    made_.n_levels += errors.size();
+    if (const NodeId lod = make_lod(scene_, here.bounds, here.levels, limits_, made_)) lod_of_[n.value] = lod;
   }
 
   Scene& scene_;
   std::span<const LeveledSurface> surfaces_;
-  const ScopedLodOptions& options_;
+  const LodLimits& limits_;
   std::vector<NodeId> shown_;  // children before parents
   std::vector<char> routed_;   // by node
   std::vector<Below> nodes_;   // by node
   std::unordered_map<std::uint32_t, NodeId> lod_of_;
-  ScopedLods made_;
+  LodCounts made_;
 };
 
 }  // namespace
 
-ScopedLods add_scoped_lods(Scene& scene, std::span<const LeveledSurface> surfaces, const ScopedLodOptions& options) {
-  return ScopedLodMaker(scene, surfaces, options).run();
+LodCounts add_group_lods(Scene& scene, std::span<const LeveledSurface> surfaces, const LodLimits& limits) {
+  return GroupLodMaker(scene, surfaces, limits).run();
 }
 
 }  // namespace wrlkit

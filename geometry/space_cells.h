@@ -1,13 +1,22 @@
-// Where a plant is cut into tiles: a tree of cells by the middles of its pieces, no piece in two of them.
+// Where a plant is cut in space: a tree of cells by the middles of its pieces, no piece in two of them.
 #pragma once
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "convert/tiles/piece_store.h"
+#include "base/math/box.h"
 
-namespace wrlkit::tiles {
+namespace wrlkit {
+
+/// What is not cut.
+struct SpaceItem {
+  std::uint32_t bytes = 0;    // as it is stored
+  std::uint32_t n_drawn = 0;  // triangles, segments, points
+  Box box = {};
+  std::uint32_t look = 0;
+};
 
 struct Cell {
   std::string name = {};                     // "r", of its second child "r1"
@@ -22,15 +31,15 @@ struct Cells {
   std::uint32_t depth = 0;           // of the deepest
 };
 
-/// What a full tile may have, at most.
-struct TileBudget {
+/// What a cell without children may have, at most.
+struct CellBudget {
   std::size_t drawn = 0;  // triangles, segments, points
   std::size_t draws = std::numeric_limits<std::size_t>::max();
   std::uint64_t bytes = std::numeric_limits<std::uint64_t>::max();
-  double packing = 1;  // bytes of geometry in a tile for each of a stored piece
+  double packing = 1;  // bytes of geometry for each of a stored piece
 };
 
-/// What a look adds to a tile that it is in.
+/// What a look adds to a cell that it is in.
 struct LookCost {
   std::uint32_t family = 0;  // looks of one are drawn at once
   std::uint64_t bytes = 0;   // of its pictures
@@ -40,7 +49,13 @@ struct LookCost {
 /// roundest number at which each half draws 40 % of it at least, so that a piece more or less rarely moves the place.
 /// For draws and bytes alone only when that helps: pieces that share a picture have it in each half. `looks`: by
 /// number; where there is none, a look costs nothing. The same for the same pieces. O(n log^2 n).
-Cells cut_into_cells(std::span<const PieceStore::Entry> pieces, const TileBudget& most,
+Cells cut_into_cells(std::size_t n, const std::function<const SpaceItem&(std::uint32_t)>& piece, const CellBudget& most,
                      std::span<const LookCost> looks = {});
 
-}  // namespace wrlkit::tiles
+template <class Pieces>
+Cells cut_into_cells(const Pieces& pieces, const CellBudget& most, std::span<const LookCost> looks = {}) {
+  const auto piece = [&](std::uint32_t i) -> const SpaceItem& { return pieces[i]; };
+  return cut_into_cells(pieces.size(), piece, most, looks);
+}
+
+}  // namespace wrlkit
