@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -24,7 +25,17 @@
 namespace wrlkit {
 namespace {
 
+constexpr double rounding = 0.01;        // of the error of a level, by which its points may be rounded
 constexpr std::size_t least_saving = 3;  // a level of a cell has one of so many triangles of those of its children
+
+/// Positions to multiples of a power of ten that is at most `step`, normals to thousandths: texts have fewer digits.
+void round_values(Mesh& mesh, double step) {
+  for (float& x : mesh.normal.values) x = std::round(x * 1000) / 1000;
+  if (!(step > 0)) return;
+  const double exponent = std::floor(std::log10(step)), power = std::pow(10., std::abs(exponent));
+  for (double& x : mesh.positions.edit())
+    x = exponent < 0 ? std::round(x * power) / power : std::round(x / power) * power;
+}
 
 /// What an atom of the tree shows.
 struct Atom {
@@ -287,12 +298,15 @@ LodLevel CellLods::level(std::span<const std::uint32_t> atoms, std::size_t at, b
   for (auto& [look, named] : merged_) {
     const NodeId shape = out_.add(nodes::Shape), geometry = named.add_geometry(out_);
     if (const NodeId appearance{std::get<0>(look)}) out_.set(shape, nodes::shape::appearance, appearance);
-    store_mesh(out_, geometry, named.mesh());
+    Mesh mesh = named.take();
+    round_values(mesh, out.error * rounding);
+    store_mesh(out_, geometry, mesh);
     set_features(out_, geometry, named.parts());
     out_.set(shape, nodes::shape::geometry, geometry);
     children.push_back(shape);
   }
   if (!children.empty()) out.node = group_of(children);
+  out.error *= 1 + rounding;
   return out;
 }
 

@@ -76,7 +76,7 @@ of the triangles of the levels that it stands for.
     after    LOD { level [ Group { children [
                              LOD { level [ DEF Unit Transform { children [ DEF A Shape { ... } DEF B Shape { ... } ] }
                                            Shape { ... } ] }          # A and B as one mesh
-                             LOD { level [ DEF Unit_2 Transform { children DEF C Shape { ... } } Shape { ... } ] } ] }
+                             LOD { level [ DEF Unit Transform { children DEF C Shape { ... } } Shape { ... } ] } ] }
                            Shape { ... } ] }                          # all as one mesh
 
 A Group or Transform whose children are in several cells comes in several parts, each with its name. What may move (by a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "scenegraph/nodes.h"
@@ -123,7 +124,7 @@ class PartOfTree {
     const auto fields = scene_.copy_of_fields(group);
     const NodeId copy = scene_.add(scene_.type_id(group), scene_.where(group));
     scene_.set_fields(copy, fields);
-    scene_.set_name(copy, scene_.name(group));
+    if (!scene_.name(group).empty()) scene_.set_name(copy, std::string(scene_.name(group)));
     const auto slot = scene_.type(copy).find("children", Dialect::x3d);
     scene_.set(copy, scene_.make(FieldType::MFNode, *slot, children));
     return copy;
