@@ -9,6 +9,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/math/saturating.h"
 #include "base/silent_task.h"
 #include "base/stop.h"
 #include "geometry/geometry.h"
@@ -20,6 +21,7 @@
 #include "passes/normals/normals.h"
 #include "scenegraph/places/named_places.h"
 #include "scenegraph/places/places.h"
+#include "scenegraph/places/times_shown.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -27,6 +29,15 @@ namespace {
 
 constexpr double rounding = 0.01;        // of the error of a level, by which its points may be rounded
 constexpr std::size_t least_saving = 3;  // a level of a cell has one of so many triangles of those of its children
+
+/// To all nodes that are shown: none is followed for it.
+std::uint64_t n_ways(const Scene& scene) {
+  const auto shown = shown_nodes(scene);
+  const auto times = times_shown(scene, shown);
+  std::uint64_t out = 0;
+  for (const NodeId n : shown) out = saturating_add(out, times[n.value]);
+  return out;
+}
 
 /// Positions to multiples of a power of ten that is at most `step`, normals to thousandths: texts have fewer digits.
 void round_values(Mesh& mesh, double step) {
@@ -63,10 +74,6 @@ class CellLods {
         tree_(scene, usage_) {}
 
   LodCounts run() {
-    if (places_.too_many() || tree_.too_many()) {
-      ctx_.diag.report(Diag::not_simplified, {}, fmt::format("a world of more than {} places as a whole", most_visits));
-      return {};
-    }
     gather();
     if (atoms_.empty()) return {};
     cells_ = cut_into_cells(items_, {.drawn = options_.triangles});
@@ -344,6 +351,10 @@ void CellLods::put_together(NodeId lod) {
 }  // namespace
 
 LodCounts add_cell_lods(Scene& scene, const CellLodOptions& options, Task& ctx) {
+  if (n_ways(scene) > most_visits) {
+    ctx.diag.report(Diag::not_simplified, {}, fmt::format("a world of more than {} places as a whole", most_visits));
+    return {};
+  }
   return CellLods(scene, options, ctx).run();
 }
 

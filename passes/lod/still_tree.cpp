@@ -39,7 +39,6 @@ StillTree::StillTree(const Scene& scene, const Usage& usage)
     else if (scene.get(n, nodes::shape::geometry))
       atom_of_place_.push_back(below.atom);
   }
-  too_many_ = ways.too_many();
   for (auto i = static_cast<std::uint32_t>(nodes_.size()); i-- > 0;) {
     nodes_[i].end = std::max(nodes_[i].end, i + 1);
     auto& above = nodes_[nodes_[i].above];

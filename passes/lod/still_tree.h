@@ -23,11 +23,9 @@ class StillTree {
  public:
   static constexpr std::uint32_t none = 0xffffffffu;
 
-  /// O(nodes and places).
+  /// Of a scene with at most as many ways as may be followed (places/ways.h). O(nodes and places).
   StillTree(const Scene& scene, const Usage& usage);
 
-  /// More ways than may be followed (places/ways.h): the tree is not whole.
-  bool too_many() const { return too_many_; }
   /// The world is the first; nodes come before those below them.
   const std::vector<StillNode>& nodes() const { return nodes_; }
   /// Of each place of NamedPlaces, the atom that it is in; none: it is fixed.
@@ -42,7 +40,6 @@ class StillTree {
   std::vector<char> known_;  // by node, of is_still
   std::vector<StillNode> nodes_;
   std::vector<std::uint32_t> atom_of_place_;
-  bool too_many_ = false;
 };
 
 /// The part of a scene that is made of some of the leaves of a tree: groups of which not all is taken are copied, and a
