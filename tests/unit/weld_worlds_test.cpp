@@ -193,7 +193,7 @@ TEST_CASE("welded loose faces have the topology of shared points, part by part")
 }
 
 TEST_CASE("a generated plant as a soup of faces gets the topology of the indexed one, part by part", "[found]") {
-  const fs::path generator = shared_folder() / "bench" / "gen_plant.py";
+  const fs::path generator = shared_folder("bench") / "gen_plant.py";
   if (!fs::exists(generator)) {
     return skip("there is no " + generator.string());
   }
