@@ -1,9 +1,5 @@
-for
-  f in keep png jpeg webp;
-do
-    for
-      s in 0 32;
-do
+for f in keep png jpeg webp; do
+    for s in 0 32; do
         wrlkit convert -q tests/text/cli/inputs/pictures.wrl %t.glb --allow-path corpus --texture-format $f --texture-size $s --report %t.json
         python3 -c "
 import json,struct
