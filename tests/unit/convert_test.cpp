@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string corpus(const std::string& name) { return (source_folder() / "corpus" / name).string(); }
+std::string corpus(const std::string& name) { return std::string(WRLKIT_SOURCE_DIR) + "/corpus/" + name; }
 
 /// A folder that is gone behind the test.
 struct Folder {

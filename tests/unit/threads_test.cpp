@@ -184,7 +184,7 @@ TEST_CASE("Threads: the text ends within a list", "[threads]") {
 
 TEST_CASE("Threads: files of the corpus", "[threads]") {
   std::size_t n_plain = 0, n = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(source_folder() / "corpus")) {
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(WRLKIT_SOURCE_DIR) / "corpus")) {
     if (entry.path().extension() != ".wrl") continue;
     INFO(entry.path());
     std::ifstream file(entry.path(), std::ios::binary);

@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const fs::path source = WRLKIT_SOURCE_DIR;
+
 /// A world at level mesh, polygons uncut.
 struct Meshes {
   std::unique_ptr<World> world;
