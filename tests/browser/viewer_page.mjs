@@ -30,7 +30,7 @@ export function wrlkit(program, ...args) {
 }
 
 /// {page, faults}: the page, a file or an address, when all of it is there; faults fills while it lives.
-export async function open_page(browser, file, {width = 800, height = 560, fragment = '', dark = false, touch = false, ready = 'html[data-ready]'} = {}) {
+export async function open_page(browser, file, {width = 1000, height = 640, fragment = '', dark = false, touch = false, ready = 'html[data-ready]'} = {}) {
   const context = await browser.newContext({viewport: {width, height}, colorScheme: dark ? 'dark' : 'light', hasTouch: touch});
   const page = await context.newPage();
   const faults = [];
