@@ -40,6 +40,7 @@ function judge(world, {states, faults, diagnostics, error}) {
   });
 }
 
+const patience = 400;  // seconds: the first one loads Babylon.js
 const chosen = worlds.filter(world => world.name.includes(only)), failed = [];
 await take_pictures(folder, chosen.map(job_of), result => {
   result.states?.forEach(({picture}, i) => fs.writeFileSync(path.join(folder, `${result.name}_${i}.png`), Buffer.from(picture.split(',')[1], 'base64')));
@@ -48,6 +49,6 @@ await take_pictures(folder, chosen.map(job_of), result => {
   } catch (fault) {
     failed.push(fault.message);
   }
-});
+}, patience);
 assert.deepEqual(failed, []);
 console.log(`${chosen.length} worlds`);
