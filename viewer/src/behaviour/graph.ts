@@ -168,8 +168,7 @@ export class GraphRun {
     if (operation === 'event/onTick') return socket === 'timeSinceStart' ? this.time : this.sinceTick;
     if (operation === 'variable/get') return this.variables[Number(n.configuration?.['variable']?.value[0])] ?? null;
     if (operation === 'pointer/get') return this.host.get(String(n.configuration?.['pointer']?.value[0])) ?? Number.NaN;
-    const value = operations[operation]?.(s => this.input(n, s)) ?? null;
-    return socket !== 'value' && Array.isArray(value) ? value[Number(socket)] ?? Number.NaN : value;
+    return operations[operation]?.(s => this.input(n, s)) ?? null;
   }
 }
 

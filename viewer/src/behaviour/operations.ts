@@ -32,7 +32,6 @@ export const operations: Record<string, Operation> = {
   'math/div': pair((a, b) => a / b),
   'math/rem': pair((a, b) => a % b),
   'math/abs': each(Math.abs),
-  'math/neg': each(a => -a),
   'math/floor': each(Math.floor),
   'math/ceil': each(Math.ceil),
   'math/fract': each(a => a - Math.floor(a)),
@@ -49,7 +48,6 @@ export const operations: Record<string, Operation> = {
   'math/select': input => input(input('condition') === true ? 'a' : 'b'),
   'math/dot': input => list(input('a')).reduce((sum, v, i) => sum + v * (list(input('b'))[i] ?? 0), 0),
   'math/combine3': input => [number(input('a')), number(input('b')), number(input('c'))],
-  'math/extract3': input => list(input('a')),  // its sockets are the parts
   'math/quatMul': input => quaternion(input('a')).multiply(quaternion(input('b'))).toArray(),
   'math/quatConjugate': input => quaternion(input('a')).conjugate().toArray(),
   'math/rotate3D': input => new Vector3().fromArray(list(input('a'))).applyQuaternion(quaternion(input('rotation'))).toArray(),

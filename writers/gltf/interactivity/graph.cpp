@@ -98,11 +98,28 @@ void Graph::in_turn(Flow at, std::span<const Part> parts) {
   if (parts.size() == 1) return parts[0](std::move(at));
   if (parts.empty() || !at) return;
   const auto node = step(at, "flow/sequence");
-  const std::size_t width = std::to_string(parts.size() - 1).size();
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string digits = std::to_string(i);  // sockets are in the order of their names
-    parts[i]({node, std::string(width - digits.size(), '0') + digits});
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i]({node, turn(i)});
+}
+
+/// Sockets of a sequence are in the order of their names.
+std::string Graph::turn(std::size_t i) {
+  const std::string digits = std::to_string(i);
+  return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+}
+
+/// A node that no flow goes on from: the flow goes on behind it.
+void Graph::act(Flow& at, std::string_view operation, Inputs inputs, Configuration configuration) {
+  constexpr std::uint32_t most = 1000;
+  if (at && (at.done == 0 || at.done == most)) {
+    const auto node = step(at, "flow/sequence");
+    at = {node, turn(0)};
   }
+  Flow to{at.node, at.socket};
+  step(to, operation, std::move(inputs), std::move(configuration));
+  if (!to) at = {};
+  if (!at) return;
+  ++at.done;
+  at.socket = turn(at.done);
 }
 
 Graph::Variable Graph::variable(const Value& initial) {
@@ -114,13 +131,13 @@ Graph::Variable Graph::variable(const Value& initial) {
 Graph::Value Graph::read(Variable v) { return compute("variable/get", v.type, {}, {{"variable", json_of(v.index)}}); }
 
 void Graph::set(Flow& at, Variable v, const Value& value) {
-  step(at, "variable/set", {{std::to_string(v.index), value}}, {{"variables", json_of(v.index)}});
+  act(at, "variable/set", {{std::to_string(v.index), value}}, {{"variables", json_of(v.index)}});
 }
 
 void Graph::set_property(Flow& at, std::string pointer, const Value& value) {
   note_type(value.type);
   shows_ |= pointer.find("KHR_node_visibility") != std::string::npos;
-  step(at, "pointer/set", {{"value", value}},
+  act(at, "pointer/set", {{"value", value}},
        {{"pointer", json_of(pointer)}, {"type", json_of(type_index(value.type))}});
 }
 
@@ -131,7 +148,9 @@ std::uint32_t Graph::custom_event(const std::string& id) {
   return index;
 }
 
-void Graph::send(Flow& at, std::uint32_t event) { step(at, "event/send", {}, {{"event", json_of(event)}}); }
+void Graph::send(Flow& at, std::uint32_t event) {
+  act(at, "event/send", {}, {{"event", json_of(event)}});
+}
 
 Graph::Flow Graph::receive(std::uint32_t index) {
   return event("event/receive", {{"event", json_of(index)}}).flow;

@@ -2,7 +2,8 @@
 //
 // The extension wants values to come from earlier nodes and flows to lead to later ones (its chapter "Node Object
 // Validation"). So a step is added behind the nodes that its inputs come from, and a flow is led on by adding the next
-// step: both hold by themselves.
+// step: both hold by themselves. Babylon.js 9.28 follows no flow behind nodes that set something, so these are the
+// ends of a sequence.
 #pragma once
 #include <array>
 #include <cmath>
@@ -53,6 +54,7 @@ class Graph {
   struct Flow {
     std::uint32_t node = none;
     std::string socket = "out";
+    std::uint32_t done = 0;  // of a sequence: so many of its flows lead somewhere, and this is the next
     explicit operator bool() const { return node != none; }
     static constexpr std::uint32_t none = 0xffffffffu;
   };
@@ -86,7 +88,7 @@ class Graph {
   Value read(Variable v);
   void set(Flow&, Variable, const Value&);
   void set_property(Flow&, std::string pointer, const Value&);
-  /// Sends an event; to the program that shows the file, where it has an id that this knows.
+  /// Sends an event: to the program that shows the file, where it has an id that this knows.
   void send(Flow&, std::uint32_t event);
   /// The event of that id, to be sent or received; without one an event of the graph's own.
   std::uint32_t custom_event(const std::string& id = {});
@@ -112,6 +114,8 @@ class Graph {
     return text.substr(1, text.size() - 2);
   }
   std::uint32_t add(std::string_view operation, Inputs, Configuration);
+  void act(Flow&, std::string_view operation, Inputs, Configuration);
+  static std::string turn(std::size_t);
   std::uint32_t declaration(std::string_view operation);
   std::uint32_t type_index(Type) const;
   void note_type(Type);

@@ -186,18 +186,19 @@ void Sensors::visibility(Graph::Flow at, NodeId sensor) {
       graph_.compute("math/sub", Type::vec3, {{"a", Graph::value(to_world.point(scene_.get(sensor, v::center)))}, {"b", eye}});
   const auto back = graph_.compute("math/quatConjugate", Type::vec4, {{"a", turn}});
   const auto seen = graph_.compute("math/rotate3D", Type::vec3, {{"a", from_eye}, {"rotation", back}});
-  const auto parts = graph_.compute("math/extract3", Type::number, {{"a", seen}});
-  const auto part = [&](std::string_view socket) { return Graph::Value{Type::number, {}, parts.node, socket}; };
+  const auto along = [&](const Vec3& axis) {
+    return graph_.compute("math/dot", Type::number, {{"a", seen}, {"b", Graph::value(axis)}});
+  };
   const auto one = [&](std::string_view operation, const Graph::Value& a) {
     return graph_.compute(operation, Type::number, {{"a", a}});
   };
-  const auto depth = one("math/neg", part("2"));
+  const auto depth = along({0, 0, -1});
   const auto half_height = number("math/mul", camera(graph_, "perspective/yfov", Type::number), Graph::value(0.5));
   const auto width = number("math/mul", one("math/tan", half_height),
                             camera(graph_, "perspective/aspectRatio", Type::number));
   const auto half_width = one("math/atan", width);
   std::vector<Graph::Value> conditions;
-  for (const auto& [across, angle] : {std::pair{part("0"), half_width}, {part("1"), half_height}}) {
+  for (const auto& [across, angle] : {std::pair{along({1, 0, 0}), half_width}, {along({0, 1, 0}), half_height}}) {
     const auto out = number("math/mul", one("math/abs", across), one("math/cos", angle));
     const auto in = number("math/mul", depth, one("math/sin", angle));
     conditions.push_back(graph_.compute(
