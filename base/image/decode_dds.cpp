@@ -62,7 +62,8 @@ struct Layout {
   std::size_t header = 128;
 };
 
-/// By the four letters of the header, or by the DXGI_FORMAT of the one behind it.
+/// By the four letters of the header, or by the DXGI_FORMAT of the one behind it: three of them for each coding, of
+/// BC4 and BC5 the last one with signed values.
 Layout layout_of(std::string_view dds) {
   constexpr std::size_t header = 128, header_of_dx10 = 20;
   constexpr std::uint64_t by_four_cc = 4;
@@ -77,7 +78,7 @@ Layout layout_of(std::string_view dds) {
   for (const auto& [letters, coding] : names)
     if (dds.substr(84, 4) == letters) return {coding, header};
   if (dds.substr(84, 4) != "DX10" || dds.size() < header + header_of_dx10) return {};
-  constexpr std::uint64_t plane = 3, typeless_bc1 = 70, per_coding = 3;  // three formats each; the second is UNORM
+  constexpr std::uint64_t plane = 3, typeless_bc1 = 70, per_coding = 3;
   const auto format = le(dds, header, 4) - typeless_bc1;
   if (le(dds, header + 4, 4) != plane || le(dds, header + 12, 4) != 1 || format >= 5 * per_coding) return {};
   const auto coding = static_cast<Coding>(1 + format / per_coding);
@@ -107,7 +108,8 @@ bool decode_dds(std::string_view dds, Image& image, std::string& error) {
   const auto height = le(dds, 12, 4), width = le(dds, 16, 4);
   error = image_size_fault(static_cast<std::int64_t>(width), static_cast<std::int64_t>(height), dds.size());
   if (!error.empty()) return false;
-  const std::size_t columns = (width + 3) / 4, rows = (height + 3) / 4, bytes = coding == Coding::bc1 || coding == Coding::bc4 ? 8 : 16;
+  const std::size_t columns = (width + 3) / 4, rows = (height + 3) / 4,
+                    bytes = coding == Coding::bc1 || coding == Coding::bc4 ? 8 : 16;
   error = "its data are damaged";
   if (width == 0 || height == 0 || header + columns * rows * bytes > dds.size()) return false;
   image = {static_cast<int>(width), static_cast<int>(height), 4, {}};

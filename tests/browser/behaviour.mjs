@@ -1,18 +1,18 @@
 // What worlds do as graphs of KHR_interactivity: Babylon.js runs each, is clicked and walked about, and must show what VRML means.
-// Found worlds with TouchSensors must load without a word about their graphs, and something must happen when they are touched.
 //   node behaviour.mjs WRLKIT FOLDER [NAME]
 import assert from 'node:assert';
-import {spawnSync} from 'node:child_process';
+import {execFileSync, spawnSync} from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import {has_chromium, take_pictures} from './browser.mjs';
-import {bundle_babylon, has_babylon} from './babylon.mjs';
 import {is_color, worlds} from './behaviour_worlds.mjs';
 
 const [wrlkit, folder, only = ''] = process.argv.slice(2);
-if (!has_chromium || !has_babylon) process.exit(77);
+const here = path.dirname(new URL(import.meta.url).pathname), bundler = path.join(here, '../../viewer/node_modules/.bin/esbuild');
+if (!has_chromium || !fs.existsSync(bundler)) process.exit(77);
 fs.mkdirSync(folder, {recursive: true});
-bundle_babylon(folder, 'behaviour');
+// Its packages have thousands of modules.
+execFileSync(bundler, [path.join(here, 'page/behaviour.mjs'), '--bundle', '--splitting', '--format=esm', '--log-level=warning', `--outdir=${path.join(folder, 'babylon')}`]);
 
 function job_of(world) {
   const file = path.join(folder, `${world.name}.x3dv`), glb = path.join(folder, `${world.name}.glb`);

@@ -40,7 +40,7 @@ const in_page = {
     const {mode} = window.viewer, {stage} = mode, copy = document.createElement('canvas');
     stage.drawNow();
     [copy.width, copy.height] = [stage.canvas.width, stage.canvas.height];
-    const pen = copy.getContext('2d');
+    const pen = copy.getContext('2d', {willReadFrequently: true});
     pen.drawImage(stage.canvas, 0, 0);
     const color = point => {
       const at = stage.camera.position.clone().fromArray(point).project(stage.camera);

@@ -110,11 +110,7 @@ void Animations::add_transforms(const std::function<Vec3(std::uint32_t)>& offset
         const Sample s = in[0].value({});
         for (std::size_t k = 0; k < width; ++k) out.push_back(s[k] + (k < 3 ? by[k] : 0));
       };
-      add({same,
-           std::string(name_of(path)),
-           width,
-           {{source, *slot_of(scene_, NodeId{source}, path)}},
-           evaluate});
+      add({same, std::string(name_of(path)), width, {{source, *slot_of(scene_, NodeId{source}, path)}}, evaluate});
     }
   }
 }
@@ -131,8 +127,7 @@ void Animations::store(Store& store, const std::function<Vec3(std::uint32_t)>& o
     if (!w.channels.empty()) written_.push_back(std::move(w));
   }
   for (const Written& w : written_)
-    if (waits_for_more(w.clock))
-      diag_.report(Diag::no_gltf_trigger, scene_.where(w.clock), scene_.name(w.clock));
+    if (waits_for_more(w.clock)) diag_.report(Diag::no_gltf_trigger, scene_.where(w.clock), scene_.name(w.clock));
 }
 
 /// Is it started by something that the file does not say?

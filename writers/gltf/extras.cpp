@@ -49,11 +49,7 @@ bool is_long(const Value& v) {
 }  // namespace
 
 Extras::Extras(const Scene& scene, const LeadUrls& lead, Diagnostics& diag)
-    : scene_(scene),
-      lead_(lead),
-      url_fields_(scene),
-      diag_(diag),
-      marks_(scene.node_count(), 0) {
+    : scene_(scene), lead_(lead), url_fields_(scene), diag_(diag), marks_(scene.node_count(), 0) {
   name_what_is_referred_to();
 }
 

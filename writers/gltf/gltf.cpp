@@ -182,9 +182,8 @@ class Writer {
     const auto columns = table(packing.uses_meshopt());
     Layout layout(packing.store(), packing.blobs(), columns, pictures_inside() ? textures_.pictures() : no_pictures,
                   packing.uses_meshopt());
-    Parts parts{scene_, document_,   meshes_, packing,        materials_,          textures_,
-                layout, animations_, graph, parts_,  makers_.extras, options_.facts_only, {},
-                {}};
+    Parts parts{scene_,      document_, meshes_, packing,        materials_,          textures_, layout,
+                animations_, graph,     parts_,  makers_.extras, options_.facts_only, {},        {}};
     return put(parts);
   }
 

@@ -1,13 +1,41 @@
 // A graph of KHR_interactivity run by Babylon.js: the page clicks, waits and walks, and notes after each step what is seen.
 import {FreeCamera} from '@babylonjs/core/Cameras/freeCamera.js';
+import {Engine} from '@babylonjs/core/Engines/engine.js';
+import {AppendSceneAsync} from '@babylonjs/core/Loading/sceneLoader.js';
 import {Color4} from '@babylonjs/core/Maths/math.color.js';
 import {Matrix, Vector3} from '@babylonjs/core/Maths/math.vector.js';
+import {Logger} from '@babylonjs/core/Misc/logger.js';
+import {Scene} from '@babylonjs/core/scene.js';
+import '@babylonjs/core/Materials/standardMaterial.js';
+import '@babylonjs/loaders/glTF/2.0/index.js';
 import {GetKHRInteractivityImportResults} from '@babylonjs/loaders/glTF/2.0/Extensions/KHR_interactivity.js';
-import {load} from './babylon.mjs';
 import {picture_of} from './pictures.mjs';
 
 const step_seconds = 0.016;  // of every frame, however long it takes here
 const others = () => new Promise(done => { setTimeout(done); });
+
+let engine;
+
+/// A file in a scene of its own, and what Babylon.js warned of.
+async function load({glb, width, height}) {
+  if (!engine) {
+    const canvas = document.createElement('canvas');
+    Object.assign(canvas, {width, height});
+    Object.assign(canvas.style, {position: 'absolute', left: 0, top: 0});
+    document.body.append(canvas);
+    engine = new Engine(canvas, false, {preserveDrawingBuffer: true});
+  }
+  const scene = new Scene(engine), faults = [], before = [Logger.Warn, Logger.Error];
+  Logger.Warn = Logger.Error = message => faults.push(String(message));
+  scene.useRightHandedSystem = true;
+  try {
+    await AppendSceneAsync(glb, scene);
+    await scene.whenReadyAsync();
+  } finally {
+    [Logger.Warn, Logger.Error] = before;
+  }
+  return {scene, faults};
+}
 
 function look(scene, {eye, target}) {
   const camera = scene.activeCamera?.name === 'view' ? scene.activeCamera : new FreeCamera('view', Vector3.Zero(), scene);
@@ -19,7 +47,7 @@ function look(scene, {eye, target}) {
 
 /// Where a point of the world is in the picture, in pixels.
 function pixel_of(scene, point) {
-  const engine = scene.getEngine(), [width, height] = [engine.getRenderWidth(), engine.getRenderHeight()];
+  const [width, height] = [engine.getRenderWidth(), engine.getRenderHeight()];
   const at = Vector3.Project(Vector3.FromArray(point), Matrix.Identity(), scene.getTransformMatrix(), scene.activeCamera.viewport.toGlobal(width, height));
   return [Math.round(at.x), Math.round(at.y)];
 }
@@ -36,13 +64,11 @@ function seen(scene, canvas, points) {
   return points.map(point => [...pen.getImageData(...pixel_of(scene, point), 1, 1).data].slice(0, 3));
 }
 
-/// job: that of load(), with {camera: {eye, target}, steps, points, nodes, events}. A step is {click}, {over} at a point of the world,
+/// job: {glb, width, height, camera of {eye, target}, steps, points, nodes, events}. A step is {click}, {over} at a point of the world,
 /// {camera} or {wait} of seconds. Gives for each, and for the beginning, colours at `points`, places of `nodes`, and the events sent so far.
 export async function behave(job) {
   const {scene, faults} = await load(job);
-  const canvas = scene.getEngine().getRenderingCanvas();
-  if (!canvas.isConnected) document.body.append(canvas);
-  Object.assign(canvas.style, {position: 'absolute', left: 0, top: 0});
+  const canvas = engine.getRenderingCanvas();
   scene.attachControl(true, true, true);
   scene.clearColor = new Color4(0, 0, 0, 1);
   look(scene, job.camera);
@@ -52,7 +78,7 @@ export async function behave(job) {
       diagnostics.push(...graph.diagnostics.map(d => `${d.path}: ${d.message}`));
       for (const id of job.events ?? []) graph.coordinator?.getCustomEventObservable(id).add(() => sent.push(id));
     }
-  const engine = scene.getEngine(), real = engine.getDeltaTime;
+  const real = engine.getDeltaTime;
   scene.useConstantAnimationDeltaTime = true;
   engine.getDeltaTime = () => 1000 * step_seconds;
   const run = async seconds => {

@@ -4,6 +4,6 @@ gltf = json.load(open(sys.argv[1]))
 graph = gltf["extensions"]["KHR_interactivity"]["graphs"][0]
 for i, node in enumerate(graph["nodes"]):
     pointer = node.get("configuration", {}).get("pointer", {}).get("value", [""])[0]
-    flows = ["%s>%d" % (socket, to["node"]) for socket, to in node.get("flows", {}).items()]
+    flows = [socket + ">" + str(to["node"]) for socket, to in node.get("flows", {}).items()]
     print(" ".join(filter(None, [str(i), graph["declarations"][node["declaration"]]["op"], pointer, *flows])))
 print(" ".join(gltf["extensionsUsed"]))' %t.gltf

@@ -101,11 +101,11 @@ Graph::Variable Cascade::memory(NodeId n, const Graph::Value& initial) {
 
 Graph::Value Cascade::listens(NodeId sensor) {
   const auto slot = scene_.type(sensor).find("enabled", Dialect::x3d);
-  const bool enabled = scene_.is(sensor, nodes::TouchSensor)       ? scene_.get(sensor, nodes::touch_sensor::enabled)
-                       : scene_.is(sensor, nodes::ProximitySensor) ? scene_.get(sensor, nodes::proximity_sensor::enabled)
-                       : scene_.is(sensor, nodes::VisibilitySensor)
-                           ? scene_.get(sensor, nodes::visibility_sensor::enabled)
-                           : true;
+  const bool enabled =
+      scene_.is(sensor, nodes::TouchSensor)        ? scene_.get(sensor, nodes::touch_sensor::enabled)
+      : scene_.is(sensor, nodes::ProximitySensor)  ? scene_.get(sensor, nodes::proximity_sensor::enabled)
+      : scene_.is(sensor, nodes::VisibilitySensor) ? scene_.get(sensor, nodes::visibility_sensor::enabled)
+                                                   : true;
   if (!slot || !events_.sets(sensor, *slot)) return Graph::value(enabled);
   return graph_.read(memory(sensor, Graph::value(enabled)));
 }
@@ -159,8 +159,7 @@ std::size_t Cascade::n_keys(NodeId n) {
 }
 
 Graph::Value Cascade::key_value(NodeId n, std::size_t i) {
-  if (scene_.is(n, nodes::IntegerSequencer))
-    return Graph::value(scene_.get(n, nodes::integer_sequencer::keyValue)[i]);
+  if (scene_.is(n, nodes::IntegerSequencer)) return Graph::value(scene_.get(n, nodes::integer_sequencer::keyValue)[i]);
   return Graph::value(static_cast<bool>(scene_.get(n, nodes::boolean_sequencer::keyValue)[i]));
 }
 
@@ -177,11 +176,10 @@ void Cascade::at_fraction(Graph::Flow at, NodeId n, const Graph::Value& fraction
                                                           : scene_.get(n, nodes::boolean_sequencer::key);
   auto index = Graph::value(0);
   for (std::size_t i = 1; i < size; ++i) {
-    const auto beyond = graph_.compute("math/ge", Type::boolean,
-                                       {{"a", fraction}, {"b", Graph::value(static_cast<double>(keys[i]))}});
-    index = graph_.compute(
-        "math/select", Type::integer,
-        {{"condition", beyond}, {"a", Graph::value(static_cast<std::int32_t>(i))}, {"b", index}});
+    const auto beyond =
+        graph_.compute("math/ge", Type::boolean, {{"a", fraction}, {"b", Graph::value(static_cast<double>(keys[i]))}});
+    index = graph_.compute("math/select", Type::integer,
+                           {{"condition", beyond}, {"a", Graph::value(static_cast<std::int32_t>(i))}, {"b", index}});
   }
   const auto last = key_index(n);
   const auto same = graph_.compute("math/eq", Type::boolean, {{"a", index}, {"b", graph_.read(last)}});
@@ -194,8 +192,8 @@ void Cascade::step_key(Graph::Flow at, NodeId n, int by) {
   const auto size = static_cast<std::int32_t>(n_keys(n));
   if (size == 0 || !at) return;
   const auto last = key_index(n);
-  const auto sum = graph_.compute("math/add", Type::integer,
-                                  {{"a", graph_.read(last)}, {"b", Graph::value(by > 0 ? 1 : size - 1)}});
+  const auto sum =
+      graph_.compute("math/add", Type::integer, {{"a", graph_.read(last)}, {"b", Graph::value(by > 0 ? 1 : size - 1)}});
   const auto index = graph_.compute("math/rem", Type::integer, {{"a", sum}, {"b", Graph::value(size)}});
   graph_.set(at, last, index);
   send_key(std::move(at), n, graph_.read(last));
@@ -205,8 +203,8 @@ void Cascade::send_key(Graph::Flow at, NodeId n, const Graph::Value& index) {
   const auto slot = *scene_.type(n).find("value_changed", Dialect::x3d);
   auto value = key_value(n, 0);
   for (std::size_t i = 1; i < n_keys(n); ++i) {
-    const auto here = graph_.compute("math/eq", Type::boolean,
-                                     {{"a", index}, {"b", Graph::value(static_cast<std::int32_t>(i))}});
+    const auto here =
+        graph_.compute("math/eq", Type::boolean, {{"a", index}, {"b", Graph::value(static_cast<std::int32_t>(i))}});
     value = graph_.compute("math/select", value.type, {{"condition", here}, {"a", key_value(n, i)}, {"b", value}});
   }
   send(std::move(at), n, slot, value);

@@ -1,5 +1,5 @@
-// Event cascades (ISO/IEC 14772-1, 4.10): what follows from one event, along its ROUTEs, to what it changes. Each way is
-// written out; a ROUTE is followed once in a cascade, as 4.10.4 has it.
+// Event cascades (ISO/IEC 14772-1, 4.10): what follows from one event, along its ROUTEs, to what it changes. Each way
+// is written out; a ROUTE is followed once in a cascade, as 4.10.4 has it.
 #pragma once
 #include <map>
 #include <vector>

@@ -140,8 +140,8 @@ void Clocks::tick(Graph::Flow at, NodeId n) {
     const auto late = graph_.compute("math/ge", Type::boolean, {{"a", rounds}, {"b", Graph::value(1.0)}});
     const auto once = graph_.compute("math/not", Type::boolean, {{"a", repeats}});
     over = graph_.compute("math/and", Type::boolean, {{"a", late}, {"b", once}});
-    fraction = graph_.compute("math/select", Type::number,
-                              {{"condition", over}, {"a", Graph::value(1.0)}, {"b", fraction}});
+    fraction =
+        graph_.compute("math/select", Type::number, {{"condition", over}, {"a", Graph::value(1.0)}, {"b", fraction}});
   }
   std::vector<Graph::Part> parts;
   if (animations_.events().any_from(n, t::fraction_changed.slot))

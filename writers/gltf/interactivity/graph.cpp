@@ -21,7 +21,8 @@ struct ExtensionOperation {
 
 const ExtensionOperation* extension_operation(std::string_view operation) {
   using enum Graph::Type;
-  static const std::vector<Socket> hover{{"hoveredNode", reference}, {"controllerIndex", integer}, {"event", reference}};
+  static const std::vector<Socket> hover{
+      {"hoveredNode", reference}, {"controllerIndex", integer}, {"event", reference}};
   static const ExtensionOperation all[] = {{"event/onSelect",
                                             GltfExtension::node_selectability,
                                             {{"selectedNode", reference},
@@ -138,7 +139,7 @@ void Graph::set_property(Flow& at, std::string pointer, const Value& value) {
   note_type(value.type);
   shows_ |= pointer.find("KHR_node_visibility") != std::string::npos;
   act(at, "pointer/set", {{"value", value}},
-       {{"pointer", json_of(pointer)}, {"type", json_of(type_index(value.type))}});
+      {{"pointer", json_of(pointer)}, {"type", json_of(type_index(value.type))}});
 }
 
 std::uint32_t Graph::custom_event(const std::string& id) {
@@ -148,13 +149,9 @@ std::uint32_t Graph::custom_event(const std::string& id) {
   return index;
 }
 
-void Graph::send(Flow& at, std::uint32_t event) {
-  act(at, "event/send", {}, {{"event", json_of(event)}});
-}
+void Graph::send(Flow& at, std::uint32_t event) { act(at, "event/send", {}, {{"event", json_of(event)}}); }
 
-Graph::Flow Graph::receive(std::uint32_t index) {
-  return event("event/receive", {{"event", json_of(index)}}).flow;
-}
+Graph::Flow Graph::receive(std::uint32_t index) { return event("event/receive", {{"event", json_of(index)}}).flow; }
 
 bool Graph::uses(GltfExtension e) const {
   if (e == GltfExtension::interactivity) return !empty();
@@ -205,7 +202,8 @@ void Graph::write(JsonOut& json) const {
   json.key("graphs");
   json.begin_array();
   json.object([&] {
-    if (!types_.empty()) json.list("types", types_, [&](Type t) { json.value(json_object("signature", signature(t))); });
+    if (!types_.empty())
+      json.list("types", types_, [&](Type t) { json.value(json_object("signature", signature(t))); });
     if (!variables_.empty())
       json.list("variables", variables_, [&](const Value& v) {
         json.object([&] {

@@ -148,8 +148,7 @@ void Sensors::proximity(Graph::Flow at, NodeId sensor) {
     place[k] = number("math/add", along, Graph::value(to_sensor(i, 3)));
     const auto off = number("math/sub", place[k], Graph::value(center[k]));
     const auto distance = graph_.compute("math/abs", Type::number, {{"a", off}});
-    conditions.push_back(
-        graph_.compute("math/le", Type::boolean, {{"a", distance}, {"b", Graph::value(size[k] / 2)}}));
+    conditions.push_back(graph_.compute("math/le", Type::boolean, {{"a", distance}, {"b", Graph::value(size[k] / 2)}}));
   }
   if (const auto listens = cascade_.listens(sensor); !listens.is(true)) conditions.push_back(listens);
   const auto inside = all_of(graph_, conditions);
@@ -168,8 +167,8 @@ void Sensors::follow(Graph::Flow at, NodeId sensor, const Graph::Value& inside,
       graph_.compute("math/combine3", Type::vec3, {{"a", place[0]}, {"b", place[1]}, {"c", place[2]}});
   const auto to_sensor = trs_of(inverse(frame(sensor)));
   const auto turn = Graph::value(to_sensor ? to_sensor->rotation : Quaternion{});
-  const auto orientation = graph_.compute("math/quatMul", Type::vec4,
-                                          {{"a", turn}, {"b", camera(graph_, "rotation", Type::vec4)}});
+  const auto orientation =
+      graph_.compute("math/quatMul", Type::vec4, {{"a", turn}, {"b", camera(graph_, "rotation", Type::vec4)}});
   const std::vector<Graph::Part> parts{
       [&](Graph::Flow to) { cascade_.send(std::move(to), sensor, p::position_changed.slot, position); },
       [&](Graph::Flow to) { cascade_.send(std::move(to), sensor, p::orientation_changed.slot, orientation); }};
@@ -182,8 +181,8 @@ void Sensors::visibility(Graph::Flow at, NodeId sensor) {
   const Matrix to_world = frame(sensor);
   const double radius = length(scene_.get(sensor, v::size)) / 2 * largest_scale(to_world);
   const auto eye = camera(graph_, "position", Type::vec3), turn = camera(graph_, "rotation", Type::vec4);
-  const auto from_eye =
-      graph_.compute("math/sub", Type::vec3, {{"a", Graph::value(to_world.point(scene_.get(sensor, v::center)))}, {"b", eye}});
+  const auto from_eye = graph_.compute(
+      "math/sub", Type::vec3, {{"a", Graph::value(to_world.point(scene_.get(sensor, v::center)))}, {"b", eye}});
   const auto back = graph_.compute("math/quatConjugate", Type::vec4, {{"a", turn}});
   const auto seen = graph_.compute("math/rotate3D", Type::vec3, {{"a", from_eye}, {"rotation", back}});
   const auto along = [&](const Vec3& axis) {
@@ -194,15 +193,15 @@ void Sensors::visibility(Graph::Flow at, NodeId sensor) {
   };
   const auto depth = along({0, 0, -1});
   const auto half_height = number("math/mul", camera(graph_, "perspective/yfov", Type::number), Graph::value(0.5));
-  const auto width = number("math/mul", one("math/tan", half_height),
-                            camera(graph_, "perspective/aspectRatio", Type::number));
+  const auto width =
+      number("math/mul", one("math/tan", half_height), camera(graph_, "perspective/aspectRatio", Type::number));
   const auto half_width = one("math/atan", width);
   std::vector<Graph::Value> conditions;
   for (const auto& [across, angle] : {std::pair{along({1, 0, 0}), half_width}, {along({0, 1, 0}), half_height}}) {
     const auto out = number("math/mul", one("math/abs", across), one("math/cos", angle));
     const auto in = number("math/mul", depth, one("math/sin", angle));
-    conditions.push_back(graph_.compute(
-        "math/le", Type::boolean, {{"a", number("math/sub", out, in)}, {"b", Graph::value(radius)}}));
+    conditions.push_back(
+        graph_.compute("math/le", Type::boolean, {{"a", number("math/sub", out, in)}, {"b", Graph::value(radius)}}));
   }
   if (const auto listens = cascade_.listens(sensor); !listens.is(true)) conditions.push_back(listens);
   when_changed(std::move(at), sensor, all_of(graph_, conditions),

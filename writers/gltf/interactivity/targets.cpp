@@ -60,8 +60,8 @@ void Targets::shine(Graph::Flow at, NodeId n, const Graph::Value& on) {
     const Light& light = document_.lights[i];
     if (light.source != n) continue;
     const double full = to_float(read_light(scene_, n).intensity * full_intensity(scene_, light, document_.world));
-    const auto intensity = graph_.compute(
-        "math/select", Type::number, {{"condition", on}, {"a", Graph::value(full)}, {"b", Graph::value(0.0)}});
+    const auto intensity = graph_.compute("math/select", Type::number,
+                                          {{"condition", on}, {"a", Graph::value(full)}, {"b", Graph::value(0.0)}});
     graph_.set_property(at, "/extensions/KHR_lights_punctual/lights/" + std::to_string(i) + "/intensity", intensity);
   }
 }
