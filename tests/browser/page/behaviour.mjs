@@ -3,6 +3,7 @@ import {FreeCamera} from '@babylonjs/core/Cameras/freeCamera.js';
 import {Engine} from '@babylonjs/core/Engines/engine.js';
 import {AppendSceneAsync} from '@babylonjs/core/Loading/sceneLoader.js';
 import {Color4} from '@babylonjs/core/Maths/math.color.js';
+import {SceneLoaderFlags} from '@babylonjs/core/Loading/sceneLoaderFlags.js';
 import {Matrix, Vector3} from '@babylonjs/core/Maths/math.vector.js';
 import {Logger} from '@babylonjs/core/Misc/logger.js';
 import {Scene} from '@babylonjs/core/scene.js';
@@ -14,6 +15,7 @@ import {picture_of} from './pictures.mjs';
 const step_seconds = 0.016;  // of every frame, however long it takes here
 const others = () => new Promise(done => { setTimeout(done); });
 
+SceneLoaderFlags.ShowLoadingScreen = false;
 let engine;
 
 /// A file in a scene of its own, and what Babylon.js warned of.
