@@ -7,6 +7,7 @@ import {SceneLoaderFlags} from '@babylonjs/core/Loading/sceneLoaderFlags.js';
 import {Matrix, Vector3} from '@babylonjs/core/Maths/math.vector.js';
 import {Logger} from '@babylonjs/core/Misc/logger.js';
 import {Scene} from '@babylonjs/core/scene.js';
+import '@babylonjs/core/Culling/ray.js';
 import '@babylonjs/core/Materials/standardMaterial.js';
 import '@babylonjs/loaders/glTF/2.0/index.js';
 import {GetKHRInteractivityImportResults} from '@babylonjs/loaders/glTF/2.0/Extensions/KHR_interactivity.js';
