@@ -19,7 +19,8 @@ GltfOptions gltf_options(const SaveOptions& o, bool binary) {
           .gpu_instancing = o.gpu_instancing,
           .extras = o.extras != Extras::none,
           .facts_only = o.names == GltfOptions::Names::table || o.extras != Extras::all,
-          .hidden = o.hidden};
+          .hidden = o.hidden,
+          .behaviour = o.behaviour};
 }
 
 }  // namespace wrlkit

@@ -80,6 +80,7 @@ struct SaveOptions {
   bool animation_pointer = false;
   SkyAs sky = SkyAs::none;
   GltfOptions::Hidden hidden = GltfOptions::Hidden::dropped;
+  GltfOptions::Behaviour behaviour = GltfOptions::Behaviour::extras;
   GltfCompression::Method compress = GltfCompression::Method::none;
   LengthOption tolerance = {};  // 0: a millimetre, or less in a small scene
   int position_bits = 0, normal_bits = 8, texcoord_bits = 12, draco_level = 7, color_bits = 10;
@@ -104,6 +105,7 @@ struct SaveOptions {
       "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few viewers know");
     f("sky", sky, "the Background in glTF");
     f("hidden", hidden, "what Switches do not show, in glTF");
+    f("behaviour", behaviour, "what ROUTEs do, in glTF");
   }
   void baked_fields(auto&& f) {
     f("lightmap-size", lightmap_size,

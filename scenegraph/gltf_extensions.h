@@ -18,6 +18,9 @@ enum class GltfExtension : std::uint8_t {
   structural_metadata,
   lod,
   node_visibility,
+  node_selectability,
+  node_hoverability,
+  interactivity,
   gpu_instancing,
   mesh_quantization,
   meshopt_compression,
@@ -46,6 +49,9 @@ inline constexpr GltfExtensionInfo gltf_extensions[] = {
     {GltfExtension::structural_metadata, "EXT_structural_metadata", false, false},
     {GltfExtension::lod, "MSFT_lod", false, true},
     {GltfExtension::node_visibility, "KHR_node_visibility", false, true},
+    {GltfExtension::node_selectability, "KHR_node_selectability", false, false},
+    {GltfExtension::node_hoverability, "KHR_node_hoverability", false, false},
+    {GltfExtension::interactivity, "KHR_interactivity", false, false},
     {GltfExtension::gpu_instancing, "EXT_mesh_gpu_instancing", true, true},
     {GltfExtension::mesh_quantization, "KHR_mesh_quantization", true, true},
     {GltfExtension::meshopt_compression, "EXT_meshopt_compression", true, true},
@@ -53,6 +59,10 @@ inline constexpr GltfExtensionInfo gltf_extensions[] = {
     {GltfExtension::texture_webp, "EXT_texture_webp", true, true},
     {GltfExtension::khr_meshopt_compression, "KHR_meshopt_compression", true, true},
     {GltfExtension::emissive_strength, "KHR_materials_emissive_strength", false, true}};
+
+constexpr std::string_view gltf_extension_name(GltfExtension id) {
+  return std::ranges::find(gltf_extensions, id, &GltfExtensionInfo::id)->name;
+}
 
 constexpr bool knows_gltf_extension(std::string_view name) {
   return std::ranges::find(gltf_extensions, name, &GltfExtensionInfo::name) != std::end(gltf_extensions);

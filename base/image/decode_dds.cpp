@@ -46,37 +46,77 @@ void alphas_of_bc2(std::string_view block, Block& to) {
   for (std::size_t i = 0; i < 16; ++i) to[i][3] = static_cast<std::uint8_t>((alphas >> 4 * i & 15) * 17);
 }
 
-void alphas_of_bc3(std::string_view block, Block& to) {
+/// One channel by itself: the alpha of BC3, red of BC4, red and green of BC5.
+void channel(std::string_view block, std::size_t which, Block& to) {
   const auto first = le(block, 0, 1), second = le(block, 1, 1), index = le(block, 2, 6);
   std::array<std::uint64_t, 8> palette{first, second, 0, 0, 0, 0, 0, 255};
   const std::uint64_t steps = first > second ? 7 : 5;
   for (std::uint64_t i = 1; i < steps; ++i) palette[i + 1] = ((steps - i) * first + i * second) / steps;
-  for (std::size_t i = 0; i < 16; ++i) to[i][3] = static_cast<std::uint8_t>(palette[index >> 3 * i & 7]);
+  for (std::size_t i = 0; i < 16; ++i) to[i][which] = static_cast<std::uint8_t>(palette[index >> 3 * i & 7]);
+}
+
+enum class Coding : std::uint8_t { none, bc1, bc2, bc3, bc4, bc5 };
+
+struct Layout {
+  Coding coding = Coding::none;
+  std::size_t header = 128;
+};
+
+/// By the four letters of the header, or by the DXGI_FORMAT of the one behind it: three of them for each coding, of
+/// BC4 and BC5 the last one with signed values.
+Layout layout_of(std::string_view dds) {
+  constexpr std::size_t header = 128, header_of_dx10 = 20;
+  constexpr std::uint64_t by_four_cc = 4;
+  using enum Coding;
+  struct Name {
+    std::string_view letters;
+    Coding coding;
+  };
+  static constexpr Name names[] = {{"DXT1", bc1}, {"DXT3", bc2}, {"DXT5", bc3}, {"ATI1", bc4},
+                                   {"BC4U", bc4}, {"ATI2", bc5}, {"BC5U", bc5}};
+  if (dds.size() < header || le(dds, 80, 4) != by_four_cc) return {};
+  for (const auto& [letters, coding] : names)
+    if (dds.substr(84, 4) == letters) return {coding, header};
+  if (dds.substr(84, 4) != "DX10" || dds.size() < header + header_of_dx10) return {};
+  constexpr std::uint64_t plane = 3, typeless_bc1 = 70, per_coding = 3;
+  const auto format = le(dds, header, 4) - typeless_bc1;
+  if (le(dds, header + 4, 4) != plane || le(dds, header + 12, 4) != 1 || format >= 5 * per_coding) return {};
+  const auto coding = static_cast<Coding>(1 + format / per_coding);
+  const bool is_signed = coding >= bc4 && format % per_coding == 2;
+  return {is_signed ? none : coding, header + header_of_dx10};
+}
+
+void decode_block(Coding coding, std::string_view block, Block& to) {
+  if (coding >= Coding::bc4) {
+    to.fill({0, 0, 0, 255});
+    channel(block, 0, to);
+    if (coding == Coding::bc5) return channel(block.substr(8), 1, to);
+    for (Texel& t : to) t[1] = t[2] = t[0];
+    return;
+  }
+  colors(block.substr(block.size() - 8), coding == Coding::bc1, to);
+  if (coding == Coding::bc2) alphas_of_bc2(block, to);
+  if (coding == Coding::bc3) channel(block, 3, to);
 }
 
 }  // namespace
 
 bool decode_dds(std::string_view dds, Image& image, std::string& error) {
-  constexpr std::size_t header = 128;
-  constexpr std::uint64_t by_four_cc = 4;
-  const auto kind = dds.size() < header || le(dds, 80, 4) != by_four_cc ? std::string_view() : dds.substr(84, 4);
-  const bool bc1 = kind == "DXT1", bc2 = kind == "DXT3", bc3 = kind == "DXT5";
-  error = "it is not a DDS of BC1, BC2 or BC3 in one layer";
-  if (!(bc1 || bc2 || bc3) || le(dds, 24, 4) > 1 || le(dds, 112, 4) != 0) return false;  // a volume, a cube
+  const auto [coding, header] = layout_of(dds);
+  error = "it is not a DDS of BC1 to BC5 in one layer";
+  if (coding == Coding::none || le(dds, 24, 4) > 1 || le(dds, 112, 4) != 0) return false;  // a volume, a cube
   const auto height = le(dds, 12, 4), width = le(dds, 16, 4);
   error = image_size_fault(static_cast<std::int64_t>(width), static_cast<std::int64_t>(height), dds.size());
   if (!error.empty()) return false;
-  const std::size_t columns = (width + 3) / 4, rows = (height + 3) / 4, bytes = bc1 ? 8 : 16;
+  const std::size_t columns = (width + 3) / 4, rows = (height + 3) / 4,
+                    bytes = coding == Coding::bc1 || coding == Coding::bc4 ? 8 : 16;
   error = "its data are damaged";
   if (width == 0 || height == 0 || header + columns * rows * bytes > dds.size()) return false;
   image = {static_cast<int>(width), static_cast<int>(height), 4, {}};
   image.pixels.resize(width * height * 4);
   Block texels;
   for (std::size_t at = 0; at < columns * rows; ++at) {
-    const auto block = dds.substr(header + at * bytes, bytes);
-    colors(block.substr(bytes - 8), bc1, texels);
-    if (bc2) alphas_of_bc2(block, texels);
-    if (bc3) alphas_of_bc3(block, texels);
+    decode_block(coding, dds.substr(header + at * bytes, bytes), texels);
     const std::size_t x = at % columns * 4, y = at / columns * 4;
     for (std::size_t i = 0; i < 16; ++i)
       if (x + i % 4 < width && y + i / 4 < height)

@@ -11,7 +11,7 @@ const here = path.dirname(new URL(import.meta.url).pathname);
 export const chromium = process.env.WRLKIT_CHROMIUM ?? ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium'].find(fs.existsSync) ?? '';
 export const has_chromium = chromium !== '' && fs.existsSync(chromium);
 
-const types = {'.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.png': 'image/png', '.glb': 'model/gltf-binary', '.wasm': 'application/wasm', '.json': 'application/json'};
+const types = {'.html': 'text/html', '.css': 'text/css', '.mjs': 'text/javascript', '.js': 'text/javascript', '.png': 'image/png', '.glb': 'model/gltf-binary', '.wasm': 'application/wasm', '.json': 'application/json'};
 
 export function serve_file(folders, url, response) {
   const [, top, ...rest] = decodeURIComponent(new URL(url, 'http://localhost').pathname).split('/');

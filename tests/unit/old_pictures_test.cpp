@@ -92,5 +92,22 @@ TEST_CASE("DDS: BC1", "[image]") {
   CHECK(image.pixels[row * 2 + 2] == 255);
   CHECK_FALSE(fault_of_old(dds_head(1).substr(0, 100)).empty());
   CHECK(fault_of_old(dds_head(1) + block.substr(1)) == "its data are damaged");
-  CHECK(fault_of_old(dds_head(3) + block + block + block) == "it is not a DDS of BC1, BC2 or BC3 in one layer");
+  CHECK(fault_of_old(dds_head(3) + block + block + block) == "it is not a DDS of BC1 to BC5 in one layer");
+}
+
+TEST_CASE("DDS: BC4 and BC5, by their letters and by DXGI_FORMAT", "[image]") {
+  // A channel from 10 to 250: the first row has the lower end, the others the upper one.
+  const auto ramp = "\xfa\x0a\x49\x02\x00\x00\x00\x00"s;
+  auto bc4 = dds_head(1);
+  bc4.replace(84, 4, "BC4U");
+  CHECK(decoded_old(bc4 + ramp).pixels.at(0) == 10);
+  const auto grey = decoded_old(bc4 + ramp);
+  CHECK(Pixels(grey.pixels.begin() + 16, grey.pixels.begin() + 20) == Pixels{250, 250, 250, 255});
+  auto bc5 = dds_head(1);
+  bc5.replace(84, 4, "DX10");
+  bc5 += "\x53\0\0\0\x03\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0"s;
+  const auto two = decoded_old(bc5 + "\x80\x80\0\0\0\0\0\0"s + ramp);
+  CHECK(Pixels(two.pixels.begin(), two.pixels.begin() + 4) == Pixels{128, 10, 0, 255});
+  bc5[128] = 0x54;  // SNORM
+  CHECK(fault_of_old(bc5 + ramp + ramp) == "it is not a DDS of BC1 to BC5 in one layer");
 }

@@ -61,7 +61,8 @@ class Viewer {
       if (compared) surfaces_.back()->add(n, mesh);
       return mesh;
     };
-    const GltfOptions options{.lightmaps = GltfOptions::Lightmaps::extras};
+    const GltfOptions options{.lightmaps = GltfOptions::Lightmaps::extras,
+                              .behaviour = GltfOptions::Behaviour::interactivity};
     auto take = [&](std::string_view bytes) { world.glb += bytes; };
     if (!write_glb(scene, counted, options, &s_.resources(), take, s_.diag())) return false;
     const bool usual = s_.flags().criteria.empty();

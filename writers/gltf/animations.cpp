@@ -58,19 +58,39 @@ View view_of(std::size_t width) {
 
 }  // namespace
 
-Animations::Animations(const Scene& scene, Motion::Reach reach, Diagnostics& diag)
-    : scene_(scene), diag_(diag), motion_(scene, reach, diag) {
+std::string_view name_of(Path p) { return paths[static_cast<std::size_t>(p)]; }
+
+Animations::Animations(const Scene& scene, Motion::Reach reach, bool interactive, Diagnostics& diag)
+    : scene_(scene), diag_(diag), motion_(scene, reach, diag), events_(scene, motion_, interactive) {
+  events_.report(scene, motion_, diag);
+  motion_.add_expressed(events_.said());
   for (const Route& r : scene.main.routes)
     if (scene.is(r.to, nodes::TimeSensor)) triggers_[r.to.value].push_back(&r);
 }
 
 bool Animations::moves(NodeId n, Path p) const {
   auto slot = n ? slot_of(scene_, n, p) : std::nullopt;
-  return slot && motion_.moves(n, *slot);
+  return slot && (motion_.moves(n, *slot) || events_.sets(n, *slot));
 }
 
 void Animations::add_target(NodeId source, Path p, std::uint32_t node) {
   if (moves(source, p)) moved_[{source.value, p}].push_back(node);
+}
+
+std::span<const std::uint32_t> Animations::targets(NodeId source, Path p) const {
+  const auto at = moved_.find({source.value, p});
+  return at == moved_.end() ? std::span<const std::uint32_t>() : at->second;
+}
+
+std::optional<std::uint32_t> Animations::index_of(NodeId clock) const {
+  const auto at = std::ranges::find(written_, clock, &Written::clock);
+  if (at == written_.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(at - written_.begin());
+}
+
+double Animations::cycle_of(NodeId clock) const {
+  const double cycle = scene_.get(clock, nodes::time_sensor::cycleInterval);
+  return cycle > 0 && fits_float(cycle) ? cycle : 1;
 }
 
 void Animations::renumber(std::span<const std::uint32_t> became) {
@@ -90,11 +110,7 @@ void Animations::add_transforms(const std::function<Vec3(std::uint32_t)>& offset
         const Sample s = in[0].value({});
         for (std::size_t k = 0; k < width; ++k) out.push_back(s[k] + (k < 3 ? by[k] : 0));
       };
-      add({same,
-           std::string(paths[static_cast<std::size_t>(path)]),
-           width,
-           {{source, *slot_of(scene_, NodeId{source}, path)}},
-           evaluate});
+      add({same, std::string(name_of(path)), width, {{source, *slot_of(scene_, NodeId{source}, path)}}, evaluate});
     }
   }
 }
@@ -107,13 +123,17 @@ void Animations::store(Store& store, const std::function<Vec3(std::uint32_t)>& o
       for (const auto& d : motion_.drives(NodeId{node}, slot)) of_clock[d.clock.value].insert(p);
   for (const auto& [clock, properties] : of_clock) {
     Written w{NodeId{clock}, {}, {}, {}};
-    const double cycle = scene_.get(w.clock, nodes::time_sensor::cycleInterval);
-    for (auto p : properties) add_channel(w, p, cycle > 0 && fits_float(cycle) ? cycle : 1, store);
+    for (auto p : properties) add_channel(w, p, cycle_of(w.clock), store);
     if (!w.channels.empty()) written_.push_back(std::move(w));
   }
   for (const Written& w : written_)
-    if (triggers_.contains(w.clock.value))
-      diag_.report(Diag::no_gltf_trigger, scene_.where(w.clock), scene_.name(w.clock));
+    if (waits_for_more(w.clock)) diag_.report(Diag::no_gltf_trigger, scene_.where(w.clock), scene_.name(w.clock));
+}
+
+/// Is it started by something that the file does not say?
+bool Animations::waits_for_more(NodeId clock) const {
+  const auto at = triggers_.find(clock.value);
+  return at != triggers_.end() && !std::ranges::all_of(at->second, [&](const Route* r) { return motion_.says(*r); });
 }
 
 void Animations::add_channel(Written& w, std::uint32_t id, double cycle, Store& store) {

@@ -14,6 +14,7 @@
 
 #include "base/text/json.h"
 #include "writers/gltf/extras.h"
+#include "writers/gltf/interactivity/events.h"
 #include "writers/gltf/motion.h"
 #include "writers/gltf/store.h"
 #include "writers/gltf/transform.h"
@@ -21,6 +22,7 @@
 namespace wrlkit::gltf {
 
 enum class Path : std::uint8_t { translation, rotation, scale };
+std::string_view name_of(Path);
 
 /// A property of glTF that follows fields of VRML.
 struct Property {
@@ -45,10 +47,12 @@ struct Property {
 
 class Animations {
  public:
-  Animations(const Scene&, Motion::Reach, Diagnostics&);
+  /// `interactive`: what events do is written, too.
+  Animations(const Scene&, Motion::Reach, bool interactive, Diagnostics&);
 
   const Motion& motion() const { return motion_; }
-  /// Does anything move that property of the node?
+  const Events& events() const { return events_; }
+  /// Does anything move that property of the node, or set it?
   bool moves(NodeId, Path) const;
   bool moves(NodeId n) const {
     return moves(n, Path::translation) || moves(n, Path::rotation) || moves(n, Path::scale);
@@ -56,6 +60,8 @@ class Animations {
 
   /// A node of glTF that has a property of a node of VRML.
   void add_target(NodeId source, Path, std::uint32_t node);
+  /// The nodes that were added so.
+  std::span<const std::uint32_t> targets(NodeId source, Path) const;
   /// Marks the nodes of glTF that are moved.
   void mark_targets(std::vector<char>& marks) const {
     for (const auto& [property, nodes] : moved_)
@@ -72,6 +78,10 @@ class Animations {
   void store(Store&, const std::function<Vec3(std::uint32_t node)>& offset);
   bool empty() const { return written_.empty(); }
   std::size_t count() const { return written_.size(); }
+  /// The animation that a clock has become; none: it moves nothing.
+  std::optional<std::uint32_t> index_of(NodeId clock) const;
+  /// Seconds.
+  double cycle_of(NodeId clock) const;
   bool uses_pointers() const { return pointers_; }
   void write(JsonOut&, std::size_t i, const Extras*, const std::function<std::uint32_t(std::uint32_t)>& accessor) const;
 
@@ -94,11 +104,13 @@ class Animations {
   void add_channel(Written&, std::uint32_t property, double cycle, Store&);
   std::vector<Frame> frames(const Property&, std::span<const Curve* const>) const;
   void cut(std::vector<Frame>&, const Frame& to, const std::function<std::vector<double>(double, Curve::Side)>&) const;
+  bool waits_for_more(NodeId clock) const;
   void write_target(JsonOut&, const Channel&) const;
 
   const Scene& scene_;
   Diagnostics& diag_;
   Motion motion_;
+  Events events_;
   std::map<std::pair<std::uint32_t, Path>, std::vector<std::uint32_t>> moved_;  // nodes of glTF
   std::vector<Property> properties_;
   std::vector<Written> written_;

@@ -43,13 +43,8 @@ bool is_long(const Value& v) {
 
 }  // namespace
 
-Extras::Extras(const Scene& scene, const LeadUrls& lead, bool keeps_hidden, Diagnostics& diag)
-    : scene_(scene),
-      lead_(lead),
-      url_fields_(scene),
-      keeps_hidden_(keeps_hidden),
-      diag_(diag),
-      marks_(scene.node_count(), 0) {
+Extras::Extras(const Scene& scene, const LeadUrls& lead, Diagnostics& diag)
+    : scene_(scene), lead_(lead), url_fields_(scene), diag_(diag), marks_(scene.node_count(), 0) {
   name_what_is_referred_to();
 }
 
@@ -115,7 +110,7 @@ Extras::Said Extras::said_by_node(NodeId n, bool plain_transform) const {
   if (scene_.is(n, Transform)) return Said(transform_slots, plain_transform ? 4 : 1);
   if (scene_.is(n, Shape) && !shown(n)) return {};
   static constexpr std::uint16_t choices[] = {switch_::children.slot};
-  if (scene_.is(n, Switch) && keeps_hidden_) return choices;
+  if (marks_[n.value] & keeps_hidden_mark) return choices;
   for (const Row& r : rows)
     if (scene_.is(n, r.type)) return Said(r.slots).first(r.n);
   return {};

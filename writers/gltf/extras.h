@@ -37,9 +37,10 @@ class Extras {
   /// (serde_json).
   static constexpr std::size_t max_depth = 32;
 
-  /// `lead`: what urls are written as; none: as they are. `keeps_hidden`: what Switches do not show has nodes of glTF,
-  /// too.
-  Extras(const Scene& scene, const LeadUrls& lead, bool keeps_hidden, Diagnostics& diag);
+  /// `lead`: what urls are written as; none: as they are.
+  Extras(const Scene& scene, const LeadUrls& lead, Diagnostics& diag);
+  /// What this Switch does not show has nodes of glTF, too.
+  void set_keeps_hidden(NodeId switch_node) { marks_[switch_node.value] |= keeps_hidden_mark; }
 
   /// DEF name, or the one that was given to what a ROUTE or Script refers to.
   std::string_view name(NodeId n) const;
@@ -97,7 +98,8 @@ class Extras {
     written = 2,  // it is in a field of another
     told = 4,     // its own extras are written
     routed = 8,
-    shown_mark = 16
+    shown_mark = 16,
+    keeps_hidden_mark = 32
   };
   bool shown(NodeId n) const { return marks_[n.value] & shown_mark; }
   void name_what_is_referred_to();
@@ -124,7 +126,6 @@ class Extras {
   const Scene& scene_;
   const LeadUrls& lead_;
   UrlFields url_fields_;
-  bool keeps_hidden_;
   Diagnostics& diag_;
   std::vector<std::uint8_t> marks_;
   std::unordered_map<std::uint32_t, std::string> given_;

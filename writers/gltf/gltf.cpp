@@ -14,6 +14,7 @@
 #include "writers/gltf/document/move_to_origin.h"
 #include "writers/gltf/document/place_tables.h"
 #include "writers/gltf/document/round_transforms.h"
+#include "writers/gltf/interactivity/interactivity.h"
 #include "writers/gltf/json/json.h"
 #include "writers/gltf/pointers.h"
 
@@ -89,8 +90,8 @@ class Writer {
         diag_(diag),
         summary_(summary),
         textures_(scene, resources, options.textures, diag),
-        extras_(scene, options.lead_urls, options.hidden == GltfOptions::Hidden::invisible, diag),
-        animations_(scene, reach(options), diag),
+        extras_(scene, options.lead_urls, diag),
+        animations_(scene, reach(options), options.behaviour == GltfOptions::Behaviour::interactivity, diag),
         materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
         parts_(options.names == GltfOptions::Names::table, options.sources),
         meshes_(scene, source, options.same_mesh, animations_.motion(), store_, parts_,
@@ -177,12 +178,12 @@ class Writer {
     static const std::vector<Picture> no_pictures;
     Packing packing(options_.compression, store_, meshes_, document_);
     finish_document(packing);
+    const Graph graph = make_interactivity(scene_, document_, animations_, diag_);
     const auto columns = table(packing.uses_meshopt());
     Layout layout(packing.store(), packing.blobs(), columns, pictures_inside() ? textures_.pictures() : no_pictures,
                   packing.uses_meshopt());
-    Parts parts{scene_, document_,   meshes_, packing,        materials_,          textures_,
-                layout, animations_, parts_,  makers_.extras, options_.facts_only, {},
-                {}};
+    Parts parts{scene_,      document_, meshes_, packing,        materials_,          textures_, layout,
+                animations_, graph,     parts_,  makers_.extras, options_.facts_only, {},        {}};
     return put(parts);
   }
 

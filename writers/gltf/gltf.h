@@ -113,6 +113,11 @@ struct GltfOptions {
   /// What Switches do not show. dropped: it is not in the hierarchy. invisible: by KHR_node_visibility.
   enum class Hidden : std::uint8_t { dropped, invisible };
   Hidden hidden = Hidden::dropped;
+  /// What ROUTEs do beyond animations. extras: it is kept for programs that read VRML's ROUTEs. interactivity: as a
+  /// graph of KHR_interactivity, where its nodes can say it (interactivity/events.h); Switches that it sets keep all
+  /// children, as nodes that are not visible.
+  enum class Behaviour : std::uint8_t { extras, interactivity };
+  Behaviour behaviour = Behaviour::extras;
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
 };
 template <>
@@ -125,6 +130,10 @@ template <>
 inline constexpr auto choices<GltfOptions::Hidden> =
     choice_row({{"dropped", "not drawn by any viewer"},
                 {"invisible", "nodes that a viewer may show (KHR_node_visibility; others show them)"}});
+template <>
+inline constexpr auto choices<GltfOptions::Behaviour> = choice_row(
+    {{"extras", "not run by any viewer"},
+     {"interactivity", "clicks, sensors, clocks and Switches as a graph that viewers run (KHR_interactivity)"}});
 template <>
 inline constexpr auto choices<GltfOptions::Names> =
     choice_row({{"nodes", "each part is one"},

@@ -39,12 +39,12 @@ void write_headlight(JsonOut& json) { json.object("type", "directional", "name",
 
 }  // namespace
 
-bool shines(const Scene& scene, NodeId n, const Motion& motion) {
+bool shines(const Scene& scene, NodeId n, const Motion& motion, bool switched) {
   auto c = read_light(scene, n);
   auto intensity = scene.type(n).find("intensity", Dialect::x3d);
   if (motion.moves(n, *intensity)) c.intensity = 1;
   bool reaches = c.kind == LightNode::Kind::directional || (c.radius > 0 && fits_float(c.radius));
-  return c.on && reaches && c.intensity > 0 && fits_float(c.intensity);
+  return (c.on || switched) && reaches && c.intensity > 0 && fits_float(c.intensity);
 }
 
 Trs light_transform(const Scene& scene, NodeId n) {
@@ -83,7 +83,7 @@ void write_light(JsonOut& json, const Scene& scene, const Light& light, const Bo
     json.member("type", sun ? "directional" : is_spot ? "spot" : "point");
     if (!scene.name(n).empty()) json.member("name", scene.name(n));
     if (c.color != Vec3{1, 1, 1}) json.member("color", std::span<const float>(linear_color(c.color)));
-    json.member("intensity", to_float(c.intensity * full_intensity(scene, light, world)));
+    json.member("intensity", c.on ? to_float(c.intensity * full_intensity(scene, light, world)) : 0.0f);
     if (!sun) json.member("range", to_float(c.radius * light.scale));
     if (is_spot) write_cone(json, c);
   });

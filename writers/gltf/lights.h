@@ -30,7 +30,8 @@ struct Light {
 };
 
 /// On, and of some effect, now or at times.
-bool shines(const Scene&, NodeId light, const Motion&);
+/// `switched`: events turn it on and off.
+bool shines(const Scene&, NodeId light, const Motion&, bool switched);
 /// Location and direction as those of a node.
 Trs light_transform(const Scene&, NodeId light);
 /// What cannot be expressed of lights: one message for each kind of loss, with the place of the first.

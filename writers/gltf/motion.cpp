@@ -153,7 +153,13 @@ void Motion::arrive(const Step& at, NodeId clock) {
   for (const Step* s = &at; s->by; s = &steps_[s->before]) expressed_.insert(s->by);
 }
 
+void Motion::add_expressed(const std::set<const Route*>& others) {
+  expressed_.insert(others.begin(), others.end());
+  count_routes();
+}
+
 void Motion::count_routes() {
+  routes_.clear();
   n_routes_ = expressed_.size();
   for (const Route& r : scene_.main.routes) {
     auto count = [&](NodeId n) {

@@ -38,6 +38,9 @@ class Motion {
   /// A clock or interpolator whose ROUTEs all have a counterpart; of a clock only those that go out count.
   bool expressed(NodeId) const;
   std::size_t n_expressed_routes() const { return n_routes_; }
+  bool says(const Route& r) const { return expressed_.contains(&r); }
+  /// ROUTEs that something else expresses.
+  void add_expressed(const std::set<const Route*>&);
 
  private:
   /// An event that goes on from a node: of an interpolator what it says, or a field that has been set.

@@ -19,6 +19,8 @@ async function series(job) {
 async function work(job) {
   if (job.tileset) return (await import('./tileset.mjs')).draw_tileset(job);
   if (job.cesium) return (await import('./cesium.mjs')).draw_with_cesium(job);
+  if (job.behaviour) return (await import('/out/babylon/behaviour.js')).behave(job);
+  if (job.x_ite) return (await import('./x_ite.mjs')).draw_with_x_ite(job);
   if (job.frames) return series(job);
   const shown = picture_of(await show(job));
   if (!job.reference) return {shown: shown.toDataURL()};

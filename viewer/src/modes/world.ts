@@ -1,6 +1,8 @@
 // The mode in which one world is looked at.
 import {AnimationMixer, Color, Raycaster, Scene, Vector3, type AnimationAction} from 'three';
+import {Behaviour} from '../behaviour/behaviour';
 import {state} from '../state';
+import {askToOpen} from '../ui/open_question';
 import {Boxes, drawEdges, Flashes, Highlight} from '../view/overlay';
 import type {Mode, Stage} from '../view/stage';
 import {Batches, batchedLayer} from '../world/batches';
@@ -32,6 +34,7 @@ export class WorldMode implements Mode {
   private readonly mixer: AnimationMixer;
   private readonly actions: AnimationAction[];
   private readonly selectedBy: ((part: Part | null) => void)[] = [];
+  readonly behaviour: Behaviour;
   readonly levels: LevelControl | null;
   flash = false;          // boxes around objects whose level changes
   private readonly flashes: Flashes;
@@ -51,6 +54,7 @@ export class WorldMode implements Mode {
     this.levels = world.levels.length > 0 ? new LevelControl(world) : null;
     this.flashes = new Flashes(this.scene);
     this.mixer = new AnimationMixer(world.root);
+    this.behaviour = new Behaviour(world, stage.camera, {told: id => this.act(id), changed: () => this.changedByItself()});
     this.actions = world.clips.map(clip => this.mixer.clipAction(clip));
   }
 
@@ -65,6 +69,7 @@ export class WorldMode implements Mode {
     const switched = this.levels?.update(camera, height) ?? [];
     if (this.flash) this.flashes.add(switched);
     this.lights.follow(camera);
+    this.behaviour.draw();
     this.batches.update();
     renderer.render(this.scene, camera);
     if (!this.edges) return;
@@ -79,7 +84,8 @@ export class WorldMode implements Mode {
 
   tick(seconds: number): boolean {
     if (this.playing) this.mixer.update(seconds);
-    return this.flashes.tick(seconds) || this.playing;
+    const going = this.behaviour.tick(seconds);
+    return this.flashes.tick(seconds) || this.playing || going;
   }
 
   play(on: boolean): void {
@@ -88,6 +94,25 @@ export class WorldMode implements Mode {
       if (on && !action.isRunning()) action.play();
     }
     this.stage.invalidate();
+  }
+
+  /// Runs what the world does; animations are played by it then.
+  run(on: boolean): void {
+    if (on) this.play(false);
+    this.behaviour.set(on);
+  }
+
+  private changedByItself(): void {
+    this.batches.visibilityChanged();
+    this.stage.invalidate();
+  }
+
+  /// What the world wants of the page.
+  private act(event: string): void {
+    const [what, name] = [event.slice(0, event.indexOf(':')), event.slice(event.indexOf(':') + 1)];
+    if (what === 'open') askToOpen(name);
+    const viewpoint = this.world.viewpoints.find(v => v.node === name) ?? this.world.viewpoints.find(v => v.name === name);
+    if (what === 'viewpoint' && viewpoint) this.goTo(viewpoint);
   }
 
   setLook(look: Look): void {
@@ -215,11 +240,20 @@ export class WorldMode implements Mode {
   }
 
   click(x: number, y: number): void {
+    const part = this.partAt(x, y);
+    if (!this.behaviour.click(part)) this.select(part);
+  }
+
+  over(x: number, y: number): void {
+    if (this.behaviour.hovers) this.behaviour.hover(this.partAt(x, y));
+  }
+
+  private partAt(x: number, y: number): Part | null {
     const ray = new Raycaster();
     ray.layers.enable(batchedLayer);
     ray.params.Line.threshold = ray.params.Points.threshold = 4 * this.stage.metresPerPixel(this.stage.navigator.distance);
     ray.setFromCamera(this.stage.toClip(x, y), this.stage.camera);
     const hit = ray.intersectObject(this.world.root, true).find(found => isShown(found.object));
-    this.select(hit ? partOf(this.world, hit.object) : null);
+    return hit ? partOf(this.world, hit.object) : null;
   }
 }

@@ -129,6 +129,7 @@ export class WorldPanel {
     const places = world.viewpoints.map(v => button(v.name, () => mode.goTo(v)));
     sections.push(section('Viewpoints', h('div', {class: 'buttons places'}, button('All of it', () => stage.overview(world.box)), ...places)));
     if (world.clips.length > 0) sections.push(section('Animations', h('p', {}, world.clips.map(c => c.name || 'unnamed').join(', ')), check('Play', false, on => mode.play(on), 'p')));
+    if (mode.behaviour.any || mode.behaviour.lost.length > 0) sections.push(this.behaviour());
     const speed = slider('Walking speed', {min: -2, max: 2, step: 0.1, value: 0}, value => setSpeed(value));
     const setSpeed = (value: number): void => {
       stage.navigator.speed = world.navigation.speed * 4 ** value;
@@ -137,6 +138,13 @@ export class WorldPanel {
     setSpeed(0);
     sections.push(section('Walking', speed.element));
     return h('div', {class: 'panel'}, ...sections);
+  }
+
+  private behaviour(): HTMLElement {
+    const {behaviour} = this.mode, {lost} = behaviour;
+    const run = behaviour.any ? [keptCheck(`run${this.mode.suffix}`, 'Run the world (clicks, sensors, clocks)', false, on => this.mode.run(on))] : [];
+    const list = lost.map(([type, n]) => n > 1 ? `${type} (${count(n)})` : type).join(', ');
+    return section('Behaviour', ...run, ...(list ? [h('p', {class: 'soft', id: `not-run${this.mode.suffix}`}, `Not run here: ${list}.`)] : []));
   }
 
   private bakedLight(): HTMLElement {

@@ -14,6 +14,8 @@ export interface Mode {
   tick?(seconds: number): boolean;
   /// Was clicked at, in pixels of the canvas.
   click?(x: number, y: number): void;
+  /// The pointer is there, and no button is down.
+  over?(x: number, y: number): void;
 }
 
 export interface FrameFigures {
@@ -44,6 +46,7 @@ export class Stage {
     canvas.addEventListener('pointerup', e => {
       if (e.button === 0 && this.navigator.wasClick) this.mode?.click?.(e.offsetX, e.offsetY);
     });
+    canvas.addEventListener('pointermove', e => { if (e.buttons === 0) this.mode?.over?.(e.offsetX, e.offsetY); });
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
 

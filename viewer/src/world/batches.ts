@@ -2,6 +2,7 @@
 // but their colour are one. The meshes themselves stay in the tree, unseen, for everything else: picking, boxes, selection.
 import {BatchedMesh, Color, DoubleSide, Group, Matrix4, MeshLambertMaterial, type BufferAttribute, type BufferGeometry, type Material, type Mesh, type MeshBasicMaterial, type MeshStandardMaterial, type Object3D, type Scene} from 'three';
 import {directionsKey} from 'wrlkit-three';
+import {moves} from '../behaviour/behaviour';
 import {otherColor} from './forms';
 import type {Look, Looks} from './looks';
 import {isShown, type World} from './world';
@@ -25,7 +26,7 @@ export class Batches {
   private readonly group = new Group();
   private readonly batches: Batch[] = [];
   private readonly toGroup = new Matrix4();
-  private stale = false;
+  private stale = true;
 
   constructor(scene: Scene, world: World) {
     scene.add(this.group);
@@ -91,7 +92,7 @@ export class Batches {
 /// Opaque meshes that no animation and no level of detail moves or hides.
 function still(world: World): Mesh[] {
   const found: Mesh[] = [];
-  if (world.clips.length > 0) return found;
+  if (world.clips.length > 0 || moves(world)) return found;
   const levels = new Set(world.levels.flatMap(l => l.levels));
   const walk = (o: Object3D): void => {
     if (levels.has(o)) return;

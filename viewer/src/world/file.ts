@@ -31,6 +31,7 @@ export interface GltfFile {
   bufferViews?: {byteLength: number}[];
   images?: {name?: string; bufferView?: number; mimeType?: string}[];
   animations?: {name?: string; samplers: {input: number; output: number}[]}[];
+  extensions?: Record<string, unknown>;
   scenes?: {nodes?: number[]; extras?: Record<string, unknown>}[];
 }
 

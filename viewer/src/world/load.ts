@@ -1,12 +1,17 @@
 // Bytes of a .glb to a World.
 import {Box3, type Light, type Line, type Mesh, type Object3D, PerspectiveCamera, type Points, type PointsMaterial, Vector3} from 'three';
 import {GLTFLoader, type GLTF} from 'three/addons/loaders/GLTFLoader.js';
-import {accessorBytes, accessorsOf, trianglesOf, typeOf, vrmlOf, type GltfFile} from './file';
+import {accessorBytes, accessorsOf, trianglesOf, typeOf, vrmlOf, type FileNode, type GltfFile} from './file';
 import {levelsOf, WrlkitPlugin} from 'wrlkit-three';
-import {Levels, type Navigation, type Part, type Viewpoint, type World} from './world';
+import {isShown, Levels, type Navigation, type Part, type Viewpoint, type World} from './world';
 
 /// Triangles, lines or points.
 const isDrawn = (o: Object3D): o is Mesh => (o as Mesh).isMesh || (o as Line).isLine || (o as Points).isPoints;
+
+/// What a Switch does not show is there and hidden (KHR_node_visibility).
+const isVisible = (node: FileNode): boolean => (node.extensions?.['KHR_node_visibility'] as {visible?: boolean} | undefined)?.visible !== false;
+
+const shownTriangles = (parts: readonly Part[]): number => parts.reduce((n, p) => n + (p.object.visible ? p.triangles : 0), 0);
 
 /// The node of the file that an object is; undefined for a primitive of a mesh.
 function nodeOf(gltf: GLTF, o: Object3D): number | undefined {
@@ -34,13 +39,14 @@ class Builder {
       if (isDrawn(child) && nodeOf(this.gltf, child) === undefined) part.meshes.push(child);
       else part.children.push(...this.build(child, part));
     }
-    part.triangles += part.children.reduce((n, p) => n + p.triangles, 0);
+    part.triangles += shownTriangles(part.children);
     return [part];
   }
 
   private part(object: Object3D, node: number, parent: Part | null): Part {
     const said = this.file.nodes?.[node] ?? {};
     const mesh = said.mesh ?? null;
+    object.visible = isVisible(said);
     const part: Part = {
       node, object, parent, mesh, name: said.name ?? '', type: this.typeOf(said.extras, node, object), extras: said.extras ?? {},
       children: [], meshes: isDrawn(object) ? [object] : [], triangles: mesh === null ? 0 : trianglesOf(this.file, mesh), bytes: 0,
@@ -95,7 +101,7 @@ function viewpoints(gltf: GLTF): Viewpoint[] {
     const said = vrmlOf(node?.extras)['Viewpoint'] as {description?: string} | undefined;
     const placed = new PerspectiveCamera(camera instanceof PerspectiveCamera ? camera.fov : 45);
     camera.matrixWorld.decompose(placed.position, placed.quaternion, new Vector3());
-    return [{name: said?.description || node?.name || `Viewpoint ${i + 1}`, camera: placed}];
+    return [{name: said?.description || node?.name || `Viewpoint ${i + 1}`, node: node?.name ?? '', camera: placed}];
   });
 }
 
@@ -136,13 +142,13 @@ export async function loadWorld(name: string, bytes: ArrayBuffer): Promise<World
   const cameras = viewpoints(gltf);
   gltf.scene.updateMatrixWorld(true);
   const box = new Box3();
-  for (const part of builder.parts) for (const mesh of part.meshes) box.expandByObject(mesh);
+  for (const part of builder.parts) for (const mesh of part.meshes) if (isShown(mesh)) box.expandByObject(mesh);
   gltf.scene.traverse(o => { if ((o as Points).isPoints) ((o as Points).material as PointsMaterial).size = 3; });  // pixels: one is hardly seen
   const empty = box.isEmpty();
   if (empty) box.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
   return {
     name, size: bytes.byteLength, file, root: gltf.scene, parts: builder.parts, roots, levels, viewpoints: cameras, navigation: navigation(file),
-    sky: sky(file), lights: allLights(gltf.scene), clips: gltf.animations, box, empty, triangles: roots.reduce((n, p) => n + p.triangles, 0),
+    sky: sky(file), lights: allLights(gltf.scene), clips: gltf.animations, box, empty, triangles: shownTriangles(roots),
     unique: uniqueTriangles(file, builder.parts),
   };
 }

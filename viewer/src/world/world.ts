@@ -28,6 +28,7 @@ export class Levels extends LevelSet {
 
 export interface Viewpoint {
   name: string;
+  node: string;         // the name of its node, which Anchors and events know
   camera: PerspectiveCamera;
 }
 

@@ -26,6 +26,7 @@ struct Node {
   bool hidden = false;             // not shown, nor what is below it (KHR_node_visibility)
   bool lod = false;                // has an entry in Document::lods
   std::uint32_t same_as = none;    // the node that `source` has become before
+  std::uint32_t choice = none;     // which child of a Switch that events set
   std::uint32_t instances = none;  // into Document::instances; such a node has no source, its rows have sources
 };
 

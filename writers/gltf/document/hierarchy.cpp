@@ -72,7 +72,7 @@ class Builder {
     const Frame& f = frames_.back();
     return f.hides() || (m_.scene.is(f.node, nodes::LOD) && f.next > 1);
   }
-  bool keeps_hidden() const { return m_.options.hidden == GltfOptions::Hidden::invisible; }
+  bool keeps_hidden(NodeId n) const { return m_.keeps_hidden(n); }
   void add_built(std::uint32_t);
   bool first_visit(NodeId, bool has_place = true);
   void report_overflow(NodeId);
@@ -98,8 +98,9 @@ void Builder::enter(NodeId n) {
   if (first_visit(n)) report_group(n);
   Frame f{.node = n, .first_built = built_.size(), .world = frames_.back().world};
   f.again = frames_.back().again || became_[n.value] != none;
-  const bool chooses = keeps_hidden() && m_.scene.is(n, nodes::Switch);
+  const bool chooses = m_.scene.is(n, nodes::Switch) && keeps_hidden(n);
   f.children = chooses || m_.scene.is(n, nodes::LOD) ? hierarchy_children(m_.scene, n) : shown_children(m_.scene, n);
+  if (chooses && m_.extras) m_.extras->set_keeps_hidden(n);
   if (chooses) f.shown = static_cast<std::size_t>(std::max(-1, m_.scene.get(n, nodes::switch_::whichChoice)));
   if (m_.scene.is(n, nodes::Transform)) {
     f.local = node_transform(m_.scene, n);
@@ -121,11 +122,11 @@ void Builder::report_overflow(NodeId n) {
 }
 
 void Builder::report_group(NodeId n) {
-  if (does_something(m_.scene, n)) add_lost(n);
+  if (does_something(m_.scene, n) && !m_.animations.events().begins(n)) add_lost(n);
   // Switches that no file has written only hold what prototypes leave behind.
   bool hides =
       m_.scene.is(n, nodes::Switch) && hierarchy_children(m_.scene, n).size() > shown_children(m_.scene, n).size();
-  if (hides && !keeps_hidden() && m_.scene.where(n)) m_.diag.report(Diag::no_gltf_choice, m_.scene.where(n));
+  if (hides && !keeps_hidden(n) && m_.scene.where(n)) m_.diag.report(Diag::no_gltf_choice, m_.scene.where(n));
 }
 
 /// Texture coordinates that a rule makes from where the viewer is.
@@ -161,7 +162,7 @@ std::uint32_t Builder::shape(NodeId n) {
 std::uint32_t Builder::light(NodeId n) {
   Node node{.source = n,
             .transform = d_.add_transform(light_transform(m_.scene, n), m_.animations.moves(n, Path::translation))};
-  bool on = m_.options.lights && shines(m_.scene, n, m_.animations.motion());
+  bool on = m_.options.lights && shines(m_.scene, n, m_.animations.motion(), m_.animations.events().sets(n, "on"));
   if (first_visit(n) && on) lost_light_.add(m_.scene, n, frames_.size() == 1);
   if (on) {
     const Matrix& frame = frames_.back().world;
@@ -276,7 +277,10 @@ void Builder::visit(NodeId n) {
 
 /// A child of the group at hand.
 void Builder::add_built(std::uint32_t id) {
-  d_.nodes[id].hidden = frames_.back().hides();
+  const Frame& f = frames_.back();
+  d_.nodes[id].hidden = f.hides();
+  if (f.shown && m_.animations.events().sets(f.node, nodes::switch_::whichChoice.slot))
+    d_.nodes[id].choice = static_cast<std::uint32_t>(f.next - 1);
   built_.push_back(id);
   set_same(id);
 }

@@ -14,7 +14,7 @@ bool mirrors(const Trs& t) { return !(t.scale[0] * t.scale[1] * t.scale[2] > 0);
 
 /// What must be a node for another reason than its place.
 bool is_a_node_anyway(const Document& d, const Makers& m, const Node& n) {
-  if (n.lod || n.hidden || (n.source && m.animations.moves(n.source))) return true;
+  if (n.lod || n.hidden || n.choice != none || (n.source && m.animations.moves(n.source))) return true;
   if (n.attachment == Attachment::nothing)
     return mirrors(d.place(n)) ||
            !(!n.source || m.scene.is(n.source, nodes::Transform) || m.scene.is(n.source, nodes::Group));

@@ -65,7 +65,7 @@ void store(Instances& all, Store& to) {
 }  // namespace
 
 bool only_places_a_mesh(const Makers& m, const Node& n, const Trs& t, double growth) {
-  if (n.attachment != Attachment::mesh || n.n_children > 0 || n.lod || n.hidden || !n.source ||
+  if (n.attachment != Attachment::mesh || n.n_children > 0 || n.lod || n.hidden || n.choice != none || !n.source ||
       m.animations.moves(n.source))
     return false;
   if (!is_plain_or_root(m.scene, n.source) && !m.scene.is(n.source, nodes::Shape)) return false;

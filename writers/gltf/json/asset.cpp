@@ -23,9 +23,10 @@ class AssetJson : public JsonPart {
   }
 
   void extensions() {
-    if (d_.lights.empty() && !p_.has_table()) return;
+    if (d_.lights.empty() && p_.graph.empty() && !p_.has_table()) return;
     json_.object("extensions", [&] {
       if (p_.has_table()) table();
+      if (!p_.graph.empty()) json_.object("KHR_interactivity", [&] { p_.graph.write(json_); });
       if (!d_.lights.empty()) {
         json_.object("KHR_lights_punctual", [&] {
           list("lights", d_.lights.size(),

@@ -103,7 +103,11 @@ class Writer {
       case lod:
         return !d_.lods.empty();
       case node_visibility:
-        return std::ranges::any_of(d_.nodes, &Node::hidden);
+        return std::ranges::any_of(d_.nodes, &Node::hidden) || p_.graph.uses(e);
+      case node_selectability:
+      case node_hoverability:
+      case interactivity:
+        return p_.graph.uses(e);
       case gpu_instancing:
         return !d_.instances.empty();
       case mesh_quantization:

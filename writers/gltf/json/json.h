@@ -6,6 +6,7 @@
 #include "writers/gltf/animations.h"
 #include "writers/gltf/document/document.h"
 #include "writers/gltf/extras.h"
+#include "writers/gltf/interactivity/graph.h"
 #include "writers/gltf/layout.h"
 #include "writers/gltf/packing.h"
 
@@ -21,6 +22,7 @@ struct Parts {
   const Textures& textures;
   const Layout& layout;
   const Animations& animations;
+  const Graph& graph;
   const PartTable& names;
   Extras* extras;                         // none: without
   bool facts_only;                        // see GltfOptions

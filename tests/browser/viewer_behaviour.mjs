@@ -1,0 +1,122 @@
+// The viewer page runs what worlds do: the same worlds as behaviour.mjs, clicked by the mouse; Anchors, Billboards, and what cannot run.
+//   node viewer_behaviour.mjs WRLKIT FOLDER
+import assert from 'node:assert';
+import fs from 'node:fs';
+import path from 'node:path';
+import {box, is_color, worlds} from './behaviour_worlds.mjs';
+import {open_page, start_chromium, wrlkit} from './viewer_page.mjs';
+
+const [program, folder] = process.argv.slice(2);
+fs.mkdirSync(folder, {recursive: true});
+const browser = await start_chromium();
+
+async function open_world(name, text) {
+  const file = path.join(folder, `${name}.x3dv`), html = path.join(folder, `${name}.html`);
+  fs.writeFileSync(file, text);
+  wrlkit(program, 'view', '-q', file, '-o', html, '--criteria', 'quadric');
+  return open_page(browser, html, {fragment: '#panel=view', dark: true});
+}
+
+/// In the page: time goes on as the test says, and what is seen at points of the world.
+const in_page = {
+  hold: () => { window.viewer.mode.stage.invalidate = () => undefined; },
+  pass: seconds => {
+    const {mode} = window.viewer;
+    for (let t = 0; t < seconds; t += 0.016) mode.behaviour.tick(0.016);
+  },
+  look: ({eye, target}) => {
+    const {stage} = window.viewer.mode, {position} = stage.camera;
+    stage.camera.position.fromArray(eye);
+    stage.camera.lookAt(...target);
+    stage.navigator.take(position.clone(), stage.camera.quaternion.clone(), 10);
+    stage.drawNow();
+  },
+  pixel: point => {
+    const {stage} = window.viewer.mode, {camera} = stage, box = stage.canvas.getBoundingClientRect();
+    const at = camera.position.clone().fromArray(point).project(camera);
+    return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height];
+  },
+  state: ({points, nodes}) => {
+    const {mode} = window.viewer, {stage} = mode, copy = document.createElement('canvas');
+    stage.drawNow();
+    [copy.width, copy.height] = [stage.canvas.width, stage.canvas.height];
+    const pen = copy.getContext('2d', {willReadFrequently: true});
+    pen.drawImage(stage.canvas, 0, 0);
+    const color = point => {
+      const at = stage.camera.position.clone().fromArray(point).project(stage.camera);
+      return [...pen.getImageData(Math.round((at.x + 1) / 2 * copy.width), Math.round((1 - at.y) / 2 * copy.height), 1, 1).data].slice(0, 3);
+    };
+    const place = name => mode.world.parts.find(p => p.name === name).object.getWorldPosition(stage.camera.position.clone()).toArray();
+    return {colors: points.map(color), places: nodes.map(place)};
+  },
+};
+
+async function runs(world) {
+  const {page, faults, close} = await open_world(world.name, world.world);
+  const state = () => page.evaluate(in_page.state, {points: world.points, nodes: world.nodes ?? []});
+  await page.evaluate(in_page.hold);
+  await page.getByLabel('Run the world').check();
+  await page.evaluate(in_page.pass, 0.1);
+  const states = [await state()];
+  for (const step of world.steps) {
+    if (step.camera) await page.evaluate(in_page.look, step.camera);
+    if (step.click) await page.mouse.click(...await page.evaluate(in_page.pixel, step.click));
+    if (step.over) await page.mouse.move(...await page.evaluate(in_page.pixel, step.over));
+    await page.evaluate(in_page.pass, step.wait ?? 0.1);
+    states.push(await state());
+  }
+  const lights = world.name === 'light';  // the page shines a little by itself
+  world.expect.forEach((letters, step) => [...lights ? '' : letters ?? ''].forEach((letter, i) =>
+    assert(is_color(states[step].colors[i], letter), `${world.name}, step ${step}, point ${i}: ${states[step].colors[i]} is not '${letter}'`)));
+  if (lights) assert(states[1].colors[0][0] > states[0].colors[0][0] + 30, `${states.map(s => s.colors[0])}`);
+  world.places?.forEach((place, step) => {
+    if (place) assert(states[step].places[0].every((v, i) => Math.abs(v - place[i]) < 0.02), `${world.name}, step ${step}: ${states[step].places[0]}`);
+  });
+  assert.deepEqual(faults, [], world.name);
+  await close();
+}
+
+/// An Anchor to a Viewpoint goes there; one to another file asks first. Off, a click selects as ever.
+async function anchors() {
+  const {page, faults, close} = await open_world('anchors', worlds.find(w => w.name === 'anchors').world);
+  const click = async point => page.mouse.click(...await page.evaluate(in_page.pixel, point));
+  const eye = () => page.evaluate(() => window.viewer.mode.stage.camera.position.toArray());
+  await click([2, 0, 0]);
+  assert.equal(await page.locator('.part[aria-selected=true]').count(), 1);
+  await page.getByRole('tab', {name: 'View'}).click();
+  await page.getByLabel('Run the world').check();
+  await click([2, 0, 0]);
+  assert.match(await page.locator('dialog.open').textContent(), /manual\.html/);
+  assert.equal(await page.locator('dialog.open a').getAttribute('target'), '_blank');
+  await page.getByRole('button', {name: 'Stay here'}).click();
+  assert.equal(await page.locator('dialog.open').count(), 0);
+  await click([-2, 0, 0]);
+  assert((await eye())[2] < -9);
+  assert.deepEqual(faults, []);
+  await close();
+}
+
+/// A Billboard turns to the viewer while the world runs; what does not run is named.
+async function billboard_and_list() {
+  const text = `#X3D V3.3 utf8\nPROFILE Immersive\nViewpoint { position 0 0 10 }\nBillboard { children ${box('r', '2 2 0.01')} }
+    Script { url "ecmascript: function initialize() {}" } Sound { source AudioClip { url "bell.wav" } }\n`;
+  const {page, faults, close} = await open_world('billboard', text);
+  await page.evaluate(in_page.hold);
+  assert.equal(await page.locator('#not-run').textContent(), 'Not run here: Script, Sound.');
+  const seen = async () => is_color((await page.evaluate(in_page.state, {points: [[0, 0, 0.9]], nodes: []})).colors[0], 'r');
+  await page.evaluate(in_page.look, {eye: [10, 0, 0], target: [0, 0, 0]});
+  assert(!await seen());
+  await page.getByLabel('Run the world').check();
+  assert(await seen());
+  assert.deepEqual(faults, []);
+  await close();
+}
+
+try {
+  for (const world of worlds) if (!world.events) await runs(world);
+  await anchors();
+  await billboard_and_list();
+  console.log(`${worlds.length} worlds`);
+} finally {
+  await browser.close();
+}

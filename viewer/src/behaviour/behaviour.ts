@@ -1,0 +1,99 @@
+// What the world does by itself and when it is clicked: the graph that wrlkit has made of its ROUTEs, and Billboards. It runs when the
+// user says so. Scripts, sounds and films do not.
+import type {PerspectiveCamera} from 'three';
+import {typeOf} from '../world/file';
+import type {Part, World} from '../world/world';
+import {Billboards} from './billboards';
+import {GraphRun, type GraphFile} from './graph';
+import {WorldHost} from './host';
+
+/// Nodes of VRML that do something and are not in the graph.
+const notRun = /^(Script|Sound|SpatialSound|AudioClip|MovieTexture|PlaneSensor|SphereSensor|CylinderSensor|KeySensor|StringSensor|LoadSensor|.*(Chaser|Damper|Follower|PickSensor|Emitter))$/;
+
+export interface ForThePage {
+  /// An event that the page has to act upon: viewpoint:NAME, open:URL.
+  told(id: string): void;
+  changed(): void;
+}
+
+export class Behaviour {
+  running = false;
+  private readonly graph: GraphFile | null;
+  private readonly billboards: Billboards;
+  private run: GraphRun | null = null;
+  private host: WorldHost | null = null;
+  private over: readonly number[] = [];
+
+  constructor(private readonly world: World, private readonly camera: PerspectiveCamera, private readonly page: ForThePage) {
+    this.graph = graphOf(world);
+    this.billboards = new Billboards(world);
+  }
+
+  /// Is there anything that can be run?
+  get any(): boolean { return this.graph !== null || this.billboards.any; }
+
+  /// Types of nodes that do something which the page does not run, and how many there are.
+  get lost(): [string, number][] {
+    const found = new Map<string, number>();
+    for (const {extras} of this.world.file.nodes ?? []) {
+      const type = typeOf(extras) ?? '';
+      if (notRun.test(type)) found.set(type, (found.get(type) ?? 0) + 1);
+    }
+    return [...found].sort(([a], [b]) => a.localeCompare(b));
+  }
+
+  set(on: boolean): void {
+    this.running = on;
+    this.host?.players.dispose();
+    this.run = this.host = null;
+    if (on && this.graph) {
+      this.host = new WorldHost(this.world, this.camera, id => this.page.told(id), () => this.page.changed());
+      this.run = new GraphRun(this.graph, this.host);
+      this.run.start();
+    }
+    if (!on) this.billboards.rest();
+    this.page.changed();
+  }
+
+  /// Time goes on; true as long as another picture is wanted.
+  tick(seconds: number): boolean {
+    if (!this.running) return false;
+    this.host?.players.tick(seconds);
+    this.run?.tick(seconds);
+    return this.run !== null;
+  }
+
+  /// Before each picture.
+  draw(): void { if (this.running) this.billboards.face(this.camera); }
+
+  /// True when something has heard the click.
+  click(part: Part | null): boolean { return this.run?.select(wayUp(part)) ?? false; }
+
+  /// The pointer is over that part.
+  hover(part: Part | null): void {
+    const way = wayUp(part), before = this.over;
+    this.over = way;
+    this.run?.hover(before.filter(node => !way.includes(node)), false);
+    this.run?.hover(way.filter(node => !before.includes(node)), true);
+  }
+
+  get hovers(): boolean { return this.run !== null && (this.graph?.declarations ?? []).some(d => d.op === 'event/onHoverIn'); }
+}
+
+function graphOf(world: World): GraphFile | null {
+  const said = world.file.extensions?.['KHR_interactivity'] as {graphs?: GraphFile[]; graph?: number} | undefined;
+  return said?.graphs?.[said.graph ?? 0] ?? null;
+}
+
+/// Whether anything may be moved but by animations.
+export function moves(world: World): boolean {
+  const pointers = JSON.stringify(graphOf(world)?.nodes ?? []);
+  return /"\/nodes\/\d+\/(translation|rotation|scale)"/.test(pointers) || new Billboards(world).any;
+}
+
+/// From a part to the root, as numbers of nodes.
+function wayUp(part: Part | null): number[] {
+  const way: number[] = [];
+  for (let p = part; p; p = p.parent) way.push(p.node);
+  return way;
+}

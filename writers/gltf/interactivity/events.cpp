@@ -1,0 +1,173 @@
+#include "writers/gltf/interactivity/events.h"
+
+#include <algorithm>
+
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+struct Row {
+  TypeId type;
+  std::uint16_t slot;
+  Act act = {};
+};
+
+/// Events that happen by themselves.
+bool happens(const Scene& scene, NodeId n, std::uint16_t slot) {
+  using namespace nodes;
+  static constexpr Row rows[] = {{TouchSensor, touch_sensor::touchTime.slot},
+                                 {TouchSensor, touch_sensor::isActive.slot},
+                                 {TouchSensor, touch_sensor::isOver.slot},
+                                 {ProximitySensor, proximity_sensor::isActive.slot},
+                                 {ProximitySensor, proximity_sensor::enterTime.slot},
+                                 {ProximitySensor, proximity_sensor::exitTime.slot},
+                                 {ProximitySensor, proximity_sensor::position_changed.slot},
+                                 {ProximitySensor, proximity_sensor::orientation_changed.slot},
+                                 {VisibilitySensor, visibility_sensor::isActive.slot},
+                                 {VisibilitySensor, visibility_sensor::enterTime.slot},
+                                 {VisibilitySensor, visibility_sensor::exitTime.slot},
+                                 {TimeSensor, time_sensor::isActive.slot},
+                                 {TimeSensor, time_sensor::cycleTime.slot},
+                                 {TimeSensor, time_sensor::fraction_changed.slot}};
+  return std::ranges::any_of(rows, [&](const Row& r) { return r.slot == slot && scene.is(n, r.type); });
+}
+
+std::optional<Act> act_of(const Scene& scene, NodeId n, std::uint16_t slot) {
+  using namespace nodes;
+  using enum Act;
+  static constexpr Row rows[] = {{TimeSensor, time_sensor::startTime.slot, start},
+                                 {TimeSensor, time_sensor::stopTime.slot, stop},
+                                 {TimeSensor, time_sensor::enabled.slot, run_or_halt},
+                                 {TimeSensor, time_sensor::loop.slot, repeat},
+                                 {Switch, switch_::whichChoice.slot, choose},
+                                 {Transform, transform::translation.slot, move},
+                                 {Transform, transform::rotation.slot, move},
+                                 {Transform, transform::scale.slot, move},
+                                 {DirectionalLight, directional_light::on.slot, shine},
+                                 {PointLight, point_light::on.slot, shine},
+                                 {SpotLight, spot_light::on.slot, shine},
+                                 {Viewpoint, viewpoint::set_bind.slot, bind},
+                                 {TouchSensor, touch_sensor::enabled.slot, listen},
+                                 {ProximitySensor, proximity_sensor::enabled.slot, listen},
+                                 {VisibilitySensor, visibility_sensor::enabled.slot, listen},
+                                 {BooleanFilter, boolean_filter::set_boolean.slot, filter},
+                                 {BooleanToggle, boolean_toggle::set_boolean.slot, toggle},
+                                 {BooleanToggle, boolean_toggle::toggle.slot, set_toggle},
+                                 {BooleanTrigger, boolean_trigger::set_triggerTime.slot, trigger_true},
+                                 {IntegerTrigger, integer_trigger::set_boolean.slot, trigger_integer},
+                                 {TimeTrigger, time_trigger::set_boolean.slot, trigger_time},
+                                 {BooleanSequencer, boolean_sequencer::set_fraction.slot, at_fraction},
+                                 {BooleanSequencer, boolean_sequencer::next.slot, next},
+                                 {BooleanSequencer, boolean_sequencer::previous.slot, previous},
+                                 {IntegerSequencer, integer_sequencer::set_fraction.slot, at_fraction},
+                                 {IntegerSequencer, integer_sequencer::next.slot, next},
+                                 {IntegerSequencer, integer_sequencer::previous.slot, previous}};
+  for (const Row& r : rows)
+    if (r.slot == slot && scene.is(n, r.type)) return r.act;
+  return std::nullopt;
+}
+
+/// Nodes that make other events of those that reach them.
+bool passes_on(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::X3DTriggerNode) || scene.is(n, nodes::X3DSequencerNode) ||
+         scene.is(n, nodes::BooleanFilter) || scene.is(n, nodes::BooleanToggle);
+}
+
+std::optional<std::uint16_t> event_slot(const Scene& scene, NodeId n, std::string_view event) {
+  return scene.type(n).find(event, scene.dialect(), true);
+}
+
+FieldType field_type(const Scene& scene, NodeId n, std::uint16_t slot) { return scene.type(n).fields[slot].type; }
+
+/// Can that event be the beginning or a part of what the graph says?
+bool can_be_sent(const Scene& scene, NodeId n, std::uint16_t slot) {
+  return passes_on(scene, n) || happens(scene, n, slot);
+}
+
+}  // namespace
+
+Events::Events(const Scene& scene, const Motion& motion, bool on) : scene_(scene), on_(on) {
+  if (!on) return;
+  for (const Route& r : scene.main.routes) {
+    const auto out = event_slot(scene, r.from, r.event_out), in = event_slot(scene, r.to, r.event_in);
+    if (!out || !in || field_type(scene, r.from, *out) != field_type(scene, r.to, *in)) continue;
+    const auto act = act_of(scene, r.to, *in);
+    if (act && can_be_sent(scene, r.from, *out)) possible_.emplace(r.from.value, Possible{*out, {&r, r.to, *in, *act}});
+  }
+  find_useful(motion);
+  collect();
+}
+
+/// Backwards from what changes: an event that reaches such a node, or happens there, leads somewhere. Rings of ROUTEs
+/// do not.
+void Events::find_useful(const Motion& motion) {
+  std::multimap<std::uint32_t, std::uint32_t> before;
+  std::vector<std::uint32_t> todo(motion.clocks().begin(), motion.clocks().end());
+  for (const auto& [from, possible] : possible_) {
+    const NodeId to = possible.hop.to;
+    before.emplace(to.value, from);
+    if (!passes_on(scene_, to) && !scene_.is(to, nodes::TimeSensor)) todo.push_back(to.value);
+  }
+  while (!todo.empty()) {
+    const auto n = todo.back();
+    todo.pop_back();
+    if (!useful_.insert(n).second) continue;
+    for (auto [at, end] = before.equal_range(n); at != end; ++at) todo.push_back(at->second);
+  }
+}
+
+/// From every node that something happens to, along the ROUTEs that lead somewhere.
+void Events::collect() {
+  for (NodeId n : reachable(scene_, scene_.main)) {
+    const bool anchor = scene_.is(n, nodes::Anchor) && !scene_.get(n, nodes::anchor::url).empty();
+    const bool sensor = !passes_on(scene_, n) && possible_.contains(n.value);
+    if (!anchor && !scene_.is(n, nodes::TimeSensor) && !sensor) continue;
+    if (!anchor && !useful_.contains(n.value)) continue;
+    sources_.push_back(n);
+    spread(n);
+  }
+  std::ranges::sort(sources_, {}, &NodeId::value);
+}
+
+/// Everything that follows from what happens to a node.
+void Events::spread(NodeId source) {
+  std::vector<NodeId> todo{source};
+  while (!todo.empty()) {
+    const NodeId n = todo.back();
+    todo.pop_back();
+    for (auto [at, end] = possible_.equal_range(n.value); at != end; ++at) {
+      const auto& [slot, hop] = at->second;
+      if (!useful_.contains(hop.to.value) || !said_.insert(hop.route).second) continue;
+      hops_[{n.value, slot}].push_back(hop);
+      set_.insert({hop.to.value, hop.slot});
+      todo.push_back(hop.to);
+    }
+  }
+}
+
+std::span<const Events::Hop> Events::from(NodeId n, Slot s) const {
+  const auto at = hops_.find({n.value, s});
+  return at == hops_.end() ? std::span<const Hop>() : at->second;
+}
+
+bool Events::sets(NodeId n, std::string_view field) const {
+  const auto slot = scene_.type(n).find(field, Dialect::x3d);
+  return slot && sets(n, *slot);
+}
+
+void Events::report(const Scene& scene, const Motion& motion, Diagnostics& diag) const {
+  if (!on_) return;
+  std::set<std::pair<std::string_view, std::string_view>> told;  // types and events
+  for (const Route& r : scene.main.routes) {
+    if (says(r) || motion.says(r)) continue;
+    const auto slot = event_slot(scene, r.from, r.event_out);
+    const bool sent = slot && can_be_sent(scene, r.from, *slot);
+    const NodeId n = sent ? r.to : r.from;
+    const auto type = scene.type(n).name, event = sent ? r.event_in : r.event_out;
+    if (told.emplace(type, event).second) diag.report(Diag::no_gltf_value, scene.where(n), type, event);
+  }
+}
+
+}  // namespace wrlkit::gltf

@@ -1,0 +1,93 @@
+#include "writers/gltf/interactivity/targets.h"
+
+#include "scenegraph/nodes.h"
+#include "writers/gltf/document/hierarchy.h"
+#include "writers/gltf/number.h"
+
+namespace wrlkit::gltf {
+namespace {
+
+using Type = Graph::Type;
+
+std::string node_pointer(std::uint32_t node, std::string_view property) {
+  return "/nodes/" + std::to_string(node) + "/" + std::string(property);
+}
+
+std::optional<Path> path_of(std::uint16_t slot) {
+  using namespace nodes::transform;
+  if (slot == translation.slot) return Path::translation;
+  if (slot == rotation.slot) return Path::rotation;
+  if (slot == scale.slot) return Path::scale;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Targets::Targets(const Scene& scene, const Document& document, const Animations& animations, Graph& graph)
+    : scene_(scene), document_(document), animations_(animations), graph_(graph) {
+  const Family family = family_of(document);
+  for (std::uint32_t id = 0; id < document.nodes.size(); ++id) {
+    const auto above = family.parent[id];
+    if (document.nodes[id].choice != none && above != none && document.nodes[above].source)
+      chosen_[document.nodes[above].source.value].push_back(id);
+  }
+}
+
+void Targets::choose(Graph::Flow at, NodeId n, const Graph::Value& choice) {
+  for (auto id : chosen_[n.value]) {
+    const auto index = Graph::value(static_cast<std::int32_t>(document_.nodes[id].choice));
+    const bool known = !choice.constant.empty();
+    const auto shown = known ? Graph::value(choice.constant == index.constant)
+                             : graph_.compute("math/eq", Type::boolean, {{"a", choice}, {"b", index}});
+    graph_.set_property(at, node_pointer(id, "extensions/KHR_node_visibility/visible"), shown);
+  }
+}
+
+void Targets::move(Graph::Flow at, NodeId n, std::uint16_t slot, const Graph::Value& value) {
+  const auto path = path_of(slot);
+  if (!path) return;
+  for (auto id : animations_.targets(n, *path)) {
+    const Vec3 offset = *path == Path::translation ? offset_of(document_, scene_, id) : Vec3{0, 0, 0};
+    const auto there = offset == Vec3{0, 0, 0}
+                           ? value
+                           : graph_.compute("math/add", Type::vec3, {{"a", value}, {"b", Graph::value(offset)}});
+    graph_.set_property(at, node_pointer(id, name_of(*path)), there);
+  }
+}
+
+void Targets::shine(Graph::Flow at, NodeId n, const Graph::Value& on) {
+  for (std::size_t i = 0; i < document_.lights.size(); ++i) {
+    const Light& light = document_.lights[i];
+    if (light.source != n) continue;
+    const double full = to_float(read_light(scene_, n).intensity * full_intensity(scene_, light, document_.world));
+    const auto intensity = graph_.compute("math/select", Type::number,
+                                          {{"condition", on}, {"a", Graph::value(full)}, {"b", Graph::value(0.0)}});
+    graph_.set_property(at, "/extensions/KHR_lights_punctual/lights/" + std::to_string(i) + "/intensity", intensity);
+  }
+}
+
+void Targets::bind(Graph::Flow at, NodeId n, const Graph::Value& bound) {
+  send(graph_.branch(std::move(at), bound).yes, n, "viewpoint:" + std::string(camera_name(scene_, n)));
+}
+
+void Targets::open(Graph::Flow at, NodeId anchor) {
+  const auto urls = scene_.get(anchor, nodes::anchor::url);
+  const std::string_view url = urls[0];
+  const bool inside = url.starts_with('#');
+  send(std::move(at), anchor, (inside ? "viewpoint:" : "open:") + std::string(inside ? url.substr(1) : url));
+}
+
+void Targets::send(Graph::Flow at, NodeId from, const std::string& event) {
+  if (!at) return;
+  graph_.send(at, graph_.custom_event(event));
+  sent_.try_emplace(scene_.type(from).name, Sent{from, event});
+}
+
+void Targets::report(Diagnostics& diag) const {
+  for (const auto& [type, sent] : sent_)
+    diag.report(Diag::no_gltf_value, scene_.where(sent.first), type,
+                std::string(scene_.is(sent.first, nodes::Anchor) ? "url" : "set_bind") + ", other than as the event '" +
+                    sent.event + "' to the viewer,");
+}
+
+}  // namespace wrlkit::gltf
