@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads PNG with only zlib, so that pictures are not judged by the code that wrote them.
+"""Reads and writes PNG with only zlib, so that pictures are not judged by the code that wrote them.
 
   tests/png.py PICTURE...      of each the mean of each channel, in tens, and how many colours there are
 """
@@ -35,6 +35,16 @@ def pixels(path):
             row[i] = (row[i] + add) & 255
         out.append(bytes(row))
     return step, b''.join(out)
+
+
+def write(path, width, rgb):
+    """Rows of 8-bit RGB, from the top."""
+    def chunk(kind, body):
+        return struct.pack('>I', len(body)) + kind + body + struct.pack('>I', zlib.crc32(kind + body))
+    row = 3 * width
+    lines = b''.join(b'\0' + rgb[i:i + row] for i in range(0, len(rgb), row))
+    header = struct.pack('>IIBBBBB', width, len(rgb) // row, 8, 2, 0, 0, 0)
+    path.write_bytes(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', header) + chunk(b'IDAT', zlib.compress(lines)) + chunk(b'IEND', b''))
 
 
 def main():

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Baked light of rooms beside path-traced pictures of them: how far they differ, and sheets to look at.
+
+  bench/interiors.py --wrlkit build/release/wrlkit -o FOLDER [NAME ...] [--qualities draft,normal]
+
+Each room is drawn from one place: path-traced, and as `render` shows it with its light baked. Of the two pictures, in 255ths: the mean difference of
+all channels, the 99th percentile of the largest difference of a pixel's channels, and the Shape whose mean colour differs most, of those
+that cover at least 0.2 % of the picture. Path-traced pictures are kept in FOLDER, as they take longest. FOLDER/NAME.png shows path-traced,
+baked normal, baked draft, and FOLDER/table.md has the figures. `--limits` ends with 1 where a room is farther off than docs/lighting.md says.
+"""
+import argparse
+import os
+from pathlib import Path
+import re
+import resource
+import subprocess
+import sys
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / 'tests'))
+from png import pixels, write  # noqa: E402
+
+FOUND = Path(os.environ.get('WRLKIT_SHARED', '../shared'), 'corpus')
+LIMITS = {'mean': 2, 'p99': 12, 'shape': 10}
+SMALLEST = 0.002  # of the picture: Shapes that cover less are not judged by themselves
+
+
+class Room:
+    def __init__(self, name, world, *camera, options=''):
+        self.name, self.camera, self.options = name, list(camera), options
+        own = world.startswith('corpus/')
+        self.file = Path(world) if own else FOUND / world
+
+
+def view(name):
+    return ['--viewpoint', name]
+
+
+def look(text):
+    return ['--look-at', *text.split(), '--field-of-view', '65']
+
+
+HOUSE, OTHER_HOUSE = 'worlds/junjihashimoto/house.wrl', 'worlds/openhrp3/house/house.main.wrl'
+BOOK = 'vrml97/vrml2-sourcebook/Chapter25LevelOfDetail/'
+ROOMS = [  # found ones, chosen by eye; then our own
+    Room('living-room', HOUSE, *view('Woonkamer')),
+    Room('kitchen', HOUSE, *view('Keuken')),
+    Room('bedroom', HOUSE, *view('Ouderslaapkamer')),
+    Room('bathroom', HOUSE, *view('Badkamer')),
+    Room('attic', HOUSE, *view('op zolder')),
+    Room('parlour', OTHER_HOUSE, *look('2 0 1.5 8 3 1.2 0 0 1')),
+    Room('curtains', OTHER_HOUSE, *look('0 -3 1.5 -6 -8 1.2 0 0 1')),
+    Room('office', 'vrml1/castle-demo-models/lights_materials/raytracer/office.wrl', *look('1.9 2.8 1.9 -1 1.8 -1 0 1 0')),
+    Room('dungeon', BOOK + 'Figure25_08DungeonRoom.wrl'),
+    Room('sliding-doors', BOOK + 'Figure25_12DungeonRoomsWithSlidingDoors.wrl'),
+    Room('projector-room', 'vrml97/castle-demo-models/shadow_maps/projector_room.wrl'),
+    Room('tower-yard', 'worlds/castle-game/levels/tower/basic_castle.wrl', *look('0 -100 20 0 100 0 0 0 1')),
+    Room('stairs', 'corpus/paper/stairs_room.wrl'),
+    Room('pump-room', 'corpus/plant/pump_room_faces.wrl'),
+    Room('pipes', 'corpus/paper/pipes.wrl'),
+]
+
+
+def run(*command):
+    """What it printed, and its CPU seconds."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    result = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if result.returncode > 1:
+        raise RuntimeError(f'{" ".join(map(str, command))}: {result.stderr[-400:]}')
+    return result.stdout + result.stderr, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def rows_beside(pictures, width):
+    """Pictures of one size from left to right."""
+    step = 3 * width
+    return b''.join(p[i:i + step] for i in range(0, len(pictures[0]), step) for p in pictures)
+
+
+def difference(a, b, shapes):
+    """Mean of all channels, 99th percentile of pixels by their worst channel, and the Shape whose mean is farthest off: by how much, its pixels."""
+    apart = [abs(x - y) for x, y in zip(a, b)]
+    pixel = sorted(max(apart[i:i + 3]) for i in range(0, len(apart), 3))
+    sums = {}
+    for i in range(0, len(apart), 3):
+        if shapes[i:i + 3] == b'\0\0\0':
+            continue
+        s = sums.setdefault(shapes[i:i + 3], [0, 0, 0, 0])
+        s[3] += 1
+        for c in range(3):
+            s[c] += b[i + c] - a[i + c]
+    large = [(max(abs(s[c]) for c in range(3)) / s[3], s[3]) for s in sums.values() if s[3] >= SMALLEST * len(pixel)]
+    return {'mean': sum(apart) / len(apart), 'p99': pixel[int(0.99 * len(pixel))], 'shape': max(large, default=(0, 0))[0]}
+
+
+class Studio:
+    def __init__(self, options):
+        self.wrlkit, self.folder = options.wrlkit, Path(options.output)
+        self.width, self.height, self.samples = options.width, options.height, options.samples
+        self.qualities = options.qualities.split(',')
+
+    def draw(self, world, room, name, *more, keep=False):
+        out = self.folder / f'{room.name}_{name}.png'
+        if not (keep and out.exists()):
+            run(self.wrlkit, 'render', '-q', world, out, '--width', self.width, '--height', self.height, *room.camera, *more)
+        return pixels(out)[1]
+
+    def figures(self, room):
+        """A row for each quality; a sheet."""
+        path = self.draw(room.file, room, f'path_{self.width}_{self.samples}', '--mode', 'path', '--samples', self.samples, keep=True)
+        shapes = self.draw(room.file, room, 'shapes', '--mode', 'shapes', '--samples', 1)
+        rows, sheet = [], [path]
+        for quality in self.qualities:
+            baked = self.folder / f'{room.name}_{quality}.glb'
+            how = f'expand,lightmap{{quality={quality}{room.options}}}'
+            said, seconds = run(self.wrlkit, 'convert', room.file, baked, '-p', how, '--stats')
+            picture = self.draw(baked, room, quality)
+            counts = {k: int(v) for v, k in re.findall(r'(\d+)\s+lightmap\.(\S+)', said)}
+            rows.append({'room': room.name, 'quality': quality, **difference(path, picture, shapes), 'cpu': seconds, 'bytes': baked.stat().st_size, **counts})
+            sheet.append(picture)
+        write(self.folder / f'{room.name}.png', len(sheet) * self.width, rows_beside(sheet, self.width))
+        return rows
+
+
+COLUMNS = ['mean', 'p99', 'shape', 'cpu', 'bytes', 'leaks', 'holes', 'black', 'jumps', 'texels']
+
+
+def text(row):
+    numbers = (f'{row.get(c, 0):.2f}' if isinstance(row.get(c), float) else str(row.get(c, 0)) for c in COLUMNS)
+    return f'| {row["room"]} | {row["quality"]} | ' + ' | '.join(numbers) + ' |'
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--wrlkit', required=True)
+    parser.add_argument('-o', '--output', required=True)
+    parser.add_argument('--qualities', default='normal,draft')
+    parser.add_argument('--width', type=int, default=240)
+    parser.add_argument('--height', type=int, default=180)
+    parser.add_argument('--samples', type=int, default=12, help='along each side of a pixel, path-traced')
+    parser.add_argument('--limits', action='store_true')
+    parser.add_argument('names', nargs='*', help='rooms; all')
+    options = parser.parse_args()
+    Path(options.output).mkdir(parents=True, exist_ok=True)
+    studio, off = Studio(options), 0
+    lines = ['| room | quality | ' + ' | '.join(COLUMNS) + ' |', '|---' * (len(COLUMNS) + 2) + '|']
+    for room in ROOMS:
+        if options.names and room.name not in options.names:
+            continue
+        if not room.file.exists():
+            print(f'skipped: there is no {room.file}')
+            continue
+        for row in studio.figures(room):
+            lines.append(text(row))
+            print(lines[-1], flush=True)
+            off += row['quality'] == 'normal' and any(row[k] > most for k, most in LIMITS.items())
+    Path(options.output, 'table.md').write_text('\n'.join(lines) + '\n')
+    return 1 if options.limits and off else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
