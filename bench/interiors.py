@@ -9,10 +9,13 @@ that cover at least 0.2 % of the picture. Path-traced pictures are kept in FOLDE
 baked normal, baked draft, and FOLDER/table.md has the figures. `--limits` ends with 1 where a room is farther off than docs/lighting.md says.
 """
 import argparse
+import copy
+import json
 import os
 from pathlib import Path
 import re
 import resource
+import struct
 import subprocess
 import sys
 
@@ -70,6 +73,41 @@ def run(*command):
     return result.stdout + result.stderr, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+def color_of_number(n):
+    """One of 2^24: neighbours differ, no two are alike, none is black."""
+    mixed = (n + 1) * 0x9e3779 & 0xffffff
+    return [mixed >> shift & 255 for shift in (16, 8, 0)]
+
+
+def to_linear(byte):
+    v = byte / 255
+    return v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4
+
+
+def number_shapes(source, to):
+    """A .glb whose Shapes shine, each place of one in a colour of its own."""
+    data = source.read_bytes()
+    size = struct.unpack_from('<I', data, 12)[0]
+    gltf, rest = json.loads(data[20:20 + size]), data[20 + size:]
+    meshes, materials = [], []
+    for node in gltf.get('nodes', []):
+        if 'mesh' not in node:
+            continue
+        mesh = copy.deepcopy(gltf['meshes'][node['mesh']])
+        node['mesh'] = len(meshes)
+        for primitive in mesh['primitives']:
+            primitive['material'] = len(materials)
+            primitive['attributes'].pop('COLOR_0', None)
+        factor = [to_linear(v) for v in color_of_number(len(materials))] + [1]
+        materials.append({'pbrMetallicRoughness': {'baseColorFactor': factor}, 'doubleSided': True, 'extensions': {'KHR_materials_unlit': {}}})
+        meshes.append(mesh)
+    gltf.update(meshes=meshes, materials=materials)
+    gltf['extensionsUsed'] = sorted({*gltf.get('extensionsUsed', []), 'KHR_materials_unlit'})
+    text = json.dumps(gltf).encode()
+    text += b' ' * (-len(text) % 4)
+    to.write_bytes(struct.pack('<4sIIII', b'glTF', 2, 20 + len(text) + len(rest), len(text), 0x4e4f534a) + text + rest)
+
+
 def rows_beside(pictures, width):
     """Pictures of one size from left to right."""
     step = 3 * width
@@ -107,7 +145,10 @@ class Studio:
     def figures(self, room):
         """A row for each quality; a sheet."""
         path = self.draw(room.file, room, f'path_{self.width}_{self.samples}', '--mode', 'path', '--samples', self.samples, keep=True)
-        shapes = self.draw(room.file, room, 'shapes', '--mode', 'shapes', '--samples', 1)
+        plain, numbered = self.folder / f'{room.name}_plain.glb', self.folder / f'{room.name}_shapes.glb'
+        run(self.wrlkit, 'convert', '-q', room.file, plain)
+        number_shapes(plain, numbered)
+        shapes = self.draw(numbered, room, 'shapes', '--samples', 1, '--background', '0 0 0')
         rows, sheet = [], [path]
         for quality in self.qualities:
             baked = self.folder / f'{room.name}_{quality}.glb'

@@ -19,16 +19,6 @@ V3 ramp(double t) {
   return mix(colors[i], colors[i + 1], x - i);
 }
 
-/// One of 2^24 colours. The factor is odd, so no two numbers share one, and neighbours differ; background is 0.
-V3 color_of_number(std::uint32_t use) {
-  constexpr std::uint32_t factor = 0x9e3779, mask = 0xffffff;
-  const std::uint32_t mixed = (use + 1) * factor & mask;
-  auto channel = [&](int shift) {
-    return static_cast<double>(mixed >> shift & 0xff) / 0xff;
-  };
-  return {channel(16), channel(8), channel(0)};
-}
-
 bool is_dark(double x, double y) {
   auto parity = [](double v) { return static_cast<std::int64_t>(std::floor(v)) & 1; };
   return parity(x) != parity(y);
@@ -40,7 +30,6 @@ V3 Inspector::color(double px, double py) const {
   Ray ray{camera_.eye, camera_.direction(px, py)};
   Hit hit;
   if (!tracer_.nearest(ray, 0, hit)) return background_;
-  if (mode_ == RenderOptions::Mode::shapes) return color_of_number(hit.use);
   if (drawing_.meshes[drawing_.mesh_of[hit.use]].kind != Mesh::Kind::faces) return paper;
   Spot spot = spot_at(drawing_, ray, hit);
   double area = length(spot.face), facing = area > 0 ? std::fabs(dot(spot.face, ray.direction)) / area : 1;
@@ -72,7 +61,6 @@ V3 Inspector::light(const Hit& hit, double area, double facing) const {
                   std::log2(most_texels_per_metre));
     case RenderOptions::Mode::lightmap:
     case RenderOptions::Mode::albedo:
-    case RenderOptions::Mode::shapes:
     case RenderOptions::Mode::preview:
     case RenderOptions::Mode::path:
     case RenderOptions::Mode::wireframe:

@@ -1,5 +1,5 @@
-// Pictures for who judges a lightmap: the light alone, its texels as a checkerboard, how many of them a metre has, the
-// colours of surfaces without any light, and which Shape is seen where.
+// Pictures for who judges a lightmap: the light alone, its texels as a checkerboard, how many of them a metre has, and
+// the colours of surfaces without any light.
 #pragma once
 #include "light/render/camera.h"
 #include "light/render/render.h"

@@ -31,10 +31,9 @@ struct RenderOptions {
   /// preview: what a browser shows, and baked light where there is some. wireframe: grey surfaces with the edges of
   /// their triangles, hidden lines removed. lightmap: the baked light alone. checker: its texels, alternately dark and
   /// light. density: texels a metre, from blue (1) by green (32) to red (1024). albedo: surfaces without any light.
-  /// shapes: each place of a Shape in a colour that no other has.
   /// path: with shadows and reflected light, by path tracing (light/path_picture.h); noise falls with `samples`,
   /// the headlight is off, and there are no lines and points.
-  enum class Mode : std::uint8_t { preview, wireframe, lightmap, checker, density, albedo, shapes, path };
+  enum class Mode : std::uint8_t { preview, wireframe, lightmap, checker, density, albedo, path };
 
   int width = 1280, height = 960;
   int samples =
@@ -65,7 +64,6 @@ inline constexpr auto choices<RenderOptions::Mode> =
                 {"checker", "their texels as a checker"},
                 {"density", "their texels a metre"},
                 {"albedo", "without light"},
-                {"shapes", "each Shape in a colour of its own"},
                 {"path", "with shadows and reflected light, as noisy as --samples are few"}});
 
 /// Draws the scene. `resources` gives the pictures of textures; without it, or where one cannot be read, the material
