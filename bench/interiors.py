@@ -3,8 +3,8 @@
 
   bench/interiors.py --wrlkit build/release/wrlkit -o FOLDER [NAME ...] [--qualities draft,normal]
 
-Each room is drawn from one place: path-traced, and as `render` shows it with its light baked. Of the two pictures, in 255ths: the mean difference of
-all channels, the 99th percentile of the largest difference of a pixel's channels, and the Shape whose mean colour differs most, of those
+Each room is drawn from one place: path-traced, and as `render` shows it with its light baked. Of the two pictures, in 255ths, squares of 4 x 4 pixels
+together, as few paths are noisy: the mean difference of all channels, the 99th percentile of the largest of a square's channels, and the Shape whose mean colour differs most, of those
 that cover at least 0.2 % of the picture. Path-traced pictures are kept in FOLDER, as they take longest. FOLDER/NAME.png shows path-traced,
 baked normal, baked draft, and FOLDER/table.md has the figures. `--limits` ends with 1 where a room is farther off than docs/lighting.md says.
 """
@@ -24,6 +24,7 @@ from png import pixels, write  # noqa: E402
 
 FOUND = Path(os.environ.get('WRLKIT_SHARED', '../shared'), 'corpus')
 LIMITS = {'mean': 2, 'p99': 12, 'shape': 10}
+BLOCK = 4  # pixels along each side that are judged together: the noise of few paths is not the fault of a bake
 SMALLEST = 0.002  # of the picture: Shapes that cover less are not judged by themselves
 
 
@@ -114,20 +115,32 @@ def rows_beside(pictures, width):
     return b''.join(p[i:i + step] for i in range(0, len(pictures[0]), step) for p in pictures)
 
 
-def difference(a, b, shapes):
-    """Mean of all channels, 99th percentile of pixels by their worst channel, and the Shape whose mean is farthest off: by how much, its pixels."""
-    apart = [abs(x - y) for x, y in zip(a, b)]
-    pixel = sorted(max(apart[i:i + 3]) for i in range(0, len(apart), 3))
+def blocks(picture, width):
+    """Means of squares of BLOCK pixels, three channels each."""
+    sums = [0] * (len(picture) // BLOCK ** 2)
+    per_row = width // BLOCK
+    for i in range(0, len(picture), 3):
+        y, x = divmod(i // 3, width)
+        at = 3 * (y // BLOCK * per_row + x // BLOCK)
+        for c in range(3):
+            sums[at + c] += picture[i + c]
+    return [v / BLOCK ** 2 for v in sums]
+
+
+def difference(a, b, shapes, width):
+    """Of blocks the mean of all channels and the 99th percentile of their worst channels; by how much the mean of the farthest Shape is off."""
+    apart = [abs(x - y) for x, y in zip(blocks(a, width), blocks(b, width))]
+    block = sorted(max(apart[i:i + 3]) for i in range(0, len(apart), 3))
     sums = {}
-    for i in range(0, len(apart), 3):
+    for i in range(0, len(a), 3):
         if shapes[i:i + 3] == b'\0\0\0':
             continue
         s = sums.setdefault(shapes[i:i + 3], [0, 0, 0, 0])
         s[3] += 1
         for c in range(3):
             s[c] += b[i + c] - a[i + c]
-    large = [(max(abs(s[c]) for c in range(3)) / s[3], s[3]) for s in sums.values() if s[3] >= SMALLEST * len(pixel)]
-    return {'mean': sum(apart) / len(apart), 'p99': pixel[int(0.99 * len(pixel))], 'shape': max(large, default=(0, 0))[0]}
+    large = [(max(abs(s[c]) for c in range(3)) / s[3], s[3]) for s in sums.values() if s[3] >= SMALLEST * len(a) / 3]
+    return {'mean': sum(apart) / len(apart), 'p99': block[int(0.99 * len(block))], 'shape': max(large, default=(0, 0))[0]}
 
 
 class Studio:
@@ -135,6 +148,7 @@ class Studio:
         self.wrlkit, self.folder = options.wrlkit, Path(options.output)
         self.width, self.height, self.samples = options.width, options.height, options.samples
         self.qualities = options.qualities.split(',')
+        self.bakes = {}  # by world and quality: several rooms are in one house
 
     def draw(self, world, room, name, *more, keep=False):
         out = self.folder / f'{room.name}_{name}.png'
@@ -142,21 +156,28 @@ class Studio:
             run(self.wrlkit, 'render', '-q', world, out, '--width', self.width, '--height', self.height, *room.camera, *more)
         return pixels(out)[1]
 
+    def bake(self, room, quality):
+        """The baked world, CPU seconds, what the pass counted."""
+        key = (room.file, room.options, quality)
+        if key not in self.bakes:
+            out = self.folder / f'{room.name}_{quality}.glb'
+            how = f'expand,lightmap{{quality={quality}{room.options}}}'
+            said, seconds = run(self.wrlkit, 'convert', room.file, out, '-p', how, '--stats')
+            self.bakes[key] = out, seconds, {k: int(v) for v, k in re.findall(r'(\d+)\s+lightmap\.(\S+)', said)}
+        return self.bakes[key]
+
     def figures(self, room):
         """A row for each quality; a sheet."""
         path = self.draw(room.file, room, f'path_{self.width}_{self.samples}', '--mode', 'path', '--samples', self.samples, keep=True)
         plain, numbered = self.folder / f'{room.name}_plain.glb', self.folder / f'{room.name}_shapes.glb'
         run(self.wrlkit, 'convert', '-q', room.file, plain)
         number_shapes(plain, numbered)
-        shapes = self.draw(numbered, room, 'shapes', '--samples', 1, '--background', '0 0 0')
+        shapes = self.draw(numbered, room, 'shapes', '--samples', 1, '--background', 0, 0, 0)
         rows, sheet = [], [path]
         for quality in self.qualities:
-            baked = self.folder / f'{room.name}_{quality}.glb'
-            how = f'expand,lightmap{{quality={quality}{room.options}}}'
-            said, seconds = run(self.wrlkit, 'convert', room.file, baked, '-p', how, '--stats')
+            baked, seconds, counts = self.bake(room, quality)
             picture = self.draw(baked, room, quality)
-            counts = {k: int(v) for v, k in re.findall(r'(\d+)\s+lightmap\.(\S+)', said)}
-            rows.append({'room': room.name, 'quality': quality, **difference(path, picture, shapes), 'cpu': seconds, 'bytes': baked.stat().st_size, **counts})
+            rows.append({'room': room.name, 'quality': quality, **difference(path, picture, shapes, self.width), 'cpu': seconds, 'bytes': baked.stat().st_size, **counts})
             sheet.append(picture)
         write(self.folder / f'{room.name}.png', len(sheet) * self.width, rows_beside(sheet, self.width))
         return rows
@@ -175,9 +196,9 @@ def main():
     parser.add_argument('--wrlkit', required=True)
     parser.add_argument('-o', '--output', required=True)
     parser.add_argument('--qualities', default='normal,draft')
-    parser.add_argument('--width', type=int, default=240)
-    parser.add_argument('--height', type=int, default=180)
-    parser.add_argument('--samples', type=int, default=12, help='along each side of a pixel, path-traced')
+    parser.add_argument('--width', type=int, default=320)
+    parser.add_argument('--height', type=int, default=240)
+    parser.add_argument('--samples', type=int, default=4, help='along each side of a pixel, path-traced')
     parser.add_argument('--limits', action='store_true')
     parser.add_argument('names', nargs='*', help='rooms; all')
     options = parser.parse_args()
