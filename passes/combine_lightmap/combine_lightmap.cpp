@@ -223,8 +223,7 @@ bool Combining::color_corners(const LitShape& shape, std::size_t n_shapes) {
   if (mesh.corners.empty()) return false;
   auto colors = fit_vertex_colors(surface, mesh);
   if (!colors) return false;
-  if (options_.into == CombineTarget::automatic &&
-      !is_worth_it(*colors, surface, mesh, n_shapes, options_.tolerance))
+  if (options_.into == CombineTarget::automatic && !is_worth_it(*colors, surface, mesh, n_shapes, options_.tolerance))
     return false;
   shown_.push_back({shape.shape, shape.appearance, geometries_.size(), NodeId{}});
   geometries_.push_back({shape.geometry, {}, std::move(colors->of_place)});

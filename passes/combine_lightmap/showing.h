@@ -15,14 +15,14 @@ namespace wrlkit::combine {
 /// Geometry that gets places; several of one node, where its Shapes have different ones.
 struct ShownGeometry {
   NodeId node;
-  std::vector<double> places = {};             // by place of the light; empty: as those are
+  std::vector<double> places = {};                 // by place of the light; empty: as those are
   std::vector<std::array<double, 3>> colors = {};  // by place of the light: instead of a texture; empty: none
 };
 
 struct ShownShape {
   NodeId shape, appearance;
-  std::size_t geometry;  // of those above
-  NodeId texture;        // none: the geometry has colours
+  std::size_t geometry;                       // of those above
+  NodeId texture;                             // none: the geometry has colours
   std::optional<TexcoordMap> transform = {};  // of the places
   bool as_light = false;                      // the transform is that of the light
 };

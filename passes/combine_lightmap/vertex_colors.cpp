@@ -82,7 +82,8 @@ class Sampler {
 };
 
 /// What is shown at the corners themselves.
-Colors at_corners(const std::vector<PageTriangle>& triangles, const std::vector<Painted>& painted, std::size_t n_places) {
+Colors at_corners(const std::vector<PageTriangle>& triangles, const std::vector<Painted>& painted,
+                  std::size_t n_places) {
   Colors out(n_places);
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -106,12 +107,12 @@ class Fit {
   /// Conjugate gradients, preconditioned by the diagonal.
   Colors solve(const Colors& start) const {
     constexpr int steps = 24;
-    Colors change(start.size()), residual = times_transposed([&](const Sample& s) {
-      Color out = s.color;
-      const Color now = s.mixed(start);
-      for (std::size_t c = 0; c < 3; ++c) out[c] -= now[c];
-      return out;
-    });
+    Colors change(start.size()), residual = times_transposed([&](const Sample&s) {
+                                   Color out = s.color;
+                                   const Color now = s.mixed(start);
+                                   for (std::size_t c = 0; c < 3; ++c) out[c] -= now[c];
+                                   return out;
+                                 });
     Colors scaled = preconditioned(residual), direction = scaled;
     Color square = dot(residual, scaled);
     for (int i = 0; i < steps && largest(square) > tiny; ++i) {
@@ -222,8 +223,8 @@ bool is_worth_it(const VertexColors& colors, const drawing::Surface& surface, co
                  double tolerance) {
   constexpr double of_color = 4, of_coordinates = 8, of_point = 12, of_corner = 2, of_texel = 1;  // bytes in a file
   const auto n = static_cast<double>(n_shapes), n_places = static_cast<double>(colors.of_place.size());
-  const double own = of_point * static_cast<double>(mesh.n_positions()) +
-                     of_corner * static_cast<double>(mesh.corners.size());
+  const double own =
+      of_point * static_cast<double>(mesh.n_positions()) + of_corner * static_cast<double>(mesh.corners.size());
   const double with_colors = of_color * n_places + (n - 1) / n * own;
   const double with_texels = of_coordinates * n_places / n + of_texel * texels_of(surface, mesh);
   constexpr double frequent = 4;  // as is_within() has it

@@ -16,8 +16,8 @@ struct VertexColors {
 };
 
 /// Of all the colours that can be given to the corners, those whose mixtures over the triangles come nearest to what
-/// the surface shows at the texels of its light (least squares); where no texel lies, what is shown there. Nothing where
-/// triangles overlap so much that it would take too long. O(texels of the boxes of the triangles).
+/// the surface shows at the texels of its light (least squares); where no texel lies, what is shown there. Nothing
+/// where triangles overlap so much that it would take too long. O(texels of the boxes of the triangles).
 std::optional<VertexColors> fit_vertex_colors(const drawing::Surface& surface, const Mesh& mesh);
 
 /// They show no less than texels, for their bytes: error times bytes is less than `tolerance`, which texels have, times

@@ -321,7 +321,7 @@ class Rounds {
                                  const light::Integrator::Round& round) {
     auto ask = [&](std::uint64_t half, std::uint32_t share) {
       const auto light = integrators_[half].irradiance(points, number + (half << 48),
-                                                 {round.first / share, round.rays / int(share), from.numbers()});
+                                                       {round.first / share, round.rays / int(share), from.numbers()});
       for (const auto& l : light) ctx_.stats["lightmap.rays"] += l.rays;
       return from.gather(light);
     };

@@ -39,7 +39,9 @@ struct Noted final : Monitor {
   std::vector<std::pair<std::string, std::uint64_t>> begun;
   std::uint64_t steps = 0;
 
-  void begin(std::string what, std::uint64_t total, std::string) override { begun.emplace_back(std::move(what), total); }
+  void begin(std::string what, std::uint64_t total, std::string) override {
+    begun.emplace_back(std::move(what), total);
+  }
   void step(std::uint64_t n) override { steps += n; }
 };
 
@@ -76,8 +78,8 @@ TEST_CASE("bake: where nothing fits the time, the least is done", "[bake][budget
 }
 
 TEST_CASE("bake: what a time budget has chosen gives the same bytes again", "[bake][budget]") {
-  const std::string room = "PointLight { location 0 1 0 } DEF Floor Shape { " + material(0.5) + " geometry " +
-                           floor_of_4 + " }";
+  const std::string room =
+      "PointLight { location 0 1 0 } DEF Floor Shape { " + material(0.5) + " geometry " + floor_of_4 + " }";
   Baked timed(room, "budget=1s");
   const std::string start = "lightmap budget ";
   std::string same;
