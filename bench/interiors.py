@@ -4,7 +4,7 @@
   bench/interiors.py --wrlkit build/release/wrlkit -o FOLDER [NAME ...] [--qualities draft,normal]
 
 Each room is drawn from one place: path-traced, and as `render` shows it with its light baked. Of the two pictures, in 255ths, squares of 4 x 4 pixels
-together, as few paths are noisy: the mean difference of all channels, the 99th percentile of the largest of a square's channels, and the Shape whose mean colour differs most, of those
+together, as few paths are noisy: the mean difference of all channels, the 99th percentile of the largest of a square's channels, and, within its edges, the Shape whose mean colour differs most, of those
 that cover at least 0.2 % of the picture. Path-traced pictures are kept in FOLDER, as they take longest. FOLDER/NAME.png shows path-traced,
 baked normal, baked draft, and FOLDER/table.md has the figures. `--limits` ends with 1 where a room is farther off than docs/lighting.md says.
 """
@@ -115,32 +115,48 @@ def rows_beside(pictures, width):
     return b''.join(p[i:i + step] for i in range(0, len(pictures[0]), step) for p in pictures)
 
 
+LINEAR = [to_linear(v) for v in range(256)]
+
+
+def to_display(light):
+    return 255 * (12.92 * light if light <= 0.0031308 else 1.055 * light ** (1 / 2.4) - 0.055)
+
+
 def blocks(picture, width):
-    """Means of squares of BLOCK pixels, three channels each."""
+    """Squares of BLOCK pixels, three channels each: the mean of their light, as it is displayed. That of what is displayed is too dark where there is noise."""
     sums = [0] * (len(picture) // BLOCK ** 2)
     per_row = width // BLOCK
     for i in range(0, len(picture), 3):
         y, x = divmod(i // 3, width)
         at = 3 * (y // BLOCK * per_row + x // BLOCK)
         for c in range(3):
-            sums[at + c] += picture[i + c]
-    return [v / BLOCK ** 2 for v in sums]
+            sums[at + c] += LINEAR[picture[i + c]]
+    return [to_display(v / BLOCK ** 2) for v in sums]
+
+
+def within_shapes(shapes, width):
+    """Pixels whose neighbours show the same Shape: at edges pictures differ in how they mix what is on both sides."""
+    row = 3 * width
+    for i in range(row, len(shapes) - row, 3):
+        mine = shapes[i:i + 3]
+        if mine != b'\0\0\0' and all(shapes[k:k + 3] == mine for k in (i - 3, i + 3, i - row, i + row)):
+            yield i
 
 
 def difference(a, b, shapes, width):
-    """Of blocks the mean of all channels and the 99th percentile of their worst channels; by how much the mean of the farthest Shape is off."""
+    """Of blocks the mean of all channels and the 99th percentile of their worst channels; by how much the farthest Shape as a whole is off."""
     apart = [abs(x - y) for x, y in zip(blocks(a, width), blocks(b, width))]
     block = sorted(max(apart[i:i + 3]) for i in range(0, len(apart), 3))
-    sums = {}
-    for i in range(0, len(a), 3):
-        if shapes[i:i + 3] == b'\0\0\0':
-            continue
-        s = sums.setdefault(shapes[i:i + 3], [0, 0, 0, 0])
-        s[3] += 1
+    sums = {}  # by Shape: light of both pictures, pixels
+    for i in within_shapes(shapes, width):
+        s = sums.setdefault(shapes[i:i + 3], [0] * 7)
+        s[6] += 1
         for c in range(3):
-            s[c] += b[i + c] - a[i + c]
-    large = [(max(abs(s[c]) for c in range(3)) / s[3], s[3]) for s in sums.values() if s[3] >= SMALLEST * len(a) / 3]
-    return {'mean': sum(apart) / len(apart), 'p99': block[int(0.99 * len(block))], 'shape': max(large, default=(0, 0))[0]}
+            s[c] += LINEAR[a[i + c]]
+            s[3 + c] += LINEAR[b[i + c]]
+    large = [s for s in sums.values() if s[6] >= SMALLEST * len(a) / 3]
+    off = [max(abs(to_display(s[c] / s[6]) - to_display(s[3 + c] / s[6])) for c in range(3)) for s in large]
+    return {'mean': sum(apart) / len(apart), 'p99': block[int(0.99 * len(block))], 'shape': max(off, default=0)}
 
 
 class Studio:
