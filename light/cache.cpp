@@ -12,8 +12,11 @@ std::int64_t direction_step(double v) { return static_cast<std::int64_t>(2 * v +
 
 }  // namespace
 
-IrradianceCache::IrradianceCache(const V3& centre, double largest)
-    : centre_(centre), finest_(std::ldexp(largest / angle, 1 - levels)) {
+// The grid stands askew to the numbers that people write, so that no wall lies on its planes.
+IrradianceCache::IrradianceCache(const V3& centre, double largest, int number)
+    : centre_(centre),
+      offset_(V3(0.137, 0.271, 0.419) + V3(0.5 * number)),
+      finest_(std::ldexp(largest / angle, 1 - levels)) {
   for (int level = 0; level < levels; ++level) per_unit_[level] = std::ldexp(1 / largest, level);
 }
 
@@ -26,8 +29,7 @@ int IrradianceCache::level_for(double distance) const {
 
 IrradianceCache::Key IrradianceCache::key_at(const RayEnd& place, int level) const {
   const V3& face = place.face;
-  // The grid stands askew to the numbers that people write, so that no wall lies on its planes.
-  V3 p = per_unit_[level] * (place.position - centre_) + V3(0.137, 0.271, 0.419);
+  V3 p = per_unit_[level] * (place.position - centre_) + offset_;
   auto whole = [](double v) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v))); };
   const std::int64_t direction = direction_step(face.x) * 25 + direction_step(face.y) * 5 + direction_step(face.z);
   const auto kind = static_cast<std::uint64_t>(direction + 100) * levels + static_cast<std::uint64_t>(level);

@@ -27,8 +27,9 @@ class IrradianceCache {
     V3 irradiance() const { return direct + gathered; }
   };
 
-  /// Cells have sides of at most `largest`, world units; positions are relative to `centre`.
-  IrradianceCache(const V3& centre, double largest);
+  /// Cells have sides of at most `largest`, world units; positions are relative to `centre`. Those of number 1 lie half
+  /// a cell askew to those of number 0.
+  IrradianceCache(const V3& centre, double largest, int number = 0);
 
   /// Where a ray ends.
   struct RayEnd {
@@ -60,7 +61,7 @@ class IrradianceCache {
   std::size_t slot(Key key) const;
   void rebuild(std::size_t size);
 
-  V3 centre_;
+  V3 centre_, offset_;       // of the grid: in world units, and in cells
   double finest_;            // ratio of a distance to it: which cells are small enough
   double per_unit_[levels];  // cells, by level
   std::vector<Cell> cells_;

@@ -32,7 +32,7 @@ struct Integrator::State {
       : world(w),
         options(o),
         direct(w),
-        cache(w.centre(), o.cell > 0 ? o.cell : w.radius() * largest_cell),
+        cache(w.centre(), o.cell > 0 ? o.cell : w.radius() * largest_cell, o.cache),
         transport(w, direct, o.mode == IntegratorOptions::Mode::cached ? &cache : nullptr) {}
 };
 
@@ -110,10 +110,11 @@ Integrator::Integrator(const LightWorld& world, std::span<const Point> points, c
   std::vector<Receiver> from;
   for (const Point& p : points) from.push_back(receiver(world, p));
   if (options.mode != IntegratorOptions::Mode::cached) return;
-  fill(s.cache, world, s.direct, from, options.rays, options.seed);
+  fill(s.cache, world, s.direct, from, options.rays, options.cache ? random_key(options.seed, 7) : options.seed);
 }
 
 Integrator::~Integrator() = default;
+Integrator::Integrator(Integrator&&) noexcept = default;
 
 int Integrator::rays() const { return state_->options.rays; }
 

@@ -18,6 +18,8 @@ struct IntegratorOptions {
   int rays = 64;    // a point, and as many to emitters where there are any
   double cell = 0;  // largest cell of the cache, world units; 0: a tenth of LightWorld::radius()
   std::uint64_t seed = 1;
+  int cache = 0;  // 0 or 1: what the one has made of the light says nothing of the other, neither its noise nor where
+                  // its cells end
 };
 
 /// A point of a surface, on the side of its normals.
@@ -50,6 +52,7 @@ class Integrator {
   /// outlive the integrator.
   Integrator(const LightWorld& world, std::span<const Point> points, const IntegratorOptions& options = {});
   ~Integrator();
+  Integrator(Integrator&&) noexcept;
 
   /// out[i] belongs to points[i]; the same bits for any number of threads. `first` is the number of the first point:
   /// asking in pieces gives what asking for all at once gives. Neighbouring points should follow one another.

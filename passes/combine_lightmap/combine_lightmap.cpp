@@ -16,6 +16,7 @@
 #include "passes/combine_lightmap/painting.h"
 #include "passes/combine_lightmap/repacking.h"
 #include "passes/combine_lightmap/showing.h"
+#include "passes/combine_lightmap/vertex_colors.h"
 #include "passes/lightmap/borders.h"
 #include "passes/lightmap/connected.h"
 #include "passes/lightmap/whole_pages.h"
@@ -83,6 +84,7 @@ class Combining {
 
   Outcome run() {
     find_shapes();
+    color_corners();
     for (Group& g : groups_) find_factor(g);
     for (const bool transparent : {false, true}) repack(transparent);
     if (!keep_budget()) return Outcome::failed;
@@ -91,7 +93,7 @@ class Combining {
       if (!is_repacked(g) && !combine(g)) return Outcome::failed;
     showing_.show(std::move(geometries_), shown_);
     ctx_.stats["combine-lightmap.pages"] += n_pictures_;
-    return groups_.empty() ? Outcome::unchanged : Outcome::changed;
+    return shown_.empty() ? Outcome::unchanged : Outcome::changed;
   }
 
  private:
@@ -99,6 +101,8 @@ class Combining {
   std::optional<LitShape> lit_shape(NodeId shape);
   Mesh read_mesh(NodeId geometry, bool textured);
   std::vector<Mesh> meshes_of(const Group& group);
+  void color_corners();
+  bool color_corners(const LitShape& shape, std::size_t n_shapes);
   void find_factor(Group& group);
   double detail_of(const drawing::Surface& s, const Mesh& mesh) const;
 
@@ -117,8 +121,6 @@ class Combining {
 
   bool combine(const Group& group);
   std::vector<std::uint16_t> charts_of(const Mesh& mesh);
-  void list_triangles(const drawing::Surface& s, const Mesh& mesh, int width, int height,
-                      std::vector<PageTriangle>& triangles, std::vector<Painted>& painted);
   void add(Repacked& repacked);
 
   std::string_view first_url(NodeId texture) const;
@@ -200,6 +202,33 @@ double Combining::detail_of(const drawing::Surface& s, const Mesh& mesh) const {
   pixels *= double(s.picture.texture->width()) * s.picture.texture->height();
   texels *= double(s.baked.light.texture->width()) * s.baked.light.texture->height();
   return texels > 0 ? std::sqrt(pixels / texels) : 0;
+}
+
+/// Takes Shapes out of their groups that get colours at their corners.
+void Combining::color_corners() {
+  if (options_.into != CombineTarget::automatic && options_.into != CombineTarget::vertex) return;
+  std::map<std::uint32_t, std::size_t> n_shapes;  // by geometry
+  for (const Group& g : groups_)
+    for (const LitShape& s : g.shapes) ++n_shapes[s.geometry.value];
+  for (Group& g : groups_)
+    if (!g.transparent)
+      std::erase_if(g.shapes, [&](const LitShape& s) { return color_corners(s, n_shapes[s.geometry.value]); });
+  std::erase_if(groups_, [](const Group& g) { return g.shapes.empty(); });
+}
+
+bool Combining::color_corners(const LitShape& shape, std::size_t n_shapes) {
+  const drawing::Surface& surface = surfaces_[shape.surface];
+  if (surface.picture.texture) return false;
+  const Mesh mesh = read_mesh(shape.geometry, false);
+  if (mesh.corners.empty()) return false;
+  auto colors = fit_vertex_colors(surface, mesh);
+  if (!colors) return false;
+  if (options_.into == CombineTarget::automatic && !is_worth_it(*colors, surface, mesh, n_shapes, options_.tolerance))
+    return false;
+  shown_.push_back({shape.shape, shape.appearance, geometries_.size(), NodeId{}});
+  geometries_.push_back({shape.geometry, {}, std::move(colors->of_place)});
+  ctx_.stats["combine-lightmap.vertex-shapes"] += 1;
+  return true;
 }
 
 void Combining::find_factor(Group& group) {
@@ -373,34 +402,18 @@ std::vector<std::uint16_t> Combining::charts_of(const Mesh& mesh) {
   return out;
 }
 
-void Combining::list_triangles(const drawing::Surface& s, const Mesh& mesh, int width, int height,
-                               std::vector<PageTriangle>& triangles, std::vector<Painted>& painted) {
-  const TexcoordMap to_light{1.0 / width, 0, 0, -1.0 / height, 0, 1};
-  const auto charts = charts_of(mesh);
-  for (std::uint32_t c = 0; c < mesh.corners.size(); c += 3) {
-    PageTriangle t;
-    t.chart = charts[c / 3];
-    for (std::uint32_t corner = 0; corner < 3; ++corner) {
-      const float* at = mesh.lightcoord.at(mesh.lightcoord.index[c + corner]);
-      const auto [u, v] = s.baked.places(at[0], at[1]);
-      t.x[corner] = u * width;
-      t.y[corner] = (1 - v) * height;
-    }
-    const double texels = std::abs(t.area());
-    if (!(texels > 0) || !is_near(t)) continue;
-    triangles.push_back(t);
-    painted.push_back({&s, &mesh, c, texture_detail(s, mesh, c, texels), to_light});
-  }
-}
-
 /// At the places of its light.
 bool Combining::combine(const Group& group) {
   const int k = group.factor, width = k * group.light->width(), height = k * group.light->height();
   const auto meshes = meshes_of(group);
   std::vector<PageTriangle> triangles;
   std::vector<Painted> painted;
-  for (std::size_t i = 0; i < meshes.size(); ++i)
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const std::size_t first = triangles.size();
     list_triangles(surfaces_[group.shapes[i].surface], meshes[i], width, height, triangles, painted);
+    const auto charts = charts_of(meshes[i]);
+    for (std::size_t t = first; t < triangles.size(); ++t) triangles[t].chart = charts[painted[t].corner / 3];
+  }
   constexpr double reach = 2,
                    most = 8;  // texels of the light, and of the picture: all triangles take as long as it is wide
   Page page(width, height, std::min(reach * k, most));

@@ -15,10 +15,12 @@ struct TexelFactor {
   std::string print() const { return value ? std::to_string(value) : "auto"; }
 };
 
-enum class CombineTarget : std::uint8_t { texture, lightmap };
+enum class CombineTarget : std::uint8_t { texture, automatic, vertex, lightmap };
 template <>
 inline constexpr auto choices<CombineTarget> =
     choice_row({{"texture", "VRML's one texture"},
+                {"auto", "colours at the corners where they show as much for less, else the texture"},
+                {"vertex", "colours at the corners of all that is opaque and has no picture"},
                 {"lightmap", "all stays as it is, and the lightmap shows the combined colours"}});
 
 enum class CombinedFormat : std::uint8_t { as_light, png, jpg, webp };
@@ -61,9 +63,14 @@ copied before they change.
 With `budget` or `texels` charts are halved further, those first that lose least for each texel that is saved. What
 that costs is reported (light-budget).
 
+With `into=auto` a Shape that is opaque and has no picture gets colours at its corners (Color), where that is better for
+its bytes: small parts, faces in full light or shade. The colours are those whose mixture is nearest to the texels;
+error times bytes must be less than `tolerance` times the bytes of texels, and the error at most twice the tolerance.
+
 A scene without lightmaps is left alone, in O(nodes); so is any without resources, which hold the pictures.)";
   static constexpr StatisticInfo statistics[] = {
       {"combine-lightmap.shapes", "Shapes that have one texture now"},
+      {"combine-lightmap.vertex-shapes", "those that have colours at their corners instead"},
       {"combine-lightmap.pages", "pictures"},
       {"combine-lightmap.texels", "their texels"},
   };

@@ -60,6 +60,24 @@ double texture_detail(const drawing::Surface& s, const Mesh& mesh, std::uint32_t
   return std::sqrt(pixels * picture_area(mesh.texcoord, corner, s.texcoords) / texels);
 }
 
+void list_triangles(const drawing::Surface& s, const Mesh& mesh, int width, int height,
+                    std::vector<PageTriangle>& triangles, std::vector<Painted>& painted) {
+  const TexcoordMap to_light{1.0 / width, 0, 0, -1.0 / height, 0, 1};
+  for (std::uint32_t c = 0; c < mesh.corners.size(); c += 3) {
+    PageTriangle t;
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      const float* at = mesh.lightcoord.at(mesh.lightcoord.index[c + corner]);
+      const auto [u, v] = s.baked.places(at[0], at[1]);
+      t.x[corner] = u * width;
+      t.y[corner] = (1 - v) * height;
+    }
+    const double texels = std::abs(t.area());
+    if (!(texels > 0) || !is_near(t)) continue;
+    triangles.push_back(t);
+    painted.push_back({&s, &mesh, c, texture_detail(s, mesh, c, texels), to_light});
+  }
+}
+
 bool is_near(const PageTriangle& t) {
   constexpr double far = 1e9;
   auto near = [](double v) { return std::abs(v) < far; };

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "geometry/mesh.h"
 #include "light/render/surface.h"
@@ -30,6 +31,11 @@ double picture_area(const Attribute& a, std::uint32_t corner, const TexcoordMap&
 
 /// Pixels of the texture for each texel along a side, of a triangle of that area; 1 without a texture.
 double texture_detail(const drawing::Surface& surface, const Mesh& mesh, std::uint32_t corner, double texels);
+
+/// Triangles of a mesh as they lie on a page of that size with the surface's light, in texels. Left out is what has no
+/// area there, or is too far away.
+void list_triangles(const drawing::Surface& surface, const Mesh& mesh, int width, int height,
+                    std::vector<PageTriangle>& triangles, std::vector<Painted>& painted);
 
 /// Its numbers can be reckoned with. What is further away shows nothing of the page.
 bool is_near(const PageTriangle& t);

@@ -1,5 +1,6 @@
 #include "passes/combine_lightmap/showing.h"
 
+#include <cmath>
 #include <cstdint>
 
 #include "passes/lightmap/copy_node.h"
@@ -25,7 +26,11 @@ void Showing::show(std::vector<ShownGeometry> geometries, const std::vector<Show
     appearances.push_back(appearance_of(s));
     transforms.push_back(transform_of(s));
   }
-  for (const ShownGeometry& g : geometries) give_places(g.node, g.places);
+  for (const ShownGeometry& g : geometries)
+    if (g.colors.empty())
+      give_places(g.node, g.places);
+    else
+      give_colors(g.node, g.colors);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     give_texture(appearances[i], shapes[i].texture, transforms[i]);
     const NodeId shape = shapes[i].shape, geometry = geometries[shapes[i].geometry].node;
@@ -66,6 +71,23 @@ void Showing::give_places(NodeId g, const std::vector<double>& places) {
   if (!index.empty()) scene_.set(g, ifs::texCoordIndex, index);
 }
 
+/// Three digits are as many as 255 steps need.
+void Showing::give_colors(NodeId g, const std::vector<std::array<double, 3>>& colors) {
+  constexpr double steps = 1000;
+  std::vector<double> numbers;
+  for (const auto& color : colors)
+    for (const double v : color) numbers.push_back(std::round(v * steps) / steps);
+  const auto listed = scene_.get(g, ifs::lightCoordIndex);
+  const std::vector<std::int32_t> index(listed.begin(), listed.end());
+  for (auto slot : {ifs::texCoord.slot, ifs::texCoordIndex.slot, ifs::colorIndex.slot, ifs::colorPerVertex.slot,
+                    ifs::lightCoord.slot, ifs::lightCoordIndex.slot})
+    scene_.unset(g, slot);
+  const NodeId node = scene_.add(nodes::Color, scene_.where(g));
+  scene_.set(node, nodes::color::color, numbers);
+  scene_.set(g, ifs::color, node);
+  if (!index.empty()) scene_.set(g, ifs::colorIndex, index);
+}
+
 NodeId Showing::transform_of(const ShownShape& s) {
   namespace f = nodes::texture_transform;
   if (s.as_light) return scene_.get(s.appearance, ap::lightmapTransform);
@@ -85,7 +107,10 @@ void Showing::give_texture(NodeId appearance, NodeId texture, NodeId transform) 
   }
   for (auto slot : {ap::material.slot, ap::textureTransform.slot, ap::lightmap.slot, ap::lightmapDirection.slot})
     scene_.unset(appearance, slot);
-  scene_.set(appearance, ap::texture, texture);
+  if (texture)
+    scene_.set(appearance, ap::texture, texture);
+  else
+    scene_.unset(appearance, ap::texture.slot);
   if (transform) scene_.set(appearance, ap::textureTransform, transform);
 }
 

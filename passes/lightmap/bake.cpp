@@ -265,10 +265,11 @@ std::string title_of_page(const std::string& title, std::size_t page, std::size_
 /// rays as those before it.
 class Rounds {
  public:
-  /// `integrator` may be none where all light is inherited.
-  Rounds(const light::Integrator* integrator, Checkpoint& checkpoint, const BakeOptions& options, std::uint64_t n_tiles,
-         PassContext& ctx)
-      : integrator_(integrator), checkpoint_(checkpoint), options_(options), n_tiles_(n_tiles), ctx_(ctx) {}
+  /// `integrators` is of one, of none where all light is inherited, and of two where an error is asked for: what the
+  /// halves of the rays look up has nothing in common then, so that they tell the error of that, too.
+  Rounds(std::span<const light::Integrator> integrators, Checkpoint& checkpoint, const BakeOptions& options,
+         std::uint64_t n_tiles, PassContext& ctx)
+      : integrators_(integrators), checkpoint_(checkpoint), options_(options), n_tiles_(n_tiles), ctx_(ctx) {}
 
   /// `first` is the number of the page's first tile.
   BakedPage bake(PageBaker& from, std::uint64_t first, Inherited inherited, const std::string& name) {
@@ -281,7 +282,7 @@ class Rounds {
     const int rays = options_.rays;
     if (!chosen.empty()) take_inherited(from, inherited.light, chosen, page, light, inside, halves);
     run(from, first, 0, {0, rays}, chosen, [&](const TexelLight& t) { take(t, page, light, inside, halves); });
-    for (std::uint32_t round = 1; !once && rays << round <= most_rays; ++round) {
+    for (std::uint32_t round = 1; !once && rays << round <= options_.most_rays; ++round) {
       auto next = unsettled(in_the_open(page, inside), light, halves, options_.error, options_.denoise);
       for (std::size_t i = 0; i < chosen.size(); ++i) next[i] &= chosen[i];
       chosen = std::move(next);
@@ -293,8 +294,6 @@ class Rounds {
   }
 
  private:
-  static constexpr int most_rays = 2048;  // a point
-
   /// Calls f(texel) for the chosen texels of all tiles of a page.
   template <class F>
   void run(PageBaker& from, std::uint64_t first, std::uint32_t number_of_round, const light::Integrator::Round& round,
@@ -321,8 +320,8 @@ class Rounds {
   std::vector<TexelLight> gather(const PageBaker& from, const std::vector<Point>& points, std::uint64_t number,
                                  const light::Integrator::Round& round) {
     auto ask = [&](std::uint64_t half, std::uint32_t share) {
-      const auto light = integrator_->irradiance(points, number + (half << 48),
-                                                 {round.first / share, round.rays / int(share), from.numbers()});
+      const auto light = integrators_[half].irradiance(points, number + (half << 48),
+                                                       {round.first / share, round.rays / int(share), from.numbers()});
       for (const auto& l : light) ctx_.stats["lightmap.rays"] += l.rays;
       return from.gather(light);
     };
@@ -390,7 +389,7 @@ class Rounds {
     return page;
   }
 
-  const light::Integrator* integrator_;
+  std::span<const light::Integrator> integrators_;
   Checkpoint& checkpoint_;
   const BakeOptions& options_;
   std::uint64_t n_tiles_;
@@ -408,10 +407,14 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   const auto inherited = inherit_all(bakers, parts, layout, options);
   if (ctx.monitor) ctx.monitor->begin(options.title + ": reflected light", 0, "");
   const auto points = choose_points(bakers, inherited);
-  std::optional<light::Integrator> integrator;
-  if (!points.empty()) integrator.emplace(world, points, options.integrator);
+  std::vector<light::Integrator> integrators;
+  for (int i = 0; i < (options.error > 0 ? 2 : 1) && !points.empty(); ++i) {
+    light::IntegratorOptions how = options.integrator;
+    how.cache = i;
+    integrators.emplace_back(world, points, how);
+  }
   Checkpoint checkpoint(options.checkpoint, options.checkpoint.empty() ? 0 : work_key(parts, layout, world, options));
-  Rounds rounds(integrator ? &*integrator : nullptr, checkpoint, options, n_tiles, ctx);
+  Rounds rounds(integrators, checkpoint, options, n_tiles, ctx);
 
   // How many rounds a page takes is not known before; all else is one stretch of work.
   if (ctx.monitor && !(options.error > 0)) ctx.monitor->begin(options.title, n_tiles, "tiles");

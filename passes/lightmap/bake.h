@@ -17,6 +17,7 @@ struct BakeOptions {
   int samples = 4;                      // points a texel
   int rays = 16;                        // a point, even; where an error is asked for, for a start
   light::IntegratorOptions integrator;  // its rays tell how good the cache must be
+  int most_rays = 2048;                 // a point, where an error is asked for
   double error = 0;  // relative standard error that is wanted of what is shown, after denoising; 0: none
   bool directional = false;
   bool denoise = true;

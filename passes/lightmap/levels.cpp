@@ -25,6 +25,12 @@ bool Levels::next() {
   return true;
 }
 
+std::size_t Levels::count(Scene& scene) {
+  std::size_t n = 0;
+  for (Levels levels(scene); levels.next(); ++n) levels.own_what_is_lit();  // nothing is lit: nothing is copied
+  return n;
+}
+
 /// By node: it holds a Shape that no view has shown and whose turn may come.
 std::vector<char> Levels::holders_of_unseen() {
   n_unseen_ = 0;

@@ -25,6 +25,8 @@ class Levels {
   /// behind it has its turn. What stands around lamps keeps its first level until all else is through; then it is the
   /// other way round. False when there is no view that shows more, or there have been enough of them. O(nodes).
   bool next();
+  /// How many views it takes, but for what stands around lamps. O(nodes) a view.
+  static std::size_t count(Scene& scene);
   /// The number of the view, from 0.
   std::size_t view() const { return n_views_ - 1; }
   /// How far from the first levels those are that have their turn in this view.

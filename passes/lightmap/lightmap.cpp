@@ -1,6 +1,7 @@
 #include "passes/lightmap/lightmap.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <unordered_map>
@@ -11,16 +12,18 @@
 #include "light/render/stage.h"
 #include "light/world.h"
 #include "passes/lightmap/bake.h"
+#include "passes/lightmap/bake_progress.h"
 #include "passes/lightmap/checkpoint.h"
-#include "passes/lightmap/exposure_line.h"
 #include "passes/lightmap/finest_light.h"
 #include "passes/lightmap/from_patches.h"
+#include "passes/lightmap/info_line.h"
 #include "passes/lightmap/layout.h"
 #include "passes/lightmap/levels.h"
 #include "passes/lightmap/own_shapes.h"
 #include "passes/lightmap/parts.h"
 #include "passes/lightmap/sizes.h"
 #include "passes/lightmap/store.h"
+#include "passes/lightmap/time_budget.h"
 #include "passes/lightmap/unlit_nodes.h"
 #include "passes/lightmap/unlit_shapes.h"
 #include "passes/normals/normals.h"
@@ -39,6 +42,7 @@ Work work_of(BakeQuality quality) {
   return works[static_cast<std::size_t>(quality)];
 }
 constexpr int side_for_density = 4096, smallest_side = 64;
+constexpr double share_of_first_view = 0.75;  // of the time: each further one has a fourth of the texels
 
 /// What is seen from further away needs half the texels, down to a hundredth of the first.
 LayoutOptions layout_options(const LightmapOptions& o, std::size_t depth) {
@@ -67,7 +71,8 @@ BakeOptions bake_options(const LightmapOptions& o, std::size_t view, std::string
   BakeOptions out;
   out.title = std::move(title);
   out.samples = work.samples;
-  out.rays = out.integrator.rays = work.rays;
+  out.rays = out.integrator.rays = o.rays > 0 && !(o.error > 0) ? std::max(2, o.rays) : work.rays;
+  if (o.rays > 0) out.most_rays = o.rays;
   out.integrator.seed = static_cast<std::uint64_t>(o.seed);
   out.error = o.error;
   if (o.error > 0) out.integrator.rays = std::max(work_of(BakeQuality::normal).rays, work.rays);
@@ -175,7 +180,7 @@ class ViewExposure {
     return factor_;
   }
   void keep(Scene& scene) const {
-    if (factor_ != 1) keep_exposure(scene, factor_);
+    if (factor_ != 1) keep_in_info(scene, "exposure", Exposure{.factor = factor_}.print());
   }
 
  private:
@@ -185,21 +190,64 @@ class ViewExposure {
   double factor_;
 };
 
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 /// What the views of a world share.
 struct Views {
+  LightmapOptions options;
+  Clock::time_point start;
+  std::size_t n_views;
   Levels levels;
   FinestLight finest;
   UnlitShapes unlit;
   ViewExposure exposure;
+  BakeProgress progress;
 };
 
+/// The options with what the time allows, found by small bakes of these parts.
+LightmapOptions within_budget(const LightmapOptions& o, double seconds, const std::vector<Part>& parts,
+                              const light::LightWorld& world, const PassContext& ctx) {
+  const bool any_scale = !(o.density > 0) && o.max_size == 0;
+  const auto sized = [&](const bake::BakeSize& size) {
+    LightmapOptions out = o;
+    out.rays = size.rays;
+    if (any_scale) out.max_size = static_cast<int>(std::lround(size.scale * side_for_density));
+    return out;
+  };
+  const auto trial = [&](const bake::BakeSize& size) {
+    const auto start = Clock::now();
+    LightmapOptions small = sized(size);
+    small.error = 0;
+    LayoutOptions pages = layout_options(small, 0);
+    if (o.density > 0) pages.density *= size.scale;
+    if (!any_scale) pages.side = std::max(smallest_side, static_cast<int>(std::lround(size.scale * pages.side)));
+    Diagnostics unheard;
+    Statistics uncounted;
+    PassContext alone(unheard, uncounted, ctx.resources, nullptr, ctx.stop);
+    BakeOptions how = bake_options(small, 0, "");
+    how.checkpoint.clear();
+    bake::bake(parts, Layout(parts, pages), world, how, alone);
+    return seconds_since(start);
+  };
+  return sized(bake::size_for_time(seconds, any_scale, trial));
+}
+
+/// The options that give the same light again.
+void keep_size(Scene& scene, const LightmapOptions& o, Statistics& stats) {
+  keep_in_info(scene, "budget", "max-size=" + std::to_string(o.max_size) + ",rays=" + std::to_string(o.rays));
+  stats["lightmap.page-side"] += static_cast<std::uint64_t>(o.max_size);
+  stats["lightmap.rays-a-point"] += static_cast<std::uint64_t>(o.rays);
+}
+
 /// Lights what the view shows.
-Outcome bake_view(Scene& scene, Views& views, const LightmapOptions& options, PassContext& ctx) {
-  auto& [levels, finest, unlit, exposure] = views;
+Outcome bake_view(Scene& scene, Views& views, PassContext& ctx) {
+  auto& [options, start, n_views, levels, finest, unlit, exposure, progress] = views;
   const std::string title = levels.view() ? "lightmap, view " + std::to_string(levels.view() + 1) : "lightmap";
   auto say = [&](const char* what) {
     if (ctx.monitor) ctx.monitor->begin(title + what, 0, "");
   };
+  progress.begin_view(levels.view());
   say(": surfaces");
   levels.own_what_is_lit();
   Meshes meshes(scene, options.faces, ctx);
@@ -213,6 +261,11 @@ Outcome bake_view(Scene& scene, Views& views, const LightmapOptions& options, Pa
   if (!world.has_sky_of_its_own() && !levels.depth()) ctx.diag.report(Diag::no_light, {});
   say(": charts");
   unfold_parts(parts, world.stage());
+  if (options.budget.seconds > 0 && !levels.view()) {
+    say(": how much there is time for");
+    const double of_first = n_views > 1 ? share_of_first_view : 1;
+    options = within_budget(options, of_first * (options.budget.seconds - seconds_since(start)), parts, world, ctx);
+  }
   const LayoutOptions wanted = layout_options(options, levels.depth());
   const Layout layout(parts, wanted);
   if (const auto coarse = layout.coarse(); coarse.n_shapes)
@@ -236,20 +289,31 @@ Outcome bake_view(Scene& scene, Views& views, const LightmapOptions& options, Pa
 }
 
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
+  const auto start = Clock::now();
   if (const auto n = closed_nodes(scene)) ctx.diag.report(Diag::not_lit, {}, n);
   if (const auto n = foreign_surfaces(scene)) ctx.diag.report(Diag::not_lowered, {}, n);
   const auto n_copies = own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
-  Views views{Levels(scene), FinestLight(scene), UnlitShapes(scene, options.unlit == UnlitSurfaces::bake),
-              ViewExposure(options.exposure)};
+  const std::size_t n_views = ctx.monitor || options.budget.seconds > 0 ? Levels::count(scene) : 1;
+  Views views{options,
+              start,
+              n_views,
+              Levels(scene),
+              FinestLight(scene),
+              UnlitShapes(scene, options.unlit == UnlitSurfaces::bake),
+              ViewExposure(options.exposure),
+              BakeProgress(ctx.monitor, n_views, !(options.error > 0))};
+  PassContext watched = ctx;
+  watched.monitor = views.progress.monitor();
   const Levels& levels = views.levels;
   Outcome all = n_copies ? Outcome::changed : Outcome::unchanged;
   while (all != Outcome::failed && views.levels.next()) {
-    if (const Outcome one = bake_view(scene, views, options, ctx); one != Outcome::unchanged) all = one;
+    if (const Outcome one = bake_view(scene, views, watched); one != Outcome::unchanged) all = one;
     if (!options.patches.empty()) return all;
   }
   for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view)
     bake::Checkpoint::remove(checkpoint_of(options, view));
   if (all == Outcome::changed) views.exposure.keep(scene);
+  if (options.budget.seconds > 0 && views.options.rays > 0) keep_size(scene, views.options, ctx.stats);
   if (levels.n_unseen())
     ctx.diag.report(Diag::expansion_limit, {}, Levels::most, "levels of detail one behind the other");
   return all;

@@ -11,6 +11,7 @@
 #include "light/sky_light.h"
 #include "passes/picture_format/picture_format.h"
 #include "passes/pipeline/pass.h"
+#include "passes/pipeline/time_option.h"
 
 namespace wrlkit {
 
@@ -77,6 +78,11 @@ Lights every surface that a browser would show, as it stands at the start.
 - `exposure=auto` brings the logarithmic mean of the light to 0.36, so that what reflects a half of it shows as middle
   grey. The factor is reported (light-exposure), counted (`--stats`) and kept as a line of the WorldInfo,
   "lightmap exposure 3.42". Dividing lightmapScale by it undoes it.
+- `budget=60s` chooses the size of pages and the rays a point that take about that long on this machine, writing not
+  counted: the time of a clock, as somebody waits for it. With `error` it is a limit to the rays. What was chosen is
+  counted (`--stats`) and kept as a line of the WorldInfo, "lightmap budget max-size=1024,rays=24": with these options
+  instead the light is the same on every machine. It makes nothing faster that has to be done anyway: charts, levels of
+  detail.
 - A world without any light, or with too little to see it by, is lit by a white sky, which is reported (no-light).
 
 Needs resources, which take the pictures. O(texels * rays * log triangles). The same result for any number of
@@ -96,6 +102,8 @@ threads.)";
       {"lightmap.seam-places", "places along seams that were compared"},
       {"lightmap.jumps", "those where the light jumps"},
       {"lightmap.exposure-thousandths", "factor on the light, by exposure=auto"},
+      {"lightmap.page-side", "texels along each side of a page, by budget"},
+      {"lightmap.rays-a-point", "rays of a point, by budget"},
       {"lightmap.patches", "patches that were drawn"},
       {"lightmap.orphans", "patches without a Shape"},
       {"lightmap.bare-triangles", "triangles without a patch"},
@@ -104,6 +112,8 @@ threads.)";
   Tessellation faces{.texcoords = true};
   BakeQuality quality = BakeQuality::normal;
   double error = 0, density = 0;
+  int rays = 0;
+  TimeOption budget;
   NamedDensities densities;
   int max_size = 0, mips = 0;
   SkyLight sky;
@@ -121,6 +131,8 @@ threads.)";
     f("quality", quality, "how many rays, and how many texels unless a density is given");
     f("error", error, "relative standard error that is wanted of what is shown, such as 0.01; 0: as the quality has it",
       between(0, 1));
+    f("rays", rays, "of a point, with error at most; 0: as the quality has it", between(0, 2048));
+    f("budget", budget, "time that the bake may take: pages and rays are chosen for it; 0: as the quality has it");
     f("density", density, "texels per metre; 0: as many as fit on one page", at_least(0));
     f("densities", densities, "by name, times the density of the rest");
     f("max-size", max_size,

@@ -82,7 +82,7 @@ void add_surface(const light::LightWorld& world, std::uint32_t use, std::size_t 
 std::uint64_t work_key(const std::vector<Part>& parts, const Layout& layout, const light::LightWorld& world,
                        const BakeOptions& o) {
   Key key;
-  key.add({double(o.samples), double(o.rays), o.error, double(o.denoise), double(o.directional)});
+  key.add({double(o.samples), double(o.rays), double(o.most_rays), o.error, double(o.denoise), double(o.directional)});
   key.add({double(o.integrator.mode), double(o.integrator.rays), o.integrator.cell, double(o.integrator.seed)});
   key.add({world.radius()});
   key.add({world.centre()});
