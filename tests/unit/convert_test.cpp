@@ -8,6 +8,7 @@
 
 #include "convert/wrlkit.h"
 #include "scenegraph/nodes.h"
+#include "tests/unit/folders.h"
 
 using namespace wrlkit;
 
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string corpus(const std::string& name) { return std::string(WRLKIT_SOURCE_DIR) + "/corpus/" + name; }
+std::string corpus(const std::string& name) { return (source_folder() / "corpus" / name).string(); }
 
 /// A folder that is gone behind the test.
 struct Folder {

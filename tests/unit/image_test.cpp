@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/image/image_codecs.h"
+#include "tests/unit/folders.h"
 #include "tests/unit/skip.h"
 
 using namespace wrlkit;
@@ -418,8 +419,7 @@ TEST_CASE("Pictures are decoded by several threads at once", "[image]") {
 
 TEST_CASE("Every picture of the corpus is decoded, or says why not", "[image][found]") {
   namespace fs = std::filesystem;
-  const char* shared = std::getenv("WRLKIT_SHARED");
-  auto folder = (shared ? fs::path(shared) : fs::path(WRLKIT_SOURCE_DIR) / ".." / "shared") / "corpus";
+  const auto folder = shared_folder("corpus");
   if (!fs::is_directory(folder)) {
     return skip("there is no folder " + folder.string() + " (WRLKIT_SHARED)");
   }

@@ -6,6 +6,7 @@
 
 #include "scenegraph/node_table.h"
 #include "scenegraph/nodes.h"
+#include "tests/unit/folders.h"
 
 using namespace wrlkit;
 
@@ -79,7 +80,7 @@ TEST_CASE("node table: child kinds are node types or bases", "[node_table]") {
 }
 
 TEST_CASE("node table: every node has a world in the corpus", "[node_table]") {
-  const auto corpus = std::filesystem::path(WRLKIT_SOURCE_DIR) / "corpus";
+  const auto corpus = source_folder() / "corpus";
   for (auto& n : builtin_nodes()) {
     INFO(n.name);
     if (n.dialects & static_cast<DialectSet>(Dialect::vrml97))

@@ -10,6 +10,7 @@
 #include "parsers/vrml/parser.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
+#include "tests/unit/folders.h"
 #include "writers/vrml/vrml.h"
 
 using namespace wrlkit;
@@ -184,7 +185,7 @@ TEST_CASE("Threads: the text ends within a list", "[threads]") {
 
 TEST_CASE("Threads: files of the corpus", "[threads]") {
   std::size_t n_plain = 0, n = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(WRLKIT_SOURCE_DIR) / "corpus")) {
+  for (const auto& entry : fs::recursive_directory_iterator(source_folder() / "corpus")) {
     if (entry.path().extension() != ".wrl") continue;
     INFO(entry.path());
     std::ifstream file(entry.path(), std::ios::binary);

@@ -1,4 +1,5 @@
 // Pages: where charts are placed on them.
+#include "tests/unit/folders.h"
 #include "tests/unit/unwrap_fixture.h"
 
 using namespace wrlkit;
@@ -135,8 +136,7 @@ TEST_CASE("unwrap: the same on any number of threads") {
 }
 
 TEST_CASE("unwrap: scans and parts", "[found]") {
-  const char* shared = std::getenv("WRLKIT_SHARED");
-  auto folder = (shared ? fs::path(shared) : fs::path(WRLKIT_SOURCE_DIR) / ".." / "shared") / "meshes";
+  const auto folder = shared_folder("meshes");
   if (!fs::exists(folder)) {
     return skip("there is no folder " + folder.string() + " (WRLKIT_SHARED)");
   }

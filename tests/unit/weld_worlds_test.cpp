@@ -2,7 +2,6 @@
 // points.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -15,6 +14,7 @@
 #include "passes/weld/weld.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
+#include "tests/unit/folders.h"
 #include "tests/unit/skip.h"
 #include "tests/unit/temp_folder.h"
 
@@ -23,8 +23,6 @@ using namespace wrlkit;
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path source = WRLKIT_SOURCE_DIR;
 
 /// A world at level mesh, polygons uncut.
 struct Meshes {
@@ -109,11 +107,6 @@ std::size_t triangles(Meshes& m, Mesh mesh) {
   return mesh.n_faces();
 }
 
-fs::path shared_folder() {
-  const char* shared = std::getenv("WRLKIT_SHARED");
-  return shared ? fs::path(shared) : source.parent_path() / "shared";
-}
-
 std::vector<fs::path> worlds(const std::vector<fs::path>& folders) {
   std::vector<fs::path> out;
   for (const fs::path& folder : folders) {
@@ -129,7 +122,7 @@ std::vector<fs::path> worlds(const std::vector<fs::path>& folders) {
 
 TEST_CASE("weld keeps triangles and bounds of every world") {
   std::size_t n_worlds = 0;
-  for (const auto& path : worlds({source / "corpus", shared_folder() / "corpus"})) {
+  for (const auto& path : worlds({source_folder() / "corpus", shared_folder("corpus")})) {
     INFO(path.string());
     Meshes m(path);
     if (!m.world || m.world->format != Format::vrml97) continue;
@@ -185,7 +178,7 @@ std::vector<Topology> topologies(Meshes& m) {
 }  // namespace
 
 TEST_CASE("welded loose faces have the topology of shared points, part by part") {
-  const fs::path folder = source / "corpus" / "plant";
+  const fs::path folder = source_folder() / "corpus" / "plant";
   Meshes faces(folder / "pump_room_faces.wrl"), loose(folder / "pump_room_loose.wrl");
   auto shared = topologies(faces);
   loose.run("weld");
@@ -200,7 +193,7 @@ TEST_CASE("welded loose faces have the topology of shared points, part by part")
 }
 
 TEST_CASE("a generated plant as a soup of faces gets the topology of the indexed one, part by part", "[found]") {
-  const fs::path generator = shared_folder() / "bench" / "gen_plant.py";
+  const fs::path generator = shared_folder("bench") / "gen_plant.py";
   if (!fs::exists(generator)) {
     return skip("there is no " + generator.string());
   }
@@ -227,7 +220,7 @@ TEST_CASE("join keeps the triangles of every world, and finds nothing more when 
     return n;
   };
   std::size_t n_joined = 0;
-  for (const auto& path : worlds({source / "corpus"})) {
+  for (const auto& path : worlds({source_folder() / "corpus"})) {
     INFO(path.string());
     Meshes m(path);
     if (!m.world || m.world->format != Format::vrml97) continue;
