@@ -70,7 +70,7 @@ async function main() {
   const prepared = ahead(jobs.entries(), 1, ([i, {way, world}]) => prepare(way, world, i));
   let good = 0;
   console.log('overlap, mean difference in %; names, draws, copies, levels');
-  await take_pictures(folder, prepared, result => { good += report(result) ? 1 : 0; });
+  await take_pictures(folder, prepared, result => { good += report(result) ? 1 : 0; }, 300);
   return good === jobs.length ? 0 : 1;
 }
 
