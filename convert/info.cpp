@@ -8,6 +8,7 @@
 #include "convert/startup_scripts.h"
 #include "convert/world_meshes.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/scopes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 
@@ -24,9 +25,8 @@ void count_authored(const Scene& scene, Info& info) {
     info.inlines += scene.is(n, nodes::Inline);
   }
   info.protos = scene.proto_count();
-  info.routes = scene.main.routes.size();
   std::set<std::uint32_t> driving;
-  for (std::uint32_t i = 0; i < scene.proto_count(); ++i) info.routes += scene.proto(ProtoId{i}).body.routes.size();
+  for_each_scope(scene, [&](const Scope& s) { info.routes += s.routes.size(); });
   for (auto& r : scene.main.routes)
     if (scene.is(r.from, nodes::X3DInterpolatorNode)) driving.insert(r.from.value);
   info.animations = driving.size();

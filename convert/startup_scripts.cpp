@@ -5,6 +5,7 @@
 
 #include "passes/startup/script_text.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/scopes.h"
 
 namespace wrlkit {
 namespace {
@@ -17,17 +18,6 @@ bool shows(const Scene& scene, NodeId n) {
          !scene.is(n, nodes::X3DSensorNode | nodes::X3DInterpolatorNode | nodes::X3DBindableNode);
 }
 
-void add_scope(const Scene& scene, const Scope& scope, std::set<NodeId>& scripts, std::set<std::string>& fields) {
-  for (const Route& r : scope.routes) {
-    if (!shows(scene, r.to) || !has_initialize(scene, r.from)) continue;
-    const auto& type = scene.type(r.to);
-    const auto slot = type.find(r.event_in, scene.dialect(), true);
-    if (!slot) continue;
-    scripts.insert(r.from);
-    fields.insert(std::string(type.name) + "." + std::string(type.fields[*slot].name_in(scene.dialect())));
-  }
-}
-
 }  // namespace
 
 bool StartupScripts::switches() const { return std::ranges::find(fields, "Switch.whichChoice") != fields.end(); }
@@ -35,9 +25,14 @@ bool StartupScripts::switches() const { return std::ranges::find(fields, "Switch
 StartupScripts startup_scripts(const Scene& scene) {
   std::set<NodeId> scripts;
   std::set<std::string> fields;
-  add_scope(scene, scene.main, scripts, fields);
-  for (std::uint32_t i = 0; i < scene.proto_count(); ++i)
-    add_scope(scene, scene.proto(ProtoId{i}).body, scripts, fields);
+  for_each_route(scene, [&](const Route& r) {
+    if (!shows(scene, r.to) || !has_initialize(scene, r.from)) return;
+    const auto& type = scene.type(r.to);
+    const auto slot = type.find(r.event_in, scene.dialect(), true);
+    if (!slot) return;
+    scripts.insert(r.from);
+    fields.insert(std::string(type.name) + "." + std::string(type.fields[*slot].name_in(scene.dialect())));
+  });
   return {scripts.size(), {fields.begin(), fields.end()}};
 }
 

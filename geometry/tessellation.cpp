@@ -16,12 +16,8 @@ constexpr struct {
   TypeId type;
   Maker make;
 } makers[] = {
-    {nodes::Box, make_box},
-    {nodes::Cone, make_cone},
-    {nodes::Cylinder, make_cylinder},
-    {nodes::Sphere, make_sphere},
-    {nodes::Extrusion, make_extrusion},
-    {nodes::ElevationGrid, make_elevation_grid},
+#define SHAPE(node, maker) {nodes::node, maker},
+#include "geometry/shapes/makers.def"
     {nodes::Text, [](MeshJob& job, const Tessellation&) { text_mesh(job); }},
 };
 

@@ -4,6 +4,7 @@
 
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -12,12 +13,10 @@ bool is_geometry(const Scene& scene, NodeId n) { return scene.is(n, nodes::X3DGe
 
 std::vector<char> driven_geometry(const Scene& scene) {
   std::vector<char> driven(scene.node_count());
-  const auto ends = [&](const Scope& s) {
+  for_each_scope(scene, [&](const Scope& s) {
     for (const auto& r : s.routes) driven[r.from.value] = driven[r.to.value] = 1;
     for (const auto& e : s.exports) driven[e.node.value] = 1;
-  };
-  ends(scene.main);
-  for (std::uint32_t i = 0; i < scene.proto_count(); ++i) ends(scene.proto(ProtoId{i}).body);
+  });
   const auto takes_values = [&](NodeId n) {
     return std::ranges::any_of(scene.fields(n), [&](const Value& v) { return scene.content(v).is; });
   };

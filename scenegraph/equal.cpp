@@ -177,6 +177,11 @@ bool equal_plain(const Value& a, const Value& b) {
   return false;
 }
 
+bool equals_default(const Value& v, const FieldDef& f) {
+  if (info(f.type).element == Element::node) return v.node_span().empty();
+  return equal_plain(v, f.default_value);
+}
+
 std::string difference(const Scene& a, const Scene& b) { return Comparison(a, b).run(); }
 
 }  // namespace wrlkit

@@ -13,5 +13,7 @@ std::string difference(const Scene& a, const Scene& b);
 
 /// Two values of one type hold the same; node references are compared by `same_node`.
 bool equal_plain(const Value& a, const Value& b);
+/// A value that says no more than the default of its field: of nodes, none at all.
+bool equals_default(const Value& v, const FieldDef& f);
 
 }  // namespace wrlkit

@@ -10,6 +10,7 @@
 #include "scenegraph/driven.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/range_text.h"
+#include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -230,15 +231,11 @@ void check_values(const Scene& scene, Diagnostics& diag) {
     ValueCheck check(scene, diag);
     for (NodeId n : all) check.node(n);
   }
-  auto routes = [&](const Scope& s) {
-    for (auto& r : s.routes) {
-      auto a = event_type(scene, r.from, r.event_out), b = event_type(scene, r.to, r.event_in);
-      if (a != b && a != FieldType::verbatim && b != FieldType::verbatim)
-        diag.report(Diag::route_types, scene.where(r.from), info(a).name, info(b).name);
-    }
-  };
-  routes(scene.main);
-  for (std::uint32_t i = 0; i < scene.proto_count(); ++i) routes(scene.proto(ProtoId{i}).body);
+  for_each_route(scene, [&](const Route& r) {
+    auto a = event_type(scene, r.from, r.event_out), b = event_type(scene, r.to, r.event_in);
+    if (a != b && a != FieldType::verbatim && b != FieldType::verbatim)
+      diag.report(Diag::route_types, scene.where(r.from), info(a).name, info(b).name);
+  });
 }
 
 bool verify(const Scene& scene, Level level, Diagnostics& diag) { return Invariants(scene, level, diag).run(); }

@@ -3,21 +3,18 @@
 #include <algorithm>
 
 #include "scenegraph/equal.h"
+#include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
-
-bool says_more_than_default(const Value& v, const FieldDef& f) {
-  return v.is || (info(f.type).element == Element::node ? !v.node_span().empty() : !equal_plain(v, f.default_value));
-}
 
 /// The version that a node and its fields came with.
 int since(const Scene& scene, NodeId n) {
   const auto& t = scene.type(n);
   int version = t.since;
   for (const Value& v : scene.fields(n))
-    if (!scene.is_extra(v) && t.fields[v.slot].since > version && says_more_than_default(v, t.fields[v.slot]))
+    if (!scene.is_extra(v) && t.fields[v.slot].since > version && (v.is || !equals_default(v, t.fields[v.slot])))
       version = t.fields[v.slot].since;
   return version;
 }
@@ -27,22 +24,15 @@ int since(const Scene& scene, NodeId n, std::string_view event) {
   return slot ? scene.type(n).fields[*slot].since : 0;
 }
 
-int since(const Scene& scene, const Scope& scope) {
-  int version = 0;
-  for (const Route& r : scope.routes)
-    version = std::max({version, since(scene, r.from, r.event_out), since(scene, r.to, r.event_in)});
-  return version;
-}
-
 }  // namespace
 
 int x3d_version(const Scene& scene) {
   int version = 33;
   if (scene.dialect() == Dialect::x3d) version = std::max(version, scene.x3d.version);
   for (NodeId n : all_nodes(scene)) version = std::max(version, since(scene, n));
-  version = std::max(version, since(scene, scene.main));
-  for (std::uint32_t i = 0; i < scene.proto_count(); ++i)
-    version = std::max(version, since(scene, scene.proto(ProtoId{i}).body));
+  for_each_route(scene, [&](const Route& r) {
+    version = std::max({version, since(scene, r.from, r.event_out), since(scene, r.to, r.event_in)});
+  });
   return std::min(version, 40);
 }
 

@@ -2,10 +2,10 @@
 """Planning, a run, a run with nothing left to do and a report of many small files: what they ask of the system grows as the number of files
 does, and their memory hardly at all.
 
-  tests/corpus_many.py --wrlkit WRLKIT [--files 2500]
+  tests/corpus_many.py --wrlkit WRLKIT [--files 1500]
 
 Counted are calls that read and write, of the process with all its workers, as /proc/PID/io has them; a fifth of the files is compared with all
-of them, the most of three runs: how often a pipe is looked at depends on who is quicker. No time is measured. bench/corpus_bench.py has the figures of 100,000 files.
+of them, the most of two runs: how often a pipe is looked at depends on who is quicker. No time is measured. bench/corpus_bench.py has the figures of 100,000 files.
 """
 import argparse
 import os
@@ -44,11 +44,11 @@ def figures(wrlkit, tmp, n):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument('--wrlkit', type=pathlib.Path, required=True)
-    parser.add_argument('--files', type=int, default=2500)
+    parser.add_argument('--files', type=int, default=1500)
     options = parser.parse_args()
     wrlkit, most, faults = options.wrlkit.resolve(), options.files, 0
     few_runs = []
-    for _ in range(3):
+    for _ in range(2):
         with tempfile.TemporaryDirectory() as tmp:
             few_runs.append(figures(wrlkit, pathlib.Path(tmp), most // 5))
     few = {what: max(run[what] for run in few_runs) for what in few_runs[0]}

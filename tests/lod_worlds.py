@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Levels of detail of every world: `-p weld,lod` as VRML and as glTF.
+"""Levels of detail of every world: `-p weld,lod` as VRML, and as the glTF that tests/convert_worlds.py has made.
 
-  tests/lod_worlds.py --wrlkit build/release/wrlkit [--every N] [-v]
+  tests/lod_worlds.py --wrlkit build/release/wrlkit [--every N] [--made FOLDER...] [-v]
 
 Worlds are those of corpus/ and, when it is there, of ../shared/corpus (or WRLKIT_SHARED); --every N takes each N-th of all.
 For each world that wrlkit can read:
@@ -9,13 +9,16 @@ For each world that wrlkit can read:
 - it reads back without a message of its own: it has no message but those of the world written by `-p weld`;
 - no part is lost: as many Shapes, triangles, lines and points are shown (of a LOD, the first level) as in that one, in the same bounds;
 - in the glTF, where ranges are, no level's bounds differ from the first level's by more than the error that its range stands for.
-The glTF itself is validated by the test validate-lod. Prints the counts; fails when a world fails, or none has levels.
+The glTF itself is validated by the test validate. Prints the counts; fails when a world fails, or none has levels.
 """
 import argparse, array, json, math, os, re, subprocess, sys, tempfile
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from merged_parts import Glb
 
 project = os.path.abspath(os.path.join(os.path.dirname(__file__), '..'))
-shared = os.path.join(os.environ.get('WRLKIT_SHARED', os.path.join(project, '..', 'shared')), 'corpus')
+shared = os.path.abspath(os.path.join(os.environ.get('WRLKIT_SHARED', os.path.join(project, '..', 'shared')), 'corpus'))
 per_pixel = 1080 / (2 * math.tan(0.785398 / 2))  # of the pass's defaults
 endings = ('.wrl', '.wrz', '.wrl.gz', '.vrml', '.x3d', '.x3dv')
 
@@ -39,10 +42,8 @@ def names_of_messages(text):
     return sorted(re.findall(r'\[([a-z0-9-]+)\]$', text, re.M))
 
 
-class Gltf:
-    def __init__(self, path):
-        self.json = json.load(open(path))
-        self.buffers = [open(os.path.join(os.path.dirname(path), b['uri']), 'rb').read() for b in self.json.get('buffers', [])]
+class Gltf(Glb):
+    """Of a .glb."""
 
     def positions(self, mesh):
         for primitive in self.json['meshes'][mesh]['primitives']:
@@ -50,7 +51,7 @@ class Gltf:
             view = self.json['bufferViews'][accessor['bufferView']]
             begin = view.get('byteOffset', 0) + accessor.get('byteOffset', 0)
             assert view.get('byteStride', 12) == 12
-            p = array.array('f', self.buffers[view['buffer']][begin : begin + 12 * accessor['count']])
+            p = array.array('f', self.bin[begin : begin + 12 * accessor['count']])
             yield from zip(p[0::3], p[1::3], p[2::3])
 
     def levels(self):
@@ -86,10 +87,20 @@ def check_levels(gltf):
     return n, None
 
 
-def check(wrlkit, world):
+def made_in(folders):
+    """The .glb of each world."""
+    for folder in folders:
+        journal = Path(folder, '.wrlkit/journal-1-of-1.jsonl')
+        for line in journal.read_text().splitlines() if journal.exists() else []:
+            job = json.loads(line)
+            if job['state'].startswith('made'):
+                yield job['input'], Path(folder, job['output'])
+
+
+def check(wrlkit, world, made):
     with tempfile.TemporaryDirectory() as folder:
         # Pictures that are written along have the name of the world, so both are called the same.
-        one, two, plain, gltf = (os.path.join(folder, n) for n in ('1/lod.wrl', '2/lod.wrl', 'plain.wrl', 'lod.gltf'))
+        one, two, plain = (os.path.join(folder, n) for n in ('1/lod.wrl', '2/lod.wrl', 'plain.wrl'))
         for path in (one, two):
             os.mkdir(os.path.dirname(path))
         code, _, text = run(wrlkit, 'convert', world, plain, '-p', 'weld')
@@ -108,15 +119,14 @@ def check(wrlkit, world):
             return 0, f'read back with {names_of_messages(said_of_lod)}, where it is {names_of_messages(said)}'
         if shown(json.loads(before)) != shown(json.loads(after)):
             return 0, f'{shown(json.loads(before))} became {shown(json.loads(after))}'
-        if run(wrlkit, 'convert', world, gltf, '-p', 'weld,lod')[0] not in (0, 1) or not os.path.exists(gltf):
-            return 0, 'no glTF'
-        return check_levels(Gltf(gltf))
+        return check_levels(Gltf(made[world])) if world in made else (0, None)
 
 
 def main():
     args = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     args.add_argument('--wrlkit', default=os.path.join(project, 'build/release/wrlkit'))
     args.add_argument('--every', type=int, default=1)
+    args.add_argument('--made', nargs='*', default=[])
     args.add_argument('-v', action='store_true')
     o = args.parse_args()
     files = list(worlds(os.path.join(project, 'corpus')))
@@ -125,9 +135,10 @@ def main():
     else:
         print('the found corpus is not there (WRLKIT_SHARED): only worlds of this project')
     files = files[:: o.every]
+    made = dict(made_in(o.made))
     failed = unread = with_levels = levels = 0
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for world, (n, why) in zip(files, pool.map(lambda f: check(o.wrlkit, f), files)):
+        for world, (n, why) in zip(files, pool.map(lambda f: check(o.wrlkit, f, made), files)):
             unread += n is None
             with_levels += bool(n)
             levels += n or 0

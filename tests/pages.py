@@ -20,7 +20,7 @@ import sys
 import tempfile
 
 ROOT = Path(__file__).resolve().parents[1]
-PROGRESS = re.compile(r'\S.*, \d+ s')  # on a slow machine
+PROGRESS = re.compile(r'\S.*, \d+ s( left)?')  # on a slow machine
 BLOCK = re.compile(r'^```\n(\$ .*?)^```$', re.M | re.S)
 
 

@@ -18,8 +18,8 @@ import time
 from names_table import with_bolts
 from tiles_world import bytes_of, round_parts
 
-FILES, KILLS, SHARDS = 4, 5, 4
-LEAST = '400'  # triangles a tile
+FILES, KILLS, SHARDS = 4, 3, 4
+LEAST = '200'  # triangles a tile
 
 
 class Test:
@@ -28,7 +28,7 @@ class Test:
         self.plant = folder / 'in'
         self.plant.mkdir()
         for i in range(FILES):
-            self.write(f'unit_{i}', round_parts(12) if i % 2 else with_bolts(60, 90)[0], (300 * i, 0, 40 * i * i))
+            self.write(f'unit_{i}', round_parts(6) if i % 2 else with_bolts(30, 50)[0], (300 * i, 0, 40 * i * i))
 
     def write(self, name, text, at):
         """A file whose parts are Inlined at a place."""
@@ -54,7 +54,7 @@ class Test:
         self.expect(not differ, f'{what}: other bytes than at once: {differ[:4]}')
 
     def killed(self, jobs):
-        """A run that is killed five times, each time farther on."""
+        """A run that is killed again and again, each time farther on."""
         out, kept = f'killed-{jobs}', 0
         begin = time.monotonic()
         self.make(f'timed-{jobs}', '--jobs', jobs)

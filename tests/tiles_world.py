@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A world becomes 3D Tiles: every part is found by its name where it stands, errors are those that are there, boxes hold what is in them.
 
-  tests/tiles_world.py --wrlkit build/release/wrlkit [--parts 400] [--rounds 120]
+  tests/tiles_world.py --wrlkit build/release/wrlkit [--parts 200] [--rounds 60]
 
 Makes a world of named boxes and bolts 5,000 km from the origin and named round parts, writes it as tiles of few triangles, reads tileset.json and the
 tiles with only the struct module, and has `wrlkit diff` measure each coarse tile against the full ones that it stands for.
@@ -169,10 +169,10 @@ def bytes_of(folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--wrlkit', required=True)
-    parser.add_argument('--parts', type=int, default=400)
-    parser.add_argument('--bolts', type=int, default=150)
-    parser.add_argument('--rounds', type=int, default=120)
-    parser.add_argument('--triangles', type=int, default=1500)
+    parser.add_argument('--parts', type=int, default=200)
+    parser.add_argument('--bolts', type=int, default=80)
+    parser.add_argument('--rounds', type=int, default=60)
+    parser.add_argument('--triangles', type=int, default=800)
     args = parser.parse_args()
     text, near = with_bolts(args.parts, args.bolts)
     boxes = {f'far.wrl/Site/{name}': [b + o for b, o in zip(box, SITE * 2)] for name, box in near.items()}

@@ -1,7 +1,8 @@
 // tinygltf as a second judge of the glTF that is written, and as a neighbour (convert/tinygltf/tinygltf.h).
-//   tinygltf_tests judge FOLDER MADE   every .glb below MADE (tests/convert_worlds.py), and every world below FOLDER,
-//                                      converted in other ways: tinygltf loads it without a word
-//   tinygltf_tests road FOLDER         every world becomes a tinygltf::Model and comes back as it does by way of a file
+//   tinygltf_tests judge FOLDER MADE [N]   every .glb below MADE (tests/convert_worlds.py), and every N-th world below
+//                                          FOLDER, converted in other ways: tinygltf loads it without a word
+//   tinygltf_tests road FOLDER [N]         every N-th world becomes a tinygltf::Model and comes back as it does by way
+//                                          of a file
 // The exit code is 77 when there is no such folder.
 #include <tiny_gltf.h>
 
@@ -120,16 +121,20 @@ void judge_made(const char* folder, Count& count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool judging = argc == 4 && !std::strcmp(argv[1], "judge");
-  if (!judging && argc != 3) return 2;
-  for (int i = 2; i < argc; ++i) {
+  const bool judging = argc >= 4 && !std::strcmp(argv[1], "judge");
+  const int n_folders = judging ? 2 : 1;
+  if (argc < 2 + n_folders) return 2;
+  const std::size_t every = argc > 2 + n_folders ? std::stoul(argv[2 + n_folders]) : 1;
+  for (int i = 2; i < 2 + n_folders; ++i) {
     if (fs::is_directory(argv[i])) continue;
     std::printf("skipped: there is no folder %s\n", argv[i]);
     return 77;
   }
   Count made, worlds;
   if (judging) judge_made(argv[3], made);
-  for (const auto& path : files_in(argv[2], {".wrl", ".wrz", ".x3d", ".x3dv", ".iv", ".wrl.gz", ".glb", ".gltf"})) {
+  const auto paths = files_in(argv[2], {".wrl", ".wrz", ".x3d", ".x3dv", ".iv", ".wrl.gz", ".glb", ".gltf"});
+  for (std::size_t i = 0; i < paths.size(); i += every) {
+    const std::string& path = paths[i];
     Diagnostics diag;
     const auto world = read_world(path, {}, diag);
     if (world) worlds.add(path, (judging ? judge : road)(path, *world, diag.shared_sources()));

@@ -40,8 +40,8 @@ std::string summary_text(const GltfSummary& s) {
                      grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
   if (s.instances > 0) out += fmt::format("  {} instances in tables (EXT_mesh_gpu_instancing)\n", grouped(s.instances));
   if (const auto& r = s.recoding; r.pictures > 0) {
-    out += fmt::format("  pictures: {} written again, {} of them at another size; {} bytes became {}",
-                       grouped(r.pictures), grouped(r.resized), grouped(r.before), grouped(r.after));
+    out += fmt::format("  pictures: {} re-encoded, {} of them resized; {} bytes became {}", grouped(r.pictures),
+                       grouped(r.resized), grouped(r.before), grouped(r.after));
     out += r.psnr > 0 ? fmt::format(", PSNR at least {:.1f} dB\n", r.psnr) : "\n";
   }
   const auto& q = s.quantization;
@@ -67,8 +67,7 @@ std::string summary_json(const GltfSummary& s) {
       if (s.json_gzip > 0) sizes("gzip", s.json_gzip, s.geometry_gzip, s.pictures_gzip);
       if (const auto& r = s.recoding; r.pictures > 0) {
         json.object("pictures", [&] {
-          json.members("written_anew", r.pictures, "resized", r.resized, "bytes_before", r.before, "bytes_after",
-                       r.after);
+          json.members("reencoded", r.pictures, "resized", r.resized, "bytes_before", r.before, "bytes_after", r.after);
           if (r.psnr > 0) json.member("psnr", r.psnr);
         });
       }

@@ -54,7 +54,11 @@ bool Staging::open(const std::string& folder, Diagnostics& diag) {
   folder_ = folder;
   std::error_code fault;
   made_ = fs::create_directories(folder_, fault);
-  if (!fault && !fs::is_directory(folder_, fault)) fault = std::make_error_code(std::errc::not_a_directory);
+  std::error_code none;
+  const auto type = fs::status(folder_, none).type();
+  // Not found: a run that had made it has ended and removed it; make_own makes it again.
+  if (!fault && type != fs::file_type::directory && type != fs::file_type::not_found)
+    fault = std::make_error_code(std::errc::not_a_directory);
   remove_left_behind();
   if (!fault) fault = make_own();
   if (fault) {

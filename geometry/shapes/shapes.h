@@ -8,12 +8,10 @@
 
 namespace wrlkit {
 
-void make_box(MeshJob& job, const Tessellation& options);
-void make_cone(MeshJob& job, const Tessellation& options);
-void make_cylinder(MeshJob& job, const Tessellation& options);
-void make_sphere(MeshJob& job, const Tessellation& options);
-void make_extrusion(MeshJob& job, const Tessellation& options);
-void make_elevation_grid(MeshJob& job, const Tessellation& options);
+#define SHAPE(node, maker) void maker(MeshJob& job, const Tessellation& options);
+#include "geometry/shapes/makers.def"
+
+/// Of the nodes of our own: forms.
 void make_form(MeshJob& job, const Tessellation& options);
 
 /// Leaves the mesh without faces and reports degenerate-geometry.

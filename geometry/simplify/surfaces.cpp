@@ -5,6 +5,7 @@
 #include "geometry/geometry.h"
 #include "geometry/simplify/collapse.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -41,11 +42,7 @@ class SurfaceSearch {
 
  private:
   void keep_routed() {
-    auto keep = [&](const Scope& s) {
-      for (const auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = Kept::routed;
-    };
-    keep(scene_.main);
-    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) keep(scene_.proto(ProtoId{i}).body);
+    for_each_route(scene_, [&](const Route& r) { kept_[r.from.value] = kept_[r.to.value] = Kept::routed; });
   }
 
   void keep_below_levels() {

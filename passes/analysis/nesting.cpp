@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -15,8 +16,7 @@ class Nesting {
   Nesting(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag), height_(scene.node_count(), fresh) {}
 
   void run() {
-    scope(scene_.main);
-    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) scope(scene_.proto(ProtoId{i}).body);
+    for_each_scope(scene_, [&](const Scope& s) { scope(s); });
   }
 
  private:

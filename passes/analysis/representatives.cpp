@@ -76,8 +76,7 @@ std::uint32_t Representatives::class_of(NodeId n) {
 }
 
 bool Representatives::is_default(NodeId n, const Value& v) const {
-  if (info(v.type).element == Element::node) return v.node_span().empty();
-  return equal_plain(v, scene_.type(n).fields[v.slot].default_value);
+  return equals_default(v, scene_.type(n).fields[v.slot]);
 }
 
 /// Fields may be in any order.

@@ -12,6 +12,7 @@
 #include "passes/lower_x3d/geometry.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit::x3d {
@@ -72,8 +73,7 @@ class Placing {
     std::ranges::copy_if(all, std::back_inserter(found), [&](NodeId n) { return row_of(scene_, n) != nullptr; });
     if (found.empty()) return false;
     choose_origin(all, found);
-    routes(scene_.main);
-    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) routes(scene_.proto(ProtoId{i}).body);
+    for_each_scope(scene_, [&](Scope& s) { routes(s); });
     for (NodeId n : found) place(n);
     return true;
   }

@@ -11,6 +11,7 @@
 #include "passes/lower_x3d/geometry.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit::x3d {
@@ -248,10 +249,7 @@ class InterpolatorLowering {
         become(n, nodes::OrientationInterpolator, FieldType::MFRotation, squad(list(n, "key"), list(n, "keyValue")));
       if (scene_.is(n, nodes::EaseInEaseOut)) eases.push_back(n);
     }
-    if (!eases.empty()) {
-      routes(scene_.main);
-      for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) routes(scene_.proto(ProtoId{i}).body);
-    }
+    if (!eases.empty()) for_each_scope(scene_, [&](Scope& s) { routes(s); });
     for (NodeId n : eases)
       become(n, nodes::ScalarInterpolator, FieldType::MFFloat, eased(list(n, "key"), list(n, "easeInEaseOut")));
     return changed_;

@@ -2,6 +2,7 @@
 
 #include "passes/lower_x3d/geometry.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/scopes.h"
 
 namespace wrlkit::x3d {
 namespace {
@@ -106,11 +107,7 @@ bool split_sides(Scene& scene, NodeId n, const std::vector<char>& driven) {
 
 std::vector<char> routed_nodes(const Scene& scene) {
   std::vector<char> out(scene.node_count());
-  const auto mark = [&](const Scope& s) {
-    for (const Route& r : s.routes) out[r.from.value] = out[r.to.value] = 1;
-  };
-  mark(scene.main);
-  for (std::uint32_t i = 0; i < scene.proto_count(); ++i) mark(scene.proto(ProtoId{i}).body);
+  for_each_route(scene, [&](const Route& r) { out[r.from.value] = out[r.to.value] = 1; });
   return out;
 }
 

@@ -6,17 +6,13 @@
 #include "passes/lower_x3d/geometry.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit::x3d {
 namespace {
 
 constexpr auto in_vrml97 = static_cast<DialectSet>(Dialect::vrml97);
-
-bool equals_default(const Value& v, const FieldDef& f) {
-  if (info(f.type).element == Element::node) return v.node_span().empty();
-  return equal_plain(v, f.default_value);
-}
 
 class Vrml97Lowering {
  public:
@@ -28,11 +24,8 @@ class Vrml97Lowering {
     for (NodeId n : all) foreign_children(n);
     for (NodeId n : all) foreign_fields(n);
     for (NodeId n : all) foreign_node(n);
-    routes(scene_.main);
-    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) {
-      interface(ProtoId{i});
-      routes(scene_.proto(ProtoId{i}).body);
-    }
+    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) interface(ProtoId{i});
+    for_each_scope(scene_, [&](Scope& s) { routes(s); });
     report();
     return head() || changed_;
   }

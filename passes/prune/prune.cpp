@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenegraph/nodes.h"
+#include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -13,12 +14,10 @@ class Pruning {
   explicit Pruning(Scene& scene) : scene_(scene), order_(all_nodes(scene)), kept_(scene.node_count(), 0) {}
 
   Outcome run() {
-    auto routes = [&](const Scope& s) {
+    for_each_scope(scene_, [&](const Scope& s) {
       for (auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = 1;
       for (auto& e : s.exports) kept_[e.node.value] = 1;
-    };
-    routes(scene_.main);
-    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) routes(scene_.proto(ProtoId{i}).body);
+    });
     // Children first, so that a group of empty groups goes as a whole.
     for (auto n = order_.rbegin(); n != order_.rend(); ++n) prune_children(*n);
     auto before = scene_.main.roots.size();

@@ -1,19 +1,23 @@
 // Compressed glTF is decoded by glTF-Transform, with the decoders of meshoptimizer and Draco that their authors publish, and
 // compared with the same world as floats: the same names, as many triangles, and no corner further from one of the original
 // than the tolerance. The Khronos validator finds no error and no warning.
-//   node decoded.mjs WRLKIT FOLDER METHOD
-// METHOD table: profile cesium, with places in tables and merged meshes; names are not looked at then (tests/names_table.py does).
+//   node decoded.mjs WRLKIT FOLDER MADE     MADE: what tests/convert_worlds.py has made, without compression
 import assert from 'node:assert';
 import fs from 'node:fs';
 import path from 'node:path';
 import validator from 'gltf-validator';
+import {converted_in} from './converted.mjs';
 import {run} from './program.mjs';
 import {own_worlds} from './worlds.mjs';
 
-const [wrlkit, folder, method] = process.argv.slice(2);
+const [wrlkit, folder, made] = process.argv.slice(2);
 const skipped = 77, tolerance = 1e-3, rounding = 1e-5, shared = 2e-4;  // shared: what the pass instance may move
-const in_table = method === 'table';
-const flags = in_table ? ['--profile', 'cesium', '-p', 'dedup,instance,merge{parts=true},merge{instanced=true}'] : ['--compress', method];
+// Of the table names are not looked at (tests/names_table.py does that), nor are pictures.
+const methods = [
+  ...['quantize', 'meshopt', 'draco'].map(name => ({name, flags: ['--compress', name], reach: tolerance + rounding})),
+  {name: 'table', in_table: true, reach: tolerance + rounding + shared,
+    flags: ['--profile', 'cesium', '--texture-format', 'keep', '-p', 'dedup,instance,merge{parts=true},merge{instanced=true}']},
+];
 
 async function make_reader() {
   const {NodeIO} = await import('@gltf-transform/core');
@@ -63,18 +67,20 @@ function drawn(document) {
 
 const names = document => document.getRoot().listNodes().map(node => node.getName()).filter(Boolean).sort();
 
-/// Largest distance of a point of `a` to the nearest of `b`, if it is below `reach`; otherwise infinite.
-function distance(a, b, reach) {
+const unique = points => [...new Map(points.map(p => [p.join(), p])).values()];
+
+/// Distance of a point to the nearest of those, if it is below `reach`; otherwise infinite.
+function distance_to(points, reach) {
   const cell = p => p.map(v => Math.floor(v / reach));
   const cells = new Map();
-  for (const p of b) {
-    const key = cell(p).join();
-    cells.set(key, [...cells.get(key) ?? [], p]);
+  for (const p of points) {
+    const key = cell(p).join(), in_cell = cells.get(key);
+    if (in_cell) in_cell.push(p);
+    else cells.set(key, [p]);
   }
   const near = [-1, 0, 1];
   const around = p => near.flatMap(x => near.flatMap(y => near.flatMap(z => cells.get([p[0] + x, p[1] + y, p[2] + z].join()) ?? [])));
-  const unique = [...new Map(a.map(p => [p.join(), p])).values()];
-  return unique.reduce((worst, p) => Math.max(worst, Math.min(Infinity, ...around(cell(p)).map(q => Math.hypot(...p.map((v, k) => v - q[k]))))), 0);
+  return p => Math.min(Infinity, ...around(cell(p)).map(q => Math.hypot(...p.map((v, k) => v - q[k]))));
 }
 
 async function check_valid(file, name) {
@@ -82,20 +88,21 @@ async function check_valid(file, name) {
   assert.deepEqual(report.issues.messages.filter(m => m.severity <= 1), [], name);
 }
 
-async function compare(world, reader, number) {
-  const out = name => path.join(folder, `${number}${name}.glb`);
-  await run(wrlkit, ['convert', '-q', world.file, out('')]);
-  await run(wrlkit, ['convert', '-q', world.file, out('small'), ...flags, '--tolerance', tolerance]);
-  await check_valid(out('small'), world.name);
-  const [plain, small] = [await reader.read(out('')), await reader.read(out('small'))];
-  if (!in_table) assert.deepEqual(names(small), names(plain), world.name);
-  const [a, b] = [drawn(plain), drawn(small)];
-  if (!in_table) assert.equal(b.length, a.length, `${world.name}: primitives`);
-  assert.equal(b.reduce((n, p) => n + p.corners.length, 0), a.reduce((n, p) => n + p.corners.length, 0), `${world.name}: corners`);
-  const all = list => [...new Map(list.flatMap(p => p.corners).map(p => [p.join(), p])).values()];
-  const worst = distance(all(b), all(a), 2 * tolerance);
-  assert(worst <= tolerance + rounding + (in_table ? shared : 0), `${world.name}: a corner is ${worst} m away`);
-  return {worst, bytes: fs.statSync(out('small')).size, before: fs.statSync(out('')).size};
+/// The world as floats: {names, n_primitives, n_corners, distance}.
+function original(document) {
+  const primitives = drawn(document), corners = primitives.flatMap(p => p.corners);
+  return {names: names(document), n_primitives: primitives.length, n_corners: corners.length, distance: distance_to(unique(corners), 2 * tolerance)};
+}
+
+/// How far the farthest corner of what a method makes is from those of the original.
+function farthest({in_table, reach}, small, plain, what) {
+  const primitives = drawn(small), corners = primitives.flatMap(p => p.corners);
+  if (!in_table) assert.deepEqual(names(small), plain.names, what);
+  if (!in_table) assert.equal(primitives.length, plain.n_primitives, `${what}: primitives`);
+  assert.equal(corners.length, plain.n_corners, `${what}: corners`);
+  const worst = unique(corners).reduce((most, p) => Math.max(most, plain.distance(p)), 0);
+  assert(worst <= reach, `${what}: a corner is ${worst} m away`);
+  return worst;
 }
 
 async function main() {
@@ -105,12 +112,21 @@ async function main() {
   fs.mkdirSync(folder, {recursive: true});
   const chosen = own_worlds().filter(w => /corpus\/(plant|paper|features\/(animation|colour_per_vertex|def|inline|l|material|negative|texture_[rt]))/.test(w.name));
   assert(chosen.length > 15);
-  const sum = {worst: 0, bytes: 0, before: 0};
-  for (const [i, world] of chosen.entries()) {
-    const one = await compare(world, reader, i);
-    sum.worst = Math.max(sum.worst, one.worst), sum.bytes += one.bytes, sum.before += one.before;
+  const before = converted_in(made), sums = methods.map(() => ({worst: 0, bytes: 0}));
+  let bytes = 0;
+  for (const world of chosen) {
+    const {file} = before.get(world.file), plain = original(await reader.read(file));
+    bytes += fs.statSync(file).size;
+    for (const [i, method] of methods.entries()) {
+      const out = path.join(folder, `${method.name}.glb`);
+      await run(wrlkit, ['convert', '-q', world.file, out, ...method.flags, '--tolerance', tolerance]);
+      await check_valid(out, `${world.name}, ${method.name}`);
+      const worst = farthest(method, await reader.read(out), plain, `${world.name}, ${method.name}`);
+      sums[i] = {worst: Math.max(sums[i].worst, worst), bytes: sums[i].bytes + fs.statSync(out).size};
+    }
   }
-  console.log(`${chosen.length} worlds: ${sum.before} -> ${sum.bytes} bytes, no corner further than ${(sum.worst * 1e3).toFixed(3)} mm`);
+  for (const [i, {name}] of methods.entries())
+    console.log(`${name}: ${chosen.length} worlds: ${bytes} -> ${sums[i].bytes} bytes, no corner further than ${(sums[i].worst * 1e3).toFixed(3)} mm`);
   return 0;
 }
 

@@ -6,6 +6,7 @@
 // because physically based light is another than VRML's, and lit as VRML does, where colours are the same but for a few
 // levels. Where a bound cannot hold, expectations.mjs says why.
 //   node three_pictures.mjs WRLKIT FOLDER [PART-OF-A-NAME | --all] [FLAGS-OF-CONVERT... | converted MADE]
+//   node three_pictures.mjs WRLKIT FOLDER ways     few worlds, in each way to write them small, see `ways`
 // PART-OF-A-NAME is a regular expression. Without one, or with -, all worlds are compared, but of found plants and worlds with baked light some: " with light"
 // compares all of those (for people: ten minutes). Pictures of worlds that fail are left in FOLDER.
 // MADE: what tests/convert_worlds.py has converted is taken from there. --all: the whole found corpus, too; for people, no bounds are known there.
@@ -20,11 +21,21 @@ import {file_of, found_worlds, has_shared, own_worlds, plants_and_worlds} from '
 
 const [wrlkit, folder, name_part = '-', ...words] = process.argv.slice(2);
 const part = name_part === '-' ? '' : name_part;
-const made = words[0] === 'converted' ? converted_in(words[1]) : new Map(), flags = made.size ? [] : words;
+const made = words[0] === 'converted' ? converted_in(words[1]) : new Map();
 const size = {width: 320, height: 240};
 const key = [0.85, 0.25, 0.65];
 const skipped = 77, patience = 200;
-const webp = ['webp', 'cesium', 'three'].some(word => flags.includes(word));  // these profiles store pictures so
+const asked = new Map();  // how alike pictures must be, by what they are called
+const has_webp = flags => ['webp', 'cesium', 'three'].some(word => flags.includes(word));  // these profiles store pictures so
+
+/// {names, flags}: what makes files small, and what few worlds show of it.
+const ways = [
+  {names: 'plant/pump_room_faces|features/fog_linear', flags: ['-p', 'dedup,instance', '--extras', 'facts', '--gpu-instancing']},
+  ...['quantize', 'meshopt', 'draco'].map(method => ({names: 'plant/pump_room_faces|features/(texture_repeat|lod)', flags: ['--compress', method]})),
+  {names: 'plant/pump_room_faces|features/(texture_repeat|lod|mirror)',
+    flags: ['--profile', 'cesium', '--tolerance', '1mm', '-p', 'dedup,instance,merge{parts=true},merge{instanced=true}']},
+  {names: 'features/(texture|material_texture)', flags: ['--texture-format', 'webp']},
+];
 
 /// Worlds of which three.js draws what `wrlkit simplify` makes of them, with all levels: the finest must show.
 const with_levels = ['corpus/paper/ellipsoid_hole.wrl']
@@ -52,30 +63,32 @@ async function source_of({file, levels, baked}, to) {
 const some_of = list => part ? list : list.filter((w, i) => i % 10 === 0 && fs.statSync(w.file).size < 100e3);
 
 /// The glTF of a world, as it was made before, or made now.
-async function convert(world, source, glb) {
+async function convert(world, source, glb, flags) {
   const before = made.get(source);
   if (before && !world.baked) return fs.copyFileSync(before.file, glb), before;
   return await run(wrlkit, ['convert', '-q', world.baked ? world.file : source, glb, ...flags, ...beside(world.file), ...world.baked ? bake : []], patience);
 }
 
 /// Converts a world, draws it, and says what the page has to do; null when nothing was made.
-async function prepare(world, number) {
+async function prepare({world, flags}, number) {
   const out = name => path.join(folder, `${number}${name}`);
   const source = await source_of(world, out(''));
-  const converted = await convert(world, source, out('.glb'));
+  const converted = await convert(world, source, out('.glb'), flags);
   const view = view_of(wrlkit, world.file, out('.glb'), world.name.startsWith('corpus/'));
   const drawn = await run(wrlkit, ['render', '-q', world.baked ? source : world.file, out('.png'), '--width', size.width, '--height', size.height,
     '--samples', 1, '--background', key, ...beside(world.file), ...view.flags]);
   const bad = [converted, drawn].find(r => r.code !== 0 && r.code !== 1);
   if (bad) return console.log(`${world.name}: exit code ${bad.code}: ${bad.text.trim()}`), null;
-  return {name: world.name, glb: `/out/${number}.glb`, camera: view.camera, ...size, background: key, key,
-    reach: expected(world.name, webp).reach, reference: [{label: 'wrlkit render', url: `/out/${number}.png`}]};
+  const name = [world.name, ...flags].join(' ');
+  asked.set(name, expected(world.name, has_webp(flags)));
+  return {name, glb: `/out/${number}.glb`, camera: view.camera, ...size, background: key, key, reach: asked.get(name).reach,
+    reference: [{label: 'wrlkit render', url: `/out/${number}.png`}]};
 }
 
 /// What is wrong with a pair of pictures; empty when nothing is.
 function judge({name, lighting, overlap, difference, coverage, error}) {
   if (error) return `failed: ${error}`;
-  const {least_overlap, most, least_coverage} = expected(name, webp);
+  const {least_overlap, most, least_coverage} = asked.get(name);
   const faults = [];
   if (overlap < least_overlap) faults.push(`overlap ${overlap.toFixed(4)} < ${least_overlap}`);
   if (difference > most[lighting]) faults.push(`difference ${difference.toFixed(4)} > ${most[lighting]} (lit by ${lighting})`);
@@ -99,9 +112,13 @@ function keep_picture({name, lighting, sheet}) {
   fs.writeFileSync(file, Buffer.from(sheet.split(',')[1], 'base64'));
 }
 
-function worlds() {
-  if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)];
-  return [...own_worlds(), ...with_levels, ...own_with_light, ...some_of(found_with_light.filter(w => is_compared(w.name)))].filter(w => is_compared(w.name) && new RegExp(part).test(w.name));
+/// {world, flags} of every pair of pictures.
+function tasks() {
+  const with_flags = flags => world => ({world, flags});
+  if (part === '--all') return [...own_worlds(), ...found_worlds().filter(w => !w.broken)].map(with_flags([]));
+  const compared = [...own_worlds(), ...with_levels, ...own_with_light, ...some_of(found_with_light.filter(w => is_compared(w.name)))].filter(w => is_compared(w.name));
+  const chosen = part === 'ways' ? ways : [{names: part, flags: made.size ? [] : words}];
+  return chosen.flatMap(({names, flags}) => compared.filter(w => new RegExp(names).test(w.name)).map(with_flags(flags)));
 }
 
 async function main() {
@@ -109,10 +126,10 @@ async function main() {
   if (!has_shared) console.log('the found corpus is not there (WRLKIT_SHARED): only worlds of this project');
   fs.rmSync(folder, {recursive: true, force: true});
   fs.mkdirSync(folder, {recursive: true});
-  const list = worlds();
+  const list = tasks();
   let failed = 0;
   async function* pictures() {
-    for await (const job of ahead(list.entries(), 2, ([i, world]) => prepare(world, i))) {
+    for await (const job of ahead(list.entries(), 2, ([i, task]) => prepare(task, i))) {
       if (!job) ++failed;
       else for (const lighting of ['vrml', 'three']) yield {...job, lighting};
     }

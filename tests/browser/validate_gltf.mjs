@@ -1,9 +1,9 @@
 // Has the official Khronos validator look at the glTF that is made of worlds of VRML97, VRML 1.0 and X3D: it must find no error and no
 // warning. Damaged files must only end by themselves, with an exit code that is documented and, when something is
 // missing, a message.
-//   node validate_gltf.mjs WRLKIT FOLDER NAMES converted MADE     what tests/convert_worlds.py has made in the folder MADE
-//   node validate_gltf.mjs WRLKIT FOLDER [NAMES] [PIPELINE] [FLAGS-OF-CONVERT...]      PIPELINE: - is the default one
-//   node validate_gltf.mjs WRLKIT FOLDER [NAMES] optimize [FLAGS-OF-OPTIMIZE...]      NAMES: a regular expression
+//   node validate_gltf.mjs WRLKIT FOLDER converted MADE...     what tests/convert_worlds.py has made, in one folder or several
+//   node validate_gltf.mjs WRLKIT FOLDER ways                  what few worlds show, see `ways`
+//   node validate_gltf.mjs WRLKIT FOLDER NAMES VERB [FLAG...]  for people; NAMES: a regular expression, VERB: convert, optimize
 import fs from 'node:fs';
 import path from 'node:path';
 import validator from 'gltf-validator';
@@ -11,11 +11,18 @@ import {converted_in} from './converted.mjs';
 import {in_lanes, run} from './program.mjs';
 import {found_to_draw, found_worlds, has_shared, own_worlds, every_format} from './worlds.mjs';
 
-const [wrlkit, folder, names = '', pipeline = '', ...flags] = process.argv.slice(2);
+const [wrlkit, folder, what, ...words] = process.argv.slice(2);
 const lanes = 2, skipped = 77;
 const to_draw = found_to_draw();
 const faults = [];
 const counts = {worlds: 0, broken: 0, valid: 0, bytes: 0};
+
+/// Ways to write glTF, and the worlds in which they show.
+const ways = [
+  ...['emissive', 'occlusion', 'moz', 'extras'].map(as => ({names: 'features/lightmap', words: ['convert', '--lightmap-as', as]})),
+  {names: 'plant/pump_room', words: ['convert', '-p', 'dedup,instance', '--extras', 'facts', '--gpu-instancing']},
+  {names: 'plant/', words: ['optimize', '--profile', 'cesium', '--recognise']},
+];
 
 const fault = (world, kind, detail = '') => faults.push({name: world.name, kind, detail});
 
@@ -47,9 +54,9 @@ function check_end(world, result, out) {
   return result.code !== 3;
 }
 
-async function check(world) {
+async function check(world, [verb, ...flags]) {
   const out = path.join(folder, `${counts.worlds++}.glb`);
-  const result = await run(wrlkit, pipeline === 'optimize' ? ['optimize', world.file, out, ...flags] : ['convert', world.file, out, ...(pipeline && pipeline !== '-' ? ['-p', pipeline] : []), ...flags], 60);
+  const result = await run(wrlkit, [verb, world.file, out, ...flags], 60);
   if (world.broken) ++counts.broken;
   if (check_end(world, result, out)) await check_result(world, result, out);
   fs.rmSync(out, {force: true});
@@ -59,7 +66,6 @@ async function check(world) {
 async function check_converted(world, made) {
   ++counts.worlds;
   if (world.broken) ++counts.broken;
-  if (!made) return fault(world, 'not converted');
   if (made.code !== 3) await check_result(world, made, made.file);
   else if (fs.existsSync(made.file)) fault(world, 'exit code 3 with output');
 }
@@ -79,12 +85,13 @@ function print_kind(kind, all) {
 fs.rmSync(folder, {recursive: true, force: true});
 fs.mkdirSync(folder, {recursive: true});
 if (!has_shared) console.log('the found corpus is not there (WRLKIT_SHARED): only worlds of this project');
-const worlds = [...own_worlds(every_format), ...found_worlds(every_format)].filter(w => new RegExp(names).test(w.name));
-if (pipeline === 'converted') {
-  const made = converted_in(flags[0]);
-  for (const world of worlds) await check_converted(world, made.get(world.file));
+const all = [...own_worlds(every_format), ...found_worlds(every_format)];
+if (what === 'converted') {
+  for (const made of words.map(converted_in))
+    for (const world of all.filter(w => made.has(w.file))) await check_converted(world, made.get(world.file));
 } else {
-  await in_lanes(worlds, lanes, check);
+  for (const way of what === 'ways' ? ways : [{names: what, words}])
+    await in_lanes(all.filter(w => new RegExp(way.names).test(w.name)), lanes, world => check(world, way.words));
 }
 print_faults();
 console.log(`${counts.worlds} worlds, ${counts.broken} of them damaged; ${counts.valid} results without error or warning, ${(counts.bytes / 1e6).toFixed(1)} MB`);

@@ -8,7 +8,19 @@ import {pathToFileURL} from 'node:url';
 import {chromium} from 'playwright-core';
 import {chromium as executablePath, drawing} from './browser.mjs';
 
-export const start_chromium = () => chromium.launch({executablePath, args: drawing});
+const launch = () => chromium.launch({executablePath, args: drawing});
+let shared;
+
+/// A browser; the one that all tests of this process share, after share_chromium().
+export const start_chromium = async () => shared ?? await launch();
+
+/// From now on start_chromium() gives one and the same browser, and closing it closes its pages. What is returned ends it.
+export async function share_chromium() {
+  shared = await launch();
+  const end = shared.close.bind(shared);
+  shared.close = () => Promise.all(shared.contexts().map(context => context.close()));
+  return end;
+}
 
 /// Runs wrlkit; its standard output.
 export function wrlkit(program, ...args) {

@@ -71,8 +71,8 @@ std::string bolts(int n, double apart) {
 
 }  // namespace
 
-TEST_CASE("world levels: a part in thousands and millions of places by USE of USE", "[levels][hostile]") {
-  for (const int n : {14, 20}) {
+TEST_CASE("world levels: a part in thousands of places and more by USE of USE", "[levels][hostile]") {
+  for (const int n : {14, 17}) {
     const auto points = points_of(ball + nested(n));
     REQUIRE(points.size() == 2);
     const double bolts = std::ldexp(1, n);
@@ -93,7 +93,7 @@ TEST_CASE("world levels: more places than can be counted", "[levels][hostile]") 
 }
 
 TEST_CASE("world levels: a chain of groups as deep as the bolts are many", "[levels][hostile]") {
-  TestWorld w(ball + "Group { children [ " + nested(40) + " ] }");
+  TestWorld w(ball + "Group { children [ " + nested(20) + " ] }");
   Scene& scene = w.scene;
   // Deeper than a file may be.
   for (int i = 0; i < 20'000; ++i) {
@@ -106,17 +106,17 @@ TEST_CASE("world levels: a chain of groups as deep as the bolts are many", "[lev
   CHECK(WorldLevels(scene, options, w.ctx).points().size() == 1);
 }
 
-TEST_CASE("world levels: a million bolts in a list", "[levels][hostile]") {
-  const auto points = points_of(ball + bolts(1'000'000, 0.1));
+TEST_CASE("world levels: hundreds of thousands of bolts in a list", "[levels][hostile]") {
+  const auto points = points_of(ball + bolts(200'000, 0.1));
   REQUIRE(points.size() == 2);
-  CHECK(points[1].n_drawn <= 0.03 * 44e6);
+  CHECK(points[1].n_drawn <= 0.03 * 8.8e6);
 }
 
 TEST_CASE("world levels: coincident copies", "[levels][hostile]") {
-  const auto points = points_of(ball + bolts(20'000, 0));
+  const auto points = points_of(ball + bolts(10'000, 0));
   REQUIRE(points.size() == 2);
   std::string many;
-  for (int i = 0; i < 2000; ++i) many += "Shape { geometry Box { } }\n";
+  for (int i = 0; i < 1000; ++i) many += "Shape { geometry Box { } }\n";
   CHECK(points_of(ball + many).back().rms < 0.3);
 }
 

@@ -85,8 +85,9 @@ Backup::Backup(const Flags& flags) {
   fs::create_hard_link(target, path_, fault);
   if (fault) fs::copy_file(target, path_, fault);
   if (!fault) return;
-  why_not_ = fmt::format("'{}' cannot be written: {}", path_, fault.message());
+  fmt::print(stderr, "wrlkit: --in-place: '{}' cannot be written: {}\n", path_, fault.message());
   path_.clear();
+  good_ = false;
 }
 
 Backup::~Backup() {

@@ -10,7 +10,7 @@ namespace wrlkit {
 /// verb's `endings` (".xml .xml.gz"; empty: any). With Flags::load.in_place the output may be the input.
 bool check_outputs(const Flags& flags, std::string_view endings);
 
-/// Keeps the input when it is about to be replaced: as FILE.bak, or as FILE.bak.2 when that is there.
+/// Keeps the input when --in-place is about to replace it: as FILE.bak, or as FILE.bak.2 when that is there.
 class Backup {
  public:
   explicit Backup(const Flags& flags);
@@ -18,11 +18,12 @@ class Backup {
   ~Backup();
   Backup(const Backup&) = delete;
   void keep() { path_.clear(); }
-  /// Why there can be none; empty when there is one, or none is needed.
-  const std::string& why_not() const { return why_not_; }
+  /// False when one is needed and there can be none, which was printed.
+  bool good() const { return good_; }
 
  private:
-  std::string path_, why_not_;
+  std::string path_;
+  bool good_ = true;
 };
 
 }  // namespace wrlkit

@@ -72,6 +72,11 @@ bool Session::choose_pipeline(std::string_view standard) {
   return true;
 }
 
+bool Session::printed_pipeline() const {
+  if (flags_.print_pipeline) fmt::print("{}\n", pipeline_->text());
+  return flags_.print_pipeline;
+}
+
 PipelineOptions Session::pipeline_options() {
   PipelineOptions o;
   o.verify_each = flags_.verify_each;

@@ -34,6 +34,8 @@ class Session {
   bool choose_pipeline(std::string_view standard);
   Pipeline& pipeline() { return *pipeline_; }
   PipelineOptions pipeline_options();
+  /// True after --print-pipeline, with which a verb ends here.
+  bool printed_pipeline() const;
 
   /// For --report: facts in addition to the messages, as JSON.
   void fact(std::string name, std::string json) { facts_.emplace_back(std::move(name), std::move(json)); }

@@ -1,6 +1,4 @@
 // wrlkit cat: the VRML97 writer on standard output.
-#include <fmt/format.h>
-
 #include "tools/verbs/convert.h"
 
 namespace wrlkit {
@@ -11,10 +9,7 @@ int run_cat(const Flags& flags) {
   auto to = *output_of(".wrl", options);
   to.path = flags.output.empty() ? "-" : flags.output;
   if (!s.good() || !s.choose_pipeline(to.format->pipeline(options))) return usage;
-  if (flags.print_pipeline) {
-    fmt::print("{}\n", s.pipeline().text());
-    return done;
-  }
+  if (s.printed_pipeline()) return done;
   return s.end(s.read(flags.inputs[0]) &&
                write_document(s.document(), s.pipeline(), to, options, {s.pipeline_options()}));
 }

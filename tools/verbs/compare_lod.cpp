@@ -159,10 +159,7 @@ int run_compare_lod(const Flags& flags) {
       !s.choose_pipeline(flags.pipeline_given ? "lower-vrml1,lower-x3d{vrml97=true}"
                                               : "lower-vrml1,lower-x3d{vrml97=true},weld"))
     return usage;
-  if (flags.print_pipeline) {
-    fmt::print("{}\n", s.pipeline().text());
-    return done;
-  }
+  if (s.printed_pipeline()) return done;
   if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))
     return s.end(false);
   const auto comparison = compare(s);

@@ -112,20 +112,14 @@ Saved write_world(Session& s, SaveOptions options, const std::function<void(Scen
 int run_convert(const Flags& flags) {
   Session s(flags);
   if (!prepare_conversion(s)) return usage;
-  if (flags.print_pipeline) {
-    fmt::print("{}\n", s.pipeline().text());
-    return done;
-  }
+  if (s.printed_pipeline()) return done;
   if (flags.print_recipe) {
     fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline()));
     return done;
   }
   if (!flags.quiet) warn_of_idle_options(flags);
   Backup backup(flags);
-  if (!backup.why_not().empty()) {
-    fmt::print(stderr, "wrlkit: --in-place: {}\n", backup.why_not());
-    return nothing;
-  }
+  if (!backup.good()) return nothing;
   const auto saved = read_input(s) ? write_world(s, save_options(flags)) : Saved{};
   if (saved) backup.keep();
   s.progress().clear();

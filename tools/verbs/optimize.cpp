@@ -62,15 +62,9 @@ int run_optimize(const Flags& given) {
     fmt::print(stderr, "wrlkit: optimize writes .glb and .gltf, not '{}'\n", flags.output);
     return usage;
   }
-  if (flags.print_pipeline) {
-    fmt::print("{}\n", s.pipeline().text());
-    return done;
-  }
+  if (s.printed_pipeline()) return done;
   Backup backup(flags);
-  if (!backup.why_not().empty()) {
-    fmt::print(stderr, "wrlkit: --in-place: {}\n", backup.why_not());
-    return nothing;
-  }
+  if (!backup.good()) return nothing;
   if (!read_input(s)) return s.end(false);
   std::error_code ec;
   const auto size = std::filesystem::file_size(flags.inputs[0], ec);

@@ -145,10 +145,7 @@ int run_render(const Flags& given) {
   if (!sheet) flags.warnings.insert(flags.warnings.begin(), "error=viewpoint-not-found");
   Session s(flags);
   if (!is_usable(flags, sheet) || !s.good() || !s.choose_pipeline("picture")) return usage;
-  if (flags.print_pipeline) {
-    fmt::print("{}\n", s.pipeline().text());
-    return done;
-  }
+  if (s.printed_pipeline()) return done;
   warn_of_idle_light(flags);
   if (sheet) return render_sheet(s);
   const bool made = !flags.compare.empty() ? render_comparison(s)

@@ -219,10 +219,7 @@ int run_simplify(const Flags& flags) {
   Session s(flags);
   auto options = world_options_of(flags);
   if (!options || !s.good() || !s.choose_pipeline(standard_pipeline(flags))) return usage;
-  if (flags.print_pipeline) {
-    fmt::print("{}\n", s.pipeline().text());
-    return done;
-  }
+  if (s.printed_pipeline()) return done;
   if (!s.read(flags.inputs[0])) return s.end(false);
   if (options->errors.empty() && !flags.progressive) options->drawn = drawn_triangles(s.document());
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);

@@ -188,10 +188,7 @@ int run_view(const Flags& flags) {
   if (tileset.empty() && is_gallery(flags)) return view_gallery(flags);
   Session s(flags);
   if (!can_be_shown(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;
-  if (flags.print_pipeline) {
-    fmt::print("{}\n", s.pipeline().text());
-    return done;
-  }
+  if (s.printed_pipeline()) return done;
   if (!has_viewer()) {
     fmt::print(stderr,
                "wrlkit view: the page was not built into this program: that needs Node.js and npm packages "

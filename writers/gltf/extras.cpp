@@ -22,11 +22,6 @@ std::size_t n_table_fields(const NodeType& t) {
   return built_in ? builtin_nodes()[built_in.value].fields.size() : t.fields.size();
 }
 
-bool equals_default(const Value& v, const FieldDef& f) {
-  if (info(f.type).element == Element::node) return v.node_span().empty();
-  return equal_plain(v, f.default_value);
-}
-
 bool is_long(const Value& v) {
   constexpr std::size_t most = 128;  // characters, about
   std::size_t n = 0;

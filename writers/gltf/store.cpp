@@ -103,7 +103,7 @@ std::uint32_t Store::add(View view, const void* data, std::size_t n_bytes) {
   auto hash = static_cast<std::uint32_t>(whole ^ whole >> 32) + static_cast<std::uint32_t>(view);
   Slot& slot = find(view, data, n_bytes, hash);
   if (slot.accessor != none) return slot.accessor;
-  if (bytes() + n_bytes > limit) {
+  if (bytes() + n_bytes > most_) {
     full_ = true;
     return none;
   }

@@ -73,6 +73,9 @@ struct Accessor {
 
 class Store {
  public:
+  /// No more than `most` bytes are taken: a .glb ends at 4 GiB, and so do the offsets of accessors.
+  explicit Store(std::uint32_t most = std::numeric_limits<std::uint32_t>::max()) : most_(most) {}
+
   /// Accessors with these values; `none` when they do not fit any more.
   std::uint32_t positions(std::span<const float>, const Bounds&);
   std::uint32_t vertices(View, std::span<const float>);
@@ -92,11 +95,10 @@ class Store {
   const Bounds& bounds_of(std::uint32_t accessor) const { return bounds_[accessors_[accessor].bounds]; }
   const Blocks& view(View v) const { return views_[static_cast<std::size_t>(v)]; }
   std::uint64_t bytes() const;
-  /// Data had to be refused: a GLB ends at 4 GiB.
+  /// Data had to be refused.
   bool full() const { return full_; }
 
  private:
-  static constexpr std::uint64_t limit = std::numeric_limits<std::uint32_t>::max();
   struct Slot {
     std::uint32_t hash = 0, accessor = none;
   };
@@ -110,6 +112,7 @@ class Store {
   std::vector<Bounds> bounds_;
   std::vector<Slot> slots_ = std::vector<Slot>(64);  // open addressing, a power of two
   std::vector<std::uint16_t> narrow_;
+  std::uint64_t most_;
   bool full_ = false;
 };
 

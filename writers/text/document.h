@@ -24,6 +24,13 @@ class TextDocument {
   TextDocument(const Scene& scene, const Style& style, bool own_fields, int precision, const Sink& sink);
 
   TextOut& line();
+  /// What `print` prints stands one step to the right.
+  template <class Print>
+  void indented(Print print) {
+    ++depth_;
+    print();
+    --depth_;
+  }
 
   /// Whether the scope that is being printed has it already.
   bool is_printed(NodeId n) const { return printed_[n.value] == scope_; }

@@ -61,19 +61,9 @@ class VrmlWriter : TextDocument {
   void proto(const Proto& p) {
     const auto& t = scene_.type(p.type);
     out_ << (p.external ? "EXTERNPROTO " : "PROTO ") << t.name << " [";
-    ++depth_;
-    for (std::uint16_t slot = 0; slot < t.fields.size(); ++slot) {
-      const auto& f = t.fields[slot];
-      line();
-      declaration(f);
-      if (p.external || !f.has_value()) continue;
-      out_ << ' ';
-      if (const auto use = url_use(p.type, slot, f.default_value); use != UrlUse::none)
-        urls(p.where, f.default_value.text_span(), use);
-      else
-        value(f.default_value);
-    }
-    --depth_;
+    indented([&] {
+      for (std::uint16_t slot = 0; slot < t.fields.size(); ++slot) parameter(p, slot);
+    });
     if (!t.fields.empty()) line();
     out_ << "] ";
     if (p.external) {
@@ -81,16 +71,24 @@ class VrmlWriter : TextDocument {
       return;
     }
     out_ << '{';
-    ++depth_;
-    body([&] { scope(p.body); });
-    --depth_;
-    line();
-    out_ << '}';
+    indented([&] { body([&] { scope(p.body); }); });
+    line() << '}';
+  }
+
+  void parameter(const Proto& p, std::uint16_t slot) {
+    const auto& f = scene_.type(p.type).fields[slot];
+    declaration(f);
+    if (p.external || !f.has_value()) return;
+    out_ << ' ';
+    if (const auto use = url_use(p.type, slot, f.default_value); use != UrlUse::none)
+      urls(p.where, f.default_value.text_span(), use);
+    else
+      value(f.default_value);
   }
 
   void declaration(const FieldDef& f) {
     constexpr std::string_view words[] = {"field ", "exposedField ", "eventIn ", "eventOut "};
-    out_ << words[static_cast<int>(f.access)] << info(f.type).name << ' ' << f.name;
+    line() << words[static_cast<int>(f.access)] << info(f.type).name << ' ' << f.name;
   }
 
   void node(NodeId n) {
@@ -106,23 +104,27 @@ class VrmlWriter : TextDocument {
     set_printed(n);
     if (!name.empty()) out_ << "DEF " << name << ' ';
     out_ << scene_.type(n).name << " {";
-    ++depth_;
     bool empty = true;
-    if (vrml1_) empty &= !declarations(n);
+    indented([&] { empty = !fields(n); });
+    if (!empty) line();
+    out_ << '}';
+  }
+
+  /// False: there are none but defaults.
+  bool fields(NodeId n) {
+    bool any = vrml1_ && declarations(n);
     const auto own = own_fields(scene_.type(n));
     const auto written = names_.printed_order(n);
     for (const Value* v : written)
-      if (v->slot < own) empty &= !field(n, *v);
+      if (v->slot < own) any |= field(n, *v);
     for (std::size_t i = own; i < scene_.type(n).fields.size(); ++i) {
       own_field(n, static_cast<std::uint16_t>(i));
-      empty = false;
+      any = true;
     }
     for (const bool children : {true, false})  // before fields without a value, which would take a node for it
       for (const Value* v : written)
-        if (scene_.is_extra(*v) && is_children(n, *v) == children) empty &= !field(n, *v);
-    --depth_;
-    if (!empty) line();
-    out_ << '}';
+        if (scene_.is_extra(*v) && is_children(n, *v) == children) any |= field(n, *v);
+    return any;
   }
 
   /// VRML 1.0: the fields that a node describes itself, but for nodes and isA. False: there are none.
@@ -133,8 +135,7 @@ class VrmlWriter : TextDocument {
           info(v.extra->value.type).element != Element::node && v.extra->name != "isA")
         own.push_back(v.extra);
     if (own.empty()) return false;
-    line();
-    out_ << "fields [ ";
+    line() << "fields [ ";
     for (std::size_t i = 0; i < own.size(); ++i)
       out_ << (i ? ", " : "") << info(own[i]->value.type).name << ' ' << own[i]->name;
     out_ << " ]";
@@ -144,10 +145,7 @@ class VrmlWriter : TextDocument {
   /// VRML 1.0: children have no field in the file. False: these are none.
   bool children(NodeId n, const Value& v) {
     if (!is_children(n, v)) return false;
-    for (NodeId c : scene_.content(v).node_span()) {
-      line();
-      node(c);
-    }
+    lines_of(scene_.content(v).node_span());
     return true;
   }
 
@@ -162,8 +160,7 @@ class VrmlWriter : TextDocument {
     const auto& t = scene_.type(n);
     if (children(n, v)) return scene_.content(v).count > 0;
     if (scene_.is_extra(v)) {
-      line();
-      out_ << v.extra->name;
+      line() << v.extra->name;
       if (const auto& c = v.extra->value; c.is || c.type != FieldType::verbatim || c.count) {
         out_ << ' ';
         unknown_content(c);
@@ -171,9 +168,8 @@ class VrmlWriter : TextDocument {
       return true;
     }
     const auto& f = t.fields[v.slot];
-    if (t.kind != NodeKind::proto && !v.is && equal_default(v, f)) return false;
-    line();
-    out_ << f.name_in(t.dialects & static_cast<DialectSet>(Dialect::vrml1) ? Dialect::vrml1 : Dialect::vrml97) << ' ';
+    if (t.kind != NodeKind::proto && !v.is && equals_default(v, f)) return false;
+    line() << f.name_in(t.dialects & static_cast<DialectSet>(Dialect::vrml1) ? Dialect::vrml1 : Dialect::vrml97) << ' ';
     if (const auto use = url_use(scene_.type_id(n), v.slot, v); use != UrlUse::none)
       urls(scene_.where(n), v.text_span(), use);
     else
@@ -189,7 +185,6 @@ class VrmlWriter : TextDocument {
   /// A field or event that a Script declares.
   void own_field(NodeId n, std::uint16_t slot) {
     const auto& f = scene_.type(n).fields[slot];
-    line();
     declaration(f);
     if (const Value* v = scene_.find(n, slot)) {
       out_ << ' ';
@@ -198,11 +193,6 @@ class VrmlWriter : TextDocument {
       out_ << ' ';
       value(f.default_value);
     }
-  }
-
-  static bool equal_default(const Value& v, const FieldDef& f) {
-    if (info(v.type).element == Element::node) return v.type == f.type && v.node_span().empty();
-    return equal_plain(v, f.default_value);
   }
 
   void content(const Value& v) {
@@ -256,15 +246,17 @@ class VrmlWriter : TextDocument {
     out_ << ']';
   }
 
-  void node_list(std::span<const NodeId> v) {
-    if (v.size() == 1 && v[0]) return node(v[0]);
-    out_ << '[';
-    ++depth_;
-    for (NodeId n : v) {
+  void lines_of(std::span<const NodeId> nodes) {
+    for (NodeId n : nodes) {
       line();
       node(n);
     }
-    --depth_;
+  }
+
+  void node_list(std::span<const NodeId> v) {
+    if (v.size() == 1 && v[0]) return node(v[0]);
+    out_ << '[';
+    indented([&] { lines_of(v); });
     if (!v.empty()) line();
     out_ << ']';
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text/blanks.h"
 #include "base/text/xml_text.h"
 #include "geometry/forms/form_faces.h"
 #include "scenegraph/access_word.h"
@@ -18,11 +19,6 @@ namespace {
 
 bool number_like(std::string_view s) {
   return s == "true" || s == "false" || s.find_first_not_of("+-.0123456789eE, ") == s.npos;
-}
-
-std::string_view trim_end(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
-  return s;
 }
 
 class X3dWriter : TextDocument {
@@ -45,22 +41,35 @@ class X3dWriter : TextDocument {
             "xsd:noNamespaceSchemaLocation='https://www.web3d.org/specifications/x3d-"
          << version << ".xsd'>";
     head(profile);
-    ++depth_;
-    line() << "<Scene>";
     names_.scope(scene_.main);
-    ++depth_;
-    scope(scene_.main);
-    --depth_;
-    line() << "</Scene>";
-    --depth_;
+    indented([&] { element("Scene", [&] { scope(scene_.main); }); });
     line() << "</X3D>\n";
   }
 
  private:
-  void attribute(std::string_view name, std::string_view text) {
+  /// Names and texts in turn.
+  template <class... More>
+  void attribute(std::string_view name, std::string_view text, const More&... more) {
     out_ << ' ' << name << "='";
     xml_attribute_text(out_, text);
     out_ << '\'';
+    if constexpr (sizeof...(more) > 0) attribute(more...);
+  }
+
+  /// An element with nothing in it but attributes.
+  template <class... Attributes>
+  void empty_element(std::string_view name, const Attributes&... attributes) {
+    line() << '<' << name;
+    attribute(attributes...);
+    out_ << "/>";
+  }
+
+  /// An element without attributes; `content` prints what is in it.
+  template <class Print>
+  void element(std::string_view name, Print content) {
+    line() << '<' << name << '>';
+    indented(content);
+    line() << "</" << name << '>';
   }
 
   // ---- the document ----
@@ -82,24 +91,12 @@ class X3dWriter : TextDocument {
 
   void head(const X3dProfile& profile) {
     if (profile.beyond.empty() && scene_.x3d.meta.empty()) return;
-    ++depth_;
-    line() << "<head>";
-    ++depth_;
-    for (const auto& [name, level] : profile.beyond) {
-      line() << "<component";
-      attribute("name", name);
-      attribute("level", std::to_string(level));
-      out_ << "/>";
-    }
-    for (const auto& [name, content] : scene_.x3d.meta) {
-      line() << "<meta";
-      attribute("name", name);
-      attribute("content", content);
-      out_ << "/>";
-    }
-    --depth_;
-    line() << "</head>";
-    --depth_;
+    const auto content = [&] {
+      for (const auto& [name, level] : profile.beyond)
+        empty_element("component", "name", name, "level", std::to_string(level));
+      for (const auto& [name, text] : scene_.x3d.meta) empty_element("meta", "name", name, "content", text);
+    };
+    indented([&] { element("head", content); });
   }
 
   void scope(const Scope& s) {
@@ -109,28 +106,14 @@ class X3dWriter : TextDocument {
     for (auto& i : s.imports) {
       if (!is_printed(i.inline_node)) continue;
       set_printed(i.node);
-      line() << "<IMPORT";
-      attribute("inlineDEF", names_[i.inline_node]);
-      attribute("importedDEF", i.exported);
-      attribute("AS", names_[i.node]);
-      out_ << "/>";
+      empty_element("IMPORT", "inlineDEF", names_[i.inline_node], "importedDEF", i.exported, "AS", names_[i.node]);
     }
-    for (auto& r : s.routes) {
-      if (!is_printed(r.from) || !is_printed(r.to)) continue;
-      line() << "<ROUTE";
-      attribute("fromNode", names_[r.from]);
-      attribute("fromField", event(r.from, r.event_out));
-      attribute("toNode", names_[r.to]);
-      attribute("toField", event(r.to, r.event_in));
-      out_ << "/>";
-    }
-    for (auto& e : s.exports) {
-      if (!is_printed(e.node)) continue;
-      line() << "<EXPORT";
-      attribute("localDEF", names_[e.node]);
-      attribute("AS", e.name);
-      out_ << "/>";
-    }
+    for (auto& r : s.routes)
+      if (is_printed(r.from) && is_printed(r.to))
+        empty_element("ROUTE", "fromNode", names_[r.from], "fromField", event(r.from, r.event_out), "toNode",
+                      names_[r.to], "toField", event(r.to, r.event_in));
+    for (auto& e : s.exports)
+      if (is_printed(e.node)) empty_element("EXPORT", "localDEF", names_[e.node], "AS", e.name);
   }
 
   /// The name of an event of a node in X3D.
@@ -148,7 +131,8 @@ class X3dWriter : TextDocument {
 
   void proto(const Proto& p) {
     const auto& t = scene_.type(p.type);
-    line() << (p.external ? "<ExternProtoDeclare" : "<ProtoDeclare");
+    const std::string_view tag = p.external ? "ExternProtoDeclare" : "ProtoDeclare";
+    line() << '<' << tag;
     attribute("name", t.name);
     if (p.external) {
       out_ << " url='";
@@ -156,19 +140,15 @@ class X3dWriter : TextDocument {
       out_ << '\'';
     }
     out_ << '>';
-    ++depth_;
-    if (!p.external && !t.fields.empty()) {
-      line() << "<ProtoInterface>";
-      ++depth_;
-    }
-    for (std::uint16_t slot = 0; slot < t.fields.size(); ++slot) parameter(p, slot);
-    if (!p.external && !t.fields.empty()) {
-      --depth_;
-      line() << "</ProtoInterface>";
-    }
-    if (!p.external) proto_body(p.body);
-    --depth_;
-    line() << (p.external ? "</ExternProtoDeclare>" : "</ProtoDeclare>");
+    const auto parameters = [&] {
+      for (std::uint16_t slot = 0; slot < t.fields.size(); ++slot) parameter(p, slot);
+    };
+    indented([&] {
+      if (p.external) return parameters();
+      if (!t.fields.empty()) element("ProtoInterface", parameters);
+      element("ProtoBody", [&] { body([&] { scope(p.body); }); });
+    });
+    line() << "</" << tag << '>';
   }
 
   void parameter(const Proto& p, std::uint16_t slot) {
@@ -182,19 +162,9 @@ class X3dWriter : TextDocument {
     out_ << "'/>";
   }
 
-  void proto_body(const Scope& s) {
-    line() << "<ProtoBody>";
-    ++depth_;
-    body([&] { scope(s); });
-    --depth_;
-    line() << "</ProtoBody>";
-  }
-
   void begin_declaration(const FieldDef& f) {
     line() << "<field";
-    attribute("name", f.name);
-    attribute("type", info(f.type).name);
-    attribute("accessType", access_word(f.access, Dialect::x3d));
+    attribute("name", f.name, "type", info(f.type).name, "accessType", access_word(f.access, Dialect::x3d));
   }
 
   void declaration(const FieldDef& f, const Value* v) {
@@ -215,9 +185,9 @@ class X3dWriter : TextDocument {
       return;
     }
     out_ << '>';
-    ++depth_;
-    for (NodeId n : v->node_span()) node(n, {});
-    --depth_;
+    indented([&] {
+      for (NodeId n : v->node_span()) node(n, {});
+    });
     line() << "</" << element << '>';
   }
 
@@ -248,9 +218,7 @@ class X3dWriter : TextDocument {
       return;
     }
     out_ << '>';
-    ++depth_;
-    instance ? field_values(n) : children(n);
-    --depth_;
+    indented([&] { instance ? field_values(n) : children(n); });
     line() << "</" << element << '>';
   }
 
@@ -359,11 +327,9 @@ class X3dWriter : TextDocument {
         line() << "<IS>";
         ++depth_;
       }
-      line() << "<connect";
-      attribute("nodeField",
-                scene_.is_extra(*v) ? event(n, v->extra->name) : std::string(scene_.type(n).fields[v->slot].name));
-      attribute("protoField", c.text());
-      out_ << "/>";
+      const auto& fields = scene_.type(n).fields;
+      const auto name = scene_.is_extra(*v) ? event(n, v->extra->name) : std::string(fields[v->slot].name);
+      empty_element("connect", "nodeField", name, "protoField", c.text());
     }
     if (any) {
       --depth_;
@@ -378,7 +344,7 @@ class X3dWriter : TextDocument {
       return false;
     const auto s = v.text_span()[0];
     const bool inside = s.starts_with("javascript:") || s.starts_with("ecmascript:") || s.starts_with("vrmlscript:");
-    return inside && s.find("]]>") == s.npos && s.find('\r') == s.npos && !trim_end(s).empty();
+    return inside && s.find("]]>") == s.npos && s.find('\r') == s.npos && !trim(s).empty();
   }
 
   void field_values(NodeId n) {
