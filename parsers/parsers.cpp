@@ -103,12 +103,22 @@ std::string_view to_string(Format f) {
 
 namespace {
 
+/// Text that can be shown on a terminal: the beginning of a line, without control characters.
+bool is_plain_text(std::string_view line) {
+  const auto is_control = [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f; };
+  return is_utf8(line) && std::ranges::none_of(line, is_control);
+}
+
 /// What the first bytes are, for the message that this is not a scene.
 std::string describe_bytes(std::string_view text) {
   if (text.find_first_not_of(std::string_view("\0 \t\r\n", 5)) == text.npos) return "it holds nothing but blanks";
   auto mime = sniff_mime(text);
   if (!mime.empty()) return "it is a picture (" + std::string(mime) + ")";
-  return "the first line is '" + std::string(first_line(text).substr(0, 40)) + "'";
+  const std::string_view line = first_line(text);
+  if (!is_plain_text(line)) return "it holds binary data";
+  std::string_view shown = line.substr(0, 40);
+  while (!is_utf8(shown)) shown.remove_suffix(1);
+  return "the first line is '" + std::string(shown) + "'";
 }
 
 /// Encodings of scenes that are known and not read; empty: it is none of them.

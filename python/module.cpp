@@ -220,7 +220,7 @@ void define_world(WorldClass& type) {
            "messages, in --report and in the report of a corpus run.")
       .def_property_readonly(
           "messages", [](const PyWorld& w) { return views(w.diag()); },
-          "All that was said of it until now, as a list of Message.")
+          "All messages about it so far, as a list of Message.")
       .def("__repr__", [](PyWorld& w) { return "<World of " + std::to_string(w.scene().node_count()) + " nodes>"; });
 }
 
@@ -247,12 +247,12 @@ PYBIND11_MODULE(_wrlkit, m) {
   define_passes(m);
   m.def("load", &load, py::arg("path"), py::arg("allow") = std::vector<fs::path>{}, py::arg("unit") = "",
         py::arg("up") = "",
-        "Reads a world. Files that it refers to are looked for beside it and below the folders in `allow`; `unit` and "
+        "Reads a world. Files that it refers to are looked for next to it and below the folders in `allow`; `unit` and "
         "`up` are as --unit and --up of convert. Raises Error.");
   m.def("convert", &convert_paths, py::arg("source"), py::arg("target"), py::arg("recipe") = "",
         py::arg("pipeline") = py::none(),
         "Converts a file as `wrlkit convert` does: by a recipe, a pipeline, and options by keyword, which come before "
-        "what the recipe says. Gives what was said, as a list of Message; raises Error when nothing could be made.");
+        "what the recipe says. Returns the messages, as a list of Message; raises Error when nothing could be made.");
   m.def("node_types", &node_types,
         "Every node type of VRML97 and X3D, by name: what it is for, and its fields with their types.");
   m.def("passes", &pass_names, "Names of all passes, those of Python at the end.");

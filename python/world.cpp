@@ -70,7 +70,7 @@ GivenOptions together(GivenOptions options, const GivenOptions& more) {
 
 void define_error(py::module_& module) {
   error_type = PyErr_NewExceptionWithDoc(
-      "wrlkit.Error", "Nothing could be made of a world. messages: all that was said of it, as a list of Message.",
+      "wrlkit.Error", "Nothing could be made of a world. messages: all messages about it, as a list of Message.",
       PyExc_RuntimeError, nullptr);
   module.attr("Error") = py::reinterpret_borrow<py::object>(error_type);
   cause = new py::object(py::none());

@@ -28,7 +28,7 @@ Removes Shapes from the groups that hold them, if that goes for all places where
 - Left alone: what a ROUTE, a Script, an IS or an instance of a prototype may change, with all below it; what stands
   below a LOD or Switch, or is held otherwise than by a group; lines and points, by `hidden`.
 
-Groups stay, also empty ones: run `prune` behind it. What is left out is said (culled), with the first names; `list`
+Groups stay, also empty ones: run `prune` behind it. What is left out is reported (culled), with the first names; `list`
 gets all. The same result for any number of threads.)";
   static constexpr StatisticInfo statistics[] = {
       {"cull.small", "Shapes that were too small"},

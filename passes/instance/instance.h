@@ -43,7 +43,7 @@ scale: the first keeps its geometry, the Shapes of the others stand in a new Tra
 - Left alone: what a ROUTE, a Script or an IS touches; geometry with baked light; textures that lie by the extent of
   the geometry; Shapes that are held otherwise than by a group; bodies of prototypes.
 
-Run `weld`, and for one Shape a face `join`, before it. Names that go are said (names-lost). Expected linear in the
+Run `weld`, and for one Shape a face `join`, before it. Names that go are reported (names-lost). Expected linear in the
 corners, n log n where copies differ in their order.)";
   static constexpr StatisticInfo statistics[] = {
       {"instance.groups", "geometries that are shared now"},

@@ -113,7 +113,7 @@ class Definition:
     def __init__(self, function, name):
         self.function, self.name = function, name or function.__name__.replace('_', '-')
         if not re.fullmatch(r'[A-Za-z][\w.-]*', self.name):
-            raise ValueError(f"'{self.name}' is no name for a pass")
+            raise ValueError(f"'{self.name}' is not a valid name for a pass")
         self.doc = inspect.getdoc(function) or ''
         self.summary = self.doc.split('\n')[0].rstrip('.')
         hints, about = typing.get_type_hints(function, include_extras=True), helps(self.doc)

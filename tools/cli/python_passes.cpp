@@ -48,7 +48,7 @@ int run_in_python(char** words) {
   const auto folder = package_folder();
   if (folder.empty()) {
     fmt::print(stderr,
-               "wrlkit: passes in Python need the Python package, which is not installed beside this program\n");
+               "wrlkit: passes in Python need the Python package, which is not installed next to this program\n");
     return usage;
   }
   const char* others = std::getenv("PYTHONPATH");

@@ -125,7 +125,7 @@ std::string CorpusStatus::summary() const {
   const auto part = [&](std::size_t n, std::string_view what) {
     if (n) line += fmt::format(", {} {}", n, what);
   };
-  part(n(JobState::made_partly), "of them without all that is in the input");
+  part(n(JobState::made_partly), "of them incomplete");
   part(n(JobState::failed), "failed");
   part(n(JobState::crashed), "crashed");
   part(n(JobState::timeout), "took too long");

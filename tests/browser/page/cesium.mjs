@@ -1,4 +1,5 @@
 // A tileset on the Earth drawn by CesiumJS, without the Earth, and which parts are under some of its pixels.
+import {compared, from_elsewhere} from './models.mjs';
 import {picture_of} from './pictures.mjs';
 
 const base = '/node_modules/cesium/Build/Cesium/';
@@ -55,4 +56,42 @@ export async function draw_with_cesium(job) {
     scene.primitives.remove(tileset);
   }
   return {levels};
+}
+
+/// One file, lit along the view: see draw_with_babylon() of babylon.mjs for the job and what comes back.
+export async function draw_model(job) {
+  const scene = make_scene(job), faults = [], warn = console.warn;
+  const matrix = Cesium.Transforms.eastNorthUpToFixedFrame(Cesium.Cartesian3.fromDegrees(8.6, 50.1, 112));
+  console.warn = message => faults.push(String(message));
+  try {
+    const imageBasedLighting = new Cesium.ImageBasedLighting({imageBasedLightingFactor: Cesium.Cartesian2.ZERO});
+    const model = scene.primitives.add(await Cesium.Model.fromGltfAsync({url: job.glb, modelMatrix: matrix, forwardAxis: Cesium.Axis.X, imageBasedLighting, incrementallyLoadTextures: false}));
+    model.errorEvent.addEventListener(error => faults.push(String(error)));
+    look(scene, matrix, job.camera, job.width / job.height);
+    scene.backgroundColor = new Cesium.Color(...job.background, 1);
+    await until_drawn(scene, model);
+    return compared('CesiumJS', scene.canvas, job, {faults: [...faults, ...from_elsewhere()], ...found_in(scene, job)});
+  } finally {
+    console.warn = warn;
+    scene.destroy();
+  }
+}
+
+async function until_drawn(scene, model) {
+  for (let more = 3, begin = performance.now(); more > 0; model.ready && --more) {
+    if (performance.now() - begin > 60000) throw new Error('the model is still being loaded');
+    scene.initializeFrame();
+    scene.render();
+    await new Promise(done => setTimeout(done, 20));
+  }
+}
+
+/// Names of the parts under a grid of points.
+function found_in(scene, {width, height}) {
+  const names = new Set();
+  for (let y = 4; y < height; y += 8) for (let x = 4; x < width; x += 8) {
+    const picked = scene.pick(new Cesium.Cartesian2(x, y)), name = picked?.getProperty?.('name') ?? picked?.detail?.node?.name;
+    if (name) names.add(name);
+  }
+  return {names: [...names]};
 }

@@ -18,6 +18,8 @@ async function series(job) {
 
 async function work(job) {
   if (job.tileset) return (await import('./tileset.mjs')).draw_tileset(job);
+  if (job.babylon) return (await import('/out/babylon/babylon.js')).draw_with_babylon(job);
+  if (job.cesium_model) return (await import('./cesium.mjs')).draw_model(job);
   if (job.cesium) return (await import('./cesium.mjs')).draw_with_cesium(job);
   if (job.behaviour) return (await import('/out/babylon/behaviour.js')).behave(job);
   if (job.x_ite) return (await import('./x_ite.mjs')).draw_with_x_ite(job);
