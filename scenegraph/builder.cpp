@@ -189,7 +189,7 @@ bool SceneBuilder::try_link(const Link& l) {
   if (!n || l.name.empty() || (l.import && l.exported.empty())) return false;
   const auto* keyword = l.import ? "IMPORT" : "EXPORT";
   if (l.import && !scene_.is(n, nodes::Inline))
-    diag_.report(Diag::undefined_import, l.where, keyword, l.node, "no Inline");
+    diag_.report(Diag::undefined_import, l.where, keyword, l.node, "not an Inline");
   else if (l.import ? static_cast<bool>(routed(l.name)) : !s.exported.insert(l.name).second)
     diag_.report(Diag::duplicate_import, l.where, keyword, l.name);
   else if (l.import)

@@ -302,7 +302,7 @@ def poisoned(tmp):
     write(tmp / 'table.txt', 'P-101')
     write(recipe, 'python = "poison.py"\n[[pass]]\nname = "poison"\n[output]\nformat = "wrl"\n')
     ends = {'loops': ('timeout', 'it took longer than 15s'), 'eats': ('no-memory', 'it needs more than 300 MiB'), 'aborts': ('crashed', 'SIGABRT'), 'faults': ('crashed', 'SIGSEGV'),
-            'leaves': ('crashed', 'exit code 7'), 'raises': ('failed', "pass 'poison' has failed: ValueError: no pump (poison.py:")}
+            'leaves': ('crashed', 'exit code 7'), 'raises': ('failed', "pass 'poison' failed: ValueError: no pump (poison.py:")}
     for name in [*ends, 'good', 'fine', 'well']:
         write(a / f'{name}.wrl', BOX.replace('Shape', f'DEF {name} Shape', 1))
     words = (recipe, a, '-o', out, '--memory', '300M', '--timeout', '15s')

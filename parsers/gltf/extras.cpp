@@ -409,7 +409,7 @@ void Extras::imports(Json list, Scope& scope) {
     if (!is_legal_name(exported) || !is_legal_name(name)) {
       bad(i, "an IMPORT");
     } else if (!c_.scene.is(n, wrlkit::nodes::Inline)) {
-      c_.diag().report(Diag::undefined_import, c_.file.where(i), "IMPORT", world, n ? "no Inline" : "not defined");
+      c_.diag().report(Diag::undefined_import, c_.file.where(i), "IMPORT", world, n ? "not an Inline" : "not defined");
     } else if (named(name)) {
       c_.diag().report(Diag::duplicate_import, c_.file.where(i), "IMPORT", name);
     } else {

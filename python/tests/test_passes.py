@@ -83,7 +83,7 @@ def test_an_exception_is_the_cause(tmp_path):
     @wrlkit.pass_
     def ends_badly(world):
         return {}[3]
-    with pytest.raises(wrlkit.Error, match=r"pass 'ends-badly' has failed: KeyError: 3 \(test_passes.py:\d+\)") as error:
+    with pytest.raises(wrlkit.Error, match=r"pass 'ends-badly' failed: KeyError: 3 \(test_passes.py:\d+\)") as error:
         world_of(tmp_path, 'Group { }').run('ends-badly')
     assert isinstance(error.value.__cause__, KeyError) and error.value.messages[-1].name == 'python-failed'
 

@@ -25,7 +25,7 @@ try {
     assert.equal(await page.locator('#worlds img').count(), 3);
     const drawn = await page.locator('#worlds img').evaluateAll(all => Promise.all(all.map(async i => { await i.decode(); return i.naturalWidth; })));
     assert.deepEqual(drawn, [320, 320, 320]);
-    assert.match(await page.locator('#worlds .none').textContent(), /not a file that wrlkit reads/);
+    assert.match(await page.locator('#worlds .none').textContent(), /unknown file format/);
     for (const a of await page.locator('#worlds a').evaluateAll(all => all.map(o => decodeURIComponent(o.getAttribute('href')))))
       assert(fs.existsSync(path.join(folder, a)), a);
     await page.getByLabel('Order').selectOption('triangles');

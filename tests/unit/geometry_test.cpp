@@ -42,7 +42,7 @@ TEST_CASE("IndexedFaceSet: bad indices and faces that are none are dropped and c
   CHECK(f.read().corners == Ints{0, 3, 4, 1, 1, 4, 5, 2});
   CHECK(f.mesh.face_begin == Ints{0, 4, 8});
   CHECK(f.diag.count(Diag::bad_index) == 1);
-  CHECK(f.message(0) == "IndexedFaceSet: 3 of 26 indices point at nothing; their faces are dropped");
+  CHECK(f.message(0) == "IndexedFaceSet: 3 of 26 indices are out of range; their faces are dropped");
   CHECK(f.message(1) == "IndexedFaceSet: 2 faces without area are dropped");
 }
 
@@ -162,8 +162,8 @@ TEST_CASE("IndexedFaceSet: numbers that are none become 0", "[geometry]") {
   CHECK(position(m, 0) == Vec3{0, 1, 0});
   CHECK(position(m, 1) == Vec3{0, 0, 0});
   CHECK(m.color.values == std::vector<float>{0.25f, 0.5f, 0});
-  CHECK(f.message(0) == "IndexedFaceSet: 1 numbers are not finite; 0 is taken");
-  CHECK(f.message(1) == "IndexedFaceSet: 2 numbers are not finite; 0 is taken");
+  CHECK(f.message(0) == "IndexedFaceSet: 1 numbers are not finite; 0 is used");
+  CHECK(f.message(1) == "IndexedFaceSet: 2 numbers are not finite; 0 is used");
   CHECK(std::isnan(f.scene.get(coord, nodes::coordinate::point)[0]));  // the scene is not touched
 }
 

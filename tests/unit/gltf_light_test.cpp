@@ -94,8 +94,8 @@ TEST_CASE("What lights lose is said", "[gltf]") {
       "Group { children DirectionalLight { ambientIntensity 0.5 } } DirectionalLight {} PointLight {} PointLight { "
       "attenuation 0 0 1 }");
   CHECK(g.messages(Diag::no_gltf_light_value) ==
-        std::vector{"DirectionalLight.ambientIntensity cannot be said in glTF (lights: 1; this is the first)"s,
-                    "PointLight.attenuation cannot be said in glTF (lights: 1; this is the first)"s});
+        std::vector{"DirectionalLight.ambientIntensity has no counterpart in glTF (lights: 1; this is the first)"s,
+                    "PointLight.attenuation has no counterpart in glTF (lights: 1; this is the first)"s});
   CHECK(g.diag.count(Diag::no_gltf_light_scope) == 1);
 }
 

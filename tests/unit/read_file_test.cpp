@@ -136,7 +136,7 @@ TEST_CASE("Limits", "[read_file]") {
     auto path = folder.write("a.wrl", "");
     REQUIRE(truncate(path.c_str(), off_t{10} << 30) == 0);
     CHECK_FALSE(read_file(path, {}, diag));
-    CHECK(only_message(diag, Diag::too_large) == "the file is more than the limit of 4 GiB (10 GiB)");
+    CHECK(only_message(diag, Diag::too_large) == "the file exceeds the limit of 4 GiB (10 GiB)");
     CHECK(file_of_message(diag) == path);
   }
   SECTION("a file of the limit, and one byte more") {
@@ -148,7 +148,7 @@ TEST_CASE("Limits", "[read_file]") {
   }
   SECTION("a device without an end") {
     CHECK_FALSE(read_file("/dev/zero", {.max_device = 1 << 20}, diag));
-    CHECK(only_message(diag, Diag::too_large) == "the file is more than the limit of 1 MiB (it does not end)");
+    CHECK(only_message(diag, Diag::too_large) == "the file exceeds the limit of 1 MiB (it does not end)");
   }
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("damaged gzip", "[read_file]") {
     auto file = read_file(folder.write("a.wrl", packed.substr(0, packed.size() / 2)), {}, diag);
     REQUIRE(file);
     CHECK(only_message(diag, Diag::gzip_damaged) ==
-          "the gzip data is damaged (it ends too early); what was unpacked is used");
+          "the gzip data is damaged (it ends too early); only what could be unpacked is used");
     CHECK(file_of_message(diag) == folder / "a.wrl");
     CHECK(file->view().size() > text.size() / 3);
     CHECK(text.starts_with(file->view()));
@@ -294,7 +294,7 @@ TEST_CASE("Texts that are too many for one run are refused", "[read_file]") {
   Diagnostics diag;
   diag.sources().add("big", std::size_t{0xffffffff} - 100, nullptr);
   CHECK_FALSE(read_file(folder.write("a.wrl", std::string(200, 'x')), {}, diag));
-  CHECK(only_message(diag, Diag::too_large) == "the file is more than the limit of 4 GiB (all files together)");
+  CHECK(only_message(diag, Diag::too_large) == "the file exceeds the limit of 4 GiB (all files together)");
 }
 
 TEST_CASE("Bytes of regular files only", "[read_file]") {

@@ -87,7 +87,7 @@ TEST_CASE("When no url works, the first that is a file is told, once for a node"
   SECTION("missing") {
     CHECK(w.text({"http://example.org/a.png", "a.png", "b.png"}) == "none");
     CHECK(w.text({"http://example.org/a.png", "a.png", "b.png"}) == "none");
-    CHECK(w.message() == "url-not-found: 'a.png' is not found");
+    CHECK(w.message() == "url-not-found: 'a.png' was not found");
     w.resources.bytes(Urls{"a.png"}, {w.where.begin + 5, 1}, w.diag);
     CHECK(w.diag.messages().size() == 2);
   }
@@ -124,7 +124,7 @@ TEST_CASE("Nothing outside of the allowed folders is read", "[resources]") {
   SECTION("by going up") {
     CHECK(w.text({"../other/secret.png"}) == "none");
     CHECK(w.message() ==
-          "url-outside: '../other/secret.png' lies outside the folders that may be read; see --allow-path");
+          "url-outside: '../other/secret.png' is outside the folders that may be read; see --allow-path");
   }
   SECTION("in other ways") {
     const auto url = GENERATE("../../../../../../../../../../etc/passwd", "/etc/passwd", "file:///etc/passwd",
@@ -173,7 +173,8 @@ TEST_CASE("Paths of other systems are repaired, which is said", "[resources]") {
   auto found = w.folder / "world/Maps/Wood.PNG", valve = w.folder / "world/valve.wrl";
   SECTION("case") {
     CHECK(w.text({"maps/wood.png"}) == "wood");
-    CHECK(w.message() == "url-repaired: 'maps/wood.png' is not found; '" + found + "' next to the file is used");
+    CHECK(w.message() ==
+          "url-repaired: 'maps/wood.png' was not found; '" + found + "' next to the file is used instead");
   }
   SECTION("backslashes alone are no reason for a message") {
     CHECK(w.text({"Maps\\Wood.PNG"}) == "wood");
@@ -181,7 +182,8 @@ TEST_CASE("Paths of other systems are repaired, which is said", "[resources]") {
   }
   SECTION("a drive") {
     CHECK(w.text({"D:\\plant\\VALVE.WRL"}) == "valve");
-    CHECK(w.message() == "url-repaired: 'D:\\plant\\VALVE.WRL' is not found; '" + valve + "' next to the file is used");
+    CHECK(w.message() ==
+          "url-repaired: 'D:\\plant\\VALVE.WRL' was not found; '" + valve + "' next to the file is used instead");
   }
   SECTION("an absolute path") { CHECK(w.text({"/usr/people/me/valve.wrl"}) == "valve"); }
   SECTION("a path of the author's folders") { CHECK(w.text({"../../library/valve.wrl"}) == "valve"); }
@@ -222,7 +224,7 @@ TEST_CASE("Messages name files as the input was named", "[resources]") {
   CHECK(resources.world(Urls{"part.wrl"}, {diag.sources().add("plant.wrl", 1, nullptr), 1}, diag).scene);
   fs::current_path(before);
   CHECK(path == "Part.wrl");
-  CHECK(diag.messages()[0].text() == "'part.wrl' is not found; 'Part.wrl' next to the file is used");
+  CHECK(diag.messages()[0].text() == "'part.wrl' was not found; 'Part.wrl' next to the file is used instead");
 }
 
 TEST_CASE("A world is parsed once, however it is called", "[resources]") {

@@ -165,8 +165,9 @@ TEST_CASE("concave and crossing faces are counted", "[triangulate]") {
   job.run();
   REQUIRE(job.diag.messages().size() == 2);
   CHECK(job.diag.messages()[0].text() ==
-        "IndexedFaceSet: 2 concave faces although convex is TRUE; they are cut correctly");
-  CHECK(job.diag.messages()[1].text() == "IndexedFaceSet: 1 faces cross themselves; they are cut as well as can be");
+        "IndexedFaceSet: 2 concave faces although convex is TRUE; they are triangulated correctly");
+  CHECK(job.diag.messages()[1].text() ==
+        "IndexedFaceSet: 1 faces intersect themselves; they are triangulated as well as possible");
   faces(job, square, arrows);
   job.mesh.convex = false;
   job.run();
