@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <iterator>
 
 namespace wrlkit::bake {
 
@@ -11,12 +11,13 @@ namespace {
 constexpr int least_rays = 2, most_rays = 2048;
 constexpr double safe = 0.85;  // of the time: large bakes keep caches of the processor less well than small ones
 
-/// Pages, and the rays from which on the next larger ones are better.
+/// Pages, largest first, and the rays from which on the next larger ones are better.
 struct Rung {
   double scale;
   int rays;
 };
-constexpr Rung rungs[] = {{1.0 / 32, 4}, {1.0 / 16, 4}, {1.0 / 8, 4}, {1.0 / 4, 8}, {1.0 / 2, 16}, {1, 32}};
+constexpr Rung rungs[] = {{1, 32}, {1.0 / 2, 16}, {1.0 / 4, 8}, {1.0 / 8, 4}, {1.0 / 16, 4}, {1.0 / 32, 4}};
+constexpr double smallest = std::end(rungs)[-1].scale;
 
 struct Cost {
   double fixed = 0, texel = 0, ray = 0;
@@ -56,7 +57,7 @@ Cost measure(Trials& trials) {
   const auto fits = [&](const Rung& r) {
     return r.scale <= 1.0 / 4 && cost.seconds({r.scale, few}) <= share * trials.left();
   };
-  for (const Rung& r : rungs | std::views::reverse) {
+  for (const Rung& r : rungs) {
     if (r.scale <= small || !fits(r)) continue;
     const double more = (trials({r.scale, few}) - of_few) / (r.scale * r.scale - area);  // a unit of area
     cost.texel = std::max(0.0, more - few * cost.ray);
@@ -74,9 +75,9 @@ BakeSize size_for_time(double seconds, bool any_scale, const std::function<doubl
   const Cost cost = measure(trials);
   const double within = safe * trials.left();
   if (!any_scale) return {1, cost.rays(1, within)};
-  for (const Rung& r : rungs | std::views::reverse)
+  for (const Rung& r : rungs)
     if (cost.seconds({r.scale, r.rays}) <= within) return {r.scale, cost.rays(r.scale, within)};
-  return {rungs[0].scale, cost.rays(rungs[0].scale, within)};
+  return {smallest, cost.rays(smallest, within)};
 }
 
 }  // namespace wrlkit::bake
