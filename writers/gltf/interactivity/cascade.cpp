@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/stop.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf {
@@ -23,14 +24,22 @@ Cascade::Cascade(const Scene& scene, const Document& document, const Animations&
                 send(std::move(at), n, slot, v);
               }) {}
 
+bool Cascade::one_too_many(NodeId from) {
+  if (n_hops_++ == max_hops)
+    diag_.report(Diag::expansion_limit, scene_.where(from), max_hops, "ROUTEs followed for KHR_interactivity");
+  return n_hops_ > max_hops;
+}
+
 void Cascade::send(Graph::Flow at, NodeId n, Events::Slot slot, const Graph::Value& value) {
-  if (!at) return;
+  if (!at || n_hops_ > max_hops) return;
+  check_stop();
   if (path_.size() >= max_length) {
     diag_.report(Diag::expansion_limit, scene_.where(n), max_length, "ROUTEs behind one another");
     return;
   }
   std::vector<Graph::Part> parts;
   for (const Events::Hop& hop : events_.from(n, slot)) {
+    if (one_too_many(n)) break;
     if (std::ranges::find(path_, hop.route) != path_.end()) continue;
     parts.push_back([this, &hop, &value](Graph::Flow to) {
       path_.push_back(hop.route);

@@ -13,6 +13,7 @@ class Cascade {
  public:
   static constexpr std::size_t max_length = 256;  // ROUTEs behind one another
   static constexpr std::size_t max_keys = 256;    // of a sequencer
+  static constexpr std::size_t max_hops = 1'000'000;  // ROUTEs looked at: most ways add no node
 
   Cascade(const Scene&, const Document&, const Animations&, Graph&, std::optional<std::uint32_t> tick, Diagnostics&);
 
@@ -24,6 +25,8 @@ class Cascade {
   Graph::Value listens(NodeId sensor);
 
  private:
+  /// Counts a ROUTE; reports the first one beyond the limit.
+  bool one_too_many(NodeId from);
   void receive(Graph::Flow, const Events::Hop&, const Graph::Value&);
   void utility(Graph::Flow, const Events::Hop&, const Graph::Value&);
   void listen(Graph::Flow, NodeId sensor, const Graph::Value&);
@@ -47,6 +50,7 @@ class Cascade {
   Clocks clocks_;
   std::map<std::uint32_t, Graph::Variable> memory_;
   std::vector<const Route*> path_;
+  std::size_t n_hops_ = 0;
   std::set<std::uint32_t> told_;
 };
 

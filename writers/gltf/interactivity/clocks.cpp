@@ -6,6 +6,7 @@ namespace wrlkit::gltf {
 namespace {
 
 namespace t = nodes::time_sensor;
+constexpr double far_future = 4'102'444'800;  // 2100: a clock that starts there waits for an event
 using Type = Graph::Type;
 
 }  // namespace
@@ -21,7 +22,7 @@ bool Clocks::ticks(const Events& events, NodeId n) {
 
 bool Clocks::runs_at_first(const Scene& scene, NodeId n) {
   const double start = scene.get(n, t::startTime), stop = scene.get(n, t::stopTime);
-  return scene.get(n, t::enabled) && scene.get(n, t::loop) && !(stop > start);
+  return scene.get(n, t::enabled) && scene.get(n, t::loop) && start < far_future && !(stop > start);
 }
 
 Clocks::Clock& Clocks::clock(NodeId n) {
@@ -39,6 +40,9 @@ Clocks::Clock& Clocks::clock(NodeId n) {
   }
   if (events.sets(n, t::enabled.slot)) c.enabled = graph_.variable(Graph::value(scene_.get(n, t::enabled)));
   if (events.sets(n, t::loop.slot)) c.loop = graph_.variable(Graph::value(scene_.get(n, t::loop)));
+  const bool stopped = scene_.get(n, t::stopTime) > scene_.get(n, t::startTime);
+  if (events.sets(n, t::stopTime.slot) || (stopped && events.sets(n, t::startTime.slot)))
+    c.stopped = graph_.variable(Graph::value(stopped));
   return c;
 }
 
@@ -48,6 +52,11 @@ Graph::Value Clocks::enabled(const Clock& c) {
 
 Graph::Value Clocks::loop(const Clock& c) {
   return c.loop ? graph_.read(*c.loop) : Graph::value(scene_.get(c.node, t::loop));
+}
+
+Graph::Value Clocks::stopped(const Clock& c) {
+  return c.stopped ? graph_.read(*c.stopped)
+                   : Graph::value(scene_.get(c.node, t::stopTime) > scene_.get(c.node, t::startTime));
 }
 
 Graph::Value Clocks::now() { return {Type::number, {}, *tick_, "timeSinceStart"}; }
@@ -65,14 +74,27 @@ void Clocks::play(Graph::Flow& at, const Clock& c) {
   const auto node = graph_.step(at, "animation/start",
                                 {{"animation", c.animation},
                                  {"startTime", Graph::value(0.0)},
-                                 {"endTime", end(c)},
+                                 {"endTime", c.loop ? graph_.compute("math/Inf", Type::number, {}) : end(c)},
                                  {"speed", Graph::value(1.0)}});
+  // What the animation began with cannot be changed while it runs, but where it is to stop.
+  if (c.loop) return stop_at(at, c, end(c));
+  Graph::Flow done{node, "done"};
+  if (!c.ticks) graph_.set(done, c.active, Graph::value(false));
+}
+
+void Clocks::stop_at(Graph::Flow& at, const Clock& c, const Graph::Value& time) {
+  const auto node = graph_.step(at, "animation/stopAt", {{"animation", c.animation}, {"stopTime", time}});
   Graph::Flow done{node, "done"};
   if (!c.ticks) graph_.set(done, c.active, Graph::value(false));
 }
 
 void Clocks::start(Graph::Flow at, NodeId n) {
   const Clock& c = clock(n);
+  if (c.stopped) graph_.set(at, *c.stopped, Graph::value(false));
+  begin(std::move(at), c);
+}
+
+void Clocks::begin(Graph::Flow at, const Clock& c) {
   at = graph_.branch(std::move(at), enabled(c)).yes;
   if (!at) return;
   at = graph_.branch(std::move(at), graph_.read(c.active)).no;
@@ -86,67 +108,89 @@ void Clocks::start(Graph::Flow at, NodeId n) {
                                                           {t::cycleTime.slot, Graph::value(0.0)}};
   std::vector<Graph::Part> parts;
   for (const auto& [slot, value] : events)
-    if (animations_.events().any_from(n, slot))
-      parts.push_back([this, n, slot, value](Graph::Flow to) { send_(std::move(to), n, slot, value); });
+    if (animations_.events().any_from(c.node, slot))
+      parts.push_back([this, &c, slot, value](Graph::Flow to) { send_(std::move(to), c.node, slot, value); });
   graph_.in_turn(std::move(at), parts);
 }
 
 void Clocks::stop(Graph::Flow at, NodeId n) {
   const Clock& c = clock(n);
+  if (c.stopped) graph_.set(at, *c.stopped, Graph::value(true));
+  halt(std::move(at), c);
+}
+
+void Clocks::halt(Graph::Flow at, const Clock& c) {
   at = graph_.branch(std::move(at), graph_.read(c.active)).yes;
   graph_.set(at, c.active, Graph::value(false));
   if (c.animates()) graph_.step(at, "animation/stop", {{"animation", c.animation}});
-  send_(std::move(at), n, t::isActive.slot, Graph::value(false));
+  send_(std::move(at), c.node, t::isActive.slot, Graph::value(false));
 }
 
 void Clocks::enable(Graph::Flow at, NodeId n, const Graph::Value& value) {
   const Clock& c = clock(n);
   graph_.set(at, *c.enabled, value);
   auto [yes, no] = graph_.branch(std::move(at), value);
-  if (no) stop(std::move(no), n);
+  if (no) halt(std::move(no), c);
   if (!yes) return;
-  if (auto repeats = graph_.branch(std::move(yes), loop(c)).yes) start(std::move(repeats), n);
+  auto repeats = graph_.branch(std::move(yes), loop(c)).yes;
+  if (repeats) begin(graph_.branch(std::move(repeats), stopped(c)).no, c);
 }
 
-/// A clock that is no longer to repeat goes on to the end of its cycle.
 void Clocks::repeat(Graph::Flow at, NodeId n, const Graph::Value& value) {
   const Clock& c = clock(n);
   graph_.set(at, *c.loop, value);
-  auto [yes, no] = graph_.branch(std::move(at), value);
-  if (yes) start(std::move(yes), n);
-  if (!no || !c.animates()) return;
+  std::vector<Graph::Part> parts;
+  if (c.animates()) parts.push_back([&](Graph::Flow to) { change_end(std::move(to), c, value); });
+  if (!value.is(false))
+    parts.push_back([&](Graph::Flow to) {
+      auto yes = graph_.branch(std::move(to), value).yes;
+      if (yes) begin(graph_.branch(std::move(yes), stopped(c)).no, c);
+    });
+  graph_.in_turn(std::move(at), parts);
+}
+
+/// A clock that is no longer to repeat goes on to the end of its cycle; one that is to repeat again does not stop there.
+void Clocks::change_end(Graph::Flow at, const Clock& c, const Graph::Value& repeats) {
+  at = graph_.branch(std::move(at), graph_.read(c.active)).yes;
+  if (!at) return;
+  const auto number = [&](std::string_view operation, Graph::Inputs inputs) {
+    return graph_.compute(operation, Type::number, std::move(inputs));
+  };
+  const auto never = number("math/Inf", {});
+  if (repeats.is(true)) return stop_at(at, c, never);
   const std::string pointer = Graph::pointer_of(c.animation) + "/extensions/KHR_interactivity/virtualPlayhead";
   const auto cycle = Graph::value(c.cycle), place = graph_.property(pointer, Type::number);
-  const auto rounds = graph_.compute("math/div", Type::number, {{"a", place}, {"b", cycle}});
-  const auto whole = graph_.compute("math/ceil", Type::number, {{"a", rounds}});
-  const auto last = graph_.compute("math/mul", Type::number, {{"a", whole}, {"b", cycle}});
-  const auto node = graph_.step(no, "animation/stopAt", {{"animation", c.animation}, {"stopTime", last}});
-  Graph::Flow done{node, "done"};
-  if (!c.ticks) graph_.set(done, c.active, Graph::value(false));
+  const auto begun = number("math/ceil", {{"a", number("math/div", {{"a", place}, {"b", cycle}})}});
+  const auto whole = number("math/max", {{"a", begun}, {"b", Graph::value(1.0)}});
+  const auto last = number("math/mul", {{"a", whole}, {"b", cycle}});
+  if (repeats.is(false)) return stop_at(at, c, last);
+  stop_at(at, c, number("math/select", {{"condition", repeats}, {"a", never}, {"b", last}}));
 }
 
 void Clocks::tick(Graph::Flow at, NodeId n) {
   const Clock& c = clock(n);
   at = graph_.branch(std::move(at), graph_.read(c.active)).yes;
-  const auto number = [&](std::string_view operation, const Graph::Value& a, const Graph::Value& b) {
-    return graph_.compute(operation, Type::number, {{"a", a}, {"b", b}});
+  const auto number = [&](std::string_view operation, Graph::Inputs inputs) {
+    return graph_.compute(operation, Type::number, std::move(inputs));
   };
-  const auto passed = number("math/sub", now(), graph_.read(c.started));
-  const auto rounds = number("math/div", passed, Graph::value(c.cycle));
+  const auto passed = number("math/sub", {{"a", now()}, {"b", graph_.read(c.started)}});
+  const auto rounds = number("math/div", {{"a", passed}, {"b", Graph::value(c.cycle)}});
   const auto repeats = loop(c);
   auto over = Graph::value(false);
-  auto fraction = graph_.compute("math/fract", Type::number, {{"a", rounds}});
+  auto fraction = number("math/fract", {{"a", rounds}});
   if (!repeats.is(true)) {
-    const auto late = graph_.compute("math/ge", Type::boolean, {{"a", rounds}, {"b", Graph::value(1.0)}});
+    // Where loop changes, the cycle at hand is the one of the last tick.
+    const auto whole = c.loop ? number("math/floor", {{"a", rounds}}) : rounds;
+    const auto late = c.loop ? graph_.compute("math/gt", Type::boolean, {{"a", whole}, {"b", graph_.read(c.round)}})
+                             : graph_.compute("math/ge", Type::boolean, {{"a", rounds}, {"b", Graph::value(1.0)}});
     const auto once = graph_.compute("math/not", Type::boolean, {{"a", repeats}});
     over = graph_.compute("math/and", Type::boolean, {{"a", late}, {"b", once}});
-    fraction =
-        graph_.compute("math/select", Type::number, {{"condition", over}, {"a", Graph::value(1.0)}, {"b", fraction}});
+    fraction = number("math/select", {{"condition", over}, {"a", Graph::value(1.0)}, {"b", fraction}});
   }
   std::vector<Graph::Part> parts;
   if (animations_.events().any_from(n, t::fraction_changed.slot))
     parts.push_back([&](Graph::Flow to) { send_(std::move(to), n, t::fraction_changed.slot, fraction); });
-  if (animations_.events().any_from(n, t::cycleTime.slot))
+  if (c.loop || animations_.events().any_from(n, t::cycleTime.slot))
     parts.push_back([&](Graph::Flow to) { next_round(std::move(to), c, rounds, over); });
   if (!over.is(false)) parts.push_back([&](Graph::Flow to) { end_cycle(std::move(to), c, over); });
   graph_.in_turn(std::move(at), parts);

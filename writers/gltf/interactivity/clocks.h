@@ -25,6 +25,7 @@ class Clocks {
 
   /// What follows is at the start, when no tick has told the time.
   void set_starting(bool starting) { starting_ = starting; }
+  /// Its startTime comes.
   void start(Graph::Flow, NodeId clock);
   void stop(Graph::Flow, NodeId clock);
   void enable(Graph::Flow, NodeId clock, const Graph::Value&);
@@ -39,16 +40,22 @@ class Clocks {
     double cycle = 1;
     bool ticks = false;
     Graph::Variable active{}, started{}, round{};
-    std::optional<Graph::Variable> enabled{}, loop{};  // where events set them
+    std::optional<Graph::Variable> enabled{}, loop{}, stopped{};  // where events set them
 
     bool animates() const { return !animation.constant.empty(); }
   };
   Clock& clock(NodeId);
   Graph::Value enabled(const Clock&);
   Graph::Value loop(const Clock&);
+  /// Is its stopTime later than its startTime?
+  Graph::Value stopped(const Clock&);
   Graph::Value now();
   Graph::Value end(const Clock&);
+  void begin(Graph::Flow, const Clock&);
+  void halt(Graph::Flow, const Clock&);
   void play(Graph::Flow&, const Clock&);
+  void stop_at(Graph::Flow&, const Clock&, const Graph::Value& time);
+  void change_end(Graph::Flow, const Clock&, const Graph::Value& repeats);
   void end_cycle(Graph::Flow, const Clock&, const Graph::Value& over);
   void next_round(Graph::Flow, const Clock&, const Graph::Value& rounds, const Graph::Value& over);
 

@@ -94,6 +94,7 @@ Events::Events(const Scene& scene, const Motion& motion, bool on) : scene_(scene
     const auto out = event_slot(scene, r.from, r.event_out), in = event_slot(scene, r.to, r.event_in);
     if (!out || !in || field_type(scene, r.from, *out) != field_type(scene, r.to, *in)) continue;
     const auto act = act_of(scene, r.to, *in);
+    if (act == Act::choose && hierarchy_children(scene, r.to).empty()) continue;
     if (act && can_be_sent(scene, r.from, *out)) possible_.emplace(r.from.value, Possible{*out, {&r, r.to, *in, *act}});
   }
   find_useful(motion);

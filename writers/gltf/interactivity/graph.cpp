@@ -57,6 +57,7 @@ std::uint32_t Graph::declaration(std::string_view operation) {
 }
 
 std::uint32_t Graph::add(std::string_view operation, Inputs inputs, Configuration configuration) {
+  if (full()) return Flow::none;
   for (const auto& [name, v] : inputs) note_type(v.type);
   nodes_.push_back({declaration(operation), std::move(configuration), std::move(inputs), {}});
   return static_cast<std::uint32_t>(nodes_.size() - 1);
@@ -99,6 +100,7 @@ void Graph::in_turn(Flow at, std::span<const Part> parts) {
   if (parts.size() == 1) return parts[0](std::move(at));
   if (parts.empty() || !at) return;
   const auto node = step(at, "flow/sequence");
+  if (!at) return;
   for (std::size_t i = 0; i < parts.size(); ++i) parts[i]({node, turn(i)});
 }
 
@@ -143,9 +145,9 @@ void Graph::set_property(Flow& at, std::string pointer, const Value& value) {
 }
 
 std::uint32_t Graph::custom_event(const std::string& id) {
-  const auto known = id.empty() ? events_.end() : std::ranges::find(events_, id);
-  const auto index = static_cast<std::uint32_t>(known - events_.begin());
-  if (known == events_.end()) events_.push_back(id);
+  const auto next = static_cast<std::uint32_t>(events_.size());
+  const auto index = id.empty() ? next : event_ids_.try_emplace(id, next).first->second;
+  if (index == next) events_.push_back(id);
   return index;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -113,6 +114,7 @@ class Graph {
     std::string text = json_of(list);
     return text.substr(1, text.size() - 2);
   }
+  /// None when the graph is full.
   std::uint32_t add(std::string_view operation, Inputs, Configuration);
   void act(Flow&, std::string_view operation, Inputs, Configuration);
   static std::string turn(std::size_t);
@@ -126,6 +128,7 @@ class Graph {
   std::vector<std::string_view> declarations_;
   std::vector<Value> variables_;  // as they are at first
   std::vector<std::string> events_;
+  std::map<std::string, std::uint32_t> event_ids_;
   std::vector<Node> nodes_;
   bool shows_ = false;  // sets KHR_node_visibility
 };

@@ -25,6 +25,7 @@ class Maker {
   Graph make() {
     start();
     for (NodeId n : events_.sources()) {
+      if (graph_.full()) break;
       if (scene_.is(n, nodes::TouchSensor)) sensors_.touch(n);
       if (scene_.is(n, nodes::Anchor)) sensors_.anchor(n);
     }

@@ -68,22 +68,23 @@ Matrix Sensors::frame(NodeId sensor) const {
   return matrix(placed_at(-1.0 * *document_.origin, {})) * m;
 }
 
-/// One flow for the same event of several nodes: they send it to each other.
-Graph::Flow Sensors::any_event(std::string_view operation, std::span<const std::uint32_t> nodes) {
-  const auto listen = [&](std::uint32_t node) { return graph_.event(operation, {{"nodeIndex", json_of(node)}}); };
-  const auto stop = [&](Graph::Flow& at, std::uint32_t event) {
-    graph_.step(at, "event/stopPropagation",
-                {{"stopImmediate", Graph::value(false)}, {"event", {Type::reference, {}, event, "event"}}});
-  };
-  if (nodes.size() == 1) {
-    auto [flow, event] = listen(nodes[0]);
-    if (operation == "event/onSelect") stop(flow, event);
+/// One flow for the same event of several nodes: they send it to each other. A sensor that is not enabled leaves a click
+/// to those above it.
+Graph::Flow Sensors::any_event(std::string_view operation, std::span<const std::uint32_t> nodes,
+                               const Graph::Value& enabled) {
+  const auto listen = [&](std::uint32_t node) {
+    auto [flow, event] = graph_.event(operation, {{"nodeIndex", json_of(node)}});
+    flow = graph_.branch(std::move(flow), enabled).yes;
+    if (operation == "event/onSelect")
+      graph_.step(flow, "event/stopPropagation",
+                  {{"stopImmediate", Graph::value(false)}, {"event", {Type::reference, {}, event, "event"}}});
     return flow;
-  }
+  };
+  if (nodes.size() == 1) return listen(nodes[0]);
   const auto id = graph_.custom_event();
   for (auto node : nodes) {
-    auto [flow, event] = listen(node);
-    if (operation == "event/onSelect") stop(flow, event);
+    if (graph_.full()) return {};
+    auto flow = listen(node);
     graph_.send(flow, id);
   }
   return graph_.receive(id);
@@ -100,13 +101,11 @@ void Sensors::touch(NodeId sensor) {
   for (const auto& [slot, value] : events)
     if (events_.any_from(sensor, slot))
       parts.push_back([&](Graph::Flow to) { cascade_.send(std::move(to), sensor, slot, value); });
-  if (!parts.empty())
-    graph_.in_turn(graph_.branch(any_event("event/onSelect", nodes), cascade_.listens(sensor)).yes, parts);
+  if (!parts.empty()) graph_.in_turn(any_event("event/onSelect", nodes, cascade_.listens(sensor)), parts);
   if (!events_.any_from(sensor, t::isOver.slot)) return;
   for (const bool in : {true, false}) {
-    auto flow = any_event(in ? "event/onHoverIn" : "event/onHoverOut", nodes);
-    cascade_.send(graph_.branch(std::move(flow), cascade_.listens(sensor)).yes, sensor, t::isOver.slot,
-                  Graph::value(in));
+    auto flow = any_event(in ? "event/onHoverIn" : "event/onHoverOut", nodes, cascade_.listens(sensor));
+    cascade_.send(std::move(flow), sensor, t::isOver.slot, Graph::value(in));
   }
 }
 

@@ -21,7 +21,8 @@ class Sensors {
   std::vector<std::uint32_t> held_by(NodeId sensor) const;
   std::vector<std::uint32_t> nodes_of(NodeId) const;
   Matrix frame(NodeId sensor) const;
-  Graph::Flow any_event(std::string_view operation, std::span<const std::uint32_t> nodes);
+  Graph::Flow any_event(std::string_view operation, std::span<const std::uint32_t> nodes,
+                        const Graph::Value& enabled = Graph::value(true));
   struct Says {
     Events::Slot active, enter, leave;
   };

@@ -31,10 +31,12 @@ Targets::Targets(const Scene& scene, const Document& document, const Animations&
     if (document.nodes[id].choice != none && above != none && document.nodes[above].source)
       chosen_[document.nodes[above].source.value].push_back(id);
   }
+  for (std::size_t i = 0; i < document.lights.size(); ++i) lights_[document.lights[i].source.value].push_back(i);
 }
 
 void Targets::choose(Graph::Flow at, NodeId n, const Graph::Value& choice) {
   for (auto id : chosen_[n.value]) {
+    if (!at) return;
     const auto index = Graph::value(static_cast<std::int32_t>(document_.nodes[id].choice));
     const bool known = !choice.constant.empty();
     const auto shown = known ? Graph::value(choice.constant == index.constant)
@@ -47,6 +49,7 @@ void Targets::move(Graph::Flow at, NodeId n, std::uint16_t slot, const Graph::Va
   const auto path = path_of(slot);
   if (!path) return;
   for (auto id : animations_.targets(n, *path)) {
+    if (!at) return;
     const Vec3 offset = *path == Path::translation ? offset_of(document_, scene_, id) : Vec3{0, 0, 0};
     const auto there = offset == Vec3{0, 0, 0}
                            ? value
@@ -56,9 +59,9 @@ void Targets::move(Graph::Flow at, NodeId n, std::uint16_t slot, const Graph::Va
 }
 
 void Targets::shine(Graph::Flow at, NodeId n, const Graph::Value& on) {
-  for (std::size_t i = 0; i < document_.lights.size(); ++i) {
+  for (const auto i : lights_[n.value]) {
+    if (!at) return;
     const Light& light = document_.lights[i];
-    if (light.source != n) continue;
     const double full = to_float(read_light(scene_, n).intensity * full_intensity(scene_, light, document_.world));
     const auto intensity = graph_.compute("math/select", Type::number,
                                           {{"condition", on}, {"a", Graph::value(full)}, {"b", Graph::value(0.0)}});

@@ -32,6 +32,7 @@ class Targets {
   const Animations& animations_;
   Graph& graph_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> chosen_;  // children of Switches, by Switch
+  std::map<std::uint32_t, std::vector<std::size_t>> lights_;    // of the document, by node
   std::map<std::string_view, Sent> sent_;                       // by type
 };
 
