@@ -10,11 +10,11 @@ const [program, folder] = process.argv.slice(2);
 fs.mkdirSync(folder, {recursive: true});
 const browser = await start_chromium();
 
-async function open_world(name, text) {
+async function open_world(name, text, fragment = '#panel=view') {
   const file = path.join(folder, `${name}.x3dv`), html = path.join(folder, `${name}.html`);
   fs.writeFileSync(file, text);
   wrlkit(program, 'view', '-q', file, '-o', html, '--criteria', 'quadric');
-  return open_page(browser, html, {fragment: '#panel=view', dark: true});
+  return open_page(browser, html, {fragment, dark: true});
 }
 
 /// In the page: time goes on as the test says, and what is seen at points of the world.
@@ -112,10 +112,30 @@ async function billboard_and_list() {
   await close();
 }
 
+/// Off again, the world is as it was; a link runs nothing.
+async function off_and_on() {
+  const {page, faults, close} = await open_world('off_and_on', worlds.find(w => w.name === 'switch').world, '#panel=view&run=1');
+  const seen = async letter => is_color((await page.evaluate(in_page.state, {points: [[2, 0, 0]], nodes: []})).colors[0], letter);
+  assert(!await page.getByLabel('Run the world').isChecked());
+  assert(!await page.evaluate(() => window.viewer.mode.behaviour.running));
+  for (let i = 0; i < 2; ++i) {
+    await page.getByLabel('Run the world').check();
+    assert(await seen('r'));
+    await page.mouse.click(...await page.evaluate(in_page.pixel, [-2, 0, 0]));
+    await page.evaluate(in_page.pass, 0.1);
+    assert(await seen('b'));
+    await page.getByLabel('Run the world').uncheck();
+    assert(await seen('r'));
+  }
+  assert.deepEqual(faults, []);
+  await close();
+}
+
 try {
   for (const world of worlds) if (!world.events) await runs(world);
   await anchors();
   await billboard_and_list();
+  await off_and_on();
   console.log(`${worlds.length} worlds`);
 } finally {
   await browser.close();

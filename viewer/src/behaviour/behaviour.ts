@@ -7,6 +7,8 @@ import {Billboards} from './billboards';
 import {GraphRun, type GraphFile} from './graph';
 import {WorldHost} from './host';
 
+const secondsBetween = 1;  // events for the page that no click has caused
+
 /// Nodes of VRML that do something and are not in the graph.
 const notRun = /^(Script|Sound|SpatialSound|AudioClip|MovieTexture|PlaneSensor|SphereSensor|CylinderSensor|KeySensor|StringSensor|LoadSensor|.*(Chaser|Damper|Follower|PickSensor|Emitter))$/;
 
@@ -14,15 +16,21 @@ export interface ForThePage {
   /// An event that the page has to act upon: viewpoint:NAME, open:URL.
   told(id: string): void;
   changed(): void;
+  /// The graph was switched off, for it is faulty.
+  failed(): void;
 }
 
 export class Behaviour {
   running = false;
+  fault = '';  // why it was switched off
   private readonly graph: GraphFile | null;
   private readonly billboards: Billboards;
   private run: GraphRun | null = null;
   private host: WorldHost | null = null;
   private over: readonly number[] = [];
+  private clicked = false;  // what happens is by a click
+  private time = 0;
+  private toldAt = -secondsBetween;
 
   constructor(private readonly world: World, private readonly camera: PerspectiveCamera, private readonly page: ForThePage) {
     this.graph = graphOf(world);
@@ -44,22 +52,48 @@ export class Behaviour {
 
   set(on: boolean): void {
     this.running = on;
-    this.host?.players.dispose();
+    this.fault = '';
+    this.over = [];
+    this.host?.restore();
     this.run = this.host = null;
-    if (on && this.graph) {
-      this.host = new WorldHost(this.world, this.camera, id => this.page.told(id), () => this.page.changed());
-      this.run = new GraphRun(this.graph, this.host);
-      this.run.start();
-    }
+    if (on && this.graph) this.guard(() => this.begin(this.graph!));
     if (!on) this.billboards.rest();
     this.page.changed();
+  }
+
+  private begin(graph: GraphFile): void {
+    this.host = new WorldHost(this.world, this.camera, id => this.tell(id), () => this.page.changed());
+    this.run = new GraphRun(graph, this.host);
+    this.host.remember(this.run.pointersSet);
+    this.run.start();
+  }
+
+  /// A file from elsewhere may ask in each picture: only a click leads out of the page, and the camera is moved now and then.
+  private tell(id: string): void {
+    if (!this.clicked && (id.startsWith('open:') || this.time - this.toldAt < secondsBetween)) return;
+    this.toldAt = this.time;
+    this.page.told(id);
+  }
+
+  /// A graph that is faulty is switched off.
+  private guard(act: () => void): void {
+    try {
+      act();
+    } catch (error) {
+      this.set(false);
+      this.fault = error instanceof Error ? error.message : String(error);
+      this.page.failed();
+    }
   }
 
   /// Time goes on; true as long as another picture is wanted.
   tick(seconds: number): boolean {
     if (!this.running) return false;
-    this.host?.players.tick(seconds);
-    this.run?.tick(seconds);
+    this.time += seconds;
+    this.guard(() => {
+      this.host?.players.tick(seconds);
+      this.run?.tick(seconds);
+    });
     return this.run !== null;
   }
 
@@ -67,14 +101,22 @@ export class Behaviour {
   draw(): void { if (this.running) this.billboards.face(this.camera); }
 
   /// True when something has heard the click.
-  click(part: Part | null): boolean { return this.run?.select(wayUp(part)) ?? false; }
+  click(part: Part | null): boolean {
+    let heard = false;
+    this.clicked = true;
+    this.guard(() => { heard = this.run?.select(wayUp(part)) ?? false; });
+    this.clicked = false;
+    return heard;
+  }
 
   /// The pointer is over that part.
   hover(part: Part | null): void {
     const way = wayUp(part), before = this.over;
     this.over = way;
-    this.run?.hover(before.filter(node => !way.includes(node)), false);
-    this.run?.hover(way.filter(node => !before.includes(node)), true);
+    this.guard(() => {
+      this.run?.hover(before.filter(node => !way.includes(node)), false);
+      this.run?.hover(way.filter(node => !before.includes(node)), true);
+    });
   }
 
   get hovers(): boolean { return this.run !== null && (this.graph?.declarations ?? []).some(d => d.op === 'event/onHoverIn'); }

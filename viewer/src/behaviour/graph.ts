@@ -30,7 +30,7 @@ export interface Host {
   send(id: string): void;
 }
 
-const mostSteps = 100_000;  // of one event
+const mostSteps = 1_000_000;  // of one event: flows entered and values computed
 
 const plain = (values: Value[]): Value => values.length === 1 ? values[0]! : values as number[];
 
@@ -40,12 +40,16 @@ export class GraphRun {
   private readonly waiting: number[] = [];  // events of the graph's own
   private time = 0;
   private sinceTick = Number.NaN;
+  private readonly listeners = new Map<string, number[]>();  // nodes by operation, and by what they listen to
+  private readonly values = new Map<string, Value>();  // computed since something was set
+  private readonly computing = new Set<string>();
   private steps = 0;
   private stopped = false;  // the event goes no further up
 
   constructor(private readonly graph: GraphFile, private readonly host: Host) {
     this.nodes = graph.nodes ?? [];
     this.variables = (graph.variables ?? []).map(v => plain(v.value));
+    this.nodes.forEach((n, i) => this.list(n, i));
   }
 
   start(): void { this.happen('event/onStart'); }
@@ -73,31 +77,49 @@ export class GraphRun {
 
   /// Whether something happens when one of them is clicked.
   listens(way: readonly number[]): boolean {
-    return this.nodes.some(n => this.operation(n) === 'event/onSelect' && way.includes(Number(n.configuration?.['nodeIndex']?.value[0])));
+    return way.some(node => this.listeners.has(`event/onSelect ${node}`));
+  }
+
+  /// Pointers that it may set.
+  get pointersSet(): string[] {
+    return (this.listeners.get('pointer/set') ?? []).map(i => String(this.nodes[i]?.configuration?.['pointer']?.value[0]));
+  }
+
+  private list(n: GraphNode, index: number): void {
+    const operation = this.operation(n);
+    const subject = n.configuration?.[operation === 'event/receive' ? 'event' : 'nodeIndex']?.value[0];
+    for (const key of subject === undefined ? [operation] : [operation, `${operation} ${subject}`]) {
+      const known = this.listeners.get(key);
+      if (known) known.push(index);
+      else this.listeners.set(key, [index]);
+    }
   }
 
   private operation(n: GraphNode): string { return this.graph.declarations?.[n.declaration]?.op ?? ''; }
 
   /// All nodes of that event; `asset`: of that node of the file.
   private happen(event: string, asset?: number): boolean {
-    this.steps = 0;
-    let any = false;
-    this.nodes.forEach((n, i) => {
-      if (this.operation(n) !== event || (asset !== undefined && n.configuration?.['nodeIndex']?.value[0] !== asset)) return;
-      any = true;
-      this.leave(i, 'out');
-    });
+    const listeners = this.listeners.get(asset === undefined ? event : `${event} ${asset}`);
+    if (!listeners) return false;
+    this.begin();
+    for (const i of listeners) this.leave(i, 'out');
     this.deliver();
-    return any;
+    return true;
   }
 
   private deliver(): void {
     for (let event = this.waiting.shift(); event !== undefined; event = this.waiting.shift()) {
-      const sent = event;
-      this.nodes.forEach((n, i) => {
-        if (this.operation(n) === 'event/receive' && n.configuration?.['event']?.value[0] === sent) this.leave(i, 'out');
-      });
+      for (const i of this.listeners.get(`event/receive ${event}`) ?? []) this.leave(i, 'out');
     }
+  }
+
+  private begin(): void {
+    this.steps = 0;
+    this.values.clear();
+  }
+
+  private step(): void {
+    if (++this.steps > mostSteps) throw new Error(`one event takes more than ${mostSteps} steps`);
   }
 
   private leave(node: number, socket: string): void {
@@ -107,7 +129,8 @@ export class GraphRun {
 
   private enter(index: number): void {
     const n = this.nodes[index];
-    if (!n || ++this.steps > mostSteps) return;
+    if (!n) return;
+    this.step();
     const input = (socket: string): Value => this.input(n, socket);
     switch (this.operation(n)) {
       case 'flow/sequence':
@@ -139,11 +162,12 @@ export class GraphRun {
         this.stopped = true;
         break;
     }
+    this.values.clear();
     this.leave(index, 'out');
   }
 
   private later(node: number): void {
-    this.steps = 0;
+    this.begin();
     this.leave(node, 'done');
     this.deliver();
   }
@@ -168,7 +192,20 @@ export class GraphRun {
     if (operation === 'event/onTick') return socket === 'timeSinceStart' ? this.time : this.sinceTick;
     if (operation === 'variable/get') return this.variables[Number(n.configuration?.['variable']?.value[0])] ?? null;
     if (operation === 'pointer/get') return this.host.get(String(n.configuration?.['pointer']?.value[0])) ?? Number.NaN;
-    return operations[operation]?.(s => this.input(n, s)) ?? null;
+    return this.computed(`${index} ${socket}`, () => operations[operation]?.(s => this.input(n, s)) ?? null);
+  }
+
+  /// Each value once, until something is set: several nodes may ask for the same.
+  private computed(key: string, compute: () => Value): Value {
+    const known = this.values.get(key);
+    if (known !== undefined) return known;
+    if (this.computing.has(key)) throw new Error('a value depends on itself');
+    this.step();
+    this.computing.add(key);
+    const value = compute();
+    this.computing.delete(key);
+    this.values.set(key, value);
+    return value;
   }
 }
 

@@ -1,7 +1,7 @@
 // The world as a behaviour graph sees it: properties by JSON pointers (glTF 2.0 Asset Object Model), animations, and the camera.
 import type {Light, Object3D, PerspectiveCamera} from 'three';
 import {MathUtils} from 'three';
-import type {World} from '../world/world';
+import {hide, isHidden, type World} from '../world/world';
 import type {Host} from './graph';
 import type {Value} from './operations';
 import {Players} from './players';
@@ -14,6 +14,7 @@ interface Property {
 export class WorldHost implements Host {
   readonly players: Players;
   private readonly properties = new Map<string, Property>();
+  private readonly before = new Map<string, Value>();  // what properties were when the graph began
 
   /// `told`: events that are for the page.
   constructor(private readonly world: World, camera: PerspectiveCamera, private readonly told: (id: string) => void, private readonly changed: () => void) {
@@ -35,7 +36,7 @@ export class WorldHost implements Host {
     list('translation', () => object.position.toArray(), v => object.position.fromArray(v));
     list('rotation', () => object.quaternion.toArray() as number[], v => object.quaternion.fromArray(v as [number, number, number, number]));
     list('scale', () => object.scale.toArray(), v => object.scale.fromArray(v));
-    this.properties.set(`${at}extensions/KHR_node_visibility/visible`, {get: () => object.visible, set: v => { object.visible = v === true && !object.userData['hidden']; }});
+    this.properties.set(`${at}extensions/KHR_node_visibility/visible`, {get: () => !isHidden(object, 'world'), set: v => hide(object, 'world', v !== true)});
     const light = this.world.file.nodes?.[node]?.extensions?.['KHR_lights_punctual'] as {light: number} | undefined;
     const shining = [object, ...object.children].find(o => (o as Light).isLight) as Light | undefined;
     if (light && shining) this.properties.set(`/extensions/KHR_lights_punctual/lights/${light.light}/intensity`, {get: () => shining.intensity, set: v => { shining.intensity = Number(v); }});
@@ -48,6 +49,20 @@ export class WorldHost implements Host {
     property?.set?.(value);
     if (property?.set) this.changed();
     return property?.set !== undefined;
+  }
+
+  /// Keeps the values of properties that will be set.
+  remember(pointers: readonly string[]): void {
+    for (const pointer of pointers) {
+      const property = this.properties.get(pointer);
+      if (property?.set) this.before.set(pointer, property.get());
+    }
+  }
+
+  /// The world is again as it was before the graph ran.
+  restore(): void {
+    this.players.dispose();
+    for (const [pointer, value] of this.before) this.properties.get(pointer)?.set?.(value);
   }
 
   play(animation: number, start: number, end: number, speed: number, done: () => void): void { this.players.play(animation, start, end, speed, done); }

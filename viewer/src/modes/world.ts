@@ -12,7 +12,7 @@ import {LevelControl} from '../world/levels';
 import {Lights, type Lighting} from '../world/lights';
 import {PopMeter, type Pop, type Switch} from '../world/popping';
 import {Looks, type Look} from '../world/looks';
-import {boxOf, isShown, partOf, type Part, type Viewpoint, type World} from '../world/world';
+import {boxOf, hide, isShown, partOf, type Part, type Viewpoint, type World} from '../world/world';
 
 const mostHidden = 300;  // parts that the address keeps
 
@@ -34,6 +34,7 @@ export class WorldMode implements Mode {
   private readonly mixer: AnimationMixer;
   private readonly actions: AnimationAction[];
   private readonly selectedBy: ((part: Part | null) => void)[] = [];
+  private readonly runBy: (() => void)[] = [];
   readonly behaviour: Behaviour;
   readonly levels: LevelControl | null;
   flash = false;          // boxes around objects whose level changes
@@ -54,7 +55,7 @@ export class WorldMode implements Mode {
     this.levels = world.levels.length > 0 ? new LevelControl(world) : null;
     this.flashes = new Flashes(this.scene);
     this.mixer = new AnimationMixer(world.root);
-    this.behaviour = new Behaviour(world, stage.camera, {told: id => this.act(id), changed: () => this.changedByItself()});
+    this.behaviour = new Behaviour(world, stage.camera, {told: id => this.act(id), changed: () => this.changedByItself(), failed: () => this.ranOrNot()});
     this.actions = world.clips.map(clip => this.mixer.clipAction(clip));
   }
 
@@ -88,11 +89,13 @@ export class WorldMode implements Mode {
     return this.flashes.tick(seconds) || this.playing || going;
   }
 
+  /// Not while the world runs, which plays them itself.
   play(on: boolean): void {
-    this.playing = on;
+    this.playing = on && !this.behaviour.running;
     for (const action of this.actions) {
-      if (on && !action.isRunning()) action.play();
+      if (this.playing && !action.isRunning()) action.play();
     }
+    this.ranOrNot();
     this.stage.invalidate();
   }
 
@@ -100,7 +103,13 @@ export class WorldMode implements Mode {
   run(on: boolean): void {
     if (on) this.play(false);
     this.behaviour.set(on);
+    this.ranOrNot();
   }
+
+  /// Called when animations or the world begin or end.
+  onRun(call: () => void): void { this.runBy.push(call); }
+
+  private ranOrNot(): void { for (const call of this.runBy) call(); }
 
   private changedByItself(): void {
     this.batches.visibilityChanged();
@@ -156,8 +165,7 @@ export class WorldMode implements Mode {
 
   /// Hidden parts stay so when levels are switched.
   setHidden(part: Part, hidden: boolean): void {
-    part.object.userData['hidden'] = hidden;
-    part.object.visible = !hidden;
+    hide(part.object, 'user', hidden);
     if (hidden) this.hidden.add(part);
     else this.hidden.delete(part);
     const few = this.hidden.size > 0 && this.hidden.size <= mostHidden;

@@ -128,7 +128,7 @@ export class WorldPanel {
     const sections = [section('Display', ...parts)];
     const places = world.viewpoints.map(v => button(v.name, () => mode.goTo(v)));
     sections.push(section('Viewpoints', h('div', {class: 'buttons places'}, button('All of it', () => stage.overview(world.box)), ...places)));
-    if (world.clips.length > 0) sections.push(section('Animations', h('p', {}, world.clips.map(c => c.name || 'unnamed').join(', ')), check('Play', false, on => mode.play(on), 'p')));
+    if (world.clips.length > 0) sections.push(section('Animations', h('p', {}, world.clips.map(c => c.name || 'unnamed').join(', ')), this.playBox()));
     if (mode.behaviour.any || mode.behaviour.lost.length > 0) sections.push(this.behaviour());
     const speed = slider('Walking speed', {min: -2, max: 2, step: 0.1, value: 0}, value => setSpeed(value));
     const setSpeed = (value: number): void => {
@@ -142,9 +142,29 @@ export class WorldPanel {
 
   private behaviour(): HTMLElement {
     const {behaviour} = this.mode, {lost} = behaviour;
-    const run = behaviour.any ? [keptCheck(`run${this.mode.suffix}`, 'Run the world (clicks, sensors, clocks)', false, on => this.mode.run(on))] : [];
+    const run = behaviour.any ? this.runBox() : [];
     const list = lost.map(([type, n]) => n > 1 ? `${type} (${count(n)})` : type).join(', ');
     return section('Behaviour', ...run, ...(list ? [h('p', {class: 'soft', id: `not-run${this.mode.suffix}`}, `Not run here: ${list}.`)] : []));
+  }
+
+  private playBox(): HTMLElement {
+    const {mode} = this, box = check('Play', false, on => mode.play(on), 'p'), input = box.querySelector('input')!;
+    mode.onRun(() => {
+      input.checked = mode.playing;
+      input.disabled = mode.behaviour.running;
+    });
+    return box;
+  }
+
+  /// The address does not keep it: a link runs nothing.
+  private runBox(): HTMLElement[] {
+    const {mode} = this, box = check('Run the world (clicks, sensors, clocks)', false, on => mode.run(on)), input = box.querySelector('input')!;
+    const fault = h('p', {class: 'soft', role: 'status', id: `run-fault${mode.suffix}`});
+    mode.onRun(() => {
+      input.checked = mode.behaviour.running;
+      fault.textContent = mode.behaviour.fault ? `The world was stopped: ${mode.behaviour.fault}.` : '';
+    });
+    return [box, fault];
   }
 
   private bakedLight(): HTMLElement {

@@ -3,7 +3,7 @@ import {Box3, type Light, type Line, type Mesh, type Object3D, PerspectiveCamera
 import {GLTFLoader, type GLTF} from 'three/addons/loaders/GLTFLoader.js';
 import {accessorBytes, accessorsOf, trianglesOf, typeOf, vrmlOf, type FileNode, type GltfFile} from './file';
 import {levelsOf, WrlkitPlugin} from 'wrlkit-three';
-import {isShown, Levels, type Navigation, type Part, type Viewpoint, type World} from './world';
+import {hide, isShown, Levels, type Navigation, type Part, type Viewpoint, type World} from './world';
 
 /// Triangles, lines or points.
 const isDrawn = (o: Object3D): o is Mesh => (o as Mesh).isMesh || (o as Line).isLine || (o as Points).isPoints;
@@ -46,7 +46,7 @@ class Builder {
   private part(object: Object3D, node: number, parent: Part | null): Part {
     const said = this.file.nodes?.[node] ?? {};
     const mesh = said.mesh ?? null;
-    object.visible = isVisible(said);
+    hide(object, 'world', !isVisible(said));
     const part: Part = {
       node, object, parent, mesh, name: said.name ?? '', type: this.typeOf(said.extras, node, object), extras: said.extras ?? {},
       children: [], meshes: isDrawn(object) ? [object] : [], triangles: mesh === null ? 0 : trianglesOf(this.file, mesh), bytes: 0,

@@ -93,6 +93,16 @@ export function meshesBelow(part: Part): Mesh[] {
   return [...part.meshes, ...part.children.flatMap(meshesBelow)];
 }
 
+/// Hides an object for one who asks, or no longer: it is visible when nobody hides it.
+export function hide(object: Object3D, by: 'user' | 'world', hidden: boolean): void {
+  object.userData[keyOf[by]] = hidden;
+  object.visible = !isHidden(object, 'user') && !isHidden(object, 'world');
+}
+
+export function isHidden(object: Object3D, by: 'user' | 'world'): boolean { return object.userData[keyOf[by]] === true; }
+
+const keyOf = {user: 'hidden', world: 'hiddenByWorld'} as const;
+
 /// Whether neither an object nor anything above it is hidden.
 export function isShown(object: Object3D): boolean {
   for (let o: Object3D | null = object; o; o = o.parent) if (!o.visible) return false;

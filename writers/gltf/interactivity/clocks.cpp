@@ -149,7 +149,7 @@ void Clocks::repeat(Graph::Flow at, NodeId n, const Graph::Value& value) {
   graph_.in_turn(std::move(at), parts);
 }
 
-/// A clock that is no longer to repeat goes on to the end of its cycle; one that is to repeat again does not stop there.
+/// A clock that is no longer to repeat ends with its cycle; one that is to repeat again does not stop there.
 void Clocks::change_end(Graph::Flow at, const Clock& c, const Graph::Value& repeats) {
   at = graph_.branch(std::move(at), graph_.read(c.active)).yes;
   if (!at) return;
