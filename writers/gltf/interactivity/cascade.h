@@ -11,8 +11,8 @@ namespace wrlkit::gltf {
 
 class Cascade {
  public:
-  static constexpr std::size_t max_length = 256;  // ROUTEs behind one another
-  static constexpr std::size_t max_keys = 256;    // of a sequencer
+  static constexpr std::size_t max_length = 256;      // ROUTEs behind one another
+  static constexpr std::size_t max_keys = 256;        // of a sequencer
   static constexpr std::size_t max_hops = 1'000'000;  // ROUTEs looked at: most ways add no node
 
   Cascade(const Scene&, const Document&, const Animations&, Graph&, std::optional<std::uint32_t> tick, Diagnostics&);

@@ -63,9 +63,10 @@ Graph::Value Clocks::now() { return {Type::number, {}, *tick_, "timeSinceStart"}
 
 /// Where its animation ends.
 Graph::Value Clocks::end(const Clock& c) {
-  const auto repeats = loop(c), once = Graph::value(c.cycle);
+  const auto repeats = loop(c);
+  auto once = Graph::value(c.cycle);
   if (repeats.is(false)) return once;
-  const auto never = graph_.compute("math/Inf", Type::number, {});
+  auto never = graph_.compute("math/Inf", Type::number, {});
   if (repeats.is(true)) return never;
   return graph_.compute("math/select", Type::number, {{"condition", repeats}, {"a", never}, {"b", once}});
 }
@@ -109,7 +110,8 @@ void Clocks::begin(Graph::Flow at, const Clock& c) {
   std::vector<Graph::Part> parts;
   for (const auto& [slot, value] : events)
     if (animations_.events().any_from(c.node, slot))
-      parts.push_back([this, &c, slot, value](Graph::Flow to) { send_(std::move(to), c.node, slot, value); });
+      parts.push_back(
+          [this, &c, slot = slot, value = value](Graph::Flow to) { send_(std::move(to), c.node, slot, value); });
   graph_.in_turn(std::move(at), parts);
 }
 

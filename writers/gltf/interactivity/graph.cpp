@@ -68,7 +68,7 @@ Graph::Value Graph::compute(std::string_view operation, Type type, Inputs inputs
   return {type, {}, add(operation, std::move(inputs), std::move(configuration))};
 }
 
-Graph::Value Graph::property(std::string pointer, Type type) {
+Graph::Value Graph::property(const std::string& pointer, Type type) {
   note_type(type);
   return compute("pointer/get", type, {}, {{"pointer", json_of(pointer)}, {"type", json_of(type_index(type))}});
 }
@@ -137,7 +137,7 @@ void Graph::set(Flow& at, Variable v, const Value& value) {
   act(at, "variable/set", {{std::to_string(v.index), value}}, {{"variables", json_of(v.index)}});
 }
 
-void Graph::set_property(Flow& at, std::string pointer, const Value& value) {
+void Graph::set_property(Flow& at, const std::string& pointer, const Value& value) {
   note_type(value.type);
   shows_ |= pointer.find("KHR_node_visibility") != std::string::npos;
   act(at, "pointer/set", {{"value", value}},
@@ -182,12 +182,12 @@ void Graph::write_node(JsonOut& json, const Node& n) const {
     if (!n.configuration.empty())
       json.object("configuration", [&] {
         for (const auto& [name, text] : n.configuration)
-          json.object(name, [&] { json.member("value", JsonText{"[" + text + "]"}); });
+          json.object(name, [&, &text = text] { json.member("value", JsonText{"[" + text + "]"}); });
       });
     if (!n.inputs.empty())
       json.object("values", [&] {
         for (const auto& [name, v] : n.inputs)
-          json.object(name, [&] {
+          json.object(name, [&, &v = v] {
             if (v.constant.empty()) return json.members("node", v.node, "socket", v.socket);
             json.member("type", type_index(v.type));
             json.member("value", JsonText{"[" + v.constant + "]"});

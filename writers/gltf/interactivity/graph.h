@@ -63,7 +63,7 @@ class Graph {
   /// A node that computes `type` from its inputs.
   Value compute(std::string_view operation, Type type, Inputs inputs, Configuration configuration = {});
   /// A property of the file as it is.
-  Value property(std::string pointer, Type type);
+  Value property(const std::string& pointer, Type type);
   /// A node that begins a flow.
   struct Event {
     Flow flow;
@@ -88,7 +88,7 @@ class Graph {
   Variable variable(const Value& initial);
   Value read(Variable v);
   void set(Flow&, Variable, const Value&);
-  void set_property(Flow&, std::string pointer, const Value&);
+  void set_property(Flow&, const std::string& pointer, const Value&);
   /// Sends an event: to the program that shows the file, where it has an id that this knows.
   void send(Flow&, std::uint32_t event);
   /// The event of that id, to be sent or received; without one an event of the graph's own.

@@ -68,8 +68,8 @@ Matrix Sensors::frame(NodeId sensor) const {
   return matrix(placed_at(-1.0 * *document_.origin, {})) * m;
 }
 
-/// One flow for the same event of several nodes: they send it to each other. A sensor that is not enabled leaves a click
-/// to those above it.
+/// One flow for the same event of several nodes: they send it to each other. A sensor that is not enabled leaves a
+/// click to those above it.
 Graph::Flow Sensors::any_event(std::string_view operation, std::span<const std::uint32_t> nodes,
                                const Graph::Value& enabled) {
   const auto listen = [&](std::uint32_t node) {
@@ -100,7 +100,9 @@ void Sensors::touch(NodeId sensor) {
   std::vector<Graph::Part> parts;
   for (const auto& [slot, value] : events)
     if (events_.any_from(sensor, slot))
-      parts.push_back([&](Graph::Flow to) { cascade_.send(std::move(to), sensor, slot, value); });
+      parts.push_back([this, sensor, slot = slot, value = value](Graph::Flow to) {
+        cascade_.send(std::move(to), sensor, slot, value);
+      });
   if (!parts.empty()) graph_.in_turn(any_event("event/onSelect", nodes, cascade_.listens(sensor)), parts);
   if (!events_.any_from(sensor, t::isOver.slot)) return;
   for (const bool in : {true, false}) {
