@@ -78,8 +78,9 @@ Layout layout_of(std::string_view dds) {
   for (const auto& [letters, coding] : names)
     if (dds.substr(84, 4) == letters) return {coding, header};
   if (dds.substr(84, 4) != "DX10" || dds.size() < header + header_of_dx10) return {};
-  constexpr std::uint64_t plane = 3, typeless_bc1 = 70, per_coding = 3;
+  constexpr std::uint64_t plane = 3, cube = 4, typeless_bc1 = 70, per_coding = 3;
   const auto format = le(dds, header, 4) - typeless_bc1;
+  if ((le(dds, header + 8, 4) & cube) != 0) return {};
   if (le(dds, header + 4, 4) != plane || le(dds, header + 12, 4) != 1 || format >= 5 * per_coding) return {};
   const auto coding = static_cast<Coding>(1 + format / per_coding);
   const bool is_signed = coding >= bc4 && format % per_coding == 2;
