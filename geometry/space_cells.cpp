@@ -14,8 +14,9 @@ constexpr double worth_halving = 0.8;  // of the draws or bytes that there were,
 /// The number in (low, high] with the fewest binary digits.
 double roundest(double low, double high) {
   if (!(low < high)) return high;
-  for (double step = std::exp2(std::ceil(std::log2(std::max({std::abs(low), std::abs(high), high - low}))));;
-       step /= 2) {
+  double step = std::exp2(std::ceil(std::log2(std::max({std::abs(low), std::abs(high), high - low}))));
+  if (!std::isfinite(step)) return high;
+  for (;; step /= 2) {
     const double x = std::floor(high / step) * step;
     if (x > low) return x;
     if (step < 1e-3 * (high - low)) return high;
@@ -116,7 +117,7 @@ class Cutting {
     for (std::size_t k = 1; k < 3; ++k)
       if (box.size(k) > box.size(axis)) axis = k;
     std::sort(out_.order.begin() + r.first, out_.order.begin() + r.second, [&](std::uint32_t a, std::uint32_t b) {
-      const double x = piece_(a).box.centre()[axis], y = piece_(b).box.centre()[axis];
+      const double x = middle(a, axis), y = middle(b, axis);
       return x != y ? x < y : a < b;
     });
     const auto all = static_cast<double>(drawn(r));
@@ -127,7 +128,12 @@ class Cutting {
     return i;
   }
 
-  double at(std::uint32_t i, std::size_t axis) const { return piece_(out_.order[i]).box.centre()[axis]; }
+  /// 0 where the box has no middle, because it is infinite on both sides: NaN has no order.
+  double middle(std::uint32_t piece, std::size_t axis) const {
+    const double x = piece_(piece).box.centre()[axis];
+    return std::isnan(x) ? 0 : x;
+  }
+  double at(std::uint32_t i, std::size_t axis) const { return middle(out_.order[i], axis); }
 
   /// Where what is before draws that much, or a little more; neither side is empty.
   std::uint32_t reach(Range r, double wanted) const {
