@@ -10,8 +10,8 @@ constexpr std::size_t most_indices = std::numeric_limits<std::int32_t>::max() / 
 
 }  // namespace
 
-void append_moved(Mesh& all, const Mesh& m, const Matrix& frame, StampedMap& map) {
-  if (all.corners.size() + m.corners.size() > most_indices) return;
+bool append_moved(Mesh& all, const Mesh& m, const Matrix& frame, StampedMap& map) {
+  if (all.corners.size() + m.corners.size() > most_indices) return false;
   if (all.kind == Mesh::Kind::none) {
     all.kind = m.kind;
     all.solid = m.solid;
@@ -69,6 +69,7 @@ void append_moved(Mesh& all, const Mesh& m, const Matrix& frame, StampedMap& map
       return static_cast<std::uint32_t>(to.count() - 1);
     });
   }
+  return true;
 }
 
 }  // namespace wrlkit

@@ -7,7 +7,8 @@ namespace wrlkit {
 
 /// Puts a mesh behind what is in `all`, which takes over kind, solid and the width of colours from the first. Points
 /// and values are those of the corners, in their order. Faces that a mirroring frame turns inside out, and those of ccw
-/// FALSE, run the other way then. Nothing is added beyond what indices can count. O(corners); `map` is scratch.
-void append_moved(Mesh& all, const Mesh& mesh, const Matrix& frame, StampedMap& map);
+/// FALSE, run the other way then. False, and nothing added,
+/// where indices could not count it. O(corners); `map` is scratch.
+bool append_moved(Mesh& all, const Mesh& mesh, const Matrix& frame, StampedMap& map);
 
 }  // namespace wrlkit

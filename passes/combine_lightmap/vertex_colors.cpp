@@ -95,6 +95,14 @@ Colors at_corners(const std::vector<PageTriangle>& triangles, const std::vector<
   return out;
 }
 
+/// Whether each place is a corner of a triangle of the list: nothing is known of the colour of another.
+bool are_all_painted(const std::vector<Painted>& painted, const Mesh& mesh) {
+  std::vector<char> is_painted(mesh.lightcoord.count());
+  for (const Painted& p : painted)
+    for (std::uint32_t k = 0; k < 3; ++k) is_painted[mesh.lightcoord.index[p.corner + k]] = 1;
+  return std::ranges::all_of(mesh.lightcoord.index, [&](std::uint32_t place) { return is_painted[place] != 0; });
+}
+
 /// The normal equations of the least squares, of all three channels at once; the wish to stay near where they start
 /// holds corners that few samples know.
 class Fit {
@@ -211,7 +219,7 @@ std::optional<VertexColors> fit_vertex_colors(const drawing::Surface& surface, c
   const drawing::Texture& light = *surface.baked.light.texture;
   list_triangles(surface, mesh, light.width(), light.height(), triangles, painted);
   Sampler sampler(triangles, painted);
-  if (triangles.empty() || !sampler.run()) return {};
+  if (triangles.empty() || !are_all_painted(painted, mesh) || !sampler.run()) return {};
   VertexColors out;
   const auto start = at_corners(triangles, painted, mesh.lightcoord.count());
   out.of_place = Fit(sampler.samples(), start.size()).solve(start);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -43,9 +44,20 @@ std::uint64_t n_ways(const Scene& scene) {
 void round_values(Mesh& mesh, double step) {
   for (float& x : mesh.normal.values) x = std::round(x * 1000) / 1000;
   if (!(step > 0)) return;
+  constexpr double resolution = 1e-15;  // of a double: below it there is nothing to round
   const double exponent = std::floor(std::log10(step)), power = std::pow(10., std::abs(exponent));
-  for (double& x : mesh.positions.edit())
+  if (!std::isfinite(power)) return;
+  for (double& x : mesh.positions.edit()) {
+    if (!(step > resolution * std::abs(x))) continue;
     x = exponent < 0 ? std::round(x * power) / power : std::round(x / power) * power;
+  }
+}
+
+/// What is larger cannot be sorted by its middle, nor be written.
+bool fits_in_float(const Box& box) {
+  constexpr double most = std::numeric_limits<float>::max();
+  const auto fits = [](double x) { return std::abs(x) <= most; };
+  return std::ranges::all_of(box.low, fits) && std::ranges::all_of(box.high, fits);
 }
 
 /// What an atom of the tree shows.
@@ -106,6 +118,7 @@ class CellLods {
   std::vector<std::uint32_t> atoms_of(const Cell& cell) const;
   LodLevel level(std::span<const std::uint32_t> atoms, std::size_t at, bool is_leaf);
   void add_place(std::uint32_t place, std::size_t at, LodLevel& level);
+  NodeId add_shape(NamedMesh& named, NodeId appearance, double step);
   NodeId group_of(const std::vector<NodeId>& children);
   void put_together(NodeId lod);
 
@@ -129,7 +142,7 @@ class CellLods {
   std::vector<std::uint32_t> surface_of_;                   // by Shape, from 1; 0: none
   std::vector<Made> made_of_;                               // by cell
   using Look = std::tuple<std::uint32_t, bool, int, bool>;  // Appearance, solid, width of colours, texture
-  std::map<Look, NamedMesh> merged_;
+  std::map<Look, std::vector<NamedMesh>> merged_;           // several only where one is full
   MeshScratch scratch_;
   std::vector<char> textured_;
   std::unique_ptr<Representatives> same_;
@@ -152,12 +165,13 @@ void CellLods::gather() {
     auto& item = items_.back();
     for (int k = 0; k < 8 && !extent.box.empty(); ++k)
       item.box.add(places_.places()[i].frame.point(extent.box.corner(k)));
-    item.n_drawn += static_cast<std::uint32_t>(extent.n_drawn);
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    item.n_drawn = static_cast<std::uint32_t>(std::min(saturating_add(item.n_drawn, extent.n_drawn), most));
   }
   std::size_t to = 0;
   std::vector<char> is_in(tree_.nodes().size());
   for (std::size_t i = 0; i < atoms_.size(); ++i) {
-    if (items_[i].box.empty()) continue;
+    if (!fits_in_float(items_[i].box)) continue;
     is_in[atoms_[i].node] = 1;
     atoms_[to] = atoms_[i];
     items_[to++] = items_[i];
@@ -302,19 +316,23 @@ LodLevel CellLods::level(std::span<const std::uint32_t> atoms, std::size_t at, b
   std::vector<NodeId> children = part_of_tree(out_, tree_, kept);
   for (const NodeId n : reachable(out_, children))
     if (n.value >= surface_of_.size()) out_.set_name(n, {});
-  for (auto& [look, named] : merged_) {
-    const NodeId shape = out_.add(nodes::Shape), geometry = named.add_geometry(out_);
-    if (const NodeId appearance{std::get<0>(look)}) out_.set(shape, nodes::shape::appearance, appearance);
-    Mesh mesh = named.take();
-    round_values(mesh, out.error * rounding);
-    store_mesh(out_, geometry, mesh);
-    set_features(out_, geometry, named.parts());
-    out_.set(shape, nodes::shape::geometry, geometry);
-    children.push_back(shape);
-  }
+  for (auto& [look, meshes] : merged_)
+    for (NamedMesh& named : meshes)
+      children.push_back(add_shape(named, NodeId{std::get<0>(look)}, out.error * rounding));
   if (!children.empty()) out.node = group_of(children);
   out.error *= 1 + rounding;
   return out;
+}
+
+NodeId CellLods::add_shape(NamedMesh& named, NodeId appearance, double step) {
+  const NodeId shape = out_.add(nodes::Shape), geometry = named.add_geometry(out_);
+  if (appearance) out_.set(shape, nodes::shape::appearance, appearance);
+  Mesh mesh = named.take();
+  round_values(mesh, step);
+  store_mesh(out_, geometry, mesh);
+  set_features(out_, geometry, named.parts());
+  out_.set(shape, nodes::shape::geometry, geometry);
+  return shape;
 }
 
 void CellLods::add_place(std::uint32_t i, std::size_t at, LodLevel& level) {
@@ -332,7 +350,10 @@ void CellLods::add_place(std::uint32_t i, std::size_t at, LodLevel& level) {
   normals(job, {});
   const NodeId appearance = same_->of(out_.get(place.shape, nodes::shape::appearance));
   const Look look{appearance.value, mesh.solid, mesh.color.present() ? mesh.color.width : 0, mesh.texcoord.present()};
-  merged_[look].add(mesh, place.frame, places_.name(place.path), scratch_.map);
+  auto& meshes = merged_[look];
+  const std::string_view name = places_.name(place.path);  // outlives the meshes
+  if (meshes.empty() || !meshes.back().add(mesh, place.frame, name, scratch_.map))
+    meshes.emplace_back().add(mesh, place.frame, name, scratch_.map);
 }
 
 NodeId CellLods::group_of(const std::vector<NodeId>& children) {

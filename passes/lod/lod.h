@@ -80,7 +80,8 @@ of the triangles of the levels that it stands for.
                            Shape { ... } ] }                          # all as one mesh
 
 A Group or Transform whose children are in several cells comes in several parts, each with its name. What may move (by a
-ROUTE or a Script, or in an instance of a prototype), lights, Viewpoints and the like stay outside of the cells.
+ROUTE or a Script, or in an instance of a prototype), Anchors, Billboards, a Collision that is off or has a proxy,
+lights, Viewpoints and the like stay outside of the cells.
 
 Polygons that only touch have no common edges: run `weld` before. O(n log n) in the triangles, parallel over the
 geometries; the same result for any number of threads.)";

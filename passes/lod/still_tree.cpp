@@ -53,6 +53,13 @@ StillNode::Kind StillTree::kind_of(NodeId n) {
   return scene_.is(n, nodes::X3DGroupingNode) && is_still(n) ? atom : fixed;
 }
 
+/// Whether it does something for what is in it that a mesh in its place could not.
+bool StillTree::has_effect(NodeId n) const {
+  if (scene_.is(n, nodes::Collision))
+    return !scene_.get(n, nodes::collision::enabled) || scene_.get(n, nodes::collision::proxy);
+  return scene_.is(n, nodes::Anchor) || scene_.is(n, nodes::Billboard);
+}
+
 /// Whether all that is in it is known, and no event can reach it.
 bool StillTree::is_still(NodeId n) {
   constexpr char yes = 1, no = 2;
@@ -61,7 +68,7 @@ bool StillTree::is_still(NodeId n) {
     const auto below = reachable(scene_, {&n, 1});
     const auto is_known = [&](NodeId c) {
       return is_plain(scene_, usage_, c) && !scene_.is(c, nodes::Inline) && !scene_.is(c, nodes::X3DBindableNode) &&
-             !scene_.is(c, nodes::X3DLightNode);
+             !scene_.is(c, nodes::X3DLightNode) && !has_effect(c);
     };
     known = std::ranges::all_of(below, is_known) ? yes : no;
   }

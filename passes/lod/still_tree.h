@@ -34,6 +34,7 @@ class StillTree {
  private:
   StillNode::Kind kind_of(NodeId n);
   bool is_still(NodeId n);
+  bool has_effect(NodeId n) const;
 
   const Scene& scene_;
   const Usage& usage_;

@@ -4,17 +4,18 @@
 
 namespace wrlkit {
 
-void NamedMesh::add(const Mesh& mesh, const Matrix& frame, std::string_view name, StampedMap& map) {
+bool NamedMesh::add(const Mesh& mesh, const Matrix& frame, std::string_view name, StampedMap& map) {
   const auto before = mesh_.face_begin.empty() ? 0 : mesh_.face_begin.size() - 1;
-  append_moved(mesh_, mesh, frame, map);
+  if (!append_moved(mesh_, mesh, frame, map)) return false;
   const auto now = mesh_.face_begin.empty() ? 0 : mesh_.face_begin.size() - 1;
   const auto added = static_cast<std::int32_t>(now - before);
   if (!names_.empty() && names_.back() == name) {
     faces_.back() += added;
-    return;
+    return true;
   }
   names_.push_back(name);
   faces_.push_back(added);
+  return true;
 }
 
 NodeId NamedMesh::add_geometry(Scene& scene) const {

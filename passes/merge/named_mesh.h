@@ -11,7 +11,7 @@ namespace wrlkit {
 class NamedMesh {
  public:
   /// What follows something of the same name is of that part. The name must outlive this. As append_moved.
-  void add(const Mesh& mesh, const Matrix& frame, std::string_view name, StampedMap& map);
+  bool add(const Mesh& mesh, const Matrix& frame, std::string_view name, StampedMap& map);
 
   const Mesh& mesh() const { return mesh_; }
   Mesh take() { return std::move(mesh_); }

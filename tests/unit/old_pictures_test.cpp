@@ -108,6 +108,9 @@ TEST_CASE("DDS: BC4 and BC5, by their letters and by DXGI_FORMAT", "[image]") {
   bc5 += "\x53\0\0\0\x03\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0"s;
   const auto two = decoded_old(bc5 + "\x80\x80\0\0\0\0\0\0"s + ramp);
   CHECK(Pixels(two.pixels.begin(), two.pixels.begin() + 4) == Pixels{128, 10, 0, 255});
+  auto cube = bc5;
+  cube[136] = 4;  // miscFlag
+  CHECK(fault_of_old(cube + ramp + ramp) == "it is not a DDS of BC1 to BC5 in one layer");
   bc5[128] = 0x54;  // SNORM
   CHECK(fault_of_old(bc5 + ramp + ramp) == "it is not a DDS of BC1 to BC5 in one layer");
 }
