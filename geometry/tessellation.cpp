@@ -3,7 +3,6 @@
 #include "geometry/geometry.h"
 #include "geometry/geometry_attributes.h"
 #include "geometry/shapes/shapes.h"
-#include "geometry/text.h"
 #include "geometry/triangulation.h"
 #include "scenegraph/nodes.h"
 
@@ -17,14 +16,12 @@ constexpr struct {
   Maker make;
 } makers[] = {
 #define SHAPE(node, maker) {nodes::node, maker},
-#include "geometry/shapes/makers.def"
-    {nodes::Text, [](MeshJob& job, const Tessellation&) { text_mesh(job); }},
+#include "scenegraph/shape_makers.def"
 };
 
 Maker find_maker(TypeId type) {
   for (const auto& m : makers)
     if (m.type == type) return m.make;
-  if (type.value < builtin_nodes().size() && builtin_nodes()[type.value].is_own()) return make_form;
   return nullptr;
 }
 

@@ -1,4 +1,5 @@
-// Reads the node table (scenegraph/nodes/*.nodes) and writes two files into the build tree: nodes.h and node_rows.cpp.
+// Reads the node table (scenegraph/nodes/*.nodes) and writes three files into the build tree: nodes.h, node_rows.cpp
+// and shape_makers.def.
 //
 //   gen_nodes OUT_DIR FILE.nodes...
 //
@@ -7,6 +8,7 @@
 #include <fstream>
 
 #include "tools/gen_nodes/write_constants.h"
+#include "tools/gen_nodes/write_makers.h"
 #include "tools/gen_nodes/write_rows.h"
 
 int main(int argc, char** argv) {
@@ -18,8 +20,11 @@ int main(int argc, char** argv) {
   for (int i = 2; i < argc; ++i) table.read(argv[i]);
   table.check_kinds();
   const std::string folder = argv[1];
-  std::ofstream constants(folder + "/nodes.h"), rows(folder + "/node_rows.cpp");
+  std::ofstream constants(folder + "/nodes.h");
+  std::ofstream rows(folder + "/node_rows.cpp");
+  std::ofstream makers(folder + "/shape_makers.def");
   write_constants(table, constants);
   write_rows(table, rows);
-  return constants.good() && rows.good() ? 0 : 1;
+  write_makers(table, makers);
+  return constants.good() && rows.good() && makers.good() ? 0 : 1;
 }

@@ -167,6 +167,8 @@ Node read_head(const std::string& text, bool abstract) {
       n.since = version(w.substr(6));
     else if (w.starts_with("container="))
       n.container = w.substr(10);
+    else if (w.starts_with("mesh="))
+      n.maker = w.substr(5);
     else if (w == "vrml1" || w == "vrml97" || w == "x3d" || w == "wrlkit") {
       bases = false;
       clauses += (clauses.empty() ? "" : " ") + w;

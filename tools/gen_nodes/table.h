@@ -21,7 +21,7 @@ struct Field {
 };
 
 struct Node {
-  std::string name, clauses, component, container, doc;
+  std::string name, clauses, component, container, maker, doc;
   std::vector<std::string> bases;
   std::vector<Field> fields;
   bool abstract = false;
