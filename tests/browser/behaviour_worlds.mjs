@@ -68,7 +68,38 @@ export const worlds = [
       DEF T BooleanTrigger {} DEF U BooleanTrigger {} ${integer(1)} DEF J IntegerTrigger { integerKey 2 } DEF K IntegerTrigger { integerKey 0 }
       ${routes(`Touch.touchTime>T.set_triggerTime, T.triggerTrue>I1.set_boolean, I1.triggerValue>Lamp.set_whichChoice, Outer.touchTime>U.set_triggerTime, U.triggerTrue>J.set_boolean,
         J.triggerValue>Lamp.set_whichChoice, Touch.touchTime>T.set_triggerTime, T.triggerTrue>K.set_boolean, K.triggerValue>Other.set_whichChoice`)}`)},
+  // The child that is not chosen lies before the other one: it can be neither clicked nor pointed at, and is in nothing's way.
+  {name: 'hidden', points: [[0, 0, 0], [2, 2, 0]], steps: [{over: [0, 0, 0]}, {click: [0, 0, 0]}, {click: [0, 0, 0]}], expect: ['r.', 'r.', 'b', 'rg'],
+    world: x3d(`DEF Both Switch { whichChoice 0 children [ Group { children [ DEF Back TouchSensor {} ${box('r')} ] } ${at('0 0 2', 'DEF Front TouchSensor {}', box('b'))} ] }
+      DEF Sign Switch { whichChoice -1 children ${at('2 2 0', box('g'))} } DEF T BooleanTrigger {} DEF U BooleanTrigger {} DEF F BooleanFilter {} ${integer(1)} ${integer(0)} ${integer(0, 'Shown')}
+      ${routes(`Back.touchTime>T.set_triggerTime, T.triggerTrue>I1.set_boolean, I1.triggerValue>Both.set_whichChoice, Front.touchTime>U.set_triggerTime, U.triggerTrue>I0.set_boolean,
+        I0.triggerValue>Both.set_whichChoice, Front.isOver>F.set_boolean, F.inputTrue>Shown.set_boolean, Shown.triggerValue>Sign.set_whichChoice`)}`)},
+  // ISO/IEC 14772-1, 4.6.9: a stopTime that is not later than the startTime is ignored; a later one has passed, and the clock does not run.
+  {name: 'stop_before_start', points: [], nodes: ['Slider'], steps: [{wait: 0.3}, {wait: 0.3}], expect: ['', '', ''], moves: [null, true, true],
+    world: x3d(`${sliding} ${clock('loop TRUE startTime 5 stopTime 5')} ${slide} ${routes(moving)}`)},
+  {name: 'stopped_at_first', points: [], nodes: ['Slider'], steps: [{wait: 0.3}, {wait: 0.3}], expect: ['', '', ''], moves: [null, false, false],
+    world: x3d(`${button()} ${sliding} ${clock('loop TRUE startTime 5 stopTime 6')} ${slide} ${routes(`Touch.touchTime>Clock.set_stopTime, ${moving}`)}`)},
+  // It runs once a click, however often it is clicked meanwhile: set_startTime and set_cycleInterval of an active clock are ignored.
+  {name: 'ignored_while_active', points: lit, steps: [{...pressed, wait: 0.5}, {...pressed, wait: 0.3}, {wait: 0.6}], expect: ['r', 'g', 'g', 'b'],
+    world: x3d(`${button()} ${lamp} DEF Clock TimeSensor { cycleInterval 1 } DEF Show IntegerSequencer { key [ 0 0.95 ] keyValue [ 1 2 ] }
+      ${routes('Touch.touchTime>Clock.set_startTime, Touch.touchTime>Clock.set_cycleInterval, Clock.fraction_changed>Show.set_fraction, Show.value_changed>Lamp.set_whichChoice')}`)},
+  // No longer to repeat, a clock ends with its cycle; to repeat again, it begins anew.
+  {name: 'loop_ends', points: [], nodes: ['Slider'], steps: [{...pressed, wait: 0.6}, {wait: 0.2}, {...pressed, wait: 0.1}, {wait: 0.5}], expect: ['', '', '', '', ''],
+    places: [null, [2, 2, 0], [2, 2, 0], null, null], moves: [null, true, false, true, true],
+    world: x3d(`${button()} ${sliding} ${clock('loop TRUE')} ${slide} DEF Run BooleanToggle { toggle TRUE } DEF T BooleanTrigger {}
+      ${routes(`Touch.touchTime>T.set_triggerTime, T.triggerTrue>Run.set_boolean, Run.toggle_changed>Clock.set_loop, ${moving}`)}`)},
+  // Not enabled, a clock stops at once; enabled again, one that repeats goes on from its beginning.
+  {name: 'enabled_again', points: [], nodes: ['Slider'], steps: [{...pressed, wait: 0.3}, {wait: 0.3}, {...pressed, wait: 0.25}, {wait: 0.1}], expect: ['', '', '', '', ''], moves: [null, null, false, true, true],
+    world: x3d(`${button()} ${sliding} ${clock('loop TRUE')} ${slide} DEF Run BooleanToggle { toggle TRUE } DEF T BooleanTrigger {}
+      ${routes(`Touch.touchTime>T.set_triggerTime, T.triggerTrue>Run.set_boolean, Run.toggle_changed>Clock.set_enabled, ${moving}`)}`)},
 ];
+
+/// Levels of detail that a Switch hides, of which the page would show one.
+export const hidden_levels = {name: 'hidden_levels', points: lit, steps: [pressed, pressed], expect: ['.', 'g', '.'],
+  world: x3d(`${button()} ${at('2 0 0', `DEF Lamp Switch { whichChoice -1 children LOD { range 50 children [ ${box('g')} ${box('r')} ] } }`)}
+    DEF T BooleanTrigger {} DEF Keep BooleanToggle {} DEF F BooleanFilter {} ${integer(0)} DEF N BooleanTrigger {} DEF When TimeTrigger {} ${integer(-1, 'None')}
+    ${routes(`Touch.touchTime>T.set_triggerTime, T.triggerTrue>Keep.set_boolean, Keep.toggle_changed>F.set_boolean, F.inputTrue>I0.set_boolean, I0.triggerValue>Lamp.set_whichChoice,
+      F.inputFalse>When.set_boolean, When.triggerTime>N.set_triggerTime, N.triggerTrue>None.set_boolean, None.triggerValue>Lamp.set_whichChoice`)}`)};
 
 const letters = {r: [1, 0, 0], g: [0, 1, 0], b: [0, 0, 1], w: [1, 1, 1], l: [1, 1, 1], '.': [0, 0, 0]};
 /// Whether a colour is that of the letter: by which of its parts are bright.

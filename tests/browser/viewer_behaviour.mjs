@@ -3,7 +3,7 @@
 import assert from 'node:assert';
 import fs from 'node:fs';
 import path from 'node:path';
-import {box, is_color, worlds} from './behaviour_worlds.mjs';
+import {box, hidden_levels, is_color, worlds} from './behaviour_worlds.mjs';
 import {open_page, start_chromium, wrlkit} from './viewer_page.mjs';
 
 const [program, folder] = process.argv.slice(2);
@@ -132,7 +132,7 @@ async function off_and_on() {
 }
 
 try {
-  for (const world of worlds) if (!world.events) await runs(world);
+  for (const world of [...worlds, hidden_levels]) if (!world.events) await runs(world);
   await anchors();
   await billboard_and_list();
   await off_and_on();

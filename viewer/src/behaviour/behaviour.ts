@@ -103,15 +103,16 @@ export class Behaviour {
   /// True when something has heard the click.
   click(part: Part | null): boolean {
     let heard = false;
+    const way = wayUp(part);
     this.clicked = true;
-    this.guard(() => { heard = this.run?.select(wayUp(part)) ?? false; });
+    this.guard(() => { heard = (this.host?.selects(way) && this.run?.select(way)) ?? false; });
     this.clicked = false;
     return heard;
   }
 
   /// The pointer is over that part.
   hover(part: Part | null): void {
-    const way = wayUp(part), before = this.over;
+    const found = wayUp(part), before = this.over, way = this.host?.hovers(found) ? found : [];
     this.over = way;
     this.guard(() => {
       this.run?.hover(before.filter(node => !way.includes(node)), false);

@@ -11,6 +11,8 @@ interface Property {
   set?(value: Value): void;
 }
 
+const selectable = ['KHR_node_selectability', 'selectable'] as const, hoverable = ['KHR_node_hoverability', 'hoverable'] as const;
+
 export class WorldHost implements Host {
   readonly players: Players;
   private readonly properties = new Map<string, Property>();
@@ -37,7 +39,12 @@ export class WorldHost implements Host {
     list('rotation', () => object.quaternion.toArray() as number[], v => object.quaternion.fromArray(v as [number, number, number, number]));
     list('scale', () => object.scale.toArray(), v => object.scale.fromArray(v));
     this.properties.set(`${at}extensions/KHR_node_visibility/visible`, {get: () => !isHidden(object, 'world'), set: v => hide(object, 'world', v !== true)});
-    const light = this.world.file.nodes?.[node]?.extensions?.['KHR_lights_punctual'] as {light: number} | undefined;
+    const said = this.world.file.nodes?.[node]?.extensions;
+    for (const [extension, property] of [selectable, hoverable]) {
+      let value = (said?.[extension] as Record<string, unknown> | undefined)?.[property] !== false;
+      this.properties.set(`${at}extensions/${extension}/${property}`, {get: () => value, set: v => { value = v === true; }});
+    }
+    const light = said?.['KHR_lights_punctual'] as {light: number} | undefined;
     const shining = [object, ...object.children].find(o => (o as Light).isLight) as Light | undefined;
     if (light && shining) this.properties.set(`/extensions/KHR_lights_punctual/lights/${light.light}/intensity`, {get: () => shining.intensity, set: v => { shining.intensity = Number(v); }});
   }
@@ -49,6 +56,13 @@ export class WorldHost implements Host {
     property?.set?.(value);
     if (property?.set) this.changed();
     return property?.set !== undefined;
+  }
+
+  /// Whether a node can be clicked, or pointed at, when those are the nodes from it to the root.
+  selects(way: readonly number[]): boolean { return this.allow(way, selectable); }
+  hovers(way: readonly number[]): boolean { return this.allow(way, hoverable); }
+  private allow(way: readonly number[], [extension, property]: readonly [string, string]): boolean {
+    return way.every(node => this.get(`/nodes/${node}/extensions/${extension}/${property}`) !== false);
   }
 
   /// Keeps the values of properties that will be set.

@@ -60,6 +60,7 @@ export class WorldMode implements Mode {
   }
 
   get box() { return this.world.box; }
+  get moves() { return this.playing || this.behaviour.running; }
 
   enter(): void {
     this.stage.navigator.manner = this.manner;

@@ -7,6 +7,8 @@ import {Navigator} from './navigate';
 export interface Mode {
   /// What is looked at.
   readonly box: Box3;
+  /// What is there may come out of the box: it moves, or is hidden now.
+  readonly moves?: boolean;
   /// Its size on the canvas, when it is not all of it.
   picture?(): {width: number; height: number};
   draw(stage: Stage): void;
@@ -93,7 +95,7 @@ export class Stage {
     const moving = this.navigator.step(seconds);
     const going = mode.tick?.(seconds) ?? false;
     const begin = performance.now();
-    this.clip(mode.box);
+    this.clip(mode.box, mode.moves ?? false);
     this.renderer.info.reset();
     mode.draw(this);
     Object.assign(this.figures, {draws: this.renderer.info.render.calls, triangles: this.renderer.info.render.triangles, milliseconds: performance.now() - begin});
@@ -110,12 +112,12 @@ export class Stage {
   }
 
   /// Near and far planes around what is looked at.
-  private clip(box: Box3): void {
+  private clip(box: Box3, moves: boolean): void {
     this.fit();
     const ball = box.getBoundingSphere(new Sphere());
     const distance = this.camera.position.distanceTo(ball.center);
-    this.camera.far = (distance + ball.radius) * 1.05 + 1e-6;
-    this.camera.near = Math.max(this.camera.far / 20000, (distance - ball.radius) * 0.9, Math.min(this.navigator.distance * 0.05, ball.radius * 0.01));
+    this.camera.far = (distance + ball.radius) * (moves ? 4 : 1.05) + 1e-6;
+    this.camera.near = Math.max(this.camera.far / 20000, moves ? 0 : (distance - ball.radius) * 0.9, Math.min(this.navigator.distance * 0.05, ball.radius * 0.01));
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
   }

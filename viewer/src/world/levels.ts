@@ -2,7 +2,7 @@
 import {fieldOfView} from 'wrlkit-three';
 import {MathUtils, MeshLambertMaterial, type Box3, type Mesh, type Object3D, type PerspectiveCamera} from 'three';
 import type {Looks} from './looks';
-import type {Levels, World} from './world';
+import {isHidden, type Levels, type World} from './world';
 
 const tangent = Math.tan(MathUtils.degToRad(fieldOfView) / 2);
 /// Height of the screen for which `wrlkit` chooses the ranges of levels: a level begins where it is wrong by a pixel of it.
@@ -37,7 +37,8 @@ export class LevelControl {
       const level = this.fixed === null ? l.levelAt(distance) : Math.min(this.fixed, l.levels.length - 1);
       if (level !== this.at[i]) switched.push(l.box);
       this.at[i] = level;
-      l.levels.forEach((o, k) => { o.visible = k === level && !l.part.object.userData['hidden']; });
+      const hidden = isHidden(l.part.object, 'user') || isHidden(l.part.object, 'world');
+      l.levels.forEach((o, k) => { o.visible = k === level && !hidden; });
       ++figures.shown[level]!;
       figures.triangles[level]! += l.triangles[level]!;
       figures.pixels = Math.max(figures.pixels, pixelError(l, level, distance) * height / screen * tangent / Math.tan(MathUtils.degToRad(camera.fov) / 2));

@@ -139,7 +139,8 @@ void Graph::set(Flow& at, Variable v, const Value& value) {
 
 void Graph::set_property(Flow& at, const std::string& pointer, const Value& value) {
   note_type(value.type);
-  shows_ |= pointer.find("KHR_node_visibility") != std::string::npos;
+  for (const auto& e : gltf_extensions)
+    if (pointer.find(e.name) != std::string::npos) sets_.insert(e.id);
   act(at, "pointer/set", {{"value", value}},
       {{"pointer", json_of(pointer)}, {"type", json_of(type_index(value.type))}});
 }
@@ -157,7 +158,7 @@ Graph::Flow Graph::receive(std::uint32_t index) { return event("event/receive", 
 
 bool Graph::uses(GltfExtension e) const {
   if (e == GltfExtension::interactivity) return !empty();
-  if (e == GltfExtension::node_visibility) return shows_;
+  if (sets_.contains(e)) return true;
   return std::ranges::any_of(declarations_, [&](std::string_view operation) {
     const auto* extension = extension_operation(operation);
     return extension && extension->extension == e;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -130,7 +131,7 @@ class Graph {
   std::vector<std::string> events_;
   std::map<std::string, std::uint32_t> event_ids_;
   std::vector<Node> nodes_;
-  bool shows_ = false;  // sets KHR_node_visibility
+  std::set<GltfExtension> sets_;  // whose properties are set
 };
 
 }  // namespace wrlkit::gltf

@@ -1,5 +1,7 @@
 #include "writers/gltf/interactivity/targets.h"
 
+#include <algorithm>
+
 #include "scenegraph/nodes.h"
 #include "writers/gltf/document/hierarchy.h"
 #include "writers/gltf/number.h"
@@ -21,10 +23,27 @@ std::optional<Path> path_of(std::uint16_t slot) {
   return std::nullopt;
 }
 
+/// What shows a node or hides it. What is hidden can still be clicked (KHR_node_visibility), other than a Switch has
+/// it.
+std::vector<std::string_view> properties_of_choice(const Scene& scene, const Events& events) {
+  namespace touch = nodes::touch_sensor;
+  const auto any = [&](auto has) { return std::ranges::any_of(events.sources(), has); };
+  std::vector<std::string_view> out{"extensions/KHR_node_visibility/visible"};
+  if (any([&](NodeId n) { return scene.is(n, nodes::TouchSensor) || scene.is(n, nodes::Anchor); }))
+    out.push_back("extensions/KHR_node_selectability/selectable");
+  if (any([&](NodeId n) { return scene.is(n, nodes::TouchSensor) && events.any_from(n, touch::isOver.slot); }))
+    out.push_back("extensions/KHR_node_hoverability/hoverable");
+  return out;
+}
+
 }  // namespace
 
 Targets::Targets(const Scene& scene, const Document& document, const Animations& animations, Graph& graph)
-    : scene_(scene), document_(document), animations_(animations), graph_(graph) {
+    : scene_(scene),
+      document_(document),
+      animations_(animations),
+      graph_(graph),
+      choice_(properties_of_choice(scene, animations.events())) {
   const Family family = family_of(document);
   for (std::uint32_t id = 0; id < document.nodes.size(); ++id) {
     const auto above = family.parent[id];
@@ -41,7 +60,7 @@ void Targets::choose(Graph::Flow at, NodeId n, const Graph::Value& choice) {
     const bool known = !choice.constant.empty();
     const auto shown = known ? Graph::value(choice.constant == index.constant)
                              : graph_.compute("math/eq", Type::boolean, {{"a", choice}, {"b", index}});
-    graph_.set_property(at, node_pointer(id, "extensions/KHR_node_visibility/visible"), shown);
+    for (const auto property : choice_) graph_.set_property(at, node_pointer(id, property), shown);
   }
 }
 

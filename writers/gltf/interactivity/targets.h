@@ -31,6 +31,7 @@ class Targets {
   const Document& document_;
   const Animations& animations_;
   Graph& graph_;
+  std::vector<std::string_view> choice_;                        // properties of nodes by which a Switch chooses
   std::map<std::uint32_t, std::vector<std::uint32_t>> chosen_;  // children of Switches, by Switch
   std::map<std::uint32_t, std::vector<std::size_t>> lights_;    // of the document, by node
   std::map<std::string_view, Sent> sent_;                       // by type

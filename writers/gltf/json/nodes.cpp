@@ -87,8 +87,17 @@ class NodeJson : public JsonPart {
       if (n.lod) {
         json_.object("MSFT_lod", [&] { json_.member("ids", std::span(d_.lods.at(id).levels)); });
       }
-      if (n.hidden) json_.object("KHR_node_visibility", [&] { json_.member("visible", false); });
+      if (n.hidden) hidden();
     });
+  }
+
+  /// What is not shown can still be clicked, if a graph does not say otherwise.
+  void hidden() {
+    json_.object("KHR_node_visibility", [&] { json_.member("visible", false); });
+    if (p_.graph.uses(GltfExtension::node_selectability))
+      json_.object("KHR_node_selectability", [&] { json_.member("selectable", false); });
+    if (p_.graph.uses(GltfExtension::node_hoverability))
+      json_.object("KHR_node_hoverability", [&] { json_.member("hoverable", false); });
   }
 
   void instances(const Instances& all) {
