@@ -92,6 +92,10 @@ export const worlds = [
   {name: 'enabled_again', points: [], nodes: ['Slider'], steps: [{...pressed, wait: 0.3}, {wait: 0.3}, {...pressed, wait: 0.25}, {wait: 0.1}], expect: ['', '', '', '', ''], moves: [null, null, false, true, true],
     world: x3d(`${button()} ${sliding} ${clock('loop TRUE')} ${slide} DEF Run BooleanToggle { toggle TRUE } DEF T BooleanTrigger {}
       ${routes(`Touch.touchTime>T.set_triggerTime, T.triggerTrue>Run.set_boolean, Run.toggle_changed>Clock.set_enabled, ${moving}`)}`)},
+  // The viewer is told of what a Script gets.
+  {name: 'script', points: lit, events: ['to-script:10:press'], steps: [pressed], expect: ['r', 'r'], sent: [[], ['to-script:10:press']],
+    world: x3d(`${button()} ${lamp} DEF S Script { inputOnly SFTime press outputOnly SFInt32 choice url "ecmascript: function press() { choice = 1; }" }
+      ${routes('Touch.touchTime>S.press, S.choice>Lamp.set_whichChoice')}`)},
 ];
 
 /// Levels of detail that a Switch hides, of which the page would show one.

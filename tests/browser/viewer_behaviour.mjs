@@ -2,6 +2,7 @@
 //   node viewer_behaviour.mjs WRLKIT FOLDER
 import assert from 'node:assert';
 import fs from 'node:fs';
+import http from 'node:http';
 import path from 'node:path';
 import {box, hidden_levels, is_color, worlds} from './behaviour_worlds.mjs';
 import {open_page, start_chromium, wrlkit} from './viewer_page.mjs';
@@ -131,7 +132,84 @@ async function off_and_on() {
   await close();
 }
 
+/// A Switch of red, green and blue that a Script turns; `n` is its field.
+const scripted = (program, fields = '') => `#X3D V3.3 utf8\nPROFILE Immersive\nViewpoint { position 0 0 10 }\nNavigationInfo { headlight FALSE }
+  Transform { translation -2 0 0 children [ DEF Touch TouchSensor {} ${box('w')} ] }
+  Transform { translation 2 0 0 children DEF Lamp Switch { whichChoice 0 children [ ${box('r')} ${box('g')} ${box('b')} ] } }
+  DEF Slider Transform { translation 0 2 0 children ${box('w')} }
+  DEF S Script { inputOnly SFTime press inputOnly SFBool over outputOnly SFInt32 choice outputOnly SFVec3f place initializeOnly SFInt32 n 1 ${fields}
+    url "ecmascript: ${program}" }
+  ROUTE Touch.touchTime TO S.press\nROUTE Touch.isActive TO S.over\nROUTE S.choice TO Lamp.whichChoice\nROUTE S.place TO Slider.translation\n`;
+
+/// Scripts run when the user says so, one click later than the world, and are ended with it; what they do wrong is named.
+async function scripts() {
+  const program = `function initialize() { choice = n; } function press(value, time) { n = n + 1; choice = n; place = new SFVec3f(1, n, 0).add(place);
+    if (value !== time && Math.abs(value - Date.now() / 1000) > 60) choice = 0; } function over(on) { if (!on) Lamp.whichChoice = 1; }`;
+  const {page, faults, close} = await open_world('scripts', scripted(program));
+  const state = () => page.evaluate(in_page.state, {points: [[2, 0, 0]], nodes: ['Slider']});
+  const shows = async letter => {
+    const until = Date.now() + 30_000;
+    while (!is_color((await state()).colors[0], letter)) assert(Date.now() < until, `not '${letter}'`);
+  };
+  const lamp = page.getByLabel('Run its Scripts');
+  assert(await lamp.isDisabled());
+  await page.getByLabel('Run the world').check();
+  assert(is_color((await state()).colors[0], 'r'));
+  assert.equal(await page.locator('iframe').count(), 0);
+  await lamp.check();
+  await shows('g');
+  await page.mouse.click(...await page.evaluate(in_page.pixel, [-2, 0, 0]));
+  await shows('b');
+  assert.deepEqual((await state()).places[0], [1, 2, 0]);
+  await page.waitForFunction(() => document.querySelector('#script-faults')?.textContent.includes('S reports ReferenceError: Lamp'));
+  await page.getByLabel('Run the world').uncheck();
+  assert.equal(await page.locator('iframe').count(), 0);
+  assert(is_color((await state()).colors[0], 'r'));
+  assert.deepEqual(faults, []);
+  await close();
+}
+
+/// A Script that does not end is ended, one that asks for the network or the page gets nothing, one with a fault is named; the page goes on.
+async function hostile_scripts() {
+  let asked = 0;
+  const server = http.createServer((_, response) => {
+    ++asked;
+    response.writeHead(200, {'Access-Control-Allow-Origin': '*', 'Content-Type': 'text/javascript'}).end('1');
+  }).listen(0, '127.0.0.1');
+  await new Promise(done => { server.once('listening', done); });
+  const site = `http://127.0.0.1:${server.address().port}`;
+  const worlds = {
+    endless: ['function press() { for (;;); }', 'S was ended, for it ran longer than 1 s'],
+    endless_at_first: ['while (true) {} function press() {}', 'S was ended, for it ran longer than 1 s'],
+    faulty: ['function press( { }', 'S cannot be run: '],
+    network: [`function press() { var said = [];
+      try { importScripts('${site}/x.js'); said.push('loaded'); } catch (e) { said.push('no import'); }
+      try { var r = new XMLHttpRequest(); r.open('GET', '${site}/', false); r.send(); said.push('got'); } catch (e) { said.push('no request'); }
+      try { eval('1'); said.push('eval'); } catch (e) { said.push('no eval'); }
+      try { said.push(typeof document + typeof localStorage); indexedDB.open('x'); said.push('kept'); } catch (e) { said.push('no storage'); }
+      fetch('${site}/').catch(function () {}); new WebSocket('${site.replace('http', 'ws')}/'); navigator.sendBeacon && navigator.sendBeacon('${site}/', '1');
+      throw new Error(said.join()); }`, 'no import,no request,no eval,undefinedundefined,no storage'],
+  };
+  for (const [name, [program, expected]] of Object.entries(worlds)) {
+    const {page, faults, close} = await open_world(`script_${name}`, scripted(program));
+    await page.getByLabel('Run the world').check();
+    await page.getByLabel('Run its Scripts').check();
+    const told = () => page.waitForFunction(text => document.querySelector('#script-faults')?.textContent.includes(text), expected, {timeout: 1500});
+    for (let i = 0; ; ++i) {
+      await page.mouse.click(...await page.evaluate(in_page.pixel, [-2, 0, 0]));
+      if (await told().then(() => true, () => false)) break;
+      assert(i < 20, `${name}: ${await page.locator('#script-faults').textContent()}`);
+    }
+    assert.deepEqual(faults.filter(f => !/Content Security Policy|violates|Refused to|asks for (http|ws):..127/.test(f)), [], name);
+    await close();
+  }
+  assert.equal(asked, 0);
+  server.close();
+}
+
 try {
+  await scripts();
+  await hostile_scripts();
   for (const world of [...worlds, hidden_levels]) if (!world.events) await runs(world);
   await anchors();
   await billboard_and_list();

@@ -1,11 +1,13 @@
 // The types, functions and constants that ISO/IEC 14772-1 Annex C gives a Script, and those of ISO/IEC 19777-1 that are
 // the same. They are made once; `begin` gives them to the environment of a Script. `ask` sends a request to the program and returns its
 // answer, both as JSON; values travel as numbers, texts, and flat arrays of them, nodes by their numbers.
-(function (ask) {
+// `clock`: in a world that runs, gives the seconds since 1970; without one, time stands still and chance repeats itself.
+(function (ask, clock) {
   'use strict';
   var shared = {};          // what every environment has
   var toJson = JSON.stringify, fromJson = JSON.parse;
   var instant = 946684800;  // seconds: the begin of the year 2000, for the same file has the same effect every day
+  function now() { return clock ? clock() : instant; }
   var longest = 4000000;    // elements of a list
 
   function request(what) {
@@ -360,7 +362,6 @@
   shared.FALSE = false;
   shared.NULL = null;
 
-  // Time stands still and chance repeats itself.
   var RealDate = Date, seed = 1;
   function FixedDate(y, m, d, h, min, s, ms) {
     if (!(this instanceof FixedDate)) return new RealDate(instant * 1000).toString();
@@ -372,12 +373,14 @@
   FixedDate.UTC = RealDate.UTC;
   FixedDate.parse = RealDate.parse;
   FixedDate.prototype = RealDate.prototype;
-  RealDate.prototype.constructor = FixedDate;
-  shared.Date = FixedDate;
-  Math.random = function () {
-    seed = (seed * 16807) % 2147483647;
-    return (seed - 1) / 2147483646;
-  };
+  if (!clock) {
+    RealDate.prototype.constructor = FixedDate;
+    shared.Date = FixedDate;
+    Math.random = function () {
+      seed = (seed * 16807) % 2147483647;
+      return (seed - 1) / 2147483646;
+    };
+  }
   shared.Math = Math;
 
   // Fields are variables of the program; what becomes of eventOuts is sent when a function has ended.
@@ -418,8 +421,8 @@
           var f = global[name];
           if (typeof f !== 'function' && c.field) f = global[name = c.field];
           if (typeof f === 'function') {
-            if (c.type) f(fromWire(c.type, c.value), instant);
-            else f(instant);
+            if (c.type) f(fromWire(c.type, c.value), now());
+            else f(now());
           }
         } catch (e) {
           error = e && e.message !== undefined ? e.name + ': ' + e.message + (e.lineNumber ? ' (line ' + e.lineNumber + ')' : '')

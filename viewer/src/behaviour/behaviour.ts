@@ -1,11 +1,13 @@
 // What the world does by itself and when it is clicked: the graph that wrlkit has made of its ROUTEs, and Billboards. It runs when the
-// user says so. Scripts, sounds and films do not.
+// user says so; Scripts when he says that, too. Sounds and films do not.
 import type {PerspectiveCamera} from 'three';
 import {typeOf} from '../world/file';
 import type {Part, World} from '../world/world';
 import {Billboards} from './billboards';
 import {GraphRun, type GraphFile} from './graph';
 import {WorldHost} from './host';
+import type {Value} from './operations';
+import {Scripts, scriptsOf} from './scripts';
 
 const secondsBetween = 1;  // events for the page that no click has caused
 
@@ -16,7 +18,7 @@ export interface ForThePage {
   /// An event that the page has to act upon: viewpoint:NAME, open:URL.
   told(id: string): void;
   changed(): void;
-  /// The graph was switched off, for it is faulty.
+  /// The graph was switched off, for it is faulty; or a Script is.
   failed(): void;
 }
 
@@ -25,6 +27,8 @@ export class Behaviour {
   fault = '';  // why it was switched off
   private readonly graph: GraphFile | null;
   private readonly billboards: Billboards;
+  readonly programs: ReturnType<typeof scriptsOf>;  // Scripts that can be run
+  private scripts: Scripts | null = null;
   private run: GraphRun | null = null;
   private host: WorldHost | null = null;
   private over: readonly number[] = [];
@@ -34,6 +38,7 @@ export class Behaviour {
 
   constructor(private readonly world: World, private readonly camera: PerspectiveCamera, private readonly page: ForThePage) {
     this.graph = graphOf(world);
+    this.programs = scriptsOf(world.file, this.graph);
     this.billboards = new Billboards(world);
   }
 
@@ -43,9 +48,9 @@ export class Behaviour {
   /// Types of nodes that do something which the page does not run, and how many there are.
   get lost(): [string, number][] {
     const found = new Map<string, number>();
-    for (const {extras} of this.world.file.nodes ?? []) {
+    for (const [node, {extras}] of (this.world.file.nodes ?? []).entries()) {
       const type = typeOf(extras) ?? '';
-      if (notRun.test(type)) found.set(type, (found.get(type) ?? 0) + 1);
+      if (notRun.test(type) && !this.programs.some(p => p.node === node)) found.set(type, (found.get(type) ?? 0) + 1);
     }
     return [...found].sort(([a], [b]) => a.localeCompare(b));
   }
@@ -55,21 +60,35 @@ export class Behaviour {
     this.fault = '';
     this.over = [];
     this.host?.restore();
+    this.runScripts(false);
     this.run = this.host = null;
     if (on && this.graph) this.guard(() => this.begin(this.graph!));
     if (!on) this.billboards.rest();
     this.page.changed();
   }
 
+  /// Runs its Scripts as well, while the world runs: programs of the file.
+  runScripts(on: boolean): void {
+    this.scripts?.dispose();
+    this.scripts = null;
+    if (!on || !this.run) return;
+    this.scripts = new Scripts(this.programs, (id, value) => this.guard(() => this.run?.receive(id, value)), () => this.page.failed());
+  }
+
+  get runsScripts(): boolean { return this.scripts !== null; }
+  /// What Scripts could not do.
+  get scriptFaults(): readonly string[] { return this.scripts?.faults ?? []; }
+
   private begin(graph: GraphFile): void {
-    this.host = new WorldHost(this.world, this.camera, id => this.tell(id), () => this.page.changed());
+    this.host = new WorldHost(this.world, this.camera, (id, value) => this.tell(id, value), () => this.page.changed());
     this.run = new GraphRun(graph, this.host);
     this.host.remember(this.run.pointersSet);
     this.run.start();
   }
 
   /// A file from elsewhere may ask in each picture: only a click leads out of the page, and the camera is moved now and then.
-  private tell(id: string): void {
+  private tell(id: string, value: Value): void {
+    if (id.startsWith('to-script:')) return this.scripts?.tell(id, value);
     if (!this.clicked && (id.startsWith('open:') || this.time - this.toldAt < secondsBetween)) return;
     this.toldAt = this.time;
     this.page.told(id);

@@ -26,8 +26,8 @@ export interface Host {
   play(animation: number, start: number, end: number, speed: number, done: () => void): void;
   stop(animation: number): void;
   stopAt(animation: number, time: number, done: () => void): void;
-  /// An event that is for the page.
-  send(id: string): void;
+  /// An event that is for the page, with its value.
+  send(id: string, value: Value): void;
 }
 
 const mostSteps = 1_000_000;  // of one event: flows entered and values computed
@@ -38,6 +38,7 @@ export class GraphRun {
   private readonly nodes: GraphNode[];
   private readonly variables: Value[];
   private readonly waiting: number[] = [];  // events of the graph's own
+  private readonly received = new Map<number, Value>();  // the last value of events that came from the page
   private time = 0;
   private sinceTick = Number.NaN;
   private readonly listeners = new Map<string, number[]>();  // nodes by operation, and by what they listen to
@@ -69,6 +70,17 @@ export class GraphRun {
       heard = this.happen('event/onSelect', node) || heard;
     }
     return heard;
+  }
+
+  /// An event of the page for the graph.
+  receive(id: string, value: Value): void {
+    const event = (this.graph.events ?? []).findIndex(e => e.id === id);
+    const listeners = this.listeners.get(`event/receive ${event}`);
+    if (event < 0 || !listeners) return;
+    this.received.set(event, value);
+    this.begin();
+    for (const i of listeners) this.leave(i, 'out');
+    this.deliver();
   }
 
   hover(way: readonly number[], in_: boolean): void {
@@ -156,7 +168,7 @@ export class GraphRun {
         this.host.stopAt(animation(input('animation')), Number(input('stopTime')), () => this.later(index));
         break;
       case 'event/send':
-        this.send(Number(n.configuration?.['event']?.value[0]));
+        this.send(Number(n.configuration?.['event']?.value[0]), n.values?.['value'] ? input('value') : null);
         break;
       case 'event/stopPropagation':
         this.stopped = true;
@@ -172,9 +184,9 @@ export class GraphRun {
     this.deliver();
   }
 
-  private send(event: number): void {
+  private send(event: number, value: Value): void {
     const id = this.graph.events?.[event]?.id;
-    if (id) this.host.send(id);
+    if (id) this.host.send(id, value);
     else this.waiting.push(event);
   }
 
@@ -190,6 +202,7 @@ export class GraphRun {
     if (!n) return null;
     const operation = this.operation(n);
     if (operation === 'event/onTick') return socket === 'timeSinceStart' ? this.time : this.sinceTick;
+    if (operation === 'event/receive') return this.received.get(Number(n.configuration?.['event']?.value[0])) ?? null;
     if (operation === 'variable/get') return this.variables[Number(n.configuration?.['variable']?.value[0])] ?? null;
     if (operation === 'pointer/get') return this.host.get(String(n.configuration?.['pointer']?.value[0])) ?? Number.NaN;
     return this.computed(`${index} ${socket}`, () => operations[operation]?.(s => this.input(n, s)) ?? null);

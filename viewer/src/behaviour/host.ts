@@ -19,7 +19,7 @@ export class WorldHost implements Host {
   private readonly before = new Map<string, Value>();  // what properties were when the graph began
 
   /// `told`: events that are for the page.
-  constructor(private readonly world: World, camera: PerspectiveCamera, private readonly told: (id: string) => void, private readonly changed: () => void) {
+  constructor(private readonly world: World, camera: PerspectiveCamera, private readonly told: (id: string, value: Value) => void, private readonly changed: () => void) {
     this.players = new Players(world.root, world.clips);
     const eye = '/extensions/KHR_interactivity/activeCamera/';
     this.properties.set(`${eye}position`, {get: () => camera.position.toArray()});
@@ -82,5 +82,5 @@ export class WorldHost implements Host {
   play(animation: number, start: number, end: number, speed: number, done: () => void): void { this.players.play(animation, start, end, speed, done); }
   stop(animation: number): void { this.players.stop(animation); }
   stopAt(animation: number, time: number, done: () => void): void { this.players.stopAt(animation, time, done); }
-  send(id: string): void { this.told(id); }
+  send(id: string, value: Value): void { this.told(id, value); }
 }

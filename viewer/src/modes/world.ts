@@ -107,6 +107,11 @@ export class WorldMode implements Mode {
     this.ranOrNot();
   }
 
+  runScripts(on: boolean): void {
+    this.behaviour.runScripts(on);
+    this.ranOrNot();
+  }
+
   /// Called when animations or the world begin or end.
   onRun(call: () => void): void { this.runBy.push(call); }
 

@@ -160,11 +160,17 @@ export class WorldPanel {
   private runBox(): HTMLElement[] {
     const {mode} = this, box = check('Run the world (clicks, sensors, clocks)', false, on => mode.run(on)), input = box.querySelector('input')!;
     const fault = h('p', {class: 'soft', role: 'status', id: `run-fault${mode.suffix}`});
+    const scripts = check('Run its Scripts (programs in the file)', false, on => mode.runScripts(on)), scriptsInput = scripts.querySelector('input')!;
+    const scriptFaults = h('ul', {class: 'soft', id: `script-faults${mode.suffix}`});
+    scriptsInput.disabled = true;
     mode.onRun(() => {
       input.checked = mode.behaviour.running;
+      scriptsInput.disabled = !mode.behaviour.running;
+      scriptsInput.checked = mode.behaviour.runsScripts;
+      scriptFaults.replaceChildren(...mode.behaviour.scriptFaults.map(text => h('li', {}, text)));
       fault.textContent = mode.behaviour.fault ? `The world was stopped: ${mode.behaviour.fault}.` : '';
     });
-    return [box, fault];
+    return mode.behaviour.programs.length > 0 ? [box, fault, scripts, scriptFaults] : [box, fault];
   }
 
   private bakedLight(): HTMLElement {

@@ -19,6 +19,7 @@ Cascade::Cascade(const Scene& scene, const Document& document, const Animations&
       graph_(graph),
       diag_(diag),
       targets_(scene, document, animations, graph),
+      scripts_(scene, document, graph),
       clocks_(scene, animations, graph, tick,
               [this](Graph::Flow at, NodeId n, Events::Slot slot, const Graph::Value& v) {
                 send(std::move(at), n, slot, v);
@@ -70,6 +71,8 @@ void Cascade::receive(Graph::Flow at, const Events::Hop& hop, const Graph::Value
       return targets_.bind(std::move(at), hop.to, value);
     case Act::listen:
       return listen(std::move(at), hop.to, value);
+    case Act::tell_script:
+      return scripts_.tell(std::move(at), hop.to, hop.slot, value);
     default:
       return utility(std::move(at), hop, value);
   }
@@ -100,6 +103,15 @@ void Cascade::utility(Graph::Flow at, const Events::Hop& hop, const Graph::Value
       return step_key(graph_.branch(std::move(at), value).yes, n, -1);
     default:
       return;
+  }
+}
+
+void Cascade::script(NodeId n) {
+  const auto fields = scene_.type(n).fields;
+  for (std::uint16_t slot = 0; slot < fields.size(); ++slot) {
+    if (!events_.any_from(n, slot)) continue;
+    auto [flow, value] = scripts_.told(n, slot);
+    send(std::move(flow), n, slot, value);
   }
 }
 

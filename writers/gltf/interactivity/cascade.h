@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "writers/gltf/interactivity/clocks.h"
+#include "writers/gltf/interactivity/scripts.h"
 #include "writers/gltf/interactivity/targets.h"
 
 namespace wrlkit::gltf {
@@ -21,6 +22,9 @@ class Cascade {
   void send(Graph::Flow, NodeId, Events::Slot, const Graph::Value&);
   Clocks& clocks() { return clocks_; }
   Targets& targets() { return targets_; }
+  const Scripts& scripts() const { return scripts_; }
+  /// Adds what follows from the events that a Script sends.
+  void script(NodeId);
   /// Whether a sensor listens.
   Graph::Value listens(NodeId sensor);
 
@@ -47,6 +51,7 @@ class Cascade {
   Graph& graph_;
   Diagnostics& diag_;
   Targets targets_;
+  Scripts scripts_;
   Clocks clocks_;
   std::map<std::uint32_t, Graph::Variable> memory_;
   std::vector<const Route*> path_;

@@ -4,6 +4,7 @@
 
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
+#include "writers/gltf/interactivity/scripts.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -66,6 +67,7 @@ std::optional<Act> act_of(const Scene& scene, NodeId n, std::uint16_t slot) {
                                  {IntegerSequencer, integer_sequencer::previous.slot, previous}};
   for (const Row& r : rows)
     if (r.slot == slot && scene.is(n, r.type)) return r.act;
+  if (is_script_event(scene, n, slot)) return tell_script;
   return std::nullopt;
 }
 
@@ -83,7 +85,7 @@ FieldType field_type(const Scene& scene, NodeId n, std::uint16_t slot) { return 
 
 /// Can that event be the beginning or a part of what the graph says?
 bool can_be_sent(const Scene& scene, NodeId n, std::uint16_t slot) {
-  return passes_on(scene, n) || happens(scene, n, slot);
+  return passes_on(scene, n) || happens(scene, n, slot) || is_script_event(scene, n, slot);
 }
 
 }  // namespace
@@ -109,7 +111,8 @@ void Events::find_useful(const Motion& motion) {
   for (const auto& [from, possible] : possible_) {
     const NodeId to = possible.hop.to;
     before.emplace(to.value, from);
-    if (!passes_on(scene_, to) && !scene_.is(to, nodes::TimeSensor)) todo.push_back(to.value);
+    const bool ends = possible.hop.act != Act::tell_script && !scene_.is(to, nodes::TimeSensor);
+    if (ends && !passes_on(scene_, to)) todo.push_back(to.value);
   }
   while (!todo.empty()) {
     const auto n = todo.back();

@@ -1,6 +1,6 @@
-// What the ROUTEs of a scene do when something happens, without Scripts: from sensors and clocks through the nodes of
-// X3D's component EventUtilities to fields of other nodes. KHR_interactivity can say what is in the tables of
-// events.cpp; everything else stays in extras and is reported, each kind once.
+// What the ROUTEs of a scene do when something happens; what Scripts do is the viewer's (scripts.h). From sensors and
+// clocks through the nodes of X3D's component EventUtilities to fields of other nodes. KHR_interactivity can say what
+// is in the tables of events.cpp; everything else stays in extras and is reported, each kind once.
 //
 // A ROUTE counts when its event can happen and leads to something: a BooleanFilter that nothing listens to is left out,
 // and so is a TimeSensor that only drives a Script.
@@ -34,7 +34,8 @@ enum class Act : std::uint8_t {
   trigger_time,
   at_fraction,  // of a sequencer
   next,
-  previous
+  previous,
+  tell_script
 };
 
 class Events {

@@ -145,14 +145,19 @@ void Graph::set_property(Flow& at, const std::string& pointer, const Value& valu
       {{"pointer", json_of(pointer)}, {"type", json_of(type_index(value.type))}});
 }
 
-std::uint32_t Graph::custom_event(const std::string& id) {
+std::uint32_t Graph::custom_event(const std::string& id, std::optional<Type> carries) {
   const auto next = static_cast<std::uint32_t>(events_.size());
   const auto index = id.empty() ? next : event_ids_.try_emplace(id, next).first->second;
-  if (index == next) events_.push_back(id);
+  if (index == next) events_.push_back({id, carries});
+  if (carries) note_type(*carries);
   return index;
 }
 
-void Graph::send(Flow& at, std::uint32_t event) { act(at, "event/send", {}, {{"event", json_of(event)}}); }
+void Graph::send(Flow& at, std::uint32_t event, std::optional<Value> value) {
+  Inputs inputs;
+  if (value) inputs.emplace_back("value", *std::move(value));
+  act(at, "event/send", std::move(inputs), {{"event", json_of(event)}});
+}
 
 Graph::Flow Graph::receive(std::uint32_t index) { return event("event/receive", {{"event", json_of(index)}}).flow; }
 
@@ -215,9 +220,11 @@ void Graph::write(JsonOut& json) const {
         });
       });
     if (!events_.empty())
-      json.list("events", events_, [&](const std::string& id) {
+      json.list("events", events_, [&](const CustomEvent& e) {
         json.object([&] {
-          if (!id.empty()) json.member("id", id);
+          if (!e.id.empty()) json.member("id", e.id);
+          if (!e.carries) return;
+          json.object("values", [&] { json.member("value", json_object("type", type_index(*e.carries))); });
         });
       });
     json.list("declarations", declarations_, [&](std::string_view o) { write_declaration(json, o); });

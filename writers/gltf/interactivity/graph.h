@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -91,9 +92,10 @@ class Graph {
   void set(Flow&, Variable, const Value&);
   void set_property(Flow&, const std::string& pointer, const Value&);
   /// Sends an event: to the program that shows the file, where it has an id that this knows.
-  void send(Flow&, std::uint32_t event);
-  /// The event of that id, to be sent or received; without one an event of the graph's own.
-  std::uint32_t custom_event(const std::string& id = {});
+  void send(Flow&, std::uint32_t event, std::optional<Value> = {});
+  /// The event of that id, to be sent or received; without one an event of the graph's own. `carries`: the type of its
+  /// value, which is at the socket "value" of the node that receives it.
+  std::uint32_t custom_event(const std::string& id = {}, std::optional<Type> carries = {});
   Flow receive(std::uint32_t event);
 
   bool empty() const { return nodes_.empty(); }
@@ -128,7 +130,11 @@ class Graph {
   std::vector<Type> types_;
   std::vector<std::string_view> declarations_;
   std::vector<Value> variables_;  // as they are at first
-  std::vector<std::string> events_;
+  struct CustomEvent {
+    std::string id;
+    std::optional<Type> carries;
+  };
+  std::vector<CustomEvent> events_;
   std::map<std::string, std::uint32_t> event_ids_;
   std::vector<Node> nodes_;
   std::set<GltfExtension> sets_;  // whose properties are set

@@ -28,9 +28,11 @@ class Maker {
       if (graph_.full()) break;
       if (scene_.is(n, nodes::TouchSensor)) sensors_.touch(n);
       if (scene_.is(n, nodes::Anchor)) sensors_.anchor(n);
+      if (scene_.type(n).name == "Script") cascade_.script(n);
     }
     if (tick_) tick();
     cascade_.targets().report(diag_);
+    cascade_.scripts().report(diag_);
     return std::move(graph_);
   }
 
