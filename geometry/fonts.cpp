@@ -9,6 +9,7 @@
 #include FT_OUTLINE_H
 
 #include "base/lazy_library.h"
+#include "geometry/fallback_fonts.h"
 #include "geometry/outline.h"
 
 namespace wrlkit {
@@ -32,6 +33,10 @@ constexpr const char* usual_folders[] = {
     "/opt/homebrew/share/fonts",
     "/Library/Fonts",
     "C:/Windows/Fonts",
+    "/usr/share/fonts/truetype/noto",
+    "/usr/share/fonts/opentype/noto",
+    "/usr/share/fonts/truetype/wqy",
+    "/usr/share/fonts/truetype/droid",
 };
 
 /// By family; plain, bold, italic, both; in the order of preference.
@@ -129,7 +134,8 @@ Glyph make_glyph(FT_Face face, FT_UInt index, double slant) {
 
 // -- a font
 
-Font::Font(FT_FaceRec_* face, double slant, std::mutex& mutex) : face_(face), mutex_(mutex), slant_(slant) {
+Font::Font(std::string path, FT_FaceRec_* face, double slant, std::mutex& mutex)
+    : path_(std::move(path)), face_(face), mutex_(mutex), slant_(slant) {
   double above = face->ascender, height = above - face->descender;
   ascent_ = above > 0 && height >= above ? above / height : 0.8;
 }
@@ -145,6 +151,15 @@ const Glyph* Font::glyph(char32_t character) {
 const Glyph& Font::missing() {
   std::lock_guard lock(mutex_);
   return by_index(0);
+}
+
+std::vector<PlacedGlyph> Font::shape(std::u32string_view run, bool right_to_left) {
+  std::lock_guard lock(mutex_);
+  if (!shaping_) shaping_ = std::make_unique<ShapingFont>(path_);
+  std::vector<PlacedGlyph> out;
+  for (const auto& [index, advance, dx, dy] : shaping_->shape(run, right_to_left))
+    out.push_back({&by_index(index), advance, dx, dy});
+  return out;
 }
 
 const Glyph& Font::by_index(std::uint32_t index) {
@@ -181,6 +196,22 @@ Font* Fonts::find(FontFamily family, bool bold, bool italic) {
   return nullptr;
 }
 
+Font* Fonts::find_for(char32_t character) {
+  const auto* known = fallback_fonts(character);
+  if (!known || !library_) return nullptr;
+  for (const char* file : known->files)
+    for (const auto& folder : folders_) {
+      if (!file) return nullptr;
+      Font* font = nullptr;
+      {
+        std::lock_guard lock(mutex_);
+        font = load(folder + "/" + file, 0);
+      }
+      if (font && font->glyph(character)) return font;
+    }
+  return nullptr;
+}
+
 Font* Fonts::find_file(FontFamily family, bool bold, bool italic, double slant) {
   for (auto* file : files[static_cast<std::size_t>(family)][(bold ? 1 : 0) + (italic ? 2 : 0)])
     for (auto& folder : folders_)
@@ -193,7 +224,7 @@ Font* Fonts::load(const std::string& path, double slant) {
   FT_Face face;
   if (!is_new || freetype().FT_New_Face(library_, path.c_str(), 0, &face)) return i->second.get();
   if (FT_IS_SCALABLE(face) && face->units_per_EM > 0)
-    i->second.reset(new Font(face, slant, mutex_));
+    i->second.reset(new Font(path, face, slant, mutex_));
   else
     freetype().FT_Done_Face(face);
   return i->second.get();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/polygon.h"
+#include "geometry/shaping.h"
 
 struct FT_FaceRec_;
 struct FT_LibraryRec_;
@@ -23,6 +24,12 @@ struct Glyph {
   std::vector<std::uint32_t> triangles;  // three indices each, anticlockwise; empty: a blank
 };
 
+/// A glyph where it stands in a line, in em: how far it moves the pen, and where it is from there.
+struct PlacedGlyph {
+  const Glyph* glyph;
+  double advance, dx = 0, dy = 0;
+};
+
 /// One font file. Glyphs are made when they are first asked for, and stay where they are.
 class Font {
  public:
@@ -30,6 +37,8 @@ class Font {
 
   /// Null when the font has no such character.
   const Glyph* glyph(char32_t character);
+  /// The glyphs of a run of letters, from left to right (geometry/shaping.h).
+  std::vector<PlacedGlyph> shape(std::u32string_view run, bool right_to_left);
   /// What stands for characters that no font has.
   const Glyph& missing();
   /// Part of the height of a line that is above the baseline; the rest is below it.
@@ -37,11 +46,13 @@ class Font {
 
  private:
   friend class Fonts;
-  Font(FT_FaceRec_* face, double slant, std::mutex& mutex);
+  Font(std::string path, FT_FaceRec_* face, double slant, std::mutex& mutex);
   const Glyph& by_index(std::uint32_t index);
 
+  std::string path_;
   FT_FaceRec_* face_;
   std::mutex& mutex_;
+  std::unique_ptr<ShapingFont> shaping_;  // null: nothing has been shaped
   double slant_, ascent_;
   std::unordered_map<std::uint32_t, Glyph> glyphs_;
 };
@@ -61,6 +72,9 @@ class Fonts {
   /// The font that comes closest; null when there is none at all. An italic that is not installed is the upright font,
   /// slanted.
   Font* find(FontFamily family, bool bold, bool italic);
+  /// A font for a letter that those do not have, by its script (geometry/fallback_fonts.h); null when none is
+  /// installed.
+  Font* find_for(char32_t character);
 
  private:
   Font* find_file(FontFamily family, bool bold, bool italic, double slant);

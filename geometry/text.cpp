@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/text/utf8.h"
+#include "geometry/fallback_fonts.h"
 #include "geometry/geometry_attributes.h"
 #include "scenegraph/nodes.h"
 
@@ -131,10 +132,12 @@ class TextMaker {
   Span where() const { return job_.scene.where(job_.geometry); }
   void start_mesh();
   bool find_fonts();
-  const Glyph& glyph(char32_t);
+  Font* font_of(char32_t);
   void report_missing();
   void add_line(std::string_view);
-  double advance(const Glyph& g) const { return style_.horizontal ? g.advance * style_.size : style_.size; }
+  void add_letters();
+  void add_shaped();
+  double advance(const PlacedGlyph& g) const { return style_.horizontal ? g.advance * style_.size : style_.size; }
   void set_lengths();
   double major_start(const Line&) const;
   double minor_start() const;
@@ -146,7 +149,8 @@ class TextMaker {
   Fonts& fonts_;
   Style style_;
   Font *font_ = nullptr, *second_ = nullptr;
-  std::vector<const Glyph*> glyphs_;
+  std::vector<PlacedGlyph> glyphs_;
+  std::u32string letters_;  // of the line at hand
   std::vector<Line> lines_;
   bool cut_off_ = false;
   std::size_t n_missing_ = 0;
@@ -174,32 +178,75 @@ bool TextMaker::find_fonts() {
 
 // -- strings
 
-const Glyph& TextMaker::glyph(char32_t c) {
-  if (auto* g = font_->glyph(c)) return *g;
-  if (auto* g = second_->glyph(c)) return *g;
+/// Null when no font has it, which is noted.
+Font* TextMaker::font_of(char32_t c) {
+  for (Font* font : {font_, second_})
+    if (font->glyph(c)) return font;
+  if (Font* font = fonts_.find_for(c)) return font;
   if (n_missing_++ == 0) first_missing_ = c;
-  return font_->missing();
+  return nullptr;
 }
 
 void TextMaker::report_missing() {
-  if (n_missing_)
-    job_.ctx.diag.report(Diag::missing_glyph, where(), title(job_), n_missing_,
-                         fmt::format("{:04X}", static_cast<std::uint32_t>(first_missing_)));
+  if (!n_missing_) return;
+  auto first = fmt::format("{:04X}", static_cast<std::uint32_t>(first_missing_));
+  if (const auto* known = fallback_fonts(first_missing_))
+    first += fmt::format(" (Debian's package {} has a font for it)", known->package);
+  job_.ctx.diag.report(Diag::missing_glyph, where(), title(job_), n_missing_, first);
 }
 
 void TextMaker::add_line(std::string_view s) {
-  Line line{glyphs_.size(), glyphs_.size(), 0, 1};
+  letters_.clear();
   while (!s.empty() && !cut_off_) {
     char32_t c = take_character(s);
     if (c == '\t') c = ' ';
     if (is_control(c)) continue;
-    cut_off_ = glyphs_.size() == most_characters;
-    if (cut_off_) break;
-    glyphs_.push_back(&glyph(c));
-    line.length += advance(*glyphs_.back());
+    cut_off_ = glyphs_.size() + letters_.size() >= most_characters;
+    if (!cut_off_) letters_.push_back(c);
   }
+  Line line{glyphs_.size(), glyphs_.size(), 0, 1};
+  if (style_.horizontal && std::ranges::any_of(letters_, needs_shaping) && can_shape())
+    add_shaped();
+  else
+    add_letters();
   line.last = glyphs_.size();
+  for (auto i = line.first; i < line.last; ++i) line.length += advance(glyphs_[i]);
   lines_.push_back(line);
+}
+
+void TextMaker::add_letters() {
+  for (const char32_t c : letters_) {
+    Font* const font = font_of(c);
+    const Glyph& g = font ? *font->glyph(c) : font_->missing();
+    glyphs_.push_back({&g, g.advance});
+  }
+}
+
+/// Glyphs of a line with letters that join or run from right to left, in the order in which they stand along the line.
+void TextMaker::add_shaped() {
+  const auto scripts = scripts_of(letters_);
+  std::vector<Font*> fonts;
+  std::vector<std::uint32_t> kinds;  // numbers that change with the font and the script
+  for (std::size_t i = 0; i < letters_.size(); ++i) {
+    const bool same_script = i > 0 && scripts[i] == scripts[i - 1];
+    // A mark or joiner stays with its letter, and a blank with its word, where their font has it.
+    const bool stays = same_script && fonts.back() && fonts.back()->glyph(letters_[i]);
+    fonts.push_back(stays ? fonts.back() : font_of(letters_[i]));
+    const bool same = same_script && fonts[i] == fonts[i - 1];
+    kinds.push_back(kinds.empty() ? 0 : kinds.back() + (same ? 0 : 1));
+  }
+  const auto first = glyphs_.size();
+  const auto direction = style_.left_to_right ? std::optional<bool>() : true;
+  for (const TextRun& run : visual_runs(letters_, kinds, direction)) {
+    const auto text = std::u32string_view(letters_).substr(run.begin, run.end - run.begin);
+    if (Font* const font = fonts[run.begin]) {
+      const auto shaped = font->shape(text, run.right_to_left);
+      glyphs_.insert(glyphs_.end(), shaped.begin(), shaped.end());
+    } else {
+      glyphs_.insert(glyphs_.end(), text.size(), {&font_->missing(), font_->missing().advance});
+    }
+  }
+  if (!style_.left_to_right) std::reverse(glyphs_.begin() + static_cast<std::ptrdiff_t>(first), glyphs_.end());
 }
 
 /// The lengths that the node asks for: `length` of each string, then maxExtent of the longest.
@@ -255,10 +302,13 @@ void TextMaker::place() {
 void TextMaker::place(const Line& line, double minor) {
   double size = style_.size, stretched = size * line.scale, pen = major_start(line), way = style_.major_way();
   for (auto i = line.first; i < line.last; ++i) {
-    const Glyph& g = *glyphs_[i];
-    double step = advance(g) * line.scale, low = way > 0 ? pen : pen - step;
-    if (style_.horizontal)
+    const PlacedGlyph& placed = glyphs_[i];
+    const Glyph& g = *placed.glyph;
+    double step = advance(placed) * line.scale, low = way > 0 ? pen : pen - step;
+    if (style_.horizontal && placed.dx == 0 && placed.dy == 0)
       add(g, {low, minor, stretched, size});
+    else if (style_.horizontal)
+      add(g, {low + placed.dx * stretched, minor + placed.dy * size, stretched, size});
     else
       add(g, {minor + (1 - g.advance) / 2 * size, low + (1 - font_->ascent()) * stretched, size, stretched});
     pen += way * step;

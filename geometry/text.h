@@ -14,8 +14,12 @@ namespace wrlkit {
 ///   below the baseline; it is what justify aligns. Lines with spacing 1 are stacked without a gap.
 /// - Vertical strings give every character a box of size * size, one below the other, and centre it in that.
 /// - `length` and `maxExtent` scale the characters along the string, `length` first. Blanks count.
-/// - There is no kerning and no shaping of scripts that need it; `language` is not used. Control characters are left
-///   out; characters that neither the font nor the sans font has are shown as the font's box for that.
+/// - Lines with letters that join or run from right to left (Arabic, Hebrew, Devanagari, ...) are shaped, and ordered
+/// by
+///   Unicode Standard Annex #9 (geometry/shaping.h), where they are horizontal; `leftToRight` FALSE makes the direction
+///   of their paragraph right to left. Other lines have neither kerning nor ligatures. `language` is not used.
+/// - Control characters are left out. Characters that neither the font nor the sans font has come from one for their
+///   script (geometry/fallback_fonts.h), plain and upright, or else are shown as the font's box for that.
 ///
 /// Reports no-font, degenerate-geometry for a size of 0, and expansion-limit above 100,000 characters; the mesh is then
 /// of kind `faces` without faces, or has the first 100,000.

@@ -326,6 +326,70 @@ TEST_CASE("UTF-8, good and bad", "[text]") {
   CHECK(job.diag.messages().size() == 2);
 }
 
+TEST_CASE("Arabic letters join, Hebrew ones run from right to left", "[text]") {
+  if (!can_shape()) return;
+  Job job;
+  const auto box = [&](std::string_view s) {
+    job.strings({s});
+    return bounds(job.make());
+  };
+  // Seen, lam, alef, meem: lam and alef are one glyph, and seen and meem have shorter forms.
+  const auto word = box("\u0633\u0644\u0627\u0645");
+  double alone = 0;
+  for (const auto* letter : {"\u0633", "\u0644", "\u0627", "\u0645"}) alone += box(letter).right;
+  CHECK(word.right > 0);
+  CHECK(word.right < 0.85 * alone);
+  // Qof, which is read first, has a foot below the line.
+  job.strings({"\u05e7  \u05d0"});  // qof, alef
+  const Mesh& mesh = job.make();
+  double lowest = 0, where = 0;
+  for (std::size_t i = 0; i < mesh.positions.size(); i += 3)
+    if (mesh.positions[i + 1] < lowest) {
+      lowest = mesh.positions[i + 1];
+      where = mesh.positions[i];
+    }
+  CHECK(lowest < -0.1);  // the foot of qof
+  CHECK(where > bounds(mesh).right / 2);
+  CHECK(job.diag.messages().empty());
+}
+
+TEST_CASE("runs of a line by UAX #9", "[text]") {
+  if (!can_shape()) return;
+  const auto runs = [](std::u32string_view line, std::optional<bool> right_to_left) {
+    std::string out;
+    for (const auto& r : visual_runs(line, std::vector<std::uint32_t>(line.size(), 0), right_to_left))
+      out += std::to_string(r.begin) + "-" + std::to_string(r.end) + (r.right_to_left ? "< " : "> ");
+    return out;
+  };
+  CHECK(runs(U"A (\u05d0\u05d1) B", {}) == "0-3> 3-5< 5-8> ");
+  CHECK(runs(U"\u05d0\u05d1 12", {}) == "3-5> 0-3< ");
+  CHECK(runs(U"A \u05d0", true) == "1-3< 0-1> ");
+  CHECK(runs(U"", {}).empty());
+  CHECK(needs_shaping(U'\u0633'));
+  for (const char32_t c : {U'A', U'\u00c4', U'\u03a9', U'\u0416', U'\u4e2d', U'\u1e00', U'\u2013'})
+    CHECK_FALSE(needs_shaping(c));
+}
+
+TEST_CASE("letters that DejaVu lacks come from a font of their script, or its package is named", "[text]") {
+  const TempFolder folder;
+  const std::string dejavu = "/usr/share/fonts/truetype/dejavu/";
+  std::filesystem::copy(dejavu + "DejaVuSansMono.ttf", folder / "DejaVuSansMono.ttf");
+  Fonts without({folder.path().string()});
+  Job job;
+  job.strings({"\u05d0"});
+  const auto box = flat(job.make(without)).points;
+  REQUIRE(job.diag.count(Diag::missing_glyph) == 1);
+  CHECK(job.diag.messages()[0].text().find("U+05D0 (Debian's package fonts-noto-core has a font for it)") !=
+        std::string::npos);
+  std::filesystem::copy(dejavu + "DejaVuSans.ttf", folder / "NotoSansHebrew-Regular.ttf");
+  Fonts with({folder.path().string()});
+  CHECK(flat(job.make(with)).points != box);
+  CHECK(job.diag.count(Diag::missing_glyph) == 1);
+  CHECK_FALSE(with.find_for(U'\u05d0') == nullptr);
+  CHECK(with.find_for(U'\u4e2d') == nullptr);
+  CHECK(with.find_for(U'A') == nullptr);
+}
+
 TEST_CASE("empty texts are empty", "[text]") {
   Job job;
   for (auto& s : std::vector<std::vector<std::string_view>>{{}, {""}, {"", ""}, {" "}, {"  ", "", "\n"}}) {
