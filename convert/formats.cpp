@@ -90,7 +90,7 @@ constexpr FileFormat file_formats[] = {
     {.name = "pictures",
      .endings = "PNG JPEG GIF BMP TGA TIFF WebP EXR HDR",
      .first_bytes = "their own",
-     .reads = "as textures, also SGI and DDS",
+     .reads = "as textures; SGI DDS PCX XBM",
      .writes = "PNG, JPEG, WebP, EXR"},
 };
 

@@ -17,11 +17,19 @@ bool is_plain_jpeg(std::string_view jpeg);
 /// browsers do. False, and why, when it is damaged.
 bool decode_jpeg(std::string_view jpeg, Image& image, std::string& error);
 
-/// DirectDraw surfaces of BC1, BC2 or BC3 (DXT1, DXT3, DXT5) in one layer, without their smaller levels. Four channels.
+/// DirectDraw surfaces of BC1 to BC5 (DXT1, DXT3, DXT5, ...) or BC7 in one layer, without their smaller levels. Four
+/// channels.
 /// False, and why, for other kinds and when it is damaged.
 bool decode_dds(std::string_view dds, Image& image, std::string& error);
 
 /// SGI, 8 or 16 bits, run-length encoded or not. False, and why, when it is damaged.
 bool decode_sgi(std::string_view sgi, Image& image, std::string& error);
+
+/// PCX of 1 to 8 bits a pixel with a palette, or of 24 or 32 bits, in 3 channels or 4. False, and why, when it is
+/// damaged.
+bool decode_pcx(std::string_view pcx, Image& image, std::string& error);
+
+/// An X bitmap, in 1 channel, black where its bits are set. False, and why, when it is damaged.
+bool decode_xbm(std::string_view xbm, Image& image, std::string& error);
 
 }  // namespace wrlkit

@@ -87,6 +87,8 @@ bool decode(std::string_view bytes, std::string_view mime, Image& image, std::st
   if (mime == "image/jpeg" && is_plain_jpeg(bytes)) return decode_jpeg(bytes, image, error);
   if (mime == "image/x-sgi") return decode_sgi(bytes, image, error);
   if (mime == "image/vnd-ms.dds") return decode_dds(bytes, image, error);
+  if (mime == "image/x-pcx") return decode_pcx(bytes, image, error);
+  if (mime == "image/x-xbitmap") return decode_xbm(bytes, image, error);
   return decode_by_module(bytes, mime, image, error);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/image/image.h"
+#include "base/image/xbm.h"
 #include "base/text/letter_case.h"
 
 namespace wrlkit {
@@ -113,6 +114,22 @@ Header sgi(Bytes f) {
 // DDS_HEADER: height, width.
 Header dds(Bytes f) { return header(f.le32(16), f.le32(12), 4, "image/vnd-ms.dds"); }
 
+// PCX: its first byte alone says little, so that the fields that follow have to fit as well.
+Header pcx(Bytes f) {
+  const auto bits = f.u8(3), planes = f.u8(65);
+  if (f.b.size() < 128 || f.u8(1) > 5 || f.u8(2) > 1 || planes < 1 || planes > 4) return std::nullopt;
+  if ((bits != 1 && bits != 2 && bits != 4 && bits != 8) || f.le16(8) < f.le16(4) || f.le16(10) < f.le16(6))
+    return std::nullopt;
+  return header(f.le16(8) - f.le16(4) + 1, f.le16(10) - f.le16(6) + 1, bits == 8 && planes == 4 ? 4 : 3, "image/x-pcx");
+}
+
+bool is_pcx(std::string_view bytes) { return bytes.starts_with('\x0a') && pcx({bytes}); }
+
+Header xbm(std::string_view bytes) {
+  const auto size = xbm_size(bytes);
+  return size ? Header(ImageHeader{size->width, size->height, 1, false, "image/x-xbitmap"}) : std::nullopt;
+}
+
 struct Magic {
   std::string_view bytes;
   std::size_t at;
@@ -152,11 +169,15 @@ const Magic* find_magic(std::string_view bytes) {
 
 std::string_view sniff_mime(std::string_view bytes, std::string_view name) {
   if (auto* m = find_magic(bytes)) return m->mime;
+  if (is_pcx(bytes)) return "image/x-pcx";
+  if (xbm(bytes)) return "image/x-xbitmap";
   return is_tga(bytes, name) ? "image/x-tga"sv : ""sv;
 }
 
 std::optional<ImageHeader> read_image_header(std::string_view bytes, std::string_view name) {
   if (auto* m = find_magic(bytes)) return m->read ? m->read({bytes}) : std::nullopt;
+  if (is_pcx(bytes)) return pcx({bytes});
+  if (const auto found = xbm(bytes)) return found;
   return is_tga(bytes, name) ? tga({bytes}) : std::nullopt;
 }
 

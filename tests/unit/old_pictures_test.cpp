@@ -92,7 +92,7 @@ TEST_CASE("DDS: BC1", "[image]") {
   CHECK(image.pixels[row * 2 + 2] == 255);
   CHECK_FALSE(fault_of_old(dds_head(1).substr(0, 100)).empty());
   CHECK(fault_of_old(dds_head(1) + block.substr(1)) == "its data are damaged");
-  CHECK(fault_of_old(dds_head(3) + block + block + block) == "it is not a DDS of BC1 to BC5 in one layer");
+  CHECK(fault_of_old(dds_head(3) + block + block + block) == "it is not a DDS of BC1 to BC5 or BC7 in one layer");
 }
 
 TEST_CASE("DDS: BC4 and BC5, by their letters and by DXGI_FORMAT", "[image]") {
@@ -110,7 +110,116 @@ TEST_CASE("DDS: BC4 and BC5, by their letters and by DXGI_FORMAT", "[image]") {
   CHECK(Pixels(two.pixels.begin(), two.pixels.begin() + 4) == Pixels{128, 10, 0, 255});
   auto cube = bc5;
   cube[136] = 4;  // miscFlag
-  CHECK(fault_of_old(cube + ramp + ramp) == "it is not a DDS of BC1 to BC5 in one layer");
+  CHECK(fault_of_old(cube + ramp + ramp) == "it is not a DDS of BC1 to BC5 or BC7 in one layer");
   bc5[128] = 0x54;  // SNORM
-  CHECK(fault_of_old(bc5 + ramp + ramp) == "it is not a DDS of BC1 to BC5 in one layer");
+  CHECK(fault_of_old(bc5 + ramp + ramp) == "it is not a DDS of BC1 to BC5 or BC7 in one layer");
+}
+
+namespace {
+
+/// Bits from the lowest of the first byte on.
+struct BlockOfBits {
+  std::string bytes = std::string(16, '\0');
+  unsigned at = 0;
+  BlockOfBits& put(unsigned v, unsigned n) {
+    for (unsigned i = 0; i < n; ++i, ++at)
+      if (v >> i & 1u) bytes[at / 8] = static_cast<char>(bytes[at / 8] | 1 << at % 8);
+    return *this;
+  }
+};
+
+std::string bc7_head() {
+  auto bytes = dds_head(1);
+  bytes.replace(84, 4, "DX10");
+  return bytes + "\x62\0\0\0\x03\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0"s;
+}
+
+Pixels texel(const Image& image, std::size_t i) {
+  return {image.pixels.begin() + static_cast<std::ptrdiff_t>(4 * i),
+          image.pixels.begin() + static_cast<std::ptrdiff_t>(4 * i + 4)};
+}
+
+}  // namespace
+
+TEST_CASE("DDS: BC7, by hand", "[image]") {
+  // Mode 6: from (0, 2, 4, 254) + 1 to (254, 2, 4, 254); texel 1 has the second colour, texel 2 something between.
+  BlockOfBits six;
+  six.put(64, 7).put(0, 7).put(127, 7).put(1, 7).put(1, 7).put(2, 7).put(2, 7).put(127, 7).put(127, 7).put(1, 1).put(0,
+                                                                                                                     1);
+  six.put(0, 3).put(15, 4).put(8, 4);
+  const auto image = decoded_old(bc7_head() + six.bytes);
+  CHECK(texel(image, 0) == Pixels{1, 3, 5, 255});
+  CHECK(texel(image, 1) == Pixels{254, 2, 4, 254});
+  CHECK(texel(image, 2) == Pixels{static_cast<std::uint8_t>((30 * 1 + 34 * 254 + 32) >> 6), 2, 4, 254});
+  // Mode 3, partition 13 (the lower half): red above, blue below; every texel has the first colour of its pair.
+  BlockOfBits three;
+  three.put(8, 4).put(13, 6);
+  for (unsigned red : {127, 127, 0, 0}) three.put(red, 7);
+  for (unsigned i = 0; i < 4; ++i) three.put(0, 7);
+  for (unsigned blue : {0, 0, 127, 127}) three.put(blue, 7);
+  three.put(0, 4);
+  const auto two = decoded_old(bc7_head() + three.bytes);
+  CHECK(texel(two, 0) == Pixels{254, 0, 0, 255});
+  CHECK(texel(two, 7) == Pixels{254, 0, 0, 255});
+  CHECK(texel(two, 8) == Pixels{0, 0, 254, 255});
+  CHECK(texel(decoded_old(bc7_head() + std::string(16, '\0')), 5) == Pixels{0, 0, 0, 0});
+  CHECK(fault_of_old(bc7_head() + six.bytes.substr(1)) == "its data are damaged");
+}
+
+namespace {
+
+std::string pcx_of(std::uint8_t bits, std::uint8_t planes, std::uint8_t row, const std::string& data) {
+  auto head = "\x0a\x05\x01"s + static_cast<char>(bits);
+  head.resize(128);
+  head[8] = 2;   // 3 pixels wide
+  head[10] = 1;  // 2 high
+  head[65] = static_cast<char>(planes);
+  head[66] = static_cast<char>(row);
+  return head + data;
+}
+
+}  // namespace
+
+TEST_CASE("PCX", "[image]") {
+  // Runs may go on from plane to plane.
+  const auto colored = pcx_of(8, 3, 4, "\xc4\x09\xc8\x07\x01\x02\x03\0\xc8\xff"s);
+  CHECK(sniff_mime(colored) == "image/x-pcx");
+  CHECK(decoded_old(colored).pixels == Pixels{9, 7, 7, 9, 7, 7, 9, 7, 7, 1, 255, 255, 2, 255, 255, 3, 255, 255});
+  std::string palette(768, '\0');
+  palette[3 * 5] = 50;
+  palette[3 * 6 + 1] = 60;
+  const auto indexed = pcx_of(8, 1, 4, "\x05\x06\x05\0\x06\x06\x05\0\x0c"s) + palette;
+  CHECK(decoded_old(indexed).pixels == Pixels{50, 0, 0, 0, 60, 0, 50, 0, 0, 0, 60, 0, 0, 60, 0, 50, 0, 0});
+  CHECK(decoded_old(pcx_of(1, 1, 2, "\xc1\xa0\0\x40\0"s)).pixels ==
+        Pixels{255, 255, 255, 0, 0, 0, 255, 255, 255, 0, 0, 0, 255, 255, 255, 0, 0, 0});
+  auto ega = pcx_of(1, 4, 2, "\xc1\x80\0\0\0\0\0\xc1\x80\0\xc8\0"s);  // indices 9, 0, 0; 0, 0, 0
+  ega[16 + 3 * 9 + 2] = 77;
+  CHECK(decoded_old(ega).pixels.at(2) == 77);
+  CHECK(fault_of_old(colored.substr(0, colored.size() - 2)) == "its data are damaged");
+  CHECK(fault_of_old(pcx_of(8, 3, 1, "\xff\0"s)) == "its data are damaged");  // rows that are too short
+  CHECK(fault_of_old(pcx_of(4, 3, 2, "\xff\0"s)) == "its data are damaged");  // 12 bits
+  CHECK(fault_of_old(pcx_of(4, 2, 2, "\xff\0"s)) == "its data are damaged");  // 8 bits, and 16 colours
+  auto huge = colored;
+  huge.replace(8, 4, "\xff\xff\xff\xff");
+  huge.replace(66, 2, "\xff\xff");
+  CHECK_FALSE(fault_of_old(huge).empty());
+  for (std::size_t n = 0; n < colored.size(); ++n) fault_of_old(colored.substr(0, n));
+}
+
+TEST_CASE("X bitmaps", "[image]") {
+  const auto text =
+      "/* an arrow */\n#define a_width 3\n#define a_height 2\nstatic unsigned char a_bits[] = { 0x05, 2 };\n"s;
+  CHECK(sniff_mime(text) == "image/x-xbitmap");
+  const auto image = decoded_old(text);
+  CHECK(image.channels == 1);
+  CHECK(image.pixels == Pixels{0, 255, 0, 255, 0, 255});
+  CHECK(
+      decoded_old("#define a_width 17\n#define a_height 1\nstatic short a_bits[] = {0x8000,\n0x0001};").pixels.at(16) ==
+      0);
+  CHECK(fault_of_old(text.substr(0, text.find("2 }"))) == "its data are damaged");
+  CHECK(fault_of_old("#define a_width 3000\n#define a_height 3000\nstatic char a_bits[] = {0};")
+            .ends_with("cannot hold 3000 x 3000 pixels"));
+  CHECK(fault_of_old("#define a_width 9\n#define a_height 99999999999\nstatic char a_bits[] = {0};") ==
+        "it is no picture of a known type");
+  CHECK(sniff_mime("#define WIDTH 3\nint main() {}").empty());
 }
