@@ -8,7 +8,7 @@ namespace wrlkit {
 
 struct BrowserNode {
   /// Whether the node itself was only a group of what is drawn, or showed or did something that is lost.
-  enum class Fate : std::uint8_t { below, kept };
+  enum class Fate : std::uint8_t { below, drawn, kept };
   std::string_view name;
   std::string_view browser;
   Fate fate;

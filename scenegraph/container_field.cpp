@@ -1,5 +1,7 @@
 #include "scenegraph/container_field.h"
 
+#include "scenegraph/browser_nodes.h"
+
 namespace wrlkit {
 
 std::string_view container_field(const Scene& scene, NodeId n) {
@@ -10,6 +12,8 @@ std::string_view container_field(const Scene& scene, NodeId n) {
     if (p.external || p.body.roots.empty()) return "children";
     t = &scene.type(p.body.roots[0]);
   }
+  if (const auto* known = t->kind == NodeKind::unknown ? find_browser_node(t->name) : nullptr)
+    if (known->what == "geometry") return "geometry";
   return t->container_field.empty() ? std::string_view("children") : t->container_field;
 }
 

@@ -1,34 +1,13 @@
 #include "passes/lower_x3d/browser_nodes.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "passes/lower_x3d/foreign_fields.h"
 #include "scenegraph/decompose.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::x3d {
 namespace {
-
-const Value* extra(const Scene& scene, NodeId n, std::string_view name) {
-  for (const Value& v : scene.fields(n))
-    if (scene.is_extra(v) && v.extra->name == name && !v.extra->value.is) return &v.extra->value;
-  return nullptr;
-}
-
-/// Fields of nodes that are not known are text.
-std::vector<double> numbers(const Scene& scene, NodeId n, std::string_view name) {
-  std::vector<double> out;
-  const Value* v = extra(scene, n, name);
-  if (!v || info(v->type).element != Element::text || info(v->type).multiple) return out;
-  auto text = v->text();
-  while (!text.empty()) {
-    double number = 0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (fault == std::errc()) out.push_back(number);
-    text.remove_prefix(fault == std::errc() ? static_cast<std::size_t>(end - text.data()) : 1);
-  }
-  return out;
-}
 
 bool is_called(const Scene& scene, NodeId n, std::string_view name) {
   return n && scene.type(n).kind == NodeKind::unknown && scene.type(n).name == name;
@@ -38,11 +17,11 @@ bool lower_matrix_transform(Scene& scene, NodeId n) {
   namespace t = nodes::transform;
   if (!is_called(scene, n, "MatrixTransform")) return false;
   std::vector<NodeId> children;
-  if (const Value* v = extra(scene, n, "children")) {
+  if (const Value* v = ForeignFields(scene, n).value("children")) {
     const auto held = v->node_span();
     children.assign(held.begin(), held.end());
   }
-  const auto m = numbers(scene, n, "matrix");
+  const auto m = ForeignFields(scene, n).numbers("matrix");
   scene.become(n, nodes::Transform, {});
   if (!children.empty()) scene.set(n, t::children, children);
   if (m.size() < 16) return true;
@@ -56,11 +35,11 @@ bool lower_matrix_transform(Scene& scene, NodeId n) {
 
 /// The picture in a field of a shader: X3DOM may put a SurfaceShaderTexture around it.
 NodeId picture(const Scene& scene, NodeId shader, std::string_view field) {
-  const Value* v = extra(scene, shader, field);
+  const Value* v = ForeignFields(scene, shader).value(field);
   const auto held = v ? v->node_span() : std::span<const NodeId>{};
   NodeId n = held.empty() ? NodeId{} : held[0];
   if (is_called(scene, n, "SurfaceShaderTexture")) {
-    const Value* inner = extra(scene, n, "texture");
+    const Value* inner = ForeignFields(scene, n).value("texture");
     const auto inside = inner ? inner->node_span() : std::span<const NodeId>{};
     n = inside.empty() ? NodeId{} : inside[0];
   }
@@ -72,14 +51,15 @@ NodeId material_of_shader(Scene& scene, NodeId shader) {
   const NodeId out = scene.add(nodes::Material, scene.where(shader));
   scene.set_name(out, scene.name(shader));
   const auto color = [&](std::string_view name, auto key) {
-    const auto c = numbers(scene, shader, name);
+    const auto c = ForeignFields(scene, shader).numbers(name);
     if (c.size() >= 3) scene.set(out, key, Vec3{c[0], c[1], c[2]});
   };
   color("diffuseFactor", m::diffuseColor);
   color("emissiveFactor", m::emissiveColor);
   color("specularFactor", m::specularColor);
-  if (const auto s = numbers(scene, shader, "shininessFactor"); !s.empty()) scene.set(out, m::shininess, s[0]);
-  if (const auto a = numbers(scene, shader, "alphaFactor"); !a.empty())
+  if (const auto s = ForeignFields(scene, shader).numbers("shininessFactor"); !s.empty())
+    scene.set(out, m::shininess, s[0]);
+  if (const auto a = ForeignFields(scene, shader).numbers("alphaFactor"); !a.empty())
     scene.set(out, m::transparency, std::clamp(1 - a[0], 0.0, 1.0));
   const auto take = [&](std::string_view name, auto key) {
     if (const NodeId p = picture(scene, shader, name)) scene.set(out, key, p);

@@ -10,6 +10,7 @@
 #include "passes/lower_x3d/interpolators.h"
 #include "passes/lower_x3d/materials.h"
 #include "passes/lower_x3d/nurbs_geometry.h"
+#include "passes/lower_x3d/plant_shapes.h"
 #include "passes/lower_x3d/product.h"
 #include "passes/lower_x3d/two_sides.h"
 #include "passes/lower_x3d/vrml97.h"
@@ -61,6 +62,7 @@ Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx
   bool changed = x3d::place_on_earth(scene, ctx.diag);
   changed |= lower_curves(scene, options, ctx.diag);
   changed |= x3d::lower_interpolators(scene, options.vrml97, ctx.diag);
+  changed |= x3d::lower_plant_shapes(scene);
   changed |= split_sides(scene);
   for (NodeId n : all_nodes(scene)) {
     changed |= x3d::lower_browser_node(scene, n);

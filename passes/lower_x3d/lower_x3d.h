@@ -15,6 +15,7 @@ vocabulary.
 
 Triangle, quad and line sets become IndexedFaceSet and IndexedLineSet, Geometry2D these with 64 sides to a circle;
 StaticGroup, CAD nodes, layers, ViewpointGroup and the nodes of humanoids (H-Anim, as they stand) become groups;
+X3DOM's shapes of plants (Snout, Dish, Torus, ...) become forms, as `recognise` finds them;
 what is not `visible` stands in a Switch that shows nothing; of a MultiTexture the first picture stays; faces that
 look otherwise from behind (TwoSidedMaterial, backMaterial) become two Shapes, of other geometry the front stays.
 What a ClipPlane hides is cut off. NURBS become triangles and lines within `tolerance`, trimmed along their

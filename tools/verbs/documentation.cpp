@@ -42,6 +42,7 @@ std::string doc_text(const NodeType& t, const FieldDef& f) {
 }
 
 std::string_view fate_text(BrowserNode::Fate fate) {
+  if (fate == BrowserNode::Fate::drawn) return "drawn";
   return fate == BrowserNode::Fate::below ? "its children are drawn" : "kept";
 }
 
