@@ -36,6 +36,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t tiles_at_once = 16;
 // Distances are taken at points, and the largest may lie between them.
 constexpr double between_points = 1.05;
+// Of a coarse tile that is off by so much anyway, vertices may be moved by a share of that; but a tile has some steps.
+constexpr double share_of_error = 1. / 8, least_steps = 2048;
 
 class Making {
  public:
@@ -97,7 +99,9 @@ class Making {
   bool save(std::uint32_t cell, Task& task);
   std::vector<PieceStore::Entry> entries_of(const Cell& cell) const;
   std::vector<Piece> pieces_of_cell(std::uint32_t cell) const;
-  bool measure();
+  bool measure(std::uint32_t cell, Task& task);
+  bool measure_rest();
+  double tolerance_of(const Tile& tile, double extent) const;
   double measured_error(std::uint32_t cell) const;
   bool publish();
   /// Calls f(i, task) for some of them at a time; false when one has failed.
@@ -179,14 +183,14 @@ bool Making::make_all() {
   plan();
   take_kept();
   for (const auto& tile : made_) out_.n_kept += tile.is_made;
-  if (!make_levels() || !measure()) return false;
+  if (!make_levels() || !measure_rest()) return false;
   if (options_.shards > 1) {
     is_last_ = kept_.become_last();
     take_kept();
     is_last_ = is_last_ && is_whole();
     for (const auto& tile : made_) out_.n_left += !tile.is_made;
     if (!is_last_) return true;
-    if (!make_levels() || !measure()) return false;
+    if (!make_levels() || !measure_rest()) return false;
   }
   out_.whole = publish();
   return out_.whole;
@@ -354,7 +358,18 @@ bool Making::make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& ta
   auto& stored = made_[cell].made.pieces_bytes;
   stored = write_pieces(kept_.pieces_path(made_[cell].key), pieces);
   if (!stored) task.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
-  return stored && write_tile(cell, pieces, task) && save(cell, task);
+  return stored && measure(cell, task) && write_tile(cell, pieces, task) && save(cell, task);
+}
+
+/// How far a coarse tile is from the full ones, which is written down.
+bool Making::measure(std::uint32_t cell, Task& task) {
+  Tile& tile = made_[cell];
+  if (tile.error) return true;
+  tile.error = measured_error(cell);
+  const std::scoped_lock lock(keeping_);
+  const bool saved = kept_.save_error(tile.key, *tile.error);
+  if (!saved) task.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
+  return saved;
 }
 
 /// Writes down that a tile is made.
@@ -377,15 +392,17 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
     names.insert(p.name);
   }
   if (pieces.empty()) return true;
+  auto gltf = gltf_;
+  gltf.compression.tolerance = tolerance_of(tile, diagonal(made.box));
   // A fifth of what quantisation may move a vertex by, which has the rest.
-  const double tolerance = gltf::tolerance_for(gltf_.compression, diagonal(made.box)) / 5;
+  const double tolerance = gltf.compression.tolerance / 5;
   auto repeats = gltf_.gpu_instancing ? repeats_of(pieces, tolerance) : std::vector<Repeat>();
   GltfSummary summary;
   const auto path = kept_.tile_path(tile.key);
   // What is seen from afar can do with smaller pictures; full tiles have them as they are.
   const ContentBudget budget{options_.draws, plan_.is_leaf(cell) ? ~std::uint64_t{0} : options_.bytes};
-  if (!write_content(pieces, std::move(repeats), origin_of(made.box), looks_, gltf_, budget, *pictures_, path,
-                     task.diag, summary))
+  if (!write_content(pieces, std::move(repeats), origin_of(made.box), looks_, gltf, budget, *pictures_, path, task.diag,
+                     summary))
     return false;
   std::error_code fault;
   made.bytes = fs::file_size(path, fault);
@@ -398,20 +415,21 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
   return true;
 }
 
-/// The errors of coarse tiles that are this process's matter.
-bool Making::measure() {
+/// How far quantisation may move a vertex of a tile that is that large: of a coarse one by a share of what it is off.
+double Making::tolerance_of(const Tile& tile, double extent) const {
+  const auto& given = gltf_.compression;
+  const double full = gltf::tolerance_for(given, extent);
+  if (given.tolerance > 0 || given.method == GltfCompression::Method::none) return full;
+  return std::max(full, std::min(share_of_error * tile.error.value_or(0), extent / least_steps));
+}
+
+/// The errors of coarse tiles that are this process's matter, and that were not written down before it was killed.
+bool Making::measure_rest() {
   std::vector<std::uint32_t> open;
   for (std::uint32_t i = 0; i < made_.size(); ++i)
     if (!plan_.is_leaf(i) && made_[i].is_made && !made_[i].error && is_mine(i)) open.push_back(i);
   if (ctx_.monitor && !open.empty()) ctx_.monitor->begin("measuring tiles", open.size(), "tiles");
-  const auto measured = [&](std::uint32_t i, Task& task) {
-    made_[i].error = measured_error(i);
-    const std::scoped_lock lock(keeping_);
-    const bool saved = kept_.save_error(made_[i].key, *made_[i].error);
-    if (!saved) task.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
-    return saved;
-  };
-  return for_each(open, measured);
+  return for_each(open, [&](std::uint32_t i, Task& task) { return measure(i, task); });
 }
 
 double Making::measured_error(std::uint32_t cell) const {

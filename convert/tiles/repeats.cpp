@@ -6,7 +6,11 @@
 #include <unordered_map>
 
 #include "base/hashing.h"
+#include "base/math/affine.h"
+#include "base/math/quaternion.h"
 #include "base/stop.h"
+#include "convert/tiles/prisms.h"
+#include "geometry/simplify/pieces.h"
 #include "passes/instance/match.h"
 
 namespace wrlkit::tiles {
@@ -48,6 +52,7 @@ class Finding {
   struct Known {
     Repeat repeat;
     MeshForm form;  // of its mesh
+    std::optional<Prism> prism = {};
   };
 
   static std::uint64_t counts_of(const Piece& p) { return mixed(p.look, p.mesh.corners.size()); }
@@ -62,11 +67,38 @@ class Finding {
     MeshForm form;
     form.take(mesh);
     if (!(form.size > 0) || !std::isfinite(form.size)) return;
-    if (find(i, form, centre)) return;
-    known_.push_back({{std::move(mesh), {{i, {.translation = centre}}}}, std::move(form)});
+    const auto prism = prism_of(mesh, tolerance_);
+    if ((prism && find_prism(i, form, centre)) || find(i, form, centre)) return;
+    TransformFields where{.translation = centre};
+    if (prism) {
+      simplify::transform(mesh, inverse(prism->frame));
+      where.rotation = axis_angle(prism->frame);
+    }
+    know({{std::move(mesh), {{i, where}}}, {}, prism}, piece.look);
+  }
+
+  void know(Known&& made, std::uint32_t look) {
+    known_.push_back(std::move(made));
     Known& known = known_.back();
-    known.form.mesh = &known.repeat.mesh;
-    by_cell_[mixed(cells_of(known.form, Scaling::uniform, tolerance_, false)[0], piece.look)].push_back(&known);
+    known.form.take(known.repeat.mesh);
+    by_cell_[mixed(cells_of(known.form, Scaling::uniform, tolerance_, false)[0], look)].push_back(&known);
+    if (known.prism) prisms_[mixed(shape_of(known.repeat.mesh), look)].push_back(&known);
+  }
+
+  /// Whether it is a prism that is known, with other sizes along its axes.
+  bool find_prism(std::uint32_t i, const MeshForm& form, const Vec3& centre) {
+    const auto found = prisms_.find(mixed(shape_of(pieces_[i].mesh), pieces_[i].look));
+    if (found == prisms_.end()) return false;
+    std::size_t compared = 0;
+    for (Known* known : found->second) {
+      if (++compared > most_compared) break;
+      auto where = stretched(*known->prism, known->form, form, tolerance_);
+      if (!where) continue;
+      where->translation = where->translation + centre;
+      known->repeat.places.push_back({i, *where});
+      return true;
+    }
+    return false;
   }
 
   /// Whether it is one that is known.
@@ -91,7 +123,7 @@ class Finding {
   double tolerance_;
   Matcher matcher_;
   std::deque<Known> known_;  // forms point to meshes
-  std::unordered_map<std::uint64_t, std::vector<Known*>> by_cell_;
+  std::unordered_map<std::uint64_t, std::vector<Known*>> by_cell_, prisms_;
 };
 
 /// About, of quantised and packed vertices, and of JSON.

@@ -44,7 +44,8 @@ void order_for_drawing(Vertices& v) {
   const std::size_t n = v.count();
   std::vector<unsigned> index(v.index.size()), to(n);
   meshopt_optimizeVertexCacheStrip(index.data(), v.index.data(), index.size(), n);
-  if (index.size() >= large)
+  // Of parts that were merged, ids and colours are runs as long as the parts stay together.
+  if (index.size() >= large && v.feature.empty())
     meshopt_optimizeOverdraw(index.data(), std::vector(index).data(), index.size(), v.position.data(), n,
                              3 * sizeof(float), overdraw_threshold);
   if (meshopt_optimizeVertexFetchRemap(to.data(), index.data(), index.size(), n) != n) return;
