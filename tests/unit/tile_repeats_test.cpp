@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "convert/tiles/repeats.h"
 
@@ -97,4 +98,63 @@ TEST_CASE("tiles: of repeats those are taken that save most", "[tile_repeats]") 
   }
   CHECK(tiles::repeats_of(pieces, 2e-4).size() == 2);
   CHECK(tiles::worthwhile(tiles::repeats_of(pieces, 2e-4), 9).empty());
+}
+
+namespace {
+
+/// A pipe of sixteen sides with caps, or, of four, a beam.
+tiles::Piece pipe(const Matrix& frame, std::uint32_t sides) {
+  tiles::Piece out{"part", 0, 0, {}};
+  Mesh& m = out.mesh;
+  m.kind = Mesh::Kind::faces;
+  m.crease_angle = 0.5;
+  auto& p = m.positions.edit();
+  for (std::uint32_t i = 0; i < sides; ++i)
+    for (const double y : {0., 1.}) {
+      const double a = 2 * std::numbers::pi * (i + 0.5) / sides;
+      const Vec3 at = frame.point({std::cos(a), y, std::sin(a)});
+      p.insert(p.end(), at.begin(), at.end());
+    }
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const auto a = 2 * i, b = 2 * ((i + 1) % sides);
+    m.corners.insert(m.corners.end(), {a, a + 1, b, b, a + 1, b + 1});
+    if (i > 0 && i + 1 < sides) m.corners.insert(m.corners.end(), {0, a, b, 1, b + 1, a + 1});
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("tiles: pipes of other lengths and radii are one surface, scaled along their axes", "[tile_repeats]") {
+  for (const std::uint32_t sides : {16u, 4u}) {
+    std::vector<tiles::Piece> pieces;
+    for (int i = 0; i < 4; ++i) pieces.push_back(pipe(place(i, {0.1 + 0.05 * i, 9.0 - 2 * i, 0.1 + 0.05 * i}), sides));
+    // An oval pipe is none of them, nor a beam whose sides are no longer square to one another.
+    const Matrix turned = sides == 4 ? rotation_matrix({0, 1, 0, 0.3}) : Matrix{};
+    pieces.push_back(pipe(place(5) * scale_matrix({0.1, 1, 0.2}) * turned, sides));
+    const auto found = tiles::repeats_of(pieces, 2e-4);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].places.size() == 4);
+    for (const auto& [piece, where] : found[0].places) {
+      const Matrix frame = matrix_of(where);
+      const auto& p = pieces[piece].mesh.positions;
+      const auto& m = found[0].mesh.positions;
+      for (std::size_t i = 0; i < p.size(); i += 3)
+        CHECK(length(frame.point({m[i], m[i + 1], m[i + 2]}) - Vec3{p[i], p[i + 1], p[i + 2]}) < 2e-4);
+      CHECK(where.scale_orientation[3] == 0);
+    }
+  }
+}
+
+TEST_CASE("tiles: a cone of another length is another surface, as shading would show", "[tile_repeats]") {
+  std::vector<tiles::Piece> pieces;
+  for (int i = 0; i < 6; ++i) {
+    pieces.push_back(pipe(place(0), 16));
+    auto& p = pieces.back().mesh.positions.edit();
+    for (std::size_t k = 0; k < p.size(); k += 6) {
+      const Vec3 low = Vec3{p[k], p[k + 1], p[k + 2]}, middle = place(0).point({});
+      std::ranges::copy(middle + (1.2 + 0.1 * i) * (low - middle), p.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  }
+  CHECK(tiles::repeats_of(pieces, 2e-4).empty());
 }
