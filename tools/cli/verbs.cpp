@@ -136,10 +136,13 @@ constexpr Verb all_verbs[] = {
     {"simplify",
      "the world at falling numbers of triangles, a file each, and all of them as levels of detail in one file",
      "wrlkit simplify valve.wrl --every 1000 -o out/\n  wrlkit simplify valve.wrl --ratios 0.5,0.25 -o out/\n  wrlkit "
-     "simplify valve.wrl --error 1mm,5mm -o out/\n  wrlkit simplify valve.wrl --progressive -o out/",
+     "simplify valve.wrl --ratios 0.1 -o valve.glb\n  wrlkit simplify valve.wrl --error 1mm,5mm -o out/\n  wrlkit "
+     "simplify valve.wrl --progressive -o out/",
      [](CLI::App& v, Flags& f) {
        input(v, f);
-       v.add_option("-o,--output", f.output, "folder for the files; made when it is not there")
+       v.add_option("-o,--output", f.output,
+                    "folder for the files; or one .glb, .gltf, .wrl or .x3d file: the world "
+                    "itself at one number of triangles, levels of detail at several")
            ->required()
            ->type_name("DIR");
        v.add_option("--every", f.every, "a file for every N triangles removed: at the multiples of N")

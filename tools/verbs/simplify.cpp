@@ -1,5 +1,5 @@
 // wrlkit simplify: the world at falling numbers of triangles, one file each, and one file with all of them as levels of
-// detail: the interaction points of Lazanyi, 2.3. Or one progressive file.
+// detail: the interaction points of Lazanyi, 2.3. Or one file of any format; or one progressive file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "base/silent_task.h"
 #include "base/text/json.h"
 #include "convert/geometry_census.h"
+#include "convert/save.h"
 #include "convert/world_meshes.h"
 #include "convert/writing.h"
 #include "geometry/progressive/progressive_world.h"
@@ -43,6 +44,10 @@ std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
   }
   if (f.progressive && !info(criterion.value).keeps_record) {
     fmt::print(stderr, "wrlkit simplify: --progressive: {} keeps no record of its steps\n", criterion.print());
+    return std::nullopt;
+  }
+  if (f.progressive && output_of(f.output)) {
+    fmt::print(stderr, "wrlkit simplify: --progressive writes a .wpm file into a folder, not '{}'\n", f.output);
     return std::nullopt;
   }
   for (const auto& text : f.errors) {
@@ -104,7 +109,7 @@ void print_json(const WrittenWorlds& all) {
         json.object("file", p.file, "triangles", p.n_drawn, "unique", p.n_faces, "left_out", p.n_gone, "rms", p.rms,
                     "max", p.max);
       });
-      json.member("lod", all.lod_file);
+      if (!all.lod_file.empty()) json.member("lod", all.lod_file);
     });
   });
   fmt::print("{}\n", text);
@@ -116,7 +121,7 @@ void print_table(const WrittenWorlds& all) {
   for (const auto& p : all.points)
     fmt::print("{:>10}  {:>10}  {:>8}  {:>10.3g}  {:>10.3g}  {}\n", p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max,
                p.file);
-  fmt::print("{:>68}\n", all.lod_file);
+  if (!all.lod_file.empty()) fmt::print("{:>68}\n", all.lod_file);
 }
 
 /// As `info` counts them. Messages about them come when they are simplified.
@@ -143,14 +148,25 @@ WrittenWorlds facts_of(const SimplifiedWorld& world) {
   return all;
 }
 
-/// Where the scenes go: NAME_TRIANGLES.wrl, and NAME_lod.wrl.
+/// Where the scenes go: NAME_TRIANGLES.wrl, and NAME_lod.wrl; or one file.
 struct Names {
   std::string base, ending;
+  std::string file = {};
 };
+
+/// One point is the scene itself, several are levels of detail. The format is that of the file's name.
+template <class World>
+bool write_one_file(Session& s, const World& world, const std::string& file, WrittenWorlds& all) {
+  const bool one = all.points.size() == 1;
+  (one ? all.points[0].file : all.lod_file) = file;
+  Document document({.scene = one ? world.scene_at(0) : world.scene_with_levels()}, s.context());
+  return bool(save(std::move(document), file, s.flags().save));
+}
 
 template <class World>
 bool write_worlds(Session& s, const World& world, const Names& names, WrittenWorlds& all) {
   all = facts_of(world);
+  if (!names.file.empty()) return write_one_file(s, world, names.file, all);
   for (std::size_t i = 0; i < all.points.size(); ++i) {
     auto& p = all.points[i];
     p.file = names.base + '_' + std::to_string(p.n_drawn) + names.ending;
@@ -213,6 +229,16 @@ std::string_view standard_pipeline(const Flags& flags) {
                          : "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap,weld";
 }
 
+/// The names that --output asks for; makes its folder when it is one.
+Names names_of(const Flags& flags) {
+  if (output_of(flags.output)) return {{}, {}, flags.output};
+  std::error_code failed;  // the first file that is written there says why
+  fs::create_directories(flags.output, failed);
+  const std::string ending = flags.progressive ? ".wpm" : ".wrl";
+  const auto base = fs::path(flags.output) / stem_of(flags.inputs[0]);
+  return {base.string(), flags.save.gzip ? ending + ".gz" : ending};
+}
+
 }  // namespace
 
 int run_simplify(const Flags& flags) {
@@ -224,15 +250,12 @@ int run_simplify(const Flags& flags) {
   if (options->errors.empty() && !flags.progressive) options->drawn = drawn_triangles(s.document());
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
 
-  std::error_code failed;
-  fs::create_directories(flags.output, failed);
-  const std::string base = (fs::path(flags.output) / stem_of(flags.inputs[0])).string();
-  if (flags.progressive)
-    return write_progressive_file(s, options->collapse.criterion, base + (flags.save.gzip ? ".wpm.gz" : ".wpm"));
+  const Names names = names_of(flags);
+  if (flags.progressive) return write_progressive_file(s, options->collapse.criterion, names.base + names.ending);
   WrittenWorlds all;
-  if (!simplify_world(s, *options, {base, flags.save.gzip ? ".wrl.gz" : ".wrl"}, all)) return s.end(false);
+  if (!simplify_world(s, *options, names, all)) return s.end(false);
   s.progress().clear();
-  (flags.json ? print_json : print_table)(all);
+  if (names.file != "-") (flags.json ? print_json : print_table)(all);
   return s.end(true);
 }
 
