@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "light/links.h"
 
 namespace wrlkit::light {
 namespace {
@@ -10,19 +11,17 @@ namespace {
 using Cell = IrradianceCache::Cell;
 
 constexpr std::size_t most_walks = 1 << 17;
-constexpr int walk_length = 4;      // rays
-constexpr std::size_t block = 256;  // walks or cells that are done in one piece
-constexpr int warm_up = 5;          // iterations of fewer rays, before those that are counted
-constexpr int fewer_rays = 8, rays_a_cell = 16;
+constexpr int walk_length = 4;       // rays
+constexpr std::size_t block = 256;   // walks or cells that are done in one piece
 constexpr std::ptrdiff_t often = 4;  // meetings that make a cell known
 constexpr int most_reflections = 6;  // reflections outside of cells
 
 /// How well the cells are known.
 struct Effort {
   std::size_t fewest_walks;
-  int counted;  // iterations that give the mean
+  int rays;  // of a cell
 };
-constexpr Effort thorough{1 << 16, 7}, quick{1 << 15, 3};
+constexpr Effort thorough{1 << 16, 128}, quick{1 << 15, 64};
 constexpr int few = 16;  // rays a point: below, the quick way will do
 
 /// A place where a walk ended a ray.
@@ -53,25 +52,23 @@ class Solver {
     discover(from);
     keep_sound_cells();
     in_blocks(cache_.cells().size(), [&](std::size_t c) { light_directly(c); });
-    sum_.assign(cache_.cells().size(), {});
-    for (int i = 0; i < warm_up + effort_.counted; ++i) iterate(i);
+    auto& cells = cache_.cells();
+    std::vector<LinkedCell> linked(cells.size());
+    in_blocks(cells.size(), [&](std::size_t c) { gather(c, linked[c]); });
+    const auto light = solve(linked);
+    for (std::size_t c = 0; c < cells.size(); ++c) cells[c].gathered = light[c];
   }
 
  private:
-  /// What a cell gathers: from the sky and from direct light, and from what others have gathered.
-  struct Gathered {
-    V3 first, further;
-  };
-
   void discover(std::span<const Receiver> from);
   void walk(Receiver at, RandomStream& random, std::vector<Meeting>& out) const;
   void keep_sound_cells();
   bool is_sound(const Cell& cell) const;
   void light_directly(std::size_t c);
-  void iterate(int iteration);
-  Gathered gather(std::size_t c, int iteration);
-  Gathered look(const Receiver& at, const Ray& ray, RandomStream& random, int depth) const;
-  Gathered follow(const Receiver& at, RandomStream& random, int depth) const;
+  void gather(std::size_t c, LinkedCell& out) const;
+  void look(const Receiver& at, const Ray& ray, RandomStream& random, const V3& share, int depth,
+            LinkedCell& out) const;
+  void follow(const Receiver& at, RandomStream& random, const V3& share, int depth, LinkedCell& out) const;
 
   IrradianceCache& cache_;
   const LightWorld& world_;
@@ -79,7 +76,6 @@ class Solver {
   Transport transport_;
   Effort effort_;
   std::uint64_t seed_;
-  std::vector<V3> sum_;  // by cell: gathered after the warm-up
 };
 
 void Solver::discover(std::span<const Receiver> from) {
@@ -146,7 +142,7 @@ void Solver::walk(Receiver at, RandomStream& random, std::vector<Meeting>& out) 
 
 void Solver::light_directly(std::size_t c) {
   constexpr int lamp_rays = 4;
-  const int emitter_rays = effort_.counted * rays_a_cell / IrradianceCache::most_places;
+  const int emitter_rays = effort_.rays / IrradianceCache::most_places;
   Cell& cell = cache_.cells()[c];
   for (int p = 0; p < cell.n_places(); ++p) {
     RandomStream random(random_key(seed_, 3, c * IrradianceCache::most_places + p));
@@ -158,73 +154,45 @@ void Solver::light_directly(std::size_t c) {
   }
 }
 
-Solver::Gathered Solver::look(const Receiver& from, const Ray& ray, RandomStream& random, int depth) const {
-  Gathered out;
-  double open = transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
-    if (mean(s.emission) > 0) out.first += (part * pi * direct_.gather_weight(from, ray, hit)) * s.emission;
+/// Adds what comes along a ray, times `share`: from the sky and from direct light, and links to cells.
+void Solver::look(const Receiver& from, const Ray& ray, RandomStream& random, const V3& share, int depth,
+                  LinkedCell& out) const {
+  const double open = transport_.each_layer(ray, [&](const Hit& hit, const SurfacePoint& s, double part) {
+    if (mean(s.emission) > 0) out.first += (part * pi * direct_.gather_weight(from, ray, hit)) * (share * s.emission);
     if (!(mean(s.albedo) > 0)) return;
+    const V3 reflected = part * (share * s.albedo);
     IrradianceCache::RayEnd place{ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance};
     const Cell* cell = cache_.find(place, 2);
-    Gathered there =
-        cell ? Gathered{cell->direct, cell->gathered} : follow(transport_.receiver_at(hit, s), random, depth + 1);
-    out.first += part * (s.albedo * there.first);
-    out.further += part * (s.albedo * there.further);
+    if (!cell) return follow(transport_.receiver_at(hit, s), random, reflected, depth + 1, out);
+    out.first += reflected * cell->direct;
+    out.link(static_cast<std::uint32_t>(cell - cache_.cells().data()), reflected);
   });
-  if (open > 0 && world_.has_sky()) out.first += (open * pi) * world_.sky(ray.direction);
-  return out;
+  if (open > 0 && world_.has_sky()) out.first += (open * pi) * (share * world_.sky(ray.direction));
 }
 
 /// Where there is no cell: an estimate by one more ray.
-Solver::Gathered Solver::follow(const Receiver& at, RandomStream& random, int depth) const {
+void Solver::follow(const Receiver& at, RandomStream& random, const V3& share, int depth, LinkedCell& out) const {
   Flux f;
   direct_.lamps(at, 1, random, f);
   direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, f);
-  double u = random.next(), v = random.next();
-  V3 direction = cosine_direction(at.normal, u, v);
-  if (depth == most_reflections || !(dot(direction, at.face) > 0)) return {f.sum, {}};
-  Gathered more = look(at, {at.start, direction}, random, depth);
-  return {f.sum + more.first, more.further};
+  out.first += share * f.sum;
+  const double u = random.next(), v = random.next();
+  const V3 direction = cosine_direction(at.normal, u, v);
+  if (depth < most_reflections && dot(direction, at.face) > 0)
+    look(at, {at.start, direction}, random, share, depth, out);
 }
 
-Solver::Gathered Solver::gather(std::size_t c, int iteration) {
+void Solver::gather(std::size_t c, LinkedCell& out) const {
   const Cell& cell = cache_.cells()[c];
-  const int n = iteration < warm_up ? fewer_rays : rays_a_cell;
-  RandomStream random(random_key(
-      seed_, 4, c * static_cast<std::size_t>(warm_up + effort_.counted) + static_cast<std::size_t>(iteration)));
+  RandomStream random(random_key(seed_, 4, c));
   Lattice<2> directions(random_key(seed_, 5, c));
-  Gathered sum;
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < effort_.rays; ++i) {
     const Receiver& at = cell.places[i % cell.n_places()];
-    auto [u, v] = directions[static_cast<std::uint32_t>(iteration * rays_a_cell + i)];
-    Ray ray{at.start, cosine_direction(at.normal, u, v)};
-    if (!(dot(ray.direction, at.face) > 0)) continue;
-    Gathered g = look(at, ray, random, 0);
-    sum.first += g.first;
-    sum.further += g.further;
+    auto [u, v] = directions[static_cast<std::uint32_t>(i)];
+    const Ray ray{at.start, cosine_direction(at.normal, u, v)};
+    if (dot(ray.direction, at.face) > 0) look(at, ray, random, V3(1.0 / effort_.rays), 0, out);
   }
-  return {(1.0 / n) * sum.first, (1.0 / n) * sum.further};
-}
-
-/// All cells gather once from what all had before. What the whole scene is too bright or too dark by would need many
-/// iterations to go away; it is found from the sums over all cells and corrected at once.
-void Solver::iterate(int iteration) {
-  auto& cells = cache_.cells();
-  std::vector<Gathered> now(cells.size());
-  in_blocks(cells.size(), [&](std::size_t c) { now[c] = gather(c, iteration); });
-  V3 first, lacking;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    double w = cells[c].n_met;
-    first += w * now[c].first;
-    lacking += w * (cells[c].gathered - now[c].further);
-  }
-  auto ratio = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.1, 10.0) : 1; };
-  V3 scale{ratio(first.x, lacking.x), ratio(first.y, lacking.y), ratio(first.z, lacking.z)};
-  int n_counted = std::max(0, iteration - warm_up + 1);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    V3 e = now[c].first + scale * now[c].further;
-    if (n_counted) sum_[c] += e;
-    cells[c].gathered = n_counted ? (1.0 / n_counted) * sum_[c] : e;
-  }
+  out.merge();
 }
 
 }  // namespace

@@ -7,9 +7,8 @@
 
 namespace wrlkit::light {
 
-/// Walks from the receivers find the cells; then all cells gather from one another until they agree, with new
-/// directions each time (stochastic iteration; Szirmay-Kalos 1999). Costs some 150 rays a cell, or 90 for points of
-/// fewer than 16 `rays`, whose own noise hides that of the cells.
+/// Walks from the receivers find the cells; rays from each find what it gathers from each other one (links.h). Costs
+/// 128 rays a cell, or 64 for points of fewer than 16 `rays`, whose own noise hides that of the cells.
 void fill(IrradianceCache& cache, const LightWorld& world, const DirectLight& direct, std::span<const Receiver> from,
           int rays, std::uint64_t seed);
 
