@@ -13,8 +13,8 @@ namespace {
 
 class SurfaceSearch {
  public:
-  SurfaceSearch(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text)
-      : scene_(scene), diag_(diag), below_(below), text_(text), order_(all_nodes(scene)), kept_(scene.node_count()) {}
+  SurfaceSearch(const Scene& scene, const ShapeLeft& left, BelowLod below, OfText text)
+      : scene_(scene), left_(left), below_(below), text_(text), order_(all_nodes(scene)), kept_(scene.node_count()) {}
 
   std::vector<ShapeSurface> run() {
     keep_routed();
@@ -27,7 +27,7 @@ class SurfaceSearch {
       const Value* v = scene_.find(n, nodes::shape::geometry.slot);
       if (!v || (!v->is && !is_surface(v->node))) continue;
       if (const char* why = reason_to_leave(n, *v)) {
-        if (diag_) diag_->report(Diag::not_simplified, scene_.where(n), why);
+        if (left_) left_(n, why);
         continue;
       }
       auto& i = number[v->node.value];
@@ -84,7 +84,7 @@ class SurfaceSearch {
   }
 
   const Scene& scene_;
-  Diagnostics* diag_;
+  const ShapeLeft& left_;
   BelowLod below_;
   OfText text_;
   std::vector<NodeId> order_;
@@ -93,8 +93,12 @@ class SurfaceSearch {
 
 }  // namespace
 
-std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag, BelowLod below, OfText text) {
-  return SurfaceSearch(scene, diag, below, text).run();
+ShapeLeft report_not_simplified(const Scene& scene, Diagnostics& diag) {
+  return [&](NodeId shape, const char* why) { diag.report(Diag::not_simplified, scene.where(shape), why); };
+}
+
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, const ShapeLeft& left, BelowLod below, OfText text) {
+  return SurfaceSearch(scene, left, below, text).run();
 }
 
 SurfaceReader::SurfaceReader(const Scene& scene, Task& ctx, const Tessellation& faces)

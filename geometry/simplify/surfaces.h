@@ -1,5 +1,6 @@
 // The surfaces of a scene that may be simplified: which geometry nodes, in which Shapes, and their meshes.
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "geometry/tessellation.h"
@@ -17,10 +18,15 @@ enum class BelowLod : std::uint8_t { leave, take };
 
 enum class OfText : std::uint8_t { leave, take };
 
+/// Is given each Shape with a surface that is left out, and why.
+using ShapeLeft = std::function<void(NodeId shape, const char* why)>;
+/// Reports not-simplified.
+ShapeLeft report_not_simplified(const Scene& scene, Diagnostics& diag);
+
 /// In the order of the scene, the bodies of prototypes too. Left out: text unless taken, lines and points; geometry
 /// that is the end of a ROUTE or an IS or has such nodes; Shapes that are the end of a ROUTE or, unless taken, lie
-/// below a LOD. What is left out of surfaces and text is said to `diag` (not-simplified), if there is one. O(nodes).
-std::vector<ShapeSurface> surfaces_of(const Scene& scene, Diagnostics* diag = nullptr, BelowLod below = BelowLod::leave,
+/// below a LOD. `left` is given what is left out of surfaces and text. O(nodes).
+std::vector<ShapeSurface> surfaces_of(const Scene& scene, const ShapeLeft& left = {}, BelowLod below = BelowLod::leave,
                                       OfText text = OfText::leave);
 
 /// Makes triangles of them. One object for many surfaces, one after the other.

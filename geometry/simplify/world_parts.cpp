@@ -98,7 +98,7 @@ WorldParts::WorldParts(const Scene& original, const Scene& scene, const Collapse
 
 void WorldParts::read(const Scene& original, Task& ctx) {
   SurfaceReader reader(scene_, ctx);
-  auto found = surfaces_of(scene_, &ctx.diag);
+  auto found = surfaces_of(scene_, report_not_simplified(scene_, ctx.diag));
   if (&original != &scene_) keep_surfaces_of(original, found);
   SharedBorders borders;
   Mesh mesh;
@@ -141,7 +141,7 @@ bool WorldParts::measure_places(PlacedSurface& s) {
 
 /// Text, and what has levels already: it is drawn, and the budget has to pay for it.
 void WorldParts::count_left(const ShownTimes& shown, const std::vector<ShapeSurface>& taken, SurfaceReader& reader) {
-  auto left = surfaces_of(scene_, nullptr, BelowLod::take, OfText::take);
+  auto left = surfaces_of(scene_, {}, BelowLod::take, OfText::take);
   std::vector<char> is_taken(scene_.node_count());
   for (const auto& s : taken) is_taken[s.geometry.value] = 1;
   std::erase_if(left, [&](const ShapeSurface& s) { return is_taken[s.geometry.value] != 0; });

@@ -6,9 +6,12 @@
 #include <cstdio>
 #include <unordered_map>
 
+#include <fmt/format.h>
+
 #include "base/image/image.h"
 #include "base/math/digits.h"
 #include "geometry/geometry.h"
+#include "geometry/simplify/surfaces.h"
 #include "light/render/stage.h"
 #include "light/world.h"
 #include "passes/lightmap/bake.h"
@@ -27,6 +30,9 @@
 #include "passes/lightmap/unlit_nodes.h"
 #include "passes/lightmap/unlit_shapes.h"
 #include "passes/normals/normals.h"
+#include "scenegraph/looks/material_node.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
@@ -288,9 +294,25 @@ Outcome bake_view(Scene& scene, Views& views, PassContext& ctx) {
   return Outcome::changed;
 }
 
+void report_not_lit(const Scene& scene, Diagnostics& diag) {
+  if (const auto n = closed_nodes(scene))
+    diag.report(Diag::not_lit, {},
+                fmt::format("surfaces of {} Inlines and prototype instances; use '-p inline,expand-protos,lightmap' to "
+                            "light them, too",
+                            n));
+  std::vector<char> is_shown(scene.node_count());
+  for (NodeId n : reachable(scene, scene.main)) is_shown[n.value] = 1;
+  const auto left = [&](NodeId shape, const char* why) {
+    const auto material = material_of(scene, scene.get(shape, nodes::shape::appearance));
+    if (material && material->kind != MaterialNode::Kind::unlit && is_shown[shape.value])
+      diag.report(Diag::not_lit, scene.where(shape), why);
+  };
+  surfaces_of(scene, left, BelowLod::take, OfText::take);
+}
+
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
   const auto start = Clock::now();
-  if (const auto n = closed_nodes(scene)) ctx.diag.report(Diag::not_lit, {}, n);
+  report_not_lit(scene, ctx.diag);
   if (const auto n = foreign_surfaces(scene)) ctx.diag.report(Diag::not_lowered, {}, n);
   const auto n_copies = own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
   const std::size_t n_views = ctx.monitor || options.budget.seconds > 0 ? Levels::count(scene) : 1;

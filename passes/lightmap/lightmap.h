@@ -69,7 +69,8 @@ Lights every surface that a browser would show, as it stands at the start.
 - Left alone: UnlitMaterial, lines, points, other choices of a Switch.
 - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only
   `smooth` and `format` count. Shapes show their first level of detail only; further ones stay without light.
-- What stands behind Inline or in prototypes is not looked into, which is reported (not-lit): run `expand` before.
+- What stands behind Inline or in prototypes is not looked into: run `expand` before. Nor is a Shape whose geometry
+  events change, or has nodes that are not known. All that is reported (not-lit).
 - There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach
   (density-limit).
 - `lamps=inverse-square` is for worlds that are dark because radii and attenuations are small, or that are lit evenly as

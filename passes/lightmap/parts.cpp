@@ -154,7 +154,7 @@ class Finder {
         silent_(ctx),
         reader_(scene, silent_, faces) {
     const auto driven = driven_geometry(scene);  // a Script may write what it likes
-    for (const auto& s : surfaces_of(scene, nullptr, BelowLod::take, OfText::take))
+    for (const auto& s : surfaces_of(scene, {}, BelowLod::take, OfText::take))
       if (!scene.is(s.geometry, nodes::Text) || !driven[s.geometry.value]) lit_.emplace(s.geometry.value, s);
   }
 

@@ -207,7 +207,7 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
                       fmt::format("a world of more than {} triangles as a whole, but each surface by itself",
                                   WorldLevels::most_drawn));
     if (world.n_parts() > 1) {
-      surfaces_of(scene, &s.diag());  // says what is left alone
+      surfaces_of(scene, report_not_simplified(scene, s.diag()));
       return write_worlds(s, world, names, all);
     }
   }
