@@ -56,8 +56,6 @@ ROOMS = [  # found ones, chosen by eye; then our own
     Room('office', 'vrml1/castle-demo-models/lights_materials/raytracer/office.wrl', *look('1.9 2.8 1.9 -1 1.8 -1 0 1 0')),
     Room('dungeon', BOOK + 'Figure25_08DungeonRoom.wrl'),
     Room('sliding-doors', BOOK + 'Figure25_12DungeonRoomsWithSlidingDoors.wrl'),
-    Room('projector-room', 'vrml97/castle-demo-models/shadow_maps/projector_room.wrl'),
-    Room('tower-yard', 'worlds/castle-game/levels/tower/basic_castle.wrl', *look('0 -100 20 0 100 0 0 0 1')),
     Room('stairs', 'corpus/paper/stairs_room.wrl'),
     Room('pump-room', 'corpus/plant/pump_room_faces.wrl'),
     Room('pipes', 'corpus/paper/pipes.wrl'),

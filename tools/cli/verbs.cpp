@@ -144,7 +144,7 @@ constexpr Verb all_verbs[] = {
                     "folder for the files; or one .glb, .gltf, .wrl or .x3d file: the world "
                     "itself at one number of triangles, levels of detail at several")
            ->required()
-           ->type_name("DIR");
+           ->type_name("DIR|FILE");
        v.add_option("--every", f.every, "a file for every N triangles removed: at the multiples of N")
            ->check(CLI::Range(1, 1'000'000'000))
            ->type_name("N");
