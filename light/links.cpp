@@ -11,8 +11,8 @@ namespace {
 using Lights = std::vector<V3>;
 
 constexpr std::size_t cells_a_block = 1024;  // cells that are done in one piece
-constexpr int most_steps = 100, most_reflected = 20;
-constexpr double wanted = 1e-4;  // of what is left over, to what does not depend on other cells
+constexpr int most_steps = 100, most_reflections_followed = 20;
+constexpr double least_residual = 1e-4;  // of what is left over, to what does not depend on other cells
 
 template <class F>
 void each_cell(std::size_t n, F&& f) {
@@ -43,7 +43,7 @@ class LinkSolver {
     Lights light = stabilised();
     if (!is_light(light)) {
       light = first_;
-      for (int i = 0; i < most_reflected; ++i) light = gathered(light);
+      for (int i = 0; i < most_reflections_followed; ++i) light = gathered(light);
     }
     for (V3& v : light) v = max(v, V3{});
     return light;
@@ -73,7 +73,7 @@ class LinkSolver {
     const Lights shadow = r;
     Lights p(n), v(n), s(n);
     V3 rho(1), alpha(1), omega(1);
-    const V3 enough = wanted * wanted * products(first_, first_);
+    const V3 enough = least_residual * least_residual * products(first_, first_);
     for (int step = 0; step < most_steps && !is_within(products(r, r), enough); ++step) {
       const V3 rho_before = rho;
       rho = products(shadow, r);
