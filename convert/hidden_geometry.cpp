@@ -108,6 +108,12 @@ class Census {
   std::vector<Count> counts_;
 };
 
+/// In whole per cent; 100 only where nothing is shown.
+int per_cent(double hidden, double all) {
+  const auto rounded = static_cast<int>(std::lround(100 * hidden / all));
+  return hidden < all ? std::min(rounded, 99) : rounded;
+}
+
 }  // namespace
 
 void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
@@ -120,7 +126,7 @@ void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
   for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i) list += (i ? ", " : "") + names[i];
   if (names.size() > most_names) list += ", ...";
   const bool scripted = startup_scripts(scene).switches();
-  diag.report(Diag::hidden_geometry, {}, static_cast<int>(std::lround(100 * hidden / all)), list,
+  diag.report(Diag::hidden_geometry, {}, per_cent(hidden, all), list,
               scripted ? "; --run-startup runs the Scripts that may turn them on" : "");
 }
 

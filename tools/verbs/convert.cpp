@@ -39,7 +39,9 @@ std::string no_format(const std::string& output) {
   const auto dot = output.rfind('.');
   NearestName nearest(dot == output.npos ? std::string_view() : std::string_view(output).substr(dot));
   for (auto ending : output_endings()) nearest.consider(ending);
-  return fmt::format("'{}': its name should end in {}{}", output, output_endings_text(), nearest.question());
+  const auto question = nearest.question();
+  return fmt::format("'{}': its name should end in {}{}", output, output_endings_text(),
+                     question.empty() ? ", or --format should name the format" : question);
 }
 
 /// Names of options that have no effect on such an output, of those that were given.
