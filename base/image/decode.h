@@ -25,8 +25,9 @@ bool decode_dds(std::string_view dds, Image& image, std::string& error);
 /// SGI, 8 or 16 bits, run-length encoded or not. False, and why, when it is damaged.
 bool decode_sgi(std::string_view sgi, Image& image, std::string& error);
 
-/// PCX of 1 to 8 bits a pixel with a palette, or of 24 or 32 bits, in 3 channels or 4. False, and why, when it is
-/// damaged.
+/// PCX of 1 to 8 bits a pixel, with a palette or in the colours of an EGA, or of 24 or 32 bits, in 3 channels or 4.
+/// False, and why, when it is damaged, of a CGA, or larger than its data can be: memory is at most proportional to
+/// them.
 bool decode_pcx(std::string_view pcx, Image& image, std::string& error);
 
 /// An X bitmap, in 1 channel, black where its bits are set. False, and why, when it is damaged.

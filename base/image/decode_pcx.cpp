@@ -7,6 +7,14 @@ namespace wrlkit {
 namespace {
 
 constexpr std::size_t pcx_header = 128, pcx_palette = 3 * 256;
+constexpr std::size_t pcx_most_of_byte = 32;  // two bytes are at most 63
+
+/// What an EGA shows as long as no program chooses other colours: bits of blue, green, red, and of brightness.
+constexpr std::uint8_t ega_colors[16][3] = {
+    {0x00, 0x00, 0x00}, {0x00, 0x00, 0xaa}, {0x00, 0xaa, 0x00}, {0x00, 0xaa, 0xaa},
+    {0xaa, 0x00, 0x00}, {0xaa, 0x00, 0xaa}, {0xaa, 0x55, 0x00}, {0xaa, 0xaa, 0xaa},
+    {0x55, 0x55, 0x55}, {0x55, 0x55, 0xff}, {0x55, 0xff, 0x55}, {0x55, 0xff, 0xff},
+    {0xff, 0x55, 0x55}, {0xff, 0x55, 0xff}, {0xff, 0xff, 0x55}, {0xff, 0xff, 0xff}};
 
 std::uint32_t pcx_byte(std::string_view b, std::size_t i) {
   return i < b.size() ? static_cast<unsigned char>(b[i]) : 0;
@@ -30,6 +38,7 @@ bool unpack_pcx(std::string_view packed, bool runs, std::vector<std::uint8_t>& r
 struct PcxLayout {
   std::size_t width, height, bits, planes, row;  // bits of a pixel in a plane; bytes of a row of a plane
   bool has_colors() const { return bits == 8 && planes >= 3; }
+  bool is_cga() const { return bits == 2 && planes == 1; }
   bool is_known() const { return has_colors() || bits * planes <= 4 || (bits == 8 && planes == 1); }
 };
 
@@ -42,10 +51,13 @@ std::uint32_t pcx_index(const PcxLayout& l, const std::uint8_t* row, std::size_t
   return index;
 }
 
+/// Versions 2.5 and 2.8 without a palette leave anything at all in its place.
+bool has_header_colors(std::string_view pcx) { return pcx_byte(pcx, 1) != 0 && pcx_byte(pcx, 1) != 3; }
+
 /// The colours of indices: behind the pictures for 256, else in the header. A picture of two colours that has none is
-/// black and white, and one of 256 is grey.
+/// black and white, one of up to 16 has those of the EGA, and one of 256 is grey.
 std::string pcx_colors(std::string_view pcx, const PcxLayout& l) {
-  std::string grey;
+  std::string grey, ega;
   const bool two = l.bits * l.planes == 1;
   for (int i = 0; i < 256; ++i) grey.append(3, static_cast<char>(two && i > 0 ? 255 : i));
   if (l.bits == 8) {
@@ -53,8 +65,22 @@ std::string pcx_colors(std::string_view pcx, const PcxLayout& l) {
     return has ? std::string(pcx.substr(pcx.size() - pcx_palette)) : grey;
   }
   const auto colors = pcx.substr(16, 48);
-  if (two && colors.substr(0, 3) == colors.substr(3, 3)) return grey;
-  return std::string(colors);
+  if (two && (!has_header_colors(pcx) || colors.substr(0, 3) == colors.substr(3, 3))) return grey;
+  if (has_header_colors(pcx)) return std::string(colors);
+  for (const auto& color : ega_colors) ega.append(std::begin(color), std::end(color));
+  return ega;
+}
+
+/// Why a picture cannot be read, before memory is taken for it; empty: it can, if its data are whole.
+std::string pcx_fault(std::string_view pcx, const PcxLayout& l) {
+  if (l.row * 8 < l.width * l.bits || !l.is_known()) return "its data are damaged";
+  if (l.is_cga()) return "it is a PCX of the four colours of a CGA";
+  const auto width = static_cast<std::int64_t>(l.width), height = static_cast<std::int64_t>(l.height);
+  auto fault = image_size_fault(std::max(static_cast<std::int64_t>(l.row), width), height, pcx.size());
+  if (fault.empty() && l.row * l.planes * l.height > pcx_most_of_byte * (pcx.size() - pcx_header))
+    return "its " + std::to_string(pcx.size()) + " bytes cannot hold " + std::to_string(width) + " x " +
+           std::to_string(height) + " pixels";
+  return fault;
 }
 
 }  // namespace
@@ -65,8 +91,7 @@ bool decode_pcx(std::string_view pcx, Image& image, std::string& error) {
   if (!header) return false;
   const PcxLayout l{static_cast<std::size_t>(header->width), static_cast<std::size_t>(header->height), pcx_byte(pcx, 3),
                     pcx_byte(pcx, 65), pcx_byte(pcx, 66) | pcx_byte(pcx, 67) << 8};
-  if (l.row * 8 < l.width * l.bits || !l.is_known()) return false;
-  error = image_size_fault(static_cast<std::int64_t>(std::max(l.row, l.width)), header->height, pcx.size());
+  error = pcx_fault(pcx, l);
   if (!error.empty()) return false;
   error = "its data are damaged";
   std::vector<std::uint8_t> rows(l.row * l.planes * l.height);

@@ -43,6 +43,40 @@ std::optional<std::uint32_t> next_xbm_number(std::string_view& text) {
   return value;
 }
 
+/// Where the comment of C at the start of a text ends; 0: there is none.
+std::size_t xbm_comment(std::string_view text) {
+  if (text.starts_with("//")) return std::min(text.find('\n'), text.size());
+  if (!text.starts_with("/*")) return 0;
+  const auto end = text.find("*/", 2);
+  return end == text.npos ? text.size() : end + 2;
+}
+
+struct XbmList {
+  bool words;  // X10: each number has 16 bits
+  std::string_view numbers;
+};
+
+/// The list of "static short NAME_bits[] = {" or "static char NAME_bits[] = {". Comments and #define count for nothing,
+/// whatever they say. None: there is no such declaration. Linear in the text.
+std::optional<XbmList> xbm_list(std::string_view text) {
+  bool words = false, named = false, directive = false;
+  while (!text.empty()) {
+    const char c = text.front();
+    auto length = xbm_comment(text);
+    if (length == 0) length = std::min(text.find_first_of(" \t\r\n[]={;#/"), text.size());
+    const auto token = text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+    if (c == '#') directive = true;
+    if (c == '\n') directive = false;
+    if (directive || token.starts_with("/")) continue;
+    if (c == '{' && named) return XbmList{words, text};
+    if (c == ';') words = named = false;
+    words |= token == "short";
+    named |= token.ends_with("_bits");
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<XbmSize> xbm_size(std::string_view bytes) {
@@ -57,17 +91,16 @@ std::optional<XbmSize> xbm_size(std::string_view bytes) {
 bool decode_xbm(std::string_view xbm, Image& image, std::string& error) {
   const auto size = xbm_size(xbm);
   error = "its data are damaged";
-  const auto brace = xbm.find('{');
-  if (!size || brace == xbm.npos) return false;
+  const auto list = xbm_list(xbm);
+  if (!size || !list) return false;
   error = image_size_fault(size->width, size->height, xbm.size());
   if (!error.empty()) return false;
   error = "its data are damaged";
-  const bool words = xbm.substr(0, brace).find("short") != xbm.npos;
   const auto width = static_cast<std::size_t>(size->width), height = static_cast<std::size_t>(size->height);
-  const std::size_t bits = words ? 16 : 8, row = (width + bits - 1) / bits;
+  const std::size_t bits = list->words ? 16 : 8, row = (width + bits - 1) / bits;
   if (row * height > xbm.size()) return false;
   image = {size->width, size->height, 1, std::vector<std::uint8_t>(width * height, 255)};
-  auto numbers = xbm.substr(brace + 1);
+  auto numbers = list->numbers;
   for (std::size_t i = 0; i < row * height; ++i) {
     const auto number = next_xbm_number(numbers);
     if (!number) return false;

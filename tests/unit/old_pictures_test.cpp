@@ -206,6 +206,35 @@ TEST_CASE("PCX", "[image]") {
   for (std::size_t n = 0; n < colored.size(); ++n) fault_of_old(colored.substr(0, n));
 }
 
+TEST_CASE("PCX: a size that the data cannot have is refused before memory is taken", "[image]") {
+  auto bomb = pcx_of(8, 4, 0, std::string(27'000, '\xff'));
+  bomb.replace(8, 4, "\xff\x3f\xff\x3f");
+  bomb.replace(66, 2, "\0\x40"s);
+  CHECK(fault_of_old(bomb) == "its 27128 bytes cannot hold 16384 x 16384 pixels");
+  auto dense = pcx_of(8, 1, 63, "\xff\x07\xff\x07"s);  // two rows, as short as they get
+  dense[8] = 62;
+  CHECK(decoded_old(dense).pixels == Pixels(3 * 2 * 63, 7));
+}
+
+TEST_CASE("PCX: without a palette, the 16 colours of an EGA", "[image]") {
+  auto ega = pcx_of(1, 4, 2, "\xc1\x80\0\0\0\0\0\xc1\x80\0\0\0\x40\0\x40\0\0\0"s);  // indices 9, 0, 0; 0, 6, 0
+  ega.replace(16, 48, std::string(48, '\x33'));
+  CHECK(decoded_old(ega).pixels.at(0) == 0x33);
+  for (char version : {'\0', '\3'}) {
+    ega[1] = version;
+    CHECK(decoded_old(ega).pixels == Pixels{0x55, 0x55, 0xff, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xaa, 0x55, 0, 0, 0, 0});
+  }
+  auto two = pcx_of(1, 1, 2, "\xc1\xa0\0\x40\0"s);
+  two[1] = 3;
+  two[16] = 0x33;
+  CHECK(decoded_old(two).pixels.at(0) == 255);
+}
+
+TEST_CASE("PCX: four colours of a CGA are refused by name", "[image]") {
+  CHECK(fault_of_old(pcx_of(2, 1, 2, "\x1b\0\x1b\0"s)) == "it is a PCX of the four colours of a CGA");
+  CHECK(decoded_old(pcx_of(1, 2, 2, "\x40\0\0\0\0\0\0\0"s)).width == 3);
+}
+
 TEST_CASE("X bitmaps", "[image]") {
   const auto text =
       "/* an arrow */\n#define a_width 3\n#define a_height 2\nstatic unsigned char a_bits[] = { 0x05, 2 };\n"s;
@@ -222,4 +251,18 @@ TEST_CASE("X bitmaps", "[image]") {
   CHECK(fault_of_old("#define a_width 9\n#define a_height 99999999999\nstatic char a_bits[] = {0};") ==
         "it is no picture of a known type");
   CHECK(sniff_mime("#define WIDTH 3\nint main() {}").empty());
+}
+
+TEST_CASE("X bitmaps: only the type of the bits says how long they are", "[image]") {
+  const auto size = "#define shortcut_width 3\n#define shortcut_height 2\n"s;
+  const Pixels arrow{0, 255, 0, 255, 0, 255};
+  CHECK(decoded_old(size + "static unsigned char shortcut_bits[] = { 0x05, 2 };\n").pixels == arrow);
+  CHECK(decoded_old("/* short { 9, 9 } */\n" + size + "// a short {\nstatic char a_bits[] = { 5, 2 };\n").pixels ==
+        arrow);
+  CHECK(decoded_old(size + "static short other = 1;\nstatic char short-cut_bits[] = /* { 9 */ { 5, 2 };").pixels ==
+        arrow);
+  CHECK(decoded_old("#define a_width 17\n#define a_height 1 /* char {\n */\nstatic unsigned short\na_bits[]={0,1};")
+            .pixels.at(16) == 0);
+  CHECK(fault_of_old(size + "/* a_bits {5, 2} */ int a[] = {5, 2};") == "its data are damaged");
+  CHECK(fault_of_old(size + "/* a_bits {5, 2}") == "its data are damaged");
 }
