@@ -256,7 +256,9 @@ TEST_CASE("X bitmaps", "[image]") {
 TEST_CASE("X bitmaps: only the type of the bits says how long they are", "[image]") {
   const auto size = "#define shortcut_width 3\n#define shortcut_height 2\n"s;
   const Pixels arrow{0, 255, 0, 255, 0, 255};
-  CHECK(decoded_old(size + "static unsigned char shortcut_bits[] = { 0x05, 2 };\n").pixels == arrow);
+  const auto wide =
+      "#define shortcut_width 9\n#define shortcut_height 1\nstatic unsigned char shortcut_bits[] = {0, 1};"s;
+  CHECK(decoded_old(wide).pixels.at(8) == 0);
   CHECK(decoded_old("/* short { 9, 9 } */\n" + size + "// a short {\nstatic char a_bits[] = { 5, 2 };\n").pixels ==
         arrow);
   CHECK(decoded_old(size + "static short other = 1;\nstatic char short-cut_bits[] = /* { 9 */ { 5, 2 };").pixels ==
