@@ -64,6 +64,12 @@ std::vector<FriBidiLevel> levels_of(std::u32string_view line, std::optional<bool
   return levels;
 }
 
+/// Whether a run ends behind that letter because of its length: HarfBuzz takes quadratic time for marks on one letter.
+bool is_too_long(std::size_t length, char32_t last) {
+  constexpr std::size_t long_enough = 256, longest = 1024;
+  return length >= longest || (length >= long_enough && last == ' ');
+}
+
 }  // namespace
 
 bool can_shape() { return lib().are_there; }
@@ -86,7 +92,8 @@ std::vector<TextRun> visual_runs(std::u32string_view line, const std::vector<std
   std::vector<TextRun> runs;
   std::vector<FriBidiLevel> of_run;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool goes_on = i > 0 && levels[i] == levels[i - 1] && kinds[i] == kinds[i - 1];
+    const bool goes_on = i > 0 && levels[i] == levels[i - 1] && kinds[i] == kinds[i - 1] &&
+                         !is_too_long(i - runs.back().begin, line[i - 1]);
     if (!goes_on) {
       runs.push_back({i, i, levels[i] % 2 != 0});
       of_run.push_back(levels[i]);

@@ -25,7 +25,8 @@ struct TextRun {
 };
 
 /// The runs of a line as they follow one another from left to right. A new one also begins where `kinds` changes, one
-/// of each letter. `right_to_left`: of the whole line; none: that of its first letter that has a direction.
+/// of each letter, and after at most 1024 letters. `right_to_left`: of the whole line; none: that of its first letter
+/// that has a direction.
 std::vector<TextRun> visual_runs(std::u32string_view line, const std::vector<std::uint32_t>& kinds,
                                  std::optional<bool> right_to_left);
 
@@ -45,7 +46,7 @@ class ShapingFont {
   ShapingFont(const ShapingFont&) = delete;
   ShapingFont& operator=(const ShapingFont&) = delete;
 
-  /// Glyphs of one run, from left to right. Linear in its length, within the limits of HarfBuzz.
+  /// Glyphs of one run, from left to right. At worst quadratic in its length.
   std::vector<ShapedGlyph> shape(std::u32string_view run, bool right_to_left) const;
 
  private:

@@ -102,6 +102,11 @@ char32_t take_character(std::string_view& s) {
 
 bool is_control(char32_t c) { return c < 0x20 || (c >= 0x7f && c < 0xa0); }
 
+/// Joiners and marks of direction, which say how others are shown.
+bool is_invisible(char32_t c) {
+  return (c >= 0x200b && c <= 0x200f) || (c >= 0x202a && c <= 0x202e) || (c >= 0x2060 && c <= 0x2069) || c == 0xfeff;
+}
+
 class TextMaker {
  public:
   TextMaker(MeshJob& job, Fonts& fonts) : job_(job), fonts_(fonts), style_(read_style(job.scene, job.geometry)) {}
@@ -191,7 +196,7 @@ void TextMaker::report_missing() {
   if (!n_missing_) return;
   auto first = fmt::format("{:04X}", static_cast<std::uint32_t>(first_missing_));
   if (const auto* known = fallback_fonts(first_missing_))
-    first += fmt::format(" (Debian's package {} has a font for it)", known->package);
+    first += fmt::format(" (the Debian package {} has one)", known->package);
   job_.ctx.diag.report(Diag::missing_glyph, where(), title(job_), n_missing_, first);
 }
 
@@ -216,6 +221,7 @@ void TextMaker::add_line(std::string_view s) {
 
 void TextMaker::add_letters() {
   for (const char32_t c : letters_) {
+    if (is_invisible(c)) continue;
     Font* const font = font_of(c);
     const Glyph& g = font ? *font->glyph(c) : font_->missing();
     glyphs_.push_back({&g, g.advance});
@@ -231,7 +237,10 @@ void TextMaker::add_shaped() {
     const bool same_script = i > 0 && scripts[i] == scripts[i - 1];
     // A mark or joiner stays with its letter, and a blank with its word, where their font has it.
     const bool stays = same_script && fonts.back() && fonts.back()->glyph(letters_[i]);
-    fonts.push_back(stays ? fonts.back() : font_of(letters_[i]));
+    if (is_invisible(letters_[i]))
+      fonts.push_back(i > 0 ? fonts.back() : font_);
+    else
+      fonts.push_back(stays ? fonts.back() : font_of(letters_[i]));
     const bool same = same_script && fonts[i] == fonts[i - 1];
     kinds.push_back(kinds.empty() ? 0 : kinds.back() + (same ? 0 : 1));
   }

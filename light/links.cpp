@@ -12,6 +12,7 @@ using Lights = std::vector<V3>;
 
 constexpr std::size_t cells_a_block = 1024;  // cells that are done in one piece
 constexpr int most_steps = 100, most_reflections_followed = 20;
+constexpr double most_growth = 1000;     // by reflections
 constexpr double least_residual = 1e-4;  // of what is left over, to what does not depend on other cells
 
 template <class F>
@@ -94,12 +95,14 @@ class LinkSolver {
 
   static bool is_within(const V3& a, const V3& most) { return a.x <= most.x && a.y <= most.y && a.z <= most.z; }
 
-  /// Whether it is what the cells gather of it, and light: not below zero but for rounding.
+  /// Whether it is what the cells gather of it, and light: bounded, and not below zero but for rounding.
   bool is_light(const Lights& light) const {
     const Lights again = gathered(light);
     V3 off, all;
-    double least = 0;
+    double least = 0, most = 0, most_first = 0;
     for (std::size_t c = 0; c < light.size(); ++c) {
+      most = std::max({most, light[c].x, light[c].y, light[c].z});
+      most_first = std::max({most_first, first_[c].x, first_[c].y, first_[c].z});
       const V3 d = again[c] - light[c];
       off += d * d;
       all += light[c] * light[c];
@@ -107,6 +110,7 @@ class LinkSolver {
     }
     constexpr double at_most = 1e-2;
     const double mean_square = mean(all) / static_cast<double>(std::max<std::size_t>(1, light.size()));
+    if (!(most <= most_growth * most_first)) return false;
     return std::isfinite(mean(all)) && is_within(off, at_most * at_most * all) &&
            least * least <= at_most * mean_square;
   }
@@ -124,12 +128,11 @@ void LinkedCell::link(std::uint32_t from, const V3& share) {
 void LinkedCell::merge() {
   std::ranges::stable_sort(links, {}, &Link::from);
   std::size_t n = 0;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (n == 0 || links[n - 1].from != links[i].from) {
-      links[n++] = links[i];
-      continue;
-    }
-    for (int k = 0; k < 3; ++k) links[n - 1].share[k] += links[i].share[k];
+  for (const Link& l : std::vector<Link>(links)) {
+    if (n == 0 || links[n - 1].from != l.from)
+      links[n++] = l;
+    else
+      for (int k = 0; k < 3; ++k) links[n - 1].share[k] += l.share[k];
   }
   links.resize(n);
   links.shrink_to_fit();

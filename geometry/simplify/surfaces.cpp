@@ -70,7 +70,7 @@ class SurfaceSearch {
     for_each_child(scene_, geometry.node, [&](NodeId c) {
       if (c && !why)
         why = has_is(c)                                  ? by_is
-              : scene_.type(c).kind != NodeKind::builtin ? "a Shape with nodes that are not known"
+              : scene_.type(c).kind != NodeKind::builtin ? "a Shape that contains unknown nodes"
                                                          : reason(kept_[c.value]);
     });
     return why;

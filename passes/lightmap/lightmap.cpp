@@ -30,6 +30,7 @@
 #include "passes/lightmap/unlit_nodes.h"
 #include "passes/lightmap/unlit_shapes.h"
 #include "passes/normals/normals.h"
+#include "scenegraph/driven.h"
 #include "scenegraph/looks/material_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -307,7 +308,10 @@ void report_not_lit(const Scene& scene, Diagnostics& diag) {
     if (material && material->kind != MaterialNode::Kind::unlit && is_shown[shape.value])
       diag.report(Diag::not_lit, scene.where(shape), why);
   };
-  surfaces_of(scene, left, BelowLod::take, OfText::take);
+  const auto driven = driven_geometry(scene);
+  for (const auto& s : surfaces_of(scene, left, BelowLod::take, OfText::take))
+    if (scene.is(s.geometry, nodes::Text) && driven[s.geometry.value])
+      for (NodeId shape : s.shapes) left(shape, "a Text that events may change");
 }
 
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {

@@ -70,7 +70,7 @@ Lights every surface that a browser would show, as it stands at the start.
 - With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only
   `smooth` and `format` count. Shapes show their first level of detail only; further ones stay without light.
 - What stands behind Inline or in prototypes is not looked into: run `expand` before. Nor is a Shape whose geometry
-  events change, or has nodes that are not known. All that is reported (not-lit).
+  events change or contains unknown nodes. All that is reported (not-lit).
 - There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach
   (density-limit).
 - `lamps=inverse-square` is for worlds that are dark because radii and attenuations are small, or that are lit evenly as

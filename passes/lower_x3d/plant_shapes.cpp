@@ -239,6 +239,12 @@ NodeId foreign_geometry(const Scene& scene, NodeId n) {
   return geometry && scene.type(geometry).kind == NodeKind::unknown ? geometry : NodeId{};
 }
 
+/// Whether a prototype or events give it its values, which are not those that stand in it.
+bool is_tied(const Scene& scene, NodeId n, const std::vector<char>& routed) {
+  return (n.value < routed.size() && routed[n.value]) ||
+         std::ranges::any_of(scene.fields(n), [&](const Value& v) { return scene.content(v).is; });
+}
+
 }  // namespace
 
 bool lower_plant_shapes(Scene& scene) {
@@ -248,10 +254,11 @@ bool lower_plant_shapes(Scene& scene) {
   bool changed = false;
   for (const NodeId n : all_nodes(scene)) {
     const NodeId geometry = foreign_geometry(scene, n);
-    if (!geometry || (n.value < driven.size() && driven[n.value])) continue;
+    if (!geometry || is_tied(scene, n, driven) || is_tied(scene, geometry, driven)) continue;
     const auto [at, is_new] = made.try_emplace(geometry.value);
     if (is_new) at->second = PlantShape(scene, geometry).make();
     if (at->second.empty()) continue;
+    if (is_new) scene.set_name(at->second[0].geometry, scene.name(geometry));
     give(scene, n, at->second);
     changed = true;
   }

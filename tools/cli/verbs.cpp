@@ -141,8 +141,9 @@ constexpr Verb all_verbs[] = {
      [](CLI::App& v, Flags& f) {
        input(v, f);
        v.add_option("-o,--output", f.output,
-                    "folder for the files; or one .glb, .gltf, .wrl or .x3d file: the world "
-                    "itself at one number of triangles, levels of detail at several")
+                    "folder for the files; or one .glb, .gltf, .wrl or .x3d file: the simplified world or, for several "
+                    "numbers of "
+                    "triangles, one world with levels of detail")
            ->required()
            ->type_name("DIR|FILE");
        v.add_option("--every", f.every, "a file for every N triangles removed: at the multiples of N")

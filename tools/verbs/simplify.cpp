@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 
@@ -31,6 +32,14 @@ std::string stem_of(const std::string& path) {
   return name == "-" ? "world" : name;
 }
 
+/// The name of a file, as it seems, of a format that is not written: "levels.stl".
+bool is_of_no_output(const std::string& path) {
+  const auto ending = fs::path(path).extension().string();
+  const bool is_like_one =
+      ending.size() >= 4 && ending.size() <= 5 && std::isalpha(static_cast<unsigned char>(ending[1])) != 0;
+  return is_like_one && !output_of(path) && !fs::is_directory(path) && path.back() != '/';
+}
+
 /// What the flags ask for; nothing when they make no sense, which was printed.
 std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
   WorldSimplifyOptions o;
@@ -48,6 +57,11 @@ std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
   }
   if (f.progressive && output_of(f.output)) {
     fmt::print(stderr, "wrlkit simplify: --progressive writes a .wpm file into a folder, not '{}'\n", f.output);
+    return std::nullopt;
+  }
+  if (is_of_no_output(f.output)) {
+    fmt::print(stderr, "wrlkit simplify: -o: '{}': its name should end in {}, or be that of a folder\n", f.output,
+               output_endings_text());
     return std::nullopt;
   }
   for (const auto& text : f.errors) {
@@ -225,6 +239,8 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
 std::string_view standard_pipeline(const Flags& flags) {
   if (flags.pipeline_given) return flags.progressive || flags.save.dump ? "lower-vrml1,lower-x3d{vrml97=true}" : "vrml";
   if (flags.progressive) return "lower-vrml1,expand,lower-x3d{vrml97=true},weld";
+  if (const auto to = output_of(flags.output); to && to->format->parsed != Format::vrml97)
+    return "lower-vrml1,lower-x3d,weld";  // the format keeps more than VRML97 does
   return flags.save.dump ? "lower-vrml1,lower-x3d{vrml97=true},weld"
                          : "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap,weld";
 }
