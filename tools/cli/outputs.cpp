@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/text/letter_case.h"
+#include "convert/formats.h"
 
 namespace wrlkit {
 namespace {
@@ -63,6 +64,13 @@ bool fits(const std::string& output, std::string_view endings, std::string_view 
   return false;
 }
 
+/// Lines are added to a joblog: a scene would be lost by it, an input or not.
+bool is_no_scene(const std::string& joblog) {
+  if (ending_of(joblog, scene_endings()).empty()) return true;
+  fmt::print(stderr, "wrlkit: --joblog '{}' has the name of a scene; choose another name, such as jobs.tsv\n", joblog);
+  return false;
+}
+
 }  // namespace
 
 bool check_outputs(const Flags& flags, std::string_view endings) {
@@ -71,8 +79,8 @@ bool check_outputs(const Flags& flags, std::string_view endings) {
       return fits(output, kinds, option) && is_no_input(flags, output, option);
     });
   };
-  return all({flags.output}, "", endings) && all(flags.outputs, "-o", "") && all({flags.report}, "--report", ".json") &&
-         all({flags.joblog}, "--joblog", "");
+  return all({flags.output}, "", endings) && all(flags.outputs, "-o", endings) &&
+         all({flags.report}, "--report", ".json") && all({flags.joblog}, "--joblog", "") && is_no_scene(flags.joblog);
 }
 
 Backup::Backup(const Flags& flags) {

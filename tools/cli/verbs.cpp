@@ -313,7 +313,7 @@ constexpr Verb all_verbs[] = {
            ->check(CLI::Range(0, 1'000'000))
            ->capture_default_str();
      },
-     run_corpus_report},
+     run_corpus_report, ".html .csv .json"},
     {"passes", "every pass, or one with its options", "wrlkit passes tessellate",
      [](CLI::App& v, Flags& f) {
        v.add_option("NAME", f.name, "a pass");

@@ -89,6 +89,12 @@ bool prepare_conversion(Session& s) {
     fmt::print(stderr, "wrlkit: {}\n", no_format(flags.output));
     return false;
   }
+  if (flags.output == "-" && flags.format == "gltf") {
+    fmt::print(
+        stderr,
+        "wrlkit: --format gltf: its buffers are files next to it; write glb to standard output, or name a file\n");
+    return false;
+  }
   return s.good() && s.choose_pipeline(to->format->pipeline(options));
 }
 
