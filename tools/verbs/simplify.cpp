@@ -47,8 +47,10 @@ std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
   if (!f.criterion.empty()) criterion.read(f.criterion);
   o.collapse.criterion = criterion.value;
   o.budget.pixels = f.pixels;
-  if ((f.every > 0) + !f.counts.empty() + !f.ratios.empty() + !f.errors.empty() + f.progressive != 1) {
-    fmt::print(stderr, "wrlkit simplify: one of --every, --counts, --ratios, --error and --progressive is needed\n");
+  const int n = (f.every > 0) + !f.counts.empty() + !f.ratios.empty() + !f.errors.empty() + f.progressive;
+  if (n != 1) {
+    fmt::print(stderr, "wrlkit simplify: {} of --every, --counts, --ratios, --error and --progressive {}\n",
+               n > 1 ? "only one" : "one", n > 1 ? "can be used" : "is needed");
     return std::nullopt;
   }
   if (f.progressive && !info(criterion.value).keeps_record) {
