@@ -179,16 +179,18 @@ async function hostile_scripts() {
   await new Promise(done => { server.once('listening', done); });
   const site = `http://127.0.0.1:${server.address().port}`;
   const worlds = {
-    endless: ['function press() { for (;;); }', 'S was ended, for it ran longer than 1 s'],
-    endless_at_first: ['while (true) {} function press() {}', 'S was ended, for it ran longer than 1 s'],
+    endless: ['function press() { for (;;); }', 'S was stopped because it ran for more than 1 s'],
+    endless_at_first: ['while (true) {} function press() {}', 'S was stopped because it ran for more than 1 s'],
     faulty: ['function press( { }', 'S cannot be run: '],
     network: [`function press() { var said = [];
       try { importScripts('${site}/x.js'); said.push('loaded'); } catch (e) { said.push('no import'); }
       try { var r = new XMLHttpRequest(); r.open('GET', '${site}/', false); r.send(); said.push('got'); } catch (e) { said.push('no request'); }
       try { eval('1'); said.push('eval'); } catch (e) { said.push('no eval'); }
       try { said.push(typeof document + typeof localStorage); indexedDB.open('x'); said.push('kept'); } catch (e) { said.push('no storage'); }
-      fetch('${site}/').catch(function () {}); new WebSocket('${site.replace('http', 'ws')}/'); navigator.sendBeacon && navigator.sendBeacon('${site}/', '1');
-      throw new Error(said.join()); }`, 'no import,no request,no eval,undefinedundefined,no storage'],
+      try { fetch('${site}/').catch(function () {}); said.push('fetch'); } catch (e) { said.push('no fetch'); }
+      import('${site}/x.js').catch(function () {});
+      said.push([typeof WebSocket, typeof Worker, typeof navigator, typeof self, typeof globalThis.constructor.prototype.dispatchEvent].join(' '));
+      throw new Error(said.join()); }`, 'no import,no request,no eval,undefinedundefined,no storage,no fetch,undefined undefined undefined undefined undefined'],
   };
   for (const [name, [program, expected]] of Object.entries(worlds)) {
     const {page, faults, close} = await open_world(`script_${name}`, scripted(program));
@@ -207,9 +209,41 @@ async function hostile_scripts() {
   server.close();
 }
 
+/// A Script that goes on after its answer, that would answer by itself, say too much or leave its function: all in one world, beside one that sends
+/// an event very often, of which the first counts.
+async function scripts_that_outlive_their_calls() {
+  const programs = {
+    Later: ['Promise.resolve().then(function () { for (;;); });', 'Later was stopped because it ran for more than 1 s'],
+    Leaver: ['}); setInterval(function () { for (;;); }, 0); (function () {', 'Leaver cannot be run: '],
+    Timer: ['function press() { setInterval(function () { for (;;); }, 0); }', 'Timer reports ReferenceError: setInterval is not defined'],
+    Forger: [`function press() { postMessage('{}'); for (;;); }`, 'Forger reports ReferenceError: postMessage is not defined'],
+    Talker: [`function press() { throw new Error('x'.repeat(2000000)); }`, 'Talker was stopped because it sent more than 1000000 characters at once'],
+  };
+  const flood = `function press() { Array.prototype.map = function () { var all = [];
+    for (var i = 0; i < 20000; ++i) all.push({name: 'choice', value: i ? 1 : 2}); return all; }; }`;
+  const others = Object.entries(programs).map(([name, [program]]) =>
+    `DEF ${name} Script { inputOnly SFTime press outputOnly SFInt32 choice url "ecmascript: ${program}" }
+      ROUTE Touch.touchTime TO ${name}.press\nROUTE ${name}.choice TO Lamp.whichChoice\n`);
+  const {page, faults, close} = await open_world('script_outlives', scripted(flood) + others.join(''));
+  const told = list => page.waitForFunction(texts => texts.every(t => document.querySelector('#script-faults')?.textContent.includes(t)),
+    list.map(name => programs[name][1]), {timeout: 30_000});
+  await page.getByLabel('Run the world').check();
+  await page.getByLabel('Run its Scripts').check();
+  await told(['Later', 'Leaver']);  // before any event, so no call is being waited for
+  await page.mouse.click(...await page.evaluate(in_page.pixel, [-2, 0, 0]));
+  await told(Object.keys(programs));
+  const until = Date.now() + 10_000;
+  const color = async () => (await page.evaluate(in_page.state, {points: [[2, 0, 0]], nodes: []})).colors[0];
+  while (!is_color(await color(), 'b')) assert(Date.now() < until, `not 'b': ${await color()}`);
+  assert.doesNotMatch(await page.locator('#script-faults').textContent(), /\bS (was|reports|cannot)/);
+  assert.deepEqual(faults, []);
+  await close();
+}
+
 try {
   await scripts();
   await hostile_scripts();
+  await scripts_that_outlive_their_calls();
   for (const world of [...worlds, hidden_levels]) if (!world.events) await runs(world);
   await anchors();
   await billboard_and_list();

@@ -10,46 +10,99 @@ export interface ScriptField {
   value?: unknown;
 }
 
-/// What comes out of the frame. ready: the environment is there, and the program begins.
-export type FromFrame = {script: number; ready: true} | {script: number; answer: string} | {script: number; fault: string};
-export type ToFrame = {script: number; start: string} | {script: number; call: string} | {script: number; end: true};
+/// What comes out of the frame. ready: the environment is there, and the program begins. silent: its Worker was ended, for it did not answer.
+export type FromFrame = {script: number; ready: true} | {script: number; silent: true} | {script: number; answer: string} | {script: number; fault: string};
+export type ToFrame = {script: number; start: string; program: string} | {script: number; call: string} | {script: number; end: true};
 
-/// In the frame, which relays.
+/// In the frame, which relays, and asks each Worker whether it still listens: a program may go on after it has answered a call. When the
+/// page was busy, only one tick is missed, however long it took.
 function relay(): void {
-  const workers = new Map<number, Worker>();
+  const workers = new Map<number, {worker: Worker; ready: boolean; ping: number; missed: number}>();  // ping: what it is to say, or 0
+  const interval = 500, mostMissed = 4;  // milliseconds; ticks
+  let fault = '';
+  addEventListener('error', error => {
+    fault = error.message;
+    error.preventDefault();
+  });
+  // What is a handler is the body of a function: it cannot close the function that it is put in. Nothing runs here.
+  const isBody = (program: string): boolean => {
+    const probe = document.createElement('p');
+    fault = '';
+    probe.setAttribute('onclick', program);
+    return typeof probe.onclick === 'function';
+  };
+  const end = (script: number): void => {
+    workers.get(script)?.worker.terminate();
+    workers.delete(script);
+  };
+  const begin = (port: MessagePort, script: number, text: string): void => {
+    const file = URL.createObjectURL(new Blob([text], {type: 'text/javascript'}));
+    const worker = new Worker(file), state = {worker, ready: false, ping: 0, missed: 0};
+    worker.onmessage = ({data}: MessageEvent<unknown>) => {
+      if (typeof data === 'number') {
+        if (data === state.ping) state.ping = state.missed = 0;
+        return;
+      }
+      if (data === true) state.ready = true;
+      port.postMessage({script, ...(data === true ? {ready: true} : {answer: String(data)})});
+    };
+    worker.onerror = error => {
+      error.preventDefault();
+      port.postMessage({script, fault: error.message || 'it cannot be run'});
+    };
+    workers.set(script, state);
+  };
+  const tick = (port: MessagePort): void => {
+    for (const [script, state] of workers) {
+      if (!state.ready) continue;
+      if (!state.ping) {
+        state.ping = 1 + Math.random();
+        state.worker.postMessage(state.ping);
+      } else if (++state.missed >= mostMissed) {
+        end(script);
+        port.postMessage({script, silent: true});
+      }
+    }
+  };
   addEventListener('message', event => {
     const port = event.ports[0];
     if (event.source !== parent || !port) return;
     port.onmessage = ({data}: MessageEvent<ToFrame>) => {
       const {script} = data;
-      if ('end' in data) {
-        workers.get(script)?.terminate();
-        workers.delete(script);
-      } else if ('start' in data) {
-        const worker = new Worker(URL.createObjectURL(new Blob([data.start], {type: 'text/javascript'})));
-        worker.onmessage = message => port.postMessage({script, ...(message.data === true ? {ready: true} : {answer: String(message.data)})});
-        worker.onerror = error => {
-          error.preventDefault();
-          port.postMessage({script, fault: error.message || 'it cannot be run'});
-        };
-        workers.set(script, worker);
-      } else workers.get(script)?.postMessage(data.call);
+      if ('end' in data) end(script);
+      else if ('call' in data) workers.get(script)?.worker.postMessage(data.call);
+      else if (isBody(data.program)) begin(port, script, data.start);
+      else port.postMessage({script, fault: fault || 'it is no ECMAScript'});
     };
+    setInterval(() => tick(port), interval);
   }, {once: true});
 }
 
 const policy = "default-src 'none'; script-src 'unsafe-inline'; worker-src blob:";
 export const frameText = `<!doctype html><meta http-equiv="Content-Security-Policy" content="${policy}"><script>(${relay.toString()})()</script>`;
 
-/// In the Worker. `begin` is what annex_c.js gives; `program` is a function around the program, which sees nothing of this.
+/// In the Worker. `begin` is what annex_c.js gives; `program` is a function around the program, which sees nothing of this. Of what the Worker
+/// has, it keeps the language: no timers, messages, requests or Workers of its own.
 function environment(makeEnvironment: (ask: () => string, clock: () => number) => (global: unknown) => {load(fields: string): void; call(what: string): string}, fields: string, program: () => Record<string, unknown>): void {
-  const post = postMessage.bind(self);
+  const global: object = self, post = postMessage.bind(self);
   const refused = JSON.stringify({error: 'nodes of the world and Browser functions that change it are out of reach on this page'});
-  const script = makeEnvironment(() => refused, () => Date.now() / 1000)(self);
+  const environmentOf = makeEnvironment(() => refused, () => Date.now() / 1000);
+  let script: {load(fields: string): void; call(what: string): string} | null = null;
+  addEventListener('message', event => {
+    if (typeof event.data === 'number') post(event.data);
+    else if (script) post(script.call(String(event.data)));
+  });
+  const language = new Set<PropertyKey>(('globalThis Infinity NaN undefined eval isFinite isNaN parseFloat parseInt decodeURI decodeURIComponent encodeURI ' +
+    'encodeURIComponent escape unescape Object Function Boolean Symbol Error AggregateError EvalError RangeError ReferenceError SyntaxError TypeError ' +
+    'URIError Number BigInt Math Date String RegExp Array Int8Array Uint8Array Uint8ClampedArray Int16Array Uint16Array Int32Array Uint32Array ' +
+    'Float16Array Float32Array Float64Array BigInt64Array BigUint64Array ArrayBuffer DataView Map Set WeakMap WeakSet WeakRef JSON Promise Reflect ' +
+    'Proxy Intl Iterator console').split(' '));
+  for (let at: object = global; at !== Object.prototype; at = Object.getPrototypeOf(at) as object)
+    for (const key of Reflect.ownKeys(at)) if (!language.has(key)) Reflect.deleteProperty(at, key);
+  script = environmentOf(global);
   post(true);
   script.load(fields);
-  for (const [name, value] of Object.entries(program())) if (value !== undefined) Object.defineProperty(self, name, {value, configurable: true});
-  self.onmessage = event => { if (event.isTrusted) post(script.call(String(event.data))); };
+  for (const [name, value] of Object.entries(program())) if (value !== undefined) Object.defineProperty(global, name, {value, configurable: true});
   post(script.call('{"name":"initialize"}'));
 }
 

@@ -7,7 +7,9 @@ import type {Value} from './operations';
 import {frameText, workerText, type FromFrame, type ScriptField, type ToFrame} from './script_frame';
 
 const longestCall = 1000, longestStart = 20_000;  // milliseconds
-const mostWaiting = 200, mostScripts = 32;
+const mostWaiting = 200, mostScripts = 32, longestAnswer = 1_000_000;  // characters
+
+const ranLonger = (milliseconds: number): string => `was stopped because it ran for more than ${milliseconds / 1000} s`;
 
 interface Call { name: string; field?: string; type?: string; value?: unknown }
 
@@ -86,7 +88,7 @@ export class Scripts {
     const functions = [...new Set(['initialize', 'eventsProcessed', ...inputs.keys()])];
     const script: Running = {name, types, inputs, waiting: [], busy: true, started: false, timer: 0};
     this.running.set(node, script);
-    this.post({script: node, start: workerText(program, fields, functions)});
+    this.post({script: node, start: workerText(program, fields, functions), program});
     this.limit(node, script, longestStart);
   }
 
@@ -94,7 +96,7 @@ export class Scripts {
 
   private limit(node: number, script: Running, milliseconds: number): void {
     clearTimeout(script.timer);
-    script.timer = window.setTimeout(() => this.end(node, `was ended, for it ran longer than ${milliseconds / 1000} s`), milliseconds);
+    script.timer = window.setTimeout(() => this.end(node, ranLonger(milliseconds)), milliseconds);
   }
 
   private end(node: number, why: string): void {
@@ -134,28 +136,33 @@ export class Scripts {
     const script = this.running.get(data.script);
     if (!script) return;
     if ('fault' in data) return this.end(data.script, `cannot be run: ${data.fault.slice(0, 300)}`);
+    if ('silent' in data) return this.end(data.script, ranLonger(longestCall));
     if ('ready' in data) {
       if (!script.started) this.limit(data.script, script, longestCall);
       script.started = true;
       return;
     }
     if (!script.busy || !script.started) return;
+    if (data.answer.length > longestAnswer) return this.end(data.script, `was stopped because it sent more than ${longestAnswer} characters at once`);
     clearTimeout(script.timer);
     script.busy = false;
     this.answered(data.script, script, data.answer);
     this.next(data.script, script);
   }
 
+  /// An output sends at most one event a call.
   private answered(node: number, script: Running, answer: string): void {
     let said: {events?: unknown; error?: unknown} | null = null;
     try {
       said = JSON.parse(answer) as {events?: unknown; error?: unknown};
     } catch {}
     if (said?.error) this.note(`${script.name} reports ${String(said.error).slice(0, 300)}`);
-    for (const {name, value} of Array.isArray(said?.events) ? said.events as {name?: unknown; value?: unknown}[] : []) {
-      const type = script.types.get(String(name));
-      const sent = type === undefined ? null : fromVrml(type, value);
-      if (sent !== null) this.sent(`from-script:${node}:${String(name)}`, sent);
+    const events = new Map<string, unknown>();
+    for (const event of Array.isArray(said?.events) ? said.events as ({name?: unknown; value?: unknown} | null)[] : [])
+      if (typeof event?.name === 'string' && script.types.has(event.name) && !events.has(event.name)) events.set(event.name, event.value);
+    for (const [name, value] of events) {
+      const sent = fromVrml(script.types.get(name)!, value);
+      if (sent !== null) this.sent(`from-script:${node}:${name}`, sent);
     }
   }
 
