@@ -21,7 +21,7 @@ function relay(): void {
   const interval = 500, mostMissed = 4;  // milliseconds; ticks
   let fault = '';
   addEventListener('error', error => {
-    fault = error.message;
+    fault = error.message.replace(/Failed to read .*? from '\w+': /, '');
     error.preventDefault();
   });
   // What is a handler is the body of a function: it cannot close the function that it is put in. Nothing runs here.
