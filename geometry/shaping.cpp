@@ -102,7 +102,7 @@ std::vector<TextRun> visual_runs(std::u32string_view line, const std::vector<std
   }
   // Rule L2: from the highest level to the lowest odd one, what is at that level or above is turned round.
   const FriBidiLevel highest = of_run.empty() ? FriBidiLevel{0} : *std::ranges::max_element(of_run);
-  for (int level = highest; level > 0; --level)
+  for (FriBidiLevel level = highest; level > 0; --level)
     for (std::size_t first = 0; first < runs.size();) {
       std::size_t last = first;
       while (last < runs.size() && of_run[last] >= level) ++last;

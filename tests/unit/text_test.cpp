@@ -260,7 +260,7 @@ TEST_CASE("families and styles choose the font", "[text]") {
   auto& fonts = Fonts::installed();
   Job job;
   job.strings({"Hg"});
-  auto ink = [&](std::vector<std::string_view> family, std::string_view style) {
+  auto ink = [&](const std::vector<std::string_view>& family, std::string_view style) {
     job.scene.set(job.style, nodes::font_style::family, family);
     job.scene.set(job.style, nodes::font_style::style, style);
     return area(flat(job.make()));
