@@ -127,15 +127,14 @@ void LinkedCell::link(std::uint32_t from, const V3& share) {
 
 void LinkedCell::merge() {
   std::ranges::stable_sort(links, {}, &Link::from);
-  std::size_t n = 0;
-  for (const Link& l : std::vector<Link>(links)) {
-    if (n == 0 || links[n - 1].from != l.from)
-      links[n++] = l;
+  std::vector<Link> merged;
+  for (const Link& l : links) {
+    if (merged.empty() || merged.back().from != l.from)
+      merged.push_back(l);
     else
-      for (int k = 0; k < 3; ++k) links[n - 1].share[k] += l.share[k];
+      for (int k = 0; k < 3; ++k) merged.back().share[k] += l.share[k];
   }
-  links.resize(n);
-  links.shrink_to_fit();
+  links = std::vector<Link>(merged.begin(), merged.end());  // no larger than it has to be: there are very many cells
 }
 
 std::vector<V3> solve(std::span<const LinkedCell> cells) { return LinkSolver(cells).run(); }

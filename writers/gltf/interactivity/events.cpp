@@ -107,18 +107,18 @@ Events::Events(const Scene& scene, const Motion& motion, bool on) : scene_(scene
 /// do not.
 void Events::find_useful(const Motion& motion) {
   std::multimap<std::uint32_t, std::uint32_t> before;
-  std::vector<std::uint32_t> todo(motion.clocks().begin(), motion.clocks().end());
+  std::vector<std::uint32_t> pending(motion.clocks().begin(), motion.clocks().end());
   for (const auto& [from, possible] : possible_) {
     const NodeId to = possible.hop.to;
     before.emplace(to.value, from);
     const bool ends = possible.hop.act != Act::tell_script && !scene_.is(to, nodes::TimeSensor);
-    if (ends && !passes_on(scene_, to)) todo.push_back(to.value);
+    if (ends && !passes_on(scene_, to)) pending.push_back(to.value);
   }
-  while (!todo.empty()) {
-    const auto n = todo.back();
-    todo.pop_back();
+  while (!pending.empty()) {
+    const auto n = pending.back();
+    pending.pop_back();
     if (!useful_.insert(n).second) continue;
-    for (auto [at, end] = before.equal_range(n); at != end; ++at) todo.push_back(at->second);
+    for (auto [at, end] = before.equal_range(n); at != end; ++at) pending.push_back(at->second);
   }
 }
 
@@ -137,16 +137,16 @@ void Events::collect() {
 
 /// Everything that follows from what happens to a node.
 void Events::spread(NodeId source) {
-  std::vector<NodeId> todo{source};
-  while (!todo.empty()) {
-    const NodeId n = todo.back();
-    todo.pop_back();
+  std::vector<NodeId> pending{source};
+  while (!pending.empty()) {
+    const NodeId n = pending.back();
+    pending.pop_back();
     for (auto [at, end] = possible_.equal_range(n.value); at != end; ++at) {
       const auto& [slot, hop] = at->second;
       if (!useful_.contains(hop.to.value) || !said_.insert(hop.route).second) continue;
       hops_[{n.value, slot}].push_back(hop);
       set_.insert({hop.to.value, hop.slot});
-      todo.push_back(hop.to);
+      pending.push_back(hop.to);
     }
   }
 }
