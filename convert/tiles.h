@@ -14,7 +14,7 @@ namespace wrlkit {
 
 struct TilesOptions {
   std::size_t triangles = 50'000;   // that a tile draws, at most, and segments and points
-  std::size_t draws = 16;           // calls that draw a tile, as far as its looks allow it
+  std::size_t draws = 32;           // calls that draw a tile, as far as its looks allow it
   std::uint64_t bytes = 4 << 20;    // of a tile, as far as can be told before it is made
   std::size_t tiles_in_file = 500;  // that tileset.json describes; more are described in files next to the tiles
   std::size_t at_once = 1'500'000;  // triangles that are simplified together: some 400 MB

@@ -157,7 +157,7 @@ def check_places(tiles, plain, faults):
     if any(tables_of_places(t) for t in plain.all):
         faults.append('places in tables without --gpu-instancing')
     draws = [sum('mesh' in n for n in Glb(t['glb']).json['nodes']) for t in tiles.all]
-    if max(draws) > 16:
+    if max(draws) > 32:
         faults.append(f'{max(draws)} draws')
     return sum(full), sum(coarse)
 

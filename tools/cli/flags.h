@@ -95,7 +95,7 @@ struct Flags {
   std::string sky = "background";
 
   // tiles
-  int tile_triangles = 50'000, tile_draws = 16, tileset_tiles = 500;
+  int tile_triangles = 50'000, tile_draws = 32, tileset_tiles = 500;
   std::string tile_bytes = "4M";
   bool update = false;     // keep what was made, for the next run
   std::vector<double> at;  // latitude, longitude, height, heading
