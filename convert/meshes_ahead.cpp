@@ -23,7 +23,8 @@ std::size_t n_indices(const Scene& scene, NodeId n) {
 
 }  // namespace
 
-MeshesAhead::MeshesAhead(const Scene& scene, const MeshMakers& makers) : scene_(scene), makers_(makers) {}
+MeshesAhead::MeshesAhead(const Scene& scene, const MeshMakers& makers, const VertexMaker& vertices)
+    : scene_(scene), makers_(makers), vertices_(vertices) {}
 
 MeshesAhead::~MeshesAhead() {
   given_up_ = true;
@@ -60,7 +61,7 @@ void MeshesAhead::begin_more() {
   }
 }
 
-const MeshesAhead::Known* MeshesAhead::find(NodeId n) {
+MeshesAhead::Known* MeshesAhead::find(NodeId n) {
   const auto of = n.value < batch_of_.size() ? batch_of_[n.value] : none;
   if (of == none || of < now_) return nullptr;
   for (; now_ < of; ++now_) {
@@ -103,6 +104,8 @@ void MeshesAhead::make(NodeId n, Known& known, Worker& worker) {
   try {
     worker.make(n, known.mesh);
     known.done = worker.unheard.messages().empty();
+    if (known.done && vertices_)
+      vertices_(n, known.mesh, textured_[n.value] != 0, worker.scratch, known.vertices);
   } catch (...) {  // it will be thrown again where it can be caught
     known.done = false;
   }

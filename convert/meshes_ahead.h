@@ -12,9 +12,13 @@
 #include "base/background.h"
 #include "base/task.h"
 #include "geometry/mesh.h"
+#include "geometry/vertices.h"
 #include "passes/pipeline/pipeline.h"
 
 namespace wrlkit {
+
+/// Fills vertices with what a writer makes of the mesh of a geometry that is shown with a texture or without.
+using VertexMaker = std::function<void(NodeId, const Mesh&, bool textured, SplitScratch&, Vertices& out)>;
 
 class MeshesAhead {
  public:
@@ -23,10 +27,11 @@ class MeshesAhead {
     NodeId same;             // one before it that says the same; then there is no mesh
     bool done = false;       // the mesh is here, and nothing was said of it
     Mesh mesh;
+    Vertices vertices;  // of the mesh; empty without a maker
     Statistics counted;
   };
 
-  MeshesAhead(const Scene& scene, const MeshMakers& makers);
+  MeshesAhead(const Scene& scene, const MeshMakers& makers, const VertexMaker& vertices = nullptr);
   ~MeshesAhead();
 
   /// Begins with the first of these geometries; `textured` by node. Does nothing where there is too little to do, or
@@ -34,7 +39,7 @@ class MeshesAhead {
   void begin(std::span<const NodeId> geometries, std::span<const char> textured);
   /// What is known of one, when it is; threads go on to those behind it, and what is before it is forgotten. Null:
   /// nothing is known. Good until the next call.
-  const Known* find(NodeId);
+  Known* find(NodeId);
 
  private:
   /// What one thread does at once.
@@ -54,6 +59,7 @@ class MeshesAhead {
     Statistics counted;
     Task task{unheard, counted};
     MeshMaker make;
+    SplitScratch scratch;
   };
 
   void add(NodeId);
@@ -66,6 +72,7 @@ class MeshesAhead {
 
   const Scene& scene_;
   const MeshMakers& makers_;
+  const VertexMaker vertices_;
   std::span<const char> textured_;
   std::vector<std::uint32_t> batch_of_;  // by node
   std::deque<Batch> batches_;

@@ -6,14 +6,14 @@
 namespace wrlkit {
 
 RepeatedMeshes::RepeatedMeshes(const Scene& scene, const MeshSource& source, const MeshMakers& makers,
-                               std::span<const NodeId> geometries, Task& task)
+                               const VertexMaker& vertices, std::span<const NodeId> geometries, Task& task)
     : source_(source),
       task_(task),
       equal_(scene),
       driven_(driven_geometry(scene)),
       textured_(textured_geometry(scene)),
       asked_(scene.node_count()),
-      ahead_(scene, makers) {
+      ahead_(scene, makers, vertices) {
   std::vector<NodeId> still(geometries.begin(), geometries.end());
   std::erase_if(still, [&](NodeId n) { return !is_still(n); });
   ahead_.begin(still, textured_);
@@ -27,13 +27,21 @@ std::uint64_t RepeatedMeshes::n_said() const {
 }
 
 const Mesh& RepeatedMeshes::make(NodeId n) {
-  const auto* known = ahead_.find(n);
+  auto* known = ahead_.find(n);
   if (!known || !known->done) return source_(n);
   for (const auto& [name, count] : known->counted) task_.stats[name] += count;
+  given_ = n;
+  known_ = known;
   return known->mesh;
 }
 
+Vertices* RepeatedMeshes::take_vertices(NodeId n) {
+  auto* known = std::exchange(known_, nullptr);
+  return known && given_ == n ? &known->vertices : nullptr;
+}
+
 const Mesh& RepeatedMeshes::operator()(NodeId n) {
+  known_ = nullptr;
   const bool first = is_still(n) && !asked_[n.value];
   if (!first) return source_(n);
   asked_[n.value] = 1;
@@ -44,6 +52,7 @@ const Mesh& RepeatedMeshes::operator()(NodeId n) {
 }
 
 NodeId RepeatedMeshes::same_mesh(NodeId n) {
+  known_ = nullptr;
   if (!is_still(n) || asked_[n.value]) return {};
   if (const auto* known = ahead_.find(n)) equal_.know(n, known->hash, known->same);
   const NodeId other = equal_.find(n);

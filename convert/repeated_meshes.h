@@ -14,9 +14,14 @@ namespace wrlkit {
 class RepeatedMeshes {
  public:
   /// `geometries` in the order in which they will be asked for, nearly.
-  RepeatedMeshes(const Scene&, const MeshSource&, const MeshMakers&, std::span<const NodeId> geometries, Task&);
+  RepeatedMeshes(const Scene&, const MeshSource&, const MeshMakers&, const VertexMaker&,
+                 std::span<const NodeId> geometries, Task&);
 
   const Mesh& operator()(NodeId);
+  /// The vertices of the mesh that was given last, where they were made ahead for this geometry; null: they were not,
+  /// or were taken before.
+  Vertices* take_vertices(NodeId);
+  bool is_textured(NodeId n) const { return textured_[n.value] != 0; }
   /// A geometry that was asked for before and has the same mesh; none if there is none.
   NodeId same_mesh(NodeId);
 
@@ -30,6 +35,8 @@ class RepeatedMeshes {
   EqualGeometry equal_;
   std::vector<char> driven_, textured_, asked_;  // by node
   MeshesAhead ahead_;
+  NodeId given_;  // whose mesh was made ahead and given last
+  MeshesAhead::Known* known_ = nullptr;
 };
 
 }  // namespace wrlkit

@@ -88,12 +88,23 @@ bool write_gltf_file(const Writing& w) {
     check_stop();
     if (ctx.monitor) ctx.monitor->step();
   };
-  RepeatedMeshes repeated(w.scene, w.meshes, w.makers, geometries, ctx);
+  auto options = gltf_options(w.options, w.to.format->endings != ".gltf");
+  const auto asked_of = [&w, all = gltf::vertex_options(options)](NodeId n, bool textured) {
+    auto asked = all;
+    asked.texcoords = textured || gltf::gives_texcoords(w.scene, n);
+    return asked;
+  };
+  const VertexMaker vertices = [&](NodeId n, const Mesh& mesh, bool textured, SplitScratch& scratch, Vertices& out) {
+    gltf::make_vertices(mesh, asked_of(n, textured), scratch, out);
+  };
+  RepeatedMeshes repeated(w.scene, w.meshes, w.makers, vertices, geometries, ctx);
   const MeshSource counted = [&](NodeId n) -> const Mesh& {
     step();
     return repeated(n);
   };
-  auto options = gltf_options(w.options, w.to.format->endings != ".gltf");
+  options.vertices_ahead = [&](NodeId n, const gltf::VertexOptions& asked) -> Vertices* {
+    return asked == asked_of(n, repeated.is_textured(n)) ? repeated.take_vertices(n) : nullptr;
+  };
   options.same_mesh = [&](NodeId n) {
     const NodeId other = repeated.same_mesh(n);
     if (other) step();

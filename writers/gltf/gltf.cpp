@@ -95,8 +95,7 @@ class Writer {
         materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
         parts_(options.names == GltfOptions::Names::table, options.sources),
         meshes_(scene, source, options.same_mesh, animations_.motion(), store_, parts_,
-                options.lightmaps != GltfOptions::Lightmaps::base_color,
-                options.compression.method == GltfCompression::Method::meshopt, diag),
+                vertex_options(options), options.vertices_ahead, diag),
         makers_{scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag} {}
 
   bool write() {
@@ -347,6 +346,12 @@ class Writer {
 };
 
 }  // namespace
+
+VertexOptions vertex_options(const GltfOptions& o) {
+  return {.lightcoords = o.lightmaps != GltfOptions::Lightmaps::base_color,
+          .ordered = o.compression.method == GltfCompression::Method::meshopt};
+}
+
 }  // namespace gltf
 
 bool write_gltf(const Scene& scene, const MeshSource& source, const GltfOptions& options, Resources* resources,

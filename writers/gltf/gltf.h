@@ -12,6 +12,7 @@
 #include "geometry/mesh.h"
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
+#include "writers/gltf/mesh_vertices.h"
 #include "writers/led_urls.h"
 
 namespace wrlkit {
@@ -110,6 +111,7 @@ struct GltfOptions {
   LeadUrls lead_urls = {};  // what urls are written as that glTF has no place for; none: as they are
   /// A geometry that the source was asked for before, and whose mesh is that of this one; none: it is not known.
   std::function<NodeId(NodeId)> same_mesh = {};
+  gltf::VerticesAhead vertices_ahead = {};
   /// What Switches do not show. dropped: it is not in the hierarchy. invisible: by KHR_node_visibility.
   enum class Hidden : std::uint8_t { dropped, invisible };
   Hidden hidden = Hidden::dropped;
@@ -140,6 +142,14 @@ inline constexpr auto choices<GltfOptions::Names> =
                 {"table",
                  "a table of names and groups that places and merged meshes refer to (EXT_structural_metadata, "
                  "EXT_mesh_gpu_instancing; with --extras facts)"}});
+
+namespace gltf {
+
+/// What is asked of the vertices of every mesh, but for texture coordinates, which are those of a mesh that shows a
+/// picture or whose node gives some.
+VertexOptions vertex_options(const GltfOptions&);
+
+}  // namespace gltf
 
 /// Writes a scene without instances of prototypes; Inlines that were loaded must have become groups. It is written
 /// whole or not at all; false, and a message, when it is not. Other files are named after the output: room.gltf has

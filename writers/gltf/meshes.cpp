@@ -49,19 +49,14 @@ std::uint32_t Meshes::geometry(NodeId n, bool picture) {
     return static_cast<std::uint32_t>(geometries_.size() - 1);
   };
   std::uint32_t& known = by_node_[n.value];
-  if (known == none) return known = add(picture || gives_texcoords(n));
+  if (known == none) return known = add(picture || gives_texcoords(scene_, n));
   const Geometry& g = geometries_[known];
-  if (!picture || g.texcoords != none || g.mode != Mode::triangles || gives_texcoords(n)) return known;
+  if (!picture || g.texcoords != none || g.mode != Mode::triangles || gives_texcoords(scene_, n)) return known;
   if (g.textured == none) {
     auto textured = add(true);
     geometries_[known].textured = textured;
   }
   return geometries_[known].textured;
-}
-
-bool Meshes::gives_texcoords(NodeId n) const {
-  if (scene_.is(n, nodes::IndexedFaceSet)) return bool(scene_.get(n, nodes::indexed_face_set::texCoord));
-  return scene_.is(n, nodes::ElevationGrid) && scene_.get(n, nodes::elevation_grid::texCoord);
 }
 
 /// The mesh of a geometry. Flat faces that will move have a normal of their own each, even where they lie in one plane
@@ -112,13 +107,13 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   if (!number_parts(n, mesh))
     diag_.report(Diag::no_gltf_value, scene_.where(n), scene_.type(n).name,
                  "metadata (faces of parts that a pass has changed)");
-  split(mesh, texcoords);
+  if (!take_vertices(n, texcoords)) split(mesh, texcoords);
   const Vertices& v = vertices_;
   if (v.n_not_finite > 0)
     diag_.report(Diag::float_overflow, scene_.where(n),
                  std::string(scene_.type(n).name) + " (" + std::to_string(v.n_not_finite) + " numbers)");
   if (v.index.empty()) return g;
-  if (!ordered_ && scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size())
+  if (!options_.ordered && scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size())
     g.polygons = runs(mesh);
   g.origin = move_near_origin(mesh, texcoords);
   report_coarse(n, mesh);
@@ -143,21 +138,29 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
 }
 
 void Meshes::split(const Mesh& mesh, bool texcoords, const Vec3& origin) {
-  bool faces = mesh.kind == Mesh::Kind::faces;
-  split_vertices(mesh,
-                 {.origin = origin,
-                  .normals = faces,
-                  .texcoords = faces && texcoords,
-                  .lightcoords = faces && light_,
-                  .linear_colors = true,
-                  .flip_v = true},
-                 scratch_, vertices_);
-  if (!feature_of_corner_.empty()) {
-    vertices_.feature.resize(vertices_.count());
-    for (std::size_t c = 0; c < feature_of_corner_.size(); ++c)
-      vertices_.feature[scratch_.of_corner[c]] = feature_of_corner_[c];
-  }
-  if (ordered_ && faces && !moving_) order_for_drawing(vertices_);
+  const bool has_parts = !feature_of_corner_.empty();
+  auto options = options_with(texcoords);
+  options.ordered &= !moving_ && !has_parts;
+  make_vertices(mesh, options, scratch_, vertices_, origin);
+  if (!has_parts) return;
+  vertices_.feature.resize(vertices_.count());
+  for (std::size_t c = 0; c < feature_of_corner_.size(); ++c)
+    vertices_.feature[scratch_.of_corner[c]] = feature_of_corner_[c];
+  if (options_.ordered && mesh.kind == Mesh::Kind::faces && !moving_) order_for_drawing(vertices_);
+}
+
+VertexOptions Meshes::options_with(bool texcoords) const {
+  auto options = options_;
+  options.texcoords = texcoords;
+  return options;
+}
+
+/// False: the vertices were not made ahead.
+bool Meshes::take_vertices(NodeId n, bool texcoords) {
+  if (!ahead_ || moving_ || !feature_of_corner_.empty()) return false;
+  Vertices* made = ahead_(n, options_with(texcoords));
+  if (made) std::swap(vertices_, *made);
+  return made;
 }
 
 /// The names of parts get numbers that are those of the whole file. False when parts and faces do not agree.

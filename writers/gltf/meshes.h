@@ -9,6 +9,7 @@
 #include "scenegraph/transform.h"
 #include "writers/gltf/box.h"
 #include "writers/gltf/materials.h"
+#include "writers/gltf/mesh_vertices.h"
 #include "writers/gltf/morphs.h"
 #include "writers/gltf/parts.h"
 #include "writers/gltf/store.h"
@@ -54,17 +55,17 @@ struct MeshRecord {
 
 class Meshes {
  public:
-  /// `light`: places in lightmaps are kept. `ordered`: triangles and vertices come in the order in which they are drawn
-  /// best.
+  /// `ahead` may be empty.
   Meshes(const Scene& scene, const MeshSource& source, const std::function<NodeId(NodeId)>& same_mesh,
-         const Motion& motion, Store& store, PartTable& parts, bool light, bool ordered, Diagnostics& diag)
+         const Motion& motion, Store& store, PartTable& parts, const VertexOptions& options, const VerticesAhead& ahead,
+         Diagnostics& diag)
       : scene_(scene),
         source_(source),
         same_mesh_(same_mesh),
         store_(store),
         parts_(parts),
-        light_(light),
-        ordered_(ordered),
+        options_(options),
+        ahead_(ahead),
         diag_(diag),
         morphs_(scene, motion, store, diag),
         by_node_(scene.node_count(), none) {}
@@ -99,8 +100,9 @@ class Meshes {
   Geometry repeated(NodeId, bool texcoords) const;
   const Mesh& mesh_of(NodeId);
   void split(const Mesh&, bool texcoords, const Vec3& origin = {});
+  VertexOptions options_with(bool texcoords) const;
+  bool take_vertices(NodeId, bool texcoords);
   bool number_parts(NodeId, const Mesh&);
-  bool gives_texcoords(NodeId) const;
   void report_coarse(NodeId, const Mesh&);
   std::uint32_t move_near_origin(const Mesh&, bool texcoords);
   std::uint32_t baked(const Geometry&, NodeId texture_transform, std::vector<float> Vertices::*places);
@@ -110,7 +112,8 @@ class Meshes {
   const std::function<NodeId(NodeId)>& same_mesh_;
   Store& store_;
   PartTable& parts_;
-  bool light_, ordered_;
+  VertexOptions options_;
+  const VerticesAhead& ahead_;
   Diagnostics& diag_;
   Morphs morphs_;
   std::vector<std::uint32_t> by_node_;

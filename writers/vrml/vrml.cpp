@@ -168,13 +168,19 @@ class VrmlWriter : TextDocument {
       return true;
     }
     const auto& f = t.fields[v.slot];
-    if (t.kind != NodeKind::proto && !v.is && equals_default(v, f)) return false;
+    if (t.kind != NodeKind::proto && !v.is && equals_default(v, f) && !shares_name_with_x3d(t)) return false;
     line() << f.name_in(t.dialects & static_cast<DialectSet>(Dialect::vrml1) ? Dialect::vrml1 : Dialect::vrml97) << ' ';
     if (const auto use = url_use(scene_.type_id(n), v.slot, v); use != UrlUse::none)
       urls(scene_.where(n), v.text_span(), use);
     else
       content(v);
     return true;
+  }
+
+  /// A node of VRML 1.0 among those of VRML97 is told from the one of X3D by its fields: none may be left out.
+  bool shares_name_with_x3d(const NodeType& t) const {
+    const bool only_vrml1 = t.kind == NodeKind::builtin && t.dialects == static_cast<DialectSet>(Dialect::vrml1);
+    return !vrml1_ && only_vrml1 && find_builtin(t.name, Dialect::x3d);
   }
 
   void urls(Span where, std::span<const std::string_view> list, UrlUse use) {
