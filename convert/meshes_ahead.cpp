@@ -104,8 +104,7 @@ void MeshesAhead::make(NodeId n, Known& known, Worker& worker) {
   try {
     worker.make(n, known.mesh);
     known.done = worker.unheard.messages().empty();
-    if (known.done && vertices_)
-      vertices_(n, known.mesh, textured_[n.value] != 0, worker.scratch, known.vertices);
+    if (known.done && vertices_) vertices_(n, known.mesh, textured_[n.value] != 0, worker.scratch, known.vertices);
   } catch (...) {  // it will be thrown again where it can be caught
     known.done = false;
   }

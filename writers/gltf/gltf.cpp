@@ -94,8 +94,8 @@ class Writer {
         animations_(scene, reach(options), options.behaviour == GltfOptions::Behaviour::interactivity, diag),
         materials_(scene, textures_, animations_.motion(), options.extras ? &extras_ : nullptr, options.lightmaps),
         parts_(options.names == GltfOptions::Names::table, options.sources),
-        meshes_(scene, source, options.same_mesh, animations_.motion(), store_, parts_,
-                vertex_options(options), options.vertices_ahead, diag),
+        meshes_(scene, source, options.same_mesh, animations_.motion(), store_, parts_, vertex_options(options),
+                options.vertices_ahead, diag),
         makers_{scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag} {}
 
   bool write() {
