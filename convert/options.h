@@ -98,6 +98,7 @@ struct SaveOptions {
   bool embed = false;             // pictures become part of what is written
   std::string files_folder = {};  // of copied files; empty: named after the output
   bool keep_urls = false;         // what relative urls mean stands next to the output, too
+  bool is_derived = false;        // the name of the output: replacing a file of other contents is reported
 
   void light_fields(auto&& f) {
     f("lightmap-as", lightmap_as, "baked light in glTF");

@@ -27,7 +27,9 @@ bool write_text(const Writing& w, TextWriter write) {
     return write_named_files(*w.context.resources, diag);
   }
   const auto& path = w.to.path;
-  auto file = OutputFile::open(path, {.gzip = w.to.gzip, .inputs = &w.context.resources->files_read()}, diag);
+  auto file = OutputFile::open(
+      path, {.gzip = w.to.gzip, .inputs = &w.context.resources->files_read(), .report_replaced = w.options.is_derived},
+      diag);
   if (!file) return false;
   if (w.context.monitor) w.context.monitor->begin(path == "-" ? "" : "writing " + path, 0, "");
   MadeFiles made(w.scene, *w.context.resources, path, diag);

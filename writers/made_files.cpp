@@ -2,25 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "base/io/uri.h"
 
 namespace wrlkit {
-namespace {
-
 namespace fs = std::filesystem;
-
-bool has_other_contents(const std::string& path, std::string_view bytes) {
-  std::error_code none;
-  if (!fs::is_regular_file(path, none)) return false;
-  if (fs::file_size(path, none) != bytes.size()) return true;
-  std::ifstream in(path, std::ios::binary);
-  return !std::equal(std::istreambuf_iterator<char>(in), {}, bytes.begin(), bytes.end());
-}
-
-}  // namespace
 
 fs::path stem_of(const std::string& output) {
   fs::path p(output);
@@ -62,8 +48,7 @@ bool MadeFiles::write() {
     if (file.always && output_ != "-") name_of(file);
   for (Placed& p : placed_) {
     const auto path = (stem_of(output_).parent_path() / p.name).string();
-    if (has_other_contents(path, *p.file->bytes)) diag_.report(Diag::file_replaced, {}, path);
-    p.output = OutputFile::open(path, {.inputs = &resources_.files_read()}, diag_);
+    p.output = OutputFile::open(path, {.inputs = &resources_.files_read(), .report_replaced = true}, diag_);
     if (!p.output) return false;
     p.output->write(*p.file->bytes);
   }

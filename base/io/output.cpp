@@ -6,6 +6,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -90,6 +91,7 @@ struct OutputFile::State {
   std::string name;  // as the user gave it
   const FilesRead* inputs = nullptr;
   bool is_input = false;
+  bool report_replaced = false, has_replaced_another = false;
   fs::path target;
   fs::path temporary;  // where the file system does not support files without a name
   Kind kind = replace;
@@ -170,10 +172,10 @@ struct OutputFile::State {
     constexpr mode_t everybody = 0666;  // less the umask
     make_folder();
     bool can_get_name = access("/proc/self/fd", X_OK) == 0;
-    if (can_get_name) fd = ::open(folder().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, everybody);
+    if (can_get_name) fd = ::open(folder().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, everybody);
     if (!can_get_name || (fd < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL))) {
       temporary = temporary_name();
-      fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, everybody);
+      fd = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, everybody);
       if (fd < 0) temporary.clear();
     }
     if (fd < 0)
@@ -254,9 +256,21 @@ struct OutputFile::State {
     munmap(p, all.size());
   }
 
+  /// Whether what is written differs from what is there.
+  bool differs() const {
+    std::array<char, small> ours{}, theirs{};
+    const Descriptor there(::open(target.c_str(), O_RDONLY | O_CLOEXEC));
+    for (off_t at = 0;; at += static_cast<off_t>(ours.size())) {
+      const auto n = pread(fd, ours.data(), ours.size(), at), m = pread(there, theirs.data(), theirs.size(), at);
+      if (n != m || n < 0 || !std::equal(ours.begin(), ours.begin() + n, theirs.begin())) return true;
+      if (n < static_cast<ssize_t>(ours.size())) return false;
+    }
+  }
+
   // A file without a name can be given a new one, but cannot replace another: it gets a temporary name first then.
   void put_in_place() {
     if (refuses_input()) return;  // it may have been read since
+    has_replaced_another = report_replaced && replaced && differs();
     if (temporary.empty()) {
       auto self = "/proc/self/fd/" + std::to_string(fd);
       auto link = [&](const fs::path& to) {
@@ -283,6 +297,7 @@ struct OutputFile::State {
   bool report(Diagnostics& diag) const {
     const auto why = is_input ? "it is one of the files that were read; choose another name" : reason(error, target);
     if (error) diag.report(Diag::cannot_write, {}, name, why);
+    if (!error && has_replaced_another) diag.report(Diag::file_replaced, {}, name);
     return error == 0;
   }
 };
@@ -297,6 +312,7 @@ std::optional<OutputFile> OutputFile::open(const std::string& path, OutputOption
   state->name = path;
   state->target = behind_links(path);
   state->inputs = options.inputs;
+  state->report_replaced = options.report_replaced;
   if (path == "-") state->kind = State::standard_output;
   if (options.gzip) state->gzip = std::make_unique<Gzip>();
   state->open();

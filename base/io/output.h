@@ -18,6 +18,7 @@ namespace wrlkit {
 struct OutputOptions {
   bool gzip = false;                  // RFC 1952; without time and name, so that the same bytes give the same file
   const FilesRead* inputs = nullptr;  // a file of these is not replaced; they must outlive the output
+  bool report_replaced = false;       // a file of other contents that is replaced: for names that nobody has chosen
 };
 
 class OutputFile {

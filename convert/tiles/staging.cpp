@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -38,6 +40,16 @@ void remove_others(const fs::path& folder, const std::string& name) {
   for (const auto& path : others) fs::remove_all(path, none);
 }
 
+/// Whether there is a set of tiles that another program has made.
+bool is_foreign(const fs::path& tileset) {
+  constexpr std::size_t head = 4096;  // the generator stands in front of the tiles
+  std::ifstream in(tileset, std::ios::binary);
+  std::string text(head, '\0');
+  in.read(text.data(), head);
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return !text.empty() && text.find("\"wrlkit\"") == text.npos;
+}
+
 /// -1: somebody else has it.
 int lock_of(const fs::path& folder) {
   const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -51,6 +63,10 @@ int lock_of(const fs::path& folder) {
 std::string tiles_folder(std::uint64_t hash) { return fmt::format("{}{:0{}x}", prefix, hash, digits); }
 
 bool Staging::open(const std::string& folder, Diagnostics& diag) {
+  if (const auto tileset = fs::path(folder) / "tileset.json"; is_foreign(tileset)) {
+    diag.report(Diag::cannot_write, {}, tileset.string(), "it is not of wrlkit tiles; choose another folder");
+    return false;
+  }
   folder_ = folder;
   std::error_code fault;
   made_ = fs::create_directories(folder_, fault);

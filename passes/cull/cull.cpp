@@ -267,10 +267,10 @@ void Culling::remove_shapes() {
 }
 
 void Culling::hand_in_list() const {
-  if (options_.list.empty() || !ctx_.resources) return;
+  if (options_.list.path.empty() || !ctx_.resources) return;
   std::string out;
   for (const auto& name : left_out_) out += name + '\n';
-  ctx_.resources->add_named({options_.list, std::move(out)});
+  ctx_.resources->add_named({options_.list.path, std::move(out)});
 }
 
 }  // namespace

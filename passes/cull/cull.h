@@ -6,6 +6,7 @@
 #include "geometry/tessellation.h"
 #include "passes/pipeline/length_option.h"
 #include "passes/pipeline/pass.h"
+#include "passes/pipeline/written_file.h"
 
 namespace wrlkit {
 
@@ -48,7 +49,7 @@ gets all. The same result for any number of threads.)";
   int rays = 256;
   int seed = 1;
   Tessellation faces;
-  std::string list;
+  WrittenFile list{.endings = WrittenFile::table};
 
   void fields(auto&& f) {
     f("smaller", smaller, "parts of a smaller extent than this go, in metres of the world, or with a unit: 20mm");

@@ -70,7 +70,8 @@ light::LightOptions light_options(const LightmapOptions& o, const Levels& levels
 
 /// Each view has a file of its own: those that are done are there until all are.
 std::string checkpoint_of(const LightmapOptions& o, std::size_t view) {
-  return o.checkpoint.empty() || !view ? o.checkpoint : o.checkpoint + "." + std::to_string(view + 1);
+  const std::string& path = o.checkpoint.path;
+  return path.empty() || !view ? path : path + "." + std::to_string(view + 1);
 }
 
 BakeOptions bake_options(const LightmapOptions& o, std::size_t view, std::string title) {
@@ -336,7 +337,7 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
     if (const Outcome one = bake_view(scene, views, watched); one != Outcome::unchanged) all = one;
     if (!options.patches.empty()) return all;
   }
-  for (std::size_t view = 0; !options.checkpoint.empty() && view <= levels.view(); ++view)
+  for (std::size_t view = 0; !options.checkpoint.path.empty() && view <= levels.view(); ++view)
     bake::Checkpoint::remove(checkpoint_of(options, view));
   if (all == Outcome::changed) views.exposure.keep(scene);
   if (options.budget.seconds > 0 && views.options.rays > 0) keep_size(scene, views.options, ctx.stats);

@@ -12,6 +12,7 @@
 #include "passes/picture_format/picture_format.h"
 #include "passes/pipeline/pass.h"
 #include "passes/pipeline/time_option.h"
+#include "passes/pipeline/written_file.h"
 
 namespace wrlkit {
 
@@ -124,7 +125,8 @@ threads.)";
   UnlitSurfaces unlit = UnlitSurfaces::bake;
   bool directional = false, exr = false, denoise = true;
   PictureFormat format = PictureFormat::png;
-  std::string checkpoint, patches;
+  WrittenFile checkpoint;
+  std::string patches;
   bool smooth = false;
   int seed = 1;
 

@@ -378,7 +378,7 @@ void Merging::report_draws_left(const SceneFigures& left) {
 }
 
 void Merging::hand_in_csv() const {
-  if (options_.csv.empty() || !ctx_.resources) return;
+  if (options_.csv.path.empty() || !ctx_.resources) return;
   std::string out = "id,name,appearance\n";
   // Numbers as those of glTF: by the order in which parts are drawn.
   std::map<std::string_view, std::size_t> ids;
@@ -396,7 +396,7 @@ void Merging::hand_in_csv() const {
                csv_quoted(appearance ? scene_.name(appearance) : std::string_view()) + '\n';
     }
   });
-  ctx_.resources->add_named({options_.csv, std::move(out)});
+  ctx_.resources->add_named({options_.csv.path, std::move(out)});
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "base/option_range.h"
 #include "geometry/tessellation.h"
 #include "passes/pipeline/pass.h"
+#include "passes/pipeline/written_file.h"
 
 namespace wrlkit {
 
@@ -63,7 +64,7 @@ in what is merged, which is there once for each place.)";
   int max_draws = 500;
   bool instanced = false, parts = false;
   Tessellation faces{.triangles = false, .texcoords = true};
-  std::string csv;
+  WrittenFile csv{.endings = WrittenFile::table};
 
   void fields(auto&& f) {
     f("max-draws", max_draws,

@@ -8,6 +8,7 @@
 #include "base/option_range.h"
 #include "base/text/nearest_name.h"
 #include "passes/pipeline/pipeline.h"
+#include "passes/pipeline/written_file.h"
 
 namespace wrlkit {
 namespace option_text {
@@ -147,6 +148,15 @@ class PassOf final : public PassInstance {
     Options copy = options_;
     copy.fields([&](std::string_view name, auto& field, std::string_view help, OptionRange range = {}) {
       out.push_back(option_text::describe(name, field, help, range));
+    });
+    return out;
+  }
+  std::vector<std::pair<std::string_view, WrittenFile>> written_files() const override {
+    std::vector<std::pair<std::string_view, WrittenFile>> out;
+    Options copy = options_;
+    copy.fields([&](std::string_view name, [[maybe_unused]] auto& field, auto&&...) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(field)>, WrittenFile>)
+        if (!field.path.empty()) out.emplace_back(name, field);
     });
     return out;
   }

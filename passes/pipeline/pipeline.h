@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "passes/pipeline/pass.h"
+#include "passes/pipeline/written_file.h"
 
 namespace wrlkit {
 
@@ -37,6 +38,8 @@ class PassInstance {
   /// What the outcome depends on in addition to the scene and the files that it refers to: the pass itself, when it was
   /// read from a file, and files that its options name.
   virtual std::vector<std::string> files() const { return {}; }
+  /// Options that name a file to be written, and those files.
+  virtual std::vector<std::pair<std::string_view, WrittenFile>> written_files() const { return {}; }
 };
 
 /// Where a pass has its place among others: what a pipeline lacks for its writer goes there.
@@ -149,6 +152,8 @@ class Pipeline {
 
   /// PassInstance::files of all passes.
   std::vector<std::string> files() const;
+  /// What its passes write to files that their options name.
+  std::vector<WrittenFileOption> written_files() const;
 
   bool empty() const { return steps_.empty(); }
   struct StepInfo {

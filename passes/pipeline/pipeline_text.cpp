@@ -168,6 +168,14 @@ std::vector<std::string> Pipeline::files() const {
   return out;
 }
 
+std::vector<WrittenFileOption> Pipeline::written_files() const {
+  std::vector<WrittenFileOption> out;
+  for (const auto& s : steps_)
+    for (auto& [option, file] : s.pass->written_files())
+      out.push_back({std::string(s.info->name) + "{" + std::string(option) + "=...}", std::move(file)});
+  return out;
+}
+
 std::string Pipeline::text() const {
   std::string out;
   for (const auto& [name, options] : steps()) {

@@ -8,6 +8,7 @@
 
 #include "base/text/letter_case.h"
 #include "convert/formats.h"
+#include "tools/corpus/inputs.h"
 
 namespace wrlkit {
 namespace {
@@ -27,15 +28,25 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return fs::is_regular_file(a, fault) && fs::equivalent(a, b, fault);
 }
 
+/// A file that a command is to write.
+struct NamedOutput {
+  std::string path, option;    // option: empty for OUT
+  std::string_view endings;    // that its name may have; empty: any
+  bool never_a_scene = false;  // its contents would be no scene, whatever its name is
+};
+
+std::string in_words(const NamedOutput& output) {
+  return output.option + (output.option.empty() ? "'" : " '") + output.path + "'";
+}
+
 /// Prints why not.
-bool is_no_input(const Flags& flags, const std::string& output, std::string_view option) {
+bool is_no_input(const Flags& flags, const NamedOutput& output) {
   for (const auto& input : inputs_of(flags)) {
-    if (!is_same_file(input, output)) continue;
-    const bool could_replace = option.empty() && !flags.inputs.empty() && input == flags.inputs[0];
+    if (!is_same_file(input, output.path)) continue;
+    const bool could_replace = output.option.empty() && !flags.inputs.empty() && input == flags.inputs[0];
     if (could_replace && flags.load.in_place) continue;
-    fmt::print(
-        stderr, "wrlkit: {}{}'{}' is an input of this command, which it would overwrite; choose another name{}\n",
-        option, option.empty() ? "" : " ", output, could_replace && flags.can_replace ? ", or say --in-place" : "");
+    fmt::print(stderr, "wrlkit: {} is an input of this command, which it would overwrite; choose another name{}\n",
+               in_words(output), could_replace && flags.can_replace ? ", or say --in-place" : "");
     return false;
   }
   return true;
@@ -56,31 +67,71 @@ bool is_special(const std::string& path) {
   return path == "-" || (fs::exists(path, fault) && !fs::is_regular_file(path, fault));
 }
 
-bool fits(const std::string& output, std::string_view endings, std::string_view option) {
-  if (output.empty() || endings.empty() || is_special(output) || has_ending(output, endings)) return true;
+bool fits(const NamedOutput& output) {
+  const auto endings = output.endings;
+  if (endings.empty() || has_ending(output.path, endings)) return true;
   std::string list(endings);
   for (auto at = list.find(' '); at != list.npos; at = list.find(' ', at + 2)) list.replace(at, 1, ", ");
-  fmt::print(stderr, "wrlkit: {}{}'{}': its name should end in {}\n", option, option.empty() ? "" : " ", output, list);
+  fmt::print(stderr, "wrlkit: {}: its name should end in {}\n", in_words(output), list);
   return false;
 }
 
-/// Lines are added to a joblog: a scene would be lost by it, an input or not.
-bool is_no_scene(const std::string& joblog) {
-  if (ending_of(joblog, scene_endings()).empty()) return true;
-  fmt::print(stderr, "wrlkit: --joblog '{}' has the name of a scene; choose another name, such as jobs.tsv\n", joblog);
+/// Lines are added to a joblog, a checkpoint is removed in the end: a scene would be lost by it, an input or not.
+bool is_no_scene(const NamedOutput& output) {
+  if (!output.never_a_scene || ending_of(output.path, scene_endings()).empty()) return true;
+  fmt::print(stderr, "wrlkit: {} has the name of a scene; choose another name{}\n", in_words(output),
+             output.option == "--joblog" ? ", such as jobs.tsv" : "");
   return false;
+}
+
+/// Whether two names mean one file, which need not be there yet.
+bool are_one_file(const std::string& a, const std::string& b) {
+  std::error_code fault;
+  const auto one = fs::weakly_canonical(fs::absolute(a, fault), fault);
+  return is_same_file(a, b) || (!fault && one == fs::weakly_canonical(fs::absolute(b, fault), fault) && !fault);
+}
+
+/// The outputs that options and arguments of the command line name.
+std::vector<NamedOutput> outputs_of(const Flags& flags, std::string_view endings) {
+  std::vector<NamedOutput> out{{flags.output, "", endings}};
+  for (const auto& output : flags.outputs) out.push_back({output, "-o", endings});
+  out.push_back({flags.report, "--report", ".json"});
+  out.push_back({flags.joblog, "--joblog", "", true});
+  std::erase_if(out, [](const NamedOutput& o) { return o.path.empty(); });
+  return out;
+}
+
+/// Whether a command may write them, behind those that it may write; prints why not.
+bool may_write(const Flags& flags, std::vector<NamedOutput> known, std::span<const NamedOutput> more) {
+  for (const auto& output : more) {
+    if (is_special(output.path)) continue;
+    if (!is_no_input(flags, output)) return false;
+    for (const auto& other : known) {
+      if (is_special(other.path) || !are_one_file(other.path, output.path)) continue;
+      fmt::print(stderr, "wrlkit: {} and {} are one file; choose another name\n", in_words(other), in_words(output));
+      return false;
+    }
+    if (!fits(output) || !is_no_scene(output)) return false;
+    known.push_back(output);
+  }
+  return true;
 }
 
 }  // namespace
 
 bool check_outputs(const Flags& flags, std::string_view endings) {
-  const auto all = [&](const std::vector<std::string>& outputs, std::string_view option, std::string_view kinds) {
-    return std::ranges::all_of(outputs, [&](const std::string& output) {
-      return fits(output, kinds, option) && is_no_input(flags, output, option);
-    });
-  };
-  return all({flags.output}, "", endings) && all(flags.outputs, "-o", endings) &&
-         all({flags.report}, "--report", ".json") && all({flags.joblog}, "--joblog", "") && is_no_scene(flags.joblog);
+  return may_write(flags, {}, outputs_of(flags, endings));
+}
+
+bool check_written_files(const Flags& flags, std::span<const WrittenFileOption> files) {
+  std::vector<NamedOutput> more;
+  for (const auto& [option, file] : files)
+    more.push_back({file.path, "-p " + option, file.endings, file.endings.empty()});
+  if (!more.empty() && (flags.inputs.size() > 1 || std::ranges::any_of(flags.inputs, means_many))) {
+    fmt::print(stderr, "wrlkit: {} names one file, which each of these worlds would replace\n", in_words(more[0]));
+    return false;
+  }
+  return may_write(flags, outputs_of(flags, ""), more);
 }
 
 Backup::Backup(const Flags& flags) {

@@ -9,6 +9,7 @@
 #include "base/text/json.h"
 #include "base/text/nearest_name.h"
 #include "convert/placing.h"
+#include "tools/cli/outputs.h"
 #include "tools/cli/print_diagnostics.h"
 #include "writers/named_files.h"
 #include "writers/vrml/vrml.h"
@@ -69,7 +70,7 @@ bool Session::choose_pipeline(std::string_view standard) {
     fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));
     return false;
   }
-  return true;
+  return check_written_files(flags_, pipeline_->written_files());
 }
 
 bool Session::printed_pipeline() const {

@@ -97,6 +97,11 @@ std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& wh
     why.clear();
     return std::nullopt;
   }
+  if (const auto written = s.pipeline().written_files(); !written.empty()) {
+    why = fmt::format("{}: error: {} names one file, which each scene would replace\n", corpus_flags.recipe,
+                      written[0].option);
+    return std::nullopt;
+  }
   auto options = f.given;  // of files in Python their contents count, not where they are
   std::erase_if(options, [](const auto& o) { return o.first == "python"; });
   std::string files;

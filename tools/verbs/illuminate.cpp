@@ -94,7 +94,7 @@ void write_pictures(Session& s, const PatchSet& set, const light::LightWorld& wo
     std::string why;
     const auto png = encode_png(as_seen(shape.picture), why);
     if (!png) return s.diag().report(Diag::cannot_write, {}, path, why);
-    auto file = OutputFile::open(path, {.inputs = &s.resources().files_read()}, s.diag());
+    auto file = OutputFile::open(path, {.inputs = &s.resources().files_read(), .report_replaced = true}, s.diag());
     if (!file) return;
     file->write(*png);
     if (!file->commit(s.diag())) return;
