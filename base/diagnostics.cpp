@@ -51,15 +51,25 @@ std::string_view to_string(Severity s) {
 std::string Message::text() const {
   std::string out;
   std::size_t next = 0;
+  bool is_one = false;  // the last number
   std::string_view t = info(id).text;
-  for (std::size_t i = 0; i < t.size(); ++i)
-    if (t.substr(i, 2) == "{}") {
-      if (next < args.size()) out += args[next];
-      ++next;
-      ++i;
-    } else
-      out += t[i];
-  return out;
+  for (auto open = t.find('{'); open != t.npos; open = t.find('{')) {
+    out += t.substr(0, open);
+    const auto close = t.find('}', open), bar = t.substr(0, close).find('|', open);
+    if (bar != t.npos) {
+      out += is_one ? t.substr(open + 1, bar - open - 1) : t.substr(bar + 1, close - bar - 1);
+    } else if (next < args.size()) {
+      is_one = args[next] == "1";
+      out += args[next++];
+    }
+    t.remove_prefix(close + 1);
+  }
+  return out += t;
+}
+
+std::string general_text(const DiagInfo& diag) {
+  constexpr std::size_t most = 8;
+  return Message{diag.id, diag.severity, {}, std::vector<std::string>(most, "{}")}.text();
 }
 
 // Arguments are shown to people: long ones are cut, control characters blanked.

@@ -35,6 +35,8 @@ std::span<const DiagInfo> all_diags();
 const DiagInfo& info(Diag);
 bool find_diag(std::string_view name, Diag& out);
 std::string_view to_string(Severity);
+/// The text of a message with {} in place of what differs.
+std::string general_text(const DiagInfo&);
 
 struct Message {
   Diag id;

@@ -34,8 +34,15 @@ std::string gltf_pipeline(const SaveOptions& o) {
 }
 
 bool stays(const SaveOptions& o) { return o.dump || o.pipeline == "none"; }
-std::string vrml_pipeline(const SaveOptions& o) { return stays(o) ? "none" : sized(text_of("vrml"), o.lightmap_size); }
-std::string x3d_pipeline(const SaveOptions& o) { return o.dump ? "none" : sized(text_of("x3d"), o.lightmap_size); }
+/// With --embed, what Inlines hold is part of the output, too.
+std::string text_pipeline(std::string_view name, const SaveOptions& o) {
+  auto text = sized(text_of(name), o.lightmap_size);
+  constexpr std::string_view first = "lower-vrml1,";
+  if (o.embed) text.insert(text.starts_with(first) ? first.size() : 0, "inline,");
+  return text;
+}
+std::string vrml_pipeline(const SaveOptions& o) { return stays(o) ? "none" : text_pipeline("vrml", o); }
+std::string x3d_pipeline(const SaveOptions& o) { return o.dump ? "none" : text_pipeline("x3d", o); }
 
 constexpr FileFormat file_formats[] = {
     {.name = "VRML97",
@@ -92,6 +99,17 @@ constexpr FileFormat file_formats[] = {
      .first_bytes = "their own",
      .reads = "as textures; SGI DDS PCX XBM",
      .writes = "PNG, JPEG, WebP, EXR"},
+};
+
+struct ForeignFormat {
+  std::string_view ending, name;
+};
+constexpr ForeignFormat foreign_formats[] = {
+    {".obj", "Wavefront OBJ"}, {".fbx", "FBX"},          {".stl", "STL"},       {".dae", "COLLADA"},
+    {".ply", "PLY"},           {".3ds", "3D Studio"},    {".blend", "Blender"}, {".usd", "USD"},
+    {".usda", "USD"},          {".usdz", "USD"},         {".step", "STEP"},     {".stp", "STEP"},
+    {".iges", "IGES"},         {".igs", "IGES"},         {".ifc", "IFC"},       {".dwg", "AutoCAD"},
+    {".dxf", "AutoCAD DXF"},   {".dgn", "MicroStation"}, {".rvm", "AVEVA RVM"}, {".jt", "JT"},
 };
 
 const FileFormat& glb() { return *std::ranges::find(file_formats, "GLB", &FileFormat::name); }
@@ -164,6 +182,12 @@ std::optional<Output> output_of(const std::string& path, const SaveOptions& opti
   }
   if (!best) return std::nullopt;
   return Output{best, path, best->is_text && (options.gzip || is_packed_ending(ending))};
+}
+
+std::string_view foreign_format(std::string_view name) {
+  const auto found = std::ranges::find_if(
+      foreign_formats, [&](const ForeignFormat& f) { return ends_with_ignoring_case(name, f.ending); });
+  return found == std::end(foreign_formats) ? std::string_view() : found->name;
 }
 
 }  // namespace wrlkit

@@ -42,6 +42,8 @@ std::vector<std::string_view> output_endings();
 std::string output_endings_text();
 /// The ending in the list that a file name has, whatever its case; empty when it has none of them.
 std::string_view ending_of(std::string_view name, std::span<const std::string_view> endings);
+/// What a file of another program is, by the ending of its name: "Wavefront OBJ" of .obj; empty: not known, or ours.
+std::string_view foreign_format(std::string_view name);
 /// Whether a file with that ending is packed.
 bool is_packed_ending(std::string_view ending);
 

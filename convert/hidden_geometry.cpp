@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "convert/startup_scripts.h"
+#include "passes/lower_vrml1/lower_vrml1.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -67,6 +68,14 @@ class Census {
   double all() const { return sum(scene_.main.roots, &Count::all); }
   double hidden() const { return sum(scene_.main.roots, &Count::hidden); }
 
+  /// The Switch that hides most.
+  NodeId first() const {
+    NodeId out;
+    for (const NodeId n : reachable(scene_, scene_.main))
+      if (is_off(scene_, n) && (!out || counts_[n.value].all > counts_[out.value].all)) out = n;
+    return out;
+  }
+
   /// The Switches that are off, those that hide most first.
   std::vector<std::string> names() const {
     std::map<std::string, double> by_name;
@@ -114,10 +123,12 @@ int per_cent(double hidden, double all) {
   return hidden < all ? std::min(rounded, 99) : rounded;
 }
 
-}  // namespace
+/// A Switch of VRML 1.0 that shows nothing.
+bool is_off_in_vrml1(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::vrml1::Switch) && scene.get(n, nodes::vrml1::switch_::whichChild) == -1;
+}
 
-void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
-  if (!any_node(scene, [&](NodeId n) { return is_off(scene, n); })) return;  // most scenes: nothing to count
+void report_hidden(const Scene& scene, Diagnostics& diag) {
   const Census census(scene);
   const double all = census.all(), hidden = census.hidden();
   if (!(hidden >= least_share * all) || hidden == 0 || !std::isfinite(all)) return;
@@ -126,8 +137,22 @@ void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
   for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i) list += (i ? ", " : "") + names[i];
   if (names.size() > most_names) list += ", ...";
   const bool scripted = startup_scripts(scene).switches();
-  diag.report(Diag::hidden_geometry, {}, per_cent(hidden, all), list,
+  diag.report(Diag::hidden_geometry, scene.where(census.first()), per_cent(hidden, all), list,
               scripted ? "; --run-startup runs the Scripts that may turn them on" : "");
+}
+
+}  // namespace
+
+void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
+  if (any_node(scene, [&](NodeId n) { return is_off_in_vrml1(scene, n); })) {
+    Scene lowered = scene;
+    Diagnostics unheard(diag.shared_sources());
+    Statistics uncounted;
+    PassContext silent(unheard, uncounted);
+    lower_vrml1(lowered, {}, silent);
+    return report_hidden(lowered, diag);
+  }
+  if (any_node(scene, [&](NodeId n) { return is_off(scene, n); })) report_hidden(scene, diag);
 }
 
 }  // namespace wrlkit

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "base/image/image.h"
-#include "convert/hidden_geometry.h"
+#include "convert/nothing_shown.h"
 #include "convert/startup_scripts.h"
 #include "convert/world_meshes.h"
 #include "scenegraph/nodes.h"
@@ -93,7 +93,7 @@ std::optional<Info> info(Document&& document, const InfoOptions& options) {
   if (!document) return std::nullopt;
   const World& world = document.world();
   check_values(world.scene, document.diag());
-  report_hidden_geometry(world.scene, document.diag());
+  report_undrawn(world.scene, document.diag());
   if (!document.runs_startup()) report_startup_scripts(world.scene, document.diag());
   Info out{.format = world.format, .gzip = world.gzip, .bytes = world.bytes};
   count_authored(world.scene, out);

@@ -139,7 +139,9 @@ struct SaveOptions {
     f("link", link,
       "the output refers to files outside its folder where they are; without it they are copied into a folder next to "
       "it, out/room_files for out/room.wrl");
-    f("embed", embed, "pictures of VRML and X3D, and in extras of glTF, stand in the output itself, as data urls");
+    f("embed", embed,
+      "pictures of VRML and X3D, and in extras of glTF, stand in the output itself, as data urls; what Inlines hold, "
+      "too");
   }
   void text_fields(auto&& f) {
     f("gzip", gzip, "compress VRML output");

@@ -12,6 +12,7 @@
 #include "base/hashing.h"
 #include "base/parallel.h"
 #include "base/stop.h"
+#include "convert/nothing_shown.h"
 #include "convert/tiles/cell_keys.h"
 #include "convert/tiles/coarser.h"
 #include "convert/tiles/content.h"
@@ -76,6 +77,7 @@ class Making {
     return !stored;
   }
 
+  bool read_world(const std::string& path);
   bool gather(std::span<const TilesInput> inputs);
   bool make_all();
   void plan();
@@ -127,6 +129,12 @@ class Making {
   TilesMade out_;
 };
 
+bool Making::read_world(const std::string& path) {
+  if (!reader_.read(path)) return false;
+  report_undrawn(reader_.scene(), ctx_.diag);
+  return true;
+}
+
 bool Making::gather(std::span<const TilesInput> inputs) {
   std::set<std::string> names;
   bool stored = true;
@@ -143,8 +151,7 @@ bool Making::gather(std::span<const TilesInput> inputs) {
   for (const auto& input : inputs) {
     check_stop();
     ++out_.n_files;
-    const bool read =
-        reader_.read(input.path) && pieces_of(reader_, input.name, options_.triangles, looks_, put, counts);
+    const bool read = read_world(input.path) && pieces_of(reader_, input.name, options_.triangles, looks_, put, counts);
     progress.next();
     if (is_full(stored)) return false;
     check_stop();
@@ -156,7 +163,11 @@ bool Making::gather(std::span<const TilesInput> inputs) {
   out_.lost = std::move(counts.lost);
   const auto& folders = looks_.picture_folders();
   pictures_ = std::make_unique<FileResources>(ResourceOptions{.allowed = {folders.begin(), folders.end()}}, nullptr);
-  if (entries_.empty()) ctx_.diag.report(Diag::nothing_drawn, {}, "there is no geometry in any of the files");
+  if (entries_.empty())
+    ctx_.diag.report(Diag::nothing_drawn, {},
+                     ctx_.diag.count(Diag::hidden_geometry) > 0
+                         ? "what there is, is in Switches that are off; use --show-all"
+                         : "there is no geometry in any of the files");
   return !entries_.empty();
 }
 

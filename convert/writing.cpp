@@ -4,10 +4,12 @@
 #include <functional>
 
 #include "base/io/output.h"
+#include "base/io/url.h"
 #include "base/stop.h"
 #include "convert/output_urls.h"
 #include "convert/repeated_meshes.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/urls.h"
 #include "scenegraph/walk.h"
 #include "writers/made_files.h"
 #include "writers/named_files.h"
@@ -18,6 +20,30 @@ namespace wrlkit {
 namespace {
 
 using TextWriter = void (*)(const Scene&, const TextOptions&, const Sink&, Diagnostics&);
+
+/// A file of this computer, from anywhere.
+bool is_local(std::string_view url) { return url_kind(url) == UrlKind::file; }
+
+/// What readers of VRML take for VRML.
+bool has_vrml_name(std::string_view url) {
+  const auto name = url.substr(0, url.find('#'));
+  const auto ending = ending_of(name, scene_endings());
+  return ending.empty() || std::ranges::any_of(formats(), [&](const FileFormat& f) {
+           return f.parsed == Format::vrml97 && !ending_of(name, endings_of(f)).empty();
+         });
+}
+
+/// Inlines that browsers of VRML97 do not read.
+void report_inlines(const Writing& w) {
+  auto& resources = *w.context.resources;
+  for_each_url_list(w.scene, UrlFields(w.scene), [&](Span where, std::span<const std::string_view> urls, UrlUse use) {
+    if (use != UrlUse::world || std::ranges::any_of(urls, has_vrml_name)) return;
+    const bool found = std::ranges::any_of(urls, [&](std::string_view url) {
+      return resources.target(url, where, *w.scene.sources).kind == UrlTarget::Kind::file;
+    });
+    if (found) w.context.diag.report(Diag::no_vrml97_inline, where, urls[0]);
+  });
+}
 
 bool write_text(const Writing& w, TextWriter write) {
   auto& diag = w.context.diag;
@@ -32,6 +58,7 @@ bool write_text(const Writing& w, TextWriter write) {
       diag);
   if (!file) return false;
   if (w.context.monitor) w.context.monitor->begin(path == "-" ? "" : "writing " + path, 0, "");
+  if (path != "-" && !w.options.dump && w.to.format->parsed == Format::vrml97) report_inlines(w);
   MadeFiles made(w.scene, *w.context.resources, path, diag);
   options.file = path == "-" || w.options.keep_urls ? "" : path;
   options.place = [&](std::string_view url) { return made.place(url); };
@@ -77,6 +104,17 @@ void say_why_empty(const Scene& scene, Diagnostics& diag) {
 }
 
 }  // namespace
+
+void report_missing_files(const Scene& scene, Resources& resources, Diagnostics& diag) {
+  for_each_url_list(scene, UrlFields(scene), [&](Span where, std::span<const std::string_view> urls, UrlUse use) {
+    const bool is_part = use == UrlUse::texture || use == UrlUse::picture || use == UrlUse::world;
+    if (!is_part || !std::ranges::all_of(urls, is_local)) return;
+    const bool found = std::ranges::any_of(urls, [&](std::string_view url) {
+      return resources.target(url, where, *scene.sources).kind != UrlTarget::Kind::nothing;
+    });
+    if (!found) resources.bytes(urls, where, diag);  // reports it
+  });
+}
 
 bool write_vrml_file(const Writing& w) { return write_text(w, write_vrml); }
 bool write_x3d_file(const Writing& w) { return write_text(w, write_x3d); }

@@ -158,7 +158,7 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   }
   auto header = read_header(body);
   if (header.format == Format::none) {
-    diag.report(Diag::unknown_format, whole, describe_bytes(body));
+    diag.report(Diag::unknown_format, whole, describe_bytes(body) + "; VRML, X3D, Inventor and glTF are read");
     return nullptr;
   }
   if (header.format == Format::gltf) return parse_gltf(body, base, path, options, diag);

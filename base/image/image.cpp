@@ -11,6 +11,7 @@
 #include "base/image/image_module.h"
 #include "base/image/png.h"
 #include "base/io/own_files.h"
+#include "base/text/letter_case.h"
 
 namespace wrlkit {
 namespace {
@@ -138,7 +139,7 @@ struct Extension {
 constexpr Extension extensions[] = {{".png", encode_png}, {".jpg", jpeg_of}, {".jpeg", jpeg_of}, {".webp", webp_of}};
 
 const Extension* extension_of(std::string_view name) {
-  auto i = std::ranges::find_if(extensions, [&](const Extension& e) { return name.ends_with(e.end); });
+  auto i = std::ranges::find_if(extensions, [&](const Extension& e) { return ends_with_ignoring_case(name, e.end); });
   return i == std::end(extensions) ? nullptr : i;
 }
 

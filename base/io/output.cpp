@@ -67,9 +67,12 @@ int write_all(int fd, std::span<const std::string_view> pieces) {
 
 std::string reason(int error, const fs::path& path) {
   std::error_code ec;
-  if (error == ENOENT) return "the folder '" + path.parent_path().string() + "' does not exist";
+  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+  if (error == ENOENT && fs::is_directory(folder, ec)) return "no file can be made in the folder '" + folder + "'";
+  if (error == ENOENT) return "the folder '" + folder + "' does not exist";
   if (error == EISDIR) return "it is a directory";
   if (error == ENOTDIR) return "'" + path.parent_path().string() + "' is not a folder";
+  if (error == EACCES && !fs::exists(path, ec)) return "permission denied in the folder '" + folder + "'";
   if (error == EACCES) return "permission denied";
   if (error == ENOSPC) return "the disk is full";
   return std::generic_category().message(error);
@@ -102,6 +105,7 @@ struct OutputFile::State {
   std::string gathered;
 
   std::vector<fs::path> made_folders;  // the outermost first
+  std::string unmade;                  // a folder that could not be made
 
   ~State() {
     discard();
@@ -109,7 +113,7 @@ struct OutputFile::State {
     while (!made_folders.empty() && fs::remove(made_folders.back(), none)) made_folders.pop_back();
   }
 
-  /// The folder of the target, where it is not there yet.
+  /// The folder of the target, where it is not there yet. When it cannot be made, that is the error.
   void make_folder() {
     std::vector<fs::path> missing;
     std::error_code fault;
@@ -117,6 +121,9 @@ struct OutputFile::State {
       missing.push_back(at);
     for (fault.clear(); !missing.empty() && !fault; missing.pop_back())
       if (fs::create_directory(missing.back(), fault)) made_folders.push_back(missing.back());
+    if (!fault || fault == std::errc::not_a_directory) return;
+    error = fault.value();
+    unmade = fs::path(missing.empty() ? folder() : missing.back()).string();
   }
 
   void discard() {
@@ -171,6 +178,7 @@ struct OutputFile::State {
   void open_temporary() {
     constexpr mode_t everybody = 0666;  // less the umask
     make_folder();
+    if (error) return;
     bool can_get_name = access("/proc/self/fd", X_OK) == 0;
     if (can_get_name) fd = ::open(folder().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, everybody);
     if (!can_get_name || (fd < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL))) {
@@ -295,7 +303,11 @@ struct OutputFile::State {
   }
 
   bool report(Diagnostics& diag) const {
-    const auto why = is_input ? "it is one of the files that were read; choose another name" : reason(error, target);
+    const auto why = is_input ? "it is one of the files that were read; choose another name"
+                     : !unmade.empty()
+                         ? "the folder '" + unmade + "' cannot be made: " + std::generic_category().message(error)
+                     : kind == direct && error == ENOSPC ? "there is no space left"
+                                                         : reason(error, target);
     if (error) diag.report(Diag::cannot_write, {}, name, why);
     if (!error && has_replaced_another) diag.report(Diag::file_replaced, {}, name);
     return error == 0;

@@ -18,6 +18,7 @@ constexpr std::size_t head_size = 64 * 1024;  // read to see whether it is gzip
 std::string reason(int error) {
   if (error == ENOENT || error == ENOTDIR) return "there is no such file";
   if (error == EACCES) return "permission denied";
+  if (error == ENOMEM) return "there is not enough memory";
   return std::generic_category().message(error);
 }
 

@@ -1,5 +1,7 @@
 #include "light/render/render.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,14 +21,23 @@ namespace {
 
 using namespace drawing;
 
-/// The name, and the one that may have been meant, to be put in quotes.
-std::string asked_for(const Scene& scene, const Stage& stage, const std::string& name) {
+/// What may have been meant by a name that no Viewpoint has: one that is nearly it, otherwise all, as far as a line
+/// goes.
+std::string viewpoint_question(const Scene& scene, const Stage& stage, const std::string& name) {
+  constexpr std::size_t most = 12;
   NearestName nearest(name);
+  std::string all;
+  std::size_t n = 0;
   for (const Placed& p : stage.viewpoints) {
-    nearest.consider(scene.name(p.node));
-    nearest.consider(scene.get(p.node, nodes::viewpoint::description));
+    const std::string_view def = scene.name(p.node), description = scene.get(p.node, nodes::viewpoint::description);
+    nearest.consider(def);
+    nearest.consider(description);
+    if (const auto called = description.empty() ? def : description; !called.empty() && n++ < most)
+      all += fmt::format("{}'{}'", all.empty() ? "" : ", ", called);
   }
-  return nearest.best().empty() ? name : name + "'; did you mean '" + std::string(nearest.best());
+  if (!nearest.best().empty()) return nearest.question();
+  if (n == 0) return "; it has none with a name";
+  return "; there are " + all + (n > most ? ", ..." : "");
 }
 
 /// The Viewpoint that the options ask for; none: fit.
@@ -34,7 +45,8 @@ std::optional<Placed> choose_viewpoint(const Scene& scene, const Stage& stage, c
                                        Diagnostics& diag) {
   if (options.fit || stage.viewpoints.empty()) {
     if (!options.viewpoint.empty() && !options.fit)
-      diag.report(Diag::viewpoint_not_found, {}, asked_for(scene, stage, options.viewpoint));
+      diag.report(Diag::viewpoint_not_found, {}, options.viewpoint,
+                  viewpoint_question(scene, stage, options.viewpoint));
     return {};
   }
   if (options.viewpoint.empty()) return stage.viewpoints.front();
@@ -42,7 +54,7 @@ std::optional<Placed> choose_viewpoint(const Scene& scene, const Stage& stage, c
     if (scene.name(p.node) == options.viewpoint) return p;
   for (const Placed& p : stage.viewpoints)
     if (scene.get(p.node, nodes::viewpoint::description) == options.viewpoint) return p;
-  diag.report(Diag::viewpoint_not_found, {}, asked_for(scene, stage, options.viewpoint));
+  diag.report(Diag::viewpoint_not_found, {}, options.viewpoint, viewpoint_question(scene, stage, options.viewpoint));
   return stage.viewpoints.front();
 }
 

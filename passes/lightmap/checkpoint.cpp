@@ -37,7 +37,8 @@ std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t hash)
 Checkpoint::Checkpoint(const std::string& path, std::uint64_t key) : path_(path) {
   if (path.empty()) return;
   if (is_foreign(path))
-    throw std::system_error(std::make_error_code(std::errc::file_exists), path + " is not a checkpoint");
+    throw std::system_error(std::make_error_code(std::errc::file_exists),
+                            "checkpoint=" + path + ": that file is something else; choose another name");
   std::string head(magic);
   put(head, key);
   std::uint64_t end = 0;
@@ -50,7 +51,8 @@ Checkpoint::Checkpoint(const std::string& path, std::uint64_t key) : path_(path)
   if (end) std::filesystem::resize_file(path, end);
   out_.open(path, std::ios::binary | (end ? std::ios::app : std::ios::trunc));
   if (!end) out_ << head << std::flush;
-  if (!out_) throw std::system_error(errno ? errno : EIO, std::generic_category(), path);
+  if (!out_)
+    throw std::system_error(errno ? errno : EIO, std::generic_category(), "checkpoint=" + path + " cannot be written");
 }
 
 void Checkpoint::remove(const std::string& path) {

@@ -11,9 +11,33 @@
 namespace wrlkit {
 namespace {
 
+namespace v1 = nodes::vrml1;
+
+bool is_switch(const Scene& scene, NodeId n) { return scene.is(n, nodes::Switch) || scene.is(n, v1::Switch); }
+
+int choice_of(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::Switch) ? scene.get(n, nodes::switch_::whichChoice) : scene.get(n, v1::switch_::whichChild);
+}
+
+void choose(Scene& scene, NodeId n, int which) {
+  if (scene.is(n, nodes::Switch))
+    scene.set(n, nodes::switch_::whichChoice, which);
+  else
+    scene.set(n, v1::switch_::whichChild, which);
+}
+
+std::size_t n_children(const Scene& scene, NodeId n) {
+  if (scene.is(n, nodes::Switch)) return hierarchy_children(scene, n).size();
+  std::size_t out = 0;
+  for_each_child(scene, n, [&](NodeId) { ++out; });
+  return out;
+}
+
+/// In VRML 1.0, -3 stands for all children, and -2, of Inventor, for what the Switch around it shows.
 bool is_off(const Scene& scene, NodeId n) {
-  const auto which = scene.get(n, nodes::switch_::whichChoice);
-  return which < 0 || static_cast<std::size_t>(which) >= hierarchy_children(scene, n).size();
+  const auto which = choice_of(scene, n);
+  if (scene.is(n, v1::Switch) && which < -1) return false;
+  return which < 0 || static_cast<std::size_t>(which) >= n_children(scene, n);
 }
 
 bool fits(const Scene& scene, NodeId n, const std::string& pattern) {
@@ -22,10 +46,14 @@ bool fits(const Scene& scene, NodeId n, const std::string& pattern) {
 }
 
 /// The child that a Switch is to show; -1: none.
-int wanted(const Scene& scene, NodeId n, const SwitchOptions& options) {
-  int which = scene.get(n, nodes::switch_::whichChoice);
+int wanted(const Scene& scene, NodeId n, const SwitchOptions& options, Diagnostics& diag) {
+  int which = choice_of(scene, n);
+  const int before = which;
   for (const auto& [pattern, choice] : options.choices)
     if (fits(scene, n, pattern)) which = choice;
+  const auto children = n_children(scene, n);
+  if (which != before && which >= 0 && static_cast<std::size_t>(which) >= children)
+    diag.report(Diag::no_switch_child, scene.where(n), scene.name(n), std::max<std::size_t>(children, 1) - 1, which);
   return which;
 }
 
@@ -38,6 +66,7 @@ void report_unused(const Scene& scene, std::span<const NodeId> switches, const S
 
 /// Shows all children of a Switch.
 void show_all(Scene& scene, NodeId n) {
+  if (scene.is(n, v1::Switch)) return choose(scene, n, -3);
   const auto children = hierarchy_children(scene, n);
   if (children.empty()) return;
   scene.set(n, nodes::switch_::whichChoice, 0);
@@ -52,13 +81,13 @@ void show_all(Scene& scene, NodeId n) {
 Outcome switch_on(Scene& scene, const SwitchOptions& options, PassContext& ctx) {
   std::size_t n_changed = 0;
   auto switches = all_nodes(scene);
-  std::erase_if(switches, [&](NodeId n) { return !scene.is(n, nodes::Switch); });
+  std::erase_if(switches, [&](NodeId n) { return !is_switch(scene, n); });
   report_unused(scene, switches, options, ctx.diag);
   for (const NodeId n : switches) {
-    const int before = scene.get(n, nodes::switch_::whichChoice);
-    if (const int which = wanted(scene, n, options); which != before) scene.set(n, nodes::switch_::whichChoice, which);
+    const int before = choice_of(scene, n);
+    if (const int which = wanted(scene, n, options, ctx.diag); which != before) choose(scene, n, which);
     if (options.all && is_off(scene, n)) show_all(scene, n);
-    n_changed += scene.get(n, nodes::switch_::whichChoice) != before;
+    n_changed += choice_of(scene, n) != before;
   }
   ctx.stats["switch.changed"] += n_changed;
   return n_changed ? Outcome::changed : Outcome::unchanged;

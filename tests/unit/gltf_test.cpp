@@ -127,7 +127,8 @@ TEST_CASE("Nodes without a counterpart are kept where they are", "[gltf]") {
   CHECK(g.messages(Diag::no_gltf_node) ==
         std::vector{
             "no counterpart in glTF, kept in extras: Background, PositionInterpolator, Script, Sound, TimeSensor"s});
-  CHECK(g.messages(Diag::no_gltf_route) == std::vector{"2 ROUTEs have no counterpart in glTF; kept in extras"s});
+  CHECK(g.messages(Diag::no_gltf_route) ==
+        std::vector{"ROUTEs have no counterpart in glTF (2 of them); kept in extras"s});
 }
 
 TEST_CASE("WorldInfo and the leading comment belong to the asset", "[gltf]") {

@@ -189,7 +189,7 @@ TEST_CASE("A full disk is reported once, by commit", "[output]") {
   REQUIRE(out);
   for (int i = 0; i < 5; ++i) out->write(std::string(100'000, 'x'));
   CHECK_FALSE(out->commit(diag));
-  CHECK(only_message(diag) == "cannot write '/dev/full': the disk is full");
+  CHECK(only_message(diag) == "cannot write '/dev/full': there is no space left");
 }
 
 TEST_CASE("A file in the way of the target is found out at commit, and nothing stays", "[output]") {

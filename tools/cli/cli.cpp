@@ -1,9 +1,12 @@
 #include "tools/cli/cli.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 
 #include "base/text/amounts.h"
@@ -36,14 +39,30 @@ std::vector<std::string> take_warning_flags(std::vector<std::string>& words) {
   return out;
 }
 
-/// A corpus run has a time for each file, and divides the memory among its workers.
-void limit(const Verb& verb, const Flags& f) {
+/// Address space that this program has, in bytes; 0 when the system does not say.
+std::uint64_t own_memory() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// A corpus run has a time for each file, and divides the memory among its workers. False, which was printed, when the
+/// memory would not be enough to begin with.
+bool limit(const Verb& verb, const Flags& f) {
   const std::string_view name = verb.name;
   if (f.is_given("timeout") && name != "corpus-run") limit_time(seconds_of(f.timeout));
-  if (f.memory.empty() || name.starts_with("corpus")) return;
+  if (f.memory.empty() || name.starts_with("corpus")) return true;
+  constexpr std::uint64_t to_work = 16 << 20, mega = 1 << 20;
   const rlim_t bytes = size_of(f.memory);
+  const auto needed = own_memory() + to_work;
+  if (bytes < needed) {
+    std::fprintf(stderr, "wrlkit: --memory %s: the program alone needs %lluM\n", f.memory.c_str(),
+                 static_cast<unsigned long long>(needed / mega + 1));
+    return false;
+  }
   const rlimit limit{bytes, bytes};
   setrlimit(RLIMIT_AS, &limit);
+  return true;
 }
 
 constexpr std::string_view program_help = "wrlkit: legacy virtual worlds (VRML97) to glTF, and back to better VRML";
@@ -85,7 +104,10 @@ std::string fault_text(const CLI::ParseError& fault, const std::vector<std::stri
   const Verb* verb = words.empty() ? nullptr : find_verb(words[0]);
   std::string what = fault.what();
   what = what.substr(0, what.find_last_not_of(".\n") + 1);
-  if (!verb) return "wrlkit: " + what + "; see wrlkit --help\n";
+  if (!verb) {
+    const auto fault = program_option_fault(words);
+    return fault.empty() ? "wrlkit: " + what + "; see wrlkit --help\n" : fault;
+  }
   std::vector<std::string> options;
   Flags unused;
   const auto app = app_of(*verb, unused);
@@ -250,7 +272,7 @@ int run_command_line(int argc, char** argv) {
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
   if (!check_outputs(flags, chosen->endings)) return usage;
-  limit(*chosen, flags);
+  if (!limit(*chosen, flags)) return usage;
   return chosen->run(flags);
 }
 

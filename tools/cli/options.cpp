@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/math/digits.h"
 #include "base/text/amounts.h"
 #include "base/text/letter_case.h"
 #include "base/text/nearest_name.h"
@@ -167,6 +168,20 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
 CLI::Validator a_criterion() {
   return {[](const std::string& text) { return CriterionName::fault(text); },
           one_of(criterion_names()).get_description()};
+}
+
+CLI::Validator a_share() {
+  const auto read = [](std::string& text) {
+    const std::string given = text;
+    const bool percent = text.ends_with('%');
+    if (percent) text.pop_back();
+    double v = 0;
+    if (!read_number(std::string_view(text), v) || !(v >= 0) || v > (percent ? 100 : 1))
+      return "'" + given + "' is not a share from 0 to 1: 0.5, 50%";
+    if (percent) text = shortest_text(v / 100);
+    return std::string();
+  };
+  return {read, "SHARE"};
 }
 
 void python(CLI::App& verb, Flags& f) {

@@ -20,6 +20,8 @@ void placing(CLI::App& verb, Flags&);
 CLI::Validator one_of(const std::vector<std::string>& names);
 /// One of the names; of a criterion that this build does without, the reason.
 CLI::Validator a_criterion();
+/// A number from 0 to 1, or per cent: 0.5, 50%.
+CLI::Validator a_share();
 void python(CLI::App& verb, Flags&);
 void pipeline(CLI::App& verb, Flags&);
 void light(CLI::App& verb, Flags&);

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "base/io/output.h"
 #include "base/text/json.h"
 #include "base/text/nearest_name.h"
+#include "convert/nothing_shown.h"
 #include "convert/placing.h"
 #include "tools/cli/outputs.h"
 #include "tools/cli/print_diagnostics.h"
@@ -71,6 +73,18 @@ bool Session::choose_pipeline(std::string_view standard) {
     return false;
   }
   return check_written_files(flags_, pipeline_->written_files());
+}
+
+bool Session::runs(std::string_view pass) const {
+  if (!pipeline_) return false;
+  const auto steps = pipeline_->steps();
+  return std::ranges::find(steps, pass, &Pipeline::StepInfo::name) != steps.end();
+}
+
+bool Session::read(const std::string& path) {
+  if (!document_.read(path)) return false;
+  if (!runs("switch") && !runs("startup")) report_undrawn(world().scene, diag());
+  return true;
 }
 
 bool Session::printed_pipeline() const {

@@ -27,12 +27,15 @@ class Session {
   PassContext& context() { return document_.context(); }
   Progress& progress() { return progress_; }
 
-  /// Reads a scene, in place of the one before; false when nothing can be read.
-  bool read(const std::string& path) { return document_.read(path); }
+  /// Reads a scene, in place of the one before; false when nothing can be read. What a browser would not draw of it is
+  /// reported.
+  bool read(const std::string& path);
   World& world() { return document_.world(); }
   /// -p with what it lacks of `standard`, otherwise `standard`; false when it is not a pipeline, which was printed.
   bool choose_pipeline(std::string_view standard);
   Pipeline& pipeline() { return *pipeline_; }
+  /// Whether the pipeline, when there is one, has that pass.
+  bool runs(std::string_view pass) const;
   PipelineOptions pipeline_options();
   /// True after --print-pipeline, with which a verb ends here.
   bool printed_pipeline() const;

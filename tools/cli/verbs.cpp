@@ -59,7 +59,7 @@ constexpr Verb all_verbs[] = {
     {"info", "what is inside: nodes, triangles, bounds, textures, lights",
      "wrlkit info plant.wrl --json\n  wrlkit info plant.wrl --recognise\n  wrlkit info plant/",
      [](CLI::App& v, Flags& f) {
-       v.add_option("IN", f.inputs, "worlds, and folders of worlds; - is standard input")->required();
+       v.add_option("IN", f.inputs, "worlds, folders, globs, @FILE: a list of worlds; - is standard input")->required();
        v.add_flag("--recognise", f.recognise,
                   "what the parts are, too: how many cylinders, boxes, elbows and the like, and their share of the "
                   "triangles; see wrlkit passes recognise");
@@ -68,7 +68,7 @@ constexpr Verb all_verbs[] = {
      run_info},
     {"check", "faults and doubtful places of worlds", "wrlkit check *.wrl\n  wrlkit check old/ --quick",
      [](CLI::App& v, Flags& f) {
-       v.add_option("IN", f.inputs, "worlds, and folders of worlds; - is standard input")->required();
+       v.add_option("IN", f.inputs, "worlds, folders, globs, @FILE: a list of worlds; - is standard input")->required();
        v.add_flag("--quick", f.quick, "without geometry and pictures");
        v.add_flag("--parse-only", f.parse_only, "only read them: no values checked, no Inlines followed");
      },
@@ -149,10 +149,12 @@ constexpr Verb all_verbs[] = {
        v.add_option("--every", f.every, "a file for every N triangles removed: at the multiples of N")
            ->check(CLI::Range(1, 1'000'000'000))
            ->type_name("N");
-       v.add_option("--counts", f.counts, "a file at each of these numbers of triangles")->delimiter(',');
+       v.add_option("--counts", f.counts, "a file at each of these numbers of triangles")
+           ->delimiter(',')
+           ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000}));
        v.add_option("--ratios", f.ratios, "a file at each of these shares of the triangles")
            ->delimiter(',')
-           ->check(CLI::Range(0.0, 1.0));
+           ->transform(a_share());
        v.add_option(
             "--error", f.errors,
             "a file with each surface as simple as it can be within this distance: 2mm, 0.5in; a number is in metres")
@@ -169,6 +171,7 @@ constexpr Verb all_verbs[] = {
        pipeline(v, f);
        vrml_output(v, f);
        files(v, f);
+       placing(v, f);
      },
      run_simplify},
     {"compare-lod", "what each criterion makes of a world: a page of errors, times and pictures, or one picture of all",
@@ -180,10 +183,12 @@ constexpr Verb all_verbs[] = {
                     "file.html; or file.png: the pictures alone, four in a row, a row for each criterion")
            ->required()
            ->type_name("FILE");
-       v.add_option("--counts", f.counts, "numbers of triangles to compare at")->delimiter(',');
+       v.add_option("--counts", f.counts, "numbers of triangles to compare at")
+           ->delimiter(',')
+           ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000}));
        v.add_option("--ratios", f.ratios, "instead, shares of the triangles; default 0.5,0.25,0.1,0.05,0.02,0.01")
            ->delimiter(',')
-           ->check(CLI::Range(0.0, 1.0));
+           ->transform(a_share());
        v.add_option("--criteria", f.criteria, "criteria to compare; default: all")
            ->delimiter(',')
            ->check(a_criterion());

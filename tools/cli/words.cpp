@@ -69,14 +69,44 @@ std::optional<int> verb_of_files(std::vector<std::string>& words) {
   return std::nullopt;
 }
 
+/// 'corpus run' in quotes is two words.
+void split_corpus_verb(std::vector<std::string>& words) {
+  constexpr std::string_view front = "corpus ";
+  const auto at = std::ranges::find_if(words.begin(), words.begin() + std::min<std::ptrdiff_t>(std::ssize(words), 2),
+                                       [&](const std::string& word) { return word.starts_with(front); });
+  if (at == words.begin() + std::min<std::ptrdiff_t>(std::ssize(words), 2)) return;
+  const std::string second = at->substr(front.size());
+  *at = corpus;
+  words.insert(at + 1, second);
+}
+
+/// "-o", which many programs have, where this verb takes the output behind the input.
+std::string output_hint(const std::string& verb, const std::vector<std::string>& words) {
+  const bool has = std::ranges::any_of(words, [](const auto& w) { return w == "-o" || w.starts_with("--output"); });
+  const Verb* found = find_verb(verb);
+  const std::string_view example = found ? found->example : "";
+  return has ? fmt::format("{} writes to the name behind the input, without -o: {}", verb,
+                           example.substr(0, example.find('\n')))
+             : std::string();
+}
+
 }  // namespace
 
 std::string spoken_verb(const std::string& verb) {
   return verb.starts_with("corpus-") ? "corpus " + verb.substr(7) : verb;
 }
 
+std::string program_option_fault(const std::vector<std::string>& words) {
+  if (words.empty() || !words[0].starts_with("--")) return {};
+  NearestName nearest(words[0]);
+  for (const auto* option : {"--help", "--version"}) nearest.consider(option);
+  return fmt::format("wrlkit: there is no option '{}' without a verb{}; see wrlkit --help\n", words[0],
+                     nearest.question());
+}
+
 std::optional<int> put_verb_first(std::vector<std::string>& words) {
   if (words.empty()) return std::nullopt;
+  split_corpus_verb(words);
   if (words[0] == "version") words[0] = "--version";
   const bool asks_help = words[0] == "help";
   if (asks_help) words.erase(words.begin());
@@ -97,6 +127,8 @@ std::optional<int> put_verb_first(std::vector<std::string>& words) {
 std::string option_fault(const std::string& verb, const std::vector<std::string>& words,
                          const std::vector<std::string>& options, const std::string& what) {
   const auto name = "wrlkit " + spoken_verb(verb);
+  if (std::ranges::find(options, "output") == options.end())
+    if (const auto hint = output_hint(verb, words); !hint.empty()) return name + ": " + hint + '\n';
   for (const auto& word : words) {
     if (!word.starts_with("--") || word.size() == 2) continue;
     const auto option = word.substr(2, std::min(word.find('='), word.size()) - 2);

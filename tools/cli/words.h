@@ -13,6 +13,10 @@ std::optional<int> put_verb_first(std::vector<std::string>& words);
 /// "corpus run" for "corpus-run", as users write it.
 std::string spoken_verb(const std::string& verb);
 
+/// The same of options without a verb: "wrlkit: there is no option '--versoin'; did you mean '--version'?"; empty when
+/// nothing is wrong with them.
+std::string program_option_fault(const std::vector<std::string>& words);
+
 /// What was wrong with options, in a line: "wrlkit convert: there is no option '--ratio'; did you mean '--ratios'?".
 std::string option_fault(const std::string& verb, const std::vector<std::string>& words,
                          const std::vector<std::string>& options, const std::string& what);

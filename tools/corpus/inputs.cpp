@@ -1,5 +1,6 @@
 #include "tools/corpus/inputs.h"
 
+#include <fmt/format.h>
 #include <fnmatch.h>
 #include <sys/stat.h>
 
@@ -7,12 +8,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "convert/formats.h"
+#include "tools/cli/flags.h"
 
 namespace wrlkit {
 namespace {
@@ -57,7 +60,7 @@ class Gatherer {
     if (fs::is_directory(w, none)) return folder(w, "");
     if (fs::is_regular_file(w, none)) return named(w, false);
     if (is_glob(w)) return glob(w);
-    return fail("there is no file or folder '" + w + "'");
+    return leave_out("there is no file or folder '" + w + "'");
   }
 
   Inputs take() {
@@ -75,6 +78,11 @@ class Gatherer {
     return false;
   }
 
+  bool leave_out(std::string what) {
+    out_.left_out.push_back(std::move(what));
+    return true;
+  }
+
   std::uint32_t root(const fs::path& path) {
     auto name = path.empty() ? std::string(".") : path.lexically_normal().string();
     auto i = std::ranges::find(out_.roots, name);
@@ -87,8 +95,10 @@ class Gatherer {
       if (line.ends_with('\r')) line.pop_back();
       if (line.empty()) continue;
       std::error_code none;
-      if (!fs::is_regular_file(line, none)) return fail(name + ": there is no file '" + line + "'");
-      named(line, true);
+      if (fs::is_regular_file(line, none))
+        named(line, true);
+      else
+        leave_out(name + ": there is no file '" + line + "'");
     }
     return true;
   }
@@ -120,7 +130,7 @@ class Gatherer {
         pattern += (pattern.empty() ? "" : "/") + n.string();
     std::error_code none;
     if (!fs::is_directory(front.empty() ? "." : front, none))
-      return fail("there is no folder '" + front.string() + "'");
+      return leave_out("there is no folder '" + front.string() + "'");
     // Without "/" a glob here is about the names in that folder, not below it.
     return folder(front.empty() ? "." : front.string(), pattern);
   }
@@ -130,7 +140,7 @@ class Gatherer {
     const auto parts = names_of(pattern);
     std::error_code fault;
     fs::recursive_directory_iterator i(path, fs::directory_options::follow_directory_symlink, fault), end;
-    if (fault) return fail("cannot read the folder '" + path + "': " + fault.message());
+    if (fault) return leave_out("cannot read the folder '" + path + "': " + fault.message());
     std::vector<Identity> above{identity(path)};  // of the folders that lead to where the iterator is
     for (; i != end; i.increment(fault)) {
       const auto name = i->path().filename().string();
@@ -151,7 +161,7 @@ class Gatherer {
         if (!can_be_read(i->path())) i.disable_recursion_pending();
       }
       if (i->is_symlink(none) && !fs::exists(i->path(), none) && is_scene_name(name))
-        out_.left_out.push_back("'" + i->path().string() + "' is a link to a file that is not there");
+        leave_out("'" + i->path().string() + "' is a link to a file that is not there");
       if (is_folder || !i->is_regular_file(none)) continue;
       auto inside = i->path().lexically_relative(path).string();
       const bool is_world = is_scene_name(name),
@@ -168,7 +178,7 @@ class Gatherer {
   bool can_be_read(const fs::path& folder) {
     std::error_code fault;
     const fs::directory_iterator begun(folder, fault);
-    if (fault) out_.left_out.push_back("cannot read the folder '" + folder.string() + "': " + fault.message());
+    if (fault) leave_out("cannot read the folder '" + folder.string() + "': " + fault.message());
     return !fault;
   }
 
@@ -203,7 +213,10 @@ std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const
   Gatherer gatherer(rules, why);
   for (const auto& w : words)
     if (!gatherer.word(w)) return std::nullopt;
-  return gatherer.take();
+  auto out = gatherer.take();
+  if (!out.files.empty() || out.left_out.empty()) return out;
+  for (const auto& fault : out.left_out) why += (why.empty() ? "" : "; ") + fault;
+  return std::nullopt;
 }
 
 bool means_many(const std::string& word) {
@@ -212,39 +225,28 @@ bool means_many(const std::string& word) {
          (word.find_first_of("*?") != word.npos && !fs::exists(word, none));
 }
 
-std::optional<std::vector<NamedWorld>> named_worlds(const std::vector<std::string>& words, std::string& why) {
-  std::vector<NamedWorld> out;
+std::optional<NamedWorlds> named_worlds(const std::vector<std::string>& words, std::string& why) {
+  NamedWorlds out;
   for (const auto& word : words) {
     if (!means_many(word)) {
-      out.push_back({word, word == "-" ? "standard input" : fs::path(word).filename().string()});
+      out.worlds.push_back({word, word == "-" ? "standard input" : fs::path(word).filename().string()});
       continue;
     }
     auto found = gather_inputs({word}, {}, why);
     if (!found) return std::nullopt;
-    for (auto& file : found->files) out.push_back({file.path, file.inside});
-  }
-  if (!out.empty()) return out;
-  why = "there are no scene files in '" + words[0] + "'";
-  return std::nullopt;
-}
-
-std::optional<std::vector<std::string>> worlds_in(const std::vector<std::string>& words, std::string& why) {
-  std::vector<std::string> out;
-  for (const auto& word : words) {
-    std::error_code none;
-    if (!fs::is_directory(word, none)) {
-      out.push_back(word);
-      continue;
-    }
-    const auto inputs = gather_inputs({word}, {}, why);
-    if (!inputs) return std::nullopt;
-    if (inputs->files.empty()) {
+    if (found->files.empty()) {
       why = "there are no scene files in '" + word + "'";
       return std::nullopt;
     }
-    for (const auto& file : inputs->files) out.push_back(file.path);
+    for (auto& file : found->files) out.worlds.push_back({file.path, file.inside});
+    std::ranges::move(found->left_out, std::back_inserter(out.left_out));
   }
   return out;
+}
+
+int print_left_out(std::string_view verb, const std::vector<std::string>& left_out) {
+  for (const auto& fault : left_out) fmt::print(stderr, "wrlkit {}: {}\n", verb, fault);
+  return left_out.empty() ? done : partly;
 }
 
 bool glob_matches(const std::string& glob, const std::string& path) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wrlkit {
@@ -25,13 +26,15 @@ struct InputRules {
 };
 
 struct Inputs {
-  std::vector<std::string> roots;     // folders; files below them may refer to all that is there
-  std::vector<InputFile> files;       // by path, each once
-  std::vector<std::string> left_out;  // folders that cannot be read and links that lead nowhere, as sentences
+  std::vector<std::string> roots;  // folders; files below them may refer to all that is there
+  std::vector<InputFile> files;    // by path, each once
+  std::vector<std::string>
+      left_out;  // what is missing, folders that cannot be read, links that lead nowhere: sentences
 };
 
 /// "plant/", "plant/**/*.wrl", "@list.txt", "-" (a list on standard input), "pump.wrl". In folders and globs only what
-/// has the ending of a scene counts, and nothing that is hidden. Nothing, and why, when something named is not there.
+/// has the ending of a scene counts, and nothing that is hidden. What is not there is left out. Nothing, and why, when
+/// a list cannot be read, or nothing is found where something was left out.
 std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const InputRules& rules, std::string& why);
 
 struct NamedWorld {
@@ -40,12 +43,17 @@ struct NamedWorld {
 
 /// A folder, a glob that is not the name of a file, or "@list.txt".
 bool means_many(const std::string& word);
-/// Files that are named stand as they are, even those that are not there; what `means_many` as the scenes in it.
-/// Nothing, and why, when no scene file is found.
-std::optional<std::vector<NamedWorld>> named_worlds(const std::vector<std::string>& words, std::string& why);
+struct NamedWorlds {
+  std::vector<NamedWorld> worlds;
+  std::vector<std::string> left_out;  // as those of Inputs
+};
 
-/// Files as they are, folders as the scenes in them; for verbs of few scenes. Nothing, and why, when a folder has none.
-std::optional<std::vector<std::string>> worlds_in(const std::vector<std::string>& words, std::string& why);
+/// Files that are named stand as they are, even those that are not there; what `means_many` as the scenes in it.
+/// Nothing, and why, when there is a folder, glob or list without any.
+std::optional<NamedWorlds> named_worlds(const std::vector<std::string>& words, std::string& why);
+
+/// Prints what was left out, a line each. `partly` when there is something, otherwise `done`.
+int print_left_out(std::string_view verb, const std::vector<std::string>& left_out);
 
 /// Whether a path below some folder is meant by a glob: "*" within a name, "**" across folders; without "/" it is about
 /// the last name alone.

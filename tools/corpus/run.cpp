@@ -75,7 +75,9 @@ struct Planned {
   Shard shard;
 };
 
-std::optional<Planned> plan_of(const Flags& flags, bool assets) {
+/// `code`: of what is wrong, when something is, which was printed.
+std::optional<Planned> plan_of(const Flags& flags, bool assets, int& code) {
+  code = usage;
   std::string why;
   Planned p;
   const auto fail = [&] {
@@ -94,14 +96,17 @@ std::optional<Planned> plan_of(const Flags& flags, bool assets) {
                                .output = flags.output,
                                .assets = assets},
                               why);
-  if (!inputs) return fail();
+  if (!inputs) {
+    code = nothing;
+    return fail();
+  }
   if (inputs->files.empty()) {
-    for (const auto& fault : inputs->left_out) fmt::print(stderr, "wrlkit: {}\n", fault);
-    why = "there are no worlds among the inputs";
+    why = "there are no scene files in '" + flags.inputs[0] + "'";
+    code = nothing;
     return fail();
   }
   p.left_out = std::move(inputs->left_out);
-  for (const auto& fault : p.left_out) fmt::print(stderr, "wrlkit: {}\n", fault);
+  print_left_out("corpus run", p.left_out);
   auto plan = plan_corpus(std::move(*inputs), flags.format, p.shard.count, why);
   if (!plan) return fail();
   p.plan = std::move(*plan);
@@ -428,8 +433,9 @@ int run_corpus_run(const Flags& flags) {
   std::string why;
   const auto work = asked_work(flags);
   if (!work) return usage;
-  const auto planned = plan_of(flags, work->text);
-  if (!planned) return usage;
+  int code = usage;
+  const auto planned = plan_of(flags, work->text, code);
+  if (!planned) return code;
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
   if (!journal) {
     fmt::print(stderr, "wrlkit: {}\n", why);
@@ -442,9 +448,11 @@ int run_corpus_run(const Flags& flags) {
 int run_corpus_plan(const Flags& flags) {
   const auto work = asked_work(flags);
   if (!work) return usage;
-  const auto planned = plan_of(flags, work->text);
-  if (planned) print_plan(*planned, flags);
-  return planned ? done : usage;
+  int code = usage;
+  const auto planned = plan_of(flags, work->text, code);
+  if (!planned) return code;
+  print_plan(*planned, flags);
+  return planned->left_out.empty() ? done : partly;
 }
 
 }  // namespace wrlkit

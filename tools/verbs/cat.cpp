@@ -10,7 +10,7 @@ int run_cat(const Flags& flags) {
   to.path = flags.output.empty() ? "-" : flags.output;
   if (!s.good() || !s.choose_pipeline(to.format->pipeline(options))) return usage;
   if (s.printed_pipeline()) return done;
-  return s.end(s.read(flags.inputs[0]) &&
+  return s.end(s.document().read(flags.inputs[0]) &&
                write_document(s.document(), s.pipeline(), to, options, {s.pipeline_options()}));
 }
 

@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "base/text/json.h"
-#include "convert/hidden_geometry.h"
+#include "convert/nothing_shown.h"
 #include "convert/startup_scripts.h"
 #include "convert/world_meshes.h"
 #include "scenegraph/nodes.h"
@@ -31,7 +31,7 @@ void check_contents(Session& s) {
 /// Inlines and prototypes are followed, so that what is missing there is reported.
 void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
-  report_hidden_geometry(s.world().scene, s.diag());
+  report_undrawn(s.world().scene, s.diag());
   report_startup_scripts(s.world().scene, s.diag());
   if (!s.flags().quick) return check_contents(s);
   std::string why;
@@ -59,17 +59,18 @@ std::string json_of(const std::string& path, const Diagnostics& d, bool readable
 int run_check(const Flags& flags) {
   std::size_t unreadable = 0, faulty = 0;
   std::string json, why;
-  const auto inputs = worlds_in(flags.inputs, why);
+  const auto inputs = named_worlds(flags.inputs, why);
   if (!inputs) {
     fmt::print(stderr, "wrlkit check: {}\n", why);
-    return usage;
+    return nothing;
   }
-  for (const auto& path : *inputs) {
+  const int code = print_left_out("check", inputs->left_out);
+  for (const auto& [path, name] : inputs->worlds) {
     Flags one = flags;
     one.inputs = {path};
     Session s(one);
     if (!s.good()) return usage;
-    bool readable = s.read(path);
+    bool readable = s.document().read(path);
     if (readable && !flags.parse_only) check_world(s);
     s.progress().clear();
     unreadable += !readable;
@@ -79,7 +80,7 @@ int run_check(const Flags& flags) {
   }
   if (flags.json) fmt::print("{}]\n", json);
   if (!flags.report.empty() && !write_text_file(flags.report, json + "]\n")) return usage;
-  return unreadable == inputs->size() ? nothing : faulty ? partly : done;
+  return unreadable == inputs->worlds.size() ? nothing : faulty ? partly : code;
 }
 
 }  // namespace wrlkit

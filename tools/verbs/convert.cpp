@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "base/text/json.h"
 #include "base/text/nearest_name.h"
 #include "convert/convert.h"
-#include "convert/hidden_geometry.h"
 #include "convert/profiles.h"
 #include "convert/startup_scripts.h"
 #include "tools/cli/outputs.h"
+#include "tools/cli/print_diagnostics.h"
 #include "tools/cli/recipe.h"
 #include "tools/cli/session.h"
 #include "tools/gltf_summary.h"
@@ -36,6 +37,9 @@ std::string no_format(const std::string& output) {
     if (format.parsed != Format::none && !format.write && !ending_of(output, endings_of(format)).empty())
       return fmt::format("'{}': {} can be read, not written; its name should end in {}", output, format.name,
                          output_endings_text());
+  if (const auto foreign = foreign_format(output); !foreign.empty())
+    return fmt::format("'{}': {} is not written; wrlkit writes {} (wrlkit formats), which most programs import", output,
+                       foreign, output_endings_text());
   const auto dot = output.rfind('.');
   NearestName nearest(dot == output.npos ? std::string_view() : std::string_view(output).substr(dot));
   for (auto ending : output_endings()) nearest.consider(ending);
@@ -44,11 +48,25 @@ std::string no_format(const std::string& output) {
                      question.empty() ? ", or --format should name the format" : question);
 }
 
-/// Names of options that have no effect on such an output, of those that were given.
-std::vector<std::string> idle_options(const Flags& flags, const Output& to) {
-  std::vector<std::string> names;
+/// An option that was given, and where it has no effect: "on VRML97 output", "without --compress".
+struct IdleOption {
+  std::string name, where;
+};
+
+/// Options of compression that it leaves without effect.
+void add_idle_compression(const Flags& flags, GltfCompression::Method method, std::vector<IdleOption>& out) {
+  using Method = GltfCompression::Method;
+  constexpr std::string_view of_any[] = {"tolerance", "position-bits", "normal-bits", "texcoord-bits", "color-bits"};
+  for (const auto name : of_any)
+    if (method == Method::none && flags.is_given(name)) out.push_back({std::string(name), "without --compress"});
+  if (method != Method::draco && flags.is_given("draco-level"))
+    out.push_back({"draco-level", "without --compress draco"});
+}
+
+std::vector<IdleOption> idle_options(const Flags& flags, const Output& to) {
+  std::vector<IdleOption> out;
   const auto add = [&](std::string_view name, auto&&...) {
-    if (flags.is_given(name)) names.emplace_back(name);
+    if (flags.is_given(name)) out.push_back({std::string(name), fmt::format("on {} output", to.format->name)});
   };
   SaveOptions options;
   if (to.format->is_text) {
@@ -57,18 +75,30 @@ std::vector<std::string> idle_options(const Flags& flags, const Output& to) {
     add("profile");
   } else {
     options.text_fields(add);
+    add_idle_compression(flags, save_options(flags).compress, out);
   }
   using As = GltfOptions::Lightmaps;
   const As light = flags.save.lightmap_as;
   const bool is_combined = to.format->is_text ? !flags.save.dump : light == As::base_color || light == As::emissive;
   if (!is_combined) options.baked_fields(add);
-  return names;
+  if (flags.is_given("format") && flags.output != "-" && output_of(flags.output) &&
+      output_of("x." + flags.format)->format != to.format)
+    out.push_back({"format", fmt::format("on '{}', whose name says {}", flags.output, to.format->name)});
+  if (flags.json && flags.output == "-") out.push_back({"json", "where the output is standard output"});
+  return out;
 }
 
-void warn_of_idle_options(const Flags& flags) {
-  const auto to = chosen_output(flags, save_options(flags));
-  for (const auto& name : idle_options(flags, *to))
-    fmt::print(stderr, "wrlkit: --{} has no effect on {} output\n", name, to->format->name);
+std::string facts_json(Session& s, const Saved& saved) {
+  const auto& flags = s.flags();
+  return json_text([&](JsonOut& json) {
+           json.object([&] {
+             json.members("input", flags.inputs[0], "output", flags.output, "format",
+                          chosen_output(flags, save_options(flags))->format->name);
+             if (saved.gltf) json.member("gltf", JsonText{summary_json(*saved.gltf)});
+             json.member("messages", JsonText{messages_json(s.diag())});
+           });
+         }) +
+         "\n";
 }
 
 }  // namespace
@@ -79,6 +109,13 @@ SaveOptions save_options(const Flags& flags) {
   if (const Profile* profile = find_profile(flags.profile))
     apply_profile(out, *profile, [&](std::string_view name) { return flags.is_given(name); });
   return out;
+}
+
+void warn_of_idle_options(const Flags& flags) {
+  if (flags.quiet) return;
+  const auto to = chosen_output(flags, save_options(flags));
+  for (const auto& [name, where] : idle_options(flags, *to))
+    fmt::print(stderr, "wrlkit: --{} has no effect {}\n", name, where);
 }
 
 bool prepare_conversion(Session& s) {
@@ -100,12 +137,7 @@ bool prepare_conversion(Session& s) {
 
 bool read_input(Session& s) {
   if (!s.read(s.flags().inputs[0]) || !check_input(s.document())) return false;
-  const auto steps = s.pipeline().steps();
-  const auto lacks = [&](std::string_view pass) {
-    return std::ranges::find(steps, pass, &Pipeline::StepInfo::name) == steps.end();
-  };
-  if (lacks("switch") && lacks("startup")) report_hidden_geometry(s.world().scene, s.diag());
-  if (lacks("startup")) report_startup_scripts(s.world().scene, s.diag());
+  if (!s.runs("startup")) report_startup_scripts(s.world().scene, s.diag());
   return true;
 }
 
@@ -125,7 +157,7 @@ int run_convert(const Flags& flags) {
     fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline()));
     return done;
   }
-  if (!flags.quiet) warn_of_idle_options(flags);
+  warn_of_idle_options(flags);
   Backup backup(flags);
   if (!backup.good()) return nothing;
   const auto saved = read_input(s) ? write_world(s, save_options(flags)) : Saved{};
@@ -133,6 +165,7 @@ int run_convert(const Flags& flags) {
   s.progress().clear();
   if (saved && flags.verbose && saved.gltf) fmt::print(stderr, "{}", summary_text(*saved.gltf));
   if (saved && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);
+  if (saved && flags.json && flags.output != "-") fmt::print("{}", facts_json(s, saved));
   return s.end(static_cast<bool>(saved));
 }
 

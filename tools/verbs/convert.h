@@ -9,6 +9,8 @@ namespace wrlkit {
 
 /// What the flags say, with what --profile chooses where they do not.
 SaveOptions save_options(const Flags&);
+/// Prints which of the options that were given have no effect on this output.
+void warn_of_idle_options(const Flags&);
 /// Chooses the pipeline; false when a flag makes no sense, which was printed.
 bool prepare_conversion(Session&);
 /// Reads the input; false when there is nothing to convert.

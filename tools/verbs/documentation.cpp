@@ -8,6 +8,7 @@
 #include "scenegraph/access_word.h"
 #include "scenegraph/range_text.h"
 #include "tools/cli/recipe.h"
+#include "tools/verbs/message_help.h"
 
 namespace wrlkit {
 namespace {
@@ -77,8 +78,9 @@ std::string pass_text(const PassInfo& p) {
 }
 
 std::string diagnostic_text(Diag d) {
-  return fmt::format("{} [{}]: {}\n  -Wno-{} drops it, -Werror={} makes it an error.\n", to_string(info(d).severity),
-                     info(d).name, info(d).text, info(d).name, info(d).name);
+  const auto& name = info(d).name;
+  const auto makes = info(d).severity == Severity::error ? "" : fmt::format(", -Werror={} makes it an error", name);
+  return message_help(d) + fmt::format("  -Wno-{} drops it{}.\n", name, makes);
 }
 
 std::string formats_text() {
@@ -154,7 +156,8 @@ std::string diagnostics_page() {
   std::string out =
       "# Messages\n\nGenerated from `base/diagnostics.def` by `script/docs`; do not edit.\n\n| name | severity | text "
       "|\n|---|---|---|\n";
-  for (const auto& d : all_diags()) out += fmt::format("| {} | {} | {} |\n", d.name, to_string(d.severity), d.text);
+  for (const auto& d : all_diags())
+    out += fmt::format("| {} | {} | {} |\n", d.name, to_string(d.severity), general_text(d));
   return out;
 }
 

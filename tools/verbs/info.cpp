@@ -130,26 +130,27 @@ int info_of_one(const Flags& flags) {
 
 int run_info(const Flags& flags) {
   std::string why;
-  const auto inputs = worlds_in(flags.inputs, why);
+  const auto inputs = named_worlds(flags.inputs, why);
   if (!inputs) {
     fmt::print(stderr, "wrlkit info: {}\n", why);
-    return usage;
+    return nothing;
   }
-  if (inputs->size() > 1 && !flags.report.empty()) {
+  const auto& worlds = inputs->worlds;
+  if (worlds.size() > 1 && !flags.report.empty()) {
     fmt::print(stderr, "wrlkit info: --report is about one world\n");
     return usage;
   }
   std::size_t unreadable = 0;
-  int worst = done;
-  for (const auto& path : *inputs) {
+  int worst = print_left_out("info", inputs->left_out);
+  for (const auto& world : worlds) {
     Flags one = flags;
-    one.inputs = {path};
+    one.inputs = {world.path};
     const int code = info_of_one(one);
     if (code == usage) return code;
     unreadable += code == nothing;
     worst = std::max(worst, code == nothing ? static_cast<int>(partly) : code);
   }
-  return unreadable == inputs->size() ? static_cast<int>(nothing) : worst;
+  return unreadable == worlds.size() ? static_cast<int>(nothing) : worst;
 }
 
 }  // namespace wrlkit

@@ -63,6 +63,7 @@ int run_optimize(const Flags& given) {
     return usage;
   }
   if (s.printed_pipeline()) return done;
+  warn_of_idle_options(flags);
   Backup backup(flags);
   if (!backup.good()) return nothing;
   if (!read_input(s)) return s.end(false);

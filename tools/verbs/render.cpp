@@ -5,6 +5,7 @@
 
 #include "base/image/image_animation.h"
 #include "base/io/output.h"
+#include "base/text/letter_case.h"
 #include "tools/verbs/render_sheets.h"
 
 namespace wrlkit {
@@ -91,7 +92,7 @@ class Turntable {
   static constexpr int milliseconds = 80;  // of each picture: 36 of them go round in 2.9 s
 
   bool take(const Image& picture, int i) {
-    if (!name_.ends_with(".webp")) return write_picture(s_, picture, numbered(name_, i));
+    if (!ends_with_ignoring_case(name_, ".webp")) return write_picture(s_, picture, numbered(name_, i));
     std::string why;
     if (!animation_) animation_ = begin_webp_animation(milliseconds, why);
     if (animation_ && animation_->add(picture, why)) return true;

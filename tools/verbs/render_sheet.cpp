@@ -29,16 +29,18 @@ bool is_sheet(const Flags& f) { return f.inputs.size() > 1 || means_many(f.input
 int render_sheet(Session& s) {
   const Flags& f = s.flags();
   std::string why;
-  const auto worlds = named_worlds(f.inputs, why);
-  if (!worlds) {
+  const auto named = named_worlds(f.inputs, why);
+  if (!named) {
     fmt::print(stderr, "wrlkit render: {}\n", why);
-    return usage;
+    return nothing;
   }
+  const auto& worlds = named->worlds;
+  const int code = print_left_out("render", named->left_out);
   RenderOptions options = render_options(f);
   if (!f.is_given("width")) options.width = 320;
   if (!f.is_given("height")) options.height = 240;
-  const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(worlds->size()))));
-  const GridSize size = grid_size(worlds->size(), columns, options.width, options.height);
+  const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(worlds.size()))));
+  const GridSize size = grid_size(worlds.size(), columns, options.width, options.height);
   if (!image_size_fault(size.width, size.height, SIZE_MAX).empty()) {
     fmt::print(
         stderr,
@@ -48,7 +50,7 @@ int render_sheet(Session& s) {
   }
   std::vector<NamedPicture> pictures;
   std::vector<bool> drawn;
-  for (const auto& world : *worlds) {
+  for (const auto& world : worlds) {
     const auto meshes = open_world(s, world.path);
     drawn.push_back(static_cast<bool>(meshes));
     pictures.push_back({world.name, meshes ? draw(s, meshes, options, world.name)
@@ -60,10 +62,10 @@ int render_sheet(Session& s) {
   }
   s.progress().clear();
   const bool made = write_picture(s, picture_grid(pictures, columns), f.output);
-  const auto contents = contents_json(*worlds, drawn);
+  const auto contents = contents_json(worlds, drawn);
   s.fact("worlds", contents);
   if (made && f.json && f.output != "-") fmt::print("{}\n", contents);
-  return s.end(made);
+  return std::max(code, s.end(made));
 }
 
 }  // namespace wrlkit

@@ -11,6 +11,7 @@
 #include "base/silent_task.h"
 #include "base/text/json.h"
 #include "convert/geometry_census.h"
+#include "convert/placing.h"
 #include "convert/save.h"
 #include "convert/world_meshes.h"
 #include "convert/writing.h"
@@ -143,10 +144,12 @@ void print_table(const WrittenWorlds& all) {
 }
 
 /// As `info` counts them. Messages about them come when they are simplified.
-std::size_t drawn_triangles(const Document& document) {
+std::size_t drawn_triangles(const Document& document, const LoadOptions& load) {
   Document copy(document.copy());
   Diagnostics unheard(copy.diag().shared_sources());
   Document silent({.scene = copy.scene()}, PassContext{unheard, copy.context().stats, copy.resources()});
+  if (load.show_all) show_all(silent.scene());
+  if (load.run_startup) run_startup(silent.scene(), silent.context());
   const WorldMeshes meshes(silent);
   return meshes.good() ? count_geometry(silent.scene(), meshes.triangles, meshes.triangles).triangles : 0;
 }
@@ -210,6 +213,14 @@ bool is_reached(const SimplifiedWorld& world, const WorldSimplifyOptions& option
   return counts.empty() || (world.n_points() > 0 && world.point(world.n_points() - 1).n_faces <= counts.back());
 }
 
+/// Numbers of triangles that the world has no more of.
+void warn_of_idle_counts(const Flags& flags, const WrittenWorlds& all) {
+  for (const auto count : flags.counts)
+    if (count >= all.n_drawn)
+      fmt::print(stderr, "wrlkit simplify: --counts {} has no effect: the world has {} triangles\n", count,
+                 all.n_drawn);
+}
+
 /// As one scene with one budget where there are several parts and the triangles are counted; otherwise each
 /// surface for itself, unless the criterion does not go as far as was asked.
 bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names, WrittenWorlds& all) {
@@ -267,7 +278,7 @@ int run_simplify(const Flags& flags) {
   if (!options || !s.good() || !s.choose_pipeline(standard_pipeline(flags))) return usage;
   if (s.printed_pipeline()) return done;
   if (!s.read(flags.inputs[0])) return s.end(false);
-  if (options->errors.empty() && !flags.progressive) options->drawn = drawn_triangles(s.document());
+  if (options->errors.empty() && !flags.progressive) options->drawn = drawn_triangles(s.document(), flags.load);
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
 
   const Names names = names_of(flags);
@@ -275,6 +286,7 @@ int run_simplify(const Flags& flags) {
   WrittenWorlds all;
   if (!simplify_world(s, *options, names, all)) return s.end(false);
   s.progress().clear();
+  warn_of_idle_counts(flags, all);
   if (names.file != "-") (flags.json ? print_json : print_table)(all);
   return s.end(true);
 }

@@ -19,8 +19,8 @@
 namespace wrlkit {
 namespace {
 
-/// Nothing, which was printed, when something that is named is not there.
-std::vector<TilesInput> inputs_of(const Flags& flags) {
+/// Nothing, which was printed, when there is no file. `code` becomes that of what was left out.
+std::vector<TilesInput> inputs_of(const Flags& flags, int& code) {
   std::string why;
   const InputRules rules{.include = flags.include, .exclude = flags.exclude, .base = {}, .output = flags.output};
   const auto found = gather_inputs(flags.inputs, rules, why);
@@ -28,7 +28,7 @@ std::vector<TilesInput> inputs_of(const Flags& flags) {
   if (!why.empty()) fmt::print(stderr, "wrlkit tiles: {}\n", why);
   std::vector<TilesInput> out;
   if (!found) return out;
-  for (const auto& left : found->left_out) fmt::print(stderr, "wrlkit tiles: {}\n", left);
+  code = print_left_out("tiles", found->left_out);
   std::set<std::string> inside;
   for (const auto& file : found->files) inside.insert(file.inside);
   const bool differ = inside.size() == found->files.size();
@@ -152,7 +152,8 @@ int run_tiles(const Flags& flags) {
   if (!s.good() || !check_place(flags.at)) return usage;
   const auto shard = shard_of(flags);
   if (!shard) return usage;
-  const auto inputs = inputs_of(flags);
+  int code = done;
+  const auto inputs = inputs_of(flags, code);
   if (inputs.empty()) return nothing;
   const auto made = make_tiles(inputs, flags.output, options_of(flags, *shard), s.document());
   s.progress().clear();
@@ -162,7 +163,7 @@ int run_tiles(const Flags& flags) {
     fmt::print("{}\n", json_of(made));
   else if (!flags.quiet)
     fmt::print(stderr, "{}", text_of(made, flags.output));
-  return s.end(true);
+  return std::max(code, s.end(true));
 }
 
 }  // namespace wrlkit

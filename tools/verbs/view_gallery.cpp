@@ -146,14 +146,15 @@ int view_gallery(const Flags& flags) {
   Session s(flags);
   if (!has_place(flags) || !s.good() || !s.choose_pipeline("picture")) return usage;
   std::string why;
-  const auto worlds = named_worlds(flags.inputs, why);
-  if (!worlds) {
+  const auto named = named_worlds(flags.inputs, why);
+  if (!named) {
     fmt::print(stderr, "wrlkit view: {}\n", why);
-    return usage;
+    return nothing;
   }
+  const int left_out = print_left_out("view", named->left_out);
   FilesRead inputs;
-  for (const auto& world : *worlds) inputs.add(world.path);
-  const Gallery gallery = gallery_of(s, *worlds);
+  for (const auto& world : named->worlds) inputs.add(world.path);
+  const Gallery gallery = gallery_of(s, named->worlds);
   const std::string page = gallery_page(gallery);
   auto file = OutputFile::open(flags.output, {.inputs = &inputs}, s.diag());
   if (file) file->write(page);
@@ -163,7 +164,7 @@ int view_gallery(const Flags& flags) {
   s.fact("page", contents);
   print_faults(gallery);
   const int code = s.end(made);
-  return made ? std::max(code, exit_code_of(gallery)) : code;
+  return made ? std::max({code, exit_code_of(gallery), left_out}) : code;
 }
 
 }  // namespace wrlkit

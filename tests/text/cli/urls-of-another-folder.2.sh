@@ -1,4 +1,5 @@
-mkdir -p %t/in &&
+mkdir -p %t/in/a &&
+    cp %S/inputs/box.wrl %t/in/a/b.wrl &&
     printf '#VRML V2.0 utf8\nInline { url "a/b.wrl" }' > %t/in/a.wrl &&
     cd %t/in &&
     wrlkit convert a.wrl b.wrl &&

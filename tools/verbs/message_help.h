@@ -1,0 +1,13 @@
+// What a message means, for `wrlkit explain`.
+#pragma once
+#include <string>
+
+#include "base/diagnostics.h"
+
+namespace wrlkit {
+
+/// The message with an example in its places, why it comes, and what to do, as far as these are known
+/// (message_help.def); otherwise what its severity means. Ends with a line break.
+std::string message_help(Diag);
+
+}  // namespace wrlkit
