@@ -83,7 +83,7 @@ def inputs(tmp):
     for words, why in [((RECIPE, a, '-o', a), 'one of their own'), ((RECIPE, tmp / 'none', '-o', tmp / 'o'), 'no file or folder'), ((RECIPE, a, '-o', tmp / 'o', '--timeout', 'soon'), 'not a valid time'),
                        ((RECIPE, a, '-o', tmp / 'o', '--shard', '3/2'), 'no shard'), ((tmp / 'no.toml', a, '-o', tmp / 'o'), 'no such file')]:
         code, _, err = corpus(*words)
-        check(f'wrong usage: {why}', code == 2 and why in err, code, err)
+        check(f'wrong usage: {why}', code == (3 if why == 'no file or folder' else 2) and why in err, code, err)
 
 
 def odd(tmp):
