@@ -162,7 +162,7 @@ TEST_CASE("IndexedFaceSet: numbers that are none become 0", "[geometry]") {
   CHECK(position(m, 0) == Vec3{0, 1, 0});
   CHECK(position(m, 1) == Vec3{0, 0, 0});
   CHECK(m.color.values == std::vector<float>{0.25f, 0.5f, 0});
-  CHECK(f.message(0) == "IndexedFaceSet: 1 numbers are not finite; 0 is used");
+  CHECK(f.message(0) == "IndexedFaceSet: 1 number is not finite; 0 is used");
   CHECK(f.message(1) == "IndexedFaceSet: 2 numbers are not finite; 0 is used");
   CHECK(std::isnan(f.scene.get(coord, nodes::coordinate::point)[0]));  // the scene is not touched
 }
