@@ -220,7 +220,7 @@ TEST_CASE("IndexedLineSet: polylines and their colours", "[geometry]") {
     CHECK(m.kind == Mesh::Kind::lines);
     CHECK(m.corners == Ints{0, 1, 2, 2, 3});
     CHECK(m.face_begin == Ints{0, 3, 5});
-    CHECK(f.message() == "IndexedLineSet: 1 polylines of fewer than two points are dropped");
+    CHECK(f.message() == "IndexedLineSet: 1 polyline of fewer than two points is dropped");
     return m.color.index;
   };
   CHECK(index("") == Ints{0, 1, 2, 2, 3});
