@@ -167,7 +167,7 @@ TEST_CASE("concave and crossing faces are counted", "[triangulate]") {
   CHECK(job.diag.messages()[0].text() ==
         "IndexedFaceSet: 2 concave faces although convex is TRUE; they are triangulated correctly");
   CHECK(job.diag.messages()[1].text() ==
-        "IndexedFaceSet: 1 faces intersect themselves; they are triangulated as well as possible");
+        "IndexedFaceSet: 1 face intersects itself; it is triangulated as well as possible");
   faces(job, square, arrows);
   job.mesh.convex = false;
   job.run();
