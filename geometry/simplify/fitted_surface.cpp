@@ -14,6 +14,9 @@ constexpr std::size_t most_asked = 48;        // samples that a price is made of
 constexpr std::size_t few_fitted_faces = 32;  // which are asked one by one
 constexpr std::size_t most_removable = 256;   // faces from which on none is taken out by itself
 constexpr double worth_asking_again = 0.9;    // share of the faces that are left since all were asked
+constexpr double most_asked_back = 64;        // points of a face
+// Of the four parts of a triangle, as steps along two of its edges; the second is that of the triangle.
+constexpr std::array<double, 2> middles[] = {{1. / 6, 1. / 6}, {1. / 3, 1. / 3}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}};
 
 }  // namespace
 
@@ -117,23 +120,23 @@ std::array<Vec3, 3> FittedSurface::corners_of(const Face& f, std::uint32_t v, co
   return out;
 }
 
-/// The integral of the squared distance from a face to the original, by the middles of equal parts of it.
+/// The integral of the squared distance from a face to the original, by the middles of equal parts of it, or where they
+/// are many, by points that are spread evenly: a face across a notch has to be found out.
 double FittedSurface::backward(const std::array<Vec3, 3>& c, Distortion* all) const {
   const double area = fast_length(area_normal(c)) / 2;
   const double longest = std::max({fast_length(c[1] - c[0]), fast_length(c[2] - c[1]), fast_length(c[0] - c[2])});
-  const int n = std::clamp(static_cast<int>(longest / (2 * spacing_)), 1, 2);
+  const double wanted = std::max(longest / (2 * spacing_), area / (2 * spacing_ * spacing_));
+  const int n = wanted < 2 ? 1 : wanted < 4 ? 4 : static_cast<int>(std::min(wanted, most_asked_back));
   double sum = 0;
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < 2 * i + 1; ++k) {
-      // Row i of triangles, which point one way and the other by turns.
-      const double third = k % 2 ? 2. / 3 : 1. / 3, u = (i + (k % 2 ? 1. / 3 : 2. / 3)) / n, v = (k / 2 + third) / n;
-      const Vec3 p = c[0] + (u - v) * (c[1] - c[0]) + v * (c[2] - c[0]);
-      const auto found = original_.nearest(p, {}, guess_);
-      guess_ = found.triangle;
-      sum += found.distance * found.distance;
-      if (all && guess_ != ClosestPoint::no_guess) all->add(way_to(p, surface_[guess_]), area / (n * n));
-    }
-  return area * sum / (n * n);
+  for (int i = 0; i < n; ++i) {
+    const auto at = n > 4 ? spread_in_triangle(i + 0.5) : middles[static_cast<std::size_t>(n == 1 ? 1 : i)];
+    const Vec3 p = c[0] + at[0] * (c[1] - c[0]) + at[1] * (c[2] - c[0]);
+    const auto found = original_.nearest(p, {}, guess_);
+    guess_ = found.triangle;
+    sum += found.distance * found.distance;
+    if (all && guess_ != ClosestPoint::no_guess) all->add(way_to(p, surface_[guess_]), area / n);
+  }
+  return area * sum / n;
 }
 
 void FittedSurface::Merged::clear() {

@@ -53,12 +53,7 @@ class Spread {
 
  private:
   Vec3 point_at(std::size_t t, double k) const {
-    constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
-    double u = fraction(k * step_u), v = fraction(k * step_v);
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
+    const auto [u, v] = spread_in_triangle(k);
     const auto c = surface_[t];
     return c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
   }
@@ -73,6 +68,13 @@ class Spread {
 };
 
 }  // namespace
+
+std::array<double, 2> spread_in_triangle(double k) {
+  constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
+  const double u = fraction(k * step_u), v = fraction(k * step_v);
+  if (u + v > 1) return {1 - u, 1 - v};
+  return {u, v};
+}
 
 std::vector<SurfaceSample> sample_surface(const Triangles& surface, std::size_t n) {
   std::vector<SurfaceSample> out;

@@ -43,6 +43,9 @@ class Stretch {
   double area_ = 1;
 };
 
+/// The point number `k` of a sequence that fills a triangle evenly (of the plastic number), as steps along two edges.
+std::array<double, 2> spread_in_triangle(double k);
+
 /// About `n` points, the same ones at each run, whose weights add up to the area, and the corners (of many, some of
 /// them) with little weight: it is they that stick out. Nothing for a surface without area.
 std::vector<SurfaceSample> sample_surface(const Triangles& surface, std::size_t n);
