@@ -448,8 +448,6 @@ void FittedSurface::refine(int rounds) {
 
 Distortion FittedSurface::distortion() const {
   Distortion out = backward_all_;
-  out.max = 0;
-  out.farthest = {};
   for (std::uint32_t f = 0; f < face_.size(); ++f)
     for (auto s : samples_of_[f])
       out.add(way_to(samples_[s].point, corners_of(face_[f], none, {}), samples_[s].enough), samples_[s].weight);
