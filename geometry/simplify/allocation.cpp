@@ -10,7 +10,7 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr double usual_peak = 8;    // largest distance over the root of the mean square, beyond which it is dearer
+constexpr double usual_peak = 3;    // largest distance over the root of the mean square, beyond which it is dearer
 constexpr double least_rms = 1e-6;  // of the root of the area
 constexpr std::size_t asked_at_once = 64;   // parts
 constexpr std::size_t chunk = 128;          // samples that are asked one after another

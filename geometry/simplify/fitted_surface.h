@@ -33,7 +33,7 @@ class FittedSurface {
   /// Moves the vertices to where the squares of the distances of the samples are least, and assigns these once more;
   /// so many times.
   void refine(int rounds);
-  /// Integrals of the squared distance over both surfaces, and the largest distance of a sample.
+  /// Integrals of the squared distance over both surfaces, and the largest one.
   Distortion distortion() const;
   /// Triangles that are left, with the vertices that they use.
   PlainMesh mesh() const;

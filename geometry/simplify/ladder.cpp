@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t every_below = 20;      // triangles from which on each number is a rung
 constexpr std::size_t fitted_below = 128;    // triangles
+constexpr std::size_t samples_of_face = 12, least_samples = 400;  // of a surface that is fitted
 constexpr std::size_t most_fitted = 12'000;  // where the criterion is held back
 constexpr double spoiling = 30;              // growth of the distortion from rung to rung
 constexpr double far = 5e-4;                 // root of the mean square, as a share of the extent: from there on,
@@ -127,7 +128,7 @@ class Ladder {
   }
 
   void fit(PlainMesh coarse) {
-    const auto some = strided(std::max<std::size_t>(6 * coarse.faces.size(), 200));
+    const auto some = strided(std::max(samples_of_face * coarse.faces.size(), least_samples));
     FittedSurface surface(std::move(coarse), surface_, nearest_, some);
     std::size_t next = surface.n_faces() - 1;
     while (surface.n_faces() > 1 && surface.step()) {

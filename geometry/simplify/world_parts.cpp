@@ -23,7 +23,7 @@ namespace wrlkit::simplify {
 namespace {
 
 constexpr std::size_t most_places_asked = 4;  // of a ladder, for what hides it
-constexpr std::size_t most_samples = 20'000;  // of a ladder
+constexpr std::size_t samples_of_face = 8, least_samples = 400, most_samples = 20'000;  // of a ladder
 constexpr std::size_t parts_at_once = 4096;
 constexpr std::size_t most_alike = 64;  // forms with the same corners
 // Samples for when a part leaves, in a place: of large parts, of the others; and of all in all places.
@@ -294,23 +294,36 @@ bool WorldParts::yields(std::uint32_t owner, std::uint32_t other) const {
   return std::pair(parts[part].area, owner) < std::pair(parts[other_part].area, other);
 }
 
-/// Nothing needs to be nearer to a sample that is hidden than what hides it.
+/// Nothing needs to be nearer to a sample that is hidden than what hides it; what hides it may be hidden as well, and go.
 double WorldParts::enough(const Surroundings& around, const SurfaceSample& sample, double within,
                           Neighbours::Found& found) const {
+  constexpr int most_behind = 4;
+  constexpr double seen = std::numeric_limits<double>::infinity();
   const Vec3 p = around.place.point(sample.point);
   found = neighbours.nearest(p, within, {around.first, around.end}, found.triangle);
-  if (found.owner == ClosestPoint::no_guess) return std::numeric_limits<double>::infinity();
-  const Vec3 normal = unit(direction(around.place, sample.normal));
-  const bool hidden = yields(around.first, found.owner) &&
-                      is_hidden(p, normal, neighbours.corners(found.triangle), found.distance, around.width);
-  return hidden ? found.distance * found.distance : std::numeric_limits<double>::infinity();
+  if (found.owner == ClosestPoint::no_guess) return seen;
+  const auto hides = [&](std::uint32_t owner, const Vec3& point, const Vec3& normal, const Neighbours::Found& other) {
+    return other.owner != ClosestPoint::no_guess && yields(owner, other.owner) &&
+           is_hidden(point, normal, neighbours.corners(other.triangle), other.distance, around.width);
+  };
+  if (!hides(around.first, p, unit(direction(around.place, sample.normal)), found)) return seen;
+  auto front = found;
+  for (int i = 0; i < most_behind; ++i) {
+    const auto corners = neighbours.corners(front.triangle);
+    const Vec3 there = p + way_to(p, corners);
+    const auto next = neighbours.nearest(there, around.width, {front.owner, front.owner + 1}, front.triangle);
+    if (!hides(front.owner, there, unit(area_normal(corners)), next)) break;
+    front = next;
+  }
+  const Vec3 way = way_to(p, neighbours.corners(front.triangle));
+  return dot(way, way);
 }
 
 void WorldParts::make_ladder_of(std::uint32_t ladder) {
   const auto& members = members_[ladder];
   CollapseOptions options = options_;
   const Mesh mesh = in_metres(parts[members[0]], &options);
-  auto samples = sample_surface(triangles_of(mesh), std::clamp<std::size_t>(4 * mesh.n_faces(), 100, most_samples));
+  auto samples = sample_surface(triangles_of(mesh), std::clamp(samples_of_face * mesh.n_faces(), least_samples, most_samples));
   std::vector<Surroundings> around;
   const double width = half_width(samples);
   const std::size_t stride = (members.size() + most_places_asked - 1) / most_places_asked;
