@@ -38,16 +38,17 @@ class Spread {
     }
   }
 
-  /// The same, with at least one in each triangle. The sequence goes on from triangle to triangle: in the equal
+  /// Half of them by area, half of them alike in all triangles, and one in each: small ones stick out, too. The sequence goes on from triangle to triangle: in the equal
   /// triangles of a fan, the same few points would leave rings between them unseen.
   template <class F>
   void for_each_in_all(std::size_t n, F&& f) const {
+    const double each = static_cast<double>(n) / static_cast<double>(2 * end_.size());
     double before = 0, k = 0.5;
     for (std::size_t t = 0; t < end_.size(); ++t) {
       const double area = end_[t] - before;
       before = end_[t];
       if (!(area > 0)) continue;
-      const double some = std::max(1., std::round(static_cast<double>(n) * area / area_));
+      const double some = std::max(1., std::round(each + static_cast<double>(n) * area / (2 * area_)));
       if (some > 1)
         for (const double end = k + some; k < end; ++k) f(point_at(t, k), area / some, t);
       else
