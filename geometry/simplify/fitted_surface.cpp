@@ -109,8 +109,11 @@ void FittedSurface::assign_again() {
 
 void FittedSurface::measure_backward() {
   backward_all_ = {};
-  for (std::uint32_t f = 0; f < face_.size(); ++f)
-    if (alive_[f]) backward_[f] = backward(corners_of(face_[f], none, {}), &backward_all_);
+  for (std::uint32_t f = 0; f < face_.size(); ++f) {
+    if (!alive_[f]) continue;
+    backward_[f] = backward(corners_of(face_[f], none, {}), &backward_all_);
+    measure_edges(corners_of(face_[f], none, {}), 2 * spacing_, original_, surface_, backward_all_);
+  }
 }
 
 /// With `v` at `x`.

@@ -33,6 +33,7 @@ class Ladder {
       area += s.weight;
     }
     const double distance = far * diagonal(bounds);
+    spacing_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(part.samples.size(), 1)));
     if (fits()) far_squares_ = 2 * area * distance * distance;
   }
 
@@ -111,9 +112,10 @@ class Ladder {
     const auto triangles = triangles_of(level);
     const ClosestPoint nearest(triangles);
     // As many questions as the level has triangles: its error is spread over its faces.
-    const std::size_t n = std::clamp<std::size_t>(2 * level.n_faces(), 200, 4000);
-    const auto some = strided(n);
-    const auto d = measure_distortion(triangles, nearest, some, nearest_, surface_, some.size());
+    const auto some = strided(std::clamp<std::size_t>(4 * level.n_faces(), least_samples, 8000));
+    auto d = measure_distortion(triangles, nearest, some, nearest_, surface_, some.size());
+    for (std::size_t i = 0; i < triangles.size() && spacing_ > 0; ++i)
+      measure_edges(triangles[i], 4 * spacing_, nearest_, surface_, d);
     rungs_.push_back({level, level.n_faces(), d, false});
   }
 
@@ -186,6 +188,7 @@ class Ladder {
   Triangles surface_;
   ClosestPoint nearest_;
   std::vector<Rung> rungs_;
+  double spacing_ = 0;  // of the samples
   double far_squares_ = std::numeric_limits<double>::infinity();
 };
 

@@ -38,8 +38,9 @@ class Spread {
     }
   }
 
-  /// Half of them by area, half of them alike in all triangles, and one in each: small ones stick out, too. The sequence goes on from triangle to triangle: in the equal
-  /// triangles of a fan, the same few points would leave rings between them unseen.
+  /// Half of them by area, half of them alike in all triangles, at least one in each: small ones stick out, too. The
+  /// sequence goes on from one to the next: in the equal triangles of a fan, the same few points would leave rings
+  /// between them unseen.
   template <class F>
   void for_each_in_all(std::size_t n, F&& f) const {
     const double each = static_cast<double>(n) / static_cast<double>(2 * end_.size());
@@ -134,6 +135,22 @@ double Stretch::max(const Distortion& d) const {
   Distortion longest;
   longest.add(d.farthest, 1);
   return std::sqrt(Stretch(*this).squares(longest) / area_);
+}
+
+void measure_edges(const std::array<Vec3, 3>& corners, double spacing, const ClosestPoint& original,
+                   const Triangles& original_surface, Distortion& out) {
+  constexpr double most_of_edge = 16;
+  auto guess = ClosestPoint::no_guess;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 way = corners[(k + 1) % 3] - corners[k];
+    const int n = static_cast<int>(std::min(fast_length(way) / spacing, most_of_edge));
+    for (int i = 0; i < n; ++i) {
+      const Vec3 p = corners[k] + ((i + 0.5) / n) * way;
+      const auto found = original.nearest(p, {}, guess);
+      guess = found.triangle;
+      if (found.distance > out.max && guess != ClosestPoint::no_guess) out.add(way_to(p, original_surface[guess]), 0);
+    }
+  }
 }
 
 Distortion measure_distortion(const Triangles& surface, const ClosestPoint& nearest_on_surface,

@@ -50,6 +50,11 @@ std::array<double, 2> spread_in_triangle(double k);
 /// them) with little weight: it is they that stick out. Nothing for a surface without area.
 std::vector<SurfaceSample> sample_surface(const Triangles& surface, std::size_t n);
 
+/// The largest distance of the edges of a triangle from a surface, by points about that far apart: what spans a notch
+/// has an edge across it, and hardly any area there.
+void measure_edges(const std::array<Vec3, 3>& corners, double spacing, const ClosestPoint& original,
+                   const Triangles& original_surface, Distortion& out);
+
 /// Of a surface from the samples of another one, and back, with about `n` questions on the way back.
 Distortion measure_distortion(const Triangles& surface, const ClosestPoint& nearest_on_surface,
                               std::span<const SurfaceSample> samples, const ClosestPoint& original,
