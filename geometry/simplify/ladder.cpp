@@ -14,13 +14,13 @@
 namespace wrlkit::simplify {
 namespace {
 
-constexpr std::size_t every_below = 20;      // triangles from which on each number is a rung
-constexpr std::size_t fitted_below = 128;    // triangles
+constexpr std::size_t every_below = 20;                           // triangles from which on each number is a rung
+constexpr std::size_t fitted_below = 128;                         // triangles
 constexpr std::size_t samples_of_face = 12, least_samples = 400;  // of a surface that is fitted
-constexpr std::size_t most_fitted = 12'000;  // where the criterion is held back
-constexpr double spoiling = 30;              // growth of the distortion from rung to rung
-constexpr double far = 5e-4;                 // root of the mean square, as a share of the extent: from there on,
-constexpr double spoiling_when_far = 4;      // less growth will do
+constexpr std::size_t most_fitted = 12'000;                       // where the criterion is held back
+constexpr double spoiling = 30;                                   // growth of the distortion from rung to rung
+constexpr double far = 5e-4;             // root of the mean square, as a share of the extent: from there on,
+constexpr double spoiling_when_far = 4;  // less growth will do
 constexpr double coarse_step = 0.7, fine_step = 0.85;
 
 class Ladder {

@@ -294,7 +294,8 @@ bool WorldParts::yields(std::uint32_t owner, std::uint32_t other) const {
   return std::pair(parts[part].area, owner) < std::pair(parts[other_part].area, other);
 }
 
-/// Nothing needs to be nearer to a sample that is hidden than what hides it; what hides it may be hidden as well, and go.
+/// Nothing needs to be nearer to a sample that is hidden than what hides it, or than what hides that in turn: it may
+/// go.
 double WorldParts::enough(const Surroundings& around, const SurfaceSample& sample, double within,
                           Neighbours::Found& found) const {
   constexpr int most_behind = 4;
@@ -323,7 +324,8 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
   const auto& members = members_[ladder];
   CollapseOptions options = options_;
   const Mesh mesh = in_metres(parts[members[0]], &options);
-  auto samples = sample_surface(triangles_of(mesh), std::clamp(samples_of_face * mesh.n_faces(), least_samples, most_samples));
+  auto samples =
+      sample_surface(triangles_of(mesh), std::clamp(samples_of_face * mesh.n_faces(), least_samples, most_samples));
   std::vector<Surroundings> around;
   const double width = half_width(samples);
   const std::size_t stride = (members.size() + most_places_asked - 1) / most_places_asked;
