@@ -18,7 +18,8 @@ struct WorldSimplifyOptions {
   /// Of WorldLevels: the scene with instances of prototypes replaced by their bodies, where nodes of both have
   /// the same numbers; it says where surfaces are shown. None: there are no instances. It must outlive the levels.
   const Scene* expanded = nullptr;
-  bool one_part = false;  // of WorldLevels: of a scene of one part, too
+  bool one_part = false;        // of WorldLevels: of a scene of one part, too
+  OfText text = OfText::leave;  // of WorldLevels; take: a Text may leave, as a whole
   ScreenBudget budget;
 };
 

@@ -1,5 +1,7 @@
 #include "geometry/simplify/world_levels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/math/saturating.h"
@@ -20,14 +22,24 @@ struct WorldLevels::Impl {
   /// Triangles of the world that shares are of.
   std::size_t drawn() const { return options.drawn ? options.drawn : saturating_add(world.n_drawn, world.n_left); }
   void allocate();
+  std::size_t left_for_parts(std::size_t count) const;
   double error(const simplify::PlacedSurface& s, std::size_t point) const;
 };
+
+/// Triangles of the parts where the world is to have `count`. What stays as it is can be most of them: to make up for
+/// it, the parts give half of their own share at most, and for nothing no more than to what a box has.
+std::size_t WorldLevels::Impl::left_for_parts(std::size_t count) const {
+  if (world.n_left == 0) return count;
+  const double share = static_cast<double>(count) / static_cast<double>(drawn());
+  const auto half = static_cast<std::size_t>(share / 2 * static_cast<double>(world.n_drawn));
+  return count > world.n_left ? std::max(count - world.n_left, half) : std::max(faces_of_a_box, half);
+}
 
 void WorldLevels::Impl::allocate() {
   simplify::Allocation allocation(world.allocated, world.neighbours, world.area);
   auto before = allocation.n_drawn();
   for (const auto count : counts_of(options, drawn())) {
-    allocation.run_to(count > world.n_left ? count - world.n_left : 0);
+    allocation.run_to(left_for_parts(count));
     if (allocation.n_drawn() == before) continue;
     before = allocation.n_drawn();
     Point point{before + world.n_left, world.n_left, allocation.n_gone(), allocation.rms(), allocation.max()};
@@ -46,9 +58,9 @@ double WorldLevels::Impl::error(const simplify::PlacedSurface& s, std::size_t po
 }
 
 WorldLevels::WorldLevels(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx)
-    : impl_(
-          new Impl{scene, options,
-                   simplify::WorldParts(scene, options.expanded ? *options.expanded : scene, options.collapse, ctx)}) {
+    : impl_(new Impl{scene, options,
+                     simplify::WorldParts(scene, options.expanded ? *options.expanded : scene, options.collapse,
+                                          options.text, ctx)}) {
   if (n_parts() < (options.one_part ? 1 : 2) || counts_of(options, n_drawn()).empty()) return;
   impl_->world.make_ladders();
   impl_->allocate();
@@ -61,6 +73,18 @@ std::size_t WorldLevels::n_drawn() const { return impl_->drawn(); }
 std::size_t WorldLevels::n_faces() const { return impl_->world.n_faces + impl_->world.n_left; }
 std::size_t WorldLevels::n_parts() const { return impl_->world.parts.size(); }
 const std::vector<WorldLevels::Point>& WorldLevels::points() const { return impl_->points; }
+
+void WorldLevels::report_missed(Diagnostics& diag) const {
+  const auto counts = counts_of(impl_->options, n_drawn());
+  const auto fewest = points().empty() ? n_drawn() : points().back().n_drawn;
+  const auto missed = std::ranges::find_if(counts, [&](std::size_t count) { return count < fewest; });
+  if (impl_->world.n_left == 0 || missed == counts.end()) return;
+  std::string causes;
+  for (const auto& [why, n] : impl_->world.left) causes += fmt::format("{}{} {}", causes.empty() ? "" : ", ", n, why);
+  diag.report(
+      Diag::not_simplified, {},
+      fmt::format("{} of {} triangles, so {} cannot be reached: {}", impl_->world.n_left, n_drawn(), *missed, causes));
+}
 
 Scene WorldLevels::scene_at(std::size_t i) const {
   Scene out = impl_->scene;

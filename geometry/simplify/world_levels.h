@@ -14,7 +14,8 @@ class WorldLevels {
   /// (simplify/ladder.h), and shares the triangles out (simplify/allocation.h) at the numbers of triangles that the
   /// options ask for, by `every`, `counts` or `ratios`. Each place of a shared geometry is drawn and counts; all of
   /// them are simplified alike. Of very many places (8 million triangles) some are looked at, spread evenly. Small
-  /// parts leave. All meshes are in memory. `scene` must outlive this.
+  /// parts leave. What stays as it is counts, too; the rest makes up for it with at most half of the triangles that it
+  /// would have otherwise. All meshes are in memory. `scene` must outlive this.
   WorldLevels(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx);
   ~WorldLevels();
 
@@ -33,6 +34,8 @@ class WorldLevels {
     double rms = 0, max = 0;
   };
   const std::vector<Point>& points() const;
+  /// Reports not-simplified, with the causes, where what stays as it is keeps a number of triangles from being reached.
+  void report_missed(Diagnostics& diag) const;
   Scene scene_at(std::size_t i) const;
   /// With LOD nodes that have the points as levels.
   Scene scene_with_levels() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 
 #include "base/math/affine.h"
@@ -74,9 +75,15 @@ std::uint64_t most_places(std::span<const PlacedSurface> surfaces) {
   return low;
 }
 
+std::vector<std::vector<std::uint32_t>> one_piece(const Mesh& mesh) {
+  std::vector<std::uint32_t> faces(mesh.n_faces());
+  std::iota(faces.begin(), faces.end(), 0u);
+  return {std::move(faces)};
+}
+
 /// Leaves out what is not the same in both scenes.
-void keep_surfaces_of(const Scene& original, std::vector<ShapeSurface>& found) {
-  const auto surfaces = surfaces_of(original);
+void keep_surfaces_of(const Scene& original, OfText text, std::vector<ShapeSurface>& found) {
+  const auto surfaces = surfaces_of(original, {}, BelowLod::leave, text);
   const auto number = surface_numbers(original, surfaces);
   const auto is_there = [&](const ShapeSurface& s) {
     return std::ranges::all_of(s.shapes, [&](NodeId shape) {
@@ -89,29 +96,35 @@ void keep_surfaces_of(const Scene& original, std::vector<ShapeSurface>& found) {
 
 }  // namespace
 
-WorldParts::WorldParts(const Scene& original, const Scene& scene, const CollapseOptions& options, Task& ctx)
+WorldParts::WorldParts(const Scene& original, const Scene& scene, const CollapseOptions& options, OfText text,
+                       Task& ctx)
     : scene_(scene), options_(options) {
-  read(original, ctx);
+  read(original, text, ctx);
   find_looks();
   cut();
 }
 
-void WorldParts::read(const Scene& original, Task& ctx) {
+void WorldParts::read(const Scene& original, OfText text, Task& ctx) {
   SurfaceReader reader(scene_, ctx);
-  auto found = surfaces_of(scene_, report_not_simplified(scene_, ctx.diag));
-  if (&original != &scene_) keep_surfaces_of(original, found);
+  auto found = surfaces_of(scene_, report_not_simplified(scene_, ctx.diag), BelowLod::leave, text);
+  if (&original != &scene_) keep_surfaces_of(original, text, found);
+  const auto is_text = [&](const ShapeSurface& s) { return scene_.is(s.geometry, nodes::Text); };
+  if (std::ranges::all_of(found, is_text)) {  // nothing would be left of the world
+    found.clear();
+    text = OfText::leave;
+  }
   SharedBorders borders;
   Mesh mesh;
   for (const auto& s : found) {
     reader.read(s, mesh);
     borders.add(mesh);
-    surfaces.push_back({.surface = s, .mesh = std::move(mesh)});
+    surfaces.push_back({.surface = s, .mesh = std::move(mesh), .whole = is_text(s)});
   }
   auto fixed = borders.find(scene_, found);
   for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].fixed = std::move(fixed[i]);
   const ShownTimes shown(scene_);
   find_places(shown, found);
-  count_left(shown, found, reader);
+  count_left(shown, found, text, reader);
 }
 
 void WorldParts::find_places(const ShownTimes& shown, const std::vector<ShapeSurface>& found) {
@@ -135,20 +148,34 @@ bool WorldParts::measure_places(PlacedSurface& s) {
       s.widest = i;
       s.scale = scale;
     }
-  if (!(s.scale > 0)) n_left += s.mesh.n_faces() * s.n_places;
+  if (!(s.scale > 0)) leave(s.mesh.n_faces() * s.n_places, "a Shape that is scaled to nothing");
   return s.scale > 0 && s.mesh.n_faces() > 0;
 }
 
-/// Text, and what has levels already: it is drawn, and the budget has to pay for it.
-void WorldParts::count_left(const ShownTimes& shown, const std::vector<ShapeSurface>& taken, SurfaceReader& reader) {
-  auto left = surfaces_of(scene_, {}, BelowLod::take, OfText::take);
+void WorldParts::leave(std::uint64_t n_triangles, std::string_view why) {
+  if (n_triangles == 0) return;
+  n_left = saturating_add(n_left, n_triangles);
+  auto of_this = std::ranges::find(left, why, &std::pair<std::string_view, std::uint64_t>::first);
+  if (of_this == left.end()) of_this = left.insert(left.end(), {why, 0});
+  of_this->second = saturating_add(of_this->second, n_triangles);
+}
+
+/// What has levels already, changes, or comes from a prototype: it is drawn, and the budget has to pay for it.
+void WorldParts::count_left(const ShownTimes& shown, const std::vector<ShapeSurface>& taken, OfText text,
+                            SurfaceReader& reader) {
+  std::map<std::uint32_t, std::string_view> cause;  // by Shape
+  const auto keep_cause = [&](NodeId shape, const char* why) { cause[shape.value] = why; };
+  surfaces_of(scene_, keep_cause, BelowLod::leave, text);
+  auto others = surfaces_of(scene_, {}, BelowLod::take, OfText::take);
   std::vector<char> is_taken(scene_.node_count());
   for (const auto& s : taken) is_taken[s.geometry.value] = 1;
-  std::erase_if(left, [&](const ShapeSurface& s) { return is_taken[s.geometry.value] != 0; });
+  std::erase_if(others, [&](const ShapeSurface& s) { return is_taken[s.geometry.value] != 0; });
   Mesh mesh;
-  for (const auto& s : left) {
+  for (const auto& s : others) {
     reader.read(s, mesh);
-    n_left = saturating_add(n_left, saturating_multiply(mesh.n_faces(), shown.of(s)));
+    const auto known = cause.find(s.shapes[0].value);
+    leave(saturating_multiply(mesh.n_faces(), shown.of(s)),
+          known == cause.end() ? "made by prototypes (-p expand,weld helps)" : known->second);
   }
 }
 
@@ -175,7 +202,8 @@ void WorldParts::cut() {
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
     auto& s = surfaces[i];
     s.first_part = static_cast<std::uint32_t>(parts.size());
-    for (auto& faces : connected_pieces(s.mesh)) parts.push_back({.surface = i, .faces = std::move(faces)});
+    for (auto& faces : s.whole ? one_piece(s.mesh) : connected_pieces(s.mesh))
+      parts.push_back({.surface = i, .faces = std::move(faces)});
     s.n_parts = static_cast<std::uint32_t>(parts.size()) - s.first_part;
   }
   allocated.resize(parts.size());
@@ -242,7 +270,8 @@ WorldParts::Candidate WorldParts::candidate(std::uint32_t part) const {
   Candidate out{in_metres(parts[part], &options), {}, 0, false};
   const auto attributes = out.mesh.attributes();
   out.fixed = std::move(options.fixed);
-  out.plain = std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
+  const bool whole = surfaces[parts[part].surface].whole;
+  out.plain = !whole && std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
   out.hash = hash_of_corners(out.mesh);
   return out;
 }
@@ -291,6 +320,7 @@ struct WorldParts::Surroundings {
 /// Of two that hide one another, the larger one stays.
 bool WorldParts::yields(std::uint32_t owner, std::uint32_t other) const {
   const auto part = part_of_[owner], other_part = part_of_[other];
+  if (surfaces[parts[other_part].surface].whole) return false;  // it may be thin, as letters are
   return std::pair(parts[part].area, owner) < std::pair(parts[other_part].area, other);
 }
 
@@ -322,6 +352,10 @@ double WorldParts::enough(const Surroundings& around, const SurfaceSample& sampl
 
 void WorldParts::make_ladder_of(std::uint32_t ladder) {
   const auto& members = members_[ladder];
+  if (const auto& part = parts[members[0]]; surfaces[part.surface].whole) {
+    ladders_[ladder].push_back({.n_faces = part.faces.size()});
+    return;
+  }
   CollapseOptions options = options_;
   const Mesh mesh = in_metres(parts[members[0]], &options);
   auto samples =

@@ -18,13 +18,14 @@ struct PlacedSurface {
   double scale = 1;              // metres of the world for its unit, there
   std::vector<std::uint32_t> fixed{};
   std::uint32_t look = 0;
+  bool whole = false;  // it stays as it is, or leaves
   std::uint32_t first_part = 0, n_parts = 0;
 
   /// Places that each of `some` stands for.
   double each(std::size_t some) const { return static_cast<double>(n_places) / static_cast<double>(some); }
 };
 
-/// A piece of a surface. Pieces of like form have one ladder.
+/// A piece of a surface, or a Text. Pieces of like form have one ladder.
 struct WorldPart {
   std::uint32_t surface;
   std::vector<std::uint32_t> faces;
@@ -37,7 +38,7 @@ class WorldParts {
  public:
   /// Of surfaces of `original`, where `scene` shows them: it is the same scene, or has instances of prototypes
   /// expanded.
-  WorldParts(const Scene& original, const Scene& scene, const CollapseOptions& options, Task& ctx);
+  WorldParts(const Scene& original, const Scene& scene, const CollapseOptions& options, OfText text, Task& ctx);
 
   /// Triangles that a scene may draw; of one that draws more there are no parts.
   static constexpr std::uint64_t most_drawn = 1'000'000'000'000'000;
@@ -48,7 +49,8 @@ class WorldParts {
   std::uint64_t n_drawn = 0;  // of the surfaces, in all places; saturates
   std::size_t n_faces = 0;    // of the surfaces, once
   std::uint64_t n_left = 0;   // triangles that are drawn of what is left alone; saturates
-  double area = 0;            // in the world
+  std::vector<std::pair<std::string_view, std::uint64_t>> left;  // why, and how many of them
+  double area = 0;                                               // in the world
   std::vector<PlacedSurface> surfaces;
   std::vector<WorldPart> parts;
   std::vector<AllocatedPart> allocated;  // of each part
@@ -61,10 +63,11 @@ class WorldParts {
                   const std::vector<std::uint32_t>* before = nullptr) const;
 
  private:
-  void read(const Scene& original, Task& ctx);
+  void read(const Scene& original, OfText text, Task& ctx);
   void find_places(const ShownTimes& shown, const std::vector<ShapeSurface>& found);
   bool measure_places(PlacedSurface& s);
-  void count_left(const ShownTimes& shown, const std::vector<ShapeSurface>& taken, SurfaceReader& reader);
+  void count_left(const ShownTimes& shown, const std::vector<ShapeSurface>& taken, OfText text, SurfaceReader& reader);
+  void leave(std::uint64_t n_triangles, std::string_view why);
   void find_looks();
   void cut();
   Matrix frame_of(const WorldPart& part) const;

@@ -129,6 +129,7 @@ LodCounts lods_of_groups(Scene& scene, const WorldSimplifyOptions& world, const 
     if (levels.n_drawn() > WorldLevels::most_drawn)
       ctx.diag.report(Diag::not_simplified, {},
                       fmt::format("a world of more than {} triangles as a whole", WorldLevels::most_drawn));
+    levels.report_missed(ctx.diag);
     if (levels.points().empty()) return made;
     std::vector<LeveledSurface> surfaces;
     with_lods = levels.scene_with_surfaces(surfaces);
@@ -147,6 +148,7 @@ Outcome lods_of_world(Scene& scene, const LodOptions& options, PassContext& ctx)
   WorldSimplifyOptions world;
   world.collapse.criterion = options.criterion.value;
   world.ratios = options.ratios.values;
+  world.text = options.scope == LodScope::group ? OfText::take : OfText::leave;
   const LodLimits limits{{options.pixels, options.screen_height, options.field_of_view, options.vanish},
                          options.min_saving,
                          static_cast<std::uint64_t>(options.min_faces)};

@@ -425,3 +425,42 @@ TEST_CASE("nearest point: what is forgotten is not found again", "[levels]") {
   tree.forget(0, 50);
   CHECK(std::isinf(tree.nearest_of(p, far, {}).distance));
 }
+
+TEST_CASE("world levels: a text stays or leaves as a whole", "[levels]") {
+  const std::string text = "DEF Label Shape { geometry Text { string \"pump room\" } }";
+  TestWorld w(tank_with_bolts(0) + at(0, 4, 0, text));
+  WorldSimplifyOptions options;
+  options.ratios = {0.9, 0.1};
+  options.text = OfText::take;
+  const WorldLevels levels(w.scene, options, w.ctx);
+  const auto n_text = drawn(TestWorld(text).scene);
+  REQUIRE(n_text > drawn(w.scene) / 2);
+  REQUIRE(levels.points().size() == 2);
+  CHECK(is_drawn(levels.scene_at(0), "Label"));
+  CHECK(levels.points()[0].n_drawn >= n_text);
+  CHECK_FALSE(is_drawn(levels.scene_at(1), "Label"));
+  CHECK(is_drawn(levels.scene_at(1), "Tank"));
+  CHECK(levels.points()[1].n_drawn <= levels.n_drawn() / 10);
+  levels.report_missed(w.ctx.diag);
+  CHECK(w.diag.messages().empty());
+}
+
+TEST_CASE("world levels: what must stay is not paid for by all the rest", "[levels]") {
+  const std::string below_lod = "LOD { range 9 level [ Group { children [ " +
+                                at(9, 0, 0, "DEF Ball Shape { geometry Sphere { } }") + at(-9, 0, 0, "USE Ball") +
+                                " ] } Group { } ] }";
+  TestWorld w(tank_with_bolts(4) + below_lod);
+  const auto n_left = drawn(TestWorld(below_lod).scene);
+  WorldSimplifyOptions options;
+  options.ratios = {0.5, 0.25};
+  const WorldLevels levels(w.scene, options, w.ctx);
+  const auto n_rest = levels.n_drawn() - n_left;
+  REQUIRE(n_left > levels.n_drawn() / 2);
+  REQUIRE(levels.points().size() == 2);
+  CHECK(levels.points()[1].n_drawn - n_left <= n_rest / 8);
+  CHECK(levels.points()[1].n_drawn - n_left >= n_rest / 16);
+  CHECK(is_drawn(levels.scene_at(1), "Tank"));
+  levels.report_missed(w.ctx.diag);
+  CHECK(w.diag.messages().back().args[0].find("cannot be reached: " + std::to_string(n_left) +
+                                              " a Shape below a LOD") != std::string::npos);
+}

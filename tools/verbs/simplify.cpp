@@ -228,6 +228,7 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
   SilentTask silent(s.context());
   std::optional<Scene> expanded;
   if (options.errors.empty()) {
+    options.text = OfText::take;
     expanded = expanded_scene(s);
     if (expanded) options.expanded = &*expanded;
     const WorldLevels world(scene, options, silent);
@@ -236,6 +237,7 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
                       fmt::format("a world of more than {} triangles as a whole, but each surface by itself",
                                   WorldLevels::most_drawn));
     if (world.n_parts() > 1) {
+      world.report_missed(s.diag());  // first: of many messages of a kind the first ones are shown
       surfaces_of(scene, report_not_simplified(scene, s.diag()));
       return write_worlds(s, world, names, all);
     }
