@@ -46,7 +46,8 @@ void Allocation::list_stops(std::uint32_t part) {
 Allocation::Stop Allocation::stop_at(std::uint32_t part, std::uint32_t rung) const {
   const auto& p = parts_[part];
   const auto& d = (*p.rungs)[rung].distortion;
-  return {rung, {p.weight * p.stretch.squares(d), p.stretch.max(d)}};
+  const double max = p.stretch.max(d);
+  return {rung, {p.weight * p.stretch.squares(d), max, max}};
 }
 
 /// When larger distances have become usual.
@@ -73,8 +74,8 @@ std::vector<double> Allocation::maxima() const {
   return out;
 }
 
-double Allocation::key_of(double slope, double max) const {
-  const double over = max / (usual_peak * priced_at_);
+double Allocation::key_of(double slope, double peak) const {
+  const double over = peak / (usual_peak * priced_at_);
   return slope * std::max(1., over * over);
 }
 
@@ -86,10 +87,10 @@ Allocation::Step Allocation::next_of(std::uint32_t part) const {
   const double places = static_cast<double>(p.n_places);
   const auto n_faces = [&](std::uint32_t stop) { return (*p.rungs)[stops[stop].rung].n_faces; };
   const double all = places * static_cast<double>(n_faces(at_[part]));
-  Step best{key_of((leaving_[part].squares - now.price.squares) / all, leaving_[part].max), part, gone};
+  Step best{key_of((leaving_[part].squares - now.price.squares) / all, leaving_[part].peak), part, gone};
   for (std::uint32_t i = at_[part] + 1; i < stops.size(); ++i) {
     const double saved = places * static_cast<double>(n_faces(at_[part]) - n_faces(i));
-    const double key = key_of((stops[i].price.squares - now.price.squares) / saved, stops[i].price.max);
+    const double key = key_of((stops[i].price.squares - now.price.squares) / saved, stops[i].price.peak);
     if (key < best.key) best = {key, part, i};
   }
   return best;
@@ -128,9 +129,12 @@ void Allocation::price_leaving(std::uint32_t part) {
                [&](std::size_t i) { ask(all.subspan(i * chunk, std::min(chunk, all.size() - i * chunk)), part); });
   Price out;
   for (const auto& s : all) {
-    out.squares += s.weight * (squared_of(s) - s.counted);
+    const double squared = squared_of(s);
+    out.squares += s.weight * (squared - s.counted);
     out.max = std::max(out.max, s.distance);
+    out.peak = std::max(out.peak, squared);
   }
+  out.peak = std::sqrt(out.peak);
   leaving_[part] = out;
 }
 

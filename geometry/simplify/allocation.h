@@ -62,6 +62,7 @@ class Allocation {
   };
   struct Price {
     double squares = 0, max = 0;
+    double peak = 0;  // the largest distance as it counts: of what was seen on another look its width at least
   };
   /// A rung of the convex hull, or one that met a number of triangles.
   struct Stop {
@@ -71,7 +72,7 @@ class Allocation {
 
   void price_all();
   Step next_of(std::uint32_t part) const;
-  double key_of(double slope, double max) const;
+  double key_of(double slope, double peak) const;
   void list_stops(std::uint32_t part);
   Stop stop_at(std::uint32_t part, std::uint32_t rung) const;
   void price_leaving(std::uint32_t part);
