@@ -10,7 +10,7 @@ GLTF_TRANSFORM glTF-Transform's (@gltf-transform/cli); each is left out where it
 """
 import argparse, json, os, subprocess, sys
 
-from whole_process import measure, shared
+from table.measure import SHARED, cost
 
 GLTFPACK, TRANSFORM = os.environ.get('GLTFPACK'), os.environ.get('GLTF_TRANSFORM')
 
@@ -42,10 +42,10 @@ def plants(a):
     for size in a.sizes.split(','):
         path = lambda name: os.path.join(a.out, f'small_{size}{name}')
         if not os.path.exists(path('.wrl')):
-            subprocess.run([sys.executable, os.path.join(shared, 'bench', 'gen_plant.py'), path('.wrl'), '--size', size], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([sys.executable, SHARED / 'bench' / 'gen_plant.py', path('.wrl'), '--size', size], check=True, stdout=subprocess.DEVNULL)
         for name, made, command in steps_of(a.wrlkit, path('.wrl'), path):
-            result = measure(command, a.runs)
-            print(f'| {size} | {name} | {os.path.getsize(made)} | {result[0]:.3f} |' if result else f'| {size} | {name} | failed | |', flush=True)
+            result = cost(command, a.runs)
+            print(f'| {size} | {name} | {os.path.getsize(made)} | {result.cpu:.3f} |' if result else f'| {size} | {name} | failed | |', flush=True)
 
 
 def worlds(a):
@@ -61,7 +61,7 @@ def worlds(a):
         for name, made, command in steps:
             if os.path.exists(made):
                 os.remove(made)
-            result = measure(command, a.runs) if a.runs > 1 else once(command)
+            result = cost(command, a.runs)
             if name.startswith('convert'):
                 continue
             if not result or not os.path.exists(made):
@@ -69,14 +69,8 @@ def worlds(a):
                 continue
             missing, deviation = difference(a.wrlkit, source, made)
             far = '?' if deviation is None else 'inf' if deviation == float('inf') else f'{deviation * 1e3:.2g} mm'
-            cells.append(f'{os.path.getsize(made)}; {missing}; {far}; {result[0]:.2f} s')
+            cells.append(f'{os.path.getsize(made)}; {missing}; {far}; {result.cpu:.2f} s')
         print(f'| {os.path.basename(os.path.dirname(source))}/{os.path.basename(source)} | ' + ' | '.join(cells) + ' |', flush=True)
-
-
-def once(command):
-    pid = os.spawnvp(os.P_NOWAIT, 'sh', ['sh', '-c', 'exec "$@" >/dev/null 2>&1', 'sh', *command])
-    _, status, usage = os.wait4(pid, 0)
-    return (usage.ru_utime + usage.ru_stime, 0) if os.waitstatus_to_exitcode(status) in (0, 1) else None
 
 
 def main():
@@ -90,7 +84,7 @@ def main():
     os.makedirs(a.out, exist_ok=True)
     if a.worlds:
         return worlds(a)
-    if not os.path.exists(os.path.join(shared, 'bench', 'gen_plant.py')):
+    if not (SHARED / 'bench' / 'gen_plant.py').exists():
         return print('skipped: ../shared/bench is not there')
     plants(a)
 
