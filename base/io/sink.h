@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/math/shortest.h"
+
 namespace wrlkit {
 
 using Sink = std::function<void(std::string_view)>;
@@ -30,21 +32,18 @@ class TextOut {
   void number(double v, int precision = 0) {
     char b[40];
     v += 0.0;
-    auto r = precision > 0 ? std::to_chars(b, b + sizeof b, v, std::chars_format::general, precision)
-                           : std::to_chars(b, b + sizeof b, v);
-    *this << std::string_view(b, static_cast<std::size_t>(r.ptr - b));
+    const char* end = precision > 0 ? std::to_chars(b, b + sizeof b, v, std::chars_format::general, precision).ptr
+                                    : write_shortest(b, v);
+    *this << std::string_view(b, static_cast<std::size_t>(end - b));
   }
   /// Shortest text that reads back as an equal float.
   void number(float v) {
     char b[40];
-    v += 0.0f;
-    auto r = std::to_chars(b, b + sizeof b, v);
-    *this << std::string_view(b, static_cast<std::size_t>(r.ptr - b));
+    *this << std::string_view(b, static_cast<std::size_t>(write_shortest(b, v + 0.0f) - b));
   }
   void integer(std::int64_t v) {
-    char b[24];
-    auto r = std::to_chars(b, b + sizeof b, v);
-    *this << std::string_view(b, static_cast<std::size_t>(r.ptr - b));
+    char b[40];
+    *this << std::string_view(b, static_cast<std::size_t>(write_shortest(b, v) - b));
   }
   void flush() {
     if (!buffer_.empty()) sink_(buffer_);

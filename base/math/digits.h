@@ -7,13 +7,15 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/math/shortest.h"
+
 namespace wrlkit {
 
 /// The shortest text that reads back as the same number.
 template <class N>
 std::string shortest_text(N v) {
   char text[40];
-  return {text, std::to_chars(text, text + sizeof text, v).ptr};
+  return {text, write_shortest(text, v)};
 }
 
 /// Reads a text that is a number from end to end, without blanks. False otherwise; `v` is undefined then.

@@ -13,7 +13,6 @@
 //   };
 //   std::string text = json_of(std::vector<Share>{...});
 #pragma once
-#include <charconv>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -25,6 +24,8 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+
+#include "base/math/shortest.h"
 
 namespace wrlkit {
 
@@ -85,7 +86,7 @@ class JsonOut {
     if constexpr (std::is_floating_point_v<N>)
       if (!std::isfinite(v)) return raw("null");
     char b[40];
-    raw({b, static_cast<std::size_t>(std::to_chars(b, b + sizeof b, v).ptr - b)});
+    raw({b, static_cast<std::size_t>(write_shortest(b, v) - b)});
   }
   /// An enumeration by the name that to_string gives it.
   template <class E>
