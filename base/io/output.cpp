@@ -71,7 +71,11 @@ std::string reason(int error, const fs::path& path) {
   if (error == ENOENT && fs::is_directory(folder, ec)) return "no file can be made in the folder '" + folder + "'";
   if (error == ENOENT) return "the folder '" + folder + "' does not exist";
   if (error == EISDIR) return "it is a directory";
-  if (error == ENOTDIR) return "'" + path.parent_path().string() + "' is not a folder";
+  if (error == ENOTDIR) {
+    auto file = path.parent_path();
+    while (file.has_parent_path() && !fs::exists(file, ec)) file = file.parent_path();
+    return "'" + file.string() + "' is not a folder";
+  }
   if (error == EACCES && !fs::exists(path, ec)) return "permission denied in the folder '" + folder + "'";
   if (error == EACCES) return "permission denied";
   if (error == ENOSPC) return "the disk is full";
@@ -119,11 +123,15 @@ struct OutputFile::State {
     std::error_code fault;
     for (auto at = folder(); !at.empty() && !fs::exists(fs::symlink_status(at, fault)); at = at.parent_path())
       missing.push_back(at);
-    for (fault.clear(); !missing.empty() && !fault; missing.pop_back())
+    fault.clear();
+    while (!missing.empty()) {
       if (fs::create_directory(missing.back(), fault)) made_folders.push_back(missing.back());
+      if (fault) break;
+      missing.pop_back();
+    }
     if (!fault || fault == std::errc::not_a_directory) return;
     error = fault.value();
-    unmade = fs::path(missing.empty() ? folder() : missing.back()).string();
+    unmade = missing.back().string();
   }
 
   void discard() {

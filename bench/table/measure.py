@@ -34,6 +34,7 @@ class Row:
     command: str
     reach: float | None = None
     better: str = 'less'  # or 'more'
+    wall: bool = False    # of wall time, which means nothing on a busy machine
 
     def holds(self):
         return self.reach is None or (self.ratio <= self.reach if self.better == 'less' else self.ratio >= self.reach)
@@ -104,8 +105,10 @@ def plant(size, *options):
     path = DATA / f'{name}.wrl'
     if not path.exists():
         DATA.mkdir(parents=True, exist_ok=True)
-        subprocess.run([sys.executable, SHARED / 'bench' / 'gen_plant.py', path, '--size', size, *options],
+        made = path.with_suffix('.part')
+        subprocess.run([sys.executable, SHARED / 'bench' / 'gen_plant.py', made, '--size', size, *options],
                        check=True, stdout=subprocess.DEVNULL)
+        made.rename(path)
     return path
 
 
@@ -118,7 +121,9 @@ def compiled(name, source, *flags):
     program = DATA / name
     if not program.exists():
         DATA.mkdir(parents=True, exist_ok=True)
-        subprocess.run(['g++', '-O3', '-march=native', '-std=c++20', source, '-o', program, *flags], check=True)
+        made = program.with_suffix('.part')
+        subprocess.run(['g++', '-O3', '-march=native', '-std=c++20', source, '-o', made, *flags], check=True)
+        made.rename(program)
     return program
 
 

@@ -80,9 +80,9 @@ def run(command, ending, source):
 def readers(_):
     """Rows: how many times wrlkit's CPU time each peer takes for the larger plant that it can do."""
     small, large = plant('1M'), plant('10M')
-    rows, lines, curves, ours, whole = [], [], {}, {}, None
+    rows, lines, curves, ours = [], [], {}, {}
     for name, (command, ending) in programs().items():
-        line, curves[name] = [name], []
+        line, curves[name], in_glb = [name], [], ''
         for source in (small, large):
             cost, seen = run(command, ending, source)
             mb = megabytes(source)
@@ -92,9 +92,8 @@ def readers(_):
             line += [number(mb / cost.cpu), number(cost.peak / mb)]
             curves[name].append((mb, cost.cpu))
             ours.setdefault(source, cost)
-            last, losses = (cost.cpu / ours[source].cpu, cost, source), seen or losses if source is large else seen
-        whole = whole or losses
-        line.append(lost(losses, whole))
+            last, in_glb = (cost.cpu / ours[source].cpu, cost, source), seen
+        line.append(in_words(in_glb))
         lines.append(line)
         if name != 'wrlkit' and curves[name]:
             ratio, cost, source = last
@@ -104,7 +103,7 @@ def readers(_):
     return rows, [Table('Programs that read VRML', head, lines, {'axes': ('MB', 'CPU s'), 'curves': {k: v for k, v in curves.items() if v}})]
 
 
-def lost(seen, whole):
+def in_words(seen):
     if not seen:
         return ''
     triangles, names, materials = seen

@@ -33,7 +33,7 @@ def rows_of(name, path, costs, reach):
         Row('road', f'to GLB, {name}, one thread', costs['one'].cpu / costs['floor'].cpu, "times the floor's CPU time",
             f'{number(costs["one"].cpu)} CPU s', said, glb),
         Row('road', f'to GLB, {name}, two threads', costs['one'].wall / costs['two'].wall, 'times as fast as one',
-            f'{number(costs["two"].wall)} s', said, threads, 'more'),
+            f'{number(costs["two"].wall)} s', said, threads, 'more', wall=True),
         Row('road', f'peak memory, {name}', costs['one'].peak / mb, 'times the file', f'{number(costs["one"].peak)} MB', said, peak),
     ]
 
@@ -66,7 +66,7 @@ def formats(runs):
     x3d, glb, out = (measure.DATA / name for name in ('plant_100M.x3d', 'plant_100M.glb', 'out'))
     for made in (x3d, glb):
         if not made.exists():
-            measure.once([measure.WRLKIT, 'convert', '-q', source, made])
+            measure.output(measure.WRLKIT, 'convert', '-q', source, made)
     ways = {
         'VRML97 to GLB': [source, f'{out}.glb'],
         'VRML97 to VRML97': [source, f'{out}.wrl'],

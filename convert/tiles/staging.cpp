@@ -42,6 +42,8 @@ void remove_others(const fs::path& folder, const std::string& name) {
 
 /// Whether there is a set of tiles that another program has made.
 bool is_foreign(const fs::path& tileset) {
+  std::error_code none;
+  if (!fs::is_regular_file(tileset, none)) return fs::exists(fs::symlink_status(tileset, none));
   constexpr std::size_t head = 4096;  // the generator stands in front of the tiles
   std::ifstream in(tileset, std::ios::binary);
   std::string text(head, '\0');

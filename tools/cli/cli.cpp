@@ -113,7 +113,7 @@ std::string fault_text(const CLI::ParseError& fault, const std::vector<std::stri
   const auto app = app_of(*verb, unused);
   for (const auto* o : long_options(*app))
     for (const auto& name : o->get_lnames()) options.push_back(name);
-  return option_fault(verb->name, words, options, what);
+  return option_fault(verb->name, words, options, app->get_option_no_throw("OUT") != nullptr, what);
 }
 
 /// "corpus run" for "corpus-run".
@@ -271,7 +271,7 @@ int run_command_line(int argc, char** argv) {
   if (!chosen) return code;
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
-  if (!check_outputs(flags, chosen->endings)) return usage;
+  if (!check_outputs(flags, chosen->endings, chosen->makes)) return usage;
   if (!limit(*chosen, flags)) return usage;
   return chosen->run(flags);
 }

@@ -84,11 +84,19 @@ bool is_no_scene(const NamedOutput& output) {
   return false;
 }
 
-/// Whether two names mean one file, which need not be there yet.
-bool are_one_file(const std::string& a, const std::string& b) {
+/// The file that a name means behind links; neither it nor what they lead to need be there yet.
+fs::path target_of(const std::string& name) {
+  constexpr int most_links = 40;  // as Linux follows
   std::error_code fault;
-  const auto one = fs::weakly_canonical(fs::absolute(a, fault), fault);
-  return is_same_file(a, b) || (!fault && one == fs::weakly_canonical(fs::absolute(b, fault), fault) && !fault);
+  auto path = fs::absolute(name, fault);
+  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, fault)); ++i)
+    path = path.parent_path() / fs::read_symlink(path, fault);
+  const auto target = fs::weakly_canonical(path, fault);
+  return fault ? path : target;
+}
+
+bool are_one_file(const std::string& a, const std::string& b) {
+  return is_same_file(a, b) || target_of(a) == target_of(b);
 }
 
 /// The outputs that options and arguments of the command line name.
@@ -119,8 +127,10 @@ bool may_write(const Flags& flags, std::vector<NamedOutput> known, std::span<con
 
 }  // namespace
 
-bool check_outputs(const Flags& flags, std::string_view endings) {
-  return may_write(flags, {}, outputs_of(flags, endings));
+bool check_outputs(const Flags& flags, std::string_view endings, std::string_view makes) {
+  std::vector<NamedOutput> known;
+  if (!makes.empty()) known.push_back({(fs::path(flags.output) / makes).string(), "", ""});
+  return may_write(flags, std::move(known), outputs_of(flags, endings));
 }
 
 bool check_written_files(const Flags& flags, std::span<const WrittenFileOption> files) {

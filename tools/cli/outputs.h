@@ -11,8 +11,8 @@ namespace wrlkit {
 
 /// False, which was printed, when an output of the command is a file that it reads, two of them are one file, or the
 /// name of one ends in none of the verb's `endings` (".xml .xml.gz"; empty: any). With Flags::load.in_place the output
-/// may be the input.
-bool check_outputs(const Flags& flags, std::string_view endings);
+/// may be the input. `makes`: the output is a folder, in which a file of this name is made; empty: it is a file.
+bool check_outputs(const Flags& flags, std::string_view endings, std::string_view makes);
 /// The same of files that options of passes name, which must not be those of check_outputs either. Each is of one
 /// world: several would replace it one after the other.
 bool check_written_files(const Flags& flags, std::span<const WrittenFileOption> files);

@@ -255,7 +255,7 @@ constexpr Verb all_verbs[] = {
        tiles(v, f);
        placing(v, f);
      },
-     run_tiles},
+     run_tiles, "", "tileset.json"},
     {"view",
      "a page to look at the world, to compare two, or a gallery of many: one HTML file that needs no other and no "
      "network; or at tiles, which it loads from next to it",

@@ -15,6 +15,7 @@ struct Verb {
   void (*flags)(CLI::App&, Flags&);
   int (*run)(const Flags&);
   const char* endings = "";  // of outputs that have one format only, with blanks between them
+  const char* makes = "";    // the file that it makes in the folder of its output
 };
 
 /// In the order of the help.

@@ -69,25 +69,25 @@ std::optional<int> verb_of_files(std::vector<std::string>& words) {
   return std::nullopt;
 }
 
-/// 'corpus run' in quotes is two words.
+/// 'corpus run' in quotes, where a verb may stand, is two words.
 void split_corpus_verb(std::vector<std::string>& words) {
-  constexpr std::string_view front = "corpus ";
-  const auto at = std::ranges::find_if(words.begin(), words.begin() + std::min<std::ptrdiff_t>(std::ssize(words), 2),
-                                       [&](const std::string& word) { return word.starts_with(front); });
-  if (at == words.begin() + std::min<std::ptrdiff_t>(std::ssize(words), 2)) return;
-  const std::string second = at->substr(front.size());
-  *at = corpus;
-  words.insert(at + 1, second);
+  const std::string front = std::string(corpus) + ' ';
+  const std::size_t at = words[0] == "help" ? 1 : 0;
+  if (at >= words.size() || !words[at].starts_with(front)) return;
+  const std::string second = words[at].substr(front.size());
+  if (!find_verb(std::string(corpus) + '-' + second)) return;
+  words[at] = corpus;
+  words.insert(words.begin() + static_cast<std::ptrdiff_t>(at) + 1, second);
 }
 
 /// "-o", which many programs have, where this verb takes the output behind the input.
-std::string output_hint(const std::string& verb, const std::vector<std::string>& words) {
+std::string output_hint(const std::string& verb, const std::vector<std::string>& words, bool takes_output) {
   const bool has = std::ranges::any_of(words, [](const auto& w) { return w == "-o" || w.starts_with("--output"); });
   const Verb* found = find_verb(verb);
   const std::string_view example = found ? found->example : "";
-  return has ? fmt::format("{} writes to the name behind the input, without -o: {}", verb,
-                           example.substr(0, example.find('\n')))
-             : std::string();
+  return has && takes_output ? fmt::format("{} writes to the name behind the input, without -o: {}", verb,
+                                           example.substr(0, example.find('\n')))
+                             : std::string();
 }
 
 }  // namespace
@@ -125,10 +125,10 @@ std::optional<int> put_verb_first(std::vector<std::string>& words) {
 }
 
 std::string option_fault(const std::string& verb, const std::vector<std::string>& words,
-                         const std::vector<std::string>& options, const std::string& what) {
+                         const std::vector<std::string>& options, bool takes_output, const std::string& what) {
   const auto name = "wrlkit " + spoken_verb(verb);
   if (std::ranges::find(options, "output") == options.end())
-    if (const auto hint = output_hint(verb, words); !hint.empty()) return name + ": " + hint + '\n';
+    if (const auto hint = output_hint(verb, words, takes_output); !hint.empty()) return name + ": " + hint + '\n';
   for (const auto& word : words) {
     if (!word.starts_with("--") || word.size() == 2) continue;
     const auto option = word.substr(2, std::min(word.find('='), word.size()) - 2);

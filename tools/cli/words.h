@@ -19,6 +19,6 @@ std::string program_option_fault(const std::vector<std::string>& words);
 
 /// What was wrong with options, in a line: "wrlkit convert: there is no option '--ratio'; did you mean '--ratios'?".
 std::string option_fault(const std::string& verb, const std::vector<std::string>& words,
-                         const std::vector<std::string>& options, const std::string& what);
+                         const std::vector<std::string>& options, bool takes_output, const std::string& what);
 
 }  // namespace wrlkit

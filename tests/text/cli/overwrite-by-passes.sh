@@ -21,4 +21,8 @@ try wrlkit convert f.wrl o.glb -p 'lightmap{checkpoint=old.wrl}'
 try wrlkit render f.wrl f.wrl o.png -p 'merge{csv=a.csv}'
 try wrlkit convert f.wrl o.json --format glb --report o.json
 try wrlkit corpus run each.toml f.wrl -o out
+ln -s later.glb link.json
+try wrlkit convert f.wrl later.glb --report link.json
+try wrlkit tiles f.wrl -o set --report set/tileset.json
+rm link.json
 ls
