@@ -24,7 +24,8 @@ namespace wrlkit::simplify {
 namespace {
 
 constexpr std::size_t most_places_asked = 4;  // of a ladder, for what hides it
-constexpr std::size_t samples_of_face = 8, least_samples = 400, most_samples = 20'000;  // of a ladder
+constexpr std::size_t ladder_samples_of_face = 8, least_ladder_samples = 400,
+                      most_ladder_samples = 20'000;  // of a ladder
 constexpr std::size_t parts_at_once = 4096;
 constexpr std::size_t most_alike = 64;  // forms with the same corners
 // Samples for when a part leaves, in a place: of large parts, of the others; and of all in all places.
@@ -358,8 +359,8 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
   }
   CollapseOptions options = options_;
   const Mesh mesh = in_metres(parts[members[0]], &options);
-  auto samples =
-      sample_surface(triangles_of(mesh), std::clamp(samples_of_face * mesh.n_faces(), least_samples, most_samples));
+  auto samples = sample_surface(triangles_of(mesh), std::clamp(ladder_samples_of_face * mesh.n_faces(),
+                                                               least_ladder_samples, most_ladder_samples));
   std::vector<Surroundings> around;
   const double width = half_width(samples);
   const std::size_t stride = (members.size() + most_places_asked - 1) / most_places_asked;
