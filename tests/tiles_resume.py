@@ -124,6 +124,21 @@ class Test:
         inl.write_text(text)
         return changed['kept'], more['kept'], n
 
+    def removed(self):
+        """A file that has left leaves nothing behind, and the tiles far from it stay."""
+        gone = self.plant / 'unit_3.wrl'
+        self.make('fewer', '--update')
+        gone.rename(self.folder / 'unit_3.wrl')
+        made = self.make('fewer', '--update')
+        self.expect(0 < made['kept'] < len(made['tiles']), f'{made["kept"]} of {len(made["tiles"])} tiles were kept when a file had left')
+        self.make('without')
+        shutil.rmtree(self.folder / 'fewer' / '.wrlkit')
+        self.same('fewer', 'without', 'an update without one of the files')
+        # The set of a run before, of other files, is replaced.
+        (self.folder / 'unit_3.wrl').rename(gone)
+        self.make('without')
+        self.same('without', 'once', 'a run in the folder of another one')
+
     def hostile(self):
         """One clear line, and nothing that is half written."""
         (self.folder / 'file').write_text('')
@@ -170,6 +185,7 @@ def main():
         test.other_options()
         test.shards()
         print('updated: kept {} and {} of {} tiles'.format(*test.update()))
+        test.removed()
         test.hostile()
         print('a full disk:', test.small_disk())
     print('\n'.join(test.faults) or 'the same bytes, however they were made')

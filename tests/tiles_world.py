@@ -37,7 +37,7 @@ class Tiles:
     """The tiles of a set with their origins in the coordinates of the world, y up."""
 
     def __init__(self, folder):
-        self.folder = folder
+        self.folder = folder = folder.resolve()  # Inlines of it are looked for from elsewhere
         self.set = json.loads((folder / 'tileset.json').read_text())
         self.all, self.n_files = [], 1
         self._add(self.set['root'], (0, 0, 0), None, folder)
@@ -100,7 +100,9 @@ def true_error(wrlkit, tile, folder):
         return path
     coarse, full = inlined([tile], folder / 'coarse.wrl'), inlined(leaves_of(tile), folder / 'full.wrl')
     result = subprocess.run([wrlkit, 'diff', full, coarse, '--json', '--allow-path', folder], capture_output=True, text=True)
-    return json.loads(result.stdout)['surface']['max']
+    found = json.loads(result.stdout)
+    assert all(found['triangles']), f'{tile["glb"]}: nothing is drawn: {result.stderr}'
+    return found['surface']['max']
 
 
 def check_tree(tiles, faults):

@@ -3,44 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "base/stop.h"
+#include "convert/tiles/soup.h"
+#include "convert/tiles/uncovered.h"
 #include "geometry/closest_point.h"
-#include "geometry/simplify/samples.h"
 
 namespace wrlkit::tiles {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// The surfaces of pieces, around an origin.
-struct Soup {
-  std::vector<double> positions;
-  std::vector<std::uint32_t> corners;
-
-  Soup(std::span<const Piece> pieces, const Vec3& origin) {
-    for (const auto& p : pieces) {
-      if (!p.mesh.is_triangles()) continue;
-      const auto first = static_cast<std::uint32_t>(positions.size() / 3);
-      const auto from = p.mesh.positions.span();
-      for (std::size_t i = 0; i < from.size(); ++i) positions.push_back(from[i] - origin[i % 3]);
-      for (const auto c : p.mesh.corners) corners.push_back(first + c);
-    }
-  }
-  Triangles triangles() const { return {positions, corners}; }
-
-  /// Two of each triangle and all corners, in an order in which neighbours mostly follow one another.
-  std::vector<Vec3> points() const {
-    std::vector<Vec3> out;
-    for (const auto& s : simplify::sample_surface(triangles(), 2 * triangles().size()))
-      if (s.normal != Vec3{}) out.push_back(s.point);
-    std::vector<char> is_taken(positions.size() / 3);
-    for (const auto c : corners)
-      if (!std::exchange(is_taken[c], 1)) out.push_back(triangles().position(c));
-    return out;
-  }
-};
+constexpr double share_of_extent = 1e-4;  // of the extent: distances that are not told apart
+constexpr int most_rounds = 3;
 
 /// The largest distance from the points of triangles to a surface. Two bounds keep most of a triangle from being cut:
 /// the distance from one triangle of the surface is convex, so no point is farther from it than the farthest corner;
@@ -48,7 +22,7 @@ struct Soup {
 class FarthestPoint {
  public:
   explicit FarthestPoint(const Soup& soup, double extent)
-      : triangles_(soup.triangles()), nearest_(triangles_), least_(least_share * extent) {}
+      : triangles_(soup.triangles()), nearest_(triangles_), least_(share_of_extent * extent) {}
 
   /// No point is farther, of all that was added.
   double bound() const { return std::max(farthest_, bound_); }
@@ -73,7 +47,6 @@ class FarthestPoint {
   using Triangle = std::array<Vec3, 3>;
   static constexpr std::size_t most_pieces = 80'000;  // of a triangle
   static constexpr double tolerance = 0.02;           // of the distance
-  static constexpr double least_share = 1e-4;         // of the extent: distances that are not told apart
 
   /// What need not be told from the farthest point.
   double enough() const { return farthest_ + tolerance * std::max(farthest_, least_); }
@@ -139,70 +112,15 @@ class FarthestPoint {
   std::vector<Triangle> open_;
 };
 
-/// Asks for distances only where they may be larger than those that are known.
-class Distances {
- public:
-  explicit Distances(const Soup& soup) : triangles_(soup.triangles()), nearest_(triangles_) {}
-
-  /// The distance of a point, or some number that is not above `known` when that is no less.
-  double operator()(const Vec3& p, double known) {
-    if (guess_ != ClosestPoint::no_guess && squared_distance(p, triangles_[guess_]) <= known * known) return 0;
-    const auto found = nearest_.nearest(p, {}, guess_, known);
-    if (found.triangle != ClosestPoint::no_guess) guess_ = found.triangle;
-    return found.distance;
+/// Of the farthest point of all full tiles from the coarse surface: no point is farther.
+double distance_from_full(const Soup& coarse, std::span<const FullTile> full, const Vec3& origin, double extent) {
+  FarthestPoint farthest(coarse, extent);
+  for (const auto& tile : full) {
+    check_stop();
+    farthest.add(tile.read(), origin);
   }
-
- private:
-  Triangles triangles_;
-  ClosestPoint nearest_;
-  std::uint32_t guess_ = ClosestPoint::no_guess;
-};
-
-double distance(const Box& box, const Vec3& p) {
-  Vec3 way{};
-  for (std::size_t k = 0; k < 3; ++k) way[k] = std::max({box.low[k] - p[k], p[k] - box.high[k], 0.0});
-  return fast_length(way);
+  return farthest.bound();
 }
-
-/// A point of the coarse surface, and how far it is from what has been read.
-struct Open {
-  Vec3 point;
-  double distance = infinity;
-};
-
-/// Points of the coarse surface that may be farther from the full one than is known.
-class OpenPoints {
- public:
-  OpenPoints(const Soup& coarse, const Vec3& origin, double known) : origin_(origin), known_(known) {
-    for (const auto& p : coarse.points()) open_.push_back({p});
-  }
-
-  /// Asks a tile for those that may be near to it: within what is known, or nearer than what was found.
-  void ask(const FullTile& tile, bool first) {
-    const auto may_be_near = [&](const Open& o) {
-      const double away = distance(tile.box, origin_ + o.point);
-      return first ? away <= known_ : away < o.distance;
-    };
-    if (std::ranges::none_of(open_, may_be_near)) return;
-    const Soup soup(tile.read(), origin_);
-    if (soup.corners.empty()) return;
-    Distances distances(soup);
-    for (auto& o : open_)
-      if (may_be_near(o)) o.distance = std::min(o.distance, distances(o.point, known_));
-    std::erase_if(open_, [&](const Open& o) { return o.distance <= known_; });
-  }
-
-  double farthest() const {
-    double out = known_;
-    for (const auto& o : open_) out = std::max(out, o.distance);
-    return out;
-  }
-
- private:
-  Vec3 origin_;
-  double known_;
-  std::vector<Open> open_;
-};
 
 }  // namespace
 
@@ -213,17 +131,18 @@ double surface_error(std::span<const Piece> coarse, std::span<const FullTile> fu
   const Vec3 origin = box.centre();
   const Soup soup(coarse, origin);
   if (soup.corners.empty()) return infinity;
-  FarthestPoint farthest(soup, diagonal(box));
-  for (const auto& tile : full) {
-    check_stop();
-    farthest.add(tile.read(), origin);
+  const double extent = diagonal(box);
+  Uncovered open(soup, origin, distance_from_full(soup, full, origin, extent), share_of_extent * extent);
+  for (int round = 0; round < most_rounds; ++round) {
+    for (const bool first : {true, false})
+      for (const auto& tile : full) {
+        check_stop();
+        if (!open.concerns(tile.box, first)) continue;
+        const Soup of_tile(tile.read(), origin);
+        if (!of_tile.corners.empty()) open.ask(tile.box, first, of_tile);
+      }
+    if (!open.next_round()) break;
   }
-  OpenPoints open(soup, origin, farthest.bound());
-  for (const bool first : {true, false})
-    for (const auto& tile : full) {
-      check_stop();
-      open.ask(tile, first);
-    }
   return open.farthest();
 }
 

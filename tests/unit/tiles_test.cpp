@@ -244,6 +244,20 @@ TEST_CASE("tiles: the error of a coarse surface is that of the farthest point, e
     const std::vector<tiles::Piece> more{all[0], all[1], piece("c", square(0, 2, 1))};
     CHECK(tiles::surface_error(more, both) == Approx(2).epsilon(0.03));
   }
+  SECTION("a large triangle bridges a gap that no point of it is asked in") {
+    auto coarse = piece("plate", square(0, 0, 8)), left = coarse, right = coarse;
+    const auto clip = [](tiles::Piece& p, double low, double high) {
+      auto& points = p.mesh.positions.edit();
+      for (std::size_t k = 0; k < points.size(); k += 3) points[k] = std::clamp(points[k], low, high);
+    };
+    clip(left, 0, 1);
+    clip(right, 1.6, 8);
+    const std::vector<tiles::FullTile> halves{
+        {box_of_corners(left.mesh), [&] { return std::vector{left}; }},
+        {box_of_corners(right.mesh), [&] { return std::vector{right}; }},
+    };
+    CHECK(tiles::surface_error({&coarse, 1}, halves) == Approx(0.3).epsilon(0.06));
+  }
   SECTION("large triangles are near to many small ones") {
     const auto plate = piece("plate", square(0, 0, 10));
     const tiles::FullTile whole{box_of_corners(plate.mesh), [&] { return std::vector{plate}; }};
