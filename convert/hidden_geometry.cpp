@@ -10,6 +10,7 @@
 #include "passes/lower_vrml1/lower_vrml1.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/switches.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -43,8 +44,6 @@ double triangles_of(const Scene& scene, NodeId n) {
              : 0;
 }
 
-bool is_off(const Scene& scene, NodeId n) { return scene.is(n, nodes::Switch) && shown_children(scene, n).empty(); }
-
 /// Triangles below the nodes of a scene, each counted as often as it stands there.
 class Census {
  public:
@@ -72,7 +71,7 @@ class Census {
   NodeId first() const {
     NodeId out;
     for (const NodeId n : reachable(scene_, scene_.main))
-      if (is_off(scene_, n) && (!out || counts_[n.value].all > counts_[out.value].all)) out = n;
+      if (is_switched_off(scene_, n) && (!out || counts_[n.value].all > counts_[out.value].all)) out = n;
     return out;
   }
 
@@ -80,7 +79,8 @@ class Census {
   std::vector<std::string> names() const {
     std::map<std::string, double> by_name;
     for (const NodeId n : reachable(scene_, scene_.main))
-      if (is_off(scene_, n) && counts_[n.value].all > 0) by_name[std::string(scene_.name(n))] += counts_[n.value].all;
+      if (is_switched_off(scene_, n) && counts_[n.value].all > 0)
+        by_name[std::string(scene_.name(n))] += counts_[n.value].all;
     std::vector<std::pair<double, std::string>> order;
     for (auto& [name, hidden] : by_name) order.emplace_back(-hidden, name.empty() ? "without a name" : name);
     std::ranges::sort(order);
@@ -109,7 +109,7 @@ class Census {
       out.all += counts_[c.value].all;
       out.hidden += counts_[c.value].hidden;
     });
-    if (is_off(scene_, n)) out.hidden = out.all;
+    if (is_switched_off(scene_, n)) out.hidden = out.all;
     return out;
   }
 
@@ -121,11 +121,6 @@ class Census {
 int per_cent(double hidden, double all) {
   const auto rounded = static_cast<int>(std::lround(100 * hidden / all));
   return hidden < all ? std::min(rounded, 99) : rounded;
-}
-
-/// A Switch of VRML 1.0 that shows nothing.
-bool is_off_in_vrml1(const Scene& scene, NodeId n) {
-  return scene.is(n, nodes::vrml1::Switch) && scene.get(n, nodes::vrml1::switch_::whichChild) == -1;
 }
 
 void report_hidden(const Scene& scene, Diagnostics& diag) {
@@ -144,7 +139,8 @@ void report_hidden(const Scene& scene, Diagnostics& diag) {
 }  // namespace
 
 void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
-  if (any_node(scene, [&](NodeId n) { return is_off_in_vrml1(scene, n); })) {
+  const auto is_off = [&](NodeId n) { return is_switched_off(scene, n); };
+  if (any_node(scene, [&](NodeId n) { return scene.is(n, nodes::vrml1::Switch) && is_off(n); })) {
     Scene lowered = scene;
     Diagnostics unheard(diag.shared_sources());
     Statistics uncounted;
@@ -152,7 +148,7 @@ void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
     lower_vrml1(lowered, {}, silent);
     return report_hidden(lowered, diag);
   }
-  if (any_node(scene, [&](NodeId n) { return is_off(scene, n); })) report_hidden(scene, diag);
+  if (any_node(scene, is_off)) report_hidden(scene, diag);
 }
 
 }  // namespace wrlkit
