@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "base/silent_task.h"
+#include "base/stop.h"
 #include "convert/hidden_geometry.h"
 #include "passes/expand_protos/expand_protos.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/switches.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -29,41 +31,48 @@ bool draws(const Scene& scene, NodeId n) {
 }
 
 std::vector<NodeId> shown(const Scene& scene, NodeId n) {
-  if (scene.is(n, nodes::Switch)) return shown_children(scene, n);
+  if (is_switch(scene, n)) return shown_of_switch(scene, n);
   std::vector<NodeId> out;
   for_each_child(scene, n, [&](NodeId c) { out.push_back(c); });
-  if (!scene.is(n, nodes::vrml1::Switch)) return out;
-  const auto which = scene.get(n, nodes::vrml1::switch_::whichChild);
-  if (which < -1) return out;  // all of them, or as the Switch around it
-  return which >= 0 && static_cast<std::size_t>(which) < out.size()
-             ? std::vector<NodeId>{out[static_cast<std::size_t>(which)]}
-             : std::vector<NodeId>();
+  return out;
 }
 
 enum class Answer : std::uint8_t { no, perhaps, yes };  // perhaps: there are instances of prototypes
 
-/// Whether something below the roots is drawn; `all`: or would be, were every Switch on.
-Answer is_drawn(const Scene& scene, std::span<const NodeId> roots, bool all) {
-  Answer out = Answer::no;
-  std::vector<char> seen(scene.node_count());
-  std::vector<NodeId> stack(roots.rbegin(), roots.rend());
-  while (!stack.empty()) {
-    const NodeId n = stack.back();
-    stack.pop_back();
-    if (std::exchange(seen[n.value], 1)) continue;
-    if (draws(scene, n)) return Answer::yes;
-    if (scene.type(n).kind == NodeKind::script) continue;
-    if (is_instance(scene, n) && !all) {
-      out = Answer::perhaps;
-      continue;
+/// Looks for what is drawn; `all`: or would be, were every Switch on. What draws nothing is gone through once, however
+/// many fields hold it.
+class Search {
+ public:
+  Search(const Scene& scene, bool all) : scene_(scene), all_(all), seen_(scene.node_count()) {}
+
+  /// Of the nodes that have not been asked for: everything below those that have been draws nothing.
+  Answer is_drawn(std::span<const NodeId> roots) {
+    Answer out = Answer::no;
+    std::vector<NodeId> stack(roots.rbegin(), roots.rend());
+    while (!stack.empty()) {
+      check_stop();
+      const NodeId n = stack.back();
+      stack.pop_back();
+      if (std::exchange(seen_[n.value], 1)) continue;
+      if (draws(scene_, n)) return Answer::yes;
+      if (is_instance(scene_, n)) out = Answer::perhaps;
+      push_below(n, stack);
     }
-    if (all)
-      for_each_child(scene, n, [&](NodeId c) { stack.push_back(c); });
-    else
-      for (const NodeId c : shown(scene, n)) stack.push_back(c);
+    return out;
   }
-  return out;
-}
+
+ private:
+  void push_below(NodeId n, std::vector<NodeId>& stack) const {
+    if (scene_.type(n).kind == NodeKind::script) return;
+    if (all_) return for_each_child(scene_, n, [&](NodeId c) { stack.push_back(c); });
+    if (is_instance(scene_, n)) return;
+    for (const NodeId c : shown(scene_, n)) stack.push_back(c);
+  }
+
+  const Scene& scene_;
+  bool all_;
+  std::vector<char> seen_;
+};
 
 std::string listed(const std::vector<std::string>& names) {
   std::string out;
@@ -78,11 +87,11 @@ struct Ignored {
 };
 
 std::optional<Ignored> ignored_field(const Scene& scene) {
+  Search search(scene, true);
   for (const NodeId n : reachable(scene, scene.main)) {
     if (!is_instance(scene, n)) continue;
     for (const Value& v : scene.fields(n)) {
-      const auto nodes = scene.content(v).node_span();
-      if (!nodes.empty() && is_drawn(scene, nodes, true) == Answer::yes)
+      if (search.is_drawn(scene.content(v).node_span()) == Answer::yes)
         return Ignored{n, std::string(scene.field_name(n, v))};
     }
   }
@@ -107,42 +116,50 @@ std::vector<std::string> types_of(const Scene& scene) {
   return out;
 }
 
-void report_cause(const Scene& scene, Diagnostics& diag) {
-  const auto& roots = scene.main.roots;
+/// `hidden`: something would be drawn, were every Switch on.
+void report_cause(const Scene& scene, bool hidden, Diagnostics& diag) {
   const auto report = [&](Span where, const std::string& cause) { diag.report(Diag::nothing_shown, where, cause); };
-  if (roots.empty() && scene.main.protos.empty()) return;  // an empty file, or one of which nothing could be read
-  if (roots.empty())
-    return report(Span{.begin = 0},
-                  "its prototypes (" + listed(proto_names(scene)) + ") are declared, and none of them is used");
+  const Span first = scene.where(scene.main.roots[0]);
+  if (hidden) return report(first, "all of it is in Switches that are off; use --show-all or the pass switch");
   if (const auto found = ignored_field(scene))
     return report(scene.where(found->instance), "prototype '" + std::string(scene.type(found->instance).name) +
                                                     "' does not draw what its field '" + found->field + "' holds");
-  if (is_drawn(scene, roots, true) == Answer::yes) {
-    if (diag.count(Diag::hidden_geometry) == 0)
-      report(scene.where(roots[0]), "all of it is in Switches that are off; use --show-all or the pass switch");
-    return;
-  }
-  report(scene.where(roots[0]), "it has no geometry, but only " + listed(types_of(scene)));
+  report(first, "it has no geometry, but only " + listed(types_of(scene)));
+}
+
+void report_without_roots(const Scene& scene, Diagnostics& diag) {
+  if (scene.main.protos.empty()) return;  // an empty file, or one of which nothing could be read
+  diag.report(Diag::nothing_shown, scene.proto(scene.main.protos[0]).where,
+              "its prototypes (" + listed(proto_names(scene)) + ") are declared, and none of them is used");
+}
+
+Scene with_protos_expanded(const Scene& scene, const Diagnostics& diag) {
+  Scene out = scene;
+  Diagnostics unheard(diag.shared_sources());
+  Statistics uncounted;
+  PassContext silent(unheard, uncounted);
+  expand_protos(out, {}, silent);
+  return out;
+}
+
+/// `hidden_told`: what its Switches hide has been reported.
+void report_nothing_shown(const Scene& scene, bool hidden_told, Diagnostics& diag) {
+  if (scene.main.roots.empty()) return report_without_roots(scene, diag);
+  if (Search(scene, false).is_drawn(scene.main.roots) == Answer::yes) return;
+  // Switches may be in prototypes, and prototypes in Switches.
+  const Scene expanded = with_protos_expanded(scene, diag);
+  const auto& roots = expanded.main.roots;
+  if (Search(expanded, false).is_drawn(roots) != Answer::no) return;
+  const bool hidden = Search(expanded, true).is_drawn(roots) != Answer::no;
+  if (!hidden || !hidden_told) report_cause(scene, hidden, diag);
 }
 
 }  // namespace
 
-void report_nothing_shown(const Scene& scene, Diagnostics& diag) {
-  auto answer = is_drawn(scene, scene.main.roots, false);
-  if (answer == Answer::perhaps) {
-    Scene expanded = scene;
-    Diagnostics unheard(diag.shared_sources());
-    Statistics uncounted;
-    PassContext silent(unheard, uncounted);
-    expand_protos(expanded, {}, silent);
-    answer = is_drawn(expanded, expanded.main.roots, false);
-  }
-  if (answer == Answer::no) report_cause(scene, diag);
-}
-
 void report_undrawn(const Scene& scene, Diagnostics& diag) {
+  const auto before = diag.count(Diag::hidden_geometry);  // of other files
   report_hidden_geometry(scene, diag);
-  report_nothing_shown(scene, diag);
+  report_nothing_shown(scene, diag.count(Diag::hidden_geometry) > before, diag);
 }
 
 }  // namespace wrlkit
