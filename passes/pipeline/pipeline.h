@@ -131,6 +131,8 @@ class Pipeline {
   /// The same at the begin, where there are options at all and the pass is not in it yet.
   bool put_first(std::string_view name, const std::vector<std::pair<std::string, std::string>>& options,
                  std::string& why);
+  /// Sets an option of every pass of that name in it. False, and why, when one has no such option or value.
+  bool set(std::string_view name, std::string_view option, std::string_view value, std::string& why);
   /// Adds a pass of phase `gathered`, unless it is in it: behind the passes that gather the world.
   void add_gathered(std::string_view name);
   /// Adds the passes of another pipeline, which a writer needs, as far as this one lacks them, by phase: those before

@@ -155,6 +155,10 @@ bool Pipeline::put_first(std::string_view name, const std::vector<std::pair<std:
   return true;
 }
 
+bool Pipeline::set(std::string_view name, std::string_view option, std::string_view value, std::string& why) {
+  return std::ranges::all_of(steps_, [&](Step& s) { return s.info->name != name || s.pass->set(option, value, why); });
+}
+
 std::vector<Pipeline::StepInfo> Pipeline::steps() const {
   std::vector<StepInfo> out;
   for (const auto& s : steps_) out.push_back({s.info->name, s.pass->options()});

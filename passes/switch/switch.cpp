@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <span>
 
+#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/switches.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
 
 namespace v1 = nodes::vrml1;
-
-bool is_switch(const Scene& scene, NodeId n) { return scene.is(n, nodes::Switch) || scene.is(n, v1::Switch); }
 
 int choice_of(const Scene& scene, NodeId n) {
   return scene.is(n, nodes::Switch) ? scene.get(n, nodes::switch_::whichChoice) : scene.get(n, v1::switch_::whichChild);
@@ -26,34 +26,16 @@ void choose(Scene& scene, NodeId n, int which) {
     scene.set(n, v1::switch_::whichChild, which);
 }
 
-std::size_t n_children(const Scene& scene, NodeId n) {
-  if (scene.is(n, nodes::Switch)) return hierarchy_children(scene, n).size();
-  std::size_t out = 0;
-  for_each_child(scene, n, [&](NodeId) { ++out; });
-  return out;
-}
-
-/// In VRML 1.0, -3 stands for all children, and -2, of Inventor, for what the Switch around it shows.
-bool is_off(const Scene& scene, NodeId n) {
-  const auto which = choice_of(scene, n);
-  if (scene.is(n, v1::Switch) && which < -1) return false;
-  return which < 0 || static_cast<std::size_t>(which) >= n_children(scene, n);
-}
-
 bool fits(const Scene& scene, NodeId n, const std::string& pattern) {
   const std::string name(scene.name(n));
   return !name.empty() && fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
 /// The child that a Switch is to show; -1: none.
-int wanted(const Scene& scene, NodeId n, const SwitchOptions& options, Diagnostics& diag) {
+int wanted(const Scene& scene, NodeId n, const SwitchOptions& options) {
   int which = choice_of(scene, n);
-  const int before = which;
   for (const auto& [pattern, choice] : options.choices)
     if (fits(scene, n, pattern)) which = choice;
-  const auto children = n_children(scene, n);
-  if (which != before && which >= 0 && static_cast<std::size_t>(which) >= children)
-    diag.report(Diag::no_switch_child, scene.where(n), scene.name(n), std::max<std::size_t>(children, 1) - 1, which);
   return which;
 }
 
@@ -62,6 +44,13 @@ void report_unused(const Scene& scene, std::span<const NodeId> switches, const S
   for (const auto& choice : options.choices)
     if (std::ranges::none_of(switches, [&](NodeId n) { return fits(scene, n, choice.first); }))
       diag.report(Diag::no_switch, {}, choice.first);
+}
+
+void report_no_child(const Scene& scene, NodeId n, int which, Diagnostics& diag) {
+  const auto children = switch_children(scene, n).size();
+  if (children > 0) return diag.report(Diag::no_switch_child, scene.where(n), scene.name(n), children - 1, which);
+  const std::string field = scene.is(n, nodes::Switch) ? "whichChoice" : "whichChild";
+  diag.report(Diag::unknown_word, scene.where(n), which, scene.name(n), field + ": this Switch has no children");
 }
 
 /// Shows all children of a Switch.
@@ -78,6 +67,10 @@ void show_all(Scene& scene, NodeId n) {
 
 }  // namespace
 
+bool has_switch_named(const Scene& scene, const std::string& pattern) {
+  return any_node(scene, [&](NodeId n) { return is_switch(scene, n) && fits(scene, n, pattern); });
+}
+
 Outcome switch_on(Scene& scene, const SwitchOptions& options, PassContext& ctx) {
   std::size_t n_changed = 0;
   auto switches = all_nodes(scene);
@@ -85,8 +78,10 @@ Outcome switch_on(Scene& scene, const SwitchOptions& options, PassContext& ctx) 
   report_unused(scene, switches, options, ctx.diag);
   for (const NodeId n : switches) {
     const int before = choice_of(scene, n);
-    if (const int which = wanted(scene, n, options, ctx.diag); which != before) choose(scene, n, which);
-    if (options.all && is_off(scene, n)) show_all(scene, n);
+    const int which = wanted(scene, n, options);
+    if (which != before) choose(scene, n, which);
+    if (options.all && is_switched_off(scene, n)) show_all(scene, n);
+    if (which != before && which >= 0 && is_switched_off(scene, n)) report_no_child(scene, n, which, ctx.diag);
     n_changed += choice_of(scene, n) != before;
   }
   ctx.stats["switch.changed"] += n_changed;

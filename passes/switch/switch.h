@@ -19,7 +19,8 @@ struct SwitchOptions {
 `NAME=N` shows child N of every Switch of that name; N is -1 for none. A `*` in the name stands for any characters, a
 `?` for one; of several names that fit, the last one counts. `all` goes on to every Switch that shows nothing: its
 children become those of a Group, which it shows. What `--show-all` puts in
-front of a pipeline. Steel models often hide all of their parts this way until a script switches them on.
+front of a pipeline, or sets in the `switch` that it has. Steel models often hide all of their parts this way until a
+script switches them on.
 
 Cost: O(nodes).)";
   static constexpr StatisticInfo statistics[] = {{"switch.changed", "Switches that show something else"}};
@@ -38,6 +39,8 @@ Cost: O(nodes).)";
     choices.emplace_back(name, -1);
   }
 };
+/// Whether a Switch has a name that fits the pattern.
+bool has_switch_named(const Scene&, const std::string& pattern);
 Outcome switch_on(Scene&, const SwitchOptions&, PassContext&);
 
 }  // namespace wrlkit

@@ -11,6 +11,7 @@
 #include "base/text/nearest_name.h"
 #include "convert/nothing_shown.h"
 #include "convert/placing.h"
+#include "passes/switch/switch.h"
 #include "tools/cli/outputs.h"
 #include "tools/cli/print_diagnostics.h"
 #include "writers/named_files.h"
@@ -64,6 +65,7 @@ bool Session::choose_pipeline(std::string_view standard) {
   }
   if (flags_.pipeline_given) pipeline_->complete(standard);
   pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why);
+  if (flags_.load.show_all) pipeline_->set("switch", "all", "true", why);
   if (flags_.load.show_all) pipeline_->put_first("switch", {{"all", "true"}}, why);
   if (flags_.load.run_startup) pipeline_->add_gathered("startup");
   document_.leave_unplaced();
@@ -81,9 +83,18 @@ bool Session::runs(std::string_view pass) const {
   return std::ranges::find(steps, pass, &Pipeline::StepInfo::name) != steps.end();
 }
 
+bool Session::chooses_switches() const {
+  const auto fits = [&](const OptionInfo& o) {
+    return o.name == "all" ? o.value == "true" : has_switch_named(document_.world().scene, o.name);
+  };
+  const auto steps = pipeline_ ? pipeline_->steps() : std::vector<Pipeline::StepInfo>();
+  return std::ranges::any_of(
+      steps, [&](const Pipeline::StepInfo& s) { return s.name == "switch" && std::ranges::any_of(s.options, fits); });
+}
+
 bool Session::read(const std::string& path) {
   if (!document_.read(path)) return false;
-  if (!runs("switch") && !runs("startup")) report_undrawn(world().scene, diag());
+  if (!chooses_switches() && !runs("startup")) report_undrawn(world().scene, diag());
   return true;
 }
 

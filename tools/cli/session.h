@@ -36,6 +36,8 @@ class Session {
   Pipeline& pipeline() { return *pipeline_; }
   /// Whether the pipeline, when there is one, has that pass.
   bool runs(std::string_view pass) const;
+  /// Whether it turns Switches of the world on or off.
+  bool chooses_switches() const;
   PipelineOptions pipeline_options();
   /// True after --print-pipeline, with which a verb ends here.
   bool printed_pipeline() const;

@@ -20,3 +20,13 @@ for world in new old; do
   wrlkit simplify $world.wrl --show-all --ratios 0.99 -o x.wrl --json | grep -o '^."triangles":[0-9]*'
 done
 wrlkit convert old.wrl x.wrl -p 'switch{Parts=1}' && wrlkit info x.wrl | grep -o 'triangles [0-9]*'
+# A child that there is not, of either standard.
+printf '#VRML V1.0 ascii\nSwitch { whichChild 5 Cube { } Sphere { } }\n' > no_child_old.wrl
+printf '#VRML V2.0 utf8\nSwitch { whichChoice 5 choice [ Shape { geometry Box { } } Shape { geometry Sphere { } } ] }\n' > no_child_new.wrl
+for world in no_child_old no_child_new; do
+  echo "$world: $(wrlkit convert $world.wrl x.x3d 2>&1 | grep -oE 'wrl:.* show them')"
+done
+# A pattern that fits nothing leaves it as it is, and --show-all goes with a pattern.
+echo "$(wrlkit convert new.wrl x.x3d -p 'switch{SW_X=0}' 2>&1 | grep -oE '\[[a-z-]+\]' | tr '\n' ' ')"
+wrlkit convert all.wrl x.glb -p 'switch{All=-1}' --show-all
+wrlkit info x.glb | grep -o 'triangles [0-9]*'
