@@ -43,7 +43,8 @@ void remove_others(const fs::path& folder, const std::string& name) {
 /// Whether there is a set of tiles that another program has made.
 bool is_foreign(const fs::path& tileset) {
   std::error_code none;
-  if (!fs::is_regular_file(tileset, none)) return fs::exists(fs::symlink_status(tileset, none));
+  const auto type = fs::status(tileset, none).type();  // once: another run may make it at this moment
+  if (type != fs::file_type::regular) return type != fs::file_type::not_found;
   constexpr std::size_t head = 4096;  // the generator stands in front of the tiles
   std::ifstream in(tileset, std::ios::binary);
   std::string text(head, '\0');
