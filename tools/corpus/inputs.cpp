@@ -43,24 +43,27 @@ bool match(std::span<const std::string> glob, std::span<const std::string> names
 
 bool is_glob(const std::string& word) { return word.find_first_of("*?[") != word.npos; }
 
+/// The first of them, and how many more there are: lists may name any number of files that are not there.
+std::string in_one_line(std::span<const std::string> faults) {
+  constexpr std::size_t most = 10;
+  std::string out;
+  for (const auto& fault : faults.first(std::min(most, faults.size()))) out += (out.empty() ? "" : "; ") + fault;
+  if (faults.size() > most) out += fmt::format("; and {} more", faults.size() - most);
+  return out;
+}
+
 class Gatherer {
  public:
-  Gatherer(const InputRules& rules, std::string& why) : rules_(rules), why_(why) {
+  explicit Gatherer(const InputRules& rules) : rules_(rules) {
     std::error_code none;
     if (!rules.output.empty()) output_ = fs::weakly_canonical(rules.output, none);
   }
 
-  bool word(const std::string& w) {
-    if (w == "-") return list(std::cin, "standard input");
-    if (w.starts_with('@')) {
-      std::ifstream file(w.substr(1));
-      return file ? list(file, w.substr(1)) : fail("there is no list '" + w.substr(1) + "'");
-    }
-    std::error_code none;
-    if (fs::is_directory(w, none)) return folder(w, "");
-    if (fs::is_regular_file(w, none)) return named(w, false);
-    if (is_glob(w)) return glob(w);
-    return leave_out("there is no file or folder '" + w + "'");
+  void word(const std::string& w) {
+    n_found_ = 0;
+    const auto n_before = out_.left_out.size();
+    find(w);
+    if (n_found_ == 0 && out_.left_out.size() == n_before) leave_out("there are no scene files in '" + w + "'");
   }
 
   Inputs take() {
@@ -73,15 +76,23 @@ class Gatherer {
   }
 
  private:
-  bool fail(std::string what) {
-    why_ = std::move(what);
-    return false;
+  void find(const std::string& w) {
+    std::error_code none;
+    if (w == "-")
+      list(std::cin, "standard input");
+    else if (w.starts_with('@'))
+      list_file(w.substr(1));
+    else if (fs::is_directory(w, none))
+      folder(w, "");
+    else if (fs::is_regular_file(w, none))
+      named(w, false);
+    else if (is_glob(w))
+      glob(w);
+    else
+      leave_out("there is no file or folder '" + w + "'");
   }
 
-  bool leave_out(std::string what) {
-    out_.left_out.push_back(std::move(what));
-    return true;
-  }
+  void leave_out(std::string what) { out_.left_out.push_back(std::move(what)); }
 
   std::uint32_t root(const fs::path& path) {
     auto name = path.empty() ? std::string(".") : path.lexically_normal().string();
@@ -90,7 +101,18 @@ class Gatherer {
     return static_cast<std::uint32_t>(i - out_.roots.begin());
   }
 
-  bool list(std::istream& lines, const std::string& name) {
+  void list_file(const std::string& name) {
+    std::error_code none;
+    std::ifstream lines(name);
+    if (fs::is_directory(name, none))
+      leave_out("'" + name + "' is a folder, not a list of files");
+    else if (lines)
+      list(lines, name);
+    else
+      leave_out("there is no list '" + name + "'");
+  }
+
+  void list(std::istream& lines, const std::string& name) {
     for (std::string line; std::getline(lines, line);) {
       if (line.ends_with('\r')) line.pop_back();
       if (line.empty()) continue;
@@ -100,11 +122,10 @@ class Gatherer {
       else
         leave_out(name + ": there is no file '" + line + "'");
     }
-    return true;
   }
 
   /// A file by its name, whatever its ending. Those of lists are in the mirrored tree where their paths say.
-  bool named(const fs::path& path, bool from_list) {
+  void named(const fs::path& path, bool from_list) {
     std::error_code none;
     auto inside = path.filename();
     fs::path from = path.parent_path();
@@ -116,11 +137,11 @@ class Gatherer {
         from = base;
       }
     }
+    ++n_found_;
     add(path, inside.string(), root(from), false, false);
-    return true;
   }
 
-  bool glob(const std::string& word) {
+  void glob(const std::string& word) {
     fs::path front;
     std::string pattern;
     for (const auto& n : fs::path(word))
@@ -132,10 +153,10 @@ class Gatherer {
     if (!fs::is_directory(front.empty() ? "." : front, none))
       return leave_out("there is no folder '" + front.string() + "'");
     // Without "/" a glob here is about the names in that folder, not below it.
-    return folder(front.empty() ? "." : front.string(), pattern);
+    folder(front.empty() ? "." : front.string(), pattern);
   }
 
-  bool folder(const std::string& path, const std::string& pattern) {
+  void folder(const std::string& path, const std::string& pattern) {
     const auto at = root(path);
     const auto parts = names_of(pattern);
     std::error_code fault;
@@ -166,13 +187,12 @@ class Gatherer {
       auto inside = i->path().lexically_relative(path).string();
       const bool is_world = is_scene_name(name),
                  is_asset = rules_.assets && !is_world && !ending_of(name, asset_endings).empty();
-      if (is_asset)
-        add(i->path(), std::move(inside), at, true, true);
-      else if (pattern.empty() ? is_world && wanted(inside) : match(parts, names_of(inside)) && wanted(inside))
-        add(i->path(), std::move(inside), at, rules_.assets, false);
+      const bool is_meant = is_asset || (pattern.empty() ? is_world : match(parts, names_of(inside)));
+      n_found_ += is_meant;
+      if (is_meant && (is_asset || wanted(inside)))
+        add(i->path(), std::move(inside), at, is_asset || rules_.assets, is_asset);
     }
-    return !fault ||
-           fail("cannot read the folder '" + path + "': " + fault.message());  // nothing is left out in silence
+    if (fault) leave_out("cannot read the folder '" + path + "': " + fault.message());
   }
 
   bool can_be_read(const fs::path& folder) {
@@ -202,20 +222,19 @@ class Gatherer {
 
   static constexpr int most_depth = 64;
   const InputRules& rules_;
-  std::string& why_;
   fs::path output_;
+  std::size_t n_found_ = 0;  // by the word that is looked at; --include and --exclude may take them away
   Inputs out_;
 };
 
 }  // namespace
 
 std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const InputRules& rules, std::string& why) {
-  Gatherer gatherer(rules, why);
-  for (const auto& w : words)
-    if (!gatherer.word(w)) return std::nullopt;
+  Gatherer gatherer(rules);
+  for (const auto& w : words) gatherer.word(w);
   auto out = gatherer.take();
-  if (!out.files.empty() || out.left_out.empty()) return out;
-  for (const auto& fault : out.left_out) why += (why.empty() ? "" : "; ") + fault;
+  if (!std::ranges::all_of(out.files, &InputFile::asset)) return out;
+  why = out.left_out.empty() ? "there are no scene files in '" + words[0] + "'" : in_one_line(out.left_out);
   return std::nullopt;
 }
 
@@ -226,22 +245,22 @@ bool means_many(const std::string& word) {
 }
 
 std::optional<NamedWorlds> named_worlds(const std::vector<std::string>& words, std::string& why) {
+  const InputRules rules;
   NamedWorlds out;
   for (const auto& word : words) {
     if (!means_many(word)) {
       out.worlds.push_back({word, word == "-" ? "standard input" : fs::path(word).filename().string()});
       continue;
     }
-    auto found = gather_inputs({word}, {}, why);
-    if (!found) return std::nullopt;
-    if (found->files.empty()) {
-      why = "there are no scene files in '" + word + "'";
-      return std::nullopt;
-    }
-    for (auto& file : found->files) out.worlds.push_back({file.path, file.inside});
-    std::ranges::move(found->left_out, std::back_inserter(out.left_out));
+    Gatherer gatherer(rules);
+    gatherer.word(word);
+    auto found = gatherer.take();
+    for (auto& file : found.files) out.worlds.push_back({file.path, file.inside});
+    std::ranges::move(found.left_out, std::back_inserter(out.left_out));
   }
-  return out;
+  if (!out.worlds.empty()) return out;
+  why = in_one_line(out.left_out);
+  return std::nullopt;
 }
 
 int print_left_out(std::string_view verb, const std::vector<std::string>& left_out) {

@@ -26,15 +26,14 @@ struct InputRules {
 };
 
 struct Inputs {
-  std::vector<std::string> roots;  // folders; files below them may refer to all that is there
-  std::vector<InputFile> files;    // by path, each once
-  std::vector<std::string>
-      left_out;  // what is missing, folders that cannot be read, links that lead nowhere: sentences
+  std::vector<std::string> roots;     // folders; files below them may refer to all that is there
+  std::vector<InputFile> files;       // by path, each once
+  std::vector<std::string> left_out;  // what is missing or empty, cannot be read, leads nowhere: sentences
 };
 
 /// "plant/", "plant/**/*.wrl", "@list.txt", "-" (a list on standard input), "pump.wrl". In folders and globs only what
-/// has the ending of a scene counts, and nothing that is hidden. What is not there is left out. Nothing, and why, when
-/// a list cannot be read, or nothing is found where something was left out.
+/// has the ending of a scene counts, and nothing that is hidden. What is not there is left out, and words that mean no
+/// file. Nothing, and why, when there is no scene at all.
 std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const InputRules& rules, std::string& why);
 
 struct NamedWorld {
@@ -49,7 +48,7 @@ struct NamedWorlds {
 };
 
 /// Files that are named stand as they are, even those that are not there; what `means_many` as the scenes in it.
-/// Nothing, and why, when there is a folder, glob or list without any.
+/// Nothing, and why, when there is no scene at all.
 std::optional<NamedWorlds> named_worlds(const std::vector<std::string>& words, std::string& why);
 
 /// Prints what was left out, a line each. `partly` when there is something, otherwise `done`.

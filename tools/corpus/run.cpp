@@ -100,11 +100,6 @@ std::optional<Planned> plan_of(const Flags& flags, bool assets, int& code) {
     code = nothing;
     return fail();
   }
-  if (inputs->files.empty()) {
-    why = "there are no scene files in '" + flags.inputs[0] + "'";
-    code = nothing;
-    return fail();
-  }
   p.left_out = std::move(inputs->left_out);
   print_left_out("corpus run", p.left_out);
   auto plan = plan_corpus(std::move(*inputs), flags.format, p.shard.count, why);

@@ -93,7 +93,7 @@ std::string facts_json(Session& s, const Saved& saved) {
   return json_text([&](JsonOut& json) {
            json.object([&] {
              json.members("input", flags.inputs[0], "output", flags.output, "format",
-                          chosen_output(flags, save_options(flags))->format->name);
+                          chosen_output(flags, save_options(flags))->format->name, "written", static_cast<bool>(saved));
              if (saved.gltf) json.member("gltf", JsonText{summary_json(*saved.gltf)});
              json.member("messages", JsonText{messages_json(s.diag())});
            });
@@ -165,7 +165,7 @@ int run_convert(const Flags& flags) {
   s.progress().clear();
   if (saved && flags.verbose && saved.gltf) fmt::print(stderr, "{}", summary_text(*saved.gltf));
   if (saved && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);
-  if (saved && flags.json && flags.output != "-") fmt::print("{}", facts_json(s, saved));
+  if (flags.json && flags.output != "-") fmt::print("{}", facts_json(s, saved));
   return s.end(static_cast<bool>(saved));
 }
 

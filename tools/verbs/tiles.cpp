@@ -24,8 +24,7 @@ std::vector<TilesInput> inputs_of(const Flags& flags, int& code) {
   std::string why;
   const InputRules rules{.include = flags.include, .exclude = flags.exclude, .base = {}, .output = flags.output};
   const auto found = gather_inputs(flags.inputs, rules, why);
-  if (found && found->files.empty()) why = "there are no scene files in '" + flags.inputs[0] + "'";
-  if (!why.empty()) fmt::print(stderr, "wrlkit tiles: {}\n", why);
+  if (!found) fmt::print(stderr, "wrlkit tiles: {}\n", why);
   std::vector<TilesInput> out;
   if (!found) return out;
   code = print_left_out("tiles", found->left_out);

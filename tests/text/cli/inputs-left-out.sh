@@ -24,3 +24,23 @@ for inputs in in @list.txt @none.txt empty in/none.wrl; do
   try wrlkit corpus run r.toml $inputs -q -o web
 done
 wrlkit info @list.txt in/a.wrl 2> err.txt | grep -c triangles || true
+# A word that means nothing is left out like a file that is not there, wherever it stands.
+for inputs in "@gone.txt in/a.wrl" "in/a.wrl @none.txt" "in/a.wrl empty" "empty in/a.wrl" "gone* in/a.wrl"; do
+  echo "== $inputs"
+  for verb in info check "tiles -q -o tiles" "view -o v.html" render "corpus run -q -o web r.toml"; do
+    rm -rf web
+    code=0
+    case $verb in
+      render) wrlkit render -q --width 8 --height 8 $inputs v.png > out.txt 2> err.txt || code=$? ;;
+      *) wrlkit $verb $inputs > out.txt 2> err.txt || code=$? ;;
+    esac
+    echo "$code $(grep -E 'wrlkit|error' err.txt)"
+  done
+done
+# A list of many that are not there is not one endless line.
+seq 100000 | sed 's/$/.wrl/' > many.txt
+for verb in info check "tiles -q -o tiles" "view -o v.html"; do
+  code=0
+  wrlkit $verb @many.txt > out.txt 2> err.txt || code=$?
+  echo "$code $(wc -l < err.txt) $(grep -o '8[.]wrl.*' err.txt)"
+done
