@@ -21,7 +21,8 @@ bool run_and_write(Document& document, Pipeline& pipeline, const Output& to, con
     if (!meshes) return false;
   } else {
     if (!pipeline.run(scene, ctx, hooks.pipeline)) return false;
-    if (!options.dump && ctx.resources) report_missing_files(scene, *ctx.resources, ctx.diag);
+    if (!sink && to.path != "-" && !options.dump && ctx.resources)
+      report_missing_files(scene, *ctx.resources, ctx.diag);
     if (hooks.last) hooks.last(scene);
   }
   return to.format->write({scene, meshes, ctx, options, to, sink, saved, makers});
