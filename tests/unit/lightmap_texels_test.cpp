@@ -43,12 +43,12 @@ struct Noisy : Page, Estimate {
 Noisy noisy_page(int side, float deviation, unsigned seed = 7) {
   Noisy page(side);
   std::mt19937 random(seed);
-  std::normal_distribution<float> noise(0, deviation);
+  std::normal_distribution<float> noise;
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
       auto i = page.at(x, y);
       page.places[i] = {0, {x * 0.1f, y * 0.1f, 0}, {0, 0, 1}};
-      float v = 1 + noise(random);
+      float v = 1 + deviation * noise(random);
       page.light()[i] = {v, v, v};
       page.variance[i] = deviation * deviation;
     }

@@ -11,7 +11,7 @@ try() {
   code=0
   "$@" > out.txt 2> err.txt || code=$?
   echo "$1 $2 $3: $code"
-  grep -E 'wrlkit|error' err.txt || true
+  sed -nE '/wrlkit|error/p' err.txt
 }
 for inputs in in @list.txt @none.txt empty in/none.wrl; do
   echo "== $inputs"
@@ -23,7 +23,9 @@ for inputs in in @list.txt @none.txt empty in/none.wrl; do
   rm -rf web
   try wrlkit corpus run r.toml $inputs -q -o web
 done
-wrlkit info @list.txt in/a.wrl 2> err.txt | grep -c triangles || true
+code=0
+wrlkit info @list.txt in/a.wrl > out.txt 2> err.txt || code=$?
+echo "$code $(grep -c triangles out.txt)"
 # A word that means nothing is left out like a file that is not there, wherever it stands.
 for inputs in "@gone.txt in/a.wrl" "in/a.wrl @none.txt" "in/a.wrl empty" "empty in/a.wrl" "gone* in/a.wrl"; do
   echo "== $inputs"

@@ -17,7 +17,9 @@ for name in library lamps hidden by_proto passed inlined hidden_in_proto hidden_
   echo "$name"
 done
 wrlkit simplify lamps.wrl --ratios 0.5 -o lamps_simple.wrl 2>&1 | grep -o 'drawn: .*'
-{ wrlkit tiles lamps.wrl -o tiles 2>&1 || true; } | grep -o 'drawn: .*'
+code=0
+wrlkit tiles lamps.wrl -o tiles > said.txt 2>&1 || code=$?
+echo "$code $(grep -o 'drawn: .*' said.txt)"
 # Of several inputs, the one that it is about is named.
 world box 'Shape { geometry Box { } }'
 wrlkit tiles box.wrl library.wrl -o tiles2 2>&1 | grep 'drawn: '
