@@ -11,14 +11,10 @@ import argparse
 import json
 import math
 from pathlib import Path
-import struct
+
+from glb import glb_json, n_triangles
 
 ANGLE, ASPECT = math.radians(60), 16 / 9
-
-
-def glb_json(path):
-    data = path.read_bytes()
-    return json.loads(data[20:20 + struct.unpack_from('<I', data, 12)[0]])
 
 
 def drawn(path):
@@ -32,9 +28,7 @@ def drawn(path):
         n = gltf['accessors'][next(iter(places.values()))]['count'] if places else 1
         for primitive in gltf['meshes'][node['mesh']]['primitives']:
             draws += 1
-            if primitive.get('mode', 4) == 4:
-                corners = primitive.get('indices', primitive['attributes']['POSITION'])
-                triangles += n * gltf['accessors'][corners]['count'] // 3
+            triangles += n * n_triangles(gltf, primitive)
     return draws, triangles
 
 

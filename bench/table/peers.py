@@ -3,8 +3,8 @@ out: apt-get install assimp-utils occt-draw libcoin-dev meshlab view3dscene blen
 import json
 import os
 import shutil
-import struct
 
+from ..glb import glb_json, n_triangles
 from . import measure
 from .measure import Row, Table, megabytes, number, once, plant
 
@@ -48,21 +48,14 @@ def occt_libraries():
     return folder
 
 
-def read_glb(path):
-    with open(path, 'rb') as f:
-        _, _, _, length, _ = struct.unpack('<5I', f.read(20))
-        return json.loads(f.read(length))
-
-
 def shown(document):
     """Triangles drawn, named nodes, and materials in use of a glTF."""
-    accessors, meshes, nodes = (document.get(k, []) for k in ('accessors', 'meshes', 'nodes'))
+    meshes, nodes = (document.get(k, []) for k in ('meshes', 'nodes'))
     used = [n['mesh'] for n in nodes if 'mesh' in n]
     triangles, materials = 0, set()
     for mesh in used:
         for p in meshes[mesh]['primitives']:
-            count = accessors[p['indices'] if 'indices' in p else p['attributes']['POSITION']]['count']
-            triangles += count // 3 if p.get('mode', 4) == 4 else 0
+            triangles += n_triangles(document, p)
             materials.add(json.dumps(document['materials'][p['material']].get('pbrMetallicRoughness')) if 'material' in p else '')
     return triangles, len({n['name'] for n in nodes if 'name' in n}), len(materials)
 
@@ -74,7 +67,7 @@ def run(command, ending, source):
     code, cost = once(filled, timeout=900)
     if code != 0 or (ending and not out.exists()):
         return None, ''
-    return cost, shown(read_glb(out)) if ending == '.glb' else ''
+    return cost, shown(glb_json(out)) if ending == '.glb' else ''
 
 
 def readers(_):
