@@ -53,6 +53,20 @@ bool is_foreign(const fs::path& tileset) {
   return !text.empty() && text.find("\"wrlkit\"") == text.npos;
 }
 
+/// Whether it was not there. A run that had made it for all may end and remove it between the steps of this: then it is
+/// made once more.
+bool make_folder(const fs::path& folder, std::error_code& fault) {
+  constexpr int tries = 100;
+  bool made = false;
+  for (int i = 0; i < tries; ++i) {
+    made = fs::create_directories(folder, fault);
+    if (!fault || (fault != std::errc::file_exists && fault != std::errc::not_a_directory &&
+                   fault != std::errc::no_such_file_or_directory))
+      break;
+  }
+  return made;
+}
+
 /// -1: somebody else has it.
 int lock_of(const fs::path& folder) {
   const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -72,7 +86,7 @@ bool Staging::open(const std::string& folder, Diagnostics& diag) {
   }
   folder_ = folder;
   std::error_code fault;
-  made_ = fs::create_directories(folder_, fault);
+  made_ = make_folder(folder_, fault);
   std::error_code none;
   const auto type = fs::status(folder_, none).type();
   // Not found: a run that had made it has ended and removed it; make_own makes it again.
@@ -92,16 +106,19 @@ bool Staging::open(const std::string& folder, Diagnostics& diag) {
 /// Until it is locked, another run may take it for one that was left behind; then there is another one.
 std::error_code Staging::make_own() {
   constexpr int tries = 10;  // all of them where the file system has no locks: the last one is taken as it is
-  for (int i = 0; i < tries; ++i) {
+  constexpr int most_gone = 1000;
+  for (int i = 0, n_gone = 0; i < tries && n_gone < most_gone; ++i) {
     if (lock_ >= 0) close(std::exchange(lock_, -1));
     std::error_code none;
     if (!at_.empty()) fs::remove_all(std::exchange(at_, {}), none);
     std::string name = (folder_ / (std::string(unfinished_folder) + "XXXXXX")).string();
     if (!mkdtemp(name.data())) {
       const std::error_code fault(errno, std::generic_category());
-      // A run that had made the folder for all, and has ended, removes it.
-      fs::create_directories(folder_, none);
-      if (fault != std::errc::no_such_file_or_directory || none) return fault;
+      if (fault != std::errc::no_such_file_or_directory) return fault;
+      make_folder(folder_, none);
+      if (none) return none;
+      --i;
+      ++n_gone;
       continue;
     }
     at_ = name;
