@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <stdexcept>
 #include <system_error>
 
 namespace wrlkit::bake {
@@ -37,8 +38,7 @@ std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t hash)
 Checkpoint::Checkpoint(const std::string& path, std::uint64_t key) : path_(path) {
   if (path.empty()) return;
   if (is_foreign(path))
-    throw std::system_error(std::make_error_code(std::errc::file_exists),
-                            "checkpoint=" + path + ": that file is something else; choose another name");
+    throw std::runtime_error("checkpoint=" + path + ": the file is not a checkpoint; choose another name");
   std::string head(magic);
   put(head, key);
   std::uint64_t end = 0;

@@ -17,7 +17,7 @@ namespace wrlkit::bake {
 class Checkpoint {
  public:
   /// Opens or makes the file; no path: nothing is kept. Tiles of a file with another key are forgotten: they are of
-  /// other work. Throws std::system_error when the file cannot be written, or is something else than a checkpoint.
+  /// other work. Throws std::system_error when the file cannot be written, std::runtime_error when it is no checkpoint.
   Checkpoint(const std::string& path, std::uint64_t key);
 
   /// Deletes the file if it is a checkpoint.

@@ -8,7 +8,7 @@
 
 #include "base/text/letter_case.h"
 #include "convert/formats.h"
-#include "tools/corpus/inputs.h"
+#include "tools/cli/inputs.h"
 
 namespace wrlkit {
 namespace {

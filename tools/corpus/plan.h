@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/corpus/inputs.h"
+#include "tools/cli/inputs.h"
 
 namespace wrlkit {
 

@@ -9,9 +9,9 @@
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
+#include "tools/cli/inputs.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
-#include "tools/corpus/inputs.h"
 
 namespace wrlkit {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/text/json.h"
 #include "parsers/patches/patches.h"
+#include "tools/cli/inputs.h"
 #include "tools/cli/session.h"
-#include "tools/corpus/inputs.h"
 #include "tools/verbs/patches_info.h"
 
 namespace wrlkit {

@@ -6,6 +6,7 @@
 #include "base/text/json.h"
 #include "convert/optimize.h"
 #include "tools/cli/outputs.h"
+#include "tools/cli/print_diagnostics.h"
 #include "tools/gltf_summary.h"
 #include "tools/verbs/convert.h"
 
@@ -24,17 +25,27 @@ std::string text(const Session& s, std::uint64_t before, const Optimized& made) 
                      made.gltf->bytes(), summary_text(*made.gltf), names_text(made));
 }
 
-std::string figures_json(const Session& s, std::uint64_t before, const Optimized& made) {
+/// What was made, and all messages; of an input that nothing could be made of, the messages alone.
+std::string figures_json(Session& s, std::uint64_t before, const Optimized& made) {
   return json_text([&](JsonOut& json) {
            json.object([&] {
-             json.members("input", s.flags().inputs[0], "output", s.flags().output, "profile", s.flags().profile,
-                          "bytes_before", before, "bytes_after", made.gltf->bytes(), "names_before", made.n_names,
-                          "names_lost", std::span<const std::string>(made.lost), "names_not_shown",
-                          std::span<const std::string>(made.not_shown));
-             json.member("gltf", JsonText{summary_json(*made.gltf)});
+             json.members("input", s.flags().inputs[0], "output", s.flags().output, "profile", s.flags().profile);
+             if (made) {
+               json.members("bytes_before", before, "bytes_after", made.gltf->bytes(), "names_before", made.n_names,
+                            "names_lost", std::span<const std::string>(made.lost), "names_not_shown",
+                            std::span<const std::string>(made.not_shown));
+               json.member("gltf", JsonText{summary_json(*made.gltf)});
+             }
+             json.member("messages", JsonText{messages_json(s.diag())});
            });
          }) +
          "\n";
+}
+
+std::uint64_t bytes_of_file(const std::string& path) {
+  std::error_code fault;
+  const auto size = std::filesystem::file_size(path, fault);
+  return fault ? 0 : size;
 }
 
 }  // namespace
@@ -66,21 +77,21 @@ int run_optimize(const Flags& given) {
   warn_of_idle_options(flags);
   Backup backup(flags);
   if (!backup.good()) return nothing;
-  if (!read_input(s)) return s.end(false);
-  std::error_code ec;
-  const auto size = std::filesystem::file_size(flags.inputs[0], ec);
-  const std::uint64_t before = ec ? 0 : size;
   options.measure_gzip = !flags.quiet;
-  const auto made = optimize(s.document(), s.pipeline(), *output_of(flags.output), options, {s.pipeline_options()});
-  if (!made) return s.end(false);
-  backup.keep();
-  s.fact("gltf", summary_json(*made.gltf));
+  const std::uint64_t before = bytes_of_file(flags.inputs[0]);
+  Optimized made;
+  if (read_input(s))
+    made = optimize(s.document(), s.pipeline(), *output_of(flags.output), options, {s.pipeline_options()});
+  if (made) {
+    backup.keep();
+    s.fact("gltf", summary_json(*made.gltf));
+  }
   s.progress().clear();
   if (flags.json)
     fmt::print("{}", figures_json(s, before, made));
-  else if (!flags.quiet)
+  else if (made && !flags.quiet)
     fmt::print(stderr, "{}", text(s, before, made));
-  return s.end(true);
+  return s.end(static_cast<bool>(made));
 }
 
 }  // namespace wrlkit

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/text/json.h"
-#include "tools/corpus/inputs.h"
+#include "tools/cli/inputs.h"
 #include "tools/report/picture_grid.h"
 #include "tools/verbs/render_sheets.h"
 

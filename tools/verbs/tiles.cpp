@@ -10,11 +10,11 @@
 
 #include "base/text/amounts.h"
 #include "base/text/json.h"
+#include "tools/cli/inputs.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/recipe.h"
 #include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"
-#include "tools/corpus/inputs.h"
 
 namespace wrlkit {
 namespace {

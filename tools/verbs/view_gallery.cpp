@@ -12,8 +12,8 @@
 #include "base/text/base64.h"
 #include "base/text/json.h"
 #include "convert/info.h"
+#include "tools/cli/inputs.h"
 #include "tools/cli/session.h"
-#include "tools/corpus/inputs.h"
 #include "tools/report/gallery_page.h"
 #include "tools/verbs/render_sheets.h"
 

@@ -39,6 +39,8 @@ for inputs in "@gone.txt in/a.wrl" "in/a.wrl @none.txt" "in/a.wrl empty" "empty 
     echo "$code $(grep -E 'wrlkit|error' err.txt)"
   done
 done
+# A glob is about what it matches: links that lead nowhere below other names are not its business.
+wrlkit info 'in/*a.wrl' 2>&1 | head -1
 # A list of many that are not there is not one endless line.
 seq 100000 | sed 's/$/.wrl/' > many.txt
 for verb in info check "tiles -q -o tiles" "view -o v.html"; do

@@ -1,4 +1,4 @@
-#include "tools/corpus/inputs.h"
+#include "tools/cli/inputs.h"
 
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -181,18 +181,25 @@ class Gatherer {
         above.push_back(folder);
         if (!can_be_read(i->path())) i.disable_recursion_pending();
       }
-      if (i->is_symlink(none) && !fs::exists(i->path(), none) && is_scene_name(name))
-        leave_out("'" + i->path().string() + "' is a link to a file that is not there");
-      if (is_folder || !i->is_regular_file(none)) continue;
-      auto inside = i->path().lexically_relative(path).string();
-      const bool is_world = is_scene_name(name),
-                 is_asset = rules_.assets && !is_world && !ending_of(name, asset_endings).empty();
-      const bool is_meant = is_asset || (pattern.empty() ? is_world : match(parts, names_of(inside)));
-      n_found_ += is_meant;
-      if (is_meant && (is_asset || wanted(inside)))
-        add(i->path(), std::move(inside), at, is_asset || rules_.assets, is_asset);
+      if (!is_folder) entry(*i, i->path().lexically_relative(path).string(), parts, at);
     }
     if (fault) leave_out("cannot read the folder '" + path + "': " + fault.message());
+  }
+
+  /// What a folder has that is not a folder; `glob` is that of the word, in names of the path, empty for all scenes.
+  void entry(const fs::directory_entry& file, std::string inside, std::span<const std::string> glob, std::uint32_t at) {
+    std::error_code none;
+    const auto name = file.path().filename().string();
+    const bool is_world = is_scene_name(name),
+               is_asset = rules_.assets && !is_world && !ending_of(name, asset_endings).empty();
+    if (!is_asset && !(glob.empty() ? is_world : match(glob, names_of(inside)))) return;
+    if (file.is_symlink(none) && !file.exists(none)) {
+      if (is_world && wanted(inside)) leave_out("'" + file.path().string() + "' is a link to a file that is not there");
+      return;
+    }
+    if (!file.is_regular_file(none)) return;
+    ++n_found_;
+    if (is_asset || wanted(inside)) add(file.path(), std::move(inside), at, is_asset || rules_.assets, is_asset);
   }
 
   bool can_be_read(const fs::path& folder) {
