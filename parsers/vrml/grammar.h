@@ -4,10 +4,12 @@
 // vrml1_among_vrml97.cpp.
 #pragma once
 #include <algorithm>
+#include <deque>
 #include <optional>
 #include <unordered_set>
 
 #include "parsers/vrml/deferred_lists.h"
+#include "parsers/vrml/node_pattern.h"
 #include "parsers/vrml/parser.h"
 #include "parsers/vrml/values.h"
 #include "parsers/x3d/units.h"
@@ -42,7 +44,7 @@ class Parser : private Values {
   bool is_stray(Token t) const { return t.kind == Kind::open_bracket || value_like(t) || text(t) == "IS"; }
 
   // Nodes.
-  bool node_follows(Token name);
+  bool node_follows(Token name) const;
   bool node_list_follows();
   /// nodeStatement, or NULL. None when there is no node; then only a faulty token was consumed.
   NodeId node_statement();
@@ -54,6 +56,12 @@ class Parser : private Values {
   bool in_vrml1() const { return build_.depth() > 0 && build_.current_type().is_a(nodes::Vrml1Node); }
   void node_body(Token opened);
   void tell_part_read();
+  /// A node statement among others, which may be written like the one before it.
+  NodeId next_node(bool children, NodePattern& before);
+  NodeId node_again(NodePattern&);
+  bool read_again(const NodePattern&);
+  bool is_for_others(std::string_view list) const { return lists_ && list.size() >= RepeatedLists::shortest; }
+  NodePattern& begin_pattern();
   void node_body_element(Token);
   void implicit_child(Token);
   /// Gives the nodes that were met in places for no node since `mark`: mostly the closing brace of the one before them
@@ -104,6 +112,11 @@ class Parser : private Values {
   const PartRead* part_read_ = nullptr;  // null: not needed
   std::uint32_t told_ = 0;               // offset up to which it was reported
   std::vector<NodeId> nodes_, misplaced_;
+  std::deque<NodePattern> patterns_;          // of the last node of each open list
+  std::vector<NodePattern::List> lists_met_;  // by nodes that are still open, or by their neighbours
+  std::vector<NodePattern::List> lists_again_;
+  std::vector<Value> values_again_;
+  std::size_t n_statements_ = 0;              // that are no nodes
   std::vector<const Interface*> interfaces_;  // of the prototypes whose bodies are being read
   std::size_t scope_depth_ = 0, open_lists_ = 0;
   bool among_children_ = false;  // of the node that follows

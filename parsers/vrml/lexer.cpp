@@ -2,63 +2,59 @@
 
 namespace wrlkit::vrml {
 
-void Lexer::skip_blanks() {
-  for (; p_ < end_; ++p_) {
-    const CharClass c = class_of(*p_);
+const char* Lexer::behind_blanks(const char* p) const {
+  for (; p < end_; ++p) {
+    const CharClass c = class_of(*p);
     if (c == CharClass::blank) continue;
-    if (c != CharClass::comment) return;
-    while (p_ < end_ && *p_ != '\n' && *p_ != '\r') ++p_;
-    if (p_ == end_) return;
+    if (c != CharClass::comment) return p;
+    while (p < end_ && *p != '\n' && *p != '\r') ++p;
+    if (p == end_) return p;
   }
+  return p;
 }
 
-const Lexer::Seen& Lexer::read() {
-  const char* const at = p_;
-  last_seen_ = 1 - last_seen_;
-  Seen& seen = seen_[last_seen_];
-  seen.token = read_token();
-  seen.at = at;
-  seen.behind = p_;
-  seen.closed = closed_;
-  p_ = at;
-  return seen;
+bool Lexer::brace_follows(Token t) const {
+  const char* const p = behind_blanks(begin_ + t.end);
+  return p < end_ && *p == '{';
 }
 
-Token Lexer::read_token() {
-  skip_blanks();
-  Token t;
-  t.begin = t.end = offset();
-  if (p_ == end_) return t;
-  char c = *p_++;
-  switch (c) {
-    case '{':
-      t.kind = Kind::open_brace;
-      break;
-    case '}':
-      t.kind = Kind::close_brace;
-      break;
-    case '[':
-      t.kind = Kind::open_bracket;
-      break;
-    case ']':
-      t.kind = Kind::close_bracket;
-      break;
-    case '"':
-      t.kind = Kind::string;
-      closed_ = false;
-      for (; p_ < end_ && !closed_; ++p_) {
-        if (*p_ == '\\' && p_ + 1 < end_)
-          ++p_;
-        else if (*p_ == '"')
-          closed_ = true;
-      }
-      break;
-    default:
-      t.kind = Kind::word;
-      while (p_ < end_ && class_of(*p_) == CharClass::other) ++p_;
+void Lexer::read() {
+  at_ = p_;
+  const char* p = behind_blanks(p_);
+  token_.begin = static_cast<std::uint32_t>(p - begin_);
+  token_.kind = Kind::end;
+  if (p < end_) {
+    const char c = *p++;
+    switch (c) {
+      case '{':
+        token_.kind = Kind::open_brace;
+        break;
+      case '}':
+        token_.kind = Kind::close_brace;
+        break;
+      case '[':
+        token_.kind = Kind::open_bracket;
+        break;
+      case ']':
+        token_.kind = Kind::close_bracket;
+        break;
+      case '"':
+        token_.kind = Kind::string;
+        closed_ = false;
+        for (; p < end_ && !closed_; ++p) {
+          if (*p == '\\' && p + 1 < end_)
+            ++p;
+          else if (*p == '"')
+            closed_ = true;
+        }
+        break;
+      default:
+        token_.kind = Kind::word;
+        while (p < end_ && class_of(*p) == CharClass::other) ++p;
+    }
   }
-  t.end = offset();
-  return t;
+  behind_ = p;
+  token_.end = static_cast<std::uint32_t>(p - begin_);
 }
 
 }  // namespace wrlkit::vrml

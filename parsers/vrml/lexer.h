@@ -34,12 +34,16 @@ class Lexer {
   explicit Lexer(std::string_view text) : begin_(text.data()), p_(begin_), end_(begin_ + text.size()) {}
 
   Token next() {
-    const Seen& seen = see();
-    p_ = seen.behind;
-    closed_ = seen.closed;
-    return seen.token;
+    const Token t = peek();
+    p_ = behind_;
+    return t;
   }
-  Token peek() { return see().token; }
+  Token peek() {
+    if (at_ != p_) read();
+    return token_;
+  }
+  /// Whether the token behind that one is an opening brace, without reading it.
+  bool brace_follows(Token) const;
 
   std::uint32_t offset() const { return static_cast<std::uint32_t>(p_ - begin_); }
   void seek(std::uint32_t offset) { p_ = begin_ + offset; }
@@ -54,32 +58,22 @@ class Lexer {
   const char* limit() const { return end_; }
   void set_position(const char* p) { p_ = p; }
   /// Past blanks, commas and comments.
-  void skip_blanks();
+  void skip_blanks() { p_ = behind_blanks(p_); }
 
   static bool separates(char c) { return class_of(c) != CharClass::other; }
 
  private:
-  /// The grammar looks at a token, and at the one behind it, before it takes them.
-  struct Seen {
-    const char* at = nullptr;
-    const char* behind = nullptr;
-    Token token;
-    bool closed = true;
-  };
-  const Seen& see() {
-    for (const Seen& seen : seen_)
-      if (seen.at == p_) return seen;
-    return read();
-  }
-  const Seen& read();
-  Token read_token();
+  void read();
+  const char* behind_blanks(const char*) const;
 
   const char* begin_;
   const char* p_;
   const char* end_;
+  // The token at hand, which the grammar looks at before it takes it.
+  const char* at_ = nullptr;  // the position that it is the next one of
+  const char* behind_ = nullptr;
+  Token token_;
   bool closed_ = true;
-  std::array<Seen, 2> seen_;
-  std::size_t last_seen_ = 0;
 };
 
 }  // namespace wrlkit::vrml

@@ -1,6 +1,7 @@
 #include "parsers/vrml/parser.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/parallel.h"
@@ -9,11 +10,19 @@
 namespace wrlkit::vrml {
 namespace {
 
+/// As all words are that begin a statement, and few others.
+bool has_capitals(std::string_view word) {
+  auto capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+  return word.size() >= 4 && capital(word[0]) && capital(word[1]);
+}
+
 bool begins_statement(std::string_view word) {
+  if (!has_capitals(word)) return false;
   return word == "PROTO" || word == "EXTERNPROTO" || word == "ROUTE" || word == "IMPORT" || word == "EXPORT";
 }
 
 bool begins_head(std::string_view word) {
+  if (!has_capitals(word)) return false;
   return word == "PROFILE" || word == "COMPONENT" || word == "META" || word == "UNIT";
 }
 
@@ -29,19 +38,15 @@ bool Parser::vrml_scene() {
   return true;
 }
 
-bool Parser::node_follows(Token name) {
+bool Parser::node_follows(Token name) const {
   if (!name_like(name)) return false;
   auto w = text(name);
   if (w == "DEF" || w == "USE" || w == "NULL") return true;
-  if (begins_statement(w)) return false;
-  auto at = lex_.offset();
-  lex_.seek(name.end);
-  bool brace = lex_.peek().kind == Kind::open_brace;
-  lex_.seek(at);
-  return brace;
+  return !begins_statement(w) && lex_.brace_follows(name);
 }
 
 void Parser::statements(Kind until) {
+  NodePattern& before = begin_pattern();
   for (;;) {
     Token t = lex_.peek();
     if (t.kind == until) {
@@ -56,7 +61,7 @@ void Parser::statements(Kind until) {
     if (name_like(t)) {
       auto at = lex_.offset();
       const auto mark = misplaced_.size();
-      NodeId n = until == Kind::end ? child_statement() : node_statement();
+      NodeId n = next_node(until == Kind::end, before);
       if (n) build_.root(n);
       take_misplaced(mark, [&](NodeId m) { build_.root(m); });
       if (n || lex_.offset() != at) continue;
@@ -69,12 +74,14 @@ bool Parser::statement(Token t) {
   if (t.kind != Kind::word) return false;
   auto w = text(t);
   if (begins_head(w) && !node_follows(t)) {
+    ++n_statements_;
     lex_.next();
     if (scene_.dialect() != Dialect::x3d) diag_.report(Diag::dialect_statement, span(t), w, "it is read as in X3D");
     head_statement(t);
     return true;
   }
   if (!begins_statement(w)) return false;
+  ++n_statements_;
   lex_.next();
   if (w == "PROTO")
     proto(t);
@@ -188,6 +195,65 @@ NodeId Parser::node(Token type_name, std::string_view def) {
   return n;
 }
 
+/// The one for the nodes of a list that is being opened, or of a scope.
+NodePattern& Parser::begin_pattern() {
+  const auto depth = open_lists_ + scope_depth_;
+  if (patterns_.size() <= depth) patterns_.resize(depth + 1);
+  patterns_[depth].forget();
+  return patterns_[depth];
+}
+
+NodeId Parser::next_node(bool children, NodePattern& before) {
+  if (NodeId n = node_again(before)) return n;
+  const auto begin = lex_.peek().begin;
+  const NodeId first{static_cast<std::uint32_t>(scene_.node_count())};
+  const auto n_lists = lists_met_.size();
+  const auto state = [&] {
+    return std::array{diag_.count(), misplaced_.size(), n_statements_, scene_.own_types().size()};
+  };
+  const auto state_before = state();
+  const NodeId n = children ? child_statement() : node_statement();
+  before.forget();
+  const bool few = scene_.node_count() <= first.value + NodePattern::most_nodes;
+  if (few && n == first && state() == state_before)
+    before.learn(scene_, lex_.text(begin, lex_.offset()), base_ + begin, first, std::span(lists_met_).subspan(n_lists));
+  // What holds this node may be learnt with it, if it has no more nodes than that.
+  if (build_.depth() == 0 || scene_.node_count() > build_.current().value + NodePattern::most_nodes) lists_met_.clear();
+  return n;
+}
+
+NodeId Parser::node_again(NodePattern& pattern) {
+  if (pattern.empty()) return {};
+  const auto begin = lex_.peek().begin;
+  const auto rest = lex_.text(begin, lex_.size());
+  const auto length = pattern.match(rest, lists_again_);
+  if (length == 0) return {};
+  const NodeId first{static_cast<std::uint32_t>(scene_.node_count())};
+  if (first.value + pattern.n_nodes() > limits_.nodes || !read_again(pattern)) return {};
+  // Nothing can be wrong with it any more.
+  for (std::size_t i = 0; i < lists_again_.size(); ++i)
+    if (const auto& list = lists_again_[i]; is_for_others(list.text))
+      values_again_[i] = lists_->add(list.text, list.type, list.slot, NodeId{list.node.value + first.value});
+  pattern.make(scene_, base_ + begin, rest, lists_again_, values_again_);
+  lex_.seek(begin + length);
+  if (part_read_) tell_part_read();
+  return first;
+}
+
+/// The lists that are not for other threads. False: one has to be read in full, for there is something to say of it.
+bool Parser::read_again(const NodePattern& pattern) {
+  values_again_.resize(lists_again_.size());
+  for (std::size_t i = 0; i < lists_again_.size(); ++i) {
+    const auto& list = lists_again_[i];
+    if (is_for_others(list.text)) continue;
+    if (const Value* known = pattern.known(i, list.text))
+      values_again_[i] = *known;
+    else if (!plain_list(list.text, list.type, list.slot, values_again_[i]))
+      return false;
+  }
+  return true;
+}
+
 void Parser::tell_part_read() {
   constexpr std::uint32_t step = 2 << 20;  // bytes
   const auto now = lex_.offset();
@@ -270,7 +336,12 @@ void Parser::known_field(std::uint16_t slot, const FieldDef& def, Token name) {
   }
   if (lists_ && deferred_list(def.type, slot, name)) return;
   Value v;
-  if (value(def.type, slot, def.name_in(scene_.dialect()), def.default_value, v)) build_.field(v, span(name));
+  last_list_ = {};
+  if (!value(def.type, slot, def.name_in(scene_.dialect()), def.default_value, v)) return;
+  const auto& t = info(def.type);
+  const bool numbers = t.multiple && (t.element == Element::number || t.element == Element::integer);
+  if (numbers && last_list_.data() && !in_vrml1()) lists_met_.push_back({last_list_, build_.current(), slot, def.type});
+  build_.field(v, span(name));
 }
 
 bool Parser::deferred_list(FieldType type, std::uint16_t slot, Token name) {
@@ -283,6 +354,7 @@ bool Parser::deferred_list(FieldType type, std::uint16_t slot, Token name) {
   if (length == rest.npos) lists_->give_up();  // and look no further for brackets that are not there
   if (length == rest.npos || length < RepeatedLists::shortest) return false;
   lex_.seek(opened.end + static_cast<std::uint32_t>(length) + 1);
+  lists_met_.push_back({rest.substr(0, length), build_.current(), slot, type});
   build_.field(lists_->add(rest.substr(0, length), type, slot, build_.current()), span(name));
   if (lists_->failed()) lex_.seek(lex_.size());
   return true;
@@ -449,6 +521,7 @@ NodeId Parser::shape_around(NodeId n) {
 }
 
 void Parser::list_elements(Token opened, bool children) {
+  NodePattern& before = begin_pattern();
   for (;;) {
     Token t = lex_.peek();
     if (ends(t, Kind::close_bracket, opened)) return;
@@ -460,7 +533,7 @@ void Parser::list_elements(Token opened, bool children) {
     if (name_like(t) && node_follows(t)) {
       if (text(t) == "NULL") diag_.report(Diag::null_repaired, span(t));
       const auto mark = misplaced_.size();
-      if (NodeId n = children ? child_statement() : node_statement()) nodes_.push_back(n);
+      if (NodeId n = next_node(children, before)) nodes_.push_back(n);
       take_misplaced(mark, [&](NodeId m) { nodes_.push_back(m); });
       continue;
     }

@@ -35,6 +35,7 @@ Digits digits_at(const char* p) {
 }
 
 bool is_blank(char c) { return class_of(c) == CharClass::blank; }
+bool ends_number(char c) { return is_blank(c) || c == ']'; }
 
 /// Both the digits and the power of ten are exact doubles when there are no more than fifteen digits, so that one
 /// division rounds correctly.
@@ -49,7 +50,7 @@ const char* read_plain(const char* p, double& out) {
     p += part.n;
   }
   const unsigned n = whole.n + part.n;
-  if (n == 0 || n > 15 || !is_blank(*p)) return nullptr;
+  if (n == 0 || n > 15 || !ends_number(*p)) return nullptr;
   const double v = static_cast<double>(whole.value * whole_powers[part.n] + part.value) / float_powers[part.n];
   out = std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) ^ std::uint64_t{negative} << 63);
   return p;
@@ -60,7 +61,7 @@ const char* read_plain(const char* p, std::int32_t& out) {
   p += negative;
   const Digits whole = digits_at(p);
   p += whole.n;
-  if (whole.n == 0 || !is_blank(*p)) return nullptr;
+  if (whole.n == 0 || !ends_number(*p)) return nullptr;
   const auto v = static_cast<std::int32_t>(whole.value);
   out = negative ? -v : v;
   return p;
@@ -77,7 +78,7 @@ const char* read_all(const char* p, const char* end, std::vector<T>& to) {
     const char* behind = read_plain(p, v);
     if (!behind) break;
     to.push_back(v);
-    p = behind + 1;
+    p = behind + is_blank(*behind);
   }
   return p;
 }

@@ -21,31 +21,61 @@ bool Values::plain_value(FieldType type, std::uint16_t slot, std::string_view fi
 // ---- numbers -------------------------------------------------------------------------------------------------------
 
 bool Values::list_value(FieldType type, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out) {
-  const auto& t = info(type);
-  const bool real = t.element == Element::number;
   const auto list = next_list();
-  const auto next = static_cast<std::uint32_t>(lists_read_.size());
-  const auto id = repeated_.find_or_add(list, real, next);
-  if (id == next) lists_read_.emplace_back();
-  Numbers& numbers = lists_read_[id];
-  if (numbers.data && numbers.count % t.arity == 0) {
+  Numbers& numbers = numbers_of(list, info(type).element == Element::number);
+  if (take_numbers(numbers, type, slot, out)) {
     lex_.set_position(list.data() + list.size() + 1);
-    out.type = type;
-    out.slot = slot;
-    out.count = static_cast<std::uint32_t>(numbers.count / t.arity);
-    if (real)
-      out.numbers = static_cast<const double*>(numbers.data);
-    else
-      out.integers = static_cast<const std::int32_t*>(numbers.data);
+    last_list_ = list;
     return true;
   }
   const auto n_said = diag_.count();
   if (!numbers_value(type, slot, field, fallback, out)) return false;
   if (diag_.count() > n_said || lex_.position() != list.data() + list.size() + 1) return true;
-  if (real)
-    numbers = {out.numbers, numbers_.size()};
+  numbers = numbers_in(out);
+  last_list_ = list;
+  return true;
+}
+
+bool Values::plain_list(std::string_view list, FieldType type, std::uint16_t slot, Value& out) {
+  const bool real = info(type).element == Element::number;
+  Numbers& numbers = numbers_of(list, real);
+  if (take_numbers(numbers, type, slot, out)) return true;
+  numbers_.clear();
+  integers_.clear();
+  const char* p = list.data();
+  p = real ? read_plain_numbers(p, lex_.limit(), numbers_) : read_plain_numbers(p, lex_.limit(), integers_);
+  while (class_of(*p) == CharClass::blank) ++p;  // up to the bracket at the latest
+  const auto count = real ? numbers_.size() : integers_.size();
+  if (p != list.data() + list.size() || count % info(type).arity != 0) return false;
+  out = value_of_numbers(type, slot);
+  numbers = numbers_in(out);
+  return true;
+}
+
+Values::Numbers& Values::numbers_of(std::string_view list, bool real) {
+  if (list.size() < RepeatedLists::shortest) return short_list_ = {};
+  const auto next = static_cast<std::uint32_t>(lists_read_.size());
+  const auto id = repeated_.find_or_add(list, real, next);
+  if (id == next) lists_read_.emplace_back();
+  return lists_read_[id];
+}
+
+Values::Numbers Values::numbers_in(const Value& v) {
+  const auto& t = info(v.type);
+  const void* data = t.element == Element::number ? static_cast<const void*>(v.numbers) : v.integers;
+  return {data, std::size_t{v.count} * t.arity};
+}
+
+bool Values::take_numbers(const Numbers& numbers, FieldType type, std::uint16_t slot, Value& out) {
+  const auto& t = info(type);
+  if (!numbers.data || numbers.count % t.arity != 0) return false;
+  out.type = type;
+  out.slot = slot;
+  out.count = static_cast<std::uint32_t>(numbers.count / t.arity);
+  if (t.element == Element::number)
+    out.numbers = static_cast<const double*>(numbers.data);
   else
-    numbers = {out.integers, integers_.size()};
+    out.integers = static_cast<const std::int32_t*>(numbers.data);
   return true;
 }
 
@@ -122,6 +152,7 @@ void Values::numbers(std::vector<T>& to, Read read, std::size_t most) {
     if (!most) lex_.set_position(read_plain_numbers(lex_.position(), lex_.limit(), to));
     lex_.skip_blanks();
     const char *p = lex_.position(), *start = p;
+    if (p < lex_.limit() && *p == ']') return;
     T v;
     auto r = read(p, lex_.limit(), v);
     if (r == NumberResult::none) return;

@@ -31,10 +31,22 @@ class Values : protected Tokens {
   /// Of what was read, which is as much as the type takes.
   Value value_of_numbers(FieldType, std::uint16_t slot);
 
+  /// The text between the brackets of a list of numbers, if it is written plainly to its end. False: nothing was said.
+  bool plain_list(std::string_view list, FieldType, std::uint16_t slot, Value& out);
+
   std::vector<double> numbers_;
   std::vector<std::int32_t> integers_;
+  std::string_view last_list_;  // that was read, and nothing was said of it
 
  private:
+  struct Numbers {
+    const void* data = nullptr;  // null: they were not read without a message
+    std::size_t count = 0;
+  };
+  /// Of that text, as they were read before.
+  Numbers& numbers_of(std::string_view list, bool real);
+  static Numbers numbers_in(const Value& list);
+  static bool take_numbers(const Numbers&, FieldType, std::uint16_t slot, Value& out);
   bool numbers_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
   /// Of a list in brackets. Where the same text was read before, and nothing was said of it, it has the same array.
   bool list_value(FieldType, std::uint16_t slot, std::string_view field, const Value& fallback, Value& out);
@@ -50,12 +62,9 @@ class Values : protected Tokens {
   /// Behind the values of a list: its ']', or otherwise what is wrong, up to it.
   void close_list(Token opened);
 
-  struct Numbers {
-    const void* data = nullptr;  // null: they were not read without a message
-    std::size_t count = 0;
-  };
   RepeatedLists repeated_;
   std::vector<Numbers> lists_read_;   // by their ids in repeated_
+  Numbers short_list_;                // of one that is not looked up
   const char* next_close_ = nullptr;  // the first ']' behind some place that was read
 };
 
