@@ -11,7 +11,7 @@
 
 namespace wrlkit {
 
-struct NormalsScratch;  // passes/normals/scratch.h
+struct NormalsScratch;  // geometry/normals_scratch.h
 struct WeldScratch;     // passes/weld/scratch.h
 
 /// Arrays that mesh passes use again and again, so that a million small shapes allocate nothing.

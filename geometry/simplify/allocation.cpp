@@ -185,21 +185,43 @@ void Allocation::leave(std::uint32_t part) {
     if (s.near != ClosestPoint::no_guess) attach(part_of_[s.near], s);
 }
 
-/// Where a step saves more than is asked for, a rung that is off the hull may do.
-Allocation::Step Allocation::shortened(const Step& step, std::size_t n_drawn) {
-  const auto& p = parts_[step.part];
-  auto& stops = stops_[step.part];
-  const auto now = stops[at_[step.part]].rung, last = stops[step.to].rung;
-  const auto n_left = [&](std::uint32_t rung) {
-    return n_drawn_ - p.n_places * ((*p.rungs)[now].n_faces - (*p.rungs)[rung].n_faces);
-  };
-  auto rung = now + 1;
-  while (rung < last && n_left(rung) > n_drawn) ++rung;
-  if (rung == last) return step;
+/// The number of a rung among the stops of a part, where it becomes one.
+std::uint32_t Allocation::stop_of(std::uint32_t part, std::uint32_t rung) {
+  auto& stops = stops_[part];
   const auto next = std::ranges::lower_bound(stops, rung, {}, &Stop::rung);
-  const auto to = static_cast<std::uint32_t>(next - stops.begin());
-  if (next->rung != rung) stops.insert(next, stop_at(step.part, rung));
-  return {step.key, step.part, to};
+  const auto number = static_cast<std::uint32_t>(next - stops.begin());
+  if (next == stops.end() || next->rung != rung) stops.insert(next, stop_at(part, rung));
+  return number;
+}
+
+/// Where a step saves more than is asked for, another one may do that adds less: of each part the first rung with which
+/// the world has few enough triangles, on the hull or off it.
+Allocation::Step Allocation::last_step(const Step& step, std::size_t n_drawn) {
+  const auto saved_by = [&](const AllocatedPart& p, std::uint32_t now, std::uint32_t rung) {
+    return p.n_places * ((*p.rungs)[now].n_faces - (*p.rungs)[rung].n_faces);
+  };
+  const auto needed = n_drawn_ - n_drawn;
+  const auto& first = parts_[step.part];
+  const auto& from = stops_[step.part][at_[step.part]];
+  const auto saved = step.to == gone ? first.n_places * (*first.rungs)[from.rung].n_faces
+                                     : saved_by(first, from.rung, stops_[step.part][step.to].rung);
+  if (saved <= needed) return step;
+  double least = step.key * static_cast<double>(saved);
+  auto best = std::pair{step.part, step.to == gone ? gone : stops_[step.part][step.to].rung};
+  for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+    if (at_[i] == gone) continue;
+    const auto& p = parts_[i];
+    const auto& now = stops_[i][at_[i]];
+    auto rung = now.rung + 1;
+    while (rung < p.rungs->size() && saved_by(p, now.rung, rung) < needed) ++rung;
+    if (rung == p.rungs->size()) continue;
+    const auto price = stop_at(i, rung).price;
+    const double cost = key_of(price.squares - now.price.squares, price.peak);
+    if (cost >= least) continue;
+    least = cost;
+    best = {i, rung};
+  }
+  return {step.key, best.first, best.second == gone ? gone : stop_of(best.first, best.second)};
 }
 
 void Allocation::take(const Step& step) {
@@ -239,7 +261,7 @@ bool Allocation::run_to(std::size_t n_drawn) {
       queue_.push(now);
       continue;
     }
-    take(now.to == gone ? now : shortened(now, n_drawn));
+    take(last_step(now, n_drawn));
   }
   return true;
 }

@@ -82,7 +82,8 @@ class Allocation {
   void price_next(const Step& first);
   double squared_of(const LeavingSample& s) const;
   void attach(std::uint32_t part, const LeavingSample& s);
-  Step shortened(const Step& step, std::size_t n_drawn);
+  std::uint32_t stop_of(std::uint32_t part, std::uint32_t rung);
+  Step last_step(const Step& step, std::size_t n_drawn);
   void take(const Step& step);
   void leave(std::uint32_t part);
 

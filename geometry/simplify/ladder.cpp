@@ -8,7 +8,6 @@
 
 #include "base/math/box.h"
 #include "base/math/vec.h"
-#include "geometry/simplify/closest_on_triangle.h"
 #include "geometry/simplify/fitted_surface.h"
 
 namespace wrlkit::simplify {
@@ -21,7 +20,8 @@ constexpr std::size_t most_fitted = 12'000;                       // where the c
 constexpr double spoiling = 30;                                   // growth of the distortion from rung to rung
 constexpr double far = 5e-4;             // root of the mean square, as a share of the extent: from there on,
 constexpr double spoiling_when_far = 4;  // less growth will do
-constexpr double coarse_step = 0.7, fine_step = 0.85;
+constexpr double coarse_step = 0.7, fine_step = 0.85, finest_step = 0.9;
+constexpr double most_missed = 0.05;  // share of the triangles of the world that lie between two rungs
 
 class Ladder {
  public:
@@ -32,6 +32,7 @@ class Ladder {
       bounds.add(s.point);
       area += s.weight;
     }
+    if (part.share > 0) step_ = std::clamp(1 - most_missed / part.share, coarse_step, finest_step);
     const double distance = far * diagonal(bounds);
     spacing_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(part.samples.size(), 1)));
     if (fits()) far_squares_ = 2 * area * distance * distance;
@@ -86,14 +87,13 @@ class Ladder {
     Collapser c(first, options);
     Mesh level = first;
     for (std::size_t n = first.n_faces(); n > last;) {
-      n = std::max(last, std::min(n - 1, static_cast<std::size_t>(coarse_step * static_cast<double>(n))));
+      n = std::max(last, std::min(n - 1, static_cast<std::size_t>(step_ * static_cast<double>(n))));
       const auto before = c.n_faces();
       c.run_to(n);
       if (c.n_faces() >= before || c.n_faces() == 0) break;
       const double held_back = static_cast<double>(c.n_faces()) / static_cast<double>(n);
       n = c.n_faces();
       Mesh next = c.mesh();
-      if (!next.normal.present() && !next.color.present() && !next.texcoord.present()) give_attributes(next);
       add(next);
       if (is_spoiled() || held_back > 1.2) break;
       level = std::move(next);
@@ -138,7 +138,7 @@ class Ladder {
       surface.refine(surface.n_faces() < fitted_below ? 2 : 1);
       add(surface);
       const auto n = surface.n_faces();
-      const double step = n > fitted_below ? coarse_step : n > every_below ? fine_step : 1;
+      const double step = n > fitted_below ? step_ : n > every_below ? std::max(step_, fine_step) : 1;
       next = std::min(n - 1, static_cast<std::size_t>(step * static_cast<double>(n)));
     }
   }
@@ -152,36 +152,7 @@ class Ladder {
     for (const auto& f : left.faces) rung.mesh.corners.insert(rung.mesh.corners.end(), f.begin(), f.end());
     rung.mesh.crease_angle = part_.mesh.crease_angle;
     rung.mesh.ccw = part_.mesh.ccw;
-    give_attributes(rung.mesh);
     rungs_.push_back(std::move(rung));
-  }
-
-  /// Each corner gets what the part has there, on the triangle that is seen from a little within its face.
-  void give_attributes(Mesh& level) const {
-    constexpr double within = 0.02;
-    const auto from = part_.mesh.attributes();
-    if (std::ranges::none_of(from, [](const Attribute* a) { return a->present(); })) return;
-    const auto to = level.attributes();
-    const auto surface = triangles_of(part_.mesh), faces = triangles_of(level);
-    for (std::size_t i = 0; i < level.corners.size(); ++i) {
-      const auto face = faces[i / 3];
-      const Vec3 middle = (1. / 3) * (face[0] + face[1] + face[2]);
-      const Vec3 p = (1 - within) * face[i % 3] + within * middle;
-      const auto found = nearest_.nearest(p, unit(area_normal(face))).triangle;
-      if (found == ClosestPoint::no_guess) return;
-      const auto at = closest_on_triangle(face[i % 3], surface[found]).at;
-      for (std::size_t a = 0; a < from.size(); ++a) {
-        if (!from[a]->present()) continue;
-        to[a]->width = from[a]->width;
-        to[a]->index.push_back(static_cast<std::uint32_t>(i));
-        for (int k = 0; k < from[a]->width; ++k) {
-          double value = 0;
-          for (std::size_t c = 0; c < 3; ++c)
-            value += at[c] * static_cast<double>(from[a]->at(from[a]->index[std::size_t{3} * found + c])[k]);
-          to[a]->values.push_back(static_cast<float>(value));
-        }
-      }
-    }
   }
 
   const LadderPart& part_;
@@ -189,6 +160,7 @@ class Ladder {
   ClosestPoint nearest_;
   std::vector<Rung> rungs_;
   double spacing_ = 0;  // of the samples
+  double step_ = coarse_step;
   double far_squares_ = std::numeric_limits<double>::infinity();
 };
 

@@ -20,12 +20,12 @@ struct LadderPart {
   const Mesh& mesh;  // of triangles, in metres, the origin near it
   std::span<const SurfaceSample> samples;
   CollapseOptions collapse;
+  double share = 0;  // of the triangles of the world: rungs of what is most of them are nearer to one another
 };
 
 /// Rungs by falling numbers of triangles, each as near as can be made; the first is the part. Edges collapse by the
-/// criterion to some hundred triangles, then on a FittedSurface, which takes its attributes from the nearest points of
-/// the part; a part with a lightmap goes as far as the criterion goes. Those that are no better than another with fewer
-/// triangles are left out. O(n log n).
+/// criterion to some hundred triangles, then on a FittedSurface, which has no attributes; a part with a lightmap goes
+/// as far as the criterion goes. Those that are no better than another with fewer triangles are left out. O(n log n).
 std::vector<Rung> make_ladder(const LadderPart& part);
 
 /// Which rungs are on the lower convex hull of distortion over triangles, where the part is stretched: where each

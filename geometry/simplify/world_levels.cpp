@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "base/math/saturating.h"
+#include "base/parallel.h"
 #include "geometry/geometry.h"
 #include "geometry/simplify/world_parts.h"
 #include "scenegraph/nodes.h"
@@ -24,6 +26,8 @@ struct WorldLevels::Impl {
   void allocate();
   std::size_t left_for_parts(std::size_t count) const;
   double error(const simplify::PlacedSurface& s, std::size_t point) const;
+  using UseMesh = std::function<void(std::size_t surface, std::size_t point, Mesh mesh)>;
+  void for_each_changed(std::size_t first_point, std::size_t end_point, const UseMesh& use) const;
 };
 
 /// Triangles of the parts where the world is to have `count`. What stays as it is can be most of them: to make up for
@@ -57,6 +61,25 @@ double WorldLevels::Impl::error(const simplify::PlacedSurface& s, std::size_t po
   return *std::max_element(first, first + s.n_parts) / s.scale;
 }
 
+/// The mesh of each surface at each of these points, where it is another one than at the one before; at the first, than
+/// that of the scene. In order, while the threads make those of some surfaces at a time.
+void WorldLevels::Impl::for_each_changed(std::size_t first_point, std::size_t end_point, const UseMesh& use) const {
+  constexpr std::size_t at_once = 256;
+  const auto n_surfaces = world.surfaces.size();
+  for (std::size_t first = 0; first < n_surfaces; first += at_once) {
+    std::vector<std::pair<std::size_t, std::size_t>> changed;
+    for (std::size_t i = first; i < std::min(first + at_once, n_surfaces); ++i)
+      for (std::size_t k = first_point; k < end_point; ++k)
+        if (world.is_changed(world.surfaces[i], rungs[k], k > first_point ? &rungs[k - 1] : nullptr))
+          changed.emplace_back(i, k);
+    std::vector<Mesh> meshes(changed.size());
+    parallel_for(changed.size(), [&](std::size_t i) {
+      meshes[i] = world.mesh_at(world.surfaces[changed[i].first], rungs[changed[i].second]);
+    });
+    for (std::size_t i = 0; i < changed.size(); ++i) use(changed[i].first, changed[i].second, std::move(meshes[i]));
+  }
+}
+
 WorldLevels::WorldLevels(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx)
     : impl_(new Impl{scene, options,
                      simplify::WorldParts(scene, options.expanded ? *options.expanded : scene, options.collapse,
@@ -88,60 +111,59 @@ void WorldLevels::report_missed(Diagnostics& diag) const {
 
 Scene WorldLevels::scene_at(std::size_t i) const {
   Scene out = impl_->scene;
-  const auto& world = impl_->world;
-  for (const auto& s : world.surfaces) {
-    if (!world.is_changed(s, impl_->rungs[i])) continue;
-    const Mesh mesh = world.mesh_at(s, impl_->rungs[i]);
+  impl_->for_each_changed(i, i + 1, [&](std::size_t n, std::size_t, const Mesh& mesh) {
+    const auto& surface = impl_->world.surfaces[n].surface;
     if (!mesh.corners.empty())
-      store_mesh(out, s.surface.geometry, mesh);
+      store_mesh(out, surface.geometry, mesh);
     else
-      for (NodeId shape : s.surface.shapes) out.unset(shape, nodes::shape::geometry.slot);
-  }
+      for (NodeId shape : surface.shapes) out.unset(shape, nodes::shape::geometry.slot);
+  });
   return out;
 }
 
 Scene WorldLevels::scene_with_levels() const {
   Scene out = impl_->scene;
   LodNodes nodes(out);
-  const auto& world = impl_->world;
-  for (const auto& s : world.surfaces) {
-    std::vector<MeshLevel> levels;
-    for (std::size_t k = 0; k < impl_->rungs.size(); ++k) {
-      if (!world.is_changed(s, impl_->rungs[k])) continue;
-      Mesh mesh = world.mesh_at(s, impl_->rungs[k]);
-      if (!levels.empty() && levels.back().mesh.n_faces() == mesh.n_faces()) continue;
-      levels.push_back({std::move(mesh), 0, impl_->error(s, k)});
-    }
-    nodes.add(s.surface, s.mesh, levels, impl_->options.budget);
-  }
+  const auto& surfaces = impl_->world.surfaces;
+  std::vector<MeshLevel> levels;  // of the surface at hand
+  std::size_t at_hand = 0;
+  const auto add_until = [&](std::size_t end) {
+    for (; at_hand < end; levels.clear(), ++at_hand)
+      nodes.add(surfaces[at_hand].surface, surfaces[at_hand].mesh, levels, impl_->options.budget);
+  };
+  impl_->for_each_changed(0, impl_->rungs.size(), [&](std::size_t n, std::size_t k, Mesh mesh) {
+    add_until(n);
+    if (!levels.empty() && levels.back().mesh.n_faces() == mesh.n_faces()) return;
+    levels.push_back({std::move(mesh), 0, impl_->error(surfaces[n], k)});
+  });
+  add_until(surfaces.size());
   nodes.replace_shapes();
   return out;
 }
 
 Scene WorldLevels::scene_with_surfaces(std::vector<LeveledSurface>& surfaces) const {
   Scene out = impl_->scene;
-  const auto& world = impl_->world;
-  for (const auto& s : world.surfaces) {
+  const auto first = surfaces.size();
+  for (const auto& s : impl_->world.surfaces) {
     const auto triangles = triangles_of(s.mesh);
-    LeveledSurface leveled{s.surface, {}, {{s.surface.geometry, 0, s.mesh.n_faces()}}};
+    const SurfaceLevel unchanged{s.surface.geometry, 0, s.mesh.n_faces()};
+    auto& leveled = surfaces.emplace_back(LeveledSurface{s.surface, {}, {unchanged}});
     for (const auto c : s.mesh.corners) leveled.bounds.add(triangles.position(c));
-    for (std::size_t k = 0; k < impl_->rungs.size(); ++k) {
-      const auto& at = impl_->rungs[k];
-      SurfaceLevel level = leveled.levels.back();
-      level.error = impl_->error(s, k);
-      if (world.is_changed(s, at, k ? &impl_->rungs[k - 1] : nullptr)) {
-        const Mesh mesh = world.mesh_at(s, at);
-        level.n_faces = mesh.n_faces();
-        level.geometry = {};
-        if (level.n_faces > 0) {
-          level.geometry = out.add(nodes::IndexedFaceSet, out.where(s.surface.geometry));
-          store_mesh(out, level.geometry, mesh);
-        }
-      }
-      leveled.levels.push_back(level);
-    }
-    surfaces.push_back(std::move(leveled));
+    leveled.levels.resize(impl_->rungs.size() + 1, unchanged);
+    for (std::size_t k = 0; k < impl_->rungs.size(); ++k) leveled.levels[k + 1].error = impl_->error(s, k);
   }
+  impl_->for_each_changed(0, impl_->rungs.size(), [&](std::size_t n, std::size_t k, const Mesh& mesh) {
+    auto& leveled = surfaces[first + n];
+    NodeId geometry{};
+    if (!mesh.corners.empty()) {
+      geometry = out.add(nodes::IndexedFaceSet, out.where(leveled.surface.geometry));
+      store_mesh(out, geometry, mesh);
+    }
+    for (auto later = k + 1; later < leveled.levels.size(); ++later) {
+      leveled.levels[later].geometry = geometry;
+      leveled.levels[later].n_faces = mesh.n_faces();
+    }
+  });
   return out;
 }
 

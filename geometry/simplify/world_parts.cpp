@@ -11,7 +11,9 @@
 #include "base/math/saturating.h"
 #include "base/math/vec.h"
 #include "base/parallel.h"
+#include "geometry/normals.h"
 #include "geometry/simplify/closest_on_triangle.h"
+#include "geometry/simplify/given_attributes.h"
 #include "geometry/simplify/like_form.h"
 #include "geometry/simplify/pieces.h"
 #include "geometry/simplify/shared_borders.h"
@@ -80,6 +82,14 @@ std::vector<std::vector<std::uint32_t>> one_piece(const Mesh& mesh) {
   std::vector<std::uint32_t> faces(mesh.n_faces());
   std::iota(faces.begin(), faces.end(), 0u);
   return {std::move(faces)};
+}
+
+/// What a level looks like is what the surface looked like: its own normals, or those by its crease angle.
+Mesh with_normals(const Mesh& mesh) {
+  Mesh out = mesh;
+  MeshScratch scratch;
+  if (!out.normal.present()) make_normals(out, scratch, out.crease_angle);
+  return out;
 }
 
 /// Leaves out what is not the same in both scenes.
@@ -380,7 +390,11 @@ void WorldParts::make_ladder_of(std::uint32_t ladder) {
       least = std::max(least, enough(around[k], sample, around[k].width, found));
     sample.enough = least;
   }
-  ladders_[ladder] = make_ladder({mesh, samples, options});
+  std::uint64_t n_places = 0;
+  for (const auto m : members) n_places = saturating_add(n_places, surfaces[parts[m].surface].n_places);
+  const double share =
+      static_cast<double>(n_places) * static_cast<double>(mesh.n_faces()) / static_cast<double>(n_drawn);
+  ladders_[ladder] = make_ladder({mesh, samples, options, share});
 }
 
 /// Points of a part in its places, for when it leaves.
@@ -434,23 +448,27 @@ Mesh WorldParts::mesh_at(const PlacedSurface& s, const std::vector<std::uint32_t
   out.kind = Mesh::Kind::faces;
   std::vector<std::uint32_t> original;
   bool loose = false;
+  const Mesh shaded = with_normals(s.mesh);
   for (std::uint32_t i = s.first_part; i < s.first_part + s.n_parts; ++i) {
     if (rungs[i] == Allocation::gone) continue;
     const auto& rung = (*allocated[i].rungs)[rungs[i]];
     loose |= rung.loose;
+    const Mesh part = piece_of(shaded, parts[i].faces, original);
     if (rungs[i] == 0) {
-      append(out, piece_of(s.mesh, parts[i].faces, original));
+      append(out, part);
       continue;
     }
     Mesh piece = rung.mesh;
+    piece.ccw = part.ccw;
     transform(piece, parts[i].from_ladder);
+    GivenAttributes(part).give(piece);
     append(out, piece);
   }
   out.ccw = s.mesh.ccw;
   out.solid = s.mesh.solid && !loose;
   out.convex = true;
-  const bool lost_normals = s.mesh.normal.present() && !out.normal.present();
-  out.crease_angle = lost_normals ? options_.crease_angle : s.mesh.crease_angle;
+  out.crease_angle = s.mesh.crease_angle;
+  shorten_normals(out);
   return out;
 }
 

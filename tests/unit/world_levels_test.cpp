@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "convert/diff.h"
+#include "geometry/simplify/given_attributes.h"
 #include "geometry/simplify/ladder.h"
 #include "geometry/simplify/like_form.h"
 #include "geometry/simplify/pieces.h"
@@ -46,10 +47,15 @@ std::string tank_with_bolts(int n_bolts) {
   return text;
 }
 
-bool is_drawn(const Scene& scene, std::string_view name) {
+NodeId named(const Scene& scene, std::string_view name) {
   for (NodeId n : all_nodes(scene))
-    if (scene.name(n) == name) return scene.get(n, nodes::shape::geometry) != NodeId{};
-  return false;
+    if (scene.name(n) == name) return n;
+  return {};
+}
+
+bool is_drawn(const Scene& scene, std::string_view name) {
+  const NodeId shape = named(scene, name);
+  return shape && scene.get(shape, nodes::shape::geometry);
 }
 
 Deviation distance(const Scene& a, const Scene& b) {
@@ -351,11 +357,34 @@ TEST_CASE("ladder: texture coordinates stay where they are on the surface", "[le
   const auto rungs = make_ladder({box, samples, {}});
   const auto exact = std::ranges::find_if(rungs, [](const Rung& r) { return r.n_faces <= 14; });
   REQUIRE(exact != rungs.end());
-  REQUIRE(exact->mesh.texcoord.present());
-  const auto at = triangles_of(exact->mesh);
-  for (std::size_t c = 0; c < exact->mesh.corners.size(); ++c) {
-    const float* uv = exact->mesh.texcoord.at(exact->mesh.texcoord.index[c]);
-    CHECK(static_cast<double>(uv[0]) == Approx(at.position(exact->mesh.corners[c])[0]).margin(5e-3));
+  Mesh level = exact->mesh;
+  GivenAttributes(box).give(level);
+  REQUIRE(level.texcoord.present());
+  const auto at = triangles_of(level);
+  for (std::size_t c = 0; c < level.corners.size(); ++c) {
+    const float* uv = level.texcoord.at(level.texcoord.index[c]);
+    CHECK(static_cast<double>(uv[0]) == Approx(at.position(level.corners[c])[0]).margin(5e-3));
+  }
+}
+
+TEST_CASE("world levels: a pipe of few sides is as smooth as the pipe was, a box has flat faces", "[levels]") {
+  TestWorld w("DEF Pipe Shape { geometry Cylinder { height 20 } }" +
+              at(5, 0, 0,
+                 "DEF Boxes Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0 1 0 0 1 1 0 0 1 0 "
+                 "0 0 1 1 0 1 1 1 1 0 1 1 ] } coordIndex [ 0 3 2 1 -1 4 5 6 7 -1 0 1 5 4 -1 1 2 6 5 -1 "
+                 "2 3 7 6 -1 3 0 4 7 -1 ] } }"));
+  const auto levels = levels_of(w, {30});
+  REQUIRE(levels.points().size() == 1);
+  const Scene level = levels.scene_at(0);
+  const NodeId pipe = level.get(named(level, "Pipe"), nodes::shape::geometry);
+  const NodeId boxes = level.get(named(level, "Boxes"), nodes::shape::geometry);
+  CHECK_FALSE(level.get(boxes, nodes::indexed_face_set::normal));
+  const NodeId normal = level.get(pipe, nodes::indexed_face_set::normal);
+  REQUIRE(normal);
+  const auto vectors = level.get(normal, nodes::normal::vector);
+  for (std::size_t i = 0; i + 2 < vectors.size(); i += 3) {
+    const double across = std::hypot(vectors[i], vectors[i + 2]);
+    CHECK((across > 0.9 || across < 0.1));  // of the wall, or of a cap
   }
 }
 

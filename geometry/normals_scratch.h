@@ -1,4 +1,4 @@
-// Arrays of the pass normals that serve one mesh after another; normals.cpp explains them.
+// Arrays of make_normals that serve one mesh after another; normals.cpp explains them.
 #pragma once
 #include <cstdint>
 #include <vector>
